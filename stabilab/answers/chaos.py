@@ -70,7 +70,7 @@ class Chaos:
                     f"after {after} MEGNO is {_shown(float(self.megno))}, neither near 2 nor growing with time: follow it for longer")
         before = f"{_shown(self.history[-2])} at half that time"
         if label == Order.REGULAR and not self.megno < FLAT:
-            return (f"it is at rest in the body's frame and stays so, whatever becomes of its neighbours: of them MEGNO tells, "
+            return (f"it is an equilibrium (every rate stays as it is), whatever becomes of its neighbours: of them MEGNO tells, "
                     f"{_shown(float(self.megno))} after {after}")
         if label == Order.REGULAR:
             return f"after {after} MEGNO is {_shown(float(self.megno))} ({before}); it tends to 2 on tori, to less where neighbours stay or come together"

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from stabilab import load, motion
+from stabilab import Body, Gyrostat, Scene, load, motion
 from stabilab.show.report.one_case import verdict
 from stabilab.show.report.one_case.measures import Measures
 from stabilab.show.text.headline import bracketed, headline
@@ -95,10 +95,13 @@ def test_every_kind_of_case_is_answered_in_one_line(name, words):
     assert re.fullmatch(words, line), line
 
 
-def test_a_state_of_rest_and_one_on_the_separatrix_are_told_as_such(own):
+def test_an_equilibrium_with_a_rate_is_a_steady_rotation_and_one_without_is_rest(own):
     # omega3 = 0 and (omega1 + 4/15) omega2 = -0.02/3: at omega1 = -1/15, omega2 = -1/30, by hand
     case = own(("-1/15", "-1/30", "0"))
-    assert headline(case, told(case)) == "AT REST in the body's frame; every rate stays as it is; rates (-3.82, -1.91, 0) deg/s"
+    steady = "STEADY ROTATION (relative equilibrium); every rate stays as it is; rates (-3.82, -1.91, 0) deg/s"
+    assert headline(case, told(case)) == steady
+    wheel = Scene(Body((3, 2, 1)), Gyrostat((0, 0, 1)))  # without a torque and a rate nothing changes: D omega' = 0, by hand
+    assert headline(case, motion(wheel, (0, 0, 0))).startswith("AT REST; every rate stays as it is")
 
 
 @pytest.mark.parametrize("command", ["classify", "fate"])

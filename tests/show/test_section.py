@@ -139,7 +139,7 @@ def test_several_motions_are_drawn_on_the_plane_of_the_first():
 def test_what_has_no_section_is_refused_with_the_reason():
     rest = stabilab.Scene(stabilab.Body((3, 2, 1)))
     for given, words in (((load("major-axis-100"),), "spin-up about axis 1 is certain from its start on"), ((load("liquid-base"),), "not with .*liquid"),
-                         ((rest, (0.1, 0, 0)), "at rest"), ((load("off-axis-two").scene,), "needs a state"),
+                         ((rest, (0.1, 0, 0)), "an equilibrium"), ((load("off-axis-two").scene,), "needs a state"),
                          ((load("torque-free-body"), np.empty((0, 3))), "at least one state")):
         with pytest.raises(errors.InputError, match=words):
             stabilab.plot.section(*given)

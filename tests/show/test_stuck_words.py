@@ -30,3 +30,11 @@ def test_margins_of_which_nothing_is_known_have_one_line_and_known_ones_one_each
     off, on = (stabilab("stuck", CASES / f"{name}.toml", "--why")[1].splitlines() for name in ("upper-stage", "thruster-stuck-major-axis"))
     assert [line[:12] for line in off if line.startswith("  margin") and ":" not in line[:12]] == ["  margins   "]
     assert [line.split()[1] for line in on if line.startswith("  margin, ")] == ["rate", "wheel", "torque"]
+
+
+def test_an_equilibrium_of_a_turning_body_is_a_steady_rotation(stabilab, tmp_path):
+    """D3 omega3' = M3 + (D1 - D2) omega1 omega2 = 0.03 + 3 (0.1)(-0.1) = 0 exactly, the other rates have omega3 = 0 as a factor: by hand."""
+    case = tmp_path / "steady.toml"
+    case.write_text("[body]\ninertia = [12, 9, 5]\n[effects.constant_torque]\ntorque = [0, 0, 0.03]\n[motion]\nangular_velocity = [0.1, -0.1, 0]\n")
+    for command in ("stuck", "fate", "classify"):
+        assert stabilab(command, case)[1].startswith("steady: STEADY ROTATION (relative equilibrium)")

@@ -65,7 +65,7 @@ def ask(question: str, scene: AnyScene, state: Any, digits: int, span: Any = Non
     if land is not None:
         return _by_formula(question, twin, land, known, digits, exact or known.at[:3])
     if known.fate == Fate.EQUILIBRIUM:
-        return Told(question, _number(question, known), digits, math.inf, "exact", "the state is at rest")
+        return Told(question, _number(question, known), digits, math.inf, "exact", "the state is an equilibrium")
     if question == "fate":
         return _margin_without_reduction(twin, known, digits, exact or known.at[:3])
     if question == "extremes" and (balls := law_extremes(twin, exact or known.at[:3], known.evidence.get("certificate"), LAW_BITS)):

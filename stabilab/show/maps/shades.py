@@ -16,7 +16,7 @@ from .labels import SAMPLE, drawn, said
 
 # fate -> (its name in a legend, its colour)
 FATES = {Fate.BOUNDED: ("bounded", style.BLUE), Fate.SPIN_UP: ("spins up", style.VERMILION), Fate.SEPARATRIX: ("on the separatrix", style.BLACK),
-         Fate.EQUILIBRIUM: ("at rest", style.GREEN), Fate.UNDECIDED: ("undecided", style.YELLOW), 5: ("no case", style.GREY)}
+         Fate.EQUILIBRIUM: ("equilibrium", style.GREEN), Fate.UNDECIDED: ("undecided", style.YELLOW), 5: ("no case", style.GREY)}
 FLAGS = ("fate", "level", "reason", "chaos")  # columns of words
 LIGHT = 0.45  # of a colour that fills an area
 

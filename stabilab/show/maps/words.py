@@ -28,7 +28,7 @@ ROWS = 40  # points of a table
 FEW = 100  # points that are counted; of more their share is told
 # what points do, what one point does
 DOES = {Fate.BOUNDED: ("stay bounded", "stays bounded"), Fate.SPIN_UP: ("spin up", "spins up"),
-        Fate.SEPARATRIX: ("lie on the separatrix", "lies on the separatrix"), Fate.EQUILIBRIUM: ("are at rest", "is at rest"),
+        Fate.SEPARATRIX: ("lie on the separatrix", "lies on the separatrix"), Fate.EQUILIBRIUM: ("are equilibria", "is an equilibrium"),
         Fate.UNDECIDED: ("are undecided", "is undecided"), NO_CASE: ("are no case", "is no case")}
 SHORT = {"spin_axis": "axis", "greatest": "most"}  # names of columns in a table
 # what numbers without end mean, the negative first: in a sentence, and in a cell where that is shorter

@@ -95,7 +95,7 @@ def _section(one: Subject) -> str:
     if why := _far(one):
         return why
     if one.motion.fate == Fate.EQUILIBRIUM:
-        return "the motion is at rest: it passes no plane"
+        return "the motion is an equilibrium: it passes no plane"
     until = certain_from(one)
     if crossed(one.twin, one.state, until) is not None:
         return ""

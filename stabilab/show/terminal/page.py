@@ -11,7 +11,7 @@ from .letters import encodable, for_people
 USUAL = 80   # columns of a terminal that does not say how wide it is
 GAP = 2      # columns between those of a table
 NARROW = 40  # columns below which nothing is wrapped any narrower
-COLOURS = {r"\bBOUNDED\b|\bNEVER\b|\bAT REST\b|\bPROVED\b": "bold green", r"\bSPINS UP\b|BEYOND THE LAW|\bREFUTED\b": "bold red",
+COLOURS = {r"\bBOUNDED\b|\bNEVER\b|\bAT REST\b|\bSTEADY ROTATION\b|\bPROVED\b": "bold green", r"\bSPINS UP\b|BEYOND THE LAW|\bREFUTED\b": "bold red",
            r"\bUNDECIDED\b|ON THE SEPARATRIX|NOT KNOWN": "bold yellow"}
 PLACE = re.compile(r"(?:written: .*|[^:\n]*\.\w+(?::\d+)*:)")  # a file, with a line of it: one word, whatever blanks its name holds
 BLANK = "\0"  # stands for a blank that no line is broken at

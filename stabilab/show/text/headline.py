@@ -14,8 +14,8 @@ if TYPE_CHECKING:
     from ...case.read import Case
     from ...orbit.result import Motion
 
-WORDS = {"bounded": "BOUNDED for ever", "spin-up": "SPINS UP", "separatrix": "ON THE SEPARATRIX", "equilibrium": "AT REST in the body's frame",
-         "undecided": "UNDECIDED"}
+REST, STEADY = "AT REST", "STEADY ROTATION (relative equilibrium)"  # of an equilibrium: without a rate, and with one
+WORDS = {"bounded": "BOUNDED for ever", "spin-up": "SPINS UP", "separatrix": "ON THE SEPARATRIX", "equilibrium": STEADY, "undecided": "UNDECIDED"}
 LEVELS = {"run": "by a run alone"}
 CLAUSE = 110  # letters of a cause that the line has room for
 
@@ -30,9 +30,12 @@ def headline(case: Case, motion: Motion, units: Units | None = None) -> str:
 
 def fate_words(motion: Motion, units: Units) -> str:
     """The fate, its axis, how well it is known, and the condition that it rests on."""
-    words, where = WORDS[motion.fate.word], limiting.condition(motion.caveats, units)
+    fate = motion.fate.word
+    words, where = WORDS[fate], limiting.condition(motion.caveats, units)
     if where:
         words = words.removesuffix(" for ever")
+    if fate == "equilibrium" and not any(motion.at[:3]):
+        words = REST
     about = f" about axis {motion.axis}, {'positive' if motion.sense > 0 else 'negative'} sense" if motion.axis else ""
     return f"{words}{about}{known_as(motion)}{where}"
 
@@ -43,7 +46,7 @@ def known_as(motion: Motion) -> str:
 
 
 def cause(motion: Motion, units: Units) -> str:
-    """Why nothing is decided, or what it means to be on the separatrix or at rest."""
+    """Why nothing is decided, or what it means to be on the separatrix or at an equilibrium."""
     fate = motion.fate.word
     if fate == "undecided":
         words = motion.because.removeprefix("undecided: ")

@@ -13,14 +13,14 @@ from ..units import DIGITS, SHORT, Units
 from ..units import bracket as _bracket
 from ..units import number as _number
 from .answers import Endless
+from .headline import REST, STEADY
 from .when import tilt_dict
 
 WORD = {1: "major", 2: "middle", 3: "minor"}
 CSV = ("case,thrusters,torque_x,torque_y,torque_z,torque_1,torque_2,torque_3,fate,level,axis,sense,limit,time_low,time_high,largest_rate,"
        "margin_rate,margin_wheel,margin_torque,caveats")
 WORDS = {"rate": "rate", "wheel": "wheel momentum", "torque": "torque"}
-FATES = {"bounded": "STAYS BOUNDED", "spin-up": "SPINS UP", "equilibrium": "AT REST in the body's frame", "separatrix": "ON THE SEPARATRIX",
-         "undecided": "UNDECIDED"}
+FATES = {"bounded": "STAYS BOUNDED", "spin-up": "SPINS UP", "equilibrium": STEADY, "separatrix": "ON THE SEPARATRIX", "undecided": "UNDECIDED"}
 PRECISE = Context(prec=40)  # digits in which ends are rounded
 FIRST = 5  # lines of the answer at most
 SOON = 2  # times a margin: the fate is back before a change as great
@@ -121,7 +121,9 @@ def _answer(row, units, axes):
         return f"SPINS UP {_about(row, axes)}{', ' + when if when else ''}{_known(row)}"
     if row.fate == "undecided":
         return f"UNDECIDED{', but ' + when if when else ': ' + _so_far(row, units)}"
-    words = FATES[row.fate] + (": every rate stays as it is" if row.fate == "equilibrium" else "")
+    words = FATES[row.fate]
+    if row.fate == "equilibrium":
+        words = f"{words if row.largest_rate else REST}: every rate stays as it is"
     while_ = limiting.condition(row.caveats, units)
     if when:
         return f"{words}{while_}, but {when}{_known(row)}"

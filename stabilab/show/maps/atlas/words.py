@@ -162,7 +162,7 @@ def does(atlas: Atlas, n: int) -> str:
     record = atlas.named_records[n]
     fate, axis = Fate(int(record["fate"])), int(record["spin_axis"])
     if fate != Fate.SPIN_UP:
-        return {Fate.BOUNDED: "stays bounded", Fate.SEPARATRIX: "lies on the separatrix", Fate.EQUILIBRIUM: "is at rest",
+        return {Fate.BOUNDED: "stays bounded", Fate.SEPARATRIX: "lies on the separatrix", Fate.EQUILIBRIUM: "keeps a steady rotation",
                 Fate.UNDECIDED: "is undecided"}[fate]
     return f"spins up about {axis:+d}" if axis else f"spins up about {other_axis(atlas)}"
 
