@@ -181,7 +181,7 @@ def test_strict_turns_an_undecided_fate_into_exit_code_3(stabilab):
 
 def test_spin_up_off_the_axes_is_the_first_line_with_its_certificate(stabilab):
     code, out, err = stabilab("fate", OFF_AXIS, "--strict")
-    assert code == 0 and not err and out.startswith("off-axis-two: SPINS UP about axis 3, positive sense (certified); ")
+    assert code == 0 and not err and out.startswith("off-axis-two: SPINS UP about z (minor axis), positive sense (certified); ")
     told = strict_json(stabilab("fate", OFF_AXIS, "--json")[1])[0]
     assert (told["fate"], told["level"], told["axis"], told["sense"]) == ("spin-up", "certified", 3, 1)
     assert told["t"] > 0 and "certified" in told["cause"] and told["bounds"][2][1] is None and None not in told["bounds"][0]
@@ -190,10 +190,10 @@ def test_spin_up_off_the_axes_is_the_first_line_with_its_certificate(stabilab):
 
 def test_spin_up_off_the_axes_is_proved_where_that_is_asked_for(stabilab, tmp_path):
     code, out, err = stabilab("fate", OFF_AXIS, "--certify")
-    assert code == 0 and not err and out.startswith("off-axis-two: SPINS UP about axis 3, positive sense (proved); ")
+    assert code == 0 and not err and out.startswith("off-axis-two: SPINS UP about z (minor axis), positive sense (proved); ")
     path = tmp_path / "c.json"
     code, out, _ = stabilab("classify", OFF_AXIS, "--certify", "--out", path)
-    assert code == 0 and "SPINS UP about axis 3, positive sense (proved)" in out
+    assert code == 0 and "SPINS UP about z (minor axis), positive sense (proved)" in out
     code, out, _ = stabilab("verify", path, "--case", OFF_AXIS, "--strict")
     assert code == 0 and "the spin grows for ever" in out and out.startswith("PROVED: ")
 

@@ -21,15 +21,14 @@ UNPHYSICAL = "no rigid body has these moments of inertia"
 
 
 def caveats_of(scene: AnyScene, steady: bool = False, tilt: Any = None, first: tuple[str, Any] | None = None, validity: Any = None,
-               file: Iterable[Caveat] = (), axis: str = "") -> tuple[Caveat, ...]:
+               file: Iterable[Caveat] = ()) -> tuple[Caveat, ...]:
     """The caveats of one answer.
 
     steady: whether it says that the motion is bounded or an equilibrium, or that it never reaches a limit; tilt: a `Tilt` or a `Spread`,
     where that was asked;
-    first: (limit of the case in words, `TimeTo` of it), where that was asked; validity: of an approximate law; file: the caveats of the case;
-    axis: name of the axis of the torque, where that is not its number.
+    first: (limit of the case in words, `TimeTo` of it), where that was asked; validity: of an approximate law; file: the caveats of the case.
     """
-    return (*file, *_reached(scene, first), *_tilted(scene, steady, tilt, axis), *of_law(validity))
+    return (*file, *_reached(scene, first), *_tilted(scene, steady, tilt), *of_law(validity))
 
 
 def of_law(validity: Any) -> tuple[Caveat, ...]:
@@ -80,10 +79,10 @@ def _reached(scene: AnyScene, first: tuple[str, Any] | None) -> list[Caveat]:
     return [Caveat("limit", f"reaches {limit} {when}")]
 
 
-def _tilted(scene: AnyScene, steady: bool, found: Any, axis: str) -> list[Caveat]:
+def _tilted(scene: AnyScene, steady: bool, found: Any) -> list[Caveat]:
     """The condition of a steady motion, and what is known of a tilt."""
     number = condition(scene) if steady else 0
-    words = HOLDS[number] if not axis or number > 3 else HOLDS[number].replace(f"axis {number}", axis)
+    words = HOLDS[number]
     if found is not None and found.ranges:
         return [Caveat("tilt", one) for one in (words, found.words) if one]
     if not number:

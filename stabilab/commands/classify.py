@@ -28,8 +28,9 @@ def classify(cases, json, strict, certify, out, follow, tilt, units, why):
         write(answers.as_json([answers.classification(*answer) | law.key(held, answer[0] if answer[2] is None else None) | uncertain.as_dict(box)
                                for answer, held, box in zip(answered, laws, boxes)]))
     else:
-        texts = [lambda n=n: uncertain.first(boxes[n], classification.text(*answered[n], systems[n], why)) for n in range(len(answered))]
-        tell_all(loaded, texts, laws, [uncertain.text(box) for box in boxes], why, "\n\n", swept_motions([m for *_, m in answered], systems), systems)
+        texts = [lambda n=n: uncertain.first(boxes[n], classification.text(*answered[n], systems[n], why), systems[n])
+                 for n in range(len(answered))]
+        tell_all(loaded, texts, laws, list(map(uncertain.in_si, boxes, systems)), why, "\n\n", swept_motions([m for *_, m in answered], systems), systems)
     certified = all([proof.certified(case, out) for case in loaded]) if certify else True
     undecided = any(answers.undecided(found, motion) for _, found, motion in answered) or any(map(uncertain.undecided, boxes))
     leave_undecided(strict, not certified or undecided or law.beyond(*laws))

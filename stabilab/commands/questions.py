@@ -38,10 +38,11 @@ def answer(question, paths, digits, json, strict, csv=False, follow=None, tilt=N
 def _tell(question, loaded, answered, systems, digits, boxes, why):
     """The answers as text."""
     told, motions = getattr(questions, question), [motion for _, motion, _ in answered]
-    texts = [lambda n=n: uncertain.first(boxes[n], told(*answered[n], systems[n], digits is not None, digits is not None or not answered[n][2].enough, why))
+    say = [digits is not None or not found.enough for *_, found in answered]
+    texts = [lambda n=n: uncertain.first(boxes[n], told(*answered[n], systems[n], digits is not None, say[n], why), systems[n])
              for n in range(len(answered))]
     table = swept_extremes(loaded, motions, systems) if question == "extremes" else swept_motions(motions, systems)
-    boxed = [uncertain.text(box) for box in boxes]
+    boxed = list(map(uncertain.in_si, boxes, systems))
     tell_all(loaded, texts, [m.validity for m in motions], boxed, why or digits is not None, "\n", table, systems)
 
 

@@ -26,9 +26,9 @@ def stuck(case, all_thrusters, units, why, out, json, csv, strict):
                 answers.append(ask(one, all_thrusters, tell))
     drawn = written(out, [(one, partial(draw, one, found, units=system)) for one, found, system in zip(loaded, answers, systems)])
     if json:
-        write_json(loaded, list(map(shown.as_dict, answers)))
+        write_json(loaded, list(map(shown.as_dict, loaded, answers)))
     elif csv:
-        write(shown.csv(answers))
+        write(shown.csv(zip(loaded, answers)))
     else:
         texts = [lambda n=n: shown.text(loaded[n], answers[n], systems[n]) for n in range(len(loaded))]
         tell_all(loaded, texts, [None] * len(loaded), [""] * len(loaded), all_thrusters or why, "\n\n",

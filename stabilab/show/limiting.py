@@ -4,6 +4,7 @@ from __future__ import annotations
 import re
 from collections import Counter
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 
 from ..caveat import Caveat
 from ..errors import printable
@@ -20,7 +21,8 @@ def reached(caveats: Iterable[Caveat], units: Units) -> str:
 
 def condition(caveats: Iterable[Caveat], units: Units) -> str:
     """" only while ...", empty where a verdict rests on no condition."""
-    return " " * bool(words := _of("tilt", caveats, units, "holds ")) + words.removeprefix("holds ")
+    whole = [replace(one, words=units.axes.sentence(one.words, units.axes.whole)) for one in caveats]
+    return " " * bool(words := _of("tilt", whole, units, "holds ")) + words.removeprefix("holds ")
 
 
 def tilted(caveats: Iterable[Caveat], units: Units) -> str:

@@ -11,7 +11,7 @@ from ..answers.trajectory import trajectory
 from ..packages import demand
 from . import style
 from .files import endings
-from .text.stuck import answer_line, axis_words, row_name
+from .text.stuck import answer_line, row_name
 from .units import Units
 
 BEYOND = 1.25  # of the time to the limit: how far the picture goes
@@ -29,7 +29,7 @@ def draw(case, found, path, units: Units) -> Path:
     with style.drawing() as plt:
         figure, axes = plt.subplots(len(rows), 1, figsize=(7.6, 1.0 + 3.4 * len(rows)), layout="constrained", squeeze=False)
         for ax, row in zip(axes[:, 0], rows):
-            _panel(ax, scenario, row, units, axis_words(found.principal))
+            _panel(ax, scenario, row, units)
         figure.suptitle(style.literal(case.heading), fontsize=10.5, wrap=True)
         style.legend(figure, _meanings(rows), columns=6)
         return style.save(figure, path)
@@ -46,7 +46,7 @@ def _meanings(rows):
     return [*LOOKS, *limit, *([("reached", REACHED)] if any(row.time_to_limit for row in rows) else [])]
 
 
-def _panel(ax, scenario, row, units, words):
+def _panel(ax, scenario, row, units):
     rate, per_rate = units.rates
     chosen = [t for t in scenario.case.thrusters if t.name in row.thrusters]
     scene = scenario.scene(scenario.torque(chosen))
@@ -61,7 +61,7 @@ def _panel(ax, scenario, row, units, words):
     ax.set_xlim(0, t[-1] * per_time)
     ax.set_xlabel(f"time ({time})")
     ax.set_ylabel(f"rate, frame of the file ({rate})")
-    short = answer_line(row, units, words).rsplit(" (", 1)[0]
+    short = answer_line(row, units).rsplit(" (", 1)[0]
     ax.set_title(style.literal(f"{row_name(row)}: {short}"), wrap=True, fontsize=9.5)
 
 

@@ -3,12 +3,14 @@ from __future__ import annotations
 
 import math
 import re
+from dataclasses import replace
 from decimal import ROUND_CEILING, ROUND_FLOOR, Decimal, localcontext
 from functools import partial
 from typing import TYPE_CHECKING
 
 from ..errors import InputError
 from ..record import record
+from .axes import PLAIN, Axes, axes_of
 
 if TYPE_CHECKING:
     from ..case.read import Case
@@ -30,7 +32,8 @@ OF_RATES = re.compile(r"\((-?\d[-+.\de]*(?:, -?\d[-+.\de]*)+)\) rad/s(?![\w^])")
 class Units:
     """A system of units: `name` is "deg", "si", or "scaled" for dimensionless variables.
 
-    `rates` and `angles` are units; `ladder` has the units of time, each with the number of seconds from which it is used.
+    `rates` and `angles` are units; `ladder` has the units of time, each with the number of seconds from which it is used; `axes` names the axes of the
+    case that is told.
     The methods turn a value in SI (or in the variables of a scaled case) into text with its unit.
     """
 
@@ -38,6 +41,7 @@ class Units:
     rates: Unit
     angles: Unit
     ladder: tuple[tuple[float, Unit], ...]
+    axes: Axes = PLAIN
 
     @property
     def scaled(self) -> bool:
@@ -104,8 +108,8 @@ class Units:
 
     def words(self, words: str, digits: int = DIGITS - 1) -> str:
         """A sentence of the analysis, whose angles and rates are in rad and rad/s and whose times in s, with all in these units; "s in [0, 20]" becomes
-        "0 to 20 s"."""
-        words = AFTER.sub(lambda found: f"{found[1]} {self.time(float(found[2]), digits)}", words)
+        "0 to 20 s", and with names for the numbers of axes."""
+        words = AFTER.sub(lambda found: f"{found[1]} {self.time(float(found[2]), digits)}", self.axes.sentence(words))
         words = SPAN.sub(lambda found: self.span(found[1], float(found[2]), float(found[3])), words)
         words = MOMENT.sub(lambda found: self.moment(float(found[1]), digits), words)
         if self.rates[0] in ("rad/s", ""):
@@ -142,7 +146,8 @@ def units_of(case: Case, asked: str | None = None) -> Units:
     named = asked.lower() if isinstance(asked, str) else asked
     if named is not None and named not in SYSTEMS:
         raise InputError(f"--units: expected {' or '.join(SYSTEMS)}, got {asked!r:.40}")
-    return SCALED if case.variables == "scaled" else SYSTEMS[named or case.units or "deg"]
+    system = SCALED if case.variables == "scaled" else SYSTEMS[named or case.units or "deg"]
+    return replace(system, axes=axes_of(case))
 
 
 PARAMETERS = (("lambda", "N m s"), ("D", "kg m^2"), ("M", "N m"), ("mass", "kg"), ("f", "N"), ("k", "N m s"), ("eHl2", "N m s"),

@@ -211,7 +211,7 @@ def test_the_headline_says_what_the_word_bounded_rests_on(stabilab, tmp_path, co
     path = tmp_path / "plain.toml"
     path.write_text(CASE)
     code, out, _ = stabilab(command, path)
-    assert code == 0 and "BOUNDED only while the torque is exactly along axis 3; largest rate " in out.splitlines()[0]
+    assert code == 0 and "BOUNDED only while the torque is exactly along z (minor axis); largest rate " in out.splitlines()[0]
     assert json.loads(stabilab(command, path, "--json")[1])[0].get("motion", {"tilt": None})["tilt"] is None
 
 
@@ -235,7 +235,7 @@ def test_a_stated_limit_or_misalignment_brings_the_tilt_by_itself(stabilab, tmp_
     path = tmp_path / "limit.toml"
     path.write_text(CASE + '[limits]\nrate = "2 rad/s"\n')
     code, out, _ = stabilab("fate", path)
-    assert code == 0 and "BOUNDED only while the torque is exactly along axis 3: tilted by 1 deg it reaches 114.6 deg/s after 1" in out.splitlines()[0]
+    assert code == 0 and "BOUNDED only while the torque is exactly along z (minor axis): tilted by 1 deg it reaches 114.6 deg/s after 1" in out.splitlines()[0]
     row = json.loads(stabilab("fate", path, "--json")[1])[0]["tilt"]
     assert row["limit"] == 2 and row["limit_stated"] and row["time"][0] <= row["time"][1] and 0 < row["not_before"] < row["time"][0]
     path.write_text(THRUSTER)

@@ -76,7 +76,7 @@ def test_an_engineer_goes_from_a_data_sheet_to_a_decision(tmp_path):
 
     code, answer = said("stabilab stuck sheet.toml", tmp_path)
     first = answer.splitlines()[0]
-    assert code == 0 and first.startswith("sheet: STAYS BOUNDED") and "only while the torque is exactly along axis 3" in first
+    assert code == 0 and first.startswith("sheet: STAYS BOUNDED") and "only while the torque is exactly along z (minor axis)" in first
     reached = re.search(r"tilted by 1 deg it reaches 30 deg/s in ([\d.]+) (min|h)", first)
     hours = float(reached[1]) / (60 if reached[2] == "min" else 1)
     least = float(re.search(r"not before\s+([\d.]+) min", answer)[1]) / 60

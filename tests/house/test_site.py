@@ -88,7 +88,7 @@ def test_a_case_of_the_gallery_has_picture_answer_file_and_commands_and_is_kept_
     (minor,) = [path for path in CASES if path.stem == "minor-axis-100"]
     gallery.write(tmp_path, [minor])
     page = (folder / "constant-torque-along-a-principal-axis.md").read_text(encoding="utf-8")
-    assert "BOUNDED only while the torque is exactly along axis 3" in page and minor.read_text(encoding="utf-8") in page
+    assert "BOUNDED only while the torque is exactly along x3" in page and minor.read_text(encoding="utf-8") in page
     assert "stabilab plot cases/minor-axis-100.toml --kind phase" in page and "λ1 = 100" in page
     assert (folder / "minor-axis-100.png").read_bytes().startswith(b"\x89PNG")
     (gone := folder / "of-a-case-that-is-gone.png").touch()

@@ -35,7 +35,7 @@ span = [0, 50]
 """
 PLAIN = {"inertia": "[100, 90, 40]", "position": "[0.1, 0, 0]", "misaligned": "", "limits": ""}
 CASES = {  # name: (what the file says, words of the caveat)
-    "axis": ({"misaligned": 'misalignment = "2 deg"'}, "only while the torque is exactly along axis 3"),
+    "axis": ({"misaligned": 'misalignment = "2 deg"'}, "only while the torque is exactly along "),
     "limit": ({"position": "[0.1, 0, 0.05]", "limits": '[limits]\nrate = "7 deg/s"'}, "reaches 7 deg/s after "),
     "off axis": ({"position": "[0.1, 0, 0.05]", "misaligned": 'misalignment = "1 deg"'}, "tilt"),
     "unphysical": ({"inertia": "[8, 4, 0.4]"}, "no rigid body has "),
@@ -77,6 +77,8 @@ def files(tmp_path_factory):
 
 def told(name, text) -> bool:
     words = CASES[name][1]
+    if name == "axis":  # a number where the JSON or the CSV has one, else the name
+        return any(f"{words}{axis}" in text for axis in ("axis 3", "the z axis", "z (minor axis)"))
     return words in text or (name == "limit" and "reaches 0.122173 rad/s after " in text) or (name == "limit" and "reaches 7 deg/s in " in text)
 
 

@@ -51,7 +51,7 @@ def test_a_top_has_its_fate_and_says_that_it_has_no_phase_plane(tmp_path):
 
 def test_a_torque_off_the_axes_is_certified_and_has_no_margins(tmp_path):
     page = _sections("off-axis-two", tmp_path)
-    assert page["headline"].startswith("SPINS UP about axis 3, positive sense (certified)") and [one["kind"] for one in page["pictures"]] == ["time"]
+    assert page["headline"].startswith("SPINS UP about z (minor axis), positive sense (certified)") and [one["kind"] for one in page["pictures"]] == ["time"]
     assert page["sensitivity"]["rows"] == [] and "no separatrix is known" in page["sensitivity"]["reason"]
     assert "no end" in page["extremes"][2]["within"]
 
@@ -151,7 +151,7 @@ def test_formulas_in_words_have_the_signs_of_a_book_and_commands_stay(plain, tol
 def test_the_first_line_of_a_page_says_what_the_uncertain_numbers_change_and_the_page_has_one_unit_of_rates(tmp_path):
     """The file's 1.7 +- 0.02 rad/s are 97.403 +- 1.1459 deg/s by hand."""
     page = sections(load(CASES / "uncertain-separatrix.toml"), tmp_path, "x", deep=False)
-    assert page["headline"].endswith("; BUT within the uncertainties also spin-up about axis 3, positive sense") and page["fate"] == "undecided"
+    assert page["headline"].endswith("; BUT within the uncertainties also spin-up about the z axis, positive sense") and page["fate"] == "undecided"
     told = page["uncertain"]
     assert "motion.angular_velocity[3] = 97.4028 ± 1.14592 deg/s" in told and "20 ± 0.2 kg m²" in told
     assert "rad/s" not in told and "^2" not in told and "state = 11.4592, 8.59437, 97.4028 deg/s" in told

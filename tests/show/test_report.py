@@ -133,9 +133,9 @@ def test_a_page_below_one_of_the_navigation_shows_to_which_it_belongs(everything
 
 
 def test_a_list_of_cases_says_by_how_much_a_law_is_left_and_a_law_that_holds_is_not_told():
-    law = "BEYOND THE LAW: charge: change of cos σ, held constant, with the attitude, 1.86 along the run, limit 0.1: axis 3 turns away"
+    law = "BEYOND THE LAW: charge: change of cos σ, held constant, with the attitude, 1.86 along the run, limit 0.1: the z axis turns away"
     made = {"case": {"title": "a <b>", "headline": "BOUNDED for ever", "fate": "bounded", "law": law}}
-    assert own.listed("one", made)["beyond"] == law.removesuffix(": axis 3 turns away")
+    assert own.listed("one", made)["beyond"] == law.removesuffix(": the z axis turns away")
     made["case"]["law"] = ""
     assert own.listed("one", made)["beyond"] == ""
     rows = [own.listed("one", made), own.listed("two", {"case": made["case"] | {"law": law}})]
@@ -225,7 +225,7 @@ def test_a_hostile_title_is_text(pages):
 def test_the_verdict_is_the_first_line_below_the_title(alone):
     text = alone.read_text(encoding="utf-8")
     below = text[text.index("</h1>") + 5:].strip()
-    assert below.startswith('<p class="verdict-line bounded">BOUNDED only while the torque is exactly along axis 3; largest rate 4.6')
+    assert below.startswith('<p class="verdict-line bounded">BOUNDED only while the torque is exactly along x3; largest rate 4.6')
 
 
 def test_the_page_of_a_case_has_all_that_applies_to_it(alone):

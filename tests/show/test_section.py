@@ -125,7 +125,7 @@ def test_of_a_motion_that_spins_up_the_passages_until_that_is_certain_are_drawn(
     one = subject.subject(load("cubesat-3u"))
     until, ax = which.certain_from(one), stabilab.plot.section(one.case)
     times, places = returns(one.twin, one.state, crossed(one.twin, one.state, until), 100)
-    assert len(dots(ax, ORANGE)) == np.count_nonzero(times <= until) < 100 and "until spin-up about axis 3 is certain" in ax.get_title()
+    assert len(dots(ax, ORANGE)) == np.count_nonzero(times <= until) < 100 and "until spin-up about the minor axis is certain" in ax.get_title()
     plt.close("all")
 
 
@@ -138,7 +138,7 @@ def test_several_motions_are_drawn_on_the_plane_of_the_first():
 
 def test_what_has_no_section_is_refused_with_the_reason():
     rest = stabilab.Scene(stabilab.Body((3, 2, 1)))
-    for given, words in (((load("major-axis-100"),), "spin-up about axis 1 is certain from its start on"), ((load("liquid-base"),), "not with .*liquid"),
+    for given, words in (((load("major-axis-100"),), "spin-up about the x1 axis is certain from its start on"), ((load("liquid-base"),), "not with .*liquid"),
                          ((rest, (0.1, 0, 0)), "an equilibrium"), ((load("off-axis-two").scene,), "needs a state"),
                          ((load("torque-free-body"), np.empty((0, 3))), "at least one state")):
         with pytest.raises(errors.InputError, match=words):

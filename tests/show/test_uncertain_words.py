@@ -35,7 +35,7 @@ def test_every_uncertain_number_and_every_place_has_its_unit(stabilab):
 def test_the_first_line_says_whether_the_answer_holds_for_all_that_the_numbers_may_be(stabilab):
     first = lambda command, name: stabilab(command, CASES / f"{name}.toml")[1].split("\n")[0]
     for command in ("fate", "classify"):
-        assert first(command, "uncertain-separatrix").endswith("; BUT within the uncertainties also spin-up about axis 3, positive sense")
+        assert first(command, "uncertain-separatrix").endswith("; BUT within the uncertainties also spin-up about the z axis, positive sense")
         assert first(command, "uncertain-minor-axis").endswith("; the fate is the same for all that the uncertain numbers may be")
     for command in (("extremes",), ("period",), ("when", "--rate", "1.5")):
         assert "middles of the uncertain numbers" in stabilab(command[0], CASES / "uncertain-separatrix.toml", *command[1:])[1]

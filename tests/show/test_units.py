@@ -61,9 +61,9 @@ def test_a_bracket_holds_what_it_encloses(low, high):
 def test_a_case_remembers_its_units_and_an_option_overrides_them(stabilab, tmp_path):
     path = tmp_path / "own.toml"
     path.write_text(CASE)
-    assert units_of(load(path)) is DEG and "5.72958, 2.86479, 1.14592) deg/s" in stabilab("classify", path)[1]
+    assert units_of(load(path)).name == DEG.name and "5.72958, 2.86479, 1.14592) deg/s" in stabilab("classify", path)[1]
     path.write_text(CASE + '[output]\nunits = "si"\n')
-    assert units_of(load(path)) is SI and "(0.1, 0.05, 0.02) rad/s" in stabilab("classify", path)[1]
+    assert units_of(load(path)).name == SI.name and "(0.1, 0.05, 0.02) rad/s" in stabilab("classify", path)[1]
     assert "(5.72958, 2.86479, 1.14592) deg/s" in stabilab("classify", path, "--units", "deg")[1]
     code, out, err = stabilab("classify", path, "--units", "rpm")
     assert code == 2 and not out and "--units: expected deg or si, got 'rpm'" in err
@@ -81,7 +81,7 @@ def test_units_of_a_case_that_are_none_are_a_fault_with_its_line(stabilab, tmp_p
 def test_a_scaled_case_has_no_units():
     with pytest.raises(InputError, match="--units"):
         units_of(load("cases/minor-axis-100.toml"), "grad")
-    assert units_of(load("cases/minor-axis-100.toml"), "si") is SCALED
+    assert units_of(load("cases/minor-axis-100.toml"), "si").name == SCALED.name
 
 
 def test_an_equilibrium_and_a_size_in_the_reasons_are_in_the_units_of_the_rest(stabilab, tmp_path):

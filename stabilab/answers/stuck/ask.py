@@ -7,6 +7,7 @@ from dataclasses import replace
 from typing import Any
 
 from ...errors import InputError
+from ...numbers.exact import floats
 from ...numbers.principal import NOTHING, without_trace
 from ...numbers.vectors import Exact3
 from ...physics.alignment import torque_axis
@@ -20,7 +21,7 @@ from .delay import delayed
 from .fate import Found, found
 from .helpers import helpers
 from .margins import margins
-from .result import Row, Stuck, WheelAnswer
+from .result import Principal, Row, Stuck, WheelAnswer
 from .scenario import Scenario, scenario_of
 from .wheel import intervals
 
@@ -41,7 +42,8 @@ def stuck(case: Any, all_thrusters: bool = False, progress: Callable[[str], Any]
         rows.append(_row(scenario, chosen))
     if all_thrusters:
         rows.sort(key=_soonest)
-    return Stuck(case.name, tuple(rows), scenario.axes.principal, all_thrusters)
+    principal = Principal(floats(scenario.axes.moments), tuple(tuple(float(v) + 0.0 for v in axis) for axis in scenario.axes.axes))
+    return Stuck(case.name, tuple(rows), principal, all_thrusters)
 
 
 def _named(thrusters: Sequence[Any]) -> str:
@@ -69,17 +71,17 @@ def _soonest(row: Row) -> tuple[Any, ...]:
 
 
 def _row(scenario: Scenario, thrusters: Sequence[Any]) -> Row:
-    torque, axes = scenario.torque(thrusters), scenario.axes
+    torque = scenario.torque(thrusters)
     seen = found(scenario, torque)
-    axis, sense = axes.number(seen.axis, seen.sense)
     others = [t for t in scenario.case.thrusters if t not in thrusters]
     scene = scenario.scene(torque)
     off = _tilted(scenario, thrusters, scene, seen)
-    along = axes.number(torque_axis(scene), 1)[0]
-    caveats = caveats_of(scene, seen.fate in STEADY or seen.never, off, file=scenario.case.caveats, axis=f"axis {along}" if along else "")
-    return Row(tuple(t.name for t in thrusters), scenario.torque_in_file(thrusters), axes.counted(torque), seen.fate.word, seen.level,
-               axis, sense, seen.direction and axes.back(seen.direction), scenario.limit, seen.time, seen.time_level, seen.never, seen.largest, seen.followed,
-               seen.because, margins(scenario, scene, seen), tuple(_wheel(scenario, torque, seen, wheel) for wheel in scenario.case.wheels),
+    caveats = caveats_of(scene, seen.fate in STEADY or seen.never, off, file=scenario.case.caveats)
+    along = seen.direction and scenario.in_file(seen.direction)
+    return Row(tuple(t.name for t in thrusters), scenario.torque_in_file(thrusters), tuple(float(v) + 0.0 for v in torque),
+               seen.fate.word, seen.level, seen.axis or None, seen.sense or None, along, scenario.limit, seen.time, seen.time_level,
+               seen.never, seen.largest, seen.followed, seen.because, margins(scenario, scene, seen),
+               tuple(_wheel(scenario, torque, seen, wheel) for wheel in scenario.case.wheels),
                helpers(scenario, torque, others, seen) if seen.fate not in STEADY else (), off, caveats)
 
 

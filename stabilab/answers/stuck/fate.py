@@ -121,7 +121,7 @@ def _limit(scenario: Scenario) -> Limit:
     if limits.rate is not None:
         parts: tuple[Any, ...] = ((tuple((Fraction(1), tuple(Fraction(i == j) for j in range(3))) for i in range(3)), limits.rate**2),)
         return Limit("rate", parts, f"|omega| = {float(limits.rate):.10g} rad/s")
-    rows = scenario.axes.rows
+    rows = scenario.axes.axes
     parts = tuple((((Fraction(1), tuple(rows[i][n] for i in range(3))),), most**2) for n, most in enumerate(limits.rates))
     return Limit("component", parts, "components in the frame of the file")
 

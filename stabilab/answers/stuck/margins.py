@@ -51,7 +51,7 @@ def _rate(scenario: Scenario, motion: Motion, family: Family | None) -> Margin:
     if motion.margin_velocity is None or motion.velocity_witness is None:
         return Margin(because=motion.velocity_because or "no separatrix stands near it")
     change = [b - a for a, b in zip(scenario.start, motion.velocity_witness)]
-    direction, because = _unit(scenario.axes.back(change)) if any(change) else None, motion.velocity_because
+    direction, because = _unit(scenario.in_file(change)) if any(change) else None, motion.velocity_because
     if _walled(family):
         return Margin(motion.margin_velocity, direction, f"{because}; {ALONE}".removeprefix("; "), motion.margin_velocity)
     if family is None or not any(change):
@@ -313,7 +313,7 @@ def _numbers(reduction: Any, state: Sequence[Fraction]) -> tuple[Any, Any]:
 def _direction(scenario: Scenario, family: Family, parts: dict[int, Any]) -> Float3:
     """The unit vector with these parts along the family's axes, in the frame of the file."""
     vector = [Fraction(parts.get(n, 0)) for n in range(3)]
-    return _unit(scenario.axes.back(family.back(vector)))
+    return _unit(scenario.in_file(family.back(vector)))
 
 
 def _unit(vector: Sequence[float]) -> Float3:

@@ -12,7 +12,7 @@ from ..tilt import Tilt
 
 
 class Principal(NamedTuple):
-    """Principal moments (kg m^2, descending) and axes: rows, unit vectors in the frame of the file, right-handed."""
+    """Moments (kg m^2) of the principal axes 1, 2, 3 of the case; axes: rows, unit vectors in the frame of the file, right-handed."""
 
     moments: Float3
     axes: tuple[Float3, ...]
@@ -81,7 +81,7 @@ class Row:
     """What becomes of the body while some thrusters fire for ever.
 
     torque: N m, frame of the file; torque_principal: along `Stuck.principal`. fate: a word of `Fate`; level: "proved", "certified",
-    "exact" or "run". axis: 1 (major), 2, 3 (minor) of the principal axes, sense along its unit vector; None where it spins up about none.
+    "exact" or "run". axis: 1, 2 or 3 of `Stuck.principal`, sense along its unit vector; None where it spins up about none.
     direction: unit vector along which the rate grows, frame of the file, or None. limit: rad/s, of |omega|, or three numbers of its components
     in the frame of the file, or None. time_to_limit: (low, high), s, of the first time at the limit; None where it is never within what
     is known. never: whether it is known never to be reached. largest_rate: of |omega|, rad/s, up to that time or for ever.

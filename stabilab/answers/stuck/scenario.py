@@ -7,13 +7,12 @@ from fractions import Fraction
 from typing import Any
 
 from ...errors import InputError
-from ...numbers.principal import without_trace
-from ...numbers.vectors import Exact3, Float3
+from ...numbers.principal import IDENTITY, NOTHING, PrincipalAxes, without_trace
+from ...numbers.vectors import Exact3, Float3, Number
 from ...physics.body import Body
 from ...physics.effects.constant_torque import ConstantTorque
 from ...physics.effects.gyrostat import Gyrostat
 from ...physics.scene import Scene
-from .axes import Axes, axes_of
 
 
 @dataclass(frozen=True)
@@ -26,7 +25,7 @@ class Scenario:
 
     case: Any
     body: Body
-    axes: Axes
+    axes: PrincipalAxes
     state: Exact3
     base: Exact3
     wheel: Exact3
@@ -44,8 +43,14 @@ class Scenario:
     def torque_in_file(self, thrusters: Sequence[Any]) -> Float3:
         """The same in the frame of the file; what a thruster alone gives is rounded once."""
         whole = [sum(column) for column in zip(*(t.torque for t in thrusters))] if thrusters else [Fraction(0)] * 3
-        base = self.axes.back(self.base) if any(self.base) else (0.0,) * 3
+        base = self.in_file(self.base) if any(self.base) else (0.0,) * 3
         return tuple(float(a) + b for a, b in zip(whole, base))
+
+    def in_file(self, vector: Sequence[Number]) -> Float3:
+        """A vector along the scene's axes in the frame of the file."""
+        found = self.axes.back([Fraction(v) for v in vector])
+        least = max(map(abs, found)) * NOTHING
+        return tuple(float(v) + 0.0 if abs(v) > least else 0.0 for v in found)
 
     @property
     def start(self) -> Float3:
@@ -55,7 +60,7 @@ class Scenario:
     @property
     def rows(self) -> list[list[float]]:
         """Axis n of the file's frame along the scene's axes."""
-        return [[float(self.axes.rows[i][n]) for i in range(3)] for n in range(3)]
+        return [[float(self.axes.axes[i][n]) for i in range(3)] for n in range(3)]
 
 
 def scenario_of(case: Any) -> Scenario:
@@ -67,7 +72,7 @@ def scenario_of(case: Any) -> Scenario:
     if case.state is None:
         raise InputError("motion: expected angular_velocity in [motion]; a stuck thruster is asked of a motion")
     case.scene.quadratic()  # says which effect is not covered
-    axes = axes_of(case.scene, case.frame)
+    axes = case.frame or PrincipalAxes(case.scene.body.exact, IDENTITY, True)
     fixed = [axes.turned(t.torque) for t in case.thrusters if t.stuck]
     torque = case.scene.vector("constant_torque")
     base = tuple(m - sum(t[i] for t in fixed) for i, m in enumerate(torque))

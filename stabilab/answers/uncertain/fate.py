@@ -230,5 +230,5 @@ def _under_law(box: Box, here: Any, answer: Answer, numbers: Numbers, form: Quad
                     proved=1.0)
     whether = lambda point: (found := answer(point)) and (UNBOUNDED if found.startswith("spin-up") else found)
     return by_trial(box, whether(np.zeros(len(box.places))), whether,
-                    f"the gyrostatic moment along the torque's axis {axis + 1} may vanish or not: where it does not, there is "
+                    f"the gyrostatic moment along axis {axis + 1}, the torque's, may vanish or not: where it does not, there is "
                     "no reduction to one degree of freedom, and no motion is bounded")

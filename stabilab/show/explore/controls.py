@@ -29,7 +29,7 @@ class Control:
 def groups(case: Case, units: Units) -> list[dict[str, Any]]:
     """The groups of sliders as a page takes them: {title, axis of the torque where it is of that, controls}."""
     axis, size, tilt, azimuth = direction(vector(case, "torque"))
-    strength = Control("size", f"about axis {axis}", units.plain("N m")[0], size, *_around(abs(size) or _torque(case)))
+    strength = Control("size", f"about {units.axes.short(axis)}", units.plain("N m")[0], size, *_around(abs(size) or _torque(case)))
     torque = [strength, Control("tilt", "tilt off the axis", "deg", tilt, 0.0, nice(max(TILTED, ROOM * tilt))),
               Control("azimuth", "towards", "deg", azimuth, -180.0, 180.0)]
     return [{"title": "Torque", "axis": axis, "controls": _plain(torque)},
@@ -81,7 +81,7 @@ def _wheel(case: Case, units: Units) -> list[Control]:
         high = nice(ROOM * max(1.0, *map(abs, values)))
         return [Control(f"wheel{n}", name, "", value, -high, high) for n, (name, value) in enumerate(zip("ab", values))]
     size = max(max(map(abs, values)), max(case.scene.body.inertia) * (math.hypot(*vector(case, "start")) or STILL) / ROOM)
-    return [Control(f"wheel{n}", f"about axis {n + 1}", "N m s", value, *_around(size)) for n, value in enumerate(values)]
+    return [Control(f"wheel{n}", f"about {units.axes.short(n + 1)}", "N m s", value, *_around(size)) for n, value in enumerate(values)]
 
 
 def _start(case: Case, units: Units) -> list[Control]:

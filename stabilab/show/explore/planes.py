@@ -30,7 +30,7 @@ def drawn(bag: Bag, scene: AnyScene, state: tuple[float, ...], units: Units) -> 
     return {"turns": bag.add("float32", [across * y for y in plane.y]), "heights": bag.add("float32", plane.heights),
             "rate": [zero, plane.rate(1.0) * rate[1] - zero], "start": plane.W0, "energy": plane.W0**2 / 2, "rests": rests,
             "rotates": plane.reduction.sense == 0 and not plane.reduction.geometry.walled,
-            "x": labelled(f"turn about axis {axis}", angle[0]), "y": labelled(f"{name}{axis}", rate[0])}
+            "x": labelled(f"turn about {units.axes.short(axis)}", angle[0]), "y": labelled(f"{name}{axis}", rate[0])}
 
 
 def labelled(words: str, unit: str) -> str:

@@ -27,7 +27,7 @@ from .. import limiting
 from ..terminal.letters import greek, lettered, written
 from ..text import law
 from ..text.headline import headline
-from ..units import units_of
+from ..units import Units, units_of
 from . import controls, other, planes, space, tables
 from .bag import Bag
 from .changed import changed
@@ -64,7 +64,7 @@ class Session:
     def about(self) -> dict[str, Any]:
         """What a page must know before its first question."""
         return {"name": self.case.name, "title": written(self.case.heading), "groups": controls.groups(self.case, self.units),
-                "axes": [1, 2, 3], "rates": self.units.rates[0], "scaled": self.units.scaled}
+                "axes": [self.units.axes.short(n) for n in (1, 2, 3)], "rates": self.units.rates[0], "scaled": self.units.scaled}
 
     def answer(self, asked: dict[str, Any], stopped: Callable[[], bool] = lambda: False) -> bytes:
         """The answer to a request as a framed message (`bag`). asked: as of `changed`, with moving (whether a hand still moves), box (that of the
@@ -100,7 +100,7 @@ class Session:
         times, path = self._once("line", (case.scene, case.state, case.span, moving), lambda: line(case, form, _length(case, form), moving))
         picture = self._space(bag, case, twin, found, at_rest, path, asked.get("box"), moving)
         made = {"headline": greek(words), "fate": "undecided" if found is None else found.fate.word, "moving": moving, "start": clicked,
-                "note": " ".join(filter(None, (note, self._swept, _law(found),
+                "note": " ".join(filter(None, (note, self._swept, _law(found, self.units),
                                                    *limiting.beside(case.caveats, self.units)))),
                 "toml": case.text, "rows": [] if found is None else tables.rows(case, found, self.units), "space": picture,
                 "plane": None if twin is None else planes.drawn(bag, twin, case.state, self.units),
@@ -198,9 +198,9 @@ def _surface(scene: AnyScene, reach: float, moving: bool) -> tuple[Sequence[Plai
     return [PlainSheet(sheet.name, *sheet.points.shape[:2], sheet.points.reshape(-1, 3).tolist()) for sheet in found.sheets], found.reason
 
 
-def _law(found: Motion | None) -> str:
+def _law(found: Motion | None, units: Units) -> str:
     """What an approximate law of the scene says of itself along the motion: that it holds, that it does not, or that it was not judged."""
-    return "" if found is None or found.validity is None else _capital(lettered(found.validity.words))
+    return "" if found is None or found.validity is None else _capital(lettered(units.words(found.validity.words)))
 
 
 def _capital(words: str) -> str:

@@ -46,6 +46,6 @@ def equilibria(found: Equilibria, units: Units) -> dict[str, Any]:
     for curve in found.curves:
         for verdict, samples in groupby(curve.samples, lambda sample: sample.verdict):
             slowest = min(samples, key=lambda sample: max(map(abs, sample.at[:3])))
-            told.append([lettered(f"{curve.name}, such as {units.vector(slowest.at[:3], units.rates, DIGITS)}"), verdict])
+            told.append([lettered(f"{units.axes.sentence(curve.name)}, such as {units.vector(slowest.at[:3], units.rates, DIGITS)}"), verdict])
     more = len(told) - MOST
     return {"reason": lettered(units.words(found.reason)), "rows": told[:MOST] + ([[f"and {more} more", ""]] if more > 0 else [])}

@@ -54,8 +54,8 @@ def _lines(ax, data, x, order, names):
         elif values.ndim == 1:
             ax.plot(x[order], values, color=style.SERIES[n], linestyle=(0, (6, 6)) if n else "-", label=short_label(data, name))  # two may be one line
         else:
-            for i in range(3):
-                ax.plot(x[order], values[:, i], color=style.SERIES[i], linestyle="--" if n else "-", label=f"{name}, axis {i + 1}")
+            for i, axis in enumerate(data["axis"].attrs.get("names", "axis 1; axis 2; axis 3").split("; ")):
+                ax.plot(x[order], values[:, i], color=style.SERIES[i], linestyle="--" if n else "-", label=f"{name}, {axis}")
     if names:
         of = data[names[0]].attrs.get("units", "1")
         told = {"least": "extremes", "when_low": "time to the limit", "equilibria": "number"}.get(names[0], names[0])

@@ -17,6 +17,7 @@ from ...maps.plan import Plan, planned
 from ...maps.run import Swept, run
 from ...packages import demand
 from ...version import __version__
+from ..axes import axes_of
 from ..files import endings
 from .labels import SAMPLE, dimensions, limiting, meanings, names, unit
 
@@ -70,7 +71,8 @@ def dataset(found: Swept) -> xarray.Dataset:
     if plan.sampled:
         coordinates |= _sampled(plan, dims)
     if any("axis" in one[0] for one in values.values()):
-        coordinates["axis"] = (("axis",), np.array([1, 2, 3], np.int8), {"long_name": "principal axis"})
+        told = "; ".join(map(axes_of(plan.case).name, (1, 2, 3)))
+        coordinates["axis"] = (("axis",), np.array([1, 2, 3], np.int8), {"long_name": "principal axis", "names": told})
     made = xarray.Dataset(values, coordinates, _attributes(found))
     for name in made.variables:
         made.variables[name].encoding["_FillValue"] = None

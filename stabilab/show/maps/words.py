@@ -14,6 +14,7 @@ from ...maps.plan import Plan
 from ...maps.run import Swept
 from ...orbit.result import Fate
 from .. import limiting
+from ..axes import Axes, axes_of
 from ..files import comma
 from ..terminal import page
 from ..terminal.letters import greek
@@ -90,7 +91,8 @@ def _details(found: Swept) -> list[str]:
     cases = found.records[found.records["valid"] == 1]
     if "spin_axis" in names and (found.records["fate"] == Fate.SPIN_UP).any():
         about = found.records["spin_axis"][found.records["fate"] == Fate.SPIN_UP]
-        lines.append("  spin-up about " + _listed(about, lambda axis: f"{axis:+d}" if axis else "an axis between equal moments"))
+        signed = axes_of(found.plan.case).signed
+        lines.append("  spin-up about " + _listed(about, lambda axis: signed(abs(axis), axis) if axis else "an axis between equal moments"))
     if "level" in names:
         flags = next(c.flags for c in columns_of(found.plan.answers) if c.name == "level")
         lines.append("  the fate is known as " + _listed(cases["level"], lambda level: flags[level]))
@@ -197,14 +199,15 @@ def _table(found: Swept) -> list[str]:
         titles += [f"{greek(component)} {name}" for component in plan.case.scene.components] if column.shape else [name]
         places = math.prod(column.shape)
         units, factors, kinds = units + [of] * places, factors + [one] * places, kinds + [column.name] * places
-    cells = [[_cell(value, one, kind) for value, one, kind in zip(row, factors, kinds)] for row in told]
+    axes = axes_of(plan.case)
+    cells = [[_cell(value, one, kind, axes) for value, one, kind in zip(row, factors, kinds)] for row in told]
     said_of = [n for n in range(len(titles)) if any(row[n] for row in cells)]
     return page.table([[row[n] for n in said_of] for row in (titles, units, *cells)], len(keys + sampled), page.width())
 
 
-def _cell(value: Any, one: float, kind: str) -> str:
+def _cell(value: Any, one: float, kind: str, axes: Axes) -> str:
     if kind == "spin_axis":
-        return f"{value:+d}" if value else ""
+        return axes.signed(abs(value), value)
     if isinstance(value, int) and kind in ("equilibria", "stable", "unstable", "open"):
         return CELLS.get(value, str(value))
     if not isinstance(value, float):

@@ -64,7 +64,7 @@ def _areas(ax: Any, found: Basins) -> list[tuple[str, dict[str, Any]]]:
         colours.append((0.0, 0.0, 0.0))
     x, y = (_edges(axis.values, n) for axis, n in zip(found.plan.axes, shown.shape))
     ax.pcolormesh(x, y, ranks.T, cmap=ListedColormap(colours), vmin=-0.5, vmax=len(colours) - 0.5, shading="flat", rasterized=True)
-    rows = [(basin_name(label), {"facecolor": light(COLOURS[label]), "edgecolor": COLOURS[label]}) for label in labels]
+    rows = [(basin_name(found, label), {"facecolor": light(COLOURS[label]), "edgecolor": COLOURS[label]}) for label in labels]
     return rows + ([("finest cells on the boundary", {"facecolor": "black", "edgecolor": "black"})] if black else [])
 
 

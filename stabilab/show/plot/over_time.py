@@ -68,17 +68,16 @@ def time(case: Any, state: Any = None, ax: Axes | None = None, span: Any = None,
         target.margins(y=0.06)
         target.set_xlabel(scale.label("time", time_unit) if scale.size else time_unit)
         target.set_ylabel(scale.label("rate" + (", axes of the file" if turned is not None else ""), rate_unit) if scale.size else "$x$")
-        canvas.title(target, one.heading, "" if one.case is None else _answer(one, scale, turned is not None))
+        canvas.title(target, one.heading, "" if one.case is None else _answer(one, scale))
         if legend:
             canvas.legend(target, rows, ax is None)
     return target
 
 
-def _answer(one, scale, turned):
-    """The answer in one line, and before it that an approximate law does not hold; of uncertain numbers only their middles are drawn. turned: whether
-    the curves are about axes of the file, while the answer speaks of principal ones."""
+def _answer(one, scale):
+    """The answer in one line, and before it that an approximate law does not hold; of uncertain numbers only their middles are drawn."""
     told = law.warned(one.motion.validity, headline(one.case, one.motion, scale.system))
-    return told + "; axes 1 to 3 are the principal ones" * turned + ("; for the middles of the uncertain numbers" if one.case.uncertain else "")
+    return told + ("; for the middles of the uncertain numbers" if one.case.uncertain else "")
 
 
 def told_apart(looks: Sequence[dict[str, Any]], curves: Sequence[np.ndarray]) -> list[dict[str, Any]]:

@@ -33,7 +33,7 @@ def phase(case: Any, state: Any = None, ax: Axes | None = None, units: str | Non
         draw(target, plane, start=not small, **factors)
         if small:
             _enlarged(target, plane, factors)
-        target.set_xlabel(scale.label(rf"turn $\alpha_{i + 1}$ about axis {i + 1} from the start", scale.angle[0]))
+        target.set_xlabel(scale.label(rf"turn $\alpha_{i + 1}$ about {one.axes.short(i + 1)} from the start", scale.angle[0]))
         target.set_ylabel(scale.label(scale.names[i], scale.rate[0]))
         canvas.title(target, one.heading)
         if legend:

@@ -157,7 +157,7 @@ def _passed(one: Subject, times: np.ndarray, places: np.ndarray, until: float, s
         return [f"all {len(places)} passages at one place: periodic, {_time(float(times[1] - times[0]), scale)}", turn]
     passed = f"{len(places)} passages in {_time(float(times[-1]), scale)}"
     if math.isfinite(until):
-        passed += f", until spin-up about axis {one.motion.axis} is certain"
+        passed += f", until spin-up about {one.axes.short(one.motion.axis)} is certain"
     return [passed, "" if orbit is None else f"in the middle: period {_time(orbit.period, scale)}, {turn}"]
 
 

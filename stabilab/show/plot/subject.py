@@ -14,6 +14,7 @@ from ...orbit.result import Motion
 from ...physics.coefficients import effective
 from ...physics.scene import AnyScene, Scene
 from ...physics.states import checked_states, start_of
+from ..axes import PLAIN, Axes, axes_of
 from ..text import law
 
 DEFAULT_SPAN = (0.0, 15.0)  # in the scene's time, where nothing else says how far
@@ -52,6 +53,11 @@ class Subject:
     def path(self) -> str:
         """How messages name it."""
         return "plot" if self.case is None else self.case.path
+
+    @property
+    def axes(self) -> Axes:
+        """The names of its axes."""
+        return PLAIN if self.case is None else axes_of(self.case)
 
     @cached_property
     def twin(self) -> AnyScene:

@@ -102,7 +102,7 @@ def _section(one: Subject) -> str:
     if math.isinf(until):
         return f"the motion does not come back: it passes no plane {LEAST} times"
     when = "from its start on" if not until else f"from {until:.4g} {one.scene.time_unit} on"
-    return f"spin-up about axis {one.motion.axis} is certain {when}, before the motion has passed any plane {LEAST} times"
+    return f"spin-up about {one.axes.short(one.motion.axis)} is certain {when}, before the motion has passed any plane {LEAST} times"
 
 
 def _state(one: Subject) -> str:

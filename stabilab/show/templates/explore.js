@@ -29,8 +29,8 @@ function build() {
   for (const group of setup.groups) {
     const set = element("fieldset", {}, element("legend", {textContent: group.title}));
     if (group.axis) {
-      const choice = element("select", {id: "axis"}, ...[1, 2, 3].map(n => element("option", {value: n, textContent: `axis ${n}`}))); choice.value = axis;
-      choice.onchange = () => { axis = Number(choice.value); axisTouched = true; fields.size.label.textContent = `about axis ${axis}`; move(); };
+      const choice = element("select", {id: "axis"}, ...[1, 2, 3].map(n => element("option", {value: n, textContent: setup.axes[n - 1]}))); choice.value = axis;
+      choice.onchange = () => { axis = Number(choice.value); axisTouched = true; fields.size.label.textContent = `about ${setup.axes[axis - 1]}`; move(); };
       set.append(element("div", {className: "control"}, element("label", {htmlFor: "axis", textContent: "along"}), choice));
     }
     set.append(...group.controls.map(slider)); $("controls").append(set);
@@ -40,7 +40,7 @@ function build() {
     for (const name of Object.keys(touched)) delete touched[name];
     axis = setup.groups[0].axis; axisTouched = false; if ($("axis")) $("axis").value = axis;
     for (const [name, {range, low, high, own}] of Object.entries(fields)) { range.min = low; range.max = high; put(name, own); }
-    if (fields.size) fields.size.label.textContent = `about axis ${axis}`;
+    if (fields.size) fields.size.label.textContent = `about ${setup.axes[axis - 1]}`;
     shown = null; move();
   };
   save.onclick = () => {

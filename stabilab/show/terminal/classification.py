@@ -18,16 +18,16 @@ WORDS = ("stable", "asymptotically stable", "unstable", "undecided")
 
 def text(case, equilibria, motion, units: Units, proofs: bool = False) -> str:
     """The lines for one case. proofs: with eigenvalues, equations of curves, reasons of every verdict and the principal axes."""
-    answer = f"{resting(equilibria)}; no [motion], so no fate" if motion is None else headline(case, motion, units)
+    answer = f"{resting(equilibria, units)}; no [motion], so no fate" if motion is None else headline(case, motion, units)
     lines = [f"{case.name}: {answer}", *([written(case.title)] if case.title else [])]
     if motion is not None:
         lines += [*table(case, motion, units), *tilt_lines(case, motion, units, proofs), *why(case, motion, units, proofs)]
-    lines += ["" if motion is None else f"equilibria: {resting(equilibria)}", *_equilibria(equilibria, units, proofs)]
+    lines += ["" if motion is None else f"equilibria: {resting(equilibria, units)}", *_equilibria(equilibria, units, proofs)]
     lines += frame.lines(case) if proofs else frame.note(case)
     return "\n".join(line for line in lines if line)
 
 
-def resting(equilibria) -> str:
+def resting(equilibria, units: Units) -> str:
     """How many states of equilibrium there are, and how many of them are stable, in one line."""
     if equilibria.kind == "undecided":
         return f"UNDECIDED, {len(equilibria.points)} known ({_count(p.verdict for p in equilibria.points)})" if equilibria.points else "UNDECIDED"
@@ -38,7 +38,7 @@ def resting(equilibria) -> str:
     if len(told) > FEW:
         counts = Counter(words for _, words in told)
         return "; ".join([*parts, f"{len(told)} curves ({', '.join(f'{n} {words}' for words, n in counts.items())})"])
-    return "; ".join([*parts, *(f"{lettered(name)} ({words})" for name, words in told)])
+    return "; ".join([*parts, *(f"{reason(name, units)} ({words})" for name, words in told)])
 
 
 def _along(curve) -> str:
@@ -78,7 +78,7 @@ def _point(point, units, proofs):
 
 def _curve(curve, units):
     """A state on every piece with its verdict; neighbours of one verdict are told together."""
-    lines = [f"  {lettered(curve.name)}, along it:"]
+    lines = [f"  {reason(curve.name, units)}, along it:"]
     for verdict, samples in groupby(curve.samples, lambda sample: sample.verdict):
         near = min(samples, key=lambda sample: max(map(abs, sample.at[:3])))  # of all that are as good, the slowest
         lines.append(f"    {verdict:<22}such as {state(near.at, units)}")
@@ -88,10 +88,11 @@ def _curve(curve, units):
 def _proved_curve(curve, units):
     """All pieces with their reasons; equations in rates are in the unit of rates, those of a field in rad/s and s."""
     told = in_units(curve, units)
-    lines = [f"  {lettered(f'{told.name}: {told.equation}')}" + (f"  (ω in {told.unit})" if told.unit else ""), f"    {lettered(told.parametrisation)}"]
+    words = lettered(f"{units.axes.sentence(told.name)}: {told.equation}")
+    lines = [f"  {words}" + (f"  (ω in {told.unit})" if told.unit else ""), f"    {lettered(told.parametrisation)}"]
     for piece in curve.segments:
         low, high = (_end(t * told.one) for t in piece.t)
-        lines += [f"    t from {low} to {high}: {piece.verdict} (linear: {piece.linear})", f"      {lettered(piece.because)}"]
+        lines += [f"    t from {low} to {high}: {piece.verdict} (linear: {piece.linear})", f"      {reason(piece.because, units)}"]
     return lines + [f"    fold at {state(fold, units)}" for fold in curve.folds]
 
 

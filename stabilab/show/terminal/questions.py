@@ -8,8 +8,8 @@ from ...orbit.result import Fate, no_period
 from .. import limiting
 from ..text.headline import cause, fate_words, headline, largest, rate_margin
 from ..units import DIGITS, Units, number
-from .letters import greek, lettered
-from .motion import bound_lines, energy_margin, extreme_lines, framed, row, tilt_lines, why
+from .letters import greek
+from .motion import bound_lines, energy_margin, extreme_lines, framed, reason, row, tilt_lines, why
 
 SHOWN = 12  # digits of a number that is not written out, where more than a table's were asked for
 
@@ -20,7 +20,7 @@ def fate(case, motion, told, units: Units, all_digits: bool, say: bool, proofs: 
     rows = [row(name, words) for name, words in (("margin, rate", rate_margin(motion, units, DIGITS)), ("margin, energy", margin)) if words]
     bounds = bound_lines(case, replace(motion, extremes=None), units)
     return "\n".join([f"{case.name}: {headline(case, motion, units)}", *rows, *bounds, *tilt_lines(case, motion, units, proofs),
-                      *why(case, motion, units, proofs), *framed(case), *([_said(told)] * (say))])
+                      *why(case, motion, units, proofs), *framed(case), *([_said(told, units)] * (say))])
 
 
 def _energy(told, units, all_digits):
@@ -40,7 +40,8 @@ def extremes(case, motion, told, units: Units, all_digits: bool, say: bool, proo
     if shown.extremes is not None:
         rows = _all_digits(case, shown, told) if all_digits else extreme_lines(case, shown, units)
     return "\n".join([f"{case.name}: {'; '.join(filter(None, parts))}", *rows, *bound_lines(case, motion, units),
-                      *(why(case, motion, units, proofs) if proofs else ()), *framed(case), *([_said(told)] * (say and told.because != shown.extremes_over))])
+                      *(why(case, motion, units, proofs) if proofs else ()), *framed(case),
+                      *([_said(told, units)] * (say and told.because != shown.extremes_over))])
 
 
 def _all_digits(case, motion, told):
@@ -56,13 +57,13 @@ def _word(decimal) -> str:
     return "unbounded" if decimal in ("inf", "-inf") else decimal
 
 
-def _said(told) -> str:
+def _said(told, units) -> str:
     if told.digits is None:
-        return f"  {lettered(told.because)}"
+        return f"  {reason(told.because, units)}"
     if math.isinf(told.digits):
-        return f"  exact: {lettered(told.because)}"
+        return f"  exact: {reason(told.because, units)}"
     reached = f"{min(told.digits, 99.0):.1f}".removesuffix(".0")
-    return f"  {reached} digits: {lettered(told.because)}"
+    return f"  {reached} digits: {reason(told.because, units)}"
 
 
 def period(case, motion, told, units: Units, all_digits: bool, say: bool, proofs: bool = False) -> str:
@@ -76,4 +77,4 @@ def period(case, motion, told, units: Units, all_digits: bool, say: bool, proofs
     parts = [limiting.reached(motion.caveats, units), value + limiting.condition(motion.caveats, units),
              limiting.tilted(motion.caveats, units)]
     lines = [f"{case.name}: {'; '.join(filter(None, parts))}", *(why(case, motion, units, proofs) if proofs else ())]
-    return "\n".join([*lines, *([_said(told)] * (say and told.values is not None))])
+    return "\n".join([*lines, *([_said(told, units)] * (say and told.values is not None))])

@@ -89,16 +89,13 @@ def _largest(motion):
     return max(sizes) if sizes and max(sizes) < float("inf") else None
 
 
-def _axis(motion):
-    return "" if not motion.axis else f"{'+' if motion.sense > 0 else '-'}{motion.axis}"
-
-
 def of_motions(motions: Sequence, units: Units) -> tuple[list[tuple[str, str]], list[list[str]]]:
     """Columns and rows of fate, axis, largest rate, margins and period; a column that says nothing is left out."""
     name, one = units.rates
     longest = max((m.period for m in motions if m.period is not None), default=0.0)
     time, per_time = units.times(longest)
-    columns = [("limit", "", lambda m: limiting.reached(m.caveats, units)), ("fate", "", lambda m: m.fate.word + known_as(m)), ("axis", "", _axis),
+    columns = [("limit", "", lambda m: limiting.reached(m.caveats, units)), ("fate", "", lambda m: m.fate.word + known_as(m)),
+             ("axis", "", lambda m: units.axes.signed(m.axis, m.sense)),
              ("largest rate", name, lambda m: "" if _largest(m) is None else number(_largest(m) * one, 6)),
              ("margin", name, lambda m: rate_margin(m, units, 6).removesuffix(f" {name}") if name else rate_margin(m, units, 6)),
              ("to barrier", units.plain("J")[0], lambda m: "" if m.margin_energy is None else shown(m.margin_energy)),

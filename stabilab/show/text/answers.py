@@ -5,6 +5,7 @@ import math
 
 from ...caveat import cell, key
 from ...physics.blocks import PARTS
+from ..axes import axes_of
 from ..files import comma
 from . import frame, when
 
@@ -49,7 +50,7 @@ def classification(case, equilibria, motion) -> dict:
             "equilibria": {"kind": equilibria.kind, "reason": equilibria.reason,
                            "points": [_point(p) | _input(case, p.at) for p in equilibria.points],
                            "curves": [_curve(c) for c in equilibria.curves]},
-            "motion": None if motion is None else _motion(motion) | _input(case, motion.at)
+            "motion": None if motion is None else _motion(case, motion) | _input(case, motion.at)
             } | ({} if motion is None else key(motion.caveats)) | frame.key(case)
 
 
@@ -69,8 +70,8 @@ def _curve(c) -> dict:
             "segments": [{"t": s.t, "linear": s.linear, "verdict": s.verdict, "because": s.because} for s in c.segments]}
 
 
-def _motion(m) -> dict:
-    return {"at": m.at, "fate": m.fate.word, "axis": m.axis or None, "because": m.because,
+def _motion(case, m) -> dict:
+    return {"at": m.at, "fate": m.fate.word, **axes_of(case).key(m.axis), "because": m.because,
             "margin": {"energy": m.margin_energy, "angular_velocity": m.margin_velocity, "bounds": m.velocity_bounds,
                        "witness": m.velocity_witness, "because": m.velocity_because or None},
             "period": m.period, "extremes": m.extremes, "invariants": m.invariants,

@@ -4,6 +4,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from ...caveat import key
+from ..axes import axes_of
 from . import answers, frame, when
 
 
@@ -31,7 +32,7 @@ def fate(case, motion, told) -> dict:
     """One object of `stabilab fate --json`; margin: barrier minus energy, null where no barrier stands ahead."""
     margin = motion.margin_energy if told.values is None else told.values
     return {"schema": "stabilab.fate/1", "case": case.name, "variables": case.variables, "at": motion.at, "fate": motion.fate.word,
-            "axis": motion.axis or None, "sense": motion.sense or None, "because": motion.because, "margin": margin,
+            **axes_of(case).key(motion.axis), "sense": motion.sense or None, "because": motion.because, "margin": margin,
             "digits": as_dict(told), "tilt": when.tilt_dict(motion.tilt)} | answers.followed(motion) | key(motion.caveats) | frame.key(case)
 
 

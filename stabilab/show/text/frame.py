@@ -4,6 +4,7 @@ from __future__ import annotations
 import math
 
 from ...errors import printable
+from ..axes import IN_FILE, axes_of
 
 
 def key(case) -> dict:
@@ -33,22 +34,31 @@ def rows(case, run) -> dict:
 
 def lines(case) -> list[str]:
     """The principal axes in words."""
-    frame = _turned(case)
-    if frame is None:
+    found = rows_of_axes(case)
+    if not found:
         return []
-    known = "exact" if frame.exact else f"known to {float(frame.error) or 1e-300:.1g}"
-    told = [f"frame: principal axes 1, 2, 3 ({known}), along which every vector here is; in the frame of the file, x y z, they are"]
-    for number, (moment, axis) in enumerate(zip(frame.moments, frame.axes), 1):
+    known = "exact" if case.frame.exact else f"known to {float(case.frame.error) or 1e-300:.1g}"
+    return [f"frame: principal axes 1, 2, 3 ({known}), along which every vector here is; in the frame of the file, x y z, they are",
+            *(f"  {name:<16}{words}" for name, words in found)]
+
+
+def rows_of_axes(case) -> list[tuple[str, str]]:
+    """(its name, where it is in the frame of the file) of each principal axis; nothing where the two frames are one."""
+    frame = _turned(case)
+    names, found = axes_of(case), []
+    for number, (moment, axis) in enumerate(zip(frame.moments, frame.axes) if frame else (), 1):
         nearest = max(range(3), key=lambda j: abs(axis[j]))
         angle = math.degrees(math.atan2(math.sqrt(sum(float(v) ** 2 for j, v in enumerate(axis) if j != nearest)), abs(float(axis[nearest]))))
-        told.append(f"  axis {number}  ({', '.join(f'{float(v):.6g}' for v in axis)}), {angle:.6g} deg from {'+' if axis[nearest] > 0 else '-'}"
-                    f"{'xyz'[nearest]}, moment {float(moment):.6g} kg m^2")
-    return told
+        found.append((f"{number}, {names.name(number)}", f"({', '.join(f'{float(v):.6g}' for v in axis)}), {angle:.6g} deg from "
+                      f"{'+' if axis[nearest] > 0 else '-'}{'xyz'[nearest]}, moment {float(moment):.6g} kg m^2"))
+    return found
 
 
 def note(case) -> list[str]:
-    """A line where the axes need not be told in full, and one where a case has thrusters that do nothing."""
-    return [*([] if _turned(case) is None else ["  along the principal axes of the tensor, which stabilab show tells"]), *silent(case)]
+    """A line that says which axes 1, 2, 3 are, where they are not those of the file, and one where a case has thrusters that do nothing."""
+    names, letter = axes_of(case), "x" if case.variables == "scaled" else "omega"
+    told = "; ".join(f"{letter}{n} about {names.whole(n).removesuffix(IN_FILE)}" for n in (1, 2, 3))
+    return [*([] if _turned(case) is None else [f"  {told}{IN_FILE}"]), *silent(case)]
 
 
 def silent(case) -> list[str]:

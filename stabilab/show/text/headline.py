@@ -3,10 +3,12 @@ from __future__ import annotations
 
 import math
 import re
+from dataclasses import replace
 from decimal import ROUND_CEILING, ROUND_FLOOR, Decimal, localcontext
 from typing import TYPE_CHECKING
 
 from .. import limiting
+from ..axes import axes_of
 from ..terminal.letters import lettered
 from ..units import SHORT, SPAN, Units, number, units_of
 
@@ -22,7 +24,7 @@ CLAUSE = 110  # letters of a cause that the line has room for
 
 def headline(case: Case, motion: Motion, units: Units | None = None) -> str:
     """One line, without the name of the case. units: of the case where None."""
-    units = units or units_of(case)
+    units = units_of(case) if units is None else replace(units, axes=axes_of(case))
     parts = [limiting.reached(motion.caveats, units), fate_words(motion, units), limiting.tilted(motion.caveats, units), cause(motion, units),
              largest(motion, units), margin(motion, units), period(motion, units)]
     return "; ".join(part for part in parts if part)
@@ -36,7 +38,7 @@ def fate_words(motion: Motion, units: Units) -> str:
         words = words.removesuffix(" for ever")
     if fate == "equilibrium" and not any(motion.at[:3]):
         words = REST
-    about = f" about axis {motion.axis}, {'positive' if motion.sense > 0 else 'negative'} sense" if motion.axis else ""
+    about = f" about {units.axes.whole(motion.axis)}, {'positive' if motion.sense > 0 else 'negative'} sense" if motion.axis else ""
     return f"{words}{about}{known_as(motion)}{where}"
 
 
@@ -82,7 +84,7 @@ def greatest(motion: Motion, units: Units) -> str:
     if len(sizes) < 3 or not all(map(math.isfinite, sizes.values())):
         return ""
     axis = max(sizes, key=sizes.__getitem__)
-    return f"{units.rate(sizes[axis], SHORT)} about axis {axis}{over}"
+    return f"{units.rate(sizes[axis], SHORT)} about {units.axes.brief(axis)}{over}"
 
 
 def _pairs(motion, units):

@@ -10,6 +10,7 @@ from ...case.attitude import vertical_of
 from ...errors import printable
 from ...physics.approximate import limits_of
 from .. import limiting
+from ..axes import axes_of
 from ..terminal.letters import lettered
 from ..units import SI, Units, units_of
 
@@ -139,7 +140,7 @@ def _of_alike(group, cases, units: Units = SI) -> str:
     """A line on a case, or on the combinations of one file that stand the same way to the same limit: the most exceeded of them."""
     case, _ = group[0]
     found = worst(*(one for _, one in group))
-    words = _told(found, units)
+    words = _told(found, replace(units, axes=axes_of(case)))
     if not case.variant:
         return f"{words} ({printable(case.name)})"
     farthest = "" if found.value is None else ", the farthest of them told"

@@ -8,6 +8,7 @@ from ...physics.effects.base import effect_words
 from ...physics.equations import derive
 from ...physics.laws import invariants
 from .. import limiting
+from ..axes import axes_of
 from ..terminal.letters import lettered, some, written
 from ..terminal.page import table, width
 from ..terminal.sweep import swept_columns
@@ -43,10 +44,11 @@ def _whole(case, equations, own) -> str:
     parts = [_head(case), _parameters(equations, case.variables == "physical"), "Equations of motion",
              *(f"  {lettered(_products(line))}" for line in lines(equations)), "",
              "In LaTeX", latex(equations), "", "Laws that hold for every value of the parameters"]
-    parts += [f"  {lettered(law.words)}" for law in equations.balances]
+    axes = axes_of(case)
+    parts += [f"  {lettered(axes.sentence(law.words))}" for law in equations.balances]
     effects = " and ".join(", ".join(effect_words(effect.name) for effect in case.scene.effects).rsplit(", ", 1)) or "no effect"
     answer = f"{case.name}: a {'scaled gyrostat' if case.variables == 'scaled' else 'body with ' + effects}; laws known of this scene: {len(own)}"
-    return "\n".join([answer, *parts, "", "Laws of this scene", *(_laws(own) or ["  none is known"])])
+    return "\n".join([answer, *parts, "", "Laws of this scene", *(_laws(own, axes) or ["  none is known"])])
 
 
 def _head(case) -> str:
@@ -113,8 +115,8 @@ def _value(v) -> str:
     return exact if "/" not in exact and len(exact) <= SHORT else f"{exact} = {_number(v)}" if len(exact) <= SHORT else _number(v)
 
 
-def _laws(laws) -> list[str]:
-    return [row for law in laws for row in (f"  {lettered(law.words)}", f"    {_short(law.quantity)}"
+def _laws(laws, axes) -> list[str]:
+    return [row for law in laws for row in (f"  {lettered(axes.sentence(law.words))}", f"    {_short(law.quantity)}"
                                             + ("" if law.rate == 0 else f"   at the rate {_short(law.rate)}"))]
 
 

@@ -8,6 +8,7 @@ from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
 from ...caveat import cell, key
 from ...errors import printable
 from .. import limiting
+from ..axes import axes_of
 from ..terminal.letters import lettered
 from ..units import DIGITS, SHORT, Units
 from ..units import bracket as _bracket
@@ -16,8 +17,7 @@ from .answers import Endless
 from .headline import REST, STEADY
 from .when import tilt_dict
 
-WORD = {1: "major", 2: "middle", 3: "minor"}
-CSV = ("case,thrusters,torque_x,torque_y,torque_z,torque_1,torque_2,torque_3,fate,level,axis,sense,limit,time_low,time_high,largest_rate,"
+CSV = ("case,thrusters,torque_x,torque_y,torque_z,torque_1,torque_2,torque_3,fate,level,axis,axis_name,sense,limit,time_low,time_high,largest_rate,"
        "margin_rate,margin_wheel,margin_torque,caveats")
 WORDS = {"rate": "rate", "wheel": "wheel momentum", "torque": "torque"}
 FATES = {"bounded": "STAYS BOUNDED", "spin-up": "SPINS UP", "equilibrium": STEADY, "separatrix": "ON THE SEPARATRIX", "undecided": "UNDECIDED"}
@@ -26,15 +26,16 @@ FIRST = 5  # lines of the answer at most
 SOON = 2  # times a margin: the fate is back before a change as great
 
 
-def as_dict(found) -> dict:
-    """One object of `stabilab stuck --json`: SI units, rates in rad/s."""
-    return {"schema": "stabilab.stuck/1", "case": found.case, "rows": [_row(row) for row in found.rows],
+def as_dict(case, found) -> dict:
+    """One object of `stabilab stuck --json`: SI units, rates in rad/s; axes are numbered as in "principal"."""
+    axes = axes_of(case)
+    return {"schema": "stabilab.stuck/2", "case": found.case, "rows": [_row(row, axes) for row in found.rows],
             "principal": {"moments": list(found.principal.moments), "axes": [list(axis) for axis in found.principal.axes]}}
 
 
-def _row(row) -> dict:
+def _row(row, axes) -> dict:
     return {"thrusters": list(row.thrusters), "torque": row.torque, "torque_principal": row.torque_principal, "fate": row.fate, "level": row.level,
-            "axis": row.axis, "sense": row.sense, "limit": row.limit, "time_to_limit": row.time_to_limit, "largest_rate": row.largest_rate,
+            **axes.key(row.axis), "sense": row.sense, "limit": row.limit, "time_to_limit": row.time_to_limit, "largest_rate": row.largest_rate,
             "margin": {name: row.margins[name].size if name in row.margins else None for name in ("rate", "wheel", "torque")},
             "wheel_intervals": [{"wheel": w.wheel, "keeps_bounded": [list(map(Endless, pair)) for pair in w.keeps_bounded], "now": w.now, "axis": w.axis,
                                  "best": w.best, "best_time": w.best_time, "gain": w.gain, "searched": w.searched, "because": w.because} for w in row.wheels],
@@ -47,17 +48,19 @@ def _row(row) -> dict:
 
 
 def csv(answers) -> str:
-    """A line a row, SI units; empty where a number does not exist."""
+    """A line a row of (case, answer), SI units; empty where a number does not exist."""
     import csv as table
     import io
     out = io.StringIO()
     writer = table.writer(out, lineterminator="\n")
     writer.writerow(CSV.split(","))
-    for found in answers:
+    for case, found in answers:
+        axes = axes_of(case)
         for row in found.rows:
             limit = "/".join(map(repr, row.limit)) if isinstance(row.limit, tuple) else row.limit
-            values = [*row.torque, *row.torque_principal, row.fate, row.level, row.axis, row.sense, limit, *(row.time_to_limit or (None, None)),
-                      row.largest_rate, *(row.margins[name].size if name in row.margins else None for name in ("rate", "wheel", "torque")),
+            values = [*row.torque, *row.torque_principal, row.fate, row.level, row.axis, axes.key(row.axis)["axis_name"], row.sense, limit,
+                      *(row.time_to_limit or (None, None)), row.largest_rate,
+                      *(row.margins[name].size if name in row.margins else None for name in ("rate", "wheel", "torque")),
                       cell(row.caveats)]
             cells = ["" if v is None else repr(v) if isinstance(v, float) else v for v in values]
             writer.writerow([printable(found.case), printable("+".join(row.thrusters)), *cells])
@@ -66,12 +69,11 @@ def csv(answers) -> str:
 
 def text(case, found, units: Units) -> str:
     """The answer in five lines at most, then the details."""
-    axes = axis_words(found.principal)
-    head = _ranking(found, units, axes) if found.ranked else _first(found.rows[0], units, axes)
+    head = _ranking(found, units) if found.ranked else _first(found.rows[0], units)
     lines = [f"{printable(case.name)}: {head[0]}", *head[1:FIRST]]
     for row in found.rows:
         lines += ["", *_details(row, units)]
-    return "\n".join([*lines, "", *_axes(found.principal)])
+    return "\n".join([*lines, "", *_axes(found.principal, units.axes)])
 
 
 def swept(answers, units: Units):
@@ -82,26 +84,20 @@ def swept(answers, units: Units):
     counts = "; ".join(f"{told[fate]}: {n}" if len(fates) > 1 else f"each {told[fate]}" for fate, n in fates.most_common())
     ends = [row.time_to_limit[1] for row in rows if row.time_to_limit]
     name, one = units.times(max(ends, default=0.0))
-    cells = [[row.fate, f"{'+' if row.sense > 0 else '-'}{row.axis}" if row.axis else "",
+    cells = [[row.fate, units.axes.signed(row.axis, row.sense),
               _number(row.time_to_limit[1] * one, DIGITS) if row.time_to_limit else ""] for row in rows]
     return counts + (f"; the first limit is reached in {units.time(min(ends), SHORT)}" if ends else ""), [("fate", ""), ("axis", ""), ("limit in", name)], cells
 
 
-def axis_words(principal) -> dict:
-    """Number of an axis -> which one it is, told by its moment."""
-    moments = principal.moments
-    return {n: WORD[n] if moments.count(moments[n - 1]) == 1 else f"one of {'two' if len(set(moments)) == 2 else 'three'} equal moments" for n in WORD}
-
-
-def _ranking(found, units, axes):
+def _ranking(found, units):
     """A line a thruster, the worst first; what the first lines have no place for stands in the details."""
-    told = [f"{printable(row_name(row))} {answer_line(row, units, axes)}" for row in found.rows]
+    told = [f"{printable(row_name(row))} {answer_line(row, units)}" for row in found.rows]
     return told if len(told) <= FIRST else [*told[:FIRST - 1], f"and {len(told) - FIRST + 1} more below, none of them sooner"]
 
 
-def _first(row, units, axes):
+def _first(row, units):
     wheel = next((w for w in row.wheels if w.keeps_bounded), next((w for w in row.wheels if w.best is not None), None))
-    return [answer_line(row, units, axes), f"  {_torque(row, units)}", *(f"  {line}" for line in (_margins(row, units), wheel and _wheel(wheel, units),
+    return [answer_line(row, units), f"  {_torque(row, units)}", *(f"  {line}" for line in (_margins(row, units), wheel and _wheel(wheel, units),
                                                                                       row.helpers and _helper(row.helpers[0], units)) if line)]
 
 
@@ -110,15 +106,15 @@ def row_name(row) -> str:
     return " and ".join(row.thrusters) or "torque"
 
 
-def answer_line(row, units, axes=WORD) -> str:
+def answer_line(row, units) -> str:
     """What becomes of the motion, in one line."""
-    return "; ".join(filter(None, [_answer(row, units, axes), limiting.tilted(row.caveats, units)]))
+    return "; ".join(filter(None, [_answer(row, units), limiting.tilted(row.caveats, units)]))
 
 
-def _answer(row, units, axes):
+def _answer(row, units):
     when = _when(row, units)
     if row.fate == "spin-up":
-        return f"SPINS UP {_about(row, axes)}{', ' + when if when else ''}{_known(row)}"
+        return f"SPINS UP {_about(row, units.axes)}{', ' + when if when else ''}{_known(row)}"
     if row.fate == "undecided":
         return f"UNDECIDED{', but ' + when if when else ': ' + _so_far(row, units)}"
     words = FATES[row.fate]
@@ -140,7 +136,7 @@ def _known(row):
 
 def _about(row, axes) -> str:
     if row.axis:
-        return f"about axis {row.axis} ({axes[row.axis]}), {'positive' if row.sense > 0 else 'negative'} sense"
+        return f"about {axes.whole(row.axis)}, {'positive' if row.sense > 0 else 'negative'} sense"
     if row.direction:
         return f"about the direction {_vector(row.direction)} of the file's frame"
     return "without bound"
@@ -182,7 +178,7 @@ def _margins(row, units) -> str:
     known = {name: m for name, m in row.margins.items() if m.size is not None}
     if not known:
         because = next((row.margins[name].because for name in ("wheel", "rate", "torque") if name in row.margins), "")
-        return f"margin: none: {lettered(because)}" if because else ""
+        return f"margin: none: {lettered(units.words(because))}" if because else ""
     told = [" or ".join(f"{_span(name, m, units)} of {WORDS[name]}" for name, m in known.items()
                         if (m.beyond or name == "torque") == beyond) for beyond in (True, False)]
     return "; ".join(words + sizes for words, sizes in zip(("the fate changes with ", "only on a separatrix the fate is another, nearest "), told) if sizes)
@@ -204,9 +200,10 @@ def _amount(name, size, units, digits=4) -> str:
 
 def holds_for(name, margin, units) -> str:
     """What a margin holds for: the words of JSON, which are in rad/s, with a rate in the unit of the page."""
-    if name != "rate" or margin.until is None or math.isinf(margin.until):
-        return str(margin.because)
-    return str(margin.because.replace(f"{margin.until:.6g} rad/s", _amount(name, margin.until, units, DIGITS)))
+    words = str(margin.because)
+    if name == "rate" and margin.until is not None and not math.isinf(margin.until):
+        words = words.replace(f"{margin.until:.6g} rad/s", _amount(name, margin.until, units, DIGITS))
+    return units.words(words)
 
 
 def _unit(name, units):
@@ -298,11 +295,11 @@ def _details(row, units) -> list[str]:
     return lines + [f"  {_helper(h, units)}" for h in row.helpers]
 
 
-def _axes(principal) -> list[str]:
-    words = axis_words(principal)
+def _axes(principal, axes) -> list[str]:
+    names = [axes.name(n) for n in (1, 2, 3)]
     return ["principal axes, unit vectors in the frame of the file:"] + [
-        f"  axis {n} {f'({words[n]})':<8}  moment {_number(moment, DIGITS)} kg m^2  {_vector(axis)}"
-        for n, (moment, axis) in enumerate(zip(principal.moments, principal.axes), 1)]
+        f"  {name:<{max(map(len, names))}}  moment {_number(moment, DIGITS)} kg m^2  {_vector(axis)}"
+        for name, moment, axis in zip(names, principal.moments, principal.axes)]
 
 
 def _vector(vector, digits=DIGITS) -> str:

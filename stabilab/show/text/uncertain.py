@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from fractions import Fraction
 
 from ...case.units import unit_of_key
@@ -62,9 +63,13 @@ def _numbers(witness) -> dict[str, list[str]]:
     return shown
 
 
-def text(found, units: Units = SI) -> str:
-    """Lines that follow what a command says of a case; nothing where no number is uncertain. units: of rates and angles; in SI, as a file can state
-    them."""
+def in_si(found, units: Units) -> str:
+    """Lines that follow what a command says of a case, with rates and angles as a file can state them."""
+    return text(found, replace(SI, axes=units.axes))
+
+
+def text(found, units: Units) -> str:
+    """The same in the units of the case; nothing where no number is uncertain."""
     if found is None:
         return ""
     lines = ["uncertain: " + ", ".join(f"{key(u)} = {_measured(u, units)}" for u in found.numbers)]
@@ -81,14 +86,14 @@ def _measured(uncertain, units):
     return f"{middle} ± {half} {name}".rstrip()
 
 
-def first(found, told: str) -> str:
+def first(found, told: str, units: Units) -> str:
     """The text with what the box does to its answer at the end of the first line: whoever reads no further knows whether it holds."""
-    words = what_changes(found)
+    words = what_changes(found, units)
     answer, *rest = told.split("\n")
     return "\n".join([f"{answer}; {words}", *rest]) if words else told
 
 
-def what_changes(found) -> str:
+def what_changes(found, units: Units) -> str:
     """Whether the answer holds for all that the uncertain numbers may be, as a clause; nothing where all are certain."""
     over = found and (found.fate or found.equilibria)
     if not over:
@@ -96,7 +101,7 @@ def what_changes(found) -> str:
     others = list(dict.fromkeys(w.verdict for w in over.witnesses[1:] if w.verdict != over.witnesses[0].verdict)) if over is found.fate else []
     subject = "the fate is" if over is found.fate else "they are"
     return {"holds": f"{subject} the same for all that the uncertain numbers may be" + (", but for a set of measure zero" if over.but else ""),
-             "depends": f"BUT within the uncertainties also {' or '.join(others) or 'another answer'}",
+             "depends": f"BUT within the uncertainties also {' or '.join(map(units.axes.sentence, others)) or 'another answer'}",
              "sampled": f"{subject} the same at {over.samples and over.samples.number} sampled points within the uncertainties, without a proof",
              "undecided": f"{subject} undecided within the uncertainties"}[over.answer]
 
@@ -105,9 +110,10 @@ def _lines(subject, over, units) -> list[str]:
     holds, depends = SUBJECTS[subject]
     lead = {"holds": f"{holds} all over the box", "depends": f"{depends} on them", "sampled": "the same at all sampled points of the box, without a proof",
             "undecided": "undecided over the box"}
-    lines = [f"  {subject}: {lead[over.answer]}" + (f": {over.verdict}" if over.answer in ("holds", "sampled") else ""), f"    {lettered(over.because)}"]
+    lines = [f"  {subject}: {lead[over.answer]}" + (f": {units.axes.sentence(over.verdict)}" if over.answer in ("holds", "sampled") else ""),
+             f"    {lettered(units.words(over.because))}"]
     if over.but:
-        lines.append(f"    but for a set of measure zero: {over.but}")
+        lines.append(f"    but for a set of measure zero: {units.words(over.but)}")
     if over.proved and math.isfinite(over.proved):
         lines.append(f"    proved to stay for every change below {over.proved:.6g} times the uncertainties")
     if over.changes_at is not None:
@@ -123,7 +129,7 @@ def _witness(w, units) -> list[str]:
     measures = {name: units.of(known.get(name, "")) for name in w.values}
     numbers = "; ".join(f"{name} = {', '.join(told(float(v) * measures[name][1], DIGITS) for v in values)} {measures[name][0]}".rstrip()
                         for name, values in w.values.items())
-    return [f"    {w.verdict} at {numbers}"]
+    return [f"    {units.axes.sentence(w.verdict)} at {numbers}"]
 
 
 def open_fate(found) -> bool:

@@ -82,7 +82,7 @@ def _answer(limit, found, low, high, units):
 def asked(limit, units):
     """A limit in words: "|omega| = 60 deg/s", of several "|ωx| or |ωy| = 5 deg/s" where it is one number."""
     unit = {"energy": units.plain("J"), "tilt": units.angles}.get(limit.kind, units.rates)
-    names, told = list(map(_named, limit.names)), [units.told(most, unit, DIGITS) for most in limit.limits]
+    names, told = [units.axes.sentence(_named(name)) for name in limit.names], [units.told(most, unit, DIGITS) for most in limit.limits]
     if len(set(told)) == 1:
         return f"{' or '.join(filter(None, (', '.join(names[:-1]), names[-1])))} = {told[0]}"
     return " or ".join(f"{name} = {most}" for name, most in zip(names, told))

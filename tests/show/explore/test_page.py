@@ -65,7 +65,7 @@ def test_a_wrong_token_shows_nothing(server, browser):
 def test_dragging_a_slider_moves_verdict_and_surface_on_the_way(page):
     said, mesh, seen = page.run(HEADLINE), page.run(MESH), set()
     answered = "Number(shown.toml.match(/mu = .*, (\\S+)]/)[1]) === Number(fields.size.field.value)"
-    assert said.startswith("BOUNDED only while the torque is exactly along axis 3")
+    assert said.startswith("BOUNDED only while the torque is exactly along x3")
     for _ in page.drag("#size", (0.74, 0.8, 0.88, 0.95)):
         page.until(answered)
         seen.add(page.run(HEADLINE))

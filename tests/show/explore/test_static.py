@@ -55,7 +55,7 @@ def test_the_archive_answers_and_checks_with_python_flint_alone(tmp_path):
                          capture_output=True, text=True, cwd=tmp_path)
     assert run.returncode == 0, run.stderr
     headline, status, loaded = run.stdout.splitlines()
-    assert headline.startswith("BOUNDED only while the torque is exactly along axis 1") and "margin 74.4 deg/s" in headline
+    assert headline.startswith("BOUNDED only while the torque is exactly along x (major axis)") and "margin 74.4 deg/s" in headline
     assert (status, loaded) == ("proved", "[]")
 
 

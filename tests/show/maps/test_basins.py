@@ -29,7 +29,7 @@ def minor():
 
 def test_the_first_line_tells_the_shares_and_the_others_the_boundary(minor):
     first, *rest = words.text(minor).splitlines()
-    assert first.startswith("minor-axis-100: 2 kinds of motion in this plane: 57.5 % spin-up about +3, 42.5 % bounded (± ")
+    assert first.startswith("minor-axis-100: 2 kinds of motion in this plane: 57.5 % spin-up about +x3, 42.5 % bounded (± ")
     assert "the exact separatrix passes through each" in rest[0] and "that of a smooth line" in rest[1] and " ± " in rest[1] and "known as exact" in rest[2]
     assert f"{len(minor.records):,} states asked, of 28,497" in rest[3]
 
@@ -37,7 +37,7 @@ def test_the_first_line_tells_the_shares_and_the_others_the_boundary(minor):
 def test_json_has_what_the_words_say_and_a_command_that_asks_the_same(minor):
     told = json.loads(words.json(minor))
     assert told["schema"] == "stabilab.basin/1" and told["complete"] and told["states_asked"] == len(minor.records)
-    assert {row["basin"]: row["share"] for row in told["basins"]} == {words.basin_name(k): v for k, v in minor.shares.items()}
+    assert {row["basin"]: row["share"] for row in told["basins"]} == {words.basin_name(minor, k): v for k, v in minor.shares.items()}
     assert len(told["boundary"]["corners"]) == told["boundary"]["cells"] == len(told["boundary"]["separatrix"])
     assert told["box_dimension"]["value"] == minor.dimension.value and told["axes"][0]["cells"] == 11
     vary = dict(word.removeprefix("--vary=").split("=") for word in told["command"].replace("'", "").split()[3:5])
@@ -49,7 +49,7 @@ def test_csv_has_a_line_for_each_cell_and_its_cells_cover_the_plane(minor):
     rows = list(csv.reader(io.StringIO(words.csv(minor))))
     assert rows[0] == ["motion.x[1] from", "motion.x[1] to", "motion.x[3] from", "motion.x[3] to", "depth", "basin", "caveats"]
     areas = [(float(b) - float(a)) * (float(d) - float(c)) for a, b, c, d, *_ in rows[1:]]
-    assert sum(areas) == pytest.approx(8 * 6.1) and {row[-2] for row in rows[1:]} == {"bounded", "spin-up about +3", "boundary"}
+    assert sum(areas) == pytest.approx(8 * 6.1) and {row[-2] for row in rows[1:]} == {"bounded", "spin-up about +x3", "boundary"}
     assert sum(row[-2] == "boundary" for row in rows[1:]) == len(minor.boundary)
 
 
@@ -83,7 +83,7 @@ def test_the_picture_shows_each_basin_where_its_states_are(minor):
     ax = stabilab.plot.basin(minor)
     assert (ax.get_xlabel(), ax.get_ylabel()) == ("$x_1$", "$x_3$") and len(ax.collections[-1].get_segments()) == len(minor.boundary)
     legend = ax.figure.legends[0]
-    assert [text.get_text() for text in legend.get_texts()] == ["spin-up about +3", "bounded", "separatrix (exact)", "the case itself"]
+    assert [text.get_text() for text in legend.get_texts()] == ["spin-up about +x3", "bounded", "separatrix (exact)", "the case itself"]
     plt.close("all")
 
 

@@ -9,6 +9,7 @@ from ....maps.atlas.pointed import AXES, OWN, Point
 from ....maps.atlas.run import Atlas
 from ....orbit.result import Fate
 from ... import style
+from ...axes import axes_of
 from ..shades import FATES, light
 
 # (axis, sense) of a spin-up -> its colour: a hue for each axis, the lighter one against it
@@ -16,19 +17,6 @@ SPINS = {(1, 1): light(style.BLUE, 0.95), (1, -1): light(style.BLUE, 0.5), (2, 1
          (3, 1): light(style.VERMILION, 0.95), (3, -1): light(style.VERMILION, 0.5), (0, 0): light(style.PURPLE, 0.9)}
 ISLANDS = {1: light(style.GREY, 0.75), 2: light(style.BLACK, 0.8)}  # of undecided cells: where one may exist, where one is seen
 DOES = {Fate.BOUNDED: "stay bounded", Fate.SEPARATRIX: "lie on the separatrix", Fate.EQUILIBRIUM: "keep a steady rotation", Fate.UNDECIDED: "are undecided"}
-
-
-def axis_names(atlas: Atlas) -> dict[int, str]:
-    """1, 2, 3 -> "axis 3 (minor)", by the moments: the largest is the major one; equal ones say so."""
-    moments = atlas.asked.case.scene.body.exact  # type: ignore[union-attr]
-    ranks = sorted(set(moments), reverse=True)
-    told = {}
-    for number, moment in enumerate(moments, 1):
-        same = sum(one == moment for one in moments) > 1
-        place = ranks.index(moment)
-        word = "equal moments" if same else "major" if place == 0 else "minor" if place == len(ranks) - 1 else "middle"
-        told[number] = f"axis {number} ({word})"
-    return told
 
 
 def other_axis(atlas: Atlas) -> str:
@@ -40,9 +28,9 @@ def other_axis(atlas: Atlas) -> str:
 
 
 def point_name(atlas: Atlas, point: Point) -> str:
-    """"+1" and "-1" for the axes, a thruster's name, "torque of the case"."""
+    """"+z" and "-z" for the axes (of a full tensor "+minor" and "-minor"), a thruster's name, "torque of the case"."""
     if point.level == AXES:
-        return f"{'-' if point.number % 2 else '+'}{point.number // 2 + 1}"
+        return axes_of(atlas.asked.case).signed(point.number // 2 + 1, -1 if point.number % 2 else 1)
     return "torque of the case" if point.level == OWN else atlas.asked.case.thrusters[point.number].name
 
 
@@ -53,11 +41,12 @@ def shown_name(atlas: Atlas, point: Point) -> str:
 
 
 def kind_words(atlas: Atlas, fate: int, axis: int, island: int = 0) -> str:
-    """What a cell does, for a legend: "spins up about −3 (minor)"."""
+    """What a cell does, for a legend: "spins up about −z (minor)"."""
     if fate == Fate.SPIN_UP:
         if not axis:
             return f"spins up about {other_axis(atlas)}"
-        return f"spins up about {axis:+d} ({axis_names(atlas)[abs(axis)].partition('(')[2]}".replace("-", "−")
+        axes, sign = axes_of(atlas.asked.case), "−" if axis < 0 else "+"
+        return f"spins up about {sign}{axes.name(abs(axis))}"
     return FATES[Fate(fate)][0] + ("", ", an island may exist", ", an island is seen")[island]
 
 

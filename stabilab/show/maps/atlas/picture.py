@@ -12,11 +12,12 @@ from ....maps.atlas.pointed import AXES
 from ....maps.atlas.run import Atlas
 from ....maps.columns import LEVELS
 from ... import style
+from ...axes import axes_of
 from ...units import Units
 from ..shades import light
 from ..words import COUNTS
 from . import flat
-from .labels import axis_names, kind_colour, kind_words, kinds, shown_name, wheel_words
+from .labels import kind_colour, kind_words, kinds, shown_name, wheel_words
 from .words import limit_words
 
 PIXELS = 1500  # across one map
@@ -119,7 +120,8 @@ def _label(atlas: Atlas, point: Any, plain: bool) -> str:
     """The name of a direction; of an axis with its place among the moments, where there is room."""
     if point.level != AXES or plain:
         return shown_name(atlas, point)
-    return f"{shown_name(atlas, point)} {axis_names(atlas)[point.number // 2 + 1].partition('(')[2].rstrip(')')}"
+    axes, number = axes_of(atlas.asked.case), point.number // 2 + 1
+    return " ".join(filter(None, [shown_name(atlas, point), axes.letters[number - 1] and axes.words[number - 1]]))
 
 
 def _times(atlas: Atlas, units: Units) -> Any:

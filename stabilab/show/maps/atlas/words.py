@@ -14,13 +14,14 @@ from ....maps.atlas.run import Atlas
 from ....maps.columns import ISLANDS, LEVELS, LIMIT_LEVELS, columns_of
 from ....orbit.result import Fate
 from ... import limiting
+from ...axes import axes_of
 from ...files import comma
 from ...text.answers import Endless, as_json
 from ...units import SHORT, Units
 from ..labels import limiting as caveats_of
 from ..labels import unit
 from ..words import COUNTS
-from .labels import DOES, axis_names, direction_words, kinds, other_axis, point_name, wheel_words
+from .labels import DOES, direction_words, kinds, other_axis, point_name, wheel_words
 
 SCHEMA = "stabilab.atlas/1"
 ROWS = 12  # wheel momenta that are told one by one
@@ -38,12 +39,12 @@ def _all(atlas: Atlas) -> np.ndarray:
 
 
 def answer(atlas: Atlas, units: Units, rows: np.ndarray | None = None) -> str:
-    """"78 % of directions spin up about axis 3 (minor), 22 % about axis 1 (major); shortest time to 30 deg/s: 2.1 min at direction (...)"."""
+    """"78 % of directions spin up about z (minor axis), 22 % about x (major axis); shortest time to 30 deg/s: 2.1 min at direction (...)"."""
     shares = _by_axis(atlas, rows)
     what = "directions" if len(atlas.asked.wheels) == 1 or rows is not None else "directions and wheel momenta"
     parts = []
     for n, ((fate, axis), share) in enumerate(shares):
-        about = axis_names(atlas).get(axis) or other_axis(atlas)
+        about = axes_of(atlas.asked.case).whole(axis) if axis else other_axis(atlas)
         verb = f"about {about}" if n and shares[n - 1][0][0] == fate == Fate.SPIN_UP else f"spin up about {about}" if fate == Fate.SPIN_UP else DOES[Fate(fate)]
         parts.append(f"{_per_cent(share)} of {what} {verb}" if not n else f"{_per_cent(share)} {verb}")
     if len(shares) == 1:
@@ -112,7 +113,7 @@ def _details(atlas: Atlas, units: Units) -> list[str]:
              f"  torque {units.torque(float(atlas.asked.torque))}; {len(records):,} cells of equal area, some {size:.2g} deg wide"]
     spun = records["fate"] == Fate.SPIN_UP
     if spun.any():
-        lines.append("  spin-up about " + _listed(atlas, records["spin_axis"], spun, whole, lambda axis: f"{axis:+d}" if axis else other_axis(atlas)))
+        lines.append("  spin-up about " + _listed(atlas, records["spin_axis"], spun, whole, lambda axis: _signed(atlas, axis)))
     lines.append("  the fate is known as " + _listed(atlas, records["level"], records["level"] >= 0, whole, lambda level: LEVELS[level]))
     if atlas.asked.stated_limit is not None:
         lines.append(_times(atlas, units, whole))
@@ -164,7 +165,11 @@ def does(atlas: Atlas, n: int) -> str:
     if fate != Fate.SPIN_UP:
         return {Fate.BOUNDED: "stays bounded", Fate.SEPARATRIX: "lies on the separatrix", Fate.EQUILIBRIUM: "keeps a steady rotation",
                 Fate.UNDECIDED: "is undecided"}[fate]
-    return f"spins up about {axis:+d}" if axis else f"spins up about {other_axis(atlas)}"
+    return f"spins up about {_signed(atlas, axis)}"
+
+
+def _signed(atlas: Atlas, axis: int) -> str:
+    return axes_of(atlas.asked.case).signed(abs(axis), axis) or other_axis(atlas)
 
 
 def in_time(atlas: Atlas, n: int, units: Units) -> str:
@@ -210,7 +215,8 @@ def json(atlas: Atlas, units: Units) -> str:
     asked, plan = atlas.asked, atlas.asked.plan(())
     wheels = [{"momentum": momentum, "unit": asked.unit, "vector": list(map(float, vector))}
               for momentum, vector in zip(asked.momenta or (None,) * len(asked.wheels), asked.wheels)]
-    shares = [{"fate": Fate(fate).word, "axis": abs(axis) or None, "sense": (axis > 0) - (axis < 0) or None, "island": ISLANDS[island], "share": share}
+    axes = axes_of(asked.case)
+    shares = [{"fate": Fate(fate).word, **axes.key(abs(axis)), "sense": (axis > 0) - (axis < 0) or None, "island": ISLANDS[island], "share": share}
               for (fate, axis, island), _, share in kinds(atlas)]
     limit = asked.stated_limit
     cells = {"wheel": atlas.leaves.wheel, "level": atlas.leaves.level, "number": atlas.leaves.number, "share": atlas.share,

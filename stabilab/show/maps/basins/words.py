@@ -12,6 +12,7 @@ from ....maps.basins.ask import BOUNDED, NO_AXIS, UNDECIDED, Basins
 from ....maps.basins.mesh import leaves
 from ....maps.columns import LEVELS
 from ... import limiting
+from ...axes import axes_of
 from ...files import comma
 from ...text import law
 from ...text.answers import as_json
@@ -22,9 +23,10 @@ SCHEMA = "stabilab.basin/1"
 SMOOTH = 0.1  # of the dimension: less than this above 1 is told as smooth where the uncertainty allows
 
 
-def basin_name(label: int) -> str:
+def basin_name(found: Basins, label: int) -> str:
     """What motions of a basin do."""
-    return {BOUNDED: "bounded", UNDECIDED: "undecided", NO_AXIS: "spin-up about an axis between equal moments"}.get(label) or f"spin-up about {label:+d}"
+    named = {BOUNDED: "bounded", UNDECIDED: "undecided", NO_AXIS: "spin-up about an axis between equal moments"}
+    return named.get(label) or f"spin-up about {axes_of(found.plan.case).signed(abs(label), label)}"
 
 
 def text(found: Basins) -> str:
@@ -41,9 +43,9 @@ def text(found: Basins) -> str:
 
 
 def _answer(found: Basins) -> str:
-    parts = [f"{_percent(share, found.blur)} {basin_name(label)}" for label, share in found.shares.items()]
+    parts = [f"{_percent(share, found.blur)} {basin_name(found, label)}" for label, share in found.shares.items()]
     if len(parts) == 1:
-        return f"one basin in this plane: all of it {basin_name(next(iter(found.shares)))}"
+        return f"one basin in this plane: all of it {basin_name(found, next(iter(found.shares)))}"
     return f"{len(parts)} kinds of motion in this plane: {', '.join(parts)} (± {_digits(100 * found.blur)} %: the cells on the boundaries)"
 
 
@@ -103,7 +105,7 @@ def csv(found: Basins) -> str:
     heads = [f"{axis.key.name} {end}" + ("" if axis.shown_unit == "1" else f" ({axis.shown_unit})") for axis in found.plan.axes for end in ("from", "to")]
     values = [np.array(axis.values) for axis in found.plan.axes]
     columns = [values[n][cells[name] + more].tolist() for n, name in enumerate(("first", "second")) for more in (0, cells["width"])]
-    words = ["boundary" if mixed else basin_name(label) for mixed, label in zip(cells["mixed"].tolist(), cells["label"].tolist())]
+    words = ["boundary" if mixed else basin_name(found, label) for mixed, label in zip(cells["mixed"].tolist(), cells["label"].tolist())]
     told = [cell(caveats_of(found.plan.case, found.records))] * len(words)
     return comma.lines([[*heads, "depth", "basin", "caveats"], *zip(*columns, cells["depth"].tolist(), words, told)])
 
@@ -118,7 +120,7 @@ def json(found: Basins) -> str:
     return as_json(key(caveats_of(found.plan.case, found.records)) | {
         "schema": SCHEMA, "case": found.plan.case.name, "variables": found.plan.case.variables, "command": command(found), "axes": axes,
         "depth": mesh.depth, "complete": not mesh.full, "states_asked": len(mesh.keys),
-        "basins": [{"basin": basin_name(label), "share": share} for label, share in found.shares.items()], "share_uncertainty": found.blur,
+        "basins": [{"basin": basin_name(found, label), "share": share} for label, share in found.shares.items()], "share_uncertainty": found.blur,
         "boundary": {"cells": len(found.boundary), "unclear_cells": found.unclear, "exact": found.exact, "corners": np.stack(lower, axis=1),
                      "separatrix": found.separatrix()},
         "box_dimension": {"value": rough.value, "uncertainty": rough.uncertainty, "depths": list(rough.depths), "cells": list(rough.counts),

@@ -9,6 +9,7 @@ from ....maps.bifurcation.branches import Branch, branches
 from ....maps.bifurcation.result import CURVES, Diagram
 from ....maps.bifurcation.system import BORDERS
 from ... import style
+from ...axes import axes_of
 from ...units import units_of
 from .labels import rows_apart
 from .words import unit
@@ -22,8 +23,8 @@ LOOKS = {"stable": ("stable", "stable"), "unstable": ("unstable", "unstable"), "
 def write(found: Diagram, out: str | Path, size: tuple[float, float] | None = None, dpi: float | None = None) -> Path:
     """Draw the diagram and write the picture; returns its path. Raises InputError where equilibria form curves for every value."""
     if found.kind == CURVES:
-        raise InputError(f"{found.family.case.place}: "
-                         f"{found.what.partition(';')[0]}: these are told in words, and no branches are there to draw: leave --out away")
+        what = axes_of(found.family.case).sentence(found.what).partition(";")[0]
+        raise InputError(f"{found.family.case.place}: {what}: these are told in words, and no branches are there to draw: leave --out away")
     return style.write(out, lambda plt: drawn(found, size, plt), dpi)
 
 

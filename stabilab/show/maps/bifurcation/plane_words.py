@@ -44,7 +44,7 @@ def text(found: Plane) -> str:
     """The answer, what is counted, an example for each number of equilibria, the cusps."""
     units = units_of(found.family.case)
     first, second = found.family.spans
-    lines = [f"{found.family.case.name}: {answer(found)}", f"  {found.what}", *(f"  {note}" for note in found.notes),
+    lines = [f"{found.family.case.name}: {answer(found)}", *(f"  {units.axes.sentence(words)}" for words in (found.what, *found.notes)),
              *limiting.lines(found.family.case.caveats, units)]
     of = [f"{span.label}{'' if span.shown_unit == '1' else f' ({span.shown_unit})'}" for span in (first, second)]
     border = found.kind == BORDERS

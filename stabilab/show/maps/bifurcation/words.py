@@ -23,8 +23,9 @@ NAMES = {"fold": "fold", "pitchfork": "pitchfork", "crossing": "crossing", "touc
 
 def text(found: Diagram) -> str:
     """The answer first, then what is counted, the table, notes."""
-    lines = [f"{found.family.case.name}: {answer(found).replace('<=', '≤')}", f"  {found.what}"]
-    lines += [f"  {note}" for note in found.notes] + limiting.lines(found.family.case.caveats, units_of(found.family.case))
+    units = units_of(found.family.case)
+    lines = [f"{found.family.case.name}: {answer(found).replace('<=', '≤')}", f"  {units.axes.sentence(found.what)}"]
+    lines += [f"  {units.axes.sentence(note)}" for note in found.notes] + limiting.lines(found.family.case.caveats, units)
     return "\n".join([*lines, *_table(found), *frame.note(found.family.case)])
 
 
@@ -104,9 +105,9 @@ def _table(found: Diagram) -> list[str]:
     rows = [[name, "changes" if found.kind == BORDERS else "equilibria", *([] if found.kind == BORDERS else ["stable"]), "what"]]
     for _, one in _in_order(found):
         if isinstance(one, Piece):
-            rows.append([f"{number(one.low, digits)} to {number(one.high, digits)}", *_counts(found, one.count, one.states), one.words])
+            rows.append([f"{number(one.low, digits)} to {number(one.high, digits)}", *_counts(found, one.count, one.states), units.axes.sentence(one.words)])
         else:
-            rows.append([f"at {number(one.value, digits)}", *_counts(found, one.count, one.states), one.words + _meeting(one, units)])
+            rows.append([f"at {number(one.value, digits)}", *_counts(found, one.count, one.states), units.axes.sentence(one.words) + _meeting(one, units)])
     wide = [max(len(row[n]) for row in rows) for n in range(len(rows[0]) - 1)]
     return [("  " + "  ".join(f"{cell:>{size}}" for cell, size in zip(row, wide)) + "  " + row[-1]).rstrip() for row in rows]
 

@@ -31,7 +31,7 @@ def cylinder(one: Subject, units: str | None) -> SurfaceLines:
     spread = np.ptp(surface.reshape(-1, 3), axis=0)
     pad = 0.04 * spread.max() if spread.min() > 0.04 * spread.max() else np.maximum(0.04 * spread, 0.1 * spread.max())
     box = Box.of(surface.min(axis=(0, 1)) - pad, surface.max(axis=(0, 1)) + pad)
-    words = f"the rates across axis {axis + 1} stay on a {plane.land.base}"
+    words = f"the rates across {one.axes.short(axis + 1)} stay on a {plane.land.base}"
     found = SurfaceLines(grid_triangles(surface), box, view, tuple(scale.label(name, scale.rate[0]) for name in scale.names), words)
     _wrap(found, plane, at, axis, low, high, top)
     for sign in ways(plane, Ws):

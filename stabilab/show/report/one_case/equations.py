@@ -3,6 +3,7 @@ from __future__ import annotations
 
 from ....physics.equations import derive
 from ....physics.laws import invariants
+from ...axes import axes_of
 from ...text.notation import latex
 from ...units import parameter_unit
 from .. import typeset
@@ -15,7 +16,7 @@ def equations(case) -> dict:
     laws = invariants(case.scene)
     return {"equations": typeset.equations_of_motion(made), "latex": latex(made),
             "parameters": [(typeset.symbol(name), told(float(value), _unit(case, name), 6)) for name, value in made.parameters.items()],
-            "laws": [(spoken(law.words), typeset.law(law)) for law in laws]}
+            "laws": [(spoken(axes_of(case).sentence(law.words)), typeset.law(law)) for law in laws]}
 
 
 def _unit(case, name):

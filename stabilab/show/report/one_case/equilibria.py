@@ -16,20 +16,20 @@ def table(found, measures) -> dict:
     rows = [_row(vector([v * one for v in p.at[:3]]) + unit, p, measures.reason(p.because)) for p in found.points]
     for curve in found.curves:
         for segment in curve.segments:
-            rows.append(_row(f"{spoken(_name(curve, measures))}, {_piece(curve, segment.t, measures)}", segment, spoken(segment.because)))
+            rows.append(_row(f"{spoken(_name(curve, measures))}, {_piece(curve, segment.t, measures)}", segment, measures.reason(segment.because)))
         for fold in curve.folds:
-            row = _fold(curve, fold, f"{vector([v * one for v in fold[:3]])}{unit}")
+            row = _fold(curve, fold, f"{vector([v * one for v in fold[:3]])}{unit}", measures)
             rows += [] if row in rows else [row]  # a point where curves meet is one of each
     return {"kind": found.kind, "reason": measures.reason(found.reason), "rows": rows,
             "curves": [(spoken(_together(group, measures)), *_of(group, measures)) for group in _alike(found.curves)]}
 
 
-def _fold(curve, at, where):
+def _fold(curve, at, where, measures):
     """A point between two pieces of a curve, with its verdict where it has one."""
     found = next((sample for sample in curve.samples if tuple(sample.at[:3]) == tuple(at[:3]) and sample.linear == "degenerate"), None)
     if found is None:
         return {"where": f"fold at {where}", "linear": "degenerate", "verdict": "", "because": "", "css": ""}
-    return _row(f"{'fold' if found.because.startswith('fold') else 'meeting point'} at {where}", found, spoken(found.because))
+    return _row(f"{'fold' if found.because.startswith('fold') else 'meeting point'} at {where}", found, measures.reason(found.because))
 
 
 def _alike(curves):
@@ -48,7 +48,7 @@ def _together(group, measures):
 
 def _name(curve, measures):
     """The name of a curve without the range of its parameter, which its pieces tell."""
-    return re.sub(r" for t in \(.*\)$", "", in_units(curve, measures.units).name)
+    return measures.units.axes.sentence(re.sub(r" for t in \(.*\)$", "", in_units(curve, measures.units).name))
 
 
 def _of(group, measures):

@@ -38,7 +38,7 @@ def sections(case, folder: Path, stem: str, deep: bool = True, certify: bool = F
         absent.append(("Motion", "the case states none: no fate, margins and pictures of it"))
     asked = ("equilibria", "fate") if case.state else ("equilibria",)
     box = _tried(absent, "Uncertain numbers", lambda: uncertain(case, asked)) if case.uncertain else None
-    answer = "; ".join(filter(None, (verdict.headline(case, moved, found, measures), shown.what_changes(box))))
+    answer = "; ".join(filter(None, (verdict.headline(case, moved, found, measures), shown.what_changes(box, units))))
     page = {"name": case.name, "title": case.heading, "source": case.source, "path": case.path, "text": case.text, "headline": answer,
             "law": verdict.law(moved, measures),
             "caveats": [spoken(line) for line in limiting.beside((one for one in case.caveats if one.kind != "uncertain"), units)],
@@ -56,14 +56,14 @@ def sections(case, folder: Path, stem: str, deep: bool = True, certify: bool = F
     page["uncertain"] = greek(shown.text(box, units))
     if certify:
         page["certificate"] = _tried(absent, "Certificate", lambda: certified.certificate_of(case, folder, stem))
-    return page | {"absent": [(what, spoken(why)) for what, why in absent]}
+    return page | {"absent": [(what, measures.reason(why)) for what, why in absent]}
 
 
 def _over(words) -> str:
     """Over which times extremes are known, as the end of a heading."""
     if words == "all time":
         return "for all times"
-    return words.replace("finite entries over", "the finite ones over") if words.startswith(("finite", "axis")) else f"over {words}"
+    return words.replace("finite entries over", "the finite ones over") if words.startswith(("finite", "the ")) else f"over {words}"
 
 
 def _tried(absent, what, made):

@@ -29,7 +29,7 @@ def sensitivity(case, motion, measures) -> dict:
         answer = stuck(case)
     except InputError as error:
         found["rows"] = _of_motion(case.scene, motion, measures)
-        found["reason"] = f"No margin of wheel or torque: {spoken(str(error))}."
+        found["reason"] = f"No margin of wheel or torque: {measures.reason(str(error))}."
         return found
     row = answer.rows[0]
     known = {name: margin for name, margin in row.margins.items() if margin.size is not None}
@@ -38,7 +38,7 @@ def sensitivity(case, motion, measures) -> dict:
     for name, margin in row.margins.items():
         if name not in known:
             why.setdefault(margin.because, []).append(OF[name])
-    found["reason"] = " ".join(f"No margin in {_any_of(names)}: {spoken(because)}." for because, names in why.items())
+    found["reason"] = " ".join(f"No margin in {_any_of(names)}: {measures.reason(because)}." for because, names in why.items())
     found["words"] = [_wheel(wheel) for wheel in row.wheels] + [_helper(helper, measures) for helper in row.helpers]
     if row.time_to_limit:
         limit = spoken(asked(stated_limit(case), measures.units))

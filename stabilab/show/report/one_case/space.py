@@ -45,7 +45,7 @@ def space(case, motion, found_equilibria, measures, shape=SHAPE) -> dict:
              "middle": [v * one for v in box[0]], "half": box[1] * one,
              "sheets": [_sheet(sheet, style.BESIDE[n % len(style.BESIDE)], box) for n, sheet in enumerate(sheets)],
              "curves": _curves(curves, curve, box), "points": [m | {"at": _share(m["at"], box)} for m in marks if _inside(m["at"], box)]}
-    return {"drawn": drawn, "legend": _legend(drawn), "reason": spoken(reason), "clipped": any(_outside(s.points, box) for s in reaching)}
+    return {"drawn": drawn, "legend": _legend(drawn), "reason": measures.reason(reason), "clipped": any(_outside(s.points, box) for s in reaching)}
 
 
 def _sheet(sheet, colour, box):

@@ -57,8 +57,8 @@ def rows(case, motion, measures) -> list[tuple[str, str]]:
         found.append(("margin in rate", measures.reason(motion.velocity_because)))
     if motion.period is not None:
         found.append(("period", period(motion, measures)))
-    found += [(f"axis {n}" if n else "frame", spoken(line.strip().removeprefix(f"axis {n}" if n else "frame: ").strip()))
-              for n, line in enumerate(frame.lines(case))]
+    axes = frame.rows_of_axes(case)
+    found += [("frame", spoken(frame.lines(case)[0].removeprefix("frame: "))), *((f"axis {name}", spoken(words)) for name, words in axes)] if axes else []
     seen = {name: value for name, value in motion.evidence.items() if value is not None and (name, value) != ("steps", 0)}  # a law needed no run
     return found + [_evidence(name, value, measures) for name, value in seen.items()]
 

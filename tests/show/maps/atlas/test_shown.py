@@ -44,8 +44,8 @@ def test_the_first_line_has_shares_of_the_sphere_and_the_shortest_time(found):
     shares = {}
     for axis, share in zip(found.records["spin_axis"].tolist(), found.share.tolist()):
         shares[abs(axis)] = shares.get(abs(axis), 0) + share / 2  # two wheels
-    for axis, name in ((1, "major"), (3, "minor")):
-        assert f"{100 * shares[axis]:.0f} %" in first and f"about axis {axis} ({name})" in first
+    for axis, name in ((1, "x (major axis)"), (3, "z (minor axis)")):
+        assert f"{100 * shares[axis]:.0f} %" in first and f"about {name}" in first
     assert f"shortest time to 90 deg/s: {found.records['when_low'].min():.4g} s at direction (" in first
     assert any(line.startswith("  wheel 0.2 N m s: ") for line in rest) and any("thruster A <1>, direction (0, -1, 0)" in line for line in rest)
 
@@ -59,7 +59,7 @@ def test_names_of_directions_that_are_one_stand_apart():
     boxes, names = [label.get_window_extent() for label in figure.axes[0].texts], [label.get_text() for label in figure.axes[0].texts]
     legend = [entry.get_text() for entry in figure.axes[0].get_legend().get_texts()]
     plt.close(figure)
-    assert not [name for name in names + legend if "-" in name] and {"−1 major", "+2 middle", "−3 minor"} < set(names)
+    assert not [name for name in names + legend if "-" in name] and {"−x major", "+y intermediate", "−z minor"} < set(names)
     assert len(boxes) == 7 and not [1 for n, box in enumerate(boxes) for other in boxes[:n] if box.overlaps(other)]
 
 
@@ -69,7 +69,7 @@ def test_json_and_csv_hold_every_cell(found):
     assert sum(told["cells"]["share"]) == pytest.approx(2) and sum(one["share"] for one in told["shares"]) == pytest.approx(1)
     rows = list(csv.DictReader(io.StringIO(words.csv(found))))
     assert len(rows) == len(found.records) + len(found.named)
-    assert float(rows[-1]["when_low (s)"]) == found.records["when_low"][-1] and rows[0]["name"] == "+1"
+    assert float(rows[-1]["when_low (s)"]) == found.records["when_low"][-1] and rows[0]["name"] == "+x"
 
 
 def test_a_file_holds_the_atlas_and_opens_as_a_data_set(found, tmp_path):
@@ -85,7 +85,7 @@ def test_a_file_holds_the_atlas_and_opens_as_a_data_set(found, tmp_path):
 
 def test_python_gives_the_data_set(tmp_path):
     made = stabilab.atlas(case_of(wheel=(0.0, 0.2, 0.0), start=(0.3, -0.2, 0.5)), level=0, refine=0, out=tmp_path / "sky.nc")
-    assert made.sizes["cell"] == 8 and list(made.point.values[:2]) == ["+1", "-1"] and (tmp_path / "sky.nc").is_file() and "when_low" not in made
+    assert made.sizes["cell"] == 8 and list(made.point.values[:2]) == ["+x", "-x"] and (tmp_path / "sky.nc").is_file() and "when_low" not in made
 
 
 def test_the_map_keeps_areas_and_comes_back():

@@ -1,0 +1,103 @@
+"""What an axis of a case is called: one convention for every text, page, picture and table.
+
+Axes 1, 2, 3 of a scene are the principal axes. Where the tensor of the file is diagonal they are the file's x, y, z; of a full tensor they are the major,
+the intermediate and the minor axis, whose direction in the frame of the file stands beside the word; of a scaled case they are the paper's x1, x2, x3.
+A body of revolution has a symmetry axis and two transverse ones.
+"""
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+from ..numbers.vectors import Float3
+from ..record import record
+
+if TYPE_CHECKING:
+    from ..case.read import Case
+
+NUMBERED = re.compile(r"\b(?:the )?(?:principal )?axis ([123])\b|\b(?:the )?(?:principal )?axes ([123](?:(?:, | and )[123])+)\b")
+IN_FILE = " in the file's frame"
+RANKS = ("major", "intermediate", "minor")
+
+
+@record
+class Axes:
+    """letters: of the axes of the file or of the paper, "" of a full tensor; words: which axis each one is by its moment, "" where they are all alike or
+    unknown; directions: unit vectors in the frame of the file, right-handed, None of a scaled case and of a scene without a file."""
+
+    letters: tuple[str, ...]
+    words: tuple[str, ...]
+    directions: tuple[Float3, ...] | None = None
+
+    def name(self, number: int) -> str:
+        """In a table, a legend or JSON: "z (minor)", of a full tensor "minor", of a scaled case "x3"."""
+        letter, word = self.letters[number - 1], self.words[number - 1]
+        return f"{letter} ({word})" if letter and word else letter or word
+
+    def signed(self, number: int, sense: int) -> str:
+        """With its sense, where there is no room for more: "+z", "-minor"; nothing for the number 0."""
+        if not number:
+            return ""
+        letter, word = self.letters[number - 1], self.words[number - 1]
+        return ("+" if sense > 0 else "-") + (letter or word + (f" {number}" if self.words.count(word) > 1 else ""))
+
+    def whole(self, number: int) -> str:
+        """Where it is named first: "z (minor axis)", or "the minor axis, (0.019, -0.060, 0.998) in the file's frame"."""
+        letter, word = self.letters[number - 1], self.words[number - 1]
+        return f"{letter} ({word} axis)" if letter and word else letter or f"the {word} axis, {self.direction(number)}{IN_FILE}"
+
+    def brief(self, number: int) -> str:
+        """After another axis of the same line: "x", or what `whole` says where there is no letter."""
+        return self.letters[number - 1] or self.whole(number)
+
+    def short(self, number: int) -> str:
+        """Within a sentence: "the z axis", "the minor axis"; of two axes with one word also the direction."""
+        letter, word = self.letters[number - 1], self.words[number - 1]
+        if letter:
+            return f"the {letter} axis"
+        return f"the {word} axis" + (f" {self.direction(number)}" if self.words.count(word) > 1 else "")
+
+    def direction(self, number: int) -> str:
+        """Three decimals of its direction in the frame of the file."""
+        return told(self.directions[number - 1]) if self.directions else ""
+
+    def sentence(self, text: str, name: Callable[[int], str] | None = None) -> str:
+        """A sentence of the analysis with names (of `short`, where no other are asked) for the numbers of its axes."""
+        if self == PLAIN:
+            return text
+        return NUMBERED.sub(lambda found: " and ".join((name or self.short)(int(n)) for n in re.findall("[123]", found[0])), text)
+
+    def key(self, number: int | None) -> dict[str, Any]:
+        """The keys of an axis in JSON: its number, name, and direction in the frame of the file; null where there is none."""
+        along = self.directions[number - 1] if number and self.directions else None
+        return {"axis": number or None, "axis_name": self.name(number) if number else None, "axis_direction": along}
+
+
+PLAIN = Axes(("axis 1", "axis 2", "axis 3"), ("",) * 3)  # of a scene without a case
+
+
+def axes_of(case: Case) -> Axes:
+    """The names of a case's axes."""
+    if case.variables == "scaled":
+        return Axes(("x1", "x2", "x3"), ("",) * 3)
+    frame = case.frame
+    rows = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)) if frame is None else tuple(tuple(float(v) + 0.0 for v in row) for row in frame.axes)
+    letters = tuple("xyz") if frame is None or frame.as_given else ("",) * 3
+    return Axes(letters, _words(case.scene.body.exact), rows)  # type: ignore[union-attr]  # a scene with a body
+
+
+def _words(moments) -> tuple[str, ...]:
+    """Which axis each one is, by moments that are known exactly."""
+    alike = len(set(moments))
+    if alike == 1:
+        return ("",) * 3
+    if alike == 2:
+        return tuple("symmetry" if moments.count(m) == 1 else "transverse" for m in moments)
+    order = sorted(moments, reverse=True)
+    return tuple(RANKS[order.index(m)] for m in moments)
+
+
+def told(vector) -> str:
+    """A direction to three decimals: 0.06 deg."""
+    return f"({', '.join(f'{v:.3f}' if round(v, 3) else '0.000' for v in map(float, vector))})"
