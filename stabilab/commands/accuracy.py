@@ -29,7 +29,7 @@ def compare(case, order, out, json, strict, units):
     else:
         tell("\n\n".join(law.first(found.validity, comparison.text(one, found, system), system, one.caveats)
                          for (one, found), system in zip(compared, systems)))
-    hold_laws(strict, (found.validity for _, found in compared))
+    hold_laws(strict, (found.validity for _, found in compared), loaded)
 
 
 def _compared(case, order):
@@ -59,4 +59,4 @@ def precision(case, json, csv, out, until, quick, strict):
     else:
         tell("\n\n".join(law.first(found.validity, shown.text(found), caveats=found.case.caveats) for found in measured))
     all_reached((found.case, found.reference.reason) for found in measured if not found.questions)
-    hold_laws(strict, (found.validity for found in measured))
+    hold_laws(strict, (found.validity for found in measured), [found.case for found in measured])

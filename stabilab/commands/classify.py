@@ -7,7 +7,7 @@ from ..show.terminal import classification
 from ..show.text import answers, law, uncertain
 from .common.cases import load_cases, one_by_one, tell_radians, units_asked
 from .common.motions import motion_of, over_boxes, sampled, tilted
-from .common.output import leave_undecided, write
+from .common.output import hold_laws, leave_undecided, write
 from .common.tables import swept_motions, tell_all
 
 
@@ -33,7 +33,8 @@ def classify(cases, json, strict, certify, out, follow, tilt, units, why):
         tell_all(loaded, texts, laws, list(map(uncertain.in_si, boxes, systems)), why, "\n\n", swept_motions([m for *_, m in answered], systems), systems)
     certified = all([proof.certified(case, out) for case in loaded]) if certify else True
     undecided = any(answers.undecided(found, motion) for _, found, motion in answered) or any(map(uncertain.undecided, boxes))
-    leave_undecided(strict, not certified or undecided or law.beyond(*laws))
+    leave_undecided(strict, not certified or undecided)
+    hold_laws(strict, laws, loaded)
 
 
 def _equilibria(case):

@@ -20,7 +20,7 @@ from ..show.maps.bifurcation import plane_picture, plane_words
 from ..show.maps.bifurcation import words as diagram_words
 from ..show.text import certification
 from ..show.units import units_of
-from .common.output import answer, leave_undecided, say, say_written
+from .common.output import answer, leave_undecided, say, say_written, unphysical
 
 
 def sweep(case, vary, samples, seed, answers, follow, limits, out, workers, scheduler, csv, json, strict):
@@ -32,7 +32,7 @@ def sweep(case, vary, samples, seed, answers, follow, limits, out, workers, sche
         files = [dataset.write(dataset.dataset(found), out)] if out else []
     answer(words, found, json, csv)
     say_written(files)
-    leave_undecided(strict, strict and words.undecided(found))
+    leave_undecided(strict, strict and (words.undecided(found) or unphysical([plan.case])))
 
 
 def bifurcation(case, vary, curve, out, certify, csv, json):
@@ -65,7 +65,7 @@ def basin(case, vary, depth, out, workers, scheduler, follow, csv, json, strict)
         files = [basin_files.write(found, path) for path in targets.paths]
     answer(basin_words, found, json, csv)
     say_written(files)
-    leave_undecided(strict, strict and basin_words.undecided(found))
+    leave_undecided(strict, strict and (basin_words.undecided(found) or unphysical([found.plan.case])))
 
 
 def atlas(case, torque, wheel, level, refine, certify, follow, timed, limits, out, workers, scheduler, units, csv, json, strict):
@@ -76,4 +76,4 @@ def atlas(case, torque, wheel, level, refine, certify, follow, timed, limits, ou
         files = [atlas_files.write(found, target, system) for target in targets]
     answer(atlas_words, found, json, csv, system)
     say_written(files)
-    leave_undecided(strict, strict and atlas_words.undecided(found))
+    leave_undecided(strict, strict and (atlas_words.undecided(found) or unphysical([plan.case])))

@@ -47,7 +47,7 @@ def surface(case, out, json, strict):
             say(f"{one.name}: no surface to write: {summary['reason']}")
     if unavailable:
         raise unavailable
-    hold_laws(strict, laws)
+    hold_laws(strict, laws, loaded)
 
 
 def plot(case, kind, out, size, dpi, until, neighbours, units, strict):
@@ -69,7 +69,7 @@ def plot(case, kind, out, size, dpi, until, neighbours, units, strict):
         if held is not None:
             tell(lettered(held.words))
         write(str(path))
-    hold_laws(strict, laws)
+    hold_laws(strict, laws, loaded)
 
 
 def _of_file(case, target, kind, size, dpi, units):
@@ -98,7 +98,7 @@ def chaos(cases, until, out, csv, json, strict):
         tell_all(loaded, texts, laws, [""] * len(rows), False, "\n", lambda of: chaos_words.swept([rows[n] for n in of]), units_asked(loaded, None))
     say_written(drawn)
     leave_undecided(strict, any(int(found.labels) == Order.UNDECIDED for _, found in rows))
-    hold_laws(strict, laws)
+    hold_laws(strict, laws, loaded)
 
 
 def explore(case, port, browser, static, pyodide):

@@ -32,7 +32,7 @@ def answer(question, paths, digits, json, strict, csv=False, follow=None, tilt=N
     if digits is not None:
         all_reached((case, f"{question}: {short(told)}") for case, _, told in answered if not told.enough)
     leave_undecided(strict, any(motion.fate.word == "undecided" for _, motion, _ in answered) or any(map(uncertain.undecided, boxes)))
-    hold_laws(strict, (motion.validity for _, motion, _ in answered))
+    hold_laws(strict, (motion.validity for _, motion, _ in answered), loaded)
 
 
 def _tell(question, loaded, answered, systems, digits, boxes, why):

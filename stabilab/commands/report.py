@@ -6,17 +6,18 @@ import sys
 from ..show.files import rerun as repetition
 from ..show.report.report import write as write_report
 from .common.cases import load_cases
-from .common.output import leave_undecided, tell, write
+from .common.output import leave_undecided, tell, unphysical, write
 
 
 def report(cases, out, papers, precision, certify, workers, strict):
     """Write the pages; the laws that do not hold are told beside the path."""
     beyond: list[str] = []
     undecided: list[str] = []
-    made = write_report(load_cases(cases or []), out, arguments=sys.argv[1:], papers=papers, precision=precision, certify=certify,
+    loaded = load_cases(cases or [])
+    made = write_report(loaded, out, arguments=sys.argv[1:], papers=papers, precision=precision, certify=certify,
                         workers=workers, beyond=beyond, undecided=undecided)
     write("\n".join([*beyond, str(made)]))
-    leave_undecided(strict, bool(beyond or undecided))
+    leave_undecided(strict, bool(beyond or undecided) or unphysical(loaded))
 
 
 def rerun(manifest, out):

@@ -47,7 +47,7 @@ def simulate(case, at, model, order, method, rtol, digits, angles, attitude, out
         _say_digits(runs)
         _say_lost(runs)
     _judge(runs, digits)
-    hold_laws(strict, (run.validity for _, run, _ in runs))
+    hold_laws(strict, (run.validity for _, run, _ in runs), loaded)
 
 
 def _followed(case, times, model, method, rtol, order, digits):

@@ -10,7 +10,7 @@ from ..show.progress import told
 from ..show.stuck_picture import draw
 from ..show.text import stuck as shown
 from .common.cases import load_cases, units_asked
-from .common.output import leave_undecided, say_written, write, write_json, written
+from .common.output import hold_laws, leave_undecided, say_written, write, write_json, written
 from .common.tables import tell_all
 
 
@@ -35,3 +35,4 @@ def stuck(case, all_thrusters, units, why, out, json, csv, strict):
                  lambda of: shown.swept([answers[n] for n in of], systems[of[0]]), systems)
     say_written(drawn)
     leave_undecided(strict, any(row.fate == "undecided" for found in answers for row in found.rows))
+    hold_laws(strict, (), loaded)

@@ -34,4 +34,4 @@ def when(cases, limits, units, json, csv, strict):
         tell_all(loaded, texts, laws, [""] * len(loaded), False, "\n",
                  lambda of: shown.swept([answered[n] for n in of], systems[of[0]]), systems)
     leave_undecided(strict, any(shown.unknown(found) for *_, found in answered))
-    hold_laws(strict, laws)
+    hold_laws(strict, laws, loaded)

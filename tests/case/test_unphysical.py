@@ -125,3 +125,13 @@ def test_a_liquid_proves_nothing_of_a_body_that_does_not_exist():
     assert stabilab.motion(scene, (1, 1, 0)).fate.word == "undecided" and stabilab.equilibria(scene).kind == "undecided"
     whole = Scene(Body((2, 3, 4)), liquid)
     assert stabilab.motion(whole, (1, 1, 0)).fate.word == "bounded" and stabilab.equilibria(whole).kind == "curves"
+
+
+@pytest.mark.parametrize("command", [["fate"], ["classify"], ["extremes"], ["period"], ["sweep", "--vary", "torque[3]=0:1:2"]], ids=lambda given: given[0])
+def test_strict_leaves_with_3_and_without_it_the_answer_follows(stabilab, tmp_path, command):
+    path, name = tmp_path / "own.toml", command[0]
+    path.write_text("[body]\ninertia = [8, 4, 0.4]\n[effects.constant_torque]\ntorque = [0, 0, 0.1]\n[motion]\nangular_velocity = [0.1, 0.2, 0.3]\n")
+    assert stabilab(name, path, *command[1:])[0] == 0
+    assert stabilab(name, path, *command[1:], "--strict")[0] == 3
+    path.write_text(path.read_text().replace("[8, 4, 0.4]", "[8, 4, 5]"))
+    assert stabilab(name, path, *command[1:], "--strict")[0] == 0

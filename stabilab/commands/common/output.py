@@ -82,9 +82,14 @@ def leave_undecided(strict: bool, open_: bool):
         raise typer.Exit(UNDECIDED)
 
 
-def hold_laws(strict: bool, validities):
-    """Exit with 3 where strict and an approximate law does not hold."""
-    leave_undecided(strict, strict and law.beyond(*validities))
+def hold_laws(strict: bool, validities, cases=()):
+    """Exit with 3 where strict and an approximate law does not hold, or no rigid body has the tensor of a case."""
+    leave_undecided(strict, strict and (law.beyond(*validities) or unphysical(cases)))
+
+
+def unphysical(cases) -> bool:
+    """Whether no rigid body has the tensor of one of the cases."""
+    return any(one.kind == "unphysical" for case in cases for one in case.caveats)
 
 
 def all_reached(short):
