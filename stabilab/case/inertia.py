@@ -7,7 +7,7 @@ from ..errors import InputError
 from ..numbers.exact import half_unit
 from ..numbers.principal import IDENTITY, PrincipalAxes, fault_of, principal_axes
 from ..numbers.vectors import Exact3
-from ..physics.body import Body
+from ..physics.body import ROUNDING, Body
 from .table import Faults, Table, Written, described
 from .uncertainty import plus_minus, states_uncertainty
 from .units import INERTIA, in_dimension, split
@@ -58,11 +58,15 @@ def _frame(table: Table) -> PrincipalAxes | None:
 
 
 def _tensor(table: Table):
-    """The 3 x 3 tensor as it is written."""
+    """The 3 x 3 tensor as it is written, the mean of two entries that differ by the rounding of doubles."""
     if "products" in table:
         table.fault("a full tensor has the products of inertia in it: keep one of them", "products")
         return None
-    return table.matrix("inertia")
+    rows = table.matrix("inertia")
+    if rows is None:
+        return None
+    slack = ROUNDING * max(abs(v) for row in rows for v in row)
+    return [[(v + rows[j][i]) / 2 if abs(v - rows[j][i]) <= slack else v for j, v in enumerate(row)] for i, row in enumerate(rows)]
 
 
 def _with_products(table: Table):

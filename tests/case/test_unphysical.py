@@ -135,3 +135,12 @@ def test_strict_leaves_with_3_and_without_it_the_answer_follows(stabilab, tmp_pa
     assert stabilab(name, path, *command[1:], "--strict")[0] == 3
     path.write_text(path.read_text().replace("[8, 4, 0.4]", "[8, 4, 5]"))
     assert stabilab(name, path, *command[1:], "--strict")[0] == 0
+
+
+def test_a_tensor_that_doubles_made_unsymmetric_is_read():
+    """Q diag(1, 2, 3) Q^T by NumPy, all digits printed: entries across the diagonal differ by a unit in their last place."""
+    frame = Rotation.random(None, np.random.default_rng(3)).as_matrix()
+    tensor = frame @ np.diag([1.0, 2, 3]) @ frame.T
+    tensor[0, 1] = np.nextafter(tensor[1, 0], 9)
+    read = read_text("own.toml", f"[body]\ninertia = {tensor.tolist()}\n")
+    assert sorted(read.scene.body.inertia) == pytest.approx([1, 2, 3], abs=1e-14) and not read.caveats
