@@ -42,6 +42,6 @@ def each(seconds) -> str:
 
 
 def numba_available() -> bool:
-    """Whether the extra `fast` is installed."""
+    """Whether numba is installed."""
     from importlib.util import find_spec
     return find_spec("numba") is not None

@@ -135,7 +135,7 @@ def _enough(one, held):
 
 
 def ways():
-    """NumPy alone, and with the extra `fast`."""
+    """NumPy alone, and with numba."""
     return ("NumPy", "numba") if numba_available() else ("NumPy",)
 
 

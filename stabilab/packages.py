@@ -7,7 +7,7 @@ import sys
 from .errors import InputError, RenderingUnavailable, StabilabError
 
 INSTALLED_AS = {"flint": "python-flint", "PIL": "pillow", "vtkmodules": "vtk"}
-EXTRAS = {"heyoka": "fast", "numba": "fast", "xarray": "data", "pandas": "data", "distributed": "cluster"}  # package -> extra of pyproject.toml that brings it
+EXTRAS = {"xarray": "data", "pandas": "data", "distributed": "cluster"}  # package -> extra of pyproject.toml that brings it
 DRAWING = ("matplotlib", "pillow", "vtk", "pyvista", "contourpy")
 
 

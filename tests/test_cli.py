@@ -674,3 +674,10 @@ def test_doctor_names_versions_renderer_and_processor(stabilab):
     code, out, _ = stabilab("doctor")
     assert code == 0 and all(word in out for word in ("stabilab", "numpy", np.__version__, "rendering", "processor"))
     assert out.startswith(("all that stabilab needs is installed", "NOT INSTALLED")) and "be drawn\nstabilab " in out
+
+
+def test_doctor_misses_no_package_that_is_for_other_machines(stabilab, monkeypatch):
+    asked = ["numpy>=2.0", 'for-others; sys_platform == "nowhere"', 'for-all; python_version >= "3"', 'of-an-extra; extra == "docs"']
+    monkeypatch.setattr("stabilab.show.text.doctor.metadata.requires", lambda name: asked)
+    out = stabilab("doctor")[1]
+    assert out.startswith("NOT INSTALLED: for-all;") and "for-others" not in out and "of-an-extra" not in out

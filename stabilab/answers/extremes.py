@@ -24,7 +24,7 @@ def extremes(scene: AnyScene, states: ArrayLike, span: Any = None, digits: int |
     `span`, a time, or two (from, to): their extremes hold from the start, at time 0, to its end. Without it they have bounds
     for all t >= 0 where spin-up is certified (follow: as of `fate`) and NaN elsewhere, InputError where no state has any.
     digits (1 to 50): reach so many and check them (ToleranceNotMet otherwise); without it eleven, by the formulas' own
-    bound. fast: whether numba (the extra `fast`) may compile the work; None where it is installed and pays. Raises InputError
+    bound. fast: whether numba may compile the work; None where it is installed and pays. Raises InputError
     as `fate` does, and where fast=True finds no numba.
     """
     span = reach_of(checked_span(span))

@@ -22,7 +22,7 @@ def fate(scene: AnyScene, states: ArrayLike, fast: bool | None = None, digits: i
          tell: Callable[..., Any] | None = None, proof: bool = False) -> FateResult:
     """The fate of every state of an array (..., 3) in the scene's variables (rad/s, or x when scaled).
 
-    scene: Scene or ScaledGyrostat. fast: True for numba's compiled loops (the extra `fast`), False for NumPy alone, None
+    scene: Scene or ScaledGyrostat. fast: True for numba's compiled loops, False for NumPy alone, None
     for numba where it is installed and the array is large; the two give the same bytes. Returns a FateResult. Raises
     InputError for arrays of another shape, for non-finite numbers, for scenes with effects that this analysis does not
     cover, and for fast=True without numba. digits (1 to 50): give the margins so many, checked, as of `extremes` (the

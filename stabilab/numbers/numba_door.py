@@ -1,4 +1,4 @@
-"""When the extra `fast` (numba) is to answer: asked for, or so many states that loading it pays."""
+"""When numba is to answer: asked for, or so many states that loading it pays."""
 from __future__ import annotations
 
 from collections.abc import Callable, Container
@@ -24,7 +24,7 @@ def wanted(n: int, fast: bool | None, loaded: bool, cold: int, warm: int) -> boo
     if fast is None:
         return n >= (warm if loaded else cold) and installed()
     if fast and not installed():
-        raise InputError("fast=True needs numba, which is not installed: pip install 'stabilab[fast]', or leave fast out")
+        raise InputError("fast=True needs numba, which is not installed: pip install numba, or leave fast out")
     return bool(fast)
 
 

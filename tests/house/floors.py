@@ -8,7 +8,7 @@ import tomllib
 from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
-EXTRAS = ("fast", "data", "test")  # what `make test` installs
+EXTRAS = ("data", "test")  # what `make test` installs
 
 
 def floors() -> dict[str, str]:

@@ -1,4 +1,4 @@
-"""Extremes and periods of many orbits on parabolas by a compiled kernel: the door of numba (the extra `fast`).
+"""Extremes and periods of many orbits on parabolas by a compiled kernel: the door of numba.
 
 What `parabola_kernel` leaves open goes the way of the arrays.
 """

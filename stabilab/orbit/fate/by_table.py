@@ -1,4 +1,4 @@
-"""The fates of many states are read from the table of barriers: by NumPy in chunks, or by the compiled loops of the extra `fast`."""
+"""The fates of many states are read from the table of barriers: by NumPy in chunks, or by numba's compiled loops."""
 from __future__ import annotations
 
 from collections.abc import Callable

@@ -1,4 +1,4 @@
-"""The loops of `barrier_heights` compiled by numba (the extra `fast`): one thread, kept on disk."""
+"""The loops of `barrier_heights` compiled by numba: one thread, kept on disk."""
 from __future__ import annotations
 
 from functools import lru_cache

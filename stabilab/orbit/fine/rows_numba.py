@@ -1,4 +1,4 @@
-"""Extremes and periods of bounded rows in twofold numbers, one row at a time: the door of numba (the extra `fast`).
+"""Extremes and periods of bounded rows in twofold numbers, one row at a time: the door of numba.
 
 It serves circles and hyperbolas with a torque whose equilibria lie on a conic that is no pair of lines. What it leaves open goes the way of the arrays.
 """

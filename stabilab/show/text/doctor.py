@@ -24,8 +24,19 @@ def _needed() -> list[str]:
         asked = metadata.requires("stabilab") or []
     except metadata.PackageNotFoundError:
         asked = []
-    names = [re.match(r"[A-Za-z0-9_.-]+", line)[0] for line in asked if "extra ==" not in line]
+    names = [re.match(r"[A-Za-z0-9_.-]+", line)[0] for line in asked if _meant_for_this_machine(line)]
     return list(dict.fromkeys(names + list(EXTRAS)))
+
+
+def _meant_for_this_machine(requirement: str) -> bool:
+    """Whether a package is asked for here, and by no extra: heyoka is on some machines alone."""
+    if "extra ==" in requirement or ";" not in requirement:
+        return ";" not in requirement
+    try:
+        from packaging.requirements import Requirement
+    except ImportError:  # Matplotlib brings it
+        return True
+    return Requirement(requirement).marker.evaluate()
 
 
 def _version(name: str) -> str:

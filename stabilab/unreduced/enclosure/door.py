@@ -1,4 +1,4 @@
-"""The compiled kernel of validated steps: the door of numba (the extra `fast`)."""
+"""The compiled kernel of validated steps: the door of numba."""
 from __future__ import annotations
 
 from functools import lru_cache

@@ -40,7 +40,7 @@ def spin_up(scene: AnyScene, state: Any, t_max: float | None = None, budget: int
     time or later: bounds and clocks of a later trap are narrower.
     proof: enclose the way to the inequality, so that nothing rests on a run in machine precision: level "proved" where that succeeds. A state
     of Fractions or of decimals in strings is then taken exactly. tell(time, steps, motions left): called on the way. fast: True for
-    steps and tests compiled by numba (the extra `fast`); loading it costs a second, so for one state NumPy serves unless proof is asked for, which
+    steps and tests compiled by numba; loading it costs a second, so for one state NumPy serves unless proof is asked for, which
     loads it anyway. The two have steps of slightly different lengths, so they fire at slightly different times.
     Raises InputError for scenes with other effects than turn the body as wheel and torque do, and for states that are none.
     """

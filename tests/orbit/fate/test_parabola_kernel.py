@@ -74,7 +74,7 @@ def test_on_parabolas_the_loop_for_the_compiler_gives_the_bytes_of_the_arrays_as
 
 
 @pytest.mark.one_in(2)
-@pytest.mark.skipif(not installed(), reason="the extra `fast` is not installed")
+@pytest.mark.skipif(not installed(), reason="numba is not installed")
 @pytest.mark.parametrize("name", CUBIC)
 def test_on_parabolas_numba_gives_the_bytes_of_numpy(name):
     scene, states = PARABOLIC[name][0], on_the_way_to_barriers(name, 6000)[0]

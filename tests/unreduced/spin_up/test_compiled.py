@@ -24,7 +24,7 @@ from stabilab.unreduced.spin_up.way.runs import Runs
 
 from .scenes import EXAMPLE, random_scene, rates_of, run, sphere
 
-numba = pytest.mark.skipif(find_spec("numba") is None, reason="needs the extra fast")
+numba = pytest.mark.skipif(find_spec("numba") is None, reason="needs numba")
 ROOT = Path(__file__).parents[3]
 NAMES = ("A", "z", "eta", "z_up", "eta_up", "k")
 

@@ -1,4 +1,4 @@
-"""The tests by compiled loops: the door of numba (the extra `fast`)."""
+"""The tests by compiled loops: the door of numba."""
 from __future__ import annotations
 
 from functools import lru_cache
