@@ -42,3 +42,18 @@ def test_a_model_that_is_nowhere_near_is_so_many_times_off(stabilab):
     (best,) = re.findall(r"off by ([\d.]+) times its size", first)
     found = json.loads(stabilab("compare", CASES / "top-lx30-lz30.toml", "--json")[1])["departures"]
     assert float(best) == pytest.approx(min(row["largest"] / row["scale"] for row in found if row["part"] == "omega"), rel=0.01)
+
+
+def test_rounding_is_not_drawn_as_motion():
+    """A component within 1e-17 of 0 beside one of 2 rad/s."""
+    import numpy as np
+
+    from stabilab.answers.simulate import Simulation
+    from stabilab.show import style
+    from stabilab.show.text import comparison
+    from tests.shared import case
+    t = np.linspace(0, 1, 50)
+    run = Simulation(t, {"omega": np.stack([1e-17 * np.sin(40 * t), 0.1 * np.sin(t), 2 + 0 * t], -1)}, "exact", "taylor", None)
+    with style.drawing() as plt:
+        noise, motion, _ = comparison.picture(plt, case("top-fast"), {"exact": run}).axes
+        assert np.ptp(noise.get_ylim()) > 1 and np.ptp(motion.get_ylim()) < 10  # deg/s

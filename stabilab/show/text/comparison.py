@@ -31,6 +31,7 @@ WORDS = {"exact": "exact motion", "printed": "as printed", "linear": "linear mod
          "averaged1": "averaged, first order", "averaged2": "averaged, second order", "lindstedt": "corrected expansion"}
 TIMES = 10  # the share of a motion's size from which on an error is told as so many times that size
 BRIEF = 8.0  # inches of a figure of letters of full size, below which there is no room for numbers on each panel
+ROUNDING = 1e-12  # of the largest component, a range of a panel that is rounding
 REACH = 1.6  # a model that leaves the exact motion's range by more than this factor is cut off, and the panel says so
 
 
@@ -109,6 +110,7 @@ def picture(plt, case, runs, parts=("omega",), size=None, units: Units | None = 
             unit, one = units.of(PARTS[part].unit)
             _curves(ax, {name: (np.asarray(run.t) * second, np.asarray(run.state[part])[:, column] * one)
                          for name, run in runs.items() if part in run.state}, looks)
+            _no_rounding(ax, float(np.abs(runs["exact"].state[part]).max(initial=0.0)) * one)
             for name, run in runs.items():
                 if _ends(run) and part in run.state and len(run.t):
                     ax.plot(run.t[-1] * second, run.state[part][-1][column] * one, color=LOOKS[name]["color"], scalex=False, scaley=False, **END)
@@ -165,6 +167,13 @@ def _curves(ax, runs, looks):
     if half and (high - low) > 6 * half:  # a model far off must not flatten the motion itself
         ax.set_ylim(middle - 2 * wide, middle + 2 * wide)
         _tell_cut(ax, [(name, values) for name, (_, values) in runs.items() if _leaves(values, ax.get_ylim())])
+
+
+def _no_rounding(ax, size):
+    """Limits that do not draw as motion what is rounding beside the size of the whole part of the state."""
+    low, high = ax.get_ylim()
+    if high - low < ROUNDING * size:
+        ax.set_ylim((low + high) / 2 - size / 20, (low + high) / 2 + size / 20)
 
 
 def _tell_cut(ax, models):
