@@ -13,8 +13,11 @@ from flint import fmpq_poly
 from stabilab.commands.maps import bifurcation as command
 from stabilab.errors import InputError
 from stabilab.verify import verify
+from stabilab.verify.diagram.check import check_diagram
+from stabilab.verify.diagram.claims import claims_of
 from stabilab.verify.diagram.count import System, count_at, critical
 from stabilab.verify.diagram.sturm import Between, Root, roots
+from stabilab.verify.diagram.work import MOST, Work
 from stabilab.verify.numbers import Malformed
 from tests.shared import CASES
 from tests.verify.diagrams import certified, drawn, forgeries
@@ -117,6 +120,50 @@ def test_a_certificate_is_of_its_case_and_of_no_other(tmp_path):
     assert run("verify", out).returncode == 5
 
 
+# -- files from strangers
+
+
+def heavy(rng, counted, degree, digits):
+    """A diagram's certificate in which every number varies, with coefficients of so many digits."""
+    row = lambda: [str(int(rng.choice((-1, 1)))) + "".join(map(str, rng.integers(0, 10, digits - 1))) for _ in range(degree + 1)]
+    axis = 0 if counted == "isolated" else 3
+    rows = lambda here: [row() if axis == 0 or (n == 2) == here else ["0"] for n in range(3)]
+    inertia = [[f"9{constant[1 - digits:]}", *rest] for constant, *rest in (row() for _ in range(3))]
+    scene = {"variables": "physical", "inertia": inertia, "momentum": rows(False), "torque": rows(True)}
+    start = {"start": [row() for _ in range(3)]} if counted == "motion" else {}
+    return {"schema": "stabilab.diagram-certificate/1", "number": "t", "scene": scene, "counted": counted, "axis": axis, "range": ["-1/9", "1/8"],
+            "events": [], "pieces": [{"equilibria": 2, "stable": None if counted == "borders" else 1}], **start}
+
+
+class Counted(Work):
+    """Work that keeps what was asked for at once."""
+
+    largest = 0
+
+    def spend(self, count):
+        self.largest = max(self.largest, count)
+        super().spend(count)
+
+
+@pytest.mark.parametrize("counted, degree, digits", [("motion", 1, 9), ("borders", 3, 60), ("isolated", 3, 90), ("motion", 3, 399)])
+def test_a_certificate_that_asks_for_too_much_work_is_not_checked(counted, degree, digits):
+    work, findings = Counted(MOST // 20), []
+    check_diagram(claims_of(heavy(np.random.default_rng(3), counted, degree, digits)), lambda *found: findings.append(found), work)
+    claim, status, reason = findings[-1]
+    assert (claim, status) == ("1 pieces and 0 events", "not checked") and reason.startswith("too large") and work.left < 0
+    assert all(status != "refuted" for _, status, _ in findings)
+    again = Counted(MOST // 20)
+    check_diagram(claims_of(heavy(np.random.default_rng(3), counted, degree, digits)), lambda *found: None, again)
+    assert (again.left, again.largest) == (work.left, work.largest)  # no clock: the same file ends at the same place
+
+
+@pytest.mark.parametrize("name", KNOWN)
+def test_known_diagrams_take_an_eighth_of_the_work_that_is_given_at_most(name):
+    work = Counted()
+    check_diagram(claims_of(made(name)), lambda *found: None, work)
+    assert 0 < MOST - work.left < MOST / 8
+
+
 # -- the parts by hand
 
 
@@ -124,20 +171,20 @@ def test_a_trace_form_counts_the_points_of_a_circle_on_a_line():
     """x^2 + y^2 = 1 and y = t: two points for |t| < 1, one at the ends, none beyond; x > 0 at one of them."""
     p = lambda *c: fmpq_poly(list(c))
     system = System(2, [{(2, 0): p(1), (0, 2): p(1), (0, 0): p(-1)}, {(0, 1): p(1), (0, 0): p(0, -1)}], [{(1, 0): p(1)}])
-    found = {t: count_at(system, Between(F(t))) for t in (0, F(3, 5), 1, 2)}
+    found = {t: count_at(system, Between(F(t), Work()), Work()) for t in (0, F(3, 5), 1, 2)}
     assert [found[t].real for t in found] == [2, 2, 1, 0] and found[0].tests == ((0, True),) and found[1].tests == ((0, False),)
-    assert {(root.low, root.high) for root in roots(critical(system), F(-3), F(3))} == {(F(-1), F(-1)), (F(1), F(1))}
+    assert {(root.low, root.high) for root in roots(critical(system, Work()), F(-3), F(3), Work())} == {(F(-1), F(-1)), (F(1), F(1))}
 
 
 def test_zeros_of_a_chebyshev_polynomial_are_cosines():
     f, last = fmpq_poly([0, 1]), fmpq_poly([1])
     for _ in range(10):
         f, last = fmpq_poly([0, 2]) * f - last, f
-    found = roots([f], F(-1), F(1))
+    found = roots([f], F(-1), F(1), Work())
     expected = sorted(np.cos((2 * k + 1) * np.pi / 22) for k in range(11))
     assert len(found) == 11 and all(float(r.low) - 1e-12 <= x <= float(r.high) + 1e-12 for r, x in zip(found, expected))
 
 
 def test_the_sign_of_a_polynomial_at_a_zero_of_another_is_exact():
-    root = Root(fmpq_poly([-2, 0, 1]), F(1), F(2))  # the square root of two
+    root = Root(fmpq_poly([-2, 0, 1]), F(1), F(2), Work())  # the square root of two
     assert [root.sign(fmpq_poly(c)) for c in ([-2, 0, 1], [-577, 408], [-1393, 985], [0, 0, 0, 1])] == [0, -1, 1, 1]  # its convergents from both sides

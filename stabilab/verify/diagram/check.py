@@ -11,6 +11,7 @@ from .count import Count, System, count_at, critical
 from .equations import Equations, value
 from .ideal import added
 from .sturm import Between, Root, roots
+from .work import MOST, TooLarge, Work
 
 
 @dataclass(frozen=True)
@@ -21,18 +22,26 @@ class Place:
     count: Count
 
 
-def check_diagram(claims: Claims, note) -> None:
-    """Findings on all claims."""
+def check_diagram(claims: Claims, note, work: Work | None = None) -> None:
+    """Findings on all claims. work: how much they may take (None: `work.MOST`)."""
+    try:
+        _check(claims, note, work or Work())
+    except TooLarge:
+        parts = f"{len(claims.pieces)} pieces and {len(claims.events)} events"
+        note(parts, "not checked", f"too large: degrees and digits ask for more than {MOST:,} operations on bits, and a file from a stranger is given no more")
+
+
+def _check(claims: Claims, note, work: Work) -> None:
     equations = Equations.of(claims)
     if claims.variables == "physical":
-        whole = all(_positive(D, claims.low, claims.high) for D in claims.scene["inertia"])
+        whole = all(_positive(D, claims.low, claims.high, work) for D in claims.scene["inertia"])
         note("the moments of inertia are positive all over the range", "proved" if whole else "refuted", "by Sturm's sequences")
         if not whole:
             return
     system = _system(claims, equations, note)
     if system is None:
         return
-    places = _places(system, claims.low, claims.high)
+    places = _places(system, claims.low, claims.high, work)
     changes = [n for n, place in enumerate(places) if place.root and any(side.count.real != place.count.real for side in _sides(places, n))]
     left = set(changes)
     for event in claims.events:
@@ -44,8 +53,8 @@ def check_diagram(claims: Claims, note) -> None:
     note("the events are complete", "refuted" if missed else "proved", told)
 
 
-def _positive(f, low: Fraction, high: Fraction) -> bool:
-    return f != 0 and exact_sign(f(q(low))) > 0 and not roots([f], low, high)
+def _positive(f, low: Fraction, high: Fraction, work: Work) -> bool:
+    return f != 0 and exact_sign(f(q(low))) > 0 and not roots([f], low, high, work)
 
 
 def _system(claims: Claims, equations: Equations, note) -> System | None:
@@ -71,17 +80,17 @@ def _system(claims: Claims, equations: Equations, note) -> System | None:
     return System(2, [one, equations.across(axis, kept)], [equations.across(axis, equations.m)])
 
 
-def _places(system: System, low: Fraction, high: Fraction) -> list[Place]:
+def _places(system: System, low: Fraction, high: Fraction, work: Work) -> list[Place]:
     """Critical values and the intervals between them, rising."""
-    found = roots(critical(system), low, high)
+    found = roots(critical(system, work), low, high, work)
     out: list[Place] = []
     ends: list[Any] = [None, *found, None]
     for first, second in zip(ends, ends[1:]):
         a, b = first.high if first else low, second.low if second else high
         if a < b:  # at an end of the range there may be none
-            out.append(Place(None, count_at(system, Between((a + b) / 2))))
+            out.append(Place(None, count_at(system, Between((a + b) / 2, work), work)))
         if second:
-            out.append(Place(second, count_at(system, second)))
+            out.append(Place(second, count_at(system, second, work)))
     return out
 
 

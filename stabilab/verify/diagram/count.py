@@ -8,6 +8,7 @@ from typing import Any
 from .elements import Ratio, Residue
 from .ideal import Basis, Polynomial
 from .trace import characteristic, rank_and_signature
+from .work import Work
 
 
 @dataclass(frozen=True)
@@ -30,20 +31,20 @@ class Count:
     tests: tuple[tuple[int, bool], ...] = ()
 
 
-def count_at(system: System, place: Any) -> Count:
+def count_at(system: System, place: Any, work: Work) -> Count:
     """At a place with a `polynomial` of which it is a zero and a `sign` of others there."""
     at = place.polynomial
     if system.endless is not None and system.endless % at == 0:
         return Count(None)
-    return _counted(system, lambda c: Residue(c % at, at), lambda element: place.sign(element.value))[0]
+    return _counted(system, lambda c: Residue(c % at, at, work), lambda element: place.sign(element.value))[0]
 
 
-def critical(system: System) -> list[Any]:
+def critical(system: System, work: Work) -> list[Any]:
     """Polynomials in t, not zero: between their real zeros every count is the same."""
     noted: list[Any] = []
     if system.endless == 0:
         return []
-    _, basis = _counted(system, Ratio.of, lambda element: 1, noted)
+    _, basis = _counted(system, lambda c: Ratio.of(c, work), lambda element: 1, noted)
     return [part for element in (*basis.pivots, *noted) for part in (element.top, element.bottom)] + ([] if system.endless is None else [system.endless])
 
 

@@ -5,14 +5,16 @@ from collections.abc import Iterable, Sequence
 from fractions import Fraction
 
 from ..numbers import Malformed, exact_sign, fraction, q
+from .work import Work
 
 HALVINGS = 20_000  # of one bracket; two zeros of polynomials of a certificate are farther apart
 
 
-def sequence(f) -> list:
+def sequence(f, work: Work) -> list:
     """Sturm's sequence of a polynomial without double zeros."""
     out = [f, f.derivative()]
     while out[-1].degree() > 0:
+        work.division(out[-2], out[-1])
         rest = -(out[-2] % out[-1])
         if rest == 0:
             break
@@ -20,19 +22,24 @@ def sequence(f) -> list:
     return out
 
 
-def changes(chain: Sequence, at: Fraction) -> int:
+def sign_at(f, at: Fraction, work: Work) -> int:
+    """The sign of a polynomial at a rational number."""
+    work.value(f, at)
+    return exact_sign(f(q(at)))
+
+
+def changes(chain: Sequence, at: Fraction, work: Work) -> int:
     """Changes of sign of a sequence at a place."""
-    here = q(at)
-    signs = [s for f in chain if (s := exact_sign(f(here)))]
+    signs = [s for f in chain if (s := sign_at(f, at, work))]
     return sum(a != b for a, b in zip(signs, signs[1:]))
 
 
 class Root:
     """A real zero of an irreducible polynomial: the only one in (low, high), or the rational number low = high itself."""
 
-    def __init__(self, polynomial, low: Fraction, high: Fraction):
-        self.polynomial, self.low, self.high = polynomial, low, high
-        self.rising = 0 if low == high else exact_sign(polynomial(q(high)))
+    def __init__(self, polynomial, low: Fraction, high: Fraction, work: Work):
+        self.polynomial, self.low, self.high, self.work = polynomial, low, high, work
+        self.rising = 0 if low == high else sign_at(polynomial, high, work)
 
     @property
     def rational(self) -> bool:
@@ -42,7 +49,7 @@ class Root:
         """Half the bracket; a zero that is rational has none."""
         if not self.rational:
             middle = (self.low + self.high) / 2
-            if exact_sign(self.polynomial(q(middle))) == self.rising:
+            if sign_at(self.polynomial, middle, self.work) == self.rising:
                 self.high = middle
             else:
                 self.low = middle
@@ -50,14 +57,16 @@ class Root:
     def sign(self, f) -> int:
         """The sign of a polynomial at the zero."""
         if self.rational:
-            return exact_sign(f(q(self.low)))
-        if f % self.polynomial == 0:
-            return 0
+            return sign_at(f, self.low, self.work)
+        self.work.division(f, self.polynomial)
         f = f % self.polynomial
-        chain = sequence(f / f.gcd(f.derivative())) if f.degree() > 0 else []
+        if f == 0:
+            return 0
+        self.work.common(f, f)
+        chain = sequence(f / f.gcd(f.derivative()), self.work) if f.degree() > 0 else []
         for _ in range(HALVINGS):
-            if not chain or (exact_sign(chain[0](q(self.low))) and changes(chain, self.low) == changes(chain, self.high)):
-                return exact_sign(f(q(self.high)))
+            if not chain or (sign_at(chain[0], self.low, self.work) and changes(chain, self.low, self.work) == changes(chain, self.high, self.work)):
+                return sign_at(f, self.high, self.work)
             self.halve()
         raise Malformed(f"a sign that {HALVINGS} halvings do not tell")
 
@@ -72,10 +81,14 @@ class Root:
         raise Malformed(f"a bracket whose end {HALVINGS} halvings do not tell from a zero")
 
 
-def roots(polynomials: Iterable, low: Fraction, high: Fraction) -> list[Root]:
+def roots(polynomials: Iterable, low: Fraction, high: Fraction, work: Work) -> list[Root]:
     """The different real zeros in [low, high] of polynomials that are not zero, rising, their brackets apart from one another and from the ends."""
-    factors = {str(f / f.leading_coefficient()): f / f.leading_coefficient() for p in polynomials if p.degree() > 0 for f, _ in p.factor()[1]}
-    found = [root for f in factors.values() for root in _of(f, low, high)]
+    factors = {}
+    for p in polynomials:
+        if p.degree() > 0:
+            work.factors(p)
+            factors |= {str(f / f.leading_coefficient()): f / f.leading_coefficient() for f, _ in p.factor()[1]}
+    found = [root for f in factors.values() for root in _of(f, low, high, work)]
     for _ in range(HALVINGS):
         found.sort(key=lambda root: (root.low, root.high))
         near = {n for n, (a, b) in enumerate(zip(found, found[1:])) if a.high >= b.low}
@@ -87,19 +100,19 @@ def roots(polynomials: Iterable, low: Fraction, high: Fraction) -> list[Root]:
     raise Malformed(f"two values that {HALVINGS} halvings do not tell apart")
 
 
-def _of(f, low: Fraction, high: Fraction) -> list[Root]:
+def _of(f, low: Fraction, high: Fraction, work: Work) -> list[Root]:
     if f.degree() == 1:
         exact = -fraction(f[0] / f[1])
-        return [Root(f, exact, exact)] if low <= exact <= high else []
-    chain, out = sequence(f), []
-    todo = [(low, high, changes(chain, low), changes(chain, high))]
+        return [Root(f, exact, exact, work)] if low <= exact <= high else []
+    chain, out = sequence(f, work), []
+    todo = [(low, high, changes(chain, low, work), changes(chain, high, work))]
     while todo:
         a, b, first, last = todo.pop()
         if first - last == 1:
-            out.append(Root(f, a, b))
+            out.append(Root(f, a, b, work))
         elif first - last > 1:
             c = (a + b) / 2
-            middle = changes(chain, c)
+            middle = changes(chain, c, work)
             todo += [(a, c, first, middle), (c, b, middle, last)]
     return out
 
@@ -107,8 +120,8 @@ def _of(f, low: Fraction, high: Fraction) -> list[Root]:
 class Between:
     """A place between two zeros, or at an end of the range: a rational number."""
 
-    def __init__(self, at: Fraction):
-        self.at = at
+    def __init__(self, at: Fraction, work: Work):
+        self.at, self.work = at, work
 
     @property
     def polynomial(self):
@@ -118,4 +131,4 @@ class Between:
 
     def sign(self, f) -> int:
         """The sign of a polynomial there."""
-        return exact_sign(f(q(self.at)))
+        return sign_at(f, self.at, self.work)
