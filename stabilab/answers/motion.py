@@ -1,16 +1,18 @@
 """Everything about the motion from one state: fate, margins, period, extremes, invariants."""
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
 from ..asked import checked_scene, checked_span
+from ..integrate.quadratic_series import largest
 from ..orbit.far_states import in_range
-from ..orbit.result import Motion
+from ..orbit.result import Fate, Motion
 from ..physics.approximate import limits_of
-from ..physics.coefficients import content, gyrostat_scene
+from ..physics.coefficients import content, effective, gyrostat_scene
 from ..physics.scene import AnyScene
 from ..physics.state import split
 from .caveats import limited
@@ -30,7 +32,19 @@ def motion(scene: AnyScene, state: Any, span: Any = None, brief: bool = False, e
     found = _found(checked_scene(scene), state, checked_span(span), brief, exact, follow, tell, proof)
     limits = limits_of(scene)
     found = replace(found, validity=limits.of_motion(scene, found)) if limits and found.validity is None else found
-    return limited(found, scene)
+    return limited(replace(found, largest=_largest(scene, found)), scene)
+
+
+def _largest(scene: AnyScene, found: Motion) -> float | None:
+    """|omega| at the most, of a motion that repeats or rests, where its extremes are known over all time."""
+    twin, pairs = effective(scene), found.extremes
+    if found.fate == Fate.EQUILIBRIUM:
+        return math.hypot(*found.at[:3])
+    if not twin.plain or found.period is None or pairs is None or found.extremes_over != "all time":
+        return None
+    sizes = [max(map(abs, pair)) for pair in pairs if None not in pair]
+    most = largest(twin.quadratic(), found.at[:3], found.period) if len(sizes) == 3 and math.hypot(*sizes) < math.inf else None
+    return None if most is None else min(max(most, *sizes), math.hypot(*sizes))
 
 
 def _found(scene: AnyScene, state: Any, span: tuple[float, float] | None, brief: bool, exact: Sequence[Fraction] | None,

@@ -6,9 +6,11 @@ A picture needs no last digit: a step leaves SHARE of the state's size at most.
 from __future__ import annotations
 
 import math
+from functools import partial
 from operator import mul
 
 from ..errors import InputError
+from ..numbers.roots import golden_section
 from ..numbers.vectors import CYCLE
 from ..physics.quadratic import QuadraticForm
 
@@ -17,6 +19,8 @@ SHARE = 1e-8  # of the size of the state: the last term of a step
 STEPS = 120    # of a motion at most; a revolution takes some five
 INSIDE = 12     # points a step
 APART = (1, 2, 3)  # shares by which the components of a start are moved: it leaves every plane through two of them
+NEAR, HALVED = 0.01, 12  # of the largest value: what may still exceed it between two points; golden sections for that
+BACK = 1e-5  # of the size of the state: a motion that ends so near its start was followed well
 LARGEST = 1e100  # a rate beyond which a motion is not drawn on
 
 Path = tuple[list[float], list[tuple[float, ...]]]
@@ -44,6 +48,32 @@ def followed(form: QuadraticForm, start: tuple[float, ...], until: float, steps:
         if t >= until or not max(map(abs, x)) < LARGEST:
             break
     return times, states
+
+
+def largest(form: QuadraticForm, start: tuple[float, ...], until: float, steps: int = 4 * STEPS) -> float | None:
+    """The largest |x| of a motion that repeats after `until`, to some eight digits; None where so many steps do not come back to its start."""
+    t, x = 0.0, tuple(map(float, start))
+    best, size = math.hypot(*x), max(map(abs, x)) or max(map(abs, form.coefficients[3]))
+    for _ in range(steps):
+        series = coefficients(form, x)
+        if not all(map(math.isfinite, (c for one in series for c in one))):
+            return None
+        h = min(length(series, SHARE * (max(map(abs, x)) or size)), until - t)
+        at = partial(_size, series)
+        places = [h * n / INSIDE for n in range(INSIDE + 1)]
+        sizes = [at(place) for place in places]
+        top = max(range(INSIDE + 1), key=sizes.__getitem__)
+        if sizes[top] > best * (1 - NEAR):
+            ends = places[max(top - 1, 0)], places[min(top + 1, INSIDE)]
+            best = max(best, *(-value for _, value in golden_section(partial(_size, series, sign=-1.0), *ends, HALVED)))
+        t, x = t + h, tuple(summed(one, h) for one in series)
+        if t >= until:
+            return best if all(abs(a - b) <= BACK * best for a, b in zip(x, start)) else None
+    return None
+
+
+def _size(series: list[list[float]], share: float, sign: float = 1.0) -> float:
+    return sign * math.hypot(*(summed(one, share) for one in series))
 
 
 def parting(form: QuadraticForm, path: Path, share: float = SHARE, seen: float = 1e-3) -> int:

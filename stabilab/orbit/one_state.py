@@ -31,11 +31,15 @@ def _reduced(orbit, state, decided, brief, k=0) -> Motion:
     fields = judged(state, decided)
     fields |= {"margin_energy": finite(decided.margin), "tolerance": 1e-12,
                "extremes": extremes_of(orbit, decided.label, k)}
-    return Motion(**fields, **({} if brief else _rest(orbit, state, decided)))
+    return Motion(**fields, **({"period": _period(orbit, decided)} if brief else _rest(orbit, state, decided)))
 
 
 def _rest(orbit, state, decided) -> dict:
-    return {**apart_fields(orbit, state, decided), "period": repeats(period_of(orbit, decided.label)), "invariants": orbit.invariants()}
+    return {**apart_fields(orbit, state, decided), "period": _period(orbit, decided), "invariants": orbit.invariants()}
+
+
+def _period(orbit, decided) -> float | None:
+    return repeats(period_of(orbit, decided.label))
 
 
 def apart_fields(orbit: Orbit, state, decided) -> dict:

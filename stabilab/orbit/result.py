@@ -50,7 +50,8 @@ class Motion(Shown):
     unbounded, None where unknown; extremes_over: "all time" or the span they were searched over. validity: of an approximate
     law (`stabilab.physics.law_limits`), with its largest value along the motion; None where all laws are exact. tilt: what a tilt of its
     torque off the axis does to a bounded motion (`answers.tilt`), where that was asked; first: the limit of its case in words and its `TimeTo`,
-    likewise; caveats: all that limits the answer (`answers.caveats`). level: of the
+    likewise; caveats: all that limits the answer (`answers.caveats`). largest: |omega| at the most, over all time, where a motion
+    repeats or rests, to eight digits. level: of the
     fate, "exact", "certified" (a theorem applied to a run of machine precision) or "undecided". Of motions that were followed until a
     certificate held, or as long as was asked: cause: what was found on the way, in words; bounds: ((low, high),) * 3 of the rates at
     all t >= 0, wider than the extremes, +-inf where unbounded (None where not known).
@@ -78,6 +79,7 @@ class Motion(Shown):
     validity: Validity | None = None
     tilt: object = None
     first: tuple[str, Any] | None = None
+    largest: float | None = None
     caveats: tuple[Caveat, ...] = ()
 
 

@@ -12,6 +12,7 @@ from scipy.integrate import solve_ivp
 from stabilab import Body, Gyrostat, Scene, load, motion
 from stabilab.show.report.one_case import verdict
 from stabilab.show.report.one_case.measures import Measures
+from stabilab.show.terminal.letters import lettered
 from stabilab.show.text.headline import bracketed, headline
 from stabilab.show.units import DEG, SI, units_of
 
@@ -52,14 +53,15 @@ def own(tmp_path):
 def test_a_bounded_motion_is_told_with_the_rate_and_the_period_that_a_run_has(own):
     case = own()
     line = headline(case, told(case))
-    found = re.fullmatch(r"BOUNDED only while the torque is exactly along z \(minor axis\); largest rate (\S+) deg/s about ([xyz]); margin (\S+) deg/s "
+    found = re.fullmatch(r"BOUNDED only while the torque is exactly along z \(minor axis\); largest rate \|omega\| = (\S+) deg/s \((\S+) deg/s about ([xyz])\); margin (\S+) deg/s "
                          r"\((\S+) J\); period (\S+) s", line)
     t, rates = followed(START, 40)
     largest = np.abs(rates).max(axis=1)
-    assert found[2] == "xyz"[largest.argmax()] and float(found[1]) == pytest.approx(math.degrees(largest.max()), rel=5e-4)
+    assert found[3] == "xyz"[largest.argmax()] and float(found[2]) == pytest.approx(math.degrees(largest.max()), rel=5e-4)
+    assert float(found[1]) == pytest.approx(math.degrees(np.linalg.norm(rates, axis=0).max()), rel=5e-4)  # the first of all: |omega|
     back = np.abs(rates - np.array(START)[:, None]).max(axis=0)
     late = t > 20
-    assert float(found[5]) == pytest.approx(t[late][back[late].argmin()], abs=5e-3)
+    assert float(found[6]) == pytest.approx(t[late][back[late].argmin()], abs=5e-3)
 
 
 def test_the_margin_as_a_rate_is_where_the_fate_of_a_run_changes(own):
@@ -75,21 +77,22 @@ def test_the_margin_as_a_rate_is_where_the_fate_of_a_run_changes(own):
 def test_units_are_those_that_are_asked_for(own):
     case = own()
     assert headline(case, told(case), DEG) == headline(case, told(case))
-    assert "largest rate 0.1025 rad/s about x; margin 0.1689 rad/s (0.5089 J); period 32.84 s" in headline(case, told(case), SI)
+    assert "largest rate |omega| = 0.1329 rad/s (0.1025 rad/s about x); margin 0.1689 rad/s (0.5089 J); period 32.84 s" in headline(case, told(case), SI)
 
 
 @pytest.mark.parametrize("name, words", [
     ("minor-axis-100",
-     r"BOUNDED only while the torque is exactly along x3; largest rate 4.626 about x1; margin \S+ in x, 1.632 in energy; period 1.804 tau"),
+     r"BOUNDED only while the torque is exactly along x3; largest rate \|x\| = 6.345 \(4.626 about x1\); margin \S+ in x, 1.632 in energy; period 1.804 tau"),
     ("middle-axis-spin-up", r"SPINS UP about x2, positive sense; about the other axes at most \S+"),
     ("off-axis-two", r"SPINS UP about z \(minor axis\), positive sense \(certified\); about the other axes at most \S+ deg/s"),
-    ("torque-free-body", r"BOUNDED for ever; largest rate 28.65 deg/s about [yz]; margin \S+ deg/s \(0.0075 J\); period 33.33 s"),
+     ("torque-free-body",
+      r"BOUNDED for ever; largest rate \|omega\| = 33.57 deg/s \(28.65 deg/s about [yz]\); margin \S+ deg/s \(0.0075 J\); period 33.33 s"),
     ("liquid-base", r"BOUNDED for ever; \|omega\| at most 82.17 deg/s"),
     ("top-fast", r"BOUNDED for ever; \|omega\| at most 8627 deg/s"),
-    ("charged-body-attitude", r"UNDECIDED; [^;]+; largest rate \S+ deg/s about y within 0 to 50 s"),
+    ("charged-body-attitude", r"UNDECIDED; [^;]+; largest rate \|omega\| at most \S+ deg/s \(\S+ deg/s about y\) within 0 to 50 s"),
     ("upper-stage", r"SPINS UP about the minor axis, \(1.000, 0.007, -0.004\) in the file's frame, positive sense \(certified\); "
      r"about the other axes at most \S+ deg/s"),
-    ("sphere-wheel", r"BOUNDED for ever; largest rate 40.11 deg/s about z; period 3.142 s")])
+    ("sphere-wheel", r"BOUNDED for ever; largest rate \|omega\| = 49.29 deg/s \(40.11 deg/s about z\); period 3.142 s")])
 def test_every_kind_of_case_is_answered_in_one_line(name, words):
     case = load(CASES / f"{name}.toml")
     line = headline(case, told(case))
@@ -109,7 +112,7 @@ def test_an_equilibrium_with_a_rate_is_a_steady_rotation_and_one_without_is_rest
 @pytest.mark.parametrize("command", ["classify", "fate"])
 def test_commands_begin_with_it(stabilab, tmp_path, command, own):
     case = own()
-    assert stabilab(command, case.path)[1].splitlines()[0] == f"my: {headline(case, told(case))}"
+    assert stabilab(command, case.path)[1].splitlines()[0] == lettered(f"my: {headline(case, told(case))}")
     assert "rad/s" not in stabilab(command, case.path)[1] and "deg" not in stabilab(command, case.path, "--units", "si")[1].split("off that axis")[0]
 
 
@@ -126,7 +129,7 @@ def test_a_page_of_a_sweep_tells_margin_and_rate_as_the_first_line_does_and_open
     case = own()
     found = told(case)
     line, units = headline(case, found), Measures(units_of(case))
-    assert f"largest rate {verdict.largest(found, units)}; margin {verdict.margin(found, units)}; period" in line.replace("-", "−")
+    assert f"largest rate {verdict.largest(found, units)}; margin {verdict.margin(found, units)}; period" in lettered(line).replace("-", "−")
     open_ = replace(found, velocity_because="the search ended", velocity_bounds=(0.1, 0.2))
     assert verdict.margin(open_, units) == "5.729 to 11.46 deg/s (0.5089 J)"  # 0.1 and 0.2 rad/s, rounded outward
 

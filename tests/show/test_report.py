@@ -225,7 +225,7 @@ def test_a_hostile_title_is_text(pages):
 def test_the_verdict_is_the_first_line_below_the_title(alone):
     text = alone.read_text(encoding="utf-8")
     below = text[text.index("</h1>") + 5:].strip()
-    assert below.startswith('<p class="verdict-line bounded">BOUNDED only while the torque is exactly along x3; largest rate 4.6')
+    assert below.startswith('<p class="verdict-line bounded">BOUNDED only while the torque is exactly along x3; largest rate |x| = 6.345 (4.6')
 
 
 def test_the_page_of_a_case_has_all_that_applies_to_it(alone):

@@ -1,6 +1,7 @@
 """All combinations of a [sweep] as one table: a column for each key that varies, then the answer's numbers."""
 from __future__ import annotations
 
+import math
 import re
 from collections import Counter
 from collections.abc import Callable, Sequence
@@ -84,9 +85,12 @@ def fates(motions: Sequence, units: Units) -> str:
 
 
 def _largest(motion):
+    """|omega| at the most, or a bound of it."""
     pairs = motion.extremes if motion.bounds is None else motion.bounds
-    sizes = [abs(v) for pair in pairs or () for v in pair if v is not None]
-    return max(sizes) if sizes and max(sizes) < float("inf") else None
+    if motion.largest is not None or pairs is None or any(None in pair for pair in pairs):
+        return motion.largest
+    bound = math.hypot(*(max(map(abs, pair)) for pair in pairs))
+    return bound if bound < math.inf else None
 
 
 def of_motions(motions: Sequence, units: Units) -> tuple[list[tuple[str, str]], list[list[str]]]:

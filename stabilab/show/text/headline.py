@@ -78,13 +78,16 @@ def largest(motion: Motion, units: Units) -> str:
 
 
 def greatest(motion: Motion, units: Units) -> str:
-    """The largest rate with its axis, and over which time where that is not all; empty where a rate has no end or is not known."""
+    """The largest |omega|, or a bound of it, with the largest component and its axis, and over which time where that is not all; empty where a rate has
+    no end or is not known."""
     pairs, over = _pairs(motion, units)
     sizes = {n: max(map(abs, pair)) for n, pair in enumerate(pairs or (), 1) if None not in pair}
     if len(sizes) < 3 or not all(map(math.isfinite, sizes.values())):
         return ""
     axis = max(sizes, key=sizes.__getitem__)
-    return f"{units.rate(sizes[axis], SHORT)} about {units.axes.brief(axis)}{over}"
+    name, bound = "|x|" if units.scaled else "|omega|", math.hypot(*sizes.values())
+    told = f"{name} = {units.rate(motion.largest, SHORT)}" if motion.largest is not None and not over else f"{name} at most {units.rate(bound, SHORT)}"
+    return f"{told} ({units.rate(sizes[axis], SHORT)} about {units.axes.brief(axis)}){over}"
 
 
 def _pairs(motion, units):

@@ -257,7 +257,7 @@ print(along["headline"], along["space"]["words"])
     run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
     assert run.returncode == 0, run.stderr
     first, second, third = run.stdout.splitlines()
-    assert first.startswith("BOUNDED only while the torque is exactly along x (major axis); largest rate 1.725 deg/s")
+    assert first.startswith("BOUNDED only while the torque is exactly along x (major axis); largest rate |ω| = 2.244 deg/s (1.725 deg/s")
     assert second.startswith("UNDECIDED: this motion has to be followed, which needs NumPy")
     assert third.startswith("UNDECIDED: this motion has to be followed, which needs NumPy") and "No separatrix" in third
 
