@@ -28,9 +28,10 @@ def limited_time(case: Any, ask: dict[str, Any], t_max: float | Fraction | None 
 
 def with_first(case: Any, motion: Motion, work: int = WORK) -> Motion:
     """The motion with the time at which it reaches the limit of its case, where that states one. work: as of `time_to`."""
-    if case.limits is None or motion.first is not None:
+    ask = limit_of(case)
+    if ask is None or motion.first is not None:
         return motion
-    return limited(replace(motion, first=(stated(case.limits), time_of_case(case, limit_of(case), work=work))), case.scene, case)
+    return limited(replace(motion, first=(stated(case.limits), time_of_case(case, ask, work=work))), case.scene, case)
 
 
 def with_tilt(case: Any, motion: Motion, angle: float | None = None) -> Motion:
@@ -53,7 +54,7 @@ def _spread(case: Any, angle: float | None, ask: dict[str, Any] | None) -> Sprea
     if angle is None and not misaligned(case):
         return None
     why = ("in scaled variables" if case.variables == "scaled" else "with other effects than wheel and torque" if not case.scene.plain else
-           "of the angle of an axis" if ask and "tilt" in ask else "" if any(case.scene.vector("constant_torque")) else "without a torque")
+           "for the angle of an axis" if ask and "tilt" in ask else "" if any(case.scene.vector("constant_torque")) else "without a torque")
     if why:
         return Spread(angle or 0.0, "the torque", 0, because=why)
     return spread(case.scene, case.state, cone_of(case.scene, case, angle), ask, case.exact_state)

@@ -74,7 +74,8 @@ def period(case, motion, told, units: Units, all_digits: bool, say: bool, proofs
         value = f"period {told.decimals or number(told.values, max(SHOWN, told.asked))} {case.scene.time_unit}"
     else:
         value = f"period {units.time(told.values)}"
-    parts = [limiting.reached(motion.caveats, units), value + limiting.condition(motion.caveats, units),
+    holds = limiting.condition(motion.caveats, units)
+    parts = [limiting.reached(motion.caveats, units), value + (holds and f",{holds}"),
              limiting.tilted(motion.caveats, units)]
     lines = [f"{case.name}: {'; '.join(filter(None, parts))}", *(why(case, motion, units, proofs) if proofs else ())]
     return "\n".join([*lines, *([_said(told, units)] * (say and told.values is not None))])
