@@ -27,8 +27,9 @@ def fate(scene: AnyScene, states: ArrayLike, fast: bool | None = None, digits: i
     InputError for arrays of another shape, for non-finite numbers, for scenes with effects that this analysis does not
     cover, and for fast=True without numba. digits (1 to 50): give the margins so many, checked, as of `extremes` (the
     labels have no digits to lose); ToleranceNotMet otherwise. follow: how long motions are followed that only a run with a
-    certificate decides (a torque off the principal axes), in the scene's time; None for 600,000 steps, about a second. tell(time, steps,
-    motions left) is called on the way. proof: enclose the way of each of these motions, one after another, some milliseconds each: `levels` then says
+    certificate decides (a torque off the principal axes), in the scene's time; None for 600,000 steps, some seconds (10,000 of
+    SciPy without heyoka). tell(time, steps, motions left) is called on the way.
+    proof: enclose the way of each of these motions, one after another, some milliseconds each: `levels` then says
     "proved" where that succeeds.
 
     Arrays of `TABLE_FROM` states or more look the barrier up in a table of the scene; smaller ones, and any state that

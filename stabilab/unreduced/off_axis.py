@@ -13,6 +13,7 @@ import numpy as np
 
 from ..errors import InputError
 from ..integrate.extrema import roots_of_rates
+from ..integrate.to_heyoka import heyoka_available
 from ..orbit.fate.one_state import OneFate, at_rest
 from ..orbit.fate.reasons import Reason
 from ..orbit.fate.result import FateResult, empty_columns
@@ -29,7 +30,8 @@ from .spin_up.result import SpinUp
 
 __all__ = ["extremes", "fates", "motion", "periods"]
 NO_SHEETS = "not known: the torque is off the principal axes, and no separatrix is known there"
-PATIENCE = 600_000  # steps for which a motion is followed where nobody says how long: about a second
+PATIENCE = 600_000  # steps for which a motion is followed where nobody says how long: seconds
+STAND_IN = 60  # Taylor steps that take as long as one of SciPy and of its twin, where heyoka is not installed
 ENDLESS = 10**9     # steps where the caller names a time
 BOUND_DIGITS = 10  # decimals of a bound for all times
 REASON = {"undecided": Reason.OFF_AXIS, "certified": Reason.CERTIFIED, "proved": Reason.CERTIFIED, "exact": Reason.CLOSED_FORM}
@@ -70,9 +72,9 @@ def _middle(scene, state) -> str:
 
 
 def _limits(follow) -> dict:
-    """How far a motion is followed: to a time, or for PATIENCE steps."""
+    """How far a motion is followed: to a time, or for PATIENCE steps, or as much work without the Taylor series."""
     if follow is None:
-        return {"budget": PATIENCE}
+        return {"budget": PATIENCE if heyoka_available() else PATIENCE // STAND_IN}
     return {"t_max": float(follow), "budget": ENDLESS}
 
 

@@ -84,7 +84,7 @@ class Runs:
             out[known], _ = self._batches(twins[known], times[known], ends[known], steps, tolerance)
         else:
             for n in np.flatnonzero(known):
-                out[n] = self._twin_alone(twins[n], times[n], ends[n], tolerance)
+                out[n] = self._twin_alone(twins[n], times[n], ends[n], steps, tolerance)
         return out
 
     def compare(self, rows, starts, twins, delays, apart):
@@ -168,13 +168,14 @@ class Runs:
         self.states[row] = solver.y if solver.status != "failed" else np.nan
         self.times[row] = solver.t
 
-    def _twin_alone(self, state, start, end, rtol):
+    def _twin_alone(self, state, start, end, steps: int, rtol):
         if not (end > start and np.isfinite(state).all()):
             return state
         solver = self._solver(state, start, end, max(rtol, FALLBACK_RTOL))
         solver.max_step = self._longest(state)
-        while solver.status == "running":
-            solver.step()
+        for _ in range(steps):  # a twin that needs more has left its motion, and tells nothing of it
+            if solver.status == "running":
+                solver.step()
         return solver.y if solver.status == "finished" else np.full(3, np.nan)
 
     def _longest(self, state):
