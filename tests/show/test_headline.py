@@ -53,8 +53,8 @@ def own(tmp_path):
 def test_a_bounded_motion_is_told_with_the_rate_and_the_period_that_a_run_has(own):
     case = own()
     line = headline(case, told(case))
-    found = re.fullmatch(r"BOUNDED only while the torque is exactly along z \(minor axis\); largest rate \|omega\| = (\S+) deg/s \((\S+) deg/s about ([xyz])\); margin (\S+) deg/s "
-                         r"\((\S+) J\); period (\S+) s", line)
+    found = re.fullmatch(r"BOUNDED only while the torque is exactly along z \(minor axis\); largest rate \|omega\| = "
+                         r"(\S+) deg/s \((\S+) deg/s about ([xyz])\); margin (\S+) deg/s \((\S+) J\); period (\S+) s", line)
     t, rates = followed(START, 40)
     largest = np.abs(rates).max(axis=1)
     assert found[3] == "xyz"[largest.argmax()] and float(found[2]) == pytest.approx(math.degrees(largest.max()), rel=5e-4)
@@ -85,8 +85,8 @@ def test_units_are_those_that_are_asked_for(own):
      r"BOUNDED only while the torque is exactly along x3; largest rate \|x\| = 6.345 \(4.626 about x1\); margin \S+ in x, 1.632 in energy; period 1.804 tau"),
     ("middle-axis-spin-up", r"SPINS UP about x2, positive sense; about the other axes at most \S+"),
     ("off-axis-two", r"SPINS UP about z \(minor axis\), positive sense \(certified\); about the other axes at most \S+ deg/s"),
-     ("torque-free-body",
-      r"BOUNDED for ever; largest rate \|omega\| = 33.57 deg/s \(28.65 deg/s about [yz]\); margin \S+ deg/s \(0.0075 J\); period 33.33 s"),
+    ("torque-free-body", r"BOUNDED for ever; largest rate \|omega\| = 33.57 deg/s \(28.65 deg/s about [yz]\); "
+     r"margin \S+ deg/s \(0.0075 J\); period 33.33 s"),
     ("liquid-base", r"BOUNDED for ever; \|omega\| at most 82.17 deg/s"),
     ("top-fast", r"BOUNDED for ever; \|omega\| at most 8627 deg/s"),
     ("charged-body-attitude", r"UNDECIDED; [^;]+; largest rate \|omega\| at most \S+ deg/s \(\S+ deg/s about y\) within 0 to 50 s"),
@@ -102,8 +102,8 @@ def test_every_kind_of_case_is_answered_in_one_line(name, words):
 def test_an_equilibrium_with_a_rate_is_a_steady_rotation_and_one_without_is_rest(own):
     # omega3 = 0 and (omega1 + 4/15) omega2 = -0.02/3: at omega1 = -1/15, omega2 = -1/30, by hand
     case = own(("-1/15", "-1/30", "0"))
-    steady = ("STEADY ROTATION (relative equilibrium) only while the torque is exactly along z (minor axis); every rate stays as it is; "
-              "rates (-3.82, -1.91, 0) deg/s")
+    steady = ("STEADY ROTATION (relative equilibrium) only while the torque is exactly along z (minor axis); "
+              "every rate stays as it is; rates (-3.82, -1.91, 0) deg/s")
     assert headline(case, told(case)) == steady
     wheel = Scene(Body((3, 2, 1)), Gyrostat((0, 0, 1)))  # without a torque and a rate nothing changes: D omega' = 0, by hand
     assert headline(case, motion(wheel, (0, 0, 0))).startswith("AT REST; every rate stays as it is")
