@@ -27,14 +27,34 @@ class Asked(type):
 def checked_scene(scene):
     """The scene itself, if it is one."""
     if not (hasattr(scene, "plain") and hasattr(scene, "variables")):
-        raise InputError(f"scene: expected a Scene or a ScaledGyrostat, as of load(...).scene, got {scene!r:.80}")
+        raise InputError(f"scene: expected a Scene, a ScaledGyrostat or a case, as stabilab.load gives it, got {came(scene)}")
     return scene
+
+
+def is_case(given) -> bool:
+    """Whether it is a case, which stands for its scene and its own motion."""
+    return hasattr(given, "scene") and hasattr(given, "exact_state")
+
+
+def scene_and_state(given, state):
+    """(scene, state) that a function is asked with; of a case its scene and, where no state is given, its own start."""
+    if is_case(given):
+        given, state = given.scene, given.start if state is None else state
+    scene = checked_scene(given)
+    if state is None:
+        raise InputError("state: expected three numbers for a scene; a case without a [motion] needs them too")
+    return scene, state
+
+
+def came(value) -> str:
+    """What was given, in a few words: a short value itself, of anything else its type."""
+    return f"{value!r:.80}" if value is None or isinstance(value, (str, int, float, complex)) else f"an object of type {type(value).__name__}"
 
 
 def checked_case(case):
     """The case itself, if it is one."""
     if not (hasattr(case, "scene") and hasattr(case, "span") and hasattr(case, "state")):
-        raise InputError(f"case: expected a case, as stabilab.load gives it, got {case!r:.80}")
+        raise InputError(f"case: expected a case, as stabilab.load gives it, got {came(case)}")
     return case
 
 

@@ -3,8 +3,9 @@ from __future__ import annotations
 
 from dataclasses import replace
 from importlib import import_module
+from typing import Any
 
-from ..asked import checked_scene
+from ..asked import checked_scene, is_case
 from ..equilibrium.gyrostat import gyrostat_equilibria
 from ..equilibrium.result import Equilibria
 from ..physics.approximate import limits_of
@@ -20,8 +21,8 @@ BY_KIND = {
 }
 
 
-def equilibria(scene: AnyScene) -> Equilibria:
-    """Every equilibrium of a Scene (body, gyrostat, constant torque) or ScaledGyrostat, each with its stability.
+def equilibria(scene: Any) -> Equilibria:
+    """Every equilibrium of a Scene (body, gyrostat, constant torque), a ScaledGyrostat or a case, each with its stability.
 
     States are in the scene's variables: rad/s in the principal axes, or the dimensionless x. kind is "none" (the reason
     says why), "points" (isolated), "curves" or "all". A plane of equilibria (equal moments) is one entry of `curves`
@@ -30,7 +31,8 @@ def equilibria(scene: AnyScene) -> Equilibria:
     force are answered too; there a point may be (omega, gamma), and kind "undecided" says that not all equilibria
     are known. Raises InputError for effects this analysis does not cover.
     """
-    found = _found(checked_scene(scene))
+    scene = checked_scene(scene.scene if is_case(scene) else scene)
+    found = _found(scene)
     limits = limits_of(scene)
     return replace(found, validity=limits.at_equilibria(scene, found)) if limits else found
 

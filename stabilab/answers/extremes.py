@@ -5,9 +5,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..asked import checked_span, reach_of
+from ..asked import checked_span, is_case, reach_of, scene_and_state
 from ..physics.coefficients import effective
-from ..physics.scene import AnyScene
 from ..physics.states import checked_states
 from .digits.ask import ask_all
 from .kinds import following, many
@@ -16,9 +15,10 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
 
-def extremes(scene: AnyScene, states: ArrayLike, span: Any = None, digits: int | None = None, fast: bool | None = None,
+def extremes(scene: Any, states: ArrayLike | None = None, span: Any = None, digits: int | None = None, fast: bool | None = None,
              follow: float | None = None) -> np.ndarray:
-    """Smallest and largest value of each component over all t >= 0: array (..., 3, 2) in the scene's variables.
+    """Smallest and largest value of each component over all t >= 0: array (..., 3, 2) in the scene's variables. A case stands for its scene, its own start
+    and span.
 
     +-inf where a component grows without bound; at an equilibrium both are the state. Scenes without a reduction need
     `span`, a time, or two (from, to): their extremes hold from the start, at time 0, to its end. Without it they have bounds
@@ -27,7 +27,8 @@ def extremes(scene: AnyScene, states: ArrayLike, span: Any = None, digits: int |
     bound. fast: whether numba may compile the work; None where it is installed and pays. Raises InputError
     as `fate` does, and where fast=True finds no numba.
     """
-    span = reach_of(checked_span(span))
+    span = scene.span if span is None and states is None and is_case(scene) else span
+    span, (scene, states) = reach_of(checked_span(span)), scene_and_state(scene, states)
     if digits is not None:
         return ask_all("extremes", scene, states, digits, extremes(scene, states, span, follow=follow), span).required().values
     scene, array = effective(scene), checked_states(states)
@@ -35,13 +36,14 @@ def extremes(scene: AnyScene, states: ArrayLike, span: Any = None, digits: int |
     return many(scene).extremes(scene, rows, span, fast, **following(scene, follow)).reshape(array.shape + (2,))
 
 
-def period(scene: AnyScene, states: ArrayLike, digits: int | None = None, fast: bool | None = None) -> np.ndarray:
+def period(scene: Any, states: ArrayLike | None = None, digits: int | None = None, fast: bool | None = None) -> np.ndarray:
     """Period of each motion, (...,) in the scene's time: inf where the motion does not repeat, 0 at an equilibrium, NaN where its
     fate is undecided or no return is found.
 
-    digits, fast: as of `extremes`. Raises InputError as `fate` does, and under a torque off the axes follows every
+    scene, digits, fast: as of `extremes`. Raises InputError as `fate` does, and under a torque off the axes follows every
     motion as `fate` does.
     """
+    scene, states = scene_and_state(scene, states)
     if digits is not None:
         return ask_all("period", scene, states, digits, period(scene, states)).required().values
     scene, array = effective(scene), checked_states(states)

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..asked import scene_and_state
 from ..orbit.fate.result import FateResult
 from ..physics.coefficients import effective
-from ..physics.scene import AnyScene
 from ..physics.states import checked_states
 from .digits.ask import ask_all
 from .kinds import following, many
@@ -18,11 +18,12 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
 
-def fate(scene: AnyScene, states: ArrayLike, fast: bool | None = None, digits: int | None = None, follow: float | None = None,
+def fate(scene: Any, states: ArrayLike | None = None, fast: bool | None = None, digits: int | None = None, follow: float | None = None,
          tell: Callable[..., Any] | None = None, proof: bool = False) -> FateResult:
     """The fate of every state of an array (..., 3) in the scene's variables (rad/s, or x when scaled).
 
-    scene: Scene or ScaledGyrostat. fast: True for numba's compiled loops, False for NumPy alone, None
+    scene: Scene or ScaledGyrostat, or a case, whose own start it is where no states are given.
+    fast: True for numba's compiled loops, False for NumPy alone, None
     for numba where it is installed and the array is large; the two give the same bytes. Returns a FateResult. Raises
     InputError for arrays of another shape, for non-finite numbers, for scenes with effects that this analysis does not
     cover, and for fast=True without numba. digits (1 to 50): give the margins so many, checked, as of `extremes` (the
@@ -36,6 +37,7 @@ def fate(scene: AnyScene, states: ArrayLike, fast: bool | None = None, digits: i
     is near a tie, a fold or an equilibrium, solve for it. Labels are the same either way; margins may differ by 1e-12 of
     their terms, the kinetic energy and the barrier's height over the state (without a torque: both kinetic energies).
     """
+    scene, states = scene_and_state(scene, states)
     if digits is not None:
         found = fate(scene, states, fast, follow=follow, tell=tell, proof=proof)
         return replace(found, margins=ask_all("fate", scene, states, digits, found.margins).required().values)

@@ -7,7 +7,7 @@ from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
-from ..asked import checked_scene, checked_span
+from ..asked import checked_span, is_case, scene_and_state
 from ..integrate.quadratic_series import largest
 from ..orbit.far_states import in_range
 from ..orbit.result import Fate, Motion
@@ -19,20 +19,25 @@ from .caveats import limited
 from .kinds import following, one
 
 
-def motion(scene: AnyScene, state: Any, span: Any = None, brief: bool = False, exact: Sequence[Fraction] | None = None,
+def motion(scene: Any, state: Any = None, span: Any = None, brief: bool = False, exact: Sequence[Fraction] | None = None,
            follow: float | None = None, tell: Callable[..., Any] | None = None, proof: bool = False) -> Motion:
     """All that is known of the motion from `state` (three numbers in the scene's variables) at time 0.
 
+    scene: a Scene or a ScaledGyrostat, or a case, whose own start and span hold where none are given.
     Where gamma is part of the state: six numbers (omega, gamma), or a dict of blocks. span: (from, to), in whose times, and from
     the start to them, extremes are searched where the motion is not integrable. brief: fate and extremes will do; what else costs
     time (period, margin_velocity, invariants) may be left out. exact: the three rates as they were given (Fractions), of
     which `state` is the rounding: where the motion has a reduction the answer is theirs. follow, tell: as of `fate`.
     proof: enclose the way of a motion that is followed, so that its fate is proved where it can be. Raises InputError as `fate` does.
     """
-    found = _found(checked_scene(scene), state, checked_span(span), brief, exact, follow, tell, proof)
+    case = scene if is_case(scene) else None
+    if case is not None and state is None:
+        span, exact = case.span if span is None else span, case.exact_state
+    scene, state = scene_and_state(scene, state)
+    found = _found(scene, state, checked_span(span), brief, exact, follow, tell, proof)
     limits = limits_of(scene)
     found = replace(found, validity=limits.of_motion(scene, found)) if limits and found.validity is None else found
-    return limited(replace(found, largest=_largest(scene, found)), scene)
+    return limited(replace(found, largest=_largest(scene, found)), scene, case)
 
 
 def _largest(scene: AnyScene, found: Motion) -> float | None:

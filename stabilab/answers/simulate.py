@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..asked import checked_scene
+from ..asked import is_case, scene_and_state
+from ..errors import InputError
 from ..integrate.trajectory import Trajectory
 from ..physics.attitude import angles, beyond, body_momentum, scalar_last, to_space, unwrapped
 from ..physics.scene import AnyScene, Scene
@@ -59,9 +60,10 @@ def errors_of(state: Mapping[str, np.ndarray], share: float) -> dict[str, np.nda
     return {name: np.full(values.shape[1:], share * np.abs(values).max(initial=0.0)) for name, values in state.items()}
 
 
-def simulate(scene: AnyScene, omega: Sequence[float], times: ArrayLike, blocks: Mapping[str, Sequence[float]] | None = None,
+def simulate(scene: Any, omega: Any = None, times: ArrayLike | None = None, blocks: Mapping[str, Sequence[float]] | None = None,
              method: str | None = None, rtol: float | None = None) -> Simulation:
-    """The exact motion of a scene from angular velocity `omega` at the given times.
+    """The exact motion of a scene from angular velocity `omega` at the given times. A case stands for its scene; its own start holds where none is
+    given, and the two ends of its span where no times are.
 
     blocks: the rest of the state at time 0 ("gamma", "velocity", "position": three numbers, "attitude": psi, phi,
     theta, rad, or a quaternion from body to space, scalar last, which is then told in place of angles); those that the
@@ -69,7 +71,13 @@ def simulate(scene: AnyScene, omega: Sequence[float], times: ArrayLike, blocks: 
     is "taylor", or Radau where the decay is so fast that an explicit method would crawl (the reason says so). Raises
     InputError as `trajectory` does.
     """
-    scene, times = checked_scene(scene), checked_times(times)
+    if is_case(scene):
+        blocks = scene.blocks if omega is None and blocks is None else blocks
+        omega, times = scene.state if omega is None else omega, scene.span if times is None else times
+    scene, omega = scene_and_state(scene, omega)
+    if times is None:
+        raise InputError("times: expected times for a scene; a case without a span needs them too")
+    times = checked_times(times)
     if scene.variables == "scaled":
         run = trajectory(scene, omega, times, "taylor" if method is None else method, rtol)
         return _simulation(run, {"x": run.states})

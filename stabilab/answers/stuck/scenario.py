@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
+from ...asked import came
 from ...errors import InputError
 from ...numbers.principal import IDENTITY, NOTHING, PrincipalAxes, without_trace
 from ...numbers.vectors import Exact3, Float3, Number
@@ -66,7 +67,7 @@ class Scenario:
 def scenario_of(case: Any) -> Scenario:
     """The scenario of a case. InputError where it has no body, no motion, or effects that no stuck thruster is answered with."""
     if not hasattr(case, "thrusters"):
-        raise InputError(f"stuck: expected a case, as of stabilab.load(...), got {case!r:.80}")
+        raise InputError(f"stuck: expected a case, as of stabilab.load(...), got {came(case)}")
     if case.variables == "scaled" or case.physical is None:
         raise InputError("the motion is in scaled variables; a stuck thruster is asked of a body in kg m^2 and angular_velocity in rad/s")
     if case.state is None:
