@@ -85,6 +85,10 @@ class Case:
     swept: tuple[tuple[str, Any], ...] = ()
     caveats: tuple[Caveat, ...] = ()
 
+    def __repr__(self) -> str:
+        motion = "no motion" if self.state is None else f"state {self.state}" + (f", span {self.span}" if self.span else "")
+        return f"Case({self.place}: {self.variables}, {motion})"
+
     @property
     def exact_state(self) -> Exact3 | None:
         """The state exactly: its decimals as they were written, or, where it was replaced since, the new numbers themselves."""

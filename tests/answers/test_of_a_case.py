@@ -30,6 +30,10 @@ def test_a_wrong_type_is_named_and_never_shown_whole(ask, wrong, named):
     assert named in str(error.value) and len(str(error.value)) < 160
 
 
+def test_a_case_shows_itself_in_one_short_line():
+    assert repr(CASE).startswith("Case(") and "thruster-stuck-major-axis.toml: physical, state (" in repr(CASE) and len(repr(CASE)) < 200
+
+
 def test_a_scene_alone_needs_a_state():
     for ask in (stabilab.fate, stabilab.period, stabilab.extremes, stabilab.motion, lambda scene: stabilab.simulate(scene, times=[0, 1])):
         with pytest.raises(stabilab.InputError, match="state: expected"):
