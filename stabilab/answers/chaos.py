@@ -16,6 +16,7 @@ from ..physics.coefficients import effective
 from ..physics.scene import AnyScene
 from ..physics.states import checked_starts, float_array, start_of
 from ..physics.to_numpy import equations_of
+from ..shown import Shown
 from ..unreduced.chaos import TURNS, growth, turn_of
 from .fate import fate
 from .motion import motion
@@ -42,8 +43,8 @@ class Order(IntEnum):
         return ("regular", "chaotic", "spin-up", "undecided")[self]
 
 
-@dataclass(frozen=True, eq=False)
-class Chaos:
+@dataclass(frozen=True, eq=False, repr=False)
+class Chaos(Shown):
     """labels (...): of `Order`; megno (...): at the last time, nan of motions that spin up or could not be followed; times (k,): in the scene's time, each
     twice the one before; history (..., k): MEGNO at them; lyapunov (...): the rate at which neighbours part, per time of the scene, 0 of regular motions
     and nan where it is not known; lyapunov_error (...): how far the last doubling of the time moved it."""
@@ -56,6 +57,11 @@ class Chaos:
     lyapunov_error: np.ndarray
     turn: float
     scene: AnyScene = field(repr=False, compare=False)
+
+    @property
+    def orders(self) -> list[str]:
+        """The word of each label, one after another."""
+        return [Order(int(label)).word for label in np.ravel(self.labels)]
 
     @property
     def because(self) -> str:

@@ -19,7 +19,7 @@ from ..physics.blocks import slices
 from ..physics.scene import AnyScene
 from ..physics.states import checked_rtol, checked_starts, checked_times
 from ..physics.to_numpy import equations_of, to_numpy
-from ..shown import Compared
+from ..shown import Compared, Shown
 from .motion_units import FAST, SLOW, in_unit, own_unit
 from .to_heyoka import TAYLOR_TOLERANCE, borrowed_taylor, heyoka_available
 from .trajectory import PATIENCE, REPORT, STEP_LIMIT, integrated, steps_left
@@ -29,8 +29,8 @@ from .trajectory import PATIENCE, REPORT, STEP_LIMIT, integrated, steps_left
 LANES = 8
 
 
-@dataclass(frozen=True, eq=False)
-class Ensemble(Compared):
+@dataclass(frozen=True, eq=False, repr=False)
+class Ensemble(Shown, Compared):
     """Motions of one scene at common times.
 
     t: (m,), s (tau when scaled); states: (n, m, N), one motion per row of the starts; reached: (n, m), False where a

@@ -21,7 +21,10 @@ RESULTS = {
     "TimeTo": lambda: stabilab.time_to(SCENE, STATES, rate=2),
     "Comparison": lambda: stabilab.compare(stabilab.load(CASES / "charged-body-small-torque.toml"), TIMES),
     "Stuck": lambda: stabilab.stuck(stabilab.load(CASES / "upper-stage.toml")),
-    "SpinUp": lambda: stabilab.spin_up(OFF, STATES[1])}
+    "SpinUp": lambda: stabilab.spin_up(OFF, STATES[1]),
+    "Diagram": lambda: stabilab.bifurcation(stabilab.load(CASES / "thruster-stuck-major-axis.toml"), {"torque[1]": "0:0.5"}),
+    "Chaos": lambda: stabilab.chaos(SCENE, STATES, until=40.0),
+    "Ensemble": lambda: stabilab.ensemble(SCENE, STATES, TIMES)}
 
 
 @pytest.fixture(scope="module")

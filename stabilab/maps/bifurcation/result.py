@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 
 from ...numbers.vectors import Float3
+from ...shown import Shown
 from .family import Family
 
 CURVES = "curves"  # the kind of a diagram in words
@@ -56,7 +57,7 @@ class Piece:
 
 
 @dataclass(frozen=True, repr=False)
-class Diagram:
+class Diagram(Shown):
     """All equilibria over one number. kind: which are counted ("isolated", "motion", "borders" or "curves"); what: the same in words; pieces and
     events in rising order: event n lies between pieces; an event at an end of the range has a piece on one side only."""
 
@@ -67,7 +68,3 @@ class Diagram:
     events: tuple[Event, ...]
     connections: tuple[Event, ...] = ()
     notes: tuple[str, ...] = ()
-
-    def __repr__(self) -> str:
-        counts = ", ".join(str(piece.count) for piece in self.pieces)
-        return f"Diagram({self.what}: {counts}; {len(self.events)} events, {len(self.connections)} connections)"

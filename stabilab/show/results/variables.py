@@ -150,6 +150,29 @@ def _spin_up(found):
     return Variables(("axis",), values, AXIS, notes)
 
 
+def _chaos(found):
+    labels = np.asarray(found.labels)
+    dims, number = _dims(labels), lambda values, words: (_dims(labels), np.asarray(values, float), {"long_name": words})
+    words = np.array(found.orders, dtype=object).reshape(labels.shape)
+    values = {"order": (dims, words, {}), "megno": number(found.megno, "MEGNO at the last time"),
+              "lyapunov": number(found.lyapunov, "rate at which neighbours part"), "lyapunov_error": number(found.lyapunov_error, "how far it moved last")}
+    return Variables(dims, values)
+
+
+def _ensemble(found):
+    last = found.states[:, -1]
+    values = {"last": (("motion", "component"), last, {"long_name": "state at the last time"}),
+              "reached": (("motion",), found.reached[:, -1], {"long_name": "whether the motion went on so far"})}
+    return Variables(("motion",), values, {}, {"method": found.method, "rtol": found.rtol})
+
+
+def _diagram(found):
+    number = lambda name: (("piece",), np.array([getattr(piece, name) for piece in found.pieces]), {})
+    stable = [sum(state.verdict == "stable" for state in piece.states) for piece in found.pieces]
+    values = {"low": number("low"), "high": number("high"), "equilibria": number("count"), "stable": (("piece",), np.array(stable), {})}
+    return Variables(("piece",), values, {}, {"what": found.what, "events": [event.value for event in (*found.events, *found.connections)]})
+
+
 OF: dict[str, Callable[[Any], Variables]] = {
     "Simulation": _simulation, "Trajectory": _trajectory, "FateResult": _fates, "TimeTo": _times, "Equilibria": _equilibria, "Motion": _motion,
-    "Separatrix": _separatrix, "Comparison": _comparison, "Stuck": _stuck, "SpinUp": _spin_up}
+    "Chaos": _chaos, "Diagram": _diagram, "Ensemble": _ensemble, "Separatrix": _separatrix, "Comparison": _comparison, "Stuck": _stuck, "SpinUp": _spin_up}

@@ -5,6 +5,8 @@ import math
 from collections import Counter
 from typing import Any
 
+import numpy as np
+
 from ...orbit.result import Fate
 
 
@@ -85,7 +87,24 @@ def _spin_up(found):
     return f"{found.fate.word}{about}, {found.level}; t = {found.t:.6g}, {_counted(found.steps, 'step')}"
 
 
+def _chaos(found):
+    words = found.orders
+    one = f", MEGNO {float(found.megno):.4g}" if np.ndim(found.megno) == 0 else ""
+    return f"{_counted(len(words), 'state')}: {_shares(words)}{one}; followed to {float(found.times[-1]):.6g}" if len(found.times) else _shares(words)
+
+
+def _ensemble(found):
+    ended = f"; {len(found.stopped)} stopped" if found.stopped else ""
+    return f"{_counted(len(found.states), 'motion')} at {_counted(len(found.t), 'time')}; {found.method}{ended}"
+
+
+def _diagram(found):
+    counts = ", ".join(str(piece.count) for piece in found.pieces)
+    return f"{found.what}: {counts}; {len(found.events)} events, {len(found.connections)} connections"
+
+
 SHORT = {
+    "Diagram": _diagram, "Chaos": _chaos, "Ensemble": _ensemble,
     "Motion": _motion, "Equilibria": _equilibria, "FateResult": _fates, "TimeTo": _time_to, "Separatrix": _separatrix,
     "Comparison": _comparison, "Stuck": _stuck, "SpinUp": _spin_up,
     "Trajectory": lambda run: _run(run.t, run.blocks, run.method, run.status, run.reason),
