@@ -98,7 +98,7 @@ def chaos(scene: AnyScene, states: ArrayLike, until: float | None = None, tell: 
     """
     checked_scene(scene)
     equations = equations_of(scene)
-    array = float_array(states, f"states: expected rows of {len(equations.state)} numbers, got {states!r:.80}")
+    array = float_array(states, "states", f"rows of {len(equations.state)} numbers")
     rows = checked_starts(equations, array.reshape(-1, array.shape[-1]) if array.ndim and array.size else array)
     if until is not None and not (isinstance(until, (int, float, np.number)) and 0 < until <= float(np.finfo(float).max)):
         raise InputError(f"until: expected a time above zero, got {until!r:.40}")

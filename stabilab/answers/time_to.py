@@ -79,7 +79,7 @@ def _rows(states: Any) -> Any:
     """(one start for each motion, shape of the answer) of a scene whose state may be more than three rates."""
     if isinstance(states, dict):
         return [states], ()
-    array = float_array(states, f"states: expected numbers in rows, or a dict of blocks, got {states!r:.80}")
+    array = float_array(states, "states", "numbers in rows, or a dict of blocks")
     return list(array.reshape(-1, array.shape[-1])) if array.ndim else [array], array.shape[:-1]
 
 

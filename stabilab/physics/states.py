@@ -21,16 +21,17 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
 
-def float_array(values: Any, words: str) -> np.ndarray:
-    """The values as an array of doubles; InputError with these words for what has none: no numbers, rows of unlike length, larger than any double."""
+def float_array(values: Any, name: str, expected: str = "numbers") -> np.ndarray:
+    """The values as an array of doubles; InputError "name: expected ..., got ..." for what has none: no numbers, rows of
+    unlike length, larger than any double. What came is written out only then, which takes long of a thousand times."""
     try:
-        return np.asarray(real(np.asarray(values), words.partition(":")[0]), float)
+        return np.asarray(real(np.asarray(values), name), float)
     except (TypeError, ValueError, OverflowError):
-        raise InputError(words) from None
+        raise InputError(f"{name}: expected {expected}, got {told(values)}") from None
 
 
 def numbers_in_a_row(values: Any, name: str) -> np.ndarray:
-    array = float_array(values, f"{name}: expected numbers, got {told(values)}")
+    array = float_array(values, name)
     array = array if array.ndim else array.reshape(1)
     if array.ndim != 1 or not array.size or not np.isfinite(array).all():
         raise InputError(f"{name}: expected finite numbers in one row, got {told(values)}")
@@ -95,7 +96,7 @@ UNDERFLOW = 2.0**-1060  # what four terms may lose that are no normal doubles
 
 def checked_states(states: Any) -> np.ndarray:
     """States as a float array (..., 3); InputError otherwise."""
-    array = float_array(states, "states: expected numbers in an array of shape (..., 3)")
+    array = float_array(states, "states", "numbers in an array of shape (..., 3)")
     if array.ndim < 1 or array.shape[-1] != 3:
         raise InputError(f"states: expected an array of shape (..., 3), got shape {array.shape}")
     if not np.isfinite(array).all():
@@ -122,7 +123,7 @@ def equilibrium_mask(scene: AnyScene, states: np.ndarray) -> np.ndarray:
 
 def checked_starts(equations: Equations, states: Any) -> np.ndarray:
     wanted = len(equations.state)
-    array = float_array(states, f"states: expected rows of {wanted} numbers, got {states!r:.80}")
+    array = float_array(states, "states", f"rows of {wanted} numbers")
     if array.ndim != 2 or array.shape[1] != wanted or not len(array):
         raise InputError(f"states: expected rows of {wanted} numbers ({', '.join(map(str, equations.state))}), got the shape {array.shape}")
     if not np.isfinite(array).all():
@@ -145,7 +146,7 @@ def _attitude(given: Sequence[float]) -> tuple[float, ...]:
     """The unit quaternion, scalar first, of three angles, or of four numbers: a quaternion with its scalar last."""
     if not as_quaternion(given):
         return tuple(quaternion(*three_numbers(given, "state: attitude").tolist()))
-    x, y, z, w = float_array(given, f"state: attitude: expected four numbers, got {given!r:.80}").tolist()
+    x, y, z, w = float_array(given, "state: attitude", "four numbers").tolist()
     length = math.hypot(x, y, z, w)
     if not 0 < length < math.inf:
         raise InputError(f"state: attitude: expected a quaternion that is not zero, got {given!r:.80}")
