@@ -78,7 +78,7 @@ def test_the_command_says_it_in_words_json_and_csv():
     told = json.loads(say("--json"))
     one = case("minor-axis-100")
     assert told["schema"] == "stabilab.chaos/1" and told["answer"] == "regular" and told["megno"] == float(stabilab.chaos(one.scene, one.state, 300).megno)
-    assert say("--csv").splitlines()[0] == "case,answer,time,megno" and len(say("--csv").splitlines()) == 7
+    assert say("--csv").splitlines()[0] == "case,answer,time,megno,caveats" and len(say("--csv").splitlines()) == 7
 
 
 SWEPT = """

@@ -37,7 +37,7 @@ def test_the_text_has_as_many_digits_as_are_read_and_its_bracket_holds_that_of_j
 
 def test_a_unit_is_read_as_in_a_case_file(stabilab):
     one, other = (stabilab("when", CUBESAT, "--rate", text, "--csv")[1] for text in ("60 deg/s", "10 rpm"))
-    assert one == other and one.splitlines()[0] == "case,quantity,limit,time_low,time_high,level"
+    assert one == other and one.splitlines()[0] == "case,quantity,limit,time_low,time_high,level,caveats"
 
 
 def test_json_tells_never_unknown_and_the_time(stabilab):
@@ -91,7 +91,7 @@ def test_an_approximate_law_is_told_first(stabilab):
 @pytest.mark.parametrize("option, text, words", [
     ("rate", "30 deg", "--rate: expected angular velocity (rad/s), got angle (rad)"),
     ("rate", "-3", "--rate: expected a positive number"),
-    ("rate", "30 degrees/s", "--rate: "),
+    ("rate", "30 degrees/parsec", "--rate: "),
     ("component", "30 deg/s", '--component: expected an axis and its limit, as in "z = 30 deg/s"'),
     ("component", "w = 30 deg/s", "--component: expected an axis"),
     ("energy", "5 N", "--energy: expected"),
