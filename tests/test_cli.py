@@ -207,7 +207,7 @@ def test_a_time_to_follow_that_is_none_is_bad_input(stabilab, time):
 def test_all_bad_files_are_named_and_nothing_is_printed(stabilab, tmp_path):
     first, second = tmp_path / "first.toml", tmp_path / "second.toml"
     first.write_text("[boby]\n")
-    second.write_text("[body]\ninertia = [1, 2, 30]\n")
+    second.write_text("[body]\ninertia = [1, 2, -30]\n")
     code, out, err = stabilab("classify", first, MINOR, second, tmp_path / "third.toml")
     assert code == 2 and not out and "Traceback" not in err
     assert all(f"{path}:" in err for path in (first, second, tmp_path / "third.toml"))
@@ -238,7 +238,7 @@ def test_words_with_commas_stay_one_cell_of_csv(stabilab, tmp_path):
         code, out, _ = stabilab("extremes", path, "--csv", *options)
         rows = list(csv.reader(out.splitlines()))
         told = strict_json(stabilab("extremes", path, "--json")[1])[0]
-        assert code == 0 and [len(row) for row in rows] == [5] * 4
+        assert code == 0 and [len(row) for row in rows] == [6] * 4
         assert [[row[0], row[4]] for row in rows[1:]] == [[told["case"], told["over"]]] * 3 and told["case"] == name
 
 

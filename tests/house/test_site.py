@@ -189,7 +189,7 @@ def test_a_link_that_a_file_names_has_the_heading_of_the_page(conf, written, tol
 
 def test_a_record_shows_its_fields_as_its_signature():
     shown, returned = reference.of_fields(None, "class", "stabilab.Body", stabilab.Body, None, "(*given: Any, **named: Any)", "Any")
-    assert re.fullmatch(r"\(inertia: [^,]+, mass: [^,]+ = None\)", shown) and returned == "Any"  # and not what the class works out of them
+    assert re.fullmatch(r"\(inertia: [^,]+, mass: [^,]+ = None, slack: [^,]+ = None\)", shown) and returned == "Any"  # and not what the class works out of them
     assert reference.of_fields(None, "class", "", stabilab.Fate, None, "", "") is None
     assert "expect: dict = dict()" in reference.of_fields(None, "class", "stabilab.Case", stabilab.Case, None, "", "")[0]
 

@@ -1,4 +1,5 @@
 """How far approximate laws hold: the numbers, their values along a motion, and that every command and result carries them."""
+import csv
 import json
 import subprocess
 import sys
@@ -12,6 +13,7 @@ import pytest
 import stabilab
 from stabilab.answers.digits.run import best_reached
 from stabilab.answers.simulate import simulate
+from stabilab.case.read import load_all
 from stabilab.commands import accuracy
 from stabilab.physics.body import Body
 from stabilab.physics.coefficients import content, liquid_torque
@@ -266,9 +268,11 @@ def test_json_carries_number_value_and_limit_and_strict_ends_with_3(stabilab, tm
     assert (exact[0] if isinstance(exact, list) else exact)["validity"] is None
 
 
-def test_csv_of_extremes_stays_a_table_and_the_law_is_told_beside_it(tmp_path):
+def test_csv_of_extremes_stays_a_table_and_the_law_is_a_column_of_it(tmp_path):
     run = subprocess.run([sys.executable, "-m", "stabilab", "extremes", str(water(tmp_path, "1e-6")), "--csv"], capture_output=True, text=True)
-    assert run.stdout.startswith("case,component") and run.stderr.startswith("BEYOND THE LAW")
+    rows = list(csv.DictReader(run.stdout.splitlines()))
+    assert [row["component"] for row in rows] == ["omega1", "omega2", "omega3"] and not run.stderr
+    assert all(row["caveats"].startswith("BEYOND THE LAW: liquid cavity: ") for row in rows)
 
 
 def test_strict_of_fate_is_three_for_an_undecided_motion(stabilab):
@@ -302,14 +306,16 @@ def test_one_reason_of_several_cases_is_one_line_that_names_them():
     assert law.together(["no body (3) does (one)", "too fast (two)", "no body (3) does (three)"]) == ["no body (3) does (one, three)", "too fast (two)"]
 
 
-def test_a_table_of_a_sweep_has_one_line_on_a_law_and_says_of_how_many_combinations(stabilab):
-    """As the report of the same file; of two files that say the same, one line with both names."""
+def test_a_table_of_a_sweep_has_one_line_on_a_law_and_says_of_how_many_combinations(stabilab, tmp_path):
+    """As the report of the same file; beside a file that has no place for it, on stderr."""
     _, out, err = stabilab("extremes", CASES / "charged-sweep.toml", "--csv")
-    assert len(out.splitlines()) == 82 and err.count("BEYOND THE LAW") == 1 and "(charged-sweep: 27 of 27 combinations, the farthest of them told)" in err
+    assert len(out.splitlines()) == 82 and out.count("BEYOND THE LAW: ") == 81 and not err
+    line = law.of_cases(load_all(CASES / "charged-sweep.toml"))
+    assert line.count("BEYOND THE LAW") == 1 and "(charged-sweep: 27 of 27 combinations, the farthest of them told)" in line
     farthest = max(row["validity"]["value"] for row in json.loads(stabilab("extremes", CASES / "charged-sweep.toml", "--json")[1]))
-    assert f"with the attitude, {farthest:.3g} along" in err
-    _, _, err = stabilab("extremes", CASES / "liquid-base.toml", CASES / "liquid-zeta-1_5.toml", "--csv")
-    assert err.count("BEYOND THE LAW") == 1 and "(liquid-base, liquid-zeta-1_5)" in err and "s in [" not in err
+    assert f"with the attitude, {farthest:.3g} along" in line
+    _, _, err = stabilab("simulate", CASES / "liquid-base.toml", "--out", tmp_path / "run.csv")
+    assert err.count("BEYOND THE LAW") == 1 and "s in [" not in err
 
 
 def test_a_charge_is_judged_by_the_attitude_that_a_case_gives_in_every_question(stabilab):

@@ -33,7 +33,7 @@ def test_a_sweep_tells_rates_in_the_units_of_the_case_under_heads_that_are_those
     lines, csv = (stabilab(*words, *more)[1].splitlines() for more in ([], ["--csv"]))
     head = next(n for n, line in enumerate(lines) if line.startswith("  torque"))
     assert re.split("  +", lines[head].strip()) == ["torque[3]", "fate", *(f"ω{n} {end}" for end in ("least", "most") for n in (1, 2, 3))]
-    rates = [[float(cell) for cell in row.split(",")[3:]] for row in csv[1:]]
+    rates = [[float(cell) for cell in row.split(",")[3:9]] for row in csv[1:]]
     for line, row in zip(lines[head + 2:], rates):
         assert [float(cell) for cell in line.split()[2:]] == pytest.approx([57.29577951308232 * value for value in row], rel=1e-5)
     assert "rad/s" not in "".join(lines)

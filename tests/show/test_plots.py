@@ -271,7 +271,7 @@ angular_velocity = [0, 0, {0.28 * size}]
 def test_a_title_says_that_an_approximate_law_does_not_hold():
     """The charge's law holds while axis 3 keeps its direction, which it does not under the larger torque."""
     titles = [stabilab.plot.time(load(name)).get_title() for name in ("charged-body", "charged-body-small-torque")]
-    assert ["BEYOND THE LAW; by that law: BOUNDED" in title for title in titles] == [True, False] and all("BOUNDED" in title for title in titles)
+    assert ["BEYOND THE LAW;\nby that law: BOUNDED" in title for title in titles] == [True, False] and all("BOUNDED" in title for title in titles)
 
 
 def test_a_motion_too_small_to_be_seen_beside_its_separatrix_is_shown_enlarged():
@@ -293,7 +293,7 @@ def test_lines_of_a_title_end_with_clauses_and_a_legend_of_five_has_one_row():
     """A line broke between "period" and its number; the second component stood below the first."""
     ax = stabilab.plot.time(load("middle-axis-equal-100"))
     lines_of_title = ax.get_title().split("\n")
-    assert lines_of_title[1].endswith(" about x3;") and lines_of_title[2].startswith("period 3.117")
+    assert lines_of_title[1].endswith(" along x2;") and lines_of_title[2].endswith("period 3.117 τ")
     ax.figure.draw_without_rendering()
     (legend,) = ax.figure.legends
     assert len({round(text.get_window_extent().y0) for text in legend.get_texts()}) == 1

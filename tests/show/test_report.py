@@ -134,7 +134,7 @@ def test_a_page_below_one_of_the_navigation_shows_to_which_it_belongs(everything
 
 def test_a_list_of_cases_says_by_how_much_a_law_is_left_and_a_law_that_holds_is_not_told():
     law = "BEYOND THE LAW: charge: change of cos σ, held constant, with the attitude, 1.86 along the run, limit 0.1: the z axis turns away"
-    made = {"case": {"title": "a <b>", "headline": "BOUNDED for ever", "fate": "bounded", "law": law}}
+    made = {"case": {"title": "a <b>", "headline": "BOUNDED for ever", "fate": "bounded", "law": law, "caveats": []}}
     assert own.listed("one", made)["beyond"] == law.removesuffix(": the z axis turns away")
     made["case"]["law"] = ""
     assert own.listed("one", made)["beyond"] == ""

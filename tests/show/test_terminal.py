@@ -105,12 +105,12 @@ def test_lines_that_go_on_stand_below_their_words():
     assert [line[:4] for line in page.wrapped("why: " + "because " * 20, 50).split("\n")[1:]] == ["  be"] * 3
 
 
-def test_a_message_wraps_to_the_terminal_that_stderr_is(shown, monkeypatch):
-    """How far a law holds, told beside a table that has no place for it, while the table itself goes into a pipe."""
+def test_a_message_wraps_to_the_terminal_that_stderr_is(shown, monkeypatch, tmp_path):
+    """How far a law holds, said beside a file that has no place for it."""
     words = {}
     for terminal in (True, False):
         monkeypatch.setattr(sys, "stderr", Screen(terminal))
-        shown(Screen(False), "extremes", ROOT / "cases/liquid-sensible.toml", "--csv", columns=50)
+        shown(Screen(False), "simulate", ROOT / "cases/liquid-sensible.toml", "--out", tmp_path / "run.csv", columns=50)
         words[terminal] = sys.stderr.getvalue()
     assert words[True].split() == words[False].split()
     assert max(map(len, words[True].splitlines())) <= 50 < max(map(len, words[False].splitlines()))

@@ -254,7 +254,7 @@ def test_a_charge_of_constant_angle_is_judged_as_the_gyrostat_that_turns_alike()
 def test_a_verdict_says_that_it_rests_on_the_constant_angle_of_a_charge(stabilab, command):
     """Along this motion cos sigma changes by 1.86 of itself (compare says BEYOND THE LAW), which a verdict on the rates alone cannot see."""
     code, out, _ = stabilab(*command, CASES / "charged-body.toml")
-    assert code == 0 and "as long as the angle of axis 3 to the field is the constant one" in " ".join(out.split())
+    assert code == 0 and "as long as the angle of the z axis to the field is the constant one" in " ".join(out.split())
 
 
 def test_fate_refuses_a_scene_that_no_theorem_covers_by_name():

@@ -328,4 +328,5 @@ def test_rest_is_told_where_the_list_of_equilibria_is_undecided():
     assert rest.at == (0, 0, 0) and rest.verdict == "asymptotically stable"
     assert np.sort(np.linalg.eigvals(slopes).real) == pytest.approx(np.sort([z.real for z in rest.eigenvalues]), rel=1e-4)
     from stabilab.show.terminal.classification import resting
-    assert resting(found) == "UNDECIDED, 1 known (1 asymptotically stable)"
+    from stabilab.show.units import SI
+    assert resting(found, SI) == "UNDECIDED, 1 known (1 asymptotically stable)"

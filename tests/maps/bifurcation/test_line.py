@@ -152,7 +152,7 @@ def test_a_fold_where_all_eigenvalues_are_zero_is_told(tmp_path):
 def test_what_cannot_be_eliminated_is_refused_with_the_way_out(tmp_path):
     own = written(tmp_path, (3, 2, "1.5"), (0, 0, 0), ("0.1", "0.2", "0.1"))
     for vary, words in (({"torque[3]": "0:1:5"}, "no number of steps"), ({"torque[3]": "1:0"}, "the lower end first"), ({"torqe[3]": "0:1"}, "did you mean"),
-                        ({"inertia[1]": "1:9"}, "leaves what a case may be"), ({}, "nothing varies"), ({"torque[3]": "0:1 kg"}, "expected torque"),
+                        ({"inertia[1]": "-1:9"}, "leaves what a case may be"), ({}, "nothing varies"), ({"torque[3]": "0:1 kg"}, "expected torque"),
                         ({"torque[3]": 3}, "two numbers"), (3, "expected names and ranges"),
                         ({"torque[1]": "0:1", "torque[2]": "0:1", "torque[3]": "0:1"}, "one or two")):
         with pytest.raises(InputError, match=words):

@@ -128,5 +128,5 @@ def test_commands_tell_what_a_growing_motion_is_known_over(stabilab, tmp_path):
     rows = list(csv.reader(stabilab("extremes", path, "--csv")[1].splitlines()))
     assert rows[1][3] == "inf" and {row[4] for row in rows[1:]} == {told["over"]}
     for command in ("classify", "extremes"):
-        assert "\n  axis 1 for all time, the others over 0 to 30 s" in stabilab(command, path)[1]
+        assert "\n  the x axis for all time, the others over 0 to 30 s" in stabilab(command, path)[1]
     assert json.loads(stabilab("extremes", path, "--digits", "12", "--json")[1])[0]["digits"]["reached"] >= 12
