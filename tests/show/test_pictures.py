@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from stabilab import errors
+from stabilab import errors, load
 from stabilab.orbit import phase_plane as phase
 from stabilab.orbit.separatrix.result import Sheet
 from stabilab.show import style
@@ -335,6 +335,21 @@ def test_surface_points_lie_on_the_level_of_their_saddle(tmp_path):
         assert np.ptp(energy, axis=1).max() < 1e-11 * scale
 
 
+def test_a_surface_picture_names_the_axes_of_its_case(tmp_path, monkeypatch):
+    """Expected by eye: the largest, middle and least moment of the file, its principal axes where it is turned, the paper's letters."""
+    drawn = []
+    monkeypatch.setattr(surface, "probe", lambda: render_probe.Renderer(True, "none"))
+    monkeypatch.setattr(surface, "draw", lambda scene, found, meshes, path, names: (drawn.append(tuple(names)), path)[1])
+    text = ("[body]\ninertia = {}\n[effects.gyrostat]\nmomentum = [0.8, 0, 0]\n[effects.constant_torque]\ntorque = {}\n"
+            "[motion]\nangular_velocity = [0.1, 0.05, 0.02]\n")
+    plain, turned = tmp_path / "plain.toml", tmp_path / "turned.toml"
+    plain.write_text(text.format("[12, 9, 5]", "[0, 0, 0.02]"))
+    turned.write_text(text.format("[[12, 0, 0], [0, 7, 2], [0, 2, 7]]", "[0, 0.02, -0.02]"))
+    for given in (*map(load, (plain, turned, CASES / "minor-axis-100.toml")), paper.scene("minor", 100)):
+        surface.write(given, tmp_path, shape=(12, 25))
+    assert drawn == [("x (major)", "y (intermediate)", "z (minor)"), ("major", "intermediate", "minor"), ("x1", "x2", "x3"), ("x1", "x2", "x3")]
+
+
 @pytest.mark.slow
 def test_in_a_surface_picture_the_colours_of_equilibria_are_theirs_alone_and_no_label_floats_over_a_sheet():
     if not render_probe.probe().available:
@@ -342,7 +357,7 @@ def test_in_a_surface_picture_the_colours_of_equilibria_are_theirs_alone_and_no_
     from stabilab.orbit.separatrix.sheets import separatrix
     scene = paper.scene("minor", 100)
     found = separatrix(scene, shape=(12, 25))
-    stage = surface.plotter(scene, found, [mesh.triangulate(sheet) for sheet in found.sheets])
+    stage = surface.plotter(scene, found, [mesh.triangulate(sheet) for sheet in found.sheets], scene.components)
     try:
         theirs = {tuple(int(style.MEANING[kind]["color"][i:i + 2], 16) for i in (1, 3, 5)) for kind in ("stable", "unstable", "fold")}
         coloured = {name for name, actor in stage.actors.items() if hasattr(actor, "prop") and tuple(actor.prop.color.int_rgb) in theirs}

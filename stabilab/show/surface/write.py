@@ -13,6 +13,7 @@ from ...errors import RenderingUnavailable, printable
 from ...orbit.separatrix.sheets import separatrix
 from ...packages import present
 from .. import style
+from ..axes import axes_of
 from ..files import endings, manifest
 from ..progress import each
 from ..sampling import spread
@@ -80,7 +81,8 @@ def _write(case, found, meshes, folder, renderer, summary):
     if renderer:
         summary["rendering"] = renderer.words if renderer.available else f"unavailable: {renderer.words}"
     if renderer and renderer.available:
-        files.append(draw(scene, found, meshes, folder / f"{name}.png"))
+        names = map(axes_of(case).name, (1, 2, 3)) if hasattr(case, "scene") else scene.components
+        files.append(draw(scene, found, meshes, folder / f"{name}.png", names))
     summary["files"] = sorted([f"{name}.json", *(f.name for f in files)])
     with style.whole_file(folder / f"{name}.json") as waiting:
         waiting.write_text(json.dumps(plain(summary), indent=1, allow_nan=False) + "\n", encoding="utf-8")
@@ -168,8 +170,8 @@ def equilibrium_lines(curves, size, number=240):
     return lines
 
 
-def plotter(scene, found, meshes):
-    """A pyvista plotter with the sheets, the equilibrium curves and the three axes; the caller closes it."""
+def plotter(scene, found, meshes, names):
+    """A pyvista plotter with the sheets, the equilibrium curves and the three axes by these names; the caller closes it."""
     use()
     style.quiet_matplotlib()  # pyvista loads it
     import pyvista
@@ -189,16 +191,15 @@ def plotter(scene, found, meshes):
         ends = np.zeros((2, 3))
         ends[:, axis] = (-size, size)
         stage.add_mesh(pyvista.Line(*ends).tube(radius=size * 0.003), color=style.GREY, name=f"axis {axis}")
-    _name_axes(stage, scene, size)
+    _name_axes(stage, names, size)
     stage.camera_position = [(2.6 * size, -3.4 * size, 2.0 * size), (0, 0, 0), (0, 0, 1)]
     stage.reset_camera()
     stage.camera.zoom(0.94)
     return stage
 
 
-def _name_axes(stage, scene, size):
-    """A box about everything with the components' names and a scale along its outer edges, where no sheet is."""
-    names = (name.replace("omega", "axis ") for name in scene.components)  # VTK's letters have no Greek
+def _name_axes(stage, names, size):
+    """A box about everything with the axes' names (VTK's letters have no Greek) and a scale along its outer edges, where no sheet is."""
     power = 10.0 ** np.floor(np.log10(size / 2))
     edge = 2 * power * min(k for k in (1, 1.5, 2, 2.5, 3, 4, 5, 10) if 2 * k * power >= 0.95 * size)  # round numbers at the edge and half way
     stage.show_bounds(bounds=(-edge, edge) * 3, grid="back", location="outer", ticks="outside", n_xlabels=5, n_ylabels=5, n_zlabels=5, fmt="%.3g",
@@ -227,10 +228,10 @@ def _normals(mesh):
     return normals(mesh).astype(np.float32)
 
 
-def draw(scene, found, meshes, path) -> Path:
-    """The still picture (PNG), quantised to keep it small; needs a renderer that the probe approved."""
+def draw(scene, found, meshes, path, names) -> Path:
+    """The still picture (PNG), quantised to keep it small, with these names of its axes; needs a renderer that the probe approved."""
     from PIL import Image
-    stage = plotter(scene, found, meshes)
+    stage = plotter(scene, found, meshes, names)
     try:
         pixels = stage.screenshot(return_img=True)
     finally:
