@@ -36,14 +36,23 @@ def changed(case: Case, asked: dict[str, Any], units: Units) -> tuple[Case, str]
         _set_wheel(base, case, wheel, scaled)
     if start is not None or case.state is None:
         _set_start(base, case, start or [None] * 3, scaled, units)
-    head = f"{case.name}, changed with stabilab explore"
+    head, left = f"{case.name}, changed with stabilab explore", _left_out(case, torque is None)
     try:
-        return read_text(case.path, text_of(base, head)), ""
+        return read_text(case.path, text_of(base, head)), left
     except CaseError as error:
         if not all(problem.key.startswith("limits") for problem in error.problems):
             raise
     base.pop("limits")
-    return read_text(case.path, text_of(base, head)), "The start is beyond the limit of the case, which is left out here."
+    return read_text(case.path, text_of(base, head)), f"The start is beyond the limit of the case, which is left out here. {left}".rstrip()
+
+
+def _left_out(case: Case, fires: bool) -> str:
+    """What of a file whose tensor is not diagonal cannot be stated along the principal axes; fires: whether its thrusters still give the torque."""
+    if case.frame is None or case.frame.as_given:
+        return ""
+    found = [words for words, there in (("limits about the axes of the file", case.limits is not None and case.limits.rates is not None),
+                                        ("the misalignment of thrusters", fires and any(one.stuck and one.misalignment for one in case.thrusters))) if there]
+    return f"Left out of a changed case, which stands along the principal axes: {' and '.join(found)}." if found else ""
 
 
 def _base(case: Case) -> dict[str, Any]:

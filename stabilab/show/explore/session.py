@@ -25,7 +25,7 @@ from ...physics.quadratic import QuadraticForm
 from ...physics.scene import AnyScene, ScaledGyrostat, Scene
 from .. import limiting
 from ..terminal.letters import greek, lettered, written
-from ..text import law
+from ..text import frame, law
 from ..text.headline import headline
 from ..units import Units, units_of
 from . import controls, other, planes, space, tables
@@ -57,6 +57,8 @@ class Session:
     def __init__(self, case: Case) -> None:
         other.check(case)
         self.case, self.units = case, units_of(case)
+        told = frame.components(case)
+        self._axes = [["axes", lettered(told)]] if told else []
         self._swept = SWEPT if "sweep" in data_of(case.text) else ""
         self._kept: dict[str, tuple[Any, Any]] = {}
         self._cost: dict[str, float] = {}  # s that the last motion of a kind took
@@ -102,7 +104,7 @@ class Session:
         made = {"headline": greek(words), "fate": "undecided" if found is None else found.fate.word, "moving": moving, "start": clicked,
                 "note": " ".join(filter(None, (note, self._swept, _law(found, self.units),
                                                    *limiting.beside(case.caveats, self.units)))),
-                "toml": case.text, "rows": [] if found is None else tables.rows(case, found, self.units), "space": picture,
+                "toml": case.text, "rows": self._axes + ([] if found is None else tables.rows(case, found, self.units)), "space": picture,
                 "plane": None if twin is None else planes.drawn(bag, twin, case.state, self.units),
                 "time": planes.over_time(bag, case, found, times, path, self.units)}
         made["equilibria"] = tables.equilibria(at_rest, self.units) if at_rest else other.NOT_YET

@@ -54,11 +54,18 @@ def rows_of_axes(case) -> list[tuple[str, str]]:
     return found
 
 
+def components(case) -> str:
+    """About which axes the components of a rate are, where these are not the axes of the file; else nothing."""
+    if _turned(case) is None:
+        return ""
+    names = axes_of(case)
+    return "; ".join(f"omega{n} about {names.whole(n).removesuffix(IN_FILE)}" for n in (1, 2, 3)) + IN_FILE
+
+
 def note(case) -> list[str]:
     """A line that says which axes 1, 2, 3 are, where they are not those of the file, and one where a case has thrusters that do nothing."""
-    names, letter = axes_of(case), "x" if case.variables == "scaled" else "omega"
-    told = "; ".join(f"{letter}{n} about {names.whole(n).removesuffix(IN_FILE)}" for n in (1, 2, 3))
-    return [*([] if _turned(case) is None else [f"  {told}{IN_FILE}"]), *silent(case)]
+    told = components(case)
+    return [*([f"  {told}"] if told else []), *silent(case)]
 
 
 def silent(case) -> list[str]:

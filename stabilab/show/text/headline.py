@@ -8,7 +8,7 @@ from decimal import ROUND_CEILING, ROUND_FLOOR, Decimal, localcontext
 from typing import TYPE_CHECKING
 
 from .. import limiting
-from ..axes import axes_of
+from ..axes import PLAIN, axes_of
 from ..terminal.letters import lettered
 from ..units import SHORT, SPAN, Units, number, units_of
 
@@ -23,8 +23,8 @@ CLAUSE = 110  # letters of a cause that the line has room for
 
 
 def headline(case: Case, motion: Motion, units: Units | None = None) -> str:
-    """One line, without the name of the case. units: of the case where None."""
-    units = units_of(case) if units is None else replace(units, axes=axes_of(case))
+    """One line, without the name of the case. units: of the case where None; their names of axes, where they have any, go before those of the case."""
+    units = units_of(case) if units is None else replace(units, axes=axes_of(case)) if units.axes == PLAIN else units
     parts = [limiting.reached(motion.caveats, units), fate_words(motion, units), limiting.tilted(motion.caveats, units), cause(motion, units),
              largest(motion, units), margin(motion, units), period(motion, units)]
     return "; ".join(part for part in parts if part)

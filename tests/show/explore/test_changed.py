@@ -71,6 +71,15 @@ def test_a_start_beyond_the_limit_is_explored_without_the_limit():
     assert case.limits and new.limits is None and "beyond the limit" in words
 
 
+def test_what_cannot_be_stated_along_the_principal_axes_is_said_to_be_left_out():
+    case = load(NAMED["geostationary-22n"])  # limits about x, y, z of a full tensor, and a thruster with a misalignment
+    _, words = changed(case, asked(wheel=["0.6", None, None]), units_of(case))
+    assert "limits about the axes of the file and the misalignment of thrusters" in words
+    _, words = changed(case, asked(torque={"axis": 3, "size": "2", "tilt": "0", "azimuth": "0"}), units_of(case))
+    assert "limits about the axes of the file." in words and "misalignment" not in words
+    assert changed(case, asked(), units_of(case))[1] == ""
+
+
 @pytest.mark.parametrize("axis, size, tilt, azimuth", [(1, 2.0, 0.0, 0.0), (2, -3.0, 5.0, 90.0), (3, 0.5, 30.0, -120.0), (3, -1.0, 12.0, 45.0)])
 def test_size_tilt_and_azimuth_tell_a_torque_back(axis, size, tilt, azimuth):
     assert controls.direction(controls.torque_of(axis, size, tilt, azimuth)) == pytest.approx((axis, size, tilt, azimuth), abs=1e-12)

@@ -50,6 +50,17 @@ def test_the_verdict_of_a_resting_hand_is_that_of_the_questions(name):
     assert told["headline"] == greek(headline(case, found)) and told["fate"] == found.fate.word
 
 
+def test_axes_are_those_of_the_file_that_was_opened_also_of_a_changed_case():
+    """Expected by NumPy's eigenvectors: the least moment of the file's tensor is about its y axis but for half a degree."""
+    case = case_of("geostationary-22n")
+    _, axes = np.linalg.eigh([[5830, -38, 112], [-38, 1240, -24], [112, -24, 5410]])
+    minor = f"the minor axis, ({', '.join(f'{v:.3f}' for v in axes[:, 0] * np.sign(axes[1, 0]))})"
+    for changes in ({}, {"wheel": ["0.6", None, None]}):
+        told, _ = ask(Session(case), **changes)
+        assert f"SPINS UP about {minor} in the file's frame, negative sense" in told["headline"]
+        assert told["rows"][0][0] == "axes" and told["rows"][0][1].endswith(f"; ω3 about {minor} in the file's frame")
+
+
 def test_the_verdict_is_that_of_the_case_that_is_saved(tmp_path):
     told, _ = ask(Session(case_of("minor-axis-100")), start=[None, None, "30"])
     saved = tmp_path / "saved.toml"
