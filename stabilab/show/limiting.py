@@ -5,9 +5,12 @@ import re
 from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
+from typing import Any
 
+from .. import caveat
 from ..caveat import Caveat
 from ..errors import printable
+from .axes import axes_of
 from .terminal.letters import lettered
 from .units import SHORT, Units
 
@@ -52,9 +55,24 @@ def lines(caveats: Iterable[Caveat], units: Units) -> list[str]:
     return [f"  caveat: {words(one, units)}" for one in caveats]
 
 
-def words(caveat: Caveat, units: Units) -> str:
+def words(one: Caveat, units: Units) -> str:
     """The words in the units and letters of a text."""
-    return lettered(units.words(printable(caveat.words), SHORT))
+    return lettered(units.words(printable(one.words), SHORT))
+
+
+def key(case: Any, caveats: Iterable[Caveat]) -> dict[str, list[dict[str, str]]]:
+    """The key "caveats" of a JSON object, with the names of the axes of a case."""
+    return caveat.key(_named(case, caveats))
+
+
+def cell(case: Any, caveats: Iterable[Caveat]) -> str:
+    """The column "caveats" of a CSV, with the names of the axes of a case."""
+    return caveat.cell(_named(case, caveats))
+
+
+def _named(case: Any, caveats: Iterable[Caveat]) -> list[Caveat]:
+    axes = axes_of(case)
+    return [replace(one, words=axes.sentence(one.words, axes.whole)) for one in caveats]
 
 
 def _of(kind: str, caveats: Iterable[Caveat], units: Units, begins: str = "") -> str:

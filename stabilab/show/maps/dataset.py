@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...case.read import Case
-from ...caveat import cell
 from ...errors import printable
 from ...files import whole_file
 from ...maps.columns import VALID, columns_of
@@ -19,6 +18,7 @@ from ...packages import demand
 from ...version import __version__
 from ..axes import axes_of
 from ..files import endings
+from ..limiting import cell
 from .labels import SAMPLE, dimensions, limiting, meanings, names, unit
 
 if TYPE_CHECKING:
@@ -101,4 +101,4 @@ def _attributes(found: Swept) -> dict[str, Any]:
     broken = {"no_case": f"{found.broken} points: {printable(found.why)}"} if found.broken else {}
     return {"Conventions": "CF-1.11", "title": case.title or case.name, "source": f"stabilab {__version__}", "references": case.source,
             "history": plan.command, "case_variables": case.variables, "case": plan.text, "sweep": plan.as_json(brief=True),
-            "caveats": cell(limiting(case, found.records)), **broken}
+            "caveats": cell(case, limiting(case, found.records)), **broken}

@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 
-from ...caveat import key
 from ...errors import printable
 from ...maps.columns import CAVEATS, ENDLESS, NO_CASE, NONE, OPEN, TIME, Column, columns_of
 from ...maps.plan import Plan
@@ -173,7 +172,8 @@ def json(found: Swept) -> str:
     if plan.sampled:
         told["samples"] = {"count": plan.sampled.count, "seed": plan.sampled.seed, "keys": [key.name for key in plan.sampled.keys],
                            "values": plan.sampled.values(0, plan.sampled.count).tolist()}
-    return as_json(told | key(caveats_of(plan.case, found.records)) | {"no_case": {"points": found.broken, "because": found.why}, "columns": columns})
+    told |= limiting.key(plan.case, caveats_of(plan.case, found.records))
+    return as_json(told | {"no_case": {"points": found.broken, "because": found.why}, "columns": columns})
 
 
 def _plain(values: np.ndarray) -> list[Any]:

@@ -3,8 +3,8 @@ from __future__ import annotations
 
 import math
 
-from ...caveat import cell, key
 from ...physics.blocks import PARTS
+from .. import limiting
 from ..axes import axes_of
 from ..files import comma
 from . import frame, when
@@ -51,7 +51,7 @@ def classification(case, equilibria, motion) -> dict:
                            "points": [_point(p) | _input(case, p.at) for p in equilibria.points],
                            "curves": [_curve(c) for c in equilibria.curves]},
             "motion": None if motion is None else _motion(case, motion) | _input(case, motion.at)
-            } | ({} if motion is None else key(motion.caveats)) | frame.key(case)
+            } | ({} if motion is None else limiting.key(case, motion.caveats)) | frame.key(case)
 
 
 def _input(case, at) -> dict:
@@ -98,7 +98,7 @@ def extremes(case, motion) -> dict:
     """One object of `stabilab extremes --json`; null where a component is unbounded or unknown (see fate)."""
     return {"schema": "stabilab.extremes/1", "case": case.name, "variables": case.variables, "at": motion.at,
             "fate": motion.fate.word, "components": case.scene.components, "extremes": motion.extremes,
-            "over": motion.extremes_over} | followed(motion) | key(motion.caveats) | frame.key(case)
+            "over": motion.extremes_over} | followed(motion) | limiting.key(case, motion.caveats) | frame.key(case)
 
 
 def simulation(case, run) -> dict:
@@ -136,7 +136,7 @@ def lost(t: float, value: float, error: float) -> bool:
 def extremes_csv(answered) -> str:
     """One line per case, motion and pairs (numbers or decimals; None where unknown) and component; inf where unbounded, empty where unknown."""
     return comma.lines([("case", "component", "min", "max", "over", "caveats"), *(
-        (case.name, name, *pair, m.extremes_over, cell(m.caveats))
+        (case.name, name, *pair, m.extremes_over, limiting.cell(case, m.caveats))
         for case, m, pairs in answered for name, pair in zip(case.scene.components, _pairs(pairs)))])[:-1]
 
 

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from ...caveat import key
+from .. import limiting
 from ..axes import axes_of
 from . import answers, frame, when
 
@@ -33,12 +33,12 @@ def fate(case, motion, told) -> dict:
     margin = motion.margin_energy if told.values is None else told.values
     return {"schema": "stabilab.fate/1", "case": case.name, "variables": case.variables, "at": motion.at, "fate": motion.fate.word,
             **axes_of(case).key(motion.axis), "sense": motion.sense or None, "because": motion.because, "margin": margin,
-            "digits": as_dict(told), "tilt": when.tilt_dict(motion.tilt)} | answers.followed(motion) | key(motion.caveats) | frame.key(case)
+            "digits": as_dict(told), "tilt": when.tilt_dict(motion.tilt)} | answers.followed(motion) | limiting.key(case, motion.caveats) | frame.key(case)
 
 
 def period(case, motion, told) -> dict:
     """One object of `stabilab period --json`; null where the motion does not repeat, or is undecided (see fate, digits.because)."""
     return {"schema": "stabilab.period/1", "case": case.name, "variables": case.variables, "at": motion.at, "fate": motion.fate.word,
-            "period": told.values, "time": case.scene.time_unit, "digits": as_dict(told)} | key(motion.caveats) | frame.key(case)
+            "period": told.values, "time": case.scene.time_unit, "digits": as_dict(told)} | limiting.key(case, motion.caveats) | frame.key(case)
 
 

@@ -5,7 +5,6 @@ import math
 from collections import Counter
 from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
 
-from ...caveat import cell, key
 from ...errors import printable
 from .. import limiting
 from ..axes import axes_of
@@ -28,14 +27,13 @@ SOON = 2  # times a margin: the fate is back before a change as great
 
 def as_dict(case, found) -> dict:
     """One object of `stabilab stuck --json`: SI units, rates in rad/s; axes are numbered as in "principal"."""
-    axes = axes_of(case)
-    return {"schema": "stabilab.stuck/2", "case": found.case, "rows": [_row(row, axes) for row in found.rows],
+    return {"schema": "stabilab.stuck/2", "case": found.case, "rows": [_row(row, case) for row in found.rows],
             "principal": {"moments": list(found.principal.moments), "axes": [list(axis) for axis in found.principal.axes]}}
 
 
-def _row(row, axes) -> dict:
+def _row(row, case) -> dict:
     return {"thrusters": list(row.thrusters), "torque": row.torque, "torque_principal": row.torque_principal, "fate": row.fate, "level": row.level,
-            **axes.key(row.axis), "sense": row.sense, "limit": row.limit, "time_to_limit": row.time_to_limit, "largest_rate": row.largest_rate,
+            **axes_of(case).key(row.axis), "sense": row.sense, "limit": row.limit, "time_to_limit": row.time_to_limit, "largest_rate": row.largest_rate,
             "margin": {name: row.margins[name].size if name in row.margins else None for name in ("rate", "wheel", "torque")},
             "wheel_intervals": [{"wheel": w.wheel, "keeps_bounded": [list(map(Endless, pair)) for pair in w.keeps_bounded], "now": w.now, "axis": w.axis,
                                  "best": w.best, "best_time": w.best_time, "gain": w.gain, "searched": w.searched, "because": w.because} for w in row.wheels],
@@ -44,7 +42,7 @@ def _row(row, axes) -> dict:
             "margin_until": {name: margin.until if margin.until is None else Endless(margin.until) for name, margin in row.margins.items()},
             "margin_because": {name: margin.because for name, margin in row.margins.items()},
             "helpers": [{"thrusters": list(h.thrusters), "duty": h.duty, "effect": h.effect, "torque_left": h.torque_left, "fate": h.fate,
-                         "time_to_limit": h.time_to_limit} for h in row.helpers]} | key(row.caveats)
+                         "time_to_limit": h.time_to_limit} for h in row.helpers]} | limiting.key(case, row.caveats)
 
 
 def csv(answers) -> str:
@@ -61,7 +59,7 @@ def csv(answers) -> str:
             values = [*row.torque, *row.torque_principal, row.fate, row.level, row.axis, axes.key(row.axis)["axis_name"], row.sense, limit,
                       *(row.time_to_limit or (None, None)), row.largest_rate,
                       *(row.margins[name].size if name in row.margins else None for name in ("rate", "wheel", "torque")),
-                      cell(row.caveats)]
+                      limiting.cell(case, row.caveats)]
             cells = ["" if v is None else repr(v) if isinstance(v, float) else v for v in values]
             writer.writerow([printable(found.case), printable("+".join(row.thrusters)), *cells])
     return out.getvalue()

@@ -4,7 +4,6 @@ from __future__ import annotations
 import math
 import re
 
-from ...caveat import cell, key
 from ...errors import printable
 from .. import limiting
 from ..files import comma
@@ -23,13 +22,14 @@ def as_dict(case, limit, found) -> dict:
     known = math.isfinite(high)
     return {"schema": "stabilab.when/1", "case": case.name, "variables": case.variables, "kind": limit.kind, "quantities": list(limit.names),
             "limits": list(limit.limits), "reached": _reached(low, high), "time": [low, high] if known else None,
-            "not_before": low if math.isfinite(low) else None, "level": str(found.level), "because": str(found.words)} | key(found.caveats) | frame.key(case)
+            "not_before": low if math.isfinite(low) else None, "level": str(found.level), "because": str(found.words)
+            } | limiting.key(case, found.caveats) | frame.key(case)
 
 
 def csv(answers) -> str:
     """A line a case, SI units: inf where the limit is never reached, an empty upper end where it is not known."""
     rows = [(case.name, "/".join(limit.names), "/".join(map(repr, limit.limits)), *(None if math.isnan(v) else float(v) for v in (found.low, found.high)),
-             str(found.level), cell(found.caveats)) for case, limit, found in answers]
+             str(found.level), limiting.cell(case, found.caveats)) for case, limit, found in answers]
     return comma.lines([CSV, *rows])[:-1]
 
 

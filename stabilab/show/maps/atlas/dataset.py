@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ....case.read import Case, read_text
-from ....caveat import cell
 from ....errors import InputError, printable
 from ....maps.atlas.asked import LEVEL, REFINE, Asked, asked
 from ....maps.atlas.cells import corners, directions
@@ -18,6 +17,7 @@ from ....maps.atlas.run import Atlas, drawn
 from ....maps.columns import columns_of, record
 from ....packages import demand
 from ....version import __version__
+from ...limiting import cell
 from ..dataset import checked, write
 from ..labels import limiting, meanings, unit
 from .labels import point_name
@@ -95,7 +95,7 @@ def _attributes(found: Atlas) -> dict[str, Any]:
             "limit": dict(of.limit), "timed": of.timed, "computed": found.asked_points}
     return {"Conventions": "CF-1.11", "title": of.case.title or of.case.name, "source": f"stabilab {__version__}", "references": of.case.source,
             "history": of.command, "torque": float(of.torque), "case": of.text, "atlas": json.dumps(told),
-            "caveats": cell(limiting(of.case, found.records))}
+            "caveats": cell(of.case, limiting(of.case, found.records))}
 
 
 def atlas_of(data: xarray.Dataset, path: Path) -> Atlas:

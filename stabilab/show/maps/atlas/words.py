@@ -6,7 +6,6 @@ from typing import Any
 
 import numpy as np
 
-from ....caveat import key
 from ....errors import printable
 from ....maps.atlas.cells import area
 from ....maps.atlas.pointed import AXES, THRUSTERS
@@ -234,7 +233,7 @@ def json(atlas: Atlas, units: Units) -> str:
         "flags": {column.name: list(column.flags) for column in columns_of(asked.answers)[1:] if column.flags},
         "units": {column.name: unit(plan, column) for column in columns_of(asked.answers)[1:] if column.kind == "f8"},
         "cells": cells | {column.name: _plain(atlas.records[column.name]) for column in columns_of(asked.answers)[1:]}}
-    return as_json(told | key(caveats_of(asked.case, _all(atlas))))
+    return as_json(told | limiting.key(asked.case, caveats_of(asked.case, _all(atlas))))
 
 
 def _as_dict(asked: Any, record: Any) -> dict[str, Any]:

@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ....case.read import Case
-from ....caveat import cell
 from ....maps.basins.ask import DEPTH, Basins, basins, label_of
 from ....maps.basins.dimension import dimension
 from ....maps.basins.mesh import Mesh
 from ....maps.columns import ANSWERS, CAVEATS, LEVELS, record
 from ....maps.plan import from_json
 from ....version import __version__
+from ...limiting import cell
 from ..dataset import checked, write
 from ..labels import limiting, meanings
 from .words import cells_of, command
@@ -62,7 +62,7 @@ def dataset(found: Basins) -> xarray.Dataset:
     made = xarray.Dataset(values, {"depth": (("depth",), np.array(rough.depths, np.int8), {"long_name": "depth of refinement"})}, {
         "Conventions": "CF-1.11", "title": case.title or case.name, "source": f"stabilab {__version__}", "references": case.source,
         "history": command(found), "case_variables": case.variables, "case": found.plan.text, "basin": found.plan.as_json(brief=True),
-        "caveats": cell(limiting(case, found.records)),
+        "caveats": cell(case, limiting(case, found.records)),
         "coarse_cells": np.array(mesh.cells, np.int32), "depth_asked": np.int32(found.asked), "depth_reached": np.int32(mesh.depth),
         "complete": np.int8(not mesh.full), "box_dimension": rough.value, "box_dimension_uncertainty": rough.uncertainty,
         "box_dimension_because": rough.reason})

@@ -6,7 +6,6 @@ from typing import Any
 
 import numpy as np
 
-from ....caveat import cell, key
 from ....errors import printable
 from ....maps.basins.ask import BOUNDED, NO_AXIS, UNDECIDED, Basins
 from ....maps.basins.mesh import leaves
@@ -106,7 +105,7 @@ def csv(found: Basins) -> str:
     values = [np.array(axis.values) for axis in found.plan.axes]
     columns = [values[n][cells[name] + more].tolist() for n, name in enumerate(("first", "second")) for more in (0, cells["width"])]
     words = ["boundary" if mixed else basin_name(found, label) for mixed, label in zip(cells["mixed"].tolist(), cells["label"].tolist())]
-    told = [cell(caveats_of(found.plan.case, found.records))] * len(words)
+    told = [limiting.cell(found.plan.case, caveats_of(found.plan.case, found.records))] * len(words)
     return comma.lines([[*heads, "depth", "basin", "caveats"], *zip(*columns, cells["depth"].tolist(), words, told)])
 
 
@@ -117,7 +116,7 @@ def json(found: Basins) -> str:
     lower = [np.array(axis.values)[place] for axis, place in zip(found.plan.axes, (row, column))]
     axes = [{"key": axis.key.name, "unit": axis.shown_unit, "from": axis.values[0], "to": axis.values[-1], "cells": cells, "finest_cell": step}
             for axis, cells, step in zip(found.plan.axes, mesh.cells, found.steps)]
-    return as_json(key(caveats_of(found.plan.case, found.records)) | {
+    return as_json(limiting.key(found.plan.case, caveats_of(found.plan.case, found.records)) | {
         "schema": SCHEMA, "case": found.plan.case.name, "variables": found.plan.case.variables, "command": command(found), "axes": axes,
         "depth": mesh.depth, "complete": not mesh.full, "states_asked": len(mesh.keys),
         "basins": [{"basin": basin_name(found, label), "share": share} for label, share in found.shares.items()], "share_uncertainty": found.blur,

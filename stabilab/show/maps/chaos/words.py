@@ -7,9 +7,9 @@ from typing import Any
 
 from ....answers.caveats import caveats_of
 from ....answers.chaos import FLAT, Chaos, Order
-from ....caveat import cell
 from ....errors import printable
 from ...files import comma
+from ...limiting import cell
 from ...text import law
 from ...text.answers import as_json
 
@@ -72,7 +72,7 @@ def json(rows: list[tuple[Any, Chaos]], laws: Sequence[Any]) -> str:
 
 def csv(rows: list[tuple[Any, Chaos]], laws: Sequence[Any]) -> str:
     """A line for each case and time. laws: as of `json`."""
-    told = [cell(caveats_of(case.scene, validity=held, file=case.caveats)) for (case, _), held in zip(rows, laws)]
+    told = [cell(case, caveats_of(case.scene, validity=held, file=case.caveats)) for (case, _), held in zip(rows, laws)]
     return comma.lines([["case", "answer", "time", "megno", "caveats"],
                         *([case.name, Order(int(found.labels)).word, time, None if math.isnan(value) else value, caveats]
                           for (case, found), caveats in zip(rows, told) for time, value in zip(found.times.tolist(), found.history.tolist()))])

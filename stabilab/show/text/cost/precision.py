@@ -5,11 +5,10 @@ import math
 from pathlib import Path
 
 from ....answers.caveats import caveats_of
-from ....caveat import cell
 from ....cost.accuracy import digit_price
 from ....machine import machine, versions
 from ....packages import demand
-from ... import style
+from ... import limiting, style
 from ...files import comma, endings
 from ...report.precision_picture import picture
 from ...terminal.letters import written
@@ -75,7 +74,7 @@ def csv(*measured) -> str:
 
 
 def _limits(found) -> str:
-    return cell(caveats_of(found.case.scene, validity=found.validity, file=found.case.caveats))
+    return limiting.cell(found.case, caveats_of(found.case.scene, validity=found.validity, file=found.case.caveats))
 
 
 def write(found, path) -> Path:
