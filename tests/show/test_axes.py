@@ -128,9 +128,9 @@ def test_a_full_tensor_of_the_catalogue_is_named_with_its_direction(stabilab, tm
     assert "about axis" not in stabilab("fate", path)[1] + stabilab("stuck", path)[1] + stabilab("show", path)[1]
 
 
-def test_caveats_in_json_and_csv_name_the_axis_of_the_paper():
+def test_caveats_in_json_and_csv_name_the_axis_of_the_paper(stabilab):
     path = "cases/minor-axis-100.toml"
-    code, told = stabilab("fate", path, "--json")
+    code, told, _ = stabilab("fate", path, "--json")
     assert code == 0 and json.loads(told)[0]["caveats"][0]["words"].endswith("exactly along x3")
     assert stabilab("extremes", path, "--csv")[1].splitlines()[-1].endswith("exactly along x3")
 
