@@ -58,6 +58,10 @@ class Axes:
             return f"the {letter} axis"
         return f"the {word} axis" + (f" {self.direction(number)}" if self.words.count(word) > 1 else "")
 
+    def label(self, number: int) -> str:
+        """Beside an axis that is drawn: "z", of a full tensor "minor"."""
+        return self.letters[number - 1] or self.words[number - 1]
+
     def direction(self, number: int) -> str:
         """Three decimals of its direction in the frame of the file."""
         return told(self.directions[number - 1]) if self.directions else ""

@@ -574,7 +574,7 @@ def test_the_page_of_an_attitude_needs_nothing_else_and_no_title_ends_its_script
 
 def test_the_page_of_an_attitude_has_the_letters_of_its_title(tmp_path):
     page = to_file.write(case_of(tmp_path, 'title = "lambda3 = 2 kg m^2/s"\n' + MOVING), tmp_path / "a.html").read_text(encoding="utf-8")
-    assert page.count("λ3 = 2 kg m²/s") == 2 and "lambda3" not in page
+    assert page.count("λ3 = 2 kg m²/s") == 2 and "lambda3" not in page and '"names":["x","y","z"]' in page
 
 
 def test_a_film_is_a_gif_and_what_cannot_be_written_names_what_is_missing(tmp_path, monkeypatch):

@@ -35,7 +35,7 @@ def attitude(case: Any, state: Any = None, ax: Any = None, span: Any = None, fra
              size: tuple[float, float] | None = None) -> FuncAnimation:
     """The body turning in space, as an animation of Matplotlib (keep it, or nothing moves).
 
-    The box is the even one with the body's moments of inertia; its faces and axes have the colours of the principal axes 1, 2 and 3, and the line
+    The box is the even one with the body's moments of inertia; its faces and axes have the colours of the principal axes, and the line
     is the way of the tip of the axis about which the body turns most at the start. The start has the attitude of the case, else one that holds
     its vertical upright, else body and space are aligned. Where the span would need more pictures than `frames` at 15 degrees each, its first
     part is shown. Raises InputError for scaled variables.
@@ -45,7 +45,7 @@ def attitude(case: Any, state: Any = None, ax: Any = None, span: Any = None, fra
     which.check("attitude", one)
     found, scale = turn(one, frames), measures(one, units)
     with canvas.on(ax, size or SIZE, space=True) as target:
-        draw = _stage(target, found, one.heading, scale)
+        draw = _stage(target, found, one, scale)
         if ax is None:  # laid out once, not for every picture
             target.figure.draw_without_rendering()
             target.figure.set_layout_engine("none")
@@ -73,7 +73,7 @@ def film(one: Any, path: Path, units: str | None = None, size: tuple[float, floa
     return Path(path)
 
 
-def _stage(ax, found: Turn, heading: str, scale):
+def _stage(ax, found: Turn, one, scale):
     """The scene of the animation; draw(frame) moves it."""
     from matplotlib.patheffects import withStroke
     from mpl_toolkits.mplot3d.art3d import Poly3DCollection
@@ -83,9 +83,9 @@ def _stage(ax, found: Turn, heading: str, scale):
     ax.computed_zorder = False  # it sorts whole artists by their middles, and drew axes that leave by a hidden face before the box
     axes = [ax.plot([], [], [], color=colour, linewidth=2.2)[0] for colour in COLOURS]
     halo = [withStroke(linewidth=3, foreground="white")]  # a name is to be read on a face of its colour
-    names = [ax.text(0, 0, 0, str(n), color=colour, fontsize=11, weight="bold", path_effects=halo) for n, colour in enumerate(COLOURS, 1)]
+    names = [ax.text(0, 0, 0, one.axes.label(n), color=colour, fontsize=11, weight="bold", path_effects=halo) for n, colour in enumerate(COLOURS, 1)]
     now = ax.text2D(0.5, 0.97, "", transform=ax.transAxes, ha="center")
-    canvas.title(ax, heading)
+    canvas.title(ax, one.heading)
     ax.text2D(0.5, -0.02, found.part(scale.system), transform=ax.transAxes, ha="center", fontsize="small")
     ways = [ax.plot([], [], [], color=style.GREY, linewidth=0.9, zorder=order)[0] for order in (BEHIND, BEFORE)]
     tips = found.rotations[:, :, int(np.argmax(np.abs(found.omega[0])))] * OUT

@@ -22,6 +22,6 @@ def page(one, found: Turn, scale, path) -> Path:
             "rotations": [[round(float(v), 5) + 0.0 for v in rotation.ravel()] for rotation in found.rotations],
             "corners": (CORNERS * found.edges).round(5).tolist(), "edges": found.edges.round(5).tolist(), "faces": FACES,
             "colours": [style.VERMILION, style.GREEN, style.BLUE],
-            "tip": int(np.argmax(np.abs(found.omega[0]))), "real": float(abs(found.t[-1] - found.t[0]))}
+            "names": [one.axes.label(n) for n in (1, 2, 3)], "tip": int(np.argmax(np.abs(found.omega[0]))), "real": float(abs(found.t[-1] - found.t[0]))}
     text = json.dumps(data, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")  # nothing of it ends the script
     return html.write(path, "attitude.html", title=printable(one.heading or "Attitude"), data=text, part=found.part(scale.system))
