@@ -36,7 +36,7 @@ class Balance:
     rate: Symbolic
 
 
-@dataclass(frozen=True, eq=False)  # one and the same object per scene: what is made of it is kept by identity
+@dataclass(frozen=True, eq=False, repr=False)  # one and the same object per scene: what is made of it is kept by identity
 class Equations:
     """Equations of motion as SymPy values.
 
@@ -58,6 +58,11 @@ class Equations:
     balances: tuple[Balance, ...]
     blocks: tuple[str, ...] = ("omega",)
     content: str = field(default="", init=False)
+
+    def __repr__(self) -> str:
+        balances = ", ".join(balance.name for balance in self.balances)
+        state, torques = ", ".join(map(str, self.state)), ", ".join(self.torques)
+        return f"Equations({state}; torques: {torques}; first integrals and balances: {balances})"
 
     @cached_property
     def jacobian(self) -> Symbolic:

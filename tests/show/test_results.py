@@ -23,6 +23,8 @@ RESULTS = {
     "Stuck": lambda: stabilab.stuck(stabilab.load(CASES / "upper-stage.toml")),
     "SpinUp": lambda: stabilab.spin_up(OFF, STATES[1]),
     "Diagram": lambda: stabilab.bifurcation(stabilab.load(CASES / "thruster-stuck-major-axis.toml"), {"torque[1]": "0:0.5"}),
+    "Plane": lambda: stabilab.bifurcation(stabilab.load(CASES / "thruster-stuck-major-axis.toml"),
+                                          {"torque[1]": "0.1:0.5", "momentum[2]": "0.1:0.5"}),
     "Chaos": lambda: stabilab.chaos(SCENE, STATES, until=40.0),
     "Ensemble": lambda: stabilab.ensemble(SCENE, STATES, TIMES)}
 
@@ -36,6 +38,11 @@ def results():
 def test_a_result_says_in_one_short_line_what_it_answers(results, name):
     line = repr(results[name])
     assert line.startswith(f"{name}(") and len(line) < 160 and "\n" not in line and "array(" not in line
+
+
+def test_equations_of_motion_say_in_one_short_line_what_they_hold():
+    line = repr(stabilab.derive(SCENE))
+    assert line.startswith("Equations(omega1, omega2, omega3; torques: ") and len(line) < 300 and "\n" not in line
 
 
 def test_the_line_of_a_motion_has_its_fate_margin_and_period(results):

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 from ...errors import InputError
 from ...numbers.balls import Unclear, rational, real_roots_of, settled
+from ...shown import Shown
 from ..keys import put
 from .choice import chosen
 from .critical import Cut, between, cuts
@@ -62,7 +63,7 @@ class Wall:
 
 
 @dataclass(frozen=True, repr=False)
-class Plane:
+class Plane(Shown):
     """All equilibria over two numbers. kind, what: as those of `Diagram`; curves: irreducible polynomials in p and q; strips: rising in p, without gaps;
     walls: lines of one p; cusps: where fold curves end in one another."""
 
@@ -74,9 +75,6 @@ class Plane:
     walls: tuple[Wall, ...] = ()
     cusps: tuple[Cusp, ...] = ()
     notes: tuple[str, ...] = ()
-
-    def __repr__(self) -> str:
-        return f"Plane({self.what}: {len(self.strips)} strips, {len(self.walls)} walls, {len(self.cusps)} cusps)"
 
 
 def plane(family: Family, borders: bool = False) -> Plane:

@@ -173,6 +173,14 @@ def _diagram(found):
     return Variables(("piece",), values, {}, {"what": found.what, "events": [event.value for event in (*found.events, *found.connections)]})
 
 
+def _plane(found):
+    number = lambda name: (("strip",), np.array([getattr(strip, name) for strip in found.strips]), {})
+    counts = [", ".join(str(piece.count) for piece in strip.line.pieces) for strip in found.strips]
+    values = {"low": number("low"), "high": number("high"), "equilibria": (("strip",), np.array(counts, dtype=object), {})}
+    return Variables(("strip",), values, {}, {"what": found.what, "walls": [wall.value for wall in found.walls], "cusps": len(found.cusps)})
+
+
 OF: dict[str, Callable[[Any], Variables]] = {
     "Simulation": _simulation, "Trajectory": _trajectory, "FateResult": _fates, "TimeTo": _times, "Equilibria": _equilibria, "Motion": _motion,
-    "Chaos": _chaos, "Diagram": _diagram, "Ensemble": _ensemble, "Separatrix": _separatrix, "Comparison": _comparison, "Stuck": _stuck, "SpinUp": _spin_up}
+    "Chaos": _chaos, "Diagram": _diagram, "Ensemble": _ensemble, "Plane": _plane,
+    "Separatrix": _separatrix, "Comparison": _comparison, "Stuck": _stuck, "SpinUp": _spin_up}

@@ -103,8 +103,12 @@ def _diagram(found):
     return f"{found.what}: {counts}; {len(found.events)} events, {len(found.connections)} connections"
 
 
+def _plane(found):
+    return f"{found.what}: {_counted(len(found.strips), 'strip')}, {_counted(len(found.walls), 'wall')}, {_counted(len(found.cusps), 'cusp')}"
+
+
 SHORT = {
-    "Diagram": _diagram, "Chaos": _chaos, "Ensemble": _ensemble,
+    "Diagram": _diagram, "Plane": _plane, "Chaos": _chaos, "Ensemble": _ensemble,
     "Motion": _motion, "Equilibria": _equilibria, "FateResult": _fates, "TimeTo": _time_to, "Separatrix": _separatrix,
     "Comparison": _comparison, "Stuck": _stuck, "SpinUp": _spin_up,
     "Trajectory": lambda run: _run(run.t, run.blocks, run.method, run.status, run.reason),
