@@ -232,7 +232,7 @@ def test_the_headline_of_a_bounded_motion_says_what_a_tilt_does(asked, stabilab,
     assert row.tilt.low * (1 - 1e-8) < t < row.tilt.high * (1 + 1e-8) and 0 <= row.tilt.not_before <= row.tilt.low
     code, out, _ = stabilab("stuck", tmp_path / "own.toml")
     first = out.splitlines()[0]
-    assert code == 0 and "only while the torque is exactly along z (minor axis): tilted by 5 deg it reaches 12 deg/s in " in first
+    assert code == 0 and "only while the torque is exactly along z (minor axis): tilted by 5 deg it reaches 12 deg/s after " in first
     assert asked(CASE.replace('[limits]\nrate = "60 deg/s"\n', ""), "0.02").rows[0].tilt is None
 
 
