@@ -131,6 +131,8 @@ def _torque(scenario: Scenario, family: Family, steady: bool) -> Margin:
     if change is None:
         return Margin(because="no torque along this axis changes the fate")
     words = "of a torque that stays on its axis" if family.torque + change else "to no torque at all: along this axis any torque spins it up"
+    if abs(change) < until < math.inf:
+        words += f"; from {until:.6g} N m along the same line on it {_again(steady)}"
     direction = _direction(scenario, family, {family.axis: 1 if change > 0 else -1})
     return Margin(float(abs(change)), direction, words, until)
 
