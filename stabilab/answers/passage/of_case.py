@@ -22,7 +22,11 @@ def limited_time(case: Any, ask: dict[str, Any], t_max: float | Fraction | None 
     """As `time_of_case`; where it is never, with what a tilt of the torque does, by what the case states as misalignment, else by one degree."""
     found = time_of_case(case, ask, t_max)
     never = math.isinf(found.low)
-    off = tilt(case.scene, case.state, None, case=case, exact=case.exact_state, ask=ask) if never and _on_axis(case.scene) else _spread(case, None, ask)
+    try:
+        on_axis = never and _on_axis(case.scene)
+        off = tilt(case.scene, case.state, None, case=case, exact=case.exact_state, ask=ask) if on_axis else _spread(case, None, ask)
+    except OverflowError:  # rates or a limit whose squares are no doubles: the condition in words is left
+        off = None
     return replace(found, caveats=caveats_of(case.scene, never, off, file=case.caveats))
 
 
