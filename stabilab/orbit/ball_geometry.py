@@ -39,7 +39,10 @@ class BallCircle(BallConic):
 
     @cached_property
     def all_spots(self):
-        behind = [Spot(y * 0 if self._is_turn(y) else y - 2 * self.numbers.pi(), k) for y, k in ((s.y, s.kind) for s in self.spots)]
+        turn = 2 * self.numbers.pi()
+        behind = [Spot(s.y * 0 if self._is_turn(s.y) else s.y - turn, s.kind) for s in self.spots]
+        if any(0 in s.y and not s.y.is_zero() for s in behind):
+            raise Unclear  # just ahead it would count as passed, just behind as reached
         return behind + self.spots
 
     def _is_turn(self, y):
