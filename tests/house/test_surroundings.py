@@ -359,7 +359,7 @@ def test_wheel_and_sdist_install_from_files_alone_in_a_bare_environment_and_answ
         lacking = run("simulate", MINOR, "--out", "r.nc")
         assert lacking.returncode == 2 and "stabilab[data]" in lacking.stderr and lacking.stderr.count("\n") == 1
         assert run("simulate", MINOR, "--at", "0,1").returncode == 0
-        listed = subprocess.run([*pip, "list"], capture_output=True, text=True).stdout.lower()
+        listed = subprocess.run([bin_ / "python", "-m", "pip", "list"], check=True, capture_output=True, text=True).stdout.lower()
         assert not any(package in listed for package in ("xarray", "pandas", "trame")) and "numba" in listed
 
 
