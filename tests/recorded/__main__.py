@@ -1,0 +1,29 @@
+"""Records what the commands say of all cases, or says where they say something else now.
+
+python -m tests.recorded [RECORD ...]: what differs from each record; exit code 1 where anything does.
+python -m tests.recorded --write [RECORD ...]: records anew; `git diff` says nothing of packed files, so look at the differences first.
+"""
+import sys
+import tempfile
+from pathlib import Path
+
+from .answers import ONE_CASE, RELATIVE, SEVERAL, USUAL, differences, now, record, recorded
+
+
+def main(arguments: list[str]) -> int:
+    write, names = "--write" in arguments, [a for a in arguments if a != "--write"] or [*ONE_CASE, *SEVERAL]
+    differ = 0
+    for name in names:
+        with tempfile.TemporaryDirectory() as folder:
+            found = now(name, Path(folder))
+        if write:
+            record(name, found)
+            continue
+        lines = differences(recorded(name), found, RELATIVE.get(name, USUAL))
+        differ += len(lines)
+        print(f"{name}: {len(lines)} differences", *lines, sep="\n  ")
+    return int(differ > 0)
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,120 @@
+"""What is recorded of every command, how it is run, and when two answers are the same."""
+from __future__ import annotations
+
+import contextlib
+import gzip
+import io
+import json
+import math
+import re
+import sys
+from pathlib import Path
+
+from stabilab import cli
+
+from .cases import ROOT, written
+
+HERE = Path(__file__).parent
+ONE_CASE = {  # of every case
+    "classify": ["classify", "--json"], "fate": ["fate", "--json"], "extremes": ["extremes", "--json"], "period": ["period", "--json"],
+    "stuck": ["stuck", "--json"], "when": ["when", "--rate", "30 deg/s", "--json"], "simulate": ["simulate", "--at", "0,1,10", "--json"],
+    "show": ["show"], "classify-text": ["classify"], "fate-text": ["fate", "--why"], "stuck-text": ["stuck"], "period-text": ["period"],
+}
+SEVERAL = {  # from the repository's root
+    "compare": [["compare", f"cases/{name}.toml", "--json"] for name in ("top-fast", "charged-body-small-torque", "liquid-torque-3")],
+    "audit": [["audit", "--json"], ["audit"]],
+    "digits": [["fate", "cases/minor-axis-100.toml", "cases/middle-axis-300.toml", "cases/major-axis-100.toml", "--digits", "30", "--json"],
+               ["period", "cases/minor-axis-100.toml", "cases/middle-axis-300.toml", "--digits", "40", "--json"],
+               ["extremes", "cases/minor-axis-100.toml", "cases/middle-axis-300.toml", "--digits", "40", "--json"]],
+    "tilt": [["fate", "cases/geostationary-22n.toml", "cases/cubesat-3u.toml", "--tilt", "1 deg", *form] for form in ([], ["--json"])],
+    "certificates": [["classify", "cases/minor-axis-100.toml", "--certify", "--out", "{}/certificate.json"], ["verify", "{}/certificate.json", "--json"],
+                     ["classify", "cases/off-axis-one.toml", "--certify", "--out", "{}/spin-up.json"], ["verify", "{}/spin-up.json", "--json"]],
+    "bifurcation": [["bifurcation", "cases/wheel-and-thruster.toml", "--vary", "torque[3]=0:2000", "--json"],
+                    ["bifurcation", "cases/wheel-and-thruster.toml", "--vary", "torque[3]=0:2000"],
+                    ["bifurcation", "cases/minor-axis-100.toml", "--vary", "effects.gyrostat.momentum[1]=-200:400", "--json"],
+                    ["bifurcation", "cases/two-wheels-minor-axis.toml", "--vary", "torque[1]=-1:1", "--vary", "torque[3]=-1:1", "--json"]],
+    "maps": [["sweep", "cases/minor-axis-100.toml", "--vary", "x[1]=-4:4:9", "--vary", "x[3]=-3:3:7", "--answer",
+              "fate,level,reason,margin,distance,extremes,period,equilibria", "--csv"],
+             ["atlas", "cases/thruster-stuck-major-axis.toml", "--level", "1", "--csv"],
+             ["basin", "cases/minor-axis-100.toml", "--vary", "x[1]=-4:4:17", "--vary", "x[3]=-3:3:17", "--json"]],
+}
+# Numbers agree to so much of the largest in their list: extremes are promised to 1e-12, periods to 1e-11 of themselves; a run keeps its own tolerance
+RELATIVE = {"simulate": 1e-9, "compare": 1e-9}
+USUAL = 1e-11
+NUMBER = re.compile(r"(?<![\w.])[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
+
+
+def run(*arguments: str) -> dict:
+    """Exit code, answer (parsed where it is JSON) and message of a command, run in this process."""
+    out, err, before = io.StringIO(), io.StringIO(), sys.argv
+    sys.argv = ["stabilab", *arguments]
+    try:
+        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
+            cli.main()
+        code = 0
+    except SystemExit as end:
+        code = end.code or 0
+    finally:
+        sys.argv = before
+    text = out.getvalue()
+    return {"exit": code, "answer": json.loads(text) if "--json" in arguments and text else text, "message": err.getvalue()}
+
+
+def now(record: str, folder: Path) -> dict:
+    """{case, or command line: what is said of it} of one of the records."""
+    if record in SEVERAL:
+        lines = [[word.format(folder) for word in line] for line in SEVERAL[record]]
+        return {" ".join(line): _without(run(*filled), folder) for line, filled in zip(SEVERAL[record], lines)}
+    command, *options = ONE_CASE[record]
+    return {path.stem: _without(run(command, str(path), *options), folder, path) for path in written(folder)}
+
+
+def _without(found: dict, folder: Path, *paths: Path) -> dict:
+    """The same without where it was run."""
+    text = json.dumps(found)
+    for place in (*(str(p.parent) for p in paths), str(folder), str(ROOT)):
+        text = text.replace(place, ".")
+    return json.loads(text)
+
+
+def recorded(name: str) -> dict:
+    with gzip.open(HERE / f"{name}.json.gz", "rt", encoding="utf-8") as file:
+        return json.load(file)
+
+
+def record(name: str, found: dict) -> None:
+    text = json.dumps(found, indent=0, sort_keys=True)
+    (HERE / f"{name}.json.gz").write_bytes(gzip.compress(text.encode(), mtime=0))
+
+
+def differences(before, now, relative: float, where: str = "", size: float = 0.0) -> list[str]:
+    """Where two answers differ, in words: words and whole numbers exactly, others to `relative` of the largest beside them, numbers inside
+    words to one in their last digit."""
+    if isinstance(before, dict) and isinstance(now, dict):
+        found = [f"{where}: {sorted(before.keys() ^ now.keys())} in one only"] if before.keys() != now.keys() else []
+        return found + [d for key in before.keys() & now.keys() for d in differences(before[key], now[key], relative, f"{where}.{key}")]
+    if isinstance(before, list) and isinstance(now, list):
+        if len(before) != len(now):
+            return [f"{where}: {len(before)} entries, now {len(now)}"]
+        largest = max((abs(v) for v in before if isinstance(v, float) and math.isfinite(v)), default=0.0)
+        return [d for i, pair in enumerate(zip(before, now)) for d in differences(*pair, relative, f"{where}[{i}]", largest)]
+    if isinstance(before, (int, float)) and isinstance(now, (int, float)) and isinstance(before + now, float):
+        same = before == now or abs(before - now) <= relative * max(abs(before), size)
+    elif isinstance(before, str) and isinstance(now, str):
+        same = _same_words(before, now)
+    else:
+        same = before == now
+    return [] if same else [f"{where}: {before!r}, now {now!r}"]
+
+
+def _same_words(before: str, now: str) -> bool:
+    one, other = NUMBER.findall(before), NUMBER.findall(now)
+    return NUMBER.sub("#", before) == NUMBER.sub("#", now) and all(
+        a == b or abs(float(a) - float(b)) <= 1.5 * _last(a) for a, b in zip(one, other))
+
+
+def _last(number: str) -> float:
+    """The unit of a printed number's last digit; 0 of a whole number, which counts something."""
+    digits, _, power = number.partition("e")
+    after = len(digits.partition(".")[2])
+    return 10.0 ** (int(power or 0) - after) if after or power else 0.0
