@@ -84,7 +84,7 @@ def _main_curve(p: Pencil) -> RationalCurve:
     bottom = Poly((1,))
     for f in distinct:
         bottom = bottom * f
-    tops = tuple((bottom * T * p.lam[i]).divmod(factors[i])[0] if i in factors else Poly(()) for i in range(3))
+    tops = tuple(bottom * T * p.lam[i] // factors[i] if i in factors else Poly(()) for i in range(3))
     poles = tuple(sorted({-f.c[0] / f.c[1] for f in distinct}))
     crossings = {1 / (p.D[i] - p.D[lead]): _crossing(p, i) for i in range(3) if not p.lam[i] and p.D.count(p.D[i]) == 1}
     name = p.names[lead]

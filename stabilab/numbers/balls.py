@@ -12,7 +12,6 @@ from threading import RLock
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from ..record import record
-from .polynomial import Poly, real_roots
 from .vectors import Number
 
 if TYPE_CHECKING:
@@ -141,10 +140,64 @@ def _roots_stand_apart(poly: fmpq_poly) -> bool:
 
 def _by_sturm(factor: fmpq_poly) -> list[arb]:
     """The real roots of an irreducible polynomial in exact arithmetic, as balls of the working precision."""
-    from flint import arb, ctx
-    bits = ctx.prec
-    middles = real_roots(Poly([Fraction(int(c.p), int(c.q)) for c in factor.coeffs()]), bits)
-    return [arb(at := rational(middle), abs(at) / (1 << bits)) for middle in middles]
+    from flint import arb, ctx, fmpq
+    if factor.degree() == 1:
+        return [arb(-factor[0] / factor[1])]
+    chain = [factor, factor.derivative()]
+    while chain[-1].degree() > 0:
+        rest = -(chain[-2] % chain[-1])
+        chain.append(rest / fmpq(rest.numer().content(), rest.denom()))
+
+    def changes(at: fmpq) -> int:
+        signs = [value > 0 for f in chain if (value := f(at)) != 0]
+        return sum(s != t for s, t in zip(signs, signs[1:]))
+    largest = max(map(abs, factor.coeffs()))
+    high = 1 + largest / abs(factor.leading_coefficient())  # Cauchy's bound, and that of 1/t: roots are no rational numbers here
+    low = 1 / (1 + largest / abs(factor[0]))
+    found, todo = [], [(-high, -low), (low, high)]
+    while todo:
+        a, b = todo.pop()
+        many = changes(a) - changes(b)
+        if many == 1:
+            a, b = _narrowed(factor, a, b, ctx.prec)
+            found.append(arb((a + b) / 2, (b - a) / 2))
+        elif many:
+            middle = _middle(a, b)
+            todo += [(a, middle), (middle, b)]
+    return found
+
+
+def _middle(a: fmpq, b: fmpq) -> fmpq:
+    """A dyadic number between two of one sign: near the geometric mean while they are far apart."""
+    from flint import fmpq
+    if a < 0:
+        return -_middle(-b, -a)
+    if b <= 8 * a:
+        return (a + b) / 2
+    size = lambda v: int(v.p).bit_length() - int(v.q).bit_length()
+    return fmpq(2) ** ((size(a) + size(b)) // 2)
+
+
+def _narrowed(factor: fmpq_poly, a: fmpq, b: fmpq, bits: int) -> tuple[fmpq, fmpq]:
+    """The bracket (a, b) of a simple root to 2**-bits relative: Newton's step over it where its slope has a sign, else halved."""
+    from flint import arb, arb_poly
+    rising, slope = factor(b) > 0, arb_poly(factor.derivative())
+    while (b - a) * 2**bits > min(abs(a), abs(b)):
+        middle = _middle(a, b)
+        value, rate = factor(middle), slope(arb(a).union(arb(b)))
+        first, last = (a, middle) if (value > 0) == rising else (middle, b)
+        if not rate.contains(0):
+            step = middle - value / rate
+            first, last = max(first, step.lower().fmpq()), min(last, step.upper().fmpq())
+        if not last - first < b - a:
+            return a, b
+        a, b = first, last
+    return a, b
+
+
+def fraction(value: fmpq) -> Fraction:
+    """flint's rational as Python's."""
+    return Fraction(int(value.p), int(value.q))
 
 
 def sign(number: Number) -> int:

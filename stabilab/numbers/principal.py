@@ -1,7 +1,7 @@
 """Principal axes of a symmetric tensor of rationals, without a rounding that is not known.
 
 Whether a tensor has positive moments is decided by signs of exact determinants. Its principal moments are the roots of its
-characteristic polynomial, isolated by Sturm's theorem: rational roots are recognised and kept, the others are enclosed. The direction
+characteristic polynomial: rational ones are exact, the others are enclosed. The direction
 of a rational moment is exact, and the other two are exactly across it, so a torque along it has no component across it. A length that
 is irrational has the same error. `error` bounds what is left, proved by the residual and the gaps (Davis and Kahan 1970).
 """
@@ -14,7 +14,7 @@ from typing import TypeAlias
 from ..errors import InputError
 from ..record import record
 from .exact import sqrt_fraction
-from .polynomial import Poly, integers, real_roots
+from .polynomial import Poly, real_roots
 from .vectors import Exact3, Number, Triple, cross, dot
 
 Rows: TypeAlias = Sequence[Sequence[Fraction]]  # of a 3 x 3 matrix
@@ -113,18 +113,12 @@ def _characteristic(m: Rows) -> Poly:
 def _moments(m: Rows, polynomial: Poly, bits: int) -> tuple[Moment, Moment, Moment]:
     """((moment, whether it is rational and exact), ...) descending, as often as they are repeated; their sum is the exact trace."""
     trace = m[0][0] + m[1][1] + m[2][2]
-    roots = [_rational(polynomial, root) for root in reversed(real_roots(polynomial, bits))]
+    roots = [(root, polynomial(root) == 0) for root in reversed(real_roots(polynomial, bits))]
     if len(roots) == 3:
         middle = trace - roots[0][0] - roots[2][0]
         return roots[0], (middle, roots[1][1]), roots[2]
     first, second = roots  # one of a cubic's two roots is double, so both are rational
     return (first, first, second) if polynomial.derivative()(first[0]) == 0 else (first, second, second)
-
-
-def _rational(polynomial: Poly, root: Fraction) -> Moment:
-    """(the rational root that this is within its error, True), or (root, False)."""
-    near = root.limit_denominator(integers(polynomial)[-1])
-    return (near, True) if polynomial(near) == 0 else (root, False)
 
 
 def _axes(m: Rows, moments: Sequence[Moment], bits: int) -> PrincipalAxes | None:

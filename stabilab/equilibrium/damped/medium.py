@@ -13,7 +13,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from ...numbers.polynomial import Poly, integers, real_roots
+from ...numbers.polynomial import Poly, real_roots
 from ...numbers.vectors import CYCLE
 from ...physics.coefficients import Content
 from ...physics.quadratic import euler_form
@@ -69,7 +69,7 @@ def elimination(parts: Content, form, e):
     f, g = form.kappa[j] * T + form.rho[j], form.sigma[j] * T + form.m[j]                            # c x_j = f x_i + g
     q = c * c - a * f
     top_i, top_j = c * b + a * g, c * g + f * b
-    common = _gcd(_gcd(q, top_i), top_j) if top_i or top_j else q
+    common = q.gcd(top_i).gcd(top_j)
     if common.degree > 0 and real_roots(common):
         return None
     P = (form.kappa[e] * top_i * top_j + form.rho[e] * top_j * q + form.sigma[e] * top_i * q - c * T * q * q + form.m[e] * q * q)
@@ -78,20 +78,11 @@ def elimination(parts: Content, form, e):
     return tuple(tops), q, _without_common(P, q), e
 
 
-def _gcd(a: Poly, b: Poly) -> Poly:
-    while b:
-        rest = a.divmod(b)[1]
-        a, b = b, Poly(integers(rest)) if rest else Poly(())
-    return a
-
-
 def _without_common(P: Poly, q: Poly) -> Poly:
     """P without the factors it shares with q (there the linear equations have no solution)."""
-    while True:
-        common = _gcd(P, q)
-        if common.degree < 1:
-            return P
-        P = P.divmod(common)[0]
+    while (common := P.gcd(q)).degree > 0:
+        P = P // common
+    return P
 
 
 def sign_at(R: Poly, P: Poly, t: Fraction, bits: int = BITS) -> int:
@@ -101,7 +92,7 @@ def sign_at(R: Poly, P: Poly, t: Fraction, bits: int = BITS) -> int:
     slack = radius * sum(n * abs(v) * (abs(t) + radius)**(n - 1) for n, v in enumerate(R.c) if n)
     if abs(value) > slack or not radius:
         return (value > 0) - (value < 0)
-    common = _gcd(P, R)
+    common = P.gcd(R)
     if common.degree > 0 and any(abs(r - t) <= 4 * radius for r in real_roots(common, bits)):
         return 0
     finer = min(real_roots(P, 2 * bits), key=lambda r: abs(r - t))
