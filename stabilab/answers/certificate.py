@@ -10,10 +10,17 @@ from fractions import Fraction
 from typing import Any
 
 from ..equilibrium.balance import pencil
-from ..equilibrium.conics import balance_fails, conic_curves
-from ..equilibrium.isolated import isolated_states
+from ..equilibrium.gyrostat import (
+    DRIFT,
+    balance_fails,
+    conic_curves,
+    isolated_states,
+    plane_centre,
+    plane_moments,
+    plane_of_equal_moments,
+    torque_free_curves,
+)
 from ..equilibrium.stability import curve_with_verdicts, cuts_of, isolated_point
-from ..equilibrium.torque_free import DRIFT, plane_centre, plane_moments, plane_of_equal_moments, torque_free_curves
 from ..orbit.ball_orbit import Orbit
 from ..orbit.extremes.balls import extreme_balls
 from ..orbit.fate.one_state import fate_of

@@ -15,9 +15,9 @@ from ..physics.scene import AnyScene
 # kind of a scene's torques -> (module of `equilibrium`, its function of their coefficients); one that no scene names is not loaded
 BY_KIND = {
     "gyrostat": ("gyrostat", "twin_equilibria"),
-    "dissipative": ("damped.dissipative", "dissipative_equilibria"),
-    "directed": ("field.steady_states", "directed_equilibria"),
-    "directed and dissipative": ("damped.dissipative", "held_in_a_field"),
+    "dissipative": ("dissipative", "dissipative_equilibria"),
+    "directed": ("field_states", "directed_equilibria"),
+    "directed and dissipative": ("dissipative", "held_in_a_field"),
 }
 
 

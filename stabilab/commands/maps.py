@@ -5,7 +5,7 @@ from ..maps.atlas.asked import asked
 from ..maps.atlas.run import drawn
 from ..maps.basins.ask import basins
 from ..maps.bifurcation.ask import bifurcation as ask
-from ..maps.bifurcation.result import Diagram
+from ..maps.bifurcation.family import Diagram
 from ..maps.diagram_certificate import certifiable, diagram_certificate
 from ..maps.plan import planned, split_keys
 from ..maps.run import run

@@ -11,11 +11,10 @@ from typing import TYPE_CHECKING, Any
 from ..errors import InputError
 from ..numbers.balls import rational, settled
 from ..version import __version__
+from .bifurcation.algebraic import Algebraic
 from .bifurcation.eliminated import univariate
-from .bifurcation.family import Family
-from .bifurcation.field.algebraic import Algebraic
-from .bifurcation.result import CURVES, ENDLESS, Diagram, Event, Piece
-from .bifurcation.system import BORDERS, ISOLATED, LEAF, fixed_axis
+from .bifurcation.equations import BORDERS, ISOLATED, LEAF, fixed_axis
+from .bifurcation.family import CURVES, ENDLESS, Diagram, Event, Family, Piece
 
 if TYPE_CHECKING:
     from flint import fmpq_poly

@@ -1,4 +1,4 @@
-"""Exact numbers: what the user wrote, before any rounding."""
+"""Exact numbers: what the user wrote, before any rounding, and roots of quadratics."""
 from __future__ import annotations
 
 import math
@@ -12,7 +12,8 @@ from types import ModuleType
 from typing import Any
 
 from ..errors import InputError
-from .vectors import Exact3
+from ..record import record
+from .vectors import Exact3, Number
 
 _DIGITS = r"\d+(?:_\d+)*"  # one way only to match: else a long wrong number would be tried in exponentially many
 _DECIMAL = re.compile(rf"\s*[+-]?(?:{_DIGITS}(?:\.(?:{_DIGITS})?)?|\.{_DIGITS})(?:[eE][+-]?\d{{1,4}})?\s*", re.ASCII)
@@ -183,3 +184,53 @@ def _nearest(value: Fraction, places: int) -> Fraction:
 def floats(values: Iterable[Any]) -> tuple[float, ...]:
     """Each exact number rounded once, to the nearest double."""
     return tuple(float(v) for v in values)
+
+
+@record
+class Surd:
+    """p + q sqrt(d). Arithmetic joins surds of one d and rationals."""
+
+    p: Fraction
+    q: Fraction = Fraction(0)
+    d: Fraction = Fraction(0)
+
+    def __add__(self, other: Number) -> Surd:
+        if isinstance(other, Surd):
+            return Surd(self.p + other.p, self.q + other.q, self.d)
+        return Surd(self.p + other, self.q, self.d)
+
+    def __mul__(self, other: Number) -> Surd:
+        if isinstance(other, Surd):
+            return Surd(self.p * other.p + self.q * other.q * self.d, self.p * other.q + self.q * other.p, self.d)
+        return Surd(self.p * other, self.q * other, self.d)
+
+    def __neg__(self) -> Surd:
+        return Surd(-self.p, -self.q, self.d)
+
+    def __sub__(self, other: Number) -> Surd:
+        return self + -other
+
+    __radd__, __rmul__ = __add__, __mul__
+
+    @property
+    def sign(self) -> int:
+        """-1, 0 or 1, exactly."""
+        second = 0 if not self.d else _sign(self.q)
+        first = _sign(self.p)
+        if first * second >= 0:
+            return first or second
+        return first * _sign(self.p * self.p - self.q * self.q * self.d)
+
+    def fraction(self) -> Fraction:
+        """A rational within about 2**-200 relative; where the two terms oppose, by the conjugate, without
+        cancellation."""
+        if not self.sign:
+            return Fraction(0)
+        term = self.q * sqrt_fraction(self.d)
+        if self.p * term >= 0:
+            return self.p + term
+        return (self.p * self.p - self.q * self.q * self.d) / (self.p - term)
+
+
+def _sign(value: Fraction) -> int:
+    return (value > 0) - (value < 0)

@@ -9,8 +9,8 @@ from fractions import Fraction
 from math import hypot, inf, sqrt
 from typing import Any
 
-from ..equilibrium.damped.liquid_and_torque import trap
-from ..equilibrium.damped.medium import GLOBAL, energy_bound, resisted_equilibria
+from ..equilibrium.liquid import trap
+from ..equilibrium.medium import GLOBAL, energy_bound, resisted_equilibria
 from ..numbers.vectors import dot
 from ..orbit.fate.reasons import REASONS, Reason
 from ..orbit.result import Fate, Motion

@@ -1,7 +1,7 @@
 """What a certificate is about: the numbers of its scene and state, in a line, and compared with those of a case."""
 from __future__ import annotations
 
-from .diagram import about as diagram
+from .diagram import claims as diagram
 from .form import SCENES
 from .numbers import number, shown
 

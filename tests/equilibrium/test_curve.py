@@ -9,7 +9,7 @@ import pytest
 
 from stabilab import Body, Scene
 from stabilab.answers.equilibria import equilibria
-from stabilab.equilibrium.curve import sample_parameters
+from stabilab.equilibrium.result import sample_parameters
 from stabilab.errors import InputError
 
 

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from stabilab import Body, ScaledGyrostat, Scene, equilibria
-from stabilab.equilibrium.conics import WELL
-from stabilab.equilibrium.curve import RationalCurve, straight_line
+from stabilab.equilibrium.gyrostat import WELL
+from stabilab.equilibrium.result import RationalCurve, straight_line
 from stabilab.equilibrium.stability import curve_with_verdicts
 from tests.equilibrium.test_gyrostat import CURVED
 from tests.oracles.pairs import physical

@@ -13,8 +13,7 @@ from hypothesis import strategies as st
 
 from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene, equilibria
 from stabilab.equilibrium.balance import pencil
-from stabilab.equilibrium.conics import balance_fails, conic_curves
-from stabilab.equilibrium.torque_free import torque_free_curves
+from stabilab.equilibrium.gyrostat import balance_fails, conic_curves, torque_free_curves
 from stabilab.errors import InputError
 
 D_PAPER = (2000, 1500, 1000)

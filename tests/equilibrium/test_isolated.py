@@ -5,7 +5,7 @@ from fractions import Fraction as F
 
 import stabilab
 from stabilab import Body, ConstantTorque, Gyrostat, Scene
-from stabilab.equilibrium.curve_text import decimal
+from stabilab.equilibrium.result import decimal
 
 
 def test_a_discriminant_beyond_the_doubles_is_still_told():

@@ -4,7 +4,7 @@ from __future__ import annotations
 import random
 from fractions import Fraction as F
 
-from stabilab.equilibrium.spectrum import eigenvalues
+from stabilab.equilibrium.stability import eigenvalues
 
 
 def cubics():

@@ -12,10 +12,9 @@ from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
 from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene, equilibria
-from stabilab.equilibrium.spectrum import eigenvalues
-from stabilab.equilibrium.stability import isolated_verdict
+from stabilab.equilibrium.stability import eigenvalues, isolated_verdict
+from stabilab.numbers.exact import Surd
 from stabilab.numbers.polynomial import Poly, real_roots
-from stabilab.numbers.surd import Surd
 
 
 def physical(D, lam, M) -> Scene:

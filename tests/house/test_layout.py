@@ -33,7 +33,7 @@ DOORS = {
     ("stabilab.commands.pictures", "stabilab.show.explore.static"): "loads what writes a page as a folder",
     ("stabilab.commands.questions", "stabilab.answers.digits.ask"): "loads numpy",
     ("stabilab.commands.verify", "stabilab.answers.certificate"): "loaded for --case alone",
-    ("stabilab.equilibrium.damped.liquid_and_torque", "stabilab.numbers.krawczyk"): "loads numpy",
+    ("stabilab.equilibrium.liquid", "stabilab.numbers.krawczyk"): "loads numpy",
     ("stabilab.physics.approximate", "stabilab.physics.law_limits"): "loaded for approximate laws alone",
     ("stabilab.physics.state", "stabilab.physics.states"): "loads numpy",
     ("stabilab.show.explore.other", "stabilab.show.plot.path"): "loads numpy",

@@ -13,11 +13,10 @@ from flint import fmpq_poly
 from stabilab.commands.maps import bifurcation as command
 from stabilab.errors import InputError
 from stabilab.verify import verify
-from stabilab.verify.diagram.check import check_diagram
+from stabilab.verify.diagram.algebra import MOST, Work
+from stabilab.verify.diagram.check import Between, Root, check_diagram, roots
 from stabilab.verify.diagram.claims import claims_of
-from stabilab.verify.diagram.count import System, count_at, critical
-from stabilab.verify.diagram.sturm import Between, Root, roots
-from stabilab.verify.diagram.work import MOST, Work
+from stabilab.verify.diagram.equations import System, count_at, critical
 from stabilab.verify.numbers import Malformed
 from tests.shared import CASES
 from tests.verify.diagrams import certified, drawn, forgeries

@@ -13,10 +13,9 @@ from ...physics.coefficients import effective
 from ..plan import place_and_text
 from ..span import spans_of
 from .connections import with_connections
-from .family import Family
-from .line import diagram
+from .diagram import diagram
+from .family import Diagram, Family
 from .plane import Plane, plane
-from .result import Diagram
 
 
 def bifurcation(case: Case | str | os.PathLike[str], vary: Mapping[str, Any] | Sequence[tuple[str, Any]], curve: bool = False) -> Diagram | Plane:

@@ -18,14 +18,11 @@ from typing import TYPE_CHECKING, Any
 
 from ...numbers.balls import Unclear, rational, real_roots_of, settled, working
 from ...numbers.vectors import Float3
-from .choice import chosen
-from .critical import between
-from .eliminated import Eliminated, at_rational, evaluated, of_power, univariate
-from .family import Family
-from .parts import followed, parts
-from .result import Diagram, Event, Piece, State
-from .system import LEAF, Conics
-from .verdicts import ball_form, general_states
+from .algebraic import between
+from .diagram import ball_form, followed, general_states, parts
+from .eliminated import Eliminated, at_rational, coefficients, evaluated, univariate
+from .equations import LEAF, Conics, chosen
+from .family import Diagram, Event, Family, Piece, State
 
 if TYPE_CHECKING:
     from flint import arb, arb_series
@@ -134,7 +131,7 @@ class _Rise:
         self.family, self.eliminated, self.saddles, self.way, self.budget = family, eliminated, saddles, way, budget
         self.known: dict[Fraction, arb] = {}
         f = eliminated.main.f
-        self.top, self.bottom = of_power(f, 1, 0), of_power(f, 1, 1)  # y = -top/bottom, with its slopes' numerators
+        self.top, self.bottom = coefficients(f, 1, 2)[:2]  # y = -top/bottom, with its slopes' numerators
         self.slopes = [self.top * self.bottom.derivative(name) - self.top.derivative(name) * self.bottom for name in ("x", "p")]
 
     def sign(self, value: Fraction) -> int:

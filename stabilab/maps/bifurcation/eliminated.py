@@ -13,9 +13,9 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ...numbers.balls import Unclear, rational, real_roots_of
+from .algebraic import Algebraic, Powers
+from .equations import LEANS, Conics, OnLine, common_divisor
 from .family import Family
-from .field.algebraic import Algebraic, Powers
-from .system import LEANS, Conics, OnLine
 
 if TYPE_CHECKING:
     from flint import arb, fmpq_mpoly, fmpq_poly
@@ -62,9 +62,7 @@ class Eliminated:
     def main(self) -> Leant:
         """The first view in which the general point has as many roots as in any."""
         at = tuple(span.low + (span.high - span.low) * part for span, part in zip(self.family.spans, PROBES))
-        found = [(len(self._distinct(view, at)) - 1, view) for view in self.views]
-        most = max(number for number, _ in found)
-        return next(view for number, view in found if number == most)
+        return max(self.views, key=lambda view: _distinct(univariate(at_rational(view.R, at))))
 
     @property
     def endless(self) -> bool:
@@ -80,10 +78,10 @@ class Eliminated:
     def critical(self) -> tuple[fmpq_mpoly, ...]:
         """Irreducible polynomials in the numbers that vary, one of which is zero wherever the number of real roots changes."""
         R = self.reduced
-        parts = [_leading(R), *([_guard(self.main.guard)] if self.main.guard else [])]
+        parts = [coefficients(R, 0)[-1], common_divisor(self.main.guard)]
         if R.degrees()[0] > 1:
             parts.append(R.resultant(R.derivative("x"), "x"))
-        parts += [c for f, _ in _factors(self.main.R) if (c := f).degrees()[0] < 1]
+        parts += [f for f, _ in _factors(self.main.R) if f.degrees()[0] < 1]
         parts.append(self.system.special)
         found: dict[str, fmpq_mpoly] = {}
         for part in parts:
@@ -93,11 +91,14 @@ class Eliminated:
 
     def _leant(self, lean: Fraction) -> Leant | None:
         f, g = self.system.leant(lean)  # type: ignore[union-attr]  # a line is not asked
-        highest = 1 if max(_total(f), _total(g)) < 2 else 2  # of two lines all over the range y itself has constant coefficients
-        guard = tuple(_coefficient(h, highest) for h in (f, g))
+        # of two lines all over the range y itself has constant coefficients
+        highest = 2 if any(powers[0] + powers[1] > 1 for h in (f, g) for powers in h.to_dict()) else 1
+        guard = tuple(coefficients(h, 1, 3)[highest] for h in (f, g))
         if all(c.is_zero() for c in guard):
             return None
-        return Leant(lean, f, g, _resultant_y(f, g), guard)
+        if max(f.degrees()[1], g.degrees()[1]) < 1:
+            return Leant(lean, f, g, f.gcd(g), guard)
+        return Leant(lean, f, g, f * 0 if f.is_zero() or g.is_zero() else f.resultant(g, "y"), guard)
 
     def once(self, R: fmpq_mpoly) -> fmpq_mpoly:
         """The product of its different factors that hold the unknown."""
@@ -106,13 +107,6 @@ class Eliminated:
             if factor.degrees()[0] > 0:
                 out *= factor
         return out
-
-    def _distinct(self, view: Leant, at: tuple[Fraction, ...]) -> list[Fraction]:
-        """Coefficients of the square-free part of R there, in size of its distinct roots plus one."""
-        f = univariate(at_rational(view.R, at))
-        if f.degree() < 1:
-            return [Fraction(0)] * (1 if f.degree() == 0 else 9)
-        return [Fraction(0)] * (f.degree() - f.gcd(f.derivative()).degree() + 1)
 
     def at_general(self, values: tuple[Fraction, ...], view: Leant | None = None) -> list[Root]:
         """The same at a point where nothing happens, by one view, else the main one: rising in x, so that branches keep their numbers."""
@@ -132,7 +126,7 @@ class Eliminated:
         key = (str(number.polynomial), number.index)
         if key not in self._known:
             made = [(view, number.powers(f)) for view in self._needed(number) if not all(_zero_at(c, number) for c in view.guard)
-                    if (f := number.trimmed(_over_field(view.R)))]
+                    if (f := number.trimmed(over_field(view.R)))]
             self._known[key] = max(made, key=lambda one: sum(len(factor) - 1 for factor, _ in one[1])) if made else self._of_lines(number)
         return self._known[key]
 
@@ -142,13 +136,10 @@ class Eliminated:
         zero = number.polynomial * 0
         rows = []
         for h in (view.f, view.g):
-            at: dict[tuple[int, int], Any] = {}
-            for n in range(3):
-                for m in range(3 - n):
-                    at[n, m] = number.reduced(univariate(of_power(of_power(h, 0, n), 1, m), 2))
-            if any(at[place] != zero for place in ((2, 0), (1, 1), (0, 2))):
+            at = [[number.reduced(c) for c in over_field(row, 1)] for row in coefficients(h, 0, 3)]
+            if any(c != 0 for n, row in enumerate(at) for m, c in enumerate(row) if n + m > 1):
                 return None
-            rows.append((at[0, 0], at[1, 0], at[0, 1]))
+            rows.append((at[0][0], at[1][0], at[0][1] if len(at[0]) > 1 else zero))
         (f0, f1, f2), (g0, g1, g2) = rows
         across, constant, other = (number.reduced(c) for c in (f1 * g2 - g1 * f2, f0 * g2 - g0 * f2, f0 * g1 - g0 * f1))
         if across != zero:
@@ -174,7 +165,7 @@ class Eliminated:
             return self.family.ring.constant(1)
         if f.degrees()[1] != 1:
             return None
-        a, b = _coefficient(f, 0), _coefficient(f, 1)
+        a, b = coefficients(f, 1)
         return b if b.degrees()[0] < 1 else a if a.degrees()[0] < 1 else a.resultant(b, "x")
 
     def flat(self, number: Algebraic) -> bool:
@@ -184,7 +175,7 @@ class Eliminated:
             return False
         _, c1, c2 = (number.reduced(univariate(c, 2)) for c in line.coefficients)
         x, total = number.reduced(number.inverse(2 * c2) * -c1), number.polynomial * 0
-        for c in reversed(_over_field(line.m(self.family))):
+        for c in reversed(over_field(line.m(self.family))):
             total = number.reduced(total * x + c)
         return bool(total == 0)
 
@@ -197,12 +188,17 @@ class Eliminated:
         if isinstance(self.system, OnLine):
             below = of(self.system.below)
             return tuple((of(s) + x * of(a)) / below for s, a in zip(self.system.start, self.system.along))
-        rows = [[of(_coefficient(h, n), x) for n in range(3)] for h in (view.f, view.g)]
+        rows = [[of(c, x) for c in coefficients(h, 1, 3)] for h in (view.f, view.g)]
         y = _common(rows)
         place = [arb(0)] * 3
         j, k = (self.system.axis + 1) % 3, (self.system.axis + 2) % 3
         place[j], place[k] = x + y * rational(view.lean), y
         return tuple(place)
+
+
+def _distinct(f: fmpq_poly) -> int:
+    """The number of different roots, complex ones counted; more than any has where all numbers are roots."""
+    return 9 if f.degree() < 0 else int(f.degree() - f.gcd(f.derivative()).degree()) if f.degree() else 0
 
 
 def _common(rows: list[list[arb]]) -> arb:
@@ -223,64 +219,35 @@ def _common(rows: list[list[arb]]) -> arb:
     raise Unclear
 
 
-def _total(h: fmpq_mpoly) -> int:
-    """The degree in both unknowns."""
-    return max((powers[0] + powers[1] for powers in h.to_dict()), default=0)
-
-
 def _factors(f: fmpq_mpoly) -> list[tuple[fmpq_mpoly, int]]:
     return [] if f.is_zero() or f.is_constant() else f.factor()[1]
 
 
-def _leading(R: fmpq_mpoly) -> fmpq_mpoly:
-    """The coefficient of the highest power of x."""
-    return of_power(R, 0, max(R.degrees()[0], 0))
-
-
-def _guard(guard: tuple[fmpq_mpoly, ...]) -> fmpq_mpoly:
-    """Zero wherever all of them are."""
-    out = guard[0]
-    for c in guard[1:]:
-        out = out.gcd(c)
-    return out
-
-
-def _coefficient(h: fmpq_mpoly, n: int) -> fmpq_mpoly:
-    """The coefficient of y^n."""
-    return of_power(h, 1, n)
-
-
-def of_power(h: fmpq_mpoly, variable: int, n: int) -> fmpq_mpoly:
-    ring = h.context()
-    terms = {tuple(0 if i == variable else e for i, e in enumerate(powers)): c for powers, c in h.to_dict().items() if powers[variable] == n}
-    return ring.from_dict(terms)
-
-
-def _resultant_y(f: fmpq_mpoly, g: fmpq_mpoly) -> fmpq_mpoly:
-    if f.is_zero() or g.is_zero():
-        return f * 0
-    if max(f.degrees()[1], g.degrees()[1]) < 1:
-        return f.gcd(g)
-    return f.resultant(g, "y")
+def coefficients(f: fmpq_mpoly, variable: int, size: int = 1) -> list[fmpq_mpoly]:
+    """Those of the powers of one variable, lowest first, at least so many."""
+    rows: list[dict[tuple[int, ...], Any]] = [{} for _ in range(max(size, f.degrees()[variable] + 1))]
+    for powers, c in f.to_dict().items():
+        rows[powers[variable]][(*powers[:variable], 0, *powers[variable + 1:])] = c
+    return [f.context().from_dict(row) for row in rows]
 
 
 def at_rational(f: fmpq_mpoly, values: tuple[Fraction, ...]) -> fmpq_mpoly:
     """With rational numbers in the place of p (and q)."""
-    return f.subs(dict(zip(("p", "q"), map(rational, values))))
+    return f.subs(dict(zip("pq", map(rational, values))))
 
 
 def univariate(f: fmpq_mpoly, variable: int = 0) -> fmpq_poly:
     """As a polynomial in one variable, which is all it has."""
     from flint import fmpq_poly
-    coefficients: list[Any] = [0] * (max(f.degrees()[variable], 0) + 1)
+    row: list[Any] = [0] * (max(f.degrees()[variable], 0) + 1)
     for powers, c in f.to_dict().items():
-        coefficients[powers[variable]] = c
-    return fmpq_poly(coefficients)
+        row[powers[variable]] = c
+    return fmpq_poly(row)
 
 
-def _over_field(R: fmpq_mpoly) -> list[fmpq_poly]:
-    """Coefficients of the powers of x, as polynomials in p."""
-    return [univariate(of_power(R, 0, n), 2) for n in range(max(R.degrees()[0], 0) + 1)]
+def over_field(f: fmpq_mpoly, variable: int = 0) -> list[fmpq_poly]:
+    """Coefficients of the powers of a variable, as polynomials in p."""
+    return [univariate(c, 2) for c in coefficients(f, variable)]
 
 
 def _zero_at(c: fmpq_mpoly, number: Algebraic) -> bool:

@@ -1,5 +1,6 @@
-"""The scenes over a range as polynomials: moments, wheel, torque and start with exact coefficients in the numbers that vary.
+"""The scenes over a range as polynomials, and what is found over it: a diagram as data.
 
+Moments, wheel, torque and start are polynomials with exact coefficients in the numbers that vary.
 The case is read at rational values of its numbers; polynomials through these that hold at further values as well are the law by which the
 numbers enter. Torques, momenta, moments, forces, arms and speeds enter so; a direction or a product of inertia turns axes, by roots, and is refused.
 """
@@ -16,7 +17,9 @@ from ...case.read import Case, with_data
 from ...equilibrium.balance import Pencil, pencil
 from ...errors import InputError, printable
 from ...numbers.balls import rational
+from ...numbers.vectors import Float3
 from ...physics.coefficients import effective
+from ...shown import Shown
 from ..keys import put
 from ..span import Span
 
@@ -119,3 +122,65 @@ def _lagrange(letter, grid, n, ring):
         if other != n:
             out *= (letter - rational(node)) * (1 / rational(grid[n] - node))
     return out
+
+
+CURVES = "curves"  # the kind of a diagram in words
+ENDLESS = -1  # in the place of a count: equilibria without number, curves of them
+
+
+@dataclass(frozen=True)
+class State:
+    """An equilibrium: at in the case's variables along the principal axes; times: how many branches meet in it; linear, verdict, because: as those of
+    `equilibrium.result.EquilibriumPoint`."""
+
+    at: Float3
+    times: int
+    linear: str
+    verdict: str
+    because: str
+
+
+@dataclass(frozen=True)
+class Event:
+    """A value at which something happens. value: a double, in the unit of the range; exact: the number itself where it is rational; polynomial:
+    whole coefficients, lowest power first, of which it is the real root number `index` (in rising order, from 0); kinds: "fold", "pitchfork",
+    "crossing", "touch", "infinity", "axis", "curve" or "connection", as `words` tells; count: equilibria there, ENDLESS for curves of them; states: those
+    there."""
+
+    value: float
+    exact: Fraction | None
+    polynomial: tuple[int, ...]
+    index: int
+    kinds: tuple[str, ...]
+    count: int
+    states: tuple[State, ...]
+    words: str
+
+
+@dataclass(frozen=True)
+class Piece:
+    """An open piece of the range with one number of equilibria. low, high: doubles; sample: a value inside, exact; states: the equilibria there, in the
+    order in which their branches are numbered; seams: values inside at which two of them may change places in the component that orders them; words: which
+    curves there are, where equilibria form these."""
+
+    low: float
+    high: float
+    count: int
+    sample: Fraction
+    states: tuple[State, ...]
+    seams: tuple[float, ...] = ()
+    words: str = ""
+
+
+@dataclass(frozen=True, repr=False)
+class Diagram(Shown):
+    """All equilibria over one number. kind: which are counted ("isolated", "motion", "borders" or "curves"); what: the same in words; pieces and
+    events in rising order: event n lies between pieces; an event at an end of the range has a piece on one side only."""
+
+    family: Family = field(repr=False)
+    kind: str
+    what: str
+    pieces: tuple[Piece, ...]
+    events: tuple[Event, ...]
+    connections: tuple[Event, ...] = ()
+    notes: tuple[str, ...] = ()

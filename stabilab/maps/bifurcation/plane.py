@@ -1,5 +1,12 @@
 """The diagram over two numbers: curves in their plane at which equilibria change, the number between them, and cusps.
 
+Cusps of fold curves: places where three equilibria meet, from the conditions for a triple root of R(x; p, q), exactly.
+
+R has degree four at the most. F = 0 (a double root, x = 0 say) with the discriminant of R' zero is a triple root or, in
+degree four, R = x^2 (x^2 + c x + 9 c^2/32), R' = 4 x (x + 3 c/8)^2: there R'' = 0 at -c/8 and -3 c/8, which are no roots
+of R. So with the resultant of R and R'' zero besides it is a triple root, and conversely. The p of such a place is a root
+of a resultant, the q then a common root over the field of p.
+
 The plane is cut into strips: at the ends of a strip a curve turns back, two meet, or one leaves the range (roots of discriminants and resultants of the
 curves' polynomials), inside it all curves run side by side. So one value inside a strip, with its diagram over the second number, tells the strip.
 """
@@ -7,26 +14,144 @@ from __future__ import annotations
 
 import copy
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
-from functools import partial
-from typing import TYPE_CHECKING, Any
+from functools import cache, partial
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ...errors import InputError
 from ...numbers.balls import Unclear, rational, real_roots_of, settled
 from ...shown import Shown
 from ..keys import put
-from .choice import chosen
-from .critical import Cut, between, cuts
-from .cusps import Cusp, cusps
-from .eliminated import Eliminated, at_rational, of_power, univariate
-from .family import Family
-from .line import diagram
-from .result import Diagram, Event
+from .algebraic import Algebraic, Cut, cuts, gaps, sharpened
+from .diagram import ball_form, diagram, doubles, state_of
+from .eliminated import Eliminated, at_rational, coefficients, evaluated, over_field, univariate
+from .equations import chosen, common_divisor
+from .family import Diagram, Event, Family
 
 if TYPE_CHECKING:
-    from flint import fmpq_mpoly
+    from flint import arb, fmpq_mpoly
+
+MOST_BITS = 2048  # beyond which a state is taken to have no number
+
+
+class Cusp(NamedTuple):
+    """A place where three equilibria meet. at: (p, q); state: in the case's variables, empty where a component is left open; polynomial, root: of p, as
+    those of an event."""
+
+    at: tuple[float, float]
+    state: tuple[float, ...]
+    polynomial: tuple[int, ...]
+    root: int
+
+
+def cusps(family: Family, eliminated: Eliminated, curves: Sequence[fmpq_mpoly]) -> list[Cusp]:
+    """All of them in the range, on the curves F = 0 that hold double roots."""
+    R = eliminated.reduced
+    if R.degrees()[0] < 3:
+        return []
+    lead = coefficients(R, 0)[-1]
+    conditions = _conditions(R)
+    more = cache(lambda: [c for view in _others(eliminated) for c in _conditions(view)])
+    found: dict[tuple[float, ...], Cusp] = {}
+    for F in curves:
+        others = [c for c in conditions if c.gcd(F).is_constant()]
+        if others and F.degrees()[3] > 0 and lead.gcd(F).is_constant():
+            for cusp in _on_curve(family, R, eliminated, F, others, lead, more):
+                found.setdefault(tuple(round(v, 12) for v in cusp.at), cusp)
+    return sorted(found.values())
+
+
+def _conditions(R: fmpq_mpoly) -> tuple[fmpq_mpoly, fmpq_mpoly]:
+    """Zero where R and R'', and where R' and R'' share a root."""
+    slope = R.derivative("x")
+    bend = slope.derivative("x")
+    return R.resultant(bend, "x"), slope.resultant(bend, "x")
+
+
+def _others(eliminated: Eliminated) -> list[fmpq_mpoly]:
+    """R along one more direction: points that the main view has in line by chance are apart there."""
+    return [eliminated.once(view.R) for view in eliminated.views[:2] if view is not eliminated.main and not view.R.is_zero()][:1]
+
+
+def _on_curve(family: Family, R: fmpq_mpoly, eliminated: Eliminated, F: fmpq_mpoly, others: Sequence[fmpq_mpoly],
+              lead: fmpq_mpoly, more: Callable[[], Sequence[fmpq_mpoly]]) -> list[Cusp]:
+    shadow = common_divisor(F.resultant(c, "q") for c in others)
+    if shadow.is_constant():
+        return []
+    first, second = family.spans
+    out = []
+    for cut in cuts((univariate(f, 2) for f, _ in shadow.factor()[1]), first.low, first.high):
+        number = cut.number
+        common = number.trimmed(over_field(F, 3))
+        for c in others:
+            common = number.gcd(common, number.trimmed(over_field(c, 3))) if common else []
+        far = number.trimmed(over_field(lead, 3))  # where R loses its highest power nothing is known of its other roots
+        common = number.divided(common, number.gcd(common, far)) if common and far else []
+        common = _truly(number, common, eliminated, more)
+        if len(common) > 1:
+            places = settled(partial(_places, family, R, eliminated, number, common))
+            out += [Cusp(at, state, tuple(int(c) for c in number.polynomial.numer().coeffs()), number.index) for at, state in places
+                    if second.low <= Fraction(at[1]) <= second.high]
+    return out
+
+
+def _truly(number: Algebraic, common: Any, eliminated: Eliminated, more: Callable[[], Sequence[fmpq_mpoly]]) -> Any:
+    """Of common roots q those where three points meet, and are not in line by chance: where that may be, another direction is asked."""
+    apart = eliminated.apart
+    if len(common) < 2:
+        return common
+    line = common if apart is None else number.gcd(common, f) if (f := number.trimmed(over_field(apart, 3))) else common
+    if len(line) < 2:
+        return common
+    sure = number.divided(common, line)
+    for c in more():
+        line = number.gcd(line, number.trimmed(over_field(c, 3))) if len(line) > 1 else line
+    product = number.trimmed([sum((sure[i] * line[n - i] for i in range(len(sure)) if 0 <= n - i < len(line)), line[0] * 0)
+                              for n in range(len(sure) + len(line) - 1)])
+    return product
+
+
+def _places(family: Family, R: fmpq_mpoly, eliminated: Eliminated, number: Algebraic, common, digits: Any):
+    """[((p, q), state)] of the common roots q over the field of p, each with its triple root."""
+    at, out = number.ball(digits.bits), []
+    for q, _ in number.real_roots(number.powers(common), digits.bits):
+        x = _triple_root(R, at, q)
+        out.append(((float(at.mid()), float(q.mid())), _state(family, eliminated, x, at, q, digits.bits)))
+    return out
+
+
+def _state(family: Family, eliminated: Eliminated, x: arb, p: arb, q: arb, bits: int) -> tuple[float, ...]:
+    """The state there; none where the other component has no number of its own (a whole line lies above x)."""
+    try:
+        y = eliminated.state(eliminated.main, x, [p, q])
+        return doubles(state_of(family, y, ball_form(family, [p, q])[1]))
+    except Unclear:
+        if bits < MOST_BITS:
+            raise
+        return ()
+
+
+def _triple_root(R: fmpq_mpoly, p: arb, q: arb) -> arb:
+    """A simple root of the second derivative, or of the third where four roots meet, at which what stands before is zero within its balls."""
+    from flint import acb_poly, arb, arb_poly
+    zero = arb(0)
+    rows = [arb_poly([evaluated(c, [zero, zero, p, q]) for c in coefficients(R, 0)])]
+    while rows[-1].degree() > 1:
+        rows.append(rows[-1].derivative())
+    for n in range(2, len(rows)):
+        try:
+            roots = acb_poly(rows[n]).roots()
+        except ValueError:
+            continue
+        real = [sharpened(list(rows[n].coeffs()), root.real) for root in roots if root.imag.contains(0)]
+        fitting = [x for x in real if all(f(x).contains(0) for f in rows[:n])]
+        if fitting:
+            nearest = [(float(abs(arb_poly.evaluate(rows[1], [x])[0]).mid()), k) for k, x in enumerate(fitting)]
+            return fitting[min(nearest)[1]]
+    raise Unclear
+
 
 MOST = 200  # strips
 
@@ -101,15 +226,11 @@ def _projected(family: Family, curves: Sequence[fmpq_mpoly]):
             parts.append(F)
             continue
         parts += [F.subs({"q": rational(end)}) for end in (second.low, second.high)]
-        parts.append(_lead(F))
+        parts.append(coefficients(F, 3)[-1])
         if F.degrees()[3] > 1:
             parts.append(F.resultant(F.derivative("q"), "q"))
         parts += [F.resultant(G, "q") for G in curves[:n] if G.degrees()[3] > 0]
     return [univariate(f, 2) for part in parts if not part.is_zero() and not part.is_constant() for f, _ in part.factor()[1]]
-
-
-def _lead(F: fmpq_mpoly) -> fmpq_mpoly:
-    return of_power(F, 3, F.degrees()[3])
 
 
 def fixed(family: Family, which: int, value: Fraction) -> Family:
@@ -121,15 +242,11 @@ def fixed(family: Family, which: int, value: Fraction) -> Family:
 
 
 def _strips(family: Family, borders: bool, curves: Sequence[fmpq_mpoly], found: Sequence[Cut]) -> list[Strip]:
-    span = family.spans[0]
-    ends = [(span.low, span.low), *((cut.low, cut.high) for cut in found), (span.high, span.high)]
-    values = [float(span.low), *(float(cut.number) for cut in found), float(span.high)]
     out = []
-    for n, ((_, low), (high, _)) in enumerate(zip(ends, ends[1:])):
-        if low < high:
-            sample = between(low, high)
-            line = diagram(fixed(family, 0, sample), borders)
-            out.append(Strip(values[n], values[n + 1], sample, line, tuple(_arc(curves, sample, event) for event in line.events)))
+    for gap in gaps(found, family.spans[0].low, family.spans[0].high):
+        if gap:
+            line = diagram(fixed(family, 0, gap.sample), borders)
+            out.append(Strip(*gap, line, tuple(_arc(curves, gap.sample, event) for event in line.events)))
     return out
 
 
@@ -206,4 +323,3 @@ def _root(F: fmpq_mpoly, p: Fraction, index: int) -> float:
     if index >= len(found):
         raise Unclear
     return float(found[index][0].mid())
-

@@ -1,134 +1,187 @@
-"""What is counted, as polynomials in the unknowns that are zero together: rates, the law that a motion keeps, where stability changes.
+"""What is counted, as polynomials that are zero together, and how many real zeros these have at a value of t.
 
-Coefficients are polynomials in t; a body's rates stand times its moments, w_i x_i' = kappa_i x_j x_k + rho_i x_k + sigma_i x_j + m_i with w = D (1 for the
+They are rates, the law that a motion keeps, and where stability changes: flint's polynomials in t and the three unknowns.
+A body's rates stand times its moments, w_i x_i' = kappa_i x_j x_k + rho_i x_k + sigma_i x_j + m_i with w = D (1 for the
 scaled system). Equilibria satisfy two linear conditions besides (`rates.Rates`), which are sums of the rates.
 """
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ..rates import AHEAD
+from .algebra import Basis, Polynomial, Ratio, Residue, Work, characteristic, rank_and_signature
 from .claims import Claims
-from .ideal import Polynomial, added, times
 
-UNITS = ((1, 0, 0), (0, 1, 0), (0, 0, 1))
+if TYPE_CHECKING:
+    from flint import fmpq_mpoly
 
 
 @dataclass(frozen=True)
 class Equations:
-    """weights: w_i; rates, conditions: polynomials in three unknowns; integrals: (a, b) of the sums a_i x_i^2/2 + b_i x_i whose rates are the conditions."""
+    """weights: w_i; conditions, laws: two of each, a condition being the rate of a law a_i x_i^2/2 + b_i x_i; shift: of a
+    plane of equilibria x_i = -shift_i, the scaled system's a about the first axis and zero else."""
 
-    weights: list[Any]
-    rates: list[Polynomial]
-    conditions: list[Polynomial]
-    integrals: tuple[tuple[list[Any], list[Any]], ...]
+    weights: list[fmpq_mpoly]
+    rates: list[fmpq_mpoly]
+    conditions: list[fmpq_mpoly]
+    laws: tuple[fmpq_mpoly, fmpq_mpoly]
+    shift: tuple[fmpq_mpoly, ...]
+    scaled: bool
 
     @classmethod
     def of(cls, claims: Claims) -> Equations:
         """Those of a certificate's scene."""
-        zero = claims.scene["mu" if "mu" in claims.scene else "torque"][0] * 0
-        one = zero + 1
+        from flint import fmpq_mpoly_ctx
+        ring = fmpq_mpoly_ctx.get(("t", "x1", "x2", "x3"), "lex")
+        t, *x = ring.gens()
+        scene = {name: [_of_t(f, ring) for f in row] for name, row in claims.scene.items()}
+        zero, one = ring.constant(0), ring.constant(1)
+        both = lambda u, v: sum((a * b for a, b in zip(u, v)), zero)
+        squares = [v * v / 2 for v in x]
         if claims.variables == "scaled":
-            (a,), (b,), mu = claims.scene["a"], claims.scene["b"], claims.scene["mu"]
-            weights, kappa, rho, sigma, m = [one] * 3, [one, -one, one], [zero, zero, b], [zero, -a, zero], mu
-            conditions = ([mu[0], mu[1], zero], mu[0] * a), ([mu[0], zero, -mu[2]], mu[0] * b)
-            integrals = ([one, one, zero], [a, zero, zero]), ([one, zero, -one], [b, zero, zero])
+            (a,), (b,), m = scene["a"], scene["b"], scene["mu"]
+            weights, kappa, rho, sigma = [one] * 3, [one, -one, one], [zero, zero, b], [zero, -a, zero]
+            conditions = [m[0] * (x[0] + a) + m[1] * x[1], m[0] * (x[0] + b) - m[2] * x[2]]
+            laws = squares[0] + squares[1] + a * x[0], squares[0] - squares[2] + b * x[0]
         else:
-            D, lam, m = claims.scene["inertia"], claims.scene["momentum"], claims.scene["torque"]
-            weights, kappa = D, [D[j] - D[k] for j, k in AHEAD]
+            D, lam, m = scene["inertia"], scene["momentum"], scene["torque"]
+            a, weights, kappa = zero, D, [D[j] - D[k] for j, k in AHEAD]
             rho, sigma = [lam[j] for j, _ in AHEAD], [-lam[k] for _, k in AHEAD]
-            conditions = (m, zero), ([d * t for d, t in zip(D, m)], sum((l * t for l, t in zip(lam, m)), zero))
-            integrals = (D, [zero] * 3), ([d * d for d in D], [d * l for d, l in zip(D, lam)])
-        rates = []
-        for i, (j, k) in enumerate(AHEAD):
-            both = tuple(int(n != i) for n in range(3))
-            rates.append(_without_zeros({both: kappa[i], UNITS[k]: rho[i], UNITS[j]: sigma[i], (0, 0, 0): m[i]}))
-        rows = [_without_zeros({**dict(zip(UNITS, normal)), (0, 0, 0): constant}) for normal, constant in conditions]
-        return cls(weights, rates, rows, integrals)
+            momentum = [d * v + l for d, v, l in zip(D, x, lam)]
+            conditions = [both(m, x), both(m, momentum)]
+            laws = both(D, squares), both(D, (d * s + l * v for d, s, l, v in zip(D, squares, lam, x)))
+        rates = [kappa[i] * x[j] * x[k] + rho[i] * x[k] + sigma[i] * x[j] + m[i] for i, (j, k) in enumerate(AHEAD)]
+        return cls(weights, rates, conditions, laws, (a, zero, zero), claims.variables == "scaled")
 
-    def slope(self, i: int, j: int) -> Polynomial:
+    def slope(self, i: int, j: int) -> fmpq_mpoly:
         """The derivative of w_i x_i' by x_j."""
-        return _without_zeros({tuple(p - (n == j) for n, p in enumerate(powers)): c for powers, c in self.rates[i].items() if powers[j]})
+        return self.rates[i].derivative(j + 1)
 
     @property
-    def m(self) -> Polynomial:
+    def m(self) -> fmpq_mpoly:
         """m of the characteristic polynomial z^3 + m z + n, times all weights."""
-        out: Polynomial = {}
-        for i, (j, k) in enumerate(AHEAD):
-            out = added(out, times(times(self.slope(j, k), self.slope(k, j)), _constant(self.weights[i])), less=True)
-        return out
+        zero = 0 * self.rates[0]
+        return -sum((self.slope(j, k) * self.slope(k, j) * self.weights[i] for i, (j, k) in enumerate(AHEAD)), zero)
 
     @property
-    def n(self) -> Polynomial:
+    def n(self) -> fmpq_mpoly:
         """n of it, times all weights."""
-        first = times(times(self.slope(0, 1), self.slope(1, 2)), self.slope(2, 0))
-        second = times(times(self.slope(0, 2), self.slope(1, 0)), self.slope(2, 1))
-        return added(added({}, first, less=True), second, less=True)
+        s = self.slope
+        return -(s(0, 1) * s(1, 2) * s(2, 0) + s(0, 2) * s(1, 0) * s(2, 1))
 
     def torque(self, axis: int) -> Any:
-        """Its part about an axis: without any, equilibria lie on curves in other planes too."""
-        return self.rates[axis].get((0, 0, 0), self.weights[0] * 0)
+        """Its part about an axis, in t alone: without any, equilibria lie on curves in other planes too."""
+        from flint import fmpq_poly
+        return in_unknowns(self.rates[axis].subs({"x1": 0, "x2": 0, "x3": 0}), ()).get((), fmpq_poly([]))
 
     def along(self, axis: int) -> bool:
-        """Whether all over the range the torque lies on principal axis `axis` (0, 1, 2) and no wheel along it keeps equilibria away: the rates and the
-        conditions vanish in the plane across it but for the rate about it."""
+        """Whether all over the range the torque lies on principal axis `axis` (0, 1, 2) and no wheel along it keeps
+        equilibria away: the rates and the conditions vanish in the plane across it but for the rate about it."""
         others = [f for n, f in enumerate(self.rates) if n != axis] + self.conditions
         return not any(self.across(axis, f) for f in others)
 
-    def across(self, axis: int, f: Polynomial) -> Polynomial:
-        """A polynomial in the plane across the axis where equilibria lie, x_axis = -shift, in the two other unknowns."""
-        out: Polynomial = {}
-        for powers, c in f.items():
-            for _ in range(powers[axis]):
-                c = c * -self.shift(axis)
-            out = added(out, {tuple(p for n, p in enumerate(powers) if n != axis): c} if c != 0 else {})
-        return out
+    def across(self, axis: int, f: fmpq_mpoly) -> Polynomial:
+        """A polynomial in the plane across the axis where equilibria lie, in the two other unknowns."""
+        places = list(f.context().gens())
+        places[axis + 1] = -self.shift[axis]
+        return in_unknowns(f.compose(*places, ctx=f.context()), [n for n in range(3) if n != axis])
 
-    def shift(self, axis: int) -> Any:
-        """The scaled system's a about the first axis; zero else."""
-        return self.integrals[0][1][axis]
+    def kept(self, axis: int) -> fmpq_mpoly | None:
+        """A sum of both laws that every motion keeps and that leaves the axis out of its squares; None where it is none."""
+        first, second = ((1, -1), (0, 1), (1, 0))[axis] if self.scaled else (-self.weights[axis], 1)
+        law = first * self.laws[0] + second * self.laws[1]
+        return None if self.drift(law) else law
 
-    @property
-    def scaled(self) -> bool:
-        return self.integrals[0][0][2] == 0
+    def rise(self, law: fmpq_mpoly, start: Sequence[Any]) -> fmpq_mpoly:
+        """A law less its value at a state whose components are polynomials in t."""
+        ring = law.context()
+        return law - law.compose(ring.gen(0), *(_of_t(f, ring) for f in start), ctx=ring)
 
-    def kept(self, axis: int) -> Polynomial | None:
-        """A sum a_i x_i^2/2 + b_i x_i that every motion keeps and that leaves the axis out of its squares; None where it is none."""
-        (a, b), (c, d) = self.integrals
-        if self.scaled:
-            first, second = ((1, -1), (0, 1), (1, 0))[axis]
-        else:
-            first, second = -self.weights[axis], 1
-        squares, lines = ([u * first + v * second for u, v in zip(*rows)] for rows in ((a, c), (b, d)))
-        law: Polynomial = {}
-        for n in range(3):
-            law = added(law, _without_zeros({tuple(2 * p for p in UNITS[n]): squares[n] / 2, UNITS[n]: lines[n]}))
-        return law if not self.drift(law) else None
-
-    def drift(self, law: Polynomial) -> Polynomial:
+    def drift(self, law: fmpq_mpoly) -> fmpq_mpoly:
         """The rate of a polynomial along every motion, times all weights."""
-        total: Polynomial = {}
-        for i, (j, k) in enumerate(AHEAD):
-            slope = _without_zeros({tuple(p - (n == i) for n, p in enumerate(powers)): c * powers[i] for powers, c in law.items() if powers[i]})
-            total = added(total, times(times(slope, self.rates[i]), _constant(self.weights[j] * self.weights[k])))
-        return total
+        w = self.weights
+        return sum((law.derivative(i + 1) * self.rates[i] * w[j] * w[k] for i, (j, k) in enumerate(AHEAD)), 0 * law)
 
 
-def value(f: Polynomial, at: list[Any]) -> Any:
-    """A polynomial at a state whose components are polynomials in t."""
-    total = at[0] * 0
-    for powers, c in f.items():
-        for component, power in zip(at, powers):
-            for _ in range(power):
-                c = c * component
-        total = total + c
-    return total
+def _of_t(f: Any, ring: Any) -> fmpq_mpoly:
+    """A polynomial in t as one in all variables."""
+    return ring.from_dict({(n, 0, 0, 0): c for n, c in enumerate(f.coeffs()) if c != 0})
 
 
-def _constant(c: Any) -> Polynomial:
-    return _without_zeros({(0, 0, 0): c})
+def in_unknowns(f: fmpq_mpoly, unknowns: Sequence[int] = range(3)) -> Polynomial:
+    """As a table from the powers of some unknowns, which are all it has, to polynomials in t."""
+    from flint import fmpq_poly
+    rows: dict[tuple[int, ...], dict[int, Any]] = {}
+    for (power, *powers), c in f.to_dict().items():
+        rows.setdefault(tuple(powers[n] for n in unknowns), {})[power] = c
+    return {powers: fmpq_poly([row.get(n, 0) for n in range(max(row) + 1)]) for powers, row in rows.items()}
 
 
-def _without_zeros(f: Polynomial) -> Polynomial:
-    return {powers: c for powers, c in f.items() if c != 0}
+@dataclass(frozen=True)
+class System:
+    """Polynomials in the unknowns, with polynomials in t for coefficients. tests: others, whose signs at the zeros are asked. endless: a polynomial in t;
+    where it is zero what is counted lies on more curves than these equations tell."""
+
+    unknowns: int
+    zero_together: Sequence[Polynomial]
+    tests: Sequence[Polynomial] = ()
+    endless: Any = None
+
+
+@dataclass(frozen=True)
+class Count:
+    """At one value. real: different real zeros, None where zeros are endless; tests: for each, at how many of these it is positive less at how many it is
+    negative, and whether it is zero nowhere, complex zeros counted."""
+
+    real: int | None
+    tests: tuple[tuple[int, bool], ...] = ()
+
+
+def count_at(system: System, place: Any, work: Work) -> Count:
+    """At a place with a `polynomial` of which it is a zero and a `sign` of others there."""
+    at = place.polynomial
+    if system.endless is not None and system.endless % at == 0:
+        return Count(None)
+    return _counted(system, lambda c: Residue(c % at, at, work), lambda element: place.sign(element.value))[0]
+
+
+def critical(system: System, work: Work) -> list[Any]:
+    """Polynomials in t, not zero: between their real zeros every count is the same."""
+    noted: list[Any] = []
+    if system.endless == 0:
+        return []
+    _, basis = _counted(system, lambda c: Ratio.of(c, work), lambda element: 1, noted)
+    return [part for element in (*basis.pivots, *noted) for part in (element.top, element.bottom)] + ([] if system.endless is None else [system.endless])
+
+
+def _counted(system: System, lift: Callable[[Any], Any], sign: Callable[[Any], int], noted: list[Any] | None = None) -> tuple[Count, Basis]:
+    """The count, and the basis it is worked out with. noted: collects the products of the eigenvalues that are not zero."""
+    lifted = [{powers: e for powers, c in f.items() if (e := lift(c))} for f in system.zero_together]
+    basis = Basis(lifted)
+    monomials = basis.monomials(system.unknowns)
+    if monomials is None:
+        return Count(None), basis
+    if not monomials:
+        return Count(0, ((0, True),) * len(system.tests)), basis
+    one = lift(_one(system))
+
+    def judged(weight: Polynomial) -> tuple[int, int]:
+        row = characteristic(basis, monomials, weight, one)
+        rank, signature = rank_and_signature(row, sign)
+        if noted is not None and rank:
+            noted.append(row[rank - 1])
+        return rank, signature
+    different, real = judged({(0,) * system.unknowns: one})
+    told = []
+    for test in system.tests:
+        weight = basis.rest({powers: e for powers, c in test.items() if (e := lift(c))})
+        rank, signature = judged(weight)
+        told.append((signature, rank == different))
+    return Count(real, tuple(told)), basis
+
+
+def _one(system: System) -> Any:
+    from flint import fmpq_poly
+    return fmpq_poly([1])

@@ -16,7 +16,7 @@ from stabilab import Body, ConstantTorque, Gyrostat, Scene
 from stabilab.answers.equilibria import equilibria
 from stabilab.answers.motion import motion
 from stabilab.answers.trajectory import trajectory
-from stabilab.equilibrium.damped.liquid_and_torque import trap
+from stabilab.equilibrium.liquid import trap
 from stabilab.numbers.krawczyk import zeros
 from stabilab.orbit.result import Fate
 from stabilab.physics.coefficients import content, rates

@@ -7,7 +7,7 @@ def test_equal_stiffness_is_found_at_every_rate_or_none():
     from fractions import Fraction
     from types import SimpleNamespace
 
-    from stabilab.equilibrium.field.circles import _same_stiffness
+    from stabilab.equilibrium.field_states import _same_stiffness
     parts = SimpleNamespace(D=(Fraction(2), Fraction(2), Fraction(3)), N=Fraction(1), E=Fraction(3))
     assert _same_stiffness(parts, 0, 1) == [0]  # equal moments: the same at every rate
     for Omega in _same_stiffness(parts, 0, 2):

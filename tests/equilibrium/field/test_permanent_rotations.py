@@ -15,8 +15,7 @@ from stabilab import Body, ConstantTorque, Gyrostat, Scene
 from stabilab.answers.equilibria import equilibria
 from stabilab.answers.motion import motion
 from stabilab.answers.trajectory import trajectory
-from stabilab.equilibrium.field.balance import rotations_at
-from stabilab.equilibrium.field.spectrum import Field
+from stabilab.equilibrium.field_balance import Field, rotations_at
 from stabilab.errors import InputError
 from stabilab.numbers.balls import many_digits
 from stabilab.orbit.result import Fate

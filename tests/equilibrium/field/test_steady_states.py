@@ -26,7 +26,7 @@ def test_a_curve_of_steady_states_has_no_point_at_its_ends():
 def test_steady_states_of_a_torque_are_told_by_their_quartic(e2, e3, e4):
     from flint import arb
 
-    from stabilab.equilibrium.field.steady_states import _verdict
+    from stabilab.equilibrium.field_states import _verdict
     roots = np.roots([1, 0, e2, -e3, e4])
     simple = min(abs(a - b) for n, a in enumerate(roots) for b in roots[:n]) > 1e-3
     word = "unstable" if roots.real.max() > 1e-3 else "stable" if simple else "degenerate"

@@ -9,8 +9,8 @@ import pytest
 
 import stabilab
 from stabilab.errors import InputError
-from stabilab.maps.bifurcation.branches import branches
-from stabilab.maps.bifurcation.result import ENDLESS
+from stabilab.maps.bifurcation.diagram import branches
+from stabilab.maps.bifurcation.family import ENDLESS
 from stabilab.show.maps.bifurcation import words as diagram_words
 from tests.oracles import elimination as by_hand
 from tests.shared import CASES

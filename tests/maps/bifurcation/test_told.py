@@ -7,7 +7,7 @@ import pytest
 
 import stabilab
 from stabilab.errors import InputError
-from stabilab.maps.bifurcation.result import ENDLESS
+from stabilab.maps.bifurcation.family import ENDLESS
 from stabilab.show.maps.bifurcation import picture, words
 from tests.maps.bifurcation.test_line import written
 

@@ -5,9 +5,9 @@ from pathlib import Path
 from typing import Any
 
 from ....errors import InputError
-from ....maps.bifurcation.branches import Branch, branches
-from ....maps.bifurcation.result import CURVES, Diagram
-from ....maps.bifurcation.system import BORDERS
+from ....maps.bifurcation.diagram import Branch, branches
+from ....maps.bifurcation.equations import BORDERS
+from ....maps.bifurcation.family import CURVES, Diagram
 from ... import style
 from ...axes import axes_of
 from ...units import units_of

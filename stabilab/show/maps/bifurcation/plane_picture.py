@@ -4,8 +4,8 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+from ....maps.bifurcation.family import ENDLESS
 from ....maps.bifurcation.plane import Plane, rows
-from ....maps.bifurcation.result import ENDLESS
 from ... import style
 from ..shades import light
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 from typing import Any
 
 from ....caveat import cell, key
+from ....maps.bifurcation.equations import BORDERS
+from ....maps.bifurcation.family import ENDLESS, Piece
 from ....maps.bifurcation.plane import Plane, rows
-from ....maps.bifurcation.result import ENDLESS, Piece
-from ....maps.bifurcation.system import BORDERS
 from ... import limiting
 from ...files import comma
 from ...text import frame

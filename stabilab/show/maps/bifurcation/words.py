@@ -4,9 +4,9 @@ from __future__ import annotations
 from typing import Any
 
 from ....caveat import cell, key
-from ....maps.bifurcation.branches import branches
-from ....maps.bifurcation.result import CURVES, ENDLESS, Diagram, Event, Piece, State
-from ....maps.bifurcation.system import BORDERS
+from ....maps.bifurcation.diagram import branches
+from ....maps.bifurcation.equations import BORDERS
+from ....maps.bifurcation.family import CURVES, ENDLESS, Diagram, Event, Piece, State
 from ....maps.span import Span
 from ... import limiting
 from ...files import comma

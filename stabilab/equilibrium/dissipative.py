@@ -1,22 +1,20 @@
 """Equilibria of a body that a liquid in a cavity or a resisting medium takes energy from.
 
-One file per balance: `liquid` (liquid alone), `resisted` (medium alone), here what both together or a body in a field leave
+`liquid` has the balance with a liquid, `medium` that with a resisting medium alone; here is what both together or a body in a field leave
 to say. The liquid does no work against rest, and for Lambda = 0 it only takes energy: T' <= M . omega - 2 c T.
 """
 from __future__ import annotations
 
 from fractions import Fraction
 
-from ...numbers.balls import many_digits
-from ...numbers.vectors import dot
-from ...physics.coefficients import Content
-from ..field.balance import rotations_at
-from ..field.circles import around
-from ..field.spectrum import Field, blocks
-from ..result import CurveSegment, Equilibria, EquilibriumCurve, EquilibriumPoint
-from .liquid import liquid_equilibria
-from .liquid_and_torque import balanced_equilibria
+from ..numbers.balls import many_digits
+from ..numbers.vectors import dot
+from ..physics.coefficients import Content
+from .field_balance import Field, blocks, rotations_at
+from .field_states import around
+from .liquid import balanced_equilibria, liquid_equilibria
 from .medium import resisted_equilibria
+from .result import CurveSegment, Equilibria, EquilibriumCurve, EquilibriumPoint
 
 MINIMUM = ("asymptotically stable", "the potential energy has a strict minimum here and the medium takes energy at every rotation (LaSalle)")
 NO_MINIMUM = ("unstable", "the potential energy is not least here and the medium takes energy at every rotation: states of less energy next to "

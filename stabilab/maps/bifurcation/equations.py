@@ -1,19 +1,20 @@
 """Which equilibria a diagram counts, as equations in one or two unknowns with polynomial coefficients in the numbers that vary.
 
 Off the principal axes they are isolated: on the line where the two linear conditions meet, y = (P + x v)/w, one quadratic remains
-(`equilibrium.isolated`). A torque on principal axis i, with no wheel along it, has a whole conic of them, and a motion keeps to its own curve
+(`equilibrium.gyrostat`). A torque on principal axis i, with no wheel along it, has a whole conic of them, and a motion keeps to its own curve
 across that axis, W = const: the equilibria on this curve are where two conics meet. Without a motion the points of the conic where stability
 changes are counted, m = 0, another two conics. All unknowns are components of y (`equilibrium.balance.Pencil`).
 """
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import reduce
 from typing import TYPE_CHECKING, Any
 
 from ...numbers.vectors import CYCLE, cross, dot
-from .family import Family
+from .family import CURVES, Family
 
 if TYPE_CHECKING:
     from flint import fmpq_mpoly
@@ -74,11 +75,11 @@ def fixed_axis(family: Family) -> int | None:
 
 def on_line(family: Family) -> OnLine:
     """The isolated equilibria of a torque off the principal axes; `special` is zero where none of the range has one."""
-    n, ring = family.numbers, family.ring
+    n = family.numbers
     D, lam, M = n["D"], n["lam"], n["M"]
     turned = lambda v: tuple(d * c for d, c in zip(D, v))
     v = cross(M, turned(M))
-    shared = _gcd(v, ring)
+    shared = common_divisor(v)
     if shared.is_zero():
         return OnLine((shared,) * 3, v, v, shared, shared, dot(lam, M))
     v = tuple(c / shared for c in v)
@@ -87,7 +88,7 @@ def on_line(family: Family) -> OnLine:
     det = lambda a, b: dot(cross(a, b), M)
     Dv, H = turned(v), tuple(a + below * b for a, b in zip(turned(start), lam))
     rows = [det(H, start) + dot(M, M) * below * below, det(Dv, start) + det(H, v), det(Dv, v)]
-    content = _gcd(rows, ring)
+    content = common_divisor(rows)
     if not content.is_zero():
         rows = [c / content for c in rows]
         shared *= content
@@ -150,8 +151,46 @@ def _linear_m(family: Family, y: Sequence[fmpq_mpoly]) -> fmpq_mpoly:
     return total
 
 
-def _gcd(parts: Sequence[fmpq_mpoly], ring) -> fmpq_mpoly:
-    found = ring.constant(0)
-    for part in parts:
-        found = found.gcd(part)
-    return found
+def common_divisor(parts: Iterable[fmpq_mpoly]) -> fmpq_mpoly:
+    """The greatest one of all."""
+    return reduce(lambda f, g: f.gcd(g), parts)
+
+
+WHAT = {ISOLATED: "isolated equilibria (torque off the principal axes)",
+        LEAF: "equilibria on the curve that the motion keeps to, all branches of it",
+        BORDERS: "points where stability changes along the curve of equilibria"}
+
+MORE = "stabilab classify tells their stability at one value"
+
+
+def chosen(family: Family, borders: bool) -> tuple[str, str, OnLine | Conics | None, tuple[str, ...]]:
+    """(kind, in words, the equations or None where all is curves, notes)."""
+    n = family.numbers
+    axis = fixed_axis(family)
+    if all(c.is_zero() for c in n["M"]):
+        return CURVES, f"without a torque equilibria form curves for every value; {MORE}", None, ()
+    if axis is None:
+        line = on_line(family)
+        if line.special.is_zero():
+            return CURVES, f"the torque lies along equal moments of inertia, where equilibria form curves; {MORE}", None, ()
+        return ISOLATED, WHAT[ISOLATED], line, ()
+    if not n["lam"][axis].is_zero():
+        one, zero = family.ring.constant(1), family.ring.constant(0)
+        load = n["lam"][axis] * n["M"][axis]
+        note = f"the torque lies on principal axis {axis + 1} and a wheel carries momentum along it: no equilibrium wherever neither is zero"
+        return ISOLATED, WHAT[ISOLATED], OnLine((one, zero, zero), (zero,) * 3, (zero,) * 3, one, load, load), (note,)
+    D = n["D"]
+    if borders or "y" not in n:
+        return _solvable(BORDERS, WHAT[BORDERS], across(family, axis, BORDERS))
+    others = [i for i in range(3) if i != axis]
+    if all((D[i] - D[axis]).is_zero() and n["lam"][i].is_zero() for i in others):
+        return CURVES, f"three equal moments of inertia and no wheel: nothing balances a torque; {MORE}", None, ()
+    return _solvable(LEAF, f"{WHAT[LEAF]} (torque on principal axis {axis + 1})", across(family, axis, LEAF))
+
+
+def _solvable(kind: str, what: str, conics: Conics) -> tuple[str, str, Conics | None, tuple[str, ...]]:
+    """The same, or words where the two conics share a curve."""
+    common = conics.f.gcd(conics.g) if not (conics.f.is_zero() or conics.g.is_zero()) else None
+    if common is None or max(common.degrees()[:2]) > 0:
+        return CURVES, f"whole curves of equilibria solve what a diagram would count, {what}; {MORE}", None, ()
+    return kind, what, conics, ()

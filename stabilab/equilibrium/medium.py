@@ -13,12 +13,12 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from ...numbers.polynomial import Poly, real_roots
-from ...numbers.vectors import CYCLE
-from ...physics.coefficients import Content
-from ...physics.quadratic import euler_form
-from ..result import Equilibria, EquilibriumPoint
-from ..spectrum import eigenvalues, invariants
+from ..numbers.polynomial import Poly, real_roots
+from ..numbers.vectors import CYCLE
+from ..physics.coefficients import Content
+from ..physics.quadratic import euler_form
+from .result import Equilibria, EquilibriumPoint
+from .stability import eigenvalues, invariants
 
 T = Poly((0, 1))
 BITS = 256

@@ -1,1 +1,0 @@
-"""Equilibria of bodies with a cavity of liquid or in a resisting medium."""

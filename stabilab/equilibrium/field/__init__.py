@@ -1,1 +1,0 @@
-"""Permanent rotations in gravity, a Newtonian field, a turning charge."""

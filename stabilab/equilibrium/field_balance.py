@@ -1,0 +1,378 @@
+"""Permanent rotations of a body in a field at one rate Omega: balance, spectrum, verdict, and the rates at which they change.
+
+Small motions about a permanent rotation omega = Omega gamma of a body in a field: spectrum and second variation.
+
+On |gamma| = 1 the amended potential at constant Omega is U = -gamma . S gamma/2 - b . gamma with
+S = (Omega^2 - N) D - Omega E e3 e3^T, b = Omega Lambda + s; a permanent rotation is a critical point, (S - mu) gamma = -b.
+At constant area integral A it gains a positive term of rank one: its second variation on the tangent plane is
+K = mu - S + v v^T/I with v = dU'/dOmega = -(S' gamma + Lambda), I = gamma . D gamma.
+Linear motion: z^2 (z^4 + a z^2 + b), the two zeros from |gamma| and from the curve of permanent rotations;
+a = -tr(J^2)/2 and b = I det K/(D1 D2 D3).
+  K positive definite: stable (energy at constant area has a strict minimum, and it persists as the area changes).
+  det K < 0: b < 0, a positive eigenvalue.
+  K negative definite: the spectrum decides instability; where it is a centre (a > 0, a^2 > 4 b) energy does not decide.
+Written for any scalars, with gamma as a ratio gamma/q, so that the same lines serve balls and polynomials.
+
+All permanent rotations at one rate Omega: (S - mu) gamma = -b, |gamma| = 1, by one polynomial in mu.
+
+The verdict on one permanent rotation, from signs of certified balls.
+
+The rates Omega at which the number of permanent rotations or a sign of their spectrum may change, all of them.
+
+The discriminant in mu of the balance, and resultants of the balance with b and with a^2 - 4 b of the spectrum: polynomials in
+Omega with exact coefficients, whose real roots python-flint isolates.
+"""
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+from ..numbers.balls import BITS, rational, working
+from ..numbers.vectors import Number, cross, dot
+from ..physics.coefficients import linear_rates
+from .result import EquilibriumPoint
+
+
+@dataclass(frozen=True)
+class Field:
+    """The coefficients of `gyroscopic.Content` as flint rationals."""
+
+    D: tuple
+    Lambda: tuple
+    s: tuple
+    N: Number
+    E: Number
+
+    @classmethod
+    def of(cls, parts):
+        return cls(*(tuple(map(rational, row)) for row in (parts.D, parts.Lambda, parts.s)), rational(parts.N), rational(parts.E))
+
+    def stiffness(self, Omega):
+        """Diagonal of S."""
+        W = Omega * Omega - self.N
+        return (W * self.D[0], W * self.D[1], W * self.D[2] - Omega * self.E)
+
+    def pull(self, Omega):
+        """b = Omega Lambda + s."""
+        return tuple(Omega * l + s for l, s in zip(self.Lambda, self.s))
+
+
+def second_variation(field: Field, Omega, mu, gamma, q=1):
+    """(q^4 I det K, q^4 I tr K) at gamma/q."""
+    n = [k - mu for k in field.stiffness(Omega)]
+    slope = (Omega * 2 * field.D[0], Omega * 2 * field.D[1], Omega * 2 * field.D[2] - field.E)
+    v = [-(d * g + q * l) for d, g, l in zip(slope, gamma, field.Lambda)]
+    squares = [g * g for g in gamma]
+    spread = dot(field_inertia(field, gamma), gamma)
+    plane = n[1] * n[2] * squares[0] + n[2] * n[0] * squares[1] + n[0] * n[1] * squares[2]
+    across = cross(v, gamma)
+    determinant = spread * plane - sum((n[i] * across[i] * across[i] for i in range(1, 3)), n[0] * across[0] * across[0])
+    trace = dot(across, across) - spread * dot(n, [q * q - x for x in squares])
+    return determinant, trace
+
+
+def field_inertia(field: Field, gamma):
+    """D gamma."""
+    return tuple(g * d for d, g in zip(field.D, gamma))
+
+
+def blocks(field: Field, Omega, gamma, q=1):
+    """Rows of q A, q B with delta omega' = A delta omega + B delta gamma at gamma/q."""
+    omega = tuple(Omega * g for g in gamma)
+    H = [w * d + q * l for d, w, l in zip(field.D, omega, field.Lambda)]
+    H[2] = H[2] - gamma[2] * field.E
+    A = linear_rates(field.D, omega, H)
+    spread = field_inertia(field, gamma)
+    s = [q * x for x in field.s]
+    B = []
+    for i, (j, k) in enumerate(((1, 2), (2, 0), (0, 1))):  # (s x g + N (g x D gamma + gamma x D g))_i
+        row = [omega[0] * 0] * 3
+        row[j] = (-s[k] + (spread[k] - gamma[k] * field.D[j]) * field.N) * (1 / field.D[i])
+        row[k] = (s[j] + (gamma[j] * field.D[k] - spread[j]) * field.N) * (1 / field.D[i])
+        B.append(row)
+    B[0][2] = B[0][2] + omega[1] * (field.E / field.D[0])   # E g3 omega x e3
+    B[1][2] = B[1][2] - omega[0] * (field.E / field.D[1])
+    return A, B
+
+
+def coefficients(field: Field, Omega, mu, gamma, q=1):
+    """(q^2 a, q^4 b) of z^4 + a z^2 + b."""
+    A, B = blocks(field, Omega, gamma, q)
+    x, y, z = gamma
+    turn = [[x * 0, -z, y], [z, x * 0, -x], [-y, x, x * 0]]  # gamma x
+    pairs = [(i, j) for i in range(3) for j in range(3)]
+    square = sum((A[i][j] * A[j][i] + B[i][j] * turn[j][i] * 2 for i, j in pairs), x * 0)
+    a = Omega * Omega * q * q - square * _half()
+    determinant, _ = second_variation(field, Omega, mu, gamma, q)
+    return a, determinant * (1 / (field.D[0] * field.D[1] * field.D[2]))
+
+
+def _half():
+    from flint import fmpq
+    return fmpq(1, 2)
+
+
+@dataclass(frozen=True)
+class Rotation:
+    """One solution at one Omega: mu and gamma as balls; circle: it stands for all its turns about axis 3 (or its own)."""
+
+    mu: Number
+    gamma: tuple
+    circle: tuple = ()
+
+
+def groups_at(S, b):
+    """[(axes of one value of S, whether b vanishes there)] for exact S, b."""
+    values = list(dict.fromkeys(S)) if not hasattr(S[0], "to_dict") else _unique(S)
+    return [(axes, not any(b[i] != 0 for i in axes)) for axes in ([i for i in range(3) if S[i] == v] for v in values)]
+
+
+def _unique(values):
+    out = []
+    for v in values:
+        if not any(v == w for w in out):
+            out.append(v)
+    return out
+
+
+def rotations_at(field: Field, Omega: Fraction) -> list[Rotation]:
+    """All permanent rotations with this Omega (exact), those of the polynomial first, rising in mu."""
+    from flint import arb, fmpq, fmpq_poly
+    O = rational(Omega)
+    S, b = field.stiffness(O), field.pull(O)
+    parted = groups_at(S, b)
+    acting = [axes for axes, idle in parted if not idle]
+    found = []
+    if acting:
+        mu = fmpq_poly([0, 1])
+        n = {axes[0]: S[axes[0]] - mu for axes in acting}
+        P = secular(acting, n, b, fmpq_poly([1]))
+        found += _directions(P, S, b, acting)
+    for axes, idle in parted:
+        if idle:
+            found += _free_part(axes, acting, S, b, fmpq(1), arb)
+    return found
+
+
+def _directions(P, S, b, acting) -> list[Rotation]:
+    """gamma_i = -b_i/(S_i - mu) at every real root mu of P, rising; with more digits where b is so small that S_i - mu has none left."""
+    from flint import arb
+    for bits in (BITS, 4 * BITS, 16 * BITS):
+        with working(bits):
+            found = []
+            for root in sorted((r.real for r, _ in P.numer().complex_roots() if r.imag == 0), key=lambda r: r.mid()):
+                gamma = [arb(0)] * 3
+                for axes in acting:
+                    for i in axes:
+                        gamma[i] = -b[i] / (S[i] - root)
+                found.append(Rotation(root, tuple(gamma)))
+        if all(g.is_finite() and g.rad() < 1e-40 for rotation in found for g in rotation.gamma):
+            return found
+    raise ArithmeticError("a permanent rotation was not told from another in a thousand digits")
+
+
+def secular(acting, n, b, one):
+    """prod n_g^2 - sum B_g prod_(h != g) n_h^2."""
+    total = one
+    for axes in acting:
+        total = total * n[axes[0]] * n[axes[0]]
+    for axes in acting:
+        term = sum((b[i] * b[i] for i in axes[1:]), b[axes[0]] * b[axes[0]]) * one
+        for other in acting:
+            if other is not axes:
+                term = term * n[other[0]] * n[other[0]]
+        total = total - term
+    return total
+
+
+def _free_part(axes, acting, S, b, one, arb):
+    """Rotations with mu = S_g of a group without b."""
+    gamma, rest = [arb(0)] * 3, one
+    for other in acting:
+        for i in other:
+            value = -b[i] / (S[i] - S[axes[0]])
+            gamma[i], rest = arb(value), rest - value * value
+    if rest < 0:
+        return
+    size = arb(rest).sqrt()
+    mu = arb(S[axes[0]])
+    signs = (1,) if len(axes) > 1 else (1, -1) if rest else (1,)
+    for sign in signs:
+        gamma[axes[0]] = size * sign
+        yield Rotation(mu, tuple(gamma), tuple(axes) if len(axes) > 1 and rest else ())
+
+
+def rounded_gamma(rotation):
+    return tuple(float(g.mid()) for g in rotation.gamma)
+
+
+MINIMUM = ("stable", "energy-Casimir: at constant area integral the energy has a strict minimum on |gamma| = 1 (K positive definite), and it "
+                     "persists as the area changes")
+SADDLE = ("unstable", "det K < 0: b < 0 in z^4 + a z^2 + b, a positive eigenvalue")
+SPIRAL = ("unstable", "a^2 < 4 b in z^4 + a z^2 + b: four eigenvalues off the imaginary axis")
+REAL = ("unstable", "a < 0 < b, a^2 > 4 b in z^4 + a z^2 + b: two positive eigenvalues")
+GYROSCOPIC = ("undecided", "K is negative definite and all eigenvalues are imaginary: the gyroscopic terms stabilise the linear motion, and the "
+                           "energy, a saddle here, does not decide for the full one")
+SLEEPING = ("stable", "sleeping top: the spin about the axis of symmetry is a third integral; with distinct frequencies a combination of the "
+                      "three integrals is definite (Chetaev)")
+CIRCLE = ("unstable", "one of a circle of rotations about the axis of symmetry: with any small change of the spin about it gamma drifts round the "
+                      "circle, so neighbours leave this point")
+OPEN = ("undecided", "a coefficient of the spectrum vanishes here: the next order decides")
+SHELL = ("undecided", "a continuum of rotations at one Omega: its second variation vanishes along it, and a term of higher order decides")
+
+
+def judged(field: Field, Omega: Fraction, rotation) -> EquilibriumPoint:
+    """Spectrum and verdict of a `Rotation` at Omega; at = (omega, gamma)."""
+    from flint import fmpq
+    O = rational(Omega)
+    gamma, one = rotation.gamma, fmpq(1)
+    a, b = coefficients(field, O, rotation.mu, gamma, one)
+    determinant, trace = second_variation(field, O, rotation.mu, gamma, one)
+    at = tuple(float(v.mid()) for v in (*(O * g for g in gamma), *gamma))
+    if rotation.circle:
+        axis = 3 - sum(rotation.circle)
+        reason = CIRCLE if len(rotation.circle) == 2 and _symmetric(field, axis) else SHELL
+        return EquilibriumPoint(at, spectrum(a, 0 * b), "degenerate", *reason)
+    linear, reason = _verdict(field, gamma, a, b, determinant, trace)
+    return EquilibriumPoint(at, spectrum(a, b), linear, *reason)
+
+
+def _symmetric(field: Field, k: int) -> bool:
+    """Whether axis k is an axis of symmetry of body, wheel, weight and charge."""
+    i, j = (n for n in range(3) if n != k)
+    return field.D[i] == field.D[j] and (k == 2 or field.E == 0) and not any(
+        v != 0 for n in (i, j) for v in (field.s[n], field.Lambda[n]))
+
+
+def _sleeps(field: Field, gamma) -> bool:
+    """Whether gamma lies along an axis of symmetry (for three equal moments: along the weight and the wheel)."""
+    if field.E == 0 and field.D[0] == field.D[1] == field.D[2]:
+        return not any(v != 0 for v in cross(field.s, field.Lambda))
+    return any(_symmetric(field, k) and all(gamma[n] == 0 for n in range(3) if n != k) for k in range(3))
+
+
+def _verdict(field, gamma, a, b, determinant, trace):
+    gap = a * a - 4 * b
+    if b < 0:
+        return "unstable", SADDLE
+    if determinant > 0 and trace > 0:
+        return ("stable" if gap > 0 else "degenerate"), MINIMUM
+    if gap < 0:
+        return "unstable", SPIRAL
+    if b > 0 and gap > 0:
+        if a < 0:
+            return "unstable", REAL
+        return "stable", SLEEPING if _sleeps(field, gamma) else GYROSCOPIC
+    return "degenerate", OPEN
+
+
+def spectrum(a, b) -> tuple[complex, ...]:
+    """0, 0 and the roots of z^4 + a z^2 + b (balls or exact numbers), opposite ones exactly opposite."""
+    from flint import acb, arb
+    a, b = arb(a), arb(b)
+    gap = a * a - 4 * b
+    if gap < 0:
+        ball = ((acb(-a) + acb(gap).sqrt()) / 2).sqrt()
+        z = complex(float(ball.real.mid()), float(ball.imag.mid()))
+        return (0j, 0j, z, -z, z.conjugate(), -z.conjugate())
+    root = arb(max(float(gap.mid()), 0.0)).sqrt() if not gap > 0 else gap.sqrt()
+    far = -(a + root) / 2 if a >= 0 else (root - a) / 2
+    near = b / far if far != 0 else arb(0)
+    return (0j, 0j, *_pair(far), *_pair(near))
+
+
+def _pair(square):
+    value = float(square.mid())
+    z = complex(value**0.5, 0.0) if value > 0 else complex(0.0, (-value) ** 0.5)
+    return z, -z
+
+
+NEXT_TO = Fraction(1, 2**90)  # of the distance to the next cut: where branches on the two sides of one are compared
+SHARED = Fraction(1, 2**200)
+
+
+def cuts_of(field: Field) -> list[Fraction]:
+    """Omega at which the number of rotations or the sign of a coefficient of the spectrum may change."""
+    from flint import Ordering, fmpq_mpoly_ctx
+    ring = fmpq_mpoly_ctx.get(("mu", "r", "O"), Ordering.lex)
+    mu, r, O = ring.gens()
+    one = ring.constant(1)
+    S, b = [one * v for v in field.stiffness(O)], [one * v for v in field.pull(O)]
+    parted = groups_at(S, b)
+    acting = [axes for axes, idle in parted if not idle]
+    critical = []
+    if acting:
+        n = {i: S[i] - mu for axes in acting for i in axes}
+        q, gamma = _homogeneous(acting, n, b, one)
+        P = secular(acting, n, b, one)
+        critical.append(P.discriminant("mu"))
+        a, c = coefficients(field, O, mu, gamma, q)
+        critical += [P.resultant(divmod(f, P)[1], "mu") for f in (c, a * a - 4 * c)]
+    for axes, idle in parted:
+        if idle:
+            n = {i: S[i] - S[axes[0]] for other in acting for i in other}
+            q, gamma = _homogeneous(acting, n, b, one)
+            square = q * q - sum((g * g for g in gamma), one * 0)
+            gamma[axes[0]] = r
+            a, c = coefficients(field, O, S[axes[0]], gamma, q)
+            critical += [square, q] + [_even(f, r, square) for f in (c, a * a - 4 * c)]
+    return [root for f in critical for root in _real_roots(f)]
+
+
+def _homogeneous(acting, n, b, one):
+    """(q, q gamma) with q = prod n_g."""
+    q, gamma = one, [one * 0] * 3
+    for axes in acting:
+        q = q * n[axes[0]]
+    for axes in acting:
+        rest = -one
+        for other in acting:
+            if other is not axes:
+                rest = rest * n[other[0]]
+        for i in axes:
+            gamma[i] = rest * b[i]
+    return q, gamma
+
+
+def _even(f, r, square):
+    """f with r^2 = square, times its mirror image in r: the same zeros, no r."""
+    return f.resultant(r * r - square, "r") if "r" in _used(f) else f
+
+
+def _used(f) -> set:
+    return {name for name, degree in zip(("mu", "r", "O"), f.degrees()) if degree > 0}
+
+
+def _real_roots(f):
+    """Real roots of a polynomial in Omega alone as fractions, rational ones exact; none for a constant or zero."""
+    from flint import fmpq_poly
+    coefficients = {powers[2]: value for powers, value in f.to_dict().items()}
+    if not coefficients or max(coefficients) == 0:
+        return
+    whole = fmpq_poly([coefficients.get(i, 0) for i in range(max(coefficients) + 1)])
+    for factor, _ in whole.numer().factor()[1]:
+        if factor.degree() == 1:  # exact
+            yield Fraction(-int(factor[0]), int(factor[1]))
+        else:
+            yield from (_fraction(root.real) for root, _ in factor.complex_roots() if root.imag == 0)
+
+
+def _fraction(ball) -> Fraction:
+    man, exp = ball.mid().man_exp()
+    return Fraction(int(man)) * Fraction(2) ** int(exp)
+
+
+def separated(cuts) -> list[Fraction]:
+    """The cuts rising, each once: a root that two polynomials share comes out the same within 2**-200."""
+    out: list[Any] = []
+    for value in sorted(cuts):
+        if not out or value - out[-1] > SHARED * max(abs(value), abs(out[-1])):
+            out.append(value)
+    return out
+
+
+def step_at(cuts, cut: Fraction) -> Fraction:
+    """How far beside a cut its branches are compared: far below the distance to the next one."""
+    others = [abs(cut - other) for other in cuts if other != cut] or [abs(cut) or Fraction(1)]
+    return min(others) * NEXT_TO

@@ -1,0 +1,293 @@
+"""Real algebraic numbers, polynomials over the field of one, and critical values: real roots in order, none twice.
+
+An element of Q(alpha) is one of flint's rational polynomials, reduced by the irreducible polynomial of alpha; a
+polynomial over the field is a list of them, lowest power first.
+
+Two such polynomials have their greatest common divisor from its images modulo primes: Euclid's algorithm over the field
+doubles the length of its coefficients at every step, modulo a prime they have none. Where the polynomial of the number
+keeps its degree and has no double root modulo the prime, and both polynomials are integral there, one with an invertible
+leading coefficient, a common factor has an image of its own degree: so the degree of the images is never too low. What
+is put together from them is the answer if it divides both, and that is tried exactly.
+"""
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import pairwise, zip_longest
+from math import isqrt
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
+
+from ...numbers.balls import Unclear, fraction, rational, real_roots_of, settled, working
+
+if TYPE_CHECKING:
+    from flint import arb, fmpq_poly, nmod_poly
+
+Element: TypeAlias = Any  # a polynomial of the algebraic number, over the rationals or modulo a prime
+FieldPoly: TypeAlias = list  # of fmpq_poly
+Powers: TypeAlias = list  # of (square-free FieldPoly, how often it counts)
+
+FIRST = 1 << 61  # they are below
+
+
+def field_gcd(number: fmpq_poly, f: FieldPoly, g: FieldPoly) -> FieldPoly:
+    """The monic one. number: an irreducible polynomial of the algebraic number; f, g: not zero, coefficients reduced by it."""
+    whole = [int(c) for c in number.numer().coeffs()]
+    size, product, found, tried = 0, 1, [[0]], 1
+    for prime in _primes():
+        image = _image(whole, prime, f, g)
+        if image is None or (size and len(image) > size):
+            continue
+        if len(image) == 1:
+            return [number * 0 + 1]
+        if len(image) != size:
+            size, product, tried = len(image), 1, 1
+            found = [[0] * (len(whole) - 1) for _ in image]
+        inverse = pow(product, -1, prime)
+        for row, c in zip(found, image):
+            for n in range(len(row)):
+                row[n] += product * ((int(c[n]) - row[n]) * inverse % prime)
+        product *= prime
+        if product.bit_length() >= 61 * tried:
+            tried *= 2
+            if (made := _rational(found, product)) is not None and not any(divided(number, h, made)[1] for h in (f, g)):
+                return made
+    raise AssertionError  # there are always more primes
+
+
+def _primes() -> Iterator[int]:
+    from flint import fmpz
+    return (at for at in range(FIRST - 1, 1, -2) if fmpz(at).is_prime())
+
+
+def _image(whole: list[int], prime: int, f: list[fmpq_poly], g: list[fmpq_poly]) -> list[nmod_poly] | None:
+    """The monic divisor modulo a prime, by Euclid; None where the prime does not serve."""
+    from flint import nmod_poly
+    modulus = nmod_poly(whole, prime)
+    if modulus.degree() < len(whole) - 1 or modulus.gcd(modulus.derivative()).degree() > 0:
+        return None
+    if any(int(c.denom()) % prime == 0 for h in (f, g) for c in h):
+        return None
+    one, two = ([nmod_poly([int(n) for n in c.numer().coeffs()], prime) * pow(int(c.denom()), -1, prime) % modulus for c in h] for h in (f, g))
+    if all(_inverse(h[-1], modulus) is None for h in (one, two)):
+        return None
+    while two:
+        lead = _inverse(two[-1], modulus)
+        if lead is None:
+            return None
+        two = [c * lead % modulus for c in two]
+        one, two = two, divided(modulus, one, two)[1]
+    return one
+
+
+def _inverse(element: nmod_poly, modulus: nmod_poly) -> nmod_poly | None:
+    common, found, _ = element.xgcd(modulus)
+    return found * pow(int(common[0]), -1, int(modulus.modulus())) if common.degree() == 0 else None
+
+
+def _rational(rows: list[list[int]], product: int) -> list[fmpq_poly] | None:
+    """Fractions with these residues, of numerators and denominators below the root of half the product; None where there are none."""
+    from flint import fmpq, fmpq_poly
+    bound = isqrt(product // 2)
+    out = []
+    for row in rows:
+        values = []
+        for residue in row:
+            a, b, u, v = product, residue % product, 0, 1
+            while b > bound:
+                q = a // b
+                a, b, u, v = b, a - q * b, v, u - q * v
+            if abs(v) > bound or v == 0:
+                return None
+            values.append(fmpq(b if v > 0 else -b, abs(v)))
+        out.append(fmpq_poly(values))
+    return out
+
+
+def divided(number: Element, f: list[Element], monic: list[Element]) -> tuple[list[Element], list[Element]]:
+    """Quotient and remainder by a monic polynomial. number: what coefficients are reduced by."""
+    rest, n = list(f), len(monic) - 1
+    for k in range(len(rest) - 1, n - 1, -1):
+        for m, c in enumerate(monic[:-1]):
+            rest[k - n + m] = (rest[k - n + m] - rest[k] * c) % number
+    return rest[n:], _trimmed(rest[:n])
+
+
+def _trimmed(f: list[Element]) -> list[Element]:
+    """Without leading zeros."""
+    while f and f[-1].degree() < 0:
+        f.pop()
+    return f
+
+
+@dataclass(frozen=True)
+class Algebraic:
+    """The real root number `index`, in rising order, of an irreducible polynomial with rational coefficients."""
+
+    polynomial: fmpq_poly
+    index: int
+
+    @property
+    def rational(self) -> Fraction | None:
+        """The number itself where it is rational."""
+        return fraction(-self.polynomial[0] / self.polynomial[1]) if self.polynomial.degree() == 1 else None
+
+    def ball(self, bits: int) -> arb:
+        """A ball of so many bits about it, to be used in the same precision."""
+        with working(bits):
+            return real_roots_of(self.polynomial)[self.index][0]
+
+    def __float__(self) -> float:
+        exact = self.rational
+        return float(exact) if exact is not None else float(self.ball(256).mid())
+
+    def reduced(self, element: fmpq_poly) -> fmpq_poly:
+        """The element of the field with powers of alpha below its degree."""
+        return element % self.polynomial
+
+    def trimmed(self, coefficients: Sequence[fmpq_poly]) -> FieldPoly:
+        """A polynomial over the field without leading zeros."""
+        return _trimmed([self.reduced(c) for c in coefficients])
+
+    def inverse(self, element: fmpq_poly) -> fmpq_poly:
+        """1/element."""
+        _, found, _ = element.xgcd(self.polynomial)
+        return self.reduced(found)
+
+    def monic(self, f: FieldPoly) -> FieldPoly:
+        """The polynomial over its leading coefficient."""
+        lead = self.inverse(f[-1])
+        return [self.reduced(c * lead) for c in f]
+
+    def divided(self, f: FieldPoly, monic: FieldPoly) -> FieldPoly:
+        """The quotient by a monic polynomial."""
+        return divided(self.polynomial, f, monic)[0]
+
+    def gcd(self, f: FieldPoly, g: FieldPoly) -> FieldPoly:
+        """The greatest common divisor, monic; one of them may be zero."""
+        return field_gcd(self.polynomial, f, g) if f and g else self.monic(f or g)
+
+    def powers(self, f: FieldPoly) -> Powers:
+        """(square-free factor, how often it counts) of a polynomial that is not zero, by Yun's algorithm; constants are left out."""
+        out: list[tuple[FieldPoly, int]] = []
+        slope = derivative(f)
+        if not slope:
+            return out
+        common = self.gcd(f, slope)
+        b, c = self.divided(f, common), self.divided(slope, common)
+        d, times = self._less(c, derivative(b)), 1
+        while len(b) > 1:
+            common = self.gcd(b, d)
+            if len(common) > 1:
+                out.append((common, times))
+            b, c = self.divided(b, common), self.divided(d, common)
+            d, times = self._less(c, derivative(b)), times + 1
+        return out
+
+    def _less(self, f: FieldPoly, g: FieldPoly) -> FieldPoly:
+        return self.trimmed([a - b for a, b in zip_longest(f, g, fillvalue=self.polynomial * 0)])
+
+    def real_roots(self, powers: Powers, bits: int) -> list[tuple[arb, int]]:
+        """(ball, how often it counts) of the distinct real roots of a polynomial, given its `powers`, rising. Unclear where the bits do not isolate them."""
+        from flint import acb, acb_poly, arb_poly
+        at, found = self.ball(bits), []
+        for factor, times in powers:
+            values = [arb_poly(c)(at) for c in factor]
+            try:
+                roots = acb_poly([acb(v) for v in values]).roots()
+            except ValueError:
+                raise Unclear from None
+            # conjugates are roots as well, so a ball that meets the real axis and no other root holds a real one
+            found += [(sharpened(values, root.real), times) for root in roots if root.imag.contains(0)]
+        return sorted(found, key=lambda one: one[0].mid())
+
+
+def derivative(f: FieldPoly) -> FieldPoly:
+    """Of a polynomial over the field."""
+    return [c * n for n, c in enumerate(f)][1:]
+
+
+def sharpened(coefficients: Sequence[arb], root: arb) -> arb:
+    """A narrower ball about a simple root, by Newton's method over balls (the part of the step that the ball does not hold has no root)."""
+    from flint import arb_poly
+    f = arb_poly(list(coefficients))
+    slope = f.derivative()
+    for _ in range(60):
+        middle = root.mid()
+        rate = slope(root)
+        if rate.contains(0):
+            return root
+        step = middle - f(middle) / rate
+        if not step.overlaps(root):
+            return root
+        new = step.intersection(root)
+        if not new.rad() < root.rad() / 2:
+            return new
+        root = new
+    return root
+
+
+@dataclass(frozen=True)
+class Cut:
+    """A critical value, with a rational on either side of it and nearer to it than any other."""
+
+    number: Algebraic
+    low: Fraction
+    high: Fraction
+
+
+def cuts(polynomials: Iterable[fmpq_poly], low: Fraction, high: Fraction) -> list[Cut]:
+    """The real roots in [low, high] of irreducible polynomials, rising."""
+    unique = {str(monic): monic for f in polynomials if f.degree() > 0 for monic in [f / f.leading_coefficient()]}
+    return settled(lambda digits: _ordered(list(unique.values()), low, high))
+
+
+def _ordered(polynomials, low, high) -> list[Cut]:
+    found: list[tuple[arb, Algebraic]] = []
+    for f in polynomials:
+        for index, (ball, _) in enumerate(real_roots_of(f)):
+            number = Algebraic(f, index)
+            if _inside(number, ball, low, high):
+                found.append((ball, number))
+    found.sort(key=lambda one: one[0].mid())
+    for (first, _), (second, _) in zip(found, found[1:]):
+        if not first < second:
+            raise Unclear
+    return [Cut(number, fraction(ball.lower().fmpq()), fraction(ball.upper().fmpq())) for ball, number in found]
+
+
+def _inside(number: Algebraic, ball: arb, low: Fraction, high: Fraction) -> bool:
+    exact = number.rational
+    if exact is not None:
+        return low <= exact <= high
+    first, last = rational(low), rational(high)  # an irrational number is none of the ends
+    if ball > first and ball < last:
+        return True
+    if ball < first or ball > last:
+        return False
+    raise Unclear
+
+
+class Gap(NamedTuple):
+    """An open interval without cuts: its ends, and a value inside."""
+
+    low: float
+    high: float
+    sample: Fraction
+
+
+def gaps(found: Sequence[Cut], low: Fraction, high: Fraction) -> list[Gap | None]:
+    """Those before, between and after the cuts of a range; None where a cut stands at its end."""
+    ends = [(low, low, float(low)), *((cut.low, cut.high, float(cut.number)) for cut in found), (high, high, float(high))]
+    return [Gap(first, last, between(a, b)) if a < b else None for (_, a, first), (b, _, last) in pairwise(ends)]
+
+
+def between(first: Fraction, second: Fraction) -> Fraction:
+    """A short rational in the open interval, near its middle."""
+    middle, room = (first + second) / 2, (second - first) / 4
+    step = Fraction(1)
+    while step > room:
+        step /= 10
+    while step * 10 <= room:
+        step *= 10
+    return Fraction(round(middle / step)) * step

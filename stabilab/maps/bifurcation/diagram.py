@@ -1,0 +1,329 @@
+"""The diagram over one number: critical values by elimination, the equilibria at each and at one value between neighbours.
+
+The stability of an equilibrium comes from the signs of m and n in balls and the reasons of the room `equilibrium`.
+
+Where equilibria form curves for every value of the range, these are given in words. Without a torque they are lines along
+principal axes that carry no wheel, planes of equal moments, and the curve on which momentum is along the rotation.
+Under a torque along equal moments of inertia they are a conic in the plane across it. Which of these there are hangs on differences of moments, on parts of
+wheel and torque that vanish, on lambda . M, and on the determinant of the conic alone: polynomials in what varies.
+
+Branches are numbered by one component, and two may pass one above the other: they keep their order in the parts of a piece alone.
+"""
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from functools import partial
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from ...equilibrium.gyrostat import WELL, gyrostat_equilibria
+from ...equilibrium.stability import POSITIVE_EIGENVALUE, invariants, isolated_verdict, linear_word
+from ...numbers.balls import Unclear, rational, settled, sign
+from ...numbers.vectors import Float3, dot
+from ...physics.coefficients import effective
+from ...physics.quadratic import QuadraticForm, euler_form
+from .algebraic import Cut, between, cuts, gaps
+from .eliminated import Eliminated, Leant, Root, evaluated, univariate
+from .equations import BORDERS, ISOLATED, LEAF, Conics, OnLine, chosen
+from .family import CURVES, ENDLESS, Diagram, Event, Family, Piece, State
+
+if TYPE_CHECKING:
+    from flint import arb, fmpq_mpoly
+
+BORDER = ("border", "m = 0 on the curve of equilibria: stability changes here")
+SMALL = 1e-17  # radius of a ball over one plus its size
+CROSSES = ("undecided", "the curve that the motion keeps to crosses itself here")
+
+
+def ball_form(family: Family, values: list) -> tuple[QuadraticForm, list[arb]]:
+    """(the rates with balls for coefficients, u) at values of what varies."""
+    from flint import arb
+    unknowns = [arb(0)] * 2
+    numbers: dict[str, Any] = {name: [evaluated(c, [*unknowns, *values]) for c in row] for name, row in family.numbers.items()}
+    if not family.scaled:
+        return euler_form(tuple(numbers["D"]), tuple(numbers["lam"]), tuple(numbers["M"])), numbers["u"]
+    half, l1 = numbers["u"][0] / 2, numbers["lam"][0]
+    one: Any = arb(1)
+    zero: Any = arb(0)
+    return QuadraticForm((one, -one, one), (zero, zero, half + l1), (zero, l1 - half, zero), tuple(numbers["M"]), "x"), numbers["u"]
+
+
+def state_of(family: Family, y: tuple[arb, ...], u: list[arb]) -> tuple[arb, ...]:
+    """The state in the case's variables."""
+    return ((y[0] - u[0]) / 2, y[1], -y[2]) if family.scaled else tuple(y)
+
+
+def doubles(x: tuple[arb, ...]) -> tuple[float, ...]:
+    """The middles of balls that are narrow enough for doubles. Unclear where they are not."""
+    if any(v.rad() > SMALL * (1 + abs(v.mid())) for v in x):
+        raise Unclear
+    return tuple(0.0 if v.contains(0) else float(v.mid()) for v in x)
+
+
+def judged_state(family: Family, kind: str, values: list, root: Root, after: int = 0, flat: bool = False) -> State:
+    """An equilibrium with its verdict. after: where branches meet in it on a motion's curve, the sign of m on the branch that goes on; flat: m is known to
+    be zero there, which no ball tells. Unclear where the balls leave a sign open."""
+    form, u = ball_form(family, values)
+    x = state_of(family, root.y, u)
+    at = doubles(x)
+    if kind == BORDERS:
+        return State(at, root.times, "degenerate", *BORDER)
+    m, n = invariants(form, x)
+    if kind == ISOLATED:
+        n_sign = sign(n) if root.times == 1 else 0
+        m_sign = 0 if flat or (n_sign and m.contains(0)) else sign(m)
+        return State(at, root.times, linear_word(m_sign, n_sign), *isolated_verdict(m_sign, n_sign))
+    if root.times == 1:
+        m_sign = sign(m)
+        return State(at, 1, linear_word(m_sign, 0), *(WELL.positive if m_sign > 0 else POSITIVE_EIGENVALUE))
+    verdict = WELL.odd if root.times % 2 == 0 else WELL.minimum if after > 0 else WELL.maximum if after < 0 else CROSSES
+    return State(at, root.times, "degenerate", *verdict)
+
+
+def general_states(family: Family, kind: str, eliminated: Eliminated, value: Fraction, digits: Any, view: Leant | None = None) -> tuple[State, ...]:
+    """The equilibria at a value where no branches meet, with their verdicts; asked by `settled`. view: another one than the main view."""
+    return tuple(judged_state(family, kind, [rational(value)], root) for root in eliminated.at_general((value,), view))
+
+
+class Told(NamedTuple):
+    """What there is at one value: how many equilibria, and in words."""
+
+    number: int
+    words: str
+
+
+def told(family: Family, what: str) -> Diagram:
+    """The diagram in words over one number."""
+    span, named = family.spans[0], list(_named(family))
+    parts = [factor for f, _ in named if not f.is_constant() for factor, _ in f.factor()[1]]
+    found = cuts((univariate(f, 2) for f in parts), span.low, span.high)
+    pieces: list[Piece] = []
+    events: list[Event] = []
+    for n, gap in enumerate(gaps(found, span.low, span.high)):
+        event = _change_in_words(family, found[n - 1], named) if n else None
+        if gap:
+            there = _words_at(family, gap.sample)
+            if pieces and there == (pieces[-1].count, pieces[-1].words) and (event is None or (event.count, event.words) == there):
+                pieces[-1] = replace(pieces[-1], high=gap.high)
+                continue
+            pieces.append(Piece(*gap[:2], there.number, gap.sample, (), words=there.words))
+        if event is not None:
+            events.append(event)
+    return Diagram(family, CURVES, what, tuple(pieces), tuple(events))
+
+
+def _words_at(family: Family, value: Fraction) -> Told:
+    found = gyrostat_equilibria(effective(family.at((value,)).scene))
+    if found.kind == "all":
+        return Told(ENDLESS, "every state is an equilibrium")
+    if found.kind == "none":
+        return Told(0, "")
+    return Told(ENDLESS if found.curves else len(found.points), ", ".join(curve.name for curve in found.curves))
+
+
+def _change_in_words(family: Family, cut: Cut, named: list[tuple[fmpq_mpoly, str]]) -> Event:
+    number, exact = cut.number, cut.number.rational
+    here = _words_at(family, exact) if exact is not None else Told(ENDLESS, "")
+    why = [words for f, words in named if number.reduced(univariate(f, 2)) == 0]
+    return Event(float(number), exact, tuple(int(c) for c in number.polynomial.numer().coeffs()), number.index, ("curve",), here.number, (),
+                 here.words or "; ".join(dict.fromkeys(why)))
+
+
+def _named(family: Family) -> Iterator[tuple[fmpq_mpoly, str]]:
+    """(polynomial, what is so where it vanishes) of all that may change the curves; those that vanish all over the range are left out."""
+    n = family.numbers
+    D, lam, M = n["D"], n["lam"], n["M"]
+    load = dot(lam, M)
+    rows = [(D[i] - D[j], f"moments of inertia {i + 1} and {j + 1} are equal") for i in range(3) for j in range(i)]
+    rows += [(lam[i], f"the wheel's part along axis {i + 1} vanishes") for i in range(3)]
+    rows += [(M[i], f"the torque's part along axis {i + 1} vanishes") for i in range(3)]
+    rows += [(load, "the wheel is across the torque")]
+    for c in range(3):
+        i, j = (c + 1) % 3, (c + 2) % 3
+        rows.append(((D[i] - D[c]) * dot(M, M) + lam[c] * (lam[j] * M[i] - lam[i] * M[j]), "the conic falls apart into lines"))
+    return ((f, words) for f, words in rows if not f.is_zero())
+
+
+WORDS = {"fold": "two {} meet and vanish", "pitchfork": "three {} meet in one", "crossing": "two branches of {} cross",
+         "touch": "two {} that are there at this value alone", "infinity": "{} go to infinity"}
+
+
+def diagram(family: Family, borders: bool = False) -> Diagram:
+    """All equilibria over the one range of a family."""
+    kind, what, system, notes = chosen(family, borders)
+    span = family.spans[0]
+    if system is None:
+        return told(family, what)
+    eliminated = Eliminated(family, system)
+    found = cuts((univariate(c, 2) for c in eliminated.critical), span.low, span.high)
+    pieces: list[Piece | None] = []
+    for gap in gaps(found, span.low, span.high):
+        states = settled(partial(general_states, family, kind, eliminated, gap.sample)) if gap else ()
+        pieces.append(Piece(*gap[:2], len(states), gap.sample, states) if gap else None)
+    events = [_event(family, kind, eliminated, cut, pieces[n:n + 2]) for n, cut in enumerate(found)]
+    kept = [piece for piece in pieces if piece is not None]
+    return Diagram(family, kind, what, *_joined(kept, events, found), notes=notes)
+
+
+def _event(family: Family, kind: str, eliminated: Eliminated, cut: Cut, sides: Sequence[Piece | None]) -> Event | None:
+    """What happens at a cut; None where nothing does."""
+    system, number = eliminated.system, cut.number
+    make = lambda kinds, count, states, words: Event(float(number), number.rational, _whole(number.polynomial), number.index, kinds, count, states, words)
+    if number.reduced(univariate(system.special, 2)) == 0:
+        return make(("axis",), *_on_an_axis(family, system, cut))
+    roots = settled(lambda digits: [eliminated.at_algebraic(number, digits.bits)])[0]
+    if roots is None:
+        return make(("curve",), ENDLESS, (), "every point of a curve is an equilibrium")
+    kinds = _kinds(eliminated, cut, roots, sides)
+    if not kinds:
+        return None
+    states = settled(lambda digits: _states_at(family, kind, eliminated, cut, digits.bits, sides))
+    things = "points" if kind == BORDERS else "equilibria"
+    return make(kinds, len(roots), states, "; ".join(WORDS[word].format(things) for word in kinds))
+
+
+def _kinds(eliminated: Eliminated, cut: Cut, roots: Sequence[Root], sides: Sequence[Piece | None]) -> tuple[str, ...]:
+    counts = [piece.count for piece in sides if piece is not None]
+    many = max((root.times for root in roots), default=1)
+    kinds = []
+    if many > 1:
+        if many > 2:
+            kinds.append("pitchfork")
+        elif len(counts) == 1 or counts[0] != counts[-1]:
+            kinds.append("fold")
+        else:
+            kinds.append("touch" if len(roots) > counts[0] else "crossing")
+    elif any(count != len(roots) for count in counts):
+        kinds.append("infinity")
+    return tuple(kinds)
+
+
+def _states_at(family: Family, kind: str, eliminated: Eliminated, cut: Cut, bits: int, sides: Sequence[Piece | None]) -> tuple[State, ...]:
+    values = [cut.number.ball(bits)]
+    roots = eliminated.at_algebraic(cut.number, bits) or []
+    flat = kind == ISOLATED and any(root.times > 1 for root in roots) and eliminated.flat(cut.number)
+    return tuple(judged_state(family, kind, values, root, _going_on(root, sides) if kind == LEAF else 0, flat) for root in roots)
+
+
+def _going_on(root: Root, sides: Sequence[Piece | None]) -> int:
+    """The sign of m on a branch that goes on through a meeting of an odd number: that of the side where one branch alone arrives."""
+    alone = [piece for piece in sides if piece is not None and piece.count == 1]
+    return 0 if not alone or root.times % 2 == 0 else 1 if alone[0].states[0].linear == "stable" else -1
+
+
+def _on_an_axis(family: Family, system: OnLine | Conics, cut: Cut) -> tuple[int, tuple[State, ...], str]:
+    """(count, states, words) where the torque of an isolated family falls on a principal axis."""
+    value = cut.number.rational
+    if value is None:
+        load = cut.number.reduced(univariate(system.load, 2)) == 0
+        return (ENDLESS, (), "the torque falls on a principal axis: a curve of equilibria") if load else \
+            (0, (), "the torque falls on a principal axis that carries a wheel: no equilibrium")
+    found = gyrostat_equilibria(effective(family.at((value,)).scene))
+    states = tuple(State(point.at, 1, point.linear, point.verdict, point.because) for point in found.points)
+    told = "no equilibrium" if found.kind == "none" else f"{', '.join(curve.name for curve in found.curves)}" if found.curves else ""
+    return ENDLESS if found.curves or found.kind == "all" else len(states), states, f"{told}: {found.reason}" if told else found.reason
+
+
+def _whole(polynomial) -> tuple[int, ...]:
+    return tuple(int(c) for c in polynomial.numer().coeffs())
+
+
+def _joined(pieces: list[Piece], events: list[Event | None], found: Sequence[Cut]) -> tuple[tuple[Piece, ...], tuple[Event, ...]]:
+    """Pieces without the cuts at which nothing happens but that branches may change their order: their seams."""
+    gone = {float(cut.number) for cut, event in zip(found, events) if event is None}
+    out: list[Piece] = []
+    for piece in pieces:
+        if out and piece.low in gone and out[-1].high == piece.low:
+            out[-1] = replace(out[-1], high=piece.high, seams=(*out[-1].seams, piece.low))
+        else:
+            out.append(piece)
+    return tuple(out), tuple(event for event in events if event is not None)
+
+
+@dataclass(frozen=True)
+class Part:
+    """low, high: its ends, an end of the piece or a seam; states: the equilibria at a value inside, in the order of this part."""
+
+    low: float
+    high: float
+    states: tuple[State, ...]
+
+
+def parts(family: Family, kind: str, eliminated: Eliminated, piece: Piece) -> list[Part]:
+    """The parts between the seams of a piece, rising."""
+    ends = (piece.low, *piece.seams, piece.high)
+    out = []
+    for low, high in zip(ends, ends[1:]):
+        inside = low < piece.sample < high
+        states = piece.states if inside else settled(partial(general_states, family, kind, eliminated, between(Fraction(low), Fraction(high))))
+        out.append(Part(low, high, states))
+    return out
+
+
+def followed(before: Sequence[Float3], after: Sequence[Float3]) -> list[int]:
+    """For each state after a seam the place of the one before it that it goes on from: the nearest."""
+    apart = sorted((sum((u - v) ** 2 for u, v in zip(a, b)), n, k) for n, a in enumerate(after) for k, b in enumerate(before))
+    found: dict[int, int] = {}
+    for _, n, k in apart:
+        if n not in found and k not in found.values():
+            found[n] = k
+    return [found[n] for n in range(len(after))]
+
+
+POINTS = 64  # of a branch, closer towards both ends as a fold's parabola needs it
+
+
+@dataclass(frozen=True)
+class Branch:
+    """A branch of one piece, or of a part of it between seams: rows (value, state in the case's variables), the verdict that all of it has, and which
+    branch of which piece it is."""
+
+    piece: int
+    number: int
+    verdict: str
+    values: tuple[float, ...]
+    states: tuple[Float3, ...]
+
+
+def branches(diagram: Diagram, points: int = POINTS) -> list[Branch]:
+    """Every branch of every piece."""
+    system = chosen(diagram.family, diagram.kind == "borders")[2]
+    if system is None:
+        return []
+    eliminated = Eliminated(diagram.family, system)
+    return [branch for n, piece in enumerate(diagram.pieces) if piece.count for branch in _of_piece(diagram, eliminated, n, piece, points)]
+
+
+def _of_piece(diagram: Diagram, eliminated: Eliminated, n: int, piece: Piece, points: int) -> Iterator[Branch]:
+    """The branches of a piece, each part of it by itself; a branch keeps its number across a seam."""
+    numbers, last = list(range(piece.count)), None
+    for part in parts(diagram.family, diagram.kind, eliminated, piece):
+        rows = [(float(value), states) for value in _spread(part, points) if (states := _solved(diagram, eliminated, value, piece.count)) is not None]
+        if rows and last is not None:
+            numbers = [numbers[k] for k in followed(last, rows[0][1])]
+        for place, number in enumerate(numbers):
+            yield Branch(n, number, part.states[place].verdict, tuple(value for value, _ in rows), tuple(states[place] for _, states in rows))
+        last = rows[-1][1] if rows else last
+
+
+def _spread(part: Part, points: int) -> list[Fraction]:
+    """Values inside, ends left out."""
+    low, high = Fraction(part.low), Fraction(part.high)
+    shares = [Fraction(0.5 - 0.5 * math.cos(math.pi * k / points)) for k in range(1, points)]
+    ends = [Fraction(1, 10**6), 1 - Fraction(1, 10**6)]
+    return sorted(low + (high - low) * share for share in {*shares, *ends})
+
+
+def _solved(diagram: Diagram, eliminated: Eliminated, value: Fraction, count: int) -> list[Float3] | None:
+    try:
+        states = settled(lambda digits: [_state(diagram, root.y, value) for root in eliminated.at_general((value,))], most=1024)
+    except Unclear:
+        return None
+    return states if len(states) == count else None
+
+
+def _state(diagram: Diagram, y, value: Fraction) -> Float3:
+    u = ball_form(diagram.family, [rational(value)])[1] if diagram.family.scaled else []
+    return tuple(float(v.mid()) + 0.0 for v in state_of(diagram.family, y, u))

@@ -1,1 +1,0 @@
-"""The field of an algebraic number, and polynomials over it."""

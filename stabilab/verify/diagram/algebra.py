@@ -1,0 +1,304 @@
+"""Counted work, coefficients, Groebner bases and Hermite's trace form.
+
+How much work the check of a diagram may take: bits times operations, counted before each, so that the same file has the same end everywhere.
+
+Coefficients of the equations while a number t varies: rational functions of t, or what they are at one algebraic value of it.
+
+Polynomials in a few unknowns, and a Groebner basis of the equations: which monomials remain, and any polynomial written in these.
+
+A polynomial is a table from the powers of its unknowns to coefficients that are not zero (`Ratio`, `Residue`).
+The order of monomials is by total degree, then by the powers. Buchberger's algorithm: every pair of the basis leaves the
+remainder zero, or its remainder joins the basis.
+
+Hermite's trace form: its rank is the number of different zeros of the equations, its signature that of the real ones.
+
+For any polynomial q the form with entries tr(b_i b_j q), over the monomials b that remain, has the rank "different zeros at which q is not zero" and the
+signature "real ones where q > 0 less real ones where q < 0". All its eigenvalues are real, so the signs of its characteristic polynomial's coefficients
+tell how many are positive (Descartes' rule is exact then).
+"""
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, field
+from itertools import product
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from flint import fmpq_poly
+
+MOST = 2_000_000_000  # some five seconds at the most; the certificates of the tests take up to a tenth
+
+
+class TooLarge(Exception):
+    """More work than a certificate may ask for."""
+
+
+class Work:
+    """What is left of it."""
+
+    def __init__(self, left: int | None = None):
+        self.left = MOST if left is None else left
+
+    def spend(self, count: int) -> None:
+        """Raises `TooLarge` when it is used up."""
+        self.left -= count
+        if self.left < 0:
+            raise TooLarge
+
+    def division(self, f: Any, g: Any) -> None:
+        """A remainder of two polynomials: their bits, once for each degree."""
+        self.spend(OVERHEAD + (bits(f) + bits(g)) * (1 + max(f.degree(), 0) + max(g.degree(), 0)))
+
+    def common(self, f: Any, g: Any) -> None:
+        """The greatest common factor of two polynomials, which is formed modulo primes."""
+        self.spend(OVERHEAD + (bits(f) + bits(g)) * (1 + max(f.degree(), 0) + max(g.degree(), 0)) // 4)
+
+    def value(self, f: Any, at: Any) -> None:
+        """The value of a polynomial at a rational number."""
+        degree = max(f.degree(), 0)
+        self.spend(OVERHEAD + 4 * (1 + degree) * (height(f) + degree * (at.numerator.bit_length() + at.denominator.bit_length())))
+
+    def factors(self, f: Any) -> None:
+        """The irreducible factors of a polynomial."""
+        degree = max(f.degree(), 0)
+        self.spend(OVERHEAD + (1 + degree) ** 3 * height(f))
+
+
+OVERHEAD = 2000  # of a call: as long as so many bits take
+
+
+def height(f: Any) -> int:
+    """The bits of the longest coefficient."""
+    return int(f.numer().height_bits()) + int(f.denom().bit_length())
+
+
+def bits(f: Any) -> int:
+    """The bits of all coefficients."""
+    return height(f) * (1 + max(f.degree(), 0))
+
+
+@dataclass(frozen=True)
+class Ratio:
+    """top/bottom, polynomials in t without a common factor. Whoever divides by one notes its top: there the division fails."""
+
+    top: fmpq_poly
+    bottom: fmpq_poly
+    work: Work = field(compare=False)
+
+    @classmethod
+    def of(cls, polynomial, work: Work) -> Ratio:
+        """A polynomial in t."""
+        return cls(polynomial, polynomial * 0 + 1, work)
+
+    def __bool__(self) -> bool:
+        return self.top != 0
+
+    def __add__(self, other: Ratio) -> Ratio:
+        return _reduced(self.top * other.bottom + other.top * self.bottom, self.bottom * other.bottom, self.work)
+
+    def __sub__(self, other: Ratio) -> Ratio:
+        return _reduced(self.top * other.bottom - other.top * self.bottom, self.bottom * other.bottom, self.work)
+
+    def __mul__(self, other: Ratio) -> Ratio:
+        return _reduced(self.top * other.top, self.bottom * other.bottom, self.work)
+
+    def inverse(self) -> Ratio:
+        """1 over it; it is not zero."""
+        return _reduced(self.bottom, self.top, self.work)
+
+    def over(self, whole: int) -> Ratio:
+        """It, over a whole number."""
+        return Ratio(self.top / whole, self.bottom, self.work)
+
+
+def _reduced(top, bottom, work: Work) -> Ratio:
+    work.common(top, bottom)
+    common = top.gcd(bottom)
+    lead = (bottom / common).leading_coefficient()
+    return Ratio(top / common / lead, bottom / common / lead, work)
+
+
+@dataclass(frozen=True)
+class Residue:
+    """What a polynomial in t is at a zero of an irreducible one, `at`: of degree one at a rational value."""
+
+    value: fmpq_poly
+    at: fmpq_poly
+    work: Work = field(compare=False)
+
+    def __bool__(self) -> bool:
+        return self.value != 0
+
+    def __add__(self, other: Residue) -> Residue:
+        return Residue(self.value + other.value, self.at, self.work)
+
+    def __sub__(self, other: Residue) -> Residue:
+        return Residue(self.value - other.value, self.at, self.work)
+
+    def __mul__(self, other: Residue) -> Residue:
+        product = self.value * other.value
+        self.work.division(product, self.at)
+        return Residue(product % self.at, self.at, self.work)
+
+    def inverse(self) -> Residue:
+        """1 over it; it is not zero."""
+        self.work.spend((1 + self.at.degree()) * (bits(self.value) + bits(self.at)))
+        self.work.division(self.value, self.at)
+        _, found, _ = self.value.xgcd(self.at)
+        return Residue(found % self.at, self.at, self.work)
+
+    def over(self, whole: int) -> Residue:
+        """It, over a whole number."""
+        return Residue(self.value / whole, self.at, self.work)
+
+
+Powers = tuple[int, ...]
+Polynomial = dict[Powers, Any]
+
+
+def added(f: Polynomial, g: Polynomial, less: bool = False) -> Polynomial:
+    """f + g, or f - g."""
+    out = dict(f)
+    for powers, c in g.items():
+        old = out.pop(powers, None)
+        new = (c - c) - c if old is None and less else c if old is None else old - c if less else old + c
+        if new:
+            out[powers] = new
+    return out
+
+
+def times(f: Polynomial, g: Polynomial) -> Polynomial:
+    """f g."""
+    out: Polynomial = {}
+    for powers, c in g.items():
+        out = added(out, _shifted(f, powers, c))
+    return out
+
+
+def _shifted(f: Polynomial, powers: Powers, c: Any) -> Polynomial:
+    return {tuple(a + b for a, b in zip(old, powers)): value * c for old, value in f.items()}
+
+
+def leading(f: Polynomial) -> Powers:
+    """The greatest monomial."""
+    return max(f, key=lambda powers: (sum(powers), powers))
+
+
+def _divides(one: Powers, other: Powers) -> bool:
+    return all(a <= b for a, b in zip(one, other))
+
+
+class Basis:
+    """A Groebner basis of polynomials that are zero together. pivots: the elements that were divided by; wherever none of them is zero the same
+    basis, with what its coefficients are there, is one."""
+
+    def __init__(self, given: Iterable[Polynomial]):
+        self.pivots: list[Any] = []
+        self.members: list[tuple[Powers, Polynomial]] = []
+        waiting = [f for f in given if f]
+        pairs: list[tuple[int, int]] = []
+        while waiting or pairs:
+            f = self.rest(waiting.pop(0) if waiting else self._against(*pairs.pop(0)))
+            if f:
+                top = leading(f)
+                self.pivots.append(f[top])
+                scale = f[top].inverse()
+                self.members.append((top, {powers: c * scale for powers, c in f.items()}))
+                last = len(self.members) - 1
+                pairs += [(n, last) for n in range(last) if any(a and b for a, b in zip(self.members[n][0], top))]
+                pairs.sort(key=lambda pair: sum(map(max, self.members[pair[0]][0], self.members[pair[1]][0])))
+
+    def _against(self, n: int, k: int) -> Polynomial:
+        """Two members, each raised to the least monomial that both leading ones divide, the one less the other."""
+        (one, f), (two, g) = self.members[n], self.members[k]
+        both = tuple(map(max, one, two))
+        raised = lambda h, top: {tuple(p + b - t for p, b, t in zip(powers, both, top)): c for powers, c in h.items()}
+        return added(raised(f, one), raised(g, two), less=True)
+
+    def rest(self, f: Polynomial) -> Polynomial:
+        """What remains of f: a sum of monomials that no leading one divides."""
+        todo, out = dict(f), {}
+        while todo:
+            top = leading(todo)
+            member = next((m for m in self.members if _divides(m[0], top)), None)
+            if member is None:
+                out[top] = todo.pop(top)
+            else:
+                todo = added(todo, _shifted(member[1], tuple(a - b for a, b in zip(top, member[0])), todo[top]), less=True)
+        return out
+
+    def monomials(self, unknowns: int) -> Sequence[Powers] | None:
+        """Those that no leading one divides, rising: as many as there are zeros, each counted as often as it counts. None where these are endless."""
+        tops = [top for top, _ in self.members]
+        ends = []
+        for n in range(unknowns):
+            pure = [top[n] for top in tops if not any(p for k, p in enumerate(top) if k != n)]
+            if not pure:
+                return None
+            ends.append(min(pure))
+        found = [powers for powers in product(*map(range, ends)) if not any(_divides(top, powers) for top in tops)]
+        return sorted(found, key=lambda powers: (sum(powers), powers))
+
+
+def characteristic(basis: Basis, monomials: Sequence[Powers], weight: Polynomial, one: Any) -> list[Any]:
+    """Coefficients of the form's characteristic polynomial after the leading one, by Faddeev's recursion. weight: q, as `basis.rest` leaves it."""
+    rows, size, zero = _form(basis, monomials, weight, one), len(monomials), one - one
+    found: list[Any] = []
+    power = [[zero] * size for _ in range(size)]
+    last = one
+    for n in range(1, size + 1):
+        power = _product(rows, power, zero)
+        for k in range(size):
+            power[k] = [value + rows[k][m] * last for m, value in enumerate(power[k])]
+        trace = zero
+        for k in range(size):
+            trace = trace + power[k][k]
+        last = (zero - trace).over(n)
+        found.append(last)
+    return found
+
+
+def _form(basis: Basis, monomials: Sequence[Powers], weight: Polynomial, one: Any) -> list[list[Any]]:
+    """The matrix of tr(b_i b_j weight)."""
+    zero = one - one
+    product = lambda *factors: tuple(map(sum, zip(*factors)))
+    traces = {}
+    for b in monomials:
+        total = zero
+        for c in monomials:  # the share of c in b c
+            total = total + basis.rest({product(b, c): one}).get(c, zero)
+        traces[b] = total
+    rows = []
+    for a in monomials:
+        row = []
+        for b in monomials:
+            total = zero
+            for powers, c in basis.rest(times({product(a, b): one}, weight)).items():
+                total = total + c * traces[powers]
+            row.append(total)
+        rows.append(row)
+    return rows
+
+
+def _product(a: list[list[Any]], b: list[list[Any]], zero: Any) -> list[list[Any]]:
+    size = len(a)
+    out = [[zero] * size for _ in range(size)]
+    for i in range(size):
+        for j in range(size):
+            for k in range(size):
+                out[i][j] = out[i][j] + a[i][k] * b[k][j]
+    return out
+
+
+def rank_and_signature(coefficients: Sequence[Any], sign: Callable[[Any], int]) -> tuple[int, int]:
+    """(rank, positive eigenvalues less negative ones), given the signs of the coefficients after the leading one."""
+    signs = [1, *(sign(c) if c else 0 for c in coefficients)]
+    rank = max(n for n, s in enumerate(signs) if s)
+    plus = _changes(signs)
+    minus = _changes([s if n % 2 == 0 else -s for n, s in enumerate(signs)])
+    return rank, plus - minus
+
+
+def _changes(signs: Sequence[int]) -> int:
+    kept = [s for s in signs if s]
+    return sum(a != b for a, b in zip(kept, kept[1:]))
