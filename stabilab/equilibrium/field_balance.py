@@ -28,7 +28,10 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
+from flint import Ordering, acb, arb, fmpq, fmpq_mpoly_ctx, fmpq_poly
+
 from ..numbers.balls import BITS, rational, working
+from ..numbers.polynomial import Poly, real_roots
 from ..numbers.vectors import Number, cross, dot
 from ..physics.coefficients import linear_rates
 from .result import EquilibriumPoint
@@ -109,7 +112,6 @@ def coefficients(field: Field, Omega, mu, gamma, q=1):
 
 
 def _half():
-    from flint import fmpq
     return fmpq(1, 2)
 
 
@@ -124,21 +126,13 @@ class Rotation:
 
 def groups_at(S, b):
     """[(axes of one value of S, whether b vanishes there)] for exact S, b."""
-    values = list(dict.fromkeys(S)) if not hasattr(S[0], "to_dict") else _unique(S)
-    return [(axes, not any(b[i] != 0 for i in axes)) for axes in ([i for i in range(3) if S[i] == v] for v in values)]
-
-
-def _unique(values):
-    out = []
-    for v in values:
-        if not any(v == w for w in out):
-            out.append(v)
-    return out
+    first = [k for k in range(3) if not any(S[k] == S[n] for n in range(k))]
+    groups = [[i for i in range(3) if S[i] == S[k]] for k in first]
+    return [(axes, not any(b[i] != 0 for i in axes)) for axes in groups]
 
 
 def rotations_at(field: Field, Omega: Fraction) -> list[Rotation]:
     """All permanent rotations with this Omega (exact), those of the polynomial first, rising in mu."""
-    from flint import arb, fmpq, fmpq_poly
     O = rational(Omega)
     S, b = field.stiffness(O), field.pull(O)
     parted = groups_at(S, b)
@@ -157,7 +151,6 @@ def rotations_at(field: Field, Omega: Fraction) -> list[Rotation]:
 
 def _directions(P, S, b, acting) -> list[Rotation]:
     """gamma_i = -b_i/(S_i - mu) at every real root mu of P, rising; with more digits where b is so small that S_i - mu has none left."""
-    from flint import arb
     for bits in (BITS, 4 * BITS, 16 * BITS):
         with working(bits):
             found = []
@@ -224,7 +217,6 @@ SHELL = ("undecided", "a continuum of rotations at one Omega: its second variati
 
 def judged(field: Field, Omega: Fraction, rotation) -> EquilibriumPoint:
     """Spectrum and verdict of a `Rotation` at Omega; at = (omega, gamma)."""
-    from flint import fmpq
     O = rational(Omega)
     gamma, one = rotation.gamma, fmpq(1)
     a, b = coefficients(field, O, rotation.mu, gamma, one)
@@ -269,7 +261,6 @@ def _verdict(field, gamma, a, b, determinant, trace):
 
 def spectrum(a, b) -> tuple[complex, ...]:
     """0, 0 and the roots of z^4 + a z^2 + b (balls or exact numbers), opposite ones exactly opposite."""
-    from flint import acb, arb
     a, b = arb(a), arb(b)
     gap = a * a - 4 * b
     if gap < 0:
@@ -294,7 +285,6 @@ SHARED = Fraction(1, 2**200)
 
 def cuts_of(field: Field) -> list[Fraction]:
     """Omega at which the number of rotations or the sign of a coefficient of the spectrum may change."""
-    from flint import Ordering, fmpq_mpoly_ctx
     ring = fmpq_mpoly_ctx.get(("mu", "r", "O"), Ordering.lex)
     mu, r, O = ring.gens()
     one = ring.constant(1)
@@ -346,21 +336,10 @@ def _used(f) -> set:
 
 def _real_roots(f):
     """Real roots of a polynomial in Omega alone as fractions, rational ones exact; none for a constant or zero."""
-    from flint import fmpq_poly
     coefficients = {powers[2]: value for powers, value in f.to_dict().items()}
     if not coefficients or max(coefficients) == 0:
-        return
-    whole = fmpq_poly([coefficients.get(i, 0) for i in range(max(coefficients) + 1)])
-    for factor, _ in whole.numer().factor()[1]:
-        if factor.degree() == 1:  # exact
-            yield Fraction(-int(factor[0]), int(factor[1]))
-        else:
-            yield from (_fraction(root.real) for root, _ in factor.complex_roots() if root.imag == 0)
-
-
-def _fraction(ball) -> Fraction:
-    man, exp = ball.mid().man_exp()
-    return Fraction(int(man)) * Fraction(2) ** int(exp)
+        return []
+    return real_roots(Poly.of(fmpq_poly([coefficients.get(i, 0) for i in range(max(coefficients) + 1)])), BITS)
 
 
 def separated(cuts) -> list[Fraction]:

@@ -34,14 +34,16 @@ from itertools import combinations
 from math import cos, sin, tan
 from typing import Any
 
+from flint import arb, arb_mat
+
 from ..errors import InputError
-from ..numbers.balls import many_digits, rational
+from ..numbers.balls import BITS, fraction, many_digits, rational
 from ..numbers.exact import sqrt_fraction
 from ..numbers.polynomial import Poly, real_roots
 from ..numbers.vectors import CYCLE
 from ..physics.coefficients import Content
 from .field_balance import NEXT_TO, Field, Rotation, blocks, cuts_of, judged, rotations_at, rounded_gamma, separated, step_at
-from .result import CurveSegment, Equilibria, EquilibriumCurve, EquilibriumPoint, sample_parameters, values_inside
+from .result import CurveSegment, Equilibria, EquilibriumCurve, EquilibriumPoint, float_ends, sample_parameters, values_inside
 
 
 def circles(field: Field, parts: Content):
@@ -63,12 +65,11 @@ def _special(field: Field, parts: Content):
 
 def _crossings(field: Field, parts: Content):
     """(Omega, rotation) where S is the same on groups of axes that never carry b: circles, or all directions."""
-    from flint import arb
     idle = [axes for axes, never in _symbolic_groups(parts) if never]
     where = {Omega for first, second in combinations(idle, 2) for Omega in _same_stiffness(parts, first[0], second[0])}
     for Omega in sorted(where):  # rounded to 2**-240 where it is irrational, so S is compared within that
         S, b = field.stiffness(rational(Omega)), field.pull(rational(Omega))
-        tiny = rational(max(map(_exact, S), key=abs) * NEXT_TO + NEXT_TO * max(parts.D) * (Omega * Omega + abs(parts.N)))
+        tiny = rational(max(map(fraction, S), key=abs) * NEXT_TO + NEXT_TO * max(parts.D) * (Omega * Omega + abs(parts.N)))
         for group in idle:
             axes = [i for i in range(3) if abs(S[i] - S[group[0]]) <= abs(tiny)]
             others = [i for i in range(3) if i not in axes]
@@ -81,20 +82,10 @@ def _crossings(field: Field, parts: Content):
                 yield Omega, Rotation(arb(S[axes[0]]), tuple(gamma), tuple(axes))
 
 
-def _exact(v) -> Fraction:
-    return Fraction(int(v.p), int(v.q))
-
-
 def _same_stiffness(parts: Content, i: int, j: int) -> list[Fraction]:
     """Real roots of (Omega^2 - N)(D_i - D_j) - Omega E (i is axis 3, less j is axis 3)."""
     A, B = parts.D[i] - parts.D[j], -parts.E * ((i == 2) - (j == 2))
-    if not A:
-        return [Fraction(0)]
-    square = B * B + 4 * parts.N * A * A
-    if square < 0:
-        return []
-    root = sqrt_fraction(square)
-    return sorted({(-B - root) / (2 * A), (-B + root) / (2 * A)})
+    return real_roots(Poly((-parts.N * A, B, A)), BITS) if A else [Fraction(0)]
 
 
 def _symbolic_groups(parts: Content):
@@ -197,8 +188,7 @@ def _curve(field, number, branch, cuts) -> EquilibriumCurve:
     segments, samples, changes = [], [], []
     for run in runs:
         lo, hi, middle = run[0][0], run[-1][1], run[len(run) // 2][3]
-        where = (float("-inf") if lo is None else float(lo), float("inf") if hi is None else float(hi))
-        segments.append(CurveSegment(where, middle.linear, middle.verdict, middle.because))
+        segments.append(CurveSegment(float_ends(lo, hi), middle.linear, middle.verdict, middle.because))
         samples += [_at(field, branch, t) for t in _chosen(lo, hi, size, cuts)]
         if run is not runs[-1]:
             changes.append(_at(field, branch, hi - step_at(cuts, hi)).at)
@@ -243,7 +233,6 @@ def _point_function(field, branch):
     return point
 
 
-TAU = Poly((0, 1))
 COS, SIN, ONE = Poly((1, 0, -1)), Poly((0, 2)), Poly((1, 0, 1))  # times 1 + tau^2
 OFF_AXIS = ("undecided: a constant torque off the principal axes, or one with a wheel or weight along it, holds a turning body only where "
             "three equations in Omega and gamma meet; no closed form is known")
@@ -307,7 +296,6 @@ def _pieces(plane: Plane):
 
 def _omega(plane: Plane, tau: Fraction, side: int):
     """The root Omega at tau as a ball; None where the quadratic is linear and this side has none."""
-    from flint import arb
     a, b, c = (rational(p(tau)) for p in (plane.square, plane.linear, plane.constant))
     if a == 0:
         return arb(-c / b) if side < 0 and b != 0 else None
@@ -320,7 +308,6 @@ def _omega(plane: Plane, tau: Fraction, side: int):
 
 def _state(plane: Plane, tau: Fraction, side: int):
     """(Omega, gamma) as balls."""
-    from flint import arb
     j, k = CYCLE[plane.i]
     gamma = [arb(0)] * 3
     gamma[j], gamma[k] = (arb(rational(p(tau) / ONE(tau))) for p in (COS, SIN))
@@ -331,12 +318,8 @@ def _point(parts: Content, plane: Plane, tau: Fraction, side: int) -> Equilibriu
     Omega, gamma = _state(plane, tau, side)
     if Omega is None:
         return None
-    J = _jacobian(Field.of(parts), Omega, gamma)
-    power, p = J, []
-    for _ in range(3):
-        power = [[sum(power[r][n] * J[n][c] for n in range(6)) for c in range(6)] for r in range(6)]
-        p.append(sum(power[r][r] for r in range(6)))
-    e2, e3, e4 = -p[0] / 2, p[1] / 3, (p[0] * p[0] / 2 - p[2]) / 4
+    _, _, e4, e3, e2, *_ = arb_mat(_jacobian(Field.of(parts), Omega, gamma)).charpoly().coeffs()
+    e3 = -e3
     at = tuple(float(v.mid()) for v in (*(Omega * g for g in gamma), *gamma))
     return EquilibriumPoint(at, _eigenvalues(e2, e3, e4), *_verdict(e2, e3, e4))
 

@@ -41,7 +41,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from ..numbers.exact import Surd, sqrt_fraction
+from ..numbers.exact import Surd, sign_of, sqrt_fraction
 from ..numbers.polynomial import Poly
 from ..numbers.vectors import CYCLE, Exact3, Number, Triple, cross, dot
 from ..physics.coefficients import Content, gyrostat_scene
@@ -329,16 +329,12 @@ def _projection(p: Pencil, d: Fraction) -> bool:
     return any(l for l, m in zip(p.lam, p.D) if m == d)
 
 
-def _sign(value: Fraction) -> int:
-    return (value > 0) - (value < 0)
-
-
 def _line_sign(p: Pencil, i: int) -> int:
     """Sign of m on the line y_i arbitrary, s = D_i, away from the crossing: that of (D_j - D_i)(D_k - D_i) up to the
     sign that the change of variables x -> y carries."""
     j, k = CYCLE[i]
     e = p.form
-    return -_sign(e.kappa[j] * e.kappa[k])
+    return -sign_of(e.kappa[j] * e.kappa[k])
 
 
 def _axis_line(p: Pencil, i: int) -> RationalCurve:

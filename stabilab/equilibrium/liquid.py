@@ -30,14 +30,16 @@ from fractions import Fraction
 from math import inf, sqrt
 from types import SimpleNamespace
 
-from ..numbers.balls import many_digits, rational
+from flint import Ordering, arb, arb_mat, fmpq_mpoly_ctx
+
+from ..numbers.balls import evaluated, fraction, many_digits, rational
 from ..numbers.exact import sqrt_fraction
 from ..numbers.polynomial import Poly, real_roots
 from ..numbers.vectors import cross, dot
 from ..physics.coefficients import Content, gyrostat_scene, linear_rates, liquid_torque
 from .balance import pencil
 from .gyrostat import torque_free_curves
-from .result import CurveSegment, Equilibria, EquilibriumCurve, EquilibriumPoint, RationalCurve, sample_parameters, values_inside
+from .result import CurveSegment, Equilibria, EquilibriumCurve, EquilibriumPoint, RationalCurve, float_ends, sample_parameters, values_inside
 
 ATTRACTING = ("stable", "c1, c2 > 0 in z (z^2 + c2 z + c1): the curve of permanent rotations attracts, so this rotation is stable and "
                         "every motion from nearby tends to a permanent rotation of the curve")
@@ -133,18 +135,14 @@ def _judged(parts: Content, curve: RationalCurve) -> EquilibriumCurve:
     inner = sorted({t for p in both if p.degree > 0 for t in real_roots(p)} - {*curve.poles, *curve.crossings})
     fixed = {t: _cut(parts, curve, t) for t in (*curve.crossings, *inner) if t not in curve.poles}
     cuts = sorted({*curve.poles, *curve.crossings, *(t for t in inner if fixed[t].linear == "degenerate")})
-    ends, segments, samples, folds = [None, *cuts, None], [], [], []
-    for lo, hi in zip(ends, ends[1:]):
-        word = _word(*coefficients(jacobian(parts, curve.exact_point(values_inside(lo, hi, curve.scale)))))
-        where = (float("-inf") if lo is None else float(lo), float("inf") if hi is None else float(hi))
-        segments.append(CurveSegment(where, word, *_verdict(parts, word)))
-        chosen = sample_parameters(lo, hi, curve.scale) or [values_inside(lo, hi, curve.scale)]
-        samples += [point(parts, curve.exact_point(t)) for t in chosen]
-        if hi in fixed:
-            samples.append(fixed[hi])
-            folds.append(fixed[hi].at)
-    return EquilibriumCurve(curve.name, curve.equation, curve.parametrisation, curve.float_point(), tuple(segments),
-                            tuple(folds), tuple(samples))
+
+    def segment(lo, hi):
+        middle = values_inside(lo, hi, curve.scale)
+        word = _word(*coefficients(jacobian(parts, curve.exact_point(middle))))
+        chosen = sample_parameters(lo, hi, curve.scale) or [middle]
+        samples = [point(parts, curve.exact_point(t)) for t in chosen]
+        return CurveSegment(float_ends(lo, hi), word, *_verdict(parts, word)), samples
+    return curve.cut(cuts, segment, lambda t, *_: fixed[t])
 
 
 def _cut(parts, curve, t) -> EquilibriumPoint:
@@ -199,12 +197,12 @@ def balanced_equilibria(parts: Content) -> Equilibria:
     """Equilibria with a liquid and resistance or torque: all of them below a bound that the reason names."""
     from ..numbers.krawczyk import zeros
     reach, words = _region(parts)
-    polynomials = [_dictionary(p) for p in balance(parts)]
+    torques = balance(parts)
     if reach is None:
-        rest = () if any(parts.M) else (_point(parts, polynomials, (0.0, 0.0, 0.0)),)
+        rest = () if any(parts.M) else (_point(parts, torques, (0.0, 0.0, 0.0)),)
         return Equilibria("undecided", f"{words}; rest is one, as no torque acts on it" if rest else words, rest)
-    found = zeros(polynomials, reach)
-    points = tuple(_point(parts, polynomials, x) for x in sorted(map(tuple, found.points.tolist())))
+    found = zeros([_dictionary(f) for f in torques], reach)
+    points = tuple(_point(parts, torques, x) for x in sorted(map(tuple, found.points.tolist())))
     if not found.complete:
         return Equilibria("undecided", f"undecided: {found.boxes} boxes did not settle the search where {words}; the equilibria found are proved, "
                                        "others are not excluded", points)
@@ -215,7 +213,6 @@ def balanced_equilibria(parts: Content) -> Equilibria:
 
 def _in_polynomials(parts: Content):
     """(omega as flint polynomials, the coefficients of the liquid's torque as flint's rationals)."""
-    from flint import Ordering, fmpq_mpoly_ctx
     omega = fmpq_mpoly_ctx.get(("x", "y", "z"), Ordering.lex).gens()
     return omega, SimpleNamespace(D=tuple(map(rational, parts.D)), Lambda=tuple(map(rational, parts.Lambda)), printed=parts.printed)
 
@@ -230,7 +227,7 @@ def balance(parts: Content):
 
 
 def _dictionary(polynomial) -> dict:
-    return {tuple(map(int, powers)): Fraction(int(v.p), int(v.q)) for powers, v in polynomial.to_dict().items()}
+    return {tuple(map(int, powers)): fraction(v) for powers, v in polynomial.to_dict().items()}
 
 
 def bounds(parts: Content) -> tuple[float, float]:
@@ -277,18 +274,14 @@ def _region(parts: Content):
                          "its derivation does not hold there)")
 
 
-def _point(parts: Content, polynomials, x) -> EquilibriumPoint:
+def _point(parts: Content, torques, x) -> EquilibriumPoint:
     """Spectrum and verdict at a proved zero, sharpened to some fifty digits and enclosed in balls."""
     import numpy as np
-    with many_digits() as numbers:
-        ball = _enclosed(polynomials, x, numbers)
-        derivatives = [[_derivative(p, k) for k in range(3)] for p in polynomials]
-        J = [[_value(q, ball, numbers) / numbers.ball(d) for q in row] for row, d in zip(derivatives, parts.D)]
-        middle = np.array([[float(v.mid()) for v in row] for row in J])
-        p2 = -(J[0][0] + J[1][1] + J[2][2])
-        p1 = sum(J[i][i] * J[j][j] - J[i][j] * J[j][i] for i, j in ((0, 1), (0, 2), (1, 2)))
-        p0 = -(J[0][0] * (J[1][1] * J[2][2] - J[1][2] * J[2][1]) - J[0][1] * (J[1][0] * J[2][2] - J[1][2] * J[2][0])
-               + J[0][2] * (J[1][0] * J[2][1] - J[1][1] * J[2][0]))
+    with many_digits():
+        ball = _enclosed(torques, x)
+        J = arb_mat([[evaluated(f, ball) / rational(d) for f in row] for row, d in zip(_slopes(torques), parts.D)])
+        middle = np.array([[float(v.mid()) for v in row] for row in J.tolist()])
+        p0, p1, p2, _ = J.charpoly().coeffs()
         if p2 > 0 and p0 > 0 and p2 * p1 > p0:
             word, verdict = "stable", STABLE
         elif p2 < 0 or p0 < 0 or p2 * p1 < p0:
@@ -299,41 +292,22 @@ def _point(parts: Content, polynomials, x) -> EquilibriumPoint:
     return EquilibriumPoint(at, tuple(complex(z) for z in np.linalg.eigvals(middle)), word, *verdict)
 
 
-def _derivative(polynomial, k):
-    return {tuple(p - (i == k) for i, p in enumerate(powers)): v * powers[k] for powers, v in polynomial.items() if powers[k]}
+def _slopes(torques):
+    """Rows of their derivatives."""
+    return [[f.derivative(k) for k in range(3)] for f in torques]
 
 
-def _value(polynomial, x, numbers):
-    total = numbers.ball(0)
-    for powers, value in polynomial.items():
-        term = numbers.ball(value)
-        for base, n in zip(x, powers):
-            for _ in range(n):
-                term = term * base
-        total = total + term
-    return total
-
-
-def _enclosed(polynomials, x, numbers):
+def _enclosed(torques, x):
     """A ball around the zero next to x in which Krawczyk's test holds."""
-    import numpy as np
-    from flint import arb
-    derivatives = [[_derivative(p, k) for k in range(3)] for p in polynomials]
-    x = [arb(v) for v in x]
-    J = np.array([[float(_value(q, x, numbers).mid()) for q in row] for row in derivatives])
-    Y = [[arb(v) for v in row] for row in np.linalg.inv(J)]
-    for _ in range(12):  # the inverse in doubles gains some thirteen digits a step
-        f = [_value(p, x, numbers) for p in polynomials]
-        x = [(v - sum(y * r for y, r in zip(row, f))).mid() for v, row in zip(x, Y)]
+    at = lambda rows, place: arb_mat([[evaluated(f, place) for f in row] for row in rows])
+    column, slopes, x = [[f] for f in torques], _slopes(torques), [arb(v) for v in x]
+    inverse = at(slopes, x).inv().mid()
+    for _ in range(12):  # the inverse at a double gains some thirteen digits a step
+        x = [(v - step).mid() for v, step in zip(x, (inverse * at(column, x)).entries())]
     size = max(float(abs(v).upper()) for v in x) or 1.0
     radius = arb(0, size * RADIUS)
-    X = [v + radius for v in x]
-    f = [_value(p, x, numbers) for p in polynomials]
-    slope = [[_value(q, X, numbers) for q in row] for row in derivatives]
-    for i in range(3):
-        step = -sum(Y[i][j] * f[j] for j in range(3))
-        for k in range(3):
-            step = step + ((1 if i == k else 0) - sum(Y[i][j] * slope[j][k] for j in range(3))) * radius
-        if not abs(step) < size * RADIUS:
-            raise ArithmeticError("an equilibrium was not enclosed")
-    return X
+    box, one = [v + radius for v in x], arb_mat([[1, 0, 0], [0, 1, 0], [0, 0, 1]])
+    steps = (one - inverse * at(slopes, box)) * arb_mat(3, 1, [radius] * 3) - inverse * at(column, x)
+    if not all(abs(step) < size * RADIUS for step in steps.entries()):
+        raise ArithmeticError("an equilibrium was not enclosed")
+    return box

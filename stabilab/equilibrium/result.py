@@ -4,7 +4,8 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import field
 from fractions import Fraction
-from typing import TYPE_CHECKING, NamedTuple
+from itertools import pairwise
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ..errors import InputError
 from ..numbers.polynomial import Poly
@@ -109,6 +110,19 @@ class RationalCurve:
         """point(t) for a float t, each coordinate rounded once; InputError at a pole or a t that is not finite."""
         return self._rounded_point  # a method of its own, unlike a function made here, can be sent to another process
 
+    def cut(self, cuts: Sequence[Fraction], segment: Callable[..., Any], fold: Callable[..., EquilibriumPoint]) -> EquilibriumCurve:
+        """It with verdicts. cuts: parameters, rising; segment(lo, hi): one between two of them (None: infinite) and its
+        samples; fold(t, before, after): the equilibrium between two segments, asked where t is no pole."""
+        pieces = [segment(lo, hi) for lo, hi in pairwise([None, *cuts, None])]
+        samples, folds = list(pieces[0][1]), []
+        for t, (before, _), (after, points) in zip(cuts, pieces, pieces[1:]):
+            if t not in self.poles:
+                folds.append(fold(t, before, after))
+                samples.append(folds[-1])
+            samples += points
+        return EquilibriumCurve(self.name, self.equation, self.parametrisation, self.float_point(),
+                                tuple(s for s, _ in pieces), tuple(point.at for point in folds), tuple(samples))
+
     def _rounded_point(self, t: float) -> Float3:
         try:
             return tuple(float(v) for v in self.exact_point(Fraction(t)))
@@ -124,6 +138,11 @@ def straight_line(start: Sequence[Fraction], direction: Sequence[Fraction]) -> t
 def size_of(*vectors: Sequence[Fraction]) -> Fraction:
     """The largest entry in size, 1 where all vanish: a scale for the parameter of a line."""
     return max((abs(v) for vector in vectors for v in vector), default=Fraction(0)) or Fraction(1)
+
+
+def float_ends(lo: Fraction | None, hi: Fraction | None) -> tuple[float, float]:
+    """An open interval whose ends may be infinite (None)."""
+    return float("-inf") if lo is None else float(lo), float("inf") if hi is None else float(hi)
 
 
 def values_inside(lo: Fraction | None, hi: Fraction | None, scale: Fraction) -> Fraction:

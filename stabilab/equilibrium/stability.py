@@ -14,13 +14,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from fractions import Fraction
+from functools import partial
 
 from ..errors import InputError
-from ..numbers.exact import Surd, sqrt_fraction
-from ..numbers.polynomial import real_roots
+from ..numbers.exact import Surd, sign_of, sqrt_fraction
+from ..numbers.polynomial import Poly, real_roots
 from ..numbers.vectors import Number
 from ..physics.quadratic import QuadraticForm
-from .result import CurveSegment, EquilibriumCurve, EquilibriumPoint, RationalCurve, Verdict, sample_parameters, values_inside
+from .result import CurveSegment, EquilibriumCurve, EquilibriumPoint, RationalCurve, Verdict, float_ends, sample_parameters, values_inside
 
 BITS = 220  # working precision; far above double, so that each printed part is rounded once
 
@@ -49,7 +50,7 @@ def eigenvalues(m: Fraction, n: Fraction) -> tuple[complex, ...]:
     if not n:
         root = float(sqrt_fraction(abs(m)))
         return (0j, complex(0.0, root), complex(0.0, -root)) if m > 0 else (0j, complex(root, 0.0), complex(-root, 0.0))
-    r = real_root(m, n)
+    r = max(real_roots(Poly((n, m, 0, 1)), BITS), key=abs)  # a simple one, of the sign of -n
     # the other two solve z^2 + r z + (r^2 + m) = 0; the sign of its discriminant is that of -4 m^3 - 27 n^2
     kind = -4 * m**3 - 27 * n * n
     if not kind:
@@ -60,36 +61,6 @@ def eigenvalues(m: Fraction, n: Fraction) -> tuple[complex, ...]:
         return complex(float(r), 0.0), complex(float(half), float(gap)), complex(float(half), -float(gap))
     far = half + gap if half > 0 else half - gap
     return complex(float(r), 0.0), complex(float(far), 0.0), complex(float(-n / (r * far)), 0.0)
-
-
-def real_root(m: Fraction, n: Fraction) -> Fraction:
-    """The real root of sign -n that is simple and, where all are real, the largest in size; to about 2**-200.
-
-    Newton from above on the convex side of z^3 + m z - |n|, so it falls steadily to the root.
-    """
-    size = abs(n)
-    cube = _cube_root_above(size)
-    z = min(size / m, cube) if m > 0 else 2 * max(sqrt_fraction(-m, 60), cube)
-    for _ in range(60):
-        step = (z * z * z + m * z - size) / (3 * z * z + m)
-        z = _rounded(z - step)
-        if abs(step) < z / 2**(BITS // 2 + 4):
-            break
-    return -z if n > 0 else z
-
-
-def _cube_root_above(value: Fraction) -> Fraction:
-    """A power of two times a double, a little above the cube root."""
-    shift = (value.numerator.bit_length() - value.denominator.bit_length()) // 3
-    scaled = float(value / Fraction(2) ** (3 * shift))
-    return Fraction(scaled ** (1 / 3) * 1.001) * Fraction(2) ** shift
-
-
-def _rounded(value: Fraction) -> Fraction:
-    """`value` with BITS leading bits, rounded."""
-    shift = BITS - value.numerator.bit_length() + value.denominator.bit_length()
-    scaled = (value.numerator << shift) // value.denominator if shift >= 0 else value.numerator // (value.denominator << -shift)
-    return Fraction(scaled) * Fraction(2) ** -shift
 
 
 POSITIVE_EIGENVALUE = ("unstable", "n = 0 and m < 0 in z^3 + m z + n: the eigenvalue sqrt(-m) is positive")
@@ -134,18 +105,7 @@ def isolated_point(form: QuadraticForm, x: tuple[Surd, Surd, Surd]) -> Equilibri
 
 def curve_with_verdicts(form: QuadraticForm, curve: RationalCurve) -> EquilibriumCurve:
     """Folds, segments and samples of a curve of equilibria (n = 0 along it)."""
-    cuts = cuts_of(form, curve)
-    ends = [None, *cuts, None]
-    pieces = [_segment(form, curve, lo, hi) for lo, hi in zip(ends, ends[1:])]
-    samples, folds = list(pieces[0][1]), []
-    for t, (before, _), (after, points) in zip(cuts, pieces, pieces[1:]):
-        if t not in curve.poles:
-            fold = _fold(curve, t, before, after)
-            folds.append(fold.at)
-            samples.append(fold)
-        samples += points
-    return EquilibriumCurve(curve.name, curve.equation, curve.parametrisation, curve.float_point(),
-                            tuple(s for s, _ in pieces), tuple(folds), tuple(samples))
+    return curve.cut(cuts_of(form, curve), partial(_segment, form, curve), partial(_fold, curve))
 
 
 def cuts_of(form: QuadraticForm, curve: RationalCurve) -> list[Fraction]:
@@ -159,7 +119,7 @@ def cuts_of(form: QuadraticForm, curve: RationalCurve) -> list[Fraction]:
 def _segment(form: QuadraticForm, curve: RationalCurve, lo: Fraction | None, hi: Fraction | None) -> tuple[CurveSegment, list[EquilibriumPoint]]:
     """The segment between two neighbouring cuts (None: infinite) and its samples."""
     middle = values_inside(lo, hi, curve.scale)
-    m_sign = _sign(_m_at(form, curve, middle))
+    m_sign = sign_of(_m_at(form, curve, middle))
     word, (verdict, because) = linear_word(m_sign, 0), _regular_verdict(curve, m_sign)
     samples = []
     for t in sample_parameters(lo, hi, curve.scale) or [middle]:
@@ -168,8 +128,7 @@ def _segment(form: QuadraticForm, curve: RationalCurve, lo: Fraction | None, hi:
             samples.append(EquilibriumPoint(at, eigenvalues(_m_at(form, curve, t), Fraction(0)), word, verdict, because))
         except OverflowError:  # a far sample beyond the largest double is left out
             continue
-    ends = (float("-inf") if lo is None else float(lo), float("inf") if hi is None else float(hi))
-    return CurveSegment(ends, word, verdict, because), samples
+    return CurveSegment(float_ends(lo, hi), word, verdict, because), samples
 
 
 def _regular_verdict(curve: RationalCurve, m_sign: int) -> Verdict:
@@ -195,7 +154,3 @@ def _fold(curve: RationalCurve, t: Fraction, before: CurveSegment, after: CurveS
 
 def _m_at(form: QuadraticForm, curve: RationalCurve, t: Fraction) -> Fraction:
     return invariants(form, curve.exact_point(t))[0]
-
-
-def _sign(value: Fraction) -> int:
-    return (value > 0) - (value < 0)

@@ -15,7 +15,7 @@ from ..record import record
 from .vectors import Number
 
 if TYPE_CHECKING:
-    from flint import arb, fmpq, fmpq_poly
+    from flint import arb, fmpq, fmpq_mpoly, fmpq_poly
 
 T = TypeVar("T")
 DOUBLE_BITS = 53
@@ -198,6 +198,19 @@ def _narrowed(factor: fmpq_poly, a: fmpq, b: fmpq, bits: int) -> tuple[fmpq, fmp
 def fraction(value: fmpq) -> Fraction:
     """flint's rational as Python's."""
     return Fraction(int(value.p), int(value.q))
+
+
+def evaluated(f: fmpq_mpoly, at: Sequence[Any]) -> Any:
+    """A polynomial at balls, rationals or series of these, one for each of its variables."""
+    from flint import arb
+    total = arb(0)
+    for powers, c in f.to_dict().items():
+        term = arb(c)
+        for value, power in zip(at, powers):
+            for _ in range(power):
+                term = term * value
+        total = total + term
+    return total
 
 
 def sign(number: Number) -> int:

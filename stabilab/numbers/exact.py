@@ -215,11 +215,11 @@ class Surd:
     @property
     def sign(self) -> int:
         """-1, 0 or 1, exactly."""
-        second = 0 if not self.d else _sign(self.q)
-        first = _sign(self.p)
+        second = 0 if not self.d else sign_of(self.q)
+        first = sign_of(self.p)
         if first * second >= 0:
             return first or second
-        return first * _sign(self.p * self.p - self.q * self.q * self.d)
+        return first * sign_of(self.p * self.p - self.q * self.q * self.d)
 
     def fraction(self) -> Fraction:
         """A rational within about 2**-200 relative; where the two terms oppose, by the conjugate, without
@@ -232,5 +232,6 @@ class Surd:
         return (self.p * self.p - self.q * self.q * self.d) / (self.p - term)
 
 
-def _sign(value: Fraction) -> int:
+def sign_of(value: Fraction) -> int:
+    """-1, 0 or 1."""
     return (value > 0) - (value < 0)

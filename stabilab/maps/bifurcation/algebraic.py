@@ -16,12 +16,11 @@ from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise, zip_longest
 from math import isqrt
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
+from typing import Any, NamedTuple, TypeAlias
+
+from flint import acb_poly, arb, arb_poly, fmpq, fmpq_poly, fmpz, nmod_poly
 
 from ...numbers.balls import Unclear, fraction, rational, real_roots_of, settled, working
-
-if TYPE_CHECKING:
-    from flint import arb, fmpq_poly, nmod_poly
 
 Element: TypeAlias = Any  # a polynomial of the algebraic number, over the rationals or modulo a prime
 FieldPoly: TypeAlias = list  # of fmpq_poly
@@ -56,13 +55,11 @@ def field_gcd(number: fmpq_poly, f: FieldPoly, g: FieldPoly) -> FieldPoly:
 
 
 def _primes() -> Iterator[int]:
-    from flint import fmpz
     return (at for at in range(FIRST - 1, 1, -2) if fmpz(at).is_prime())
 
 
 def _image(whole: list[int], prime: int, f: list[fmpq_poly], g: list[fmpq_poly]) -> list[nmod_poly] | None:
     """The monic divisor modulo a prime, by Euclid; None where the prime does not serve."""
-    from flint import nmod_poly
     modulus = nmod_poly(whole, prime)
     if modulus.degree() < len(whole) - 1 or modulus.gcd(modulus.derivative()).degree() > 0:
         return None
@@ -87,7 +84,6 @@ def _inverse(element: nmod_poly, modulus: nmod_poly) -> nmod_poly | None:
 
 def _rational(rows: list[list[int]], product: int) -> list[fmpq_poly] | None:
     """Fractions with these residues, of numerators and denominators below the root of half the product; None where there are none."""
-    from flint import fmpq, fmpq_poly
     bound = isqrt(product // 2)
     out = []
     for row in rows:
@@ -141,6 +137,11 @@ class Algebraic:
         exact = self.rational
         return float(exact) if exact is not None else float(self.ball(256).mid())
 
+    @property
+    def whole(self) -> tuple[int, ...]:
+        """Whole coefficients of its polynomial, lowest power first."""
+        return tuple(int(c) for c in self.polynomial.numer().coeffs())
+
     def reduced(self, element: fmpq_poly) -> fmpq_poly:
         """The element of the field with powers of alpha below its degree."""
         return element % self.polynomial
@@ -189,16 +190,9 @@ class Algebraic:
 
     def real_roots(self, powers: Powers, bits: int) -> list[tuple[arb, int]]:
         """(ball, how often it counts) of the distinct real roots of a polynomial, given its `powers`, rising. Unclear where the bits do not isolate them."""
-        from flint import acb, acb_poly, arb_poly
         at, found = self.ball(bits), []
         for factor, times in powers:
-            values = [arb_poly(c)(at) for c in factor]
-            try:
-                roots = acb_poly([acb(v) for v in values]).roots()
-            except ValueError:
-                raise Unclear from None
-            # conjugates are roots as well, so a ball that meets the real axis and no other root holds a real one
-            found += [(sharpened(values, root.real), times) for root in roots if root.imag.contains(0)]
+            found += [(root, times) for root in real_balls(arb_poly([arb_poly(c)(at) for c in factor]))]
         return sorted(found, key=lambda one: one[0].mid())
 
 
@@ -207,10 +201,18 @@ def derivative(f: FieldPoly) -> FieldPoly:
     return [c * n for n, c in enumerate(f)][1:]
 
 
-def sharpened(coefficients: Sequence[arb], root: arb) -> arb:
+def real_balls(f: arb_poly) -> list[arb]:
+    """Balls about the real roots of a polynomial without double ones. Unclear where its balls do not isolate them."""
+    try:
+        roots = acb_poly(f).roots()
+    except ValueError:
+        raise Unclear from None
+    # conjugates are roots as well, so a ball that meets the real axis and no other root holds a real one
+    return [_sharpened(f, root.real) for root in roots if root.imag.contains(0)]
+
+
+def _sharpened(f: arb_poly, root: arb) -> arb:
     """A narrower ball about a simple root, by Newton's method over balls (the part of the step that the ball does not hold has no root)."""
-    from flint import arb_poly
-    f = arb_poly(list(coefficients))
     slope = f.derivative()
     for _ in range(60):
         middle = root.mid()

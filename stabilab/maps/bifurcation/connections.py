@@ -14,18 +14,17 @@ from collections.abc import Callable
 from dataclasses import replace
 from fractions import Fraction
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from ...numbers.balls import Unclear, rational, real_roots_of, settled, working
+from flint import arb, arb_poly, arb_series
+
+from ...numbers.balls import Digits, Unclear, evaluated, rational, real_roots_of, settled, working
 from ...numbers.vectors import Float3
 from .algebraic import between
 from .diagram import ball_form, followed, general_states, parts
-from .eliminated import Eliminated, at_rational, coefficients, evaluated, univariate
+from .eliminated import Eliminated, at_rational, coefficients, univariate
 from .equations import LEAF, Conics, chosen
 from .family import Diagram, Event, Family, Piece, State
-
-if TYPE_CHECKING:
-    from flint import arb, arb_series
 
 BITS = 160
 NEAR = Fraction(1, 10**9)  # of a piece: so near to its ends, where a saddle is lost, nothing is looked for
@@ -143,7 +142,6 @@ class _Rise:
 
     def over(self, low: Fraction, high: Fraction) -> tuple[arb, arb]:
         """(rise, slope) as balls that hold those of every value of the interval; the rise by the slope from its middle on."""
-        from flint import arb
         middle = (low + high) / 2
         rise, slope = self._of(low, high)
         with working(BITS):
@@ -157,7 +155,6 @@ class _Rise:
         return self.known[value]
 
     def _of(self, low: Fraction, high: Fraction) -> tuple[arb, arb]:
-        from flint import arb, arb_series
         self.budget[0] -= 1
         if self.budget[0] < 0:
             raise Spent
@@ -173,10 +170,9 @@ class _Rise:
 
     def _saddle(self, x: arb, middle: Fraction, off: arb, p: arb) -> tuple[arb, arb]:
         """(x, y) of a saddle. R is moved to its place at the middle of the interval first, where small balls stay small."""
-        from flint import arb
         R, ring = self.eliminated.reduced, self.family.ring
         first, second, third, fourth = ring.gens()
-        at = _exactly(x)
+        at = rational(Fraction(float(x.mid())))  # near its middle
         moved = R.compose(first + at, second, third + rational(middle), fourth, ctx=ring)
         powers, coefficients = [arb(1)], [arb(0)] * (R.degrees()[0] + 1)
         for _ in range(R.degrees()[2]):
@@ -193,7 +189,6 @@ class _Rise:
         return place, along_x * (place - at) + along_p * off - evaluated(self.top, here) / bottom_here
 
     def _rise(self, at: arb_series, ends: list[tuple[arb, arb]]) -> tuple[arb, arb]:
-        from flint import arb
         i = self.eliminated.system.axis  # type: ignore[union-attr]  # a circle is of two conics
         j, k = (i + 1) % 3, (i + 2) % 3
         form: Any
@@ -213,7 +208,7 @@ class _Rise:
         for end in ends:
             X, Y = (head(v) for v in self._from_centre(j, k, *end, u, x0, y0))
             Z = -head(p) * Y / head(n)
-            angles.append(_angle(Z, X))
+            angles.append(Digits.angle(Z, X))
             X, Y = size * (X / head(size)), size * (Z / head(size)) * -n / p
             # On a circle q X^2 - p Y^2 is constant: of the two squares the one that stays small where the circle becomes a parabola.
             square = X * X / p if abs(head(p).mid()) <= abs(head(q).mid()) else Y * Y / q
@@ -229,19 +224,8 @@ class _Rise:
         return x - x0, y - y0
 
 
-def _angle(y: arb, x: arb) -> arb:
-    from flint import arb
-    return arb.atan2(y, x) if not (y.contains(0) and not x > 0) else arb.pi() + arb.atan2(-y, -x)
-
-
-def _exactly(x: arb) -> Any:
-    """A rational near a ball's middle."""
-    return rational(Fraction(float(x.mid())))
-
-
 def _once_round(turn: arb) -> arb:
     """The angle in (0, 2 pi)."""
-    from flint import arb
     whole = 2 * arb.pi()
     while turn < 0:
         turn = turn + whole
@@ -254,12 +238,10 @@ def _once_round(turn: arb) -> arb:
 
 def _enclosed(coefficients: list[arb], middle: arb) -> arb:
     """A ball that holds the one root near `middle` for all coefficients in their balls: Newton's step over it falls inside."""
-    from flint import arb
-    slope = [n * c for n, c in enumerate(coefficients)][1:]
-    at_middle = _horner(coefficients, middle)
-    ball = middle
+    f = arb_poly(coefficients)
+    slope, at_middle, ball = f.derivative(), f(middle), middle
     for _ in range(8):
-        rate = _horner(slope, ball)
+        rate = slope(ball)
         if rate.contains(0):
             raise Unclear
         step = middle - at_middle / rate
@@ -269,23 +251,13 @@ def _enclosed(coefficients: list[arb], middle: arb) -> arb:
     raise Unclear
 
 
-def _horner(coefficients: list[arb], x: arb) -> arb:
-    from flint import arb
-    total = arb(0)
-    for c in reversed(coefficients):
-        total = total * x + c
-    return total
-
-
 def head(series: Any) -> arb:
     """The value of a series, or of a constant."""
-    from flint import arb, arb_series
     return series[0] if isinstance(series, arb_series) else arb(series)
 
 
 def tail(series: Any) -> arb:
     """Its slope."""
-    from flint import arb, arb_series
     return series[1] if isinstance(series, arb_series) else arb(0)
 
 

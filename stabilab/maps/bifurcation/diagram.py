@@ -16,21 +16,20 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
+
+from flint import arb, fmpq_mpoly
 
 from ...equilibrium.gyrostat import WELL, gyrostat_equilibria
 from ...equilibrium.stability import POSITIVE_EIGENVALUE, invariants, isolated_verdict, linear_word
-from ...numbers.balls import Unclear, rational, settled, sign
+from ...numbers.balls import Unclear, evaluated, rational, settled, sign
 from ...numbers.vectors import Float3, dot
 from ...physics.coefficients import effective
 from ...physics.quadratic import QuadraticForm, euler_form
 from .algebraic import Cut, between, cuts, gaps
-from .eliminated import Eliminated, Leant, Root, evaluated, univariate
+from .eliminated import Eliminated, Leant, Root, univariate
 from .equations import BORDERS, ISOLATED, LEAF, Conics, OnLine, chosen
 from .family import CURVES, ENDLESS, Diagram, Event, Family, Piece, State
-
-if TYPE_CHECKING:
-    from flint import arb, fmpq_mpoly
 
 BORDER = ("border", "m = 0 on the curve of equilibria: stability changes here")
 SMALL = 1e-17  # radius of a ball over one plus its size
@@ -39,7 +38,6 @@ CROSSES = ("undecided", "the curve that the motion keeps to crosses itself here"
 
 def ball_form(family: Family, values: list) -> tuple[QuadraticForm, list[arb]]:
     """(the rates with balls for coefficients, u) at values of what varies."""
-    from flint import arb
     unknowns = [arb(0)] * 2
     numbers: dict[str, Any] = {name: [evaluated(c, [*unknowns, *values]) for c in row] for name, row in family.numbers.items()}
     if not family.scaled:
@@ -127,8 +125,8 @@ def _change_in_words(family: Family, cut: Cut, named: list[tuple[fmpq_mpoly, str
     number, exact = cut.number, cut.number.rational
     here = _words_at(family, exact) if exact is not None else Told(ENDLESS, "")
     why = [words for f, words in named if number.reduced(univariate(f, 2)) == 0]
-    return Event(float(number), exact, tuple(int(c) for c in number.polynomial.numer().coeffs()), number.index, ("curve",), here.number, (),
-                 here.words or "; ".join(dict.fromkeys(why)))
+    words = here.words or "; ".join(dict.fromkeys(why))
+    return Event(float(number), exact, number.whole, number.index, ("curve",), here.number, (), words)
 
 
 def _named(family: Family) -> Iterator[tuple[fmpq_mpoly, str]]:
@@ -170,7 +168,7 @@ def diagram(family: Family, borders: bool = False) -> Diagram:
 def _event(family: Family, kind: str, eliminated: Eliminated, cut: Cut, sides: Sequence[Piece | None]) -> Event | None:
     """What happens at a cut; None where nothing does."""
     system, number = eliminated.system, cut.number
-    make = lambda kinds, count, states, words: Event(float(number), number.rational, _whole(number.polynomial), number.index, kinds, count, states, words)
+    make = lambda kinds, count, states, words: Event(float(number), number.rational, number.whole, number.index, kinds, count, states, words)
     if number.reduced(univariate(system.special, 2)) == 0:
         return make(("axis",), *_on_an_axis(family, system, cut))
     roots = settled(lambda digits: [eliminated.at_algebraic(number, digits.bits)])[0]
@@ -224,10 +222,6 @@ def _on_an_axis(family: Family, system: OnLine | Conics, cut: Cut) -> tuple[int,
     states = tuple(State(point.at, 1, point.linear, point.verdict, point.because) for point in found.points)
     told = "no equilibrium" if found.kind == "none" else f"{', '.join(curve.name for curve in found.curves)}" if found.curves else ""
     return ENDLESS if found.curves or found.kind == "all" else len(states), states, f"{told}: {found.reason}" if told else found.reason
-
-
-def _whole(polynomial) -> tuple[int, ...]:
-    return tuple(int(c) for c in polynomial.numer().coeffs())
 
 
 def _joined(pieces: list[Piece], events: list[Event | None], found: Sequence[Cut]) -> tuple[tuple[Piece, ...], tuple[Event, ...]]:
@@ -300,7 +294,9 @@ def _of_piece(diagram: Diagram, eliminated: Eliminated, n: int, piece: Piece, po
     """The branches of a piece, each part of it by itself; a branch keeps its number across a seam."""
     numbers, last = list(range(piece.count)), None
     for part in parts(diagram.family, diagram.kind, eliminated, piece):
-        rows = [(float(value), states) for value in _spread(part, points) if (states := _solved(diagram, eliminated, value, piece.count)) is not None]
+        values = spread(Fraction(part.low), Fraction(part.high), points, 10**6)
+        solved = [(float(value), _solved(diagram, eliminated, value, piece.count)) for value in values]
+        rows = [(value, states) for value, states in solved if states is not None]
         if rows and last is not None:
             numbers = [numbers[k] for k in followed(last, rows[0][1])]
         for place, number in enumerate(numbers):
@@ -308,12 +304,10 @@ def _of_piece(diagram: Diagram, eliminated: Eliminated, n: int, piece: Piece, po
         last = rows[-1][1] if rows else last
 
 
-def _spread(part: Part, points: int) -> list[Fraction]:
-    """Values inside, ends left out."""
-    low, high = Fraction(part.low), Fraction(part.high)
+def spread(low: Fraction, high: Fraction, points: int, near: int) -> list[Fraction]:
+    """Values inside an interval, closer towards its ends, the outermost at 1/near of its width from these."""
     shares = [Fraction(0.5 - 0.5 * math.cos(math.pi * k / points)) for k in range(1, points)]
-    ends = [Fraction(1, 10**6), 1 - Fraction(1, 10**6)]
-    return sorted(low + (high - low) * share for share in {*shares, *ends})
+    return sorted(low + (high - low) * share for share in {*shares, Fraction(1, near), 1 - Fraction(1, near)})
 
 
 def _solved(diagram: Diagram, eliminated: Eliminated, value: Fraction, count: int) -> list[Float3] | None:

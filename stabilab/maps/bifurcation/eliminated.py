@@ -10,15 +10,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
-from ...numbers.balls import Unclear, rational, real_roots_of
+from flint import arb, fmpq_mpoly, fmpq_poly
+
+from ...numbers.balls import Unclear, evaluated, rational, real_roots_of
 from .algebraic import Algebraic, Powers
 from .equations import LEANS, Conics, OnLine, common_divisor
 from .family import Family
-
-if TYPE_CHECKING:
-    from flint import arb, fmpq_mpoly, fmpq_poly
 
 SPARE = 7  # leans looked at: of four points in the plane, complex ones counted, at most six pairs are in line
 PROBES = (Fraction(37, 97), Fraction(53, 89))  # parts of the range where the general case is looked at
@@ -63,11 +62,6 @@ class Eliminated:
         """The first view in which the general point has as many roots as in any."""
         at = tuple(span.low + (span.high - span.low) * part for span, part in zip(self.family.spans, PROBES))
         return max(self.views, key=lambda view: _distinct(univariate(at_rational(view.R, at))))
-
-    @property
-    def endless(self) -> bool:
-        """Whether every value of the unknown solves, at every point of the range."""
-        return self.main.R.is_zero()
 
     @cached_property
     def reduced(self) -> fmpq_mpoly:
@@ -183,7 +177,6 @@ class Eliminated:
         return [Root(x, times, self.state(view, x, values)) for x, times in roots]
 
     def state(self, view: Leant, x: arb, values: list) -> tuple[arb, ...]:
-        from flint import arb
         of = lambda polynomial, *unknowns: evaluated(polynomial, [*unknowns, *([arb(0)] * (2 - len(unknowns))), *values])
         if isinstance(self.system, OnLine):
             below = of(self.system.below)
@@ -238,7 +231,6 @@ def at_rational(f: fmpq_mpoly, values: tuple[Fraction, ...]) -> fmpq_mpoly:
 
 def univariate(f: fmpq_mpoly, variable: int = 0) -> fmpq_poly:
     """As a polynomial in one variable, which is all it has."""
-    from flint import fmpq_poly
     row: list[Any] = [0] * (max(f.degrees()[variable], 0) + 1)
     for powers, c in f.to_dict().items():
         row[powers[variable]] = c
@@ -252,16 +244,3 @@ def over_field(f: fmpq_mpoly, variable: int = 0) -> list[fmpq_poly]:
 
 def _zero_at(c: fmpq_mpoly, number: Algebraic) -> bool:
     return number.reduced(univariate(c, 2)) == 0
-
-
-def evaluated(f: fmpq_mpoly, at: list) -> arb:
-    """A polynomial at balls or rationals, one for each of (x, y, p, q)."""
-    from flint import arb
-    total = arb(0)
-    for powers, c in f.to_dict().items():
-        term = arb(c)
-        for value, power in zip(at, powers):
-            for _ in range(power):
-                term = term * value
-        total = total + term
-    return total

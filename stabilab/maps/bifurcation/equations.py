@@ -11,13 +11,12 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import reduce
-from typing import TYPE_CHECKING, Any
+from typing import Any
+
+from flint import fmpq, fmpq_mpoly
 
 from ...numbers.vectors import CYCLE, cross, dot
 from .family import CURVES, Family
-
-if TYPE_CHECKING:
-    from flint import fmpq_mpoly
 
 ISOLATED, LEAF, BORDERS = "isolated", "motion", "borders"
 LEANS = tuple(Fraction(*parts) for parts in ((0, 1), (1, 1), (-1, 1), (2, 1), (1, 2), (-3, 1), (1, 3), (3, 1), (-2, 1), (5, 2)))  # X = x - lean y
@@ -57,7 +56,6 @@ class Conics:
 
     def leant(self, lean: Fraction) -> tuple[fmpq_mpoly, fmpq_mpoly]:
         """Both in X = x - lean y and y: points one above another move apart."""
-        from flint import fmpq
         if not lean:
             return self.f, self.g
         ring = self.f.context()

@@ -11,10 +11,13 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
 from itertools import product
-from typing import TYPE_CHECKING, Any
+from math import prod
+from typing import Any
+
+from flint import fmpq_mat, fmpq_mpoly, fmpq_mpoly_ctx
 
 from ...case.read import Case, with_data
-from ...equilibrium.balance import Pencil, pencil
+from ...equilibrium.balance import pencil
 from ...errors import InputError, printable
 from ...numbers.balls import rational
 from ...numbers.vectors import Float3
@@ -22,9 +25,6 @@ from ...physics.coefficients import effective
 from ...shown import Shown
 from ..keys import put
 from ..span import Span
-
-if TYPE_CHECKING:
-    from flint import fmpq_mpoly, fmpq_mpoly_ctx
 
 DEGREE = 3  # in each number that varies; a thruster's arm, force and a wheel's speed come to one each
 CHECKS = 2  # further values at which the polynomials must hold
@@ -47,14 +47,9 @@ class Family:
                 put(data, path, span.written(value))
         return with_data(self.case.path, self.case.text, data)
 
-    def pencil_at(self, values: tuple[Fraction, ...]) -> Pencil:
-        """The balance whose zeros are the equilibria there."""
-        return pencil(effective(self.at(values).scene))
-
     @cached_property
     def ring(self) -> fmpq_mpoly_ctx:
         """Polynomials in two unknowns and the numbers that vary."""
-        from flint import fmpq_mpoly_ctx
         return fmpq_mpoly_ctx.get(VARIABLES, "lex")
 
     @cached_property
@@ -62,8 +57,14 @@ class Family:
         """D, lam, M, u (of `Pencil`) and y, the start in its variables (absent without a motion), as polynomials."""
         grids = [[span.low + (span.high - span.low) * Fraction(n, DEGREE) for n in range(DEGREE + 1)] for span in self.spans]
         table = {values: _numbers_of(self._read(values)) for values in product(*grids)}
-        first = next(iter(table.values()))
-        found = {name: tuple(self._through(grids, {values: row[name][n] for values, row in table.items()}) for n in range(3)) for name in first}
+        rows, exponents = list(table.values()), list(product(range(DEGREE + 1), repeat=len(self.spans)))
+        places = [(name, n) for name in rows[0] for n in range(3)]
+        monomials = [[prod(rational(v) ** e for v, e in zip(values, powers)) for powers in exponents] for values in table]
+        solved = fmpq_mat(monomials).solve(fmpq_mat([[rational(row[name][n]) for name, n in places] for row in rows]))
+        columns = zip(*solved.tolist())
+        terms = [(0, 0, *powers, 0)[:len(VARIABLES)] for powers in exponents]
+        laws = [self.ring.from_dict({powers: c for powers, c in zip(terms, column) if c != 0}) for column in columns]
+        found = {name: tuple(laws[n:n + 3]) for n, (name, place) in enumerate(places) if not place}
         for number in range(1, CHECKS + 1):
             values = tuple(span.low + (span.high - span.low) * Fraction(2 * number - 1 + k, 7 + 4 * k) for k, span in enumerate(self.spans))
             self._hold(found, values)
@@ -80,21 +81,6 @@ class Family:
         except InputError as error:
             told = ", ".join(f"{span.label} = {float(value):.6g}" for span, value in zip(self.spans, values))
             raise InputError(f"vary: the range leaves what a case may be: at {told}: {str(error).splitlines()[0]}") from None
-
-    def _through(self, grids, values) -> fmpq_mpoly:
-        """The polynomial of degree DEGREE in each variable with these values on the grid, by Lagrange."""
-        ring = self.ring
-        letters = ring.gens()[2:]
-        total = ring.constant(0)
-        basis = [[_lagrange(letter, grid, n, ring) for n in range(len(grid))] for letter, grid in zip(letters, grids)]
-        for places in product(*(range(len(grid)) for grid in grids)):
-            value = values[tuple(grid[n] for grid, n in zip(grids, places))]
-            if value:
-                term = ring.constant(rational(value))
-                for parts, n in zip(basis, places):
-                    term *= parts[n]
-                total += term
-        return total
 
     def _hold(self, found, values) -> None:
         case = self._read(values)
@@ -114,14 +100,6 @@ def _numbers_of(case: Case) -> dict[str, tuple[Fraction, ...]]:
     start = case.exact_state
     found = {"D": p.D, "lam": p.lam, "M": p.M, "u": p.u}
     return found | ({"y": tuple(a * x + u for a, x, u in zip(p.A, start, p.u))} if start is not None else {})
-
-
-def _lagrange(letter, grid, n, ring):
-    out = ring.constant(1)
-    for other, node in enumerate(grid):
-        if other != n:
-            out *= (letter - rational(node)) * (1 / rational(grid[n] - node))
-    return out
 
 
 CURVES = "curves"  # the kind of a diagram in words

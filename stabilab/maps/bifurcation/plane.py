@@ -13,25 +13,23 @@ curves' polynomials), inside it all curves run side by side. So one value inside
 from __future__ import annotations
 
 import copy
-import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cache, partial
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
+
+from flint import arb, arb_poly, fmpq_mpoly, fmpq_poly
 
 from ...errors import InputError
-from ...numbers.balls import Unclear, rational, real_roots_of, settled
+from ...numbers.balls import Unclear, evaluated, rational, real_roots_of, settled
 from ...shown import Shown
 from ..keys import put
-from .algebraic import Algebraic, Cut, cuts, gaps, sharpened
-from .diagram import ball_form, diagram, doubles, state_of
-from .eliminated import Eliminated, at_rational, coefficients, evaluated, over_field, univariate
+from .algebraic import Algebraic, Cut, cuts, gaps, real_balls
+from .diagram import ball_form, diagram, doubles, spread, state_of
+from .eliminated import Eliminated, at_rational, coefficients, over_field, univariate
 from .equations import chosen, common_divisor
 from .family import Diagram, Event, Family
-
-if TYPE_CHECKING:
-    from flint import arb, fmpq_mpoly
 
 MOST_BITS = 2048  # beyond which a state is taken to have no number
 
@@ -92,7 +90,7 @@ def _on_curve(family: Family, R: fmpq_mpoly, eliminated: Eliminated, F: fmpq_mpo
         common = _truly(number, common, eliminated, more)
         if len(common) > 1:
             places = settled(partial(_places, family, R, eliminated, number, common))
-            out += [Cusp(at, state, tuple(int(c) for c in number.polynomial.numer().coeffs()), number.index) for at, state in places
+            out += [Cusp(at, state, number.whole, number.index) for at, state in places
                     if second.low <= Fraction(at[1]) <= second.high]
     return out
 
@@ -135,17 +133,15 @@ def _state(family: Family, eliminated: Eliminated, x: arb, p: arb, q: arb, bits:
 
 def _triple_root(R: fmpq_mpoly, p: arb, q: arb) -> arb:
     """A simple root of the second derivative, or of the third where four roots meet, at which what stands before is zero within its balls."""
-    from flint import acb_poly, arb, arb_poly
     zero = arb(0)
     rows = [arb_poly([evaluated(c, [zero, zero, p, q]) for c in coefficients(R, 0)])]
     while rows[-1].degree() > 1:
         rows.append(rows[-1].derivative())
     for n in range(2, len(rows)):
         try:
-            roots = acb_poly(rows[n]).roots()
-        except ValueError:
+            real = real_balls(rows[n])
+        except Unclear:
             continue
-        real = [sharpened(list(rows[n].coeffs()), root.real) for root in roots if root.imag.contains(0)]
         fitting = [x for x in real if all(f(x).contains(0) for f in rows[:n])]
         if fitting:
             nearest = [(float(abs(arb_poly.evaluate(rows[1], [x])[0]).mid()), k) for k, x in enumerate(fitting)]
@@ -252,7 +248,6 @@ def _strips(family: Family, borders: bool, curves: Sequence[fmpq_mpoly], found: 
 
 def _arc(curves: Sequence[fmpq_mpoly], sample: Fraction, event: Event) -> Arc:
     """Which root of which curve an event of a strip's diagram is."""
-    from flint import fmpq_poly
     own = fmpq_poly(list(event.polynomial))
     for n, F in enumerate(curves):
         if F.degrees()[3] > 0:
@@ -287,12 +282,9 @@ def _walls(family: Family, borders: bool, cut: Cut, curves: Sequence[fmpq_mpoly]
 
 def rows(found: Plane, strip: Strip, points: int = 40) -> tuple[list[float], list[list[float]]]:
     """(values of p, q along each arc at these) inside a strip: closer towards its ends, where curves turn back. Each q is a certified root."""
-    low, high = Fraction(strip.low), Fraction(strip.high)
-    shares = sorted({Fraction(1, 10**7), *(Fraction(0.5 - 0.5 * math.cos(math.pi * k / points)) for k in range(1, points)), 1 - Fraction(1, 10**7)})
     values: list[float] = []
     arcs: list[list[float]] = [[] for _ in strip.arcs]
-    for share in shares:
-        p = low + (high - low) * share
+    for p in spread(Fraction(strip.low), Fraction(strip.high), points, 10**7):
         try:
             q = [_q_of(found.curves[arc.curve], p, arc.root) for arc in strip.arcs]
         except Unclear:

@@ -21,10 +21,9 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from itertools import product
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-if TYPE_CHECKING:
-    from flint import fmpq_poly
+from flint import fmpq_poly
 
 MOST = 2_000_000_000  # some five seconds at the most; the certificates of the tests take up to a tenth
 
@@ -244,16 +243,12 @@ def characteristic(basis: Basis, monomials: Sequence[Powers], weight: Polynomial
     """Coefficients of the form's characteristic polynomial after the leading one, by Faddeev's recursion. weight: q, as `basis.rest` leaves it."""
     rows, size, zero = _form(basis, monomials, weight, one), len(monomials), one - one
     found: list[Any] = []
-    power = [[zero] * size for _ in range(size)]
-    last = one
+    power, last = [[zero] * size for _ in range(size)], one
     for n in range(1, size + 1):
-        power = _product(rows, power, zero)
-        for k in range(size):
-            power[k] = [value + rows[k][m] * last for m, value in enumerate(power[k])]
-        trace = zero
-        for k in range(size):
-            trace = trace + power[k][k]
-        last = (zero - trace).over(n)
+        columns = list(zip(*power))
+        power = [[sum((a * b for a, b in zip(row, column)), zero) for column in columns] for row in rows]
+        power = [[value + c * last for value, c in zip(*both)] for both in zip(power, rows)]
+        last = (zero - sum((power[k][k] for k in range(size)), zero)).over(n)
         found.append(last)
     return found
 
@@ -262,32 +257,13 @@ def _form(basis: Basis, monomials: Sequence[Powers], weight: Polynomial, one: An
     """The matrix of tr(b_i b_j weight)."""
     zero = one - one
     product = lambda *factors: tuple(map(sum, zip(*factors)))
-    traces = {}
-    for b in monomials:
-        total = zero
-        for c in monomials:  # the share of c in b c
-            total = total + basis.rest({product(b, c): one}).get(c, zero)
-        traces[b] = total
-    rows = []
-    for a in monomials:
-        row = []
-        for b in monomials:
-            total = zero
-            for powers, c in basis.rest(times({product(a, b): one}, weight)).items():
-                total = total + c * traces[powers]
-            row.append(total)
-        rows.append(row)
-    return rows
+    share = lambda b, c: basis.rest({product(b, c): one}).get(c, zero)  # of c in b c
+    traces = {b: sum((share(b, c) for c in monomials), zero) for b in monomials}
 
-
-def _product(a: list[list[Any]], b: list[list[Any]], zero: Any) -> list[list[Any]]:
-    size = len(a)
-    out = [[zero] * size for _ in range(size)]
-    for i in range(size):
-        for j in range(size):
-            for k in range(size):
-                out[i][j] = out[i][j] + a[i][k] * b[k][j]
-    return out
+    def entry(a: Powers, b: Powers) -> Any:
+        rest = basis.rest(times({product(a, b): one}, weight))
+        return sum((c * traces[powers] for powers, c in rest.items()), zero)
+    return [[entry(a, b) for b in monomials] for a in monomials]
 
 
 def rank_and_signature(coefficients: Sequence[Any], sign: Callable[[Any], int]) -> tuple[int, int]:

@@ -9,6 +9,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
+from flint import fmpq_poly
+
 from ..numbers import Malformed, brief, exact_sign, fraction, q
 from .algebra import MOST, TooLarge, Work
 from .claims import Claims, Event
@@ -133,7 +135,6 @@ class Between:
     @property
     def polynomial(self):
         """t less this number."""
-        from flint import fmpq_poly
         return fmpq_poly([q(-self.at), 1])
 
     def sign(self, f) -> int:

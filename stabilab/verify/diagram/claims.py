@@ -5,6 +5,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
+from flint import fmpq_poly
+
 from ..numbers import MOST, Malformed, bracket, brief, entries, field, number, numbers, q, shown, word
 
 SCHEMA = "stabilab.diagram-certificate/1"
@@ -71,7 +73,6 @@ def claims_of(table) -> Claims:
 
 
 def _polynomials(value, where: str, count: int) -> list[Any]:
-    from flint import fmpq_poly
     if not isinstance(value, list) or len(value) != count:
         raise Malformed(f"{where}: expected {count} list{'s' if count > 1 else ''} of coefficients, got {shown(value)}")
     rows = [numbers(row, f"{where}[{i}]") for i, row in enumerate(value)]
@@ -163,7 +164,6 @@ def differences(told: dict, case: dict) -> list[str]:
 
 def _apart(row: list[str], value: str | None) -> Any:
     """The polynomial less the case's number; None where the case has none."""
-    from flint import fmpq_poly
     if value is None:
         return None
     return fmpq_poly([q(number(c, "about")) for c in row]) - fmpq_poly([q(number(value, "about"))])

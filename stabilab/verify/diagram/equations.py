@@ -8,14 +8,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
+
+from flint import fmpq_mpoly, fmpq_mpoly_ctx, fmpq_poly
 
 from ..rates import AHEAD
 from .algebra import Basis, Polynomial, Ratio, Residue, Work, characteristic, rank_and_signature
 from .claims import Claims
-
-if TYPE_CHECKING:
-    from flint import fmpq_mpoly
 
 
 @dataclass(frozen=True)
@@ -33,7 +32,6 @@ class Equations:
     @classmethod
     def of(cls, claims: Claims) -> Equations:
         """Those of a certificate's scene."""
-        from flint import fmpq_mpoly_ctx
         ring = fmpq_mpoly_ctx.get(("t", "x1", "x2", "x3"), "lex")
         t, *x = ring.gens()
         scene = {name: [_of_t(f, ring) for f in row] for name, row in claims.scene.items()}
@@ -73,7 +71,6 @@ class Equations:
 
     def torque(self, axis: int) -> Any:
         """Its part about an axis, in t alone: without any, equilibria lie on curves in other planes too."""
-        from flint import fmpq_poly
         return in_unknowns(self.rates[axis].subs({"x1": 0, "x2": 0, "x3": 0}), ()).get((), fmpq_poly([]))
 
     def along(self, axis: int) -> bool:
@@ -112,7 +109,6 @@ def _of_t(f: Any, ring: Any) -> fmpq_mpoly:
 
 def in_unknowns(f: fmpq_mpoly, unknowns: Sequence[int] = range(3)) -> Polynomial:
     """As a table from the powers of some unknowns, which are all it has, to polynomials in t."""
-    from flint import fmpq_poly
     rows: dict[tuple[int, ...], dict[int, Any]] = {}
     for (power, *powers), c in f.to_dict().items():
         rows.setdefault(tuple(powers[n] for n in unknowns), {})[power] = c
@@ -183,5 +179,4 @@ def _counted(system: System, lift: Callable[[Any], Any], sign: Callable[[Any], i
 
 
 def _one(system: System) -> Any:
-    from flint import fmpq_poly
     return fmpq_poly([1])
