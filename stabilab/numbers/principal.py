@@ -1,6 +1,6 @@
 """Principal axes of a symmetric tensor of rationals, without a rounding that is not known.
 
-Whether a tensor has positive moments is decided by signs of exact determinants. Its principal moments are the roots of its
+Whether a tensor has positive moments is decided by signs of exact coefficients. Its principal moments are the roots of its
 characteristic polynomial: rational ones are exact, the others are enclosed. The direction
 of a rational moment is exact, and the other two are exactly across it, so a torque along it has no component across it. A length that
 is irrational has the same error. `error` bounds what is left, proved by the residual and the gaps (Davis and Kahan 1970).
@@ -13,6 +13,7 @@ from typing import TypeAlias
 
 from ..errors import InputError
 from ..record import record
+from .balls import rational
 from .exact import sqrt_fraction
 from .polynomial import Poly, real_roots
 from .vectors import Exact3, Number, Triple, cross, dot
@@ -83,21 +84,13 @@ def fault_of(rows: Rows) -> str | None:
         if rows[i][j] != rows[j][i]:
             return (f"the tensor is not symmetric: its {NAMES[i]}{NAMES[j]} entry is {float(rows[i][j])!r} and its {NAMES[j]}{NAMES[i]} "
                     f"entry {float(rows[j][i])!r}, they differ by {float(abs(rows[i][j] - rows[j][i])):.6g}; write the same number in both places")
-    if any(minor < 0 for minor in _principal_minors(rows)) or not _determinant(rows) > 0:
-        least = float(real_roots(_characteristic(rows))[0])
+    polynomial = _characteristic(rows)
+    constant, linear, square, _ = polynomial.c
+    if not (constant < 0 < linear and square < 0):  # all roots are real, so these signs are those of three positive ones
+        least = float(real_roots(polynomial)[0])
         return (f"the tensor is not positive definite: its least principal moment is {least:.6g} kg m^2, and those of a body are positive; "
                 "are the products too large, or their sign convention another one?")
     return None
-
-
-def _principal_minors(m: Rows) -> list[Fraction]:
-    """All seven principal minors: a symmetric matrix is positive semidefinite where none is negative."""
-    pairs = [m[i][i] * m[j][j] - m[i][j] ** 2 for i, j in ((0, 1), (0, 2), (1, 2))]
-    return [*(m[i][i] for i in range(3)), *pairs, _determinant(m)]
-
-
-def _determinant(m: Rows) -> Fraction:
-    return dot(m[0], cross(m[1], m[2]))
 
 
 def _shifted(m: Rows, shift: Fraction) -> Rows:
@@ -106,8 +99,8 @@ def _shifted(m: Rows, shift: Fraction) -> Rows:
 
 
 def _characteristic(m: Rows) -> Poly:
-    trace = m[0][0] + m[1][1] + m[2][2]
-    return Poly((-_determinant(m), sum(_principal_minors(m)[3:6]), -trace, 1))
+    from flint import fmpq_mat
+    return Poly.of(fmpq_mat([[rational(v) for v in row] for row in m]).charpoly())
 
 
 def _moments(m: Rows, polynomial: Poly, bits: int) -> tuple[Moment, Moment, Moment]:

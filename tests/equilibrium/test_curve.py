@@ -1,4 +1,4 @@
-"""Tests of `equilibrium/curve.py`: what once went wrong there, and its edges."""
+"""Tests of `equilibrium/result.py`: what once went wrong there, and its edges."""
 from __future__ import annotations
 
 import math

@@ -7,13 +7,16 @@ import subprocess
 import sys
 from fractions import Fraction as F
 
+import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+import stabilab
 from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene, equilibria
 from stabilab.equilibrium.balance import pencil
 from stabilab.equilibrium.gyrostat import balance_fails, conic_curves, torque_free_curves
+from stabilab.equilibrium.result import decimal
 from stabilab.errors import InputError
 
 D_PAPER = (2000, 1500, 1000)
@@ -327,3 +330,20 @@ def test_classification_needs_no_numerical_library():
     code = ("import sys; from stabilab import ScaledGyrostat, equilibria; equilibria(ScaledGyrostat(0, 1, (0, 0, 1)));"
             "sys.exit(any(m in sys.modules for m in ('numpy', 'scipy', 'sympy', 'mpmath')))")
     assert subprocess.run([sys.executable, "-c", code]).returncode == 0
+
+
+def test_a_discriminant_beyond_the_doubles_is_still_told():
+    u = F(10) ** 60
+    scene = Scene(Body((4, 2, 3)), Gyrostat((-u * 3 / 10, 4 * u, 2 * u)), ConstantTorque((-u * u, 2 * u * u, -4 * u * u)))
+    assert stabilab.equilibria(scene).kind == "none"  # law: as for u = 1
+    assert decimal(F(10) ** 400 * F(-2, 3)) == "-6.66667e+399" and decimal(F(10) ** -400 / 7) == "1.42857e-401"
+
+
+def test_a_sphere_has_a_line_of_equilibria_where_its_wheel_lies_across_the_torque():
+    """D equal: lambda x omega + M = 0 is solved by (lambda x M)/|lambda|^2 + s lambda iff lambda . M = 0."""
+    wheel, torque = np.array([3.0, 0.0, -1.0]), np.array([1.0, 2.0, 3.0])
+    (line,) = equilibria(Scene(Body((2, 2, 2)), Gyrostat(wheel), ConstantTorque(torque))).curves
+    for sample in line.samples:
+        foot = np.cross(wheel, torque) / 10
+        np.testing.assert_allclose(np.cross(np.array(sample.at) - foot, wheel), 0, atol=1e-12 * (1 + np.abs(sample.at).max()))
+    assert equilibria(Scene(Body((2, 2, 2)), Gyrostat((3, 0, 1)), ConstantTorque(torque))).kind == "none"

@@ -15,11 +15,10 @@ from tests.mutate import faults, runs
 # subject -> (modules, test files that belong to it)
 SUBJECTS = {
     "equilibria": (("equilibrium/gyrostat", "equilibrium/result", "equilibrium/balance"),
-                   ("equilibrium/test_gyrostat", "equilibrium/test_stability", "equilibrium/test_conics", "equilibrium/test_curve",
-                    "equilibrium/test_isolated", "answers/test_certificate", "equilibrium/test_curve_text")),
+                   ("equilibrium/test_gyrostat", "equilibrium/test_stability", "equilibrium/test_curve",
+                    "answers/test_certificate", "equilibrium/test_curve_text")),
     "stability": (("equilibrium/stability",),
-                  ("equilibrium/test_stability", "equilibrium/test_gyrostat", "answers/test_certificate", "equilibrium/test_curve_text",
-                   "equilibrium/test_spectrum")),
+                  ("equilibrium/test_stability", "equilibrium/test_gyrostat", "answers/test_certificate", "equilibrium/test_curve_text")),
     "reduction": (("orbit/reduction",), ("orbit/fate/test_fate", "orbit/fate/test_one_state", "orbit/extremes/test_extremes",
                                          "answers/test_certificate", "orbit/test_reduction")),
     "fate": (("orbit/fate/arrays", "orbit/fate/result", "orbit/landscape", "orbit/fate/by_table"),

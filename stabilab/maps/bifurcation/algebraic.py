@@ -14,7 +14,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import pairwise, zip_longest
+from itertools import pairwise
 from math import isqrt
 from typing import Any, NamedTuple, TypeAlias
 
@@ -169,24 +169,18 @@ class Algebraic:
         return field_gcd(self.polynomial, f, g) if f and g else self.monic(f or g)
 
     def powers(self, f: FieldPoly) -> Powers:
-        """(square-free factor, how often it counts) of a polynomial that is not zero, by Yun's algorithm; constants are left out."""
-        out: list[tuple[FieldPoly, int]] = []
-        slope = derivative(f)
-        if not slope:
-            return out
-        common = self.gcd(f, slope)
-        b, c = self.divided(f, common), self.divided(slope, common)
-        d, times = self._less(c, derivative(b)), 1
-        while len(b) > 1:
-            common = self.gcd(b, d)
-            if len(common) > 1:
-                out.append((common, times))
-            b, c = self.divided(b, common), self.divided(d, common)
-            d, times = self._less(c, derivative(b)), times + 1
+        """(square-free factor, how often it counts) of a polynomial that is not zero; constants are left out."""
+        if len(f) < 2:
+            return []
+        rest = self.gcd(f, [c * n for n, c in enumerate(f)][1:])
+        once, out, times = self.divided(f, rest), [], 1
+        while len(once) > 1:
+            more = self.gcd(once, rest)
+            factor = self.divided(once, more)
+            if len(factor) > 1:
+                out.append((factor, times))
+            once, rest, times = more, self.divided(rest, more), times + 1
         return out
-
-    def _less(self, f: FieldPoly, g: FieldPoly) -> FieldPoly:
-        return self.trimmed([a - b for a, b in zip_longest(f, g, fillvalue=self.polynomial * 0)])
 
     def real_roots(self, powers: Powers, bits: int) -> list[tuple[arb, int]]:
         """(ball, how often it counts) of the distinct real roots of a polynomial, given its `powers`, rising. Unclear where the bits do not isolate them."""
@@ -194,11 +188,6 @@ class Algebraic:
         for factor, times in powers:
             found += [(root, times) for root in real_balls(arb_poly([arb_poly(c)(at) for c in factor]))]
         return sorted(found, key=lambda one: one[0].mid())
-
-
-def derivative(f: FieldPoly) -> FieldPoly:
-    """Of a polynomial over the field."""
-    return [c * n for n, c in enumerate(f)][1:]
 
 
 def real_balls(f: arb_poly) -> list[arb]:

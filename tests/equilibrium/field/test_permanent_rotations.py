@@ -28,6 +28,7 @@ from stabilab.physics.effects.resistance import Resistance
 from stabilab.physics.equations import derive
 from stabilab.physics.to_numpy import to_numpy
 from stabilab.show.text import answers
+from tests.shared import case
 
 ROOT = Path(__file__).parents[3]
 WHEEL, WEIGHT, CENTRE = Gyrostat((1, 0, 2)), Gravity(20, ("0.7", "0.3", "0.1")), NewtonianField("0.5")
@@ -362,3 +363,51 @@ def test_a_branch_of_permanent_rotations_has_no_point_outside_it():
                     curve.point(outside)
                 refused += 1
     assert refused
+
+
+def test_equal_stiffness_is_found_at_every_rate_or_none():
+    """By substitution in (Omega^2 - N)(D_i - D_j) = Omega E, axis 3 carrying E."""
+    from fractions import Fraction
+    from types import SimpleNamespace
+
+    from stabilab.equilibrium.field_states import _same_stiffness
+    parts = SimpleNamespace(D=(Fraction(2), Fraction(2), Fraction(3)), N=Fraction(1), E=Fraction(3))
+    assert _same_stiffness(parts, 0, 1) == [0]  # equal moments: the same at every rate
+    for Omega in _same_stiffness(parts, 0, 2):
+        assert abs((Omega**2 - parts.N) * (parts.D[0] - parts.D[2]) + Omega * parts.E) < Fraction(1, 2**200)
+    assert len(_same_stiffness(parts, 0, 2)) == 2
+    pulled = SimpleNamespace(D=parts.D, N=Fraction(-4), E=Fraction(3))  # Omega^2 - 3 Omega + 4 has no real root
+    assert _same_stiffness(pulled, 0, 2) == []
+
+
+@pytest.mark.parametrize("wheel", [1, 30])
+def test_a_sphere_with_its_weight_along_the_wheel_sleeps_upside_down_but_for_slow_spins(wheel):
+    """Lagrange's sleeping top: (Lambda - D Omega)^2 > 4 D M g z with gamma = -e3."""
+    curves = equilibria(Scene(Body((3, 3, 3)), Gravity(20, (0, 0, "0.1")), Gyrostat((0, 0, wheel)))).curves
+    (upright,) = [c for c in curves if c.point(0.0)[5] == -1]
+    (unstable,) = [s.t for s in upright.segments if s.verdict == "unstable"]
+    np.testing.assert_allclose(unstable, [(wheel - 24**0.5) / 3, (wheel + 24**0.5) / 3], rtol=1e-14)
+    assert {s.verdict for s in upright.segments if s.t != unstable} == {"stable"}
+
+
+def test_a_curve_of_steady_states_has_no_point_at_its_ends():
+    attitude = case("charged-body-attitude")
+    turning = Scene(attitude.scene.body, *(e for e in attitude.scene.effects if e.name != "body_force"))
+    curve = equilibria(turning).curves[0]
+    low, high = curve.segments[0].t
+    assert len(curve.point(0.5 * (low + high))) == 6
+    for end in (low, high, high + 1):
+        with pytest.raises(InputError, match="lies at an end"):
+            curve.point(end)
+
+
+@pytest.mark.parametrize("e2, e3, e4", [(5, 0, 4), (5, 0, 6.25), (2, 0, 3), (1, 0, -1), (-5, 0, 4), (-2, 0, 1), (3, 0, 0), (5, 1, 4),
+                                        (5, -1, 4), (0, 0, 0)])
+def test_steady_states_of_a_torque_are_told_by_their_quartic(e2, e3, e4):
+    from flint import arb
+
+    from stabilab.equilibrium.field_states import _verdict
+    roots = np.roots([1, 0, e2, -e3, e4])
+    simple = min(abs(a - b) for n, a in enumerate(roots) for b in roots[:n]) > 1e-3
+    word = "unstable" if roots.real.max() > 1e-3 else "stable" if simple else "degenerate"
+    assert _verdict(arb(e2), arb(e3), arb(e4))[0] == word
