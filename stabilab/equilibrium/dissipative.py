@@ -1,7 +1,8 @@
 """Equilibria of a body that a liquid in a cavity or a resisting medium takes energy from.
 
-`liquid` has the balance with a liquid, `medium` that with a resisting medium alone; here is what both together or a body in a field leave
-to say. The liquid does no work against rest, and for Lambda = 0 it only takes energy: T' <= M . omega - 2 c T.
+`liquid` has the balance with a liquid, `medium` that with a resisting medium alone; here is what both
+together or a body in a field leave to say. The liquid does no work against rest, and for Lambda = 0 it only
+takes energy: T' <= M . omega - 2 c T.
 """
 from __future__ import annotations
 

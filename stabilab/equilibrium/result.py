@@ -110,7 +110,8 @@ class RationalCurve:
         """point(t) for a float t, each coordinate rounded once; InputError at a pole or a t that is not finite."""
         return self._rounded_point  # a method of its own, unlike a function made here, can be sent to another process
 
-    def cut(self, cuts: Sequence[Fraction], segment: Callable[..., Any], fold: Callable[..., EquilibriumPoint]) -> EquilibriumCurve:
+    def cut(self, cuts: Sequence[Fraction], segment: Callable[..., Any],
+            fold: Callable[..., EquilibriumPoint]) -> EquilibriumCurve:
         """It with verdicts. cuts: parameters, rising; segment(lo, hi): one between two of them (None: infinite) and its
         samples; fold(t, before, after): the equilibrium between two segments, asked where t is no pole."""
         pieces = [segment(lo, hi) for lo, hi in pairwise([None, *cuts, None])]

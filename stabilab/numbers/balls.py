@@ -152,7 +152,7 @@ def _by_sturm(factor: fmpq_poly) -> list[arb]:
         signs = [value > 0 for f in chain if (value := f(at)) != 0]
         return sum(s != t for s, t in zip(signs, signs[1:]))
     largest = max(map(abs, factor.coeffs()))
-    high = 1 + largest / abs(factor.leading_coefficient())  # Cauchy's bound, and that of 1/t: roots are no rational numbers here
+    high = 1 + largest / abs(factor.leading_coefficient())  # Cauchy's bound, and that of 1/t
     low = 1 / (1 + largest / abs(factor[0]))
     found, todo = [], [(-high, -low), (low, high)]
     while todo:
@@ -179,7 +179,7 @@ def _middle(a: fmpq, b: fmpq) -> fmpq:
 
 
 def _narrowed(factor: fmpq_poly, a: fmpq, b: fmpq, bits: int) -> tuple[fmpq, fmpq]:
-    """The bracket (a, b) of a simple root to 2**-bits relative: Newton's step over it where its slope has a sign, else halved."""
+    """The bracket (a, b) of a simple root to 2**-bits relative, by Newton's step where the slope has a sign."""
     from flint import arb, arb_poly
     rising, slope = factor(b) > 0, arb_poly(factor.derivative())
     while (b - a) * 2**bits > min(abs(a), abs(b)):

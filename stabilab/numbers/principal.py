@@ -1,9 +1,10 @@
 """Principal axes of a symmetric tensor of rationals, without a rounding that is not known.
 
-Whether a tensor has positive moments is decided by signs of exact coefficients. Its principal moments are the roots of its
-characteristic polynomial: rational ones are exact, the others are enclosed. The direction
-of a rational moment is exact, and the other two are exactly across it, so a torque along it has no component across it. A length that
-is irrational has the same error. `error` bounds what is left, proved by the residual and the gaps (Davis and Kahan 1970).
+Whether a tensor has positive moments is decided by signs of exact coefficients. Its principal moments are the
+roots of its characteristic polynomial: rational ones are exact, the others are enclosed. The direction of a
+rational moment is exact, and the other two are exactly across it, so a torque along it has no component
+across it. A length that is irrational has the same error. `error` bounds what is left, proved by the residual
+and the gaps (Davis and Kahan 1970).
 """
 from __future__ import annotations
 
@@ -86,7 +87,7 @@ def fault_of(rows: Rows) -> str | None:
                     f"entry {float(rows[j][i])!r}, they differ by {float(abs(rows[i][j] - rows[j][i])):.6g}; write the same number in both places")
     polynomial = _characteristic(rows)
     constant, linear, square, _ = polynomial.c
-    if not (constant < 0 < linear and square < 0):  # all roots are real, so these signs are those of three positive ones
+    if not (constant < 0 < linear and square < 0):  # the signs of three positive roots, as all are real
         least = float(real_roots(polynomial)[0])
         return (f"the tensor is not positive definite: its least principal moment is {least:.6g} kg m^2, and those of a body are positive; "
                 "are the products too large, or their sign convention another one?")

@@ -1,13 +1,14 @@
 """Real algebraic numbers, polynomials over the field of one, and critical values: real roots in order, none twice.
 
-An element of Q(alpha) is one of flint's rational polynomials, reduced by the irreducible polynomial of alpha; a
-polynomial over the field is a list of them, lowest power first.
+An element of Q(alpha) is one of flint's rational polynomials, reduced by the irreducible polynomial of alpha;
+a polynomial over the field is a list of them, lowest power first.
 
-Two such polynomials have their greatest common divisor from its images modulo primes: Euclid's algorithm over the field
-doubles the length of its coefficients at every step, modulo a prime they have none. Where the polynomial of the number
-keeps its degree and has no double root modulo the prime, and both polynomials are integral there, one with an invertible
-leading coefficient, a common factor has an image of its own degree: so the degree of the images is never too low. What
-is put together from them is the answer if it divides both, and that is tried exactly.
+Two such polynomials have their greatest common divisor from its images modulo primes: Euclid's algorithm over
+the field doubles the length of its coefficients at every step, modulo a prime they have none. Where the
+polynomial of the number keeps its degree and has no double root modulo the prime, and both polynomials are
+integral there, one with an invertible leading coefficient, a common factor has an image of its own degree: so
+the degree of the images is never too low. What is put together from them is the answer if it divides both,
+and that is tried exactly.
 """
 from __future__ import annotations
 
@@ -30,7 +31,7 @@ FIRST = 1 << 61  # they are below
 
 
 def field_gcd(number: fmpq_poly, f: FieldPoly, g: FieldPoly) -> FieldPoly:
-    """The monic one. number: an irreducible polynomial of the algebraic number; f, g: not zero, coefficients reduced by it."""
+    """The monic one. number: an irreducible polynomial of the algebraic number; f, g: not zero, reduced by it."""
     whole = [int(c) for c in number.numer().coeffs()]
     size, product, found, tried = 0, 1, [[0]], 1
     for prime in _primes():
@@ -49,7 +50,8 @@ def field_gcd(number: fmpq_poly, f: FieldPoly, g: FieldPoly) -> FieldPoly:
         product *= prime
         if product.bit_length() >= 61 * tried:
             tried *= 2
-            if (made := _rational(found, product)) is not None and not any(divided(number, h, made)[1] for h in (f, g)):
+            made = _rational(found, product)
+            if made is not None and not any(divided(number, h, made)[1] for h in (f, g)):
                 return made
     raise AssertionError  # there are always more primes
 
@@ -269,8 +271,10 @@ class Gap(NamedTuple):
 
 def gaps(found: Sequence[Cut], low: Fraction, high: Fraction) -> list[Gap | None]:
     """Those before, between and after the cuts of a range; None where a cut stands at its end."""
-    ends = [(low, low, float(low)), *((cut.low, cut.high, float(cut.number)) for cut in found), (high, high, float(high))]
-    return [Gap(first, last, between(a, b)) if a < b else None for (_, a, first), (b, _, last) in pairwise(ends)]
+    inner = [(cut.low, cut.high, float(cut.number)) for cut in found]
+    ends = [(low, low, float(low)), *inner, (high, high, float(high))]
+    sides = pairwise(ends)
+    return [Gap(first, last, between(a, b)) if a < b else None for (_, a, first), (b, _, last) in sides]
 
 
 def between(first: Fraction, second: Fraction) -> Fraction:

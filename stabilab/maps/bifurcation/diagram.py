@@ -1,13 +1,16 @@
 """The diagram over one number: critical values by elimination, the equilibria at each and at one value between neighbours.
 
-The stability of an equilibrium comes from the signs of m and n in balls and the reasons of the room `equilibrium`.
+The stability of an equilibrium comes from the signs of m and n in balls and the reasons of the room
+`equilibrium`.
 
-Where equilibria form curves for every value of the range, these are given in words. Without a torque they are lines along
-principal axes that carry no wheel, planes of equal moments, and the curve on which momentum is along the rotation.
-Under a torque along equal moments of inertia they are a conic in the plane across it. Which of these there are hangs on differences of moments, on parts of
-wheel and torque that vanish, on lambda . M, and on the determinant of the conic alone: polynomials in what varies.
+Where equilibria form curves for every value of the range, these are given in words. Without a torque they are
+lines along principal axes that carry no wheel, planes of equal moments, and the curve on which momentum is
+along the rotation. Under a torque along equal moments of inertia they are a conic in the plane across it.
+Which of these there are hangs on differences of moments, on parts of wheel and torque that vanish, on lambda
+. M, and on the determinant of the conic alone: polynomials in what varies.
 
-Branches are numbered by one component, and two may pass one above the other: they keep their order in the parts of a piece alone.
+Branches are numbered by one component, and two may pass one above the other: they keep their order in the
+parts of a piece alone.
 """
 from __future__ import annotations
 
@@ -103,7 +106,8 @@ def told(family: Family, what: str) -> Diagram:
         event = _change_in_words(family, found[n - 1], named) if n else None
         if gap:
             there = _words_at(family, gap.sample)
-            if pieces and there == (pieces[-1].count, pieces[-1].words) and (event is None or (event.count, event.words) == there):
+            same = event is None or (event.count, event.words) == there
+            if same and pieces and there == (pieces[-1].count, pieces[-1].words):
                 pieces[-1] = replace(pieces[-1], high=gap.high)
                 continue
             pieces.append(Piece(*gap[:2], there.number, gap.sample, (), words=there.words))
@@ -168,7 +172,7 @@ def diagram(family: Family, borders: bool = False) -> Diagram:
 def _event(family: Family, kind: str, eliminated: Eliminated, cut: Cut, sides: Sequence[Piece | None]) -> Event | None:
     """What happens at a cut; None where nothing does."""
     system, number = eliminated.system, cut.number
-    make = lambda kinds, count, states, words: Event(float(number), number.rational, number.whole, number.index, kinds, count, states, words)
+    make = partial(Event, float(number), number.rational, number.whole, number.index)
     if number.reduced(univariate(system.special, 2)) == 0:
         return make(("axis",), *_on_an_axis(family, system, cut))
     roots = settled(lambda digits: [eliminated.at_algebraic(number, digits.bits)])[0]

@@ -59,11 +59,13 @@ class Family:
         table = {values: _numbers_of(self._read(values)) for values in product(*grids)}
         rows, exponents = list(table.values()), list(product(range(DEGREE + 1), repeat=len(self.spans)))
         places = [(name, n) for name in rows[0] for n in range(3)]
-        monomials = [[prod(rational(v) ** e for v, e in zip(values, powers)) for powers in exponents] for values in table]
-        solved = fmpq_mat(monomials).solve(fmpq_mat([[rational(row[name][n]) for name, n in places] for row in rows]))
+        monomial = lambda values, powers: prod(rational(v) ** e for v, e in zip(values, powers))
+        left = fmpq_mat([[monomial(values, powers) for powers in exponents] for values in table])
+        solved = left.solve(fmpq_mat([[rational(row[name][n]) for name, n in places] for row in rows]))
         columns = zip(*solved.tolist())
         terms = [(0, 0, *powers, 0)[:len(VARIABLES)] for powers in exponents]
-        laws = [self.ring.from_dict({powers: c for powers, c in zip(terms, column) if c != 0}) for column in columns]
+        law = lambda column: self.ring.from_dict({powers: c for powers, c in zip(terms, column) if c != 0})
+        laws = [law(column) for column in columns]
         found = {name: tuple(laws[n:n + 3]) for n, (name, place) in enumerate(places) if not place}
         for number in range(1, CHECKS + 1):
             values = tuple(span.low + (span.high - span.low) * Fraction(2 * number - 1 + k, 7 + 4 * k) for k, span in enumerate(self.spans))

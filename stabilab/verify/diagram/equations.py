@@ -1,8 +1,9 @@
 """What is counted, as polynomials that are zero together, and how many real zeros these have at a value of t.
 
-They are rates, the law that a motion keeps, and where stability changes: flint's polynomials in t and the three unknowns.
-A body's rates stand times its moments, w_i x_i' = kappa_i x_j x_k + rho_i x_k + sigma_i x_j + m_i with w = D (1 for the
-scaled system). Equilibria satisfy two linear conditions besides (`rates.Rates`), which are sums of the rates.
+They are rates, the law that a motion keeps, and where stability changes: flint's polynomials in t and the
+three unknowns. A body's rates stand times its moments, w_i x_i' = kappa_i x_j x_k + rho_i x_k + sigma_i x_j +
+m_i with w = D (1 for the scaled system). Equilibria satisfy two linear conditions besides (`rates.Rates`),
+which are sums of the rates.
 """
 from __future__ import annotations
 
