@@ -124,7 +124,7 @@ def pace(seed=1, scenes=10, states=1000, times=2000.0, steps=20_000):
     """Prints, by scene, what deciding a state costs beside its raw integration by heyoka's batches up to the same time; returns (ours, raw), s."""
     import numpy as np
 
-    from stabilab.unreduced.spin_up.many import spin_up_many
+    from stabilab.unreduced.spin_up.follow import spin_up_many
     rng, total, ratios = random.Random(seed), np.zeros(2), []
     print(f"{'':>8}{'wheel':>6}{'undecided':>10}{'steps':>9}{'ours us':>9}{'raw us':>9}{'ratio':>7}")
     for number in range(scenes + 1):

@@ -15,7 +15,7 @@ from ..orbit.result import Fate
 from ..physics.scene import AnyScene
 from ..unreduced.enclosure import kernel
 from ..unreduced.enclosure.run import Course, allowed
-from ..unreduced.spin_up.fields import natural, tests_of
+from ..unreduced.spin_up.certificate import natural, tests_of
 from ..unreduced.spin_up.follow import spin_up
 
 BUDGET, STEPS = 60_000, 30_000  # of the run that finds the time, and validated ones: a checker takes a millisecond for each
@@ -70,12 +70,13 @@ def _holding(tests: Any, ways: list[tuple[str, Any, tuple[int, int]]], box: Any,
     """The first inequality that holds for the ball, its orders and constants in the scene's units; None where none does."""
     middle, near = box
     for about, field, orders in ways:
-        found = tests.certifier(field, orders)(middle[None] / unit, np.array([near / unit]))
-        if found.good[0]:
+        constants = tests.certifier(field, orders).constants(middle / unit, near / unit)
+        if constants:
+            A, z, eta, *_ = map(Fraction, constants)
             u = Fraction(unit)
-            cone = Fraction(float(found.A[0])) / Fraction(_scale(about, field)) * u
-            gain = Fraction(float(found.eta[0])) / Fraction(field.D1) * u * u * SURE
-            return {"about": about, "orders": list(orders), "cone": str(cone), "least": str(Fraction(float(found.z[0])) * u), "gain": _decimal(gain, 12)}
+            cone, gain = A / Fraction(_scale(about, field)) * u, eta / Fraction(field.D1) * u * u * SURE
+            return {"about": about, "orders": list(orders),
+                    "cone": str(cone), "least": str(z * u), "gain": _decimal(gain, 12)}
     return None
 
 

@@ -13,7 +13,7 @@ import numpy as np
 
 from ..errors import InputError
 from ..integrate.extrema import roots_of_rates
-from ..integrate.to_heyoka import heyoka_available
+from ..numbers.numba_door import installed
 from ..orbit.fate.one_state import OneFate, at_rest
 from ..orbit.fate.reasons import Reason
 from ..orbit.fate.result import FateResult, empty_columns
@@ -24,14 +24,13 @@ from ..physics.states import equilibrium_mask
 from .enclosure.ranges import ranges_until
 from .evidence import extremes_over, seen_over, size_words
 from .periodic import in_the_middle
-from .spin_up.follow import spin_up
-from .spin_up.many import LEVELS, SpinUps, spin_up_many
+from .spin_up.follow import LEVELS, SpinUps, spin_up, spin_up_many
 from .spin_up.result import SpinUp
 
 __all__ = ["extremes", "fates", "motion", "periods"]
 NO_SHEETS = "not known: the torque is off the principal axes, and no separatrix is known there"
 PATIENCE = 600_000  # steps for which a motion is followed where nobody says how long: seconds
-STAND_IN = 60  # Taylor steps that take as long as one of SciPy and of its twin, where heyoka is not installed
+AS_WRITTEN = 120  # times fewer steps where numba is not installed
 ENDLESS = 10**9     # steps where the caller names a time
 BOUND_DIGITS = 10  # decimals of a bound for all times
 REASON = {"undecided": Reason.OFF_AXIS, "certified": Reason.CERTIFIED, "proved": Reason.CERTIFIED, "exact": Reason.CLOSED_FORM}
@@ -72,9 +71,9 @@ def _middle(scene, state) -> str:
 
 
 def _limits(follow) -> dict:
-    """How far a motion is followed: to a time, or for PATIENCE steps, or as much work without the Taylor series."""
+    """How far a motion is followed: to a time, or for PATIENCE steps, fewer where nothing is compiled."""
     if follow is None:
-        return {"budget": PATIENCE if heyoka_available() else PATIENCE // STAND_IN}
+        return {"budget": PATIENCE if installed() else PATIENCE // AS_WRITTEN}
     return {"t_max": float(follow), "budget": ENDLESS}
 
 

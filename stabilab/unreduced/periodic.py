@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from ..numbers.vectors import CYCLE
-from .spin_up.island import Centre, centres
+from .spin_up.cause import Centre, centres
 
 ORDER, TOLERANCE = 20, 1e-17
 STEPS = 800      # from one passage to the next, at most

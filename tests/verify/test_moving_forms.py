@@ -9,9 +9,9 @@ import pytest
 
 from stabilab import Body, ConstantTorque, Gyrostat, Scene
 from stabilab.answers.certificate import certificate
-from stabilab.unreduced.spin_up.certificate import Certifier
+from stabilab.unreduced.spin_up.centres import moving_centre
+from stabilab.unreduced.spin_up.certificate import MovingCertifier
 from stabilab.unreduced.spin_up.form import forms_of
-from stabilab.unreduced.spin_up.moving_centre import moving_centre
 from stabilab.unreduced.spin_up.symmetric import equatorial
 from stabilab.verify import verify
 from stabilab.verify.numbers import ball
@@ -107,10 +107,10 @@ def test_corrected_energy_and_amplitude_change_at_the_rates_that_are_written_dow
 
 def found_by(scene, field, state, orders):
     """(about, axis, sense, cone, least, gain) that the analysis' test in doubles finds for a state; None where it does not hold."""
-    found = Certifier(field, orders)(np.array([state], float))
-    if not found.good[0]:
+    found = MovingCertifier(field, orders).constants(state)
+    if found is None:
         return None
-    cone, least, gain = (F(float(v[0])) for v in (found.A, found.z, found.eta))
+    cone, least, gain = map(F, found[:3])
     about, axis, sense = ("equator", 0, 1) if field.axis is None else ("moving centre", field.axis + 1, field.sense)
     return about, axis, sense, cone / F(float(np.sqrt(np.prod(field.roots)))), least, gain / F(field.D1) * (1 - F(1, 10**9))
 

@@ -10,8 +10,8 @@ import pytest
 
 from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene, load
 from stabilab.answers.certificate import certificate
-from stabilab.unreduced.spin_up.certificate import Certifier
-from stabilab.unreduced.spin_up.fixed_centre import FixedCentre
+from stabilab.unreduced.spin_up.centres import FixedCentre
+from stabilab.unreduced.spin_up.certificate import FixedCertifier
 from stabilab.unreduced.spin_up.form import forms_of
 from stabilab.verify import verify
 from stabilab.verify.numbers import Malformed, ball
@@ -218,13 +218,13 @@ def test_what_the_test_in_doubles_finds_holds_in_balls(orders):
         for form in forms_of(scene):
             state = np.array(sphere(rng, 2))
             state[form.axis] = form.sense * rng.choice((3, 6, 12))
-            found = Certifier(FixedCentre(form), orders)(state[None])
-            if not found.good[0]:
+            found = FixedCertifier(FixedCentre(form), orders).constants(state)
+            if found is None:
                 continue
             seen += 1
             with working(128):
                 made = Inequality(form_about(rates_of(scene), form.axis, form.sense), orders)
-                cone, least, gain = (F(float(v[0])) for v in (found.A, found.z, found.eta))
+                cone, least, gain = map(F, found[:3])
                 faults, true = made.faults([ball(F(v)) for v in state.tolist()], cone / abs(F(form.scale[0])), least)
                 assert not faults and true >= ball(gain / F(form.D1) * (1 - F(1, 10**12)))
 

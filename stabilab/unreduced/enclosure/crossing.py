@@ -14,7 +14,7 @@ from functools import lru_cache
 import numpy as np
 
 from ...errors import InputError
-from ..spin_up.fields import natural
+from ..spin_up.certificate import natural
 from . import kernel
 from .run import WHY, Course, allowed
 

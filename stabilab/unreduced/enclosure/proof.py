@@ -17,9 +17,8 @@ import numpy as np
 from ...asked import checked_scene
 from ...numbers.exact import exact_vector
 from ...physics.coefficients import effective
-from ..spin_up.clock import Trap
-from ..spin_up.fields import natural, tests_of
-from ..spin_up.result import SpinUp
+from ..spin_up.certificate import natural, tests_of
+from ..spin_up.result import SpinUp, Trap
 from . import kernel
 from .run import Course, allowed
 
@@ -46,9 +45,8 @@ def proved(scene, state, found: SpinUp, steps: int | None = None, bits: int | No
         if reached is None:
             return replace(found, cause=f"{found.cause}; not proved: after {way.steps} validated steps, at t = {way.t:.6g}, the way is {way.why}")
         middle, near = reached
-        got = test(middle[None] / unit, np.array([near / unit * WIDER]))
-        if got.good[0]:
-            constants = (float(getattr(got, name)[0]) for name in ("A", "z", "eta", "z_up", "eta_up", "k"))
+        constants = test.constants(middle / unit, near / unit * WIDER, fast)
+        if constants:
             trap = Trap(before.field, before.form, before.orders, *constants, unit, way.t)  # type: ignore[call-arg]  # six constants
             words = found.cause.replace("is certified", "is proved") + f"; the way there is enclosed, within {near:.2g}{rates} at t = {way.t:.6g}"
             return replace(found, level="proved", trap=trap, t=way.t, state=tuple(middle.tolist()), cause=words)

@@ -16,7 +16,7 @@ from ...asked import checked_scene
 from ...errors import InputError
 from ...numbers.exact import exact_vector
 from ...physics.coefficients import effective
-from ..spin_up.fields import natural
+from ..spin_up.certificate import natural
 from . import kernel
 from .digits import DigitSteps
 from .door import advance, available, loaded

@@ -17,162 +17,258 @@ E + Im/X and B + R/(om X) + Psi/(D1 om^2 X^3), with k formed from the sums as th
 D1 y+' <= M1 + (m* + z k)/y+, for k x falls: the sharper clock (`clock`). Since Om is concave, int_z^x Om >= (x - z)(Om(x) + Om(z))/2, which is what is
 tested (equal for the fixed centre), and int_x^(z+) Om >= (z+ - x) Om(x) gives z+.
 
-Rounding. The place of a state is known within its blur (rounding and, asked for, a ball of states about it): x and |zeta| are
-taken at their worse ends and each term at the start within the change that the blur can make of it. Coefficients hold
-their rounding (`elimination`), sums of positive numbers are off by less than 2^-40 of themselves, and every comparison leaves SLACK =
-2^-30 of the sum of the sizes in it.
+Rounding. The place of a state is known within its blur (rounding and, asked for, a ball of states about it):
+x and |zeta| are taken at their worse ends and each term at the start within the change that the blur can make
+of it. Coefficients hold their rounding (`elimination`), sums of positive numbers are off by less than 2^-40
+of themselves, and every comparison leaves SLACK = 2^-30 of the sum of the sizes in it.
+
+A and z are searched from the smallest that could do, by `fixed_kernel` and `moving_kernel`: compiled, or as
+they are written.
 """
 from __future__ import annotations
 
-from dataclasses import dataclass
+import math
+from functools import cached_property, lru_cache
+from types import ModuleType
 
 import numpy as np
 
-from .elimination import corrected, sizes
-from .terms import Terms
+from ...integrate.motion_units import in_unit
+from . import fixed_kernel, moving_kernel
+from .centres import FixedCentre, MovingCentre, moving_centre
+from .elimination import Terms, sizes
+from .form import forms_of
+from .lanes import WIDE, functions
+from .symmetric import equatorial
 
-ORDERS = ((4, 6),)                  # of energy and amplitude: tested always; what (0, 2) decides it decides as well
-HIGH_ORDERS, HIGHEST_ORDERS = ((12, 14),), ((16, 18),)  # sparsely; the series is asymptotic, higher ones gain nothing
-PASSES = 25  # of the search for A and z: it is monotone and settles in ten or never
-GROWTH = 1 + 1e-7  # of A between passes: strict inequalities need room
-SLACK = 2.0**-30
-COEFFICIENT = 2.0**-36  # rounding of the terms' values, of their majorant: four times that of the coefficients alone
-
-
-class Sums:
-    """Sums of |c| A^(j+k) f(z) over the terms of a quantity: coefficients gathered by degree and exponents, (degrees, pairs)."""
-
-    def __init__(self, terms: Terms, coefficients, shift=(0, 0)):
-        j, k, a, b = terms.powers
-        pairs, column = _distinct(a + shift[0], b + shift[1])
-        self.a, self.b = pairs.T.astype(float)
-        self.table = np.zeros((1 + int((j + k).max(initial=0)), len(pairs)))
-        np.add.at(self.table, ((j + k).astype(int), column.ravel()), coefficients)
-
-    def __call__(self, A, factors):
-        """A: (n,); factors: (n, pairs) -> (n,)."""
-        return (np.vander(A, len(self.table), increasing=True) @ self.table * factors).sum(axis=1)
-
-
-def _distinct(a, b):
-    """The distinct pairs of whole numbers (m, 2), ordered, and which of them each pair is, (n,)."""
-    keys, which = np.unique((a.astype(np.int64) << 20) + b, return_inverse=True)
-    second = ((keys + (1 << 19)) & ((1 << 20) - 1)) - (1 << 19)
-    return np.stack([(keys - second) >> 20, second], axis=1).reshape(-1, 2), which
-
-
-class Values:
-    """The value of a sum of terms at many places; pairs of exponents in the order of `Sums`."""
-
-    def __init__(self, terms: Terms):
-        j, k, a, b = terms.powers
-        half = j >= k  # terms come with their conjugates
-        pairs, column = _distinct(a, b)
-        powers, row = _distinct(j[half], k[half])
-        self.j, self.k = powers.T
-        self.table = np.zeros((len(powers), len(pairs)), complex)
-        np.add.at(self.table, (row.ravel(), column.ravel()[half]), np.where(j == k, 1, 2)[half] * terms.c[half])
-
-    def __call__(self, zeta, factors):
-        table = np.vander(zeta, 1 + int(self.j.max(initial=0)), increasing=True)
-        return ((table[:, self.j] * table[:, self.k].conj()) @ self.table * factors).sum(axis=1).real
-
-
-@dataclass(frozen=True)
-class Found:
-    """What the test finds of n states: good (n,), and where it is True the constants of the theorem, (n,) each."""
-
-    good: np.ndarray
-    A: np.ndarray
-    z: np.ndarray
-    eta: np.ndarray
-    z_up: np.ndarray
-    eta_up: np.ndarray
-    k: np.ndarray
+# Orders of energy and amplitude. About the fixed centre: tested always (what (0, 2) decides they decide as
+# well), and sparsely; the series is asymptotic, higher ones gain nothing. About the moving one: last, seldom.
+ORDERS, HIGH_ORDERS, HIGHEST_ORDERS = (4, 6), (12, 14), (16, 18)
+MOVING_ORDERS, LAST_ORDERS = (4, 6), (8, 10)
+EQUATORIAL_ORDERS = ((2, 4), (4, 6))
 
 
 class Certifier:
-    """The test in one field (`FixedCentre`, `MovingCentre`) at one pair of orders; by: what takes away what oscillates about a moving centre."""
+    """The inequality of the theorem in one field at one pair of orders, by the functions of a kernel over
+    tables that are made once."""
 
-    def __init__(self, field, orders: tuple[int, int], by=corrected):
-        self.field, self.orders = field, orders
-        energy, amplitude = field.energy(orders[0], by), field.amplitude(orders[1], by)
-        turn = field.algebra.turn
-        self.e, self.b, self.r = (Sums(terms, sizes(terms)) for terms in (energy.added, amplitude.added, amplitude.rate))
-        self.k = Sums(energy.rate, sizes(energy.rate) / field.turn_size, (-turn[0], -turn[1]))
-        self.energy_majorant, self.amplitude_majorant = (Sums(terms, terms.m) for terms in (energy.added, amplitude.added))
-        self.energy_added, self.amplitude_added = Values(energy.added), Values(amplitude.added)
+    kernel: ModuleType
+    numbers: tuple  # the arguments of the kernel's `decide` from the seventh on, but for arrays to work in
 
-    def __call__(self, states, near=0.0) -> Found:
-        """The theorem's inequality for states (n, 3), searched from the smallest A and z that could do; for all states of the
-        balls of radius `near` (n,) about them."""
-        n = len(states)
-        out = np.full((6, n), np.nan)
-        good = np.zeros(n, bool)
+    def work(self) -> tuple:
+        """Arrays to work in: new ones for each question, for threads may share a test."""
+        raise NotImplementedError
+
+    def decide(self, rows, states, reach, fired, number, found, fast: bool = False):
+        """The test for those of rows that no test has fired for, balls of radius reach (n,) about states (n,
+        3): fired (n,) becomes number, found (6, n) the constants A, z, eta, z_up, eta_up, k of the theorem."""
+        with np.errstate(all="ignore"):  # what overflows is not finite, and certifies nothing
+            decide = functions(self.kernel, fast)["decide"]
+            decide(rows, states, reach, fired, number, found, *self.numbers, *self.work())
+
+    def constants(self, state, near: float = 0.0, fast: bool = False) -> tuple[float, ...] | None:
+        """The six constants for all states of the ball of radius `near` about one (3,); None where the
+        inequality does not hold."""
+        fired, found = np.full(1, -1), np.full((6, 1), np.nan)
+        self.decide(np.arange(1), np.array([state], float), np.array([near], float), fired, 0, found, fast)
+        return None if fired[0] else tuple(found[:, 0].tolist())
+
+
+class Gathered:
+    """Sums of sizes and of majorants of a quantity by degree (rows) and power, without the outer rows and columns of zeros, in rows of eight.
+
+    first: index n of the first column; wide: how many times eight columns there are. Row d wide + c of a table holds the columns first + 8 c on of row d.
+    """
+
+    def __init__(self, sums, most):
+        degrees, columns = np.flatnonzero(most.any(axis=1)), np.flatnonzero(most.any(axis=0))
+        rows, self.first, self.end = (degrees[-1] + 1, columns[0], columns[-1] + 1) if columns.size else (1, 0, 1)
+        self.wide = -(-(self.end - self.first) // WIDE)
+        self.sums, self.most = self.in_rows(sums[:rows]), self.in_rows(most[:rows])
+
+    def tails(self):
+        """The sums for integrals of the factors over all greater x: X^(1 - n) gives z^(2 - n)/(n - 2), and infinity where it does not fall faster than 1/X."""
+        fall = self.first + np.arange(WIDE * self.wide).reshape(self.wide, -1) - 2.0
+        fall = np.tile(fall, (len(self.sums) // self.wide, 1))
+        return np.where(fall > 0, self.sums / np.where(fall > 0, fall, 1.0), np.where(self.sums > 0, np.inf, 0.0))
+
+    def in_rows(self, table):
+        """The columns of a table as rows of eight."""
+        filled = np.zeros((len(table), WIDE * self.wide))
+        filled[:, :self.end - self.first] = table[:, self.first:self.end]
+        return filled.reshape(-1, WIDE)
+
+
+class FixedCertifier(Certifier):
+    """The test about the fixed centre."""
+
+    kernel = fixed_kernel
+
+    def __init__(self, field: FixedCentre, orders: tuple[int, int], fast: bool = False):
+        f, make = field.form, functions(fixed_kernel, fast)
+        top, powers = max(orders) + 8, max(orders) + 5
+        made = [np.zeros((top, top, powers), kind) for _ in range(4) for kind in (complex, float)]
+        added_e, most_e, rate_e, rise_e, added_b, most_b, rate_b, rise_b = made
+        numbers, rest = np.array([f.D1, f.M1, f.gam, f.h]), np.array([f.mu, f.kap], complex)
         with np.errstate(all="ignore"):
-            x, zeta, dx, dz = self.field.place(np.asarray(states, float), near)
-            rows = np.flatnonzero(self.field.valid(x - dx) & (dx < x / 8))
-            if rows.size:
-                start = _Start(self, x[rows], zeta[rows], dx[rows], dz[rows])
-                self._search(start, rows, good, out)
-        return Found(good, *out)
+            make["tables"](np.array(orders), f.om, f.drag, numbers, rest, *made)
+            e, b = _gathered(make, added_e, most_e), _gathered(make, added_b, most_b)
+            r, k = _gathered(make, rate_b, rise_b), _gathered(make, rate_e, rise_e)
+            values = *_parts(make, added_e, e), *_parts(make, added_b, b)
+        self.top, self.rows = top, max(q.wide for q in (e, b, r, k))
+        spans = np.array([[q.first for q in (e, b, r, k)], [q.wide for q in (e, b, r, k)]])
+        frame = np.array([*f.turn, f.shift, *f.centre, *f.scale], float)
+        self.numbers = (np.array(f.order), frame, f.D1, f.M1, f.drag,
+                        *values, e.sums, e.most, b.sums, b.most, r.tails(), k.sums, spans)
 
-    def _search(self, start, rows, good, out):
-        field = self.field
-        A, z = start.size * GROWTH, start.x / GROWTH
-        for number in range(PASSES):
-            growth = min(1e-2, 1e-6 * 4.0**number)  # ever faster past a slow approach
-            for _ in range(2):  # the equation for z is nearly linear
-                e = self.e(A, field.greatest(self.e.a, self.e.b, z))
-                need = np.maximum(e - start.energy, 0) * (GROWTH + growth) + 1e-7 * start.x * field.turning(start.x)
-                z = start.x - 2 * need / (field.D1 * (field.turning(start.x) + field.turning(np.where(field.valid(z), z, start.x))))
-                z = np.where(field.valid(z), z, start.x)
-            here = z < start.x
-            k = self.k(A, field.greatest(self.k.a, self.k.b, z))
-            low, high = field.drive(z)
-            eta, least = low - k - SLACK * (field.M1 + k), field.least_weight(z) - SLACK  # what is taken off M1 is below it
-            alive = here & (eta > 0) & (least > 0)
-            b, r = self.b(A, field.greatest(self.b.a, self.b.b, z)), self.r(A, field.tails(self.r.a, self.r.b, z))
-            F = (start.amplitude + b + r * field.D1 / eta) / least
-            alive &= F < 1e100
-            e = self.e(A, field.greatest(self.e.a, self.e.b, z))
-            gained = field.D1 * (start.x - z) * (field.turning(start.x) + field.turning(z)) / 2
-            room = gained * (1 - SLACK) - SLACK * field.D1 * start.x * field.turning(start.x) * 2.0**-8 > e - start.energy
-            done = alive & room & (F * (1 + SLACK) < A * A) & (start.size < A) & (z < start.x)
-            if done.any():
-                z_up = start.top + (e + start.energy_up) / (field.D1 * field.turning(start.x)) * (1 + SLACK) + SLACK * start.top
-                values = np.array([A, z * (1 - SLACK), eta, z_up, (high + k) * (1 + SLACK), k])
-                good[rows[done]], out[:, rows[done]] = True, values[:, done]
-            keep = alive & ~done
-            if not keep.any():
-                return
-            A = np.maximum(A, np.sqrt(np.maximum(F, 0.0))) * (1 + growth)
-            A, z, rows, start = A[keep], z[keep], rows[keep], start.chosen(keep)
+    def work(self):
+        table = np.zeros((2, self.rows, WIDE))
+        return np.zeros(self.top, complex), table[0], table[1], np.zeros(6)
 
 
-class _Start:
-    """The numbers of the start that the search uses, at the worse end of their blur."""
+def _gathered(make, c, m) -> Gathered:
+    sums, most = np.zeros((2, 2 * c.shape[0], c.shape[2]))
+    make["gather"](c, m, True, sums)
+    make["gather"](c, m, False, most)
+    return Gathered(sums, most)
 
-    def __init__(self, test, x, zeta, dx, dz):
-        field = test.field
-        self.x, self.top, self.size = x - dx, x + dx, np.abs(zeta) * (1 + SLACK) + dz
-        value, blur = self._value(test.energy_added, test.e, test.energy_majorant, field, x, zeta, dx)
-        self.energy, self.energy_up = value - blur, value + blur
-        value, blur = self._value(test.amplitude_added, test.b, test.amplitude_majorant, field, x, zeta, dx)
-        self.amplitude = field.most_weight(x, dx) * self.size**2 * (1 + SLACK) + value + blur
 
-    def _value(self, values, sums, majorant, field, x, zeta, dx):
-        """(value, blur): |zeta1^j zeta1*^k - zeta^j zeta*^k| <= (|zeta| + d)^(j+k) - |zeta|^(j+k), and the factors move by their steepness."""
-        a, b = sums.a, sums.b
-        value = values(zeta, field.factors(a, b, x))
-        greatest = field.greatest(a, b, self.x)
-        wide, inner = sums(self.size, greatest), sums(np.abs(zeta), greatest)
-        moved = sums(self.size, greatest * (field.steepness(a, b, self.x) * dx[:, None]))
-        return value, (wide - inner) + moved * (1 + SLACK) + SLACK * wide + COEFFICIENT * majorant(self.size, greatest)
+def _parts(make, c, gathered: Gathered):
+    """(powers of zeta and of its conjugate (2, m), real and imaginary parts) of a quantity's terms in the columns of its sums."""
+    top, _, powers = c.shape
+    m = top * (top + 1) // 2
+    made = np.zeros((2, m), np.int64), np.zeros((m, powers)), np.zeros((m, powers))
+    m = make["parts"](c, *made)
+    return np.ascontiguousarray(made[0][:, :m]), gathered.in_rows(made[1][:m]), gathered.in_rows(made[2][:m])
 
-    def chosen(self, keep):
-        """The rows that `keep` marks."""
-        new = object.__new__(_Start)
-        for name in ("x", "top", "size", "energy", "energy_up", "amplitude"):
-            setattr(new, name, getattr(self, name)[keep])
-        return new
+
+class MovingCertifier(Certifier):
+    """The test about a moving centre."""
+
+    kernel = moving_kernel
+
+    def __init__(self, field: MovingCentre, orders: tuple[int, int], fast: bool = False):
+        with np.errstate(all="ignore"):
+            energy, amplitude = field.energy(orders[0]), field.amplitude(orders[1])
+        turn = field.algebra.turn
+        e_pairs, e = _sums(energy.added, sizes(energy.added))
+        b_pairs, b = _sums(amplitude.added, sizes(amplitude.added))
+        r_pairs, r = _sums(amplitude.rate, sizes(amplitude.rate))
+        k_pairs, k = _sums(energy.rate, sizes(energy.rate) / field.turn_size, (-turn[0], -turn[1]))
+        (_, e_most), (_, b_most) = (_sums(part, part.m) for part in (energy.added, amplitude.added))
+        values = *_values(energy.added), *_values(amplitude.added)
+        all_pairs = np.concatenate([e_pairs, b_pairs, r_pairs, k_pairs], axis=1)
+        reach = 5 + int(np.abs(all_pairs).sum(axis=0).max())
+        drive = np.array([(a, b, c) for (_, _, a, b), c in field.G0.items()], float).reshape(-1, 3).T
+        frame = np.array([field.s, *field.wheel, *field.torque, *field.roots, field.n2, field.n3], float)
+        self.degrees = 1 + max(int(values[n].max()) for n in (1, 3))
+        self.numbers = (field.basis, frame, field.D1, field.M1, field.a2, field.a3, field.c, reach,
+                        np.ascontiguousarray(drive), *values, e_pairs, e, e_most, b_pairs, b, b_most,
+                        r_pairs, r, k_pairs, k)
+
+    def work(self):
+        return np.zeros((4, 2 * moving_kernel.MIDDLE + 1)), np.zeros(self.degrees, complex), np.zeros(6)
+
+
+def _sums(terms: Terms, coefficients, shift=(0, 0)):
+    """(exponents a, b (2, pairs), table (degrees, pairs)) of a sum of coefficients by degree and exponents;
+    of no terms one that is 0."""
+    j, k, a, b = terms.powers
+    pairs, column = _distinct(a + shift[0], b + shift[1])
+    table = np.zeros((1 + int((j + k).max(initial=0)), pairs.shape[1]))
+    np.add.at(table, (j + k, column), coefficients)
+    return pairs, table
+
+
+def _values(terms: Terms):
+    """(table (powers, pairs), j and k (2, powers)) of a sum's value, j >= k, for terms come with their
+    conjugates; pairs in the order of `_sums`."""
+    j, k, a, b = terms.powers
+    half = j >= k
+    pairs, column = _distinct(a, b)
+    powers, row = _distinct(j[half], k[half])
+    table = np.zeros((powers.shape[1], pairs.shape[1]), complex)
+    np.add.at(table, (row, column[half]), np.where(j == k, 1, 2)[half] * terms.c[half])
+    return table, powers
+
+
+def _distinct(a, b):
+    """The distinct pairs of whole numbers (2, m), ordered, and which of them each pair is, (n,); (0, 0) where
+    there are none."""
+    if not a.size:
+        return np.zeros((2, 1), np.int64), np.zeros(0, np.int64)
+    pairs, which = np.unique(np.stack([a, b]), axis=1, return_inverse=True)
+    return np.ascontiguousarray(pairs), which.ravel()
+
+
+@lru_cache(maxsize=32)
+def natural(scene):
+    """(scene in natural units, unit of rates): powers of two near the mean moment and near the root of torque over moment. Kept, for
+    a certificate and its proof ask for it in turn."""
+    if scene.variables == "scaled":
+        torque, mass = max(map(abs, scene.exact_mu)), 1
+    else:
+        torque, mass = max(map(abs, scene.vector("constant_torque"))), sum(scene.body.exact) / 3
+    if not torque:
+        return scene, 1.0
+    weight = 2.0 ** round(_log2(mass))
+    unit = 2.0 ** round((_log2(torque) - _log2(mass)) / 2)
+    return scene if unit == weight == 1 else in_unit(scene, unit, weight), unit
+
+
+def _log2(value):
+    return math.log2(value.numerator) - math.log2(value.denominator) if hasattr(value, "numerator") else math.log2(value)
+
+
+class Tests:
+    """The certificates of a scene (in natural units), each made when it is first asked for.
+
+    often: those of low order; high: with high orders about the fixed centre; all: with the highest, and the moving centre where a wheel takes
+    it elsewhere; last: with those that take long to make. Each is a prefix of the next. asked: those that were.
+    """
+
+    def __init__(self, scene):
+        self.scene, self.forms, round_ = scene, forms_of(scene), equatorial(scene)
+        self.fixed = [FixedCentre(form) for form in self.forms]
+        self.equatorial = [round_] if round_ else []
+        self.made: dict[tuple, Certifier] = {}
+        self.asked: list[tuple] = []
+        low = [(field, ORDERS) for field in self.fixed]
+        self.often = low + [(field, EQUATORIAL_ORDERS[0]) for field in self.equatorial]
+        self.high = self.often + [(field, HIGH_ORDERS) for field in self.fixed]
+
+    @cached_property
+    def moving(self):
+        found = (moving_centre(form, self.scene) for form in self.forms)
+        return [moving for moving in found if moving]
+
+    @cached_property
+    def all(self):
+        wheeled = [field for field in self.moving if field.wheeled]  # the centre moves far where there is a wheel
+        return (self.high + [(field, HIGHEST_ORDERS) for field in self.fixed] +
+                [(field, MOVING_ORDERS) for field in wheeled] +
+                [(field, EQUATORIAL_ORDERS[1]) for field in self.equatorial])
+
+    @cached_property
+    def last(self):
+        still = [(field, MOVING_ORDERS) for field in self.moving if not field.wheeled]
+        return self.all + still + [(field, LAST_ORDERS) for field in self.moving]
+
+    def __bool__(self):
+        return bool(self.often)
+
+    def certifier(self, field, orders: tuple[int, int], fast: bool = False) -> Certifier:
+        """The test itself; fast: its tables made by compiled functions. What others made does not alter an
+        answer."""
+        key = id(field), orders, fast and field.sharp
+        if key not in self.made:
+            if (field, orders) not in self.asked:  # before it is made: another thread that finds it made looks for its number
+                self.asked.append((field, orders))
+            self.made[key] = (FixedCertifier if field.sharp else MovingCertifier)(field, orders, fast)
+        return self.made[key]
+
+
+@lru_cache(maxsize=32)
+def tests_of(scene) -> Tests:
+    """The tests of a scene, kept for the next state of the same one."""
+    return Tests(scene)

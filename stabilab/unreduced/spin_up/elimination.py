@@ -1,14 +1,15 @@
-"""Taking away what oscillates: corrected energy and corrected amplitude of a form, to any order.
+"""Taking away what oscillates about a moving centre: corrected energy and corrected amplitude, to any order.
 
-Quantities are sums of c zeta^j zeta*^k p^(-a/4) q^(-b/4) (`terms`); p and q are linear in the spin x (about the fixed centre p = X and there
-is no q). Along the motion, with `Algebra`'s names,
+Quantities are sums of c zeta^j zeta*^k p^(-a/4) q^(-b/4), many terms at a time in arrays (`Terms`); p and q
+are linear in the spin x. Along the motion, with `Algebra`'s names,
 
-    zeta' = i om p^(-turn_a/4) q^(-turn_b/4) zeta + rest + x' carried,        x' = x_rate,
-    d/dt  = i Om (zeta d - zeta* d*) + [along rest] + x' [d/dx + along carried].
+    zeta' = i om p^(-turn_a/4) q^(-turn_b/4) zeta + x' carried,        x' = x_rate,
+    d/dt  = i Om (zeta d - zeta* d*) + x' [d/dx + along carried].
 
 An oscillating term c zeta^j zeta*^k f(x) of a rate (j != k) is taken away by adding -c/(i Om (j - k)) zeta^j zeta*^k f(x) to the quantity:
 its rate then holds -c zeta^j zeta*^k f(x) and the price, what the rest of d/dt makes of the added term, smaller by at least one
 power of the spin. What does not oscillate (j = k) stays. Level of a term: four times the power of 1/x with which it falls.
+(About a fixed centre p = X, there is no q, and `fixed_kernel` does the same in loops over dense tables.)
 
 Rounding. Beside each coefficient goes its majorant, formed by the same operations on sizes, without subtraction: a coefficient is a
 sum of products, its majorant the sum of the same products' sizes. Each product is formed by fewer than 2^14 roundings (orders
@@ -21,26 +22,114 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...numbers.vectors import Number
-from .form import NormalForm
-from .terms import Terms, gathered, packed, product, terms_of
-
 ROUNDING = 2.0**-32
+_A, _K, _J = 1 << 16, 1 << 32, 1 << 40
+_MIDDLE = (1 << 15) + (1 << 15) * _A
+
+
+def packed(j, k, a, b):
+    """(j, k, a, b) in one integer, linearly: the key of a product is the sum of the keys. j, k below 256, a
+    and b between -2^15 and 2^15."""
+    return j * _J + k * _K + a * _A + b
+
+
+@dataclass(frozen=True)
+class Terms:
+    """keys: (n,) integers, no two alike; c: (n,) coefficients; m: (n,) what the sizes of all that was added up in c come to."""
+
+    keys: np.ndarray
+    c: np.ndarray
+    m: np.ndarray
+
+    @property
+    def powers(self):
+        """(j, k, a, b), (n,) each."""
+        keys = self.keys + _MIDDLE
+        return keys >> 40, keys >> 32 & 255, (keys >> 16 & _A - 1) - (1 << 15), (keys & _A - 1) - (1 << 15)
+
+    @property
+    def apart(self):
+        """j - k, (n,)."""
+        keys = self.keys + _MIDDLE
+        return (keys >> 40) - (keys >> 32 & 255)
+
+    def __getitem__(self, rows):
+        return Terms(self.keys[rows], self.c[rows], self.m[rows])
+
+    def times(self, factor):
+        """Each coefficient times a number or an array of numbers."""
+        return Terms(self.keys, self.c * factor, self.m * np.abs(factor))
+
+    def over(self, divisors):
+        """Each coefficient over a number of its own."""
+        return Terms(self.keys, self.c / divisors, self.m / np.abs(divisors))
+
+    def moved(self, key):
+        """Times one monomial."""
+        return Terms(self.keys + key, self.c, self.m)
+
+    def conjugate(self):
+        """The conjugate of the sum: zeta^j zeta*^k becomes zeta^k zeta*^j."""
+        return Terms(self.keys - self.apart * (_J - _K), self.c.conjugate(), self.m)
+
+    def half(self):
+        """Of a real sum, whose terms come with their conjugates, those with j >= k."""
+        return self[self.apart >= 0]
+
+    def whole(self):
+        """The real sum of which `half` is left."""
+        return gathered(self, self[self.apart > 0].conjugate())
+
+    def real(self):
+        """The half of the sum and its conjugate, like keys not yet added up."""
+        apart = self.apart
+        keys = self.keys - np.minimum(apart, 0) * (_J - _K)
+        mirrored = self.c.conjugate()
+        c = np.where(apart < 0, mirrored, np.where(apart > 0, self.c, self.c + mirrored))
+        return Terms(keys, c, np.where(apart == 0, self.m + self.m, self.m))
+
+
+def terms_of(table: dict) -> Terms:
+    """Terms from {(j, k, a, b): c}."""
+    c = np.array(list(table.values()), complex)
+    return Terms(np.array([packed(*key) for key in table], np.int64), c, np.abs(c))
+
+
+def gathered(*parts: Terms) -> Terms:
+    """The sum of sums of terms."""
+    parts = tuple(part for part in parts if len(part.keys))
+    if not parts:
+        return terms_of({})
+    keys, c, m = (np.concatenate([getattr(part, name) for part in parts]) for name in ("keys", "c", "m"))
+    order = np.argsort(keys, kind="stable")
+    keys = keys[order]
+    first = np.flatnonzero(np.append(True, keys[1:] != keys[:-1]))
+    return Terms(keys[first], np.add.reduceat(c[order], first), np.add.reduceat(m[order], first))
+
+
+def product(one: Terms, other: Terms) -> Terms:
+    """The product of two sums of terms, like keys not yet added up."""
+    return Terms((one.keys[:, None] + other.keys).ravel(), (one.c[:, None] * other.c).ravel(), (one.m[:, None] * other.m).ravel())
+
+
+def sizes(terms: Terms):
+    """(n,) bounds of the true coefficients' sizes."""
+    return np.abs(terms.c) + ROUNDING * terms.m
 
 
 @dataclass(frozen=True)
 class Algebra:
     """What the time derivative of a form is made of.
 
-    lift: i/om; turn: (a, b) of the turning rate Om = om p^(-a/4) q^(-b/4); fall: the factors of d/dx, -slope/4 of p and of q;
-    x_rate: terms of x'; rest, carried: terms of zeta'; weights: what p and q count in the level, 0 for a q that is constant.
+    lift: i/om; turn: (a, b) of the turning rate Om = om p^(-a/4) q^(-b/4); fall: the factors of d/dx,
+    -slope/4 of p and of q; x_rate: terms of x'; carried: terms of zeta' over x'; weights: what p and q count
+    in the level, 0 for a q that is constant.
     """
 
-    lift: Number
+    lift: complex
     turn: tuple
     fall: tuple
     x_rate: Terms
-    rest: Terms
     carried: Terms
     weights: tuple = (1, 1)
 
@@ -50,16 +139,17 @@ class Algebra:
         return self.weights[0] * a + self.weights[1] * b
 
     def rest_of_rate(self, terms: Terms) -> Terms:
-        """The rate of a quantity apart from what turning makes of it."""
-        return gathered(*self._rest(terms))
+        """The rate of a quantity apart from what turning makes of it, like keys not yet added up."""
+        return product(gathered(self.slope(terms), *self._along_carried(terms)), self.x_rate)
 
-    def rest_of_half(self, terms: Terms) -> list[Terms]:
-        """What adds up to the half of the rate, apart from what turning makes of it, of a real quantity of which the half is given; j > k in it."""
-        return [part.real() for part in self._rest(terms)]
-
-    def _rest(self, terms):
-        inner = gathered(self.slope(terms), *_along(terms, self.carried))
-        return [product(inner, self.x_rate), *_along(terms, self.rest)]
+    def _along_carried(self, terms):
+        """The derivative of terms along zeta' = carried."""
+        if not len(self.carried.keys):
+            return []
+        j, k, _, _ = terms.powers
+        return [product(terms.moved(-packed(*step)).times(n)[n != 0], toward)
+                for step, n, toward in (((1, 0, 0, 0), j, self.carried),
+                                        ((0, 1, 0, 0), k, self.carried.conjugate()))]
 
     def slope(self, terms: Terms) -> Terms:
         """d/dx of terms at constant zeta."""
@@ -69,19 +159,7 @@ class Algebra:
 
     def removed(self, terms: Terms) -> Terms:
         """What is added to a quantity to take oscillating terms out of its rate."""
-        j, k, _, _ = terms.powers
-        return terms.moved(-packed(0, 0, *self.turn)).times(self.lift).over(j - k)
-
-
-def _along(terms, direction):
-    """The derivative of terms along zeta' = direction."""
-    if not len(direction.keys):
-        return []
-    j, k, a, b = direction.powers
-    mirrored = Terms(packed(k, j, a, b), direction.c.conjugate(), direction.m)
-    j, k, _, _ = terms.powers
-    return [product(terms.moved(-packed(*step)).times(n)[n != 0], toward)
-            for step, n, toward in (((1, 0, 0, 0), j, direction), ((0, 1, 0, 0), k, mirrored))]
+        return terms.moved(-packed(0, 0, *self.turn)).times(self.lift).over(terms.apart)
 
 
 @dataclass(frozen=True)
@@ -92,66 +170,15 @@ class Corrected:
     rate: Terms
 
 
-def sizes(terms: Terms):
-    """(n,) bounds of the true coefficients' sizes."""
-    return np.abs(terms.c) + ROUNDING * terms.m
-
-
 def corrected(algebra: Algebra, rate: Terms, order: int, added: Terms | None = None) -> Corrected:
-    """Everything oscillating up to x^-order taken out of a rate; added: what was added to the quantity before. Both are real: their terms come with their
-    conjugates, so that half of them need be followed."""
+    """Everything oscillating up to x^-order taken out of a rate; added: what was added to the quantity
+    before. Both are real: their terms come with their conjugates, so that half of them need be followed."""
     parts, rate = [] if added is None else [added.half()], rate.half()
     while True:
-        j, k, _, _ = rate.powers
         levels = algebra.levels(rate)
-        oscillating = (j != k) & (levels <= 4 * order)
+        oscillating = (rate.apart != 0) & (levels <= 4 * order)
         if not oscillating.any():
             return Corrected(gathered(*parts).whole(), rate.whole())
         now = oscillating & (levels == levels[oscillating].min())
         parts.append(algebra.removed(rate[now]))
-        rate = gathered(rate[~now], *algebra.rest_of_half(parts[-1]))
-
-
-def fixed_algebra(form: NormalForm) -> Algebra:
-    """The algebra of the normal form about its fixed centre: p = X."""
-    i = form.kind.i
-    return Algebra(i / form.om, (-4, 0), (-1.0 / 4, 0.0), terms_of(acceleration(form)).times(1 / form.D1),
-                   terms_of({(0, 1, 0, 0): i * form.h, (0, 0, 0, 0): form.mu}), terms_of({}))
-
-
-def acceleration(form: NormalForm) -> dict:
-    """D1 X' = G = M1 + gam Im zeta^2 + Re(kap* zeta)."""
-    i, half = form.kind.i, 0.5
-    return {(0, 0, 0, 0): form.M1, (2, 0, 0, 0): -half * i * form.gam, (0, 2, 0, 0): half * i * form.gam,
-            (1, 0, 0, 0): half * form.kap.conjugate(), (0, 1, 0, 0): half * form.kap}
-
-
-def corrected_energy(form: NormalForm, order: int) -> Corrected:
-    """D1 X^2/2 with everything oscillating up to X^-order taken out of its rate X G = M1 X + m* + what is left.
-
-    Order 0 is the classical D1 X^2/2 + (gam/2om) Re zeta^2 - Im(kap* zeta)/om - Im(nu zeta)/(om^2 X): what is taken at X^1 is all of X (G - M1), at
-    X^0 what h and mu make of it, Re(nu zeta)/om, and m* stays exactly. It is -Im(kap* mu)/om, formed exactly in `form.drag`, and
-    left out of the rate here with M1 X: the drive.
-    """
-    start = {(j, k, a - 4, b): c for (j, k, a, b), c in acceleration(form).items() if j + k}
-    found = corrected(fixed_algebra(form), terms_of(start), order)
-    return Corrected(found.added, found.rate[found.rate.keys != 0])
-
-
-def corrected_amplitude(form: NormalForm, order: int, weighted: bool = True) -> Corrected:
-    """|zeta|^2 (1 + m*/(M1 X)) (without the weight: |zeta|^2) corrected up to X^-order; every term left falls as X^-2 or faster.
-
-    It starts from |zeta|^2 + R/(om X), R = h Re zeta^2 - 2 Im(mu* zeta), which takes out of (|zeta|^2)' = 2 h Im zeta^2 + 2 Re(mu* zeta) all
-    there is at X^0. The price at X^-1 is [along i h zeta* + mu] of R, and that vanishes identically: h Re zeta^2 gives
-    2 h Re(zeta (i h zeta* + mu)) = 2 h Re(mu zeta), and -2 Im(mu* zeta) gives -2 Im(mu* (i h zeta* + mu)) = -2 h Re(mu* zeta*) = -2 h Re(mu zeta). So the
-    rate is -X' R/(om X^2) and it is written down so, with no term at X^-1 at all. The weight (which does not stand among the
-    added terms) adds (m*/M1) (|zeta|^2/X)', whose mean part -m* |zeta|^2/(D1 X^2) cancels that of -X' R/(om X^2), + m* |zeta|^2/(D1 X^2), up to
-    rounding (which `sizes` holds): the flow keeps volume, so its mean does.
-    """
-    algebra, i = fixed_algebra(form), form.kind.i
-    R = terms_of({(2, 0, 4, 0): 0.5 * form.h / form.om, (0, 2, 4, 0): 0.5 * form.h / form.om,
-                  (1, 0, 4, 0): i * form.mu.conjugate() / form.om, (0, 1, 4, 0): -i * form.mu / form.om})
-    rate = gathered(product(R.moved(packed(0, 0, 4, 0)).times(-1), algebra.x_rate))
-    if weighted:
-        rate = gathered(rate, algebra.rest_of_rate(terms_of({(1, 1, 4, 0): form.drag / form.M1})))
-    return corrected(algebra, rate, order, R)
+        rate = gathered(rate[~now], algebra.rest_of_rate(parts[-1]).real())

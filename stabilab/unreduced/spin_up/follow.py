@@ -1,48 +1,131 @@
-"""One motion under a torque of any direction, followed until its spin-up is certified."""
+"""Motions under a torque of any direction, followed until their spin-up is certified: one loop serves one
+state and many.
+
+Beside each motion a small change tells by how much the way magnifies it (`runs`), and with it how far the
+run's rounding may have carried the motion from the true one: a certificate counts when it holds for the whole
+ball of that radius about the state. What rounding does along the motion is a delay: it alters the time at
+which the inequality holds, told as the blur of the clock, and nothing else.
+"""
 from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
 
 from ...asked import checked_scene
-from ...numbers.numba_door import wanted
+from ...numbers.numba_door import installed, wanted
 from ...orbit import one_state as law
 from ...orbit.reduction import reduce
 from ...orbit.result import Fate
 from ...physics.coefficients import effective
 from ...physics.scene import AnyScene
 from ...physics.state import three_floats
+from ...physics.states import checked_states
 from ..enclosure.proof import proved
-from .cause import seen
-from .chase import Chased, chase
-from .clock import Trap
-from .fields import natural, tests_of
-from .island import recurs
-from .island import words as island_words
-from .result import SpinUp
+from .cause import island_words, recurs, seen
+from .certificate import Tests, natural, tests_of
+from .drift import Leaps
+from .lanes import WIDE, loaded
+from .result import SpinUp, Trap
+from .runs import Runs
 from .symmetric import exactly
 
 NATURAL_TIMES, BUDGET = 1e9, 600_000
 FARTHEST = 1e150  # natural units: a run in doubles holds no squares of larger rates
+PLAIN, QUESTIONS = 100, 8  # steps, and questions of a process, before numba is loaded (`_plain_steps`)
+LEVELS = ("undecided", "certified", "exact", "proved")
+FIRST, EARLY, SHARES, MOST = 4, 600, (0.25, 0.1), 2000  # steps between tests: a share of those before (early, later), at least and at most so many
+# Which tests a stage asks: (every so many stages, from so many steps on, name in `Tests`), the last that applies. What costs more comes later.
+LAST = 20_000
+PLAN = ((1, 0, "often"), (3, 48, "high"), (4, 3000, "all"), (8, LAST, "last"))
+
+
+@dataclass
+class Chased:
+    """Columns (n,): which test fired (-1 none) as index into `tests.asked`, time, steps, condition, state there; constants (6, n) of it; largest and
+    least (n, 48) size of the state during each doubling of the steps; passed: steps that the way takes one by one;
+    blur: of the time; reach: how far from the state the rounding may have carried the true one."""
+
+    tests: Tests
+    fired: np.ndarray
+    t: np.ndarray
+    steps: np.ndarray
+    condition: np.ndarray
+    states: np.ndarray
+    constants: np.ndarray
+    largest: np.ndarray
+    least: np.ndarray
+    passed: np.ndarray
+    blur: np.ndarray
+    reach: np.ndarray
+
+
+def chase(scene, tests: Tests, starts, t_max: float, budget: int, after: float = 0.0, tell=None,
+          plain: float = 0) -> Chased:
+    """Follow the motions from starts (n, 3) of a scene in natural units, each until a test fires at a time no
+    earlier than `after`, t_max, or `budget` steps. tell(least time, steps, motions left): called after every
+    stage. plain: so many steps are taken and judged by loops as they are written, before others are
+    compiled."""
+    n = len(starts)
+    runs = Runs(scene, starts)
+    out = Chased(tests, np.full(n, -1), runs.times, runs.steps, np.ones(n), runs.states, np.full((6, n), np.nan), np.zeros((n, 48)), np.full((n, 48), np.inf),
+                 runs.rounded, runs.twins.blur, np.zeros(n))
+    open_, stage, leaps, leapt = np.arange(n), 0, Leaps(runs), np.arange(0)
+    while open_.size:
+        runs.fast = runs.steps_done >= plain
+        runs.measure(open_, out)
+        ready = open_ if after <= 0 else open_[out.t[open_] >= after]
+        which = [name for every, since, name in PLAN if stage % every == 0 and runs.steps_done >= since][-1]
+        far = np.intersect1d(ready, leapt) if leapt.size else leapt  # rows that have just leapt: a test costs less than what they passed
+        for rows, asked in ((np.setdiff1d(ready, far) if far.size else ready, which), (far, "last")):
+            if rows.size:
+                _ask(out, rows, getattr(tests, asked), runs.fast)
+        open_ = open_[out.fired[open_] < 0]
+        ended = runs.over(open_, t_max, budget)
+        if ended.any():  # the last word is that of all tests that so much work is worth
+            asked = tests.last if runs.steps_done >= LAST else tests.all
+            _ask(out, open_[ended & (out.t[open_] >= after)], asked, runs.fast)
+        open_ = open_[~ended]
+        if open_.size:
+            leapt = leaps.advance(open_, t_max, after)
+            rows = np.setdiff1d(open_, leapt) if leapt.size else open_
+            if rows.size:
+                share = SHARES[runs.steps_done >= EARLY]
+                runs.advance(rows, int(min(max(FIRST, runs.steps_done * share), MOST, max(1, budget - runs.steps[rows].min()))), t_max, after)
+            if tell:
+                tell(float(out.t[open_].min()), runs.steps_done, open_.size)
+        stage += 1
+    return out
+
+
+def _ask(out, rows, which, fast):
+    """Ask tests for rows, one after another for those that none has fired for; what fires is written down."""
+    for form, orders in which:
+        if not rows.size:
+            break
+        test, number = out.tests.certifier(form, orders, fast), out.tests.asked.index((form, orders))
+        test.decide(rows, out.states, out.reach, out.fired, number, out.constants, fast)
+        rows = rows[out.fired[rows] < 0]
 
 
 def spin_up(scene: AnyScene, state: Any, t_max: float | None = None, budget: int | None = None, after: float = 0.0, proof: bool = False,
             tell: Callable[..., Any] | None = None, fast: bool | None = None) -> SpinUp:
     """Whether and how the motion from a state spins up, decided by a certificate (`certificate`, `symmetric`) or not at all.
 
-    scene: gyrostat and constant torque, physical or scaled. state: three rates at t = 0, taken at their word. t_max: how long the motion
-    is followed, in the scene's time (None: 1e9 natural units, of the root of mean moment over torque); budget: in how many steps
-    (None: 600,000). Slow drifts are run over many revolutions at once (`way`). after: the inequality is to hold for a state at this
-    time or later: bounds and clocks of a later trap are narrower.
-    proof: enclose the way to the inequality, so that nothing rests on a run in machine precision: level "proved" where that succeeds. A state
-    of Fractions or of decimals in strings is then taken exactly. tell(time, steps, motions left): called on the way. fast: True for
-    steps and tests compiled by numba; loading it costs a second, so for one state NumPy serves unless proof is asked for, which
-    loads it anyway. The two have steps of slightly different lengths, so they fire at slightly different times.
-    Raises InputError for scenes with other effects than turn the body as wheel and torque do, and for states that are none.
+    scene: gyrostat and constant torque, physical or scaled. state: three rates at t = 0, taken at their word.
+    t_max: how long the motion is followed, in the scene's time (None: 1e9 natural units, of the root of mean
+    moment over torque); budget: in how many steps (None: 600,000). Slow drifts are run over many revolutions
+    at once (`drift`). after: the inequality is to hold for a state at this time or later: bounds and clocks of
+    a later trap are narrower. proof: enclose the way to the inequality, so that nothing rests on a run in
+    machine precision: level "proved" where that succeeds. A state of Fractions or of decimals in strings is
+    then taken exactly. tell(time, steps, motions left): called on the way. fast: True for loops compiled by
+    numba, False for the same loops as they are written, None for whichever is sooner: numba is loaded for
+    many states, a long motion, a proof, and where the process has asked before. The two agree to rounding.
+    Raises InputError for scenes with other effects than turn the body as wheel and torque do, and for states
+    that are none.
     """
     given, scene, state = state, effective(checked_scene(scene)), three_floats(state)
     scene.quadratic()  # says which effect of the scene is not covered
@@ -55,11 +138,23 @@ def spin_up(scene: AnyScene, state: Any, t_max: float | None = None, budget: int
     if not follows(state, unit):
         words = f"a rate exceeds {FARTHEST:g} natural units of {unit:.3g} 1/{scene.time_unit}: no run in doubles holds it"
         return SpinUp(Fate.UNDECIDED, 0, 0, None, "undecided", None, 0.0, state, 0, words, 1.0)
-    loops = wanted(1, fast, proof, 2, 1)
+    plain = _plain_steps(1, fast, proof)
     found = chase(own, tests, np.array([state]) / unit, NATURAL_TIMES if t_max is None else t_max * unit, BUDGET if budget is None else budget, after * unit,
-                  tell and (lambda t, steps, left: tell(t / unit, steps, left)), loops)
+                  tell and (lambda t, steps, left: tell(t / unit, steps, left)), plain)
     answer = kept_by_law(scene, state, answer_of(scene, unit, found, 0))
-    return proved(scene, given if isinstance(given, (list, tuple)) else state, answer, fast=loops) if proof else answer
+    start = given if isinstance(given, (list, tuple)) else state
+    return proved(scene, start, answer, fast=not plain) if proof else answer
+
+
+def _plain_steps(n: int, fast: bool | None, proof: bool = False) -> float:
+    """How many steps of n motions are taken by loops as they are written. Loading numba takes as long as
+    PLAIN steps of a few motions: it is loaded at once for more of them, for a proof, and where this process
+    has asked more than a few questions."""
+    asked = tests_of.cache_info()
+    soon = loaded() or proof or asked.hits + asked.misses > QUESTIONS
+    if wanted(n, fast, soon, WIDE + 1, 1):
+        return 0
+    return PLAIN if fast is None and installed() else math.inf
 
 
 def kept_by_law(scene: AnyScene, state: tuple[float, ...], answer: SpinUp) -> SpinUp:
@@ -98,3 +193,72 @@ def answer_of(scene, unit: float, found: Chased, row: int) -> SpinUp:
     where = "in the equator, across the axis of symmetry" if not axis else f"about axis {axis}"
     words = f"spin-up {where} is certified about the {field.name} at orders {orders[0]} and {orders[1]}: the inequality holds for ever"
     return SpinUp(Fate.SPIN_UP, axis, sense, direction, "certified", trap, t, state, steps, words, condition, passed)
+
+
+@dataclass(frozen=True)
+class SpinUps:
+    """Columns (n,) of what `spin_up` says of each state.
+
+    fate: int8 of `Fate`; axis: 1, 2, 3 or 0; sense: +1, -1 or 0; level: int8, index into LEVELS; t, steps, condition as of `SpinUp`, states (n, 3) at t;
+    """
+
+    fate: np.ndarray
+    axis: np.ndarray
+    sense: np.ndarray
+    level: np.ndarray
+    t: np.ndarray
+    steps: np.ndarray
+    condition: np.ndarray
+    states: np.ndarray
+    scene: AnyScene = field(repr=False)
+    unit: float = field(repr=False)
+    chased: Chased | None = field(repr=False)
+    exact: tuple = field(repr=False)
+
+    def row(self, number: int) -> SpinUp:
+        """All that is known of one state: trap, cause, direction."""
+        return self.exact[number] if self.chased is None else answer_of(self.scene, self.unit, self.chased, number)
+
+
+def spin_up_many(scene, states, t_max: float | None = None, budget: int | None = None, tell=None, fast: bool | None = None,
+                 proof: bool = False) -> SpinUps:
+    """`spin_up` for states (n, 3), in batches; every motion leaves its batch as soon as it is decided. Limits
+    as there. proof: enclose the way of each that is certified, one after another."""
+    states, covered = checked_states(states).reshape(-1, 3), effective(checked_scene(scene))
+    covered.quadratic()  # says which effect of the scene is not covered
+    own, unit = natural(covered)
+    tests = tests_of(own)
+    closed = bool(len(states)) and exactly(covered, states[0].tolist()) is not None  # of all states of the scene or of none
+    if closed or not tests or not (np.abs(states) / FARTHEST < unit).all():
+        return _one_by_one(scene, states, t_max=t_max, budget=budget, fast=fast, proof=proof)
+    plain = _plain_steps(len(states), fast)
+    found = chase(own, tests, states / unit, NATURAL_TIMES if t_max is None else t_max * unit, BUDGET if budget is None else budget,
+                  tell=tell and (lambda t, steps, left: tell(t / unit, steps, left)), plain=plain)
+    good = found.fired >= 0
+    axes = np.array([0 if field.axis is None else field.axis + 1 for field, _ in tests.asked] + [0])
+    senses = np.array([field.sense for field, _ in tests.asked] + [0])
+    out = SpinUps(np.where(good, Fate.SPIN_UP, Fate.UNDECIDED).astype(np.int8), axes[found.fired].astype(np.int8), senses[found.fired].astype(np.int8),
+                  good.astype(np.int8), found.t / unit, found.steps, found.condition, found.states * unit, scene, unit, found, ())
+    if not good.all() and reduce(covered) is not None:
+        return _with_rows(out, tuple(kept_by_law(covered, state, out.row(number)) for number, state in enumerate(states.tolist())))
+    return _proved(scene, states, out, not plain) if proof else out
+
+
+def _with_rows(found: SpinUps, rows) -> SpinUps:
+    """The answers with these rows in place of what a run found."""
+    return replace(found, fate=np.array([row.fate for row in rows], np.int8), level=np.array([LEVELS.index(row.level) for row in rows], np.int8),
+                   chased=None, exact=rows)
+
+
+def _proved(scene, states, found: SpinUps, fast: bool) -> SpinUps:
+    rows = tuple(proved(scene, state, found.row(number), fast=fast) for number, state in enumerate(states.tolist()))
+    columns = {name: np.array([getattr(row, name) for row in rows]) for name in ("t", "state")}
+    return replace(found, level=np.array([LEVELS.index(row.level) for row in rows], np.int8), t=columns["t"], states=columns["state"].reshape(-1, 3),
+                   chased=None, exact=rows)
+
+
+def _one_by_one(scene, states, **limits):
+    rows = tuple(spin_up(scene, state, **limits) for state in states.tolist())
+    columns = [np.array([getattr(row, name) for row in rows]) for name in ("fate", "axis", "sense")]
+    return SpinUps(*(column.astype(np.int8) for column in columns), np.array([LEVELS.index(row.level) for row in rows], np.int8),
+                   *(np.array([getattr(row, name) for row in rows]) for name in ("t", "steps", "condition", "state")), scene, 1.0, None, rows)

@@ -1,11 +1,128 @@
-"""What is known of spin-up from one state."""
+"""What is known of spin-up from one state, and what a certificate says of all later times: bounds of the
+rates for ever, and when the spin reaches a limit, from both sides.
+"""
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
+from typing import Any
 
 from ...orbit.result import Fate
 from ...shown import Shown
-from .clock import SteadyTrap, Trap
+
+WIDER = 1e-12  # relative widening of what is told: the rounding of these few lines
+
+
+@dataclass(frozen=True)
+class Trap:
+    """The constants of the theorem (`certificate`) for one motion.
+
+    field: the form, in the motion's own units; form: its name; orders: of energy and amplitude; A, z, eta, z_up, eta_up, k: of the theorem in
+    these units; unit: one of them in rad/s (or scaled rates; exact, a power of two); t: time of the state that the inequality held for, off by `blur` at
+    most (a certified motion may be that much early or late: the rounding of its run).
+    """
+
+    field: Any
+    form: str
+    orders: tuple[int, int]
+    A: float
+    z: float
+    eta: float
+    z_up: float
+    eta_up: float
+    k: float
+    unit: float
+    t: float
+    blur: float = 0.0
+
+    def bounds(self):
+        """((low, high),) * 3 of the rates about the body's principal axes at all times from `t` on; the spin's far end is infinite.
+
+        For spin-up in the equator, along no principal axis, only the rate about the axis of symmetry is bounded: the transverse
+        rate in the equator may grow like the fourth root of the spin.
+        """
+        low, (second, third) = self.z - self._shift, self.field.transverse(self.A, self.z)
+        out = [(-math.inf, math.inf)] * 3
+        for row, (a, b) in zip(self.field.basis, ((low, math.inf), second, third)):
+            entries = [n for n in range(3) if abs(row[n]) == 1]
+            if entries:
+                a, b = (a, b) if row[entries[0]] > 0 else (-b, -a)
+                out[entries[0]] = (_down(a * self.unit), -_down(-b * self.unit))
+        return tuple(out)
+
+    def line(self, t: float) -> tuple[float, float]:
+        """(least, greatest) spin about its axis, in its sense, at a time t >= self.t."""
+        least, most = ((t - self.t + early) * self.unit / self.field.D1 for early in (-self.blur, self.blur))
+        return (_down((self.z - self._shift + self.eta * max(0.0, least)) * self.unit),
+                -_down(-(self.z_up - self._shift + self.eta_up * most) * self.unit))
+
+    def clock(self, rate: float) -> tuple[float, float]:
+        """(earliest, latest) time at which the spin about its axis, in its sense, first reaches `rate`; t counts from the start.
+
+        A rate that the spin may have had before `t` gives (0, ...). From D1 y' = M1 -+ c/y where the form has it, else (in the equator) from the two lines.
+        """
+        x = rate / self.unit + self._shift
+        early, late = (self._sharp if self.field.sharp else self._straight if self.field.least_fall is None else self._falling)(x)
+        early = max(0.0, self.t - self.blur + max(0.0, early) / self.unit) if x > self.z_up else 0.0
+        late = self.t + self.blur + max(0.0, late) / self.unit
+        return early * (1 - WIDER), late * (1 + WIDER)
+
+    def _straight(self, x):
+        D1 = self.field.D1
+        return (x - self.z_up) * D1 / self.eta_up, (x - self.z) * D1 / self.eta
+
+    def _falling(self, x):
+        """From D1 y' = M1 -+ c/(y + S): about the moving centre what is beside M1 falls at least like 1/(x + S), S the field's `least_fall`."""
+        D1, M1, S = self.field.D1, self.field.M1, self.field.least_fall
+        less, more = ((1 + 1e-8) * c * (self.z + S) for c in (M1 - self.eta, self.eta_up - M1))
+        early, late = x - self.z_up, x - self.z
+        early -= _delay(more, M1, self.z_up + S, early) if early > 0 else 0.0
+        late -= _delay(-less, M1, self.z + S, late) if late > 0 else 0.0
+        return D1 / M1 * early, D1 / M1 * late
+
+    def _sharp(self, x):
+        """From D1 y' = M1 + (m* -+ c)/y: the drive's own m* counts on both sides, with its sign."""
+        f = self.field.form
+        c = self.k * self.z * (1 + 1e-9)  # the rest of Y' over Om falls at least like 1/x
+        early, late = x - self.z_up, x - self.z
+        early -= _delay(f.drag + c, f.M1, self.z_up, early) if early > 0 else 0.0
+        late -= _delay(f.drag - c, f.M1, self.z, late) if late > 0 else 0.0
+        return f.D1 / f.M1 * early, f.D1 / f.M1 * late
+
+    @property
+    def _shift(self):
+        return self.field.form.shift if self.field.sharp else 0.0
+
+
+@dataclass(frozen=True)
+class SteadyTrap:
+    """The trap of a body of revolution without a transverse wheel: the spin about its axis is linear in time, exactly.
+
+    start: the spin along `sense` at t = 0; gain: its rate; bounded: ((low, high),) * 3 for ever. unit as in `Trap`.
+    """
+
+    axis: int
+    sense: int
+    start: float
+    gain: float
+    bounded: tuple
+    form: str = "axis of symmetry"
+    t: float = 0.0
+
+    def bounds(self):
+        """((low, high),) * 3 of the rates at all times."""
+        return self.bounded
+
+    def line(self, t: float) -> tuple[float, float]:
+        """(least, greatest) spin along its sense at time t: equal but for rounding."""
+        value = self.start + self.gain * t
+        blur = WIDER * (abs(self.start) + abs(self.gain * t))
+        return value - blur, value + blur
+
+    def clock(self, rate: float) -> tuple[float, float]:
+        """(earliest, latest) time at which the spin reaches `rate`."""
+        blur = WIDER * (abs(rate) + abs(self.start)) / self.gain
+        return max(0.0, (rate - self.start) / self.gain - blur), max(0.0, (rate - self.start) / self.gain + blur)
 
 
 @dataclass(frozen=True, repr=False)
@@ -18,7 +135,7 @@ class SpinUp(Shown):
     that holds the run's rounding), "proved" (the way to the inequality is enclosed, `enclosure.proof`; t is exact, state the middle of what
     holds it) or "undecided". trap: bounds and clocks. t: when it fired, or how long the motion was followed; state there; steps. cause:
     words. condition: growth of a small change of the start, across the motion, on the way to t. passed: steps that the way to t takes one by one; steps are
-    those computed, fewer where a slow drift is run over many revolutions at once (`way.drift`).
+    those computed, fewer where a slow drift is run over many revolutions at once (`drift`).
     """
 
     fate: Fate
@@ -33,3 +150,12 @@ class SpinUp(Shown):
     cause: str
     condition: float
     passed: float = 0.0
+
+
+def _delay(c, M1, start, rise):
+    """What c/y in D1 y' = M1 + c/y takes off the rise over M1/D1: (c/M1) ln of how M1 y + c grows. It is positive from the start on: eta of the theorem is."""
+    return c / M1 * math.log1p(rise / (start + c / M1))
+
+
+def _down(value: float) -> float:
+    return value - WIDER * abs(value)

@@ -21,9 +21,8 @@ from fractions import Fraction
 
 from ...numbers.exact import sqrt_fraction
 from ...orbit.result import Fate
-from .clock import WIDER, SteadyTrap
-from .moving_centre import MovingCentre
-from .result import SpinUp
+from .centres import MovingCentre
+from .result import WIDER, SpinUp, SteadyTrap
 
 
 def axis_of_symmetry(D) -> int | None:

@@ -5,8 +5,12 @@ import math
 import random
 from fractions import Fraction
 
-from stabilab import Body, ConstantTorque, Gyrostat, Scene
+import pytest
 
+from stabilab import Body, ConstantTorque, Gyrostat, Scene
+from stabilab.numbers.numba_door import installed
+
+numba = pytest.mark.skipif(not installed(), reason="needs numba")
 EXAMPLE = Scene(Body((1.4, 1, 0.6)), Gyrostat((0.2, 0.1, -0.3)), ConstantTorque((0.5, 0.6, 0.62)))
 
 

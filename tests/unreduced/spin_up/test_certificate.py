@@ -5,28 +5,37 @@ import mpmath
 import numpy as np
 import pytest
 
-from stabilab.unreduced.spin_up.certificate import Certifier
-from stabilab.unreduced.spin_up.elimination import corrected_amplitude, corrected_energy
-from stabilab.unreduced.spin_up.fixed_centre import FixedCentre
+from stabilab.unreduced.spin_up import fixed_kernel
+from stabilab.unreduced.spin_up.centres import FixedCentre, moving_centre
+from stabilab.unreduced.spin_up.certificate import FixedCertifier, MovingCertifier
 from stabilab.unreduced.spin_up.form import forms_of
-from stabilab.unreduced.spin_up.moving_centre import moving_centre
 
 from .scenes import EXAMPLE, random_scene, rates_of, run, sphere
-from .test_elimination import Digits
+from .test_elimination import Digits, corrected, value
 
-STATE = np.array([[6.0, 1.0, -1.0]])
+STATE = np.array([6.0, 1.0, -1.0])
+
+
+def places(field, states):
+    """(x, zeta), (n,) each, of states (n, 3): as the docstring of `centres` has them."""
+    w = np.asarray(states) @ field.basis.T
+    if field.sharp:
+        return w[:, 0] + field.form.shift, np.array([field.form.place(state)[1] for state in states])
+    x, (l2, l3), (M2, M3), (r2, r3) = w[:, 0], field.wheel, field.torque, field.roots
+    p, q = field.a3 * x + field.c, field.a2 * x + field.c
+    rho = (q / p)**0.25
+    u, v = w[:, 1] - field.s * (l2 * x - M3) / q, w[:, 2] - field.s * (l3 * x + M2) / p
+    return x, r2 * rho * u + 1j * field.s * r3 / rho * v
 
 
 def test_worked_example_is_trapped_within_the_printed_constants():
-    form = forms_of(EXAMPLE)[0]
-    found = Certifier(FixedCentre(form), (0, 2))(STATE)
-    assert found.good[0]
-    assert found.A[0] < 1.193 and found.z[0] > 6.276 and found.eta[0] > 0.468  # printed for the simplified sums: ours are sharper
+    field = FixedCentre(forms_of(EXAMPLE)[0])
+    A, z, eta, z_up, eta_up, _ = FixedCertifier(field, (0, 2)).constants(STATE)
+    assert A < 1.193 and z > 6.276 and eta > 0.468  # printed for the simplified sums: ours are sharper
     times = np.linspace(0, 20, 801)
-    states = run(rates_of(EXAMPLE), STATE[0], times)
-    X, zeta, *_ = FixedCentre(form).place(states)
-    assert np.abs(zeta).max() < found.A[0]  # DOP853
-    assert (X >= found.z[0] + found.eta[0] * times / form.D1).all() and (X <= found.z_up[0] + found.eta_up[0] * times / form.D1).all()
+    X, zeta = places(field, run(rates_of(EXAMPLE), STATE, times))
+    assert np.abs(zeta).max() < A  # DOP853
+    assert (X >= z + eta * times / field.D1).all() and (X <= z_up + eta_up * times / field.D1).all()
 
 
 @pytest.mark.one_in(2)
@@ -39,47 +48,47 @@ def test_certified_states_of_random_scenes_stay_between_the_lines(of):
             field = FixedCentre(form) if of == "fixed centre" else moving_centre(form, scene)
             state = np.array(sphere(rng, 2))
             state[form.axis] = form.sense * rng.choice((3, 6, 12))
-            found = Certifier(field, (2, 4))(state[None])
-            if not found.good[0] or seen >= 20:
+            found = (FixedCertifier if field.sharp else MovingCertifier)(field, (2, 4)).constants(state)
+            if found is None or seen >= 20:
                 continue
             seen += 1
-            times = np.linspace(0, 5, 201)
-            x, zeta, *_ = field.place(run(rates_of(scene), state, times))
-            assert np.abs(zeta).max() < found.A[0]  # DOP853, another integrator than the package's own runs
-            assert (x > found.z[0] + found.eta[0] * times / field.D1).all() and (x < found.z_up[0] + found.eta_up[0] * times / field.D1).all()
+            (A, z, eta, z_up, eta_up, _), times = found, np.linspace(0, 5, 201)
+            x, zeta = places(field, run(rates_of(scene), state, times))
+            assert np.abs(zeta).max() < A  # DOP853, another integrator than the package's own runs
+            assert (x > z + eta * times / field.D1).all() and (x < z_up + eta_up * times / field.D1).all()
     assert seen > 10
 
 
 def test_a_ball_is_certified_only_if_every_state_in_it_is():
-    test = Certifier(FixedCentre(forms_of(EXAMPLE)[0]), (4, 6))
+    test = FixedCertifier(FixedCentre(forms_of(EXAMPLE)[0]), (4, 6))
     generator = np.random.default_rng(1)
     for near in (1e-3, 1e-1, 1.0):
-        ball = test(STATE, np.array([near]))
-        inside = STATE + near * (lambda v: v / np.linalg.norm(v, axis=1, keepdims=True))(generator.normal(size=(200, 3)))
-        if ball.good[0]:
-            assert test(inside).good.all()
-            assert (test(inside).z >= ball.z * 0.999).all()
-    assert test(STATE, np.array([1e-3])).good[0] and not test(STATE, np.array([10.0])).good[0]
+        ball = test.constants(STATE, near)
+        ways = generator.normal(size=(100, 3))
+        inside = STATE + near * ways / np.linalg.norm(ways, axis=1, keepdims=True)
+        if ball:
+            assert all(test.constants(state)[1] >= ball[1] * 0.999 for state in inside)
+    assert test.constants(STATE, 1e-3) and not test.constants(STATE, 10.0)
 
 
 def test_values_at_the_start_lie_within_their_blur():
     """Energy and amplitude of a state in doubles against the same in 40 digits."""
     scene = random_scene(random.Random(8), 1)
-    form = forms_of(scene)[0]
-    test = Certifier(FixedCentre(form), (12, 14))
-    fine = forms_of(scene, Digits)[0]
+    form, fine = forms_of(scene)[0], forms_of(scene, Digits)[0]
+    test = FixedCertifier(FixedCentre(form), (12, 14))
     state = np.zeros(3)
     state[form.axis], state[form.order[1]] = form.sense * 9.7, 0.7
-    from stabilab.unreduced.spin_up.certificate import _Start
-    x, zeta, dx, dz = test.field.place(state[None])
-    start = _Start(test, x, zeta, dx, dz)
+    (x, zeta), dx = form.place(state.tolist()), 2.0**-46
+    given = test.numbers[5:]
+    quantities, spans = ((given[0:3], given[6:8]), (given[3:6], given[8:10])), given[-1]
+    powers, _, row, _ = test.work()
     with mpmath.workdps(40):
         X, z = fine.place([mpmath.mpf(v) for v in state.tolist()])
-        value = lambda terms: mpmath.re(sum(c * z**j * mpmath.conj(z)**k * X**(-mpmath.mpf(a) / 4) for (j, k, a, b), c in terms.as_dict().items()))
-        energy = value(corrected_energy(fine, 12).added)
-        amplitude = abs(z)**2 * (1 + fine.drag / fine.M1 / X) + value(corrected_amplitude(fine, 14).added)
-        assert start.energy[0] <= energy <= start.energy_up[0] and amplitude <= start.amplitude[0]
-        assert start.x[0] <= X and abs(z) <= start.size[0]
+        ((added, _), _), ((of_amplitude, _), _) = corrected(fine, (12, 14), kind=object)
+        for n, ((terms, sums), exact) in enumerate(zip(quantities, (added, of_amplitude))):
+            place = int(spans[1, n]), int(spans[0, n]), zeta, abs(zeta) + dx, x, x - dx, dx
+            middle, blur = fixed_kernel.blurred(*terms, *sums, *place, powers, row)
+            assert abs(mpmath.re(value(exact, X, z)) - middle) <= blur < 1e-6
 
 
 def test_spin_against_the_torque_is_never_certified():
@@ -87,15 +96,16 @@ def test_spin_against_the_torque_is_never_certified():
     for _ in range(20):
         scene = random_scene(rng)
         for form in forms_of(scene):
-            state = np.zeros((1, 3))
-            state[0, form.axis] = -form.sense * 30
-            assert not Certifier(FixedCentre(form), (4, 6))(state).good[0]  # it slows down first: T' = M.w < 0
+            state = np.zeros(3)
+            state[form.axis] = -form.sense * 30
+            test = FixedCertifier(FixedCentre(form), (4, 6))
+            assert not test.constants(state)  # it slows down first: T' = M.w < 0
 
 
 def test_higher_orders_hold_wherever_lower_ones_do_and_are_sharper():
     form = forms_of(EXAMPLE)[0]
-    low, high = (Certifier(FixedCentre(form), orders)(STATE) for orders in ((0, 2), (12, 14)))
-    assert high.good[0] and high.A[0] < low.A[0] and high.z[0] > low.z[0] and high.eta[0] > low.eta[0]
+    low, high = (FixedCertifier(FixedCentre(form), orders).constants(STATE) for orders in ((0, 2), (12, 14)))
+    assert high[0] < low[0] and high[1] > low[1] and high[2] > low[2]
 
 
 def test_without_a_wheel_the_first_order_laws_of_the_scaled_body_agree():
@@ -105,12 +115,11 @@ def test_without_a_wheel_the_first_order_laws_of_the_scaled_body_agree():
     mu = (0.5, 0.3, -0.4)
     scene = ScaledGyrostat(0, 0, mu)
     state = np.array([12.0, 0.5, -0.3])
-    found = Certifier(FixedCentre(forms_of(scene)[0]), (0, 2))(state[None])
-    assert found.good[0]
+    A, z, *_ = FixedCertifier(FixedCentre(forms_of(scene)[0]), (0, 2)).constants(state)
     rate = lambda x: [x[1] * x[2] + mu[0], -x[2] * x[0] + mu[1], x[1] * x[0] + mu[2]]
     p, x2, x3 = run(rate, state, np.linspace(0, 40, 2001)).T
     V = (x2**2 + x3**2) / 2 + (mu[2] * x2 - mu[1] * x3) / p
     change = np.abs((mu[2] * x2 - mu[1] * x3) * (x2 * x3 + mu[0]) / p**2).max() * 40  # V' = -(...)(x2 x3 + mu1)/p^2
-    assert np.abs(V - V[0]).max() <= change and (V < found.A[0]**2 / 2 + 0.5 * found.A[0] / p).all()
+    assert np.abs(V - V[0]).max() <= change and (V < A**2 / 2 + 0.5 * A / p).all()
     W = (p**2 + x2**2) / 2 - mu[1] * x3 / p
-    assert (np.diff(W) > 0).all() and (p > found.z[0]).all()  # W' = mu1 p - mu2 mu3/p + ... > 0
+    assert (np.diff(W) > 0).all() and (p > z).all()  # W' = mu1 p - mu2 mu3/p + ... > 0

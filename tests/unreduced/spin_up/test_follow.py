@@ -9,13 +9,11 @@ from benchmarks.spin_up import random_scene as benchmark_scene
 from stabilab import Body, ConstantTorque, Fate, Gyrostat, ScaledGyrostat, Scene
 from stabilab.errors import InputError
 from stabilab.physics.scaling import to_scaled
-from stabilab.unreduced.spin_up import fields
+from stabilab.unreduced.spin_up import certificate, follow
 from stabilab.unreduced.spin_up.cause import _equilibria, seen
-from stabilab.unreduced.spin_up.follow import spin_up
-from stabilab.unreduced.spin_up.many import spin_up_many
-from stabilab.unreduced.spin_up.way import runs
+from stabilab.unreduced.spin_up.follow import spin_up, spin_up_many
 
-from .scenes import EXAMPLE, euler, random_scene, rates_of, run, sphere
+from .scenes import EXAMPLE, euler, numba, random_scene, rates_of, run, sphere
 
 
 def departures(scene, answer, span):
@@ -71,31 +69,42 @@ def test_fate_agrees_with_a_long_run_by_brute_force():
             assert np.sign(end[-1, i]) == answer.sense and abs(end[-1, i]) > abs(end[1, i])
 
 
-@pytest.mark.slow
-def test_many_answer_as_one_by_one():
-    scene = random_scene(random.Random(24), 1)
-    states = np.random.default_rng(2).normal(size=(37, 3)) * 3
-    columns = spin_up_many(scene, states, 300, 4000)
-    for i in range(0, 37, 3):
-        one, row = spin_up(scene, states[i], 300, 4000), columns.row(i)
-        assert (one.level, one.axis, one.sense, one.steps) == (row.level, row.axis, row.sense, row.steps)
-        assert (columns.fate[i], columns.axis[i], columns.sense[i]) == (one.fate, one.axis, one.sense)
-        assert one.t == pytest.approx(row.t, rel=1e-9) and np.allclose(one.state, row.state, rtol=1e-6, atol=1e-6)
+COLUMNS = ("fate", "axis", "sense", "level", "t", "steps", "condition", "states")
 
 
-def test_company_does_not_matter():
-    scene = random_scene(random.Random(25), 0.1)
-    states = np.random.default_rng(3).normal(size=(20, 3))
-    all_, some = spin_up_many(scene, states, 200), spin_up_many(scene, states[::4], 200)
-    assert np.array_equal(all_.t[::4], some.t) and np.array_equal(all_.axis[::4], some.axis)
+@pytest.mark.parametrize("fast", [False, pytest.param(True, marks=numba)])
+def test_company_does_not_matter(fast):
+    """The same bytes in broad batches and narrow ones, and for a state alone."""
+    scene = random_scene(random.Random(9), 0.1)
+    starts = np.array([sphere(random.Random(n), 3) for n in range(45)])
+    all_, some = (spin_up_many(scene, states, 200, 400, fast=fast) for states in (starts, starts[::7]))
+    assert all(np.array_equal(getattr(all_, name)[::7], getattr(some, name)) for name in COLUMNS)
+    one = spin_up(scene, starts[7].tolist(), 200, 400, fast=fast)
+    assert (one.t, one.state) == (all_.t[7], tuple(all_.states[7].tolist()))
 
 
-def test_scipy_takes_the_place_of_heyoka(monkeypatch):
-    states = np.random.default_rng(4).normal(size=(3, 3))
-    with_it = spin_up_many(EXAMPLE, states, 100)
-    monkeypatch.setattr(runs, "heyoka_available", lambda: False)
-    without = spin_up_many(EXAMPLE, states, 100)
-    assert (without.level == 1).all() and np.array_equal(with_it.axis, without.axis) and np.array_equal(with_it.sense, without.sense)
+@numba
+@pytest.mark.parametrize("wheel", [0, 1])
+def test_motions_are_decided_alike_with_and_without_numba(wheel):
+    """The same loops, compiled and as they are written; the states lie on the motions, by SciPy's DOP853."""
+    scene, starts = random_scene(random.Random(31), wheel), np.random.default_rng(6).normal(size=(40, 3)) * 3
+    slow, fast = (spin_up_many(scene, starts, 100, 400, fast=way) for way in (False, True))
+    for name in ("fate", "axis", "sense", "level", "steps"):
+        assert np.array_equal(getattr(slow, name), getattr(fast, name))
+    for n in np.flatnonzero((fast.t > 0) & (fast.level > 0))[::4]:
+        assert slow.t[n] == pytest.approx(fast.t[n], rel=1e-9 * fast.condition[n])
+        end = run(rates_of(scene), starts[n], np.array([0.0, fast.t[n]]))[-1]
+        size = fast.condition[n] * (1 + np.abs(end).max()) * (1 + fast.t[n])
+        assert np.allclose(fast.states[n], end, rtol=0, atol=1e-9 * size)
+
+
+@numba
+def test_a_long_motion_is_compiled_on_its_way(monkeypatch):
+    scene, start = random_scene(random.Random(31), 1), (3.0, -1.0, 2.0)
+    whole = spin_up(scene, start, budget=400, fast=True)
+    monkeypatch.setattr(follow, "loaded", lambda: False)
+    monkeypatch.setattr(follow, "QUESTIONS", math.inf)
+    assert spin_up(scene, start, budget=400).t == pytest.approx(whole.t, rel=1e-9)
 
 
 def test_scaled_twin_has_the_fate_of_its_body():
@@ -196,8 +205,9 @@ def test_limits_hold_for_all_where_one_state_is_beyond_doubles():
 
 
 def test_a_test_has_its_number_before_another_thread_may_find_it(monkeypatch):
-    tests, seen_ = fields.Tests(EXAMPLE), []
-    monkeypatch.setattr(fields, "Certifier", lambda field, orders: seen_.append((field, orders) in tests.asked))
+    tests, seen_ = certificate.Tests(EXAMPLE), []
+    seen = lambda field, orders, fast: seen_.append((field, orders) in tests.asked)
+    monkeypatch.setattr(certificate, "FixedCertifier", seen)
     for asked in tests.high:
         tests.certifier(*asked)
     assert seen_ == [True] * len(tests.high)

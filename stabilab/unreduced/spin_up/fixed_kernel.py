@@ -1,8 +1,23 @@
 """The certificate about the fixed centre in straight loops: elimination over dense tables, and the search for A and z of one state.
 
-The same formulas as `elimination` and `certificate`, where they are derived; here c[j, k, n] is the coefficient of zeta^j zeta*^k X^(1 - n) and
-beside it stands its majorant m[j, k, n]. Index n = 1 + power of 1/X. The search has its tables in rows of eight (`lanes`). numba's cache on disk
-watches this file alone.
+The theorem and its inequality are those of `certificate`, elimination and its rounding those of
+`elimination`. c[j, k, n] is the coefficient of zeta^j zeta*^k X^(1 - n), and beside it stands its majorant
+m[j, k, n]; index n = 1 + power of 1/X. Corrected are two quantities:
+
+Energy D1 X^2/2. Its rate is X G = M1 X + m* + what is left, G = D1 X' = M1 + gam Im zeta^2 + Re(kap* zeta).
+Order 0 is the classical D1 X^2/2 + (gam/2om) Re zeta^2 - Im(kap* zeta)/om - Im(nu zeta)/(om^2 X): what is
+taken at X^1 is all of X (G - M1), at X^0 what h and mu make of it, Re(nu zeta)/om, and m* = -Im(kap* mu)/om
+stays exactly. It is formed exactly in `form.drag` and left out of the rate here with M1 X: the drive.
+
+Amplitude |zeta|^2 (1 + m*/(M1 X)). It starts from |zeta|^2 + R/(om X), R = h Re zeta^2 - 2 Im(mu* zeta),
+which takes out of (|zeta|^2)' = 2 h Im zeta^2 + 2 Re(mu* zeta) all there is at X^0. The price at X^-1 is
+[along i h zeta* + mu] of R, and that vanishes identically: h Re zeta^2 gives 2 h Re(mu zeta), and -2 Im(mu*
+zeta) gives -2 h Re(mu zeta). So the rate is -X' R/(om X^2), written down so, with no term at X^-1 at all, and
+every term left falls as X^-2 or faster. The weight (which does not stand among the added terms) adds (m*/M1)
+(|zeta|^2/X)', whose mean part -m* |zeta|^2/(D1 X^2) cancels that of -X' R/(om X^2) up to rounding (which the
+sums hold): the flow keeps volume, so its mean does.
+
+The search has its tables in rows of eight (`lanes`). numba's cache on disk watches this file alone.
 """
 from __future__ import annotations
 
@@ -10,9 +25,12 @@ import math
 
 from .lanes import fused, load, spread, store
 
-ROUNDING = 2.0**-32     # of coefficients over their majorants: `elimination.ROUNDING`
-COEFFICIENT = 2.0**-36  # `certificate.COEFFICIENT`, SLACK, GROWTH, PASSES and `fixed_centre.BLUR`: the tests hold them equal
-SLACK, GROWTH, PASSES, BLUR = 2.0**-30, 1 + 1e-7, 25, 2.0**-50
+ROUNDING = 2.0**-32     # of coefficients over their majorants, as `elimination.ROUNDING`
+COEFFICIENT = 2.0**-36  # rounding of the terms' values, of their majorant: four times that of the coefficients alone
+SLACK = 2.0**-30
+GROWTH = 1 + 1e-7       # of A between passes: strict inequalities need room
+PASSES = 25             # of the search for A and z: it is monotone and settles in ten or never
+BLUR = 2.0**-50         # relative, in the place of a state: a dozen operations, each within half of 2^-52
 
 
 def put(c, m, j, k, n, value, size):
@@ -168,9 +186,10 @@ def parts(c, weights, real, imaginary):
 
 def search(x, zeta, dx, dz, D1, M1, drag, weights_e, real_e, imaginary_e, weights_b, real_b, imaginary_b, e_sums, e_most, b_sums,
            b_most, r_tails, k_sums, spans, powers, kept, row, out):
-    """Whether the inequality holds at one place, and its constants A, z, eta, z_up, eta_up, k in out (6,): `certificate.Certifier`. spans (2, 4): of the
-    quantities e, b, r, k the index n of the first column, and how many times eight columns there are. r_tails: for the integrals of the factors over all
-    greater X. kept, row (most of these, 8): for work."""
+    """Whether the inequality holds at one place, and its constants A, z, eta, z_up, eta_up, k in out (6,):
+    see `certificate`. spans (2, 4): of the quantities e, b, r, k the index n of the first column, and how
+    many times eight columns there are. r_tails: for the integrals of the factors over all greater X. kept,
+    row (most of these, 8): for work."""
     low, top = x - dx, x + dx
     if not (low > 0 and dx < x / 8):
         return False
@@ -183,10 +202,10 @@ def search(x, zeta, dx, dz, D1, M1, drag, weights_e, real_e, imaginary_e, weight
     energy, energy_up = value - blur, value + blur
     A, z, growth, amplitude = size * GROWTH, low / GROWTH, 1e-6, 0.0
     for number in range(PASSES):
-        step = min(1e-2, growth)
+        step = min(1e-2, growth)  # ever faster past a slow approach
         growth *= 4
         columns(e_sums, wide_e, A, kept)
-        for _ in range(2):
+        for _ in range(2):  # the equation for z is nearly linear
             need = max(falling(kept, wide_e, 1 / z, first_e - 1) - energy, 0.0) * (GROWTH + step) + 1e-7 * low * low
             z = low - 2 * need / (D1 * (low + (z if z > 0 else low)))
             if not z > 0:
@@ -220,21 +239,11 @@ def search(x, zeta, dx, dz, D1, M1, drag, weights_e, real_e, imaginary_e, weight
     return False
 
 
-def search_all(x, zeta, dx, dz, D1, M1, drag, weights_e, real_e, imaginary_e, weights_b, real_b, imaginary_b, e_sums, e_most, b_sums, b_most, r_tails,
-               k_sums, spans, powers, kept, row, constants, good, out):
-    """`search` for places (n,): good (n,), out (6, n)."""
-    for n in range(x.size):
-        if search(x[n], zeta[n], dx[n], dz[n], D1, M1, drag, weights_e, real_e, imaginary_e, weights_b, real_b, imaginary_b, e_sums, e_most, b_sums,
-                  b_most, r_tails, k_sums, spans, powers, kept, row, constants):
-            good[n] = True
-            for i in range(6):
-                out[i, n] = constants[i]
-
-
 def decide(rows, states, reach, fired, number, found, order, frame, D1, M1, drag, weights_e, real_e, imaginary_e, weights_b, real_b, imaginary_b, e_sums,
            e_most, b_sums, b_most, r_tails, k_sums, spans, powers, kept, row, constants):
-    """Ask for those of rows that no test has fired for: fired (n,) becomes `number`, found (6, n) the constants, where the inequality holds for the whole
-    ball of radius reach (n,) about the state. order (3,), frame (8,): turn, shift, centre, scale of the form; places as of `fixed_centre`."""
+    """Ask for those of rows that no test has fired for: fired (n,) becomes `number`, found (6, n) the
+    constants, where the inequality holds for the whole ball of radius reach (n,) about the state. order (3,),
+    frame (8,): turn, shift, centre, scale of the form."""
     most = max(abs(frame[6]), abs(frame[7]))
     for n in rows:
         if fired[n] >= 0:

@@ -7,18 +7,14 @@ from scipy.integrate import solve_ivp
 
 from benchmarks.spin_up import random_scene as benchmark_scene
 from stabilab import Body, ConstantTorque, Gyrostat, Scene
-from stabilab.integrate.to_heyoka import heyoka_available
-from stabilab.unreduced.spin_up.fields import natural
+from stabilab.unreduced.spin_up import drift
+from stabilab.unreduced.spin_up.certificate import natural
+from stabilab.unreduced.spin_up.drift import BETWEEN, NODES, Returns, matrices, window
 from stabilab.unreduced.spin_up.follow import spin_up
-from stabilab.unreduced.spin_up.way import drift
-from stabilab.unreduced.spin_up.way.collocation import BETWEEN, NODES, matrices, window
-from stabilab.unreduced.spin_up.way.returns import Returns
-from stabilab.unreduced.spin_up.way.runs import Runs
-from stabilab.unreduced.spin_up.way.twins import Twins
+from stabilab.unreduced.spin_up.runs import Runs, Twins
 
-from .scenes import EXAMPLE, euler, rates_of
+from .scenes import EXAMPLE, euler, numba, rates_of
 
-taylor = pytest.mark.skipif(not heyoka_available(), reason="needs heyoka: without it motions go step by step")
 FAST = Scene(Body((1.4, 1, 0.6)), Gyrostat((0.2, 0.1, -0.3)), ConstantTorque((0.5, 0.6, 0.62)))
 START = (12.0, 20.0, 90.0)
 
@@ -51,7 +47,6 @@ def test_slopes_are_those_of_the_rates_forth_and_back():
     assert np.allclose((runs.slopes_back(states, weights) * directions).sum(axis=1), (expected * weights).sum(axis=1))
 
 
-@taylor
 def test_a_window_ends_where_a_run_by_another_formula_does():
     """Forty revolutions against DOP853, in place and time."""
     own, unit = natural(FAST)
@@ -67,7 +62,6 @@ def test_a_window_ends_where_a_run_by_another_formula_does():
     assert energy(found.states[0] * unit) == pytest.approx(energy(end), rel=1e-10)
 
 
-@taylor
 def test_a_window_that_meets_no_smooth_drift_is_refused():
     """Five natural units of speed: a revolution changes the motion too much for six hundred of them to be a polynomial."""
     own, unit = natural(FAST)
@@ -77,7 +71,6 @@ def test_a_window_that_meets_no_smooth_drift_is_refused():
     assert not found.good[0]
 
 
-@taylor
 def test_growth_is_that_of_the_tangent_flow_across_the_motion():
     """Against the variational equation by DOP853, from the first direction, what lies along the motion taken off."""
     rate, runs = rates_of(FAST), Runs(FAST, np.array([START]))
@@ -105,7 +98,7 @@ def test_a_mere_delay_is_no_growth():
 
 
 @pytest.mark.slow
-@taylor
+@numba  # half a million steps one by one
 def test_a_slow_despin_is_certified_by_far_fewer_steps_than_it_takes():
     """The torque's share about the axis of spin is 0.0013: half a million steps one by one. Its energy at
     that time is that of the plain run, step by step, to nine digits."""
@@ -113,7 +106,7 @@ def test_a_slow_despin_is_certified_by_far_fewer_steps_than_it_takes():
     scene, state, *_ = [benchmark_scene(rng) for _ in range(292)][-1]
     answer = spin_up(scene, state)
     assert answer.level == "certified" and answer.passed > 5 * answer.steps and answer.trap.blur > 0
-    runs = Runs(scene, np.array([state]))
+    runs = Runs(scene, np.array([state]), fast=True)
     while runs.times[0] < answer.t:
         runs.advance(np.array([0]), 20_000, answer.t)
     D = np.array([float(d) for d in scene.body.exact])
@@ -121,7 +114,7 @@ def test_a_slow_despin_is_certified_by_far_fewer_steps_than_it_takes():
 
 
 @pytest.mark.slow
-@taylor
+@numba
 def test_leaps_change_no_verdict(monkeypatch):
     """Motions that leap as soon as they may, and those that never do."""
     starts = [(12.0, 20.0, -90.0)]

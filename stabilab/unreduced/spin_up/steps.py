@@ -1,4 +1,5 @@
-"""Taylor steps of eight motions side by side, and of a small change of each, in straight loops that numba compiles.
+"""Taylor steps of motions side by side, and of a small change of each, in straight loops: eight to a batch
+where numba compiles them, else any number.
 
 w_i' = kappa_i w_j w_k + rho_i w_k + sigma_i w_j + m_i (cyclic). The coefficient of s^n of w_i stands in row 3 n + i of a table, a motion to a lane; s is
 the time over `scale`, a power of two near the fastest rate, so that no coefficient overflows. The change v of a motion obeys the equation made linear. It
@@ -20,11 +21,12 @@ TAIL = -56.0          # base 2: what the last coefficients may add to a state, r
 LONGEST = 64.0        # of a step: even of a motion at rest
 BESIDE = -5.0         # base 2: what the last coefficients of a change may add to it; what is left out is then below a hundredth of it
 STEEP = 3.0           # base 2: of a step times the slopes: beyond, the terms left out of e^x would be greater than the last
-STILL, LOST = 2.0**-8, 2.0**-30  # of `way.twins`: the tests hold them equal
+STILL, LOST = 2.0**-8, 2.0**-30  # of `runs`: the tests hold them equal
 
 
 def series(numbers, a):
-    """The coefficients of a from those of degree 0. numbers (12, 8): kappa, rho, sigma, m, three rows each, times the scale."""
+    """The coefficients of a from those of degree 0. numbers (12, m): kappa, rho, sigma, m, three rows each,
+    times the scale."""
     k0, k1, k2 = load(numbers, 0), load(numbers, 1), load(numbers, 2)
     r0, r1, r2 = load(numbers, 3), load(numbers, 4), load(numbers, 5)
     g0, g1, g2 = load(numbers, 6), load(numbers, 7), load(numbers, 8)
@@ -128,8 +130,18 @@ def ahead_by(table, order, work):
     store(table, 2, s2)
 
 
+def square(a):
+    """|omega|^2 in each lane."""
+    x, y, z = load(a, 0), load(a, 1), load(a, 2)
+    return fused(x, x, fused(y, y, times(z, z)))
+
+
 def run(given, numbers, a, v, work, steps, beside):
-    """So many steps of the eight motions in row 0 to 2 of a and, if `beside`, of the changes in v; fewer where all have come to the end of their spans."""
+    """So many steps of the motions in row 0 to 2 of a and, if `beside`, of the changes in v; fewer where all
+    have come to the end of their spans. The greatest and the least |omega|^2 that was met goes to work rows 6
+    and 7."""
+    store(work, 6, square(a))
+    store(work, 7, square(a))
     for number in range(steps):
         to_scale(given, numbers, a, work)
         series(numbers, a)
@@ -139,32 +151,34 @@ def run(given, numbers, a, v, work, steps, beside):
         if beside:
             ahead_by(v, SIDE, work)
         ahead_by(a, ORDER, work)
+        store(work, 6, greater(load(work, 6), square(a)))
+        store(work, 7, lesser(load(work, 7), square(a)))
         if number % 4 == 3:
             going = False
-            for lane in range(8):
+            for lane in range(work.shape[1]):
                 going = going or work[5, lane] > 0.0
             if not going:
                 return
 
 
 def spread_numbers(coefficients, given):
-    """The numbers (4, 3) of a scene in all lanes (12, 8)."""
+    """The numbers (4, 3) of a scene in all lanes (12, m)."""
     for n in range(12):
-        for lane in range(8):
+        for lane in range(given.shape[1]):
             given[n, lane] = coefficients[n // 3, n % 3]
 
 
 def carry(coefficients, states, spans, steps, out, reached, given, numbers, a, v, work):
     """Motions from states (n, 3) over spans (n,) of time, forth or back, in at most so many steps: states to out, times to reached."""
     spread_numbers(coefficients, given)
-    n = spans.size
-    for first in range(0, n, 8):
-        for lane in range(8):
+    n, wide = spans.size, a.shape[1]
+    for first in range(0, n, wide):
+        for lane in range(wide):
             row = min(first + lane, n - 1)
             a[0, lane], a[1, lane], a[2, lane] = states[row, 0], states[row, 1], states[row, 2]
             work[0, lane], work[1, lane], work[2, lane] = abs(spans[row]), 0.0, math.copysign(1.0, spans[row])
         run(given, numbers, a, v, work, steps, False)
-        for lane in range(min(8, n - first)):
+        for lane in range(min(wide, n - first)):
             row = first + lane
             out[row, 0], out[row, 1], out[row, 2] = a[0, lane], a[1, lane], a[2, lane]
             reached[row] = spans[row] if work[5, lane] <= 0.0 else math.copysign(work[1, lane], spans[row])
@@ -179,7 +193,7 @@ def rates_at(c, x, y, z, out):
 
 
 def across(c, states, ahead, row, rate, out):
-    """The part of a row's direction `ahead` across its motion (`way.twins.Twins.start`)."""
+    """The part of a row's direction `ahead` across its motion (`runs.Twins.start`)."""
     speed, largest = rates_at(c, states[row, 0], states[row, 1], states[row, 2], rate)
     out[0], out[1], out[2] = ahead[row, 0], ahead[row, 1], ahead[row, 2]
     if speed > STILL * largest:
@@ -194,7 +208,8 @@ def across(c, states, ahead, row, rate, out):
 
 
 def note(c, start, states, row, change, error, rate, growth, most, ahead, blur):
-    """What became of a change of size 1 (3,): its part across the motion is the growth, the delay a blur (`way.twins.Twins.compare`)."""
+    """What became of a change of size 1 (3,): its part across the motion is the growth, the delay a blur
+    (`runs.Twins.compare`)."""
     first, largest = rates_at(c, start[0], start[1], start[2], rate)
     late = 1.0 / first if first > STILL * largest else 0.0
     speed, largest = rates_at(c, states[row, 0], states[row, 1], states[row, 2], rate)
@@ -215,17 +230,18 @@ def note(c, start, states, row, change, error, rate, growth, most, ahead, blur):
             ahead[row, i] = change[i] / far
 
 
-def advance(coefficients, rows, steps, t_max, pause, step_error, states, clock, growth, most, ahead, blur, done, rounded, starts, given, numbers, a, v,
-            work, rate, change):
-    """Carry rows on by so many steps, or to t_max (to `pause` those before it), and note how a small change of each has grown. done, rounded (n,): steps
-    computed and passed. starts: (8, 3) for work."""
+def advance(coefficients, rows, steps, t_max, pause, step_error, states, clock, growth, most, ahead, blur, met,
+            done, rounded, starts, given, numbers, a, v, work, rate, change):
+    """Carry rows on by so many steps, or to t_max (to `pause` those before it), and note how a small change
+    of each has grown. done, rounded (n,): steps computed and passed; met (2, n): greatest and least |omega|
+    on the way. starts: (m, 3) for work."""
     spread_numbers(coefficients, given)
-    n = rows.size
+    n, wide = rows.size, a.shape[1]
     for row in rows:
         done[row] += steps
         rounded[row] += steps
-    for first in range(0, n, 8):
-        for lane in range(8):
+    for first in range(0, n, wide):
+        for lane in range(wide):
             row = rows[min(first + lane, n - 1)]
             end = min(pause, t_max) if clock[row] < pause else t_max
             across(coefficients, states, ahead, row, rate, change)
@@ -234,19 +250,21 @@ def advance(coefficients, rows, steps, t_max, pause, step_error, states, clock, 
                 v[i, lane] = change[i]
             work[0, lane], work[1, lane], work[2, lane] = max(0.0, end - clock[row]), 0.0, 1.0
         run(given, numbers, a, v, work, steps, True)
-        for lane in range(min(8, n - first)):
+        for lane in range(min(wide, n - first)):
             row = rows[first + lane]
             end = min(pause, t_max) if clock[row] < pause else t_max
             for i in range(3):
                 states[row, i], change[i] = a[i, lane], v[i, lane]
             clock[row] = end if work[5, lane] <= 0.0 else clock[row] + work[1, lane]
+            met[0, row], met[1, row] = math.sqrt(work[6, lane]), math.sqrt(work[7, lane])
             start = starts[lane]
             error = step_error * rounded[row] * math.sqrt(start[0] ** 2 + start[1] ** 2 + start[2] ** 2)
             note(coefficients, start, states, row, change, error, rate, growth, most, ahead, blur)
 
 
-def measure(rows, states, steps, rounded, growth, step_error, condition, reach, largest, least):
-    """Take note of rows (`chase`): condition (n,), reach (n,) of the rounding, largest and least (n, 48) size of the state by doublings of the steps."""
+def measure(rows, states, steps, rounded, growth, met, step_error, condition, reach, largest, least):
+    """Take note of rows (`follow.Chased`): condition (n,), reach (n,) of the rounding, largest and least (n,
+    48) size of the state by doublings of the steps. met (2, n): of `advance`; what it says is used up."""
     for row in rows:
         if growth[row] > condition[row]:
             condition[row] = growth[row]
@@ -257,7 +275,9 @@ def measure(rows, states, steps, rounded, growth, step_error, condition, reach, 
         doubling, left = 0, (1 + steps[row]) >> 1
         while left:
             doubling, left = doubling + 1, left >> 1
-        largest[row, doubling], least[row, doubling] = max(largest[row, doubling], far), min(least[row, doubling], far)
+        largest[row, doubling] = max(largest[row, doubling], far, met[0, row])
+        least[row, doubling] = min(least[row, doubling], far, met[1, row])
+        met[0, row], met[1, row] = 0.0, math.inf
 
 
 def over(rows, states, clock, done, t_max, budget, out):

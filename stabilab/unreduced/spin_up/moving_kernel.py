@@ -1,15 +1,17 @@
 """The certificate about the moving centre in straight loops: the search for A and z of one state.
 
-The same formulas as `certificate` and `moving_centre`, where they are derived. A sum is a table[degree, pair] with the exponents (2, pairs) of
-p^(-a/4) q^(-b/4); powers of p, q and of their greatest ratios come from four rows of a work table, made by multiplication. All in one file:
-numba's cache on disk watches no other.
+The theorem and its inequality are those of `certificate`, the form that of `centres.MovingCentre`. A sum is a
+table[degree, pair] with the exponents (2, pairs) of p^(-a/4) q^(-b/4); powers of p, q and of their greatest
+ratios come from four rows of a work table, made by multiplication. All in one file: numba's cache on disk
+watches no other.
 """
 from __future__ import annotations
 
 import math
 
-SLACK, GROWTH, PASSES, COEFFICIENT = 2.0**-30, 1 + 1e-7, 25, 2.0**-36  # of `certificate`: the tests hold them equal
-CONDITION = 2.0**8 * 2.0**-50  # of `moving_centre`: rounding of p and q over themselves
+# As of `fixed_kernel`; the tests hold them equal
+SLACK, GROWTH, PASSES, COEFFICIENT, BLUR = 2.0**-30, 1 + 1e-7, 25, 2.0**-36, 2.0**-50
+CONDITION = 2.0**8 * BLUR  # rounding of p and q over themselves; 2^-36 in the powers that occur
 MIDDLE = 200  # place of the power 0 in a row
 
 
@@ -36,7 +38,7 @@ def prepare(rows, p, q, a2, a3, reach):
 
 
 def greatest(a, b, rows, a2):
-    """A decreasing bound of the factor from here on."""
+    """A decreasing bound of the factor from here on: of mixed signs, a power of the ratio splits off."""
     if a2 == 0:
         return rows[0, MIDDLE + a] if a >= 0 else math.inf
     if a >= 0 and b >= 0:
@@ -47,7 +49,9 @@ def greatest(a, b, rows, a2):
 
 
 def tail(a, b, rows, a2, a3):
-    """A bound of the integral of the factor over all greater x."""
+    """The least of four bounds of the integral of the factor over all greater x: of factors that both fall,
+    one stays as it is; or a power of the ratio splits off. Infinity where it does not fall faster than
+    1/x."""
     best = math.inf
     if a > 4 and b >= 0:
         best = rows[1, MIDDLE + b] * rows[0, MIDDLE + a - 4] / (a3 * (a / 4 - 1))
@@ -190,21 +194,11 @@ def valid(x, a2, a3, c):
     return p > 0 and q > 0 and p * 256 > a3 * abs(x) + abs(c) and q * 256 > a2 * abs(x) + abs(c) and x > 0
 
 
-def search_all(x, zeta, dx, dz, D1, M1, a2, a3, c, reach, drive, value_e, degrees_e, value_b, degrees_b, pairs_e, e_sums, e_most, pairs_b,
-               b_sums, b_most, pairs_r, r_sums, pairs_k, k_sums, rows, powers, constants, good, out):
-    """`search` for places (n,): good (n,), out (6, n)."""
-    for n in range(x.size):
-        if search(x[n], zeta[n], dx[n], dz[n], D1, M1, a2, a3, c, reach, drive, value_e, degrees_e, value_b, degrees_b, pairs_e, e_sums,
-                  e_most, pairs_b, b_sums, b_most, pairs_r, r_sums, pairs_k, k_sums, rows, powers, constants):
-            good[n] = True
-            for i in range(6):
-                out[i, n] = constants[i]
-
-
 def decide(chosen, states, reach, fired, number, found, basis, frame, D1, M1, a2, a3, c, reach_of_powers, drive, value_e, degrees_e, value_b, degrees_b,
            pairs_e, e_sums, e_most, pairs_b, b_sums, b_most, pairs_r, r_sums, pairs_k, k_sums, rows, powers, constants):
-    """As `kernel.decide`; basis (3, 3), frame (10,): s, wheel, torque, roots, n2, n3, rounding of a double; places as of `moving_centre`."""
-    s, l2, l3, M2, M3, r2, r3, n2, n3, blur = (frame[0], frame[1], frame[2], frame[3], frame[4], frame[5], frame[6], frame[7], frame[8], frame[9])
+    """As `fixed_kernel.decide`; basis (3, 3), frame (9,): s, wheel, torque, roots, n2, n3 of the form."""
+    s, l2, l3, M2, M3 = frame[0], frame[1], frame[2], frame[3], frame[4]
+    r2, r3, n2, n3 = frame[5], frame[6], frame[7], frame[8]
     for n in chosen:
         if fired[n] >= 0:
             continue
@@ -213,7 +207,7 @@ def decide(chosen, states, reach, fired, number, found, basis, frame, D1, M1, a2
         x, y, z = (basis[0, 0] * w1 + basis[0, 1] * w2 + basis[0, 2] * w3, basis[1, 0] * w1 + basis[1, 1] * w2 + basis[1, 2] * w3,
                    basis[2, 0] * w1 + basis[2, 1] * w2 + basis[2, 2] * w3)
         p, q = a3 * x + c, a2 * x + c
-        near = reach[n] + blur * size
+        near = reach[n] + BLUR * size
         if not (x > 0 and p > 0 and q > 0 and near * max(a3 / p, a2 / q) < 1 / 64):
             continue
         rho = math.sqrt(math.sqrt(q / p))

@@ -1,16 +1,41 @@
-"""Eight doubles at a time: what compiled steps of eight motions side by side are written in.
+"""Eight doubles at a time, which compiled code works on, and the door of numba for the kernels of spin-up.
 
-A row of an array (n, 8) is loaded, worked on and stored as one value; lanes never meet, so that the numbers of a motion depend on no neighbour.
-Each operation stands here twice: as NumPy has it, and (`vectors`) as instructions on vectors, which numba does not make of loops by itself. The two
-agree to rounding: x y + z is rounded once in the second. numba's cache on disk watches the kernel's file alone: change both together.
+A row of an array (n, 8) is loaded, worked on and stored as one value; lanes never meet, so that the numbers
+of a motion depend on no neighbour. Each operation stands here twice: as NumPy has it, on rows of any length,
+and (`vectors`) as instructions on vectors, which numba does not make of loops by itself. The two agree to
+rounding: x y + z is rounded once in the second. numba's cache on disk watches the kernel's file alone: change
+both together.
 """
 from __future__ import annotations
 
 from functools import lru_cache
+from types import ModuleType
+from typing import Any
 
 import numpy as np
 
+from ...numbers.numba_door import compiled
+
 WIDE = 8
+INLINED = {"fixed_kernel": {"put", "columns", "total", "falling", "value_of", "blurred", "search"},
+           "moving_kernel": {"greatest"}}
+
+
+def functions(kernel: ModuleType, fast: bool) -> dict[str, Any]:
+    """A kernel's functions by name: compiled, or as they are written."""
+    return compiled_functions(kernel) if fast else vars(kernel)
+
+
+@lru_cache(maxsize=4)
+def compiled_functions(kernel: ModuleType) -> dict[str, Any]:
+    """A kernel's functions by name, compiled; stored on disk where there is a place for it."""
+    name = kernel.__name__.rpartition(".")[2]
+    return compiled(kernel, INLINED.get(name, ()), **vectors() if hasattr(kernel, "load") else {})
+
+
+def loaded() -> bool:
+    """Whether compiled functions are at hand, without loading them."""
+    return bool(compiled_functions.cache_info().currsize)
 
 
 def load(array, row):
@@ -25,7 +50,7 @@ def store(array, row, x):
 
 def spread(number):
     """A number in all lanes."""
-    return np.full(WIDE, number)
+    return number
 
 
 def plus(x, y):

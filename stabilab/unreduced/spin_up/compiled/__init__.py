@@ -1,1 +1,0 @@
-"""The certificate about the fixed centre as loops over dense tables, which numba compiles."""

@@ -1,0 +1,262 @@
+"""Motions carried on over many revolutions at once, where that is less work than step by step: powers of a
+map that is near the identity.
+
+A motion that goes round much faster than it drifts returns to a plane across it near to where it left: x(n + 1) = x(n) + d(x(n)), d small. As
+long as no resonance is felt (what it would make falls faster than any power of d) x(n) lies on a smooth curve, and so does d along it. On a window
+of N revolutions d is taken to be the polynomial in n/N through its values at the `NODES` + 1 Chebyshev points, and x(n) its sum, which the
+formula of Euler and Maclaurin gives exactly for polynomials:
+
+    x(n) = x(0) + sum_(i<n) d(i) = x(0) + int_0^n d - [d]/2 + [d']/12 - [d''']/720 + ...   ([f] = f(n) - f(0)),
+
+so that x at the nodes is a matrix times d at the nodes. The two are solved for each other by turns, which contracts like the drift over the window
+over the number of the turn. The time is summed with the place. What the polynomial leaves out of d is held below the rounding of one
+revolution's steps: by its last coefficients, and by d itself at a place between two nodes.
+
+The map is the return to a section, the surface on which n . omega' = 0: where the motion is at its farthest
+against the unit vector n. A drift of the whole path in space shifts it by its speed over that of going round
+only, so that small circles that drift far stay on it.
+"""
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+from math import factorial
+
+import numpy as np
+
+from .runs import STEP_ERROR, Runs
+
+FROM = 20_000                      # steps that a motion is followed plainly first: to find out that it would not leap takes half as many
+LEAST, FIRST, MOST = 512.0, 1024.0, 2.0**40  # revolutions of a window: fewer are hardly less work than step by step
+AGAIN = 1.6                        # after how many times its steps a motion that would not leap is asked again
+APART = 2.0**-26                   # of a twin, relative: a window of a million revolutions leaves it near
+
+NODES, TURNS = 16, 16
+BERNOULLI = {2: 1 / 6, 4: -1 / 30, 6: 1 / 42, 8: -1 / 30}
+BETWEEN = 0.37  # of the window: the place between nodes that is looked at
+UNIT = 2.0**-52
+
+MOST_STEPS = 500  # that a return may take
+ENDLESS = 1e300
+NEWTON = 6      # corrections of its time by the Taylor series; the last is a formula
+NEAR = 1e-6     # share of a radian, below which that formula errs by less than a unit of rounding
+CLOSED = 2e-2   # a return is told from other passages of the section: it comes so close to its start, as a share of the way round
+
+
+class Returns:
+    """The map of sections to themselves along the motions of `runs`; every row has its own section, all are independent of each other."""
+
+    def __init__(self, runs: Runs):
+        self.runs = runs
+
+    def __call__(self, states, normals, guesses):
+        """(states, times, good): of states (m, 3) on the sections of normals (m, 3), the return that is expected after about guesses (m,)."""
+        good = np.isfinite(guesses) & (guesses > 0) & np.isfinite(states).all(axis=1)
+        times, states = np.where(good, guesses, 0.0), np.where(good[:, None], states, 1.0)
+        places, reached = self.runs.carried(states, times, MOST_STEPS)
+        good &= np.abs(reached - times) <= 1e-9 * times
+        for _ in range(NEWTON):
+            late, turned = self._late(places, normals)
+            good &= np.isfinite(late) & ~(np.abs(late) > 0.3 * times)
+            rows = np.flatnonzero(good & (turned > NEAR))
+            if not rows.size:
+                break
+            places[rows], _ = self.runs.carried(places[rows], -late[rows], MOST_STEPS)
+            times[rows] -= late[rows]
+        late, turned = self._late(places, normals)
+        good &= turned <= NEAR
+        rates = self.runs.rates(places)
+        rates = self.runs.rates(places - 0.5 * late[:, None] * rates)  # the midpoint formula
+        return places - late[:, None] * rates, times - late, good & (np.abs(times / guesses - 1) < 0.5)
+
+    def _late(self, places, normals):
+        """(time since the section was passed, the angle turned since), (m,) each, to first order."""
+        rates = self.runs.rates(places)
+        bend = self.runs.slopes(places, rates)
+        late = (rates * normals).sum(axis=1) / (bend * normals).sum(axis=1)
+        return late, np.abs(late) * np.sqrt((bend**2).sum(axis=1) / (rates**2).sum(axis=1))
+
+    def normals(self, states):
+        """Unit vectors across the motions at states (m, 3), toward where they bend: these states lie on the sections."""
+        rates = self.runs.rates(states)
+        bend = self.runs.slopes(states, rates)
+        bend -= rates * ((bend * rates).sum(axis=1) / (rates**2).sum(axis=1))[:, None]
+        return bend / np.sqrt((bend**2).sum(axis=1))[:, None]
+
+    def on_section(self, states, normals):
+        """The nearest places on the sections: what is off them is rounding, which sums over many revolutions would gather."""
+        for _ in range(2):
+            off = (self.runs.rates(states) * normals).sum(axis=1)
+            up = self.runs.slopes_back(states, normals)
+            states = states - up * (off / (up**2).sum(axis=1))[:, None]
+        return states
+
+    def first(self, states):
+        """(times, steps): of states (m, 3) the first return to their sections, and the steps on the way; nan where none is near."""
+        normals = self.normals(states)
+        times, steps = np.full(len(states), np.nan), np.zeros(len(states), int)
+        places, now, far = states.copy(), np.zeros(len(states)), np.zeros(len(states))
+        before, open_ = np.zeros(len(states)), np.arange(len(states))
+        for number in range(1, MOST_STEPS):
+            places[open_], passed = self.runs.carried(places[open_], np.full(open_.size, ENDLESS), 1)
+            now[open_] += passed
+            gone = places[open_] - states[open_]
+            far[open_] = np.fmax(far[open_], np.sqrt((gone**2).sum(axis=1)))
+            height = (self.runs.rates(places[open_]) * normals[open_]).sum(axis=1)
+            rows = open_[(before[open_] < 0) & (height >= 0)]
+            before[open_] = height
+            if rows.size:
+                late, _ = self._late(places[rows], normals[rows])
+                back, found, good = self(states[rows], normals[rows], now[rows] - late)
+                good &= np.sqrt(((back - states[rows])**2).sum(axis=1)) < CLOSED * far[rows]
+                times[rows[good]], steps[rows[good]] = found[good], number
+                open_ = np.setdiff1d(open_, rows[good])
+            if not open_.size:
+                break
+        return times, steps
+
+
+@dataclass(frozen=True)
+class Window:
+    """states (m, 3), times (m,) passed, periods (m,) of the last return; good (m,); turns (m,) that it took."""
+
+    states: np.ndarray
+    times: np.ndarray
+    periods: np.ndarray
+    good: np.ndarray
+    turns: np.ndarray
+
+
+@lru_cache(maxsize=1)
+def matrices():
+    """(sums, powers, coefficients, between): x(n) - x(0) = sum_k N^powers[k] sums[k] @ d at the nodes; coefficients @ d those of Chebyshev's
+    polynomials; between @ values at the nodes the value at BETWEEN."""
+    from numpy.polynomial import chebyshev
+    places = -np.cos(np.pi * np.arange(NODES + 1) / NODES)
+    values, coefficients = chebyshev.chebvander(places, NODES), np.linalg.inv(chebyshev.chebvander(places, NODES))
+    integral, slope = np.zeros((NODES + 2, NODES + 1)), np.zeros((NODES + 1, NODES + 1))
+    for k, one in enumerate(np.eye(NODES + 1)):
+        up, down = chebyshev.chebint(one, lbnd=-1) / 2, chebyshev.chebder(one) * 2
+        integral[:up.size, k], slope[:down.size, k] = up, down
+    sums = [chebyshev.chebvander(places, NODES + 1) @ integral @ coefficients, -0.5 * _from_start(np.eye(NODES + 1))]
+    sums += [b / factorial(k) * _from_start(values @ np.linalg.matrix_power(slope, k - 1) @ coefficients) for k, b in BERNOULLI.items()]
+    return np.array(sums), np.array([1, 0, *(1 - k for k in BERNOULLI)]), coefficients, chebyshev.chebvander(2 * BETWEEN - 1, NODES) @ coefficients
+
+
+def _from_start(matrix):
+    return matrix - matrix[0]
+
+
+def window(returns: Returns, states, counts, periods, steps) -> Window:
+    """The motions from states (m, 3) after so many revolutions: counts (m,), whole numbers from 16 on. periods (m,): of the first of them; steps
+    (m,): how many a revolution takes. Each row is computed as if alone."""
+    sums, powers, _, _ = matrices()
+    m = len(states)
+    normals, size = returns.normals(states), np.sqrt((states**2).sum(axis=1))
+    matrix = (counts[:, None, None, None] ** powers[:, None, None].astype(float) * sums).sum(axis=1)
+    x = np.zeros((m, NODES + 1, 4))
+    x[:, :, :3] = states[:, None]
+    d, guesses = np.zeros_like(x), np.repeat(periods[:, None], NODES + 1, axis=1)
+    good, turns, open_ = np.zeros(m, bool), np.zeros(m, int), np.arange(m)
+    before = np.full(m, np.inf)
+    for turn in range(1, TURNS + 1):
+        nodes = slice(turn > 1, None)  # the first node stays where it is
+        if turn == 2:  # the faster, the sooner round: good enough to find the return by
+            guesses *= size[:, None] / np.sqrt((x[:, :, :3]**2).sum(axis=2))
+        d[open_, nodes], guesses[open_, nodes], fine = _drift(returns, x[open_, nodes, :3], normals[open_], guesses[open_, nodes])
+        after = x[open_, :1] + matrix[open_] @ d[open_]
+        after[:, 1:, :3] = _projected(returns, after[:, 1:, :3], normals[open_])
+        change = np.abs(after - x[open_])[:, :, :3].max(axis=(1, 2)) / size[open_]
+        x[open_], turns[open_] = after, turn
+        settled = fine & (change <= UNIT * (8 + counts[open_]))
+        good[open_[settled]] = True
+        left = np.log(change / (UNIT * counts[open_])) / np.log(before[open_] / change)  # turns to come, at the pace of the last
+        going = fine & ~settled & ((turn < 3) | (change < 0.5 * before[open_]) & (turn + left < TURNS))
+        before[open_] = change
+        open_ = open_[going]
+        if not open_.size:
+            break
+    good &= _smooth(returns, x, d, normals, guesses, size * UNIT * steps, good)
+    return Window(x[:, -1, :3], x[:, -1, 3], guesses[:, -1], good, turns)
+
+
+def _drift(returns, x, normals, guesses):
+    """(d (m, nodes, 4), times of return, rows where all is well)."""
+    m, nodes = guesses.shape
+    flat = x.reshape(-1, 3)
+    back, times, fine = returns(flat, np.repeat(normals, nodes, axis=0), guesses.ravel())
+    return np.concatenate([back - flat, times[:, None]], axis=1).reshape(m, nodes, 4), times.reshape(m, nodes), fine.reshape(m, nodes).all(axis=1)
+
+
+def _projected(returns, x, normals):
+    return returns.on_section(x.reshape(-1, 3), np.repeat(normals, x.shape[1], axis=0)).reshape(x.shape)
+
+
+def _smooth(returns, x, d, normals, guesses, allowed, good):
+    """Whether the polynomial follows the drift to within `allowed` (m,)."""
+    _, _, coefficients, between = matrices()
+    rows = np.flatnonzero(good)
+    out = np.zeros(len(good), bool)
+    if rows.size:
+        tail = np.abs(coefficients[-3:] @ d[rows])[:, :, :3].max(axis=(1, 2))
+        place, expected = _projected(returns, (between @ x[rows])[:, :, :3], normals[rows]), between @ d[rows]
+        seen, _, fine = _drift(returns, place, normals[rows], guesses[rows, NODES // 2:NODES // 2 + 1])
+        missed = np.abs(seen - expected)[:, 0, :3].max(axis=1)
+        out[rows] = fine & (tail <= allowed[rows]) & (missed <= allowed[rows])
+    return out
+
+
+class Leaps:
+    """The windows of the rows of `runs`: counts (n,) of revolutions of the next, periods (n,), steps (n,) of a revolution."""
+
+    def __init__(self, runs: Runs):
+        n = len(runs.states)
+        self.runs, self.returns = runs, Returns(runs)
+        self.counts, self.periods, self.steps = np.zeros(n), np.full(n, np.nan), np.zeros(n)
+        self.due = np.full(n, FROM)
+
+    def advance(self, rows, t_max: float, pause: float = 0.0):
+        """The rows (of indices) that were carried on, each by one window; the others are left as they are, to go on step by step."""
+        rows = rows[self.runs.steps[rows] >= self.due[rows]]
+        if not rows.size:
+            return rows
+        with np.errstate(all="ignore"):
+            self._find(rows[np.isnan(self.periods[rows])])
+            ends = np.where(self.runs.times[rows] < pause, min(pause, t_max), t_max)
+            counts = np.floor(np.fmin(np.fmin(self.counts[rows], MOST), (ends - self.runs.times[rows]) / self.periods[rows] * 0.9))
+            able = counts >= LEAST
+            done = np.zeros(len(rows), bool)
+            if able.any():
+                done[able] = self._leap(rows[able], counts[able])
+            self._give_up(rows[~done & ((self.counts[rows] < LEAST) | np.isnan(self.periods[rows]) | ~able)])
+        return rows[done]
+
+    def _find(self, rows):
+        """The first return of rows, and a first guess of how many are worth a window."""
+        if not rows.size:
+            return
+        runs = self.runs
+        self.periods[rows], self.steps[rows] = self.returns.first(runs.states[rows])
+        runs.steps[rows] += self.steps[rows].astype(int)
+        self.counts[rows] = np.where(np.isfinite(self.periods[rows]), FIRST, 0.0)
+
+    def _give_up(self, rows):
+        self.periods[rows], self.due[rows] = np.nan, (AGAIN * self.runs.steps[rows]).astype(int)
+
+    def _leap(self, rows, counts):
+        """Which rows went over a window of so many revolutions; the next window's are set for all."""
+        runs, m = self.runs, len(rows)
+        states = runs.states[rows]
+        twins, apart = runs.twins.start(rows, states, APART)
+        found = window(self.returns, np.concatenate([states, twins]), *(np.tile(v, 2) for v in (counts, self.periods[rows], self.steps[rows])))
+        good, turns = found.good[:m] & found.good[m:], found.turns[:m]
+        runs.steps[rows] += (turns * (NODES * self.steps[rows])).astype(int)
+        done, passed, delays = rows[good], found.times[:m][good], (found.times[m:] - found.times[:m])[good]
+        runs.rounded[done] += counts[good] * self.steps[done]
+        runs.states[done], runs.times[done] = found.states[:m][good], runs.times[done] + passed
+        lost = runs.compare(done, states[good], found.states[m:][good], delays, apart[good])
+        runs.twins.growth[done[lost]] = np.inf
+        runs.twins.blur[done] += STEP_ERROR * runs.rounded[done] * passed
+        self.periods[done] = found.periods[:m][good]
+        self.counts[rows] = np.where(good, counts * np.where(turns <= 8, 2.0, np.where(turns <= 11, 1.0, 0.5)), counts / 2)
+        return good
