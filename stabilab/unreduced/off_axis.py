@@ -21,7 +21,7 @@ from ..orbit.result import Fate, Motion, finite, judged, pairs, without_return
 from ..physics.quadratic import rests
 from ..physics.state import three_floats
 from ..physics.states import equilibrium_mask
-from .enclosure.ranges import ranges_until
+from .enclosure.bands import ranges_until
 from .evidence import extremes_over, seen_over, size_words
 from .periodic import in_the_middle
 from .spin_up.follow import LEVELS, SpinUps, spin_up, spin_up_many

@@ -35,7 +35,7 @@ SUBJECTS = {
                 ("orbit/fine/test_rows_of_orbits", "orbit/fine/test_rows_kernel", "orbit/extremes/test_parabola_kernel")),
     "separatrix": (("orbit/separatrix/sheets", "orbit/separatrix/homoclinic", "orbit/separatrix/homoclinic_arrays", "orbit/separatrix/saddles"),
                    ("orbit/separatrix/test_sheets", "orbit/separatrix/test_grid")),
-    "growth": (tuple(f"unreduced/growth/{name}" for name in ("law", "certificates", "run", "steps", "form")),
+    "growth": (tuple(f"unreduced/growth/{name}" for name in ("law", "certificate")),
                ("unreduced/growth/test_law", "unreduced/growth/test_certificates")),
     "balls": (("orbit/ball_orbit", "orbit/fate/balls", "orbit/extremes/balls", "orbit/period/balls", "orbit/fate/tie", "orbit/fate/one_state"),
               ("orbit/fate/test_fate", "orbit/extremes/test_extremes", "orbit/extremes/test_arrays", "orbit/fate/test_one_state",

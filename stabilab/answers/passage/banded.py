@@ -8,7 +8,7 @@ from typing import Any
 from ...numbers.numba_door import installed
 from ...numbers.vectors import Number
 from ...physics.scene import AnyScene
-from ...unreduced.enclosure.crossing import Crossing, first_crossing
+from ...unreduced.enclosure.bands import Crossing, first_crossing
 from .limit import Limit
 
 STEPS = 60_000  # validated ones; some two seconds

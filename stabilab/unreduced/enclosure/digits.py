@@ -1,4 +1,5 @@
-"""The validated steps of `kernel` with a centre of as many bits as are asked for, by python-flint: without a compiler, or farther than doubles reach.
+"""The door of `kernel`, compiled where there is a compiler, and its validated steps with a centre of as many
+bits as are asked for, by python-flint: without a compiler, or farther than doubles reach.
 
 Method, proof and bounds are those of the kernel. The centre and its Taylor coefficients are midpoints of flint's balls; in place of FINE
 stands 2^(20 - bits): a coefficient takes fewer than 4 (N + 10) operations, each within 2^-bits of its size. All else is in doubles, as
@@ -7,18 +8,63 @@ there.
 from __future__ import annotations
 
 from fractions import Fraction
-from math import frexp, ldexp
+from functools import lru_cache
+from math import frexp, ldexp, sqrt
 from operator import mul
 
 import numpy as np
 
 from ...numbers.balls import rational, working
+from ...numbers.numba_door import compiled, installed
 from . import kernel
-from .door import helpers
 from .kernel import COARSE, DONE, ENDLESS, GOING, HALVINGS, LOST, ORDER, WIDER
-from .scene import energy_of, rows_of
 
+INLINED = {"exact_sum", "high_part", "exact_product"}
 GUARD = 20  # bits that the roundings of a coefficient may use up
+
+
+@lru_cache(maxsize=1)
+def functions() -> dict:
+    """The kernel's functions by name, compiled where numba is installed, else as they are."""
+    return compiled(kernel, INLINED) if installed() else vars(kernel)
+
+
+def loaded() -> bool:
+    """Whether the kernel is at hand, without loading it."""
+    return bool(functions.cache_info().currsize)
+
+
+def advance():
+    """`kernel.advance`, compiled; None without numba."""
+    return functions()["advance"] if installed() else None
+
+
+def helpers():
+    """What the steps in many digits take from the kernel."""
+    table = functions()
+    return tuple(table[name] for name in ("judged", "taken_along", "turned", "end_of_variations", "longest"))
+
+
+def twofold(values):
+    """Exact numbers, nested lists of them, as two arrays of doubles whose sum they are to 105 bits."""
+    values = np.array(values, dtype=object)
+    high = np.array([float(v) for v in values.ravel()])
+    low = np.array([float(v - Fraction(h)) for v, h in zip(values.ravel(), high.tolist())])
+    return high.reshape(values.shape), low.reshape(values.shape)
+
+
+def rows_of(own):
+    """(4, 3) exact numbers: kappa, rho, sigma, m of the rates."""
+    form = own.quadratic()
+    return [form.kappa, form.rho, form.sigma, form.m]
+
+
+def energy_of(own):
+    """(4,) roots of the moments, and the greatest rate at which the root of the sum of D omega^2 grows; zeros for scaled variables."""
+    if own.variables == "scaled":
+        return np.zeros(4)
+    D, M = (np.array([float(v) for v in vector]) for vector in (own.body.exact, own.vector("constant_torque")))
+    return np.append(np.sqrt(D), sqrt(float((M * M / D).sum())))
 
 
 class DigitSteps:

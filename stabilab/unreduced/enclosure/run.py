@@ -15,12 +15,11 @@ import numpy as np
 from ...asked import checked_scene
 from ...errors import InputError
 from ...numbers.exact import exact_vector
+from ...numbers.numba_door import installed
 from ...physics.coefficients import effective
 from ..spin_up.certificate import natural
 from . import kernel
-from .digits import DigitSteps
-from .door import advance, available, loaded
-from .scene import energy_of, rows_of, twofold
+from .digits import DigitSteps, advance, energy_of, loaded, rows_of, twofold
 
 STEPS, SLOW_STEPS = 200_000, 2_000  # at most, unless others are asked for: compiled some three seconds, else some ten
 CHUNK = 512  # steps kept at a time between which the band is asked for
@@ -119,7 +118,8 @@ class Course:
         self.t, self.steps, self.status = 0.0, 0, kernel.GOING
         self._end = t_end * self.unit
         self._grain = math.ulp(self._end)
-        self._work = Doubles(own, start, self.unit, plain) if bits is None and available() else DigitSteps(own, start, self.unit, bits or 128)
+        self._work = (Doubles(own, start, self.unit, plain) if bits is None and installed()
+                      else DigitSteps(own, start, self.unit, bits or 128))
 
     def advance(self, t: float, steps: int | None = None, band: bool = False) -> Band | None:
         """Carry the motion on to the time t (taken down to the grain of time), by at most so many steps, at most CHUNK where the band is asked for.

@@ -20,8 +20,7 @@ from ...integrate.extrema import roots_of_rates
 from ...numbers.balls import FIRST_BITS, Unclear, settled
 from ...numbers.vectors import CYCLE
 from ...orbit.extremes.balls import CERTAIN_BITS
-from .certificates import angle_of, spin_up_margin
-from .form import standard_form
+from .certificate import angle_of, spin_up_margin, standard_form
 
 # Steps after which the finite end of a spin-up is given over the span run, unproved beyond it.
 EXTREMES_BUDGET = 300_000

@@ -39,10 +39,9 @@ from ...physics.state import three_floats
 from ...physics.states import three_numbers
 from ..evidence import growth as seen_growth
 from ..evidence import seen_over, span_needed
-from .certificates import angle_of, release_estimate
+from .certificate import (angle_of, growth_law, nearest_other, release_estimate, search_certificate,
+                          standard_form)
 from .extremes import captured_extremes
-from .form import growth_law, standard_form
-from .run import nearest_other, search_certificate
 
 # How long to look where the caller names no time, in the motion's own unit 1/sqrt(g |m|).
 PATIENCE = 1e6

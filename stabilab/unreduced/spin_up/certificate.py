@@ -61,7 +61,8 @@ class Certifier:
 
     def decide(self, rows, states, reach, fired, number, found, fast: bool = False):
         """The test for those of rows that no test has fired for, balls of radius reach (n,) about states (n,
-        3): fired (n,) becomes number, found (6, n) the constants A, z, eta, z_up, eta_up, k of the theorem."""
+        3): fired (n,) becomes number, found (6, n) the constants A, z, eta, z_up, eta_up, k of the
+        theorem."""
         with np.errstate(all="ignore"):  # what overflows is not finite, and certifies nothing
             decide = functions(self.kernel, fast)["decide"]
             decide(rows, states, reach, fired, number, found, *self.numbers, *self.work())

@@ -45,9 +45,10 @@ PLAN = ((1, 0, "often"), (3, 48, "high"), (4, 3000, "all"), (8, LAST, "last"))
 
 @dataclass
 class Chased:
-    """Columns (n,): which test fired (-1 none) as index into `tests.asked`, time, steps, condition, state there; constants (6, n) of it; largest and
-    least (n, 48) size of the state during each doubling of the steps; passed: steps that the way takes one by one;
-    blur: of the time; reach: how far from the state the rounding may have carried the true one."""
+    """Columns (n,): which test fired (-1 none) as index into `tests.asked`, time, steps, condition, state
+    there; constants (6, n) of it; largest and least (n, 48) size of the state during each doubling of the
+    steps; passed: steps that the way takes one by one; blur: of the time; reach: how far from the state the
+    rounding may have carried the true one."""
 
     tests: Tests
     fired: np.ndarray
@@ -118,8 +119,8 @@ def spin_up(scene: AnyScene, state: Any, t_max: float | None = None, budget: int
     scene: gyrostat and constant torque, physical or scaled. state: three rates at t = 0, taken at their word.
     t_max: how long the motion is followed, in the scene's time (None: 1e9 natural units, of the root of mean
     moment over torque); budget: in how many steps (None: 600,000). Slow drifts are run over many revolutions
-    at once (`drift`). after: the inequality is to hold for a state at this time or later: bounds and clocks of
-    a later trap are narrower. proof: enclose the way to the inequality, so that nothing rests on a run in
+    at once (`drift`). after: the inequality is to hold for a state at this time or later: bounds and clocks
+    of a later trap are narrower. proof: enclose the way to the inequality, so that nothing rests on a run in
     machine precision: level "proved" where that succeeds. A state of Fractions or of decimals in strings is
     then taken exactly. tell(time, steps, motions left): called on the way. fast: True for loops compiled by
     numba, False for the same loops as they are written, None for whichever is sooner: numba is loaded for

@@ -52,8 +52,8 @@ class Runs:
         twins, work = self.twins, self._work(len(rows))
         changes = twins.growth, twins.most, twins.ahead, twins.blur
         starts = np.empty((work[0].shape[1], 3))
-        self._call("advance", self.coefficients, rows, steps, t_max, pause, STEP_ERROR, self.states, self.times,
-                   *changes, self.met, self.steps, self.rounded, starts, *work, *np.empty((2, 3)))
+        self._call("advance", self.coefficients, rows, steps, t_max, pause, STEP_ERROR, self.states,
+                   self.times, *changes, self.met, self.steps, self.rounded, starts, *work, *np.empty((2, 3)))
 
     def carried(self, states, spans, most: int):
         """(states, times) of motions from states (m, 3) after spans (m,) of time, forth or back, or after the most steps."""

@@ -230,8 +230,8 @@ def note(c, start, states, row, change, error, rate, growth, most, ahead, blur):
             ahead[row, i] = change[i] / far
 
 
-def advance(coefficients, rows, steps, t_max, pause, step_error, states, clock, growth, most, ahead, blur, met,
-            done, rounded, starts, given, numbers, a, v, work, rate, change):
+def advance(coefficients, rows, steps, t_max, pause, step_error, states, clock, growth, most, ahead, blur,
+            met, done, rounded, starts, given, numbers, a, v, work, rate, change):
     """Carry rows on by so many steps, or to t_max (to `pause` those before it), and note how a small change
     of each has grown. done, rounded (n,): steps computed and passed; met (2, n): greatest and least |omega|
     on the way. starts: (m, 3) for work."""

@@ -12,7 +12,7 @@ from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene
 from stabilab.errors import InputError
 from stabilab.numbers.numba_door import installed
 from stabilab.unreduced.enclosure import kernel
-from stabilab.unreduced.enclosure.door import functions
+from stabilab.unreduced.enclosure.digits import functions
 from stabilab.unreduced.enclosure.run import Course, enclose
 
 from ..spin_up.scenes import EXAMPLE, random_scene, sphere
@@ -154,7 +154,8 @@ def test_what_is_no_start_or_time_is_refused():
 
 
 def test_without_a_compiler_the_steps_are_those_of_many_bits(monkeypatch):
-    monkeypatch.setattr("stabilab.unreduced.enclosure.door.installed", lambda: False)
+    for module in ("digits", "run"):
+        monkeypatch.setattr(f"stabilab.unreduced.enclosure.{module}.installed", lambda: False)
     functions.cache_clear()
     try:
         worst, found = holds(EXAMPLE, (.1, 1, 2), 1.0, random.Random(2))

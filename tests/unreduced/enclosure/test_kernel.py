@@ -8,8 +8,7 @@ import pytest
 
 from stabilab.numbers.numba_door import installed
 from stabilab.unreduced.enclosure import kernel
-from stabilab.unreduced.enclosure.door import functions
-from stabilab.unreduced.enclosure.scene import twofold
+from stabilab.unreduced.enclosure.digits import functions, twofold
 
 
 @pytest.mark.skipif(not installed(), reason="nothing is compiled without numba")

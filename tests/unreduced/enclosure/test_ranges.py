@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from stabilab.answers.motion import motion
-from stabilab.unreduced.enclosure.ranges import ranges, ranges_until
+from stabilab.unreduced.enclosure.bands import ranges, ranges_until
 from stabilab.unreduced.enclosure.run import Band, Course
 
 from ..spin_up.scenes import EXAMPLE, random_scene, rates_of, run, sphere

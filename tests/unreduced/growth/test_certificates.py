@@ -11,9 +11,8 @@ import pytest
 
 from stabilab import Body, ConstantTorque, Fate, Gyrostat, ScaledGyrostat, Scene
 from stabilab.answers.trajectory import trajectory
-from stabilab.unreduced.growth import certificates as growth_certificates
-from stabilab.unreduced.growth import steps as growth_steps
-from stabilab.unreduced.growth.certificates import spin_up_margin, well_margin
+from stabilab.unreduced.growth.certificate import (release_estimate, runner, search_certificate, spin_up_margin,
+                                                   well_margin)
 from stabilab.unreduced.growth.extremes import captured_extremes
 from stabilab.unreduced.growth.law import captured_fate
 
@@ -66,7 +65,7 @@ def test_the_margin_of_a_spin_up_is_that_of_the_proof(c, y):
                                         (2.0, -5.0, 0.0), (2.0, -3.5, 0.125)])
 def test_a_capture_is_over_when_the_barrier_has_vanished(c, J, time):
     """J falls by 2c a unit of time: to 2 for small c, else to -c^2."""
-    assert growth_certificates.release_estimate(c, J) == time
+    assert release_estimate(c, J) == time
 
 
 @pytest.mark.parametrize("sign", [-1, 1])
@@ -91,7 +90,7 @@ def test_the_last_reversal_of_the_turn_is_the_same_by_both_steppers(state, turns
     found = []
     for available in (True, False):
         monkeypatch.setattr("stabilab.integrate.to_heyoka.heyoka_available", lambda: available)
-        run, last = growth_steps.runner(0.3, state), None
+        run, last = runner(0.3, state), None
         for t in (1.0, 2.5, 6.0):
             reached, y, reversal, steps = run(t, 10**6)
             assert reached == t and steps > 0
@@ -149,3 +148,7 @@ def test_pure_spin_is_told_on_every_axis_and_by_the_state_as_it_was_given(axis):
     trace = [Fraction(v) for v in unit]
     trace[axis - 1] = Fraction(1, 10**400)
     assert captured_fate(scene, unit, t_max=1.0, exact=trace).certificate != "axis"
+
+
+def test_rates_beyond_doubles_get_no_certificate_of_a_capture():
+    assert search_certificate(-1.0, (1e200, 1e200, 1e200), 1.0)[:2] == ("none", None)

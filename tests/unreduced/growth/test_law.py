@@ -10,9 +10,9 @@ import stabilab
 from stabilab import Body, ConstantTorque, Fate, Gyrostat, ScaledGyrostat, Scene
 from stabilab.answers.trajectory import trajectory
 from stabilab.errors import InputError
-from stabilab.unreduced.growth.certificates import certificate, spin_up_margin, well_margin
+from stabilab.unreduced.growth.certificate import (certificate, growth_law, spin_up_margin, standard_form,
+                                                   well_margin)
 from stabilab.unreduced.growth.extremes import captured_extremes
-from stabilab.unreduced.growth.form import growth_law, standard_form
 from stabilab.unreduced.growth.law import captured_fate
 
 heyoka = pytest.importorskip("heyoka")

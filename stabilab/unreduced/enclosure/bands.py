@@ -1,9 +1,18 @@
-"""When a rate, or a sum of squares of rates, first reaches a limit: enclosed, however long the way.
+"""What the bands of validated steps say: when a rate, or a sum of squares of rates, first reaches a limit,
+and bounds of the rates over a whole span.
 
-During each step the quantity lies within a radius of a polynomial, which lies between its least and greatest Bernstein coefficient. A step that stays below
-the limit is passed; the first that may reach it is halved, left half first, until a piece too short to halve cannot be told from one that reaches
-it: there the time begins. It ends at the first of some points beyond at which the limit is surely reached. Halving takes means of coefficients
-(de Casteljau), so what rounding adds in all is less than HALVINGS (2 N + 1) 2^-53 < 2^-40 of the greatest of them.
+A polynomial on [0, 1] lies between the least and the greatest of its Bernstein coefficients, which are
+positive sums of those of its powers.
+
+First crossing. During each step the quantity lies within a radius of a polynomial, and so within that of
+Bernstein coefficients. A step that stays below the limit is passed; the first that may reach it is halved,
+left half first, until a piece too short to halve cannot be told from one that reaches it: there the time
+begins. It ends at the first of some points beyond at which the limit is surely reached. Halving takes means
+of coefficients (de Casteljau), so what rounding adds in all is less than HALVINGS (2 N + 1) 2^-53 < 2^-40 of
+the greatest of them.
+
+Ranges. Each step is cut into PIECES of equal length; a coefficient formed in doubles errs by less than 2^-44
+of the sum of sizes.
 """
 from __future__ import annotations
 
@@ -16,12 +25,13 @@ import numpy as np
 from ...errors import InputError
 from ..spin_up.certificate import natural
 from . import kernel
-from .run import WHY, Course, allowed
+from .run import WHY, Band, Course, allowed
 
 HALVINGS = 40  # of a step
 FAR = 2.0**24  # natural units of time: beyond what any number of steps reaches
 BLUR = 2.0**-40
 ROOT = 2.0**-50  # of the limit's square: the limit may itself be a rounded root
+PIECES = 8
 POINTS = 16  # of a step beyond the one in which the limit may first be reached
 
 
@@ -113,3 +123,33 @@ def _first_open(values, over, a, b):
         right.append(row[-1])
     found = _first_open(np.array(left), over, a, middle)
     return _first_open(np.array(right[::-1]), over, middle, b) if found is None else found
+
+
+@lru_cache(maxsize=1)
+def _to_bernstein():
+    """(PIECES (N + 1), N + 1): powers of x on [0, 1] to Bernstein coefficients on each piece; entries are not negative and at most 1."""
+    n = kernel.ORDER
+    bernstein, rows = _bernstein(n), []
+    for piece in range(PIECES):
+        shifted = np.array([[math.comb(k, m) * (piece / PIECES) ** (k - m) / PIECES**m if m <= k else 0.0 for k in range(n + 1)] for m in range(n + 1)])
+        rows.append(bernstein @ shifted)
+    return np.concatenate(rows)
+
+
+def ranges(band: Band) -> np.ndarray:
+    """(3, 2) least and greatest that each rate may have during the steps of a band."""
+    values = band.polynomials @ _to_bernstein().T
+    blur = (band.radii + 2.0**-44 * np.abs(band.polynomials).sum(axis=2)) * (1 + 2.0**-30)
+    return np.stack([(values.min(axis=2) - blur).min(axis=0), (values.max(axis=2) + blur).max(axis=0)], axis=1)
+
+
+def ranges_until(scene, state, t: float, steps: int | None = None) -> np.ndarray | None:
+    """(3, 2) bounds of each rate over [0, t]; None where the steps do not reach. Arguments as of `run.enclose`."""
+    course, out = Course(scene, state, t), np.array([[math.inf, -math.inf]] * 3)
+    steps = allowed(course.bits) if steps is None else steps
+    while course.status == kernel.GOING and course.steps < steps:
+        band = course.advance(t, steps - course.steps, band=True)
+        if band is not None:
+            found = ranges(band)
+            out = np.stack([np.minimum(out[:, 0], found[:, 0]), np.maximum(out[:, 1], found[:, 1])], axis=1)
+    return out if course.status == kernel.DONE else None
