@@ -39,8 +39,7 @@ from ...physics.state import three_floats
 from ...physics.states import three_numbers
 from ..evidence import growth as seen_growth
 from ..evidence import seen_over, span_needed
-from .certificate import (angle_of, growth_law, nearest_other, release_estimate, search_certificate,
-                          standard_form)
+from .certificate import angle_of, growth_law, nearest_other, release_estimate, search_certificate, standard_form
 from .extremes import captured_extremes
 
 # How long to look where the caller names no time, in the motion's own unit 1/sqrt(g |m|).

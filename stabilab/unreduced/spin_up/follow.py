@@ -28,14 +28,15 @@ from ..enclosure.proof import proved
 from .cause import island_words, recurs, seen
 from .certificate import Tests, natural, tests_of
 from .drift import Leaps
-from .lanes import WIDE, loaded
+from .lanes import loaded, stored
 from .result import SpinUp, Trap
 from .runs import Runs
 from .symmetric import exactly
 
 NATURAL_TIMES, BUDGET = 1e9, 600_000
 FARTHEST = 1e150  # natural units: a run in doubles holds no squares of larger rates
-PLAIN, QUESTIONS = 100, 8  # steps, and questions of a process, before numba is loaded (`_plain_steps`)
+# Steps, states and questions of a process that take as long as loading compiled code; compiling takes so many times as long
+PLAIN, STATES, QUESTIONS, COMPILING = 100, 8, 8, 10
 LEVELS = ("undecided", "certified", "exact", "proved")
 FIRST, EARLY, SHARES, MOST = 4, 600, (0.25, 0.1), 2000  # steps between tests: a share of those before (early, later), at least and at most so many
 # Which tests a stage asks: (every so many stages, from so many steps on, name in `Tests`), the last that applies. What costs more comes later.
@@ -148,14 +149,14 @@ def spin_up(scene: AnyScene, state: Any, t_max: float | None = None, budget: int
 
 
 def _plain_steps(n: int, fast: bool | None, proof: bool = False) -> float:
-    """How many steps of n motions are taken by loops as they are written. Loading numba takes as long as
-    PLAIN steps of a few motions: it is loaded at once for more of them, for a proof, and where this process
-    has asked more than a few questions."""
+    """How many steps of n motions are taken by loops as they are written: as long as compiled ones are not to be
+    had sooner, so that an answer takes at most twice the time of the quicker. proof: loads numba anyway."""
+    patience = 1 if loaded() or stored() else COMPILING
     asked = tests_of.cache_info()
-    soon = loaded() or proof or asked.hits + asked.misses > QUESTIONS
-    if wanted(n, fast, soon, WIDE + 1, 1):
+    soon = loaded() or proof or asked.hits + asked.misses > QUESTIONS * patience
+    if wanted(n, fast, soon, STATES * patience + 1, 1):
         return 0
-    return PLAIN if fast is None and installed() else math.inf
+    return PLAIN * patience if fast is None and installed() else math.inf
 
 
 def kept_by_law(scene: AnyScene, state: tuple[float, ...], answer: SpinUp) -> SpinUp:

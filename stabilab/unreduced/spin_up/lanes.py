@@ -9,6 +9,7 @@ both together.
 from __future__ import annotations
 
 from functools import lru_cache
+from pathlib import Path
 from types import ModuleType
 from typing import Any
 
@@ -36,6 +37,11 @@ def compiled_functions(kernel: ModuleType) -> dict[str, Any]:
 def loaded() -> bool:
     """Whether compiled functions are at hand, without loading them."""
     return bool(compiled_functions.cache_info().currsize)
+
+
+def stored() -> bool:
+    """Whether an earlier process left compiled steps beside the sources, where numba puts them unless told otherwise."""
+    return any(Path(__file__).with_name("__pycache__").glob("steps.advance-*.nbi"))
 
 
 def load(array, row):

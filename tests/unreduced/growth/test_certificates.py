@@ -11,8 +11,7 @@ import pytest
 
 from stabilab import Body, ConstantTorque, Fate, Gyrostat, ScaledGyrostat, Scene
 from stabilab.answers.trajectory import trajectory
-from stabilab.unreduced.growth.certificate import (release_estimate, runner, search_certificate, spin_up_margin,
-                                                   well_margin)
+from stabilab.unreduced.growth.certificate import release_estimate, runner, search_certificate, spin_up_margin, well_margin
 from stabilab.unreduced.growth.extremes import captured_extremes
 from stabilab.unreduced.growth.law import captured_fate
 
