@@ -6,16 +6,15 @@ import numpy as np
 from stabilab import extremes, fate
 
 from .contestants import EventExtremes
-from .rows import SCENE, A, B, Row, each, numba_available, random_states
+from .rows import SCENE, A, B, Row, each, random_states
 from .timing import side_by_side
+
+WANTED = 20  # times as fast as heyoka with events
 
 
 def rows(small=False) -> list[Row]:
-    sizes = (100, 5, 2) if small else (20_000, 400, 7)
-    found = [against_events(*sizes)]
-    if numba_available():
-        found.append(against_events(*(sizes if small else (1_000_000, 4000, 7)), fast=True))
-    found.append(against_scipy(*((100, 2, 2) if small else (20_000, 10, 7)), fast=numba_available()))
+    found = [against_events(*((100, 5, 2) if small else (200_000, 4000, 7)))]
+    found.append(against_scipy(*((100, 2, 2) if small else (20_000, 10, 7))))
     found.append(beside_the_separatrix(2 if small else 40))
     return found
 
@@ -26,16 +25,16 @@ def bounded_states(size):
     return states[fate(SCENE, states).margins > 1e-3][:size]
 
 
-def against_events(size=20_000, sample=400, rounds=7, fast=False) -> Row:
+def against_events(size=20_000, sample=400, rounds=7) -> Row:
     """Extremes of bounded orbits against heyoka with events at the roots of the rates."""
     states = bounded_states(size)
     part = states[:sample]
     events = EventExtremes(A, B)
-    timed = side_by_side(lambda: extremes(SCENE, states, fast=fast), lambda: events(part), len(states), len(part), rounds)
-    difference = np.abs(extremes(SCENE, part, fast=fast) - events(part)).max() / np.abs(part).max()
-    return Row(f"extremes of {len(states)} orbits, {'numba' if fast else 'NumPy'}", each(timed.ours),
+    timed = side_by_side(lambda: extremes(SCENE, states), lambda: events(part), len(states), len(part), rounds)
+    difference = np.abs(extremes(SCENE, part) - events(part)).max() / np.abs(part).max()
+    return Row(f"extremes of {len(states)} orbits", each(timed.ours),
                f"{each(timed.theirs)} heyoka with events", timed.ratio, (timed.low, timed.high),
-               f"largest relative difference {difference:.1e}", wanted=40 if fast else 9)
+               f"largest relative difference {difference:.1e}", wanted=WANTED)
 
 
 class SciPyEvents:
@@ -67,16 +66,15 @@ class SciPyEvents:
         return boxes, periods
 
 
-def against_scipy(size, sample, rounds, fast) -> Row:
+def against_scipy(size, sample, rounds) -> Row:
     """Extremes of bounded orbits against SciPy with events."""
     states = bounded_states(size)
     part = states[:sample]
     events = SciPyEvents(A, B)
-    timed = side_by_side(lambda: extremes(SCENE, states, fast=fast), lambda: events(part), len(states), len(part), rounds)
+    timed = side_by_side(lambda: extremes(SCENE, states), lambda: events(part), len(states), len(part), rounds)
     best = EventExtremes(A, B)(part)
-    ours, theirs = (np.abs(box - best).max() / np.abs(part).max() for box in (extremes(SCENE, part, fast=fast),
-                                                                              events(part)[0]))
-    return Row(f"extremes of {len(states)} orbits, {'numba' if fast else 'NumPy'}", each(timed.ours),
+    ours, theirs = (np.abs(box - best).max() / np.abs(part).max() for box in (extremes(SCENE, part), events(part)[0]))
+    return Row(f"extremes of {len(states)} orbits", each(timed.ours),
                f"{each(timed.theirs)} SciPy DOP853 with events", timed.ratio, (timed.low, timed.high),
                f"differs from heyoka by {ours:.1e}, SciPy (1e-12) by {theirs:.1e}", wanted=8000)
 
@@ -103,7 +101,7 @@ def beside_the_separatrix(count) -> Row:
     for decade in (3, 6, 9, 12, 15):
         part = brink(10.0**-decade, count)
         part = part[fate(SCENE, part).labels == 0]
-        got, periods = extremes_and_periods(SCENE, part, fast=True if numba_available() else None)
+        got, periods = extremes_and_periods(SCENE, part, by_numba=True)
         exact = np.array([precise_extremes(Orbit(r, state), 0) for state in part])
         spans = np.array([precise_period(Orbit(r, state), 0) for state in part])
         boxes_off.append((np.abs(got - exact).max(axis=2) / np.abs(exact).max(axis=2)).max())

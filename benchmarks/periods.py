@@ -8,58 +8,49 @@ from stabilab.orbit.extremes_and_periods import extremes_and_periods
 
 from .contestants import EventExtremes, TurningTimes
 from .orbit_extremes import SciPyEvents, bounded_states
-from .rows import SCENE, A, B, Row, each, numba_available
+from .rows import SCENE, A, B, Row, each
 from .timing import side_by_side
 
-WANTED = {False: 9, True: 40}
+ALONE, TOGETHER = 8, 13  # times as fast as heyoka
 
 
 def rows(small=False) -> list[Row]:
-    sizes = (100, 5, 2) if small else (20_000, 400, 7)
-    found = [alone(*sizes, fast=False), together(*sizes, fast=False)]
-    if numba_available():
-        sizes = sizes if small else (1_000_000, 4000, 7)
-        found += [alone(*sizes, fast=True), together(*sizes, fast=True)]
-    found.append(against_scipy(*((100, 2, 2) if small else (20_000, 10, 7)), fast=numba_available()))
-    return found
+    sizes = (100, 5, 2) if small else (200_000, 4000, 7)
+    return [alone(*sizes), together(*sizes), against_scipy(*((100, 2, 2) if small else (20_000, 10, 7)))]
 
 
-def method(fast) -> str:
-    return "numba" if fast else "NumPy"
-
-
-def alone(size, sample, rounds, fast) -> Row:
+def alone(size, sample, rounds) -> Row:
     """Periods against heyoka with one event, at the reversals of the turn."""
     states = bounded_states(size)
     part, events = states[:sample], TurningTimes(SCENE)
-    timed = side_by_side(lambda: period(SCENE, states, fast=fast), lambda: events(part), len(states), len(part), rounds)
-    off = np.abs(period(SCENE, part, fast=fast) / events(part) - 1).max()
-    return Row(f"periods of {len(states)} orbits, {method(fast)}", each(timed.ours),
+    timed = side_by_side(lambda: period(SCENE, states), lambda: events(part), len(states), len(part), rounds)
+    off = np.abs(period(SCENE, part) / events(part) - 1).max()
+    return Row(f"periods of {len(states)} orbits", each(timed.ours),
                f"{each(timed.theirs)} heyoka with events at the turns only", timed.ratio, (timed.low, timed.high),
-               f"largest relative difference {off:.1e}", wanted=WANTED[fast],
+               f"largest relative difference {off:.1e}", wanted=ALONE,
                note="the fair control: heyoka places the turns only, three times cheaper than all extremes; the sum over"
                     " 16 or more nodes is what limits it")
 
 
-def together(size, sample, rounds, fast) -> Row:
+def together(size, sample, rounds) -> Row:
     """Extremes and periods in one go against heyoka with events at the roots of the rates, whose run shows both."""
     states = bounded_states(size)
     part, events, turns = states[:sample], EventExtremes(A, B), TurningTimes(SCENE)
-    timed = side_by_side(lambda: extremes_and_periods(SCENE, states, fast), lambda: events(part), len(states), len(part), rounds)
-    boxes, periods = extremes_and_periods(SCENE, part, fast)
+    timed = side_by_side(lambda: extremes_and_periods(SCENE, states), lambda: events(part), len(states), len(part), rounds)
+    boxes, periods = extremes_and_periods(SCENE, part)
     off = max(np.abs(boxes - events(part)).max() / np.abs(part).max(), np.abs(periods / turns(part) - 1).max())
-    return Row(f"extremes and periods of {len(states)} orbits, {method(fast)}", each(timed.ours),
+    return Row(f"extremes and periods of {len(states)} orbits", each(timed.ours),
                f"{each(timed.theirs)} heyoka with events", timed.ratio, (timed.low, timed.high),
-               f"largest relative difference {off:.1e}", wanted=WANTED[fast])
+               f"largest relative difference {off:.1e}", wanted=TOGETHER)
 
 
-def against_scipy(size, sample, rounds, fast) -> Row:
+def against_scipy(size, sample, rounds) -> Row:
     """Extremes and periods against SciPy with events, stopped at the end of a period."""
     states = bounded_states(size)
     part, events = states[:sample], SciPyEvents(A, B)
-    timed = side_by_side(lambda: extremes_and_periods(SCENE, states, fast), lambda: events(part), len(states), len(part), rounds)
+    timed = side_by_side(lambda: extremes_and_periods(SCENE, states), lambda: events(part), len(states), len(part), rounds)
     exact = TurningTimes(SCENE)(part)
-    ours, theirs = (np.abs(periods / exact - 1).max() for periods in (period(SCENE, part, fast=fast), events(part)[1]))
-    return Row(f"extremes and periods of {len(states)} orbits, {method(fast)}", each(timed.ours),
+    ours, theirs = (np.abs(periods / exact - 1).max() for periods in (period(SCENE, part), events(part)[1]))
+    return Row(f"extremes and periods of {len(states)} orbits", each(timed.ours),
                f"{each(timed.theirs)} SciPy DOP853 with events", timed.ratio, (timed.low, timed.high),
                f"periods differ from heyoka's by {ours:.1e}, SciPy's (1e-12) by {theirs:.1e}", wanted=8000)

@@ -31,7 +31,7 @@ ROUNDS = 3
 PATIENCE = 1.5      # s for a call: of slower questions fewer states are asked
 LONG = 0.05         # s
 CELLS = 256         # of Flying Edges along each side
-WANTED = {"fate, NumPy": 100, "fate, numba": 400, "extremes, NumPy": 5, "extremes, numba": 5, "period, NumPy": 2, "period, numba": 2,
+WANTED = {"fate, NumPy": 100, "fate, numba": 400, "extremes": 5, "period": 2,
           "separatrix surfaces": 5}
 
 
@@ -114,9 +114,8 @@ def _scene(one: Drawn, small, told):
     if len(part) > 3:
         for question, ask, other in (("extremes", extremes, SceneEvents(scene)), ("period", period, TurningTimes(scene))):
             theirs = _pace(other, part, rounds)
-            for way in ways():
-                ours = _patient(lambda x, ask=ask, way=way: ask(scene, x, fast=way == "numba"), held, rounds)
-                found.append(Measured(f"{question}, {way}", name, ours, theirs))
+            ours = _patient(lambda x, ask=ask: ask(scene, x), held, rounds)
+            found.append(Measured(question, name, ours, theirs))
     found += _surface(scene, name, rounds, 24 if small else CELLS)
     if told:
         print(one.number, one.kind, ", ".join(f"{m.question} {_time(m.ours)} ({m.ratio:.3g})" for m in found), file=told, flush=True)

@@ -24,8 +24,7 @@ def extremes(scene: Any, states: ArrayLike | None = None, span: Any = None, digi
     `span`, a time, or two (from, to): their extremes hold from the start, at time 0, to its end. Without it they have bounds
     for all t >= 0 where spin-up is certified (follow: as of `fate`) and NaN elsewhere, InputError where no state has any.
     digits (1 to 50): reach so many and check them (ToleranceNotMet otherwise); without it eleven, by the formulas' own
-    bound. fast: whether numba may compile the work; None where it is installed and pays. Raises InputError
-    as `fate` does, and where fast=True finds no numba.
+    bound. fast: under a torque off the axes, as of `fate`; of no effect elsewhere. Raises InputError as `fate` does.
     """
     span = scene.span if span is None and states is None and is_case(scene) else span
     span, (scene, states) = reach_of(checked_span(span)), scene_and_state(scene, states)

@@ -4,7 +4,6 @@ Times are the fastest of a few runs, warmed up; errors, nodes and bits are count
 """
 from __future__ import annotations
 
-import inspect
 import math
 import time
 from dataclasses import dataclass
@@ -17,15 +16,13 @@ from ..answers.fate import fate
 from ..integrate.reference import WORK, one_run, pairs, relative_errors
 from ..integrate.taylor_digits import Recursion
 from ..numbers.balls import Unclear, sign, working
+from ..numbers.numba_door import installed
 from ..orbit.ball_geometry import ball_orbit
 from ..orbit.ball_orbit import Orbit
-from ..orbit.extremes.balls import extreme_balls
-from ..orbit.extremes.turning_points import interval
+from ..orbit.extremes.balls import extreme_balls, turning_points
 from ..orbit.fate.balls import precise_margin
 from ..orbit.landscape import landscape
 from ..orbit.period.balls import period_ball, precise_period
-from ..orbit.period.modes import modes_of
-from ..orbit.period.rules import inverse_speed
 from ..orbit.result import Fate
 from .accuracy import precision
 
@@ -74,25 +71,24 @@ def _timed(call, most=30):
 
 def with_states(case, full: bool = False, tell=lambda words: None) -> list[Growth]:
     """Fate, extremes and period of random states (seeded) about the case's own: 1e2 to 1e7 for the fate (1e6 unless full), to 1e5
-    for the others (1e4 unless full); by NumPy, and by numba where it is installed and serves the question."""
+    for the others (1e4 unless full); fates by NumPy, and by numba where it is installed."""
     found = []
     for question, (first, last) in STATES.items():
         for decade in range(first, (last if full else min(last - 1, REPORT_DECADE)) + 1):
             tell(f"{question} of 1e{decade} states")
             states = np.random.default_rng(SEED).normal(size=(10**decade, 3)) * SPREAD + np.asarray(case.state)
-            for engine, options in engines(_FUNCTIONS[question]()):
+            for engine, options in engines(question):
                 answer, seconds, repeats = _timed(partial(_FUNCTIONS[question](), case.scene, states, **options))
                 precise = (int(answer.precise), "states in balls") if question == "fate" else (None, "")
                 found.append(Growth("states", question, engine, len(states), seconds, repeats, *precise))
     return found
 
 
-def engines(function) -> list[tuple[str, dict]]:
-    """(name, keywords) of the ways in which an array function computes here."""
-    from importlib.util import find_spec
-    if "fast" not in inspect.signature(function).parameters:
-        return [("NumPy", {})]
-    return [("NumPy", {"fast": False})] + ([("numba", {"fast": True})] if find_spec("numba") else [])
+def engines(question) -> list[tuple[str, dict]]:
+    """(name, keywords) of the ways in which a question about many states is answered here."""
+    if question != "fate":
+        return [("row by row", {})]
+    return [("NumPy", {"fast": False})] + ([("numba", {"fast": True})] if installed() else [])
 
 
 def _fate():
@@ -204,13 +200,21 @@ def bits_needed(scene, state) -> int | None:
 def nodes_needed(scene, state) -> int | None:
     """Nodes of the midpoint rule, doubled until the period has NODE_DIGITS digits of that in balls; None where rounding forbids it."""
     land = landscape(scene)
-    exact = precise_period(Orbit(land.reduction, state), Fate.BOUNDED)
-    place, w, _ = land.start(np.asarray(state, float)[None])
-    span = interval(land, place, w)
-    modes, nodes = modes_of(land, span.middle), 4
+    orbit, nodes = Orbit(land.reduction, state), 4
+    exact = precise_period(orbit, Fate.BOUNDED)
+
+    def ends(one):
+        found = turning_points(one)
+        return 0.5 * float(found[1] - found[0]), *(one.doubles_at(y) for y in found)
+    half, *places = orbit.settled(ends)
+    forces = [land.potential.force(place) for place in places]
     while nodes <= MOST_NODES:
-        phi = (np.arange(nodes) + 0.5) * (np.pi / nodes)
-        total = float(inverse_speed(modes, span.half, np.sin(0.5 * phi) ** 2, np.cos(0.5 * phi) ** 2).sum()) * 2 * np.pi / nodes
+        phi = (np.arange(nodes // 2) + 0.5) * (np.pi / nodes)
+        way, total = 2 * half * np.sin(0.5 * phi) ** 2, 0.0
+        for place, force, y in zip(places, forces, (way, -way)):  # E - V is told from the nearer end
+            twice = -2 * land.potential.rise(y, place, force)
+            with np.errstate(invalid="ignore"):
+                total += 2 * float((half * np.sin(phi) / np.sqrt(twice)).sum()) * np.pi / nodes
         if abs(total - exact) <= 10.0**-NODE_DIGITS * exact:
             return nodes
         nodes *= 2

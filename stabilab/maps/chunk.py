@@ -27,7 +27,7 @@ from .columns import ENDLESS, LEVELS, LIMIT_LEVELS, NO_CASE, NONE, OPEN, record
 from .plan import Chunk, Plan
 from .points import case_of, states_of
 
-COMPILED = 20_000  # states for which loading numba's code pays
+COMPILED = 200  # states for which loading numba's code pays: half a second, of librations in plain Python
 POINTED_WORK = 100_000  # multiplications for the proof of a time in an atlas: it leaves long motions to compiled steps, which prove them sooner
 NO_CASE_VALUES = {"fate": NO_CASE, "level": -1, "reason": -1, "when_level": -1, "chaos": -1, "equilibria": NONE, "stable": NONE, "unstable": NONE, "open": NONE}
 
@@ -118,11 +118,10 @@ def _chaos(plan: Plan, case: Case, states: np.ndarray, out: np.ndarray) -> None:
 
 def _extremes_and_periods(case: Case, states: np.ndarray, box: bool, times: bool) -> tuple[np.ndarray | None, np.ndarray | None]:
     """(extremes or None, periods or None). Whether numba serves hangs on the number of states alone, not on what this process did before: its last
-    digits are not NumPy's."""
-    fast = (len(states) >= COMPILED and installed()) or None
+    digits are not those of plain Python."""
     kind = kind_of(effective(case.scene))
     if kind == "orbit":
-        return extremes_and_periods(case.scene, states, fast, box=box, period=times)
+        return extremes_and_periods(case.scene, states, box=box, period=times, by_numba=len(states) >= COMPILED)
     return _extremes(case, states, KINDS[kind].follows) if box else None, period(case.scene, states) if times else None
 
 

@@ -1,4 +1,4 @@
-"""Extremes and periods of arrays in one pass: they share fates, turning points and the compiled kernel."""
+"""Extremes and periods of many states in one pass: fates, then librations row by row, the rest by NumPy, and balls of what these leave open."""
 from __future__ import annotations
 
 import numpy as np
@@ -6,72 +6,65 @@ import numpy as np
 from ..errors import InputError
 from ..physics.coefficients import effective
 from ..physics.states import checked_states
-from .extremes import parabola_numba
-from .extremes.arrays import extremes_of_chunk
-from .extremes.guards import picked, trapped_rows
-from .extremes.turning_points import interval
+from .ball_orbit import Orbit
+from .extremes.arrays import open_extremes, rotation_periods, trapped_rows
+from .extremes.balls import precise_extremes
 from .far_states import far_numbers
 from .fate.arrays import fate_on_orbit, rows_beyond_doubles
 from .fate.result import CHUNK
-from .fine.rows_numba import by_rows
+from .fine.rows_kernel import BOX, PERIOD
+from .fine.rows_numba import settle_rows
 from .landscape import landscape
-from .period.arrays import period_chunk
+from .period.balls import precise_period
 from .reduction import reduce
+from .result import Fate, without_return
 
 
-def extremes_and_periods(scene, states, fast: bool | None = None, *, box=True, period=True):
+def extremes_and_periods(scene, states, *, box=True, period=True, by_numba: bool | None = None):
     """(extremes (..., 3, 2), periods (...,)) in one go, each as the function of its name gives it; None for one that
-    is not asked for. For scenes with a reduction only (InputError for others, and as `extremes` raises it)."""
+    is not asked for. For scenes with a reduction only (InputError for others, and as `extremes` raises it).
+
+    by_numba: as of `settle_rows`.
+    """
     scene, array = effective(scene), checked_states(states)
     if reduce(scene) is None:
         raise InputError("extremes_and_periods: this scene has no reduction to one coordinate; ask for `extremes` with a"
                          " span, or for `period`")
     flat = np.ascontiguousarray(array.reshape(-1, 3))
     boxes, periods = np.empty((len(flat) if box else 0, 3, 2)), np.empty(len(flat) if period else 0)
-    if (far := rows_beyond_doubles(scene, flat)).any():
-        _fill_far(scene, flat, boxes, periods, far)
-        return boxes.reshape(array.shape + (2,)) if box else None, periods.reshape(array.shape[:-1]) if period else None
-    land, left_open, tried = landscape(scene), None, False
-    if fast is not False and land.base == "parabola":
-        left_open = parabola_numba.by_kernel(land, flat, boxes, periods, fast)
-    elif fast is not False:
-        left_open = by_rows(land, flat, boxes, periods, fast)
-        tried = left_open is not None
-    if left_open is None:
-        for start in range(0, len(flat), CHUNK):
-            rows = slice(start, start + CHUNK)
-            _fill(land, scene, flat[rows], boxes[rows], periods[rows])
-    else:
-        for column, bit in ((boxes, 1), (periods, 2)):
-            _fill_open(land, scene, flat, column, np.nonzero(left_open & bit)[0] if len(column) else [], bit, not tried)
-    return (boxes.reshape(array.shape + (2,)) if box else None, periods.reshape(array.shape[:-1]) if period else None)
+    far = rows_beyond_doubles(scene, flat)
+    for index in np.nonzero(far)[0]:  # their squares may be no doubles: each in its own unit
+        extremes, time = far_numbers(scene, flat[index].tolist())
+        if box:
+            boxes[index] = extremes
+        if period:
+            periods[index] = time
+    near = np.nonzero(~far)[0]
+    for start in range(0, len(near), CHUNK):
+        rows = near[start:start + CHUNK]
+        some, times = _of_chunk(scene, flat[rows], box, period, by_numba)
+        boxes[rows if box else []], periods[rows if period else []] = some, times
+    return boxes.reshape(array.shape + (2,)) if box else None, periods.reshape(array.shape[:-1]) if period else None
 
 
-def _fill_far(scene, states, boxes, periods, far):
-    """All rows, those that are `far` (their squares may be no doubles) one at a time in their own unit."""
-    near = extremes_and_periods(scene, states[~far], box=len(boxes) > 0, period=len(periods) > 0) if not far.all() else (None, None)
-    for column, values, which in zip((boxes, periods), near, (0, 1)):
-        if len(column):
-            column[far] = [far_numbers(scene, state)[which] for state in states[far].tolist()]
-            column[~far] = values if values is not None else column[~far]
-
-
-def _fill(land, scene, states, boxes, periods, twofold=True):
-    """One chunk: boxes (n, 3, 2) and periods (n,), each unless it is empty. twofold: whether to try these rows in twofold numbers before balls."""
-    decided = fate_on_orbit(scene, land, states)
-    start = land.start(states)
+def _of_chunk(scene, states, box, period, by_numba):
+    """(boxes (n, 3, 2), periods (n,)) of one chunk, each empty where it is not asked for."""
+    land, decided = landscape(scene), fate_on_orbit(scene, landscape(scene), states)
+    boxes, periods = np.empty((len(states) if box else 0, 3, 2)), np.empty(len(states) if period else 0)
     trapped = trapped_rows(land, decided)
-    span = interval(land, *picked(start[0], start[1], trapped)) if len(boxes) and len(periods) and trapped.any() else None
-    if len(boxes):
-        boxes[:] = extremes_of_chunk(land, states, decided, start, span, twofold)
-    if len(periods):
-        periods[:] = period_chunk(land, states, decided, start, span, twofold)
-
-
-def _fill_open(land, scene, states, column, rows, bit, twofold):
-    """Those rows of the boxes (bit 1) or the periods (bit 2) that the compiled kernels left open: together, for a handful costs as much as a thousand."""
-    for start in range(0, len(rows), CHUNK):
-        part, none = rows[start:start + CHUNK], np.empty(0)
-        some = np.empty((len(part),) + column.shape[1:])
-        _fill(land, scene, states[part], *((some, none) if bit == 1 else (none, some)), twofold)
-        column[part] = some
+    left_open = np.where(trapped, BOX * box + PERIOD * period, 0).astype(np.uint8)
+    settle_rows(land, states, boxes, periods, left_open, by_numba)
+    if box:
+        boxes[~trapped] = open_extremes(land, states[~trapped], decided.labels[~trapped], decided.margins[~trapped])
+        for index in np.nonzero((left_open & BOX > 0) | (~trapped & np.isnan(boxes).any(axis=(1, 2))))[0]:
+            boxes[index] = precise_extremes(Orbit(land.reduction, states[index]), int(decided.labels[index]))
+        boxes[:, :, 0] = np.minimum(boxes[:, :, 0], states)  # rounding must not exclude the state itself
+        boxes[:, :, 1] = np.maximum(boxes[:, :, 1], states)
+    if period:
+        rotating = (decided.labels == Fate.BOUNDED) & ~trapped
+        other = decided.labels != Fate.BOUNDED
+        periods[other] = [without_return(label) for label in decided.labels[other]]
+        periods[rotating] = rotation_periods(land, states[rotating], decided.margins[rotating])
+        for index in np.nonzero((left_open & PERIOD > 0) | (rotating & np.isnan(periods)))[0]:
+            periods[index] = precise_period(Orbit(land.reduction, states[index]), Fate.BOUNDED)
+    return boxes, periods

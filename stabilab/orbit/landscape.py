@@ -82,16 +82,6 @@ class CircleLandscape(ConicLandscape):
         energy = np.concatenate([energy - fall * ~behind, energy + fall * behind], axis=1)
         return offset, np.concatenate([spot, spot], axis=2), energy, np.concatenate([barrier, barrier], axis=1)
 
-    def stationary(self, place, left, right):
-        """+-A of X and Z where the interval contains the angle."""
-        radius, angle = np.hypot(*place), np.arctan2(*place)
-        for row, value, at in ((0, 1, np.pi / 2), (0, -1, -np.pi / 2), (1, 1, 0.0), (1, -1, np.pi)):
-            first = np.ceil((angle + left - at) / TURN) * TURN + at  # the first such angle not before the left end
-            yield row, value * radius, first <= angle + right
-
-    def _speed(self, place, other):
-        return np.abs(place[other])
-
 
 class HyperbolaLandscape(ConicLandscape):
     """place = (xi, eta) = (X + Z, X - Z)."""
@@ -137,20 +127,6 @@ class HyperbolaLandscape(ConicLandscape):
         wide, largest = size[0] + size[1], np.maximum(np.abs(place[0]), np.abs(place[1]))
         beside = np.abs(place[0] * place[1] - spot[0] * spot[1]) / ((np.abs(place[0]) + np.abs(place[1])) * wide)
         return self.potential.mu * wide / largest, beside  # the tilt falls by mu times the logarithm of the place
-
-    def stationary(self, place, left, right):
-        """X is stationary where Z = 0 (xi = eta), Z where X = 0 (xi = -eta)."""
-        xi, eta = place
-        with np.errstate(all="ignore"):
-            product = xi * eta
-            at = 0.5 * np.log(np.abs(eta / xi))
-            inside = np.isfinite(at) & (at >= left) & (at <= right)
-            size = np.sqrt(np.abs(xi)) * np.sqrt(np.abs(eta))
-        yield 0, np.sign(xi) * size, inside & (product > 0)
-        yield 1, np.sign(xi) * size, inside & (product < 0)
-
-    def _speed(self, place, other):
-        return 0.5 * (np.abs(place[0]) + np.abs(place[1]))
 
     def beside_fold(self, place):
         """(n,) True where rounding of the place may make or unmake a pair of equilibria of its orbit."""
@@ -203,9 +179,6 @@ class ParabolaLandscape(Landscape):
     def energy_terms(self, place, w):
         return 0.5 * w * w
 
-    def farther(self, reach):
-        return 2 * reach  # a parabola's walls may stand at any distance
-
     def critical(self, place, barriers_only=False):
         force = self.potential.force(place)
         first, second, third = self.potential.derivatives(place)
@@ -224,24 +197,6 @@ class ParabolaLandscape(Landscape):
         spot = np.array(self.potential.move(tuple(v[:, None] for v in place), np.where(np.isnan(roots), 0.0, roots)))
         barrier = (self.potential.slope(tuple(spot)) > 0) & ~np.isnan(roots)
         return roots, spot, barrier
-
-    def stationary(self, place, left, right):
-        """The vertex of whichever component is quadratic."""
-        pot = self.potential
-        u, v = place
-        a, b = pot.p * v + pot.p0, pot.q * u + pot.q0
-        for row, speed, bend in ((0, a, pot.p * b), (1, b, pot.q * a)):
-            with np.errstate(all="ignore"):
-                at = -speed / bend
-            inside = np.isfinite(at) & (at >= left) & (at <= right)
-            yield row, (u, v)[row] + 0.5 * speed * np.where(inside, at, 0.0), inside
-
-    def errors(self, ends, blur):
-        pot, error = self.potential, 0.0
-        for (u, v), off in zip(ends, blur):
-            speed = np.abs(np.array([pot.p * v + pot.p0, pot.q * u + pot.q0]))
-            error = np.maximum(error, speed * off + 8 * EPS * (np.abs([u, v]) + speed))
-        return error
 
     def beside_fold(self, place):
         """(n,) True where rounding of the place may make or unmake a pair of equilibria of its orbit."""

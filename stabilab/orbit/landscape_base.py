@@ -1,6 +1,7 @@
 """Barriers and wells along the orbits of many states at once: what the three geometries have in common, and circle and hyperbola."""
 from __future__ import annotations
 
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -77,14 +78,6 @@ class Landscape:
         """The place of these two coordinates."""
         return x, z
 
-    def stationary(self, place, left, right):
-        """[(which coordinate, its value where it is stationary, whether that lies in [left, right])], arrays (n,)."""
-        raise NotImplementedError
-
-    def errors(self, ends, blur):
-        """(2, n) rounding error of omega_j and omega_k at places whose offsets are off by `blur`."""
-        raise NotImplementedError
-
     def energy_terms(self, place, w):
         """(n,) size of the energy's terms, canonical."""
         raise NotImplementedError
@@ -97,10 +90,6 @@ class Landscape:
         """Equilibria along the orbit, on a circle those of one turn behind and of one ahead."""
         return offset, spot, energy, barrier
 
-    def farther(self, reach):
-        """A longer way, in the search for a wall."""
-        return np.minimum(2 * reach, reach + 64)  # on a hyperbola in steps of 64 e-foldings, for exp would overflow
-
     def may_have_barriers(self) -> bool:
         """False where no orbit has a barrier."""
         return True
@@ -112,14 +101,6 @@ class Landscape:
     def beside_centre(self, place):
         """(n,) True where the doubles do not hold the orbit's own size."""
         return np.zeros(np.shape(place[0]), bool)
-
-    def haze(self, spot, start, y):
-        """(n,) error of a height y away from an equilibrium, `start` away from the state, over that at the equilibrium."""
-        # the force there is zero only to rounding: that tilts the potential over the way from state and end, and
-        # the equilibrium itself is off by some roundings of the angle, which count where the whole motion is not much longer
-        bend, pull = np.abs(self.potential.slope(spot)), self.potential.terms(spot)
-        pull = pull + np.abs(self.potential.force(spot)) / EPS  # a place that is no equilibrium: the search for it failed
-        return EPS * (bend + pull) * (np.abs(start) + np.abs(y) + EPS * (1 + pull / np.maximum(bend, 1e-300)))
 
     def polished(self, spot):
         """Newton steps along the orbit: whatever the conic lost, the force regains. Most need one tiny step."""
@@ -141,6 +122,36 @@ class Landscape:
         with np.errstate(all="ignore"):
             step = -self.potential.force(spot) / self.potential.slope(spot)
             return np.where(np.abs(step) < 0.5, step, 0.0)  # false for nan too
+
+
+@dataclass(frozen=True)
+class Spots:
+    """Equilibria along the orbit, ascending in offset (n, m): places (2, n, m), energy above each (n, m) =
+    E - V(spot), barrier or well; `there` marks the real ones (the rest are padding at +inf)."""
+
+    offset: np.ndarray
+    place: np.ndarray
+    energy: np.ndarray
+    barrier: np.ndarray
+    there: np.ndarray
+
+
+def spots_along(land: Landscape, place, w) -> Spots:
+    """All equilibria near the state along its orbit, on a circle those of one turn behind and one ahead."""
+    offset, spot, barrier = land.critical(place)
+    energy = np.full(offset.shape, np.nan)
+    kinetic = 0.5 * w * w
+    with np.errstate(all="ignore"):
+        offset = land.unrolled(place, offset, spot)
+        for column in range(offset.shape[1]):
+            energy[:, column] = kinetic + land.potential.rise(-offset[:, column], spot[:, :, column])
+        offset, spot, energy, barrier = land.repeated(offset, spot, energy, barrier)
+    order = np.argsort(np.where(np.isnan(offset), np.inf, offset), axis=1, kind="stable")
+    take = lambda a: np.take_along_axis(a, order, axis=1)
+    offset = take(offset)
+    there = ~np.isnan(offset)
+    return Spots(np.where(there, offset, np.inf), np.stack([take(spot[0]), take(spot[1])]), take(energy),
+                 take(barrier) & there, there)
 
 
 class ConicLandscape(Landscape):
@@ -229,17 +240,3 @@ class ConicLandscape(Landscape):
     def energy_terms(self, place, w):
         pot, size = self.potential, np.hypot(*place)
         return 0.5 * w * w + abs(pot.mu) + np.abs(pot.G) * size**2 + pot.slopes * size
-
-    def errors(self, ends, blur):
-        g, out = self.reduction.constants, []
-        for scale, shift, other in ((g["rx"], g["sj"], 1), (g["rz"], g["sk"], 0)):
-            error = 0.0
-            for end, off in zip(ends, blur):
-                both = np.abs(end[0]) + np.abs(end[1])
-                error = np.maximum(error, EPS * both + self._speed(end, other) * off)
-            out.append(abs(scale) * error + EPS * abs(shift))
-        return np.array(out)
-
-    def _speed(self, place, other):
-        """Size of the derivative of X (other: 1) or Z (0) along the orbit."""
-        raise NotImplementedError

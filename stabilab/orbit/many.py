@@ -8,10 +8,10 @@ __all__ = ["extremes", "fates", "periods"]
 
 
 def extremes(scene, states, span=None, fast: bool | None = None):
-    """(n, 3, 2) over t >= 0; `span` is not needed."""
-    return extremes_and_periods(scene, states, fast, period=False)[0]
+    """(n, 3, 2) over t >= 0; `span` and `fast` are not needed."""
+    return extremes_and_periods(scene, states, period=False)[0]
 
 
 def periods(scene, states, fast: bool | None = None):
-    """(n,); inf where the motion does not repeat, 0 at an equilibrium, NaN where it is undecided."""
-    return extremes_and_periods(scene, states, fast, box=False)[1]
+    """(n,); inf where the motion does not repeat, 0 at an equilibrium, NaN where it is undecided; `fast` is not needed."""
+    return extremes_and_periods(scene, states, box=False)[1]

@@ -96,8 +96,7 @@ def test_arrays_are_answered_by_every_engine_that_is_there(monkeypatch):
     monkeypatch.setattr(cost_growth, "STATES", {"fate": (2, 3)})
     rows = with_states(MINOR, full=True)
     assert [r.x for r in rows if r.method == "NumPy"] == [100, 1000] and {r.count_name for r in rows} == {"states in balls"}
-    assert engines(lambda states: None) == [("NumPy", {})]
-    assert engines(lambda states, fast=None: None)[0] == ("NumPy", {"fast": False})
+    assert engines("extremes") == [("row by row", {})] and engines("fate")[0] == ("NumPy", {"fast": False})
 
 
 ROWS = [Growth("states", "fate", "NumPy", 100.0, 1e-5, 3), Growth("states", "fate", "NumPy", 1000.0, 1e-4, 3),

@@ -154,7 +154,7 @@ def disagreements(scene, states, fast, with_table, with_digits):
     array = np.array(states)
     many, times = stabilab.fate(scene, array), None
     if not free:
-        times = {way: extremes_and_periods(scene, array, fast=way) for way in fast}
+        times = {way: extremes_and_periods(scene, array, by_numba=way) for way in fast}
     ones = [stabilab.motion(scene, state, brief=True) for state in states]
     for n, (state, one) in enumerate(zip(states, ones)):
         for wrong in [*_against_arrays(scene, state, one, many, n), *(_against_boxes(one, times, n) if times else ())]:

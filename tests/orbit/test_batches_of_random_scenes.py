@@ -56,7 +56,7 @@ def disagreements(number, count):
     singles = [alone(scene, state) for state in states.tolist()]
     wrong, largest = [], 0.0
     for fast in FAST:
-        many, (boxes, periods) = stabilab.fate(scene, states, fast=fast), extremes_and_periods(scene, states, fast=fast)
+        many, (boxes, periods) = stabilab.fate(scene, states, fast=fast), extremes_and_periods(scene, states, by_numba=fast)
         for n, (told, margin, box, period) in enumerate(singles):
             sizes = [_margins(many.margins[n], margin, 0.5 * one.moments[axis] * states[n, axis] ** 2), *map(_pair, boxes[n], box), _pair(periods[n], period)]
             if (told.label, told.axis, told.sense) != (many.labels[n], many.axis[n], many.sense[n]):

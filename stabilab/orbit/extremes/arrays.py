@@ -1,55 +1,93 @@
-"""Extremes of each component and the period, by roots on the reduced potential: no sampling, no running.
+"""Extremes and periods of rows that no two turning points hold: at rest, round a circle without torque, spinning up; by NumPy.
 
-omega_i is extreme where the potential is lowest inside the allowed interval; omega_j and omega_k at the turning points
-and where their own derivative along the orbit vanishes inside it.
+What doubles would lose, next to a separatrix or far from the centre of the orbits, is left open for balls.
 """
 from __future__ import annotations
 
 import numpy as np
 
-from ...numbers.roots import bracketed_newton
-from ..ball_orbit import Orbit
-from ..fine.motion import fine_boxes
-from ..fine.rows_kernel import BOX
-from ..fine.rows_numba import one_by_one
-from ..landscape import Landscape
+from ...numbers.constants import TURN
+from ..landscape_base import Landscape, spots_along
 from ..result import Fate
-from .balls import precise_extremes
-from .guards import DIGITS, EXTREMES_SHARE, SPIN_UP_SHARE, clear_of_barriers, into, near_separatrix, needs_digits, on_top, picked, trapped_rows
-from .turning_points import interval, spots_along, turning_point
+
+EXTREMES_SHARE = 1e-7  # closer to the separatrix than this share of the energy terms, rounding costs extremes 1e-12
+SPIN_UP_SHARE = 1e-4  # the same for the least rate of a motion that just passes a barrier: the root of a difference
+PERIOD_SHARE = 1e-5  # the same for a period, 1e-11
+ON_TOP = 1e-13  # of the terms of the force, some hundreds of roundings
+SHIFT_LIMIT = 1e4  # canonical variables lose this factor of accuracy to the shift before the precise path takes over
+AGREE = 1e-14  # relative, of the sums over so many nodes and twice as many
+MOST_NODES = 1 << 17
 
 
-def extremes_of_chunk(land: Landscape, states, decided, start, span=None, twofold=True):
-    """span: the intervals of all `trapped_rows`, where they are known already; twofold: whether to try rows in twofold numbers before balls."""
+def trapped_rows(land, decided):
+    """(n,) True for motions between two turning points."""
+    trapped = decided.labels == Fate.BOUNDED
+    return trapped & (decided.margins >= 0) if land.may_rotate else trapped
+
+
+def needs_digits(land: Landscape, states):
+    """(n,) True where the canonical shift is so large that doubles would lose digits (nearly equal moments, or a wheel on the
+    axis of symmetry of a body that hardly turns about it)."""
+    r = land.reduction
+    shift, along = r.parabolic_shift_size, abs(float(r.s))
+    lost = np.zeros(len(states), bool)
+    if shift:
+        lost |= shift > SHIFT_LIMIT * np.maximum(np.abs(states).max(axis=1), 1e-300)
+    return lost | (along > SHIFT_LIMIT * np.abs(states[:, r.axis])) if along else lost
+
+
+def on_top(land: Landscape, place):
+    """(n,) True where the state is at the place of a barrier to rounding: before it or behind, doubles do not tell."""
+    pot = land.potential
+    return (np.abs(pot.force(place)) <= ON_TOP * pot.terms(place)) & (pot.slope(place) > 0)
+
+
+def near_separatrix(land, place, w, margins, share):
+    """(n,) True where the margin is below `share` of the energy's terms: turning points and periods magnify its rounding there."""
+    return np.abs(margins) <= share * land.reduction.energy_unit * land.energy_terms(place, w)
+
+
+def open_extremes(land: Landscape, states, labels, margins):
+    """Extremes (n, 3, 2) of rows that are not `trapped_rows`; NaN where these are left to balls."""
     out = np.repeat(states[:, :, None], 2, axis=2)
-    place, w, size = start
-    share = np.where(decided.labels == Fate.SPIN_UP, SPIN_UP_SHARE, EXTREMES_SHARE)
-    precise = needs_digits(land, states) | land.beside_centre(place) | near_separatrix(land, place, w, decided, share)
-    precise |= (decided.labels == Fate.SEPARATRIX) | on_top(land, place)
-    precise &= decided.labels != Fate.EQUILIBRIUM
-    labels = np.where(precise, -1, decided.labels)
-    rows = trapped_rows(land, decided)
-    trapped, rotating = rows & (labels == Fate.BOUNDED), ~rows & (labels == Fate.BOUNDED)
-    into(out, rotating, _rotating(land, *picked(place, w, rotating)))
-    span = None if span is None else span.take(trapped[rows])
-    values, found = _trapped(land, *picked(place, w, trapped), span)  # type: ignore[call-arg]
-    into(out, trapped, values)
-    precise[np.nonzero(trapped)[0][~found]] = True
-    spinning = labels == Fate.SPIN_UP
-    into(out, spinning, _spinning(land, *picked(place, w, spinning)))
-    if precise.any():
-        fine = np.nonzero(precise & rows)[0] if twofold and land.conic is not None else np.zeros(0, int)
-        if fine.size:
-            values, found = fine_boxes(land, states[fine])
-            out[fine[found]], precise[fine[found]] = values[found], False
-            rest = fine[~found]
-            values, found = one_by_one(land, states[rest], BOX)
-            out[rest[found]], precise[rest[found]] = values[found], False
-        for index in np.nonzero(precise)[0]:
-            out[index] = precise_extremes(Orbit(land.reduction, states[index]), int(decided.labels[index]))
-    out[:, :, 0] = np.minimum(out[:, :, 0], states)  # rounding must not exclude the state itself
-    out[:, :, 1] = np.maximum(out[:, :, 1], states)
+    moving = np.nonzero((labels != Fate.EQUILIBRIUM) & (labels != Fate.UNDECIDED))[0]
+    if not moving.size:
+        return out
+    states, labels, margins = states[moving], labels[moving], margins[moving]
+    place, w, _ = land.start(states)
+    share = np.where(labels == Fate.SPIN_UP, SPIN_UP_SHARE, EXTREMES_SHARE)
+    doubtful = needs_digits(land, states) | land.beside_centre(place) | near_separatrix(land, place, w, margins, share)
+    doubtful |= on_top(land, place)
+    values = np.full((len(states), 3, 2), np.nan)
+    for label, extremes in ((Fate.BOUNDED, _rotating), (Fate.SPIN_UP, SPINNING[land.e])):
+        rows = (labels == label) & ~doubtful
+        if rows.any():
+            values[rows] = extremes(land, tuple(v[rows] for v in place), w[rows])
+    out[moving] = values
     return out
+
+
+def rotation_periods(land: Landscape, states, margins):
+    """Periods (n,) of motions without torque over all barriers of a circle; NaN where these are left to balls."""
+    place, w, _ = land.start(states)
+    values = np.full(len(states), np.nan)
+    doubtful = needs_digits(land, states) | near_separatrix(land, place, w, margins, PERIOD_SHARE)
+    live, before, nodes = np.nonzero(~doubtful)[0], None, 16
+    force = land.potential.force(place)
+    while live.size and nodes <= MOST_NODES:  # the integrand is periodic: the plain sum converges geometrically
+        now, one = np.zeros(len(live)), tuple(v[live] for v in place)
+        for angle in np.arange(nodes) * (TURN / nodes):
+            with np.errstate(all="ignore"):
+                rise = land.potential.rise(np.full(len(live), angle), one, force[live])
+                now += 1 / np.sqrt(np.maximum(w[live] ** 2 - 2 * rise, 0))
+        now *= TURN / nodes
+        if before is not None:
+            done = np.abs(now - before) <= AGREE * now
+            values[live[done]] = now[done]
+            live, now = live[~done], now[~done]
+        before, nodes = now, 2 * nodes
+    values[live] = before
+    return values
 
 
 def _components(land, low, high, w_low, w_high):
@@ -58,87 +96,40 @@ def _components(land, low, high, w_low, w_high):
     return np.stack([np.minimum(a, b), np.maximum(a, b)], axis=2)
 
 
-def _trapped(land, place, w, span=None):
-    """Extremes of motions between two turning points, and where both were found."""
-    if not len(w):
-        return np.empty((0, 3, 2)), np.empty(0, bool)
-    span = interval(land, place, w) if span is None else span
-    top = np.sqrt(2 * span.fastest)
-    low, high = _place_range(land, place, span.left, span.right, span.left_place, span.right_place)
-    values = _components(land, low, high, -top, top)
-    return values, span.ok & clear_of_barriers(land, place, w, span, EXTREMES_SHARE) & _sharp(land, span, values)
-
-
-def _sharp(land, span, values):
-    """(n,) True where rounding leaves the extremes `DIGITS` against each component's size."""
-    r, blur = land.reduction, span.blur
-    ends = span.left_place, span.right_place
-    with np.errstate(all="ignore"):
-        size = np.abs(values).max(axis=2)
-        good = span.haze <= DIGITS * 2 * span.fastest
-        good &= (land.errors(ends, blur) <= DIGITS * size[:, (r.j, r.k)].T).all(axis=0)
-    return good
-
-
-def _place_range(land, place, left, right, left_place, right_place):
-    """Canonical (X, Z) or (omega_j, omega_k) ranges over [left, right]: ends, and interior stationary points."""
-    ends = np.array(land.xz(left_place)), np.array(land.xz(right_place))
-    low, high = np.minimum(*ends), np.maximum(*ends)
-    for row, value, inside in land.stationary(place, left, right):
-        low[row] = np.where(inside, np.minimum(low[row], value), low[row])
-        high[row] = np.where(inside, np.maximum(high[row], value), high[row])
-    return land.place(*low), land.place(*high)
-
-
 def _rotating(land, place, w):
     """Torque-free motions over all barriers of the circle: the whole circle, one sign of W."""
-    if not len(w):
-        return np.empty((0, 3, 2))
     spots = spots_along(land, place, w)
     energy = np.where(spots.there, spots.energy, np.nan)
     with np.errstate(all="ignore"):
-        slow = np.sqrt(2 * np.nanmin(np.concatenate([energy, 0.5 * w[:, None] ** 2], axis=1), axis=1))
-        fast = np.sqrt(2 * np.nanmax(np.concatenate([energy, 0.5 * w[:, None] ** 2], axis=1), axis=1))
+        energies = np.concatenate([energy, 0.5 * w[:, None] ** 2], axis=1)
+        slow, fast = np.sqrt(2 * np.nanmin(energies, axis=1)), np.sqrt(2 * np.nanmax(energies, axis=1))
     radius = np.hypot(*place)
     sign = np.sign(w)
     return _components(land, (-radius, -radius), (radius, radius), sign * slow, sign * fast)
 
 
-def _spinning(land, place, w):
-    """Extremes over the future of motions that spin up: W -> +inf in canonical variables."""
-    n = len(w)
-    if not n:
-        return np.empty((0, 3, 2))
-    return SPINNING[land.e](land, place, w)
-
-
 def _spinning_round(land, place, w):
-    """On a circle: all of it, from the slowest rate on."""
-    slowest = _slowest_ahead(land, place, w)
+    """Over the future of a spin-up, W -> +inf, on a circle: all of it, from the slowest rate on."""
     radius = np.hypot(*place)
-    return _components(land, (-radius, -radius), (radius, radius), slowest, np.full(len(w), np.inf))
-
-
-def _spinning_purely(land, place, w):
-    """Along a parabola whose force does not change: both other rates stay."""
-    sense, start = land.sense, land.components(place, w)
-    return np.stack([np.where(np.arange(3) == land.reduction.axis, np.where(sense > 0, start, -np.inf), start),
-                     np.where(np.arange(3) == land.reduction.axis, np.where(sense > 0, np.inf, start), start)], axis=2)
+    return _components(land, (-radius, -radius), (radius, radius), _slowest_ahead(land, place, w), np.full(len(w), np.inf))
 
 
 def _slowest_ahead(land, place, w):
     """The least W over the future: over the barriers ahead, or on the way to the turning point behind if W < 0."""
     spots = spots_along(land, place, w)
-    ahead = np.where(spots.there & (spots.offset > 0), spots.energy, np.inf)
-    with np.errstate(all="ignore"):
-        slowest = np.minimum(w, np.sqrt(2 * np.maximum(ahead.min(axis=1, initial=np.inf), 0)))
+    slowest = _over_barriers_ahead(spots, w)
     back = w < 0
     if back.any():
-        place, w = picked(place, w, back)
         # the wells between the turning point on the left and the state
-        behind_energy = _fastest_behind(land, place, w)
-        slowest[back] = -np.sqrt(2 * behind_energy)
+        fastest = _fastest_behind(land, tuple(v[back] for v in place), w[back])
+        slowest[back] = -np.sqrt(2 * fastest)
     return slowest
+
+
+def _over_barriers_ahead(spots, w):
+    ahead = np.where(spots.there & (spots.offset > 0), spots.energy, np.inf)
+    with np.errstate(all="ignore"):
+        return np.minimum(w, np.sqrt(2 * np.maximum(ahead.min(axis=1, initial=np.inf), 0)))
 
 
 def _fastest_behind(land, place, w):
@@ -157,42 +148,19 @@ def _fastest_behind(land, place, w):
 
 
 def _spinning_on_plane(land, place, w):
-    """On the decaying plane xi = 0: eta shrinks to 0 after at most one excursion back to the turning point."""
-    n = len(w)
-    xi, eta = place
-    low_w, far = np.array(w), np.array(eta)
-    spots = spots_along(land, place, w)
-    with np.errstate(all="ignore"):
-        ahead = np.where(spots.there & (spots.offset > 0), spots.energy, np.inf).min(axis=1, initial=np.inf)
-        low_w = np.where(w >= 0, np.minimum(w, np.sqrt(2 * np.maximum(ahead, 0))), w)
-    back = (w < 0) & (eta != 0)
-    if back.any():
-        one, speed = picked(place, w, back)
-        offset, fastest = _turn_back(land, one, speed)
-        low_w[back], far[back] = -np.sqrt(2 * fastest), eta[back] * np.exp(-offset)
-    zero = np.zeros(n)
-    return _components(land, (zero, np.minimum(far, 0)), (zero, np.maximum(far, 0)), low_w, np.full(n, np.inf))
+    """On the decaying plane xi = 0: eta shrinks to 0. Balls tell the excursion back to a turning point behind."""
+    eta, zero = place[1], np.zeros(len(w))
+    slowest = _over_barriers_ahead(spots_along(land, place, w), w)
+    slowest[(w < 0) & (eta != 0)] = np.nan
+    return _components(land, (zero, np.minimum(eta, 0)), (zero, np.maximum(eta, 0)), slowest, np.full(len(w), np.inf))
 
 
-def _turn_back(land, place, w):
-    """(offset of the turning point behind, largest W^2/2 on the way) for W < 0 on the decaying plane."""
-    spots = spots_along(land, place, w)
-    offset, _, found, *_ = turning_point(land, spots, place, w, -1)
-    bare = ~found  # no equilibrium on the plane: the potential falls all the way, so it is monotone behind the state
-    if bare.any():
-        level, force = 0.5 * w[bare] ** 2, land.potential.force(place)[bare]
-        one = tuple(v[bare] for v in place)
-        reach = np.ones(level.shape)
-        while (short := land.potential.rise(-reach, one, force) < level).any():
-            reach[short] *= 2
-
-        def fun(t, level, force, *one):
-            return (land.potential.rise(-t, one, force) - level,
-                    land.potential.force(land.potential.move(one, -t)))
-        offset[bare] = -bracketed_newton(fun, np.zeros(level.shape), reach, 0.5 * reach, (level, force, *one))
-    passed = spots.there & (spots.offset < 0) & (spots.offset > offset[:, None])
-    fastest = np.where(passed, spots.energy, -np.inf).max(axis=1, initial=-np.inf)
-    return offset, np.maximum(fastest, 0.5 * w * w)
+def _spinning_purely(land, place, w):
+    """Along a parabola whose force does not change: both other rates stay."""
+    sense, start = land.sense, land.components(place, w)
+    spun = np.arange(3) == land.reduction.axis
+    low, high = (-np.inf, start) if sense < 0 else (start, np.inf)
+    return np.stack([np.where(spun, low, start), np.where(spun, high, start)], axis=2)
 
 
 SPINNING = {-1: _spinning_round, 1: _spinning_on_plane, 0: _spinning_purely}

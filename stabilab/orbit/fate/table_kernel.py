@@ -227,7 +227,7 @@ def ratio_of(X, Z, u, v):
 
 
 def fine_margin(X, Z, kinetic, u, v, step, slope, side, end, grown, mantissa, exponent, rounding, fine):
-    """(margin, whether it is certain) of a state on a hyperbola against a barrier (u, v), as `fine.spots` and `fine.anchored` tell it.
+    """(margin, whether it is certain) of a state on a hyperbola against a barrier (u, v).
 
     From the barrier, y away, the potential falls by 2 h^2 (F' + A S + 2 B h^2) + mu (y - S) with S = sinh y and h = sinh(y/2), which the ratio of the
     places' larger coordinates, 1 + grown = mantissa 2^exponent, gives without an exponential. The sum in brackets may cancel, and is twofold.

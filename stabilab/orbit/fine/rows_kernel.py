@@ -1,8 +1,9 @@
 """Extremes and periods of bounded rows on circles and hyperbolas, one row at a time, as straight lines of floats that numba compiles.
 
-The mechanics of `spots`, `motion`, `anchored` and `modes` and, for the integral, of `period.modes` and `period.rules`: equilibria along a row's orbit by
-Newton's method in twofold numbers, ends of the motion from the equilibrium that is nearer in height, the period by second divided differences. What 32
-digits do not settle is marked and left to the arrays' path. Every function is plain Python too. All in one file: numba's cache on disk watches no other.
+Equilibria along a row's orbit by Newton's method in twofold numbers, ends of the motion from the equilibrium that is nearer in height, the period
+T = 2 int_0^pi dphi/sqrt(2 H) with theta = middle - half cos(phi), where H = (E - V)/((theta - l)(r - theta)) is the second divided difference of V at
+(l, r, theta), formed by products. What 32 digits do not settle is marked and left to balls. Every function is plain Python too. All in one file: numba's
+cache on disk watches no other.
 """
 from __future__ import annotations
 
@@ -14,23 +15,28 @@ import numpy as np
 EPS = 2.220446049250313e-16
 TURN, PI = 6.283185307179586, 3.141592653589793
 INFINITY = float("inf")
-BOX, PERIOD = 1, 2  # bits: wanted, and left to the arrays' path
+BOX, PERIOD = 1, 2  # bits: wanted, and left open
 SPLITTER = 134217729.0
+TINY = 1e-300
 ROUNDINGS = 64.0  # units of rounding allowed for beside a fold, as in `landscape`
-STEPS, SETTLED, ENOUGH, TWOFOLD, DRIFT, SURE = 6, 1e-15, 1e-12, 2.0**-100, 1e-3, 1e-20  # as in `spots` and `places`
-ROUNDED, LAG = 8.0, 0.3  # as in `anchored`
-CLEAR, FAR, SCATTERED = 64.0, 1.5, 1e-9  # as in `motion`
-DIGITS, PERIOD_DIGITS = 1e-12, 1e-11  # as in `extremes.guards` and `period.arrays`
+STEPS, SETTLED = 6, 1e-15  # of Newton's method at an equilibrium; of a radian, a last step: the next would be its square
+ENOUGH, DRIFT = 1e-12, 1e-3  # of a radian: a last step that serves; farther from the first guess another equilibrium may have been found
+TWOFOLD, SURE = 2.0**-100, 1e-20  # of the terms: rounding of a twofold sum; a sum that is smaller may be zero
+ROUNDED, LAG = 8.0, 0.3  # units of rounding of a height, by the size of its terms; below it y - sinh y is a series
+CLEAR, FAR = 64.0, 1.5  # times its error, so far a height is from the energy where the barrier's side is certain; ends by series no farther
+SCATTERED = 1e-9  # of H, which is known at the ends and over a barrier: what single nodes lose beside these is scattered, and a part of the integral
+DIGITS, PERIOD_DIGITS = 1e-12, 1e-11  # promised, relative: rounding that leaves less leaves a row open
 PERIOD_SHARE = 1e-4  # of the energy terms: nearer to a barrier an energy in doubles leaves the period no eleven digits
 ROOT = 1e-9  # relative, the last step to a turning point, which leaves its square
 # relative, of sums over nodes: the last change, the error by estimate, a change that is nothing but rounding
 ALIKE, CONVERGED, FLOOR = 1e-9, 1e-13, 1e-15
 NARROW = 0.5  # half-widths below it take series where closed forms cancel
 TERMS = 30  # of a series about an equilibrium
-LOOKS, CLOSER = 64, 4  # as in `period.rules`
+LOOKS, CLOSER = 64, 4  # places among which the least H is sought; steps towards it, to the bottom of parabolas through three places
 FINE = 2.0**-92  # of the terms of an energy in twofold numbers: a dozen sums and a series of twenty terms, with room to spare
 PIECE_DIGITS = 3e-12  # relative, of E - V at a stop and half-way between two; the period's promise is `PERIOD_DIGITS`
 NEAR = 1e-6  # of the force at an end: what a step there may change it by, whose square is left
+NEWTON = 3  # steps to an end in twofold numbers
 HALVINGS, SERIES = 6, 12  # of a way, before its sine is summed; terms of the sum: 0.2^24/24! is 1e-41
 # columns of a spot: its offset from the state, E - V there, whether it is a barrier, the place, dF/dtheta, modes (A, B) about it; what its force,
 # its slope, the energy and the offset may be off by
@@ -134,9 +140,9 @@ class Circle:
         return z * z + x * x
 
     @staticmethod
-    def lost(x, z, xi, eta, wide, form, conic):
+    def lost(x, z, xi, eta, wide, conic):
         """Whether a place may be one of those that are decided elsewhere."""
-        return x * x + z * z <= form[5]
+        return x * x + z * z <= TINY
 
     @staticmethod
     def onto(x, z, Q, xi, eta, radius):
@@ -192,7 +198,7 @@ class Circle:
 
     @staticmethod
     def change(x, z, xi, eta, y):
-        """(what X and Z change by on the way y from a state, what rounding of that way's terms leaves of either); as `motion._change`."""
+        """(what X and Z change by on the way y from a state, what rounding of that way's terms leaves of either)."""
         s, h = np.sin(y), np.sin(0.5 * y)
         down = 2 * h * h
         return z * s - x * down, -z * down - x * s, 4 * (abs(z * s) + abs(x) * down), 4 * (abs(z) * down + abs(x * s))
@@ -212,7 +218,7 @@ class Circle:
 
     @staticmethod
     def middle_modes(conic, x, z, xi, eta, y, data):
-        """Modes about a place y away from a state, then sizes of what these are sums of: as `period.modes`."""
+        """Modes about a place y away from a state, then sizes of what these are sums of."""
         c, d, G = conic[0], conic[1], conic[2]
         dx, dz, _, _ = change(x, z, xi, eta, y)
         x, z = x + dx, z + dz
@@ -258,7 +264,7 @@ class Hyperbola:
         return (z - x) * (z + x)
 
     @staticmethod
-    def lost(x, z, xi, eta, wide, form, conic):
+    def lost(x, z, xi, eta, wide, conic):
         return min(abs(xi), abs(eta)) <= SURE * wide or np.sqrt(abs(xi)) * np.sqrt(abs(eta)) <= conic[6]
 
     @staticmethod
@@ -388,6 +394,23 @@ def guessed(piece, conic, Q, xi, eta, radius):
     return onto(x, z, Q, xi, eta, radius)
 
 
+def on_line(line, Q, xi, eta, radius):
+    """As `guessed`, of one of the two points (x0 + t dx, z0 + t dz) in which a line of equilibria meets the orbit."""
+    x0, z0, dx, dz, side = line[0], line[1], line[2], line[3], line[4]
+    a, b, rest = dz * dz - E * dx * dx, z0 * dz - E * x0 * dx, z0 * z0 - E * x0 * x0 - Q
+    if a == 0:
+        if b == 0 or side < 0:
+            return False, 0.0, 0.0
+        t = -0.5 * rest / b
+    else:
+        square = b * b - a * rest
+        if not square > 0:
+            return False, 0.0, 0.0
+        root = side * np.sqrt(square)
+        t = -rest / (b + root) if b * side > 0 else (root - b) / a
+    return onto(x0 + t * dx, z0 + t * dz, Q, xi, eta, radius)
+
+
 def settled(fine, u0, v0, Q):
     """(place u, v of the equilibrium next to a guess on the orbit Q, slope of the force there, last step, the way from the guess); u, v and Q twofold."""
     G, c, d, mu = (fine[0], fine[1]), (fine[2], fine[3]), (fine[4], fine[5]), (fine[6], fine[7])
@@ -431,12 +454,13 @@ def end_of_modes(mu, slope, a, b, s, h, end):
 
 
 def rounding_of(y, terms, s, h, pull, tilt):
-    """Size of the error of a rise, as `Anchored.rounding`."""
+    """Size of the error of a rise: of its terms, which grow like an exponential of y, and of what the
+    equilibrium's force and slope are off by."""
     return (ROUNDED + 2 * abs(y)) * EPS * terms + pull * abs(s) + 2 * tilt * h * h
 
 
 def placed(u, v, X, Z, wide, last, conic, way, slope, spot):
-    """Fill a spot's place, slope, modes and what 32 digits leave open of it, as `spots._left_over`."""
+    """Fill a spot's place, slope, modes and what 32 digits leave open of it."""
     c, d, G, mu = conic[0], conic[1], conic[2], conic[3]
     uh, vh = value(u), value(v)
     far = abs(uh) + abs(vh)
@@ -449,8 +473,10 @@ def placed(u, v, X, Z, wide, last, conic, way, slope, spot):
     spot[TILT], spot[ASTRAY] = (abs(G) * far + steep) * off, TWOFOLD * wide / start + off / end
 
 
-def spots_of_row(fine, conic, pieces, folds, X, Z, w, wide, spots):
-    """(how many equilibria stand along the orbit of a row, in ascending order in `spots`; whether all were placed)."""
+def spots_of_row(fine, conic, pieces, lines, straight, folds, X, Z, w, wide, spots):
+    """(how many equilibria stand along the orbit of a row, in ascending order in `spots`; whether all were placed).
+
+    straight: the invariant up to which lines say where they are about, and no pieces of the conic."""
     Q = add(times(Z, Z), scaled(times(X, X), -E))
     xi, eta, q = value(add(X, Z)), value(less(X, Z)), value(Q)
     mu, count = conic[3], 0
@@ -460,12 +486,14 @@ def spots_of_row(fine, conic, pieces, folds, X, Z, w, wide, spots):
     radius = np.sqrt(abs(q))
     kinetic, x, z = 0.5 * w * w, value(X), value(Z)
     force = conic[3] + conic[2] * x * z + conic[0] * z + conic[1] * x
-    for p in range(len(pieces)):
-        there, u0, v0 = guessed(pieces[p], conic, q, xi, eta, radius)
+    by_lines = q <= straight
+    for p in range(len(lines) if by_lines else len(pieces)):
+        there, u0, v0 = on_line(lines[p], q, xi, eta, radius) if by_lines else guessed(pieces[p], conic, q, xi, eta, radius)
         if not there:
             continue
         u, v, slope, last, drift = settled(fine, u0, v0, Q)
-        if not (abs(last) <= ENOUGH and abs(drift) <= DRIFT and (slope > 0) == (pieces[p, 4] > 0)):
+        as_expected = by_lines or (slope > 0) == (pieces[p, 4] > 0)
+        if not (abs(last) <= ENOUGH and abs(drift) <= DRIFT and as_expected):
             return 0, False
         spot = spots[count]
         way = way_between(u, v, X, Z, q)
@@ -508,23 +536,34 @@ def sharpened(fine, conic, X, Z, turn, wide, count, spots):
 
 
 def sharpened_ends(fine, X, Z, turn, wide, ends, turns):
-    """Fill turns with the ends after a step of Newton's method each, E - V there a sum of twofold numbers: where the force is small, doubles leave few digits.
+    """Fill turns with the ends after steps of Newton's method, E - V there a sum of twofold numbers and the force
+    that of the place: where the force is small or the equilibrium far, doubles leave few digits.
 
-    They are told from the state. The period tells E - V from equilibria, and keeps the ends that are told from these."""
+    They are told from the state. Next to a barrier the period needs the ends that are told from it."""
     G, c, d, mu = (fine[0], fine[1]), (fine[2], fine[3]), (fine[4], fine[5]), (fine[6], fine[7])
     kinetic = times((fine[16], fine[17]), times(turn, turn))
     for k in range(2):
         turns[k] = ends[k]
         end = turns[k]
-        u, v = moved(X, Z, end[END])
-        half = times(G, scaled(add(u, X), 0.5))
-        over = value(add(add(kinetic, scaled(mu, end[END])), add(times(less(u, X), add(half, c)), scaled(times(d, less(v, Z)), E))))
-        far = abs(u[0]) + abs(v[0]) + wide
-        terms = kinetic[0] + mu[0] * (1 + abs(end[END])) + (abs(G[0]) * far + abs(c[0]) + abs(d[0])) * far
-        step, steep = -over / end[FORCE], abs(end[END_BEND] / end[FORCE])
-        if abs(step) * steep <= NEAR:
+        for _ in range(NEWTON):
+            u, v = moved(X, Z, end[END])
+            half = times(G, scaled(add(u, X), 0.5))
+            rise = add(times(less(u, X), add(half, c)), scaled(times(d, less(v, Z)), E))
+            over = value(add(add(kinetic, scaled(mu, end[END])), rise))
+            across = add(times(G, u), c)
+            end[FORCE] = value(add(add(times(v, across), mu), times(d, u)))
+            end[END_BEND] = slope_of(G, d, u, v, across)
+            step, steep = -over / end[FORCE], abs(end[END_BEND] / end[FORCE])
+            if not abs(step) * steep <= NEAR:
+                turns[k] = ends[k]
+                break
             end[END] += step
-            end[BLUR] = FINE * terms / abs(end[FORCE]) + step * step * steep + EPS * abs(end[END])
+            far = abs(u[0]) + abs(v[0]) + wide
+            terms = kinetic[0] + mu[0] * (1 + abs(end[END])) + (abs(G[0]) * far + abs(c[0]) + abs(d[0])) * far
+            end[HAZE] = FINE * terms
+            end[BLUR] = end[HAZE] / abs(end[FORCE]) + step * step * steep + EPS * abs(end[END])
+            if abs(step) <= EPS * abs(end[END]):
+                break
 
 
 def way_of_cosine(psi, near, far):
@@ -534,7 +573,7 @@ def way_of_cosine(psi, near, far):
 
 
 def turned(mu, count, spots, side, end):
-    """Where a motion turns on one side: fills an end; whether it was found. As `turning_points.turning_point`."""
+    """Where a motion turns on one side: fills an end; whether it was found."""
     b = -1
     for i in range(count):
         i = i if side > 0 else count - 1 - i
@@ -593,7 +632,7 @@ def turned(mu, count, spots, side, end):
 
 
 def spanned(mu, w, count, spots, ends):
-    """(whether the motion's two ends are known, fastest W^2/2, its error, nearest barrier's distance in energy); as `motion.fine_interval`."""
+    """(whether the motion's two ends are known, fastest W^2/2, its error, nearest barrier's distance in energy)."""
     if count == 0 or not (turned(mu, count, spots, -1, ends[0]) and turned(mu, count, spots, 1, ends[1])):
         return False, 0.0, 0.0, 0.0
     ends[0, END], ends[1, END] = min(ends[0, END], 0.0), max(ends[1, END], 0.0)
@@ -617,8 +656,7 @@ def spanned(mu, w, count, spots, ends):
     for k in range(2):
         ends[k, BLUR] += off / abs(ends[k, FORCE]) + astray
         clear = clear and ends[k, BLUR] < INFINITY and ends[k, HAZE] < INFINITY  # no number is not: the largest of some would pass over it
-    haze = max(ends[0, HAZE], ends[1, HAZE]) + off + EPS * fastest
-    return clear and (barred or WALLED), fastest, haze, closest
+    return clear and (barred or WALLED), fastest, off + EPS * fastest, closest
 
 
 def boxed(form, axes, state, x, z, xi, eta, ends, fastest, haze, box):
@@ -807,7 +845,7 @@ def summed(series, count, data, held, rho, whole_s, whole_c, nodes, near, weight
 
 
 def peaked(series, count, data, held, rho, whole_s, whole_c, near, weights, levels):
-    """The period by the double-exponential rule on both sides of the place where H is least; as `period.rules.double_exponential`."""
+    """The period by the double-exponential rule on both sides of the place where H is least."""
     cut, period = least(series, count, data, held, rho, whole_s, whole_c), 0.0
     for side in range(2):
         length = PI - cut if side else cut
@@ -858,7 +896,10 @@ def least(series, count, data, held, rho, whole_s, whole_c):
 
 
 def timed(conic, x, z, xi, eta, w, count, spots, ends, closest, nodes, near, weights, levels, data, work, held):
-    """(period, whether it has its digits) of a motion between two ends; as `period.arrays.libration_period`, else `motion.fine_periods`."""
+    """(period, whether it has its digits) of a motion between two ends.
+
+    By modes about the middle; where these cancel, by a series about an equilibrium, or made to give at both ends the force
+    that is known there, and at the lowest barrier passed the energy over it."""
     mu, left, right = conic[3], ends[0, END], ends[1, END]
     rho, series, many = 0.5 * (right - left), False, 0
     if not 0 < rho < 0.5 * ROUND:
@@ -867,10 +908,22 @@ def timed(conic, x, z, xi, eta, w, count, spots, ends, closest, nodes, near, wei
     middle_modes(conic, x, z, xi, eta, 0.5 * (left + right), data)
     blur = ends[0, BLUR] + ends[1, BLUR]
     held[0], held[1], held[2] = 0.0, 0.0, 0.0
+    anchor, barrier = -1, -1
+    for i in range(count):
+        if spots[i, BARRIER] > 0:
+            if left < spots[i, OFFSET] < right and (barrier < 0 or spots[i, OVER] < spots[barrier, OVER]):
+                barrier = i
+        elif left <= spots[i, OFFSET] <= right and (anchor < 0 or spots[i, OVER] > spots[anchor, OVER]):
+            anchor = i
+    share, dip = 0.5, INFINITY
+    if barrier >= 0:
+        share = (spots[barrier, OFFSET] - left) / (2 * rho)
+        dip = spots[barrier, OVER] / (4 * rho * rho * share * (1 - share))
     if closest > PERIOD_SHARE * (0.5 * w * w + mu + size_of_terms(conic, x, z, xi, eta)):
         even, odd = pair(series, many, data, rho, whole_s, whole_c, 0.0)
         first, last, inner = even + odd, even - odd, pair(series, many, data, rho, whole_s, whole_c, 0.5)[0]
-        sharp = True
+        # on a long hyperbola H over a barrier may be far less than at both ends and in the middle
+        sharp = EPS * terms_at(series, many, data, True, rho, whole_s, whole_c, share) <= PERIOD_DIGITS * dip
         for sizes in range(2):
             sharp = (sharp and EPS * terms_at(series, many, data, sizes > 0, rho, whole_s, whole_c, 0.0) <= PERIOD_DIGITS * first
                      and EPS * terms_at(series, many, data, sizes > 0, rho, whole_s, whole_c, 0.5) <= PERIOD_DIGITS * inner
@@ -880,25 +933,15 @@ def timed(conic, x, z, xi, eta, w, count, spots, ends, closest, nodes, near, wei
             period = summed(series, many, data, held, rho, whole_s, whole_c, nodes, near, weights, levels)
             if period < INFINITY:
                 return period, True
-    anchor, barrier = -1, -1
-    for i in range(count):
-        if spots[i, BARRIER] > 0:
-            if left < spots[i, OFFSET] < right and (barrier < 0 or spots[i, OVER] < spots[barrier, OVER]):
-                barrier = i
-        elif left <= spots[i, OFFSET] <= right and (anchor < 0 or spots[i, OVER] > spots[anchor, OVER]):
-            anchor = i
     if anchor < 0:
         return np.nan, False
     from_left, from_right = left - spots[anchor, OFFSET], right - spots[anchor, OFFSET]
     if max(abs(from_left), abs(from_right)) <= FAR and from_right > from_left:
         series, many = True, series_modes(mu, spots[anchor], from_left, from_right, data, work)
-    share, dip = 0.5, INFINITY
     held_0 = ends[0, FORCE] / (2 * rho) - difference(series, many, data, held, rho, whole_s, whole_c, 0.0, 1.0)
     held_2 = -ends[1, FORCE] / (2 * rho) - difference(series, many, data, held, rho, whole_s, whole_c, 1.0, 0.0)
     inside = 0.5 * (held_0 + held_2)
     if barrier >= 0:
-        share = (spots[barrier, OFFSET] - left) / (2 * rho)
-        dip = spots[barrier, OVER] / (4 * rho * rho * share * (1 - share))
         inside = dip - difference(series, many, data, held, rho, whole_s, whole_c, share, 1 - share)
     held[0], held[2] = held_0, held_2
     held[1] = (inside - held_0 * (1 - share) - held_2 * share) / (share * (1 - share))
@@ -973,36 +1016,37 @@ def in_pieces(mu, count, spots, ends, near, weights, levels, stops):
     return period, period < INFINITY
 
 
-def rows(states, open_rows, fine, form, axes, conic, pieces, folds, wanted, rules, boxes, periods, left_open):
-    """Fill boxes (n, 3, 2) and periods (n,), as far as wanted, of those of the states (n, 3) that are open: their bits in left_open (n,) go where a
-    row is settled.
+def rows(states, open_rows, fine, form, axes, conic, pieces, lines, folds, rules, boxes, periods, left_open):
+    """Fill boxes (n, 3, 2) and periods (n,) of the open rows of states (n, 3), as far as their bits in left_open (n,) ask;
+    the bits of what is settled go.
 
     fine: high and low parts of G, c, d, mu, sj, sk, flip/rx, 1/rz, (flip n)^2/2; form: factors of X and Z, flip/n, shift s of the third component and what its
-    double leaves, least |xi|, |eta| or radius; conic: c, d, G, mu, K, shift, and how near a hyperbola's centre no row is settled.
+    double leaves, the invariant up to which the lines serve; conic: c, d, G, mu, K, shift, and how near a hyperbola's centre no row is settled.
     """
     nodes, near, weights, levels = rules
     j, k, i = axes
-    spots, box = np.empty((2 * len(pieces) + 1, ASTRAY + 1)), np.empty((3, 2))
+    most = max(len(pieces), len(lines))
+    spots, box = np.empty((2 * most + 1, ASTRAY + 1)), np.empty((3, 2))
     ends, turns = np.empty((2, END_B + 1)), np.empty((2, END_B + 1))
-    stops = np.empty((2 * len(pieces) + 3, STOP_B + 1))
+    stops = np.empty((2 * most + 3, STOP_B + 1))
     data, work, held = np.empty(2 * TERMS + 1), np.empty(TERMS), np.empty(3)
     extra = abs(fine[8] * fine[12]) + abs(fine[10] * fine[14])
     for row in open_rows:
-        asked, state = int(left_open[row]) & wanted, states[row]
+        asked, state = int(left_open[row]), states[row]
         X = times(add((fine[8], fine[9]), (state[j], 0.0 * state[j])), (fine[12], fine[13]))
         Z = times(add((fine[10], fine[11]), (state[k], 0.0 * state[k])), (fine[14], fine[15]))
         turn, rest = exact_sum(state[i], form[3])
         w = (turn + (rest + form[4])) / form[2]
         x, z, xi, eta = value(X), value(Z), value(add(X, Z)), value(less(X, Z))
         wide = abs(x) + abs(z) + extra
-        if lost(x, z, xi, eta, wide, form, conic):
+        if lost(x, z, xi, eta, wide, conic):
             continue
         # whether a state is at rest is decided exactly, elsewhere
         terms = conic[3] + abs(conic[2] * x * z) + abs(conic[0] * z) + abs(conic[1] * x)
         still = abs(turn) <= ROUNDINGS * EPS * (abs(state[i]) + abs(form[3]))
         if still and abs(conic[3] + conic[2] * x * z + conic[0] * z + conic[1] * x) <= ROUNDINGS * EPS * terms * (1 + wide / (abs(x) + abs(z))):
             continue
-        count, sure = spots_of_row(fine, conic, pieces, folds, X, Z, w, wide, spots)
+        count, sure = spots_of_row(fine, conic, pieces, lines, form[5], folds, X, Z, w, wide, spots)
         if not sure:
             continue
         for sharp in range(2):
@@ -1011,16 +1055,16 @@ def rows(states, open_rows, fine, form, axes, conic, pieces, folds, wanted, rule
             known, fastest, haze, closest = spanned(conic[3], w, count, spots, ends)
             if not known:
                 continue
-            if sharp and asked & BOX:
+            if sharp:
                 sharpened_ends(fine, X, Z, exact_sum(turn, rest + form[4]), wide, ends, turns)
             if asked & BOX and boxed(form, axes, state, x, z, xi, eta, turns if sharp else ends, fastest, haze, box):
                 boxes[row] = box
                 asked -= BOX
             if asked & PERIOD:
-                if sharp:
+                period, good = timed(conic, x, z, xi, eta, w, count, spots, turns if sharp else ends, closest,
+                                     nodes, near, weights, levels, data, work, held)
+                if sharp and not good:
                     period, good = in_pieces(conic[3], count, spots, ends, near, weights, levels, stops)
-                else:
-                    period, good = timed(conic, x, z, xi, eta, w, count, spots, ends, closest, nodes, near, weights, levels, data, work, held)
                 if good:
                     periods[row] = period
                     asked -= PERIOD

@@ -12,8 +12,8 @@ from ..text.cost.words import caption, duration
 from . import html
 
 LOOKS = {("fate", "NumPy"): {"color": style.BLUE, "marker": "o"}, ("fate", "numba"): {"color": style.BLUE, "marker": "s", "linestyle": "--"},
-         ("extremes", "NumPy"): {"color": style.GREEN, "marker": "o"}, ("extremes", "numba"): {"color": style.GREEN, "marker": "s", "linestyle": "--"},
-         ("period", "NumPy"): {"color": style.VERMILION, "marker": "o"}, ("period", "numba"): {"color": style.VERMILION, "marker": "s", "linestyle": "--"},
+         ("extremes", "row by row"): {"color": style.GREEN, "marker": "o"},
+         ("period", "row by row"): {"color": style.VERMILION, "marker": "o"},
          ("states over the span", "taylor"): {"color": style.BLUE, "marker": "o"},
          ("states over the span", "DOP853"): {"color": style.VERMILION, "marker": "D"},
          ("states over the span", "reduced"): {"color": style.GREEN, "marker": "P"},

@@ -1,16 +1,14 @@
-"""What extremes leave to ball arithmetic: where rounding costs a component a trillionth, next to separatrices, at barriers."""
+"""What extremes of spin-ups leave to ball arithmetic: next to separatrices, at barriers, far from the centre."""
 from __future__ import annotations
-
-import importlib
 
 import numpy as np
 import pytest
 
 import stabilab
-from stabilab.numbers.constants import EPS
+from stabilab.orbit import extremes_and_periods as both
 from stabilab.orbit.ball_orbit import Orbit
-from stabilab.orbit.extremes import guards
-from stabilab.orbit.extremes import turning_points as turning
+from stabilab.orbit.extremes import arrays as guards
+from stabilab.orbit.extremes.balls import precise_extremes
 from stabilab.orbit.extremes_and_periods import extremes_and_periods
 from stabilab.orbit.landscape import landscape
 from stabilab.orbit.period.balls import period_ball
@@ -19,63 +17,12 @@ from tests.oracles.pairs import brink, scaled
 from tests.orbit.fate.test_fate import FAMILIES
 from tests.shared import PARABOLIC
 
-extremes = importlib.import_module("stabilab.orbit.extremes.arrays")
-ALL = FAMILIES | PARABOLIC
-
 
 def flip_of(values, accepted):
     """The largest of the rising values that is accepted; those below are, those above are not."""
     accepted = np.asarray(accepted)
     assert accepted[0] and not accepted[-1] and (np.diff(accepted.astype(int)) <= 0).all()
     return values[np.nonzero(accepted)[0][-1]]
-
-
-@pytest.mark.one_in(4)
-@pytest.mark.parametrize("name", ["minor scaled +", "major physical", "middle scaled +", "middle physical, other sign",
-                                  "first axis", "second axis"])
-@pytest.mark.parametrize("end", [0, 1])
-def test_an_end_may_be_off_by_what_costs_a_component_a_trillionth(name, end):
-    """The speed of each component along the orbit is found by moving the end a little."""
-    scene = ALL[name][0]
-    land, r = landscape(scene), reduce(scene)
-    states = np.array([s for s in np.random.default_rng(9).normal(size=(90, 3)) * 2 if stabilab.fate(scene, s).labels == 0][:6])
-    place, w, _ = land.start(states)
-    for n in range(len(states)):
-        one = tuple(v[n:n + 1] for v in place)
-        span = turning.interval(land, one, w[n:n + 1])
-        values = extremes._trapped(land, one, w[n:n + 1])[0]
-        ends = span.left_place, span.right_place
-        beside = [[land.components(land.potential.move(tuple(p), y), np.zeros(1)) for y in (1e-6, -1e-6)] for p in ends]
-        speed = [np.abs(ahead - behind) / 2e-6 for ahead, behind in beside]
-        size = np.abs(values).max(axis=2)[0]
-        wanted = min(1e-12 * size[a] / speed[end][0, a] for a in (r.j, r.k) if speed[end][0, a] > 1e-3 * size[a])
-        off = 10.0 ** np.arange(-17, 3, 0.02)
-        blur = np.zeros((2, len(off)))
-        blur[end] = off
-        many = turning.Interval(**{**vars(span.take(np.zeros(len(off), int))), "blur": blur, "haze": np.zeros(len(off))})
-        found = flip_of(off, extremes._sharp(land, many, np.repeat(values, len(off), axis=0)))
-        # on a hyperbola (|xi| + |eta|)/2 bounds both speeds
-        assert (0.4 if r.e > 0 else 0.9) * wanted < found < 1.1 * wanted
-        many = turning.Interval(**{**vars(many), "blur": 0 * blur, "haze": off})
-        assert flip_of(off, extremes._sharp(land, many, np.repeat(values, len(off), axis=0))) == pytest.approx(
-            2e-12 * span.fastest[0], rel=0.06)
-
-
-@pytest.mark.parametrize("a", [0.0, 1.0, 1e3])
-def test_components_far_smaller_than_the_shift_of_the_circle_go_to_balls(a):
-    """omega = X - shift: a component of size s keeps 1e-12 while EPS (shift + radius) < 1e-12 s."""
-    scene = scaled(a, a + 0.25, (0, 0, 1))[0]
-    land = landscape(scene)
-    sizes = 10.0 ** np.arange(-6, 4, 0.05)
-    n = len(sizes)
-    place, w, _ = land.start(np.array([[1.5 - a, 3.0, 0.1]]))
-    span = turning.interval(land, place, w)
-    many = turning.Interval(**{**vars(span.take(np.zeros(n, int))), "blur": np.zeros((2, n)), "haze": np.zeros(n)})
-    values = np.stack([np.zeros((n, 3)), np.repeat(sizes[:, None], 3, axis=1)], axis=2)
-    sharp = extremes._sharp(land, many, values)
-    radius = max(np.abs(p[0, 0]) + np.abs(p[1, 0]) for p in (span.left_place, span.right_place))
-    smallest = -flip_of(-sizes[::-1], sharp[::-1])
-    assert smallest == pytest.approx(EPS / 1e-12 * (radius + (a + 0.25)), rel=0.35)
 
 
 @pytest.mark.parametrize("name", ["minor scaled -", "major physical", "middle physical, other sign",
@@ -87,13 +34,12 @@ def test_motions_within_a_share_of_the_energy_s_terms_of_the_separatrix_go_to_ba
     for size, speed in ((0.02, 0.0), (3.0, 0.1), (50.0, 0.0), (3.0, 40.0)):
         place = tuple(np.full(len(margins), v) for v in (size, -size))
         w = np.full(len(margins), speed)
-        decided = type("decided", (), {"margins": margins})
         pot, unit = land.potential, land.reduction.energy_unit
         g, forces = abs(pot.G), (pot.c, pot.d) if land.e < 0 else (pot.e1, pot.e2)
         scale = speed**2 / 2 + pot.mu + 2 * g * size**2 + sum(map(abs, forces)) * np.sqrt(2) * size
-        found = flip_of(margins, guards.near_separatrix(land, place, w, decided, 1e-3))
+        found = flip_of(margins, guards.near_separatrix(land, place, w, margins, 1e-3))
         assert found == pytest.approx(1e-3 * unit * scale, rel=0.03)
-        np.testing.assert_array_equal(guards.near_separatrix(land, place, w, type("d", (), {"margins": -margins}), 1e-3),
+        np.testing.assert_array_equal(guards.near_separatrix(land, place, w, -margins, 1e-3),
                                       margins <= found)
 
 
@@ -101,7 +47,7 @@ def test_on_parabolas_the_kinetic_energy_alone_is_the_scale_of_a_margin():
     land = landscape(PARABOLIC["first axis"][0])
     margins = 10.0 ** np.arange(-12, 6, 0.01)
     one = np.ones(len(margins))
-    found = flip_of(margins, guards.near_separatrix(land, (one, one), 4 * one, type("d", (), {"margins": margins}), 1e-3))
+    found = flip_of(margins, guards.near_separatrix(land, (one, one), 4 * one, margins, 1e-3))
     assert found == pytest.approx(1e-3 * land.reduction.energy_unit * 8, rel=0.03)
 
 
@@ -136,26 +82,17 @@ def test_states_at_the_place_of_a_barrier_go_to_balls_and_those_at_a_well_do_not
                 assert not found.any()
 
 
-@pytest.mark.parametrize("inside, share, module", [(True, 1e-7, "extremes.balls"), (False, 1e-4, "extremes.balls"),
-                                                   (True, 1e-5, "period.balls")])
-def test_extremes_and_periods_leave_to_balls_what_is_within_their_share_of_the_separatrix(inside, share, module, monkeypatch):
-    """Asked is whoever is nearer than the share of the terms: the torque's, the force's along the orbit, the kinetic energy."""
-    scene, problem = FAMILIES["minor scaled +"]
-    module, asked = importlib.import_module(f"stabilab.orbit.{module}"), []
-    name = {"extremes": "precise_extremes", "period": "precise_period"}[module.__name__.split(".")[-2]]
-    real = getattr(module, name)
-    user = f"stabilab.orbit.{module.__name__.split('.')[-2]}.arrays.{name}"
-    monkeypatch.setattr(user, lambda orbit, label: asked.append(tuple(orbit.state)) or real(orbit, label))
-    # rows in twofold numbers, which are asked before balls, settle none here
-    none = lambda land, rows, bit: (np.empty((len(rows), 3, 2)[:3 if bit == 1 else 1]), np.zeros(len(rows), bool))
-    monkeypatch.setattr(user.replace(name, "one_by_one"), none)
+def test_spin_ups_within_their_share_of_the_separatrix_are_left_to_balls(monkeypatch):
+    """Nearer than the share of the terms: the torque's, the force's along the orbit, the kinetic energy."""
+    (scene, problem), asked = FAMILIES["minor scaled +"], []
+    monkeypatch.setattr(both, "precise_extremes", lambda orbit, label: asked.append(tuple(orbit.state)) or precise_extremes(orbit, label))
     off = 10.0 ** np.arange(-9, -1.5, 0.5)
     edge = np.array(brink(problem, (-3.0, 1.0), 0.0))
-    states = np.array([[*edge[:2], edge[2] * (1 + (-d if inside else d))] for d in off])
-    (stabilab.extremes if name == "precise_extremes" else stabilab.period)(scene, states, fast=False)
+    states = np.array([[*edge[:2], edge[2] * (1 + d)] for d in off])
+    stabilab.extremes(scene, states)
     x, z = -3.0 + 0.2, 1.0
     scale = edge[2] ** 2 / 2 + 1 + (x * x + z * z) + 0.2 * np.hypot(x, z)
-    near = edge[2] ** 2 * off <= share * scale
+    near = edge[2] ** 2 * off <= 1e-4 * scale
     np.testing.assert_array_equal([tuple(s) in asked for s in states.tolist()], near)
 
 
@@ -164,6 +101,6 @@ def test_an_end_beyond_the_doubles_beside_an_equilibrium_of_nearly_equal_moments
     scene = stabilab.Scene(stabilab.Body((1.1358912034371995, 1.1358912034372006, 1.369444431794344)),
                            stabilab.Gyrostat((15.42395050522702, 0.0, 0.006658581675073356)), stabilab.ConstantTorque((0.0, 142451.4621787088, 0.0)))
     state = tuple(map(float.fromhex, ("0x1.fa74aefe3b0dfp+9", "0x0.0p+0", "-0x1.4217b28358025p+9")))
-    box, periods = extremes_and_periods(scene, np.array([state]), False)
+    box, periods = extremes_and_periods(scene, np.array([state]))
     np.testing.assert_allclose(box[0, 1], np.array((-7.199010478703518e-15, 7.199010478703518e-15)), rtol=1e-9)
     assert periods[0] == pytest.approx(float(period_ball(Orbit(reduce(scene), state), 20).mid()), rel=1e-12)

@@ -283,7 +283,7 @@ families = pytest.mark.parametrize("name", FAMILIES)
 @families
 def test_generic_states_need_no_many_digits(name, monkeypatch):
     """Error bounds that are too wide change no answer, only the cost: the counters tell."""
-    monkeypatch.setattr("stabilab.orbit.extremes.arrays.precise_extremes", lambda *a: pytest.fail("a generic state went to ball arithmetic"))
+    monkeypatch.setattr("stabilab.orbit.extremes_and_periods.precise_extremes", lambda *a: pytest.fail("a generic state went to ball arithmetic"))
     scene, states = FAMILIES[name][0], sample(name, 300)
     assert stabilab.fate(scene, states).precise == 0
     stabilab.extremes(scene, states, fast=False)
