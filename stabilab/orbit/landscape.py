@@ -101,9 +101,6 @@ class HyperbolaLandscape(ConicLandscape):
     def xz(self, place):
         return 0.5 * (place[0] + place[1]), 0.5 * (place[0] - place[1])
 
-    def place(self, x, z):
-        return x + z, x - z
-
     def invariant(self, place):
         return -place[0] * place[1]
 

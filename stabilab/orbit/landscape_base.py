@@ -74,10 +74,6 @@ class Landscape:
         """The two coordinates at places whose ranges are those of the components."""
         return place
 
-    def place(self, x, z):
-        """The place of these two coordinates."""
-        return x, z
-
     def energy_terms(self, place, w):
         """(n,) size of the energy's terms, canonical."""
         raise NotImplementedError
