@@ -1,14 +1,17 @@
-"""What becomes of a motion that a torque exactly on an axis keeps bounded, when the torque is a little off that axis.
+"""What a tilt of the torque does to a motion: no thruster points exactly along an axis.
 
-No thruster points exactly along an axis, and such a verdict is lost with any tilt: the integrals of the axis drift, and the motion leaves its
-well after a time like 1/tilt. Two answers stand beside the verdict: the shortest time to the rate limit that is found at the edge of the cone of torques,
-and a time before which no torque of the cone reaches it (`passage.drift`).
+A verdict that rests on a torque exactly on an axis is lost with any tilt: the integrals of the axis drift, and the motion leaves its well after a time
+like 1/tilt. Two answers stand beside it: the shortest time to the rate limit that is found at the edge of the cone of torques, and a time before which
+no torque of the cone reaches it (`passage.drift`). Any other motion has a range instead: of the time to its limit, or of its fate, over the cone.
 """
 from __future__ import annotations
 
 import math
+from collections import Counter
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from fractions import Fraction
+from typing import Any, ClassVar, TypeAlias, cast
 
 import numpy as np
 
@@ -23,17 +26,86 @@ from .caveats import STEADY
 from .extremes import extremes
 from .fate import fate
 from .kinds import kind_of
-from .passage.cone import Cone, cone_of, tilted
 from .passage.drift import stays_below
-from .passage.limit import Limit, asked
+from .passage.limit import asked
 from .passage.run import run_once
 from .time_to import time_to
 
 DEGREE = math.pi / 180  # taken where nothing states an angle
-AZIMUTHS, REFINED = 12, 4  # looked at round the cone; halvings of the interval about the best
+AZIMUTHS, REFINED = 12, 4  # looked at round the edge of the cone; halvings of the interval about the nearest
+EDGE = [2 * math.pi * n / AZIMUTHS for n in range(AZIMUTHS)]
 STEPS = 60_000  # of a run at one azimuth
 WORK = 8_000_000  # multiplications for a proof of the shortest time
 TWICE = 2.0  # times the largest rate of the bounded motion: the limit where none is stated
+UP = 1 + 1e-12  # more than the rounding of a few doubles
+Tried: TypeAlias = list[tuple[float, float]]  # a value and its azimuth
+VERBS = {Fate.BOUNDED: "stays bounded", Fate.SPIN_UP: "spins up", Fate.SEPARATRIX: "lies on a separatrix", Fate.EQUILIBRIUM: "stays as it is",
+         Fate.UNDECIDED: "is undecided"}
+
+
+@dataclass(frozen=True)
+class Cone:
+    """torque: on its axis, N m, principal axes; parts: what each tilted force or torque adds: (whole (3,), first (3,), second (3,), half-angle): at
+    azimuth phi the change is (cos - 1) whole + sin (cos phi first + sin phi second). words: what is tilted; angle: the largest half-angle."""
+
+    torque: np.ndarray
+    parts: tuple[Any, ...]
+    words: str
+    angle: float
+
+    def at(self, azimuth: float) -> np.ndarray:
+        """The torque (3,) at the edge of the cone."""
+        return self.torque + sum((math.cos(a) - 1) * whole + math.sin(a) * (math.cos(azimuth) * first + math.sin(azimuth) * second)
+                                 for whole, first, second, a in self.parts)
+
+    def reach(self) -> tuple[float, tuple[float, float]]:
+        """(most of the part across the axis, (least, most) of the component along it) of every torque in the cone."""
+        axis = int(np.argmax(np.abs(self.torque)))
+        across = [n for n in range(3) if n != axis]
+        side = sum((1 - math.cos(a)) * math.hypot(*whole[across]) + math.sin(a) * np.linalg.norm(np.stack([first, second])[:, across], 2)
+                   for whole, first, second, a in self.parts)
+        along = sum((1 - math.cos(a)) * abs(whole[axis]) + math.sin(a) * math.hypot(first[axis], second[axis]) for whole, first, second, a in self.parts)
+        blur = (UP - 1) * (float(np.abs(self.torque).max()) + side + along)
+        return float(side) + blur, (float(self.torque[axis] - along) - blur, float(self.torque[axis] + along) + blur)
+
+
+def cone_of(scene: Scene, case: Any = None, angle: float | None = None) -> Cone:
+    """The cone of a scene's torque: tilted as a whole by `angle`, or, without it, as the stuck thrusters of the case state.
+
+    Azimuth 0 of a torque along an axis lies towards the axis that follows it, cyclically; of another across the axis that is farthest from it; of a
+    thruster, across the structural axis that is farthest from its force.
+    """
+    torque = np.array([float(v) for v in scene.vector("constant_torque")])
+    axis = int(np.argmax(np.abs(torque)))
+    loose = [] if angle is not None or case is None else [t for t in case.thrusters if t.stuck and t.misalignment]
+    if loose:
+        parts = tuple(_of_force(case, thruster) for thruster in loose)
+        return Cone(torque, parts, "the force of " + " and ".join(t.name for t in loose), max(part[-1] for part in parts))
+    first, second = (abs(torque[axis]) * np.eye(3)[(axis + n) % 3] for n in (1, 2))
+    if np.count_nonzero(torque) > 1:
+        first = np.cross(np.eye(3)[int(np.argmin(np.abs(torque)))], torque)
+        first *= np.linalg.norm(torque) / np.linalg.norm(first)
+        second = np.cross(torque, first) / np.linalg.norm(torque)
+    return Cone(torque, ((torque, first, second, angle),), "the torque", cast(float, angle))
+
+
+def _of_force(case: Any, thruster: Any) -> tuple[np.ndarray, np.ndarray, np.ndarray, float]:
+    """(whole, first, second, half-angle) of the torque of a thruster whose force points anywhere in its cone, along principal axes."""
+    force = np.array([float(v) for v in thruster.direction])
+    arm = np.array([float(v) for v in thruster.arm])
+    aside = np.eye(3)[int(np.argmin(np.abs(force)))]
+    first = np.cross(aside, force)
+    first /= np.linalg.norm(first)
+    frame = np.array([[float(v) for v in axis] for axis in case.frame.axes])
+    turned = [frame @ np.cross(arm, float(thruster.force) * v) for v in (force, first, np.cross(force, first))]
+    return turned[0], turned[1], turned[2], float(thruster.misalignment)
+
+
+def tilted(scene: Scene, torque: np.ndarray) -> Scene:
+    """The scene under another torque (3,), its doubles taken at their word."""
+    others = [effect for effect in scene.effects if effect.name != "constant_torque"]
+    kind = type(scene.effect("constant_torque"))
+    return Scene(scene.body, *others, kind(tuple(Fraction(float(v)) for v in torque)))
 
 
 @dataclass(frozen=True)
@@ -67,6 +139,43 @@ class Tilt:
         return self.high is not None
 
 
+@dataclass(frozen=True)
+class Spread:
+    """angle: half-angle of the cone, rad; of: what is tilted; directions: of the torque that were looked at, its own and those round the edge of the cone.
+    limit: rad/s as of `Limit.least_rate`, None where no limit is asked: then fates says in how many directions the motion has which fate.
+    earliest, latest: (low, high) of the least and the greatest time found, s, None where the limit was not reached in any direction, or not in all of
+    them within `followed`, s; level: of both, as of `TimeTo`. because: why none was looked at."""
+
+    ranges: ClassVar[bool] = True
+
+    angle: float
+    of: str
+    directions: int
+    limit: float | None = None
+    earliest: tuple[float, float] | None = None
+    latest: tuple[float, float] | None = None
+    level: str = "run"
+    followed: float = math.inf
+    fates: tuple[tuple[str, int], ...] = ()
+    because: str = ""
+
+    @property
+    def words(self) -> str:
+        """What is found, in SI units."""
+        if self.because:
+            return f"a tilt of the torque is not looked at {self.because}"
+        by, many = f"tilted by {self.angle:.6g} rad it", f"of {self.directions} directions of the torque"
+        if self.limit is None:
+            return f"{by} " + ", ".join(f"{word} in {count}" for word, count in self.fates) + f" {many}"
+        reaches = f"reaches {self.limit:.6g} rad/s"
+        if self.earliest is None:
+            return f"{by} was not found to reach {self.limit:.6g} rad/s within {self.followed:.6g} s in any {many}"
+        first = f"{by} {reaches} after {self.earliest[0]:.6g} s at the earliest"
+        if self.latest is None:
+            return f"{first} {many} ({self.level}), in some of them not within {self.followed:.6g} s"
+        return f"{first} and after {self.latest[1]:.6g} s at the latest {many} ({self.level})"
+
+
 def tilt(scene: AnyScene, state: Any, angle: float | None = None, rate: Any = None, case: Any = None, exact: Exact3 | None = None,
          ask: dict[str, Any] | None = None) -> Tilt:
     """What a tilt of the torque does to a bounded motion under a torque on a principal axis.
@@ -91,7 +200,17 @@ def tilt(scene: AnyScene, state: Any, angle: float | None = None, rate: Any = No
     least = limit.least_rate()
     exactly = time_to(scene, state, **question, exact=exact, work=WORK)
     not_before = stays_below(scene, state, least, *cone.reach())
-    azimuths, times, followed = _search(scene, state, limit, cone, not_before)
+    time = lambda azimuth: run_once(tilted(scene, cone.at(azimuth)), state, limit, steps=STEPS)
+    tried: Tried = []
+    followed = math.inf
+    for azimuth in EDGE:
+        t, until = time(azimuth)
+        tried, followed = [*tried, (t, azimuth)], min(followed, until)
+        if until < not_before:  # so do runs of as many steps at the other azimuths, or nearly
+            break
+    if math.isfinite(min(tried)[0]):
+        tried = nearest_round(lambda azimuth: time(azimuth)[0], tried)
+    azimuths, times = np.array(sorted((azimuth, t) for t, azimuth in tried)).T
     found: dict[str, Any] = {"low": None, "high": None, "level": "run", "azimuth": None, "torque": None}
     if np.isfinite(times).any():
         azimuth = float(azimuths[np.argmin(times)])
@@ -116,32 +235,34 @@ def _question(scene: AnyScene, state: Any, rate: Any, case: Any) -> Any:
     return {"rate": TWICE * float(np.linalg.norm(largest))}, False
 
 
-def _search(scene: Scene, state: Any, limit: Limit, cone: Cone, not_before: float) -> Any:
-    """Look for crossings round the cone, then more closely about the azimuth with the shortest time; at one azimuth alone where a run falls
-    short of the time before which there is none.
+def spread(scene: Scene, state: Any, cone: Cone, ask: dict[str, Any] | None, exact: Exact3 | None = None) -> Spread:
+    """The range over the torque itself and those at the edge of its cone. ask: the limit, by its name as of `time_to`; None: the fates."""
+    torques = [cone.torque, *map(cone.at, EDGE)]
+    if ask is None:
+        found = Counter(VERBS[Fate(int(fate(tilted(scene, torque), state).labels))] for torque in torques)
+        return Spread(cone.angle, cone.words, len(torques), fates=tuple(found.most_common()))
+    limit = asked(scene, **ask)
+    time = lambda torque: run_once(tilted(scene, torque), state, limit, steps=STEPS)
+    (own, *times), ends = map(list, zip(*map(time, torques)))
+    most = []
+    for sign in (1, -1) if np.isfinite([own, *times]).any() else ():
+        value: Callable[[float], float] = lambda azimuth, sign=sign: sign * time(cone.at(azimuth))[0]
+        best, azimuth = min(nearest_round(value, [(sign * t, at) for t, at in zip(times, EDGE)]))
+        most.append(cone.torque if sign * own <= best else cone.at(azimuth))
+    if not most:
+        return Spread(cone.angle, cone.words, len(torques), limit.least_rate(), followed=min(ends))
+    exactly = [time_to(tilted(scene, torque), state, **ask, exact=exact, work=WORK) for torque in most]
+    (first, last), all_of_them = [(float(one.low), float(one.high)) for one in exactly], bool(np.isfinite([own, *times]).all())
+    levels = {str(one.level) for one in exactly[:1 + all_of_them]}
+    return Spread(cone.angle, cone.words, len(torques) + 4 * REFINED, limit.least_rate(), first, last if all_of_them and math.isfinite(last[1]) else None,
+                  levels.pop() if len(levels) == 1 else "run", min(ends))
 
-    Return the azimuths, the times, and how long the shortest run without a crossing went on.
-    """
-    azimuths = [2 * math.pi * n / AZIMUTHS for n in range(AZIMUTHS)]
-    times, followed = [], math.inf
-    for azimuth in azimuths:
-        t, until = _time(scene, state, limit, cone, azimuth)
-        times.append(t)
-        followed = min(followed, until)
-        if until < not_before:  # so do runs of as many steps at the other azimuths, or nearly
-            azimuths = azimuths[:len(times)]
-            break
+
+def nearest_round(value: Callable[[float], float], tried: Tried) -> Tried:
+    """The (value, azimuth) of a function round the edge of a cone that were tried, and more of them, closer and closer to the least."""
     step = math.pi / AZIMUTHS
-    for _ in range(REFINED if np.isfinite(times).any() else 0):
-        best = azimuths[int(np.argmin(times))]
-        for azimuth in (best - step, best + step):
-            azimuths.append(azimuth % (2 * math.pi))
-            times.append(_time(scene, state, limit, cone, azimuth)[0])
+    for _ in range(REFINED):
+        best = min(tried)[1]
+        tried = [*tried, *((value(azimuth), azimuth) for azimuth in ((best - step) % (2 * math.pi), (best + step) % (2 * math.pi)))]
         step /= 2
-    order = np.argsort(azimuths)
-    return np.array(azimuths)[order], np.array(times)[order], followed
-
-
-def _time(scene: Scene, state: Any, limit: Limit, cone: Cone, azimuth: float) -> Any:
-    found, unit = run_once(tilted(scene, cone.at(azimuth)), state, limit, math.inf, STEPS)
-    return (math.inf, found.until / unit) if found.t is None else (found.t / unit, math.inf)
+    return tried

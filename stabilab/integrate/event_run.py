@@ -35,15 +35,24 @@ def first_root(equations, state, expressions, t_max: float, steps: int, toleranc
 
     state: (N,) at time 0; steps: after so many the run is given up.
     """
-    forms = form(equations, (*equations.rhs, *expressions))
-    return (_by_taylor if heyoka_available() else _by_scipy)(equations, forms, np.asarray(state, float), t_max, steps, tolerance)
+    system, state = to_numpy(equations), np.asarray(state, float)
+    with np.errstate(all="ignore"):
+        changes = np.asarray(system(state), float)
+    return root_of(form(equations, (*equations.rhs, *expressions)), system.rate, state, changes, t_max, steps, tolerance)
 
 
-def _by_taylor(equations, forms, state, t_max, steps, tolerance):
+def root_of(forms, rate, state, changes, t_max: float, steps: int, tolerance: float = TAYLOR_TOLERANCE) -> FirstRoot:
+    """The same of a form, the rates first and then the expressions; rate: of a list of floats; changes: (N,) the rates at time 0."""
+    longest = _longest(np.asarray(changes, float), state)
+    if heyoka_available():
+        return _by_taylor(forms, state, t_max, steps, tolerance, longest)
+    return _by_scipy(forms, rate, state, t_max, steps, tolerance)
+
+
+def _by_taylor(forms, state, t_max, steps, tolerance, longest):
     with taylor_events(forms, tolerance) as (integrator, found), np.errstate(all="ignore"):
         integrator.time, done = 0.0, 0
         integrator.state[:] = state
-        longest = _longest(equations, state)
         while True:
             outcome, _, _, taken, *_ = integrator.propagate_until(t_max, max_steps=min(TOGETHER, steps - done), max_delta_t=longest)
             done += taken
@@ -55,18 +64,16 @@ def _by_taylor(equations, forms, state, t_max, steps, tolerance):
                 return FirstRoot(None, float(integrator.time) if alive else 0.0, outcome.name == "time_limit" and bool(alive), done)
 
 
-def _longest(equations, state) -> float:
+def _longest(changes, state) -> float:
     """The longest step, by the rates of the start and the roots of their changes."""
-    with np.errstate(all="ignore"):
-        changes = np.abs(np.asarray(to_numpy(equations)(state), float)[:3])
+    changes = np.abs(changes[:3])
     size = max(float(np.abs(state[:3]).max()), math.sqrt(float(changes.max())) if np.isfinite(changes).all() else 1.0)
     return LONGEST / size if size > 0 else math.inf
 
 
-def _by_scipy(equations, forms, state, t_max, steps, tolerance):
-    system, count = to_numpy(equations), len(equations.rhs)
-    values = _compiled(forms, count)
-    solver = stand_in(system.rate, state, t_max, rtol=max(tolerance, FALLBACK_RTOL))
+def _by_scipy(forms, rate, state, t_max, steps, tolerance):
+    values = _compiled(forms, len(forms.state))
+    solver = stand_in(rate, state, t_max, rtol=max(tolerance, FALLBACK_RTOL))
     for done in range(steps):
         if solver.status != "running":
             break

@@ -11,10 +11,9 @@ import numpy as np
 import pytest
 
 import stabilab as package
-from stabilab.answers.passage.cone import cone_of
 from stabilab.answers.passage.drift import stays_below
 from stabilab.answers.passage.run import run_once
-from stabilab.answers.tilt import tilt
+from stabilab.answers.tilt import cone_of, tilt
 from stabilab.errors import InputError
 from tests.oracles.first_crossing import REAL, first_crossing
 from tests.shared import CASES, craft_file
@@ -130,7 +129,7 @@ def test_a_first_answer_compiles_no_kernel_and_few_integrators(tmp_path):
 def test_one_azimuth_is_followed_where_runs_end_before_the_limit_can_be_reached(monkeypatch):
     """By a count of the runs; far beyond the steps of a run, no azimuth shows more than the bound does."""
     runs, once = [], run_once
-    monkeypatch.setattr("stabilab.answers.tilt.run_once", lambda *given: runs.append(given) or once(*given))
+    monkeypatch.setattr("stabilab.answers.tilt.run_once", lambda *given, **more: runs.append(given) or once(*given, **more))
     weak = package.Scene(BODY, WHEEL, package.ConstantTorque((0, 0, 2e-5)))
     found = tilt(weak, STATE, math.radians(0.01), rate=2)
     assert not found.ends and found.followed < found.not_before and len(runs) == len(found.azimuths) == len(found.times) == 1

@@ -10,12 +10,10 @@ from ...orbit.result import Motion
 from ...physics.alignment import torque_axis
 from ..caveats import STEADY, caveats_of, limited, misaligned, stated
 from ..kinds import kind_of
-from ..tilt import tilt
+from ..tilt import Spread, cone_of, spread, tilt
 from ..time_to import time_of_case
-from .cone import cone_of
 from .enclosed import WORK
 from .result import TimeTo
-from .spread import Spread, spread
 
 
 def limited_time(case: Any, ask: dict[str, Any], t_max: float | Fraction | None = None) -> TimeTo:

@@ -13,17 +13,14 @@ from ...numbers.vectors import Exact3
 from ...physics.alignment import torque_axis
 from ...physics.scene import Scene
 from ..caveats import STEADY, caveats_of
-from ..passage.cone import cone_of
 from ..passage.of_case import limit_of
-from ..passage.spread import Spread, spread
-from ..tilt import Tilt, tilt
-from .delay import delayed
+from ..tilt import Spread, Tilt, cone_of, spread, tilt
 from .fate import Found, found
 from .helpers import helpers
 from .margins import margins
 from .result import Principal, Row, Stuck, WheelAnswer
 from .scenario import Scenario, scenario_of
-from .wheel import intervals
+from .wheel import delayed, intervals
 
 
 def stuck(case: Any, all_thrusters: bool = False, progress: Callable[[str], Any] | None = None) -> Stuck:

@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -18,8 +18,6 @@ from ...physics.effects.gyrostat import Gyrostat
 from ...physics.scene import Scene
 
 STEADY = (Fate.BOUNDED, Fate.EQUILIBRIUM)
-FINE = Fraction(1, 1 << 51)  # of an end, or of the size of the whole: an end is known to this
-TRIES = 400  # halvings or doublings at most: doubles have 2,098 binary orders, these bodies a few
 
 
 @dataclass(frozen=True)
@@ -106,41 +104,3 @@ def family_of(scene: Scene, state: Sequence[Fraction]) -> Family | None:
     if len(acting) != 1:
         return None
     return Family(scene.body, acting[0], torque[acting[0]], scene.vector("gyrostat"), tuple(map(Fraction, state)), turn)
-
-
-def change_between(answer: Callable[[Fraction], tuple[bool, float]], inside: Fraction, outside: Fraction, scale: Fraction) -> tuple[Fraction, Fraction]:
-    """(last number known to hold, first known not to) between one that holds and one that does not, as near as `FINE` of their size or of scale.
-
-    answer(number): (whether it holds, a margin that is positive exactly where it does, or NaN). Where both ends have margins the next number is
-    where the line through them vanishes, at least the resolution away from either end, the margin of an end that stays halved (the Illinois rule);
-    every fourth time it is the middle.
-    """
-    margins, last = [answer(end)[1] for end in (inside, outside)], None
-    for n in range(TRIES):
-        least = FINE * max(abs(inside), abs(outside), scale * FINE)
-        if abs(outside - inside) <= least:
-            break
-        middle = _short(_next(inside, outside, margins, least) if n % 4 < 3 else (inside + outside) / 2)
-        if not min(inside, outside) < middle < max(inside, outside):
-            middle = _short((inside + outside) / 2)
-            if not min(inside, outside) < middle < max(inside, outside):
-                break
-        holds, margin = answer(middle)
-        inside, outside = (middle, outside) if holds else (inside, middle)
-        margins = [margin, margins[1] / (2 if last is True else 1)] if holds else [margins[0] / (2 if last is False else 1), margin]
-        last = holds
-    return inside, outside
-
-
-def _next(inside: Fraction, outside: Fraction, margins: list[float], least: Fraction) -> Fraction:
-    a, b = margins
-    if not (a > 0 > b and math.isfinite(a - b)):
-        return (inside + outside) / 2
-    share = Fraction(min(max(a / (a - b), 0.0), 1.0))
-    edge = min(Fraction(1, 2), least / abs(outside - inside))
-    return inside + min(max(share, edge), 1 - edge) * (outside - inside)
-
-
-def _short(value: Fraction) -> Fraction:
-    """The double nearest to it: numbers do not grow while an interval is halved."""
-    return Fraction(float(value))

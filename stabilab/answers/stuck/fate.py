@@ -3,9 +3,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
-from typing import Any
+from typing import Any, cast
 
 from ...numbers.vectors import Float3, dot
 from ...orbit.result import Fate, Motion
@@ -14,14 +14,16 @@ from ...physics.scene import Scene
 from ...unreduced.enclosure.proof import proved
 from ...unreduced.spin_up.follow import spin_up
 from ..kinds import kind_of, one
-from ..passage.limit import Limit
+from ..passage.limit import Limit, asked
+from ..passage.of_case import limit_of
+from ..passage.run import largest_rate, run_once
 from ..time_to import of_one
-from .reach import largest_rate
 from .scenario import Scenario
 
-BUDGET = 100_000  # steps of a run that looks for the largest rate
+BUDGET, SEARCHED = 100_000, 20_000  # steps of a run that looks for the largest rate, and of each of many that are compared
 LITTLE, FEW = 2_000_000, 3_000  # multiplications and compiled steps: some tenths of a second
 PLAIN = 32  # validated steps without the compiler, fifteen milliseconds each: as long as loading what is compiled takes; compiling it takes ten seconds
+PATIENCE = 100  # times the time without a change: a limit that is not reached by then counts as never
 TURN = 1.001  # of a period: a motion that repeats is followed for so long
 EXACT = ("axis", "law")  # certificates of growth that are closed solutions
 
@@ -63,6 +65,22 @@ def time_under(scenario: Scenario, torque: Sequence[Fraction], wheel: Sequence[F
     """The bracket of the time to the limit under a torque and a wheel momentum, s; None where it is never within what is known. A motion that a wheel holds
     up goes on for long: it is enclosed where little work does that, else followed by a run."""
     return _when(scenario, scenario.scene(torque, wheel), None, LITTLE, FEW).time
+
+
+def limit_in(scenario: Scenario) -> Limit:
+    """The limit of the case along the scene's axes, exactly."""
+    ask = cast(dict[str, Any], limit_of(scenario.case))
+    found = asked(scenario.scene(scenario.base), **ask)
+    return replace(found, words="components in the frame of the file") if found.kind == "component" else found
+
+
+def first_time(scenario: Scenario, limit: Limit, torque: Sequence[Fraction], wheel: Sequence[Fraction] | None, t_max: float) -> float:
+    """The time at which a plain run comes to the limit, s, for searches; inf where not until t_max, and where its steps end before that, the time it got
+    to."""
+    if limit.reached_by(scenario.state):
+        return 0.0
+    t, until = run_once(scenario.scene(torque, wheel), scenario.start, limit, t_max, SEARCHED)
+    return t if until >= t_max else until
 
 
 def _at_rest(scenario: Scenario, kind: str) -> Found:
@@ -107,23 +125,12 @@ def _when(scenario: Scenario, scene: Scene, t_max: float | None, *work: Any, spu
     if scenario.limit is None:
         return _When(None, "run", False, 0.0 if t_max is None else t_max)
     end = None if t_max is None else Fraction(t_max)
-    seen = of_one(scene, scenario.start, scenario.state, _limit(scenario), end, *work, spun=spun)  # type: ignore[misc]  # work is no more than two
+    seen = of_one(scene, scenario.start, scenario.state, limit_in(scenario), end, *work, spun=spun)  # type: ignore[misc]  # work is no more than two
     if math.isinf(seen.low):
         return _When(None, seen.level, True, math.inf)
     if math.isfinite(seen.high):
         return _When((seen.low, seen.high), seen.level, False, seen.high)
     return _When(None, seen.level, False, seen.low, f"; {seen.words}")
-
-
-def _limit(scenario: Scenario) -> Limit:
-    """The limit of the case along the scene's axes, exactly."""
-    limits = scenario.case.limits
-    if limits.rate is not None:
-        parts: tuple[Any, ...] = ((tuple((Fraction(1), tuple(Fraction(i == j) for j in range(3))) for i in range(3)), limits.rate**2),)
-        return Limit("rate", parts, f"|omega| = {float(limits.rate):.10g} rad/s")
-    rows = scenario.axes.axes
-    parts = tuple((((Fraction(1), tuple(rows[i][n] for i in range(3))),), most**2) for n, most in enumerate(limits.rates))
-    return Limit("component", parts, "components in the frame of the file")
 
 
 def _largest(scenario: Scenario, scene: Scene, when: _When, otherwise: float | None) -> float | None:

@@ -14,10 +14,8 @@ from itertools import combinations
 from typing import Any, TypeAlias, TypeGuard
 
 from ...numbers.vectors import CYCLE, Exact3, dot
-from .delay import BUDGET, PATIENCE
 from .family import STEADY, Family
-from .fate import Found, found, time_under
-from .reach import first_time
+from .fate import PATIENCE, Found, first_time, found, limit_in, time_under
 from .result import Helper
 from .scenario import Scenario
 
@@ -161,7 +159,7 @@ def _run(scenario: Scenario, torque: Sequence[Fraction], chosen: Any, duty: Duty
     """The time of the limit by a plain run, inf where it is not reached for long."""
     left = _left(torque, [arm for _, arm in chosen], duty)
     t_max = PATIENCE * (seen.time[0] if seen.time else seen.followed)
-    return first_time(scenario.scene(left), scenario.start, scenario.limit, scenario.rows, t_max, BUDGET)
+    return first_time(scenario, limit_in(scenario), left, None, t_max)
 
 
 def _in_the_box(torque: Sequence[Fraction], arms: Sequence[Sequence[Fraction]]) -> list[Duty]:

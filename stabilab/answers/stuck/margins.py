@@ -5,22 +5,22 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 from fractions import Fraction
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 
 from ...numbers.exact import sqrt_fraction
 from ...numbers.roots import golden_section
 from ...numbers.vectors import Float3, Number
+from ...orbit.reduction import Reduction
 from ...orbit.result import Fate, Motion
 from ...physics.scene import Scene
-from .family import STEADY, TRIES, Family, change_between, family_of
+from .family import STEADY, Family, family_of
 from .fate import Found
-from .rate_roots import Ray
+from .line import TRIES, Line, candidates, change_between, nearest_change, pieces, rise
 from .result import Margin
 from .scenario import Scenario
-from .wheel import Intervals, across, loose, pieces
-from .wheel_roots import candidates
+from .wheel import across, loose
 
 TURN = 2000  # places on the turn at which the rise of the potential is looked at, to find a direction
 MOST = 1000  # of the body's own momentum: changes of the wheel as great are not told
@@ -30,7 +30,7 @@ DIRECTIONS, CLOSER = 180, 26  # of a change of wheel momentum, at first; steps n
 TURNS = (0.0, 1e-5, -1e-5, 1e-4, -1e-4, 1e-3, -1e-3)  # rad: the nearest place may be the tip where two separatrices meet, with nothing straight behind it
 FREE = "the motion spins up on a set of measure zero: nearly every change, however small, makes it bounded"
 ALONE = "to the separatrix, where alone the fate is another: beyond it the motion is bounded again"
-CLOSE = Fraction(1, 10**6)  # of a change: how near to it, as doubles saw it, the exact change is looked for
+CLOSE = 1e-6  # of a change: how near the exact one is to that of doubles; changes back so soon are no use to anybody
 
 
 def margins(scenario: Scenario, scene: Scene, seen: Found) -> dict[str, Margin]:
@@ -68,13 +68,13 @@ def _rate_again(family: Family, change: Sequence[Number], size: Fraction) -> flo
     if reduction is None:
         return None
     way = family.turned([Fraction(v) for v in change])
-    whole = sqrt_fraction(sum((v * v for v in way), Fraction(0)))
-    step = [v / whole for v in way]
-    cuts = candidates(Ray(reduction, family.state, step))
+    step = [v / sqrt_fraction(sum((v * v for v in way), Fraction(0))) for v in way]
+    cuts = candidates(Line(reduction, reduction, family.state, family.along(family.state, step, Fraction(1))))
     if cuts is None:
         return None
     clearly = lambda s: replace(family, state=family.along(family.state, step, s)).clearly()
-    return _ends(pieces(clearly, size, sorted(set(cuts))), size, family.fate() in STEADY)[1]
+    first, until = nearest_change(pieces(clearly, size, sorted(set(cuts))), family.fate() in STEADY)
+    return until if abs(first - size) <= CLOSE * size else None
 
 
 def _again(steady: bool) -> str:
@@ -150,55 +150,36 @@ def _least_torque(family: Family, sign: int, size: Fraction) -> Fraction | None:
 def _wheel(scenario: Scenario, family: Family, steady: bool) -> Margin:
     """Of a momentum across the torque: the nearest in the plane of the two other axes. Doubles show the way, exact fates give the number."""
     j, k = family.across
-    rise, (best, step) = _Rise(family), _to_pure_spin(family) if steady else (None, None)
-    for angle, size in _nearest(rise, steady):
-        if not size < MOST * family.momentum_unit or (best is not None and size > best):
-            continue
-        for turn in TURNS:
-            towards = [Fraction(0)] * 3
-            towards[j], towards[k] = Fraction(math.cos(angle + turn)), Fraction(math.sin(angle + turn))
-            near = rise.first_change(angle + turn, steady) if turn else size
-            found = _exactly(family, towards, Fraction(near), steady) if near < 2 * size else None
-            if found is not None:
-                best, step = (found, towards) if best is None or found < best else (best, step)
+    heights, best = _Rise(family), (math.inf, math.inf, [Fraction(0)] * 3)  # size, from where on it is back, direction
+    if steady and (straight := _to_pure_spin(family)):
+        best = min(best, (*_along(family, straight, steady), straight))
+    for angle, near in _nearest(heights, steady):
+        for turn in TURNS if near < min(MOST * family.momentum_unit, best[0] * (1 + CLOSE)) else ():
+            step = [Fraction(0)] * 3
+            step[j], step[k] = Fraction(math.cos(angle + turn)), Fraction(math.sin(angle + turn))
+            found = _along(family, step, steady)
+            if found[0] < 2 * near and found[1] > found[0] * (1 + CLOSE):
+                best = min(best, (*found, step))
                 break
-    if best is None or step is None:
+    size, until, step = best
+    if size == math.inf:
         return Margin(because="no wheel momentum across the torque is known to change the fate, up to a thousand times the body's own")
     words = "of a wheel momentum that stays across the torque, the least found over its directions"
-    best, until = _along(family, step, best, steady)
-    if until is not None and until < math.inf:
+    if until < math.inf:
         words += f"; from {until:.6g} N m s along the same line on it {_again(steady)}"
-    return Margin(float(best), _direction(scenario, family, {j: step[j], k: step[k]}), words, until)
+    return Margin(size, _direction(scenario, family, {j: step[j], k: step[k]}), words, until)
 
 
-def _along(family: Family, step: Sequence[Fraction], size: Fraction, steady: bool) -> tuple[Fraction, float | None]:
-    """(the least change along a unit vector at which the fate changes, the greater one from which on it is again what it was), by all the changes of
-    fate along it: one nearer than `size` or a way back may be too narrow for the places that doubles looked at."""
-    return _ends(across(family, family.wheel, step)[0], size, steady)
+def _along(family: Family, step: Sequence[Fraction], steady: bool) -> tuple[float, float]:
+    """(the least change along a unit vector at which the fate changes, the greater one from which on it is again what it was), inf where there is none."""
+    return nearest_change(across(family, family.wheel, step)[0], steady)
 
 
-def _ends(kept: Intervals, size: Fraction, steady: bool) -> tuple[Fraction, float | None]:
-    """As `_along`, of the intervals of s in which the motion is bounded."""
-    ends = [(Fraction(end), side) for pair in kept for side, end in zip((-1, 1), pair) if 0 < end < math.inf]  # -1: bounded from there on, 1: up to there
-    leaves = [end for end, side in ends if side == (1 if steady else -1)]
-    first = min(leaves, key=lambda end: abs(end - size), default=None)
-    if first is None or abs(first - size) > CLOSE * size:
-        return size, None
-    first = min(leaves)
-    returns = [float(end) for end, side in ends if side == (-1 if steady else 1) and end > first]
-    return (first if first < size * (1 - CLOSE) else size), min(returns, default=math.inf)
-
-
-def _to_pure_spin(family: Family) -> tuple[Fraction, list[Fraction]] | tuple[None, None]:
-    """(size, unit vector) of the change on the way to the momentum at which the orbit's circle is a point and nothing stands in the way of a spin-up."""
-    step = [Fraction(0)] * 3
-    for n in family.across:
-        step[n] = _pure_spin(family, n) - family.wheel[n]
+def _to_pure_spin(family: Family) -> list[Fraction] | None:
+    """The unit vector towards the momentum at which the orbit's circle is a point and nothing stands in the way of a spin-up."""
+    step = [_pure_spin(family, n) - family.wheel[n] if n in family.across else Fraction(0) for n in range(3)]
     whole = sqrt_fraction(sum((v * v for v in step), Fraction(0)))
-    if not whole:
-        return None, None
-    step = [v / whole for v in step]
-    return change_between(lambda s: family.clearly(wheel=family.along(family.wheel, step, s)), Fraction(0), whole, whole)[1], step
+    return [v / whole for v in step] if whole else None
 
 
 def _pure_spin(family: Family, n: int) -> Fraction:
@@ -207,30 +188,17 @@ def _pure_spin(family: Family, n: int) -> Fraction:
     return (D[family.axis] - D[n]) * family.state[n]
 
 
-def _exactly(family: Family, step: Sequence[Fraction], size: Fraction, steady: bool) -> Fraction | None:
-    """The s near `size` at which the fate changes along a step, decided exactly."""
-    def same(s: Fraction) -> bool:
-        return family.steady(family.along(family.wheel, step, s)) == steady
-    share = CLOSE
-    for _ in range(14):
-        low, high = size * max(Fraction(0), 1 - share), size * (1 + share)
-        if same(low) and not same(high):
-            return change_between(lambda s: family.clearly(steady, family.along(family.wheel, step, s)), low, high, size)[1]
-        share *= 3
-    return None
-
-
-def _nearest(rise: _Rise, steady: bool) -> list[tuple[float, float]]:
+def _nearest(heights: _Rise, steady: bool) -> list[tuple[float, float]]:
     """(angle, size) of the least changes of momentum in the plane across the torque, each nearest among its neighbours, seen in doubles."""
-    centre = rise.centre + np.concatenate([-BESIDE[::-1], [0.0], BESIDE])  # a circle that is a point has no barrier: a small island of spin-up
+    centre = heights.centre + np.concatenate([-BESIDE[::-1], [0.0], BESIDE])  # a circle that is a point has no barrier: a small island of spin-up
     angles = np.sort(np.concatenate([np.linspace(0, 2 * math.pi, DIRECTIONS, endpoint=False), centre % (2 * math.pi)]))
-    sizes = np.array([rise.first_change(a, steady) for a in angles])
+    sizes = np.array([heights.first_change(a, steady) for a in angles])
     least = [n for n in range(len(angles)) if sizes[n] <= min(sizes[n - 1], sizes[(n + 1) % len(angles)]) and math.isfinite(sizes[n])]
     least = sorted(least, key=lambda n: sizes[n])[:FEW]
     found = []
     for n in least:
         low, high = angles[n - 1] - 2 * math.pi * (n == 0), angles[(n + 1) % len(angles)] + 2 * math.pi * (n + 1 == len(angles))
-        closer = golden_section(lambda a: rise.first_change(a, steady), low, high, CLOSER)
+        closer = golden_section(lambda a: heights.first_change(a, steady), low, high, CLOSER)
         found.append(min(*closer, (angles[n], sizes[n]), key=lambda one: one[1]))
     return found
 
@@ -239,55 +207,39 @@ class _Rise:
     """How far the potential rises over the start, less its energy, at many places of one turn, as a quadratic of a change of the wheel: doubles."""
 
     def __init__(self, family: Family) -> None:
-        unit = Fraction(family.momentum_unit)
-        self.unit = float(unit)
-        place = [family.wheel]
-        for n in family.across:
-            place.append(tuple(w + unit * (m == n) for m, w in enumerate(family.wheel)))
-        rows = [_numbers(family.reduction(wheel), family.state) for wheel in place]
-        (X, Z, c, d), (G, mu, E) = rows[0]
         j, k = family.across
-        self.centre = _towards_point(family, j, k)
-        slopes = [tuple(b - a for a, b in zip(rows[0][0], row[0])) for row in rows[1:]]
+        self.unit = family.momentum_unit
+        wheels = [[w + Fraction(self.unit) * (m == n) for m, w in enumerate(family.wheel)] for n in (j, k)]
+        here, *there = (cast(Reduction, family.reduction(wheel)) for wheel in (family.wheel, *wheels))  # none has a part along the torque
+        lines = [Line(here, one, family.state, family.state) for one in there]
+        floats: Any = lambda numbers: np.array([float(v) for v in numbers])
+        self.fixed, self.at, self.changes = floats(lines[0].fixed), floats(lines[0].at), [floats(line.change) for line in lines]
+        self.centre = math.atan2(float(_pure_spin(family, k) - family.wheel[k]), float(_pure_spin(family, j) - family.wheel[j]))
         ends = 2 * math.pi * np.geomspace(1e-7, 1 / TURN, TURN // 4)  # a great momentum raises the potential close to the start, before or behind it
-        y = np.concatenate([ends, np.linspace(0, 2 * math.pi, TURN + 1)[1:], 2 * math.pi - ends])
-        S, K = np.sin(y / 2), np.cos(y / 2)
-
-        def parts(x: Number, z: Number, cc: Number, dd: Number) -> Any:
-            w, u = z * K - x * S, x * K + z * S
-            return w, u, G * (x + S * w) + cc, dd
-        at, moved = parts(X, Z, c, d), [parts(*slope) for slope in slopes]
-        self.level = -mu * y - E - 2 * S * (at[0] * at[2] + at[3] * at[1])
-        self.slope = [-2 * S * (at[0] * m[2] + m[0] * at[2] + at[3] * m[1] + m[3] * at[1]) for m in moved]
-        self.bend = [[-2 * S * (m[0] * n[2] + m[3] * n[1]) for n in moved] for m in moved]
+        self.half = np.concatenate([ends, np.linspace(0, 2 * math.pi, TURN + 1)[1:], 2 * math.pi - ends]) / 2
+        self.sine, self.cosine = np.sin(self.half), np.cos(self.half)
 
     def first_change(self, angle: float, steady: bool) -> float:
         """The least s > 0 at which the fate changes along a direction of the plane; inf where it does not."""
-        a, b = math.cos(angle), math.sin(angle)
-        A, B = self.level, a * self.slope[0] + b * self.slope[1]
-        C = a * a * self.bend[0][0] + a * b * (self.bend[0][1] + self.bend[1][0]) + b * b * self.bend[1][1]
+        change = math.cos(angle) * self.changes[0] + math.sin(angle) * self.changes[1]
+        C, B, A = rise(self.fixed, self.at, change, self.half, self.sine, self.cosine, True)
         with np.errstate(all="ignore"):
             root = np.sqrt(np.maximum(B * B - 4 * A * C, 0))
             q = -0.5 * (B + np.where(B >= 0, 1, -1) * root)
-            low, high = np.sort(np.stack([np.where(C != 0, q / C, np.nan), np.where(q != 0, A / q, np.nan)]), axis=0)
+            low, high = np.sort(np.stack([np.where(C != 0, q / C, np.nan), np.where(q != 0, A / q, np.nan)]) / self.sine, axis=0)
         real = B * B - 4 * A * C > 0
-        s = _end_of(A, C, real, low, high) if steady else _begin_of(A, C, real, low, high)
+        s = _end_of(C, real, low, high) if steady else _begin_of(C, real, low, high)
         return s * self.unit
 
 
-def _towards_point(family: Family, j: int, k: int) -> float:
-    """The angle in the plane across the torque towards the wheel momentum for which the orbit's circle is a point: omega_j = -s_j, omega_k = -s_k."""
-    return math.atan2(float(_pure_spin(family, k) - family.wheel[k]), float(_pure_spin(family, j) - family.wheel[j]))
-
-
-def _begin_of(A: np.ndarray, C: np.ndarray, real: Any, low: Number, high: Number) -> float:
+def _begin_of(C: np.ndarray, real: Any, low: Number, high: Number) -> float:
     """The least s > 0 at which one of the quadratics A + B s + C s^2 becomes positive."""
     at = np.where(C > 0, np.where(low > 0, np.inf, high), low)  # outside the roots where it opens upwards, between them where downwards
     at = np.where(real & np.isfinite(at) & (at > 0), at, np.where((C > 0) & real & (high > 0), high, np.inf))
     return float(np.min(at, initial=np.inf))
 
 
-def _end_of(A: np.ndarray, C: np.ndarray, real: Any, low: Number, high: Number) -> float:
+def _end_of(C: np.ndarray, real: Any, low: Number, high: Number) -> float:
     """The least s > 0 from which on, for a while, none of them is positive."""
     starts = np.concatenate([np.where(C > 0, -np.inf, low), np.where(C > 0, high, np.inf)])
     ends = np.concatenate([np.where(C > 0, low, high), np.where(C > 0, np.inf, -np.inf)])
@@ -302,14 +254,6 @@ def _end_of(A: np.ndarray, C: np.ndarray, real: Any, low: Number, high: Number) 
             break
         now = max(now, end)
     return float(now) if now > 0 else math.inf
-
-
-def _numbers(reduction: Any, state: Sequence[Fraction]) -> tuple[Any, Any]:
-    """((X, Z, c, d), (G, mu, E)) of the start, in doubles."""
-    g = reduction.exact_constants
-    x, z = g["flip"] * (state[reduction.j] + g["sj"]) / g["rx"], (state[reduction.k] + g["sk"]) / g["rz"]
-    speed = g["n"] * (state[reduction.axis] + reduction.s)
-    return tuple(map(float, (x, z, g["c"], g["d"]))), tuple(map(float, (g["G"], g["mu"], speed * speed / 2)))
 
 
 def _direction(scenario: Scenario, family: Family, parts: dict[int, Any]) -> Float3:

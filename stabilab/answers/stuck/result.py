@@ -7,8 +7,7 @@ from typing import NamedTuple
 from ...caveat import Caveat
 from ...numbers.vectors import Float3
 from ...shown import Shown
-from ..passage.spread import Spread
-from ..tilt import Tilt
+from ..tilt import Spread, Tilt
 
 
 class Principal(NamedTuple):

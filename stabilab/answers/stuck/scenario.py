@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
 
@@ -73,7 +73,8 @@ def scenario_of(case: Any) -> Scenario:
     if case.state is None:
         raise InputError("motion: expected angular_velocity in [motion]; a stuck thruster is asked of a motion")
     case.scene.quadratic()  # says which effect is not covered
-    axes = case.frame or PrincipalAxes(case.scene.body.exact, IDENTITY, True)
+    case = case if case.frame else replace(case, frame=PrincipalAxes(case.scene.body.exact, IDENTITY, True))
+    axes = case.frame
     fixed = [axes.turned(t.torque) for t in case.thrusters if t.stuck]
     torque = case.scene.vector("constant_torque")
     base = tuple(m - sum(t[i] for t in fixed) for i, m in enumerate(torque))

@@ -2,23 +2,28 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from fractions import Fraction
 from typing import Any, TypeAlias
 
+import numpy as np
+
 from ...numbers.exact import sqrt_fraction
-from ...numbers.vectors import Exact3, dot
+from ...numbers.roots import golden_section
+from ...numbers.vectors import Exact3, Number, dot
 from ...orbit.reduction import Reduction
 from ...physics.quadratic import rests
 from ...physics.scene import Scene
-from .family import STEADY, Family, change_between, family_of
-from .wheel_roots import Circle, candidates
+from .family import STEADY, Family, family_of
+from .fate import PATIENCE, first_time, limit_in, time_under
+from .line import EVERY, INF, Intervals, Line, candidates, pieces
+from .scenario import Scenario
 
-INF = math.inf
-NEAR = Fraction(1, 10**9)  # of the unit: how near to a candidate its change of fate is looked for first
-Intervals: TypeAlias = tuple[tuple[float, float], ...]
 Answer: TypeAlias = tuple[Intervals, str]  # and because
-EVERY = ((-INF, INF),)
+Bracket: TypeAlias = tuple[float, float]
+RANGE = 2  # times the momentum that the wheel has now, either way; one at rest is tried up to the body's own
+PLACES, CLOSER = 41, 24  # momenta that are tried over the range, and nearer and nearer to the best of them
+SAME = 1e-6  # relative: a run that ends so much sooner than the limit has not come to it
 
 
 def intervals(scene: Scene, state: Sequence[Fraction], axis: Exact3) -> Answer:
@@ -88,7 +93,7 @@ def across(family: Family, start: Sequence[Fraction], step: Sequence[Fraction]) 
     at_0, at_1 = (family.reduction(family.along(start, step, s)) for s in (Fraction(0), Fraction(1)))
     if at_0.geometry.walled:
         return _between_walls(family, start, step)
-    found = candidates(Circle(at_0, at_1, family.state))
+    found = candidates(Line(at_0, at_1, family.state, family.state))
     if found is None:
         return (), "not known: the balls did not isolate the momenta at which the start lies on a separatrix"
     clearly = lambda s: family.clearly(wheel=family.along(start, step, s))
@@ -138,31 +143,39 @@ def without(momenta: Sequence[Fraction]) -> Intervals:
     return tuple(zip(ends[::2], ends[1::2]))
 
 
-def pieces(clearly: Callable[[Fraction], tuple[bool, float]], unit: Fraction, cuts: Sequence[float]) -> Intervals:
-    """The intervals of s in which a motion stays bounded, among the cuts: the fate is one and the same between two of them.
+def delayed(scenario: Scenario, torque: Sequence[Fraction], axis: Exact3, now: Fraction, time: Bracket | None
+            ) -> tuple[float, Bracket | None, float | None, Bracket, bool] | None:
+    """(best momentum, N m s, bracket of its time or None, gain in s or None, the range searched, whether its run came to the limit), or None where
+    there is nothing to search, or nothing better was found.
 
-    clearly(s): whether it does, and how clearly (`Family.clearly`); unit: a size of s.
+    axis: exact unit vector of the wheel, scene's axes; now: its momentum; time: bracket of the limit as things are.
     """
-    def holds(s: Fraction) -> bool:
-        return clearly(s)[0]
-    at = [Fraction(s) for s in cuts]
-    if not at:
-        return EVERY if holds(Fraction(0)) else ()
-    samples = [at[0] - unit, *((a + b) / 2 for a, b in zip(at, at[1:])), at[-1] + unit]
-    steady = [holds(s) for s in samples]
-    out: list[tuple[float, float]] = []
-    low = -INF if steady[0] else math.nan
-    for n, cut in enumerate(at):
-        if steady[n] == steady[n + 1]:
-            continue
-        inside, outside = (samples[n], samples[n + 1]) if steady[n] else (samples[n + 1], samples[n])
-        near = cut + (1 if inside > cut else -1) * NEAR * unit, cut - (1 if inside > cut else -1) * NEAR * unit
-        if holds(near[0]) and not holds(near[1]):
-            inside, outside = near
-        end = float(change_between(clearly, inside, outside, unit)[0])
-        if steady[n]:
-            out.append((low, end))
-            low = math.nan
-        else:
-            low = end
-    return tuple([*out, (low, INF)] if steady[-1] else out)
+    if scenario.limit is None or time is None or time[0] <= 0:
+        return None
+    others = [w - now * a for w, a in zip(scenario.wheel, axis)]
+    reach = RANGE * abs(float(now)) or _own(scenario, torque)
+
+    limit = limit_in(scenario)
+
+    def until(s: Number) -> float:
+        wheel = [w + Fraction(float(s)) * a for w, a in zip(others, axis)]
+        return first_time(scenario, limit, torque, wheel, PATIENCE * time[0])
+    places = np.linspace(-reach, reach, PLACES)
+    times = [until(s) for s in places]
+    best = int(np.argmax(times))
+    s, longest = float(places[best]), times[best]
+    if math.isfinite(times[best]):
+        closer = golden_section(lambda s: -until(s), places[max(best - 1, 0)], places[min(best + 1, PLACES - 1)], CLOSER)
+        s, longest = min((s, -longest), *closer, key=lambda one: one[1])
+        s, longest = float(s), -longest
+    told = time_under(scenario, torque, [w + Fraction(s) * a for w, a in zip(others, axis)])
+    gain = None if told is None else told[0] - time[0]
+    if gain is not None and gain <= 0:
+        return None
+    return s, told, gain, (-reach, reach), told is None or not longest < told[0] * (1 - SAME)
+
+
+def _own(scenario: Scenario, torque: Sequence[Fraction]) -> float:
+    """For a wheel at rest: the momentum of the body itself, and of what its torque makes of it."""
+    weight = max(scenario.body.inertia)
+    return weight * max(math.hypot(*scenario.start), math.sqrt(math.hypot(*map(float, torque)) / weight))

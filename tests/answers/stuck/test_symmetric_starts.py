@@ -11,9 +11,8 @@ from fractions import Fraction
 import pytest
 
 from stabilab import Body, ConstantTorque, Gyrostat, Scene, load, stuck
-from stabilab.answers.stuck.rate_roots import Ray
+from stabilab.answers.stuck.line import Line, candidates
 from stabilab.answers.stuck.wheel import intervals
-from stabilab.answers.stuck.wheel_roots import candidates
 from stabilab.orbit.reduction import reduce
 from stabilab.show.text.stuck import merged
 from tests.answers.stuck.symmetric import least, scene
@@ -148,7 +147,8 @@ def test_along_a_change_of_the_spin_both_separatrices_are_candidates():
     M, wheel, start = Fraction("0.02"), (Fraction("0.8"), 0, 0), (0, 0, Fraction(-1, 2))
     reduction = reduce(Scene(Body((12, 9, 5)), Gyrostat(wheel), ConstantTorque((0, 0, M))))
     half = math.sqrt(-2 * least((12, 9, 5), 2, M, wheel, (0, 0, 0)) / 5)
-    found = candidates(Ray(reduction, start, (Fraction(0), Fraction(0), Fraction(1))))
+    beside = (*start[:2], start[2] + 1)
+    found = candidates(Line(reduction, reduction, start, beside))
     for s in (0.5 - half, 0.5 + half):
         assert min(abs(c - s) for c in found) < 1e-12
 

@@ -8,8 +8,8 @@ import pytest
 
 from stabilab import Body, ConstantTorque, Gyrostat, Scene, load, stuck
 from stabilab.answers.stuck.family import family_of
+from stabilab.answers.stuck.line import Line, candidates, expansion, resultant
 from stabilab.answers.stuck.wheel import intervals
-from stabilab.answers.stuck.wheel_roots import Circle, candidates, expansion, resultant
 from stabilab.numbers.balls import working
 from stabilab.orbit.ball_geometry import ball_orbit
 from tests.answers.stuck import energy
@@ -81,7 +81,7 @@ def test_the_resultant_vanishes_where_the_start_is_on_a_separatrix():
     energy."""
     family = family_of(scene(D, (0, 0, 0), TORQUE), START)
     at_0, at_1 = family.reduction((0, 0, 0)), family.reduction((1, 0, 0))
-    circle = Circle(at_0, at_1, START)
+    circle = Line(at_0, at_1, START, START)
     found, _ = intervals(scene(D, (0, 0, 0), TORQUE), START, (1, 0, 0))
     ends = [end for pair in found for end in pair if math.isfinite(end)]
     assert len(ends) == 2
@@ -195,7 +195,8 @@ def test_the_expansion_over_a_cell_holds_the_resultant_and_nearly_nothing_else()
     from flint import arb
     given = scene(("1.655", "1.857", "1.658"), (0, "0.3", "-0.9"), ("0.11", 0, 0))
     family = family_of(given, (Fraction("-0.991"), Fraction("0.737"), Fraction("-0.926")))
-    circle = Circle(family.reduction(family.wheel), family.reduction(family.along(family.wheel, (0, Fraction("0.3"), Fraction("0.9")), 1)), family.state)
+    beside = family.reduction(family.along(family.wheel, (0, Fraction("0.3"), Fraction("0.9")), 1))
+    circle = Line(family.reduction(family.wheel), beside, family.state, family.state)
     numbers = random.Random(3)
     for _ in range(20):
         middle, half = numbers.uniform(0, 3), 10 ** numbers.uniform(-4, -1)

@@ -4,7 +4,8 @@ import math
 import pytest
 
 from stabilab import Body, ConstantTorque, Gyrostat, Scene
-from stabilab.answers.stuck.reach import first_time, largest_rate
+from stabilab.answers.passage.limit import asked
+from stabilab.answers.passage.run import largest_rate, run_once
 from tests.answers.stuck.brute import Craft
 from tests.shared import craft_file
 
@@ -18,4 +19,4 @@ def test_a_feeble_torque_leaves_stdout_to_the_answer(capfd):
     largest, reached = largest_rate(scene, (0.1, 0.05, 0.3), 200.0, 1000)
     assert capfd.readouterr() == ("", "")
     assert reached == 200 and largest == pytest.approx(craft.run(200.0, limit=False)[2], rel=1e-3)
-    assert largest >= math.sqrt(0.1025) and first_time(scene, (0.1, 0.05, 0.3), 1.01 * largest, None, 200.0, 1000) == math.inf
+    assert largest >= math.sqrt(0.1025) and run_once(scene, (0.1, 0.05, 0.3), asked(scene, rate=1.01 * largest), 200.0, 1000) == (math.inf, 200)
