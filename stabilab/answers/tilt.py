@@ -181,8 +181,8 @@ def tilt(scene: AnyScene, state: Any, angle: float | None = None, rate: Any = No
     """What a tilt of the torque does to a bounded motion under a torque on a principal axis.
 
     scene: of a body; state: three rates; angle: rad, the half-angle of the cone of torques (None: what the stuck thrusters of `case` state as
-    their misalignment, else one degree); rate: limit of |omega|, rad/s, or three of its components (None: that of the case, else twice the
-    largest rate of the bounded motion). exact: three exact numbers that the state is the rounding of. ask: another limit, by its name as of `time_to`.
+    their misalignment, else one degree); rate: limit of |omega|, rad/s, or three of its components; ask: or any limit by its name as of `time_to`
+    (neither: twice the largest rate of the bounded motion). exact: three exact numbers that the state is the rounding of.
     Raises InputError where the torque is not on an axis, or the motion not bounded.
     """
     scene, state = checked_scene(scene), three_floats(state)
@@ -194,7 +194,8 @@ def tilt(scene: AnyScene, state: Any, angle: float | None = None, rate: Any = No
         angle = DEGREE
     if angle is not None and not 0 < angle < math.pi / 2:
         raise InputError(f"tilt: expected an angle between 0 and a quarter turn (pi/2 rad), got {angle!r} rad")
-    question, stated = (ask, True) if ask is not None else _question(scene, state, rate, case)
+    stated = ask if rate is None else {"rate": rate}
+    question = stated or _twice_the_largest(scene, state)
     limit = asked(scene, **question)
     cone = cone_of(scene, case, angle)
     least = limit.least_rate()
@@ -219,20 +220,14 @@ def tilt(scene: AnyScene, state: Any, angle: float | None = None, rate: Any = No
         first = time_to(tilted(scene, torque), state, **question, exact=exact, work=0)
         found = {"low": float(first.low), "high": float(first.high) if first.high == first.high else float(times.min()), "level": str(first.level),
                  "azimuth": azimuth, "torque": tuple(torque.tolist())}
-    return Tilt(cone.angle, cone.words, least, stated, not_before, **found, followed=followed, azimuths=azimuths, times=times,
+    return Tilt(cone.angle, cone.words, least, stated is not None, not_before, **found, followed=followed, azimuths=azimuths, times=times,
                 untilted=(float(exactly.low), float(exactly.high)) if exactly.high < math.inf else None)
 
 
-def _question(scene: AnyScene, state: Any, rate: Any, case: Any) -> Any:
-    """(the limit as `time_to` takes it, whether it is stated)."""
-    if rate is not None:
-        return {"rate": rate}, True
-    if case is not None and case.limits is not None:
-        if case.limits.rate is not None:
-            return {"rate": case.limits.rate}, True
-        return {"component": case.limits.components(case.frame)}, True
+def _twice_the_largest(scene: AnyScene, state: Any) -> dict[str, Any]:
+    """The limit that is asked for where none is stated."""
     largest = np.abs(extremes(scene, state)).max(axis=-1)
-    return {"rate": TWICE * float(np.linalg.norm(largest))}, False
+    return {"rate": TWICE * math.hypot(*largest.tolist())}
 
 
 def spread(scene: Scene, state: Any, cone: Cone, ask: dict[str, Any] | None, exact: Exact3 | None = None) -> Spread:

@@ -8,6 +8,7 @@ from fractions import Fraction
 
 from ...integrate.crossing import Search
 from ...integrate.integer_flow import IntegerFlow, Piece
+from ...numbers.exact import sqrt_fraction
 from ...numbers.vectors import Number
 from ...physics.scene import AnyScene
 from .limit import Limit
@@ -57,7 +58,8 @@ def enclosed(scene: AnyScene, start: Sequence[Number], limit: Limit, t_max: Frac
 def own_unit(scene: AnyScene, start: Sequence[Number]) -> Fraction:
     """A power of two near the largest rate, or near the root of its rate of change."""
     form = scene.quadratic()
-    size = max(float(max(map(abs, start))), math.sqrt(float(max(map(abs, form.rate([Fraction(v) for v in start]))))))
+    change = sqrt_fraction(max(map(abs, form.rate([Fraction(v) for v in start]))))  # its square may be beyond doubles
+    size = max(float(max(map(abs, start))), float(change))
     return Fraction(2) ** math.frexp(size)[1] if size else Fraction(1)
 
 

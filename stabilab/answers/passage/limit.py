@@ -54,7 +54,7 @@ class Limit:
 
     def least_rate(self) -> float:
         """The largest |omega| below which it is surely not reached."""
-        return min(math.sqrt(float(most / max(c for c, _ in terms))) for terms, most in self.parts)
+        return min(float(sqrt_fraction(Fraction(most) / max(c for c, _ in terms))) for terms, most in self.parts)
 
     def beyond_rate(self, rate: float) -> bool:
         """Whether |omega| <= rate keeps the quantity below the limit."""

@@ -10,22 +10,20 @@ from ...orbit.result import Motion
 from ...physics.alignment import torque_axis
 from ..caveats import STEADY, caveats_of, limited, misaligned, stated
 from ..kinds import kind_of
-from ..tilt import Spread, cone_of, spread, tilt
+from ..tilt import Spread, Tilt, cone_of, spread, tilt
 from ..time_to import time_of_case
 from .enclosed import WORK
+from .limit import asked
 from .result import TimeTo
+
+FASTEST = 1e150  # rad/s: beyond it squares come near the end of doubles, and no run holds the motion
 
 
 def limited_time(case: Any, ask: dict[str, Any], t_max: float | Fraction | None = None) -> TimeTo:
     """As `time_of_case`; where it is never, with what a tilt of the torque does, by what the case states as misalignment, else by one degree."""
     found = time_of_case(case, ask, t_max)
     never = math.isinf(found.low)
-    try:
-        on_axis = never and _on_axis(case.scene)
-        off = tilt(case.scene, case.state, None, case=case, exact=case.exact_state, ask=ask) if on_axis else _spread(case, None, ask)
-    except OverflowError:  # rates or a limit whose squares are no doubles: the condition in words is left
-        off = None
-    return replace(found, caveats=caveats_of(case.scene, never, off, file=case.caveats))
+    return replace(found, caveats=caveats_of(case.scene, never, _tilted(case, None, ask, never), file=case.caveats))
 
 
 def with_first(case: Any, motion: Motion, work: int = WORK) -> Motion:
@@ -38,8 +36,7 @@ def with_first(case: Any, motion: Motion, work: int = WORK) -> Motion:
 
 def with_tilt(case: Any, motion: Motion, angle: float | None = None) -> Motion:
     """The motion of a case with what a tilt of its torque does to it. angle: rad; None: what its stuck thrusters state, else one degree."""
-    steady = motion.fate in STEADY and _on_axis(case.scene)
-    found = tilt(case.scene, case.state, angle, None, case, case.exact_state) if steady else _spread(case, angle, limit_of(case))
+    found = _tilted(case, angle, limit_of(case), motion.fate in STEADY)
     return limited(replace(motion, tilt=found), case.scene, case)
 
 
@@ -51,15 +48,26 @@ def limit_of(case: Any) -> dict[str, Any] | None:
     return {"rate": limits.rate} if limits.rate is not None else {"component": limits.components(case.frame)}
 
 
-def _spread(case: Any, angle: float | None, ask: dict[str, Any] | None) -> Spread | None:
-    """What the torques of the cone do, where a tilt is asked for or stated; why not, where it is not looked at."""
-    if angle is None and not misaligned(case):
+def _tilted(case: Any, angle: float | None, ask: dict[str, Any] | None, steady: bool) -> Tilt | Spread | None:
+    """What the torques of the cone do: to a steady motion under one on an axis always, else where a tilt is asked for or stated; why not, where it is
+    not looked at."""
+    loose, on_axis = angle is not None or bool(misaligned(case)), steady and _on_axis(case.scene)
+    if not loose and not on_axis:
         return None
-    why = ("in scaled variables" if case.variables == "scaled" else "with other effects than wheel and torque" if not case.scene.plain else
+    plain = case.variables != "scaled" and case.scene.plain
+    why = ("in scaled variables" if case.variables == "scaled" else "with other effects than wheel and torque" if not plain else
+           "with rates whose squares are no doubles" if _too_fast(case, ask) else "" if on_axis else
            "for the angle of an axis" if ask and "tilt" in ask else "" if any(case.scene.vector("constant_torque")) else "without a torque")
     if why:
-        return Spread(angle or 0.0, "the torque", 0, because=why)
+        return Spread(angle or 0.0, "the torque", 0, because=why) if loose else None
+    if on_axis:
+        return tilt(case.scene, case.state, angle, None, case, case.exact_state, ask)
     return spread(case.scene, case.state, cone_of(case.scene, case, angle), ask, case.exact_state)
+
+
+def _too_fast(case: Any, ask: dict[str, Any] | None) -> bool:
+    limit = None if ask is None or "tilt" in ask else asked(case.scene, **ask).least_rate()
+    return max(*map(abs, case.state), limit or 0.0) > FASTEST
 
 
 def _on_axis(scene: Any) -> bool:

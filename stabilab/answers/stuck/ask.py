@@ -91,7 +91,7 @@ def _tilted(scenario: Scenario, thrusters: Sequence[Any], scene: Scene, seen: Fo
         return spread(scene, scenario.start, cone_of(scene, case), limit_of(case), scenario.state) if loose else None
     if scenario.limit is None and not loose:
         return None
-    return tilt(scene, scenario.start, None, None, case, scenario.state)
+    return tilt(scene, scenario.start, None, None, case, scenario.state, limit_of(case))
 
 
 def _wheel(scenario: Scenario, torque: Exact3, seen: Found, wheel: Any) -> WheelAnswer:
