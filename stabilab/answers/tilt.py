@@ -11,6 +11,7 @@ from collections import Counter
 from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import partial
 from typing import Any, ClassVar, TypeAlias, cast
 
 import numpy as np
@@ -238,11 +239,11 @@ def spread(scene: Scene, state: Any, cone: Cone, ask: dict[str, Any] | None, exa
         return Spread(cone.angle, cone.words, len(torques), fates=tuple(found.most_common()))
     limit = asked(scene, **ask)
     time = lambda torque: run_once(tilted(scene, torque), state, limit, steps=STEPS)
+    signed = lambda sign, azimuth: sign * time(cone.at(azimuth))[0]
     (own, *times), ends = map(list, zip(*map(time, torques)))
     most = []
     for sign in (1, -1) if np.isfinite([own, *times]).any() else ():
-        value: Callable[[float], float] = lambda azimuth, sign=sign: sign * time(cone.at(azimuth))[0]
-        best, azimuth = min(nearest_round(value, [(sign * t, at) for t, at in zip(times, EDGE)]))
+        best, azimuth = min(nearest_round(partial(signed, sign), [(sign * t, at) for t, at in zip(times, EDGE)]))
         most.append(cone.torque if sign * own <= best else cone.at(azimuth))
     if not most:
         return Spread(cone.angle, cone.words, len(torques), limit.least_rate(), followed=min(ends))

@@ -16,13 +16,11 @@ from ..physics.coefficients import content, effective
 from ..physics.scene import AnyScene
 from ..physics.states import checked_states, equations_and_start, float_array, start_of
 from .caveats import caveats_of
-from .passage.banded import STEPS as BAND_STEPS
-from .passage.banded import banded
 from .passage.clock import by_clock
-from .passage.earliest import earliest
-from .passage.enclosed import WORK, enclosed
+from .passage.enclosed import STEPS as BAND_STEPS
+from .passage.enclosed import WORK, banded, enclosed
 from .passage.limit import Limit, asked
-from .passage.never import after_a_period, never, never_bounded
+from .passage.never import after_a_period, earliest, never, never_bounded
 from .passage.result import Found, TimeTo
 from .passage.run import by_run, by_run_of
 

@@ -13,7 +13,7 @@ import pytest
 import stabilab as package
 from stabilab.answers.passage.drift import stays_below
 from stabilab.answers.passage.run import run_once
-from stabilab.answers.tilt import cone_of, tilt
+from stabilab.answers.tilt import Cone, cone_of, spread, tilt
 from stabilab.errors import InputError
 from tests.oracles.first_crossing import REAL, first_crossing
 from tests.shared import CASES, craft_file
@@ -248,3 +248,20 @@ def test_a_tilt_may_be_asked_for(stabilab, tmp_path):
     assert "tilted by 0.5 deg it reaches" in stabilab("classify", path, "--tilt", "0.5 deg")[1]
     code, _, err = stabilab("classify", path, "--tilt", "95 deg")
     assert code == 2 and "--tilt: expected an angle below 90 deg" in err
+
+
+def test_a_steady_rotation_is_not_told_to_be_at_rest():
+    """M = omega x (D omega + l) with omega = (1, 2, 3), l = (0, 0, 7), D = (3, 2, 1.5), by hand; a cone of no width."""
+    scene = package.Scene(package.Body((3, 2, "1.5")), package.Gyrostat((0, 0, 7)), package.ConstantTorque((11, "-2.5", -2)))
+    found = spread(scene, (1.0, 2.0, 3.0), Cone(np.array([11, -2.5, -2]), (), "the torque", 0.0), None)
+    assert found.fates == (("stays as it is", 13),)
+
+
+@pytest.mark.parametrize("torque", [[0.0, 0.0, 0.02], [0.001, 0.0, 0.02]])
+def test_rates_whose_squares_are_no_doubles_are_answered_in_words(stabilab, tmp_path, torque):
+    path = tmp_path / "fast.toml"
+    path.write_text(CASE.replace("[0.0, 0.0, 0.02]", str(torque)).replace("[0.10, 0.05, 0.02]", "[1e160, 2e159, 1e158]"))
+    code, out, err = stabilab("fate", path, "--tilt", "1 deg")
+    assert code == 0 and "not looked at with rates whose squares are no doubles" in out and "Warning" not in err
+    code, out, _ = stabilab("when", path, "--rate", "3e160 rad/s")
+    assert code == 0 and ("NEVER reaches" in out or "proved not to be reached" in out)

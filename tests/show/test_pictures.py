@@ -12,6 +12,7 @@ import pytest
 from PIL import Image
 
 from stabilab import errors, load
+from stabilab.case.read import read_text
 from stabilab.orbit import phase_plane as phase
 from stabilab.orbit.separatrix.result import Sheet
 from stabilab.show import style
@@ -311,6 +312,12 @@ def test_what_is_not_a_picture_is_refused_before_anything_is_drawn(tmp_path):
         with pytest.raises(errors.InputError, match=r"expected a name that ends in \.png, \.svg or \.pdf, got"):
             plane.write(stabilab.load(CASES / "minor-axis-100.toml"), tmp_path / name)
     assert not list(tmp_path.iterdir())
+
+
+def test_the_surface_of_a_case_read_from_a_text_is_written_without_a_file_to_name(tmp_path):
+    case = read_text("own.toml", (CASES / "wheel-and-thruster.toml").read_text(encoding="utf-8"))
+    assert surface.write(case, tmp_path, shape=(8, 9), picture=False)["triangles"] > 0
+    assert json.loads((tmp_path / "manifest.json").read_text())["inputs"] == []
 
 
 def test_the_summary_counts_what_the_mesh_holds(tmp_path):

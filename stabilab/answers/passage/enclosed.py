@@ -1,16 +1,22 @@
-"""The first crossing with the motion enclosed: as many bits as it takes, as long as the work allowed reaches."""
+"""The first crossing with the motion enclosed: as many bits as it takes, as long as the work allowed reaches.
+
+Beyond that the motion is enclosed by compiled steps, for rates along principal axes alone.
+"""
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import Any
 
 from ...integrate.crossing import Search
 from ...integrate.integer_flow import IntegerFlow, Piece
 from ...numbers.exact import sqrt_fraction
+from ...numbers.numba_door import installed
 from ...numbers.vectors import Number
 from ...physics.scene import AnyScene
+from ...unreduced.enclosure.bands import Crossing, first_crossing
 from .limit import Limit
 
 FIRST_BITS, MOST_BITS = 112, 720
@@ -19,6 +25,7 @@ MARGIN = KEPT + 18  # beyond the growth of the error, for the rounding of a long
 WORK = 30_000_000  # multiplications; two to four seconds
 TRIED, HOPELESS = 16, 8  # after this part of the work a way that would take so many times what is left is given up
 STEADY = 1.125  # steps that grow faster than this are those of the first search for a length
+STEPS = 60_000  # validated ones; some two seconds
 
 
 @dataclass(frozen=True)
@@ -116,3 +123,24 @@ class _Attempt:
             low = high = None
         scale = lambda t: None if t is None else t / self.unit
         return Enclosed(scale(low), scale(high), (min(until, self.end) if done and self.end is not None else until) / self.unit, done, 0)
+
+
+def banded(scene: AnyScene, start: Sequence[Number], limit: Limit, t_max: float, steps: int = STEPS) -> Crossing | None:
+    """low and high of the first crossing (high inf where none is found before low) of the motion from three rationals; None where numba is not there
+    to compile the steps, or the limit is of another kind."""
+    if limit.kind == "tilt" or not installed() or any(not _weights(terms) for terms, _ in limit.parts):
+        return None
+    found = [first_crossing(scene, start, math.sqrt(most), _weights(terms), t_max=t_max, steps=steps) for terms, most in limit.parts]
+    first = min(found, key=lambda one: one.low)
+    return Crossing(first.low, min(one.high for one in found), first.because, sum(one.steps for one in found))
+
+
+def _weights(terms: Iterable[Any]) -> list[float] | None:
+    """Three weights of the squares of the rates; None where a direction is not a principal axis."""
+    weights = [0.0, 0.0, 0.0]
+    for c, vector in terms:
+        entries = [n for n, v in enumerate(vector) if v]
+        if len(entries) != 1 or abs(vector[entries[0]]) != 1:
+            return None
+        weights[entries[0]] += float(c)
+    return weights

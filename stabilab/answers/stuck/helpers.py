@@ -14,8 +14,9 @@ from itertools import combinations
 from typing import Any, TypeAlias, TypeGuard
 
 from ...numbers.vectors import CYCLE, Exact3, dot
-from .family import STEADY, Family
+from ..caveats import STEADY
 from .fate import PATIENCE, Found, first_time, found, limit_in, time_under
+from .line import Family
 from .result import Helper
 from .scenario import Scenario
 

@@ -15,9 +15,9 @@ from ...numbers.vectors import Float3, Number
 from ...orbit.reduction import Reduction
 from ...orbit.result import Fate, Motion
 from ...physics.scene import Scene
-from .family import STEADY, Family, family_of
+from ..caveats import STEADY
 from .fate import Found
-from .line import TRIES, Line, candidates, change_between, nearest_change, pieces, rise
+from .line import TRIES, Family, Line, candidates, change_between, family_of, nearest_change, pieces, rise
 from .result import Margin
 from .scenario import Scenario
 from .wheel import across, loose

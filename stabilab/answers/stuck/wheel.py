@@ -14,9 +14,8 @@ from ...numbers.vectors import Exact3, Number, dot
 from ...orbit.reduction import Reduction
 from ...physics.quadratic import rests
 from ...physics.scene import Scene
-from .family import STEADY, Family, family_of
 from .fate import PATIENCE, first_time, limit_in, time_under
-from .line import EVERY, INF, Intervals, Line, candidates, pieces
+from .line import EVERY, INF, STEADY, Family, Intervals, Line, candidates, family_of, pieces
 from .scenario import Scenario
 
 Answer: TypeAlias = tuple[Intervals, str]  # and because

@@ -209,7 +209,7 @@ def _torque(D: Sequence[Number], mu: Sequence[Number]) -> Triple:
     """M from the dimensionless torque with u = 1 (Amer et al. 2024, eq. (4))."""
     ks = _shape_factors(D)
     k = ks[0] * ks[1] * ks[2]
-    return tuple(d * root(k * kj) * m if _there(m) else m for d, kj, m in zip(D, ks, mu))
+    return tuple(d * root(k * kj) * m if present(m) else m for d, kj, m in zip(D, ks, mu))
 
 
 def _scaled(D: Sequence[Number], lam1: Number, numbers: Numbers) -> Triple:
@@ -221,10 +221,10 @@ def _scaled(D: Sequence[Number], lam1: Number, numbers: Numbers) -> Triple:
     else:
         rates = [m / d for m, d in zip(numbers["torque"], D)]
         u = root(sum(squared(rates[i]) * ks[(i + 1) % 3] * ks[(i + 2) % 3] for i in range(3))) / k
-        mu = tuple(r / (u * root(k * kj)) if _there(r) else r for r, kj in zip(rates, ks))
+        mu = tuple(r / (u * root(k * kj)) if present(r) else r for r, kj in zip(rates, ks))
         strength = root(u * ks[0])
     return lam1 / ((D[0] - D[2]) * strength), lam1 / ((D[0] - D[1]) * strength), mu
 
 
-def _there(value: Number) -> bool:
+def present(value: Number) -> bool:
     return isinstance(value, Affine) or value != 0

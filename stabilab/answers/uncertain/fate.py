@@ -14,16 +14,14 @@ from ...orbit.ball_orbit import Orbit
 from ...orbit.fate.one_state import fate_of
 from ...orbit.fate.reasons import REASONS, Reason
 from ...orbit.potential import derivatives_on_parabola
-from ...orbit.reduction import Reduction, reduce
+from ...orbit.reduction import Reduction, reduce, reduction_about
 from ...orbit.result import Fate
 from ...physics.quadratic import QuadraticForm
 from ..fate import fate
 from ..kinds import kind_of
-from .box import Box, Numbers, Point
-from .branch_and_bound import Family, Proof, prove
-from .orbit import orbit_of, reduction_over
-from .result import Over, Witness, bracketed, by_sample, by_trial
-from .search import UNKNOWN, Answer, confirmed, nearest_change
+from .box import Box, Numbers, Point, present
+from .branch_and_bound import Family, Proof, orbit_of, prove
+from .result import UNKNOWN, Answer, Over, Witness, bracketed, by_sample, by_trial, confirmed, nearest_in_box
 
 UNBOUNDED = "unbounded"
 TIE_STRETCHES = (1e-6, 1e-3, 1.0)
@@ -39,7 +37,7 @@ def fate_over(box: Box) -> Over | None:
                                                                        "that turn")
     numbers = _root(box)
     form = box.rates(numbers)
-    acting = [i for i in range(3) if _there(form.m[i])]
+    acting = [i for i in range(3) if present(form.m[i])]
     here = answer(np.zeros(len(box.places)))
     if not acting:
         return Over("holds", here, REASONS[Reason.TORQUE_FREE], proved=np.inf)
@@ -47,7 +45,7 @@ def fate_over(box: Box) -> Over | None:
         axes = " and ".join(str(i + 1) for i in acting)
         return by_sample(box, here, look, f"the torque may act about axes {axes} together, off the principal axes, where motions are "
                                             "followed one by one: the middle's answer is no proof for the box")
-    reduction = reduction_over(form, acting[0])
+    reduction = reduction_about(form, acting[0])
     if reduction is None:
         return _under_law(box, here, answer, numbers, form, acting[0])
     signs = _signs(reduction)
@@ -96,10 +94,6 @@ def words(label: Fate, axis: int, sense: int) -> str:
     return label.word
 
 
-def _there(value: Number) -> bool:
-    return isinstance(value, Affine) or value != 0
-
-
 def _root(box: Box, stretch: float = 1.0) -> Any:
     n = len(box.places)
     with np.errstate(all="ignore"):
@@ -109,7 +103,7 @@ def _root(box: Box, stretch: float = 1.0) -> Any:
 def _signs(r: Reduction) -> tuple[int, ...] | None:
     """(sign of p, sign of q) over the whole box, or None."""
     signs = [int(np.ravel(sign_over(v))[0]) for v in (r.p, r.q)]
-    return None if any(s == 0 and _there(v) for s, v in zip(signs, (r.p, r.q))) else tuple(signs)
+    return None if any(s == 0 and present(v) for s, v in zip(signs, (r.p, r.q))) else tuple(signs)
 
 
 # -- circles
@@ -132,7 +126,7 @@ def _on_circles(box: Box, here: Any, answer: Answer, family: Family) -> Over:
     middle = int(codes(np.zeros((1, len(box.places))))[0])
     if here == Fate.SEPARATRIX.word or (middle == 0) != (claim == "bounded"):
         return _tie(box, here, answer, _against_gradient(family))
-    change = nearest_change(codes, middle, len(box.places), _against_gradient(family))
+    change = nearest_in_box(codes, middle, len(box.places), _against_gradient(family))
     change = change and confirmed(change, lambda p: answer(p) or here, here)
     return bracketed(box, here, answer, change, attempt,
                      REASONS[Reason.BELOW_BARRIER if claim == "bounded" else Reason.ABOVE_BARRIER])
@@ -156,7 +150,7 @@ def _senses(box: Box, family: Family, stretch: float) -> tuple[int, ...] | None:
     """Signs the torque may have over the box, (1,), (-1,) or (1, -1); None where the geometry itself may change."""
     with np.errstate(all="ignore"):
         numbers = _root(box, stretch)
-        r = reduction_over(box.rates(numbers), family.axis)
+        r = reduction_about(box.rates(numbers), family.axis)
         if r is None or _signs(r) != family.signs:
             return None
         sign = int(np.ravel(sign_over(r.m))[0])
@@ -204,12 +198,12 @@ def _shifted(r: Reduction, state: Sequence[Number]) -> tuple[Number, Number]:
 
 def _spins(r: Reduction, state: Sequence[Number]) -> bool:
     """Pure spin about the axis for every number of the box."""
-    return bool(_there(r.p) and _there(r.q)) and not any(map(_there, _shifted(r, state)))
+    return bool(present(r.p) and present(r.q)) and not any(map(present, _shifted(r, state)))
 
 
 def _flat(r: Reduction, state: Sequence[Number]) -> bool:
     """Whether the force is the same all along the parabola for every number of the box."""
-    return not any(map(_there, derivatives_on_parabola(r, state[r.j], state[r.k])))
+    return not any(map(present, derivatives_on_parabola(r, state[r.j], state[r.k])))
 
 
 def _certain_plane(r: Reduction, state: Sequence[Number]) -> bool:

@@ -41,9 +41,9 @@ def write_all(cases, out, reach=None, shape=None, picture=True, arguments=None) 
 
     NAME.vtp (double precision, point arrays "sheet" and "residual"), NAME.glb and NAME.stl (single precision, as those
     formats are), NAME.json (the summary), NAME.png and manifest.json (arguments: of the command line, for it); NAME is that
-    of the case. A case without a separatrix has no files; its summary gives the reason. Where no case has one, nothing is
-    written. Raises RenderingUnavailable (with the summaries as its attribute `summaries`), after the meshes are written,
-    where this machine cannot draw.
+    of the case. A case that was read from a text has no file among the manifest's inputs. A case without a separatrix
+    has no files; its summary gives the reason. Where no case has one, nothing is written. Raises RenderingUnavailable
+    (with the summaries as its attribute `summaries`), after the meshes are written, where this machine cannot draw.
     """
     out = endings.folder(out)
     named = [(case, _scene(case)[1]) for case in cases]
@@ -52,7 +52,7 @@ def write_all(cases, out, reach=None, shape=None, picture=True, arguments=None) 
     if not any(meshes for *_, meshes in rows):
         return summaries
     renderer = probe() if picture else None
-    inputs = dict.fromkeys(case.path for case in cases if hasattr(case, "path"))
+    inputs = dict.fromkeys(case.path for case in cases if hasattr(case, "path") and Path(case.path).is_file())
     residual = max(summary["largest_residual"] for summary in summaries)
     with manifest.written(out, arguments, inputs, {"distance of a vertex from its surface": residual}) as folder:
         for (case, found, meshes), summary in each(zip(rows, summaries), lambda row: f"drawing {printable(row[1]['case'])}"):

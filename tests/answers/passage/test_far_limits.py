@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 import stabilab
-from stabilab.answers.passage.earliest import earliest
 from stabilab.answers.passage.enclosed import WORK, enclosed
 from stabilab.answers.passage.limit import asked
+from stabilab.answers.passage.never import earliest
 from tests.oracles.first_crossing import first_crossing
 
 from .test_time_to import FAR, random_question

@@ -7,8 +7,7 @@ import numpy as np
 import pytest
 
 from stabilab import Body, ConstantTorque, Gyrostat, Scene, load, stuck
-from stabilab.answers.stuck.family import family_of
-from stabilab.answers.stuck.line import Line, candidates, expansion, resultant
+from stabilab.answers.stuck.line import Line, candidates, expansion, family_of, resultant
 from stabilab.answers.stuck.wheel import intervals
 from stabilab.numbers.balls import working
 from stabilab.orbit.ball_geometry import ball_orbit
