@@ -45,15 +45,15 @@ class Shown:
         return _room("words").short(self)
 
     def _repr_html_(self) -> str:
-        return _room("page").html(self)
+        return _room("numbers").html(self)
 
     def to_xarray(self) -> xarray.Dataset:
         """All numbers with their dimensions, units and words. Needs xarray; InputError names it where it is not installed."""
-        return _room("convert").dataset(self)
+        return _room("numbers").dataset(self)
 
     def to_pandas(self) -> pandas.DataFrame:
         """All numbers as a table: a row a time, a state, an equilibrium or a component. Needs pandas, as `to_xarray` needs xarray."""
-        return _room("convert").frame(self)
+        return _room("numbers").frame(self)
 
 
 def _room(part: str) -> Any:

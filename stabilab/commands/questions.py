@@ -5,7 +5,6 @@ from ..answers.digits.checked import DEFAULT, by_bound, short
 from ..case.read import blamed_on
 from ..show.terminal import questions
 from ..show.text import answers, law, uncertain
-from ..show.text import digits as shown
 from .common.cases import load_cases, one_by_one, tell_radians, units_asked
 from .common.motions import motion_of, over_boxes, sampled, tilted
 from .common.output import all_reached, hold_laws, leave_undecided, write
@@ -23,10 +22,11 @@ def answer(question, paths, digits, json, strict, csv=False, follow=None, tilt=N
     boxes = over_boxes([case for case, *_ in answered], *(["fate"] if question == "fate" else []))
     answered = [(case, sampled(found, box), told) for (case, found, told), box in zip(answered, boxes)]
     if json:
-        write(answers.as_json([getattr(shown, question)(*answer) | law.key(answer[1].validity) | uncertain.as_dict(box)
-                               for answer, box in zip(answered, boxes)]))
+        write(answers.as_json([
+            getattr(answers, question)(case, found, told) | law.key(found.validity) | uncertain.as_dict(box)
+            for (case, found, told), box in zip(answered, boxes)]))
     elif csv:
-        write(shown.extremes_csv(answered))
+        write(answers.extremes_csv(answered))
     else:
         _tell(question, loaded, answered, systems, digits, boxes, why)
     if digits is not None:

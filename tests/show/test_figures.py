@@ -141,5 +141,5 @@ def test_one_thing_is_told_in_the_singular():
 
 
 def test_a_page_writes_units_with_their_powers():
-    from stabilab.show.report.one_case.measures import spoken
-    assert spoken("moment 0.04 kg m^2, lambda3 in rad/s^2") == "moment 0.04 kg m², λ3 in rad/s²"
+    from stabilab.show.terminal.letters import printed
+    assert printed("moment 0.04 kg m^2, lambda3 in rad/s^2") == "moment 0.04 kg m², λ3 in rad/s²"

@@ -12,7 +12,7 @@ import pytest
 import stabilab
 from stabilab.show.figures import catalogue as figures
 from stabilab.show.files import manifest
-from stabilab.show.report import audit_page, chapters, html, own, report, surfaces, whole
+from stabilab.show.report import audit_page, chapters, html, own, report, whole
 from stabilab.show.surface import render_probe
 from stabilab.theories.audit import findings_of
 
@@ -65,7 +65,7 @@ def _small_page(cases, folder, **around):
 def _no_gl(patch):
     render_probe.probe.cache_clear()
     patch.setattr(render_probe, "_CHILD", "raise SystemExit(3)")
-    patch.setattr(surfaces, "SHAPE", (10, 21))
+    patch.setattr(own, "SHAPE", (10, 21))
 
 
 @pytest.fixture(scope="module")
@@ -150,7 +150,7 @@ def test_a_strict_report_leaves_with_3_where_a_fate_is_undecided(fate, strict, c
     from stabilab.commands import report as command
     made = {"fate": fate, "path": "a.toml", "title": "", "headline": "", "law": ""}
     monkeypatch.setattr(own.page, "sections", lambda *_: made)
-    monkeypatch.setattr(own.surfaces, "surface_of", lambda *_: None)
+    monkeypatch.setattr(own, "surface_of", lambda *_: None)
     monkeypatch.setattr(own, "write", lambda made, place, prefix, **around: place.write_text("") and place)
     monkeypatch.setattr(command, "sys", type("_", (), {"argv": ["stabilab", "report"]}))
     try:

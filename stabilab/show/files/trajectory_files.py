@@ -6,7 +6,7 @@ from pathlib import Path
 from ...files import whole_file
 from ...packages import demand
 from ...version import __version__
-from ..results.variables import of_parts
+from ..results.numbers import of_parts
 from ..text.answers import columns
 from . import comma, endings
 

@@ -72,6 +72,11 @@ def typed(command: str):
     return Markup("<code>{}</code>").format(Markup(" ").join(words))
 
 
+def css(fate: str) -> str:
+    """The class by which a page colours a fate or a verdict."""
+    return {"stable": "bounded", "asymptotically stable": "bounded", "unstable": "spin-up"}.get(fate, fate)
+
+
 def render(template: str, **values) -> str:
     """The HTML of a template. nav: rows {file, title} of the pages beside it, here: its own file, below: that of the page
     among them that it belongs to, up: how it reaches their folder."""

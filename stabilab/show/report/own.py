@@ -5,11 +5,15 @@ import re
 from dataclasses import dataclass
 from pathlib import Path
 
+from ...errors import StabilabError
+from ...orbit.separatrix.sheets import separatrix
+from ..surface import write as surface
 from ..text import law
-from . import html, surfaces
-from .one_case import page, sweep, verdict
+from . import html
+from .one_case import page, sweep
 from .workers import Task, done
 
+SHAPE = (48, 97)  # rows and columns of a sheet of a mesh: smooth to the eye, 1.5 MB of meshes a scene
 FOLDER = "cases"  # inside that of the report: pages of many cases, pictures and meshes of all
 
 
@@ -44,7 +48,24 @@ def section(stem, cases, folder, wanted) -> dict:
         return {"sweep": found, "surface": None, "beyond": law.of_cases(cases), "open": any(row["fate"] == "undecided" for row in found["rows"])}
     (case,) = cases
     made = page.sections(case, folder, stem, wanted.deep, wanted.certify)
-    return {"case": made, "surface": surfaces.surface_of(case, stem, folder), "beyond": law.of_cases([case]), "open": made["fate"] == "undecided"}
+    return {"case": made, "surface": surface_of(case, stem, folder), "beyond": law.of_cases([case]),
+            "open": made["fate"] == "undecided"}
+
+
+def surface_of(case, stem: str, folder: Path) -> dict | None:
+    """The separatrix as meshes, which need no renderer: names of the files, counts and what the sheets part;
+    None where the case has no separatrix, whose reason its own section gives."""
+    try:
+        found = separatrix(case.scene, shape=SHAPE)
+    except StabilabError:
+        return None
+    if not found.sheets:
+        return None
+    meshes = [surface.triangulate(sheet) for sheet in found.sheets]
+    summary = surface.summarise(case, found, meshes)
+    files = surface.write_meshes(meshes, folder, stem)
+    return {"title": case.heading, "reason": found.reason, "triangles": summary["triangles"],
+            "residual": summary["largest_residual"], "files": [file.name for file in files]}
 
 
 def tasks(cases, folder: Path, wanted: Wanted) -> list[Task]:
@@ -58,8 +79,8 @@ def write(made, place: Path, prefix: str, **around) -> Path:
     """The page of one entry. prefix: how the page reaches its pictures; around: what every page says of the folder it is in."""
     if "sweep" in made:
         return html.write(place, "sweep.html", sweep=made["sweep"], pictures=prefix, **around)
-    surface = made["surface"] and made["surface"] | {"files": [prefix + name for name in made["surface"]["files"]]}
-    return html.write(place, "case.html", case=made["case"], surface=surface, pictures=prefix, **around)
+    meshes = made["surface"] and made["surface"] | {"files": [prefix + name for name in made["surface"]["files"]]}
+    return html.write(place, "case.html", case=made["case"], surface=meshes, pictures=prefix, **around)
 
 
 def of_one(made, around) -> dict:
@@ -71,7 +92,8 @@ def listed(stem, made) -> dict:
     """The row of an entry in a list of pages."""
     found = made.get("sweep") or made["case"]
     beyond = re.match(r"BEYOND THE LAW: .*?, limit [\d.]+", found["law"])  # by how much; why that matters stands on the page
-    return {"file": f"{stem}.html", "name": stem, "title": found["title"], "headline": found["headline"], "css": verdict.css(found.get("fate", "")),
+    return {"file": f"{stem}.html", "name": stem, "title": found["title"], "headline": found["headline"],
+            "css": html.css(found.get("fate", "")),
             "beyond": " ".join(filter(None, [beyond and beyond[0], *found["caveats"]]))}
 
 

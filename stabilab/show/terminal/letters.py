@@ -22,6 +22,11 @@ INDEX = re.compile(r"(?<=[^\W\d_])_([ijk])\b")
 INDICES = {"i": "ᵢ", "j": "ⱼ", "k": "ₖ"}
 POWER = re.compile(r"\^(\d)(?!\d)|sqrt(?=\()")
 SIGNS = {"+-": "±", "-+": "∓", "<=": "≤", ">=": "≥", "-inf ": "-∞ ", " inf ": " ∞ "}
+PRINTED = (  # what a book sets otherwise than a terminal
+    (r"(?<=\de)\+?0*(?=[1-9])", ""), (r"(?<=\de)-0*(?=\d)", "−"), (r"\binf\b", "∞"), (r"\^T\b", "ᵀ"),
+    (r"(?<![\w)\]-])-(?=[\d.∞])|(?<=[ (])-(?=[\w(])", "−"), (r"(?<=[\w)²³]) - (?=[\w(])", " − "),
+    (r"(?<=\s)x(?=\s[\w(]+\s=)", "×"), (r"(?<=[\w)]) \. (?=[\w(])", " · "),
+    (r"\b(?<=[MHωλγ])\.(?=[(MHDωλγ])", "·"))
 RAISED = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
@@ -33,6 +38,20 @@ def written(text: str) -> str:
 def lettered(text: str) -> str:
     """Words of the analysis for a reader at a terminal: letters as `written`, six digits, and the minus of the numbers in the lines about them."""
     return _in_letters(LONG.sub(lambda found: f"{float(found[0]):.6g}", text))
+
+
+def printed(text: str) -> str:
+    """Words of the analysis for a page: letters as `lettered`, minus, products and powers of ten as a book
+    sets them. What stands between backquotes is a command and stays as it is."""
+    parts = re.split(r"(`[^`]*`)", text)
+    return "".join(part if part.startswith("`") else _printed(part) for part in parts)
+
+
+def _printed(text):
+    text = lettered(text)
+    for plain, sign in PRINTED:
+        text = re.sub(plain, sign, text)
+    return greek(text)
 
 
 def _in_letters(text):

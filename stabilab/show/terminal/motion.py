@@ -2,36 +2,57 @@
 from __future__ import annotations
 
 import math
-from functools import partial
 
 from .. import limiting
-from ..text import frame
 from ..text.headline import rate_margin, span_words
 from ..units import DEG, DIGITS, Units, bracket, but_for_rounding, number
 from .letters import greek, lettered
 
 WIDE = 24  # columns of a name
-QUANTITIES = {  # of invariants and of what a run showed: which number of `Units` it is; "" for a plain number
-    "Q": "Q", "energy": "energy", "momentum": "momentum", "rate_bound": "rate", "late_rate_bound": "rate", "span": "time", "size_start": "rate",
-    "size_end": "rate", "size_largest": "rate", "energy_start": "energy", "energy_end": "energy", "energy_change": "energy", "t_certificate": "time",
-    "followed_until": "time", "release_time": "time", "release_estimate": "time", "rate_end": "rates", "J": "(N m s)^2", "J_rate": "(N m s)^2/s",
-    "steps": "", "steps_followed": "", "small_change_grew": "", "invariant_drift": "", "energy_trend": "", "certificate": ""}
+# Of invariants and of what a run showed: what it is called, and which number of `Units` it is.
+QUANTITIES = {
+    "Q": ("invariant Q", "Q"), "energy": ("energy", "energy"), "momentum": ("angular momentum", "momentum"),
+    "rate_bound": ("|ω| never exceeds", "rate"), "late_rate_bound": ("|ω| in the end at most", "rate"),
+    "J": ("J of the law", "(N m s)^2"), "J_rate": ("J changes by", "(N m s)^2/s"),
+    "span": ("followed for", "time"), "size_start": ("|ω| at the start", "rate"),
+    "size_end": ("|ω| at the end", "rate"), "size_largest": ("largest |ω| seen", "rate"),
+    "energy_start": ("energy at the start", "energy"), "energy_end": ("energy at the end", "energy"),
+    "energy_change": ("change of energy", "energy"), "t_certificate": ("certificate holds from", "moment"),
+    "followed_until": ("followed until", "moment"), "release_time": ("last reversal of the turn", "reversal"),
+    "release_estimate": ("barrier gone by about", "moment"), "rate_end": ("rates at the end", "rates"),
+    "energy_trend": ("the energy", ""), "certificate": ("how it is certified", ""),
+    "steps": ("steps of the run", ""), "invariant_drift": ("exact laws kept to", ""),
+    "steps_followed": ("steps of the certified run", ""),
+    "small_change_grew": ("a small change grew by a factor of", "")}
+MEANINGS = {  # of a word among them
+    "well": "the barrier ahead outgrows the energy", "spin-up": "the turn can reverse no more",
+    "bound": "a bound of the rate that grows for ever", "axis": "a pure spin about the torque",
+    "law": "an exact law of the motion", "none": "not at all",
+    "rises": "higher in the last quarter of the run than ever in the first",
+    "falls": "lower in the last quarter of the run than ever in the first",
+    "oscillates": "up and down: the last quarter of the run overlaps with the first"}
 TILTED = 'any tilt of the torque may end this: --tilt "1 deg" says how soon'
 
 
 def row(name: str, words: str) -> str:
     """A name in its column, then the words."""
-    return f"  {name:<{WIDE}}{words}".rstrip()
+    return f"  {name:<{WIDE - 1}} {words}".rstrip()
 
 
 def table(case, motion, units: Units) -> list[str]:
     """The start, the extremes, the bounds for all times, margins and period, a line each."""
-    lines = [row("start", state(motion.at, units)), *extreme_lines(case, motion, units), *bound_lines(case, motion, units)]
-    height = partial(energy_margin, tell=units.energy)
-    for name, words in (("margin, rate", rate_margin(motion, units, DIGITS)), ("margin, energy", _told(motion.margin_energy, height)),
-                        ("period", _told(motion.period, units.time))):
-        lines += [row(name, words)] if words else []
-    return lines
+    return [row("start", state(motion.at, units)), *extreme_lines(case, motion, units),
+            *bound_lines(case, motion, units),
+            *(row(name, words) for name, words in margins(motion, units))]
+
+
+def margins(motion, units: Units) -> list[tuple[str, str]]:
+    """(name, words) of margins and period, as far as they are known."""
+    energy = motion.margin_energy
+    found = (("margin, rate", rate_margin(motion, units, DIGITS)),
+             ("margin, energy", "" if energy is None else energy_margin(energy, units.energy)),
+             ("period", "" if motion.period is None else units.time(motion.period)))
+    return [(name, words) for name, words in found if words]
 
 
 def state(at, units: Units) -> str:
@@ -43,10 +64,6 @@ def state(at, units: Units) -> str:
 def energy_margin(value, tell) -> str:
     """The energy that is missing to the barrier, or by how much it is above. tell: of a size, with its unit."""
     return f"{tell(-value)} above the barrier" if value < 0 else tell(value)
-
-
-def _told(value, words) -> str:
-    return "" if value is None else words(value)
 
 
 def extreme_lines(case, motion, units: Units) -> list[str]:
@@ -91,18 +108,19 @@ def why(case, motion, units: Units, proofs: bool) -> list[str]:
     if proofs and motion.velocity_because:
         lines.append(f"  {'' if motion.velocity_bounds else 'margin, rate unknown: '}{reason(motion.velocity_because, units)}")
     if proofs:
-        called = names(motion)
-        lines += [row(called.get(name, name.replace("_", " ")), quantity(name, value, units)) for found in (motion.invariants, motion.evidence)
-                  for name, value in found.items() if value is not None]
+        lines += [row(*fact) for fact in constants(motion, units)]
     return lines
 
 
-def names(motion) -> dict:
-    """What the constants of a motion are called where the name of the field does not say it; a potential is in the energy of a reduced motion, and none of
-    its parts is that of the whole body."""
-    own = {"rate_bound": "|ω| never exceeds", "late_rate_bound": "|ω| in the end at most", "Q": "invariant Q", "J": "J of the law", "J_rate": "J changes by",
-           "momentum": "angular momentum"}
-    return own | ({"energy": "energy, reduced motion"} if "Q" in motion.invariants else {})
+def constants(motion, units: Units) -> list[tuple[str, str]]:
+    """(name, words) of the invariants and of what a run showed. A potential is in the energy of a reduced
+    motion, and none of its parts is that of the whole body."""
+    reduced = {"energy": ("energy, reduced motion", "energy")} if "Q" in motion.invariants else {}
+    found = [((QUANTITIES | reduced)[name], value) for part in (motion.invariants, motion.evidence)
+             for name, value in part.items()
+             if value is not None and (name, value) != ("steps", 0)]  # a law needed no run
+    return [(name.replace("ω", "x") if units.scaled else name, quantity(kind, value, units))
+            for (name, kind), value in found]
 
 
 def reason(words: str, units: Units) -> str:
@@ -110,14 +128,19 @@ def reason(words: str, units: Units) -> str:
     return lettered(units.words(words))
 
 
-def quantity(name: str, value, units: Units) -> str:
+def quantity(kind: str, value, units: Units) -> str:
     """An invariant, or what a run showed, with its unit."""
-    kind = QUANTITIES[name]
     if kind == "rates":
         return units.vector(value, units.rates)
+    if kind in ("moment", "reversal") and isinstance(value, float):
+        told = units.moment(value) if units.scaled else units.time(value)
+        return told if value or kind == "moment" else "none after the start"
     if not kind or not isinstance(value, float):
-        return number(value, DIGITS) if isinstance(value, float) else str(value)
-    return units.told(value, units.plain(kind), DIGITS) if kind.startswith("(") else getattr(units, kind)(value)
+        return number(value, DIGITS) if isinstance(value, float) else MEANINGS.get(str(value), str(value))
+    if kind.startswith("("):
+        per = " per unit of tau" if units.scaled and kind.endswith("/s") else ""
+        return units.told(value, units.plain(kind)) + per
+    return getattr(units, kind)(value)
 
 
 def tilt_lines(case, motion, units: Units, proofs: bool = False) -> list[str]:
@@ -148,8 +171,3 @@ def clock(ends, units: Units) -> str:
 
 def _angle(value: float) -> str:
     return DEG.angle(value)
-
-
-def framed(case) -> list[str]:
-    """One line where vectors are along other axes than the file's."""
-    return frame.note(case)

@@ -6,10 +6,11 @@ from dataclasses import replace
 
 from ...orbit.result import Fate, no_period
 from .. import limiting
+from ..text import frame
 from ..text.headline import cause, fate_words, headline, largest, rate_margin
 from ..units import DIGITS, Units, number
 from .letters import greek
-from .motion import bound_lines, energy_margin, extreme_lines, framed, reason, row, tilt_lines, why
+from .motion import bound_lines, energy_margin, extreme_lines, reason, row, tilt_lines, why
 
 SHOWN = 12  # digits of a number that is not written out, where more than a table's were asked for
 
@@ -20,7 +21,7 @@ def fate(case, motion, told, units: Units, all_digits: bool, say: bool, proofs: 
     rows = [row(name, words) for name, words in (("margin, rate", rate_margin(motion, units, DIGITS)), ("margin, energy", margin)) if words]
     bounds = bound_lines(case, replace(motion, extremes=None), units)
     return "\n".join([f"{case.name}: {headline(case, motion, units)}", *rows, *bounds, *tilt_lines(case, motion, units, proofs),
-                      *why(case, motion, units, proofs), *framed(case), *([_said(told, units)] * (say))])
+                      *why(case, motion, units, proofs), *frame.note(case), *([_said(told, units)] * (say))])
 
 
 def _energy(told, units, all_digits):
@@ -40,7 +41,7 @@ def extremes(case, motion, told, units: Units, all_digits: bool, say: bool, proo
     if shown.extremes is not None:
         rows = _all_digits(case, shown, told) if all_digits else extreme_lines(case, shown, units)
     return "\n".join([f"{case.name}: {'; '.join(filter(None, parts))}", *rows, *bound_lines(case, motion, units),
-                      *(why(case, motion, units, proofs) if proofs else ()), *framed(case),
+                      *(why(case, motion, units, proofs) if proofs else ()), *frame.note(case),
                       *([_said(told, units)] * (say and told.because != shown.extremes_over))])
 
 

@@ -1,7 +1,8 @@
-"""Answers as JSON and CSV: equilibria, fates, extremes, trajectories; every digit of a double."""
+"""Answers as JSON and CSV: equilibria, fates, extremes, periods, trajectories; every digit of a double."""
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 from ...physics.blocks import PARTS
 from .. import limiting
@@ -94,11 +95,42 @@ def undecided(equilibria, motion) -> bool:
     return unknown or (motion is not None and motion.fate.word == "undecided")
 
 
-def extremes(case, motion) -> dict:
+def digits(told) -> dict:
+    """What is said of the digits; reached: null where there is no number to judge."""
+    shown = None if told.digits is None else min(told.digits, 99.0)
+    return {"asked": told.asked, "reached": shown, "method": told.method, "because": told.because,
+            "decimals": told.decimals}
+
+
+def extremes(case, motion, told) -> dict:
     """One object of `stabilab extremes --json`; null where a component is unbounded or unknown (see fate)."""
+    motion = _with(motion, told)
     return {"schema": "stabilab.extremes/1", "case": case.name, "variables": case.variables, "at": motion.at,
             "fate": motion.fate.word, "components": case.scene.components, "extremes": motion.extremes,
-            "over": motion.extremes_over} | followed(motion) | limiting.key(case, motion.caveats) | frame.key(case)
+            "over": motion.extremes_over} | followed(motion) | _around(case, motion) | {"digits": digits(told)}
+
+
+def _around(case, motion) -> dict:
+    """The caveats and the frame."""
+    return limiting.key(case, motion.caveats) | frame.key(case)
+
+
+def _with(motion, told):
+    return motion if told.values is None else replace(motion, extremes=tuple(tuple(map(float, pair)) for pair in told.values))
+
+
+def fate(case, motion, told) -> dict:
+    """One object of `stabilab fate --json`; margin: barrier minus energy, null where none stands ahead."""
+    margin = motion.margin_energy if told.values is None else told.values
+    return {"schema": "stabilab.fate/1", "case": case.name, "variables": case.variables, "at": motion.at, "fate": motion.fate.word,
+            **axes_of(case).key(motion.axis), "sense": motion.sense or None, "because": motion.because, "margin": margin,
+            "digits": digits(told), "tilt": when.tilt_dict(motion.tilt)} | followed(motion) | _around(case, motion)
+
+
+def period(case, motion, told) -> dict:
+    """One object of `stabilab period --json`; null where the motion does not repeat, or is undecided (see fate, digits.because)."""
+    return {"schema": "stabilab.period/1", "case": case.name, "variables": case.variables, "at": motion.at, "fate": motion.fate.word,
+            "period": told.values, "time": case.scene.time_unit, "digits": digits(told)} | _around(case, motion)
 
 
 def simulation(case, run) -> dict:
@@ -134,12 +166,8 @@ def lost(t: float, value: float, error: float) -> bool:
 
 
 def extremes_csv(answered) -> str:
-    """One line per case, motion and pairs (numbers or decimals; None where unknown) and component; inf where unbounded, empty where unknown."""
-    return comma.lines([("case", "component", "min", "max", "over", "caveats"), *(
-        (case.name, name, *pair, m.extremes_over, limiting.cell(case, m.caveats))
-        for case, m, pairs in answered for name, pair in zip(case.scene.components, _pairs(pairs)))])[:-1]
-
-
-def _pairs(extremes):
-    """Least and greatest of every component, None where unknown."""
-    return ((None, None),) * 3 if extremes is None else extremes
+    """A line a component of (case, motion, digits), every digit asked for; inf: unbounded, empty: unknown."""
+    rows = [(case.name, name, *pair, moved.extremes_over, limiting.cell(case, moved.caveats))
+            for case, moved, told in answered for pairs in [told.decimals or _with(moved, told).extremes]
+            for name, pair in zip(case.scene.components, pairs or ((None, None),) * 3)]
+    return comma.lines([("case", "component", "min", "max", "over", "caveats"), *rows])[:-1]

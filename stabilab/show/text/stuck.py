@@ -8,6 +8,7 @@ from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
 from ...errors import printable
 from .. import limiting
 from ..axes import axes_of
+from ..files import comma
 from ..terminal.letters import lettered
 from ..units import DIGITS, SHORT, Units
 from ..units import bracket as _bracket
@@ -16,8 +17,9 @@ from .answers import Endless
 from .headline import REST, STEADY
 from .when import tilt_dict
 
-CSV = ("case,thrusters,torque_x,torque_y,torque_z,torque_1,torque_2,torque_3,fate,level,axis,axis_name,sense,limit,time_low,time_high,largest_rate,"
-       "margin_rate,margin_wheel,margin_torque,caveats")
+CSV = ("case", "thrusters", "torque_x", "torque_y", "torque_z", "torque_1", "torque_2", "torque_3", "fate",
+       "level", "axis", "axis_name", "sense", "limit", "time_low", "time_high", "largest_rate", "margin_rate",
+       "margin_wheel", "margin_torque", "caveats")
 WORDS = {"rate": "rate", "wheel": "wheel momentum", "torque": "torque"}
 FATES = {"bounded": "STAYS BOUNDED", "spin-up": "SPINS UP", "equilibrium": STEADY, "separatrix": "ON THE SEPARATRIX", "undecided": "UNDECIDED"}
 PRECISE = Context(prec=40)  # digits in which ends are rounded
@@ -34,7 +36,7 @@ def as_dict(case, found) -> dict:
 def _row(row, case) -> dict:
     return {"thrusters": list(row.thrusters), "torque": row.torque, "torque_principal": row.torque_principal, "fate": row.fate, "level": row.level,
             **axes_of(case).key(row.axis), "sense": row.sense, "limit": row.limit, "time_to_limit": row.time_to_limit, "largest_rate": row.largest_rate,
-            "margin": {name: row.margins[name].size if name in row.margins else None for name in ("rate", "wheel", "torque")},
+            "margin": _margin_sizes(row),
             "wheel_intervals": [{"wheel": w.wheel, "keeps_bounded": [list(map(Endless, pair)) for pair in w.keeps_bounded], "now": w.now, "axis": w.axis,
                                  "best": w.best, "best_time": w.best_time, "gain": w.gain, "searched": w.searched, "because": w.because} for w in row.wheels],
             "because": row.because, "tilt": tilt_dict(row.tilt), "direction": row.direction, "never": row.never, "time_level": row.time_level,
@@ -47,22 +49,19 @@ def _row(row, case) -> dict:
 
 def csv(answers) -> str:
     """A line a row of (case, answer), SI units; empty where a number does not exist."""
-    import csv as table
-    import io
-    out = io.StringIO()
-    writer = table.writer(out, lineterminator="\n")
-    writer.writerow(CSV.split(","))
-    for case, found in answers:
-        axes = axes_of(case)
-        for row in found.rows:
-            limit = "/".join(map(repr, row.limit)) if isinstance(row.limit, tuple) else row.limit
-            values = [*row.torque, *row.torque_principal, row.fate, row.level, row.axis, axes.key(row.axis)["axis_name"], row.sense, limit,
-                      *(row.time_to_limit or (None, None)), row.largest_rate,
-                      *(row.margins[name].size if name in row.margins else None for name in ("rate", "wheel", "torque")),
-                      limiting.cell(case, row.caveats)]
-            cells = ["" if v is None else repr(v) if isinstance(v, float) else v for v in values]
-            writer.writerow([printable(found.case), printable("+".join(row.thrusters)), *cells])
-    return out.getvalue()
+    return comma.lines([CSV, *(_cells(case, found, row) for case, found in answers for row in found.rows)])
+
+
+def _cells(case, found, row) -> list:
+    limit = "/".join(map(repr, row.limit)) if isinstance(row.limit, tuple) else row.limit
+    return [printable(found.case), printable("+".join(row.thrusters)), *row.torque, *row.torque_principal,
+            row.fate, row.level, row.axis, axes_of(case).key(row.axis)["axis_name"], row.sense, limit,
+            *(row.time_to_limit or (None, None)),
+            row.largest_rate, *_margin_sizes(row).values(), limiting.cell(case, row.caveats)]
+
+
+def _margin_sizes(row) -> dict:
+    return {name: row.margins[name].size if name in row.margins else None for name in WORDS}
 
 
 def text(case, found, units: Units) -> str:
@@ -136,7 +135,7 @@ def _about(row, axes) -> str:
     if row.axis:
         return f"about {axes.whole(row.axis)}, {'positive' if row.sense > 0 else 'negative'} sense"
     if row.direction:
-        return f"about the direction {_vector(row.direction)} of the file's frame"
+        return f"about the direction {vector(row.direction)} of the file's frame"
     return "without bound"
 
 
@@ -169,7 +168,8 @@ def _so_far(row, units) -> str:
 def _torque(row, units) -> str:
     known = row.largest_rate is not None and row.fate == "spin-up"
     largest = f"; largest rate until then {units.rate(row.largest_rate, SHORT)}" if known else ""
-    return f"torque {_number(math.hypot(*row.torque))} N m, {_vector(row.torque)} in the frame of the file{largest}"
+    size = _number(math.hypot(*row.torque))
+    return f"torque {size} N m, {vector(row.torque)} in the frame of the file{largest}"
 
 
 def _margins(row, units) -> str:
@@ -185,13 +185,14 @@ def _margins(row, units) -> str:
 def _span(name, margin, units) -> str:
     """The size of a margin; with the size at which the fate turns back, where that is soon."""
     if margin.until is None or not margin.size < margin.until < SOON * margin.size:
-        return _amount(name, margin.size, units)
+        return amount(name, margin.size, units, SHORT)
     unit, one = _unit(name, units)
     low, high = _bracket(margin.size * one, margin.until * one)
     return f"{low} to {high} {unit}, and no more,"
 
 
-def _amount(name, size, units, digits=4) -> str:
+def amount(name, size, units, digits=DIGITS) -> str:
+    """The size of a change with its unit."""
     unit, one = _unit(name, units)
     return f"{_number(size * one, digits)} {unit}"
 
@@ -200,7 +201,7 @@ def holds_for(name, margin, units) -> str:
     """What a margin holds for: the words of JSON, which are in rad/s, with a rate in the unit of the page."""
     words = str(margin.because)
     if name == "rate" and margin.until is not None and not math.isinf(margin.until):
-        words = words.replace(f"{margin.until:.6g} rad/s", _amount(name, margin.until, units, DIGITS))
+        words = words.replace(f"{margin.until:.6g} rad/s", amount(name, margin.until, units))
     return units.words(words)
 
 
@@ -271,16 +272,16 @@ def _helper(helper, units) -> str:
 
 def _details(row, units) -> list[str]:
     lines = [f"{printable(row_name(row))}",
-             f"  torque, principal axes   {_vector(row.torque_principal)} N m",
-             f"  torque, frame of file    {_vector(row.torque)} N m",
+             f"  torque, principal axes   {vector(row.torque_principal)} N m",
+             f"  torque, frame of file    {vector(row.torque)} N m",
              f"  fate                     {row.fate} ({row.level})",
              f"  because                  {lettered(units.words(row.because))}"]
     margins = {}
     for name, margin in row.margins.items():
         told = lettered(holds_for(name, margin, units))
         if margin.size is not None:
-            along = f" along {_vector(margin.direction)}" if margin.direction else ""
-            told = f"{_amount(name, margin.size, units, DIGITS)}{along}" + (f": {told}" if told else "")
+            along = f" along {vector(margin.direction)}" if margin.direction else ""
+            told = f"{amount(name, margin.size, units)}{along}" + (f": {told}" if told else "")
         margins[name] = told
     if len(margins) > 1 and len(set(margins.values())) == 1:  # nothing is known of any, for one reason
         lines.append(f"  {'margins':<24} {told}")
@@ -289,16 +290,23 @@ def _details(row, units) -> list[str]:
     if row.tilt is not None and not row.tilt.ranges:
         early = f"{units.time(row.tilt.not_before)}"
         lines.append(f"  {'tilted, not before':<24} {early}, whatever the azimuth and for any smaller tilt (proved)")
-    lines += [f"  {_wheel(w, units)}{f' ({w.because})' if w.keeps_bounded or w.best is not None else ''}" for w in row.wheels]
-    return lines + [f"  {_helper(h, units)}" for h in row.helpers]
+    return lines + [f"  {line}" for line in means(row, units)]
+
+
+def means(row, units) -> list[str]:
+    """What a wheel or another thruster can do, a line each."""
+    wheels = [_wheel(w, units) + (f" ({w.because})" if w.keeps_bounded or w.best is not None else "")
+              for w in row.wheels]
+    return wheels + [_helper(h, units) for h in row.helpers]
 
 
 def _axes(principal, axes) -> list[str]:
     names = [axes.name(n) for n in (1, 2, 3)]
     return ["principal axes, unit vectors in the frame of the file:"] + [
-        f"  {name:<{max(map(len, names))}}  moment {_number(moment, DIGITS)} kg m^2  {_vector(axis)}"
+        f"  {name:<{max(map(len, names))}}  moment {_number(moment, DIGITS)} kg m^2  {vector(axis)}"
         for name, moment, axis in zip(names, principal.moments, principal.axes)]
 
 
-def _vector(vector, digits=DIGITS) -> str:
-    return f"({', '.join(_number(v, digits) for v in vector)})"
+def vector(values) -> str:
+    """Numbers in parentheses."""
+    return f"({', '.join(_number(v, DIGITS) for v in values)})"

@@ -84,8 +84,13 @@ def asked(limit, units):
     unit = {"energy": units.plain("J"), "tilt": units.angles}.get(limit.kind, units.rates)
     names, told = [units.axes.sentence(_named(name)) for name in limit.names], [units.told(most, unit, DIGITS) for most in limit.limits]
     if len(set(told)) == 1:
-        return f"{' or '.join(filter(None, (', '.join(names[:-1]), names[-1])))} = {told[0]}"
+        return f"{any_of(names)} = {told[0]}"
     return " or ".join(f"{name} = {most}" for name, most in zip(names, told))
+
+
+def any_of(names) -> str:
+    """a, b or c."""
+    return " or ".join(filter(None, (", ".join(names[:-1]), names[-1])))
 
 
 def _named(quantity):

@@ -73,7 +73,7 @@ def test_the_verdict_is_that_of_the_case_that_is_saved(tmp_path):
 def test_a_moving_hand_gets_the_same_fate_without_the_search_for_the_separatrix():
     session = Session(case_of("thruster-stuck-major-axis"))
     whole, brief = ask(session)[0], ask(session, moving=True)[0]
-    assert whole["fate"] == brief["fate"] == "bounded" and "distance" in str(whole["rows"]) and "distance" not in str(brief["rows"])
+    assert whole["fate"] == brief["fate"] == "bounded" and "margin, rate" in str(whole["rows"]) and "margin, rate" not in str(brief["rows"])
     assert sum(s["rows"] for s in brief["space"]["sheets"]) < sum(s["rows"] for s in whole["space"]["sheets"])
 
 

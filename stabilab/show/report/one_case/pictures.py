@@ -7,8 +7,8 @@ from pathlib import Path
 from ....asked import reach_of
 from ...plot import to_file, which
 from ...plot.over_time import file_axes
+from ...terminal.letters import printed
 from ...units import units_of
-from .measures import Measures
 
 # kind -> (title, caption)
 SHOWN = {
@@ -46,7 +46,9 @@ def _later(one) -> str:
     release = one.motion.evidence.get("release_time")
     if release is None or one.case is None or one.span is None or release <= max(one.span):
         return ""
-    return f" The spin-up begins later: the turn reverses for the last time at {Measures(units_of(one.case)).moment(release)}."
+    units = units_of(one.case)
+    told = printed(units.moment(release) if units.scaled else units.time(release))
+    return f" The spin-up begins later: the turn reverses for the last time at {told}."
 
 
 def length(one, motion) -> float:

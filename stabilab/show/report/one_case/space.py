@@ -17,8 +17,8 @@ from ... import style
 from ...plot.path import along, angular, path, thinned
 from ...plot.subject import subject
 from ...surface.write import equilibrium_lines
+from ...terminal.letters import printed
 from . import pictures
-from .measures import spoken
 
 SHAPE = (48, 97)     # rows and columns of a sheet
 ROOM = 1.9           # half of the box, of the farthest point of the motion from its middle
@@ -31,7 +31,7 @@ LATEST = 3.0         # times its first size, up to which a motion that spins up 
 NARROW = 0.02        # halves of the box: a surface no wider than that is not seen in it
 
 
-def space(case, motion, found_equilibria, measures, shape=SHAPE) -> dict:
+def space(case, motion, found_equilibria, units, shape=SHAPE) -> dict:
     """What the script draws: box, ticks, sheets, curves and points, and the rows of the legend; `reason`: what is to be said of the separatrix."""
     sheets, reason = _sheets(case.scene, shape)
     curve = None if motion is None or case.state is None else _curve(case, motion, bool(sheets))
@@ -39,13 +39,14 @@ def space(case, motion, found_equilibria, measures, shape=SHAPE) -> dict:
     box = _box(curve, sheets, marks)
     reaching = _reaching(case.scene, sheets, box, shape)
     sheets = [sheet for sheet in reaching if _wide(sheet.points, box)]
-    unit, one = measures.rate_unit
+    unit, one = units.rates
     curves = found_equilibria.curves if found_equilibria is not None else ()
-    drawn = {"names": [f"{spoken(name)}{f' ({unit})' if unit else ''}" for name in case.scene.components],
+    drawn = {"names": [f"{printed(name)}{f' ({unit})' if unit else ''}" for name in case.scene.components],
              "middle": [v * one for v in box[0]], "half": box[1] * one,
              "sheets": [_sheet(sheet, style.BESIDE[n % len(style.BESIDE)], box) for n, sheet in enumerate(sheets)],
              "curves": _curves(curves, curve, box), "points": [m | {"at": _share(m["at"], box)} for m in marks if _inside(m["at"], box)]}
-    return {"drawn": drawn, "legend": _legend(drawn), "reason": measures.reason(reason), "clipped": any(_outside(s.points, box) for s in reaching)}
+    return {"drawn": drawn, "legend": _legend(drawn), "reason": printed(units.words(reason)),
+            "clipped": any(_outside(s.points, box) for s in reaching)}
 
 
 def _sheet(sheet, colour, box):

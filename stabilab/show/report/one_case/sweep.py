@@ -11,45 +11,45 @@ from ....errors import StabilabError
 from ... import limiting, style
 from ...plot.path import along
 from ...plot.subject import subject
-from ...terminal.letters import some
-from ...terminal.sweep import fates, key_columns
+from ...terminal.letters import printed, some
+from ...terminal.sweep import fates, key_columns, of_motions
 from ...text.law import judged, lines_of
 from ...units import units_of
-from . import pictures, verdict
-from .equations import equations
-from .measures import Measures, spoken
+from . import pictures
+from .page import equations
 
 STYLES = ("-", "--", ":", "-.")
 WIDTHS = (1.0, 1.8, 2.6)
 POINTS = 801
-HEADS = ("largest rate", "margin", "period")
 
 
 def sections(cases, folder: Path, stem: str) -> dict:
     """What the template says of the combinations of one file; the picture goes into the folder."""
-    measures, first = Measures(units_of(cases[0])), cases[0]
+    units, first = units_of(cases[0]), cases[0]
     keys = [key_columns(cases, place) for place in range(len(first.swept))]
     answered = [(case, *_answer(case)) for case in cases]
-    rows = [_row(case, found, why, [cells[n] for key in keys for _, _, cells in key], measures) for n, (case, found, why) in enumerate(answered)]
     moved = [(case, found) for case, found, _ in answered if found is not None]
-    kept = [n for n in range(len(HEADS)) if any(row["told"][n] for row in rows)]  # no column that says nothing
-    rows = [row | {"told": [row["told"][n] for n in kept]} for row in rows]
+    motions = [motion for _, motion in moved]
+    heads, table = of_motions(motions, units) if motions else ([], [])
+    told = iter(table)
+    cells = [[why] if found is None else next(told) for _, found, why in answered]
+    rows = [{"name": case.name, "values": [column[n] for key in keys for _, _, column in key],
+             "told": list(map(printed, cells[n])), "fate": "" if found is None else found.fate.word}
+            for n, (case, found, _) in enumerate(answered)]
     caveats = dict.fromkeys(one for case in cases for one in case.caveats)
-    return {"name": stem, "caveats": [spoken(line) for line in limiting.beside(caveats, measures.units)],
-            "heads": [HEADS[n] for n in kept], "title": first.title or stem,
+    without = len(cases) - len(motions)
+    answers = [fates(motions, units)] if motions else []
+    answers += [f"without a motion: {without}"] if without else []
+    laws = [(case, found and found.validity) for case, found, _ in answered]
+    beyond = [(case, None if law is None or law.held else law) for case, law in laws]
+    return {"name": stem, "title": first.title or stem,
+            "caveats": [printed(line) for line in limiting.beside(caveats, units)],
+            "heads": [f"{head} ({unit})" if unit else head for head, unit in heads],
             "source": first.source, "path": first.path, "text": first.text, "rows": rows,
             "keys": [_head(label, unit) for key in keys for label, unit, _ in key], "equations": _equations(first),
-            "picture": _picture(moved, keys, cases, measures, folder / f"{stem}-sweep.png") if moved else None,
-            "headline": f"{some(len(rows), 'combination')}: {_answer_of_all([found for _, found, _ in answered], measures)}",
-            "law": "; ".join(lines_of([(case, None if found is None or found.validity is None or found.validity.held else found.validity)
-                                       for case, found, _ in answered], measures.units))}
-
-
-def _answer_of_all(motions, measures) -> str:
-    """Which fates there are and how large the rates grow, as the commands tell it; how many state no motion or are not answered."""
-    known = [motion for motion in motions if motion is not None]
-    without = len(motions) - len(known)
-    return "; ".join(filter(None, [fates(known, measures.units) if known else "", f"without a motion: {without}" if without else ""]))
+            "picture": _picture(moved, keys, cases, units, folder / f"{stem}-sweep.png") if moved else None,
+            "headline": f"{some(len(rows), 'combination')}: {'; '.join(answers)}",
+            "law": "; ".join(lines_of(beyond, units))}
 
 
 def _answer(case):
@@ -58,12 +58,6 @@ def _answer(case):
         return (None, "no motion is given") if case.state is None else (judged(case, motion(case.scene, case.start, case.span, True, case.exact_state)), "")
     except StabilabError as error:
         return None, str(error)
-
-
-def _row(case, found, why, values, measures):
-    return {"name": case.name, "values": values,
-            "fate": "" if found is None else found.fate.word, "css": "" if found is None else verdict.css(found.fate.word),
-            "told": [why, "", ""] if found is None else [of(found, measures) for of in (verdict.largest, verdict.margin, verdict.period)]}
 
 
 def _places(case):
@@ -83,10 +77,10 @@ def _equations(case):
         return None
 
 
-def _picture(moved, keys, cases, measures, path):
+def _picture(moved, keys, cases, units, path):
     """The size of the rates against time, all combinations in one panel: colour, dashes and width tell the values of the first three keys."""
     until = max(pictures.length(case, found) for case, found in moved)
-    (unit, one), (clock, per) = measures.rate_unit, measures.time_unit(until)
+    (unit, one), (clock, per) = units.rates, units.times(until)
     letter = "ω" if unit else "x"
     with style.drawing() as plt:
         figure, ax = plt.subplots(figsize=(9.0, 4.8), layout="constrained")

@@ -1,15 +1,27 @@
-"""The numbers of a result with their dimensions, units and words: what data sets, tables and pages are made of."""
+"""The numbers of a result with dimensions, units and words: for xarray, pandas and notebooks."""
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from typing import Any
+from html import escape
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ...orbit.result import Fate
+from ...packages import demand
 from ...physics.blocks import PARTS
+from ..terminal.letters import MINUS
+from .words import short
+
+if TYPE_CHECKING:
+    import pandas
+    import xarray
+
+MOST = 10  # rows of a page
+EXPONENT = re.compile(r"(?<=\de)-(?=\d)")
 
 
 @dataclass(frozen=True)
@@ -184,3 +196,70 @@ OF: dict[str, Callable[[Any], Variables]] = {
     "Simulation": _simulation, "Trajectory": _trajectory, "FateResult": _fates, "TimeTo": _times, "Equilibria": _equilibria, "Motion": _motion,
     "Chaos": _chaos, "Diagram": _diagram, "Ensemble": _ensemble, "Plane": _plane,
     "Separatrix": _separatrix, "Comparison": _comparison, "Stuck": _stuck, "SpinUp": _spin_up}
+
+
+def dataset(result: Any) -> xarray.Dataset:
+    """The numbers of a result with their dimensions, units and words."""
+    demand("xarray")
+    import xarray
+    found = variables(result)
+    return xarray.Dataset(dict(found.values), {name: ((name,), *one) for name, one in found.coordinates.items()}, dict(found.attributes))
+
+
+def frame(result: Any) -> pandas.DataFrame:
+    """The numbers of a result as a table; a column for every component, what belongs to the whole in `attrs`."""
+    demand("pandas")
+    import pandas
+    found = variables(result)
+    made = pandas.DataFrame({name: values for name, values in columns(found)}, index=_index(found))
+    made.attrs = dict(found.attributes)
+    return made
+
+
+def columns(found: Variables) -> list[tuple[str, np.ndarray]]:
+    """(name, values in one row of cells) of every component: "omega1", "omega2", ..."""
+    rows = []
+    for name, (dims, values, _) in found.values.items():
+        array, own = np.asarray(values), dims[len(found.index):]
+        if not own:
+            rows.append((name, array.reshape(-1)))
+            continue
+        flat = array.reshape(-1, array.shape[-1])
+        known = PARTS[name].components if name in PARTS else ()
+        names = known if len(known) == flat.shape[1] else [f"{name}{n + 1}" for n in range(flat.shape[1])]
+        rows += [(one, flat[:, n]) for n, one in enumerate(names)]
+    return rows
+
+
+def _index(found: Variables) -> Any:
+    """Times or axes where they are known, else numbers; several dimensions of states as pandas counts them."""
+    import pandas
+    shape = next(iter(found.values.values()))[1].shape[:len(found.index)]
+    if not found.index:
+        return pandas.RangeIndex(1)
+    if len(found.index) > 1:
+        return pandas.MultiIndex.from_product([range(size) for size in shape], names=list(found.index))
+    name, = found.index
+    return pandas.Index(found.coordinates[name][0] if name in found.coordinates else range(shape[0]), name=name)
+
+
+def html(result: Any) -> str:
+    """The line of a result, and its first rows; what is in it is text and never a tag."""
+    found = variables(result)
+    rows = columns(found)
+    index = found.index[0] if len(found.index) == 1 else ""
+    labels = found.coordinates[index][0] if index in found.coordinates else range(len(rows[0][1]))
+    head = "".join(f"<th>{escape(name)}</th>" for name in (index, *(name for name, _ in rows)))
+    number = len(rows[0][1])
+    body = "".join(f"<tr><th>{_cell(labels[n])}</th>{''.join(f'<td>{_cell(values[n])}</td>' for _, values in rows)}</tr>" for n in range(min(MOST, number)))
+    more = f"<p>and {number - MOST} more</p>" if number > MOST else ""
+    return f"<div><p><b>{_text(short(result))}</b></p><table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>{more}</div>"
+
+
+def _cell(value: Any) -> str:
+    return f"{float(value) + 0.0:.6g}".replace("-", "−") if isinstance(value, (float, np.floating)) else _text(str(value))
+
+
+def _text(words: str) -> str:
+    """Words as text; the minus of a number as print has it, the hyphens of words as they are."""
+    return escape(EXPONENT.sub("−", MINUS.sub("−", words)))
