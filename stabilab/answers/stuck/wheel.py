@@ -14,8 +14,9 @@ from ...numbers.vectors import Exact3, Number, dot
 from ...orbit.reduction import Reduction
 from ...physics.quadratic import rests
 from ...physics.scene import Scene
+from ..caveats import STEADY
 from .fate import PATIENCE, first_time, limit_in, time_under
-from .line import EVERY, INF, STEADY, Family, Intervals, Line, candidates, family_of, pieces
+from .line import EVERY, INF, Family, Intervals, Line, candidates, family_of, pieces
 from .scenario import Scenario
 
 Answer: TypeAlias = tuple[Intervals, str]  # and because
