@@ -89,6 +89,7 @@ def _flint(value: Number) -> fmpq_poly | fmpq:
 def real_roots(p: Poly, bits: int = 160) -> list[Fraction]:
     """Every real root of a nonzero polynomial once, rising, within 2**-bits relative, rational ones exactly; none is missed and none
     is invented."""
+    from flint import arb
     factors = [factor for factor, _ in p.flint.factor()[1]]
     if not factors:
         return []
@@ -99,6 +100,8 @@ def real_roots(p: Poly, bits: int = 160) -> list[Fraction]:
         balls = [ball for ball, _ in real_roots_of(simple)]
         if not all(first < second for first, second in zip(balls, balls[1:])):
             raise Unclear
-        known = [next((root for root in exact if ball.contains(root)), None) for ball in balls]
+        known = [next((root for root in exact if ball.overlaps(arb(root))), None) for ball in balls]
+        if sum(root is not None for root in known) > len(exact):
+            raise Unclear  # one root as a ball meets two
         return [fraction(ball.mid().fmpq() if root is None else root) for ball, root in zip(balls, known)]
     return settled(found, bits + 8)

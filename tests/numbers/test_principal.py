@@ -39,7 +39,10 @@ def test_a_diagonal_tensor_keeps_its_order_and_is_exact():
     assert found.moments == (Fraction(1, 3), Fraction(1, 2), Fraction(2, 5)) and found.axes == IDENTITY and found.exact and found.as_given
 
 
-@pytest.mark.parametrize("moments", [(3, 2, Fraction(3, 2)), (5, 3, 2), (3, 2, 2 + Fraction(1, 10**60))])
+DECIMAL = tuple(map(Fraction, ("1.553", "1.35", "0.935")))  # none of them a double
+
+
+@pytest.mark.parametrize("moments", [(3, 2, Fraction(3, 2)), (5, 3, 2), (3, 2, 2 + Fraction(1, 10**60)), DECIMAL])
 def test_rational_axes_stay_exact(moments):
     found = principal_axes(turned(TURN, moments))
     judge(turned(TURN, moments), found)
