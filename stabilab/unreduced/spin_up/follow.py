@@ -178,7 +178,7 @@ def answer_of(scene, unit: float, found: Chased, row: int) -> SpinUp:
     """The answer of one row of what `chase` found."""
     t, state = float(found.t[row]) / unit, tuple((found.states[row] * unit).tolist())
     steps, condition, passed = int(found.steps[row]), float(found.condition[row]), float(found.passed[row])
-    if found.fired[row] < 0 and not math.isfinite(t):
+    if found.fired[row] < 0 and not all(map(math.isfinite, (t, *state))):
         words = f"a run in doubles broke off after {steps} steps, as its numbers left their range: nothing is seen of the motion"
         return SpinUp(Fate.UNDECIDED, 0, 0, None, "undecided", None, t, state, steps, words, condition, passed)
     if found.fired[row] < 0:
