@@ -11,7 +11,7 @@ from stabilab.answers.tabulated.ask import tabulated
 from stabilab.answers.trajectory import trajectory
 from stabilab.case.read import load
 from stabilab.numbers.balls import working
-from stabilab.theories.validation.integrators import rk4, run
+from stabilab.papers.validation.integrators import rk4, run
 
 ROOT = Path(__file__).parents[1]
 PAGE = ROOT / "docs" / "reference.md"

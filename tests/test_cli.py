@@ -456,7 +456,7 @@ def test_surfaces_of_a_sweep_share_a_folder_and_a_manifest(stabilab, swept, monk
 
 
 def test_a_report_has_every_combination_of_a_sweep(swept):
-    from stabilab.show.report.report import of_all
+    from stabilab.papers.report.report import of_all
     assert [case.name for case in of_all(["six.toml", "two.toml"])] == [*(f"six{label}" for label in LABELS), "two-1", "two-2"]
 
 

@@ -25,7 +25,7 @@ LEAD = "What becomes of each of these cases, in bold; its picture, the commands 
 
 def write(docs: Path, cases: list[Path] | None = None) -> list[str]:
     """Write gallery.md, gallery/<group>.md and gallery/<case>.png; the names of all cases, in the order of the pages. cases: None for all."""
-    from stabilab.show.report.whole import GROUPS
+    from stabilab.papers.report.whole import GROUPS
     entries = [entry(path, docs / FOLDER) for path in cases or sorted((ROOT / "cases").glob("*.toml"))]
     grouped = {title: [one for one in entries if one["group"] == title] for title, _ in GROUPS}
     grouped = {title: rows for title, rows in grouped.items() if rows}
@@ -55,9 +55,9 @@ def entry(path: Path, folder: Path) -> dict:
 def made(path: Path, folder: Path) -> dict:
     """Title, source, group, answer and kind of picture of a case, whose picture is drawn. Of a sweep the first combination is drawn."""
     from stabilab.case.read import load_all
+    from stabilab.papers.report.whole import group
     from stabilab.show.plot import which, write
     from stabilab.show.plot.subject import subject
-    from stabilab.show.report.whole import group
     from stabilab.show.terminal.letters import greek, written
     from stabilab.show.text import law
     from stabilab.show.text.headline import headline

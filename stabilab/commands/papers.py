@@ -4,16 +4,16 @@ from __future__ import annotations
 import sys
 
 from ..errors import ToleranceNotMet
-from ..show.figures import catalogue
+from ..papers import table
+from ..papers.audit import audited
+from ..papers.audit import page as audit_page
+from ..papers.audit import words as audit_text
+from ..papers.figures import catalogue
+from ..papers.validation import validated
+from ..papers.validation import words as validation_text
 from ..show.files import manifest
-from ..show.outside import validation as validation_text
 from ..show.progress import counted
-from ..show.report import audit_page
 from ..show.terminal.page import width
-from ..show.text import audit as audit_text
-from ..show.text import table
-from ..theories.audit import audited
-from ..theories.validation import validated
 from .common.output import either, say, write_paths
 
 

@@ -3,8 +3,8 @@ from __future__ import annotations
 
 import sys
 
+from ..papers.report.report import write as write_report
 from ..show.files import rerun as repetition
-from ..show.report.report import write as write_report
 from .common.cases import load_cases
 from .common.output import leave_undecided, tell, unphysical, write
 

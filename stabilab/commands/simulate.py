@@ -9,8 +9,8 @@ from ..answers.digits.run import best_reached, missed
 from ..case.quaternion import with_quaternion
 from ..case.read import blamed_on
 from ..errors import InputError, ToleranceNotMet
+from ..show import reference as outside
 from ..show.files import trajectory_files
-from ..show.outside import reference as outside
 from ..show.terminal import page
 from ..show.terminal.letters import lettered
 from ..show.terminal.run import text, zero_within

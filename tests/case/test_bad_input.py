@@ -100,7 +100,7 @@ RUNNING = {"eval", "exec", "compile", "__import__", "execfile", "breakpoint"}  #
 UNPACKING = {"pickle", "cPickle", "_pickle", "dill", "cloudpickle", "joblib", "marshal", "shelve", "jsonpickle", "yaml"}
 EXPRESSIONS = {"sympify", "parse_expr", "parse_latex", "parse_mathematica", "S", "lambdify", "literal_eval", "from_string"}
 # The formulas of the papers are texts of the package itself; lambdify gets expressions that the program built.
-ALLOWED = {("theories/audit/special/constant_torque.py", "sympify"), ("physics/to_numpy.py", "lambdify"),
+ALLOWED = {("papers/audit/special/constant_torque.py", "sympify"), ("physics/to_numpy.py", "lambdify"),
            ("theories/cavity/averaged.py", "lambdify")}
 OWN_OBJECTS = {("show/report/workers.py", "pickle")}  # between the processes of one report, in a folder that the first has just made
 
@@ -223,7 +223,7 @@ HOSTILE = "<script>alert(1)</script> & \\\\input{/etc/passwd} $x_1$ %d {{ 7*7 }}
 
 
 def test_latex_of_a_hostile_title_is_text():
-    from stabilab.show.text.table import Table, comma_separated, html_page, latex, markdown
+    from stabilab.papers.table import Table, comma_separated, html_page, latex, markdown
     words = HOSTILE.replace("\\\\", "\\").replace('\\"', '"')
     one = Table(9, words, words, (words, "b"), ((words, 1.0), ("=1+1", None)))
     tex = latex(one)

@@ -23,7 +23,8 @@ MAY: dict[str, str | None] = {
     "maps": "answers orbit equilibrium case integrate physics numbers",
     "cost": "theories answers orbit integrate physics numbers", "verify": None,
     "show": "maps cost theories answers unreduced orbit equilibrium integrate case physics numbers verify",
-    "commands": "show maps cost theories answers unreduced orbit equilibrium integrate case physics numbers verify"}
+    "papers": "show maps cost theories answers unreduced orbit equilibrium integrate case physics numbers",
+    "commands": "papers show maps cost theories answers unreduced orbit equilibrium integrate case physics numbers verify"}
 
 
 class Import(NamedTuple):

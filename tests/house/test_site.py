@@ -67,7 +67,7 @@ def test_every_public_class_says_its_units_or_what_it_stands_for():
 
 
 def test_every_case_stands_in_the_gallery_under_a_group(tmp_path, monkeypatch):
-    from stabilab.show.report.whole import GROUPS
+    from stabilab.papers.report.whole import GROUPS
 
     def undrawn(path, folder):
         folder.mkdir(exist_ok=True)

@@ -15,13 +15,13 @@ from stabilab import errors, load
 from stabilab.case.read import read_text
 from stabilab.orbit import phase_plane as phase
 from stabilab.orbit.separatrix.result import Sheet
+from stabilab.papers import table
+from stabilab.papers.figures import catalogue as figures
+from stabilab.papers.figures import paper
 from stabilab.show import style
-from stabilab.show.figures import catalogue as figures
-from stabilab.show.figures import paper
 from stabilab.show.plot import to_file as plane
 from stabilab.show.surface import mesh, render_probe
 from stabilab.show.surface import write as surface
-from stabilab.show.text import table
 
 CASES = Path(__file__).parents[2] / "cases"
 

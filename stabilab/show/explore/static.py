@@ -24,7 +24,7 @@ from .session import Session
 PYODIDE, FLINT = "314.0.7", "0.9.0"  # what the tests load
 ADDRESS = f"https://cdn.jsdelivr.net/pyodide/v{PYODIDE}/full/"
 NEEDED = ("pyodide.mjs", "pyodide.asm.mjs", "pyodide.asm.wasm", "python_stdlib.zip", "pyodide-lock.json")
-LEFT_OUT = ("cases", "cost", "theories", "show/figures", "show/report", "show/plot", "show/templates", "show/text/cost")
+LEFT_OUT = ("cases", "cost", "papers", "theories", "show/report", "show/plot", "show/templates", "show/text/cost")
 POLICY = ("default-src 'none'; script-src 'unsafe-inline' 'self'; style-src 'unsafe-inline'; img-src data:; worker-src 'self'; base-uri 'none'; "
           "form-action 'none'")
 CURE = (f'get them by "npm pack pyodide@{PYODIDE}" (unpack it) and "pip download --no-deps --only-binary=:all: --python-version 3.14 '

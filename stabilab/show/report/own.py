@@ -72,7 +72,7 @@ def tasks(cases, folder: Path, wanted: Wanted) -> list[Task]:
     """A task an entry."""
     place = folder / FOLDER
     place.mkdir()
-    return [Task(f"case {stem}", "own:section", (stem, group, place, wanted), 3.0 + 0.3 * len(group)) for stem, group in entries(cases)]
+    return [Task(f"case {stem}", "show.report.own:section", (stem, group, place, wanted), 3.0 + 0.3 * len(group)) for stem, group in entries(cases)]
 
 
 def write(made, place: Path, prefix: str, **around) -> Path:

@@ -23,7 +23,7 @@ MOST = 4          # helpers need memory too: some 400 MB each
 
 @dataclass(frozen=True)
 class Task:
-    """words: what it does, for the one who waits; home: "module:function" of this package, called with `arguments`; weight: s it takes, roughly."""
+    """words: what it does, for the one who waits; home: "module:function" below `stabilab`, called with `arguments`; weight: s it takes, roughly."""
 
     words: str
     home: str
@@ -66,7 +66,7 @@ def _told(task, tell):
 def run(task):
     """What a task gives."""
     module, _, function = task.home.partition(":")
-    return getattr(import_module(f".{module}", __package__), function)(*task.arguments)
+    return getattr(import_module(f"stabilab.{module}"), function)(*task.arguments)
 
 
 def _taken(place, n) -> bool:

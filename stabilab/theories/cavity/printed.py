@@ -2,7 +2,7 @@
 
 Galal, Amer, Elneklawy, El-Kafly, "Studying the influence of a gyrostatic moment on the motion of a charged rigid body
 containing a viscous incompressible liquid", eqs (13), (14), (24)-(29). The formulas are
-those of the audit's file on the paper (`theories/audit/papers/liquid-cavity.toml`), which holds each against the equations of motion.
+those of the audit's file on the paper (`theories/printed/papers/liquid-cavity.toml`), which holds each against the equations of motion.
 What is wrong in print, and how it is read here:
 - (20), (24), (27): the term of (D1' - D2')/4 lacks the factor a^2/2 that averaging (18) gives: kept as printed (its dimension is wrong).
 - (20)-(22), (24)-(28): the liquid torque is that of a body without rotor and charge, the average of a frequency that
@@ -23,7 +23,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...errors import InputError
-from ..audit.evaluate import printed_formulas
+from ..printed.evaluate import printed_formulas
 from .averaged import omega_of, times_row
 from .normal_form import check, constants
 

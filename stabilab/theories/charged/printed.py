@@ -1,7 +1,7 @@
 """The charged axisymmetric body by the paper's formulas as they stand in print, misprints and all.
 
 Galal et al., charged body, (11)-(13), (20)-(26), (33), (35), (43)-(51), (58)-(66). The formulas are those of the audit's file
-on the paper (`theories/audit/papers/charged-axisymmetric.toml`), which holds each against the equations of motion; here they are
+on the paper (`theories/printed/papers/charged-axisymmetric.toml`), which holds each against the equations of motion; here they are
 put together. Supplied is only what print leaves open: zeta3 and zeta4 of (64), not defined: (sqrt(zeta1) +- sqrt(zeta2))/(2 zeta)
 as in (49); the bracket of (45) and (60) that does not close, closed as in (46). The short form (Elneklawy) prints the same, but
 for the second zeta of (46). `corrected` has the integrals that the paper means.
@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...errors import InputError
-from ..audit.evaluate import printed_formulas
+from ..printed.evaluate import printed_formulas
 from .closed_form import times, verdict
 from .corrected import momentum
 from .modes import ChargedBody

@@ -1,6 +1,6 @@
 """The fast top's first approximation as Amer et al. 2023 (fast top) print it: eqs. (4), (10), (41), (42), (43).
 
-For comparison only. The formulas are those of the audit's file on the paper (`theories/audit/papers/newtonian-field-top.toml`), which
+For comparison only. The formulas are those of the audit's file on the paper (`theories/printed/papers/newtonian-field-top.toml`), which
 holds each against the equations of motion. What is wrong in it:
 
 - (18), (22), (23): the generating solution has the permanent tilt P0 = y1 C/(C* - A) in p1; (22), (23) and (41) drop it, so
@@ -22,7 +22,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...errors import InputError
-from ..audit.evaluate import printed_formulas
+from ..printed.evaluate import printed_formulas
 from .lindstedt import times_row
 from .scaling import fast_top
 

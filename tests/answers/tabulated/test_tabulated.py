@@ -18,7 +18,7 @@ from stabilab.answers.tabulated.result import PROVED, TWICE
 from stabilab.case.read import load
 from stabilab.errors import InputError
 from stabilab.numbers.balls import working
-from stabilab.show.outside.reference import decimal, within, written
+from stabilab.show.reference import decimal, within, written
 from tests.oracles import taylor
 from tests.oracles.pairs import physical
 

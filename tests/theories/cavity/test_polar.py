@@ -9,8 +9,8 @@ from scipy.integrate import solve_ivp
 
 from stabilab import Gyrostat, Scene
 from stabilab.errors import InputError
-from stabilab.show.figures.catalogue import figure
-from stabilab.show.figures.difference import differences
+from stabilab.papers.figures.catalogue import figure
+from stabilab.papers.figures.difference import differences
 from stabilab.theories.cavity.averaged import averaged
 from stabilab.theories.cavity.polar import polar
 from tests.shared import case

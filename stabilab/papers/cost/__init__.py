@@ -1,0 +1,1 @@
+"""What cost depends on, measured."""

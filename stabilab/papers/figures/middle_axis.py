@@ -1,0 +1,142 @@
+"""Figures 16-17 of Amer et al. 2024: torque on the middle axis, where its data have no separatrix at all."""
+from __future__ import annotations
+
+import numpy as np
+
+from ...orbit.phase_plane import motion_curve, phase_plane
+from ...show import style
+from . import paper
+from .minor_axis import exactness as of_sheets
+from .minor_axis import sheets
+
+LAMBDA_BEYOND = 1250  # c = b - a = 2.5, beyond the cusp 1.7548: there a figure-eight separatrix does exist
+CUSP = 4 * 3**-0.75
+EIGHT = {"lambda1": LAMBDA_BEYOND, "reach": None, "shape": (60, 121), "axis": "middle"}  # the sheets of Fig. 16
+
+
+def exactness() -> str:
+    """How far the vertices of Fig. 16 are from their surface."""
+    return of_sheets(**EIGHT)
+
+
+def _equilibria(a, b, points=4000):
+    """(x1, x3, stable) along both branches x3 = g, x1 = -a + 1/g."""
+    for sign in (1, -1):
+        g = sign * np.geomspace(0.05, 20, points)
+        x1 = -a + 1 / g
+        yield x1, g, (x1 + a) * (x1 + b) + g * g > 0
+
+
+def _tube(scene, state):
+    """The closed curve of the motion through a state: states (n, 3)."""
+    plane = phase_plane(scene, state)
+    ys, Ws = motion_curve(plane, -8.0, 8.0)
+    return np.concatenate([plane.states(ys, Ws), plane.states(ys[::-1], -Ws[::-1])])
+
+
+def surfaces(plt):
+    """Fig. 16."""
+    figure = plt.figure(figsize=(11.4, 6.0), layout="constrained")
+    left = figure.add_subplot(1, 2, 1, projection="3d")
+    scene = paper.scene("middle", 100)
+    _nested(left, scene)
+    left.set_title(rf"$\lambda_1=100$, $c={scene.b - scene.a:g}$: nested closed motions, no separatrix", fontsize=9.5)
+    right = figure.add_subplot(1, 2, 2, projection="3d")
+    names = _figure_eight(right)
+    right.set_title(rf"$\lambda_1={LAMBDA_BEYOND}$, $c=2.5>{CUSP:.4f}$: figure-eight separatrix", fontsize=9.5)
+    style.legend(figure, [("centres (stable)", style.MEANING["stable"]), ("saddles (unstable)", style.MEANING["unstable"]),
+                     ("motion of Table 3", style.MEANING["this motion"]), ("start", style.MARKER["start"]),
+                     ("periodic motions", {"color": style.SKY, "linewidth": 1.0}), ("one figure-eight", EIGHT_LINE),
+                     *((f"separatrix, {name}", {"color": colour, "linewidth": 8, "solid_capstyle": "butt"}) for name, colour in zip(names, LOOPS))], columns=4)
+    return figure
+
+
+EIGHT_LINE = {"color": style.BLACK, "linewidth": 2.2}  # of the two loops of one saddle
+LOOPS = (style.SKY, style.YELLOW, style.GREY, style.PURPLE)  # colours of the parts of the figure-eight
+OPAQUE, THIN = (1.0, 0.6, 0.45, 0.6), (0.1, 0.3, 0.1, 0.3)  # of each part, and the width of its mesh: the small loop of sheet 1 stands within that of sheet 2
+
+
+FROM_BEHIND = (1.4, 1.2, 1.3, 1.1)  # of each part, seen from the side from which both loops are
+
+
+UPRIGHT = (1, 3, 2)  # the torque's axis stands upright in the 3-D panels
+
+
+def _upright(points):
+    """(n, 3) or (n, m, 3) as three arrays in the order of the panels' axes."""
+    points = np.asarray(points)
+    return tuple(points[..., i - 1] for i in UPRIGHT)
+
+
+def _nested(ax, scene):
+    for x1, x3, stable in _equilibria(scene.a, scene.b):
+        shown = (np.abs(x1) < 3) & (np.abs(x3) < 3) & stable
+        ax.plot(np.where(shown, x1, np.nan), np.where(shown, x3, np.nan), 0 * x1, **style.MEANING["stable"])
+    for g in (-1.8, -1.0, -0.5, 0.5, 1.0, 1.8):
+        for height in (0.4, 0.8):
+            ax.plot(*_upright(_tube(scene, (1 / g - scene.a, height, g))), color=style.SKY, linewidth=1.0)
+    ax.plot(*_upright(_tube(scene, paper.START_MIDDLE)), **style.MEANING["this motion"])
+    ax.plot(*_upright(np.array([paper.START_MIDDLE])), **style.MARKER["start"])
+    style.name_space(ax, order=UPRIGHT)
+    ax.view_init(32, -118)
+
+
+def _figure_eight(ax):
+    """The four parts of the separatrix; their names."""
+    found = sheets(**EIGHT)
+    ax.computed_zorder = False  # short lines of equilibria over the sheets that would hide them
+    for sheet, colour, opaque, thin, order in zip(found.sheets, LOOPS, OPAQUE, THIN, FROM_BEHIND):
+        ax.plot_surface(*_upright(sheet.points), color=colour, alpha=opaque, rstride=4, cstride=6, linewidth=thin, edgecolor="#333333", shade=False,
+                        zorder=order)
+        ax.plot(*_upright(sheet.saddle), zorder=6, **style.MEANING["unstable"])
+        ax.plot(*_upright(sheet.centre), zorder=6, **style.MEANING["stable"])
+    _one_eight(ax, *found.sheets[:2])
+    style.name_space(ax, 0.98, order=UPRIGHT)
+    ax.view_init(26, -20)  # onto both loops: from other sides one hides the other
+    return [sheet.name for sheet in found.sheets]
+
+
+def _one_eight(ax, left, right):
+    """The two loops of one saddle, in the middle of a sheet: the surfaces are made of such eights."""
+    row = len(left.saddle) // 2
+    other = int(np.abs(right.saddle - left.saddle[row]).sum(axis=1).argmin())
+    for points in (left.points[row], right.points[other]):
+        ax.plot(*_upright(points), zorder=5, **EIGHT_LINE)
+
+
+def projections(plt):
+    """Fig. 17: four values of lambda1 to one scale."""
+    figure, axes = plt.subplots(1, 4, figsize=(14.0, 4.7), layout="constrained", sharey=True)
+    for ax, lam in zip(axes, (*paper.LAMBDAS, LAMBDA_BEYOND)):
+        scene = paper.scene("middle", lam)
+        _projection(ax, scene, draw_motion=lam != LAMBDA_BEYOND)
+        ax.set_title(rf"$\lambda_1={lam}$, $c={scene.b - scene.a:g}$")
+    axes[0].set_ylabel("$x_3$")
+    style.legend(figure, [("stable equilibria", style.MEANING["stable"]), ("unstable equilibria", style.MEANING["unstable"]),
+                     (r"plane $x_1+b=x_3$ (periodic)", style.MEANING["dividing"]),
+                     (r"plane $x_1+b=-x_3$ (spin-up)", style.MEANING["spin-up"]),
+                     ("motion of Table 3", style.MEANING["this motion"]), ("start", style.MARKER["start"]),
+                     ("folds", style.MARKER["degenerate"]), (r"printed: $x_1=x_3$", PRINTED)])
+    return figure
+
+
+PRINTED = style.MEANING["printed"] | {"color": style.PURPLE}  # orange is the motion's
+VIEW = ((-8.0, 4.5), (-6.25, 6.25))  # of x1 and x3, in every panel of Fig. 17
+
+
+def _projection(ax, scene, draw_motion):
+    a, b = scene.a, scene.b
+    for x1, x3, stable in _equilibria(a, b):
+        for kind, mask in (("stable", stable), ("unstable", ~stable)):
+            ax.plot(np.where(mask, x1, np.nan), np.where(mask, x3, np.nan), **style.MEANING[kind])
+        folds = np.nonzero(np.diff(stable))[0]
+        ax.plot(x1[folds], x3[folds], zorder=5, **style.MARKER["degenerate"])
+    ends = np.array([-20.0, 20.0])
+    ax.plot(ends, ends + b, **style.MEANING["dividing"])
+    ax.plot(ends, -ends - b, **style.MEANING["spin-up"])
+    ax.plot(ends, ends, **PRINTED)
+    if draw_motion:
+        states = _tube(scene, paper.START_MIDDLE)
+        ax.plot(states[:, 0], states[:, 2], **style.MEANING["this motion"])
+        ax.plot(paper.START_MIDDLE[0], paper.START_MIDDLE[2], zorder=6, **style.MARKER["start"])
+    ax.set(xlim=VIEW[0], ylim=VIEW[1], aspect="equal", xlabel="$x_1$")

@@ -1,0 +1,226 @@
+"""Figures 2-5 and 7 of Amer et al. 2024: constant torque on the minor axis, drawn from the equations."""
+from __future__ import annotations
+
+from functools import lru_cache
+
+import numpy as np
+
+from ...answers.trajectory import trajectory
+from ...orbit.phase_plane import motion_curve, phase_plane
+from ...orbit.separatrix.sheets import separatrix
+from ...show import style
+from ...show.plot.phase_plane import draw
+from . import paper
+from .figure import listed
+
+WINDOW = (-7.0, 8.4)  # alpha = 2 theta: both wells and their saddles, no equilibrium at an edge; the plane repeats every 4 pi
+PRINTED_FIG4 = {100: ((0.0, 6.2), (-3.0, 3.3)), 300: ((0.19, 6.15), (-3.1, 3.29)), 500: ((0.32, 5.8), (-3.13, 3.28))}
+REACH = 5.0           # largest circle drawn in Fig. 5, in radii of the outer fold circle
+LEFT, RIGHT = style.MEANING["separatrix 2"], style.MEANING["separatrix"]
+COPY = RIGHT | {"linestyle": (0, (5, 2)), "linewidth": 1.1}
+LOOPS = [("left separatrix", LEFT), ("right separatrix", RIGHT), ("right separatrix, a turn earlier", COPY)]
+POINTS = [("centre (stable)", style.MARKER["centre"]), ("saddle (unstable)", style.MARKER["saddle"])]
+
+
+def _plane(lambda1):
+    """(phase plane, alpha of the start, window of y) for the start of the paper."""
+    plane = phase_plane(paper.scene("minor", lambda1), paper.START_MINOR)
+    start = 2 * float(np.arctan2(*plane.place))
+    return plane, start, tuple((edge - start) / 2 for edge in WINDOW)
+
+
+def _label(ax):
+    ax.set_xlabel(r"$\alpha = 2\,\mathrm{atan2}(x_1+a,\ x_2)$")
+    ax.set_ylabel(r"$x = 2\,x_3$")
+
+
+def trajectories(plt):
+    """Fig. 2."""
+    figure, ax = plt.subplots(figsize=(7.4, 5.2), layout="constrained")
+    plane, start, span = _plane(100)
+    draw(ax, plane, scale=2, offset=start, rate_scale=2, span=span, levels=26, separatrices=False)
+    _separatrices(ax, plane, start, span)
+    _label(ax)
+    radius = np.sqrt(plane.Q)
+    ax.set_title(rf"Torque on the minor axis, $\lambda_1=100$: the circle $A={radius:.4f}$ of the start")
+    style.legend(figure, [("this motion", style.MEANING["this motion"]), ("start", style.MARKER["start"]), *LOOPS,
+                     ("other energies", style.MEANING["level"]), *POINTS], columns=3)
+    return figure
+
+
+def _separatrices(ax, plane, start, span):
+    """The separatrix through every saddle: that of the left saddle (alpha near 0), of the right one, and of this one a turn earlier."""
+    saddles = plane.repeated(plane.saddles, *span)
+    left = _left(saddles, start)
+    for saddle in saddles:
+        look = LEFT if saddle == left else RIGHT if saddle > left else COPY
+        ys, Ws = plane.separatrix(saddle, *span)
+        for sign in (1, -1):
+            ax.plot(start + 2 * ys, 2 * sign * Ws, **look)
+
+
+def _left(saddles, start):
+    """The left saddle of the paper: the one with alpha nearest to 0."""
+    return min(saddles, key=lambda y: abs(start + 2 * y))
+
+
+def _loops(ax, plane, start, span):
+    """The separatrices, the equilibria, and the points where the loops cross the axis upright."""
+    _separatrices(ax, plane, start, span)
+    for saddle in plane.repeated(plane.saddles, *span):
+        loop = plane.loop(saddle, *span)
+        if loop:
+            end = loop[0] if abs(loop[1] - saddle) < abs(loop[0] - saddle) else loop[1]
+            ax.plot([start + 2 * end], [0], zorder=6, **style.MARKER["turning"])
+    for kind, places in (("centre", plane.centres), ("saddle", plane.saddles)):
+        shown = np.array(plane.repeated(places, *span))
+        ax.plot(start + 2 * shown, 0 * shown, zorder=6, **style.MARKER[kind])
+
+
+def left_right(plt):
+    """Fig. 3."""
+    figure, ax = plt.subplots(figsize=(7.4, 5.2), layout="constrained")
+    plane, start, span = _plane(100)
+    _loops(ax, plane, start, span)
+    scene = paper.scene("minor", 100)
+    for centre in plane.repeated(plane.centres, *span):
+        other = phase_plane(scene, plane.states(np.float64(centre), np.float64(2.2)))
+        ys, Ws = motion_curve(other, -np.pi, np.pi)
+        for sign in (1, -1):
+            ax.plot(start + 2 * (centre + ys), 2 * sign * Ws, **style.MEANING["bounded"])
+    spin = phase_plane(scene, plane.states(np.float64(span[1]), np.float64(-6.0)))
+    ys, Ws = motion_curve(spin, span[0] - span[1], 0.0)
+    for sign in (1, -1):
+        ax.plot(start + 2 * (span[1] + ys), 2 * sign * Ws, **style.MEANING["spin-up"])
+    ax.set_xlim(*WINDOW)
+    ax.set_ylim(-14, 14)
+    _label(ax)
+    ax.set_title(rf"Left and right separatrices, $\lambda_1=100$, $A={np.sqrt(plane.Q):.4f}$")
+    style.legend(figure, [*LOOPS, ("periodic motions", style.MEANING["bounded"]), ("spin-up", style.MEANING["spin-up"]),
+                     ("upright crossing", style.MARKER["turning"]), *POINTS], columns=3)
+    return figure
+
+
+def wheel_effect(plt):
+    """Fig. 4."""
+    figure, axes = plt.subplots(3, 1, figsize=(7.2, 9.2), sharex=True, layout="constrained")
+    printed = {"marker": "|", "color": style.ORANGE, "markersize": 30, "markeredgewidth": 2.2, "linestyle": "none"}
+    for ax, letter, (lambda1, (saddles, centres)) in zip(axes, "abc", PRINTED_FIG4.items()):
+        plane, start, span = _plane(lambda1)
+        _loops(ax, plane, start, span)
+        ax.plot(saddles + centres, [0] * 4, zorder=3, **printed)  # taller than the true points, and behind them
+        ax.set_xlim(*WINDOW)
+        ax.set_ylim(-15, 15)
+        _label(ax)
+        ax.set_xlabel("")
+        ax.set_title(rf"({letter}) $\lambda_1={lambda1}$: $c=b-a={lambda1 / 500:g}$, $A={np.sqrt(plane.Q):.4f}$")
+    axes[-1].set_xlabel(r"$\alpha = 2\,\mathrm{atan2}(x_1+a,\ x_2)$")
+    style.legend(figure, [*LOOPS, *POINTS, ("upright crossing", style.MARKER["turning"]), ("printed position", printed | {"markersize": 14})], columns=3)
+    return figure
+
+
+def sheets(lambda1=100, reach=REACH, shape=(60, 121), axis="minor"):
+    """The separatrix of the paper's scene."""
+    return separatrix(paper.scene(axis, lambda1), reach=reach, shape=shape)
+
+
+def exactness(*arguments, **options) -> str:
+    """How far vertices of the sheets are from their surface; arguments as of `sheets`."""
+    off = max(float(np.max(sheet.residual)) for sheet in sheets(*arguments, **options).sheets)
+    return f"vertices within {off:.1e} of the surface, relative to the size of the terms of the energy"
+
+
+def circle() -> float:
+    """Radius A of the circle of the paper's start, lambda1 = 100."""
+    return float(np.sqrt(_plane(100)[0].Q))
+
+
+def left_saddles() -> str:
+    """alpha of the left saddle for each lambda1."""
+    found = []
+    for lambda1 in PRINTED_FIG4:
+        plane, start, span = _plane(lambda1)
+        found.append(start + 2 * _left(plane.repeated(plane.saddles, *span), start))
+    return listed(found, "{:.3f}").replace("-", "−")
+
+
+def surfaces(plt):
+    """Fig. 5."""
+    figure = plt.figure(figsize=(10.4, 5.4), layout="constrained")
+    found = sheets()
+    names = {sheet.name: _side(sheet) for sheet in found.sheets}
+    for index, (elevation, azimuth) in enumerate(((24, -60), (40, 35))):
+        ax = figure.add_subplot(1, 2, index + 1, projection="3d")
+        for sheet in found.sheets:
+            p = np.asarray(sheet.points)
+            ax.plot_surface(p[..., 0], p[..., 1], p[..., 2], color=SIDES[names[sheet.name]], alpha=0.6,
+                            rstride=2, cstride=3, linewidth=0.2, edgecolor="#333333", shade=False)
+            ax.plot(*np.asarray(sheet.saddle).T, **style.MEANING["unstable"])
+            ax.plot(*np.asarray(sheet.centre).T, **style.MEANING["stable"])
+        ax.view_init(elevation, azimuth)
+        style.name_space(ax, 1.05)
+    figure.suptitle(r"Separatrix surfaces, torque on the minor axis, $\lambda_1=100$, from two sides")
+    sides = [(f"{side} separatrix surface", {"color": colour, "linewidth": 8, "solid_capstyle": "butt"}) for side, colour in SIDES.items()]
+    style.legend(figure, [*sides, ("centres (stable)", style.MEANING["stable"]), ("saddles (unstable)", style.MEANING["unstable"])])
+    return figure
+
+
+SIDES = {"left": style.SKY, "right": style.YELLOW}
+
+
+def _side(sheet) -> str:
+    """The paper's name of a surface: the left loop of the phase plane has alpha in (-2 pi, 0), where x1 + a < 0 about its centre."""
+    return "left" if float(np.asarray(sheet.centre)[-1, 0]) < 0 else "right"
+
+
+RADII = (2.0, 3.0, 4.0, 4.825971404805462, 5.5)  # of the circles of Fig. 7; the fourth is that of the paper's start
+SHADES = ("#D9D9D9", "#B8B8B8", "#969696", "#6E6E6E", "#303030")  # lighter inside: blue, red and orange have meanings
+
+
+@lru_cache
+def _stable_runs():
+    """(radius, trajectory) of a periodic motion on each side of each circle, and (None, that of the paper's start)."""
+    scene = paper.scene("minor", 100)
+    return [(radius, trajectory(scene, state, np.linspace(0.0, 15.0, 3001))) for radius, state in [*_bounded_starts(scene), (None, paper.START_MINOR)]]
+
+
+def runs_exactness() -> str:
+    """How exact the periodic motions of Fig. 7 are: by their laws."""
+    drift = max(d for _, run in _stable_runs() for d in run.invariant_drift.values())
+    return f"Taylor integration, relative tolerance 1.1e-16; the laws of the motion drift by {drift:.1e} at most"
+
+
+def stable_motions(plt):
+    """Fig. 7."""
+    figure = plt.figure(figsize=(8.4, 6.6), layout="constrained")
+    ax = figure.add_subplot(projection="3d")
+    scene, looks = paper.scene("minor", 100), {radius: {"color": shade, "linewidth": 1.3} for radius, shade in zip(RADII, SHADES)}
+    for radius, run in _stable_runs():
+        ax.plot(*np.asarray(run.states).T, **looks[radius] if radius else style.MEANING["this motion"])
+    ax.plot(*np.array([paper.START_MINOR]).T, **style.MARKER["start"])
+    for sign in (1, -1):
+        h = sign * np.geomspace(0.17, 5.0, 800)
+        x1 = -scene.b - 1 / h
+        stable = (x1 + scene.a) * (x1 + scene.b) > h * h
+        for kind, mask in (("stable", stable), ("unstable", ~stable)):
+            ax.plot(np.where(mask, x1, np.nan), np.where(mask, h, np.nan), 0 * h, **style.MEANING[kind])
+    ax.view_init(28, -58)
+    style.name_space(ax, 1.15)
+    ax.set_title(r"Periodic motions on their circles of radius $A$ about $(-a, 0)$, $\lambda_1=100$")
+    style.legend(figure, [("centres (stable)", style.MEANING["stable"]), ("saddles (unstable)", style.MEANING["unstable"]),
+                     ("motion from x(0) = (2.5, 4, 0.1)", style.MEANING["this motion"]), ("start", style.MARKER["start"]),
+                     *((f"circle $A={radius:.4g}$", look) for radius, look in looks.items())], columns=3)
+    return figure
+
+
+def _bounded_starts(scene):
+    """(radius, state) of a motion a loop, on circles of growing radius: 0.6 of the way up from the centre to the separatrix in energy."""
+    starts = []
+    for radius in RADII:
+        plane = phase_plane(scene, (radius - scene.a, 0.0, 0.0))
+        for saddle in plane.saddles:
+            loop = plane.loop(saddle, -12.0, 12.0)
+            for centre in plane.repeated(plane.centres, *loop) if loop else ():
+                depth = float(plane.height(saddle, centre))
+                starts.append((radius, plane.states(np.float64(centre), np.float64(np.sqrt(2 * 0.6 * depth)))))
+    return starts

@@ -1,0 +1,103 @@
+"""Figure 6 of Amer et al. 2024: the separatrix surfaces of the minor axis from above, with the equilibria and what parts these."""
+from __future__ import annotations
+
+import numpy as np
+
+from ...show import style
+from . import paper
+from .minor_axis import exactness as of_sheets
+from .minor_axis import sheets
+
+SHAPE = (240, 241)
+REACH = 6.3           # radii of the outer fold circle: beyond the corners of the map
+LEVELS = np.linspace(0, 7.5, 16)
+SIZE, NEAR = 6.0, 2.1  # half a side of the map, and of the enlargement about the folds
+
+
+def contour_map(plt):
+    """Fig. 6: the map, and its middle enlarged."""
+    figure, axes = plt.subplots(1, 2, figsize=(11.4, 6.2), layout="constrained")
+    scene, found = paper.scene("minor", 100), _sheets()
+    for ax, size in zip(axes, (SIZE, NEAR)):
+        heights = _map(ax, scene, found, size)
+    axes[0].set_title(r"Height $x_3>0$ of the separatrix surfaces, $\lambda_1=100$")
+    axes[1].set_title("the middle, enlarged")
+    box = axes[0].add_patch(plt.Rectangle((-NEAR, -NEAR), 2 * NEAR, 2 * NEAR, fill=False, linewidth=0.9, edgecolor=style.BLACK))
+    box.set_zorder(6)
+    figure.colorbar(heights, ax=axes, label="$x_3$ on the surface", shrink=0.7, pad=0.02)
+    style.legend(figure, [("stable equilibria", style.MEANING["stable"]), ("unstable equilibria", style.MEANING["unstable"]),
+                     ("fold circles", style.MEANING["fold"]), (r"$(x_1+a)(x_1+b)=x_2^2$", style.MEANING["dividing"]),
+                     ("edge of the stable regions", EDGE), (r"printed: $x_1+x_2=0$, radius $\sqrt{2}$", style.MEANING["printed"])], columns=3)
+    return figure
+
+
+EDGE = {"color": style.PURPLE, "linewidth": 1.4}
+
+
+def _sheets():
+    return sheets(reach=REACH, shape=SHAPE)
+
+
+def exactness() -> str:
+    """How far the vertices of the map are from the surface."""
+    return of_sheets(reach=REACH, shape=SHAPE)
+
+
+def _map(ax, scene, found, size):
+    """One panel, `size` to all sides of the origin; the filled contours are returned."""
+    a, b = scene.a, scene.b
+    for sheet in found.sheets:
+        upper, triangles = _upper(np.asarray(sheet.points))
+        filled = ax.tricontourf(upper[:, 0], upper[:, 1], triangles, upper[:, 2], levels=LEVELS, cmap="Greys", antialiased=True, extend="max")
+        ax.plot(*np.asarray(_outline(np.asarray(sheet.points)))[:, :2].T, **EDGE)
+    _hyperbola(ax, a, b)
+    _dividing(ax, a, b)
+    turn = np.linspace(0, 2 * np.pi, 361)
+    for radius in _fold_radii(b - a):
+        ax.plot(radius * np.sin(turn) - a, radius * np.cos(turn), **style.MEANING["fold"])
+    ax.plot(np.sqrt(2) * np.sin(turn), np.sqrt(2) * np.cos(turn), **style.MEANING["printed"])
+    ax.set(xlim=(-size, size), ylim=(-size, size), aspect="equal", xlabel="$x_1$", ylabel="$x_2$")
+    return filled
+
+
+def _upper(points):
+    """Upper half (x3 >= 0) of a sheet as vertices and triangles of its grid."""
+    n, m, _ = points.shape
+    columns = [j for j in range(m) if np.all(points[:, j, 2] >= -1e-12)]
+    part = points[:, columns]
+    rows, width = part.shape[:2]
+    index = np.arange(rows * width).reshape(rows, width)
+    lower = np.stack([index[:-1, :-1], index[1:, :-1], index[:-1, 1:]], -1).reshape(-1, 3)
+    upper = np.stack([index[1:, :-1], index[1:, 1:], index[:-1, 1:]], -1).reshape(-1, 3)
+    flat, triangles = part.reshape(-1, 3), np.concatenate([lower, upper])
+    corner = flat[triangles][..., :2]
+    (u1, u2), (v1, v2) = (corner[:, 1] - corner[:, 0]).T, (corner[:, 2] - corner[:, 0]).T
+    return flat, triangles[np.abs(u1 * v2 - u2 * v1) > 1e-12]  # folded flat in the projection: nothing to shade
+
+
+def _outline(points):
+    """The line of saddles inward, then the far ends of the loops outward: where a sheet meets the plane x3 = 0."""
+    return np.concatenate([points[::-1, 0], points[:, points.shape[1] // 2]])
+
+
+def _fold_radii(c):
+    heights = [h.real for h in np.roots([1, 0, 0, -c, -1]) if abs(h.imag) < 1e-12]
+    return sorted(float(np.sqrt(h * h + h**6)) for h in heights)
+
+
+def _hyperbola(ax, a, b):
+    """Equilibria x2 = h, x1 = -b - 1/h: stable where (x1+a)(x1+b) > x2^2."""
+    for sign in (1, -1):
+        h = sign * np.geomspace(0.05, 20, 4000)
+        x1 = -b - 1 / h
+        stable = (x1 + a) * (x1 + b) > h * h
+        for kind, mask in (("stable", stable), ("unstable", ~stable)):
+            ax.plot(np.where(mask, x1, np.nan), np.where(mask, h, np.nan), **style.MEANING[kind])
+
+
+def _dividing(ax, a, b):
+    x1 = np.concatenate([np.linspace(-6, -b, 400), [np.nan], np.linspace(-a, 6, 400)])
+    height = np.sqrt(np.maximum((x1 + a) * (x1 + b), 0))
+    for sign in (1, -1):
+        ax.plot(x1, sign * height, **style.MEANING["dividing"])
+    ax.plot([-6, 6], [6, -6], **style.MEANING["printed"])

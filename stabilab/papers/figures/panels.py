@@ -1,0 +1,359 @@
+"""Histories and planes of several motions in one picture: a row per quantity, a column per value of a parameter.
+
+In every panel the exact motion and the models of it. Limits come from the exact motion: a model that runs out of them is
+drawn to where it leaves the panel, which says how far it goes. Where a printed curve leaves a panel, a first column shows
+the printed curves alone and whole, as the paper's figure does.
+"""
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, field
+from functools import lru_cache
+from textwrap import fill
+from typing import Any
+
+import numpy as np
+
+from ...case.read import load_all
+from ...show import style
+from ...show.text import comparison
+from ...theories.comparison import side_by_side
+from ..table import cases_folder
+
+TIME = "$t$ (s)"
+# How each model is drawn: the pale ones are broad and lie under the exact motion, the others over it, so that two that agree are both seen.
+LOOKS: dict[str, dict] = {
+    "linear": {"color": "#A9D6F0", "linewidth": 4.6, "zorder": 1.6}, "corrected": {"color": "#E3B5D0", "linewidth": 2.8, "zorder": 1.7},
+    "lindstedt": {"color": style.SKY, "linewidth": 0.6, "antialiased": False, "zorder": 1.6}, "exact": {"color": style.BLACK, "linewidth": 2.0, "zorder": 2.0},
+    "averaged1": {"color": style.GREEN, "linewidth": 1.4, "linestyle": "-.", "zorder": 2.1},
+    "averaged2": {"color": style.SKY, "linewidth": 1.4, "linestyle": "--", "zorder": 2.2},
+    "printed": {"color": style.ORANGE, "linewidth": 1.6, "linestyle": ":", "zorder": 2.3}}
+# Of words: darker, to be read
+INK = {name: look["color"] for name, look in LOOKS.items()} | {"linear": style.BLUE, "lindstedt": style.BLUE, "corrected": "#9C4A7B", "printed": "#946300"}
+END = {"marker": "X", "markersize": 7, "linestyle": "none", "zorder": 5}
+WIDE = 3.0  # a model may stretch the axis to this many times the exact motion's range; beyond that it is cut
+TALL = 1.45  # a plane of one scale, against a history
+MARGIN = 0.06
+NARROW, SHRUNK = 0.95, 0.85  # width of the column of printed curves alone, against the others; of all columns then
+# Of the values of a parameter in the column of printed curves alone: shades of the hue that stands for the model beside it, so that no colour means two
+# things in a picture, and a dash each, the sparser over the fuller, so that curves that agree are all seen.
+DASHES = ((":", 2.3), ("--", 2.2), ("-", 2.1))
+ALONE = tuple({"color": c, "linewidth": 1.6, "linestyle": s, "zorder": z} for c, (s, z) in zip((style.ORANGE, "#9A5B00", "#4A2C00"), DASHES))
+BESIDE = tuple({"color": c, "linewidth": 0.8, "linestyle": s, "zorder": z - 0.5} for c, (s, z) in zip((style.PURPLE, "#9C4A7B", "#4F2440"), DASHES))
+CORNERS = ((1.0, "right"), (0.0, "left"), (0.5, "center"))  # of the words on cuts, where they have room side by side
+LETTER, BESIDE_PANEL, SMALL = 0.062, 0.75, 0.88  # inches of a letter of these words, of what stands beside a panel; letters where room is short
+LINE = 13  # points from a line of such words to the next
+ENDS = "above a panel: from where to where a curve goes that is cut"  # in the legend where the words of a panel leave it out for want of room
+ORDER = ("printed", "corrected", "averaged1", "linear", "averaged2", "lindstedt")  # in the legend, after the exact motion
+WORDS = comparison.WORDS | {"corrected": "corrected integrals, frequency (8)"}
+
+
+@dataclass(frozen=True)
+class Row:
+    """One quantity: pick(run) -> (x, y) arrays, or None where a model does not have it; equal: both axes to one scale;
+    limits: ((x low, x high), (y low, y high)) where the motion itself runs off to infinity."""
+
+    xlabel: str
+    ylabel: str
+    pick: Any
+    equal: bool = False
+    limits: tuple | None = None
+
+    @property
+    def over_time(self) -> bool:
+        return self.xlabel == TIME
+
+
+@dataclass(frozen=True)
+class Column:
+    """One value of the parameter: heading; runs: model -> run; mark: a time to draw a vertical line at, or None; refused: model -> why
+    it has no curve."""
+
+    heading: str
+    runs: dict = field(repr=False)
+    mark: float | None = None
+    refused: dict = field(default_factory=dict, repr=False)
+
+
+@lru_cache(maxsize=32)
+def sweep(name: str) -> dict:
+    """Variant -> case of a sweep file of the repository ("" for a file without sweep)."""
+    return {case.variant: case for case in load_all(cases_folder() / f"{name}.toml")}
+
+
+def motions(name: str, variant: str, end: float, count: int, order: int | None = None, crowd: int = 1) -> dict:
+    """model -> Simulation of a case of the repository at `count` times from 0 to `end`, crowd > 1: closer at the start;
+    models that refuse are left out."""
+    return _both(name, variant, end, count, order, crowd)[0]
+
+
+def refusals(name: str, variant: str, end: float, count: int, order: int | None = None, crowd: int = 1) -> dict:
+    """model -> why it refuses; arguments as of `motions`."""
+    return _both(name, variant, end, count, order, crowd)[1]
+
+
+@lru_cache(maxsize=64)
+def _both(name, variant, end, count, order, crowd):
+    return side_by_side(sweep(name)[variant], end * np.linspace(0.0, 1.0, count) ** crowd, order)
+
+
+def exactness(runs) -> str:
+    """How exact the exact motions among `runs` (model -> Simulation each) are: by their laws."""
+    drift = max((d for each in runs for d in each["exact"].invariant_drift.values()), default=0.0)
+    return f"exact motion: Taylor integration, relative tolerance 1.1e-16; its laws drift by {drift:.1e} at most"
+
+
+def draw_lines(plt, title, lines, width=3.5, height=2.05, words=None, mark_words="", own=False):
+    """The figure of lines (Row, [Column, ...]). A line shares its limits, unless each panel has its own; then no column of
+    printed curves is made, whose limits are shared."""
+    words, count = WORDS | (words or {}), len(lines[0][1])
+    heights = [height * (TALL if row.equal and len(lines) > 1 else 1) for row, _ in lines]
+    alone = not own and any(_leaves(row, columns) for row, columns in lines)
+    room = (width * (SHRUNK if alone else 1) - BESIDE_PANEL) / LETTER
+    told = [[_words(row, _cuts(row, c, _window(row, [c] if own else columns)), room) for c in columns] for row, columns in lines]
+    stacked = [max(_height(words) for words in line) - 1 for line in told]
+    size = (width * (count + NARROW * alone) * (SHRUNK if alone else 1), 1 + sum(heights) + sum(stacked) * LINE / 72)
+    figure, axes = plt.subplots(len(lines), count + alone, figsize=size, layout="constrained", squeeze=False,
+                                height_ratios=heights)
+    for i, ((row, columns), line, more, above) in enumerate(zip(lines, axes, stacked, told)):
+        headed = not i or [c.heading for c in columns] != [c.heading for c in lines[i - 1][1]]
+        if alone:
+            _printed_alone(line[0], row, columns, headed, words["printed"])
+        shared = _window(row, columns)
+        for column, ax, cuts in zip(columns, line[int(alone):], above):
+            _panel(ax, row, column, _window(row, [column]) if own else shared)
+            _tell_cuts(ax, cuts)
+            if headed:
+                ax.set_title(column.heading + _refused(column, words), pad=14 + LINE * more, fontsize=8 if column.refused else None)  # above the words on cuts
+            if not i:
+                _ending(ax, column)
+            ax.tick_params(labelleft=own or column is columns[0])
+        for ax in line:
+            if not row.over_time or i + 1 == len(lines) or not lines[i + 1][0].over_time:
+                ax.set_xlabel(row.xlabel)
+        for ax in line[:1 + alone]:
+            ax.set_ylabel(row.ylabel)
+    figure.get_layout_engine().set(w_pad=0.09, h_pad=0.04 if _headings(lines) < 2 else 0.12)  # numbers at the ends of axes, headings below labels
+    figure.suptitle(title, fontsize=11)
+    everything = [column for _, columns in lines for column in columns]
+    entries = [(words[name], LOOKS[name]) for name in ("exact", *ORDER) if any(name in c.runs for c in everything)]
+    if mark_words and any(column.mark is not None for column in everything) and any(row.over_time for row, _ in lines):
+        entries.append((mark_words, style.MEANING["crossing"]))
+    if alone:
+        entries += [(f"alone: {c.heading}", look) for c, look in zip(lines[0][1], ALONE)]
+        entries += [("alone, thin: corrected integrals", BESIDE[1])] * ("corrected" in lines[0][1][0].runs)
+    if any(short for line in told for _, short, _ in line):
+        entries.append((ENDS, {"linestyle": "none"}))
+    style.legend(figure, entries)
+    return figure
+
+
+def _headings(lines) -> int:
+    """How many lines of panels have headings of their own."""
+    return len(dict.fromkeys(tuple(c.heading for c in columns) for _, columns in lines))
+
+
+def _refused(column, words) -> str:
+    """Which models have no curve in a column, and why, as lines of its heading."""
+    why = {reason.split(": ")[0]: [words[m] for m, other in column.refused.items() if other == reason] for reason in column.refused.values()}
+    return "".join("\n" + fill(f"{', '.join(f'no “{model}”' for model in models)}: {reason}", 48) for reason, models in why.items())
+
+
+def _ending(ax, column):
+    """In the panel, where curves leave room: which model ends early, and why."""
+    from matplotlib.lines import Line2D
+    rows = [(f"ends at {run.t[-1]:.3g} s: {run.reason.split(' at t = ')[0]}", END | {"color": LOOKS[name]["color"]})
+            for name, run in column.runs.items() if _stops(run)]
+    if rows:
+        ax.legend([Line2D([], [], **look) for _, look in rows], [fill(text, 34) for text, _ in rows], fontsize=7.5, loc="best")
+
+
+def _stops(run) -> bool:
+    """Whether a run ends before the last time that was asked for."""
+    return getattr(run, "status", "reached") != "reached"
+
+
+def _picked(row, columns, model) -> list:
+    """(heading, x, y) of every column's curve of a model."""
+    picked = ((c.heading, row.pick(c.runs[model])) for c in columns if model in c.runs)
+    return [(heading, *(np.asarray(v, float) for v in xy)) for heading, xy in picked if xy is not None and len(xy[0])]
+
+
+def _leaves(row, columns) -> bool:
+    """Whether a printed curve leaves the limits that the columns share."""
+    limits = _window(row, columns)
+    return any(np.nanmin(v) < low or np.nanmax(v) > high for _, *xy in _picked(row, columns, "printed") for v, (low, high) in zip(xy, limits))
+
+
+def _printed_alone(ax, row, columns, headed, words):
+    """The printed curves of all columns in one panel, whole, in limits of their own: what a reader of the paper knows."""
+    for model, looks in (("printed", ALONE), ("corrected", BESIDE)):
+        for (_, x, y), look in zip(_picked(row, columns, model), looks):
+            ax.plot(x, y, **look)
+    if row.limits is not None:
+        ax.set_xlim(*row.limits[0])
+        ax.set_ylim(*row.limits[1])
+    elif row.equal:
+        ax.set_aspect("equal", adjustable="datalim")
+    elif row.over_time:
+        ax.set_xlim(*_window(row, columns)[0])
+    if headed:
+        ax.set_title(f"{words}, alone", pad=14)
+
+
+def _panel(ax, row, column, limits):
+    for name in ("exact", *reversed(ORDER)):
+        if (picked := _curve(row, column, name)) is None:
+            continue
+        x, y = picked
+        ax.plot(*_clipped(x, y, limits), **LOOKS[name])
+        if _stops(column.runs[name]) and len(x):
+            ax.plot(x[-1:], y[-1:], color=LOOKS[name]["color"], **END)
+    if column.mark is not None and row.over_time:
+        ax.axvline(column.mark, **style.MEANING["crossing"])
+    ax.set_xlim(*limits[0])
+    ax.set_ylim(*limits[1])
+    if row.equal:
+        ax.set_aspect("equal", adjustable="box")
+
+
+def _curve(row, column, name):
+    """(x, y) of a model's curve in a column, or None where it has none."""
+    picked = row.pick(column.runs[name]) if name in column.runs else None
+    return None if picked is None else tuple(np.asarray(v, float) for v in picked)
+
+
+def _cuts(row, column, limits) -> list:
+    """(model, parts of the words how far) of every curve of a panel that leaves its limits, upwards, downwards or sideways: a part each quantity."""
+    found = []
+    for name in ("exact", *reversed(ORDER)):
+        picked = _curve(row, column, name)
+        if picked is None or not len(picked[0]):
+            continue
+        spans = [_beyond(v, *ends) for v, ends in zip(picked, limits)]
+        if row.over_time:
+            parts: list[tuple[str, ...]] = [(spans[1],)] if spans[1] else []
+        else:
+            parts = [(_bare(label), span) for label, span in zip((row.xlabel, row.ylabel), spans) if span]
+        found += [(name, parts)] if parts else []
+    return found
+
+
+def _beyond(values, low, high) -> str:
+    """How far values go beyond one end, or from where to where beyond both; empty where they stay between them."""
+    ends = [plain(end) for end, out in ((np.nanmin(values), np.nanmin(values) < low), (np.nanmax(values), np.nanmax(values) > high)) if out]
+    return " to ".join(ends)
+
+
+def _words(row, cuts, room) -> tuple:
+    """((model, its words) of every cut, whether these leave out that they tell of one, whether they stand side by side), as so many letters have room."""
+    def written(both, between):
+        return [between.join(" ".join([*label, both + span if " to " in span else ("to " if label else "reaches ") + span]) for *label, span in parts)
+                for _, parts in cuts]
+
+    def fits(words, share=1.0):
+        return sum(map(_letters, words)) + 2 * (len(words) - 1) <= room / share
+    names, whole, brief = [name for name, _ in cuts], written("from ", ", "), written("", "\n")
+    if len(cuts) > 1 and row.over_time and fits(whole):
+        return tuple(zip(names, whole)), False, True
+    if len(cuts) == 2 and not row.over_time or len(cuts) > 1 and row.over_time and fits(brief, SMALL):
+        return tuple(zip(names, brief)), True, True
+    return tuple((name, f"cut: {words}") for name, words in zip(names, whole)), False, False
+
+
+def _letters(words) -> int:
+    return len(re.sub(r"\\\w+|[${}^_]", "", words))
+
+
+def _height(words) -> int:
+    """How many lines the words of `_words` take."""
+    cuts, _, beside = words
+    heights = [text.count("\n") + 1 for _, text in cuts] or [1]
+    return max(heights) if beside else sum(heights)
+
+
+def _tell_cuts(ax, words):
+    """Above a panel, how far each curve goes that leaves it."""
+    cuts, short, beside = words
+    for n, (name, text) in enumerate(cuts):
+        x, side = CORNERS[n if beside else 0]
+        ax.annotate(text, (x, 1.01), (0, 0 if beside else LINE * n), xycoords="axes fraction", textcoords="offset points", color=INK[name], ha=side,
+                    va="bottom", ma=side, linespacing=1.25, fontsize=8.6 * (SMALL if short else 1))
+
+
+def plain(value) -> str:
+    """Three digits without a power of ten where that reads better."""
+    return (f"{value:.0f}" if 1000 <= abs(value) < 1e5 else f"{value:.3g}").replace("-", "−")
+
+
+def _bare(label) -> str:
+    """The label of an axis without its unit."""
+    return label.split(" (")[0]
+
+
+def _clipped(x, y, limits):
+    """The curve with what lies far outside of the limits brought near them: long lines off the page cost ink and bytes."""
+    reach = [(high - low) * 4 for low, high in limits]
+    return [np.clip(v, low - r, high + r) for v, (low, high), r in zip((x, y), limits, reach)]
+
+
+def _window(row, columns):
+    """Limits of both axes; for a plane of one scale a square."""
+    limits = [_limits(row, columns, axis) for axis in (0, 1)]
+    if not row.equal:
+        return limits
+    side = max(high - low for low, high in limits)
+    return [((low + high - side) / 2, (low + high + side) / 2) for low, high in limits]
+
+
+def _limits(row, columns, axis):
+    """Limits of one axis for a whole row: the exact motion's, stretched for models that stay near it."""
+    if row.limits is not None:
+        return row.limits[axis]
+    wide = WIDE * (2 if row.equal else 1)
+    values = {}
+    for column in columns:
+        for name, run in column.runs.items():
+            picked = row.pick(run)
+            if picked is not None and len(picked[axis]):
+                values.setdefault(name, []).append(np.asarray(picked[axis], float))
+    exact = np.concatenate(values["exact"])
+    low, high = float(np.nanmin(exact)), float(np.nanmax(exact))
+    middle, half = (low + high) / 2, max((high - low) / 2, 1e-6 * max(abs(low), abs(high), 1e-300))
+    edge = wide * half
+    for part in (np.concatenate(parts) for parts in values.values()):
+        part = part[np.isfinite(part)]
+        low = min(low, part.min() if part.min() >= middle - edge else middle - 1.3 * half, key=float)
+        high = max(high, part.max() if part.max() <= middle + edge else middle + 1.3 * half, key=float)
+    pad = MARGIN * (high - low)
+    return (low - pad, high + pad) if not (axis == 0 and row.over_time) else (low, high)
+
+
+def history(part, component, label, unit):
+    """A Row of one component of a part of the state over time."""
+    def pick(run):
+        return None if part not in run.state else (run.t, np.asarray(run.state[part])[:, component])
+    return Row(TIME, f"{label} ({unit})" if unit else label, pick)
+
+
+def phase(part, component, label, unit):
+    """A Row of one component against its own rate (differences over the times of the run)."""
+    def pick(run):
+        if part not in run.state or len(run.t) < 3:
+            return None
+        y = np.asarray(run.state[part])[:, component]
+        return y, np.gradient(y, run.t, edge_order=2)
+    letter = label.strip("$")
+    name = letter.rstrip("'")
+    dot = rf"$\dot{{{name}}}{letter[len(name):]}$"  # over the letter, not over its primes
+    return Row(f"{label} ({unit})" if unit else label, f"{dot} ({unit + '/s' if unit else '1/s'})".replace("rad/s/s", r"rad/s$^2$"), pick)
+
+
+def plane(part, first, second, labels, unit, equal=True):
+    """A Row of one component of a part of the state against another."""
+    def pick(run):
+        if part not in run.state:
+            return None
+        values = np.asarray(run.state[part])
+        return values[:, first], values[:, second]
+    return Row(f"{labels[0]} ({unit})", f"{labels[1]} ({unit})", pick, equal)

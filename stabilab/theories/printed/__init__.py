@@ -1,0 +1,1 @@
+"""Printed formulas as data, and as functions."""

@@ -1,0 +1,263 @@
+"""What papers print, as data: a TOML file a paper, a row a claim. The format is told in docs/audit.md."""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from ...errors import InputError
+from .formulas import FormulaError, parse, sides
+
+KINDS = {  # kind -> keys that a row of it needs besides `equation` and `printed`
+    "holds": (),  # left = right along every motion of the system
+    "solves": ("variable",),  # the printed functions of `variable` are a motion
+    "equilibrium": (),  # the printed point is at rest
+    "number": ("value",),  # an expression has the printed value
+    "order": ("small", "order"),  # left - right is of this order in a small symbol
+    "test": ("test",),  # a named function of the package decides: module:function, two residuals
+    "definition": ("defines",),
+    "not-checkable": ("because",),
+}
+ROW_KEYS = {
+    "equation",
+    "kind",
+    "says",
+    "printed",
+    "corrected",
+    "system",
+    "where",
+    "corrected_where",
+    "domain",
+    "variable",
+    "speed",
+    "start",
+    "value",
+    "small",
+    "order",
+    "test",
+    "defines",
+    "because",
+    "bound",
+    "note",
+    "solve",
+    "conditions",
+    "residual",
+    "verdict",
+    "figures",
+    "units",
+    "repair",
+}
+
+
+KEYS = dict.fromkeys(("name", "title", "source", "figures", "symbols", "formulas", "definitions", "systems", "conditions", "domain", "row"))
+WORDS = {"equation", "kind", "says", "note", "because", "defines", "residual", "test", "system"}  # of a row: no formulas
+NAME = re.compile(r"[A-Za-z_]\w*")
+FOLDER = Path(__file__).parent / "papers"
+
+
+@dataclass(frozen=True)
+class Row:
+    """One printed equation or claim.
+
+    equation: its number, or `text-...` for a claim of the text; kind: a key of KINDS; printed, corrected: formulas "left = right" in the
+    paper's notation; where: symbols that stand for expressions in this row (corrected_where: in the corrected one); domain: expressions
+    that are positive; options: what the kind needs; place: file and row, for errors.
+    """
+
+    equation: str
+    kind: str
+    printed: tuple[str, ...]
+    corrected: tuple[str, ...]
+    says: str
+    system: str | None
+    where: dict
+    corrected_where: dict
+    domain: tuple[str, ...]
+    options: dict
+    place: str
+
+
+@dataclass(frozen=True)
+class Paper:
+    """A paper's symbols, definitions, systems and rows."""
+
+    name: str
+    title: str
+    symbols: dict = field(repr=False)  # name -> SymPy symbol
+    units: dict = field(repr=False)  # name -> words
+    definitions: dict = field(repr=False)  # name -> text
+    formulas: dict = field(repr=False)  # name -> text as printed, which stands wherever a row names it; `model = "printed"` evaluates it
+    systems: dict = field(repr=False)
+    conditions: tuple[str, ...] = field(repr=False)
+    domain: tuple[str, ...] = field(repr=False)  # expressions that are positive wherever their symbols stand
+    rows: tuple[Row, ...] = field(repr=False)
+    source: str = ""
+    figures: str = ""  # the short name under which `stabilab figures` draws the paper's figures
+
+
+def read(path: Path) -> Paper:
+    """The paper of a file. InputError with file, row and position for what cannot be read."""
+    path, data = Path(path), _data(path)
+    symbols, units, formulas, definitions = _vocabulary(data, path.name)
+    rows = tuple(_row(_expanded(row, formulas), n, path.name, symbols) for n, row in enumerate(data.get("row", ()), 1))
+    seen: dict = {}
+    for row in rows:
+        if row.equation in seen:
+            raise InputError(f"{row.place}: equation {row.equation} has a row already ({seen[row.equation]}): give each its own name, as 18-a")
+        seen[row.equation] = row.place
+    paper = Paper(
+        data.get("name", path.stem),
+        data.get("title", path.stem),
+        symbols,
+        units,
+        definitions,
+        formulas,
+        data.get("systems", {}),
+        tuple(data.get("conditions", ())),
+        _tuple(data.get("domain", ())),
+        rows,
+        data.get("source", ""),
+        data.get("figures", ""),
+    )
+    for table, texts in (("formulas", formulas), ("definitions", definitions)):
+        for name, text in texts.items():
+            _located(f"{path.name}, {table}.{name}", parse, text, symbols)
+    for text in paper.domain:
+        _located(f"{path.name}, domain", parse, text, symbols)
+    return paper
+
+
+def _formulas(table, symbols, file) -> dict:
+    """Name -> text with every formula named before it put in."""
+    out: dict = {}
+    for name, text in table.items():
+        if not name.isidentifier() or name in symbols:
+            raise InputError(f"{file}, formulas: {name!r} is {'a symbol already' if name in symbols else 'no name (letters, digits, _)'}")
+        out[name] = _expanded(text, out)
+    return out
+
+
+def _expanded(value, formulas):
+    """Texts of a row, or of what it holds, with named formulas put in, in brackets."""
+    if isinstance(value, dict):
+        return {key: inner if key in WORDS else _expanded(inner, formulas) for key, inner in value.items()}
+    if isinstance(value, list):
+        return [_expanded(inner, formulas) for inner in value]
+    if not isinstance(value, str) or not formulas:
+        return value
+    return NAME.sub(lambda found: f"({formulas[found[0]]})" if found[0] in formulas else found[0], value)
+
+
+def _symbol(name, words):
+    import sympy as sp
+
+    if "complex" in words:
+        return sp.Symbol(name)
+    return sp.Symbol(name, positive=True) if "positive" in words else sp.Symbol(name, real=True)
+
+
+def vocabulary(path: Path) -> tuple[dict, dict, dict]:
+    """(name -> symbol, name -> formula, name -> definition), texts, of a paper's file without its rows. Errors as of `read`."""
+    symbols, _, formulas, definitions = _vocabulary(_data(path), Path(path).name)
+    return symbols, formulas, definitions
+
+
+def _data(path):
+    path = Path(path)
+    try:
+        data = tomllib.loads(path.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise InputError(f"cannot read {path}: {error.strerror}") from None
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise InputError(f"{path.name}: no TOML: {error}") from None
+    if unknown := set(data) - KEYS.keys():
+        raise InputError(f"{path.name}: unknown keys {', '.join(sorted(unknown))}; known are {', '.join(KEYS)}")
+    return data
+
+
+def _vocabulary(data, file):
+    symbols, units = _symbols(data.get("symbols", {}), file)
+    formulas = _formulas(data.get("formulas", {}), symbols, file)
+    definitions = _expanded(data.get("definitions", {}), formulas)
+    for name in definitions:
+        symbols.setdefault(name, _symbol(name, ""))
+    return symbols, units, formulas, definitions
+
+
+def _symbols(table, place):
+    """("D1 D2" = "kg m^2, positive") -> symbols and units by name."""
+    symbols, units = {}, {}
+    for names, words in table.items():
+        unit, _, kind = words.partition(",")
+        kind = kind.strip()
+        if kind not in ("", "positive", "complex"):
+            raise InputError(f'{place}, symbols "{names}": expected "unit", "unit, positive" or "unit, complex", got "{words}"')
+        for name in names.split():
+            if not name.isidentifier():
+                raise InputError(f'{place}, symbols: "{name}" is no name (letters, digits, _)')
+            symbols[name], units[name] = _symbol(name, kind), unit.strip() or "1"
+    return symbols, units
+
+
+def _row(data, number, file, symbols) -> Row:
+    place = f"{file}, row {number} (equation {data.get('equation', '?')})"
+    kind = data.get("kind", "holds")
+    if kind not in KINDS:
+        raise InputError(f"{place}: unknown kind {kind!r}; known are {', '.join(KINDS)}")
+    missing = [key for key in ("equation", *KINDS[kind]) if key not in data]
+    if missing:
+        raise InputError(f"{place}: a row of kind {kind} needs {', '.join(missing)}")
+    if unknown := set(data) - ROW_KEYS:
+        raise InputError(f"{place}: unknown keys {', '.join(sorted(unknown))}; known are {', '.join(sorted(ROW_KEYS))}")
+    printed, corrected = (_tuple(data.get(key, ())) for key in ("printed", "corrected"))
+    where, corrected_where = data.get("where", {}), data.get("corrected_where", {})
+    for name in (*where, *corrected_where):
+        symbols.setdefault(name, _symbol(name, ""))
+    if kind in ("holds", "solves", "equilibrium", "order"):
+        if not printed:
+            raise InputError(f'{place}: nothing printed: give printed = "left = right"')
+        for text in (*printed, *corrected):
+            _located(place, sides, text, symbols)
+    for text in (*where.values(), *corrected_where.values(), *_tuple(data.get("domain", ()))):
+        _located(place, parse, text, symbols)
+    known = {"equation", "kind", "says", "printed", "corrected", "system", "where", "corrected_where", "domain"}
+    return Row(
+        str(data["equation"]),
+        kind,
+        printed,
+        corrected,
+        data.get("says", ""),
+        data.get("system"),
+        where,
+        corrected_where,
+        _tuple(data.get("domain", ())),
+        {key: value for key, value in data.items() if key not in known},
+        place,
+    )
+
+
+def _tuple(value):
+    return (value,) if isinstance(value, str) else tuple(value)
+
+
+def _located(place, read_it, text, symbols):
+    try:
+        return read_it(text, symbols)
+    except FormulaError as error:
+        raise FormulaError(f"{place}: {error}") from None
+
+
+def papers() -> tuple[str, ...]:
+    """Names of the papers on record, in order."""
+    return tuple(sorted(path.stem for path in FOLDER.glob("*.toml")))
+
+
+def paper(name: str) -> Paper:
+    """A paper on record by its name, or one in a file of that path. InputError names the known ones."""
+    if name.endswith(".toml"):
+        return read(Path(name))
+    if name not in papers():
+        raise InputError(f"unknown paper {name!r}: known are {', '.join(papers())}; a file of claims of your own ends in .toml (docs/audit.md)")
+    return read(FOLDER / f"{name}.toml")

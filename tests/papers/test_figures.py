@@ -1,0 +1,145 @@
+"""What the pictures of the papers show: spans that hold what captions claim, scales, letters, and curves that end or are missing."""
+import re
+
+import numpy as np
+import pytest
+from matplotlib.colors import rgb_to_hsv, to_rgb
+
+from stabilab.papers.figures import catalogue, cavity, major_axis, middle_axis, minor_axis, paper
+from stabilab.papers.figures.catalogue import figure
+from stabilab.show import style
+from stabilab.show.terminal.letters import some, written
+
+# Names of letters spelt out; a list of its own, so that one left out of the table of letters is seen.
+SPELT = re.compile(r"(?<![A-Za-z])(lambda|omega|psi|phi|theta|eta|zeta|gamma|Gamma|Lambda|Omega|eps|delta|sigma|pi|sqrt)(?![a-z])|\^\d")
+
+
+@pytest.fixture
+def plt():
+    with style.drawing() as found:
+        yield found
+
+
+def test_figures_of_captured_motions_are_drawn_beyond_the_release_they_claim():
+    """Oracle: the reversals of the turn about axis 1 counted along the run itself; none after the mark."""
+    (_, printed), (_, longer) = major_axis._rows(paper.START_CAPTURED)
+    claimed = re.search(r"released at τ = ([\d.]+), ([\d.]+) and ([\d.]+)", figure(12).caption).groups()
+    for (lam, (states, seen, release)), claim in zip(longer.items(), claimed):
+        turn = np.unwrap(np.arctan2(states[:, 2], states[:, 1]))
+        last = np.nonzero(np.diff(np.sign(np.diff(turn))))[0].max() / 400
+        assert abs(last - float(claim)) < 0.06 and abs(release / 400 - last) < 0.01 and len(states) / 400 > last + 5
+        assert np.array_equal(states[:seen], printed[lam][0])
+
+
+def test_no_equilibrium_stands_at_an_edge_of_the_phase_planes():
+    for lam in paper.LAMBDAS:
+        plane, start, span = minor_axis._plane(lam)
+        for place in plane.repeated(plane.centres + plane.saddles, span[0] - 1, span[1] + 1):
+            assert min(abs(start + 2 * place - edge) for edge in minor_axis.WINDOW) > 0.2
+
+
+def test_figure_17_has_every_value_of_the_paper_to_one_scale(plt):
+    panels = middle_axis.projections(plt).axes
+    assert [int(re.search(r"lambda_1=(\d+)", ax.get_title())[1]) for ax in panels[:3]] == list(paper.LAMBDAS)
+    assert len({(ax.get_xlim(), ax.get_ylim()) for ax in panels}) == 1
+
+
+def test_separatrix_surfaces_are_named_as_in_the_phase_plane(plt):
+    """The left loop lies about a centre with x1 + a < 0, where alpha = 2 atan2(x1 + a, x2) is negative."""
+    sides = {minor_axis._side(sheet): sheet for sheet in minor_axis.sheets().sheets}
+    a = paper.scene("minor", 100).a
+    for side, sign in (("left", -1), ("right", 1)):
+        centre = np.asarray(sides[side].centre)[-1]
+        assert np.sign(2 * np.arctan2(centre[0] + a, centre[1])) == sign
+    names = [text.get_text() for text in minor_axis.surfaces(plt).legends[0].get_texts()]
+    assert {"left separatrix surface", "right separatrix surface"} <= set(names)
+
+
+def test_a_curve_that_ends_within_a_panel_is_marked_and_the_panel_says_why(plt):
+    panels = figure(2, "cavity").draw(plt).axes
+    for ax, run in zip(panels, (runs["printed"] for runs in cavity.runs_of("small"))):
+        ends = [line for line in ax.lines if line.get_marker() == "X"]
+        words = " ".join(text.get_text() for text in ax.get_legend().get_texts()) if ax.get_legend() else ""
+        assert [line.get_xdata()[0] for line in ends] == ([run.t[-1]] if run.t[-1] < cavity.SPAN else [])
+        assert bool(ends) == ("no real value" in words.replace("\n", " "))
+
+
+def test_a_panel_without_a_model_says_why(plt):
+    headings = [ax.get_title().replace("\n", " ") for ax in figure(11, "cavity").draw(plt).axes[:3]]
+    assert ["averaging needs small" in heading for heading in headings] == [False, False, True] and "averaged, second order" in headings[2]
+
+
+def test_words_on_cut_curves_stand_side_by_side(plt):
+    drawn = figure(5, "top").draw(plt)
+    drawn.draw_without_rendering()
+    rows = [[text.get_window_extent() for text in ax.texts] for ax in drawn.axes]
+    assert sum(len(boxes) > 1 for boxes in rows) >= 5  # rows whose printed and corrected curves both leave the panel
+    assert not [1 for boxes in rows for n, box in enumerate(boxes) for other in boxes[:n] if box.overlaps(other)]
+
+
+def test_every_line_looks_as_the_legend_says(plt):
+    for row in (figure(2, "top"), figure(2, "charged")):
+        drawn = row.draw(plt)
+        legend = {(h.get_color(), h.get_linestyle(), h.get_linewidth()) for h in drawn.legends[0].legend_handles}
+        assert {(line.get_color(), line.get_linestyle(), line.get_linewidth()) for ax in drawn.axes for line in ax.lines} <= legend
+
+
+def _hue(colour):
+    """Where a colour stands on the wheel, in degrees; None of black, white and grey."""
+    hue, saturation, _ = rgb_to_hsv(to_rgb(colour))
+    return 360 * hue if saturation > 0.2 else None
+
+
+def _named(drawn):
+    """[(name, colour)] of a legend."""
+    return [(text.get_text(), handle.get_color()) for text, handle in zip(drawn.legends[0].get_texts(), drawn.legends[0].legend_handles)]
+
+
+def _model(name):
+    return "corrected" if "corrected integrals" in name else "printed" if name.startswith(("alone", "as printed")) else name
+
+
+def test_no_colour_of_a_figure_means_two_things(plt):
+    """In the column of printed curves alone the shades are those of the model that they show beside it; no other line has their hue."""
+    for row in (figure(3, "cavity"), figure(18, "charged"), figure(6, "top")):
+        named = [(_model(name), _hue(colour)) for name, colour in _named(row.draw(plt))]
+        assert sum(model == "printed" for model, _ in named) == 4
+        for model, hue in named:
+            assert [other for other, at in named if other != model and None not in (hue, at) and model in ("printed", "corrected")
+                    and abs((hue - at + 180) % 360 - 180) < 15] == []
+    colours = dict(_named(middle_axis.projections(plt)))
+    assert colours.pop("motion of Table 3") not in colours.values()
+
+
+@pytest.mark.parametrize("name, number", [("cavity", n) for n in (2, 3, 11, 13)])
+def test_a_caption_speaks_of_a_column_of_printed_curves_only_where_one_may_stand(name, number, plt):
+    row = figure(number, name)
+    alone = any("alone" in ax.get_title() for ax in row.draw(plt).axes)
+    assert alone <= ("the first column has them alone" in row.caption) and (number not in (11, 13) or "column" not in row.caption)
+
+
+@pytest.mark.parametrize("plain, letters", [
+    ("lambda3 = 0.1, l_x and r0^2", "λ3 = 0.1, lx and r0²"), ("pi/2, psi, 2 pi/r0; Gamma/eps", "π/2, ψ, 2 π/r0; Γ/ε"), ("sqrt(p^2 + q^2) m^7", "√(p² + q²) m⁷"),
+    ("gamma'' and eta3", "γ'' and η3"), ("a phial, a pistachio, betas; theta-like", "a phial, a pistachio, betas; theta-like")])
+def test_captions_are_set_in_letters(plain, letters):
+    assert written(plain) == letters
+
+
+@pytest.mark.parametrize("row", [figure(2), figure(4), figure(12), figure(8, "charged"), figure(21, "charged"), figure(2, "cavity"), figure(6, "top")],
+                         ids=lambda row: row.file)
+def test_captions_and_titles_spell_no_letter(row):
+    assert not SPELT.search(row.title + " " + row.caption)
+
+
+@pytest.mark.slow
+def test_no_caption_spells_a_letter():
+    assert [row.file for row in catalogue.chosen() if SPELT.search(f"{row.title} {row.caption} {row.tolerance}")] == []
+
+
+def test_one_thing_is_told_in_the_singular():
+    assert [some(n, "curve") for n in (0, 1, 2)] == ["0 curves", "1 curve", "2 curves"]
+
+
+def test_a_page_writes_units_with_their_powers():
+    from stabilab.show.terminal.letters import printed
+    assert printed("moment 0.04 kg m^2, lambda3 in rad/s^2") == "moment 0.04 kg m², λ3 in rad/s²"
