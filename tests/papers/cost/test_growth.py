@@ -19,7 +19,7 @@ from stabilab.physics.equations import derive
 from tests.oracles import energy
 from tests.oracles.model import physical, scaled
 
-MINOR = load(Path(__file__).parents[2] / "cases" / "minor-axis-100.toml")
+MINOR = load(Path(__file__).parents[3] / "cases" / "minor-axis-100.toml")
 
 
 @pytest.mark.parametrize("decade", [1, 6, 13])
