@@ -49,7 +49,8 @@ def extremes_and_periods(scene, states, *, box=True, period=True, by_numba: bool
 
 def _of_chunk(scene, states, box, period, by_numba):
     """(boxes (n, 3, 2), periods (n,)) of one chunk, each empty where it is not asked for."""
-    land, decided = landscape(scene), fate_on_orbit(scene, landscape(scene), states)
+    land = landscape(scene)
+    decided = fate_on_orbit(scene, land, states)
     boxes, periods = np.empty((len(states) if box else 0, 3, 2)), np.empty(len(states) if period else 0)
     trapped = trapped_rows(land, decided)
     left_open = np.where(trapped, BOX * box + PERIOD * period, 0).astype(np.uint8)

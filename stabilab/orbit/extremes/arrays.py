@@ -15,8 +15,8 @@ SPIN_UP_SHARE = 1e-4  # the same for the least rate of a motion that just passes
 PERIOD_SHARE = 1e-5  # the same for a period, 1e-11
 ON_TOP = 1e-13  # of the terms of the force, some hundreds of roundings
 SHIFT_LIMIT = 1e4  # canonical variables lose this factor of accuracy to the shift before the precise path takes over
-AGREE = 1e-14  # relative, of the sums over so many nodes and twice as many
-MOST_NODES = 1 << 17
+AGREE = 1e-12  # relative, of the sums over so many nodes and twice as many: the error left is its square; rounding leaves some 1e-13
+MOST_NODES = 1 << 15  # more than the peaks of the integrand ask for at `PERIOD_SHARE`
 
 
 def trapped_rows(land, decided):
@@ -72,7 +72,7 @@ def rotation_periods(land: Landscape, states, margins):
     place, w, _ = land.start(states)
     values = np.full(len(states), np.nan)
     doubtful = needs_digits(land, states) | near_separatrix(land, place, w, margins, PERIOD_SHARE)
-    live, before, nodes = np.nonzero(~doubtful)[0], None, 16
+    live, before, nodes = np.nonzero(~doubtful)[0], np.full(np.count_nonzero(~doubtful), np.nan), 16
     force = land.potential.force(place)
     while live.size and nodes <= MOST_NODES:  # the integrand is periodic: the plain sum converges geometrically
         now, one = np.zeros(len(live)), tuple(v[live] for v in place)
@@ -81,12 +81,9 @@ def rotation_periods(land: Landscape, states, margins):
                 rise = land.potential.rise(np.full(len(live), angle), one, force[live])
                 now += 1 / np.sqrt(np.maximum(w[live] ** 2 - 2 * rise, 0))
         now *= TURN / nodes
-        if before is not None:
-            done = np.abs(now - before) <= AGREE * now
-            values[live[done]] = now[done]
-            live, now = live[~done], now[~done]
-        before, nodes = now, 2 * nodes
-    values[live] = before
+        done = np.abs(now - before) <= AGREE * now
+        values[live[done]] = now[done]
+        live, before, nodes = live[~done], now[~done], 2 * nodes
     return values
 
 
