@@ -23,7 +23,7 @@ def limited_time(case: Any, ask: dict[str, Any], t_max: float | Fraction | None 
     """As `time_of_case`; where it is never, with what a tilt of the torque does, by what the case states as misalignment, else by one degree."""
     found = time_of_case(case, ask, t_max)
     never = math.isinf(found.low)
-    return replace(found, caveats=caveats_of(case.scene, never, _tilted(case, None, ask, never), file=case.caveats))
+    return replace(found, caveats=caveats_of(case.scene, never, of_tilt(case, None, ask, never), file=case.caveats))
 
 
 def with_first(case: Any, motion: Motion, work: int = WORK) -> Motion:
@@ -36,7 +36,7 @@ def with_first(case: Any, motion: Motion, work: int = WORK) -> Motion:
 
 def with_tilt(case: Any, motion: Motion, angle: float | None = None) -> Motion:
     """The motion of a case with what a tilt of its torque does to it. angle: rad; None: what its stuck thrusters state, else one degree."""
-    found = _tilted(case, angle, limit_of(case), motion.fate in STEADY)
+    found = of_tilt(case, angle, limit_of(case), motion.fate in STEADY)
     return limited(replace(motion, tilt=found), case.scene, case)
 
 
@@ -48,7 +48,7 @@ def limit_of(case: Any) -> dict[str, Any] | None:
     return {"rate": limits.rate} if limits.rate is not None else {"component": limits.components(case.frame)}
 
 
-def _tilted(case: Any, angle: float | None, ask: dict[str, Any] | None, steady: bool) -> Tilt | Spread | None:
+def of_tilt(case: Any, angle: float | None, ask: dict[str, Any] | None, steady: bool) -> Tilt | Spread | None:
     """What the torques of the cone do: to a steady motion under one on an axis always, else where a tilt is asked for or stated; why not, where it is
     not looked at."""
     loose, on_axis = angle is not None or bool(misaligned(case)), steady and _on_axis(case.scene)

@@ -10,11 +10,10 @@ from ...errors import InputError
 from ...numbers.exact import floats
 from ...numbers.principal import NOTHING, without_trace
 from ...numbers.vectors import Exact3
-from ...physics.alignment import torque_axis
 from ...physics.scene import Scene
 from ..caveats import STEADY, caveats_of
-from ..passage.of_case import limit_of
-from ..tilt import Spread, Tilt, cone_of, spread, tilt
+from ..passage.of_case import limit_of, of_tilt
+from ..tilt import Spread, Tilt
 from .fate import Found, found
 from .helpers import helpers
 from .margins import margins
@@ -86,12 +85,9 @@ def _tilted(scenario: Scenario, thrusters: Sequence[Any], scene: Scene, seen: Fo
     """What a tilt of the torque does: to a bounded motion under one on an axis by the misalignment of the thrusters that fire, else by one degree; else by
     that misalignment alone."""
     loose = any(t.misalignment for t in thrusters)
-    case = replace(scenario.case, thrusters=tuple(replace(t, stuck=t in thrusters) for t in scenario.case.thrusters))
-    if seen.fate not in STEADY or seen.kind != "orbit" or not torque_axis(scene):
-        return spread(scene, scenario.start, cone_of(scene, case), limit_of(case), scenario.state) if loose else None
-    if scenario.limit is None and not loose:
-        return None
-    return tilt(scene, scenario.start, None, None, case, scenario.state, limit_of(case))
+    firing = tuple(replace(t, stuck=t in thrusters) for t in scenario.case.thrusters)
+    case = replace(scenario.case, thrusters=firing, scene=scene)
+    return of_tilt(case, None, limit_of(case), seen.fate in STEADY) if loose or scenario.limit is not None else None
 
 
 def _wheel(scenario: Scenario, torque: Exact3, seen: Found, wheel: Any) -> WheelAnswer:
