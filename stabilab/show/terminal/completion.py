@@ -46,6 +46,6 @@ def kinds(incomplete: str) -> list[str]:
 
 def audited(incomplete: str) -> list[str]:
     """Papers on record, and files of claims."""
-    folder = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "theories", "audit", "papers")
+    folder = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "theories", "printed", "papers")
     names = sorted(name.removesuffix(".toml") for name in os.listdir(folder) if name.endswith(".toml"))
     return [name for name in names if name.startswith(incomplete)] + _paths(incomplete, (".toml",))
