@@ -1,7 +1,8 @@
 """Records what the commands say of all cases, or says where they say something else now.
 
 python -m tests.recorded [RECORD ...]: what differs from each record; exit code 1 where anything does.
-python -m tests.recorded --write [RECORD ...]: records anew; `git diff` says nothing of packed files, so look at the differences first.
+python -m tests.recorded --write [RECORD ...]: records anew; `git diff` says nothing of packed files, so look
+at the differences first.
 """
 import sys
 import tempfile

@@ -16,29 +16,44 @@ from .cases import ROOT, written
 
 HERE = Path(__file__).parent
 ONE_CASE = {  # of every case
-    "classify": ["classify", "--json"], "fate": ["fate", "--json"], "extremes": ["extremes", "--json"], "period": ["period", "--json"],
-    "stuck": ["stuck", "--json"], "when": ["when", "--rate", "30 deg/s", "--json"], "simulate": ["simulate", "--at", "0,1,10", "--json"],
-    "show": ["show"], "classify-text": ["classify"], "fate-text": ["fate", "--why"], "stuck-text": ["stuck"], "period-text": ["period"],
+    "classify": ["classify", "--json"], "fate": ["fate", "--json"], "extremes": ["extremes", "--json"],
+    "period": ["period", "--json"],
+    "stuck": ["stuck", "--json"], "when": ["when", "--rate", "30 deg/s", "--json"],
+    "simulate": ["simulate", "--at", "0,1,10", "--json"],
+    "show": ["show"], "classify-text": ["classify"], "fate-text": ["fate", "--why"], "stuck-text": ["stuck"],
+    "period-text": ["period"],
 }
 SEVERAL = {  # from the repository's root
-    "compare": [["compare", f"cases/{name}.toml", "--json"] for name in ("top-fast", "charged-body-small-torque", "liquid-torque-3")],
+    "compare": [["compare", f"cases/{name}.toml", "--json"]
+                for name in ("top-fast", "charged-body-small-torque", "liquid-torque-3")],
     "audit": [["audit", "--json"], ["audit"]],
-    "digits": [["fate", "cases/minor-axis-100.toml", "cases/middle-axis-300.toml", "cases/major-axis-100.toml", "--digits", "30", "--json"],
-               ["period", "cases/minor-axis-100.toml", "cases/middle-axis-300.toml", "--digits", "40", "--json"],
-               ["extremes", "cases/minor-axis-100.toml", "cases/middle-axis-300.toml", "--digits", "40", "--json"]],
-    "tilt": [["fate", "cases/geostationary-22n.toml", "cases/cubesat-3u.toml", "--tilt", "1 deg", *form] for form in ([], ["--json"])],
-    "certificates": [["classify", "cases/minor-axis-100.toml", "--certify", "--out", "{}/certificate.json"], ["verify", "{}/certificate.json", "--json"],
-                     ["classify", "cases/off-axis-one.toml", "--certify", "--out", "{}/spin-up.json"], ["verify", "{}/spin-up.json", "--json"]],
+    "digits": [["fate", "cases/minor-axis-100.toml", "cases/middle-axis-300.toml",
+                "cases/major-axis-100.toml", "--digits", "30", "--json"],
+               ["period", "cases/minor-axis-100.toml", "cases/middle-axis-300.toml", "--digits", "40",
+                "--json"],
+               ["extremes", "cases/minor-axis-100.toml", "cases/middle-axis-300.toml", "--digits", "40",
+                "--json"]],
+    "tilt": [["fate", "cases/geostationary-22n.toml", "cases/cubesat-3u.toml", "--tilt", "1 deg", *form]
+             for form in ([], ["--json"])],
+    "certificates": [["classify", "cases/minor-axis-100.toml", "--certify", "--out", "{}/certificate.json"],
+                     ["verify", "{}/certificate.json", "--json"],
+                     ["classify", "cases/off-axis-one.toml", "--certify", "--out", "{}/spin-up.json"],
+                     ["verify", "{}/spin-up.json", "--json"]],
     "bifurcation": [["bifurcation", "cases/wheel-and-thruster.toml", "--vary", "torque[3]=0:2000", "--json"],
                     ["bifurcation", "cases/wheel-and-thruster.toml", "--vary", "torque[3]=0:2000"],
-                    ["bifurcation", "cases/minor-axis-100.toml", "--vary", "effects.gyrostat.momentum[1]=-200:400", "--json"],
-                    ["bifurcation", "cases/two-wheels-minor-axis.toml", "--vary", "torque[1]=-1:1", "--vary", "torque[3]=-1:1", "--json"]],
-    "maps": [["sweep", "cases/minor-axis-100.toml", "--vary", "x[1]=-4:4:9", "--vary", "x[3]=-3:3:7", "--answer",
+                    ["bifurcation", "cases/minor-axis-100.toml", "--vary",
+                     "effects.gyrostat.momentum[1]=-200:400", "--json"],
+                    ["bifurcation", "cases/two-wheels-minor-axis.toml", "--vary", "torque[1]=-1:1", "--vary",
+                     "torque[3]=-1:1", "--json"]],
+    "maps": [["sweep", "cases/minor-axis-100.toml", "--vary", "x[1]=-4:4:9", "--vary", "x[3]=-3:3:7",
+              "--answer",
               "fate,level,reason,margin,distance,extremes,period,equilibria", "--csv"],
              ["atlas", "cases/thruster-stuck-major-axis.toml", "--level", "1", "--csv"],
-             ["basin", "cases/minor-axis-100.toml", "--vary", "x[1]=-4:4:17", "--vary", "x[3]=-3:3:17", "--json"]],
+             ["basin", "cases/minor-axis-100.toml", "--vary", "x[1]=-4:4:17", "--vary", "x[3]=-3:3:17",
+              "--json"]],
 }
-# Numbers agree to so much of the largest in their list: extremes are promised to 1e-12, periods to 1e-11 of themselves; a run keeps its own tolerance
+# Numbers agree to so much of the largest in their list: extremes are promised to 1e-12, periods to 1e-11 of
+# themselves; a run keeps its own tolerance
 RELATIVE = {"simulate": 1e-9, "compare": 1e-9}
 USUAL = 1e-11
 NUMBER = re.compile(r"(?<![\w.])[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
@@ -57,14 +72,16 @@ def run(*arguments: str) -> dict:
     finally:
         sys.argv = before
     text = out.getvalue()
-    return {"exit": code, "answer": json.loads(text) if "--json" in arguments and text else text, "message": err.getvalue()}
+    return {"exit": code, "answer": json.loads(text) if "--json" in arguments and text else text,
+            "message": err.getvalue()}
 
 
 def now(record: str, folder: Path) -> dict:
     """{case, or command line: what is said of it} of one of the records."""
     if record in SEVERAL:
         lines = [[word.format(folder) for word in line] for line in SEVERAL[record]]
-        return {" ".join(line): _without(run(*filled), folder) for line, filled in zip(SEVERAL[record], lines)}
+        return {" ".join(line): _without(run(*filled), folder)
+                for line, filled in zip(SEVERAL[record], lines)}
     command, *options = ONE_CASE[record]
     return {path.stem: _without(run(command, str(path), *options), folder, path) for path in written(folder)}
 
@@ -88,16 +105,19 @@ def record(name: str, found: dict) -> None:
 
 
 def differences(before, now, relative: float, where: str = "", size: float = 0.0) -> list[str]:
-    """Where two answers differ, in words: words and whole numbers exactly, others to `relative` of the largest beside them, numbers inside
-    words to one in their last digit."""
+    """Where two answers differ, in words: words and whole numbers exactly, others to `relative` of the
+    largest beside them, numbers inside words to one in their last digit."""
     if isinstance(before, dict) and isinstance(now, dict):
-        found = [f"{where}: {sorted(before.keys() ^ now.keys())} in one only"] if before.keys() != now.keys() else []
-        return found + [d for key in before.keys() & now.keys() for d in differences(before[key], now[key], relative, f"{where}.{key}")]
+        found = ([f"{where}: {sorted(before.keys() ^ now.keys())} in one only"] if before.keys() != now.keys()
+                 else [])
+        return (found + [d for key in before.keys() & now.keys()
+                         for d in differences(before[key], now[key], relative, f"{where}.{key}")])
     if isinstance(before, list) and isinstance(now, list):
         if len(before) != len(now):
             return [f"{where}: {len(before)} entries, now {len(now)}"]
         largest = max((abs(v) for v in before if isinstance(v, float) and math.isfinite(v)), default=0.0)
-        return [d for i, pair in enumerate(zip(before, now)) for d in differences(*pair, relative, f"{where}[{i}]", largest)]
+        return [d for i, pair in enumerate(zip(before, now))
+                for d in differences(*pair, relative, f"{where}[{i}]", largest)]
     if isinstance(before, (int, float)) and isinstance(now, (int, float)) and isinstance(before + now, float):
         same = before == now or abs(before - now) <= relative * max(abs(before), size)
     elif isinstance(before, str) and isinstance(now, str):

@@ -1,4 +1,5 @@
-"""The cases whose answers are recorded: all that come with the program, and 60 random ones of every kind of gyrostat."""
+"""The cases whose answers are recorded: all that come with the program, and 60 random ones of every kind of
+gyrostat."""
 from __future__ import annotations
 
 from pathlib import Path
@@ -7,7 +8,8 @@ import numpy as np
 
 ROOT = Path(__file__).resolve().parents[2]
 SEED, RANDOM = 30, 60
-# Moments of a random body: apart, nearly equal, a rod's, on an axis of symmetry; then along what the torque acts, if at all
+# Moments of a random body: apart, nearly equal, a rod's, on an axis of symmetry; then along what the torque
+# acts, if at all
 BODIES = "general", "nearly equal", "rod", "symmetric"
 TORQUES = "minor", "middle", "major", "none", "across"
 

@@ -1,4 +1,5 @@
-"""The program says of every case what it said when it was recorded: words, labels and levels exactly, numbers to their tolerance."""
+"""The program says of every case what it said when it was recorded: words, labels and levels exactly, numbers
+to their tolerance."""
 import pytest
 
 from .answers import ONE_CASE, RELATIVE, SEVERAL, USUAL, differences, now, recorded
@@ -11,10 +12,14 @@ def test_a_command_answers_as_it_is_recorded(name, tmp_path):
 
 
 def test_differences_are_seen_and_last_digits_are_not():
-    before = {"fate": "bounded", "extremes": [[1.0, 2.0]], "n": 3, "because": "reached after 12.5 s at 2 of 4"}
-    same = {"fate": "bounded", "extremes": [[1.0 + 1e-15, 2.0 - 1e-12]], "n": 3, "because": "reached after 12.6 s at 2 of 4"}
+    before = {"fate": "bounded", "extremes": [[1.0, 2.0]], "n": 3,
+              "because": "reached after 12.5 s at 2 of 4"}
+    same = {"fate": "bounded", "extremes": [[1.0 + 1e-15, 2.0 - 1e-12]], "n": 3,
+            "because": "reached after 12.6 s at 2 of 4"}
     assert differences(before, same, USUAL) == []
-    for key, value in (("fate", "spins up"), ("extremes", [[1.0, 2.0 + 1e-9]]), ("extremes", [[1.0, None]]), ("n", 4),
-                       ("because", "reached after 12.5 s at 3 of 4"), ("because", "reached after 13.5 s at 2 of 4")):
+    for key, value in (("fate", "spins up"), ("extremes", [[1.0, 2.0 + 1e-9]]), ("extremes", [[1.0, None]]),
+                       ("n", 4),
+                       ("because", "reached after 12.5 s at 3 of 4"),
+                       ("because", "reached after 13.5 s at 2 of 4")):
         assert len(differences(before, {**before, key: value}, USUAL)) == 1
     assert differences(before, {"fate": "bounded"}, USUAL)
