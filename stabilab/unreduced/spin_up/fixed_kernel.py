@@ -23,7 +23,7 @@ from __future__ import annotations
 
 import math
 
-from .lanes import fused, load, spread, store
+from .lanes import load, spread, store, times_plus
 
 ROUNDING = 2.0**-32     # of coefficients over their majorants, as `elimination.ROUNDING`
 COEFFICIENT = 2.0**-36  # rounding of the terms' values, of their majorant: four times that of the coefficients alone
@@ -118,7 +118,7 @@ def columns(table, wide, A, row):
     for c in range(wide):
         result = load(table, last + c)
         for d in range(last - wide, -1, -wide):
-            result = fused(result, size, load(table, d + c))
+            result = times_plus(result, size, load(table, d + c))
         store(row, c, result)
 
 
@@ -151,8 +151,8 @@ def value_of(weights, real, imaginary, wide, first, zeta, x, powers, row):
         result = spread(0.0)
         for m in range(weights.shape[1]):
             factor = powers[weights[0, m]] * powers[weights[1, m]].conjugate()
-            result = fused(load(real, m * wide + c), spread(factor.real), result)
-            result = fused(load(imaginary, m * wide + c), spread(-factor.imag), result)
+            result = times_plus(load(real, m * wide + c), spread(factor.real), result)
+            result = times_plus(load(imaginary, m * wide + c), spread(-factor.imag), result)
         store(row, c, result)
     return falling(row, wide, 1 / x, first - 1)
 

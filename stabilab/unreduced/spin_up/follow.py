@@ -125,7 +125,7 @@ def spin_up(scene: AnyScene, state: Any, t_max: float | None = None, budget: int
     machine precision: level "proved" where that succeeds. A state of Fractions or of decimals in strings is
     then taken exactly. tell(time, steps, motions left): called on the way. fast: True for loops compiled by
     numba, False for the same loops as they are written, None for whichever is sooner: numba is loaded for
-    many states, a long motion, a proof, and where the process has asked before. The two agree to rounding.
+    many states, a long motion, a proof, and where the process has asked before. The motions are the same to the last bit.
     Raises InputError for scenes with other effects than turn the body as wheel and torque do, and for states
     that are none.
     """

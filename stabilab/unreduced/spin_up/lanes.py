@@ -2,9 +2,9 @@
 
 A row of an array (n, 8) is loaded, worked on and stored as one value; lanes never meet, so that the numbers
 of a motion depend on no neighbour. Each operation stands here twice: as NumPy has it, on rows of any length,
-and (`vectors`) as instructions on vectors, which numba does not make of loops by itself. The two agree to
-rounding: x y + z is rounded once in the second. numba's cache on disk watches the kernel's file alone: change
-both together.
+and (`vectors`) as instructions on vectors, which numba does not make of loops by itself. The two agree to the
+last bit (x y + z is rounded twice in both), so that an answer does not depend on what the process has compiled.
+numba's cache on disk watches the kernel's file alone: change both together.
 """
 from __future__ import annotations
 
@@ -71,7 +71,7 @@ def times(x, y):
     return x * y
 
 
-def fused(x, y, z):
+def times_plus(x, y, z):
     """x y + z."""
     return x * y + z
 
@@ -167,6 +167,9 @@ def vectors() -> dict:
             return builder.call(cgutils.get_or_insert_function(builder.module, kind, f"llvm.{name}.v{WIDE}f64"), given)
         return emit
 
+    def product_plus(context, builder, signature, given):
+        return builder.fadd(builder.fmul(given[0], given[1]), given[2])  # not the processor's one instruction, which rounds once
+
     def all_of(kind, number):
         return ir.Constant(kind, [number] * WIDE)
 
@@ -191,6 +194,6 @@ def vectors() -> dict:
     two = {name: operation(lambda c, b, s, g, name=name: getattr(b, name)(*g), lanes, lanes) for name in ("fadd", "fsub", "fmul")}
     return {"load": operation(loaded, None, types.int64), "store": operation(stored, None, types.int64, lanes, result=types.none),
             "spread": operation(spread_out, types.float64), "plus": two["fadd"], "minus": two["fsub"], "times": two["fmul"],
-            "fused": operation(called("fma", 3), lanes, lanes, lanes), "size": operation(called("fabs", 1), lanes),
+            "times_plus": operation(product_plus, lanes, lanes, lanes), "size": operation(called("fabs", 1), lanes),
             "greater": operation(chosen(">"), lanes, lanes), "lesser": operation(chosen("<"), lanes, lanes),
             "logarithm": operation(logarithm_of, lanes), "power_of_two": operation(power_below, lanes), "two_to": operation(raised, lanes)}

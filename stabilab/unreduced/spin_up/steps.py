@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import math
 
-from .lanes import fused, greater, lesser, load, logarithm, minus, plus, power_of_two, size, spread, store, times, two_to
+from .lanes import greater, lesser, load, logarithm, minus, plus, power_of_two, size, spread, store, times, times_plus, two_to
 
 ORDER, SIDE = 20, 8
 TAIL = -56.0          # base 2: what the last coefficients may add to a state, relative to it or to a natural unit: a sixteenth of a unit of rounding
@@ -37,17 +37,17 @@ def series(numbers, a):
         for m in range(half):
             p, q = 3 * m, 3 * (n - m)
             x0, x1, x2, y0, y1, y2 = load(a, p), load(a, p + 1), load(a, p + 2), load(a, q), load(a, q + 1), load(a, q + 2)
-            s0, s1, s2 = fused(x1, y2, s0), fused(x2, y0, s1), fused(x0, y1, s2)
-            s0, s1, s2 = fused(y1, x2, s0), fused(y2, x0, s1), fused(y0, x1, s2)
+            s0, s1, s2 = times_plus(x1, y2, s0), times_plus(x2, y0, s1), times_plus(x0, y1, s2)
+            s0, s1, s2 = times_plus(y1, x2, s0), times_plus(y2, x0, s1), times_plus(y0, x1, s2)
         if n % 2 == 0:
             p = 3 * half
             x0, x1, x2 = load(a, p), load(a, p + 1), load(a, p + 2)
-            s0, s1, s2 = fused(x1, x2, s0), fused(x2, x0, s1), fused(x0, x1, s2)
+            s0, s1, s2 = times_plus(x1, x2, s0), times_plus(x2, x0, s1), times_plus(x0, x1, s2)
         p, over = 3 * n, spread(1.0 / (n + 1.0))
         x0, x1, x2 = load(a, p), load(a, p + 1), load(a, p + 2)
-        store(a, p + 3, times(fused(k0, s0, fused(r0, x2, fused(g0, x1, m0))), over))
-        store(a, p + 4, times(fused(k1, s1, fused(r1, x0, fused(g1, x2, m1))), over))
-        store(a, p + 5, times(fused(k2, s2, fused(r2, x1, fused(g2, x0, m2))), over))
+        store(a, p + 3, times(times_plus(k0, s0, times_plus(r0, x2, times_plus(g0, x1, m0))), over))
+        store(a, p + 4, times(times_plus(k1, s1, times_plus(r1, x0, times_plus(g1, x2, m1))), over))
+        store(a, p + 5, times(times_plus(k2, s2, times_plus(r2, x1, times_plus(g2, x0, m2))), over))
         if n == 0:
             m0 = m1 = m2 = spread(0.0)
 
@@ -62,13 +62,13 @@ def series_beside(numbers, a, v):
         for m in range(n + 1):
             p, q = 3 * m, 3 * (n - m)
             x0, x1, x2, y0, y1, y2 = load(a, p), load(a, p + 1), load(a, p + 2), load(v, q), load(v, q + 1), load(v, q + 2)
-            s0, s1, s2 = fused(x1, y2, s0), fused(x2, y0, s1), fused(x0, y1, s2)
-            s0, s1, s2 = fused(y1, x2, s0), fused(y2, x0, s1), fused(y0, x1, s2)
+            s0, s1, s2 = times_plus(x1, y2, s0), times_plus(x2, y0, s1), times_plus(x0, y1, s2)
+            s0, s1, s2 = times_plus(y1, x2, s0), times_plus(y2, x0, s1), times_plus(y0, x1, s2)
         p, over = 3 * n, spread(1.0 / (n + 1.0))
         x0, x1, x2 = load(v, p), load(v, p + 1), load(v, p + 2)
-        store(v, p + 3, times(fused(k0, s0, fused(r0, x2, times(g0, x1))), over))
-        store(v, p + 4, times(fused(k1, s1, fused(r1, x0, times(g1, x2))), over))
-        store(v, p + 5, times(fused(k2, s2, fused(r2, x1, times(g2, x0))), over))
+        store(v, p + 3, times(times_plus(k0, s0, times_plus(r0, x2, times(g0, x1))), over))
+        store(v, p + 4, times(times_plus(k1, s1, times_plus(r1, x0, times(g1, x2))), over))
+        store(v, p + 5, times(times_plus(k2, s2, times_plus(r2, x1, times(g2, x0))), over))
 
 
 def to_scale(given, numbers, a, work):
@@ -97,9 +97,9 @@ def allowed(table, order, least, share):
 def steepest(numbers, a):
     """The greatest sum of sizes in a row of the rates' derivative."""
     x, y, z = load(a, 0), load(a, 1), load(a, 2)
-    s0 = plus(size(fused(load(numbers, 0), z, load(numbers, 6))), size(fused(load(numbers, 0), y, load(numbers, 3))))
-    s1 = plus(size(fused(load(numbers, 1), x, load(numbers, 7))), size(fused(load(numbers, 1), z, load(numbers, 4))))
-    s2 = plus(size(fused(load(numbers, 2), y, load(numbers, 8))), size(fused(load(numbers, 2), x, load(numbers, 5))))
+    s0 = plus(size(times_plus(load(numbers, 0), z, load(numbers, 6))), size(times_plus(load(numbers, 0), y, load(numbers, 3))))
+    s1 = plus(size(times_plus(load(numbers, 1), x, load(numbers, 7))), size(times_plus(load(numbers, 1), z, load(numbers, 4))))
+    s2 = plus(size(times_plus(load(numbers, 2), y, load(numbers, 8))), size(times_plus(load(numbers, 2), x, load(numbers, 5))))
     return greater(greater(s0, s1), greater(s2, spread(1e-290)))
 
 
@@ -124,7 +124,7 @@ def ahead_by(table, order, work):
     s0, s1, s2 = load(table, p), load(table, p + 1), load(table, p + 2)
     for n in range(order - 1, -1, -1):
         p = 3 * n
-        s0, s1, s2 = fused(s0, h, load(table, p)), fused(s1, h, load(table, p + 1)), fused(s2, h, load(table, p + 2))
+        s0, s1, s2 = times_plus(s0, h, load(table, p)), times_plus(s1, h, load(table, p + 1)), times_plus(s2, h, load(table, p + 2))
     store(table, 0, s0)
     store(table, 1, s1)
     store(table, 2, s2)
@@ -133,7 +133,7 @@ def ahead_by(table, order, work):
 def square(a):
     """|omega|^2 in each lane."""
     x, y, z = load(a, 0), load(a, 1), load(a, 2)
-    return fused(x, x, fused(y, y, times(z, z)))
+    return times_plus(x, x, times_plus(y, y, times(z, z)))
 
 
 def run(given, numbers, a, v, work, steps, beside):
