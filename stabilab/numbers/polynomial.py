@@ -94,14 +94,14 @@ def real_roots(p: Poly, bits: int = 160) -> list[Fraction]:
     if not factors:
         return []
     simple = reduce(mul, factors)
-    exact = [-factor[0] / factor[1] for factor in factors if factor.degree() == 1]
+    exact = sorted(-factor[0] / factor[1] for factor in factors if factor.degree() == 1)
 
     def found(digits: Digits) -> list[Fraction]:
         balls = [ball for ball, _ in real_roots_of(simple)]
         if not all(first < second for first, second in zip(balls, balls[1:])):
             raise Unclear
         known = [next((root for root in exact if ball.overlaps(arb(root))), None) for ball in balls]
-        if sum(root is not None for root in known) > len(exact):
-            raise Unclear  # one root as a ball meets two
+        if [root for root in known if root is not None] != exact:
+            raise Unclear  # a rational as a ball meets those of two roots
         return [fraction(ball.mid().fmpq() if root is None else root) for ball, root in zip(balls, known)]
     return settled(found, bits + 8)
