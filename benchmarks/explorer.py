@@ -6,7 +6,7 @@ from pathlib import Path
 from statistics import median
 
 from stabilab import load
-from stabilab.show.explore.bag import unframed
+from stabilab.show.explore.pictures import unframed
 from stabilab.show.explore.session import Session
 
 from .rows import Row

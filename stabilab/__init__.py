@@ -26,7 +26,6 @@ if TYPE_CHECKING:  # what `_HOME` loads on first use, for editors and type check
     from .maps.bifurcation.ask import bifurcation as bifurcation
     from .orbit.result import Fate as Fate
     from .orbit.separatrix.sheets import separatrix as separatrix
-    from .physics.body import Body as Body
     from .physics.effects.body_force import BodyForce as BodyForce
     from .physics.effects.charge import Charge as Charge
     from .physics.effects.constant_torque import ConstantTorque as ConstantTorque
@@ -37,6 +36,7 @@ if TYPE_CHECKING:  # what `_HOME` loads on first use, for editors and type check
     from .physics.effects.resistance import Resistance as Resistance
     from .physics.equations import derive as derive
     from .physics.law_limits import validity as validity
+    from .physics.scene import Body as Body
     from .physics.scene import ScaledGyrostat as ScaledGyrostat
     from .physics.scene import Scene as Scene
     from .show import plot as plot
@@ -50,7 +50,7 @@ if TYPE_CHECKING:  # what `_HOME` loads on first use, for editors and type check
 # Public name -> module; loaded on first use so that light commands stay light.
 _HOME = {
     "load": "case.read", "Case": "case.read",
-    "Body": "physics.body", "Scene": "physics.scene", "ScaledGyrostat": "physics.scene",
+    "Body": "physics.scene", "Scene": "physics.scene", "ScaledGyrostat": "physics.scene",
     "Gyrostat": "physics.effects.gyrostat", "ConstantTorque": "physics.effects.constant_torque",
     "Fate": "orbit.result",
     "equilibria": "answers.equilibria", "chaos": "answers.chaos",

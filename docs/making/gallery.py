@@ -56,7 +56,8 @@ def made(path: Path, folder: Path) -> dict:
     """Title, source, group, answer and kind of picture of a case, whose picture is drawn. Of a sweep the first combination is drawn."""
     from stabilab.case.read import load_all
     from stabilab.papers.report.whole import group
-    from stabilab.show.plot import which, write
+    from stabilab.show.plot import subject as which
+    from stabilab.show.plot import write
     from stabilab.show.plot.subject import subject
     from stabilab.show.terminal.letters import greek, written
     from stabilab.show.text import law

@@ -9,9 +9,8 @@ from typing import Any
 
 from ..caveat import Caveat
 from ..orbit.result import Fate, Motion
-from ..physics.alignment import aligned, torque_axis
 from ..physics.coefficients import effective
-from ..physics.scene import AnyScene
+from ..physics.scene import AnyScene, aligned, torque_axis
 
 STEADY = (Fate.BOUNDED, Fate.EQUILIBRIUM)
 IN_PLANE, THIS = 4, 5

@@ -10,20 +10,11 @@ from fractions import Fraction
 from typing import Any
 
 from ..equilibrium.balance import pencil
-from ..equilibrium.gyrostat import (
-    DRIFT,
-    balance_fails,
-    conic_curves,
-    isolated_states,
-    plane_centre,
-    plane_moments,
-    plane_of_equal_moments,
-    torque_free_curves,
-)
+from ..equilibrium.gyrostat import DRIFT, balance_fails, conic_curves, isolated_states, plane_centre, plane_moments, plane_of_equal_moments, torque_free_curves
 from ..equilibrium.stability import curve_with_verdicts, cuts_of, isolated_point
-from ..orbit.ball_orbit import Orbit
 from ..orbit.extremes.balls import extreme_balls
 from ..orbit.fate.one_state import fate_of
+from ..orbit.one_orbit import Orbit
 from ..orbit.period.balls import period_ball
 from ..orbit.reduction import reduce
 from ..orbit.result import Fate
@@ -56,7 +47,7 @@ def certificate(scene: AnyScene, state: Sequence[Any] | None = None) -> dict[str
 
 
 def subject(scene: AnyScene, state: Sequence[Any] | None = None) -> dict[str, Any]:
-    """What the certificate of this scene and state is about, as `verify.about` tells it; empty for a scene that has none."""
+    """What the certificate of this scene and state is about, as `verify.form` tells it; empty for a scene that has none."""
     if not scene.plain:
         return {}
     return _scene(scene) | ({} if state is None else {"state": [_text(v) for v in state]})

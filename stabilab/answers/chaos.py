@@ -11,9 +11,8 @@ import numpy as np
 from ..asked import checked_scene
 from ..errors import InputError
 from ..orbit.result import Fate
-from ..physics.blocks import slices
 from ..physics.coefficients import effective
-from ..physics.scene import AnyScene
+from ..physics.scene import AnyScene, slices
 from ..physics.states import checked_starts, float_array, start_of
 from ..physics.to_numpy import equations_of
 from ..shown import Shown

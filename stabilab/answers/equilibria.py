@@ -8,8 +8,7 @@ from typing import Any
 from ..asked import checked_scene, is_case
 from ..equilibrium.gyrostat import gyrostat_equilibria
 from ..equilibrium.result import Equilibria
-from ..physics.approximate import limits_of
-from ..physics.coefficients import content
+from ..physics.coefficients import content, limits_of
 from ..physics.scene import AnyScene
 
 # kind of a scene's torques -> (module of `equilibrium`, its function of their coefficients); one that no scene names is not loaded

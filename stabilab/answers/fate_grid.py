@@ -12,8 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..errors import InputError
-from ..orbit.fate.by_table import canonical, way_of
-from ..orbit.fate.table import barrier_table
+from ..orbit.fate.table import barrier_table, canonical, way_of
 from ..orbit.fate.table_kernel import SIGN_BOUND
 from ..orbit.result import Fate
 from ..physics.coefficients import effective

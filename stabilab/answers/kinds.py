@@ -13,8 +13,7 @@ from typing import Any, NamedTuple
 
 from ..errors import InputError
 from ..orbit.reduction import reduce
-from ..physics.alignment import aligned
-from ..physics.scene import AnyScene
+from ..physics.scene import AnyScene, aligned
 
 
 class Kind(NamedTuple):

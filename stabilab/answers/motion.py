@@ -11,10 +11,8 @@ from ..asked import checked_span, is_case, scene_and_state
 from ..integrate.quadratic_series import largest
 from ..orbit.far_states import in_range
 from ..orbit.result import Fate, Motion
-from ..physics.approximate import limits_of
-from ..physics.coefficients import content, effective, gyrostat_scene
+from ..physics.coefficients import content, effective, gyrostat_scene, limits_of, split
 from ..physics.scene import AnyScene
-from ..physics.state import split
 from .caveats import limited
 from .kinds import following, one
 

@@ -10,9 +10,8 @@ import numpy as np
 from ..asked import is_case, scene_and_state
 from ..errors import InputError
 from ..integrate.trajectory import Trajectory
-from ..physics.attitude import angles, beyond, body_momentum, scalar_last, to_space, unwrapped
 from ..physics.scene import AnyScene, Scene
-from ..physics.states import as_quaternion, checked_times, equations_and_start, start_of
+from ..physics.states import angles, as_quaternion, beyond, body_momentum, checked_times, equations_and_start, scalar_last, start_of, to_space, unwrapped
 from ..physics.to_numpy import to_numpy
 from ..shown import Compared, Shown
 from .trajectory import trajectory

@@ -20,9 +20,8 @@ from ..asked import checked_scene
 from ..errors import InputError
 from ..numbers.vectors import Exact3
 from ..orbit.result import Fate
-from ..physics.alignment import torque_axis
-from ..physics.scene import AnyScene, Scene
-from ..physics.state import three_floats
+from ..physics.coefficients import three_floats
+from ..physics.scene import AnyScene, Scene, torque_axis
 from .caveats import STEADY
 from .extremes import extremes
 from .fate import fate

@@ -4,9 +4,8 @@ from __future__ import annotations
 from dataclasses import replace
 
 from ..errors import InputError
-from ..physics.attitude import quaternion, scalar_last
-from .attitude import attitude_of
-from .read import Case
+from ..physics.states import quaternion, scalar_last
+from .read import Case, attitude_of
 
 
 def with_quaternion(case: Case) -> Case:

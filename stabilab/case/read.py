@@ -1,4 +1,4 @@
-"""A case file: a body, its effects and one motion, read from TOML; every fault with file, line and key."""
+"""A case file to a `Case`; every fault with its file, line and key."""
 from __future__ import annotations
 
 import math
@@ -14,22 +14,67 @@ from ..errors import CaseError, InputError, printable
 from ..numbers.exact import floats, sqrt_fraction
 from ..numbers.principal import PrincipalAxes
 from ..numbers.vectors import Exact3, Float3, dot
-from ..physics.body import Body
+from ..physics.coefficients import Scaling, to_scaled, torque_from_mu
 from ..physics.effects import REGISTRY, effect_class
-from ..physics.scaling import Scaling, to_scaled, torque_from_mu
-from ..physics.scene import ScaledGyrostat, Scene
+from ..physics.scene import Body, ScaledGyrostat, Scene, ordered
 from ..record import record
-from .attitude import judge as judge_attitude
-from .attitude import vertical_of
-from .expect import expected
-from .hardware import Limits, Thruster, Wheel, judge_limits, limits_of, thrusters_of, wheels_of
-from .inertia import body_of, centre_of_mass
+from .body import (
+    Limits,
+    Thruster,
+    Wheel,
+    added,
+    body_of,
+    centre_of_mass,
+    judge_limits,
+    judge_oblique,
+    limits_of,
+    thrusters_of,
+    turned_effects,
+    turned_motion,
+    wheels_of,
+)
 from .lines import key_lines
-from .source import parsed, source_text
-from .sweep import combinations, place, swept
-from .table import Faults, Table, Uncertain, described, did_you_mean, dotted
-from .turning import added, judge_oblique, turned_effects, turned_motion
+from .source import combinations, parsed, place, source_text, swept
+from .table import Faults, Table, Uncertain, described, did_you_mean, dotted, expected
 
+# --- Two keys for one thing: the attitude of a body says where the vertical is, inertial axis 3, and so
+# does its vertical
+SLACK = 1e-6  # of a component: a direction given to six decimals is consistent
+
+
+def vertical_of(psi, phi, theta=0.0) -> Float3:
+    """Inertial axis 3 in the body frame at 3-1-2 angles, rad: the third row of R = Rz(theta) Rx(psi) Ry(phi)."""
+    return (-math.cos(psi) * math.sin(phi), math.sin(psi), math.cos(psi) * math.cos(phi))
+
+
+def attitude_of(vertical) -> Float3:
+    """The angles psi, phi, theta = 0 at which inertial axis 3 is `vertical`, a unit vector, body frame."""
+    x, y, z = vertical
+    return math.atan2(y, math.hypot(x, z)), math.atan2(-x, z), 0.0
+
+
+def judge_attitude(table, given, scene):
+    """Note a vertical and an attitude of [motion] that contradict each other. given: the blocks that the file gives; the zero
+    angles that an attitude starts at where the file gives none count too."""
+    needed = ordered((*getattr(scene, "blocks", ()), *given))
+    if "gamma" not in given or "attitude" not in needed:
+        return
+    angles, vertical = given.get("attitude", (0.0, 0.0, 0.0)), given["gamma"]
+    if math.dist(vertical_of(*angles), vertical) <= SLACK:
+        return
+    if "attitude" not in given:
+        table.fault(f"attitude is missing: zero angles have the vertical [0, 0, 1], not {_written(vertical)}; with theta = 0 that is "
+                    f"attitude = {_written(attitude_of(vertical))}", "vertical")
+        return
+    table.fault(f"contradicts attitude: the angles {_written(angles)} have the vertical {_written(vertical_of(*angles))} (inertial axis 3, "
+                f"body frame), got {_written(vertical)}; leave one of them as it is and make the other agree", "vertical")
+
+
+def _written(vector) -> str:
+    return f"[{', '.join(f'{v + 0.0:.10g}' for v in vector)}]"
+
+
+# --- A case file: a body, its effects and one motion, read from TOML; every fault with file, line and key
 TABLES = ("title", "source", "body", "effects", "thrusters", "wheels", "limits", "scaled", "motion", "output", "expect", "sweep")
 SYSTEMS = ("deg", "si")  # of units in which text is printed
 STATES, SPANS = ("angular_velocity", "x"), ("span", "tau")

@@ -1,4 +1,6 @@
-"""One table of a case file: reads values by key and notes every fault with its line.
+"""Tables of a case file: every value with its line, its unit and its uncertainty; what a case expects.
+
+One table of a case file: reads values by key and notes every fault with its line.
 
 Written by hand rather than with pydantic, whose import alone takes longer than the whole of `stabilab classify`.
 """
@@ -14,8 +16,53 @@ from ..errors import InputError, Problem, printable
 from ..numbers.exact import exact
 from ..numbers.vectors import Exact3
 from .lines import KeyLines
-from .uncertainty import plus_minus, states_uncertainty
-from .units import dimension_of, quantity
+from .units import NONE, Dimension, dimension_of, in_dimension, quantity, split
+
+# --- Uncertain numbers as a case file writes them: "2000 +- 20", "12.0 +- 3 %", "12 +- 0.5 N"
+_PLUS_MINUS = re.compile(r"([^±%]*?)(?:\+-|±)([^±%]*)(%?)([^±%]*)")
+_BRACKETS = re.compile(r"\s*\(([^()]*)\)\s*([^()]*)")
+
+
+def states_uncertainty(text: str) -> bool:
+    """Whether a text is meant as a number with an uncertainty, well formed or not."""
+    return "±" in text or "+-" in text
+
+
+def plus_minus(text: str, wanted: Dimension = NONE) -> tuple[Fraction, Fraction, bool]:
+    """(middle, half-width, whether both are exact) in SI units, of "2000 +- 20", "1500 ± 1 %" (per cent of the middle) or
+    "12 +- 0.5 N". A unit at the end is that of both. Raises InputError."""
+    if len(text) > 400 or text.count("±") + text.count("+-") != 1:
+        raise InputError(f'{_example(wanted)}, got "{text[:60]}"')
+    bracketed = _BRACKETS.fullmatch(text)
+    parts = _PLUS_MINUS.fullmatch(" ".join(bracketed.groups()) if bracketed else text)
+    if parts is None or (parts[4].strip() and not parts[3]):
+        raise InputError(f'{_example(wanted)}, got "{text[:60]}"')
+    left, right = split(parts[1]) or (parts[1], ""), split(parts[2]) or (parts[2], "")
+    after = parts[4].strip() if parts[3] else right[1]
+    if parts[3] and right[1]:
+        raise InputError(f'{_example(wanted)}, got "{text[:60]}"')
+    if left[1] and not after and not parts[3]:
+        raise InputError(f'the uncertainty has no unit in "{text[:60]}"; write "{left[0]} +- {right[0]} {left[1]}"')
+    try:
+        middle, sharp = quantity(f"{left[0]} {left[1] or after}", wanted)
+        half, sharp_half = (exact(right[0]), True) if parts[3] else quantity(f"{right[0]} {after}", wanted)
+    except InputError as error:
+        raise InputError(str(error) if left[1] or after else f"{_example(wanted)}: {error}") from None
+    if after and left[1]:
+        in_dimension(after, wanted, text)
+    if half < 0:
+        raise InputError(f'the uncertainty is a half-width and not negative, got "{text[:60]}"')
+    if not parts[3]:
+        return middle, half, sharp and sharp_half
+    if not middle and half:
+        raise InputError("a percentage of zero is zero: give the uncertainty as a number")
+    return middle, abs(middle) * half / 100, sharp
+
+
+def _example(wanted) -> str:
+    units = "" if wanted == NONE else ' or "12 +- 0.5" with a unit at the end'
+    return f'expected a number and its uncertainty such as "2000 +- 20" or "1500 +- 1 %"{units}'
+
 
 UNSEEN = ("Cc", "Cf", "Cs")  # Unicode's categories of control, format (such as right-to-left override) and surrogate characters
 
@@ -267,3 +314,72 @@ def did_you_mean(word: str, allowed) -> str:
     home = f"; it is written in {HOMES[word.lower()]}" if word.lower() in HOMES and word.lower() not in allowed else ""
     near = get_close_matches(word.lower()[:60], list(allowed), n=1, cutoff=0.6)
     return f"; did you mean {near[0]}?" if near else f"{home}; here may stand {', '.join(allowed)}"
+
+
+# --- The facts that a case's test asserts: equilibria, verdicts, fate and extremes, each known before the
+# program ran
+KINDS = ("none", "points", "curves", "all")
+FATES = ("bounded", "spin-up", "separatrix", "equilibrium", "undecided")
+VERDICTS = ("stable", "unstable", "undecided")
+KEYS = ("kind", "points", "fate", "axis", "verdicts", "extremes", "period")
+
+
+def expected(table: Table | None) -> dict:
+    """[expect] with its numbers as floats; faults are kept by the table.
+
+    kind, points (how many), verdicts (one per point), fate, axis (1, 2, 3), period, extremes: three pairs [min, max]
+    (inf where unbounded).
+    """
+    if table is None:
+        return {}
+    table.known(KEYS)
+    return {key: READERS[key](table, key) for key in table.data if key in KEYS}
+
+
+def _word(words):
+    def read(table: Table, key: str):
+        value = table.data[key]
+        if value not in words or isinstance(value, Written):
+            table.fault(f"expected one of {', '.join(words)}; got {described(value)}", key)
+        return value
+    return read
+
+
+def _whole(lowest: int, highest: int):
+    def read(table: Table, key: str):
+        value = table.data[key]
+        if isinstance(value, bool) or not isinstance(value, int) or not lowest <= value <= highest:
+            table.fault(f"expected a whole number from {lowest} to {highest}, got {described(value)}", key)
+        return value
+    return read
+
+
+def _verdicts(table: Table, key: str):
+    value = table.data[key]
+    if not isinstance(value, list) or not all(isinstance(v, str) and v in VERDICTS for v in value):
+        table.fault(f"expected a list of the words {', '.join(VERDICTS)}; got {described(value)}", key)
+    return value
+
+
+def _extremes(table: Table, key: str):
+    value = table.data[key]
+    if not isinstance(value, list) or len(value) != 3 or not all(isinstance(p, list) and len(p) == 2 for p in value):
+        table.fault(f"expected three pairs [min, max], got {described(value)}", key)
+        return None
+    return [[_float(table, v, key) for v in pair] for pair in value]
+
+
+def _period(table: Table, key: str):
+    return _float(table, table.data[key], key)
+
+
+def _float(table: Table, value, key: str) -> float | None:
+    """A number, or inf; a string is read as an exact number."""
+    if isinstance(value, Written) and value.lstrip("+-") == "inf":
+        return float(value)
+    number = Table(table.path, {key: value}, table.faults).number(key)
+    return None if number is None else float(number)
+
+
+READERS = {"kind": _word(KINDS), "points": _whole(0, 10**6), "fate": _word(FATES), "axis": _whole(1, 3),
+           "verdicts": _verdicts, "extremes": _extremes, "period": _period}

@@ -1,8 +1,7 @@
 """`stabilab sweep`, `bifurcation`, `basin` and `atlas`: one case over ranges of its numbers."""
 from __future__ import annotations
 
-from ..maps.atlas.asked import asked
-from ..maps.atlas.run import drawn
+from ..maps.atlas.run import asked, drawn
 from ..maps.basins.ask import basins
 from ..maps.bifurcation.ask import bifurcation as ask
 from ..maps.bifurcation.family import Diagram

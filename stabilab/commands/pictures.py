@@ -11,10 +11,10 @@ from ..case.read import blamed_on, load
 from ..errors import RenderingUnavailable, printable
 from ..show import limiting
 from ..show.files import endings
+from ..show.maps import chaos as chaos_picture
+from ..show.maps import chaos as chaos_words
 from ..show.maps import picture
 from ..show.maps.atlas import to_file as atlas_files
-from ..show.maps.chaos import picture as chaos_picture
-from ..show.maps.chaos import words as chaos_words
 from ..show.plot import to_file
 from ..show.surface import words
 from ..show.surface.write import write_all

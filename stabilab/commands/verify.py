@@ -4,8 +4,7 @@ from __future__ import annotations
 from ..errors import InputError, ToleranceNotMet, printable
 from ..show.text import certification
 from ..verify import verify as check
-from ..verify.about import about, differences, line
-from ..verify.form import read
+from ..verify.form import about, differences, line, read
 from ..verify.numbers import Malformed
 from .common.cases import load_cases
 from .common.output import either, leave_undecided

@@ -15,10 +15,9 @@ from typing import Any
 import numpy as np
 
 from ..errors import InputError
-from ..integrate.reference import WORK, Reference, one_run, pairs, reference, relative_errors
-from ..integrate.taylor_digits import Recursion
+from ..integrate.reference import WORK, Recursion, Reference, one_run, pairs, reference, relative_errors
 from ..integrate.trajectory import SCIPY_METHODS
-from ..physics.approximate import limits_of
+from ..physics.coefficients import limits_of
 from .event_methods import answer_methods, fate_methods, known_period
 from .methods import Method, Problem, methods, problem
 

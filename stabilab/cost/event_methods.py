@@ -14,11 +14,10 @@ from ..answers.fate import fate
 from ..errors import InputError
 from ..integrate.to_heyoka import heyoka_available, taylor_events
 from ..integrate.trajectory import ATOL_SHARE
-from ..orbit.ball_orbit import Orbit
 from ..orbit.extremes.balls import precise_extremes
-from ..orbit.fate.balls import decide
-from ..orbit.fate.free_margin import free_margin, is_free
+from ..orbit.fate.one_state import decide, free_margin, is_free
 from ..orbit.landscape import landscape
+from ..orbit.one_orbit import Orbit
 from ..orbit.period.balls import precise_period
 from ..orbit.result import Fate
 from ..physics.to_numpy import form

@@ -16,10 +16,9 @@ from ..answers.digits.reduced import ladder, reduced
 from ..errors import InputError
 from ..integrate.to_heyoka import TAYLOR_TOLERANCE, heyoka, heyoka_available, heyoka_form, to_taylor
 from ..integrate.trajectory import ATOL_SHARE, SCIPY_METHODS
-from ..physics.attitude import quaternion
-from ..physics.blocks import slices
 from ..physics.equations import Equations
-from ..physics.states import equations_and_start, start_of
+from ..physics.scene import slices
+from ..physics.states import equations_and_start, quaternion, start_of
 from ..physics.to_numpy import form, to_numpy
 from ..theories.follow import follow, models_of
 

@@ -14,8 +14,7 @@ from fractions import Fraction
 from typing import NamedTuple
 
 from ..numbers.vectors import CYCLE, Exact3, Number, Triple, cross, dot
-from ..physics.quadratic import QuadraticForm
-from ..physics.scene import AnyScene
+from ..physics.scene import AnyScene, QuadraticForm
 
 ONE, ZERO = Fraction(1), Fraction(0)
 

@@ -45,8 +45,7 @@ from ..numbers.exact import Surd, sign_of, sqrt_fraction
 from ..numbers.polynomial import Poly
 from ..numbers.vectors import CYCLE, Exact3, Number, Triple, cross, dot
 from ..physics.coefficients import Content, gyrostat_scene
-from ..physics.quadratic import QuadraticForm
-from ..physics.scene import AnyScene
+from ..physics.scene import AnyScene, QuadraticForm
 from .balance import ONE, ZERO, Pencil, pencil, unit
 from .result import (
     CurveSegment,

@@ -16,7 +16,7 @@ from fractions import Fraction
 from ..numbers.polynomial import Poly, real_roots
 from ..numbers.vectors import CYCLE
 from ..physics.coefficients import Content
-from ..physics.quadratic import euler_form
+from ..physics.scene import euler_form
 from .result import Equilibria, EquilibriumPoint
 from .stability import eigenvalues, invariants
 

@@ -20,7 +20,7 @@ from ..errors import InputError
 from ..numbers.exact import Surd, sign_of, sqrt_fraction
 from ..numbers.polynomial import Poly, real_roots
 from ..numbers.vectors import Number
-from ..physics.quadratic import QuadraticForm
+from ..physics.scene import QuadraticForm
 from .result import CurveSegment, EquilibriumCurve, EquilibriumPoint, RationalCurve, Verdict, float_ends, sample_parameters, values_inside
 
 BITS = 220  # working precision; far above double, so that each printed part is rounded once

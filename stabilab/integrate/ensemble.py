@@ -14,13 +14,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..errors import InputError
-from ..physics.approximate import limits_of
-from ..physics.blocks import slices
-from ..physics.scene import AnyScene
+from ..physics.coefficients import limits_of
+from ..physics.scene import AnyScene, slices
 from ..physics.states import checked_rtol, checked_starts, checked_times
 from ..physics.to_numpy import equations_of, to_numpy
 from ..shown import Compared, Shown
-from .motion_units import FAST, SLOW, in_unit, own_unit
+from .quadratic_series import FAST, SLOW, in_unit, own_unit
 from .to_heyoka import TAYLOR_TOLERANCE, borrowed_taylor, heyoka_available
 from .trajectory import PATIENCE, REPORT, STEP_LIMIT, integrated, steps_left
 

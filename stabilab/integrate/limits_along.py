@@ -11,8 +11,7 @@ from ..numbers.roots import golden_section
 from ..numbers.vectors import CYCLE
 from ..physics.coefficients import content, gyrostat_scene
 from ..physics.law_limits import Validity, of_values
-from ..physics.quadratic import QuadraticForm
-from ..physics.scene import AnyScene
+from ..physics.scene import AnyScene, QuadraticForm
 from .quadratic_series import coefficients, length, summed
 
 ORDER = 20

@@ -1,4 +1,6 @@
-"""Trajectories: the state at asked-for times, and how far the run departs from the laws of the motion.
+"""One motion in time, by Taylor series or SciPy, with its balance laws; SciPy in the place of the Taylor series.
+
+Trajectories: the state at asked-for times, and how far the run departs from the laws of the motion.
 
 The laws are checked against the integrals of their rates, which ride along in the same run without steering its
 steps (feathered, see `to_heyoka`), so a law with a non-zero rate is as good a witness as a constant.
@@ -10,16 +12,17 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..physics.approximate import limits_of
-from ..physics.blocks import slices
+from ..physics.coefficients import limits_of
+from ..physics.scene import slices
 from ..physics.states import checked_rtol, checked_times, equations_and_start
 from ..physics.to_numpy import to_numpy
 from ..shown import Compared, Shown
-from .motion_units import in_unit, mass_unit, own_unit
+from .quadratic_series import in_unit, mass_unit, own_unit
 from .to_heyoka import FEATHER, TAYLOR_TOLERANCE, borrowed_taylor, heyoka_available
 
 if TYPE_CHECKING:
     from ..physics.law_limits import Validity
+
 
 SCIPY_METHODS = ("RK45", "RK23", "DOP853", "Radau", "BDF", "LSODA")
 # SciPy's own default is 1e-3, too coarse to judge a motion by; 1e-10 is within reach of every method in the list.
@@ -277,3 +280,27 @@ class Trajectory(Shown, Compared):
     def block(self, name: str):
         """(n, m) states of one block."""
         return self.states[:, self.blocks[name]]
+
+
+# --- SciPy's DOP853 in the place of the Taylor series, where heyoka is not installed: its steps, and roots
+# on their interpolants
+def stand_in(rate, state, end: float, t: float = 0.0, rtol: float = FALLBACK_RTOL, atol: float | None = None):
+    """The solver from a state (n,) at time t until `end`; rate: of a list of floats. atol: by default `floor` of the state."""
+    from scipy.integrate import DOP853
+    return DOP853(lambda _, x: np.array(rate(x.tolist())), t, state, end, rtol=rtol, atol=floor(state, rtol) if atol is None else atol)
+
+
+def floor(state, rtol: float) -> float:
+    """The absolute tolerance that keeps a relative one meaningful at zero crossings."""
+    return rtol * ATOL_SHARE * (np.abs(state).max() or 1.0)
+
+
+def sign_changes(values) -> np.ndarray:
+    """The places n of a row at which entries n and n + 1 have opposite signs."""
+    return np.nonzero(np.sign(values[:-1]) * np.sign(values[1:]) < 0)[0]
+
+
+def root_between(function, dense, low: float, high: float) -> float:
+    """The time between two at which a function of the interpolant's state is zero."""
+    from scipy.optimize import brentq
+    return brentq(lambda t: function(dense(t)), low, high, xtol=1e-300, rtol=1e-15)

@@ -1,28 +1,283 @@
-"""What is finished of a sweep: a folder beside its file with a part for every chunk, whole or absent.
+"""The points of a sweep as cases, answered in chunks, and what a killed run left.
+
+What is finished of a sweep: a folder beside its file with a part for every chunk, whole or absent.
 
 A part is the records of a chunk as they lie in memory, with a digest of them and of the sweep before them. The folder says of which sweep it is, and by
 which command; a run that was killed leaves it there, and the same command goes on from it. Refinements, each a sweep, have folders of their own.
 """
 from __future__ import annotations
 
+import copy
 import hashlib
 import json
 import re
 import shlex
 import shutil
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from functools import partial
 from glob import escape
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
-from ..errors import InputError, printable
+from ..answers.caveats import HOLDS, STEADY, condition
+from ..answers.chaos import chaos, long_enough, row_of
+from ..answers.equilibria import equilibria
+from ..answers.extremes import extremes, period
+from ..answers.fate import fate
+from ..answers.kinds import KINDS, kind_of
+from ..answers.motion import motion
+from ..answers.time_to import time_to
+from ..case.lines import KeyLines
+from ..case.read import Case, blamed_on, with_data
+from ..case.table import Faults, Table, Written
+from ..equilibrium.gyrostat import number_of_equilibria
+from ..errors import CaseError, InputError, printable
 from ..files import alone_in, whole_file
 from ..interrupt import undoing
-from .columns import record
-from .plan import Plan
+from ..numbers.numba_door import installed
+from ..orbit.extremes_and_periods import extremes_and_periods
+from ..orbit.result import Fate
+from ..physics.coefficients import effective
+from ..physics.states import start_of
+from .axes import put
+from .columns import ENDLESS, LEVELS, LIMIT_LEVELS, NO_CASE, NONE, OPEN, record
+from .plan import Chunk, Plan
+
+# --- The cases and states of a sweep's points: a case for every scene, rows of rates for the states of one
+Puts = list[tuple[tuple[Any, ...], Any]]  # (path, what stands there in a case file)
+
+
+def case_of(plan: Plan, scene: int) -> Case:
+    """The case of a scene, with the first of its states. Raises CaseError where its numbers make none."""
+    if plan.pointed is not None:
+        return plan.pointed.case(plan.case, scene)
+    data = copy.deepcopy(plan.data)
+    places = np.unravel_index(scene, [plan.shape[n] for n in plan.outer]) if plan.outer else ()
+    for dimension, at in zip(plan.outer, places):
+        _put_all(data, puts(plan, dimension, int(at)))
+    return with_data(plan.path, plan.text, data)
+
+
+def case_at(plan: Plan, index: tuple[int, ...]) -> Case:
+    """The case of one point, told by its place along every dimension."""
+    data = copy.deepcopy(plan.data)
+    for dimension, at in enumerate(index):
+        _put_all(data, puts(plan, dimension, at))
+    return with_data(plan.path, plan.text, data)
+
+
+def puts(plan: Plan, dimension: int, at: int) -> Puts:
+    """What a place along a dimension puts into the case."""
+    if dimension < len(plan.axes):
+        axis = plan.axes[dimension]
+        text = axis.written(at)
+        return [(path, text if axis.unit else Written(text)) for path in axis.key.paths]
+    row = plan.sampled.values(at, at + 1)[0].tolist()
+    return [(path, Written(repr(value))) for key, value in zip(plan.sampled.keys, row) for path in key.paths]
+
+
+def _put_all(data, rows: Puts) -> None:
+    for path, value in rows:
+        put(data, path, value)
+
+
+def states_of(plan: Plan, case: Case, low: int, high: int) -> np.ndarray:
+    """(high - low, 3): states of a scene in its own variables, along its principal axes."""
+    return _turned(case, _as_written(plan, low, high)) if plan.inner else np.array([case.state], float)
+
+
+def states_between(plan: Plan, case: Case, index: np.ndarray, dimension: int, share: np.ndarray) -> np.ndarray:
+    """(n, 3): the same of places between points: rows of `index` (n, dimensions), each moved by a share of the way to the next along a dimension."""
+    states = np.tile(_base(plan), (len(index), 1))
+    for n in plan.inner:
+        axis, at = plan.axes[n], index[:, n]
+        values = np.array(axis.si)
+        here = values[at]
+        states[:, axis.key.paths[0][2]] = here + (values[np.minimum(at + 1, len(values) - 1)] - here) * share if n == dimension else here
+    return _turned(case, states)
+
+
+def _turned(case: Case, written: np.ndarray) -> np.ndarray:
+    frame = case.frame
+    if frame is None or frame.as_given:
+        return written
+    rows = [[float(part) for part in axis] for axis in frame.axes]  # sums in one order, whatever library would multiply matrices
+    return np.stack([(row[0] * written[:, 0] + row[1] * written[:, 1]) + row[2] * written[:, 2] for row in rows], axis=1)
+
+
+def _as_written(plan: Plan, low: int, high: int) -> np.ndarray:
+    """The same in the frame of the file."""
+    states = np.tile(_base(plan), (high - low, 1))
+    asked = plan.places(low, high)
+    places = np.unravel_index(np.arange(low, high) if isinstance(asked, range) else np.array(asked), [plan.shape[n] for n in plan.inner])
+    for dimension, at in zip(plan.inner, places):
+        if dimension < len(plan.axes):
+            axis = plan.axes[dimension]
+            states[:, axis.key.paths[0][2]] = np.array(axis.si)[at]
+        else:
+            begin = int(at.min())
+            rows = plan.sampled.values(begin, int(at.max()) + 1)[at - begin]
+            for n, sampled in enumerate(plan.sampled.keys):
+                states[:, sampled.paths[0][2]] = rows[:, n]
+    return states
+
+
+def _base(plan: Plan) -> list[float]:
+    """The rates as the file gives them."""
+    first = plan.inner[0]
+    varied = plan.axes[first].key if first < len(plan.axes) else plan.sampled.keys[0]
+    return [float(value) for value in Table(("motion",), plan.data["motion"], Faults(KeyLines())).vector(varied.paths[0][1])]
+
+
+# --- The answers for a chunk of points, in rows of one record each
+COMPILED = 200  # states for which loading numba's code pays: half a second, of librations in plain Python
+POINTED_WORK = 100_000  # multiplications for the proof of a time in an atlas: it leaves long motions to compiled steps, which prove them sooner
+NO_CASE_VALUES = {"fate": NO_CASE, "level": -1, "reason": -1, "when_level": -1, "chaos": -1, "equilibria": NONE, "stable": NONE, "unstable": NONE, "open": NONE}
+
+PERIODS = {Fate.EQUILIBRIUM: 0.0, Fate.SPIN_UP: np.inf, Fate.SEPARATRIX: np.inf}  # of motions that have none
+
+
+def answered(plan: Plan, number: int) -> np.ndarray:
+    """(points,) of `columns.record`: the answers for a chunk, in the inner order."""
+    chunk = plan.chunks[number]
+    rows = np.zeros(chunk.points, record(plan.answers))
+    size = chunk.high - chunk.low
+    for n, scene in enumerate(range(chunk.first, chunk.last)):
+        _scene(plan, scene, chunk, rows[n * size:(n + 1) * size])
+    return rows
+
+
+def _scene(plan: Plan, scene: int, chunk: Chunk, out: np.ndarray) -> None:
+    try:
+        case = case_of(plan, scene)
+    except CaseError:
+        for name in out.dtype.names:
+            if out.dtype[name].base.kind == "f":
+                out[name] = np.nan
+            elif name in NO_CASE_VALUES:
+                out[name] = NO_CASE_VALUES[name]
+        return
+    out["valid"] = 1
+    with blamed_on(case):
+        if case.state is not None:
+            states = states_of(plan, case, chunk.low, chunk.high)
+            if set(plan.answers) - {"chaos"}:
+                (_many if effective(case.scene).plain else _single)(plan, case, states, out)
+            if "chaos" in plan.answers:
+                _chaos(plan, case, states, out)
+        if "equilibria" in plan.answers or "verdict" in plan.answers:
+            _equilibria(case, out)
+    if "caveats" in out.dtype.names:
+        out["caveats"] = _caveats(case, out)
+
+
+def _caveats(case: Case, out: np.ndarray) -> np.ndarray:
+    """Of each point, by its place in `columns.CAVEATS`."""
+    steady = np.isin(out["fate"], STEADY) if "fate" in out.dtype.names else np.zeros(len(out), bool)
+    if "when_low" in out.dtype.names:
+        steady |= np.isposinf(out["when_low"])
+    unphysical = any(one.kind == "unphysical" for one in case.caveats)
+    return np.where(steady, condition(case.scene), 0) + len(HOLDS) * unphysical
+
+
+def _many(plan: Plan, case: Case, states: np.ndarray, out: np.ndarray) -> None:
+    """The states of a scene whose answers come in arrays."""
+    asked, scene = plan.answers, case.scene
+    if {"fate", "level", "reason", "island", "margin", "distance"} & set(asked):
+        found = fate(scene, states, **_following(plan, case))
+        columns: dict[str, Callable[[], Any]] = {
+            "fate": lambda: found.labels, "spin_axis": lambda: found.axis * found.sense, "reason": lambda: found.reasons, "margin": lambda: found.margins,
+            "level": lambda: found.level_numbers(LEVELS), "distance": lambda: found.velocity_margins,
+            "island": lambda: 0 if found.followed is None else found.followed.islands}
+        for name, column in columns.items():
+            if name in out.dtype.names:
+                out[name] = column()
+    if {"extremes", "period"} & set(asked):
+        box, times = _extremes_and_periods(case, states, "extremes" in asked, "period" in asked)
+        if box is not None:
+            out["least"], out["greatest"] = box[..., 0], box[..., 1]
+        if times is not None:
+            out["period"] = times
+    if "when" in asked:
+        limit = plan.limit_of(case)
+        brief: dict[str, Any] = {} if plan.pointed is None or plan.pointed.certify else {"work": POINTED_WORK}
+        _times(time_to(scene, states, **limit.ask, t_max=limit.until, **brief), out)
+
+
+def _following(plan: Plan, case: Case) -> dict[str, Any]:
+    """How motions of an atlas are followed: each is alone in its scene, and all of them together are worth the compiler."""
+    if plan.pointed is None or not KINDS[kind_of(effective(case.scene))].follows:
+        return {"follow": plan.longest}
+    return {"follow": plan.longest, "fast": installed() or None, "proof": plan.pointed.certify}
+
+
+def _chaos(plan: Plan, case: Case, states: np.ndarray, out: np.ndarray) -> None:
+    """All followed as long as the case's own motion is, whatever their company."""
+    end = long_enough(plan.case.scene, row_of(plan.case.scene, plan.case.state, plan.case.blocks))
+    rows = np.array([row_of(case.scene, state, case.blocks) for state in states.tolist()])
+    found = chaos(case.scene, rows, end if plan.longest is None else plan.longest)
+    out["chaos"], out["megno"], out["lyapunov"] = found.labels, found.megno, found.lyapunov
+
+
+def _extremes_and_periods(case: Case, states: np.ndarray, box: bool, times: bool) -> tuple[np.ndarray | None, np.ndarray | None]:
+    """(extremes or None, periods or None). Whether numba serves hangs on the number of states alone, not on what this process did before: its last
+    digits are not those of plain Python."""
+    kind = kind_of(effective(case.scene))
+    if kind == "orbit":
+        return extremes_and_periods(case.scene, states, box=box, period=times, by_numba=len(states) >= COMPILED)
+    return _extremes(case, states, KINDS[kind].follows) if box else None, period(case.scene, states) if times else None
+
+
+def _extremes(case: Case, states: np.ndarray, follows: bool) -> np.ndarray:
+    try:
+        return extremes(case.scene, states, case.span)
+    except InputError:
+        if follows:  # no state of this scene has bounds
+            return np.full((*states.shape, 2), np.nan)
+        raise
+
+
+def _times(found, out: np.ndarray) -> None:
+    out["when_low"], out["when_high"] = found.low, found.high
+    out["when_level"] = [LIMIT_LEVELS.index(word) if word in LIMIT_LEVELS else 0 for word in np.ravel(found.level)]
+
+
+def _single(plan: Plan, case: Case, states: np.ndarray, out: np.ndarray) -> None:
+    """States that are answered one by one: liquid, medium, field."""
+    for n, state in enumerate(states.tolist()):
+        here = replace(case, state=tuple(state)) if tuple(state) != case.state else case
+        brief = not {"distance", "period"} & set(plan.answers)
+        found = motion(here.scene, here.start, here.span, brief, here.exact_state, plan.longest)
+        pairs = found.extremes or ((np.nan, np.nan),) * 3
+        known = lambda value: np.nan if value is None else value
+        columns = {"fate": found.fate, "spin_axis": found.axis * found.sense, "level": LEVELS.index(found.level), "reason": -1,
+                   "margin": known(found.margin_energy), "distance": known(found.margin_velocity), "least": [low for low, _ in pairs],
+                   "greatest": [high for _, high in pairs],
+                   "period": PERIODS.get(found.fate, np.nan) if found.period is None else found.period}
+        for name, value in columns.items():
+            if name in out.dtype.names:
+                out[name][n] = value
+        if "when" in plan.answers:
+            limit = plan.limit_of(here)
+            _times(time_to(here.scene, start_of(here.scene, here.state, here.blocks), **limit.ask, t_max=limit.until), out[n:n + 1])
+
+
+def _equilibria(case: Case, out: np.ndarray) -> None:
+    if "stable" not in out.dtype.names and (number := number_of_equilibria(case.scene)) is not None:
+        out["equilibria"] = number
+        return
+    found = equilibria(case.scene)
+    verdicts = [point.verdict for point in found.points] + [piece.verdict for curve in found.curves for piece in curve.segments]
+    number = {"none": 0, "points": len(found.points), "undecided": OPEN}.get(found.kind, ENDLESS)
+    counts = {"equilibria": number, "stable": verdicts.count("stable"), "unstable": verdicts.count("unstable")}
+    for name, value in (counts | {"open": len(verdicts) - counts["stable"] - counts["unstable"]}).items():
+        if name in out.dtype.names:
+            out[name] = value
+
 
 PLAN = "sweep.json"
 DIGEST = 32  # bytes in front of a part

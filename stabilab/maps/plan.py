@@ -1,33 +1,91 @@
-"""A sweep before it is run: a case, the numbers of it that vary, what is asked, and how the points fall into chunks.
+"""What a sweep computes: points over ranges, lists or random samples, and the answers at each.
+
+A sweep before it is run: a case, the numbers of it that vary, what is asked, and how the points fall into chunks.
 
 Scenes run in the outer order and states of one scene in the inner one, so that a chunk is one call of a kernel wherever one serves. The order in
 which the user named the axes is restored when the parts are put together. Chunks depend on the sweep alone, never on who computes them.
 """
 from __future__ import annotations
 
+import base64
 import hashlib
 import json
 import os
+import zlib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cached_property, lru_cache
 from math import prod
 from typing import Any, NamedTuple
+
+import numpy as np
 
 from ..answers.kinds import KINDS, kind_of
 from ..case.limit_options import StatedLimit, stated_limit
 from ..case.read import Case, read_text
 from ..case.source import parsed, source_text
+from ..case.table import Uncertain
 from ..case.units import NONE, TIME, quantity
 from ..errors import InputError, printable
 from ..physics.coefficients import effective
 from ..version import __version__
 from .atlas.pointed import Pointed, pointed_from
-from .axes import MOST, Axis, axis_of
+from .axes import MOST, Axis, Key, axis_of, key_of, keys_of, si_unit
 from .columns import asked_answers
-from .keys import key_of, keys_of
-from .listed import unpacked
-from .samples import Samples, samples_of
+
+
+# --- Some places of a grid as a short text, for another process and for the name of a sweep
+def packed(keys: np.ndarray) -> str:
+    """Whole numbers that rise, as letters: their differences, compressed."""
+    steps = np.diff(keys, prepend=0).astype("<i8")
+    return base64.b64encode(zlib.compress(steps.tobytes(), 6)).decode("ascii")
+
+
+@lru_cache(maxsize=4)  # every chunk of a plan asks for the same
+def unpacked(text: str) -> np.ndarray:
+    """The numbers again."""
+    return np.cumsum(np.frombuffer(zlib.decompress(base64.b64decode(text)), "<i8"))
+
+
+# --- Random points of the box that a case's uncertain numbers span: the n-th is the same whoever asks for
+# it, and for how many
+@dataclass(frozen=True)
+class Samples:
+    """count points, uniform in the box. keys: the uncertain numbers; numbers: their middles and half-widths."""
+
+    keys: tuple[Key, ...]
+    numbers: tuple[Uncertain, ...]
+    count: int
+    seed: int
+
+    def values(self, start: int, stop: int) -> np.ndarray:
+        """(stop - start, keys): points start to stop in SI units; a draw of 64 bits for each number."""
+        width = len(self.keys)
+        bits = np.random.PCG64(self.seed)
+        bits.advance(start * width)
+        unit = np.random.Generator(bits).random((stop - start, width))
+        middle, half = (np.array([float(getattr(one, name)) for one in self.numbers]) for name in ("middle", "half"))
+        return middle + half * (2.0 * unit - 1.0)
+
+    def unit(self, number: int) -> str:
+        """The SI unit of an uncertain number; "1" where it has none."""
+        return si_unit(self.keys[number].paths[0]) or "1"
+
+
+def samples_of(case: Case, known: dict[str, Key], taken: set[tuple[Any, ...]], count: int | None, seed: int) -> Samples | None:
+    """The samples asked for over the numbers that the case gives with an uncertainty, those left out that vary by themselves."""
+    if count is None:
+        return None
+    if isinstance(count, bool) or not isinstance(count, int) or not 0 < count <= MOST:
+        raise InputError(f"samples: expected at least one point and at most {MOST:,}, got {count!r:.40}")
+    if isinstance(seed, bool) or not isinstance(seed, int) or seed < 0:
+        raise InputError(f"seed: expected a whole number that is not negative, got {seed!r:.40}")
+    by_path = {path: key for key in known.values() for path in key.paths}
+    numbers = tuple(one for one in case.uncertain if one.path not in taken)
+    if not numbers:
+        raise InputError(f'samples: {case.place} gives no number with an uncertainty: write one as "2000 +- 20"')
+    return Samples(tuple(by_path[one.path] for one in numbers), numbers, count, seed)
+
 
 AXES = 4
 RATES = ("angular_velocity", "x")  # keys of [motion] whose numbers leave the scene as it is

@@ -1,28 +1,221 @@
-"""Running a sweep: which chunks are left, who computes them, and how far it is."""
+"""A sweep run by processes of this machine or a Dask cluster, and where its fates change.
+
+The same chunks on the workers of a Dask scheduler that is there already: numbers go out, records come back, this process writes the parts.
+
+The workers need no common disk. One that dies costs the chunks it was at, which others do again; who computes a chunk does not change its bytes.
+"""
 from __future__ import annotations
 
+import os
+import queue
+import re
 import shutil
+import signal
+import subprocess
+import sys
 import tempfile
+import threading
 import time
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
+from typing import Any, NoReturn
 
 import numpy as np
 
-from ..errors import InputError
-from ..interrupt import undoing
-from ..processes import cores
+from ..answers.fate import fate
+from ..errors import InputError, StabilabError, printable
+from ..files import whole_file
+from ..interrupt import end_with_parent, undoing
+from ..orbit.result import Fate
+from ..packages import demand
+from ..physics.coefficients import effective
+from ..processes import cores, helpers
 from ..streams import Progress
+from ..version import __version__
 from . import parts
-from .chunk import answered
-from .cluster import by_cluster
-from .plan import Plan
-from .points import case_of
-from .workers import by_workers
+from .parts import answered, case_of, states_between
+from .plan import Plan, from_json
 
+ADDRESS = re.compile(r"\w+://[^\s/]+:\d+")
+PATIENCE = 10  # seconds in which a scheduler answers, and its first worker shows up
+AHEAD = 3  # chunks that wait at each thread of a worker: none is idle, and no more records lie about than that
+
+
+def by_cluster(plan: Plan, folder: Path, left: list[int], address: str) -> Iterator[int]:
+    """The chunks `left`, computed by the workers of the scheduler at `address`, each as soon as its part is there. Raises InputError where no scheduler
+    answers, where it has no worker, and where one lacks this version of stabilab."""
+    demand("distributed")
+    from distributed import as_completed
+    client = _client(address)
+    try:
+        threads = _checked(client, address)
+        text, waiting = plan.as_json(), iter(left)
+        asked = {}
+
+        def ask() -> Any:
+            number = next(waiting, None)
+            if number is None:
+                return None
+            future = client.submit(computed, text, number, pure=False)
+            asked[future.key] = number
+            return future
+        first = [ask() for _ in range(max(2, AHEAD * threads))]
+        running = as_completed([future for future in first if future is not None], loop=client.loop)
+        for future in running:
+            number = asked.pop(future.key)
+            parts.write(plan, folder, number, _records(future, address))
+            if (more := ask()) is not None:
+                running.add(more)
+            yield number
+    finally:
+        client.close(timeout=PATIENCE)
+
+
+def computed(text: str, number: int) -> tuple[str, bytes | str]:
+    """What a worker does: ("records", bytes) of a chunk of the plan, or ("fault", words) of what the case has wrong."""
+    try:
+        return "records", answered(from_json(text), number).tobytes()
+    except StabilabError as error:
+        return "fault", str(error)
+
+
+def _client(address: str) -> Any:
+    import logging
+
+    from distributed import Client
+    if not ADDRESS.fullmatch(address):
+        raise InputError(f"scheduler: expected an address such as tcp://127.0.0.1:8786, got {printable(address)[:80]}")
+    logging.getLogger("distributed").setLevel(logging.CRITICAL)  # of a scheduler that is gone it would print a page
+    try:
+        return Client(address, timeout=PATIENCE, set_as_default=False)
+    except (OSError, TimeoutError, ValueError, ImportError) as error:
+        raise InputError(f"scheduler {printable(address)[:80]}: does not answer ({_first_line(error)}): start one with `dask scheduler` and give the "
+                         "address that it prints, such as tcp://127.0.0.1:8786") from None
+
+
+def _checked(client: Any, address: str) -> int:
+    """How many threads the workers have, once every worker is known to have this version."""
+    from importlib.metadata import version
+    try:
+        client.wait_for_workers(1, timeout=PATIENCE)
+    except TimeoutError:
+        raise InputError(f"scheduler {printable(address)[:80]}: has no workers: start some with `dask worker {printable(address)[:60]}`") from None
+    found = client.run(version, "stabilab", on_error="return")
+    for worker, answer in found.items():
+        if answer != __version__:
+            has = f"has stabilab {answer}" if isinstance(answer, str) else f"lacks the package stabilab ({_first_line(answer)})"
+            raise InputError(f"worker {worker}: {has}: install stabilab {__version__} there, as here, with the same libraries")
+    return sum(client.nthreads().values())
+
+
+def _records(future: Any, address: str) -> bytes:
+    """The bytes of a chunk that is done."""
+    try:
+        kind, what = future.result()
+    except Exception as error:  # of any kind that a worker's environment may raise
+        name = type(error).__name__
+        if name == "KilledWorker":
+            why = "one chunk after another lost its worker: they may have run out of memory"
+        elif isinstance(error, ImportError):
+            why = f"a worker lacks a package: {_first_line(error)}"
+        else:
+            why = f"{name}: {_first_line(error)}"
+        raise InputError(f"scheduler {printable(address)[:80]}: {why}; finished chunks are kept where --out names a file, and the same command goes on "
+                         "from them") from None
+    if kind == "fault":
+        raise InputError(what)
+    return what
+
+
+def _first_line(error: BaseException) -> str:
+    lines = str(error).strip().splitlines()
+    return printable(lines[0])[:160] if lines else type(error).__name__
+
+
+# --- Processes on this machine that compute chunks: each is told a number, writes the part, and says that
+# it did
+DONE, FAILED, WORK = "done", "failed", "work.json"
+
+
+class WorkerLost(StabilabError):
+    """A worker ended before its work did."""
+
+    exit_code = InputError.exit_code
+
+
+def by_workers(plan: Plan, folder: Path, left: list[int], number: int) -> Iterator[int]:
+    """The chunks `left`, computed by `number` processes, each as soon as its part is there. Raises what a worker found wrong, and WorkerLost where one
+    ended."""
+    waiting: queue.SimpleQueue[int] = queue.SimpleQueue()
+    told: queue.SimpleQueue[tuple[str, Any]] = queue.SimpleQueue()
+    for chunk in left:
+        waiting.put(chunk)
+    with whole_file(folder / WORK) as work:
+        work.write_text(plan.as_json(), encoding="utf-8")
+    with helpers(__name__, folder, number, stdout=subprocess.PIPE, text=True, encoding="utf-8") as workers:
+        for worker in workers:
+            threading.Thread(target=_feed, args=(worker, waiting, told), daemon=True).start()
+        for _ in left:
+            word, what = told.get()
+            if word == FAILED:
+                raise what if isinstance(what, StabilabError) else WorkerLost(_lost(plan, folder, *what))
+            yield what
+
+
+def _lost(plan: Plan, folder: Path, chunk: int, code: int) -> str:
+    why = f"signal {-code} ({signal.Signals(-code).name})" if code < 0 else f"exit code {code}"
+    cure = "; it may have run out of memory: try fewer --workers" if code == -signal.SIGKILL else ""
+    return (f"{folder}: a worker ended by {why} while it computed chunk {chunk + 1} of {len(plan.chunks)}{cure}; finished chunks are kept where --out names "
+            "a file, and the same command goes on from them")
+
+
+def _feed(worker, waiting, told) -> None:
+    """Hand chunks to one process as long as there are any."""
+    while True:
+        try:
+            chunk = waiting.get_nowait()
+        except queue.Empty:
+            return
+        try:
+            worker.stdin.write(f"{chunk}\n")
+            worker.stdin.flush()
+            answer = worker.stdout.readline()
+        except OSError:
+            answer = ""
+        word, _, rest = answer.rstrip("\n").partition(" ")
+        if word == DONE:
+            told.put((DONE, int(rest)))
+            continue
+        told.put((FAILED, InputError(rest.replace("\x1f", "\n")) if word == FAILED else (chunk, worker.wait())))
+        return
+
+
+def main(folder: Path) -> NoReturn:
+    """What a worker does: numbers in, parts into the folder, until whoever started it ends it or is gone."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the one that started it hears of it, and ends it
+    answers = os.fdopen(os.dup(1), "w", encoding="utf-8")
+    os.dup2(2, 1)  # what a library prints is no answer
+    asked: queue.SimpleQueue[bytes] = queue.SimpleQueue()
+    end_with_parent(asked.put)
+    plan = from_json((folder / WORK).read_text(encoding="utf-8"))
+    while True:
+        number = int(asked.get())
+        try:
+            parts.write(plan, folder, number, answered(plan, number).tobytes())
+            answers.write(f"{DONE} {number}\n")
+        except StabilabError as error:
+            answers.write(f"{FAILED} {str(error)}\n".replace("\n", "\x1f", str(error).count("\n")))
+        answers.flush()
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1]))
+
+
+# --- Running a sweep: which chunks are left, who computes them, and how far it is
 WORTH = 3.0  # seconds of work for which another process is worth its start
 
 
@@ -117,3 +310,33 @@ def _counted(plan: Plan, points: int) -> Iterator[Callable[[int], None]]:
 
 def _time(seconds: float) -> str:
     return f"{seconds:.0f} s" if seconds < 120 else f"{seconds / 60:.0f} min" if seconds < 7200 else f"{seconds / 3600:.1f} h"
+
+
+# --- Where the fate changes along the lines of a map: on the separatrix itself where states alone vary,
+# else where the margin is zero
+HALVINGS = 40  # of a line between two points of a map
+
+
+def known_exactly(plan: Plan, first: int, second: int) -> bool:
+    """Whether states alone vary along the two dimensions, in a scene whose fates come in arrays."""
+    return {first, second} <= set(plan.inner) and effective(plan.case.scene).plain and all(n < len(plan.axes) for n in plan.inner)
+
+
+def changes(plan: Plan, index: tuple[int, ...], dimension: int, lower: np.ndarray, spun: np.ndarray, halvings: int = HALVINGS) -> np.ndarray:
+    """(lines,): at what share of the way from a point to the next along `dimension` the fate changes.
+
+    index: the place along every dimension of the points, in rows (lines, dimensions) by `lower`; spun: whether the lower point spins up. By halving
+    the line, each half asked for its fate: to the last digits of a picture and beyond.
+    """
+    case = case_of(plan, _scene(plan, index))
+    low, high = np.zeros(len(lower)), np.ones(len(lower))
+    for _ in range(halvings):
+        middle = 0.5 * (low + high)
+        same = (fate(case.scene, states_between(plan, case, lower, dimension, middle)).labels == Fate.SPIN_UP) == spun
+        low, high = np.where(same, middle, low), np.where(same, high, middle)
+    return 0.5 * (low + high)
+
+
+def _scene(plan: Plan, index: tuple[int, ...]) -> int:
+    shape = [plan.shape[n] for n in plan.outer]
+    return int(np.ravel_multi_index([index[n] for n in plan.outer], shape)) if shape else 0

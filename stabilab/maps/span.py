@@ -10,8 +10,7 @@ from ..case.table import Written
 from ..case.units import dimension_of, in_dimension, split
 from ..errors import InputError, printable
 from ..numbers.exact import exact
-from .axes import si_unit
-from .keys import Key, key_of
+from .axes import Key, key_of, si_unit
 
 EXPECTED = 'expected from:to such as "0:0.5 N m"'
 

@@ -6,7 +6,6 @@ import numpy as np
 from ..errors import InputError
 from ..physics.coefficients import effective
 from ..physics.states import checked_states
-from .ball_orbit import Orbit
 from .extremes.arrays import open_extremes, rotation_periods, trapped_rows
 from .extremes.balls import precise_extremes
 from .far_states import far_numbers
@@ -15,6 +14,7 @@ from .fate.result import CHUNK
 from .fine.rows_kernel import BOX, PERIOD
 from .fine.rows_numba import settle_rows
 from .landscape import landscape
+from .one_orbit import Orbit
 from .period.balls import precise_period
 from .reduction import reduce
 from .result import Fate, without_return

@@ -12,10 +12,9 @@ from fractions import Fraction
 from functools import lru_cache
 
 from ..errors import InputError
-from .ball_orbit import Orbit
 from .extremes.one_state import extremes_of
-from .fate.free_margin import is_free
-from .fate.one_state import fate_of
+from .fate.one_state import fate_of, is_free
+from .one_orbit import Orbit
 from .period.one_state import period_of
 from .reduction import reduce
 from .result import Motion, finite

@@ -25,8 +25,7 @@ from typing import Any, NamedTuple
 
 from ..numbers.exact import sqrt_fraction
 from ..numbers.vectors import CYCLE, Exact3, Number, Triple
-from ..physics.quadratic import QuadraticForm
-from ..physics.scene import AnyScene
+from ..physics.scene import AnyScene, QuadraticForm
 from ..record import record
 from .potential import GEOMETRIES, Geometry
 

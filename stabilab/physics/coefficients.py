@@ -1,4 +1,6 @@
-"""What acts on the body, in exact numbers: a constant charge turns it as a wheel of moment -k e3 would.
+"""A scene in numbers: coefficients of its rates, one state checked without NumPy, the dimensionless variables of the papers, and whether laws are approximate.
+
+What acts on the body, in exact numbers: a constant charge turns it as a wheel of moment -k e3 would.
 
     D omega' = (D omega + Lambda) x omega + M - c D omega + kappa (omega'' + omega x omega')
                + s x gamma + N gamma x D gamma + E gamma3 omega x e3,      gamma' = gamma x omega
@@ -6,20 +8,32 @@
 Lambda = lambda - k e3 (gyrostat, charge of constant angle; k is no part of the angular momentum, yet the rates are the
 same), s = M g times the centre of mass, E = e H l^2 of a charge whose angle follows the attitude. A force at the centre
 of mass does not turn the body.
+
+The dimensionless variables of Amer et al. 2024, eqs (2)-(4), both ways.
+
+With k1 = (D2-D3)/D1, k2 = (D1-D3)/D2, k3 = (D1-D2)/D3, k = k1 k2 k3 and a torque measure u:
+
+    omega_j = sqrt(u k_j) x_j,   t = tau / sqrt(u k),   M_j = D_j u sqrt(k k_j) mu_j,
+    a = lambda1 / ((D1-D3) sqrt(u k1)),   b = lambda1 / ((D1-D2) sqrt(u k1)).
+
+The paper forgets the root of u in a and b, which is harmless only for its u = 1.
 """
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import math
+from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
-from typing import ClassVar
+from types import ModuleType
+from typing import Any, ClassVar
 
-from ..asked import checked_scene
-from ..numbers.vectors import Exact3, Number, Triple, cross
+from ..asked import checked_scene, real
+from ..errors import InputError
+from ..numbers.exact import exact_vector, sqrt_fraction
+from ..numbers.vectors import Exact3, Float3, Number, Triple, cross
 from ..record import record
-from .body import Body
 from .effects import effect_class
 from .effects.base import Effect
-from .scene import ZERO3, AnyScene, Scene
+from .scene import ZERO3, AnyScene, Body, ScaledGyrostat, Scene
 
 KNOWN = {"gyrostat", "constant_torque", "charge", "resistance", "liquid_cavity", "newtonian_field", "gravity", "body_force"}
 ZERO = Fraction(0)
@@ -175,3 +189,120 @@ def effective(scene: AnyScene) -> AnyScene:
     parts = content(scene)
     return gyrostat_scene(parts) if parts is not None and parts.kind == "gyrostat" else scene
 
+
+# --- One state, checked and split into plain floats; no NumPy
+def split(parts: Content, state: Any) -> tuple[Float3, Float3 | None]:
+    """(omega, gamma or None) as plain floats."""
+    if isinstance(state, dict):
+        rows = [state.get("omega", ()), state.get("gamma", ())]
+    else:
+        row = _row(state)
+        rows = [row[:3], row[3:]]
+    omega, gamma = (_row(row) if len(row) else () for row in rows)
+    if len(omega) != 3 or len(gamma) not in (0, 3):
+        raise InputError("state: expected three numbers (omega), or six (omega, gamma), or a dict of blocks")
+    if not parts.directed:
+        return omega, None
+    if not gamma:
+        raise InputError("state: an effect of this scene asks where the vertical is: give gamma too (six numbers, or a dict of blocks)")
+    return omega, gamma
+
+
+def _row(values: Any) -> tuple[float, ...]:
+    """Finite floats in one row; InputError otherwise."""
+    if isinstance(values, (tuple, list)) and values and all(type(v) is float and math.isfinite(v) for v in values):
+        return tuple(values)
+    from .states import numbers_in_a_row  # other kinds of numbers, and the words for what is none
+    return tuple(map(float, numbers_in_a_row(values, "state")))
+
+
+def three_floats(state: Any) -> Float3:
+    """Three finite floats; InputError otherwise."""
+    try:
+        values = tuple(map(float, real(state, "states")))
+        if len(values) == 3 and all(map(math.isfinite, values)):
+            return values
+    except (TypeError, ValueError, OverflowError):
+        pass
+    from .states import checked_states  # other shapes that hold one state, and the words for what is none
+    array = checked_states(state)
+    if array.size != 3:
+        raise InputError(f"state: expected one state, three numbers, got the shape {array.shape}")
+    return tuple(array.reshape(3).tolist())
+
+
+@record
+class Scaling:
+    """omega_j = rate[j] x_j and t = time tau; exact up to square roots kept to 240 bits."""
+
+    rate: Exact3
+    time: Fraction
+    u: Fraction
+
+    def to_scaled(self, omega: Iterable[float]) -> Float3:
+        """omega (rad/s), a sequence of three floats -> x."""
+        return tuple(float(Fraction(w) / r) for w, r in zip(map(float, omega), self.rate))
+
+
+def shape_factors(body: Body) -> tuple[Fraction, Fraction, Fraction]:
+    """k1, k2, k3 of eq. (2). Raises InputError where the scaling is undefined: it needs D1 > D2 > D3."""
+    d1, d2, d3 = body.exact
+    if not d1 > d2 > d3:
+        raise InputError("the scaled variables need D1 > D2 > D3, three different moments in falling order; "
+                         f"here D = ({float(d1):g}, {float(d2):g}, {float(d3):g}): use physical variables")
+    return (d2 - d3) / d1, (d1 - d3) / d2, (d1 - d2) / d3
+
+
+def torque_measure(body: Body, torque: Sequence[Fraction]) -> Fraction:
+    """u of eq. (4): sqrt(k2 k3 u1^2 + k3 k1 u2^2 + k1 k2 u3^2)/k with u_j = M_j/D_j; 0 for no torque."""
+    k1, k2, k3 = shape_factors(body)
+    u1, u2, u3 = (m / d for m, d in zip(torque, body.exact))
+    return sqrt_fraction(k2 * k3 * u1 * u1 + k3 * k1 * u2 * u2 + k1 * k2 * u3 * u3) / (k1 * k2 * k3)
+
+
+def scaling(body: Body, u: Fraction) -> Scaling:
+    """The change of variables for torque measure u > 0."""
+    if u <= 0:
+        raise InputError("the scaled variables are undefined without a torque (u = 0): use physical variables, "
+                         "or give the torque as mu (then u = 1)")
+    k1, k2, k3 = shape_factors(body)
+    return Scaling(tuple(sqrt_fraction(u * k) for k in (k1, k2, k3)), 1 / sqrt_fraction(u * k1 * k2 * k3), u)
+
+
+def torque_from_mu(body: Body, mu: Sequence[Number], u: Fraction = Fraction(1)) -> Exact3:
+    """M (N m), exact to 240 bits, from the dimensionless torque; u = 1 is the paper's choice."""
+    ks = shape_factors(body)
+    k = ks[0] * ks[1] * ks[2]
+    return tuple(d * u * sqrt_fraction(k * kj) * m for d, kj, m in zip(body.exact, ks, exact_vector(mu, "mu")))
+
+
+def to_scaled(scene: Scene, mu: Sequence[Number] | None = None) -> tuple[ScaledGyrostat, Scaling]:
+    """The scaled twin of a physical scene and the change of variables.
+
+    mu: the dimensionless torque where the case gave it (u = 1, no rounding through M); otherwise u from the torque
+    and mu of unit length. Raises InputError where undefined (equal or unordered moments, no torque, a gyrostatic
+    moment off axis 1).
+    """
+    lam = scene.vector("gyrostat")
+    if lam[1] or lam[2]:
+        raise InputError("the scaled variables need the gyrostatic moment along axis 1; use physical variables")
+    d1, d2, d3 = scene.body.exact
+    torque = scene.vector("constant_torque")
+    u = Fraction(1) if mu is not None else torque_measure(scene.body, torque)
+    change = scaling(scene.body, u)
+    k1, k2, k3 = shape_factors(scene.body)
+    if mu is None:
+        k = k1 * k2 * k3
+        mu = tuple(m / (d * u * sqrt_fraction(k * kj)) for m, d, kj in zip(torque, scene.body.exact, (k1, k2, k3)))
+    root = sqrt_fraction(u * k1)
+    return ScaledGyrostat(lam[0] / ((d1 - d3) * root), lam[0] / ((d1 - d2) * root), tuple(mu)), change
+
+
+# --- Approximate laws of a scene: how far they hold is asked through here, so that a scene of exact laws
+# loads nothing of it
+def limits_of(scene: AnyScene) -> ModuleType | None:
+    """What tells how far the approximate laws of a scene hold, `law_limits`; None where all its laws are exact."""
+    if not scene.approximate:
+        return None
+    from . import law_limits
+    return law_limits

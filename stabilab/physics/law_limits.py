@@ -13,9 +13,8 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 from ..asked import checked_scene
 from ..numbers.vectors import Number
-from .blocks import slices
 from .effects.base import Limit, effect_words
-from .scene import AnyScene
+from .scene import AnyScene, slices
 
 if TYPE_CHECKING:
     import numpy as np

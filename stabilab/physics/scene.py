@@ -1,22 +1,194 @@
-"""The scene: a body and the effects it is under, nothing more."""
+"""A scene: body, blocks of its state, effects, rates as quadratic forms, alignment of torque and axes.
+
+Quadratic rate equations of a gyrostat under constant torque, with exact coefficients.
+
+    x_i' = kappa_i x_j x_k + rho_i x_k + sigma_i x_j + m_i        (i, j, k cyclic)
+
+Physical and scaled variables both have this form, so one analysis serves both. Coefficients are exact rationals:
+differences such as D1 - D2 or b - a are formed before the one rounding to double.
+
+Turning a symmetric body so that its torque lies along a principal axis: every axis in the plane of two equal
+moments is principal.
+"""
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import field
 from fractions import Fraction
 from functools import cached_property
-from typing import Any, ClassVar, Literal, TypeAlias
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple, TypeAlias
 
 from ..asked import Asked
+from ..caveat import Caveat
 from ..errors import InputError
-from ..numbers.exact import exact, exact_vector, floats
-from ..numbers.vectors import Exact3, Given
+from ..numbers.exact import exact, exact_vector, floats, half_unit, sqrt_fraction
+from ..numbers.vectors import CYCLE, Exact3, Given, Number, Triple, dot
 from ..record import record
-from .blocks import ordered
-from .body import Body
 from .effects.base import Effect, effect_words
-from .quadratic import QuadraticForm, euler_form, scaled_form
 
+if TYPE_CHECKING:
+    import numpy as np
+
+
+# --- The rigid body: three principal moments of inertia
+ROUNDING = Fraction(1, 1 << 48)  # of the largest moment: what a routine of eigenvalues in doubles leaves
+
+
+@record
+class Body(metaclass=Asked):
+    """A rigid body seen from its principal axes 1, 2, 3.
+
+    inertia: three principal moments of inertia about the centre of mass or a fixed point, kg m^2, in any order,
+    equal ones allowed; numbers or exact strings. `exact` keeps them unrounded. mass: kg, only where the body also
+    travels. slack: kg m^2, by how much rounding may let the largest moment exceed the sum of the other two, which those
+    of no mass distribution do; None for half a unit of the last digit of each. A larger excess is a caveat of every
+    answer: Euler's equations hold for any positive moments. Raises InputError for a moment that is not positive.
+    """
+
+    inertia: Sequence[Given]
+    mass: Given | None = None
+    slack: Given | None = field(default=None, repr=False, compare=False)
+    exact: Exact3 = field(init=False, repr=False)
+
+    def __post_init__(self) -> None:
+        moments = exact_vector(self.inertia, "inertia")
+        for number, moment in enumerate(moments, 1):
+            if moment <= 0:
+                raise InputError(f"inertia: moment {number} is {float(moment):g}; principal moments are positive")
+        if self.mass is not None:
+            mass = exact(self.mass, "mass")
+            if mass <= 0:
+                raise InputError(f"mass: expected a positive number of kg, got {float(mass):g}")
+            object.__setattr__(self, "mass", float(mass))
+        slack = sum(map(half_unit, self.inertia)) if self.slack is None else exact(self.slack, "slack")
+        object.__setattr__(self, "slack", slack)
+        object.__setattr__(self, "exact", moments)
+        object.__setattr__(self, "inertia", floats(moments))
+
+    @property
+    def excess(self) -> Fraction:
+        """The largest moment less the sum of the other two, kg m^2: not positive for the moments of a mass distribution."""
+        return 2 * max(self.exact) - sum(self.exact)
+
+    @property
+    def caveats(self) -> tuple[Caveat, ...]:
+        """That no rigid body has these moments, where their digits do not allow for one; else nothing."""
+        largest, excess = max(self.exact), self.excess
+        if excess <= max(exact(self.slack), ROUNDING * largest):
+            return ()
+        return (Caveat("unphysical", f"no rigid body has this tensor: the largest principal moment, {float(largest):.12g} kg m^2, exceeds "
+                       f"the sum of the other two, {float(largest - excess):.12g}, by {float(excess):.6g} "
+                       f"({float(100 * excess / largest):.2g} % of it); Euler's equations are solved as they stand"),)
+
+
+# --- The blocks a state may consist of, in their order: the angular velocity always, the others when
+# something needs them
+@record
+class Block:
+    """A part of the state: the names of its components, their unit, and what it is in words."""
+
+    name: str
+    components: tuple[str, ...]
+    unit: str
+    words: str
+
+
+BLOCKS = {block.name: block for block in (
+    Block("omega", ("omega1", "omega2", "omega3"), "rad/s", "angular velocity, body frame"),
+    Block("gamma", ("gamma1", "gamma2", "gamma3"), "", "unit vector fixed in space, body frame"),
+    Block("attitude", ("q0", "q1", "q2", "q3"), "", "quaternion from body to space"),
+    Block("velocity", ("v1", "v2", "v3"), "m/s", "velocity, inertial frame"),
+    Block("position", ("x1", "x2", "x3"), "m", "position, inertial frame"))}
+ORDER = tuple(BLOCKS)
+# what a run may show: the blocks, and what is formed from them
+PARTS = BLOCKS | {part.name: part for part in (
+    Block("x", ("x1", "x2", "x3"), "", "angular velocity, body frame, scaled"),
+    Block("angles", ("psi", "phi", "theta"), "rad", "psi, phi, theta of the 3-1-2 sequence, continuous"),
+    Block("quaternion", ("qx", "qy", "qz", "qw"), "", "attitude as a unit quaternion, scalar last: turns components along the axes of the rates to "
+          "inertial ones"),
+    Block("euler", ("precession psi", "nutation theta", "rotation phi"), "rad", "classical Euler angles of the vertical, continuous"),
+    Block("momentum", ("H1", "H2", "H3"), "kg m^2/s", "angular momentum, inertial frame"),
+    Block("amplitude", ("amplitude",), "rad/s", "amplitude of the transverse rate"),
+    Block("spin", ("spin",), "rad/s", "averaged rate about axis 3"),
+    Block("phase", ("phase",), "rad", "phase of the transverse rate"))}
+BRINGS = {"position": ("velocity", "attitude"), "velocity": ("attitude",)}  # what a block cannot do without
+
+
+def ordered(names: Iterable[str]) -> tuple[str, ...]:
+    """The blocks of these names with all they bring along, in order; omega is always there."""
+    wanted = {"omega", *names}
+    for name in tuple(wanted):
+        wanted |= set(BRINGS.get(name, ()))
+    return tuple(name for name in ORDER if name in wanted)
+
+
+def slices(names: Iterable[str]) -> dict[str, slice]:
+    """Where each block stands in the state."""
+    out, start = {}, 0
+    for name in names:
+        size = len(BLOCKS[name].components)
+        out[name] = slice(start, start + size)
+        start += size
+    return out
+
+
+@record
+class QuadraticForm:
+    """Coefficients of the rates; `symbol` is the letter of the state ("omega" or "x")."""
+
+    kappa: Exact3
+    rho: Exact3
+    sigma: Exact3
+    m: Exact3
+    symbol: str = "omega"
+
+    @cached_property
+    def coefficients(self) -> tuple[tuple[float, ...], ...]:
+        """(kappa, rho, sigma, m), each rounded once to double."""
+        return tuple(tuple(float(v) for v in row) for row in (self.kappa, self.rho, self.sigma, self.m))
+
+    def rate(self, x: Sequence[Number]) -> list[Number]:
+        """x' for one state: three numbers of any type (floats, fractions, balls) -> list of three."""
+        rows: tuple[Triple, ...] = (self.kappa, self.rho, self.sigma, self.m)
+        if isinstance(x[0], float):
+            rows = self.coefficients
+        kappa, rho, sigma, m = rows
+        return [kappa[i] * x[j] * x[k] + rho[i] * x[k] + sigma[i] * x[j] + m[i] for i, (j, k) in enumerate(CYCLE)]
+
+    def jacobian(self, x: Sequence[Number]) -> list[list[Number]]:
+        """3 x 3 nested list: derivative of rate i by component; entries of the type of x."""
+        kappa, rho, sigma, _ = self.coefficients if isinstance(x[0], float) else (self.kappa, self.rho, self.sigma, 0)
+        rows = []
+        for i, (j, k) in enumerate(CYCLE):
+            row = [x[0] * 0] * 3
+            row[j] = kappa[i] * x[k] + sigma[i]
+            row[k] = kappa[i] * x[j] + rho[i]
+            rows.append(row)
+        return rows
+
+
+def euler_form(inertia: Exact3, momentum: Exact3, torque: Exact3) -> QuadraticForm:
+    """D omega' = (D omega + lambda) x omega + M as rates of omega (theory: Euler's equations of a gyrostat)."""
+    D, lam = inertia, momentum
+    return QuadraticForm(
+        kappa=tuple((D[j] - D[k]) / D[i] for i, (j, k) in enumerate(CYCLE)),
+        rho=tuple(lam[j] / D[i] for i, (j, k) in enumerate(CYCLE)),
+        sigma=tuple(-lam[k] / D[i] for i, (j, k) in enumerate(CYCLE)),
+        m=tuple(torque[i] / D[i] for i in range(3)), symbol="omega")
+
+
+def scaled_form(a: Fraction, b: Fraction, mu: Exact3) -> QuadraticForm:
+    """x1' = x2 x3 + mu1, x2' = -x3 (x1 + a) + mu2, x3' = x2 (x1 + b) + mu3 (Amer et al. 2024, eqs (3), (5))."""
+    zero, one = Fraction(0), Fraction(1)
+    return QuadraticForm(kappa=(one, -one, one), rho=(zero, zero, b), sigma=(zero, -a, zero), m=tuple(mu), symbol="x")
+
+
+def rests(form: QuadraticForm, state: Iterable[Number]) -> bool:
+    """Whether every rate vanishes at the state (floats or Fractions, taken as exact), exactly."""
+    return not any(form.rate([Fraction(v) for v in state]))
+
+
+# --- The scene: a body and the effects it is under, nothing more
 ZERO3 = (Fraction(0),) * 3
 
 
@@ -129,3 +301,67 @@ class ScaledGyrostat(metaclass=Asked):
 
 
 AnyScene: TypeAlias = Scene | ScaledGyrostat
+
+
+class Turn(NamedTuple):
+    """twin: the scene with its torque along one axis. rotation: rows of Fractions, omega_twin = rotation @ omega, good to 240
+    bits. exact: no row was rounded."""
+
+    twin: Scene
+    rotation: list[list[Fraction]]
+    exact: bool
+
+    def __call__(self, state: Sequence[Number]) -> tuple[Fraction, ...]:
+        """The twin's state for a state of the scene, numbers exact."""
+        return tuple(sum((r * Fraction(v) for r, v in zip(row, state)), Fraction(0)) for row in self.rotation)
+
+    @property
+    def matrix(self) -> np.ndarray:
+        """(3, 3) array of the rotation's doubles."""
+        import numpy as np
+        return np.array([[float(v) for v in row] for row in self.rotation])
+
+
+def aligned(scene: AnyScene) -> Turn | None:
+    """The scene turned so that its torque lies along one axis, where its equal moments allow it.
+
+    The twin has the same moments; its torque lies exactly along an axis, and its gyrostatic component along the torque
+    is exactly zero where the scene's is.
+    """
+    if scene.variables != "physical":
+        return None
+    D, M, lam = scene.body.exact, scene.vector("constant_torque"), scene.vector("gyrostat")
+    acting = [i for i in range(3) if M[i]]
+    if len(acting) < 2 or len({D[i] for i in acting}) > 1:
+        return None
+    i = acting[0]
+    length = sqrt_fraction(dot(M, M))
+    unit = [m / length for m in M]
+    # the second direction lies in the equal plane, across the torque
+    j = acting[1]
+    across = [Fraction(0)] * 3
+    size = sqrt_fraction(unit[i] ** 2 + unit[j] ** 2)
+    across[i], across[j] = -unit[j] / size, unit[i] / size
+    third = [unit[1] * across[2] - unit[2] * across[1], unit[2] * across[0] - unit[0] * across[2],
+             unit[0] * across[1] - unit[1] * across[0]]
+    even = (i, j, 3 - i - j) in ((0, 1, 2), (1, 2, 0), (2, 0, 1))
+    rows = {i: unit, j: across, 3 - i - j: third if even else [-v for v in third]}
+    rotation = [rows[n] for n in range(3)]
+    turned = [dot(row, lam) for row in rotation]
+    if sum(m * v for m, v in zip(M, lam)) == 0:
+        turned[i] = Fraction(0)
+    torque = [length if n == i else Fraction(0) for n in range(3)]
+    exact = length**2 == sum(m * m for m in M) and size**2 == unit[i] ** 2 + unit[j] ** 2
+    return Turn(_turned(scene, {"gyrostat": turned, "constant_torque": torque}), rotation, exact)
+
+
+def _turned(scene: Scene, vectors: Mapping[str, Sequence[Fraction]]) -> Scene:
+    """The scene with these vectors in place of those of its wheel and torque."""
+    kinds: dict[str, Any] = {effect.name: type(effect) for effect in scene.effects}
+    return Scene(scene.body, *(kind(tuple(vectors[name])) for name, kind in kinds.items()))
+
+
+def torque_axis(scene: AnyScene) -> int:
+    """The principal axis, 1 to 3, that the whole torque of a scene is along; 0 where there is none, or other effects act."""
+    acting = [n for n, m in enumerate(scene.quadratic().m, 1) if m] if scene.plain else []
+    return acting[0] if len(acting) == 1 else 0

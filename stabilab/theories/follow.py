@@ -7,8 +7,8 @@ from importlib import import_module
 
 from ..answers.simulate import Simulation, simulate
 from ..errors import InputError
-from ..physics.approximate import limits_of
-from ..physics.attitude import vertical
+from ..physics.coefficients import limits_of
+from ..physics.states import vertical
 
 # model -> the modules that may have it, each with `applies(scene)` and `follow(model, case, times, order)`
 FAMILIES = ("charged.model", "cavity.model", "top.model")

@@ -7,7 +7,7 @@ import numpy as np
 
 from ..asked import checked_case
 from ..errors import InputError
-from ..integrate.extrema import roots_of_rates
+from ..integrate.events import roots_of_rates
 from .cavity.attractors import attractors
 from .charged.mean_pointing import pointing, spin_drift
 from .charged.model import body_of

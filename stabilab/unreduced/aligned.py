@@ -12,21 +12,19 @@ import numpy as np
 from ..errors import InputError
 from ..numbers.constants import EPS
 from ..orbit import many
-from ..orbit.ball_orbit import Orbit
 from ..orbit.fate.arrays import at_rest
 from ..orbit.fate.arrays import fates as fates_on_orbit
-from ..orbit.fate.one_state import OneFate, fate_of
+from ..orbit.fate.one_state import OneFate, Reason, fate_of
 from ..orbit.fate.one_state import at_rest as rest_of
-from ..orbit.fate.reasons import Reason
 from ..orbit.fate.result import FateResult, in_chunks, write_row
 from ..orbit.landscape import landscape
+from ..orbit.one_orbit import Orbit
 from ..orbit.one_state import apart_fields
 from ..orbit.period.one_state import period_of
 from ..orbit.reduction import reduce
 from ..orbit.result import Fate, Motion, finite, judged, pairs, repeats
-from ..physics.alignment import aligned
-from ..physics.quadratic import rests
-from ..physics.state import three_floats
+from ..physics.coefficients import three_floats
+from ..physics.scene import aligned, rests
 from .evidence import extremes_over, seen_over
 from .growth import law
 from .growth.law import captured_fate, unbounded

@@ -12,10 +12,9 @@ from typing import Any
 from ..equilibrium.liquid import trap
 from ..equilibrium.medium import GLOBAL, energy_bound, resisted_equilibria
 from ..numbers.vectors import dot
-from ..orbit.fate.reasons import REASONS, Reason
+from ..orbit.fate.one_state import REASONS, Reason
 from ..orbit.result import Fate, Motion
-from ..physics.coefficients import Content, at_rest, content
-from ..physics.state import split
+from ..physics.coefficients import Content, at_rest, content, split
 
 
 def motion(scene, state, span=None, exact=None, brief: bool = False) -> Motion:

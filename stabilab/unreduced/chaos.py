@@ -17,7 +17,7 @@ from typing import Any
 
 import numpy as np
 
-from ..integrate.motion_units import in_unit, own_unit
+from ..integrate.quadratic_series import in_unit, own_unit
 from ..integrate.to_heyoka import TAYLOR_TOLERANCE, borrowed_taylor, heyoka_available
 from ..integrate.trajectory import FALLBACK_RTOL, STEP_LIMIT
 from ..physics.equations import Equations

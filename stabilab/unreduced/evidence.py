@@ -8,7 +8,7 @@ import numpy as np
 
 from ..asked import reach_of
 from ..errors import InputError
-from ..integrate.extrema import RateRoots, roots_of_rates
+from ..integrate.events import RateRoots, roots_of_rates
 from ..integrate.trajectory import integrated
 from ..orbit.result import Fate, pairs
 from ..physics.states import three_numbers

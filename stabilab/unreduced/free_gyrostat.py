@@ -15,15 +15,15 @@ from typing import Any
 import numpy as np
 
 from ..errors import InputError
-from ..integrate.extrema import roots_of_rates
-from ..integrate.motion_units import in_unit, mass_unit
+from ..integrate.events import roots_of_rates
+from ..integrate.quadratic_series import in_unit, mass_unit
 from ..orbit.far_states import BEYOND, ORDINARY, powered
 from ..orbit.fate.arrays import fates as free_fates
 from ..orbit.fate.one_state import as_double, at_rest, free_fate, scaled_double
 from ..orbit.result import Fate, Motion, finite, judged, pairs, repeats
 from ..orbit.separatrix.distance.ask import has_no_saddle
-from ..physics.quadratic import rests
-from ..physics.state import three_floats
+from ..physics.coefficients import three_floats
+from ..physics.scene import rests
 from ..physics.states import equilibrium_mask, three_numbers
 from .evidence import STEP_BUDGET
 from .near_rest import beside_rest, small_loop

@@ -12,14 +12,13 @@ from decimal import ROUND_CEILING, ROUND_FLOOR, Context
 import numpy as np
 
 from ..errors import InputError
-from ..integrate.extrema import roots_of_rates
+from ..integrate.events import roots_of_rates
 from ..numbers.numba_door import installed
-from ..orbit.fate.one_state import OneFate, at_rest
-from ..orbit.fate.reasons import Reason
+from ..orbit.fate.one_state import OneFate, Reason, at_rest
 from ..orbit.fate.result import FateResult, empty_columns
 from ..orbit.result import Fate, Motion, finite, judged, pairs, without_return
-from ..physics.quadratic import rests
-from ..physics.state import three_floats
+from ..physics.coefficients import three_floats
+from ..physics.scene import rests
 from ..physics.states import equilibrium_mask
 from .enclosure.bands import ranges_until
 from .evidence import extremes_over, seen_over, size_words

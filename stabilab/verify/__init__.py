@@ -11,10 +11,10 @@ from .diagram.check import check_diagram
 from .diagram.claims import KEYS as DIAGRAM_KEYS
 from .diagram.claims import SCHEMA as DIAGRAM
 from .diagram.claims import claims_of
-from .equilibria.claims import check_equilibria, equilibria_of
+from .equilibria import check_equilibria, equilibria_of
 from .form import SCHEMA, check_frame, read, strangers
 from .motion import check_motion, motion_of
-from .precision import working
+from .numbers import working
 from .rates import Rates
 
 __all__ = ["SCHEMA", "Finding", "Verification", "verify", "verify_file"]

@@ -1,19 +1,263 @@
-"""Is the fate of the state what the certificate says, and do its brackets hold the extremes and the period?"""
+"""What a certificate claims of a motion, checked: its fate and the facts that carry it."""
 from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
 
-from .closed import ClosedClaims, check_closed, closed_of
-from .facts import Facts
-from .numbers import Malformed, ball, bracket, exact_sign, field, numbers, shown, word
-from .orbit import Orbit
-from .period import period_of, round_once
-from .precision import working
-from .spin_up.claims import SpinUpClaims, check_spin_up, spin_up_of
-from .zeros import Open, Spent, above, below
+from .numbers import SPLIT, Malformed, Open, Spent, above, ball, below, bracket, exact_sign, field, hull, narrowed, numbers, shown, sign, word, working, zeros
+from .orbit import ClosedClaims, Orbit, check_closed, closed_of, period_of, round_once
+from .spin_up import SpinUpClaims, check_spin_up, spin_up_of
 
+# --- What is proved of one orbit: walls, turning points, highest barriers and deepest wells, each enclosed
+WINDOWS = 24  # doublings of the reach of alpha in search of a wall: 2^24 e-foldings
+FAR = 2**WINDOWS - 1  # where they end
+
+
+class Facts:
+    """What is proved of one orbit at the working precision of so many bits: fate, reason, ends (balls or None), extremes."""
+
+    def __init__(self, orbit):
+        from flint import ctx
+        self.orbit, self.bits = orbit, ctx.prec
+        circle, sense = orbit.kind < 0, exact_sign(orbit.tilt)
+        self.ends, self.round = None, False
+        if orbit.forceless():
+            self.fate, self.reason = "bounded", "no force along the orbit: this rate is constant, and so is the circle's radius"
+            if not circle:
+                raise Open
+        elif circle and sense == 0:
+            self.fate, self.reason = "bounded", "no torque: the energy is constant and positive definite"
+            ends = [_turning(orbit, side) for side in (-1, 1)]
+            if None in ends:
+                if ends != [None, None]:
+                    raise Open
+                self.round = True
+            else:
+                self.ends = ends
+        elif circle:
+            ahead = _turning(orbit, sense)
+            if ahead is None:
+                self.fate, self.reason = "spin-up", "no barrier within one turn ahead reaches the energy, and each turn is lower"
+            else:
+                behind = _turning(orbit, -sense)
+                self.fate, self.reason = "bounded", "a barrier above the energy stands ahead, and the tilt rises behind"
+                self.ends = sorted((ahead, behind), key=lambda end: float(end.mid()))
+        else:
+            ends = [_turning(orbit, side) for side in (-1, 1)]
+            if None in ends:
+                self.fate, self.reason = _released(orbit, ends)
+            else:
+                self.fate, self.reason, self.ends = "bounded", "walls above the energy stand on both sides", ends
+        self.extremes = self._extremes(sense)
+
+    def _extremes(self, sense):
+        """[(low, high)] * 3 as balls, None where unbounded."""
+        o = self.orbit
+        if o.forceless():
+            here = ball(o.y0 - o.s)
+            ranges = {o.axis: (here, here)} | dict(zip((o.j, o.k), _whole_circle(o)))
+        elif self.ends is not None:
+            fastest = (-2 * _lowest(o, *self.ends)).sqrt()
+            ranges = {o.axis: (-fastest - ball(o.s), fastest - ball(o.s))}
+            ranges |= dict(zip((o.j, o.k), _ranges(o, *self.ends)))
+        elif self.round:
+            slow, fast = ((-2 * e).sqrt() for e in _heights_round(o))
+            low, high = (slow, fast) if o.y0 > 0 else (-fast, -slow)
+            ranges = {o.axis: (low - ball(o.s), high - ball(o.s))} | dict(zip((o.j, o.k), _whole_circle(o)))
+        else:
+            steady = o.constant(0) and o.constant(1)
+            slowest = ball(sense * o.y0) if steady else _slowest_ahead(o, sense)
+            low, high = (slowest - ball(o.s), None) if sense > 0 else (None, -slowest - ball(o.s))
+            ranges = {o.axis: (low, high)} | dict(zip((o.j, o.k), _whole_circle(o) if o.kind < 0 else _to_the_end(o, sense)))
+        return [ranges[i] for i in range(3)]
+
+
+def _turning(orbit, side):
+    """The turning point on one side as a ball; None where the motion passes every barrier of a circle's next turn."""
+    if orbit.y0 == 0 and exact_sign(orbit.F0) == -side:
+        return ball(0)
+    inner, low, windows = None, Fraction(0), WINDOWS
+    reach = Fraction(1013, 1009)  # windows end where no force of small numbers vanishes, and not before FAR
+    if orbit.kind < 0:
+        reach, windows = orbit.past_a_turn, 1
+        if exact_sign(orbit.tilt) == -side:  # each turn behind is higher: skip those that are surely too low
+            low, windows = side * _turns_below(orbit, side) * below(orbit.turn), 4
+            inner = ball(low) if low else None
+    for _ in range(windows):
+        for spot in _spots(orbit, low, low + side * reach):
+            over = sign(orbit.excess(spot))
+            if over is None:
+                raise Open
+            if over > 0:
+                return _crossing(orbit, inner, spot)
+            inner = spot
+        low += side * reach
+        end = sign(orbit.excess(ball(low)))
+        if end is None:
+            raise Open
+        if end > 0:
+            return _crossing(orbit, inner, ball(low))
+        reach *= 2 if orbit.kind >= 0 else 1
+    return None
+
+
+def _spots(orbit, start: Fraction, end: Fraction):
+    """The zeros of the force from start to end where it changes sign, in that order; without one at alpha = 0 itself."""
+    if orbit.touches():
+        return []
+    low, high = sorted((start, end))
+    folds, turn = orbit.folds(), below(orbit.turn) if orbit.kind < 0 else 1
+    at_zero = orbit.F0 == 0
+    multiple = [(spot + n * orbit.turn, order) for spot, order in folds for n in range(int(low // turn) - 1, int(high // turn) + 2)]
+    found = zeros(orbit.force, orbit.force_slope, low, high, at_zero and low == 0, at_zero and high == 0, orbit.purse,
+                  multiple, orbit.force_bend)
+    return found if end > start else found[::-1]
+
+
+def _turns_below(orbit, side) -> int:
+    """How many whole turns behind hold no barrier that reaches the energy, less one."""
+    turn = orbit.past_a_turn
+    highest = orbit.excess(ball(0))
+    for spot in _spots(orbit, Fraction(0), side * turn):
+        highest = highest.max(orbit.excess(spot))
+    highest = highest.max(orbit.excess(ball(side * turn)))
+    if not highest < 0:
+        return 0
+    turns = below(-highest / (ball(abs(orbit.tilt)) * orbit.turn))
+    return max(int(turns) - 1, 0)
+
+
+def _crossing(orbit, inner, outer):
+    """Where U = E between the last barrier or well below the energy (None: the start) and a place above it."""
+    a = Fraction(0) if inner is None else (above(inner) if outer > inner else below(inner))
+    b = below(outer) if outer > ball(a) else above(outer)
+    low, high = sorted((a, b))
+    df = lambda x: -orbit.force(x)
+    # U - E is monotone between neighbouring zeros of the force, so a change of sign is a single zero
+    lo_sign, hi_sign = sign(orbit.excess(ball(low))), sign(orbit.excess(ball(high)))
+    if None in (lo_sign, hi_sign) or lo_sign * hi_sign >= 0:  # from rest a well comes first, so neither is zero
+        raise Open
+    return _single(orbit.excess, df, low, high)
+
+
+def _single(f, df, a, b):
+    """The zero of a function known to be monotone on [a, b], with a change of sign: halving, then interval Newton."""
+    left = sign(f(ball(a)))
+    for _ in range(2000):
+        if sign(df(hull(a, b))):
+            return narrowed(f, df, a, b)
+        c = a + (b - a) * SPLIT
+        middle = sign(f(ball(c)))
+        if not middle:
+            raise Open
+        a, b = (c, b) if middle == left else (a, c)
+    raise Open
+
+
+def _lowest(orbit, left, right):
+    """Least U - E on [left, right], as a ball (negative)."""
+    best = [orbit.excess(ball(0))]
+    for low, high in ((below(left), Fraction(0)), (Fraction(0), above(right))):
+        if low < high:
+            best += [orbit.excess(z) for z in _spots(orbit, low, high)]
+    total = best[0]
+    for value in best[1:]:
+        total = total.min(value)
+    return total
+
+
+def _heights_round(orbit):
+    """(greatest, least) U - E on the whole circle without torque."""
+    values = [orbit.excess(ball(0)), *map(orbit.excess, _spots(orbit, Fraction(0), orbit.past_a_turn))]
+    most = least = values[0]
+    for value in values[1:]:
+        most, least = most.max(value), least.min(value)
+    return most, least
+
+
+def _ranges(orbit, left, right):
+    """((low, high) of u, (low, high) of v) on [left, right]."""
+    low, high = below(left), above(right)
+    room = (high - low) / 1024  # u or v may turn just where the motion does: no ball would tell the sign of its slope there
+    out = []
+    for which in (0, 1):
+        f = lambda x, w=which: orbit.slopes(x)[w]
+        # u'' = p (q u + q0), v'' = q (p v + p0)
+        df = lambda x, w=which: ball(orbit.p if w == 0 else orbit.q) * orbit.slopes(x)[1 - w]
+        values = [orbit.place(left)[which], orbit.place(right)[which]]
+        if not orbit.constant(which):
+            for z in zeros(f, df, low - room, high + room, purse=orbit.purse):
+                if z < left or z > right:
+                    continue
+                value = orbit.place(z)[which]
+                for end, there in ((left, values[0]), (right, values[1])):
+                    if z.overlaps(end):  # beside the end by less than its own width: inside or not makes no difference
+                        value = value.union(there)
+                values.append(value)
+        least = most = values[0]
+        for value in values[1:]:
+            least, most = least.min(value), most.max(value)
+        out.append((least, most))
+    return out
+
+
+def _whole_circle(orbit):
+    """Ranges of u and v on the whole circle."""
+    o = orbit
+    ratio = -o.p / o.q
+    radius_u = ball((o.u0 - o.cu) ** 2 + ratio * (o.v0 - o.cv) ** 2).sqrt()
+    radius_v = ball((o.v0 - o.cv) ** 2 + (o.u0 - o.cu) ** 2 / ratio).sqrt()
+    return [(ball(c) - r, ball(c) + r) for c, r in ((o.cu, radius_u), (o.cv, radius_v))]
+
+
+def _slowest_ahead(orbit, sense):
+    """The least sense * y over the future of a motion that spins up."""
+    if exact_sign(orbit.y0) * sense < 0:
+        behind = _behind(orbit, sense)
+        if orbit.kind < 0:  # wells further back than one turn are higher
+            back = ball(-sense) * orbit.turn
+            behind = behind.max(back) if sense > 0 else behind.min(back)
+        low, high = (behind, ball(0)) if sense > 0 else (ball(0), behind)
+        return -(-2 * _lowest(orbit, low, high)).sqrt()
+    slowest = ball(orbit.E)
+    ahead = orbit.past_a_turn if orbit.kind < 0 else Fraction(FAR)  # the force has its last sign from there on
+    for spot in _spots(orbit, Fraction(0), sense * ahead):
+        slowest = slowest.min(-orbit.excess(spot))
+    return (2 * slowest).sqrt()
+
+
+def _behind(orbit, sense):
+    """Where a motion that runs against the torque first turns back."""
+    behind = _turning(orbit, -sense)
+    if behind is None:
+        raise Open
+    return behind
+
+
+def _to_the_end(orbit, sense):
+    """Ranges of u and v on a decaying plane, from where the motion turns back to the plane's end; or constant."""
+    if orbit.constant(0) and orbit.constant(1):
+        return [(ball(v), ball(v)) for v in (orbit.u0, orbit.v0)]
+    back = exact_sign(orbit.y0) * sense < 0
+    starts = orbit.place(_behind(orbit, sense)) if back else (ball(orbit.u0), ball(orbit.v0))
+    return [(start.min(ball(end)), start.max(ball(end))) for start, end in zip(starts, (orbit.cu, orbit.cv))]
+
+
+def _released(orbit, ends):
+    """(fate, reason) of an orbit without a wall on one side: pure spin, or a decaying plane of a hyperbola."""
+    if orbit.constant(0) and orbit.constant(1) and orbit.F0:
+        return "spin-up", "x_j and x_k stay constant, and so does the force"
+    side = -1 if ends[0] is None else 1
+    if orbit.kind > 0 and orbit.decays() == side == exact_sign(orbit.tilt):
+        # the windows reached no wall; from their end on, the place stays so near its centre that the force is the tilt
+        if sign(orbit.force_beyond(FAR)) == side:
+            return "spin-up", "a plane that decays in the direction of the torque; no barrier on it reaches the energy"
+    raise Open
+
+
+# --- Is the fate of the state what the certificate says, and do its brackets hold the extremes and the
+# period?
 BITS, MOST_BITS = 192, 6144
 CLOSER = 4  # times the bits that settled the fate: a bracket that these do not tell from the true value is left open
 GOALS = (48, 96, 192)  # bits of the period, likewise

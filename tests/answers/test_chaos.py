@@ -14,7 +14,7 @@ from stabilab.answers.chaos import Chaos, Order
 from stabilab.errors import InputError
 from stabilab.maps.plan import planned
 from stabilab.maps.run import run
-from stabilab.show.maps.chaos import words
+from stabilab.show.maps import chaos as words
 from tests.shared import CASES, case
 from tests.unreduced.test_chaos import TAME, TOP, WILD
 
@@ -119,7 +119,7 @@ def test_a_sweep_is_one_table_and_the_law_is_told_first(stabilab, tmp_path):
 
 @pytest.mark.slow
 def test_the_picture_of_a_motion_that_passes_no_plane_is_its_number_over_time(tmp_path):
-    from stabilab.show.maps.chaos import picture
+    from stabilab.show.maps import chaos as picture
     one = case("top-fast")
     from stabilab.answers.chaos import row_of
     found = stabilab.chaos(one.scene, row_of(one.scene, one.state, one.blocks), until=5)

@@ -6,8 +6,8 @@ import pytest
 from stabilab import Body, ConstantTorque, Gyrostat, Scene
 from stabilab.answers.simulate import simulate
 from stabilab.errors import InputError
-from stabilab.physics.attitude import angles, quaternion, to_space
 from stabilab.physics.effects import effect_class
+from stabilab.physics.states import angles, quaternion, to_space
 from tests.oracles import euler
 
 

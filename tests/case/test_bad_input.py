@@ -13,7 +13,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 
 import stabilab as stabilab_package
-from stabilab.case import sweep as case_sweep
+from stabilab.case import source as case_sweep
 from stabilab.case.read import load
 from stabilab.errors import BAD_INPUT, OK, CaseError, InputError, printable
 from tests.fuzz.grammar import CASES, mutated_cases, written_cases

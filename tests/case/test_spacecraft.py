@@ -444,7 +444,7 @@ def test_one_of_several_bodies_alone(tmp_path, stabilab):
 
 def test_four_booms_about_a_spinner_by_hand():
     """Demo/SC_TumbleSat of NASA's 42: booms of 94.25 kg with moments (0.47, 8.09, 8.09), their centres 1 m from the axis, at 0, 90, 180, 270 deg."""
-    from stabilab.case.foreign.joined import Joint, Part, joined, places, turn
+    from stabilab.case.foreign.import_42 import Joint, Part, joined, places, turn
     none, boom = (Fraction(0),) * 3, [[Fraction(v) if i == j else 0 for j in range(3)] for i, v in enumerate(("0.47", "8.09", "8.09"))]
     parts = [Part(Fraction("1963.5"), [[5174, 0, 0], [0, 3593, 0], [0, 0, Fraction("245.4")]], (0, 0, Fraction("2.5")), none)]
     joints = []

@@ -5,7 +5,7 @@ from fractions import Fraction
 import pytest
 
 from stabilab.case import units
-from stabilab.case.uncertainty import plus_minus
+from stabilab.case.table import plus_minus
 from stabilab.errors import InputError
 
 

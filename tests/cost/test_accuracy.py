@@ -21,12 +21,10 @@ from stabilab.cost import accuracy as measuring
 from stabilab.cost.accuracy import Point, digit_price, pareto, precision
 from stabilab.cost.methods import methods, problem
 from stabilab.errors import InputError, ToleranceNotMet
-from stabilab.integrate.reference import reference, relative_errors
-from stabilab.integrate.taylor_digits import Recursion
-from stabilab.physics.body import Body
+from stabilab.integrate.reference import Recursion, reference, relative_errors
 from stabilab.physics.effects.gyrostat import Gyrostat
 from stabilab.physics.equations import derive
-from stabilab.physics.scene import Scene
+from stabilab.physics.scene import Body, Scene
 from stabilab.show.report import precision_page
 from stabilab.show.text.cost import precision as shown
 from tests.oracles.model import physical

@@ -15,9 +15,9 @@ KIND = '''"""A sphere without wheel and torque: whatever its rates are, they sta
 from __future__ import annotations
 
 from ..orbit.fate.result import in_chunks, write_row
-from ..orbit.fate.reasons import Reason
+from ..orbit.fate.one_state import Reason
 from ..orbit.result import Fate, Motion
-from ..physics.state import three_floats
+from ..physics.coefficients import three_floats
 
 
 def holds(scene) -> bool:

@@ -26,7 +26,8 @@ from stabilab.numbers import balls
 from stabilab.numbers.exact import precise
 from stabilab.physics import to_numpy as compiled
 from stabilab.physics.effects.gravity import Gravity
-from stabilab.verify import precision, verify
+from stabilab.verify import numbers as precision
+from stabilab.verify import verify
 
 ROOT = Path(__file__).parents[2]
 SWITCH = 1e-6  # s after which Python lets another thread run: five thousand times as often as by itself
@@ -209,7 +210,7 @@ def nodes(path):
 
 def test_only_gates_that_hold_a_lock_set_a_precision():
     """Another place that set it would do so while some thread computes."""
-    gates = {"numbers/balls.py": "flint", "verify/precision.py": "flint", "theories/top/series.py": "mpmath"}
+    gates = {"numbers/balls.py": "flint", "verify/numbers.py": "flint", "theories/top/series.py": "mpmath"}
     words = ("workprec", "extraprec", "workdps", "extradps")
     found = {path.relative_to(ROOT / "stabilab").as_posix(): ast.unparse(node.value).split(".")[0] for path in sources(*words)
              for node in nodes(path) if isinstance(node, ast.Attribute) and node.attr in words}

@@ -12,7 +12,7 @@ import stabilab
 from stabilab import Body, ConstantTorque, Fate, Gyrostat, ScaledGyrostat, Scene
 from stabilab.answers.digits.ask import ask
 from stabilab.orbit.extremes_and_periods import extremes_and_periods
-from stabilab.orbit.fate.reasons import REASONS, Reason
+from stabilab.orbit.fate.one_state import REASONS, Reason
 from stabilab.orbit.landscape import landscape
 
 MARGIN, DIGITS = 1e-12, 1e-11  # promised of a margin (of its terms), and of extremes and periods

@@ -1,11 +1,11 @@
-"""Tests of `integrate/extrema.py`: what once went wrong there, and its edges."""
+"""Tests of `integrate/events.py`: what once went wrong there, and its edges."""
 from __future__ import annotations
 
 import numpy as np
 import pytest
 
 from stabilab import Body, ScaledGyrostat, Scene
-from stabilab.integrate import extrema as rate_roots
+from stabilab.integrate import events as rate_roots
 
 
 def test_roots_of_rates_without_a_run_or_a_compiler_are_those_of_the_start(monkeypatch):

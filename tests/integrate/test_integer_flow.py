@@ -6,8 +6,7 @@ from fractions import Fraction
 import mpmath as mp
 import pytest
 
-from stabilab.integrate.crossing import Search, Threshold
-from stabilab.integrate.integer_flow import IntegerFlow
+from stabilab.integrate.integer_flow import IntegerFlow, Search, Threshold
 from tests.oracles import taylor
 from tests.oracles.pairs import physical, scaled
 

@@ -1,4 +1,4 @@
-"""Tests of `integrate/motion_units.py`: what once went wrong there, and its edges."""
+"""Tests of `integrate/quadratic_series.py`: what once went wrong there, and its edges."""
 from __future__ import annotations
 
 import numpy as np
@@ -6,7 +6,7 @@ import pytest
 
 import stabilab
 from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene
-from stabilab.integrate.motion_units import in_unit
+from stabilab.integrate.quadratic_series import in_unit
 from stabilab.physics.effects.resistance import Resistance
 
 

@@ -14,7 +14,8 @@ from pathlib import Path
 import pytest
 
 from stabilab.errors import BAD_INPUT, InputError
-from stabilab.maps import cluster, workers
+from stabilab.maps import run as cluster
+from stabilab.maps import run as workers
 from stabilab.maps.parts import place_of
 from stabilab.maps.plan import planned
 from stabilab.maps.run import run

@@ -9,8 +9,7 @@ import pytest
 
 from stabilab.case.table import Written
 from stabilab.errors import InputError
-from stabilab.maps.axes import axis_of
-from stabilab.maps.keys import key_of, keys_of
+from stabilab.maps.axes import axis_of, key_of, keys_of
 from stabilab.maps.plan import split_keys
 
 TEXT = """

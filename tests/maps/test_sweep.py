@@ -17,7 +17,7 @@ from stabilab.answers.motion import motion
 from stabilab.case.read import read_text
 from stabilab.errors import InputError
 from stabilab.maps import parts
-from stabilab.maps.chunk import answered
+from stabilab.maps.parts import answered
 from stabilab.maps.plan import from_json, planned
 from stabilab.maps.run import run
 from stabilab.orbit.result import Fate

@@ -21,7 +21,7 @@ SUBJECTS = {
                   ("equilibrium/test_stability", "equilibrium/test_gyrostat", "answers/test_certificate", "equilibrium/test_curve_text")),
     "reduction": (("orbit/reduction",), ("orbit/fate/test_fate", "orbit/fate/test_one_state", "orbit/extremes/test_extremes",
                                          "answers/test_certificate", "orbit/test_reduction")),
-    "fate": (("orbit/fate/arrays", "orbit/fate/result", "orbit/landscape", "orbit/fate/by_table"),
+    "fate": (("orbit/fate/arrays", "orbit/fate/result", "orbit/landscape", "orbit/fate/table"),
              ("orbit/fate/test_fate", "orbit/fate/test_one_state", "orbit/fate/test_table", "orbit/fate/test_rounding_bounds",
               "orbit/fate/test_arrays")),
     "extremes": (("orbit/extremes/arrays", "orbit/extremes_and_periods", "numbers/roots"),
@@ -37,7 +37,7 @@ SUBJECTS = {
                    ("orbit/separatrix/test_sheets", "orbit/separatrix/test_grid")),
     "growth": (tuple(f"unreduced/growth/{name}" for name in ("law", "certificate")),
                ("unreduced/growth/test_law", "unreduced/growth/test_certificates")),
-    "balls": (("orbit/ball_orbit", "orbit/fate/balls", "orbit/extremes/balls", "orbit/period/balls", "orbit/fate/tie", "orbit/fate/one_state"),
+    "balls": (("orbit/one_orbit", "orbit/fate/one_state", "orbit/extremes/balls", "orbit/period/balls", "orbit/fate/one_state", "orbit/fate/one_state"),
               ("orbit/fate/test_fate", "orbit/extremes/test_extremes", "orbit/extremes/test_arrays", "orbit/fate/test_one_state",
                "orbit/fate/test_tie", "orbit/test_ball_orbit"))}
 

@@ -12,11 +12,10 @@ import stabilab
 from stabilab import Body, Fate, Gyrostat, Scene
 from stabilab.answers.motion import motion
 from stabilab.numbers.balls import DOUBLE_BITS, START_BITS
-from stabilab.orbit.ball_orbit import Orbit
 from stabilab.orbit.extremes.balls import precise_extremes
-from stabilab.orbit.fate.balls import decide
-from stabilab.orbit.fate.one_state import fate_of
+from stabilab.orbit.fate.one_state import decide, fate_of
 from stabilab.orbit.landscape import landscape
+from stabilab.orbit.one_orbit import Orbit
 from stabilab.orbit.period.balls import precise_period
 from stabilab.orbit.reduction import reduce
 from tests.oracles import energy
@@ -67,7 +66,7 @@ def test_the_extremes_and_period_of_balls_are_those_of_the_potential_to_the_last
 @pytest.mark.parametrize("name", ["minor scaled +", "major physical", "middle scaled -, |c| above the cusp"])
 def test_near_a_separatrix_some_hundred_bits_decide_and_algebra_is_not_asked(name, monkeypatch):
     scene, problem = FAMILIES[name]
-    exact_tie = importlib.import_module("stabilab.orbit.fate.tie")
+    exact_tie = importlib.import_module("stabilab.orbit.fate.one_state")
     monkeypatch.setattr(exact_tie, "exact_tie", lambda orbit: pytest.fail("algebra was asked about a state off the separatrix"))
     for off in (1e-14, -1e-15, 0.0):
         state = brink(problem, {"mi": (-1.25, -1.25), "ma": (19.5, 14.0)}[name[:2]] if "+" not in name else (3.0, 1.0), off)

@@ -11,11 +11,10 @@ import stabilab
 from benchmarks.random_scenes import SEED, drawn
 from stabilab import Fate
 from stabilab.numbers.numba_door import installed
-from stabilab.orbit.ball_orbit import Orbit
 from stabilab.orbit.extremes.balls import precise_extremes
 from stabilab.orbit.extremes_and_periods import extremes_and_periods
-from stabilab.orbit.fate.balls import decide
-from stabilab.orbit.fate.one_state import fate_of
+from stabilab.orbit.fate.one_state import decide, fate_of
+from stabilab.orbit.one_orbit import Orbit
 from stabilab.orbit.period.balls import precise_period
 from stabilab.orbit.reduction import reduce
 

@@ -7,7 +7,7 @@ import pytest
 
 import stabilab
 from stabilab import Body, ConstantTorque, Fate, Gyrostat, ScaledGyrostat, Scene
-from stabilab.orbit.ball_base import BallOrbit
+from stabilab.orbit.one_orbit import BallOrbit
 from tests.shared import PARABOLIC
 
 

@@ -15,8 +15,7 @@ from stabilab.physics.effects.charge import Charge
 from stabilab.physics.effects.gravity import Gravity
 from stabilab.physics.effects.liquid_cavity import LiquidCavity
 from stabilab.physics.effects.resistance import Resistance
-from stabilab.physics.equations import derive
-from stabilab.physics.laws import invariants
+from stabilab.physics.equations import derive, invariants
 from stabilab.physics.to_numpy import form, to_numpy
 from stabilab.show.text.notation import latex, lines
 

@@ -15,18 +15,16 @@ from stabilab.answers.digits.run import best_reached
 from stabilab.answers.simulate import simulate
 from stabilab.case.read import load_all
 from stabilab.commands import accuracy
-from stabilab.physics.body import Body
 from stabilab.physics.coefficients import content, liquid_torque
 from stabilab.physics.effects.body_force import BodyForce
 from stabilab.physics.effects.charge import Charge
 from stabilab.physics.effects.constant_torque import ConstantTorque
 from stabilab.physics.effects.gravity import Gravity
 from stabilab.physics.effects.gyrostat import Gyrostat
-from stabilab.physics.effects.liquid_cavity import NEXT_TERM, LiquidCavity
+from stabilab.physics.effects.liquid_cavity import NEXT_TERM, LiquidCavity, pace
 from stabilab.physics.effects.newtonian_field import NewtonianField
-from stabilab.physics.effects.pace import pace
 from stabilab.physics.effects.resistance import Resistance
-from stabilab.physics.scene import Scene
+from stabilab.physics.scene import Body, Scene
 from stabilab.show.text import law
 from stabilab.theories.follow import follow
 

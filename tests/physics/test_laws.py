@@ -7,8 +7,7 @@ import sympy as sp
 
 from stabilab import Body, ScaledGyrostat, Scene
 from stabilab.physics.effects import REGISTRY, effect_class
-from stabilab.physics.equations import derive
-from stabilab.physics.laws import invariants
+from stabilab.physics.equations import derive, invariants
 from stabilab.physics.to_numpy import to_numpy
 
 ARGUMENTS = {  # what each effect is made from; an effect of one vector needs no line

@@ -13,7 +13,8 @@ import stabilab
 from stabilab import errors
 from stabilab.case.read import read_text
 from stabilab.show import style
-from stabilab.show.plot import path, subject, to_file, which
+from stabilab.show.plot import path, subject, to_file
+from stabilab.show.plot import subject as which
 from stabilab.show.text import comparison
 
 matplotlib.use("Agg")
@@ -453,7 +454,7 @@ def test_a_separatrix_outside_of_the_picture_is_told_in_words():
 
 def test_triangles_cut_by_a_box_keep_the_area_inside():
     """A square of side 4 in the plane z = 0 across a box of side 2 about the origin leaves 4 of its area."""
-    from stabilab.show.plot.solid.in_space import Box
+    from stabilab.show.plot.in_space import Box
     corners = np.array([[-2, -2, 0], [2, -2, 0], [2, 2, 0], [-2, 2, 0]], float)
     inside = Box.of(np.full(3, -1.0), np.full(3, 1.0)).clipped(corners[[[0, 1, 2], [0, 2, 3]]])
     area = np.linalg.norm(np.cross(inside[:, 1] - inside[:, 0], inside[:, 2] - inside[:, 0]), axis=1).sum() / 2
@@ -497,7 +498,7 @@ def test_pictures_in_space_have_the_same_bytes_again(kind, tmp_path):
 
 def test_the_box_turns_as_a_body_that_keeps_its_momentum_in_space():
     """Without a torque R (D omega) is constant; the box of 3, 2, 1 kg m^2: edges as sqrt(2 + 1 - 3), sqrt(3 + 1 - 2), sqrt(3 + 2 - 1)."""
-    from stabilab.show.plot.turning.turn import THINNEST, turn
+    from stabilab.show.plot.turning import THINNEST, turn
     found = turn(subject.subject(load("torque-free-body")), 150)
     momentum = np.einsum("nij,nj->ni", found.rotations, found.omega * (3, 2, 1))
     assert np.abs(momentum - momentum[0]).max() < 1e-12 and found.whole
@@ -507,7 +508,7 @@ def test_the_box_turns_as_a_body_that_keeps_its_momentum_in_space():
 def test_the_vertical_of_a_top_stands_upright_in_space_all_the_time():
     """R gamma is the third axis of space, with gamma of a run of its own equations (Poisson), which know no attitude."""
     from stabilab.answers.simulate import simulate
-    from stabilab.show.plot.turning.turn import turn
+    from stabilab.show.plot.turning import turn
     case = load("top-lx30-lz30")
     found = turn(subject.subject(case), 20)
     gamma = simulate(case.scene, case.state, found.t, case.blocks).state["gamma"]
@@ -534,7 +535,7 @@ def test_an_axis_that_leaves_by_a_hidden_face_is_drawn_before_the_box():
 
 
 def test_a_film_shows_no_step_in_which_the_eye_would_see_the_body_turn_backwards():
-    from stabilab.show.plot.turning.turn import turn
+    from stabilab.show.plot.turning import turn
     found = turn(subject.subject(load("cubesat-3u")), 40)
     steps = np.einsum("nij,nik->njk", found.rotations[:-1], found.rotations[1:])
     angles = np.arccos(np.clip((np.trace(steps, axis1=1, axis2=2) - 1) / 2, -1, 1))
@@ -544,7 +545,7 @@ def test_a_film_shows_no_step_in_which_the_eye_would_see_the_body_turn_backwards
 @pytest.mark.parametrize("frames", [40, 100])
 def test_a_film_of_a_spin_up_goes_on_for_as_long_as_its_pictures_show_each_step(frames):
     """Oracle: a run of its own; the rate at the film's end, which is about the greatest so far, times a step of it is some 15 degrees."""
-    from stabilab.show.plot.turning.turn import turn
+    from stabilab.show.plot.turning import turn
     case = load("cubesat-3u")
     found = turn(subject.subject(case), frames)
     rates = np.linalg.norm(stabilab.trajectory(case.scene, case.state, np.linspace(0, found.t[-1], 2001)).states, axis=1)
@@ -580,7 +581,7 @@ def test_the_page_of_an_attitude_has_the_letters_of_its_title(tmp_path):
 def test_a_film_is_a_gif_and_what_cannot_be_written_names_what_is_missing(tmp_path, monkeypatch):
     from PIL import Image
 
-    from stabilab.show.plot.turning import animation
+    from stabilab.show.plot import turning as animation
     monkeypatch.setattr(animation, "PICTURES", 3)
     case = case_of(tmp_path, MOVING)
     with Image.open(to_file.write(case, tmp_path / "a.gif", size=(2, 2), dpi=50)) as image:

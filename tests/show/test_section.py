@@ -7,7 +7,9 @@ import pytest
 
 import stabilab
 from stabilab import errors
-from stabilab.show.plot import plane_section, subject, to_file, which
+from stabilab.show.plot import phase_plane as plane_section
+from stabilab.show.plot import subject, to_file
+from stabilab.show.plot import subject as which
 from stabilab.unreduced.section import crossed, neighbours_of, returns
 
 matplotlib.use("Agg")

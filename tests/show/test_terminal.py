@@ -169,7 +169,7 @@ def test_a_shell_completes_case_files_and_names(tmp_path):
 
 def test_names_that_are_offered_are_those_that_are_known():
     from stabilab.integrate.trajectory import SCIPY_METHODS
-    from stabilab.show.plot.which import KINDS
+    from stabilab.show.plot.subject import KINDS
     from stabilab.show.units import SYSTEMS
     from stabilab.theories.follow import MODELS
     assert completion.units("") == list(SYSTEMS) and completion.kinds("") == list(KINDS)

@@ -3,7 +3,7 @@ import numpy as np
 import pytest
 
 from stabilab import Body, ConstantTorque, Gyrostat, LiquidCavity, Scene, extremes, motion
-from stabilab.integrate import extrema
+from stabilab.integrate import events as extrema
 
 STATES = [[0.05, 0.01, 0.01], [0.0, 0.0, 0.0]]
 SCENES = {

@@ -12,7 +12,7 @@ from stabilab.answers.digits.ask import ask
 from stabilab.answers.kinds import kind_of
 from stabilab.errors import InputError
 from stabilab.numbers.balls import Unclear, working
-from stabilab.orbit.fate.free_margin import _nearest, free_margin
+from stabilab.orbit.fate.one_state import _nearest, free_margin
 from stabilab.unreduced.free_gyrostat import extremes_over_period
 from tests.oracles import sphere
 

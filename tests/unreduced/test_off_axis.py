@@ -8,8 +8,8 @@ import pytest
 import stabilab
 from stabilab import Body, ConstantTorque, Fate, Gyrostat, ScaledGyrostat, Scene, fate, motion, period, trajectory
 from stabilab.errors import InputError
-from stabilab.integrate.extrema import roots_of_rates
-from stabilab.orbit.ball_orbit import Orbit
+from stabilab.integrate.events import roots_of_rates
+from stabilab.orbit.one_orbit import Orbit
 from stabilab.orbit.period.balls import precise_period
 from stabilab.orbit.period.one_state import period_of
 from stabilab.orbit.reduction import reduce

@@ -1,5 +1,5 @@
 """The ways of the checker for tests that ask it thousands of times about one motion: a step that has been taken is not taken again."""
-from stabilab.verify.spin_up.way import Way
+from stabilab.verify.spin_up import Way
 
 MOST = 64  # motions
 

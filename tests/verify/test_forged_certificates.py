@@ -18,10 +18,9 @@ from stabilab.answers.certificate import certificate
 from stabilab.errors import InputError
 from stabilab.show.text import certification
 from stabilab.verify import orbit, verify, verify_file
-from stabilab.verify.numbers import Malformed
-from stabilab.verify.spin_up import claims as spin_up_claims
-from stabilab.verify.spin_up.claims import spin_up_of
-from stabilab.verify.zeros import Purse
+from stabilab.verify import spin_up as spin_up_claims
+from stabilab.verify.numbers import Malformed, Purse
+from stabilab.verify.spin_up import spin_up_of
 from tests.equilibrium.test_random_scenes import disagreements
 from tests.oracles import elimination as by_hand
 from tests.shared import written

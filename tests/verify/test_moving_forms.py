@@ -14,12 +14,11 @@ from stabilab.unreduced.spin_up.certificate import MovingCertifier
 from stabilab.unreduced.spin_up.form import forms_of
 from stabilab.unreduced.spin_up.symmetric import equatorial
 from stabilab.verify import verify
-from stabilab.verify.numbers import ball
-from stabilab.verify.precision import working
+from stabilab.verify.inequality import MovingInequality
+from stabilab.verify.normal_form import equator, moving_form
+from stabilab.verify.numbers import ball, working
 from stabilab.verify.rates import Rates
-from stabilab.verify.spin_up.claims import FORMS
-from stabilab.verify.spin_up.moving_form import equator, moving_form
-from stabilab.verify.spin_up.moving_inequality import MovingInequality
+from stabilab.verify.spin_up import FORMS
 from tests.unreduced.enclosure.taylor import run
 from tests.unreduced.spin_up.scenes import random_scene, sphere
 from tests.verify.test_forged_certificates import forge_all

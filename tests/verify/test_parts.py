@@ -7,14 +7,14 @@ import pytest
 
 from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene
 from stabilab.answers.certificate import certificate
-from stabilab.verify import motion, period, verify
-from stabilab.verify.equilibria import complete, degenerate
-from stabilab.verify.equilibria.curves import curve_of, judged
-from stabilab.verify.facts import _single
-from stabilab.verify.numbers import Malformed, ball, hull
+from stabilab.verify import curves as degenerate
+from stabilab.verify import equilibria as complete
+from stabilab.verify import motion, verify
+from stabilab.verify import orbit as period
+from stabilab.verify.curves import curve_of, judged
+from stabilab.verify.motion import _single
+from stabilab.verify.numbers import Malformed, Open, above, ball, below, hull, narrowed, real_zeros, zeros
 from stabilab.verify.rates import Rates
-from stabilab.verify.roots import real_zeros
-from stabilab.verify.zeros import Open, above, below, narrowed, zeros
 
 ZERO, ONE = F(0), F(1)
 TOP = Rates.of_body([F(5), F(4), F(2)], [ZERO, F(2), ZERO], [ZERO] * 3)

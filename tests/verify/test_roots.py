@@ -6,8 +6,7 @@ from math import isqrt
 
 import pytest
 
-from stabilab.verify.numbers import Malformed
-from stabilab.verify.roots import MOST_BITS, real_zeros
+from stabilab.verify.numbers import MOST_BITS, Malformed, real_zeros
 
 flint = pytest.importorskip("flint")
 

@@ -14,14 +14,11 @@ from stabilab.unreduced.spin_up.centres import FixedCentre
 from stabilab.unreduced.spin_up.certificate import FixedCertifier
 from stabilab.unreduced.spin_up.form import forms_of
 from stabilab.verify import verify
-from stabilab.verify.numbers import Malformed, ball
-from stabilab.verify.precision import working
+from stabilab.verify.inequality import Inequality
+from stabilab.verify.normal_form import form_about
+from stabilab.verify.numbers import Malformed, above, ball, below, working
 from stabilab.verify.rates import Rates
-from stabilab.verify.spin_up.claims import spin_up_of
-from stabilab.verify.spin_up.inequality import Inequality
-from stabilab.verify.spin_up.normal_form import form_about
-from stabilab.verify.spin_up.way import Lost, Way
-from stabilab.verify.zeros import above, below
+from stabilab.verify.spin_up import Lost, Way, spin_up_of
 from tests.unreduced.enclosure.taylor import run
 from tests.unreduced.spin_up.scenes import EXAMPLE, random_scene, sphere
 from tests.verify.inequality_in_digits import holds
@@ -193,7 +190,7 @@ def test_brackets_narrower_than_is_known_and_constants_out_of_reach_stay_unprove
 
 def test_a_way_too_long_to_follow_is_not_checked(monkeypatch):
     made, _ = certified(EXAMPLE, STATE)
-    monkeypatch.setattr("stabilab.verify.spin_up.claims.MOST_STEPS", 5)
+    monkeypatch.setattr("stabilab.verify.spin_up.MOST_STEPS", 5)
     found = verify(changed(made))
     assert found.status == "partly" and all("not followed beyond 5 steps" in f.reason for f in found.findings)
     monkeypatch.undo()

@@ -2,6 +2,7 @@
 import ast
 import copy
 import json
+import sys
 from fractions import Fraction
 from pathlib import Path
 
@@ -163,10 +164,10 @@ def test_a_file_that_is_no_json_is_refused(tmp_path):
 
 
 def test_the_checker_shares_only_flint():
-    for path in FOLDER.glob("*.py"):
+    for path in FOLDER.rglob("*.py"):
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
             if isinstance(node, ast.ImportFrom):
-                assert node.level == 1 or node.module in ("flint", "fractions", "contextlib", "dataclasses", "functools", "math", "threading",
-                                                          "types", "typing", "__future__"), (path, node.module)
+                assert node.level or node.module.partition(".")[0] in {"flint", *sys.stdlib_module_names}, (path, node.module)
+                assert node.level <= len(path.relative_to(FOLDER).parts), (path, node.module)  # its own modules
             elif isinstance(node, ast.Import):
-                assert [a.name for a in node.names] in (["flint"], ["json"], ["re"], ["reprlib"]), path
+                assert all(alias.name in {"flint", *sys.stdlib_module_names} for alias in node.names), path

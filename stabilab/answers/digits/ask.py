@@ -15,25 +15,21 @@ from typing import Any
 import numpy as np
 
 from ...asked import reach_of
-from ...integrate.extrema import roots_of_rates
-from ...integrate.reference import DIGITS, GUARD, WORK, reference
-from ...integrate.taylor_digits import Exhausted, Recursion, steps, widen
+from ...integrate.events import roots_of_rates
+from ...integrate.reference import DIGITS, GUARD, WORK, Exhausted, Recursion, reference, steps, widen
 from ...integrate.to_heyoka import TAYLOR_TOLERANCE
 from ...numbers.balls import DOUBLE_BITS, Digits, working
 from ...numbers.vectors import Exact3, Number
-from ...orbit.ball_orbit import Orbit
 from ...orbit.extremes.balls import extreme_balls
-from ...orbit.fate.balls import precise_margin
-from ...orbit.fate.free_margin import free_margin, is_free
+from ...orbit.fate.one_state import free_margin, is_free, precise_margin
 from ...orbit.landscape import Landscape, landscape
+from ...orbit.one_orbit import Orbit
 from ...orbit.period.balls import period_ball
 from ...orbit.reduction import reduce
 from ...orbit.result import Fate, Motion, no_period
-from ...physics.alignment import aligned
 from ...physics.coefficients import effective
 from ...physics.equations import Equations
-from ...physics.quadratic import QuadraticForm
-from ...physics.scene import AnyScene, Scene
+from ...physics.scene import AnyScene, QuadraticForm, Scene, aligned
 from ...physics.states import checked_states, equations_and_start, moved_row
 from ...unreduced.growth.extremes import law_extremes
 from ...unreduced.near_rest import beside_rest, small_loop

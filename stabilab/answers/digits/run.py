@@ -16,11 +16,10 @@ from ...errors import InputError, ToleranceNotMet
 from ...integrate.reference import reference
 from ...integrate.to_heyoka import TAYLOR_TOLERANCE
 from ...integrate.trajectory import FALLBACK_RTOL, SCIPY_METHODS
-from ...physics.approximate import limits_of
-from ...physics.attitude import angles, beyond, body_momentum, to_space
+from ...physics.coefficients import limits_of
 from ...physics.equations import derive
 from ...physics.scene import AnyScene
-from ...physics.states import as_quaternion, equations_and_start, moved_row, start_of
+from ...physics.states import angles, as_quaternion, beyond, body_momentum, equations_and_start, moved_row, start_of, to_space
 from ...physics.to_numpy import to_numpy
 from ..simulate import STIFF_METHOD, Simulation, errors_of, in_quaternions, simulate
 from .checked import CAUTION, DEFAULT, MOST, NEAR, checked_digits, digits_of

@@ -10,8 +10,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-from ...integrate.crossing import Search
-from ...integrate.integer_flow import IntegerFlow, Piece
+from ...integrate.integer_flow import IntegerFlow, Piece, Search
 from ...numbers.exact import sqrt_fraction
 from ...numbers.numba_door import installed
 from ...numbers.vectors import Number

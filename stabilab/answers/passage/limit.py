@@ -8,7 +8,7 @@ from fractions import Fraction
 from typing import Any
 
 from ...errors import InputError
-from ...integrate.crossing import Threshold
+from ...integrate.integer_flow import Threshold
 from ...numbers.exact import exact, exact_vector, precise, sqrt_fraction
 from ...numbers.vectors import Exact3, Number, dot
 from ...physics.scene import AnyScene

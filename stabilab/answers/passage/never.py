@@ -22,8 +22,7 @@ import numpy as np
 from ...numbers.exact import sqrt_fraction
 from ...numbers.vectors import Exact3, Float3, Number
 from ...orbit.result import Fate
-from ...physics.quadratic import rests
-from ...physics.scene import AnyScene
+from ...physics.scene import AnyScene, rests
 from ..extremes import extremes, period
 from ..fate import fate
 from ..kinds import kind_of

@@ -7,7 +7,7 @@ from fractions import Fraction
 from typing import Any
 
 from ...orbit.result import Motion
-from ...physics.alignment import torque_axis
+from ...physics.scene import torque_axis
 from ..caveats import STEADY, caveats_of, limited, misaligned, stated
 from ..kinds import kind_of
 from ..tilt import Spread, Tilt, cone_of, spread, tilt

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...caveat import Caveat
-from ...physics.approximate import limits_of
+from ...physics.coefficients import limits_of
 from ...shown import Compared, Shown
 
 if TYPE_CHECKING:  # a scene of exact laws does not load it

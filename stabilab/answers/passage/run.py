@@ -10,16 +10,14 @@ from typing import Any
 
 import numpy as np
 
-from ...integrate.event_run import first_root, root_of
-from ...integrate.extrema import SUBSAMPLES
-from ...integrate.motion_units import in_unit, mass_unit, own_unit
-from ...integrate.stand_in import stand_in
+from ...integrate.events import SUBSAMPLES, first_root, root_of
+from ...integrate.quadratic_series import in_unit, mass_unit, own_unit
 from ...integrate.to_heyoka import TAYLOR_TOLERANCE, heyoka_available, taylor_events
+from ...integrate.trajectory import stand_in
 from ...numbers.vectors import CYCLE
-from ...physics.attitude import to_space
 from ...physics.equations import Equations, derive, rotation
 from ...physics.scene import AnyScene
-from ...physics.states import equations_and_start, moved_row
+from ...physics.states import equations_and_start, moved_row, to_space
 from ...physics.to_numpy import Form, to_numpy
 from .limit import Limit
 from .result import Found

@@ -9,8 +9,7 @@ from typing import Any, cast
 
 from ...numbers.vectors import Float3, dot
 from ...orbit.result import Fate, Motion
-from ...physics.quadratic import rests
-from ...physics.scene import Scene
+from ...physics.scene import Scene, rests
 from ...unreduced.enclosure.proof import proved
 from ...unreduced.spin_up.follow import spin_up
 from ..kinds import kind_of, one

@@ -31,15 +31,13 @@ from typing import Any, TypeAlias
 
 from ...numbers.balls import working
 from ...numbers.vectors import CYCLE, Exact3, Number, Triple
-from ...orbit.ball_orbit import Orbit
 from ...orbit.fate.one_state import fate_of
+from ...orbit.one_orbit import Orbit
 from ...orbit.reduction import Reduction, reduce
 from ...orbit.result import Fate
-from ...physics.alignment import Turn, aligned
-from ...physics.body import Body
 from ...physics.effects.constant_torque import ConstantTorque
 from ...physics.effects.gyrostat import Gyrostat
-from ...physics.scene import Scene
+from ...physics.scene import Body, Scene, Turn, aligned
 from ..caveats import STEADY
 
 BITS = 128

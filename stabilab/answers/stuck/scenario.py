@@ -10,10 +10,9 @@ from ...asked import came
 from ...errors import InputError
 from ...numbers.principal import IDENTITY, NOTHING, PrincipalAxes, without_trace
 from ...numbers.vectors import Exact3, Float3, Number
-from ...physics.body import Body
 from ...physics.effects.constant_torque import ConstantTorque
 from ...physics.effects.gyrostat import Gyrostat
-from ...physics.scene import Scene
+from ...physics.scene import Body, Scene
 
 
 @dataclass(frozen=True)

@@ -12,8 +12,7 @@ from ...numbers.exact import sqrt_fraction
 from ...numbers.roots import golden_section
 from ...numbers.vectors import Exact3, Number, dot
 from ...orbit.reduction import Reduction
-from ...physics.quadratic import rests
-from ...physics.scene import Scene
+from ...physics.scene import Scene, rests
 from ..caveats import STEADY
 from .fate import PATIENCE, first_time, limit_in, time_under
 from .line import EVERY, INF, Family, Intervals, Line, candidates, family_of, pieces

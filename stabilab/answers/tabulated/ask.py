@@ -13,13 +13,11 @@ from typing import Any
 
 from ...errors import InputError
 from ...integrate.integer_flow import IntegerFlow
-from ...integrate.reference import GUARD, one_run
-from ...integrate.taylor_digits import Recursion
+from ...integrate.reference import GUARD, Recursion, one_run
 from ...numbers.balls import working
 from ...numbers.vectors import CYCLE
 from ...physics.coefficients import effective
-from ...physics.quadratic import QuadraticForm
-from ...physics.scene import AnyScene
+from ...physics.scene import AnyScene, QuadraticForm
 from ...physics.states import equations_and_start
 from ..digits.checked import MOST_DECIMALS, checked_digits
 from ..passage.enclosed import own_unit

@@ -20,11 +20,9 @@ from ...numbers.affine import EPS, LEAST, Affine, root, sign_over, squared
 from ...numbers.exact import floats
 from ...numbers.principal import PrincipalAxes, principal_axes, without_trace
 from ...numbers.vectors import Float3, Number, Triple
-from ...physics.body import Body
+from ...physics.coefficients import to_scaled, torque_from_mu
 from ...physics.effects import effect_class
-from ...physics.quadratic import QuadraticForm, euler_form, scaled_form
-from ...physics.scaling import to_scaled, torque_from_mu
-from ...physics.scene import AnyScene, ScaledGyrostat, Scene
+from ...physics.scene import AnyScene, Body, QuadraticForm, ScaledGyrostat, Scene, euler_form, scaled_form
 
 TRACE = Fraction(1, 1 << 180)  # of the largest number: what axes good to 240 bits leave, there and back
 Point: TypeAlias = Any  # of a box: a number in [-1, 1] for each place, an array or a sequence

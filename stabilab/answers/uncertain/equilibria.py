@@ -25,7 +25,7 @@ from ...errors import InputError
 from ...numbers.affine import Affine, lifted, squared
 from ...numbers.vectors import CYCLE, Number, Triple
 from ...orbit.reduction import Reduction, reduction_about
-from ...physics.quadratic import QuadraticForm
+from ...physics.scene import QuadraticForm
 from ..equilibria import equilibria
 from .box import Box, Numbers, Point, present
 from .branch_and_bound import Parts, Proof, branch_and_bound, importance, whole

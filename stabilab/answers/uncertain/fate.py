@@ -10,13 +10,12 @@ import numpy as np
 from ...errors import InputError
 from ...numbers.affine import Affine, lifted, sign_over
 from ...numbers.vectors import Number
-from ...orbit.ball_orbit import Orbit
-from ...orbit.fate.one_state import fate_of
-from ...orbit.fate.reasons import REASONS, Reason
+from ...orbit.fate.one_state import REASONS, Reason, fate_of
+from ...orbit.one_orbit import Orbit
 from ...orbit.potential import derivatives_on_parabola
 from ...orbit.reduction import Reduction, reduce, reduction_about
 from ...orbit.result import Fate
-from ...physics.quadratic import QuadraticForm
+from ...physics.scene import QuadraticForm
 from ..fate import fate
 from ..kinds import kind_of
 from .box import Box, Numbers, Point, present

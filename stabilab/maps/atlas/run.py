@@ -1,23 +1,200 @@
-"""Running an atlas: a round of the sweep's machinery over all cells, then one for the parts of those that lie along a boundary, and so on."""
+"""An atlas: what is asked, and all directions answered."""
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
 from functools import cached_property
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
-from ...numbers.vectors import Exact3
+from ...case.limit_options import FILE_AXES, StatedLimit, stated_limit
+from ...case.read import Case, blamed_on, read_text
+from ...case.units import TORQUE, quantity
+from ...errors import InputError, printable
+from ...numbers.exact import sqrt_fraction
+from ...numbers.principal import NOTHING
+from ...numbers.vectors import Exact3, dot
 from ...orbit.result import Fate
+from ..axes import Key, axis_of
+from ..plan import Plan, place_and_text
 from ..run import run
-from .asked import Asked
-from .cells import area, middles
-from .leaves import Leaves
-from .pointed import Point, named_direction
+from .pointed import AXES, AXIS_POINTS, DEEPEST, OWN, THRUSTERS, Leaves, Point, Pointed, along_axes, area, count, middles, named_direction, unit
+
+# --- What an atlas is asked: body, start, size of the torque, wheel momenta, how fine the cells are; each
+# part checked
+LEVEL, REFINE = 3, 2  # 512 cells, and twice as fine along the boundaries, twice
+MOST = 2_000_000  # cells of the first round
+WHEEL = Key("wheel", (("wheels", "momentum"),))  # its dimension is that of a wheel in a case
+PRINCIPAL = "123"
 
 
+@dataclass(frozen=True)
+class Asked:
+    """path, text: of the case. torque: size, N m, exact. wheels: momenta along the principal axes, exact, N m s; momenta: their sizes in `unit`, as asked, or
+    () where the case's own alone counts. level: of the first cells; refine: how often they are cut in four along boundaries. limit: options
+    of the time to a limit, by name; certify: whether to prove what can be; follow: how long motions are followed that only a run decides, as
+    written; timed: whether the time to a limit is asked."""
+
+    path: str
+    text: str = field(repr=False)
+    torque: Fraction
+    wheels: tuple[Exact3, ...]
+    momenta: tuple[float, ...]
+    unit: str
+    level: int
+    refine: int
+    certify: bool
+    limit: tuple[tuple[str, str], ...]
+    options: tuple[tuple[str, str], ...] = ()
+    follow: str | None = None
+    timed: bool = True
+
+    @cached_property
+    def case(self) -> Case:
+        """The case with the numbers of the file."""
+        return read_text(self.path, self.text)
+
+    @cached_property
+    def stated_limit(self) -> StatedLimit | None:
+        """The limit whose time is asked: of an option, or of the case; None where there is neither, or no time is asked."""
+        if not self.timed:
+            return None
+        return stated_limit(self.case, **dict(self.limit)) if self.limit or self.case.limits else None
+
+    @property
+    def answers(self) -> tuple[str, ...]:
+        """Names of `columns.ANSWERS`."""
+        return ("fate", "level", "reason", "island", *(["when"] if self.stated_limit else []), "equilibria")
+
+    @property
+    def named(self) -> tuple[Point, ...]:
+        """The directions with names, beside every wheel: both senses of the principal axes, the thrusters, the torque of the case itself."""
+        case = self.case
+        firing = [(THRUSTERS, n) for n, thruster in enumerate(case.thrusters) if any(thruster.torque)]
+        own = _own_torque(case)
+        kinds = [*((AXES, n) for n in range(AXIS_POINTS)), *firing, *([(OWN, 0)] if own else [])]
+        return tuple(Point(wheel, *kind) for wheel in range(len(self.wheels)) for kind in kinds)
+
+    @property
+    def first(self) -> tuple[Point, ...]:
+        """The cells of the first round."""
+        return tuple(Point(wheel, self.level, number) for wheel in range(len(self.wheels)) for number in range(count(self.level)))
+
+    def plan(self, points: tuple[Point, ...]) -> Plan:
+        """A round of the sweep's machinery over points."""
+        pointed = Pointed(self.torque, self.wheels, points, self.certify)
+        return Plan(self.path, self.text, (), None, 1, self.answers, self.limit, follow=self.follow, pointed=pointed)
+
+    @property
+    def command(self) -> str:
+        """A command that asks the same."""
+        import shlex
+        words = ["stabilab", "atlas", os.path.basename(self.path), *(f"--{name}={value}" for name, value in self.options)]
+        words += [f"--level={self.level}", f"--refine={self.refine}", *(["--certify"] if self.certify else []), *([] if self.timed else ["--no-time"])]
+        return shlex.join([*words, *(f"--{name}={text}" for name, text in self.limit)])
+
+
+def asked(case: Case | str | os.PathLike[str], torque: Any = None, wheel: str | None = None, level: int = LEVEL, refine: int = REFINE,
+          certify: bool = False, follow: str | None = None, timed: bool = True, **limit: str | None) -> Asked:
+    """An atlas whose every part is checked. Raises InputError with what is wrong and what to do."""
+    path, text = place_and_text("atlas", case)
+    one = read_text(path, text)
+    _judge(one)
+    size, (wheels, momenta, of) = _size(one, torque), _wheels(one, wheel)
+    _judge_cells(level, refine, len(wheels))
+    options = tuple((name, str(value)) for name, value in (("torque", torque), ("wheel", wheel)) if value is not None)
+    stated = tuple((name, value) for name, value in limit.items() if value is not None)
+    if stated and not timed:
+        raise InputError(f"--no-time and --{stated[0][0]} contradict each other: give one of them")
+    if stated:
+        stated_limit(one, **dict(stated))
+    found = Asked(path, text, size, wheels, momenta, of, level, refine, certify, stated, options, follow, timed)
+    if found.plan(()).longest is not None:  # which says what is wrong with it
+        found = replace(found, options=(*options, ("follow", str(follow))))
+    return found
+
+
+def _own_torque(case: Case) -> bool:
+    """Whether the case has a torque that is not that of one thruster alone."""
+    whole = case.scene.vector("constant_torque")  # type: ignore[union-attr]
+    stuck = [along_axes(case, thruster.torque) for thruster in case.thrusters if thruster.stuck]
+    rest = [v - sum(torque[n] for torque in stuck) for n, v in enumerate(whole)]
+    return any(whole) and (len(stuck) != 1 or dot(rest, rest) > NOTHING**2 * dot(whole, whole))
+
+
+def _judge(case: Case) -> None:
+    if case.variables == "scaled" or case.physical is None:
+        raise InputError(f"{case.place}: is in scaled variables, whose torque has no direction in space: an atlas is asked of a body in kg m^2 with "
+                         "angular_velocity in rad/s")
+    if case.state is None:
+        raise InputError(f"{case.place}: motion: expected angular_velocity in [motion]; an atlas tells what becomes of a motion")
+    with blamed_on(case):
+        case.scene.quadratic()  # says which effect is not covered
+
+
+def _size(case: Case, torque: Any) -> Fraction:
+    """The size of the torque: as asked, or that of the case."""
+    if torque is None:
+        own = case.scene.vector("constant_torque")  # type: ignore[union-attr]
+        if not any(own):
+            raise InputError(f'{case.place}: no torque acts, so its size is not known: give --torque "1 N m", or mark a thruster of the case as stuck')
+        return abs(next(v for v in own if v)) if sum(v != 0 for v in own) == 1 else sqrt_fraction(dot(own, own))
+    try:
+        size, _ = quantity(str(torque), TORQUE)
+    except InputError as error:
+        raise InputError(f"torque: {error}") from None
+    if size <= 0:
+        raise InputError(f"torque: expected a positive size, got {printable(str(torque))[:60]}")
+    return size
+
+
+def _wheels(case: Case, text: str | None) -> tuple[tuple[Exact3, ...], tuple[float, ...], str]:
+    """(momenta along the principal axes, their sizes as asked, the unit of these)."""
+    own = case.scene.vector("gyrostat")  # type: ignore[union-attr]
+    if text is None:
+        return (own,), (), ""
+    axis, equals, values = str(text).partition("=")
+    try:
+        along = axis_of(WHEEL, values if equals else str(text))
+        direction = _along(case, axis.strip().lower()) if equals else _own_direction(case, own)
+    except InputError as error:
+        raise InputError(f'wheel: {str(error).removeprefix("vary wheel: ")}') from None
+    return tuple(tuple(Fraction(size) * part for part in direction) for size in along.si), along.values, along.shown_unit
+
+
+def _own_direction(case: Case, own: Exact3) -> Exact3:
+    if not any(own):
+        raise InputError('the case has no wheel that turns: say along which axis, as in --wheel "z=-2:2:5" (x, y, z of the file, or 1, 2, 3, the '
+                         "principal axes)")
+    return unit(own)
+
+
+def _along(case: Case, axis: str) -> Exact3:
+    if len(axis) != 1 or axis not in FILE_AXES + PRINCIPAL:
+        raise InputError(f'expected a range such as "0:2:5 N m s", or an axis with one, as in "z=0:2:5" (x, y, z of the file, or 1, 2, 3, the principal '
+                         f'axes), got the axis "{printable(axis)[:40]}"')
+    if axis in PRINCIPAL:
+        return tuple(Fraction(n == int(axis) - 1) for n in range(3))
+    return along_axes(case, tuple(Fraction(n == FILE_AXES.index(axis)) for n in range(3)))
+
+
+def _judge_cells(level: Any, refine: Any, wheels: int) -> None:
+    for name, value in (("level", level), ("refine", refine)):
+        if isinstance(value, bool) or not isinstance(value, int) or value < 0:
+            raise InputError(f"{name}: expected a whole number that is not negative, got {value!r:.40}")
+    if level + refine > DEEPEST:
+        raise InputError(f"level {level} with {refine} refinements: at most {DEEPEST} in all, whose cells are a fiftieth of a degree wide")
+    if count(level) * wheels > MOST:
+        raise InputError(f"level {level} has {count(level):,} cells, with {wheels} wheel momenta {count(level) * wheels:,}; at most {MOST:,} are asked")
+
+
+# --- Running an atlas: a round of the sweep's machinery over all cells, then one for the parts of those
+# that lie along a boundary, and so on
 @dataclass(frozen=True)
 class Atlas:
     """leaves: the cells; records: (n,) of `columns.record`, what becomes of the motion under a torque to the middle of each. named: directions with a name,

@@ -28,7 +28,7 @@ from ...equilibrium.stability import POSITIVE_EIGENVALUE, invariants, isolated_v
 from ...numbers.balls import Unclear, evaluated, rational, settled, sign
 from ...numbers.vectors import Float3, dot
 from ...physics.coefficients import effective
-from ...physics.quadratic import QuadraticForm, euler_form
+from ...physics.scene import QuadraticForm, euler_form
 from .algebraic import Cut, between, cuts, gaps
 from .eliminated import Eliminated, Leant, Root, univariate
 from .equations import BORDERS, ISOLATED, LEAF, Conics, OnLine, chosen

@@ -23,7 +23,7 @@ from ...numbers.balls import rational
 from ...numbers.vectors import Float3
 from ...physics.coefficients import effective
 from ...shown import Shown
-from ..keys import put
+from ..axes import put
 from ..span import Span
 
 DEGREE = 3  # in each number that varies; a thruster's arm, force and a wheel's speed come to one each

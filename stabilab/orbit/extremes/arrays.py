@@ -7,7 +7,7 @@ from __future__ import annotations
 import numpy as np
 
 from ...numbers.constants import TURN
-from ..landscape_base import Landscape, spots_along
+from ..landscape import Landscape, spots_along
 from ..result import Fate
 
 EXTREMES_SHARE = 1e-7  # closer to the separatrix than this share of the energy terms, rounding costs extremes 1e-12

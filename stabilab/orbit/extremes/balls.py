@@ -3,7 +3,7 @@ wherever else doubles would lose digits. Every digit returned is certain."""
 from __future__ import annotations
 
 from ...numbers.balls import FIRST_BITS, START_BITS, Unclear, sign, working
-from ..ball_orbit import TIE_BITS, Orbit
+from ..one_orbit import TIE_BITS, Orbit
 from ..result import Fate
 
 CERTAIN_BITS = 56  # the balls of the extremes are this much narrower than the component is large

@@ -3,8 +3,8 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from ..ball_orbit import Orbit
 from ..fate.one_state import as_double, scaled_double
+from ..one_orbit import Orbit
 from ..result import Fate
 from .balls import extreme_balls
 

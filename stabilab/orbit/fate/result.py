@@ -8,13 +8,13 @@ from typing import Any
 
 import numpy as np
 
-from ...physics.approximate import limits_of
+from ...physics.coefficients import limits_of
 from ...physics.scene import AnyScene
 from ...shown import Compared, Shown
 from ..far_states import BEYOND
 from ..result import Fate
 from ..separatrix.distance.ask import separatrix_distance
-from .reasons import REASONS, Reason
+from .one_state import REASONS, Reason
 
 CHUNK = 16384  # states at a time: a dozen arrays of so many doubles stay in the processor's caches
 

@@ -6,8 +6,8 @@ import math
 from functools import lru_cache
 
 from ...numbers.balls import Unclear, sign, working
-from ..ball_orbit import Orbit
 from ..extremes.balls import turning_points
+from ..one_orbit import Orbit
 from ..result import Fate, without_return
 
 DIGITS = 14  # two steps agree to so many; the rule doubles its digits with every halving, so the second is exact to a double

@@ -11,8 +11,8 @@ import math
 
 from ...numbers.balls import FIRST_BITS, Unclear
 from ...numbers.roots import EPS
-from ..ball_orbit import Orbit
 from ..extremes.balls import turning_points
+from ..one_orbit import Orbit
 from ..potential import potential
 from ..result import Fate, without_return
 from .balls import power_of_error, precise_period

@@ -16,8 +16,7 @@ from ..potential import potential
 from ..reduction import reduce
 from .circle import SHARED
 from .homoclinic import loop_end
-from .saddles import limit_of, saddle_branches
-from .words import NO_REDUCTION, what_it_parts, why_none, why_parabolic
+from .saddles import NO_REDUCTION, limit_of, saddle_branches, what_it_parts, why_none, why_parabolic
 
 REACH = 4.0  # as of `sheets.separatrix`
 POLISH = 3   # Newton steps of a saddle along its orbit

@@ -18,12 +18,10 @@ from ...physics.coefficients import effective
 from ...physics.scene import AnyScene
 from ..far_states import in_range
 from ..landscape import landscape_in_doubles
-from .grid import grid
+from .grid import grid, grids_within
 from .homoclinic_arrays import residual
 from .result import Separatrix, Sheet
-from .saddles import limit_of, saddle_branches
-from .within import grids_within
-from .words import NO_REDUCTION, what_it_parts, why_none, why_parabolic
+from .saddles import NO_REDUCTION, limit_of, saddle_branches, what_it_parts, why_none, why_parabolic
 
 SHAPE = (96, 129)  # fine enough for pictures
 

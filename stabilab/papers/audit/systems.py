@@ -11,9 +11,8 @@ from dataclasses import dataclass
 from importlib import import_module
 
 from ...errors import InputError
-from ...physics.body import Body
 from ...physics.equations import derive
-from ...physics.scene import Scene
+from ...physics.scene import Body, Scene
 from ...theories.printed.claims import Paper
 from ...theories.printed.formulas import FormulaError, parse
 

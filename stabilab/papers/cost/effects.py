@@ -15,10 +15,9 @@ from ...answers.equilibria import equilibria
 from ...answers.motion import motion
 from ...answers.trajectory import trajectory
 from ...integrate.to_heyoka import borrowed_taylor, heyoka_available
-from ...physics.body import Body
 from ...physics.effects import REGISTRY, effect_class
 from ...physics.equations import derive
-from ...physics.scene import Scene
+from ...physics.scene import Body, Scene
 from ...physics.to_numpy import Form, form, to_numpy
 
 BODY = Body((3, 2, "1.5"), 10)  # kg m^2, kg: three different moments, so that no term vanishes

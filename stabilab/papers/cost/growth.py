@@ -14,15 +14,13 @@ import numpy as np
 from ...answers.extremes import extremes, period
 from ...answers.fate import fate
 from ...cost.accuracy import precision
-from ...integrate.reference import WORK, one_run, pairs, relative_errors
-from ...integrate.taylor_digits import Recursion
+from ...integrate.reference import WORK, Recursion, one_run, pairs, relative_errors
 from ...numbers.balls import Unclear, sign, working
 from ...numbers.numba_door import installed
-from ...orbit.ball_geometry import ball_orbit
-from ...orbit.ball_orbit import Orbit
 from ...orbit.extremes.balls import extreme_balls, turning_points
-from ...orbit.fate.balls import precise_margin
+from ...orbit.fate.one_state import precise_margin
 from ...orbit.landscape import landscape
+from ...orbit.one_orbit import Orbit, ball_orbit
 from ...orbit.period.balls import period_ball, precise_period
 from ...orbit.result import Fate
 

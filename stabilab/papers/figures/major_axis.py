@@ -6,7 +6,7 @@ from functools import lru_cache
 import numpy as np
 
 from ...answers.trajectory import trajectory
-from ...physics.scaling import to_scaled
+from ...physics.coefficients import to_scaled
 from ...show import style
 from ...unreduced.growth.law import captured_fate
 from . import paper

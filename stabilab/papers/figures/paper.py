@@ -1,11 +1,10 @@
 """The data of the tables and figures of Amer et al. 2024 (Sci. Rep.): its body, momentum wheels, torques and starts."""
 from __future__ import annotations
 
-from ...physics.body import Body
+from ...physics.coefficients import to_scaled, torque_from_mu
 from ...physics.effects.constant_torque import ConstantTorque
 from ...physics.effects.gyrostat import Gyrostat
-from ...physics.scaling import to_scaled, torque_from_mu
-from ...physics.scene import ScaledGyrostat, Scene
+from ...physics.scene import Body, ScaledGyrostat, Scene
 
 PAPER = "Amer et al. 2024, Sci. Rep."
 INERTIA = (2000, 1500, 1000)            # kg m^2

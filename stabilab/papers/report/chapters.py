@@ -12,8 +12,8 @@ from pathlib import Path
 import numpy as np
 
 from ...errors import StabilabError
-from ...physics.blocks import PARTS
 from ...physics.equations import derive
+from ...physics.scene import PARTS
 from ...show import style
 from ...show.terminal.letters import written
 from ...show.text import comparison

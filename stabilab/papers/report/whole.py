@@ -3,7 +3,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from ...physics.alignment import torque_axis
+from ...physics.scene import torque_axis
 from ...show.report import html, own, precision_page
 from ...show.report.workers import Task, done
 from ...show.terminal.letters import some

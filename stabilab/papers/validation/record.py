@@ -6,9 +6,8 @@ from fractions import Fraction
 from pathlib import Path
 
 from ...errors import InputError
-from ...physics.body import Body
 from ...physics.effects.constant_torque import ConstantTorque
-from ...physics.scene import Scene
+from ...physics.scene import Body, Scene
 
 FOLDER = Path(__file__).parent / "numbers"
 REPOSITORY = "https://github.com/"

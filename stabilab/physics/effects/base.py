@@ -45,7 +45,7 @@ class Effect(metaclass=Asked):
     works: ClassVar[bool] = True  # False promises that the effect does no work; the law test holds it to that
     small: ClassVar[bool] = False  # True: left out of the undisturbed motion along which a liquid is carried
     keeps_volume: ClassVar[bool] = True  # False: the flow may shrink volumes
-    needs: ClassVar[tuple[str, ...]] = ()  # the state blocks it cannot do without, of `stabilab.physics.blocks.ORDER`
+    needs: ClassVar[tuple[str, ...]] = ()  # the state blocks it cannot do without, of `stabilab.physics.scene.ORDER`
     approximate: ClassVar[bool] = False  # True: its law holds up to its `limits`; an exact law is never asked for any
 
     @classmethod

@@ -1,4 +1,6 @@
-"""The page and its answers on the loopback address, by the standard library alone.
+"""The explorer as a local server.
+
+The page and its answers on the loopback address, by the standard library alone.
 
 Who may ask: a page that knows the random token in the address, from this machine, under the address that was printed. A name that some other server lets
 point here is refused by the header Host, a page of another origin by the header Origin.
@@ -17,9 +19,16 @@ from typing import Any
 
 from ...case.read import Case
 from ...errors import InputError
-from .certificates import checked
-from .page import page
-from .session import Session, Stopped
+from ..report.html import render
+from .session import Session, Stopped, checked
+
+WAITING = "The first answer is on its way ..."
+
+
+def page(about: dict[str, Any], backend: str, how: str, policy: str = "", **more: Any) -> str:
+    """The HTML. about: of `Session.about`; backend: the template that defines how a question is asked; how: words on it; policy: what the page may load."""
+    return render("explore.html", setup=about | more, backend=backend, how=how, policy=policy, waiting=WAITING)
+
 
 HOST = "127.0.0.1"
 LONGEST = 1 << 23  # bytes of a question: a certificate has at most half

@@ -1,4 +1,6 @@
-"""What a page asks of a case and what it is answered: the verdict of the changed case, and everything that the page draws.
+"""One explorer session: a case, a change, and what the page shows then.
+
+What a page asks of a case and what it is answered: the verdict of the changed case, and everything that the page draws.
 
 An answer for a moving hand is brief (no search for the nearest point of the separatrix, no run of a motion off the axes, a coarser surface); one for a
 resting hand is whole. All of it does without NumPy (then the surfaces are coarser, and no motion is followed off the axes), so that it also runs in a browser.
@@ -8,6 +10,7 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Callable, Sequence
+from itertools import groupby
 from typing import Any
 
 from ...answers.equilibria import equilibria
@@ -21,18 +24,59 @@ from ...orbit.separatrix.plain_sheets import REACH, PlainSheet, plain_separatrix
 from ...packages import explained, present
 from ...physics.coefficients import content, gyrostat_scene
 from ...physics.effects import effect_class
-from ...physics.quadratic import QuadraticForm
-from ...physics.scene import AnyScene, ScaledGyrostat, Scene
+from ...physics.scene import AnyScene, QuadraticForm, ScaledGyrostat, Scene
+from ...verify import verify
+from ...verify.form import about, parsed
+from ...verify.form import line as about_line
+from ...verify.numbers import Malformed
 from .. import limiting
 from ..terminal.letters import greek, lettered, written
+from ..terminal.motion import margins
 from ..text import frame, law
 from ..text.headline import headline
-from ..units import Units, units_of
-from . import controls, other, planes, space, tables
-from .bag import Bag
-from .changed import changed
-from .line import line
-from .toml import data_of
+from ..units import Units, but_for_rounding, units_of
+from . import orbits as other
+from . import parameters as controls
+from . import pictures as planes
+from . import pictures as space
+from . import session as tables
+from .orbits import line
+from .parameters import changed, data_of
+from .pictures import Bag
+
+# --- The tables beside the pictures: what is known of the motion, and the equilibria
+MOST = 12  # rows of equilibria
+
+
+def rows(case: Case, motion: Motion, units: Units) -> list[list[str]]:
+    """[words, value] of what is known of the motion."""
+    found = [["start", units.vector(motion.at[:3], units.rates)],
+             *([name, greek(words)] for name, words in margins(motion, units))]
+    if motion.extremes is not None and not any(map(math.isnan, sum(map(list, motion.extremes), []))):
+        for component, pair in zip(case.scene.components, but_for_rounding(motion.extremes, motion.tolerance)):
+            found.append([component.replace("omega", "ω"), _range(*pair, units)])
+    return [*found, ["why", lettered(units.words(motion.because))]]
+
+
+def _range(low: float, high: float, units: Units) -> str:
+    """Least and greatest rate."""
+    least, greatest = (units.told(value, units.rates) for value in (low, high))
+    if math.isinf(low) or math.isinf(high):
+        return "without end both ways" if low == -high else f"from {least} up, without end" if math.isinf(high) else f"from {greatest} down, without end"
+    return f"{least} to {greatest}"
+
+
+def equilibrium_rows(found: Equilibria, units: Units) -> dict[str, Any]:
+    """{reason, rows of (where, verdict)}: of a curve a state on each of its pieces, as `classify` tells them."""
+    told = [[units.vector(point.at[:3], units.rates), point.verdict] for point in found.points]
+    for curve in found.curves:
+        for verdict, samples in groupby(curve.samples, lambda sample: sample.verdict):
+            slowest = min(samples, key=lambda sample: max(map(abs, sample.at[:3])))
+            where = f"{units.axes.sentence(curve.name)}, such as {units.vector(slowest.at[:3], units.rates)}"
+            told.append([lettered(where), verdict])
+    more = len(told) - MOST
+    return {"reason": lettered(units.words(found.reason)), "rows": told[:MOST] + ([[f"and {more} more", ""]] if more > 0 else [])}
+
 
 PLAIN = {True: (18, 17), False: (40, 33)}  # rows of a sheet, and columns of half of it: while the hand moves, and when it rests
 GRADED = (48, 97)
@@ -105,9 +149,9 @@ class Session:
                 "note": " ".join(filter(None, (note, self._swept, _law(found, self.units),
                                                    *limiting.beside(case.caveats, self.units)))),
                 "toml": case.text, "rows": self._axes + ([] if found is None else tables.rows(case, found, self.units)), "space": picture,
-                "plane": None if twin is None else planes.drawn(bag, twin, case.state, self.units),
+                "plane": None if twin is None else planes.drawn_planes(bag, twin, case.state, self.units),
                 "time": planes.over_time(bag, case, found, times, path, self.units)}
-        made["equilibria"] = tables.equilibria(at_rest, self.units) if at_rest else other.NOT_YET
+        made["equilibria"] = tables.equilibrium_rows(at_rest, self.units) if at_rest else other.NOT_YET
         return made | {"analysis": 1e3 * (settled - began), "work": 1e3 * (time.process_time() - began)}
 
     def _motion(self, case: Case, moving: bool, stopped) -> tuple[Motion | None, str]:
@@ -161,7 +205,7 @@ class Session:
         names = [planes.labelled(component.replace("omega", "ω"), self.units.rates[0]) for component in case.scene.components]
         number = POINTS[moving]
         rests = self._once("lines", (case.scene, box, number, at_rest is None), lambda: space.lines(at_rest, box, *number))
-        made = space.drawn(bag, box, names, self.units.rates[1], shown, rests, near, marks, ghost)
+        made = space.drawn_space(bag, box, names, self.units.rates[1], shown, rests, near, marks, ghost)
         return made | {"words": words, "box": {"middle": box.middle, "half": box.half}}
 
     def _sheets(self, scene: AnyScene, box: space.Box, moving: bool) -> tuple[Sequence[PlainSheet], str]:
@@ -229,3 +273,16 @@ def _without_tilt(scene: AnyScene) -> tuple[AnyScene, bool]:
         return ScaledGyrostat(*scene.exact_ab, tuple(v if n == main else 0 for n, v in enumerate(scene.exact_mu))), True
     others = [effect for effect in scene.effects if effect.name != "constant_torque"]
     return Scene(scene.body, *others, effect_class("constant_torque")(kept)), True
+
+
+def checked(asked: dict[str, Any]) -> bytes:
+    """The findings on asked["text"], as a framed message: status, about and a row a claim; "error" where it is no certificate."""
+    text = asked.get("text")
+    try:
+        claims = parsed(text.encode() if isinstance(text, str) else b"")
+        found = verify(claims)
+    except (Malformed, UnicodeError) as error:
+        return Bag().framed({"error": f"This is no certificate of stabilab classify --certify: {error}"})
+    silent = f"; nothing is claimed of: {', '.join(found.silent)}" if found.silent else ""
+    return Bag().framed({"status": found.status, "about": about_line(about(claims)) + silent,
+                         "findings": [{"claim": one.claim, "status": one.status, "reason": one.reason} for one in found.findings]})

@@ -17,8 +17,8 @@ from ...files import whole_file
 from ...version import __version__
 from ..files import endings
 from ..report.html import TEMPLATES
-from . import other
-from .page import page
+from . import orbits as other
+from .serve import page
 from .session import Session
 
 PYODIDE, FLINT = "314.0.7", "0.9.0"  # what the tests load

@@ -19,7 +19,7 @@ from ...version import __version__
 from ..axes import axes_of
 from ..files import endings
 from ..limiting import cell
-from .labels import SAMPLE, dimensions, limiting, meanings, names, unit
+from .shades import SAMPLE, dimensions, limiting, meanings, names, unit
 
 if TYPE_CHECKING:
     import xarray

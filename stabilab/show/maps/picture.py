@@ -1,14 +1,17 @@
-"""A sweep's file as a picture: curves along one axis, a map along two, small maps side by side along more."""
+"""Pictures of sweeps: lines over one number, fields over two, clouds of samples."""
 from __future__ import annotations
 
+import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ...errors import InputError, printable
-from ...maps.columns import columns_of
+from ...maps.columns import ENDLESS, NONE, OPEN, columns_of
 from ...maps.plan import Plan, from_json
+from ...maps.run import changes, known_exactly
+from ...orbit.result import Fate
 from ...packages import demand
 from .. import style
 from ..files import endings
@@ -17,14 +20,367 @@ from ..plot.to_file import check_size
 from ..terminal.letters import written
 from ..units import Units, units_of
 from .basins import dataset as basin_data
-from .curves import curves
-from .field import fields, values_of
-from .labels import SAMPLE, dimensions
-from .spread import spread
+from .shades import FATES, FLAGS, SAMPLE, dimensions, flag_legend, label, light, looks, own_value, scale_axes, short_label, spoken_key
 
 if TYPE_CHECKING:
     import xarray
 
+
+# --- A sweep along one axis: a curve for every number, the fate (or how it is known) as the colour behind
+# it
+TOGETHER = (("margin",), ("distance",), ("least", "greatest"), ("period",), ("when_low", "when_high"), ("equilibria", "stable", "unstable", "open"))
+
+
+def curves(data: Any, plan: Any, kind: str, along: str, size: Any, plt: Any) -> Any:
+    """The figure: a panel for each question; of a column other than the fate, the panel that it is in alone."""
+    panels = [[name for name in names if name in data] for names in TOGETHER if kind in (*FLAGS, *names)]
+    panels = [names for names in panels if names and np.isfinite(np.asarray(data[names[0]], float)).any()] or [[]]
+    figure, axes = plt.subplots(len(panels), 1, sharex=True, squeeze=False, layout="constrained", figsize=size or (8, 1.4 + 2.2 * len(panels)))
+    x, behind = np.asarray(data[along]), kind if kind in FLAGS else "fate"
+    order = np.argsort(x)
+    for ax, names in zip(axes[:, 0], panels):
+        if behind in data:
+            _bands(ax, x[order], np.asarray(data[behind])[order], looks(data, behind))
+        _lines(ax, data, x, order, names)
+        ax.set_xlim(x.min(), x.max())
+        scale_axes(ax, x)
+    axes[-1, 0].set_xlabel(label(data, along))
+    axes[0, 0].set_title(style.literal(data.attrs.get("title", "")), loc="left", wrap=True)
+    own = own_value(plan, next(n for n, axis in enumerate(plan.axes) if axis.key.name == data[along].attrs["long_name"]))
+    if own is not None and x.min() <= own <= x.max():
+        for ax in axes[:, 0]:
+            ax.axvline(own, color=style.BLACK, linewidth=0.8, linestyle=":", label="the case itself")
+    _legend(figure, flag_legend(data, behind) if behind in data else [], axes[:, 0])
+    return figure
+
+
+def _bands(ax, x, flags, look):
+    """Areas of one flag, each from half way before its first point to half way after its last."""
+    edges = np.concatenate([[x[0]], 0.5 * (x[1:] + x[:-1]), [x[-1]]])
+    cuts = [0, *(np.flatnonzero(np.diff(flags)) + 1), len(flags)]
+    for first, last in zip(cuts, cuts[1:]):
+        ax.axvspan(edges[first], edges[last], facecolor=light(look[int(flags[first])][1], 0.22), linewidth=0, zorder=0)
+
+
+def _lines(ax, data, x, order, names):
+    for n, name in enumerate(names):
+        values = np.asarray(data[name], float)[order]
+        values = np.where(np.isfinite(values), values, np.nan)
+        if name != "margin":
+            values = _broken(data, order, values)
+        if name in ("equilibria", "stable", "unstable", "open"):
+            ax.step(x[order], np.where(values < 0, np.nan, values), where="mid", color=style.SERIES[n], linestyle=("-", "--", ":", "-.")[n], label=name)
+            ax.yaxis.get_major_locator().set_params(integer=True)
+        elif values.ndim == 1:
+            ax.plot(x[order], values, color=style.SERIES[n], linestyle=(0, (6, 6)) if n else "-", label=short_label(data, name))  # two may be one line
+        else:
+            for i, axis in enumerate(data["axis"].attrs.get("names", "axis 1; axis 2; axis 3").split("; ")):
+                ax.plot(x[order], values[:, i], color=style.SERIES[i], linestyle="--" if n else "-", label=f"{name}, {axis}")
+    if names:
+        of = data[names[0]].attrs.get("units", "1")
+        told = {"least": "extremes", "when_low": "time to the limit", "equilibria": "number"}.get(names[0], names[0])
+        ax.set_ylabel(told if of == "1" else f"{told} ({of})")
+    else:
+        ax.set_yticks([])
+
+
+def _broken(data, order, values):
+    """The values with a gap where the fate changes: what lies on both sides is no one curve."""
+    if "fate" not in data:
+        return values
+    at = np.flatnonzero(np.diff(np.asarray(data["fate"])[order]))
+    ends = np.array(values)
+    ends[at[np.isfinite(values.reshape(len(values), -1)[at]).all(axis=1)]] = np.nan
+    return ends
+
+
+def _legend(figure, rows, axes):
+    for ax in axes:
+        handles, words = ax.get_legend_handles_labels()
+        if len(words) > 1 + ("the case itself" in words):
+            kept = [(h, w) for h, w in zip(handles, words) if w != "the case itself"]
+            ax.legend(*zip(*kept), loc="center left", bbox_to_anchor=(1.0, 0.5))  # beside the panel, whose curves it would cover
+        rows += [(h, w) for h, w in zip(handles, words) if w == "the case itself" and w not in [w for _, w in rows]]
+    if rows:
+        figure.legend(*zip(*rows), loc="outside lower center", ncols=min(5, len(rows)))
+
+
+# --- A sweep along two axes: a map of the fate with the boundary and lines of equal margin, or of any
+# number; several side by side
+COUNTS = ("equilibria", "stable", "unstable", "open")
+ENDS = {"period": "never repeats", "least": "unbounded", "greatest": "unbounded", "when_low": "never", "when_high": "never"}  # what an infinite value means
+WITHOUT = {ENDLESS: "curves", OPEN: "open", NONE: "no case"}
+
+
+def fields(data: Any, plan: Any, kind: str, moving: list[str], panels: list[dict[str, int]], size: Any, plt: Any) -> Any:
+    """The figure: a map for each panel, the first two of `moving` across and up."""
+    across = min(4, math.isqrt(len(panels) - 1) + 1)
+    down = -(-len(panels) // across)
+    figure, axes = plt.subplots(down, across, squeeze=False, sharex=True, sharey=True, layout="constrained",
+                                figsize=size or ((7.2, 6.0) if len(panels) == 1 else (3.0 * across + 0.8, 2.8 * down + 1.2)))
+    rows: dict[str, Any] = {}
+    shown = None
+    limits = _limits(data, kind)
+    for ax, place in zip(axes.flat, panels):
+        here = data.isel(place)
+        shown = _map(ax, here, data, kind, moving, limits)
+        if kind == "fate":
+            rows |= _boundary(ax, here, plan, moving, _index(data, plan, place))
+            if "margin" in here and len(panels) == 1:
+                rows |= _levels(ax, here, moving)
+        scale_axes(ax, np.asarray(here[moving[0]]), np.asarray(here[moving[1]]))
+        rows |= _own(ax, here, plan, moving) if not place else {}
+        if place:
+            ax.set_title(",\n".join(f"{spoken_key(data, name)} = {float(data[name][n]):.4g} {_unit(data, name)}".strip() for name, n in place.items()))
+    for ax in axes.flat[len(panels):]:
+        ax.set_visible(False)
+    for ax in (axes.flat[n] for n in range(len(panels)) if n + across >= len(panels)):
+        ax.set_xlabel(label(data, moving[0]))
+        ax.xaxis.set_tick_params(labelbottom=True)
+    for ax in axes[:, 0]:
+        ax.set_ylabel(label(data, moving[1]))
+    figure.suptitle(style.literal(str(data.attrs.get("title", ""))) + _of_all(data, panels), fontsize=10.5, wrap=True)
+    if kind not in FLAGS:
+        rows |= _blank(data, kind)
+        of_axes = f", {'least' if kind == 'least' else 'greatest'} of the three axes" if "axis" in data[kind].dims else ""
+        bar = figure.colorbar(shown, ax=axes, label=label(data, kind) + of_axes)
+        if kind in COUNTS:
+            numbers = [n for n in range(int(limits[0]), int(limits[1]) + 1) if n >= 0 or (np.asarray(data[kind]) == n).any()]
+            bar.set_ticks(numbers, labels=[WITHOUT.get(n, str(n)) for n in numbers])
+            bar.ax.tick_params(length=0)
+    handles = [*(flag_legend(data, kind) if kind in FLAGS else []), *((h, w) for w, h in rows.items())]
+    if handles:
+        figure.legend(*zip(*handles), loc="outside lower center", ncols=min(4, len(handles)))
+    return figure
+
+
+def _unit(data, name) -> str:
+    unit = data[name].attrs.get("units", "1")
+    return "" if unit == "1" else unit
+
+
+def _of_all(data, panels) -> str:
+    """What share of the maps is shown, where not all are."""
+    number = math.prod(data.sizes[name] for name in panels[0])
+    return f" ({len(panels)} of {number} maps)" if len(panels) < number else ""
+
+
+def _index(data, plan, place) -> tuple[int, ...]:
+    """The place along every dimension of the sweep; 0 where the map varies."""
+    by_key = {data[name].attrs["long_name"]: n for name, n in place.items()}
+    return tuple(by_key.get(axis.key.name, 0) for axis in plan.axes)
+
+
+def values_of(data, kind) -> np.ndarray:
+    """A number for each point: of three axes the least of what is least, the greatest of what is greatest."""
+    array = data[kind]
+    if "axis" in array.dims:
+        array = array.min("axis") if kind == "least" else array.max("axis")
+    return np.asarray(array)
+
+
+def _blank(data, kind) -> dict[str, Any]:
+    """What the cells mean that are left white."""
+    from matplotlib.patches import Patch
+    values = values_of(data, kind)
+    told = [words for words, there in ((ENDS.get(kind, "without end"), np.isinf(values)), ("not known", np.isnan(values))) if there.any()]
+    return {f"white: {' or '.join(told)}": Patch(facecolor="white", edgecolor=style.GREY)} if told else {}
+
+
+def _own(ax, data, plan, moving) -> dict[str, Any]:
+    """The case's own place on the map, where it is on it."""
+    from matplotlib.lines import Line2D
+    keys = [axis.key.name for axis in plan.axes]
+    at = [own_value(plan, keys.index(data[name].attrs["long_name"])) for name in moving[:2]]
+    ends = [(float(data[name].min()), float(data[name].max())) for name in moving[:2]]
+    if any(value is None or not low <= value <= high for value, (low, high) in zip(at, ends)):
+        return {}
+    look: dict[str, Any] = style.MARKER["start"] | {"markeredgecolor": "white"}
+    ax.plot(*[[value] for value in at], **look)
+    return {"the case itself": Line2D([], [], **look)}
+
+
+def _limits(data, kind) -> tuple[float, float]:
+    values = np.asarray(values_of(data, kind), float)
+    values = values[np.isfinite(values)]
+    return (float(values.min()), float(values.max())) if values.size else (0.0, 1.0)
+
+
+def _map(ax, data, whole, kind, moving, limits) -> Any:
+    from matplotlib.colors import BoundaryNorm, ListedColormap
+    x, y = (np.asarray(data[name]) for name in moving[:2])
+    dims = [d for d in data[kind].dims if d != "axis"]
+    values = values_of(data, kind) if dims == moving[:2] else values_of(data, kind).T
+    options: dict[str, Any] = {"shading": "nearest", "rasterized": True}
+    if kind in FLAGS:
+        look = looks(whole, kind)
+        options |= {"cmap": ListedColormap([light(colour) for _, colour in look.values()]), "vmin": -0.5, "vmax": len(look) - 0.5}
+        values = np.searchsorted(list(look), values)
+    elif kind in COUNTS:
+        levels = np.arange(limits[0], limits[1] + 2) - 0.5
+        colours = ListedColormap([light(colour, 0.6) for colour in (style.GREY, *style.SHEETS)][:max(2, len(levels) - 1)])
+        options |= {"cmap": colours, "norm": BoundaryNorm(levels if len(levels) > 2 else [*levels, levels[-1] + 1], colours.N)}
+    else:
+        options |= {"cmap": "cividis", "vmin": limits[0], "vmax": limits[1]}
+        values = np.where(np.isfinite(values), values, np.nan)
+    ax.grid(False)
+    return ax.pcolormesh(x, y, values.T, **options)
+
+
+def _levels(ax, data, moving) -> dict[str, Any]:
+    """Lines of equal margin within what stays bounded, at round numbers."""
+    from matplotlib.ticker import MaxNLocator
+    x, y = (np.asarray(data[name]) for name in moving[:2])
+    margin = np.where((np.asarray(data["fate"]) == Fate.BOUNDED) & np.isfinite(np.asarray(data["margin"])), np.asarray(data["margin"]), np.nan)
+    if np.isfinite(margin).sum() < 9 or min(margin.shape) < 5 or not np.nanmax(margin) > 0:
+        return {}
+    round_ones = MaxNLocator(6, steps=(1, 2, 2.5, 5, 10)).tick_values(0, np.nanmax(margin))
+    drawn = ax.contour(x, y, margin.T, levels=[level for level in round_ones if 0 < level < np.nanmax(margin)], colors=style.GREY, linewidths=0.6)
+    if not any(len(line) for level in drawn.allsegs for line in level):  # finite margins here and there make no line
+        return {}
+    ax.clabel(drawn, fontsize=7, fmt="%.3g")
+    unit = _unit(data, "margin")
+    return {f"equal margin{f' ({unit})' if unit else ''}": _line("level", 0.6)}
+
+
+def _line(meaning: str, width: float) -> Any:
+    """A line of a legend."""
+    from matplotlib.lines import Line2D
+    look: dict[str, Any] = style.MEANING[meaning] | {"linewidth": width}
+    return Line2D([], [], **look)
+
+
+def _boundary(ax, data, plan, moving, index) -> dict[str, Any]:
+    from matplotlib.collections import LineCollection
+    dims = [next(n for n, axis in enumerate(plan.axes) if axis.key.name == data[name].attrs["long_name"]) for name in moving[:2]]
+    exact = known_exactly(plan, *dims)
+    fates = np.asarray(data["fate"].transpose(*moving[:2]))
+    margin = np.asarray(data["margin"].transpose(*moving[:2])) if "margin" in data else None
+    if not exact and margin is None:
+        return {}
+    way = (lambda at, along: _exact(plan, index, dims, at, along, fates)) if exact else (lambda at, along: _zero(margin, at, along))
+    x, y = (np.asarray(data[name]) for name in moving[:2])
+    segments = segments_of(fates, x, y, way)
+    ax.add_collection(LineCollection(list(segments), color=style.BLACK, linewidth=1.4))
+    words = "separatrix (exact)" if exact else "margin zero"
+    return {words: _line("separatrix", 1.4)} if len(segments) else {}
+
+
+def _exact(plan, index, dims, at, along, fates):
+    rows = np.tile(np.array(index), (len(at), 1))
+    rows[:, dims[0]], rows[:, dims[1]] = at[:, 0], at[:, 1]
+    return changes(plan, index, dims[along], rows, fates[at[:, 0], at[:, 1]] == Fate.SPIN_UP)
+
+
+def _zero(margin, at, along):
+    """Where the straight line between two margins is zero; half way where one of them is not finite."""
+    here, there = margin[at[:, 0], at[:, 1]], margin[at[:, 0] + (along == 0), at[:, 1] + (along == 1)]
+    with np.errstate(invalid="ignore", divide="ignore"):
+        share = here / (here - there)
+    return np.where(np.isfinite(share) & (share >= 0) & (share <= 1), share, 0.5)
+
+
+def segments_of(fates: np.ndarray, x: np.ndarray, y: np.ndarray, way: Any) -> np.ndarray:
+    """(n, 2, 2): pieces of the line between what spins up and what does not, one or two in each cell of the map that it crosses. way(at, along): the
+    share of the way from points (n, 2) to their neighbours along an axis at which the fate changes."""
+    spun, known = fates == Fate.SPIN_UP, fates < Fate.UNDECIDED
+    crossing = []
+    for along, values in enumerate((x, y)):
+        low, high = (slice(None, -1), slice(None)), (slice(1, None), slice(None))
+        low, high = (low, high) if along == 0 else (low[::-1], high[::-1])
+        differs = (spun[low] != spun[high]) & known[low] & known[high]
+        at = np.argwhere(differs)
+        points = np.full((*differs.shape, 2), np.nan)
+        if len(at):
+            share, place = way(at, along), at[:, along]
+            moved = values[place] + (values[place + 1] - values[place]) * share
+            other = (y[at[:, 1]], x[at[:, 0]])[along]
+            points[at[:, 0], at[:, 1]] = np.stack([moved, other] if along == 0 else [other, moved], axis=1)
+        crossing.append(points)
+    level, upright = crossing  # between neighbours along x, along y
+    sides = np.stack([level[:, :-1], upright[1:], level[:, 1:], upright[:-1]], axis=2)  # below, right, above, left of each cell
+    met = np.isfinite(sides[..., 0])
+    pairs = [sides[cell][met[cell]].reshape(-1, 2, 2) for cell in map(tuple, np.argwhere(met.sum(-1) >= 2)) if met[cell].sum() in (2, 4)]
+    return np.concatenate(pairs) if pairs else np.empty((0, 2, 2))
+
+
+# --- A sweep over random samples: how the numbers spread, or, beside other axes, what share of the samples
+# spins up
+BINS = 60
+
+
+def spread(data: Any, plan: Any, kind: str, moving: list[str], size: Any, plt: Any) -> Any:
+    """The figure: histograms of samples alone, shares of fates along one axis, the share that spins up along two."""
+    if not moving:
+        return _histograms(data, plan, kind, size, plt)
+    if "fate" not in data:
+        raise InputError("plot: shares of samples need the fate: ask for it with --answer fate")
+    return (_shares if len(moving) == 1 else _share_map)(data, moving, size, plt)
+
+
+def _histograms(data, plan, kind, size, plt):
+    names = [name for name in ("margin", "distance", "period", "when_low") if name in data and np.isfinite(data[name]).any()]
+    names = [kind] if kind in names else names
+    if not names:
+        raise InputError("plot: these samples have no finite number to draw: ask for --answer margin, distance, period or when")
+    figure, axes = plt.subplots(len(names), 1, squeeze=False, layout="constrained", figsize=size or (8, 1.2 + 2.6 * len(names)))
+    for ax, name in zip(axes[:, 0], names):
+        values = np.asarray(data[name])
+        finite = np.isfinite(values)
+        edges = np.histogram_bin_edges(values[finite], BINS)
+        for fate, (words, colour) in FATES.items():
+            of = finite & (np.asarray(data["fate"]) == fate) if "fate" in data else finite
+            if of.any():
+                told = f"{words}: {of.sum():,}" if "fate" in data else None
+                ax.hist(values[of], edges, facecolor=light(colour), edgecolor=colour, linewidth=0.6, label=told)
+            if "fate" not in data:
+                break
+        ax.set_xlabel(short_label(data, name))
+        ax.set_ylabel("samples")
+        if "fate" in data:
+            ax.legend(loc="best")
+    axes[0, 0].set_title(f"{style.literal(data.attrs.get('title', ''))}: {data.sizes[SAMPLE]:,} samples", loc="left", wrap=True)
+    return figure
+
+
+def _shares(data, moving, size, plt):
+    figure, ax = plt.subplots(layout="constrained", figsize=size or (8, 4.5))
+    x, fates = np.asarray(data[moving[0]]), np.asarray(data["fate"].transpose(moving[0], SAMPLE))
+    base = np.zeros(len(x))
+    for fate, (words, colour) in FATES.items():
+        share = 100 * (fates == fate).mean(axis=1)
+        if share.any():
+            ax.fill_between(x, base, base + share, facecolor=light(colour), edgecolor=colour, linewidth=0.6, label=words)
+            base = base + share
+    ax.set_xlim(x.min(), x.max())
+    ax.set_ylim(0, 100)
+    scale_axes(ax, x)
+    ax.set_xlabel(label(data, moving[0]))
+    ax.set_ylabel(f"share of {data.sizes[SAMPLE]:,} samples (%)")
+    ax.set_title(style.literal(data.attrs.get("title", "")), loc="left", wrap=True)
+    figure.legend(loc="outside lower center", ncols=4)
+    return figure
+
+
+def _share_map(data, moving, size, plt):
+    if len(moving) > 2:
+        raise InputError("plot: samples beside three axes have no picture; choose a place along one in Python: xarray.open_dataset(...).isel(...)")
+    figure, ax = plt.subplots(layout="constrained", figsize=size or (7.2, 6.0))
+    x, y = (np.asarray(data[name]) for name in moving)
+    share = 100 * (np.asarray(data["fate"].transpose(*moving, SAMPLE)) == Fate.SPIN_UP).mean(axis=-1)
+    drawn = ax.pcolormesh(x, y, share.T, shading="nearest", cmap="cividis", vmin=0, vmax=100, rasterized=True)
+    ax.grid(False)
+    ax.contour(x, y, share.T, levels=[5, 50, 95], colors=style.BLACK, linewidths=(0.6, 1.2, 0.6)) if min(share.shape) > 1 else None
+    figure.colorbar(drawn, label=f"share of {data.sizes[SAMPLE]:,} samples that spins up (%); lines at 5, 50 and 95 %")
+    scale_axes(ax, x, y)
+    ax.set_xlabel(label(data, moving[0]))
+    ax.set_ylabel(label(data, moving[1]))
+    ax.set_title(style.literal(data.attrs.get("title", "")), loc="left", wrap=True)
+    return figure
+
+
+# --- A sweep's file as a picture: curves along one axis, a map along two, small maps side by side along
+# more
 PANELS = 12  # small maps of a picture
 NUMBERS = ("margin", "distance", "least", "greatest", "period", "when_low", "when_high", "equilibria", "stable", "unstable", "open", "megno", "lyapunov")
 

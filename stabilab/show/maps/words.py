@@ -20,8 +20,8 @@ from ..terminal.letters import greek
 from ..text import law
 from ..text.answers import Endless, as_json
 from ..units import Unit, units_of
-from .labels import SAMPLE, said, unit
-from .labels import limiting as caveats_of
+from .shades import SAMPLE, said, unit
+from .shades import limiting as caveats_of
 
 SCHEMA = "stabilab.sweep/1"
 ROWS = 40  # points of a table

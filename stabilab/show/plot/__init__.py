@@ -1,14 +1,14 @@
 """Plots of a case or a scene: each takes Matplotlib axes and returns them; `write` makes a file."""
 from .basins import basin as basin
-from .cost import budget as budget
-from .in_rates.all_equilibria import equilibria as equilibria
-from .in_rates.momentum_surface import sphere as sphere
-from .in_rates.rate_space import space as space
+from .equilibria import equilibria as equilibria
+from .in_space import space as space
+from .over_time import state as state
 from .over_time import time as time
+from .path import budget as budget
 from .phase_plane import phase as phase
-from .plane_section import section as section
+from .phase_plane import section as section
+from .surfaces import sphere as sphere
 from .to_file import write as write
-from .turning.animation import attitude as attitude
-from .whole_state import state as state
+from .turning import attitude as attitude
 
 __all__ = ["attitude", "basin", "budget", "equilibria", "phase", "section", "space", "sphere", "state", "time", "write"]

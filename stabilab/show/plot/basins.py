@@ -12,9 +12,8 @@ from ...packages import demand
 from .. import style
 from ..files import endings
 from ..maps.basins.words import basin_name, cells_of
-from ..maps.labels import dimensions, drawn, said
-from ..maps.shades import light, own_value
-from . import canvas
+from ..maps.shades import dimensions, drawn, light, own_value, said
+from . import subject as canvas
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

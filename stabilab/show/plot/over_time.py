@@ -1,4 +1,4 @@
-"""The rates of a motion over time: components and size, with limits, extremes and period marked."""
+"""Rates and whole states over time."""
 from __future__ import annotations
 
 import math
@@ -9,17 +9,20 @@ import numpy as np
 
 from ...answers.time_to import time_of_case
 from ...case.limit_options import stated_limit
+from ...theories.comparison import side_by_side
 from .. import style
-from ..text import law
+from ..text import comparison, law
 from ..text.headline import headline
-from . import canvas, which
-from .measures import measures
-from .path import SOLID, band, path, turning
-from .subject import DEFAULT_SPAN, Subject, subject
+from . import subject as canvas
+from . import subject as which
+from .path import SEEN, SOLID, band, path, turning
+from .subject import DEFAULT_SPAN, Subject, measures, subject
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+
+# --- The rates of a motion over time: components and size, with limits, extremes and period marked
 COMPONENTS = ({"color": style.BLUE, "linewidth": 1.3}, {"color": style.ORANGE, "linewidth": 1.3}, {"color": style.GREEN, "linewidth": 1.3})
 SIZE_LOOK = {"color": style.BLACK, "linewidth": 2.2}
 EXTREME = {"linestyle": (0, (1, 2)), "linewidth": 1.1}
@@ -187,3 +190,37 @@ def _limits(ax, one, reached, t, omega, time_unit, rate_unit):
     at = np.linalg.norm(values) if rate is not None else values[np.argmax(np.abs(values) / np.array(rates))]
     ax.plot([when * per_time], [at * per_rate], zorder=5, **REACHED)
     return [*rows, (f"reached after {when * per_time:.4g} {second}", REACHED)]
+
+
+# --- Every part of a longer state over time, the analytic models beside the exact motion
+POINTS = 801
+CROWDED = 24  # turns of a rate: more of them are shown over the first so many, unless a span is asked for
+
+
+def state(case: Any, start: Any = None, span: Any = None, size: tuple[float, float] | None = None, units: str | None = None) -> Any:
+    """Draw every part of the state over time, a row a part and a column a component, and return the figure: rates, direction of the vertical,
+    attitude, momentum, velocity, place, as far as the scene has them; the analytic models that apply are beside the exact motion. Of a case whose
+    rates turn very often over its span the first turns are shown. size: (width, height) in inches; None: as many as the rows need. units: "deg" or
+    "si", None for those of the case."""
+    import matplotlib
+    from matplotlib import pyplot as plt
+    one = subject(case, start, span)
+    which.check("state", one)
+    scale = measures(one, units)
+    begin, end = one.span or DEFAULT_SPAN
+    runs, _ = side_by_side(one, np.linspace(begin, end, POINTS))
+    if span is None and (turns := _turns(runs["exact"].state["omega"])) > CROWDED:
+        runs, _ = side_by_side(one, np.linspace(begin, begin + (end - begin) * CROWDED / turns, POINTS))
+    parts = [name for name in comparison.NAMES if name in runs["exact"].state]
+    law = runs["exact"].validity
+    with matplotlib.rc_context(style.RC | style.letters(size)):
+        figure = comparison.picture(plt, one, runs, parts, size, scale.system)
+        if law is not None and not law.held:
+            figure.suptitle(style.literal(f"{one.heading}\n{law.short}"), fontsize=10 * style.share(), wrap=True)
+    return figure
+
+
+def _turns(rates: Any) -> int:
+    """How often the rate turns that turns most; of one that all but stays the rounding is not counted."""
+    still = SEEN * np.abs(rates).max()
+    return max((turning(row) for row in np.asarray(rates).T if np.ptp(row) > still), default=0)

@@ -1,22 +1,33 @@
-"""What a plot is of: a scene, one motion of it where there is one, and what a case says besides."""
+"""What a picture is of: case or scene and state, which kinds of picture it has, their units, and the axes to draw on."""
 from __future__ import annotations
 
-from collections.abc import Mapping
+import math
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
 
+from ...answers.equilibria import equilibria
 from ...answers.motion import motion
 from ...asked import checked_scene, checked_span
 from ...case.read import Case
-from ...errors import InputError
-from ...orbit.result import Motion
+from ...errors import InputError, printable
+from ...orbit.far_states import far_exponent
+from ...orbit.reduction import reduce
+from ...orbit.result import Fate, Motion
+from ...packages import demand
 from ...physics.coefficients import effective
+from ...physics.effects.base import effect_words
 from ...physics.scene import AnyScene, Scene
 from ...physics.states import checked_states, start_of
+from ...unreduced.section import LEAST, crossed
+from .. import style
 from ..axes import PLAIN, Axes, axes_of
 from ..text import law
+from ..units import SYSTEMS, Units
 
+# --- What a plot is of: a scene, one motion of it where there is one, and what a case says besides
 DEFAULT_SPAN = (0.0, 15.0)  # in the scene's time, where nothing else says how far
 
 
@@ -92,14 +103,14 @@ def subject(given: Any, state: Any = None, span: Any = None) -> Subject:
         return given
     if isinstance(given, Case):
         own = Subject(given.scene, given.state, given.blocks, ends or given.span, given.heading, given)
-        return own if state is None else replace(own, case=None, **_state(given.scene, state))
+        return own if state is None else replace(own, case=None, **_blocks_of(given.scene, state))
     if not hasattr(given, "quadratic"):
         raise InputError(f"plot: expected a case (of stabilab.load) or a scene, got {given!r:.80}")
-    start = {"state": None, "blocks": {}} if state is None else _state(given, state)
+    start = {"state": None, "blocks": {}} if state is None else _blocks_of(given, state)
     return Subject(checked_scene(given), span=ends, **start)
 
 
-def _state(scene: AnyScene, state: Any) -> dict[str, Any]:
+def _blocks_of(scene: AnyScene, state: Any) -> dict[str, Any]:
     blocks = dict(state) if isinstance(state, Mapping) else {"omega": state}
     omega = blocks.pop("omega", blocks.pop("x", None))
     if omega is None:
@@ -110,3 +121,209 @@ def _state(scene: AnyScene, state: Any) -> dict[str, Any]:
     if isinstance(scene, Scene):
         start_of(scene, row.tolist(), blocks)  # says what is wrong with the rest
     return {"state": tuple(row.tolist()), "blocks": blocks}
+
+
+# --- Which kinds of plot a scene has, and why it has not the others
+# kind -> what it shows
+KINDS = {
+    "time": "the rates over time, with limits, extremes and period",
+    "phase": "the plane of the reduced motion: turn about the torque's axis and its rate",
+    "sphere": "the surface on which the motion stays, with the other motions on it",
+    "space": "the motion in the space of rates, beside the separatrix",
+    "section": "the Poincaré section: passages of a plane, with neighbours and the periodic motion in the middle of an island",
+    "equilibria": "all equilibria, stable and unstable",
+    "budget": "what accuracy costs in time",
+    "state": "every part of the state over time, the analytic models beside the exact motion",
+    "attitude": "the body as it turns, as an animation",
+}
+FAR = "rates, torque or wheel are so large or so small that their squares leave the range of doubles: choose other units"
+
+
+def why_not(kind: str, one: Subject) -> str:
+    """Why a subject has no plot of a kind; empty where it has one."""
+    if kind not in KINDS:
+        return f"there is no such kind; expected one of {', '.join(KINDS)}"
+    if kind == "equilibria":
+        return _equilibria(one)
+    if one.state is None:
+        return "it needs a motion: add [motion] with angular_velocity or x" if one.case is not None else "it needs a state: three rates at t = 0"
+    return _REASONS.get(kind, lambda one: "")(one)
+
+
+def check(kind: str, one: Subject) -> None:
+    """Raise InputError where a subject has no plot of a kind; it names those that there are."""
+    why = why_not(kind, one)
+    if not why:
+        return
+    if kind not in KINDS:
+        raise InputError(f"kind {printable(kind)!r:.60}: {why}")
+    raise InputError(f"plot {kind}: {why}; this one has {', '.join(offered(one))}")
+
+
+def offered(one: Subject) -> tuple[str, ...]:
+    """The kinds of plot that a subject has."""
+    return tuple(kind for kind in KINDS if not why_not(kind, one))
+
+
+def default(one: Subject) -> str:
+    """The kind that says most of a subject: its plane where it reduces, all parts of a longer state, else the rates over time."""
+    return next(kind for kind in ("phase", "state", "time", "equilibria") if not why_not(kind, one))
+
+
+def _equilibria(one: Subject) -> str:
+    found = equilibria(one.scene) if one.twin.plain else None  # there always are some with other effects, and they take longer
+    return f"there is none: {found.reason}" if found is not None and not found.points and not found.curves else ""
+
+
+def _far(one: Subject) -> str:
+    return FAR if one.twin.plain and far_exponent(one.twin, one.state) is not None else ""
+
+
+def _phase(one: Subject) -> str:
+    if not one.twin.plain:
+        return f"with {_beyond(one)} the motion does not reduce to one degree of freedom"
+    if reduce(one.twin) is None:
+        return "the motion does not reduce to one degree of freedom (torque off the principal axes, or a wheel along it)"
+    return _far(one)
+
+
+def _sphere(one: Subject) -> str:
+    if not one.twin.plain:
+        return f"with {_beyond(one)} no surface is known on which the motion stays"
+    if free(one) and one.physical:
+        return _far(one)
+    return "no surface is known on which the motion stays (torque off the principal axes, or a wheel along it)" if reduce(one.twin) is None else _far(one)
+
+
+def certain_from(one: Subject) -> float:
+    """The time (scene's time) from which on spin-up is certain; inf of a motion that is not known to spin up."""
+    found = one.motion
+    return float(found.evidence.get("t_certificate") or 0.0) if found.fate == Fate.SPIN_UP else math.inf
+
+
+def _section(one: Subject) -> str:
+    if not one.twin.plain:
+        return f"it is drawn of a body with a wheel and a torque alone, not with {_beyond(one)}"
+    if why := _far(one):
+        return why
+    if one.motion.fate == Fate.EQUILIBRIUM:
+        return "the motion is an equilibrium: it passes no plane"
+    until = certain_from(one)
+    if crossed(one.twin, one.state, until) is not None:
+        return ""
+    if math.isinf(until):
+        return f"the motion does not come back: it passes no plane {LEAST} times"
+    when = "from its start on" if not until else f"from {until:.4g} {one.scene.time_unit} on"
+    return f"spin-up about {one.axes.short(one.motion.axis)} is certain {when}, before the motion has passed any plane {LEAST} times"
+
+
+def _state(one: Subject) -> str:
+    return "no approximate theory comes with a wheel and a constant torque: the rates over time are the exact motion" if one.scene.plain else ""
+
+
+def _budget(one: Subject) -> str:
+    return "it needs a span: the time up to which the motion is followed" if one.span is None else ""
+
+
+def _attitude(one: Subject) -> str:
+    return "" if one.physical else "scaled variables have no body to turn: give the case in physical units"
+
+
+def free(one: Subject) -> bool:
+    """Whether no torque acts on the body of a scene of wheel and torque."""
+    return not any(one.twin.quadratic().m)
+
+
+def _beyond(one: Subject) -> str:
+    *others, last = (effect_words(effect.name) for effect in one.scene.effects
+                     if effect.name not in ("gyrostat", "constant_torque"))
+    return f"{', '.join(others)} and {last}" if others else last
+
+
+_REASONS = {"phase": _phase, "sphere": _sphere, "state": _state, "attitude": _attitude, "budget": _budget, "time": _far, "space": _far, "section": _section}
+
+
+# --- The units of the axes of a plot: name and factor of rates, times and angles, and the names of
+# components
+@dataclass(frozen=True)
+class Measures:
+    """rate, angle: (name, how many make one of the scene's); names: of the three components, in TeX; size: of |omega|, empty when scaled."""
+
+    rate: tuple[str, float]
+    angle: tuple[str, float]
+    names: tuple[str, ...]
+    size: str
+    system: Units | None
+
+    def time(self, longest: float) -> tuple[str, float]:
+        """(name, factor) of the times of a plot that goes so far."""
+        return (r"$\tau$", 1.0) if self.system is None else self.system.times(longest)
+
+    def plain(self, axis: int) -> str:
+        """The name of a component for text that is not typeset."""
+        return ("ω" if self.size else "x") + "₁₂₃"[axis]
+
+    def label(self, words: str, unit: str) -> str:
+        """A label of an axis with its unit, where it has one."""
+        return f"{words} ({unit})" if unit else words
+
+
+def measures(one: Subject, units: str | None = None) -> Measures:
+    """Those of a subject: units "deg" (deg/s, deg; seconds, minutes or hours) or "si" (rad/s, rad, s), None for those of the case, else "deg"; scaled
+    scenes have none."""
+    if units is not None and units not in SYSTEMS:
+        raise InputError(f"units: expected one of {', '.join(SYSTEMS)}, got {units!r:.40}")
+    if not one.physical:
+        return Measures(("", 1.0), ("", 1.0), ("$x_1$", "$x_2$", "$x_3$"), "", None)
+    found = SYSTEMS[units or (one.case is not None and one.case.units) or "deg"]
+    return Measures(found.rates, found.angles, (r"$\omega_1$", r"$\omega_2$", r"$\omega_3$"), r"$|\omega|$", found)
+
+
+# --- Where a plot goes: onto axes that the caller gives, or into a figure of its own in the style of the
+# house
+SIZE = (7.6, 4.8)  # inches
+SQUARE = (7.0, 6.4)
+
+
+@contextmanager
+def on(ax: Any, size: tuple[float, float] | None = None, space: bool = False) -> Iterator[Any]:
+    """The axes to draw on: `ax` itself, checked, or those of a new figure of so many inches. space: three-dimensional ones."""
+    demand(*style.PACKAGES)
+    if ax is not None:
+        yield _checked(ax, space)
+        return
+    import matplotlib
+    import matplotlib.pyplot as plt
+    with matplotlib.rc_context(style.RC | style.letters(size)):
+        figure = plt.figure(figsize=size or (SQUARE if space else SIZE), layout="constrained")
+        yield figure.add_subplot(projection="3d" if space else None)
+
+
+def _checked(ax: Any, space: bool) -> Any:
+    if not hasattr(ax, "plot") or not hasattr(ax, "figure"):
+        raise InputError(f"ax: expected Matplotlib axes, got {ax!r:.80}")
+    if space != (getattr(ax, "name", "") == "3d"):
+        wanted = 'three-dimensional axes: plt.subplots(subplot_kw={"projection": "3d"})' if space else "plane axes: plt.subplots()"
+        raise InputError(f"ax: expected {wanted}")
+    return ax
+
+
+def legend(ax: Any, rows: list[tuple[str, dict[str, Any]]], own: bool) -> None:
+    """What the looks mean, rows of (name, look): below a figure of its own, inside axes that were given."""
+    from matplotlib.lines import Line2D
+    from matplotlib.patches import Patch
+    if not rows:
+        return
+    handles = [Patch(**look) if "facecolor" in look else Line2D([], [], **look) for _, look in rows]
+    names = [name for name, _ in rows]
+    if not own:
+        ax.legend(handles, names, loc="best", fontsize="small")
+        return
+    ax.figure.legend(handles, names, loc="outside lower center", ncols=style.fitting(names, ax.figure.get_figwidth()))
+
+
+def title(ax: Any, *lines: str) -> None:
+    """The lines that are not empty, above the axes; the first is the title of the case."""
+    width = ax.get_position().width if len(ax.figure.axes) > 1 else 1.0  # beside others it has its own share alone
+    told = (style.clauses(line, ax.figure.get_figwidth() * width) for line in lines if line)
+    ax.set_title("\n".join(map(style.literal, told)), wrap=True)

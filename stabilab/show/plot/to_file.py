@@ -10,17 +10,15 @@ from ...errors import InputError
 from ...packages import demand
 from .. import style
 from ..files import endings
-from . import which
-from .cost import whole as budget
-from .in_rates.all_equilibria import equilibria
-from .in_rates.momentum_surface import sphere
-from .in_rates.rate_space import space
-from .over_time import time
-from .phase_plane import phase
-from .plane_section import section
+from . import subject as which
+from .equilibria import equilibria
+from .in_space import space
+from .over_time import state, time
+from .path import whole as budget
+from .phase_plane import phase, section
 from .subject import Subject, subject
-from .turning.animation import ENDINGS, film
-from .whole_state import state
+from .surfaces import sphere
+from .turning import ENDINGS, film
 
 LEAST, MOST, SHARP = 1.0, 60.0, 1200  # inches of a side, dots an inch
 PIXELS = 20_000  # of a side: what Matplotlib draws

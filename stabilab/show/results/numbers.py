@@ -12,7 +12,7 @@ import numpy as np
 
 from ...orbit.result import Fate
 from ...packages import demand
-from ...physics.blocks import PARTS
+from ...physics.scene import PARTS
 from ..terminal.letters import MINUS
 from .words import short
 

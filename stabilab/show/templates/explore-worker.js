@@ -21,7 +21,7 @@ async function started({pyodide: place, wheels, arrays, name, text}) {
 import json, sys
 sys.path.insert(0, "/stabilab")
 from stabilab.case.read import read_text
-from stabilab.show.explore.certificates import checked
+from stabilab.show.explore.session import checked
 from stabilab.show.explore.session import Session
 session = Session(read_text(case_name, case_text))
 ways = {"answer": session.answer, "verify": checked}

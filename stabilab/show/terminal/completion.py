@@ -40,7 +40,7 @@ sources = _among("nesc", "basilisk", "orekit", "42")
 
 def kinds(incomplete: str) -> list[str]:
     """Kinds of plots."""
-    from ..plot.which import KINDS
+    from ..plot.subject import KINDS
     return [kind for kind in KINDS if kind.startswith(incomplete)]
 
 

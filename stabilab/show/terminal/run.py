@@ -6,7 +6,7 @@ from decimal import ROUND_CEILING, Decimal, localcontext
 
 import numpy as np
 
-from ...physics.blocks import PARTS
+from ...physics.scene import PARTS
 from ..text import answers, frame
 from ..units import DIGITS, SHORT, Units
 from .letters import lettered, written

@@ -4,7 +4,7 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
-from ...physics.blocks import PARTS
+from ...physics.scene import PARTS
 from .. import limiting
 from ..axes import axes_of
 from ..files import comma

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ...physics.blocks import PARTS
+from ...physics.scene import PARTS
 from ...theories.theory import lines as told
 from .. import style
 from ..files import comma, endings

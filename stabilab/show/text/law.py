@@ -6,9 +6,9 @@ from dataclasses import replace
 
 from ... import caveat
 from ...answers.caveats import caveats_of, limited
-from ...case.attitude import vertical_of
+from ...case.read import vertical_of
 from ...errors import printable
-from ...physics.approximate import limits_of
+from ...physics.coefficients import limits_of
 from .. import limiting
 from ..axes import axes_of
 from ..terminal.letters import lettered

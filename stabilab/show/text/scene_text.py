@@ -5,8 +5,7 @@ import math
 from fractions import Fraction
 
 from ...physics.effects.base import effect_words
-from ...physics.equations import derive
-from ...physics.laws import invariants
+from ...physics.equations import derive, invariants
 from .. import limiting
 from ..axes import axes_of
 from ..terminal.letters import lettered, some, written

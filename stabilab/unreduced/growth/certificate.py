@@ -15,8 +15,7 @@ from fractions import Fraction
 import numpy as np
 
 from ...integrate import to_heyoka
-from ...integrate.stand_in import stand_in
-from ...integrate.trajectory import ATOL_SHARE, FALLBACK_RTOL
+from ...integrate.trajectory import ATOL_SHARE, FALLBACK_RTOL, stand_in
 from ...numbers.vectors import CYCLE, Float3
 from ...physics.equations import derive
 from ...physics.scene import ScaledGyrostat

@@ -16,7 +16,7 @@ from fractions import Fraction
 
 import numpy as np
 
-from ...integrate.extrema import roots_of_rates
+from ...integrate.events import roots_of_rates
 from ...numbers.balls import FIRST_BITS, Unclear, settled
 from ...numbers.vectors import CYCLE
 from ...orbit.extremes.balls import CERTAIN_BITS

@@ -31,11 +31,10 @@ from ...errors import InputError
 from ...numbers.vectors import CYCLE
 from ...orbit.far_states import in_range
 from ...orbit.fate.arrays import at_rest as mark_rest
-from ...orbit.fate.one_state import OneFate
-from ...orbit.fate.reasons import Reason
+from ...orbit.fate.one_state import OneFate, Reason
 from ...orbit.fate.result import FateResult, in_chunks, write_row
 from ...orbit.result import Fate, Motion, judged, pairs
-from ...physics.state import three_floats
+from ...physics.coefficients import three_floats
 from ...physics.states import three_numbers
 from ..evidence import growth as seen_growth
 from ..evidence import seen_over, span_needed

@@ -33,7 +33,7 @@ from types import ModuleType
 
 import numpy as np
 
-from ...integrate.motion_units import in_unit
+from ...integrate.quadratic_series import in_unit
 from . import fixed_kernel, moving_kernel
 from .centres import FixedCentre, MovingCentre, moving_centre
 from .elimination import Terms, sizes

@@ -20,9 +20,8 @@ from ...numbers.numba_door import installed, wanted
 from ...orbit import one_state as law
 from ...orbit.reduction import reduce
 from ...orbit.result import Fate
-from ...physics.coefficients import effective
+from ...physics.coefficients import effective, three_floats
 from ...physics.scene import AnyScene
-from ...physics.state import three_floats
 from ...physics.states import checked_states
 from ..enclosure.proof import proved
 from .cause import island_words, recurs, seen

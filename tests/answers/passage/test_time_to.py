@@ -9,8 +9,8 @@ from scipy.integrate import solve_ivp
 
 import stabilab
 from stabilab.errors import InputError
-from stabilab.integrate import event_run
-from stabilab.physics.scaling import to_scaled
+from stabilab.integrate import events as event_run
+from stabilab.physics.coefficients import to_scaled
 from tests.oracles.first_crossing import REAL, first_crossing
 
 FAR = 60.0  # how far brute force looks, in natural units

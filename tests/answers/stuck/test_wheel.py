@@ -10,7 +10,7 @@ from stabilab import Body, ConstantTorque, Gyrostat, Scene, load, stuck
 from stabilab.answers.stuck.line import Line, candidates, expansion, family_of, resultant
 from stabilab.answers.stuck.wheel import intervals
 from stabilab.numbers.balls import working
-from stabilab.orbit.ball_geometry import ball_orbit
+from stabilab.orbit.one_orbit import ball_orbit
 from tests.answers.stuck import energy
 from tests.answers.stuck.brute import Craft
 from tests.oracles import brute
@@ -101,7 +101,7 @@ def test_the_resultant_vanishes_where_the_start_is_on_a_separatrix():
 
 
 def _rise(family, s, y, numbers):
-    """V(y) - V(0) - E of the orbit in balls, by `orbit.ball_geometry`."""
+    """V(y) - V(0) - E of the orbit in balls, by `orbit.one_orbit`."""
     orbit = ball_orbit(family.reduction((s, 0, 0)), family.state, numbers)
     return orbit.height(numbers.ball(y)) - orbit.energy
 

@@ -11,9 +11,8 @@ import stabilab
 from stabilab.case.read import read_text
 from stabilab.errors import InputError
 from stabilab.maps import run as machinery
-from stabilab.maps.atlas.asked import asked
-from stabilab.maps.atlas.cells import neighbours
-from stabilab.maps.atlas.run import drawn, kinds_of
+from stabilab.maps.atlas.pointed import neighbours
+from stabilab.maps.atlas.run import asked, drawn, kinds_of
 from stabilab.orbit.result import Fate
 from stabilab.show.maps.atlas import dataset as atlas_files
 from stabilab.show.maps.atlas import words as atlas_words

@@ -5,7 +5,8 @@ import numpy as np
 import pytest
 
 from stabilab.errors import InputError
-from stabilab.maps.basins import ask, mesh
+from stabilab.maps.basins import ask
+from stabilab.maps.basins import ask as mesh
 from stabilab.maps.basins.ask import BOUNDED, UNDECIDED, basins
 from stabilab.show.maps.basins.dataset import basin, dataset
 from tests.shared import CASES

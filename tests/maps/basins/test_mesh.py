@@ -6,9 +6,8 @@ import math
 import numpy as np
 import pytest
 
-from stabilab.maps.basins import mesh as meshes
-from stabilab.maps.basins.dimension import counted, dimension
-from stabilab.maps.basins.mesh import refined
+from stabilab.maps.basins import ask as meshes
+from stabilab.maps.basins.ask import counted, dimension, refined
 
 
 def followed(label, cells, depth):

@@ -11,11 +11,11 @@ import pytest
 import stabilab
 from stabilab import Body, Fate, Gyrostat, Scene
 from stabilab.answers.motion import motion
-from stabilab.orbit.ball_orbit import Orbit
 from stabilab.orbit.extremes.balls import precise_extremes
 from stabilab.orbit.extremes_and_periods import extremes_and_periods
 from stabilab.orbit.fate.arrays import circle_margins
 from stabilab.orbit.landscape import landscape
+from stabilab.orbit.one_orbit import Orbit
 from stabilab.orbit.reduction import reduce
 from tests.oracles import energy
 from tests.oracles.energy import Reduced, _levels

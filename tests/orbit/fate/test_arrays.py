@@ -12,12 +12,11 @@ import pytest
 import stabilab
 from stabilab import Body, ConstantTorque, Fate, Scene
 from stabilab.orbit.fate import table_kernel as barrier_heights
-from stabilab.orbit.fate.by_table import label_by_table
-from stabilab.orbit.fate.reasons import REASONS, Reason
+from stabilab.orbit.fate.one_state import REASONS, Reason
 from stabilab.orbit.fate.result import empty_columns, in_chunks
-from stabilab.orbit.fate.table import barrier_table
+from stabilab.orbit.fate.table import barrier_table, label_by_table
 from stabilab.orbit.landscape import landscape
-from stabilab.physics import quadratic
+from stabilab.physics import scene as quadratic
 from tests.oracles import energy
 from tests.oracles.pairs import WORDS, brink, exactly, physical, scaled
 from tests.orbit.extremes.test_extremes import assert_extremes

@@ -8,8 +8,8 @@ import stabilab
 from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene
 from stabilab.answers.motion import motion
 from stabilab.numbers.balls import FIRST_BITS
-from stabilab.orbit.ball_orbit import Orbit
-from stabilab.orbit.fate.balls import decide
+from stabilab.orbit.fate.one_state import decide
+from stabilab.orbit.one_orbit import Orbit
 from stabilab.orbit.reduction import reduce
 from stabilab.orbit.result import Fate
 from stabilab.orbit.separatrix.distance.ask import distance_of

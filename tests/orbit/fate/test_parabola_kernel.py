@@ -10,9 +10,8 @@ import stabilab
 from benchmarks.random_scenes import drawn
 from stabilab.numbers.numba_door import installed
 from stabilab.orbit.fate import table_kernel as arithmetic
-from stabilab.orbit.fate.by_table import label_by_table
 from stabilab.orbit.fate.result import empty_columns
-from stabilab.orbit.fate.table import barrier_table
+from stabilab.orbit.fate.table import barrier_table, label_by_table
 from stabilab.orbit.landscape import landscape
 from tests.oracles import energy
 from tests.orbit.fate.test_fate import axis_of

@@ -15,11 +15,11 @@ import pytest
 
 import stabilab
 from stabilab.numbers.constants import EPS
-from stabilab.orbit import landscape_base
-from stabilab.orbit.ball_orbit import Orbit
-from stabilab.orbit.fate.balls import decide
+from stabilab.orbit import landscape as landscape_base
+from stabilab.orbit.fate.one_state import decide
 from stabilab.orbit.fine.margins import valley_margins
 from stabilab.orbit.landscape import landscape
+from stabilab.orbit.one_orbit import Orbit
 from stabilab.orbit.reduction import Reduction, reduce
 from tests.oracles import energy
 from tests.oracles.energy import Reduced

@@ -19,8 +19,7 @@ from stabilab.errors import InputError
 from stabilab.numbers import numba_door
 from stabilab.orbit.fate import table_kernel as barrier_heights
 from stabilab.orbit.fate import table_numba as fast_fate
-from stabilab.orbit.fate.by_table import canonical, circle_heights, label_by_table
-from stabilab.orbit.fate.table import barrier_table
+from stabilab.orbit.fate.table import barrier_table, canonical, circle_heights, label_by_table
 from tests.oracles import energy
 from tests.oracles.pairs import WORDS, brink, physical, random_body, random_problem, scaled
 from tests.orbit.fate.test_fate import ELLIPTIC, FAMILIES, axis_of, sample

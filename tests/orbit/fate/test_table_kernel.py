@@ -7,8 +7,7 @@ import pytest
 import stabilab
 from stabilab.orbit.extremes import parabola_kernel
 from stabilab.orbit.fate import table_kernel as barrier_heights
-from stabilab.orbit.fate.by_table import label_by_table
-from stabilab.orbit.fate.table import barrier_table
+from stabilab.orbit.fate.table import barrier_table, label_by_table
 from stabilab.orbit.fine import rows_kernel
 from tests.orbit.fate.test_fate import FAMILIES, sample
 

@@ -10,9 +10,8 @@ import pytest
 import stabilab
 from stabilab import Body, ConstantTorque, Fate, Gyrostat, Scene
 from stabilab.numbers.balls import working
-from stabilab.orbit.ball_orbit import ball_orbit
-from stabilab.orbit.fate.reasons import Reason
-from stabilab.orbit.fate.tie import exact_tie
+from stabilab.orbit.fate.one_state import Reason, exact_tie
+from stabilab.orbit.one_orbit import ball_orbit
 from stabilab.orbit.reduction import reduce
 from tests.oracles.pairs import physical
 

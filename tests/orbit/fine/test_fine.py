@@ -6,11 +6,11 @@ import pytest
 
 from stabilab import Body, ConstantTorque, Gyrostat, Scene, extremes, fate
 from stabilab.orbit import extremes_and_periods as both
-from stabilab.orbit.ball_orbit import Orbit
 from stabilab.orbit.extremes.balls import precise_extremes
-from stabilab.orbit.fate.balls import decide
+from stabilab.orbit.fate.one_state import decide
 from stabilab.orbit.fine.margins import MARGIN_SHARE, valley_margins
 from stabilab.orbit.landscape import landscape
+from stabilab.orbit.one_orbit import Orbit
 
 
 def scene(moments, wheel, axis, torque):

@@ -17,7 +17,6 @@ from benchmarks.random_scenes import drawn
 from stabilab import Fate, ScaledGyrostat, fate
 from stabilab.numbers import numba_door
 from stabilab.numbers.numba_door import twins
-from stabilab.orbit.ball_orbit import Orbit
 from stabilab.orbit.extremes import parabola_kernel
 from stabilab.orbit.extremes.arrays import trapped_rows
 from stabilab.orbit.extremes.balls import precise_extremes
@@ -26,6 +25,7 @@ from stabilab.orbit.fate.arrays import fate_on_orbit
 from stabilab.orbit.fine import rows_kernel, rows_numba
 from stabilab.orbit.fine.rows_numba import kernel_input, settle_rows
 from stabilab.orbit.landscape import landscape
+from stabilab.orbit.one_orbit import Orbit
 from stabilab.orbit.period.balls import precise_period
 from tests.oracles import energy
 from tests.oracles.pairs import brink, exactly, physical, scaled

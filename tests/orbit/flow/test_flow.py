@@ -9,13 +9,11 @@ from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene, fate
 from stabilab.errors import InputError
 from stabilab.integrate.reference import reference, relative_errors
 from stabilab.integrate.to_heyoka import heyoka_available
-from stabilab.orbit.ball_orbit import Orbit
-from stabilab.orbit.flow.flow import _motion, reduced_motion
-from stabilab.orbit.flow.in_doubles import OnCircle, constants, ordinary
-from stabilab.orbit.flow.periodic import ByPanels, BySeries
+from stabilab.orbit.flow.flow import OnCircle, _motion, constants, ordinary, reduced_motion
+from stabilab.orbit.flow.periodic import ByPanels, BySeries, Tabulated, tabulated
 from stabilab.orbit.flow.profile import Arrays, relief
 from stabilab.orbit.flow.spin_up import SpinUp
-from stabilab.orbit.flow.table import Tabulated, tabulated
+from stabilab.orbit.one_orbit import Orbit
 from tests.hard.circles import textbook_period
 from tests.hunt.disagreements import DISAGREEMENTS, many_digits
 from tests.oracles import energy

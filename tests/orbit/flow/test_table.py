@@ -1,11 +1,11 @@
-"""Tests of `orbit/flow/table.py`: what once went wrong there, and its edges."""
+"""Tests of `orbit/flow/periodic.py`: what once went wrong there, and its edges."""
 from __future__ import annotations
 
 import math
 
 import numpy as np
 
-from stabilab.orbit.flow.table import tabulated
+from stabilab.orbit.flow.periodic import tabulated
 
 
 class Circling:

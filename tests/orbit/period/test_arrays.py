@@ -9,11 +9,11 @@ import pytest
 import stabilab
 from benchmarks.random_scenes import drawn
 from stabilab import Body, Fate, Scene
-from stabilab.orbit.ball_orbit import Orbit
 from stabilab.orbit.extremes import arrays
 from stabilab.orbit.extremes_and_periods import extremes_and_periods
 from stabilab.orbit.fine.rows_kernel import converged
 from stabilab.orbit.landscape import landscape
+from stabilab.orbit.one_orbit import Orbit
 from stabilab.orbit.period.balls import precise_period
 from stabilab.orbit.reduction import reduce
 from tests.oracles import energy

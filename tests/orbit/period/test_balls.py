@@ -10,8 +10,8 @@ from scipy.optimize import brentq
 import stabilab
 from stabilab import Fate, ScaledGyrostat
 from stabilab.numbers.balls import Digits, Unclear, settled, working
-from stabilab.orbit.ball_orbit import Orbit, ball_orbit
 from stabilab.orbit.extremes.balls import turning_points
+from stabilab.orbit.one_orbit import Orbit, ball_orbit
 from stabilab.orbit.period import balls
 from stabilab.orbit.period.balls import _rate
 from stabilab.orbit.reduction import reduce

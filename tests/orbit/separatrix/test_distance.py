@@ -11,14 +11,10 @@ import stabilab
 from stabilab.orbit.conic import conic_of
 from stabilab.orbit.reduction import reduce
 from stabilab.orbit.separatrix.distance.ask import distance_of
-from stabilab.orbit.separatrix.distance.charts.far_chart import FarChart
-from stabilab.orbit.separatrix.distance.charts.long_loops import loops_of
-from stabilab.orbit.separatrix.distance.charts.loop_chart import Chart
-from stabilab.orbit.separatrix.distance.charts.root_chart import RootChart
-from stabilab.orbit.separatrix.distance.charts.turn import Turn
-from stabilab.orbit.separatrix.distance.charts.turn_chart import TurnChart
-from stabilab.orbit.separatrix.distance.curves import Hyperbola
-from stabilab.orbit.separatrix.distance.point import Seen
+from stabilab.orbit.separatrix.distance.bends import Turn
+from stabilab.orbit.separatrix.distance.curves import Hyperbola, Seen
+from stabilab.orbit.separatrix.distance.long_loops import FarChart, TurnChart, loops_of
+from stabilab.orbit.separatrix.distance.loop_charts import Chart, RootChart
 from stabilab.orbit.separatrix.result import NO_SEPARATRIX, UNKNOWN
 from tests.oracles import energy
 from tests.oracles.pairs import physical, scaled

@@ -6,11 +6,10 @@ import pytest
 
 import stabilab
 from stabilab.errors import InputError
-from stabilab.orbit.landscape import landscape
-from stabilab.orbit.landscape_base import spots_along
+from stabilab.orbit.landscape import landscape, spots_along
+from stabilab.orbit.separatrix.grid import _along
 from stabilab.orbit.separatrix.homoclinic_arrays import loop_ends, polished
 from stabilab.orbit.separatrix.saddles import limit_of, saddle_branches
-from stabilab.orbit.separatrix.within import _along
 from stabilab.show.surface.mesh import triangulate
 from tests.oracles.pairs import PAPER_BODY, physical, scaled
 

@@ -7,9 +7,8 @@ import pytest
 
 from stabilab.case.read import load, read_text
 from stabilab.errors import InputError
-from stabilab.show.explore import controls
-from stabilab.show.explore.changed import changed
-from stabilab.show.explore.toml import data_of, exact_text, text_of
+from stabilab.show.explore import parameters as controls
+from stabilab.show.explore.parameters import changed, data_of, exact_text, text_of
 from stabilab.show.units import units_of
 
 CASES = sorted((Path(__file__).parents[3] / "cases").glob("*.toml"))

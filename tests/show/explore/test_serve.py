@@ -14,7 +14,7 @@ import pytest
 from stabilab import load, motion
 from stabilab.answers.certificate import certificate
 from stabilab.errors import InputError
-from stabilab.show.explore.bag import unframed
+from stabilab.show.explore.pictures import unframed
 from stabilab.show.explore.serve import LONGEST, Explorer, _Handler
 
 CASE = "cases/thruster-stuck-major-axis.toml"

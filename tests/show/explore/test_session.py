@@ -12,8 +12,7 @@ from stabilab import load, motion, separatrix
 from stabilab.case.read import read_text
 from stabilab.errors import InputError
 from stabilab.orbit.phase_plane import phase_plane
-from stabilab.show.explore.bag import Bag, unframed
-from stabilab.show.explore.plane import plane_of
+from stabilab.show.explore.pictures import Bag, plane_of, unframed
 from stabilab.show.explore.session import FOLLOWED, Session, Stopped
 from stabilab.show.style import MEANING
 from stabilab.show.terminal.letters import greek
@@ -258,8 +257,8 @@ class Bare:
 sys.meta_path.insert(0, Bare())
 import stabilab
 from stabilab.show.explore.session import Session
-from stabilab.show.explore.certificates import checked
-from stabilab.show.explore.bag import unframed
+from stabilab.show.explore.serve import checked
+from stabilab.show.explore.pictures import unframed
 for name in ("thruster-stuck-major-axis", "cubesat-3u"):
     print(unframed(Session(stabilab.load(f"cases/{name}.toml")).answer({}))[0]["headline"])
 along = unframed(Session(stabilab.load("cases/thruster-stuck-major-axis.toml")).answer({"wheel": ["1", None, None]}))[0]

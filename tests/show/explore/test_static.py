@@ -45,7 +45,7 @@ def test_the_archive_answers_and_checks_with_python_flint_alone(tmp_path):
     for beside in flint.parent.glob("python_flint*.libs"):
         (tmp_path / beside.name).symlink_to(beside)
     code = ("import sys\nfrom pathlib import Path\nfrom stabilab.case.read import read_text\nfrom stabilab.show.explore.session import Session\n"
-            "from stabilab.show.explore.certificates import checked\nfrom stabilab.show.explore.bag import unframed\n"
+            "from stabilab.show.explore.session import checked\nfrom stabilab.show.explore.pictures import unframed\n"
             "from stabilab.answers.certificate import certificate\n"
             "import json\nname, text = 'c.toml', Path(sys.argv[1]).read_text()\ncase = read_text(name, text)\n"
             "print(unframed(Session(case).answer({}))[0]['headline'])\n"

@@ -10,7 +10,7 @@ import pytest
 
 import stabilab
 from stabilab import Fate, fate, load
-from stabilab.show.maps import labels
+from stabilab.show.maps import shades as labels
 from tests.shared import CASES
 
 xarray = pytest.importorskip("xarray")

@@ -7,11 +7,14 @@ import pytest
 import stabilab
 from stabilab import sweep
 from stabilab.errors import InputError
-from stabilab.maps.boundary import changes
+from stabilab.maps.parts import case_at
 from stabilab.maps.plan import planned
-from stabilab.maps.points import case_at
+from stabilab.maps.run import changes
 from stabilab.show import style
-from stabilab.show.maps import curves, field, labels, picture, shades
+from stabilab.show.maps import picture, shades
+from stabilab.show.maps import picture as curves
+from stabilab.show.maps import picture as field
+from stabilab.show.maps import shades as labels
 from tests.shared import CASES
 
 xarray = pytest.importorskip("xarray")

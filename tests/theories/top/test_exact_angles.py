@@ -9,7 +9,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from stabilab.case.read import load
-from stabilab.integrate import extrema
+from stabilab.integrate import events as extrema
 from stabilab.theories.theory import theory
 from tests.shared import CASES
 

@@ -8,7 +8,7 @@ import pytest
 from benchmarks.spin_up import random_scene as benchmark_scene
 from stabilab import Body, ConstantTorque, Fate, Gyrostat, ScaledGyrostat, Scene
 from stabilab.errors import InputError
-from stabilab.physics.scaling import to_scaled
+from stabilab.physics.coefficients import to_scaled
 from stabilab.unreduced.spin_up import certificate, follow
 from stabilab.unreduced.spin_up.cause import _equilibria, seen
 from stabilab.unreduced.spin_up.follow import spin_up, spin_up_many

@@ -1,15 +1,104 @@
-"""Branches of saddles: curves on the conic of equilibria, with places told from the state.
+"""A point against curves of saddles and the ring between circles: lower bounds of a distance.
+
+Branches of saddles: curves on the conic of equilibria, with places told from the state.
 
 A branch has a parameter t whose zero is at or near the saddle nearest to the state, and the places there, and how far they are from
 the state, are differences of exact numbers.
+
+Which saddles of circles have loops that come near a state: those about as far from the centre as the state is.
+
+On a circle X^2 + Z^2 is the saddle's all along the loop, and the distance of two places is at least sqrt(min(a, b)) times that of
+their circles. Far from the centre that leaves a branch of saddles in a few pieces, a share `upper`/radius of its length each; a search
+over all of it would halve its way there once for every part of the loop. The difference of the squares is told from the state's
+place, so it keeps its digits where both are huge.
 """
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from fractions import Fraction
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
-from .point import EPS
+from ...conic import planes_touched
+
+# --- A reduction seen from a state, and what a chart of a sheet tells of one of its points
+EPS = 2.0**-52
+ROUNDINGS = 48  # units in the last place of the largest terms that a value at a point is off by at most
+UNIT = ROUNDINGS * EPS
+
+
+class Point(NamedTuple):
+    """phi = W^2 and the squared distance `apart` in the plane of the orbit with their slopes in (t, y), in the scene's unit;
+    gap: sqrt(max(phi, 0)) less the state's. off: the errors of apart, phi and gap; rough: those of the four slopes in their order.
+    """
+
+    apart: float
+    apart_t: float
+    apart_y: float
+    phi: float
+    phi_t: float
+    phi_y: float
+    gap: float
+    off: tuple[float, float, float]
+    rough: tuple[float, float, float, float]
+
+    def off_square(self, w0):
+        """Error of the square of the gap: next to W = 0 it is that of phi - 2 w0 sqrt(phi), where the root's own is large."""
+        off = self.off[2]
+        return min(2 * abs(self.gap) * off + off * off, self.off[1] + 2 * w0 * off)
+
+
+class Constants:
+    """The exact constants of a scene and a state as balls of some bits, made once for each number of bits."""
+
+    def __init__(self, exact):
+        self.exact, self.known = exact, {}
+
+    def at(self, numbers):
+        if numbers.bits not in self.known:
+            self.known[numbers.bits] = {name: numbers.ball(value) for name, value in self.exact.items()}
+        return self.known[numbers.bits]
+
+
+class Seen(NamedTuple):
+    """A reduction seen from a state: constants of the force and the metric, the state's place; exact, as balls and as doubles."""
+
+    geometry: Any  # a class of `potential`
+    exact: dict
+    balls: Constants
+    plain: dict
+    touched: tuple = ()  # +1, -1: the hyperbola of equilibria touches a plane Z = -X, Z = X
+
+    @property
+    def e(self) -> int:
+        """The sign of p q."""
+        return self.geometry.e
+
+    @staticmethod
+    def of(reduction, state):
+        g, r = reduction.exact_constants, reduction
+        u, v, speed = (Fraction(state[axis]) for axis in (r.j, r.k, r.axis))
+        x, z, w = g["flip"] * (u + g["sj"]) / g["rx"], (v + g["sk"]) / g["rz"], g["n"] * (speed + r.s)
+        return seen_as(reduction.geometry, {"G": g["G"], "c": g["c"], "d": g["d"], "mu": g["mu"], "n2": g["n"] ** 2, "a": g["rx"] ** 2,
+                                            "b": g["rz"] ** 2, "X": x, "Z": z, "w": abs(w) / g["n"]}, planes_touched(r))
+
+
+def seen_as(geometry, exact, touched=()) -> Seen:
+    return Seen(geometry, exact, Constants(exact), {name: float(value) for name, value in exact.items()}, touched)
+
+
+def gap_of(phi, off_phi, w0):
+    """sqrt(max(phi, 0)) - w0 and its error, for a phi with an error."""
+    w = phi**0.5 if phi > 0 else 0.0
+    off = off_phi / (w + max(phi - off_phi, 0.0)**0.5 + 1e-300) if phi > 0 else off_phi**0.5
+    return w - w0, min(off, off_phi**0.5) + 4 * EPS * (w + w0)
+
+
+def square_of(u, v, off_u, off_v, a, b):
+    """a u^2 + b v^2 and its error."""
+    apart = a * u * u + b * v * v
+    return apart, a * off_u * (2 * abs(u) + off_u) + b * off_v * (2 * abs(v) + off_v) + 8 * EPS * apart
+
 
 INF = math.inf
 ROUNDING = 16 * EPS
@@ -206,3 +295,50 @@ def short(number):
         return number
     bits = 160 - abs(number.numerator).bit_length() + number.denominator.bit_length()
     return Fraction(round(number * Fraction(2) ** bits)) / Fraction(2) ** bits
+
+
+WIDEST = 1e14  # radii, in distances: doubles do not tell the angles of the other barriers of a wider circle well enough
+
+
+def within(seen: Any, curve: Any, low: float, high: float, upper: float) -> list[tuple[float, float]]:
+    """The pieces (from, to) of a branch over [low, high] that hold all its saddles with loops within `upper` of the state, in rising order."""
+    g = seen.plain
+    wide, radius = upper * (1 + 1e-9) / math.sqrt(min(g["a"], g["b"])), math.hypot(g["X"], g["Z"])
+    if wide >= radius:
+        return [(low, high)]
+    if radius > WIDEST * wide:
+        raise OverflowError
+    pieces: list[tuple[float, float]] = []
+    for start, end in _pieces(curve, (g["X"], g["Z"]), 0.5 * (low + high), 0.5 * (high - low), (radius, wide)):
+        if pieces and start <= pieces[-1][1]:
+            pieces[-1] = pieces[-1][0], end
+        else:
+            pieces.append((start, end))
+    return [(max(start, low), min(end, high)) for start, end in pieces]
+
+
+def _pieces(curve: Any, place: tuple[float, float], t: float, dt: float, band: tuple[float, float]) -> Iterator[tuple[float, float]]:
+    """Those of [t - dt, t + dt], halved until they are no longer than the band is wide, or doubles tell no more."""
+    radius, wide = band
+    middle, reach, rounding = _beyond(curve, place, t, dt)
+    if middle - reach > wide * (2 * radius + wide) or middle + reach < -wide * (2 * radius - wide):
+        return
+    if not math.isfinite(reach):
+        raise OverflowError
+    if reach <= radius * wide + 2 * rounding or t - 0.5 * dt == t:
+        yield t - dt * (1 + 1e-15) - 1e-16 * abs(t), t + dt * (1 + 1e-15) + 1e-16 * abs(t)
+        return
+    for side in (-0.5, 0.5):
+        yield from _pieces(curve, place, t + side * dt, 0.5 * dt, band)
+
+
+def _beyond(curve: Any, place: tuple[float, float], t: float, dt: float) -> tuple[float, float, float]:
+    """(middle, radius) of |saddle|^2 less the state's |place|^2 over [t - dt, t + dt], and the part of the radius that is rounding."""
+    x1, rx1, z1, rz1, _, _, _, _, u, v, su, sv = curve.over(t, dt)[4:]  # the slopes, as the places' own radii hold the rounding of all of a place
+    middle, reach, rounding = 0.0, 0.0, 0.0
+    for apart, r, size, at in ((u, (abs(x1) + rx1) * dt, su, place[0]), (v, (abs(z1) + rz1) * dt, sv, place[1])):
+        lost = ROUNDING * size
+        middle += apart * (apart + 2 * at)
+        reach += (r + lost) * (2 * abs(apart + at) + r + lost)
+        rounding += lost * (2 * abs(apart + at) + lost) + ROUNDING * abs(apart) * (abs(apart) + 2 * abs(at))
+    return middle, reach + rounding, rounding

@@ -3,13 +3,12 @@ from __future__ import annotations
 
 import math
 
-from ....physics.body import Body
 from ....physics.effects.charge import Charge
 from ....physics.effects.constant_torque import ConstantTorque
 from ....physics.effects.gyrostat import Gyrostat
 from ....physics.effects.liquid_cavity import LiquidCavity
 from ....physics.effects.resistance import Resistance
-from ....physics.scene import Scene
+from ....physics.scene import Body, Scene
 from ....theories.cavity.averaged import averaged
 from ....theories.cavity.normal_form import constants
 

@@ -6,9 +6,8 @@ import math
 import numpy as np
 
 from ....answers.trajectory import trajectory
-from ....physics.body import Body
-from ....physics.scaling import scaling
-from ....physics.scene import ScaledGyrostat
+from ....physics.coefficients import scaling
+from ....physics.scene import Body, ScaledGyrostat
 from .any_torque import major_axis_ideal
 from .constant_torque import middle_equilibria, misjudged
 

@@ -10,17 +10,15 @@ import numpy as np
 
 from ....case.read import Case, read_text
 from ....errors import InputError, printable
-from ....maps.atlas.asked import LEVEL, REFINE, Asked, asked
-from ....maps.atlas.cells import corners, directions
-from ....maps.atlas.leaves import Leaves
-from ....maps.atlas.run import Atlas, drawn
+from ....maps.atlas.pointed import Leaves, corners, directions
+from ....maps.atlas.run import LEVEL, REFINE, Asked, Atlas, asked, drawn
 from ....maps.columns import columns_of, record
 from ....packages import demand
 from ....version import __version__
 from ...limiting import cell
 from ..dataset import checked, write
-from ..labels import limiting, meanings, unit
-from .labels import point_name
+from ..shades import limiting, meanings, unit
+from .words import point_name
 
 if TYPE_CHECKING:
     import xarray

@@ -12,7 +12,8 @@ from ...files import endings
 from ...units import Units, units_of
 from .. import dataset as sweeps
 from ..picture import read
-from . import dataset, page, picture
+from . import dataset, picture
+from . import picture as page
 
 PAGES = (".html",)
 
@@ -37,8 +38,8 @@ def write(found: Atlas, path: Path, units: Units, kind: str | None = None, size:
     if endings.ending(path) in sweeps.ENDING:
         return sweeps.write(dataset.dataset(found), path)
     if endings.ending(path) in endings.PICTURES:
-        return picture.write(found, path, units, kind, size, dpi)
-    return page.write(found, path, units)
+        return picture.write_picture(found, path, units, kind, size, dpi)
+    return page.write_page(found, path, units)
 
 
 def is_atlas(path: Path) -> bool:

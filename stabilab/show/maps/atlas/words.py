@@ -1,4 +1,9 @@
-"""What an atlas says in words, the answer first, and as CSV and JSON of every cell."""
+"""An atlas in words: names of directions and fates, their colours, text and CSV.
+
+The sphere of directions on a sheet: Hammer's map, on which areas are kept, turned so that no principal axis lies on its rim.
+
+Axis 3 points up. Axes 1 and 2 stand 45 degrees left and right of the middle, so all six directions of the axes lie inside; the rim is half way from -1 to -2.
+"""
 from __future__ import annotations
 
 import math
@@ -7,21 +12,137 @@ from typing import Any
 import numpy as np
 
 from ....errors import printable
-from ....maps.atlas.cells import area
-from ....maps.atlas.pointed import AXES, THRUSTERS
+from ....maps.atlas.pointed import AXES, OWN, THRUSTERS, Point, area
 from ....maps.atlas.run import Atlas
 from ....maps.columns import ISLANDS, LEVELS, LIMIT_LEVELS, columns_of
 from ....orbit.result import Fate
-from ... import limiting
+from ... import limiting, style
 from ...axes import axes_of
 from ...files import comma
 from ...text.answers import Endless, as_json
 from ...units import SHORT, Units
-from ..labels import limiting as caveats_of
-from ..labels import unit
+from ..shades import FATES, light, unit
+from ..shades import limiting as caveats_of
 from ..words import COUNTS
-from .labels import DOES, direction_words, kinds, other_axis, point_name, wheel_words
 
+# --- How directions, axes and fates of an atlas are named, and the colour of each fate
+# (axis, sense) of a spin-up -> its colour: a hue for each axis, the lighter one against it
+SPINS = {(1, 1): light(style.BLUE, 0.95), (1, -1): light(style.BLUE, 0.5), (2, 1): light(style.GREEN, 0.95), (2, -1): light(style.GREEN, 0.45),
+         (3, 1): light(style.VERMILION, 0.95), (3, -1): light(style.VERMILION, 0.5), (0, 0): light(style.PURPLE, 0.9)}
+ISLAND_COLOURS = {1: light(style.GREY, 0.75), 2: light(style.BLACK, 0.8)}  # of undecided cells: where one may exist, where one is seen
+DOES = {Fate.BOUNDED: "stay bounded", Fate.SEPARATRIX: "lie on the separatrix", Fate.EQUILIBRIUM: "keep a steady rotation", Fate.UNDECIDED: "are undecided"}
+
+
+def other_axis(atlas: Atlas) -> str:
+    """About what a motion spins up that does so about no principal axis: of a sphere every axis is one, and the wheel or the torque chooses."""
+    if len(set(atlas.asked.case.scene.body.exact)) > 1:  # type: ignore[union-attr]
+        return "no principal axis"
+    wheels = {any(wheel) for wheel in atlas.asked.wheels}
+    return "the wheel's axis" if wheels == {True} else "the torque's axis" if wheels == {False} else "the axis of the wheel, or of the torque"
+
+
+def point_name(atlas: Atlas, point: Point) -> str:
+    """"+z" and "-z" for the axes (of a full tensor "+minor" and "-minor"), a thruster's name, "torque of the case"."""
+    if point.level == AXES:
+        return axes_of(atlas.asked.case).signed(point.number // 2 + 1, -1 if point.number % 2 else 1)
+    return "torque of the case" if point.level == OWN else atlas.asked.case.thrusters[point.number].name
+
+
+def shown_name(atlas: Atlas, point: Point) -> str:
+    """The name of a direction for a picture: that of an axis has the minus of a book."""
+    name = point_name(atlas, point)
+    return name.replace("-", "−") if point.level == AXES else name
+
+
+def kind_words(atlas: Atlas, fate: int, axis: int, island: int = 0) -> str:
+    """What a cell does, for a legend: "spins up about −z (minor)"."""
+    if fate == Fate.SPIN_UP:
+        if not axis:
+            return f"spins up about {other_axis(atlas)}"
+        axes, sign = axes_of(atlas.asked.case), "−" if axis < 0 else "+"
+        return f"spins up about {sign}{axes.name(abs(axis))}"
+    return FATES[Fate(fate)][0] + ("", ", an island may exist", ", an island is seen")[island]
+
+
+def kind_colour(fate: int, axis: int, island: int = 0) -> Any:
+    """Red, green and blue, 0 to 1."""
+    if fate == Fate.SPIN_UP:
+        return SPINS[(abs(axis), int(np.sign(axis)))]
+    return ISLAND_COLOURS.get(island) or light(FATES[Fate(fate)][1], 0.8)
+
+
+def kinds(atlas: Atlas, rows: np.ndarray | None = None) -> list[tuple[tuple[int, int, int], np.ndarray, float]]:
+    """((fate, axis with its sense, island), rows of cells, share of the sphere and of the wheels) of all that occurs, the most first."""
+    chosen = np.arange(len(atlas.records)) if rows is None else rows
+    records = atlas.records[chosen]
+    seen = np.where(records["fate"] == Fate.UNDECIDED, records["island"], 0)
+    keys = np.stack([records["fate"].astype(int), records["spin_axis"].astype(int), seen], axis=1)
+    found, which = np.unique(keys, axis=0, return_inverse=True)
+    which = which.ravel()
+    whole = atlas.share[chosen].sum()
+    told = [((int(key[0]), int(key[1]), int(key[2])), chosen[which == n], float(atlas.share[chosen][which == n].sum() / whole))
+            for n, key in enumerate(found)]
+    return sorted(told, key=lambda one: (-one[2], one[0]))
+
+
+def wheel_words(atlas: Atlas, number: int) -> str:
+    """A wheel's momentum as it was asked: "0.5 N m s"."""
+    return f"{atlas.asked.momenta[number]:.6g} {atlas.asked.unit}"
+
+
+def direction_words(vector: Any) -> str:
+    """Three digits of a direction."""
+    return "(" + ", ".join(f"{v + 0.0:.3g}" if abs(v) >= 5e-4 else "0" for v in np.asarray(vector).tolist()) + ")"
+
+
+ACROSS, UP = 2 * np.sqrt(2), np.sqrt(2)  # half the width and half the height of the map
+MIDDLE = np.pi / 4  # longitude, from axis 1 towards axis 2, of the map's middle
+
+
+def on_sheet(directions: np.ndarray) -> np.ndarray:
+    """(n, 2): where directions (n, 3) lie on the map."""
+    directions = np.asarray(directions, float)
+    size = np.linalg.norm(directions, axis=1)
+    turn = np.arctan2(directions[:, 1], directions[:, 0]) - MIDDLE
+    turn = (turn + np.pi) % (2 * np.pi) - np.pi
+    sine = directions[:, 2] / size
+    cosine = np.sqrt(np.maximum(1 - sine**2, 0.0))
+    root = np.sqrt(1 + cosine * np.cos(turn / 2))
+    return np.stack([ACROSS * cosine * np.sin(turn / 2) / root, UP * sine / root], axis=1)
+
+
+def off_sheet(x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """((n, 3) directions of places on the map, (n,) whether they lie on it)."""
+    inside = (x / ACROSS) ** 2 + (y / UP) ** 2 <= 1
+    root = np.sqrt(np.maximum(1 - (x / 4) ** 2 - (y / 2) ** 2, 0.5))
+    turn = 2 * np.arctan2(root * x, 2 * (2 * root**2 - 1)) + MIDDLE
+    sine = np.clip(root * y, -1, 1)
+    cosine = np.sqrt(1 - sine**2)
+    return np.stack([cosine * np.cos(turn), cosine * np.sin(turn), sine], axis=-1), inside
+
+
+def pieces(directions: np.ndarray) -> list[np.ndarray]:
+    """A line of directions on the map, cut where it leaves over the rim."""
+    at = on_sheet(directions)
+    breaks = np.flatnonzero(np.abs(np.diff(at[:, 0])) > ACROSS) + 1
+    return np.split(at, breaks)
+
+
+def circle(axis: int) -> np.ndarray:
+    """(n, 3): the principal plane across an axis, 0 to 2."""
+    turn = np.linspace(0, 2 * np.pi, 721)
+    out = np.zeros((len(turn), 3))
+    out[:, (axis + 1) % 3], out[:, (axis + 2) % 3] = np.cos(turn), np.sin(turn)
+    return out
+
+
+def rim() -> np.ndarray:
+    """(n, 2): the outline of the map."""
+    turn = np.linspace(0, 2 * np.pi, 361)
+    return np.stack([ACROSS * np.cos(turn), UP * np.sin(turn)], axis=1)
+
+
+# --- What an atlas says in words, the answer first, and as CSV and JSON of every cell
 SCHEMA = "stabilab.atlas/1"
 ROWS = 12  # wheel momenta that are told one by one
 

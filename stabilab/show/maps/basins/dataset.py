@@ -8,15 +8,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ....case.read import Case
-from ....maps.basins.ask import DEPTH, Basins, basins, label_of
-from ....maps.basins.dimension import dimension
-from ....maps.basins.mesh import Mesh
+from ....maps.basins.ask import DEPTH, Basins, Mesh, basins, dimension, label_of
 from ....maps.columns import ANSWERS, CAVEATS, LEVELS, record
 from ....maps.plan import from_json
 from ....version import __version__
 from ...limiting import cell
 from ..dataset import checked, write
-from ..labels import limiting, meanings
+from ..shades import limiting, meanings
 from .words import cells_of, command
 
 if TYPE_CHECKING:

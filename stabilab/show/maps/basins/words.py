@@ -7,8 +7,7 @@ from typing import Any
 import numpy as np
 
 from ....errors import printable
-from ....maps.basins.ask import BOUNDED, NO_AXIS, UNDECIDED, Basins
-from ....maps.basins.mesh import leaves
+from ....maps.basins.ask import BOUNDED, NO_AXIS, UNDECIDED, Basins, leaves
 from ....maps.columns import LEVELS
 from ... import limiting
 from ...axes import axes_of
@@ -16,7 +15,7 @@ from ...files import comma
 from ...text import law
 from ...text.answers import as_json
 from ...units import units_of
-from ..labels import limiting as caveats_of
+from ..shades import limiting as caveats_of
 
 SCHEMA = "stabilab.basin/1"
 SMOOTH = 0.1  # of the dimension: less than this above 1 is told as smooth where the uncertainty allows

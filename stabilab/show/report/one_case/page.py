@@ -9,12 +9,11 @@ from ....answers.equilibria import equilibria
 from ....answers.passage.of_case import with_tilt
 from ....answers.uncertain.verdicts import uncertain
 from ....errors import StabilabError
-from ....physics.equations import derive
-from ....physics.laws import invariants
+from ....physics.equations import derive, invariants
 from ....verify import verify_file
 from ... import limiting
 from ...axes import axes_of
-from ...plot import which
+from ...plot import subject as which
 from ...plot.subject import subject
 from ...terminal.letters import greek, printed
 from ...terminal.motion import constants, margins, shown, state

@@ -5,7 +5,8 @@ import math
 from pathlib import Path
 
 from ....asked import reach_of
-from ...plot import to_file, which
+from ...plot import subject as which
+from ...plot import to_file
 from ...plot.over_time import file_axes
 from ...terminal.letters import printed
 from ...units import units_of

@@ -12,9 +12,10 @@ import pytest
 import stabilab
 from stabilab.case.read import read_text
 from stabilab.errors import InputError
-from stabilab.maps.atlas.asked import asked
-from stabilab.maps.atlas.run import drawn
-from stabilab.show.maps.atlas import dataset, flat, page, picture, to_file, words
+from stabilab.maps.atlas.run import asked, drawn
+from stabilab.show.maps.atlas import dataset, picture, to_file, words
+from stabilab.show.maps.atlas import picture as page
+from stabilab.show.maps.atlas import words as flat
 from stabilab.show.units import DEG
 from tests.browser import CHROMIUM, Browser
 from tests.maps.atlas.test_atlas import case_of
@@ -105,21 +106,21 @@ def test_the_map_keeps_areas_and_comes_back():
 
 def test_pictures_show_what_is_asked_and_refuse_others(found, tmp_path, monkeypatch):
     monkeypatch.setattr(picture, "PIXELS", 200)
-    sizes = [picture.write(found, tmp_path / f"{kind}.png", DEG, kind, dpi=50).stat().st_size for kind in (None, "equilibria")]
+    sizes = [picture.write_picture(found, tmp_path / f"{kind}.png", DEG, kind, dpi=50).stat().st_size for kind in (None, "equilibria")]
     assert sizes[0] > 1.5 * sizes[1] > 5_000  # two maps for each wheel, and one
     with pytest.raises(InputError, match="plot margin: this atlas has fate, when, equilibria, level"):
-        picture.write(found, tmp_path / "no.png", DEG, "margin")
+        picture.write_picture(found, tmp_path / "no.png", DEG, "margin")
     with pytest.raises(InputError, match="expected a name that ends in"):
         to_file.checked([tmp_path / "sky.txt"])
 
 
 def test_the_page_needs_no_network_and_escapes_names(found, tmp_path):
-    text = page.write(found, tmp_path / "sky.html", DEG).read_text(encoding="utf-8")
+    text = page.write_page(found, tmp_path / "sky.html", DEG).read_text(encoding="utf-8")
     assert "http" not in text.replace("http://www.w3.org", "") and "A <1>" not in text.partition("</pre>")[0]
 
 
 def test_the_page_has_the_minus_of_a_book_and_round_times_in_its_legend(found, tmp_path):
-    text = page.write(found, tmp_path / "sky.html", DEG).read_text(encoding="utf-8")
+    text = page.write_page(found, tmp_path / "sky.html", DEG).read_text(encoding="utf-8")
     (lead,) = re.findall(r'<p class="lead">(.*?)</p>', text, re.S)
     assert "−" in lead and not re.search(r"-[\d.]", lead)
     (head, none), *marks = json.loads(re.search(r'id="atlas-data">(.*?)</script>', text, re.S)[1])["kinds"]["when"]["legend"]
@@ -140,7 +141,7 @@ def test_marks_are_round_and_few(least, most, marks):
 @pytest.mark.slow
 @pytest.mark.skipif(CHROMIUM is None, reason="Chromium is not installed")
 def test_a_narrow_page_has_names_to_be_read_and_a_tap_is_answered(found, tmp_path):
-    path = page.write(found, tmp_path / "sky.html", DEG)
+    path = page.write_page(found, tmp_path / "sky.html", DEG)
     with Browser(tmp_path / "profile", width=400, flags=["--host-resolver-rules=MAP * ~NOTFOUND"]) as browser:
         browser.open(path.as_uri())
         browser.until("window.atlas")
@@ -155,8 +156,8 @@ def test_a_narrow_page_has_names_to_be_read_and_a_tap_is_answered(found, tmp_pat
 @pytest.mark.slow
 @pytest.mark.skipif(CHROMIUM is None, reason="Chromium is not installed")
 def test_the_pages_pointer_tells_the_cell_that_python_finds(found, tmp_path):
-    from stabilab.maps.atlas.cells import places_of
-    path = page.write(found, tmp_path / "sky.html", DEG)
+    from stabilab.maps.atlas.pointed import places_of
+    path = page.write_page(found, tmp_path / "sky.html", DEG)
     directions = np.random.default_rng(3).normal(size=(300, 3))
     directions /= np.linalg.norm(directions, axis=1)[:, None]
     own = np.flatnonzero(found.leaves.wheel == 1)

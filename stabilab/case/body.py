@@ -1,0 +1,424 @@
+"""The body of a case: moments or a tensor of inertia, hardware (wheels, thrusters, limits), and frames turned against the principal axes."""
+from __future__ import annotations
+
+from dataclasses import replace
+from fractions import Fraction
+
+from ..errors import InputError
+from ..numbers.exact import exact, floats, half_unit, sqrt_fraction
+from ..numbers.principal import IDENTITY, PrincipalAxes, fault_of, principal_axes, without_trace
+from ..numbers.vectors import Exact3, cross, dot
+from ..physics.effects import effect_class
+from ..physics.scene import ROUNDING, Body
+from ..record import record
+from .table import Faults, Table, Written, described, plus_minus, states_uncertainty
+from .units import FORCE, INERTIA, in_dimension, pi, split
+
+# --- [body] of a case file: moments, a full tensor, or moments beside products of inertia; mass and centre
+# of mass
+KEYS = ("inertia", "products", "mass", "centre_of_mass")
+PAIRS = {"xy": (0, 1), "xz": (0, 2), "yz": (1, 2)}
+CONVENTIONS = ('"positive" (the products are the integrals of x y dm and so on, the entries of the tensor are minus these; '
+               'NASA 42 and many mass-property reports) or "negative" (the products are the entries of the tensor themselves)')
+
+
+def body_of(top: Table) -> tuple[Body | None, PrincipalAxes | None]:
+    """The body in its principal axes and these, (None, None) where it is at fault."""
+    table = top.table("body")
+    if table is None:
+        if "body" not in top:
+            top.fault("expected a table [body] with inertia (kg m^2), or [scaled] with a, b and mu")
+        return None, None
+    table.known(KEYS)
+    mass = table.positive("mass")
+    table.vector("centre_of_mass")
+    frame = _frame(table) if table.required("inertia") else None
+    try:
+        return (None, None) if frame is None or (mass is None and "mass" in table) else (Body(frame.moments, mass, _slack(table)), frame)
+    except InputError as error:
+        table.fault(str(error).removeprefix("inertia: "), "inertia")
+        return None, None
+
+
+def centre_of_mass(top: Table) -> Exact3 | None:
+    """Where the centre of mass is in the structural frame, m; None where the file does not say. Faults are noted by `body_of`."""
+    body = top.data.get("body")
+    if not isinstance(body, dict) or "centre_of_mass" not in body:
+        return None
+    return Table(("body",), body, Faults(top.faults.lines)).vector("centre_of_mass")
+
+
+def _frame(table: Table) -> PrincipalAxes | None:
+    value = table.data["inertia"]
+    nested = isinstance(value, list) and any(isinstance(row, list) for row in value) and all(isinstance(row, list) for row in value)
+    if not nested and "products" not in table:
+        moments = table.vector("inertia")
+        return PrincipalAxes(moments, IDENTITY, True) if moments and _good(table, moments) else None
+    rows = _tensor(table) if nested else _with_products(table)
+    wrong = rows and fault_of(rows)
+    if wrong:
+        table.fault(wrong, "inertia")
+    return None if wrong or rows is None else principal_axes(rows)
+
+
+def _tensor(table: Table):
+    """The 3 x 3 tensor as it is written, the mean of two entries that differ by the rounding of doubles."""
+    if "products" in table:
+        table.fault("a full tensor has the products of inertia in it: keep one of them", "products")
+        return None
+    rows = table.matrix("inertia")
+    if rows is None:
+        return None
+    slack = ROUNDING * max(abs(v) for row in rows for v in row)
+    return [[(v + rows[j][i]) / 2 if abs(v - rows[j][i]) <= slack else v for j, v in enumerate(row)] for i, row in enumerate(rows)]
+
+
+def _with_products(table: Table):
+    """Three moments and [body.products] as a tensor."""
+    moments, products = table.vector("inertia"), table.table("products")
+    if products is None or moments is None:
+        return None
+    products.known((*PAIRS, "convention"))
+    signs = {"positive": -1, "negative": 1}
+    convention = products.data.get("convention")
+    if convention not in signs:
+        came = "" if convention is None else f", got {described(convention)}"
+        keys = () if convention is None else ("convention",)
+        products.fault(f"products of inertia are printed with either sign: add convention = {CONVENTIONS}{came}", *keys)
+        return None
+    rows = [[moments[i] if i == j else Fraction(0) for j in range(3)] for i in range(3)]
+    for name, (i, j) in PAIRS.items():
+        value = products.number(name) if name in products else Fraction(0)
+        if value is None:
+            return None
+        rows[i][j] = rows[j][i] = signs[convention] * value
+    return rows
+
+
+def _good(table: Table, moments) -> bool:
+    """Whether three principal moments are positive, within their uncertainties too; the faults of both."""
+    negative = [index for index, moment in enumerate(moments) if moment <= 0]
+    for index in negative:
+        table.fault(f"number {index + 1} is {float(moments[index])!r}; principal moments are positive", "inertia", index)
+    return not negative and _possible(table, moments)
+
+
+def _possible(table: Table, moments) -> bool:
+    """Whether all moments within the uncertainties are positive; a fault where not."""
+    for index, moment in enumerate(moments):
+        given = table.faults.uncertain.get(table.path + ("inertia", index))
+        if given and moment <= given.half:
+            table.fault(f"number {index + 1}: the uncertainty reaches moments down to {float(moment - given.half)!r}; no rigid body has these: "
+                        "make it smaller", "inertia", index)
+            return False
+    return True
+
+
+def _slack(table: Table) -> Fraction:
+    """How far the digits of the tensor leave open by how much its largest moment exceeds the sum of the others, kg m^2.
+
+    With half units e_ij of the entries that is at most e_11 + e_22 + e_33 + 2 max_i sum_(j != i) e_ij: the trace changes by the
+    first, and an eigenvalue of the tensor less half its trace by at most the largest sum of a row (Gershgorin).
+    """
+    inertia, products = table.data["inertia"], table.data.get("products", {})
+    if isinstance(inertia[0], list):
+        halves = [[_half(value) for value in row] for row in inertia]
+    else:
+        halves = [[_half(inertia[i]) if i == j else Fraction(0) for j in range(3)] for i in range(3)]
+        for name, (i, j) in PAIRS.items():
+            halves[i][j] = halves[j][i] = _half(products.get(name, 0))
+    return sum(halves[i][i] for i in range(3)) + 2 * max(sum(row) - row[i] for i, row in enumerate(halves))
+
+
+def _half(value: object) -> Fraction:
+    """The uncertainty of a number of the file, else half a unit of its last digit, kg m^2."""
+    if not isinstance(value, str) or isinstance(value, Written):
+        return half_unit(value)
+    if states_uncertainty(value):
+        return plus_minus(value, INERTIA)[1]
+    number, unit = split(value) or (value, "")
+    return half_unit(number) * (in_dimension(unit, INERTIA).size if unit else 1)
+
+
+# --- What a spacecraft carries, as a case file states it: [[thrusters]], [[wheels]] and [limits]
+ZERO3 = (Fraction(0),) * 3
+THRUSTER = ("name", "position", "direction", "force", "misalignment", "force_tolerance", "stuck")
+WHEEL = ("name", "axis", "momentum", "inertia", "speed")
+SAME = Fraction(1, 10**6)  # relative: momentum and inertia x speed given to six digits agree
+
+
+@record
+class Thruster:
+    """position: m, structural frame; direction: unit vector of the force on the body, input frame; force: N; misalignment: half-angle
+    of the cone that the true direction lies in, rad, or None; force_tolerance: half-width, N, or None; stuck: whether it fires for
+    ever; torque: about the centre of mass, N m, input frame, of the force as stated; arm: from there to its position, m."""
+
+    name: str
+    position: Exact3
+    direction: Exact3
+    force: Fraction
+    misalignment: Fraction | None
+    force_tolerance: Fraction | None
+    stuck: bool
+    torque: Exact3
+    arm: Exact3 = ZERO3
+
+
+@record
+class Wheel:
+    """axis: unit vector, input frame; momentum: along it relative to the body, N m s; vector: both as a vector, input frame."""
+
+    name: str
+    axis: Exact3
+    momentum: Fraction
+    vector: Exact3
+
+
+@record
+class Limits:
+    """rate: largest |omega|, rad/s, or rates: largest |omega_i| along the axes of the input frame; the other one is None."""
+
+    rate: Fraction | None = None
+    rates: Exact3 | None = None
+
+    def components(self, frame: PrincipalAxes) -> list[tuple[Exact3, Fraction]]:
+        """(axis of the input frame as a unit vector along the principal axes, its limit) of `rates`."""
+        return [(frame.turned([Fraction(int(n == m)) for n in range(3)]), most) for m, most in enumerate(self.rates or ())]
+
+
+def thrusters_of(top: Table, centre: Exact3 | None) -> tuple[Thruster, ...]:
+    """Those without a fault."""
+    found = [_thruster(table, f"thruster {i}", centre or ZERO3) for i, table in enumerate(top.tables("thrusters"), 1)]
+    _told_apart(top, "thrusters", THRUSTER)
+    return tuple(one for one in found if one)
+
+
+def wheels_of(top: Table) -> tuple[Wheel, ...]:
+    """Those without a fault."""
+    found = [_wheel(table, f"wheel {i}") for i, table in enumerate(top.tables("wheels"), 1)]
+    _told_apart(top, "wheels", WHEEL)
+    return tuple(one for one in found if one)
+
+
+def limits_of(top: Table) -> Limits | None:
+    table = top.table("limits")
+    if table is None:
+        return None
+    table.known(("rate",))
+    if not table.required("rate"):
+        return None
+    if not isinstance(table.data["rate"], list):
+        rate = table.positive("rate")
+        return None if rate is None else Limits(rate)
+    rates = table.vector("rate")
+    for index, value in enumerate(rates or ()):
+        if value <= 0:
+            table.fault(f"number {index + 1}: expected a positive number, got {float(value)!r}", "rate", index)
+            return None
+    return None if rates is None else Limits(None, rates)
+
+
+def judge_limits(top: Table, limits: Limits | None, state: Exact3 | None):
+    """Note a limit that the motion has passed before it starts. state: rad/s, input frame."""
+    if limits is None or state is None:
+        return
+    table, degrees = Table(("limits",), top.data["limits"], top.faults), 180 / pi()
+    if limits.rate is not None and dot(state, state) > limits.rate**2:
+        _too_low(table, "", limits.rate, sqrt_fraction(dot(state, state)), degrees, "rate")
+    for index, (most, now) in enumerate(zip(limits.rates or (), state)):
+        if abs(now) > most:
+            _too_low(table, f"number {index + 1}: ", most, abs(now), degrees, "rate", index)
+
+
+def _too_low(table: Table, which: str, limit, now, degrees, *place):
+    digits = 6 if f"{float(limit):.6g}" != f"{float(now):.6g}" else 17
+    told = [f"{float(rate):.{digits}g} rad/s ({float(rate * degrees):.{digits}g} deg/s)" for rate in (limit, now)]
+    table.fault(f"{which}the limit, {told[0]}, is below the rate that the motion starts with, {told[1]}: raise it or start slower", *place)
+
+
+def _told_apart(top: Table, key: str, allowed):
+    """Note what is no key, and names that two of them share."""
+    first = {}
+    for table in top.tables(key) if isinstance(top.data.get(key), list) and all(isinstance(t, dict) for t in top.data[key]) else ():
+        table.known(allowed)
+        name = table.data.get("name")
+        if isinstance(name, str) and name in first:
+            table.fault(f"two {key} have the name {described(name).removeprefix('the text ')}: give each its own", "name")
+        elif isinstance(name, str):
+            first[name] = table
+
+
+def _name(table: Table, otherwise: str) -> str:
+    name = table.text("name", otherwise)
+    if not name.strip():
+        table.fault("expected a name, got an empty text", "name")
+    return name
+
+
+def _thruster(table: Table, otherwise: str, centre: Exact3) -> Thruster | None:
+    name, stuck = _name(table, otherwise), table.truth("stuck")
+    complete = table.required("position", "direction", "force", position="add where it is, three numbers in m in the structural frame",
+                              direction="add that of its force on the body, three numbers, any length", force='add its size, such as force = "1 N"')
+    position, direction = table.vector("position"), _direction(table, "direction")
+    force, tolerance = _force(table)
+    angle = table.positive("misalignment", zero=True)
+    if angle is not None and 2 * angle >= pi():
+        table.fault(f"expected the half-angle of a cone below 90 deg, got {float(angle * 180 / pi()):.6g} deg; "
+                    'a number alone is in rad, write "1 deg"', "misalignment")
+    if not complete or None in (position, direction, force):
+        return None
+    raw, length = direction
+    arm = tuple(p - c for p, c in zip(position, centre))
+    torque = tuple(force * t / length for t in cross(arm, raw))
+    return Thruster(name, position, tuple(v / length for v in raw), force, angle, tolerance, stuck, torque, arm)
+
+
+def _force(table: Table):
+    """(force, its tolerance or None), N; None for a force that is at fault."""
+    text, tolerance = table.data.get("force"), None
+    if isinstance(text, str) and states_uncertainty(text):
+        try:
+            force, tolerance, _ = plus_minus(text, FORCE)
+        except InputError as error:
+            table.fault(str(error), "force")
+            return None, None
+        if "force_tolerance" in table:
+            table.fault("the force has its tolerance already: keep one of them", "force_tolerance")
+    else:
+        force = table.number("force")
+        tolerance = _tolerance(table, force)
+    if force is not None and force <= 0:
+        table.fault(f"expected a positive force, got {float(force):.6g} N; turn the direction round for a force the other way", "force")
+        return None, None
+    if force is not None and tolerance is not None and tolerance >= force:
+        table.fault(f"expected a tolerance below the force, {float(force):.6g} N, got {float(tolerance):.6g} N: the force would have no sure direction",
+                    "force_tolerance" if "force_tolerance" in table else "force")
+        return None, None
+    return force, tolerance
+
+
+def _tolerance(table: Table, force):
+    """In N, or in per cent of the force: "5 %"."""
+    value = table.data.get("force_tolerance")
+    if not isinstance(value, str) or not value.rstrip().endswith("%"):
+        return table.positive("force_tolerance", zero=True)
+    try:
+        share = exact(value.rstrip()[:-1].strip())
+    except InputError as error:
+        table.fault(str(error), "force_tolerance")
+        return None
+    if share < 0:
+        table.fault(f"expected a tolerance that is not negative, got {described(value)}", "force_tolerance")
+    return None if force is None else abs(force) * share / 100
+
+
+def _direction(table: Table, key: str):
+    """(the vector as written, its length), or None. The length is exact where it is rational, else good to 240 bits."""
+    vector = table.vector(key)
+    if vector is None:
+        return None
+    if not any(vector):
+        table.fault("expected a direction, got zero: give a vector of any length but that", key)
+        return None
+    return vector, sqrt_fraction(dot(vector, vector))
+
+
+def _wheel(table: Table, otherwise: str) -> Wheel | None:
+    name, complete = _name(table, otherwise), table.required("axis", axis="add the direction of its momentum, three numbers, frame of the file, any length")
+    axis, momentum = _direction(table, "axis"), _momentum(table)
+    if not complete or axis is None or momentum is None:
+        return None
+    raw, length = axis
+    return Wheel(name, tuple(v / length for v in raw), momentum, tuple(momentum * v / length for v in raw))
+
+
+def _momentum(table: Table) -> Fraction | None:
+    """N m s along the axis: as given, or inertia x speed."""
+    momentum, inertia, speed = table.number("momentum"), table.positive("inertia"), table.number("speed")
+    halves = [key for key in ("inertia", "speed") if key in table]
+    if "momentum" not in table and len(halves) < 2:
+        said = f"{halves[0]} alone is not enough: " if halves else ""
+        table.fault(f"{said}expected momentum (N m s), or inertia (kg m^2, about the axis) and speed (rad/s, relative to the body)", *halves)
+        return None
+    if len(halves) < 2 or inertia is None or speed is None:
+        return momentum
+    product = inertia * speed
+    if momentum is not None and abs(product - momentum) > SAME * abs(momentum):
+        table.fault(f"{float(momentum):.6g} N m s contradicts inertia x speed, {float(product):.6g} N m s: keep one of them", "momentum")
+    return momentum if "momentum" in table else product
+
+
+# --- From the frame that a case is written in to principal axes: what the parts add up to, effects and
+# motion turned
+OBLIQUE = "the tensor is not diagonal, and"
+REFUSED = {"x": f"{OBLIQUE} x counts along principal axes: give angular_velocity in rad/s, in the frame of the tensor",
+           "attitude": f"{OBLIQUE} an attitude is not turned to principal axes: give principal moments",
+           "velocity": f"{OBLIQUE} a velocity is not turned to principal axes: give principal moments",
+           "position": f"{OBLIQUE} a position is not turned to principal axes: give principal moments"}  # keys of [motion]
+
+
+def added(effects: list, thrusters, wheels) -> list:
+    """The effects with the torques of stuck thrusters and the momenta of wheels, all in the input frame."""
+    torque = _sum([t.torque for t in thrusters if t.stuck])
+    momentum = _sum([w.vector for w in wheels])
+    return _with(_with(effects, "gyrostat", momentum), "constant_torque", torque)
+
+
+def _sum(vectors):
+    return tuple(map(sum, zip(*vectors))) if vectors else None
+
+
+def _with(effects, name, vector):
+    if vector is None:
+        return effects
+    given = next((e for e in effects if e.name == name), None)
+    if given is None:
+        return [*effects, effect_class(name)(vector)]
+    whole = effect_class(name)(tuple(a + b for a, b in zip(given.exact, vector)))
+    return [whole if e is given else e for e in effects]
+
+
+def turned_effects(top: Table, effects: list, frame: PrincipalAxes | None) -> list:
+    """The effects along principal axes; a fault for each that cannot be turned."""
+    if frame is None or frame.as_given:
+        return effects
+    turned = [effect.turned(frame) for effect in effects]
+    for effect, found in zip(effects, turned):
+        if found is None:
+            top.fault(f"{OBLIQUE} {effect.name.replace('_', ' ')} is known along principal axes alone: give principal moments, and "
+                      "the rest of the case along them", "effects", effect.name)
+    return _at_right_angles([effect for effect in turned if effect is not None])
+
+
+def _at_right_angles(effects: list) -> list:
+    """Momentum across the torque in the input frame is across it along irrational axes too: whether it is decides what becomes of a motion."""
+    torque = next((e.exact for e in effects if e.name == "constant_torque"), None)
+    if torque is None:
+        return effects
+    return [type(e)(without_trace(e.exact, torque)) if e.name == "gyrostat" else e for e in effects]
+
+
+def judge_oblique(top: Table, frame: PrincipalAxes | None):
+    """Note every number that speaks of principal axes beside a tensor that is not diagonal."""
+    if frame is None or frame.as_given:
+        return
+    motion, torque = top.data.get("motion"), top.data.get("effects")
+    for key, words in REFUSED.items():
+        if isinstance(motion, dict) and key in motion:
+            top.fault(words, "motion", key)
+    torque = torque.get("constant_torque") if isinstance(torque, dict) else None
+    if isinstance(torque, dict) and "mu" in torque:
+        top.fault(f"{OBLIQUE} mu counts along principal axes: give torque in N m, in the frame of the tensor", "effects", "constant_torque", "mu")
+
+
+def turned_motion(motion, frame: PrincipalAxes | None):
+    """[motion] with its angular velocity and vertical along principal axes."""
+    if frame is None or frame.as_given or motion.state_key == "x":
+        return motion
+    state = motion.exact and frame.turned(motion.exact)
+    try:
+        vertical = {"gamma": floats(frame.turned(motion.exact_vertical))} if motion.exact_vertical else {}
+        return replace(motion, exact=state, state=state and floats(state), blocks=motion.blocks | vertical)
+    except OverflowError:
+        motion.table.fault("exceeds the largest double (about 1.8e308) along the principal axes", motion.state_key)
+        return motion

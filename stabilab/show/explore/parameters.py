@@ -1,0 +1,331 @@
+"""What may be changed in the explorer: sliders, and the case with a number changed.
+
+A case with what the sliders changed: as the text of a case file, and as the case that this text states.
+
+What the page shows is always the answer for that very text, so a case that is saved is the one that was seen. Numbers that no hand touched stay as
+the file has them. Sliders count along principal axes; where the file's tensor is not diagonal, the new text stands along these.
+"""
+from __future__ import annotations
+
+import json
+import math
+import re
+import tomllib
+from dataclasses import asdict, dataclass
+from decimal import Decimal, localcontext
+from fractions import Fraction
+from typing import Any
+
+from ...case.read import Case, read_text
+from ...errors import CaseError, InputError
+from ...physics.scene import Scene
+from ...verify.numbers import shown
+from ..units import Units
+
+# --- The sliders of a case: torque and its tilt, wheel momentum, start, in the units in which the case is
+# told
+ROOM = 2.5  # of the case's own number: how far a slider goes
+TILTED = 10.0  # deg, the least length of the slider of a tilt
+STILL = 0.05  # rad/s: a body that no number moves turns so fast on the sliders
+
+
+@dataclass(frozen=True)
+class Control:
+    """One slider. name: as in a request; value, low, high: in its unit; words: for people."""
+
+    name: str
+    words: str
+    unit: str
+    value: float
+    low: float
+    high: float
+
+
+def groups(case: Case, units: Units) -> list[dict[str, Any]]:
+    """The groups of sliders as a page takes them: {title, axis of the torque where it is of that, controls}."""
+    axis, size, tilt, azimuth = direction(vector(case, "torque"))
+    strength = Control("size", f"about {units.axes.short(axis)}", units.plain("N m")[0], size, *_around(abs(size) or _usual_torque(case)))
+    torque = [strength, Control("tilt", "tilt off the axis", "deg", tilt, 0.0, nice(max(TILTED, ROOM * tilt))),
+              Control("azimuth", "towards", "deg", azimuth, -180.0, 180.0)]
+    return [{"title": "Torque", "axis": axis, "controls": _plain(torque)},
+            {"title": "Wheel momentum" if not units.scaled else "Wheel and moments", "axis": None, "controls": _plain(_wheel(case, units))},
+            {"title": "Start", "axis": None, "controls": _plain(_start(case, units))}]
+
+
+def vector(case: Case, name: str) -> tuple[float, ...]:
+    """The torque, the wheel momentum or the start, principal axes, SI or scaled; a and b stand for the wheel of a scaled case."""
+    scene = case.scene
+    if name == "start":
+        return tuple(case.state or (0.0, 0.0, 0.0))
+    if scene.variables == "scaled":
+        return tuple(map(float, scene.mu)) if name == "torque" else (float(scene.a), float(scene.b))
+    return tuple(map(float, scene.vector("constant_torque" if name == "torque" else "gyrostat")))
+
+
+def direction(torque: tuple[float, ...]) -> tuple[int, float, float, float]:
+    """(axis 1 to 3 that it is nearest to, its size signed by its sense along that, tilt off it and azimuth of the tilt in deg)."""
+    if not any(torque):
+        return 3, 0.0, 0.0, 0.0
+    i = max(range(3), key=lambda n: abs(torque[n]))
+    j, k = (i + 1) % 3, (i + 2) % 3
+    size = math.copysign(math.hypot(*torque), torque[i])
+    across = math.hypot(torque[j], torque[k])
+    azimuth = math.degrees(math.atan2(torque[k] / size, torque[j] / size)) if across else 0.0
+    return i + 1, size, math.degrees(math.atan2(across, abs(torque[i]))), azimuth
+
+
+def torque_of(axis: int, size: float, tilt: float, azimuth: float) -> tuple[float, ...]:
+    """The inverse of `direction`: components are exactly zero at right angles."""
+    (cos_t, sin_t), (cos_a, sin_a) = _turned(tilt), _turned(azimuth)
+    out = [0.0] * 3
+    for n, share in ((axis - 1, cos_t), (axis % 3, sin_t * cos_a), ((axis + 1) % 3, sin_t * sin_a)):
+        out[n] = size * share
+    return tuple(out)
+
+
+def _turned(degrees: float) -> tuple[float, float]:
+    quarter, rest = divmod(degrees, 90.0)
+    if not rest:
+        return ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))[int(quarter) % 4]
+    return math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
+
+
+def _wheel(case: Case, units: Units) -> list[Control]:
+    values = vector(case, "wheel")
+    if not isinstance(case.scene, Scene):
+        high = nice(ROOM * max(1.0, *map(abs, values)))
+        return [Control(f"wheel{n}", name, "", value, -high, high) for n, (name, value) in enumerate(zip("ab", values))]
+    size = max(max(map(abs, values)), max(case.scene.body.inertia) * (math.hypot(*vector(case, "start")) or STILL) / ROOM)
+    return [Control(f"wheel{n}", f"about {units.axes.short(n + 1)}", "N m s", value, *_around(size)) for n, value in enumerate(values)]
+
+
+def _start(case: Case, units: Units) -> list[Control]:
+    values = vector(case, "start")
+    name, one = units.rates
+    size = max(map(abs, values)) * one or (1.0 if units.scaled else STILL * one)
+    words = [component.replace("omega", "ω") for component in case.scene.components]
+    return [Control(f"start{n}", words[n], name, value * one, *_around(size)) for n, value in enumerate(values)]
+
+
+def _usual_torque(case: Case) -> float:
+    """A torque for a case that has none: it changes the rates of the start within some radians of turn, and is no larger than that of the weight."""
+    if not isinstance(case.scene, Scene):
+        return 1.0
+    rate = math.hypot(*vector(case, "start")) or STILL
+    turning, weight = sum(case.scene.body.inertia) / 3 * rate * rate / 4, case.scene.vector("gravity")
+    return min(turning, math.hypot(*map(float, weight))) if any(weight) else turning
+
+
+def _around(size: float) -> tuple[float, float]:
+    high = nice(ROOM * size)
+    return -high, high
+
+
+def nice(value: float) -> float:
+    """The least of 1, 2, 3, 5, 8 times a power of ten that is not below the value."""
+    ten = 10.0 ** math.floor(math.log10(value))
+    return float(f"{next(n for n in (1, 2, 3, 5, 8, 10, 20) if n * ten >= value * (1 - 1e-12)) * ten:.6g}")
+
+
+def _plain(controls: list[Control]) -> list[dict[str, Any]]:
+    """With six digits at most, as a person reads a slider; the case keeps all of its own."""
+    return [asdict(one) | {"value": float(f"{one.value:.6g}")} for one in controls]
+
+
+# --- A case as TOML text again, from its data: numbers as they were written
+DECIMALS = 20  # an exact decimal of so many digits is written as one, any other number as a ratio
+RATIO, DIGITS = 120, 36  # a ratio with more letters is one of 240 bits, of axes that are irrational: it is rounded to so many digits
+
+
+class Written(str):
+    """A number as it stands in a file."""
+
+
+def data_of(text: str) -> dict[str, Any]:
+    """The data of a case file."""
+    return tomllib.loads(text, parse_float=Written)
+
+
+def exact_text(value: Fraction) -> Written | str:
+    """A rational as a case takes it: a decimal, or a ratio in quotes; numbers that were enclosed, not given, are rounded."""
+    places, rest = 0, value.denominator
+    for prime in (2, 5):
+        power = 0
+        while rest % prime == 0:
+            rest, power = rest // prime, power + 1
+        places = max(places, power)
+    digits = f"{abs(value.numerator) * 10**places // value.denominator:0{places + 1}d}" if rest == 1 else ""
+    if not digits or len(digits) > DECIMALS:
+        ratio = f"{value.numerator}/{value.denominator}"
+        return ratio if len(ratio) <= RATIO else Written(f"{_rounded(value):e}")
+    whole, fraction = (digits[:-places], digits[-places:]) if places else (digits, "0")
+    return Written(f"{'-' if value < 0 else ''}{whole}.{fraction}")
+
+
+def _rounded(value: Fraction) -> Decimal:
+    with localcontext() as context:
+        context.prec = DIGITS
+        return Decimal(value.numerator) / Decimal(value.denominator)
+
+
+def text_of(data: dict[str, Any], head: str = "") -> str:
+    """TOML text; head: a comment above it."""
+    lines = [f"# {line}" for line in head.splitlines()]
+    _table(lines, (), data)
+    return "\n".join(lines).strip("\n") + "\n"
+
+
+def _table(lines: list[str], path: tuple[str, ...], table: dict[str, Any], brackets: str = "[%s]") -> None:
+    plain = {k: v for k, v in table.items() if not _is_table(v)}
+    if path and (plain or not table or brackets != "[%s]"):
+        lines += ["", brackets % ".".join(map(_key, path))]
+    lines += [f"{_key(k)} = {_value(v)}" for k, v in plain.items()]
+    for key, value in table.items():
+        if isinstance(value, dict):
+            _table(lines, (*path, key), value)
+        elif _is_table(value):
+            for row in value:
+                _table(lines, (*path, key), row, "[[%s]]")
+
+
+def _is_table(value: Any) -> bool:
+    return isinstance(value, dict) or isinstance(value, list) and bool(value) and all(isinstance(one, dict) for one in value)
+
+
+def _key(key: str) -> str:
+    return key if re.fullmatch(r"[A-Za-z0-9_-]+", key) else _quoted(key)
+
+
+def _quoted(text: str) -> str:
+    return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")
+
+
+def _value(value: Any) -> str:
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, Written) or not isinstance(value, (str, list, dict)):
+        return str(value)
+    if isinstance(value, str):
+        return _quoted(value)
+    if isinstance(value, list):
+        return f"[{', '.join(map(_value, value))}]"
+    return f"{{{', '.join(f'{_key(k)} = {_value(v)}' for k, v in value.items())}}}"
+
+
+SPOKEN_FOR = ("expect", "sweep")  # tables that speak of the file's own numbers
+LENGTH = 40  # letters of a number at most
+SMALLEST = 1e-300  # but zero: what is drawn of smaller ones has fewer digits than doubles
+LARGEST = 1e8  # beyond it doubles that are drawn run into overflows and lost digits; no body has such numbers
+
+
+def changed(case: Case, asked: dict[str, Any], units: Units) -> tuple[Case, str]:
+    """(the case with the changes of a request, words on what was left out). asked: {"torque": None or {axis, size, tilt, azimuth}, "wheel" and "start": a
+    number in text, or None for the case's own, for each slider}. Raises InputError for what is no such request."""
+    scaled = case.scene.variables == "scaled"
+    torque, wheel, start = asked.get("torque"), _numbers(asked, "wheel", 2 if scaled else 3), _numbers(asked, "start", 3)
+    if torque is None and wheel is None and start is None and case.state is not None:
+        return case, ""
+    base = _base(case)
+    if torque is not None:
+        _set_torque(base, _given_torque(torque), scaled)
+    if wheel is not None:
+        _set_wheel(base, case, wheel, scaled)
+    if start is not None or case.state is None:
+        _set_start(base, case, start or [None] * 3, scaled, units)
+    head, left = f"{case.name}, changed with stabilab explore", _left_out(case, torque is None)
+    try:
+        return read_text(case.path, text_of(base, head)), left
+    except CaseError as error:
+        if not all(problem.key.startswith("limits") for problem in error.problems):
+            raise
+    base.pop("limits")
+    return read_text(case.path, text_of(base, head)), f"The start is beyond the limit of the case, which is left out here. {left}".rstrip()
+
+
+def _left_out(case: Case, fires: bool) -> str:
+    """What of a file whose tensor is not diagonal cannot be stated along the principal axes; fires: whether its thrusters still give the torque."""
+    if case.frame is None or case.frame.as_given:
+        return ""
+    found = [words for words, there in (("limits about the axes of the file", case.limits is not None and case.limits.rates is not None),
+                                        ("the misalignment of thrusters", fires and any(one.stuck and one.misalignment for one in case.thrusters))) if there]
+    return f"Left out of a changed case, which stands along the principal axes: {' and '.join(found)}." if found else ""
+
+
+def _base(case: Case) -> dict[str, Any]:
+    """The data of the case to be changed, along principal axes."""
+    data = {key: value for key, value in data_of(case.text).items() if key not in SPOKEN_FOR}
+    scene = case.scene
+    if scene.variables == "scaled":
+        motion = {key: value for key, value in data.get("motion", {}).items() if key in ("x", "tau")}
+        own = {"a": exact_text(scene.exact_ab[0]), "b": exact_text(scene.exact_ab[1]), "mu": [exact_text(v) for v in scene.exact_mu]}
+        return _kept(data, "title", "source") | {"scaled": own, **_kept(data, "output"), **({"motion": motion} if motion else {})}
+    if case.frame is None or case.frame.as_given:
+        return data
+    body = {"inertia": [exact_text(v) for v in scene.body.exact]} | _kept(data["body"], "mass")
+    vectors: Any = {effect.name: (type(effect).keys[0], scene.vector(effect.name)) for effect in scene.effects}
+    effects = {name: {key: [exact_text(v) for v in vector]} for name, (key, vector) in vectors.items()}
+    motion = {"angular_velocity": [exact_text(v) for v in case.exact_state or ()]} | _kept(data.get("motion", {}), "span")
+    limits = {} if case.limits is None or case.limits.rate is None else _kept(data, "limits")
+    return _kept(data, "title", "source") | {"body": body, "effects": effects, **limits, **_kept(data, "output"), "motion": motion}
+
+
+def _kept(data: dict[str, Any], *keys: str) -> dict[str, Any]:
+    return {key: data[key] for key in keys if key in data}
+
+
+def _set_torque(base: dict[str, Any], vector: tuple[float, ...], scaled: bool) -> None:
+    numbers = [Written(f"{v + 0.0:.12g}") for v in vector]
+    if scaled:
+        base["scaled"]["mu"] = numbers
+        return
+    for thruster in base.get("thrusters", ()):
+        thruster["stuck"] = False  # its torque is in that of the slider
+    base.setdefault("effects", {})["constant_torque"] = {"torque": numbers}
+
+
+def _set_wheel(base: dict[str, Any], case: Case, values: list[Any], scaled: bool) -> None:
+    if scaled:
+        base["scaled"] |= {name: Written(value) for name, value in zip("ab", values) if value is not None}
+        return
+    scene: Any = case.scene
+    own = scene.vector("gyrostat")
+    base.pop("wheels", None)
+    base.setdefault("effects", {})["gyrostat"] = {"momentum": [exact_text(v) if new is None else Written(new) for v, new in zip(own, values)]}
+
+
+def _set_start(base: dict[str, Any], case: Case, values: list[Any], scaled: bool, units: Units) -> None:
+    motion = base.setdefault("motion", {})
+    key = "x" if scaled else "angular_velocity"
+    own = motion.get(key) or [exact_text(Fraction(v)) for v in case.exact_state or (0, 0, 0)]
+    unit = units.rates[0]
+    motion[key] = [old if new is None else Written(new) if scaled or unit == "rad/s" else f"{new} {unit}" for old, new in zip(own, values)]
+
+
+def _numbers(asked: dict[str, Any], name: str, count: int) -> list[Any] | None:
+    """The changed numbers of a group, None for one that stays; None where all do."""
+    values = asked.get(name)
+    if values is not None and (not isinstance(values, list) or len(values) != count):
+        raise InputError(f"{name}: expected a list of {count} numbers or nulls, got {shown(values)}")
+    if values is None or not any(value is not None for value in values):
+        return None
+    return [None if value is None else number(value, name) for value in values]
+
+
+def number(value: Any, name: str) -> str:
+    """A decimal in text."""
+    try:
+        found = float(value) if isinstance(value, str) and len(value) <= LENGTH else math.nan
+    except ValueError:
+        found = math.nan
+    if not math.isfinite(found):
+        raise InputError(f"{name}: expected a number, got {shown(value)}")
+    if found and not SMALLEST <= abs(found) <= LARGEST:
+        raise InputError(f"{name}: expected 0 or a number of {SMALLEST:g} to {LARGEST:g}, which can still be drawn, got {value}")
+    return f"{found:.12g}"
+
+
+def _given_torque(asked: Any) -> tuple[float, ...]:
+    axis = asked.get("axis") if isinstance(asked, dict) else None
+    if type(axis) is not int or axis not in (1, 2, 3):  # neither true nor 1.0
+        raise InputError(f"torque: expected an axis of 1, 2 or 3, got {shown(axis)}")
+    return torque_of(axis, *(float(number(asked.get(name), name)) for name in ("size", "tilt", "azimuth")))

@@ -1,0 +1,396 @@
+"""What the explorer draws: the plane of the reduced motion, rates over time, the space of rates; numbers packed for the browser.
+
+An answer as bytes for a page: a header in JSON, and behind it the numbers of all curves and surfaces.
+
+    4 bytes: length of the header, little-endian | header | zeros up to a multiple of 4 | numbers
+
+In the header a row of numbers is {"type": "int16" or "float32", "from": byte in the numbers, "count": how many}.
+
+The phase plane of the motion from one state, in plain floats: heights of the reduced potential from which a page draws every level curve.
+
+`orbit.phase_plane` has the same plane in arrays, to the last digit; this one serves a hand that moves, and a browser without NumPy.
+
+The space of the rates as a page draws it: separatrix, equilibria, motion and marks in a box that stays while a hand moves.
+
+Places are whole numbers of 16 bits along each axis, 4095 for half of the box, as on a page of the report. All of it does without NumPy.
+"""
+from __future__ import annotations
+
+import json
+import math
+import struct
+import sys
+from array import array
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from ...case.read import Case
+from ...equilibrium.result import Equilibria
+from ...errors import InputError
+from ...orbit.potential import potential
+from ...orbit.reduction import Reduction, reduce
+from ...orbit.result import Fate, Motion
+from ...orbit.separatrix.plain_sheets import PlainSheet
+from ...physics.scene import AnyScene
+from ...verify.numbers import shown
+from .. import style
+from ..units import Units
+
+TYPES = {"int16": "h", "float32": "f"}
+
+
+class Bag:
+    """Rows of numbers, one behind the other."""
+
+    def __init__(self) -> None:
+        self._parts: list[bytes] = []
+        self._length = 0
+
+    def add(self, kind: str, values: Iterable[float] | bytes) -> dict[str, Any]:
+        """Keep a row; what the header says of it. values: numbers, or bytes that are numbers of this kind, little-endian."""
+        raw = values if isinstance(values, bytes) else _packed(kind, values)
+        row = {"type": kind, "from": self._length, "count": len(raw) // array(TYPES[kind]).itemsize}
+        padded = raw + b"\0" * (-len(raw) % 4)
+        self._parts.append(padded)
+        self._length += len(padded)
+        return row
+
+    def framed(self, header: dict[str, Any]) -> bytes:
+        """Header and numbers as the page reads them. Numbers that are not finite become null."""
+        text = json.dumps(finite(header), ensure_ascii=False, separators=(",", ":"), allow_nan=False).encode()
+        return b"".join([struct.pack("<I", len(text)), text, b"\0" * (-(4 + len(text)) % 4), *self._parts])
+
+
+def unframed(message: bytes) -> tuple[dict[str, Any], bytes]:
+    """(header, numbers) of `Bag.framed`."""
+    (length,) = struct.unpack_from("<I", message)
+    return json.loads(message[4:4 + length]), message[4 + length + (-(4 + length) % 4):]
+
+
+def _packed(kind: str, values: Iterable[float]) -> bytes:
+    made = array(TYPES[kind], values)
+    if sys.byteorder == "big":
+        made.byteswap()
+    return made.tobytes()
+
+
+def finite(value: Any) -> Any:
+    """The same with null for what JSON has no number for."""
+    if isinstance(value, float):
+        return value if math.isfinite(value) else None
+    if isinstance(value, dict):
+        return {key: finite(one) for key, one in value.items()}
+    return [finite(one) for one in value] if isinstance(value, (list, tuple)) else value
+
+
+POINTS = 361  # of the potential across the picture
+CIRCLE = 1.35 * math.pi  # half of what is shown of a circle
+LIFT, CELLAR, FARTHEST = 2.5, 6.0, 12.0  # of walls: heights above and below the motion's that are worth drawing, and how far to look for them
+HALVINGS = 48
+NEAREST, GROWTH = 1e-4, 1.1  # of the steps outward
+
+
+@dataclass(frozen=True)
+class Plane:
+    """turn: of the body about the axis of the torque since the start (rad, or scaled), at `low` to `high` of the canonical angle in even steps;
+    heights: V there, 0 at the start; W0: the canonical rate at the start. unit: turn per canonical angle."""
+
+    reduction: Reduction
+    potential: Any
+    place: tuple[float, float]
+    W0: float
+    unit: float
+    y: list[float]
+    heights: list[float]
+    rests: list[tuple[float, float, bool]]  # canonical angle, V, whether it is a saddle
+
+    def rate(self, W: float) -> float:
+        """omega_i of canonical W."""
+        if not self.reduction.geometry.centred:
+            return W - float(self.reduction.s)
+        return float(self.reduction.component_i(W))
+
+    def canonical(self, rate: float) -> float:
+        """W of omega_i."""
+        w = rate + float(self.reduction.s)
+        return w * self.reduction.constants["flip"] * self.reduction.constants["n"] if self.reduction.geometry.centred else w
+
+    def state(self, turn: float, rate: float) -> tuple[float, ...]:
+        """The three rates of a point of the plane."""
+        r, out = self.reduction, [0.0] * 3
+        place = self.potential.move(self.place, turn / self.unit)
+        if r.geometry.centred:
+            x, z = self.potential.xz(place)
+            place = r.component_j(x), r.component_k(z)
+        out[r.j], out[r.k] = place
+        out[r.axis] = rate
+        return tuple(map(float, out))
+
+
+def plane_of(scene: AnyScene, state: tuple[float, ...]) -> Plane | None:
+    """The plane of the motion from a state; None where the scene does not reduce."""
+    r = reduce(scene)
+    if r is None:
+        return None
+    pot, place, W0, unit = potential(r), *_start(r, state)
+    force = pot.force(place)
+    height = lambda y: pot.rise(float(y), place, force)
+    low, high = _walls(pot, place, height, W0) if r.geometry.walled else _round(pot, place)
+    y = [low + (high - low) * n / (POINTS - 1) for n in range(POINTS)]
+    rests = [(at, height(at), pot.slope(pot.move(place, at)) > 0) for at in _rests(pot, place, y)]
+    return Plane(r, pot, place, W0, unit, y, [height(v) for v in y], rests)
+
+
+def _start(r: Reduction, state: tuple[float, ...]) -> tuple[tuple[float, float], float, float]:
+    """(place, W, turn per canonical angle)."""
+    if not r.geometry.centred:
+        return (float(state[r.j]), float(state[r.k])), float(state[r.axis]) + float(r.s), 1.0
+    x, z, w = r.canonical_exact(state)
+    first, second = r.geometry.place(x, z)
+    return (float(first), float(second)), float(w), r.constants["flip"] / r.constants["n"]
+
+
+def _round(pot, place):
+    """What is shown of a circle: about the middle of the equilibria within half a turn."""
+    found = list(_rests(pot, place, [-math.pi + 2 * math.pi * n / POINTS for n in range(POINTS + 1)]))
+    middle = sum(found) / len(found) if found else 0.0
+    return middle - CIRCLE, middle + CIRCLE
+
+
+def _rests(pot, place, y):
+    """Where the force vanishes: between places of opposite signs, halved; nothing where it vanishes everywhere."""
+    force = lambda v: pot.force(pot.move(place, v))
+    values = [force(v) for v in y]
+    for n in range(len(y) - 1 if any(values) else 0):
+        if values[n] * values[n + 1] < 0 or values[n] == 0:
+            low, high, below = y[n], y[n + 1], values[n] < 0
+            for _ in range(HALVINGS if values[n] else 0):
+                middle = 0.5 * (low + high)
+                low, high = (middle, high) if (force(middle) < 0) == below else (low, middle)
+            yield low
+
+
+def _walls(pot, place, height, W0):
+    """How far on each side the potential of a hyperbola or parabola is worth drawing."""
+    out = [NEAREST * GROWTH**n for n in range(math.ceil(math.log(FARTHEST / NEAREST, GROWTH)) + 1)]
+    marks = [0.0, *_rests(pot, place, [*(-y for y in reversed(out)), 0.0, *out])]
+    heights = [height(y) for y in marks]
+    least = min(heights)
+    lift = max(W0 * W0 / 2 - least, max(heights) - least) or 1.0
+    return tuple(_side(height, edge, sense, least + LIFT * lift, least - CELLAR * lift) for edge, sense in ((min(marks), -1), (max(marks), 1)))
+
+
+def _side(height, edge, sense, ceiling, cellar):
+    step = NEAREST
+    while step < FARTHEST and cellar < height(edge + sense * step) < ceiling:
+        step *= GROWTH
+    return edge + sense * step
+
+
+# --- The two flat pictures of a page: the phase plane, and the rates over time
+DIGITS = 9  # of a start that was clicked
+
+
+def drawn_planes(bag: Bag, scene: AnyScene, state: tuple[float, ...], units: Units) -> dict[str, Any] | None:
+    """What the page needs of the phase plane: it draws each level curve W^2/2 + V = E itself. None where the motion has none."""
+    plane = plane_of(scene, state)
+    if plane is None:
+        return None
+    angle, rate = (("", 1.0), ("", 1.0)) if units.scaled else (units.angles, units.rates)
+    across = plane.unit * angle[1]
+    zero = plane.rate(0.0) * rate[1]
+    axis = plane.reduction.axis + 1
+    name = "x" if units.scaled else "ω"
+    rests = [{"at": across * y, "height": v, "saddle": saddle} for y, v, saddle in plane.rests]
+    return {"turns": bag.add("float32", [across * y for y in plane.y]), "heights": bag.add("float32", plane.heights),
+            "rate": [zero, plane.rate(1.0) * rate[1] - zero], "start": plane.W0, "energy": plane.W0**2 / 2, "rests": rests,
+            "rotates": plane.reduction.sense == 0 and not plane.reduction.geometry.walled,
+            "x": labelled(f"turn about {units.axes.short(axis)}", angle[0]), "y": labelled(f"{name}{axis}", rate[0])}
+
+
+def labelled(words: str, unit: str) -> str:
+    """A label with its unit, where it has one."""
+    return f"{words} ({unit})" if unit else words
+
+
+def clicked(scene: AnyScene, state: tuple[float, ...], at: Any, units: Units) -> list[str]:
+    """The start, in the unit of the sliders, of the motion through a point {turn, rate} of the phase plane of a state, in the units of the page."""
+    plane = plane_of(scene, state)
+    try:
+        turn, rate = float(at["turn"]), float(at["rate"])
+    except (KeyError, OverflowError, TypeError, ValueError):
+        raise InputError(f"click: expected a turn and a rate, got {shown(at)}") from None
+    if plane is None or not (math.isfinite(turn) and math.isfinite(rate)):
+        raise InputError("click: this motion has no phase plane")
+    angle = 1.0 if units.scaled else units.angles[1]
+    one = units.rates[1]
+    return [f"{v * one + 0.0:.{DIGITS}g}" for v in plane.state(turn / angle, rate / one)]
+
+
+def over_time(bag: Bag, case: Case, motion: Motion | None, times: list[float], path: list[tuple[float, ...]], units: Units) -> dict[str, Any]:
+    """Rates over time with the least and greatest of each component over all time, where these are known."""
+    name, one = units.times(times[-1])
+    label, rate = units.rates
+    symbol = "x" if units.scaled else "ω"
+    known = motion is not None and motion.extremes is not None and motion.extremes_over == "all time"
+    extremes = [[v * rate for v in pair] for pair in motion.extremes] if known and motion is not None and motion.extremes is not None else None
+    return {"times": bag.add("float32", [t * one for t in times]), "rates": [bag.add("float32", [x[n] * rate for x in path]) for n in range(3)],
+            "extremes": extremes, "period": None if motion is None or motion.period is None else motion.period * one,
+            "x": "time τ" if units.scaled else labelled("time", name), "y": labelled("x" if units.scaled else "rate", label),
+            "names": [f"{symbol}{n}" for n in (1, 2, 3)]}
+
+
+HALF = 4095      # of the box in a packed place
+BEYOND = 8.0     # boxes: what is farther off is moved in, outside what is drawn
+ROOM = 1.9       # half of the box, of the farthest point of the motion from its middle
+SMALL = 0.22     # of the box: a motion that fills less gets a box of its own
+LATEST = 3.0     # times its first size, up to which a motion that spins up is drawn
+
+Point = Sequence[float]
+
+
+@dataclass(frozen=True)
+class Box:
+    """A cube of rates: its middle and half of its edge."""
+
+    middle: tuple[float, ...]
+    half: float
+
+    def share(self, at: Point) -> list[float]:
+        """A place in halves of the edge from the middle."""
+        return [(float(v) - m) / self.half for v, m in zip(at, self.middle)]
+
+    def holds(self, at: Point, room: float = 1.0) -> bool:
+        """Whether a place is inside a box so many times as large."""
+        return all(abs(v) <= room for v in self.share(at))
+
+    @property
+    def farthest(self) -> float:
+        """Of all its places, the largest component."""
+        return max(map(abs, self.middle)) + self.half
+
+
+def near_part(path: list[tuple[float, ...]], motion: Motion | None) -> list[tuple[float, ...]]:
+    """A motion that spins up as long as it is near where it began; all of it of any other, also where that goes far and comes back."""
+    if motion is not None and motion.fate is not Fate.SPIN_UP:
+        return path
+    size = max(math.hypot(*x) for x in path[:max(2, len(path) // 20)])
+    if motion is not None and motion.margin_velocity is not None and math.isfinite(motion.margin_velocity):
+        size = max(size, motion.margin_velocity)
+    late = next((n for n, x in enumerate(path) if math.hypot(*x) > LATEST * size), len(path)) if size else len(path)
+    return path[:late + 1] if late > 20 else path
+
+
+def box_of(asked: Any, points: list[Point], kept: bool) -> Box:
+    """The box that was asked for (middle and half), as long as the points are inside and, unless it is kept, fill a part of it; else a new one about
+    them."""
+    low, high = ([pick(p[n] for p in points) for n in range(3)] for pick in (min, max))
+    extent = max(b - a for a, b in zip(low, high)) / 2
+    if asked is not None:
+        box = _given(asked)
+        if all(box.holds(p) for p in points) and (kept or extent > SMALL * box.half):
+            return box
+    return Box(tuple((a + b) / 2 for a, b in zip(low, high)), ROOM * extent or max(map(abs, high)) or 1.0)
+
+
+def _given(asked: Any) -> Box:
+    """The box of a request."""
+    try:
+        numbers = [float(v) for v in (*asked["middle"], asked["half"])]
+    except (KeyError, OverflowError, TypeError, ValueError):
+        numbers = []
+    if len(numbers) != 4 or not all(map(math.isfinite, numbers)) or not numbers[3] > 0:
+        raise InputError(f"box: expected a middle of three numbers and half an edge, got {shown(asked)}")
+    return Box(tuple(numbers[:3]), numbers[3])
+
+
+def packed(points: Iterable[Point], box: Box) -> list[int]:
+    """The places as whole numbers."""
+    (a, b, c), per = box.middle, HALF / box.half
+    far = int(BEYOND * HALF)
+    return [min(max(round(v), -far), far) for x, y, z in points for v in ((x - a) * per, (y - b) * per, (z - c) * per)]
+
+
+def seen(sheet: PlainSheet, box: Box) -> bool:
+    """Whether any place of a sheet is in the box."""
+    return any(box.holds(p) for p in sheet.points)
+
+
+def drawn_space(bag: Bag, box: Box, names: list[str], one: float, sheets: Sequence[tuple[int, PlainSheet]], rests: list[tuple[str, list[Point]]],
+          path: list[tuple[float, ...]], marks: list[dict[str, Any]], ghost: bool) -> dict[str, Any]:
+    """What the view takes. one: how many of the unit of the labels make one of the scene's; sheets: each with its number among all that there are, which
+    tells its colour; ghost: they are those of the torque without its tilt; rests: of `lines`."""
+    curves: list[dict[str, Any]] = [{"kind": style.EQUILIBRIA[kind], "colour": style.colour_of(kind), "at": bag.add("int16", packed(places, box))}
+                                    for kind, places in rests]
+    if path:
+        curves.append({"kind": "this motion", "colour": style.MEANING["this motion"]["color"], "at": bag.add("int16", packed(path, box))})
+    surfaces = [{"name": _sheet_name(sheet, ghost), "colour": style.BESIDE[n % len(style.BESIDE)], "rows": sheet.rows, "columns": sheet.columns,
+                 "at": bag.add("int16", packed(sheet.points, box))} for n, sheet in sheets]
+    points = [mark | {"at": [round(v, 5) for v in box.share(mark["at"])]} for mark in marks if box.holds(mark["at"])]
+    legend: dict[str, str] = {row.get("name") or row["kind"]: row["colour"] for row in (*surfaces, *curves, *points)}
+    return {"names": names, "middle": [v * one for v in box.middle], "half": box.half * one, "sheets": surfaces, "curves": curves, "points": points,
+            "legend": list(legend.items())}
+
+
+def _sheet_name(sheet: PlainSheet, ghost: bool) -> str:
+    return f"{sheet.name.capitalize()} of the separatrix{' without the tilt' if ghost else ''}"
+
+
+def marks_of(start: Point, motion: Motion | None, found: Equilibria | None) -> list[dict[str, Any]]:
+    """Start, nearest point of the separatrix, isolated equilibria."""
+    marks = [{"kind": "start", "colour": style.BLACK, "at": list(start)}]
+    if motion is not None and motion.velocity_witness is not None:
+        marks.append({"kind": "nearest point of the separatrix", "colour": style.YELLOW, "at": list(motion.velocity_witness)})
+    for point in found.points if found is not None else ():
+        kind = style.kind_of(point)
+        marks.append({"kind": style.EQUILIBRIA[kind], "colour": style.colour_of(kind), "at": list(point.at[:3])})
+    return marks
+
+
+def lines(found: Equilibria | None, box: Box, coarse: int, fine: int) -> list[tuple[str, list[Point]]]:
+    """[(kind, places)] of the pieces of the curves of equilibria that come into the box, looked for at `coarse` places of each piece and drawn through
+    `fine`."""
+    out: list[tuple[str, list[Point]]] = []
+    for curve in found.curves if found is not None else ():
+        for segment in curve.segments:
+            kind = style.kind_of(segment)
+            for low, high in _inside(curve, _spread(*segment.t, coarse), box):
+                places = [_place(curve, low + (high - low) * n / fine) for n in range(fine + 1)]
+                out.append((kind, [at for at in places if at is not None]))
+    return out
+
+
+def _place(curve: Any, t: float) -> Point | None:
+    """The rates at a place of a curve (a field adds the vertical behind them); None at an end that belongs to it no more."""
+    try:
+        return curve.point(t)[:3]
+    except InputError:
+        return None
+
+
+def _inside(curve: Any, ts: list[float], box: Box) -> list[tuple[float, float]]:
+    """The runs of parameters whose places are in or near the box, each one step longer."""
+    near = [at is not None and box.holds(at, 1.05) for at in (_place(curve, t) for t in ts)]
+    near = [near[n] or any(near[max(0, n - 1):n + 2]) for n in range(len(ts))]
+    runs, first = [], None
+    for n, inside in enumerate([*near, False]):
+        if inside and first is None:
+            first = n
+        if not inside and first is not None:
+            if n - 1 > first:
+                runs.append((ts[first], ts[n - 1]))
+            first = None
+    return runs
+
+
+def _spread(low: float, high: float, number: int) -> list[float]:
+    """Parameters inside (low, high), dense at both ends, geometric towards infinite ones; `show.sampling` does so in arrays."""
+    if math.isfinite(low) and math.isfinite(high):
+        return [low + (high - low) * (1 - math.cos(1e-3 + (math.pi - 2e-3) * n / (number - 1))) / 2 for n in range(number)]
+    away = [10 ** (-4 + 8 * n / (number - 1)) for n in range(number)]
+    if math.isfinite(low):
+        return [low + v * max(1.0, abs(low)) for v in away]
+    if math.isfinite(high):
+        return [high - v * max(1.0, abs(high)) for v in reversed(away)]
+    return [*(-v for v in reversed(away)), *away]

@@ -1,0 +1,159 @@
+"""Whether motions are chaotic, in words and as a picture."""
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ...answers.caveats import caveats_of
+from ...answers.chaos import FLAT, Chaos, Order, chaos
+from ...errors import printable
+from ...packages import demand
+from .. import style
+from ..files import comma, endings
+from ..limiting import cell
+from ..plot import phase_plane as plane_section
+from ..plot import subject as which
+from ..plot.subject import Measures, Subject, measures, subject
+from ..text import law
+from ..text.answers import as_json
+from ..units import number
+from .shades import light
+
+# --- Chaos as a picture: the Poincare section of a motion, beside it MEGNO of all motions that start on its
+# plane; or MEGNO over time
+GRID = 41          # states of the map along each axis
+NEIGHBOURS = 8     # of the section
+SHORTER = 4        # of the map each motion is followed so much less long
+SIZE = (13.0, 6.6)
+TOP = 4.0          # of MEGNO's colours
+
+
+def write(case: Any, found: Chaos, out: str | Path) -> Path:
+    """Draw the motion of a case and write the picture; the same case gives the same bytes. Raises InputError for another ending."""
+    demand(*style.PACKAGES)
+    target, one = endings.file(out, endings.PICTURES), subject(case)
+    with style.drawing() as plt:
+        if which.why_not("section", one):
+            figure, ax = plt.subplots(figsize=(7.6, 4.8), layout="constrained")
+            _over_time(ax, case, found)
+            return style.save(figure, target)
+        figure, (left, right) = plt.subplots(1, 2, figsize=SIZE, layout="constrained")
+        plane_section.section(one, ax=left, neighbours=NEIGHBOURS)
+        _map(figure, right, left, one, float(found.times[-1]) / SHORTER)
+        return style.save(figure, target)
+
+
+def _over_time(ax: Any, case: Any, found: Chaos) -> None:
+    ax.plot(found.times, found.history, marker="o", color=style.BLUE)
+    ax.axhline(2, color=style.GREY, linewidth=0.8)
+    if not np.isfinite(found.history).any():  # nothing that an axis could be made from
+        ax.set_xlim(found.times[0], found.times[-1])
+        ax.set_ylim(0, TOP)
+        ax.text(0.5, 0.25, "not followed: it does not come back", transform=ax.transAxes, ha="center")
+    ax.set_xscale("log")
+    ax.set_xlabel(f"followed for ({case.scene.time_unit})")
+    ax.set_ylabel("MEGNO (2 on tori)")
+    ax.set_title(style.literal(f"{case.title or case.name}\n{Order(int(found.labels)).word}"), wrap=True)
+
+
+def _map(figure: Any, ax: Any, beside: Any, one: Subject, until: float) -> None:
+    """MEGNO of the motions from the window of the section; those that spin up in a colour of their own."""
+    scale: Measures = measures(one)
+    _, plane = plane_section.plane_of(one, which.certain_from(one))
+    limits = beside.get_xlim(), beside.get_ylim()
+    x, y = (np.linspace(low, high, 2 * GRID + 1)[1::2] for low, high in limits)
+    states = np.full((GRID, GRID, 3), plane.level)
+    states[..., plane.across[0]], states[..., plane.across[1]] = x[:, None] / scale.rate[1], y / scale.rate[1]
+    found = chaos(one.twin, states, until)
+    extent = (*limits[0], *limits[1])
+    leaving = np.where(found.labels == Order.SPIN_UP, 1.0, np.nan)
+    ax.grid(False)
+    look = {"origin": "lower", "extent": extent, "aspect": "auto", "interpolation": "nearest"}
+    from matplotlib.colors import ListedColormap
+    from matplotlib.patches import Patch
+    ax.imshow(leaving.T, cmap=ListedColormap([light(style.VERMILION)]), **look)
+    shown = ax.imshow(found.megno.T, cmap="cividis", vmin=0, vmax=TOP, **look)
+    figure.colorbar(shown, ax=ax, label="MEGNO (2 on tori, grows where chaotic)", extend="both")
+    at = one.state
+    if abs(at[plane.axis] - plane.level) < 1e-9 * max(map(abs, at)):
+        ax.plot([at[plane.across[0]] * scale.rate[1]], [at[plane.across[1]] * scale.rate[1]], **style.MARKER["start"])
+    ax.set_xlabel(beside.get_xlabel())
+    ax.set_ylabel(beside.get_ylabel())
+    ax.set_title(f"motions from this plane, each followed for {number(until)} {one.scene.time_unit}")
+    told = beside.get_legend()
+    handles, words = list(told.legend_handles), [text.get_text() for text in told.get_texts()]
+    told.remove()
+    if np.isfinite(leaving).any():
+        handles, words = [*handles, Patch(facecolor=light(style.VERMILION))], [*words, "spins up"]
+    figure.legend(handles, words, loc="outside lower center", ncols=5)
+
+
+# --- Whether a motion is regular or chaotic, in words, JSON and CSV: the label, how it is known, MEGNO over
+# time
+SCHEMA = "stabilab.chaos/1"
+FIRST = {Order.REGULAR: "REGULAR as far as it was followed", Order.CHAOTIC: "CHAOTIC", Order.SPIN_UP: "SPIN-UP", Order.UNDECIDED: "UNDECIDED"}
+
+
+def text(rows: list[tuple[Any, Chaos]]) -> str:
+    """A paragraph a case."""
+    return "\n".join(_of_one(*row) for row in rows)
+
+
+def _of_one(case: Any, found: Chaos) -> str:
+    """The answer first; then what it means for a small change, and MEGNO at each doubling of the time."""
+    label, unit = Order(int(found.labels)), _unit(case)
+    resting = label == Order.REGULAR and not found.megno < FLAT
+    lines = [f"{printable(case.name)}: {'REGULAR' if resting else FIRST[label]}: {found.because}"]
+    if label == Order.CHAOTIC:
+        rate, error = float(found.lyapunov), float(found.lyapunov_error)
+        lines.append(f"  neighbours part at {rate:.3g} ± {error:.1g} 1/{unit}: a small change doubles in {math.log(2) / rate:.3g} {unit}")
+    if label != Order.SPIN_UP:
+        lines.append("  an indicator of a finite time, no proof; time and MEGNO:")
+        lines += [f"  {time:12.6g} {unit}  {0.0 if abs(value) < 5e-5 else value:9.4f}" for time, value in zip(found.times.tolist(), found.history.tolist())]
+    return "\n".join(lines)
+
+
+def swept(rows: list[tuple[Any, Chaos]]) -> tuple[str, list[tuple[str, str]], list[list[str]]]:
+    """(the answer in a line, columns, rows) of a sweep: how many motions are what, and of each MEGNO at the last time; where one
+    is chaotic, also how soon neighbours part."""
+    labels = [Order(int(found.labels)) for _, found in rows]
+    told = ", ".join(f"{labels.count(one)} {FIRST[one]}" for one in Order if one in labels)
+    cells = [[FIRST[label].split()[0], f"{found.times[-1] / found.turn:,.0f}", _number(float(found.megno), ".4f"),
+              _number(math.log(2) / float(found.lyapunov) if label == Order.CHAOTIC else math.nan, ".3g")] for label, (_, found) in zip(labels, rows)]
+    columns = [("motion", ""), ("turns", ""), ("MEGNO", ""), ("doubles in", _unit(rows[0][0]))]
+    shown = len(columns) if Order.CHAOTIC in labels else -1
+    return told, columns[:shown], [row[:shown] for row in cells]
+
+
+def _number(value: float, form: str) -> str:
+    """Nothing where it is not known, and no sign where it rounds to zero."""
+    return "" if math.isnan(value) else format(0.0 if abs(value) < 5e-5 else value, form)
+
+
+def _unit(case: Any) -> str:
+    return str(case.scene.time_unit)
+
+
+def as_dict(case: Any, found: Chaos) -> dict[str, Any]:
+    """One object of `stabilab chaos --json`."""
+    return {"schema": SCHEMA, "case": case.name, "variables": case.variables, "answer": Order(int(found.labels)).word, "because": found.because,
+            "megno": float(found.megno), "lyapunov": float(found.lyapunov), "lyapunov_uncertainty": float(found.lyapunov_error),
+            "turn": found.turn, "times": found.times.tolist(), "history": found.history.tolist()}
+
+
+def json(rows: list[tuple[Any, Chaos]], laws: Sequence[Any]) -> str:
+    """One object a case, a list of them for several. laws: how far the approximate laws of each hold, or None."""
+    told = [as_dict(*row) | law.key(held, row[0]) for row, held in zip(rows, laws)]
+    return as_json(told if len(told) > 1 else told[0])
+
+
+def csv(rows: list[tuple[Any, Chaos]], laws: Sequence[Any]) -> str:
+    """A line for each case and time. laws: as of `json`."""
+    told = [cell(case, caveats_of(case.scene, validity=held, file=case.caveats)) for (case, _), held in zip(rows, laws)]
+    return comma.lines([["case", "answer", "time", "megno", "caveats"],
+                        *([case.name, Order(int(found.labels)).word, time, None if math.isnan(value) else value, caveats]
+                          for (case, found), caveats in zip(rows, told) for time, value in zip(found.times.tolist(), found.history.tolist()))])

@@ -1,1 +1,0 @@
-"""Regular or chaotic motion in words and as a picture."""

@@ -1,1 +1,0 @@
-"""Plots in the space of rates."""

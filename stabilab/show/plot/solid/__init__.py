@@ -1,1 +1,0 @@
-"""What three-dimensional plots are made of: the box, the momentum sphere, the cylinder of a torque on an axis."""

@@ -1,0 +1,427 @@
+"""What a certificate claims of equilibria, checked: each is one, none is missing, its stability.
+
+Do the curves cover everything? In the plane of the two conditions they are a conic; without a torque every s of
+D x + lambda = s x must be passed.
+"""
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import partial
+from math import isqrt
+
+from .curves import Curve, Plane, check_curve, check_plane, curve_of, identically_zero, judged, leaves_double_root, plane_of
+from .numbers import LINEAR, VERDICT, Malformed, bracket, brief, entries, exact_sign, field, q, word
+from .rates import characteristic, excluded, only_zero
+
+
+# --- Where the two conditions meet in a line: the exact zeros of the rates on it, and whether the boxes
+# hold each of them once
+@dataclass(frozen=True)
+class Place:
+    """An equilibrium on the line, exactly: x_i = middle[i] + reach[i] sqrt(root)."""
+
+    middle: tuple[Fraction, ...]
+    reach: tuple[Fraction, ...]
+    root: Fraction
+
+    @property
+    def rational(self):
+        """The three components where the surd is not there; else None."""
+        return None if self.root and any(self.reach) else list(self.middle)
+
+    def within(self, box) -> bool:
+        """Whether it lies in the box of three closed brackets, by exact signs."""
+        return all(self._side(i, low) >= 0 >= self._side(i, high) for i, (low, high) in enumerate(box))
+
+    def _side(self, i, end) -> int:
+        """Sign of x_i - end."""
+        plain, surd = self.middle[i] - end, self.reach[i]
+        one, two = exact_sign(plain), exact_sign(surd) * exact_sign(self.root)
+        if one * two >= 0:
+            return one or two
+        return one * exact_sign(plain * plain - surd * surd * self.root)
+
+    def box(self, bits):
+        """Three brackets about it, of so many bits."""
+        top, bottom = self.root.numerator, self.root.denominator
+        shift = bits + abs(top.bit_length() - bottom.bit_length())
+        below, step = Fraction(isqrt((top << 2 * shift) // bottom), 1 << shift), Fraction(1, 1 << shift)
+        ends = below - step, below + 2 * step
+        return [tuple(sorted(m + r * e for e in ends)) for m, r in zip(self.middle, self.reach)]
+
+
+@dataclass(frozen=True)
+class Line:
+    """The line where the two conditions meet. places: the equilibria on it, or None where all of it is at rest."""
+
+    places: tuple[Place, ...] | None
+
+
+def line_of(rates) -> Line | None:
+    """The equilibria of a torque whose two conditions meet in one line; None where they do not."""
+    if not rates.torque or _rank([n for n, _ in rates.conditions]) < 2:
+        return None
+    foot, v = _line(rates)
+    g = _common_factor(rates, foot, v)
+    return Line(tuple(_place(foot, v, *t) for t in _roots(g)) if g else None)
+
+
+def _place(foot, v, middle, reach, root) -> Place:
+    """The point foot + (middle + reach sqrt(root)) v."""
+    return Place(tuple(f + middle * c for f, c in zip(foot, v)), tuple(reach * c for c in v), root)
+
+
+def contradictory(rates) -> bool:
+    """Whether the two linear conditions exclude each other."""
+    return _rank([[*n, c] for n, c in rates.conditions]) > _rank([n for n, _ in rates.conditions])
+
+
+def _roots(g):
+    """(middle, reach, root) of the distinct real zeros middle + reach sqrt(root) of a polynomial of degree 2 or less."""
+    if len(g) < 3:
+        return [(-g[0] / g[1], Fraction(0), Fraction(0))] if len(g) == 2 else []
+    root = g[1] * g[1] - 4 * g[2] * g[0]
+    middle, reach = -g[1] / (2 * g[2]), 1 / (2 * g[2])
+    return [(middle, s * reach, root) for s in ((-1, 1) if root else (0,))] if root >= 0 else []
+
+
+def whole_line(kind, points, curves, places):
+    """(status, reason): equilibria of a torque whose two conditions meet in a line. places: those on it (`Line`)."""
+    if places is None:
+        whole = kind == "curves" and len(curves) == 1 and not points and curves[0].straight
+        return ("proved" if whole else "refuted"), "the rates vanish all along the line where the two conditions meet"
+    once = len(points) == len(places) and all(sum(place.within(p.box) for p in points) == 1 for place in places)
+    right = once and not curves and kind == ("points" if places else "none")
+    why = f"on the line where the two conditions meet the rates have {len(places)} common zeros"
+    return ("proved" if right else "refuted"), f"{why}, {'' if once else 'not '}each in a box of its own"
+
+
+def _rank(rows):
+    """Rank of rows of fractions."""
+    rows, rank = [list(r) for r in rows], 0
+    for column in range(len(rows[0])):
+        pivot = next((r for r in rows[rank:] if r[column]), None)
+        if pivot is None:
+            continue
+        rows.remove(pivot)
+        rows.insert(rank, pivot)
+        for i in range(rank + 1, len(rows)):
+            factor = rows[i][column] / pivot[column]
+            rows[i] = [a - factor * b for a, b in zip(rows[i], pivot)]
+        rank += 1
+    return rank
+
+
+def _line(rates):
+    """(foot, direction) of the line where the two conditions meet."""
+    (a, ca), (b, cb) = rates.conditions
+    v = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+    size = sum(c * c for c in v)
+    # the foot of the line: x = (ca (v x b) + cb (a x v)) / |v|^2 with a . x = -ca, b . x = -cb
+    vb = [v[1] * b[2] - v[2] * b[1], v[2] * b[0] - v[0] * b[2], v[0] * b[1] - v[1] * b[0]]
+    av = [a[1] * v[2] - a[2] * v[1], a[2] * v[0] - a[0] * v[2], a[0] * v[1] - a[1] * v[0]]
+    foot = [(ca * s + cb * t) / size for s, t in zip(vb, av)]
+    if any(sum(n * x for n, x in zip(normal, foot)) + c for normal, c in rates.conditions):
+        raise ArithmeticError("the foot of the line where the two conditions meet is not on both")
+    return foot, v
+
+
+def _common_factor(rates, foot, v) -> list[Fraction]:
+    """Coefficients, lowest first, of the greatest common divisor of the rates on the line; [] where all vanish."""
+    from flint import fmpq_poly
+    line = [fmpq_poly([q(f), q(d)]) for f, d in zip(foot, v)]
+    total = fmpq_poly([])
+    for p in rates.at(line):
+        total = total.gcd(p)
+    return [Fraction(int(c.p), int(c.q)) for c in total.coeffs()]
+
+
+def whole_conic(rates, kind, points, curves):
+    """(status, reason): equilibria of a torque whose two conditions are one plane."""
+    conic = _conic(rates)
+    if conic is None:
+        return "not checked", "in the plane the rates are not multiples of one conic"
+    A, B, C, D, E, F = conic
+    if not any((A, B, C, D, E)):
+        right = kind == "none" and not curves and not points
+        return ("proved" if right else "refuted"), "in the plane one condition is left, and it is a constant that is not zero"
+    if points or kind != "curves":
+        return "refuted", "the equilibria are a conic: curves, without isolated points"
+    degenerate = 4 * A * C * F + B * D * E - A * E * E - C * D * D - B * B * F == 0
+    if not degenerate:
+        one = curves[0] if len(curves) == 1 else None
+        proper = one is not None and one.degree == 2 and one.bottom.degree() < 2
+        return ("proved" if proper else "refuted"), "a conic that does not fall apart; a parametrisation of degree 2 runs over all of it"
+    lines = [_line_in_plane(rates, c) for c in curves]
+    if any(line is None for line in lines):
+        return "refuted", "the conic falls apart into lines; a curve is none"
+    product = _product(lines)
+    twice = len(lines) == 2 and _proportional(*lines)
+    right = product is not None and not twice and _proportional(product, conic)
+    if not right and len(lines) == 1:
+        right = _proportional(_product(lines * 2), conic)
+    return ("proved" if right else "refuted"), "the conic falls apart into lines, whose product is the condition"
+
+
+def _free(rates):
+    """(pivot, free coordinates, normal, constant) of the plane."""
+    normal, constant = next((n, c) for n, c in rates.conditions if any(n))
+    pivot = max(range(3), key=lambda i: abs(normal[i]))
+    return pivot, [i for i in range(3) if i != pivot], normal, constant
+
+
+def _conic(rates):
+    """Coefficients of p^2, p r, r^2, p, r, 1 of the one condition in the plane; None where the rates are not multiples of one."""
+    pivot, (i, j), normal, constant = _free(rates)
+
+    def at(p, r):
+        x = [Fraction(0)] * 3
+        x[i], x[j] = Fraction(p), Fraction(r)
+        x[pivot] = -(constant + normal[i] * x[i] + normal[j] * x[j]) / normal[pivot]
+        return rates.at(x)
+    o, e, w, n, s, ne = at(0, 0), at(1, 0), at(-1, 0), at(0, 1), at(0, -1), at(1, 1)
+    rows = []
+    for k in range(3):
+        a, c = (e[k] + w[k]) / 2 - o[k], (n[k] + s[k]) / 2 - o[k]
+        d, f = (e[k] - w[k]) / 2, (n[k] - s[k]) / 2
+        rows.append((a, ne[k] - a - c - d - f - o[k], c, d, f, o[k]))
+    leading = next((r for r in rows if any(r)), None)
+    if leading is None or not all(_proportional(r, leading) for r in rows):
+        return None
+    return leading
+
+
+def _proportional(a, b) -> bool:
+    return all(x * v == y * u for x, u in zip(a, b) for y, v in zip(a, b))
+
+
+def _line_in_plane(rates, curve):
+    """(l, m, n) of the line l p + m r + n = 0 that the curve runs along; None where it is no straight line."""
+    if not curve.straight:
+        return None
+    _, (i, j), *_ = _free(rates)
+    a, b = curve.at(Fraction(0)), curve.at(Fraction(1))
+    dp, dr = b[i] - a[i], b[j] - a[j]
+    return dr, -dp, dp * a[j] - dr * a[i]
+
+
+def _product(lines):
+    if len(lines) == 1:
+        l, m, n = lines[0]
+        return (0, 0, 0, l, m, n)
+    if len(lines) == 2:
+        (a, b, c), (d, e, f) = lines
+        return (a * d, a * e + b * d, b * e, a * f + c * d, b * f + c * e, c * f)
+    return None
+
+
+def whole_torque_free(rates, kind, points, curves, planes):
+    """(status, reason): equilibria without a torque, where momentum and rotation are parallel."""
+    if points:
+        return "refuted", "without a torque no equilibrium is isolated"
+    free = rates.parallel is not None and not any(rates.parallel[1]) and len(set(rates.parallel[0])) == 1
+    if kind != ("all" if free else "curves"):
+        return "refuted", "without a torque they are curves, or every rate of rotation for a sphere that carries no gyrostatic moment"
+    if free:
+        alone = not curves and not planes
+        return ("proved" if alone else "refuted"), "every rate of rotation is constant: there are no curves or planes to list"
+    missing, spare = _matched(_parts(rates), curves, planes)
+    if missing:
+        return "refuted", f"{missing[0]} is missing"
+    if spare:
+        return "refuted", f"{spare[0]} is listed twice, or is no part of its own"
+    if rates.parallel is None:
+        return "proved", "x2 x3 = x3 (x1 + a) = x2 (x1 + b) = 0 are three lines"
+    return "proved", "every s of D x + lambda = s x is passed, and each axis that carries no gyrostatic moment is there"
+
+
+def _matched(parts, curves, planes):
+    """(names of parts that nothing claimed is, claims that are no part or one that is taken already)."""
+    spare, missing = [*curves, *planes], []
+    for name, is_it in parts:
+        found = next((claimed for claimed in spare if is_it(claimed)), None)
+        if found is None:
+            missing.append(name)
+        else:
+            spare.remove(found)
+    return missing, [claimed.claim for claimed in spare]
+
+
+def _parts(rates):
+    """(name, test of a claimed curve or plane) of each part of the equilibria without a torque."""
+    if rates.parallel is None:
+        return [(f"the line along x{i + 1}", partial(_is_the_line, *line)) for i, line in enumerate(_scaled_lines(rates))]
+    D, lam = rates.parallel
+    parts = [("the curve that passes every s of D x + lambda = s x", partial(_passes_every_s, D, lam))] if any(lam) else []
+    for d in sorted(set(D)):
+        axes = [i for i in range(3) if D[i] == d]
+        if any(lam[i] for i in axes):
+            continue
+        if len(axes) > 1:
+            across = 3 - sum(axes)
+            parts.append((f"the plane across axis {across + 1}", partial(_is_the_plane, across, lam[across] / (d - D[across]))))
+            continue
+        base = [Fraction(0) if i in axes else lam[i] / (d - D[i]) for i in range(3)]
+        parts.append((f"the line along axis {axes[0] + 1}", partial(_is_the_line, base, [Fraction(int(i in axes)) for i in range(3)])))
+    return parts
+
+
+def _scaled_lines(rates):
+    """(base, direction) of the three lines of the scaled system without torque."""
+    a, b = -rates.sigma[1], rates.rho[2]
+    o, one = Fraction(0), Fraction(1)
+    return [([o, o, o], [one, o, o]), ([-b, o, o], [o, one, o]), ([-a, o, o], [o, o, one])]
+
+
+def _is_the_plane(axis, height, claimed) -> bool:
+    return isinstance(claimed, Plane) and claimed.lies(axis, height)
+
+
+def _is_the_line(base, direction, claimed) -> bool:
+    if not isinstance(claimed, Curve) or not claimed.straight:
+        return False
+    points = [claimed.at(Fraction(t)) for t in (0, 1)]
+    return all(u[i] * direction[j] == u[j] * direction[i]
+               for p in points for u in [[a - b for a, b in zip(p, base)]] for i in range(3) for j in range(3))
+
+
+def _passes_every_s(D, lam, curve) -> bool:
+    """Whether s = (D_l x_l + lambda_l)/x_l is of degree 1 in t, and infinite t is where the curve itself is infinite."""
+    if not isinstance(curve, Curve):
+        return False
+    l = next(i for i in range(3) if lam[i])
+    top, bottom = q(D[l]) * curve.tops[l] + q(lam[l]) * curve.bottom, curve.tops[l]
+    if bottom == 0:
+        return False
+    common = top.gcd(bottom)
+    top, bottom = top // common, bottom // common
+    if max(top.degree(), bottom.degree()) != 1:
+        return False
+    if bottom.degree() < 1:
+        return False  # s would be infinite, and x zero, at t = infinity: rest would be missing
+    limit = top[1] / bottom[1]  # s at infinite t: must be a pole of the curve
+    return any(lam[i] and limit == q(D[i]) for i in range(3))
+
+
+# --- Are these all the equilibria, and are the verdicts on them right? Exact algebra for how many,
+# Krawczyk's test for where
+KINDS = ("none", "points", "curves", "all")
+BITS = (128, 512, 2048, 8192)  # of the boxes about an exact zero, where the box claimed is too wide for Krawczyk's test
+
+
+@dataclass(frozen=True)
+class Claims:
+    """The certificate's part `equilibria`, read."""
+
+    kind: str
+    points: list
+    curves: list
+    planes: list
+
+
+def equilibria_of(table) -> Claims:
+    """The claims on equilibria. Raises `Malformed` before anything is worked out."""
+    read = lambda key, made: [made(v, f"equilibria.{key}[{i}]") for i, v in enumerate(entries(table, key, "equilibria"))]
+    return Claims(word(table, "kind", "equilibria", KINDS), read("points", _Point), read("curves", curve_of), read("planes", plane_of))
+
+
+def check_equilibria(rates, claims, note):
+    """Findings on the certificate's part `equilibria`."""
+    line = line_of(rates)
+    for point in claims.points:
+        _check_point(rates, point, line, note)
+    for curve in claims.curves:
+        if not identically_zero(rates, curve):
+            note(curve.claim, "refuted", "the rates do not vanish along the curve")
+        else:
+            check_curve(rates, curve, note)
+    for plane in claims.planes:
+        check_plane(rates, plane, note)
+    _check_complete(rates, claims, line, note)
+
+
+class _Point:
+    """A claimed isolated equilibrium: a box, and what is said of it."""
+
+    def __init__(self, table, where):
+        boxes = field(table, "box", where, list)
+        if len(boxes) != 3:
+            raise Malformed(f"{where}.box: expected three brackets")
+        self.box = [bracket(b, f"{where}.box[{i}]") for i, b in enumerate(boxes)]
+        self.linear, self.verdict = word(table, "linear", where, LINEAR), word(table, "verdict", where, VERDICT)
+        self.claim = f"equilibrium near ({', '.join(brief((a + b) / 2) for a, b in self.box)})"
+        self.exact = all(a == b for a, b in self.box)
+
+
+def _check_point(rates, point, line, note):
+    if point.exact:
+        x = [a for a, _ in point.box]
+        if any(rates.at(x)):
+            note(point.claim, "refuted", "the rates do not vanish at this exact point")
+        else:
+            note(point.claim, "proved", "the rates vanish there exactly")
+            _judge(rates, point, x, note)
+    elif line is None or line.places is None:
+        none = excluded(rates, point.box)
+        note(point.claim, *(("refuted", "a rate does not vanish in the box") if none else ("not checked", "no isolated equilibrium is known there")))
+    else:
+        _check_box(rates, point, line.places, note)
+
+
+def _check_box(rates, point, places, note):
+    """Findings on a box of some width, given all equilibria of the scene exactly."""
+    held = [place for place in places if place.within(point.box)]
+    if len(held) != 1:
+        note(point.claim, "refuted", f"the box holds {len(held)} zeros of the rates, not one")
+        return
+    signs = only_zero(rates, point.box)
+    note(point.claim, "proved", "Krawczyk's test: one and only one equilibrium in the box" if signs else "it holds one of the exact zeros of the rates")
+    if held[0].rational:
+        _judge(rates, point, held[0].rational, note)
+        return
+    signs = signs or next(filter(None, (only_zero(rates, held[0].box(bits)) for bits in BITS)), None)
+    if signs:
+        _say(point, *signs, None, note)
+    else:
+        note(f"{point.claim}: linear {point.linear}, verdict {point.verdict}", "not checked", f"the signs of m and n are not known with {BITS[-1]} bits")
+
+
+def _judge(rates, point, x, note):
+    """Verdicts at an exact equilibrium."""
+    m, n = characteristic(rates.jacobian(x))
+    _say(point, exact_sign(m), exact_sign(n), leaves_double_root(rates, x, m) if n == 0 <= m else None, note)
+
+
+def _say(point, m, n, root, note):
+    """Verdicts from the signs of m and n; an isolated equilibrium. root: the proof for a double root with n = 0 <= m."""
+    linear = "unstable" if n or m == -1 else "stable" if m else "degenerate"
+    where = f"signs of m and n give {linear}"
+    note(f"{point.claim}: linear {point.linear}", "proved" if point.linear == linear else "refuted", where)
+    proof = ("unstable", where) if linear == "unstable" else root
+    note(f"{point.claim}: verdict {point.verdict}", *judged(point.verdict, proof, "the leading term vanishes too"))
+
+
+# -- completeness
+
+
+def _some(count, noun):
+    return f"{count} {noun}{'' if count == 1 else 's'}"
+
+
+def _check_complete(rates, claims, line, note):
+    kind, points, curves, planes = claims.kind, claims.points, claims.curves, claims.planes
+    claim = f"the equilibria are complete: {kind}, {len(points)} isolated, {_some(len(curves), 'curve')}"
+    claim += f", {_some(len(planes), 'plane')}" if planes else ""
+    if not rates.torque:
+        status, reason = whole_torque_free(rates, kind, points, curves, planes)
+    elif planes:
+        status, reason = "refuted", "with a torque no plane of equilibria exists"
+    elif contradictory(rates):
+        none = kind == "none" and not points and not curves
+        status, reason = ("proved" if none else "refuted"), "the two linear conditions contradict each other: there are none"
+    elif line is None:
+        status, reason = whole_conic(rates, kind, points, curves)
+    else:
+        status, reason = whole_line(kind, points, curves, line.places)
+    note(claim, status, reason)

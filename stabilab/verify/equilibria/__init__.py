@@ -1,1 +1,0 @@
-"""Claims about equilibria: curves, planes and points, whether they are all, and whether they are stable."""
