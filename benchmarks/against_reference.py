@@ -1,6 +1,7 @@
 """How integrators fare against references with guaranteed digits: the table of docs/reference.md.
 
-`python -m benchmarks.against_reference` writes it anew. The errors are those of this machine's roundings: other processors differ in the last one.
+`python -m benchmarks.against_reference` writes it anew. The errors are those of this machine's roundings:
+other processors differ in the last one.
 """
 from __future__ import annotations
 
@@ -17,7 +18,8 @@ ROOT = Path(__file__).parents[1]
 PAGE = ROOT / "docs" / "reference.md"
 CASES = {"minor-axis-100": "15", "torque-free-gyrostat": "200", "off-axis-two": "30"}
 TIMES = 20  # states that are compared, equally spaced
-RUNS = (("RK4, step 0.1", None, None), ("RK4, step 0.01", None, None), ("DOP853, rtol 1e-6", "DOP853", 1e-6), ("DOP853, rtol 1e-10", "DOP853", 1e-10),
+RUNS = (("RK4, step 0.1", None, None), ("RK4, step 0.01", None, None), ("DOP853, rtol 1e-6", "DOP853", 1e-6),
+        ("DOP853, rtol 1e-10", "DOP853", 1e-10),
         ("DOP853, rtol 1e-13", "DOP853", 1e-13), ("heyoka, its default", "taylor", None))
 MARKS = "<!-- table -->\n", "<!-- end of table -->"
 
@@ -32,8 +34,10 @@ def errors(name: str) -> list[float]:
     largest = max(abs(v) for row in exact for v, _ in row)
     found = []
     for words, method, rtol in RUNS:
-        rows = trajectory(case.scene, case.state, [float(t) for t in times], method, rtol).states if method else _fixed(case, times, words.split()[-1])
-        found.append(max(abs((float(a) - v) - rest) for row, right in zip(rows, exact) for a, (v, rest) in zip(row, right)) / largest)
+        rows = (trajectory(case.scene, case.state, [float(t) for t in times], method, rtol).states if method
+                else _fixed(case, times, words.split()[-1]))
+        found.append(max(abs((float(a) - v) - rest) for row, right in zip(rows, exact) for a,
+                         (v, rest) in zip(row, right)) / largest)
     return found
 
 
@@ -42,7 +46,8 @@ def _fixed(case, times, step):
     rates, state, rows, before = case.scene.quadratic().rate, list(map(float, case.state)), [], Fraction(0)
     for t in times:
         count = (t - before) / Fraction(step)
-        whole = -(-count.numerator // count.denominator)  # where the step does not divide, the nearest smaller one
+        # where the step does not divide, the nearest smaller one
+        whole = -(-count.numerator // count.denominator)
         state, before = run(rates, state, float((t - before) / whole), whole, rk4), t
         rows.append(state)
     return rows
@@ -51,8 +56,10 @@ def _fixed(case, times, step):
 def table() -> str:
     """The table in Markdown."""
     columns = [errors(name) for name in CASES]
-    head = ["| integrator | " + " | ".join(f"{name}, to {end}" for name, end in CASES.items()) + " |", "|---" * (len(CASES) + 1) + "|"]
-    return "\n".join(head + ["| " + " | ".join([words, *(f"{column[n]:.1e}" for column in columns)]) + " |" for n, (words, *_) in enumerate(RUNS)]) + "\n"
+    head = ["| integrator | " + " | ".join(f"{name}, to {end}" for name, end in CASES.items()) + " |",
+            "|---" * (len(CASES) + 1) + "|"]
+    return ("\n".join(head + ["| " + " | ".join([words, *(f"{column[n]:.1e}" for column in columns)]) + " |"
+                              for n, (words, *_) in enumerate(RUNS)]) + "\n")
 
 
 def main() -> None:

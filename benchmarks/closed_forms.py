@@ -10,9 +10,12 @@ from stabilab.theories.charged.modes import ChargedBody
 from .rows import Row, each
 from .timing import side_by_side
 
-# the body of Galal et al. at 2.7 turns a minute, with a start, torque and force that leave no term out; decimals exact
-VALUES = dict(D1=8.75, D2=8.5, D3=11.0, r0=0.28125, lambda3=1.25, k=0.3125, M1=0.0625, M2=-0.03125, p0=0.03125, q0=-0.0625,
-              psi0=0.03125, phi0=0.015625, theta0=0.375, f1=0.25, f2=-0.75, f3=3.0, m=10.0, v1=0.125, v2=-0.25, v3=0.375,
+# the body of Galal et al. at 2.7 turns a minute, with a start, torque and force that leave no term out;
+# decimals exact
+VALUES = dict(D1=8.75, D2=8.5, D3=11.0, r0=0.28125, lambda3=1.25, k=0.3125, M1=0.0625, M2=-0.03125,
+              p0=0.03125, q0=-0.0625,
+              psi0=0.03125, phi0=0.015625, theta0=0.375, f1=0.25, f2=-0.75, f3=3.0, m=10.0, v1=0.125,
+              v2=-0.25, v3=0.375,
               x1=1.0, x2=-2.0, x3=0.5)
 SPANS = ((50.0, "the paper's span"), (86_400.0, "a day"), (604_800.0, "a week"), (31_557_600.0, "a year"))
 TIMES, CHECKED = 1000, 4
@@ -26,29 +29,38 @@ def rows(small=False) -> list[Row]:
 def body():
     """VALUES as the closed forms take them."""
     get = lambda *names: [VALUES[n] for n in names]
-    return ChargedBody(get("D1", "D2", "D3"), VALUES["r0"], VALUES["lambda3"], VALUES["k"], get("M1", "M2"), get("p0", "q0"),
-                       get("psi0", "phi0", "theta0"), get("f1", "f2", "f3"), VALUES["m"], get("v1", "v2", "v3"), get("x1", "x2", "x3"))
+    return ChargedBody(get("D1", "D2", "D3"), VALUES["r0"], VALUES["lambda3"], VALUES["k"], get("M1", "M2"),
+                       get("p0", "q0"),
+                       get("psi0", "phi0", "theta0"), get("f1", "f2", "f3"), VALUES["m"],
+                       get("v1", "v2", "v3"), get("x1", "x2", "x3"))
 
 
 def against_linear_model(span, name, count=TIMES, rounds=7) -> Row:
-    """`count` output times over the span: rates, angles, momentum, velocity and position against heyoka's rates, angles,
-    velocity and position; the errors are those at a few of the times against the matrix exponential in 156 digits."""
+    """`count` output times over the span: rates, angles, momentum, velocity and position against heyoka's
+    rates, angles, velocity and position; the errors are those at a few of the times against the matrix
+    exponential in 156 digits."""
     times, one, raw = np.linspace(0.0, span, count), body(), LinearRuns(VALUES, TAYLOR_TOLERANCE)
-    ours, theirs = (1, 1) if rounds < 7 else (5 if span < 1e3 else 50, 50 if span < 1e3 else 1)  # calls a round
-    timed = side_by_side(lambda: [solution(one, times) for _ in range(ours)], lambda: [raw(times) for _ in range(theirs)],
+    # calls a round
+    ours, theirs = (1, 1) if rounds < 7 else (5 if span < 1e3 else 50, 50 if span < 1e3 else 1)
+    timed = side_by_side(lambda: [solution(one, times) for _ in range(ours)],
+                         lambda: [raw(times) for _ in range(theirs)],
                          ours, theirs, rounds)
     ours = solution(one, times)
     ours = np.concatenate([ours.omega[:, :2], ours.angles[:, :2], ours.velocity, ours.position], axis=1)
     errors = "largest relative error: ours {:.0e}, theirs {:.0e}".format(*_errors(times, ours, raw(times)))
-    return Row(f"charged body, {count} times over {name}, {span * VALUES['r0'] / (2 * np.pi):.3g} turns", f"{each(timed.ours)}",
-               f"{each(timed.theirs)} heyoka, {raw.steps} steps", timed.ratio, (timed.low, timed.high), errors, 100.0, _note(one, times, raw))
+    return Row(f"charged body, {count} times over {name}, {span * VALUES['r0'] / (2 * np.pi):.3g} turns",
+               f"{each(timed.ours)}",
+               f"{each(timed.theirs)} heyoka, {raw.steps} steps", timed.ratio, (timed.low, timed.high),
+               errors, 100.0, _note(one, times, raw))
 
 
 def _note(one, times, raw) -> str:
     if times[-1] > 1e3:
-        return ("what belongs to the body alone is formed beforehand, as heyoka's code is; the closed forms cost the same for any "
+        return ("what belongs to the body alone is formed beforehand, as heyoka's code is; the closed forms "
+                "cost the same for any "
                 f"span, heyoka its {raw.steps} steps")
-    return (f"heyoka takes {raw.steps} steps; times before {_late(one):.3g} s cost the closed forms some ten microseconds each "
+    return (f"heyoka takes {raw.steps} steps; times before {_late(one):.3g} s cost the closed forms some ten "
+            f"microseconds each "
             "(divided differences)")
 
 
@@ -58,30 +70,35 @@ def _late(one) -> float:
 
 
 def _errors(times, *answers):
-    """Largest distance of each answer from the exact outputs at the last CHECKED times of eight, over each output's size."""
+    """Largest distance of each answer from the exact outputs at the last CHECKED times of eight, over each
+    output's size."""
     from tests.oracles.axisymmetric import OUTPUTS, outputs
     keep = [i for i, name in enumerate(OUTPUTS) if not name.startswith("G")]
     chosen = np.linspace(0, len(times) - 1, 2 * CHECKED).astype(int)[-CHECKED:]
     exact = [outputs(VALUES | {"t": float(times[i])}) for i in chosen]
-    gaps = [np.array([[float(abs(e[k] - float(x)).mid()) for k, x in zip(keep, answer[i])] for i, e in zip(chosen, exact)])
+    gaps = [np.array([[float(abs(e[k] - float(x)).mid()) for k, x in zip(keep, answer[i])] for i,
+                      e in zip(chosen, exact)])
             for answer in answers]
     size = np.abs([[float(e[k]) for k in keep] for e in exact]).max(axis=0)
     return [float((gap / size).max()) for gap in gaps]
 
 
 class LinearRuns:
-    """p, q, psi, phi, velocity and position of the charged body's linear model on a grid of times that begins at 0; cos
-    and sin of theta are states too, which is faster than the functions."""
+    """p, q, psi, phi, velocity and position of the charged body's linear model on a grid of times that begins
+    at 0; cos and sin of theta are states too, which is faster than the functions."""
 
     def __init__(self, values, tolerance):
         import heyoka
-        p, q, psi, phi, c, s, *moved = heyoka.make_vars("p", "q", "psi", "phi", "c", "s", "v1", "v2", "v3", "x1", "x2", "x3")
+        p, q, psi, phi, c, s, *moved = heyoka.make_vars("p", "q", "psi", "phi", "c", "s", "v1", "v2", "v3",
+                                                        "x1", "x2", "x3")
         D1, D2, D3, r0, m, f1, f2, f3 = (values[n] for n in ("D1", "D2", "D3", "r0", "m", "f1", "f2", "f3"))
         away = values["lambda3"] - values["k"]
         a, b = ((D3 - D2) * r0 + away) / D1, ((D3 - D1) * r0 + away) / D2
         across, up = (f1 + f3 * phi) / m, (f2 - f3 * psi) / m
-        system = [(p, values["M1"] / D1 - a * q), (q, values["M2"] / D2 + b * p), (psi, p + r0 * phi), (phi, q - r0 * psi),
-                  (c, -r0 * s), (s, r0 * c), *zip(moved[:3], (c * across - s * up, s * across + c * up, (f3 - f1 * phi + f2 * psi) / m)),
+        system = [(p, values["M1"] / D1 - a * q), (q, values["M2"] / D2 + b * p), (psi, p + r0 * phi),
+                  (phi, q - r0 * psi),
+                  (c, -r0 * s), (s, r0 * c),
+                  *zip(moved[:3], (c * across - s * up, s * across + c * up, (f3 - f1 * phi + f2 * psi) / m)),
                   *zip(moved[3:], moved[:3])]
         self.integrator = heyoka.taylor_adaptive(system, [0.0] * len(system), tol=tolerance)
         theta0 = values["theta0"]

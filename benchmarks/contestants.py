@@ -1,4 +1,5 @@
-"""What a careful user of the general tools would write: heyoka's batch mode with compaction, heyoka and SciPy with events."""
+"""What a careful user of the general tools would write: heyoka's batch mode with compaction, heyoka and SciPy
+with events."""
 from __future__ import annotations
 
 import numpy as np
@@ -7,16 +8,19 @@ import numpy as np
 def scaled_minor_system(a, b, heyoka):
     """The paper's minor-axis system with the turn angle as a fourth state (theta' = x3)."""
     x1, x2, x3, theta = heyoka.make_vars("x1", "x2", "x3", "theta")
-    return (x1, x2, x3, theta), [(x1, x2 * x3), (x2, -x3 * (x1 + a)), (x3, x2 * (x1 + b) + 1.0), (theta, x3 + 0.0 * x1)]
+    return (x1, x2, x3, theta), [(x1, x2 * x3), (x2, -x3 * (x1 + a)), (x3, x2 * (x1 + b) + 1.0),
+                                 (theta, x3 + 0.0 * x1)]
 
 
 def turning_system(scene, heyoka):
-    """(variables, equations, axis, turn) of a scene whose torque is on a principal axis, with the turn angle about it as
-    fourth state, positive in the torque's direction; turn: a full one, infinite where the angle is hyperbolic."""
+    """(variables, equations, axis, turn) of a scene whose torque is on a principal axis, with the turn angle
+    about it as fourth state, positive in the torque's direction; turn: a full one, infinite where the angle
+    is hyperbolic."""
     x = heyoka.make_vars("x1", "x2", "x3", "theta")
     form = scene.quadratic()
     kappa, rho, sigma, m = form.coefficients
-    rates = [kappa[i] * x[j] * x[k] + rho[i] * x[k] + sigma[i] * x[j] + m[i] for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1))]
+    rates = [kappa[i] * x[j] * x[k] + rho[i] * x[k] + sigma[i] * x[j] + m[i] for i, j,
+             k in ((0, 1, 2), (1, 2, 0), (2, 0, 1))]
     axis = int(np.flatnonzero(m)[0])
     product = kappa[(axis + 1) % 3] * kappa[(axis + 2) % 3]
     angle_rate = np.sign(m[axis]) * np.sqrt(abs(product)) * x[axis] + 0.0 * x[axis - 1]
@@ -24,15 +28,17 @@ def turning_system(scene, heyoka):
 
 
 class BatchFate:
-    """Integrate in batches until each state is decided: a full turn ahead is spin-up, the third reversal of the turn
-    is bounded (two reversals enclose the well). Decided states leave their lane at once (compaction)."""
+    """Integrate in batches until each state is decided: a full turn ahead is spin-up, the third reversal of
+    the turn is bounded (two reversals enclose the well). Decided states leave their lane at once
+    (compaction)."""
 
     def __init__(self, scene, tolerance=1e-15, batch=8):
         import heyoka
         _, system, self.axis, self.turn = turning_system(scene, heyoka)
         self.sense = np.sign(scene.quadratic().coefficients[3][self.axis])
         self.batch = batch
-        self.integrator = heyoka.taylor_adaptive_batch(system, np.zeros((4, batch)), tol=tolerance, high_accuracy=False)
+        self.integrator = heyoka.taylor_adaptive_batch(system, np.zeros((4, batch)), tol=tolerance,
+                                                       high_accuracy=False)
 
     def __call__(self, states):
         """Labels (n,): 0 bounded, 1 spin-up."""
@@ -70,20 +76,22 @@ class BatchFate:
 
 
 class SciPyFate:
-    """The same decision with SciPy's DOP853 and its events, one state after the other; as tight as it goes, for an energy
-    that is off by 1e-9 gives wrong labels within 1e-9 of the separatrix."""
+    """The same decision with SciPy's DOP853 and its events, one state after the other; as tight as it goes,
+    for an energy that is off by 1e-9 gives wrong labels within 1e-9 of the separatrix."""
 
     def __init__(self, scene, rtol=1e-13, atol=1e-14):
         kappa, rho, sigma, m = scene.quadratic().coefficients
         (k1, k2, k3), (r1, r2, r3), (s1, s2, s3), (m1, m2, m3) = kappa, rho, sigma, m
         self.axis = int(np.flatnonzero(m)[0])
         product = kappa[(self.axis + 1) % 3] * kappa[(self.axis + 2) % 3]
-        axis, factor, turn = self.axis, np.sign(m[self.axis]) * np.sqrt(abs(product)), 2 * np.pi if product < 0 else np.inf
+        axis, factor, turn = self.axis, np.sign(m[self.axis]) * np.sqrt(
+            abs(product)), 2 * np.pi if product < 0 else np.inf
         self.rtol, self.atol = rtol, atol
 
         def rates(t, y):
             a, b, c, _ = y.tolist()
-            return (k1 * b * c + r1 * c + s1 * b + m1, k2 * c * a + r2 * a + s2 * c + m2, k3 * a * b + r3 * b + s3 * a + m3,
+            return (k1 * b * c + r1 * c + s1 * b + m1, k2 * c * a + r2 * a + s2 * c + m2,
+                    k3 * a * b + r3 * b + s3 * a + m3,
                     factor * y[axis])
 
         def reversal(t, y):
@@ -101,14 +109,16 @@ class SciPyFate:
         labels = np.empty(len(states), np.int8)
         for n, state in enumerate(states):
             self.lowest = 0.0
-            run = solve_ivp(self.rates, (0.0, 1e6), [*state, 0.0], method="DOP853", rtol=self.rtol, atol=self.atol,
+            run = solve_ivp(self.rates, (0.0, 1e6), [*state, 0.0], method="DOP853", rtol=self.rtol,
+                            atol=self.atol,
                             events=self.events)
             labels[n] = len(run.t_events[0]) < 3
         return labels
 
 
 class EventExtremes:
-    """Extremes over one period: heyoka with events at the zeros of each rate, stopped at the third reversal of the turn."""
+    """Extremes over one period: heyoka with events at the zeros of each rate, stopped at the third reversal
+    of the turn."""
 
     def __init__(self, a, b, tolerance=1e-16):
         import heyoka
@@ -119,7 +129,8 @@ class EventExtremes:
             ta.update_d_output(time)
             self.values.append((component, ta.d_output[component]))
         rates = (x2 * x3, -x3 * (x1 + a), x2 * (x1 + b) + 1.0)
-        events = [heyoka.nt_event(rate, lambda ta, t, s, k=k: note(ta, t, s, k)) for k, rate in enumerate(rates)]
+        events = [heyoka.nt_event(rate, lambda ta, t, s, k=k: note(ta, t, s, k)) for k,
+                  rate in enumerate(rates)]
         self.reversals = 0
 
         def turned(ta, sign):
@@ -128,7 +139,8 @@ class EventExtremes:
             self.reversals += 1
             return self.reversals < 3
         stop = heyoka.t_event(x3, callback=turned)
-        self.integrator = heyoka.taylor_adaptive(system, [0.0] * 4, tol=tolerance, nt_events=events, t_events=[stop])
+        self.integrator = heyoka.taylor_adaptive(system, [0.0] * 4, tol=tolerance, nt_events=events,
+                                                 t_events=[stop])
 
     def __call__(self, states):
         out = np.empty((len(states), 3, 2))
@@ -145,8 +157,8 @@ class EventExtremes:
 
 
 class SceneEvents:
-    """Extremes over one period of any scene with its torque on a principal axis: events at the zeros of each rate, stopped at the third
-    reversal of the turn."""
+    """Extremes over one period of any scene with its torque on a principal axis: events at the zeros of each
+    rate, stopped at the third reversal of the turn."""
 
     def __init__(self, scene, tolerance=1e-16):
         import heyoka
@@ -162,8 +174,10 @@ class SceneEvents:
             self.values += [(k, ta.state[k]) for k in across]
             self.reversals += 1
             return self.reversals < 3
-        events = [heyoka.nt_event(rate, lambda ta, t, s, k=k: note(ta, t, s, k)) for k, (_, rate) in enumerate(system[:3])]
-        self.integrator = heyoka.taylor_adaptive(system, [0.0] * 4, tol=tolerance, nt_events=events, t_events=[heyoka.t_event(x[axis], callback=turned)])
+        events = [heyoka.nt_event(rate, lambda ta, t, s, k=k: note(ta, t, s, k)) for k,
+                  (_, rate) in enumerate(system[:3])]
+        self.integrator = heyoka.taylor_adaptive(system, [0.0] * 4, tol=tolerance, nt_events=events,
+                                                 t_events=[heyoka.t_event(x[axis], callback=turned)])
 
     def __call__(self, states):
         out, ta = np.empty((len(states), 3, 2)), self.integrator
@@ -179,7 +193,8 @@ class SceneEvents:
 
 
 class TurningTimes:
-    """Periods of any scene with its torque on a principal axis: one terminal event at each reversal of the turn, stopped at the third."""
+    """Periods of any scene with its torque on a principal axis: one terminal event at each reversal of the
+    turn, stopped at the third."""
 
     def __init__(self, scene, tolerance=1e-16):
         import heyoka
@@ -189,7 +204,8 @@ class TurningTimes:
         def turned(ta, sign):
             self.times.append(ta.time)
             return len(self.times) < 3
-        self.integrator = heyoka.taylor_adaptive(system, [0.0] * 4, tol=tolerance, t_events=[heyoka.t_event(x[axis], callback=turned)])
+        self.integrator = heyoka.taylor_adaptive(system, [0.0] * 4, tol=tolerance,
+                                                 t_events=[heyoka.t_event(x[axis], callback=turned)])
 
     def __call__(self, states):
         periods, ta = np.empty(len(states)), self.integrator
@@ -203,7 +219,8 @@ class TurningTimes:
 
 
 def off_axis_rates(inertia, moment, torque):
-    """(variable, rate) of Euler's equations with numbers for coefficients, multiplied out: the fastest of the forms tried."""
+    """(variable, rate) of Euler's equations with numbers for coefficients, multiplied out: the fastest of the
+    forms tried."""
     import heyoka
     (D1, D2, D3), (h1, h2, h3), (M1, M2, M3) = inertia, moment, torque
     p, q, r = heyoka.make_vars("p", "q", "r")
@@ -213,9 +230,10 @@ def off_axis_rates(inertia, moment, torque):
 
 
 def with_effects(inertia, moment, torque, c=0.0, kappa=0.0, centre=(0.0, 0.0, 0.0), turning=0.0):
-    """The same with more effects, as one writes them by hand, only those asked for: c of a medium, kappa of a liquid (omega'' + omega x omega'
-    along the motion without small effects), `centre` the weight times the centre of mass, `turning` e H l^2 of a charge whose angle follows the
-    attitude. gamma rides along where needed."""
+    """The same with more effects, as one writes them by hand, only those asked for: c of a medium, kappa of a
+    liquid (omega'' + omega x omega' along the motion without small effects), `centre` the weight times the
+    centre of mass, `turning` e H l^2 of a charge whose angle follows the attitude. gamma rides along where
+    needed."""
     import heyoka
     system = off_axis_rates(inertia, moment, torque)
     w = [variable for variable, _ in system]
@@ -238,20 +256,24 @@ def with_effects(inertia, moment, torque, c=0.0, kappa=0.0, centre=(0.0, 0.0, 0.
     if turning:
         more[0].append(turning / inertia[0] * g[2] * w[1])
         more[1].append(-turning / inertia[1] * g[2] * w[0])
-    return [*((one, sum(terms, rate)) for (one, rate), terms in zip(system, more)), *zip(g, cross(g, w) if g else ())]
+    return [*((one, sum(terms, rate)) for (one, rate), terms in zip(system, more)),
+            *zip(g, cross(g, w) if g else ())]
 
 
 class BatchSpinUp:
-    """Follow motions off the axes in batches until the largest rate passes HIGH, and name its axis with the sign. Decided motions leave their lane at once
-    (compaction)."""
+    """Follow motions off the axes in batches until the largest rate passes HIGH, and name its axis with the
+    sign. Decided motions leave their lane at once (compaction)."""
 
     HIGH = 10.0
 
     def __init__(self, scene, tolerance=1e-15, batch=8):
         import heyoka
-        inertia, moment, torque = ([float(c) for c in part] for part in (scene.body.exact, scene.vector("gyrostat"), scene.vector("constant_torque")))
+        inertia, moment, torque = ([float(c) for c in part]
+                                   for part in (scene.body.exact, scene.vector("gyrostat"),
+                                                scene.vector("constant_torque")))
         self.batch = batch
-        self.integrator = heyoka.taylor_adaptive_batch(off_axis_rates(inertia, moment, torque), np.zeros((3, batch)), tol=tolerance)
+        self.integrator = heyoka.taylor_adaptive_batch(off_axis_rates(inertia, moment, torque),
+                                                       np.zeros((3, batch)), tol=tolerance)
 
     def __call__(self, states):
         """(n,): the axis 1, 2 or 3 with the sign of its rate."""
@@ -287,12 +309,14 @@ class ScalarRuns:
 
 
 class BatchRuns:
-    """States of many motions on a grid of times that begins at 0, `lanes` at a time; their number is a multiple of that
-    or the last row starts earlier."""
+    """States of many motions on a grid of times that begins at 0, `lanes` at a time; their number is a
+    multiple of that or the last row starts earlier."""
 
     def __init__(self, system, tolerance, lanes=8):
         import heyoka
-        self.lanes, self.integrator = lanes, heyoka.taylor_adaptive_batch(system, np.zeros((len(system), lanes)), tol=tolerance)
+        self.lanes, self.integrator = lanes, heyoka.taylor_adaptive_batch(system,
+                                                                          np.zeros((len(system), lanes)),
+                                                                          tol=tolerance)
 
     def __call__(self, states, times):
         ta, lanes, n = self.integrator, self.lanes, len(states)

@@ -1,4 +1,5 @@
-"""One position of a moving hand on the page of `stabilab explore`: the verdict, and all that is drawn, against what a hand notices."""
+"""One position of a moving hand on the page of `stabilab explore`: the verdict, and all that is drawn,
+against what a hand notices."""
 from __future__ import annotations
 
 import time
@@ -33,7 +34,8 @@ def _followed(name, rounds=25) -> Row:
         begun = time.process_time()
         session.answer({"start": [repr(own * (1 + 0.003 * n)), None, None], "box": box, "moving": True})
         times.append(1e3 * (time.process_time() - begun))
-    return _row(f"explorer, the start of {name} moves", times[2:], UPDATE, "1200 places of the motion by Taylor series")
+    return _row(f"explorer, the start of {name} moves", times[2:], UPDATE,
+                "1200 places of the motion by Taylor series")
 
 
 def _rows(name, rounds) -> list[Row]:
@@ -43,17 +45,20 @@ def _rows(name, rounds) -> list[Row]:
     box = unframed(session.answer({}))[0]["space"]["box"]
     whole, verdict = [], []
     for n in range(rounds + 2):
-        moved = {"axis": torque["axis"], "size": repr(size * (1 + 0.003 * n)), "tilt": repr(tilt), "azimuth": repr(azimuth)}
+        moved = {"axis": torque["axis"], "size": repr(size * (1 + 0.003 * n)), "tilt": repr(tilt),
+                 "azimuth": repr(azimuth)}
         asked = {"torque": moved, "box": box, "moving": True}
         begun = time.process_time()
         told = unframed(session.answer(asked))[0]
         whole.append(1e3 * (time.process_time() - begun))
         verdict.append(told["analysis"])
     return [_row(f"explorer, the torque of {name} moves", whole[2:], UPDATE, WHAT),
-            _row(f"explorer, the torque of {name} moves: the verdict", verdict[2:], ANALYSIS, "case read anew, fate, margin in energy, extremes")]
+            _row(f"explorer, the torque of {name} moves: the verdict", verdict[2:], ANALYSIS,
+                 "case read anew, fate, margin in energy, extremes")]
 
 
 def _row(name, times, allowed, note) -> Row:
     ratios = sorted(allowed / t for t in times)
-    return Row(name, f"{median(times):.1f} ms of CPU", f"{allowed:.0f} ms allowed", median(ratios), (ratios[0], ratios[-1]), "none: as exact as the questions",
+    return Row(name, f"{median(times):.1f} ms of CPU", f"{allowed:.0f} ms allowed", median(ratios),
+               (ratios[0], ratios[-1]), "none: as exact as the questions",
                1.0, note)

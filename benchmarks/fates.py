@@ -1,4 +1,5 @@
-"""The fate of many states: NumPy alone and numba, against integration until it is decided; and a grid of them."""
+"""The fate of many states: NumPy alone and numba, against integration until it is decided; and a grid of
+them."""
 from __future__ import annotations
 
 import numpy as np
@@ -25,7 +26,8 @@ LIMITS = {False: "; NumPy's limit: some 250 passes over arrays at half a nanosec
 def rows(small=False) -> list[Row]:
     size, sample, rounds = (6000, 50, 2) if small else (1_000_000, 4000, 7)
     found = [against_batch(size, sample, rounds, name, fast) for name in SCENES for fast in ways()]
-    found += [against_scipy(size, 4 if small else 24, rounds, name, fast) for name in list(SCENES)[:1 if small else 3]
+    found += [against_scipy(size, 4 if small else 24, rounds, name, fast)
+              for name in list(SCENES)[:1 if small else 3]
               for fast in ways()]
     return found + [against_writing(48 if small else 512, rounds, fresh) for fresh in (True, False)]
 
@@ -52,12 +54,14 @@ def _against(contestant, words, wanted, size, sample, rounds, name, fast) -> Row
     clear = np.abs(answer.margins[:sample]) > 1e-9
     wrong = int(((answer.labels[:sample] == Fate.SPIN_UP) != (brute == 1))[clear].sum())
     return Row(f"fate of {size} states, {name}, {'numba' if fast else 'NumPy'}", each(timed.ours),
-               f"{each(timed.theirs)} {words}", timed.ratio, (timed.low, timed.high), f"{wrong} of {int(clear.sum())} labels differ", wanted=wanted,
+               f"{each(timed.theirs)} {words}", timed.ratio, (timed.low, timed.high),
+               f"{wrong} of {int(clear.sum())} labels differ", wanted=wanted,
                note=f"one thread; {answer.precise} states in ball arithmetic{LIMITS[fast]}")
 
 
 def against_writing(side=512, rounds=7, fresh=True) -> Row:
-    """A grid of side^3 labels against writing its bytes ten times: into fresh memory, as the grid is, or into the same."""
+    """A grid of side^3 labels against writing its bytes ten times: into fresh memory, as the grid is, or into
+    the same."""
     axes = [np.linspace(-5, 5, side), np.linspace(-5, 5, side), np.linspace(-6, 6, side)]
     out, cells = np.empty((side, side, side), np.int8), side**3
 
@@ -68,7 +72,9 @@ def against_writing(side=512, rounds=7, fresh=True) -> Row:
     states = np.stack(np.meshgrid(*[a[:: max(1, side // 16)] for a in axes], indexing="ij"), axis=-1)
     some = fate_grid(SCENE, [a[:: max(1, side // 16)] for a in axes])
     wrong = int((some != fate(SCENE, states, fast=False).labels).sum())
-    return Row(f"fate grid {side}^3, minor axis, NumPy", each(timed.ours), f"{each(timed.theirs)} its bytes written ten times, "
+    return Row(f"fate grid {side}^3, minor axis, NumPy", each(timed.ours),
+               f"{each(timed.theirs)} its bytes written ten times, "
                f"{'fresh memory' if fresh else 'the same memory'}", timed.ratio, (timed.low, timed.high),
                f"{wrong} of {some.size} labels differ", wanted=0.5 if fresh else 0.0,
-               note="like with like" if fresh else "the grid itself is written to fresh memory: the control has the advantage")
+               note="like with like" if fresh
+               else "the grid itself is written to fresh memory: the control has the advantage")

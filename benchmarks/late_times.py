@@ -1,4 +1,5 @@
-"""The state at late times by quadrature against heyoka: stepping there, folding by the period it finds by events, its grid."""
+"""The state at late times by quadrature against heyoka: stepping there, folding by the period it finds by
+events, its grid."""
 from __future__ import annotations
 
 import math
@@ -25,8 +26,8 @@ def rows(small=False) -> list[Row]:
 
 
 class Stepping:
-    """heyoka's Taylor series at half an ulp, from the state to the time; or from the state to the time's rest of the period,
-    which it finds as the time between two events x3 = 0 of one kind."""
+    """heyoka's Taylor series at half an ulp, from the state to the time; or from the state to the time's rest
+    of the period, which it finds as the time between two events x3 = 0 of one kind."""
 
     def __init__(self, tolerance=1e-16):
         import heyoka
@@ -76,14 +77,18 @@ def bounded(contest, late, rounds) -> list[Row]:
     name, kept = f"bounded motion at t = {late:g}", "after its preparation"
     said = "relative error: ours {:.1e}, theirs {:.1e}".format
     return [
-        _row(f"{name}, {kept}", side_by_side(repeated(lambda: motion.at(late), MANY), step, MANY, FEW, rounds), "heyoka",
+        _row(f"{name}, {kept}",
+             side_by_side(repeated(lambda: motion.at(late), MANY), step, MANY, FEW, rounds), "heyoka",
              said(ready, plain), 300),
-        _row(f"{name}, {kept}", side_by_side(repeated(lambda: motion.at(fair), MANY), rest, MANY, MANY, rounds),
+        _row(f"{name}, {kept}",
+             side_by_side(repeated(lambda: motion.at(fair), MANY), rest, MANY, MANY, rounds),
              "heyoka that knows the period", said(ready, folded), 2,
              "the fair control: its period is known to it, half of it is left to integrate"),
-        _row(f"{name}, preparation included", side_by_side(repeated(whole, MANY), step, MANY, FEW, rounds), "heyoka",
+        _row(f"{name}, preparation included", side_by_side(repeated(whole, MANY), step, MANY, FEW, rounds),
+             "heyoka",
              said(first, plain), 50,
-             "what is left: 25 values of dt/dphi in NumPy, two turning points and one inversion in Python, some 15 us each"),
+             "what is left: 25 values of dt/dphi in NumPy, two turning points and one inversion in Python, "
+             "some 15 us each"),
         _row(f"{name}, preparation included", side_by_side(repeated(whole, MANY), found, MANY, MANY, rounds),
              "heyoka that finds the period by events", said(first, folded),
              note="one state asked once is cheaper by events, if its compiled code is at hand")]
@@ -106,7 +111,9 @@ def spin_up(contest, late, rounds) -> list[Row]:
     early = min(late, 20.0)
     ours, theirs = errors(SPINNING, early, motion.at(early), contest.at(SPINNING, early).copy())
     gap = float(np.abs(np.array(motion.at(late)) - contest.at(SPINNING, late)).max() / late)
-    said = f"relative error at t = {early:g}: ours {ours:.1e}, theirs {theirs:.1e}; at {late:g} they differ by {gap:.1e}"
+    said = (
+        f"relative error at t = {early:g}: ours {ours:.1e}, theirs {theirs:.1e}; at {late:g} they differ by "
+        f"{gap:.1e}")
     ready, whole = (lambda: motion.at(late)), (lambda: reduced_motion(SCENE, SPINNING).at(late))
     theirs = lambda: contest.at(SPINNING, late)
     name = f"spin-up at t = {late:g}"
@@ -125,7 +132,8 @@ def many_times(contest, late, rounds, count=10_000) -> list[Row]:
     motion, grid = reduced_motion(SCENE, HELD), lambda: contest.grid(HELD, times)
     name = f"{count} times up to {late:g} of a bounded motion"
     said = f"relative error of the last: ours {errs[0]:.1e}, theirs {errs[1]:.1e}"
-    table, grid, whole = repeated(lambda: tabulated(motion).states(times), 6), repeated(grid, 3), repeated(ready, 6)
+    table, grid, whole = repeated(lambda: tabulated(motion).states(times),
+                                  6), repeated(grid, 3), repeated(ready, 6)
     table, whole = side_by_side(table, grid, 6, 3, rounds), side_by_side(whole, grid, 6, 3, rounds)
     return [_row(f"{name}, its table included", table, "heyoka's grid", said, 2),
             _row(f"{name}, preparation included", whole, "heyoka's grid", said, 2)]

@@ -30,5 +30,6 @@ def fate_map(size=1_000_000, fast=False) -> Row:
     return Row(f"memory of a fate map of {size} states, {'numba' if fast else 'NumPy'}",
                f"{peak / 1e6:.3g} MB peak, input included",
                f"{MOST} x {states.nbytes / 1e6:.3g} MB of input", ratio, (ratio, ratio),
-               f"peak is {peak / states.nbytes:.2f} times the input, the result alone {kept / states.nbytes:.2f}", wanted=1.0,
+               f"peak is {peak / states.nbytes:.2f} times the input, the result alone "
+               f"{kept / states.nbytes:.2f}", wanted=1.0,
                note="the ratio is the allowance over the peak")

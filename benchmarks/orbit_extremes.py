@@ -30,7 +30,8 @@ def against_events(size=20_000, sample=400, rounds=7) -> Row:
     states = bounded_states(size)
     part = states[:sample]
     events = EventExtremes(A, B)
-    timed = side_by_side(lambda: extremes(SCENE, states), lambda: events(part), len(states), len(part), rounds)
+    timed = side_by_side(lambda: extremes(SCENE, states), lambda: events(part), len(states), len(part),
+                         rounds)
     difference = np.abs(extremes(SCENE, part) - events(part)).max() / np.abs(part).max()
     return Row(f"extremes of {len(states)} orbits", each(timed.ours),
                f"{each(timed.theirs)} heyoka with events", timed.ratio, (timed.low, timed.high),
@@ -38,8 +39,8 @@ def against_events(size=20_000, sample=400, rounds=7) -> Row:
 
 
 class SciPyEvents:
-    """Extremes and period with solve_ivp (DOP853): events at the zeros of each rate, dense output to place them,
-    stopped at the third reversal of the turn, which ends a period."""
+    """Extremes and period with solve_ivp (DOP853): events at the zeros of each rate, dense output to place
+    them, stopped at the third reversal of the turn, which ends a period."""
 
     def __init__(self, a, b, tolerance=1e-12):
         self.a, self.b, self.tolerance = a, b, tolerance
@@ -58,7 +59,8 @@ class SciPyEvents:
         from scipy.integrate import solve_ivp
         boxes, periods = np.empty((len(states), 3, 2)), np.empty(len(states))
         for n, state in enumerate(states):
-            run = solve_ivp(self.rates, (0, 1e4), state, method="DOP853", rtol=self.tolerance, atol=self.tolerance,
+            run = solve_ivp(self.rates, (0, 1e4), state, method="DOP853", rtol=self.tolerance,
+                            atol=self.tolerance,
                             events=self.events)
             seen = np.concatenate([state[None], *(np.reshape(x, (-1, 3)) for x in run.y_events)])
             boxes[n] = np.stack([seen.min(axis=0), seen.max(axis=0)], axis=1)
@@ -71,16 +73,19 @@ def against_scipy(size, sample, rounds) -> Row:
     states = bounded_states(size)
     part = states[:sample]
     events = SciPyEvents(A, B)
-    timed = side_by_side(lambda: extremes(SCENE, states), lambda: events(part), len(states), len(part), rounds)
+    timed = side_by_side(lambda: extremes(SCENE, states), lambda: events(part), len(states), len(part),
+                         rounds)
     best = EventExtremes(A, B)(part)
-    ours, theirs = (np.abs(box - best).max() / np.abs(part).max() for box in (extremes(SCENE, part), events(part)[0]))
+    ours, theirs = (np.abs(box - best).max() / np.abs(part).max()
+                    for box in (extremes(SCENE, part), events(part)[0]))
     return Row(f"extremes of {len(states)} orbits", each(timed.ours),
                f"{each(timed.theirs)} SciPy DOP853 with events", timed.ratio, (timed.low, timed.high),
                f"differs from heyoka by {ours:.1e}, SciPy (1e-12) by {theirs:.1e}", wanted=8000)
 
 
 def brink(part, count):
-    """Bounded states whose energy lies below the barrier's by `part` of it: by bisection in x3 on random circles."""
+    """Bounded states whose energy lies below the barrier's by `part` of it: by bisection in x3 on random
+    circles."""
     rng, found = np.random.default_rng(20261121), []
     while len(found) < count:
         x1, x2 = rng.uniform(-4, 4, 2)
@@ -91,7 +96,8 @@ def brink(part, count):
 
 
 def beside_the_separatrix(count) -> Row:
-    """Errors at relative distances 1e-3 ... 1e-15 against ball arithmetic, and the time there against heyoka's."""
+    """Errors at relative distances 1e-3 ... 1e-15 against ball arithmetic, and the time there against
+    heyoka's."""
     from stabilab.orbit.extremes.balls import precise_extremes
     from stabilab.orbit.extremes_and_periods import extremes_and_periods
     from stabilab.orbit.landscape import landscape
@@ -111,6 +117,9 @@ def beside_the_separatrix(count) -> Row:
     states, events = np.concatenate(states), EventExtremes(A, B)
     timed = side_by_side(lambda: extremes(SCENE, states), lambda: events(states), len(states), len(states), 2)
     words = ", ".join(f"{x:.0e}/{t:.0e}" for x, t in zip(boxes_off, periods_off))
-    return Row("extremes next to the separatrix", each(timed.ours), f"{each(timed.theirs)} heyoka with events", timed.ratio,
-               (timed.low, timed.high), f"of extremes/periods at 1e-3, -6, -9, -12, -15 of the barrier: {words}",
-               note="timed at 1e-3, -6, -9 alike; ball arithmetic from 1e-7 on, where doubles would lose digits")
+    return Row("extremes next to the separatrix", each(timed.ours),
+               f"{each(timed.theirs)} heyoka with events", timed.ratio,
+               (timed.low, timed.high),
+               f"of extremes/periods at 1e-3, -6, -9, -12, -15 of the barrier: {words}",
+               note="timed at 1e-3, -6, -9 alike; ball arithmetic from 1e-7 on, where doubles would lose "
+                    "digits")

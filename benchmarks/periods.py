@@ -26,19 +26,24 @@ def alone(size, sample, rounds) -> Row:
     timed = side_by_side(lambda: period(SCENE, states), lambda: events(part), len(states), len(part), rounds)
     off = np.abs(period(SCENE, part) / events(part) - 1).max()
     return Row(f"periods of {len(states)} orbits", each(timed.ours),
-               f"{each(timed.theirs)} heyoka with events at the turns only", timed.ratio, (timed.low, timed.high),
+               f"{each(timed.theirs)} heyoka with events at the turns only", timed.ratio,
+               (timed.low, timed.high),
                f"largest relative difference {off:.1e}", wanted=ALONE,
-               note="the fair control: heyoka places the turns only, three times cheaper than all extremes; the sum over"
+               note="the fair control: heyoka places the turns only, three times cheaper than all extremes; "
+                    "the sum over"
                     " 16 or more nodes is what limits it")
 
 
 def together(size, sample, rounds) -> Row:
-    """Extremes and periods in one go against heyoka with events at the roots of the rates, whose run shows both."""
+    """Extremes and periods in one go against heyoka with events at the roots of the rates, whose run shows
+    both."""
     states = bounded_states(size)
     part, events, turns = states[:sample], EventExtremes(A, B), TurningTimes(SCENE)
-    timed = side_by_side(lambda: extremes_and_periods(SCENE, states), lambda: events(part), len(states), len(part), rounds)
+    timed = side_by_side(lambda: extremes_and_periods(SCENE, states), lambda: events(part), len(states),
+                         len(part), rounds)
     boxes, periods = extremes_and_periods(SCENE, part)
-    off = max(np.abs(boxes - events(part)).max() / np.abs(part).max(), np.abs(periods / turns(part) - 1).max())
+    off = max(np.abs(boxes - events(part)).max() / np.abs(part).max(),
+              np.abs(periods / turns(part) - 1).max())
     return Row(f"extremes and periods of {len(states)} orbits", each(timed.ours),
                f"{each(timed.theirs)} heyoka with events", timed.ratio, (timed.low, timed.high),
                f"largest relative difference {off:.1e}", wanted=TOGETHER)
@@ -48,7 +53,8 @@ def against_scipy(size, sample, rounds) -> Row:
     """Extremes and periods against SciPy with events, stopped at the end of a period."""
     states = bounded_states(size)
     part, events = states[:sample], SciPyEvents(A, B)
-    timed = side_by_side(lambda: extremes_and_periods(SCENE, states), lambda: events(part), len(states), len(part), rounds)
+    timed = side_by_side(lambda: extremes_and_periods(SCENE, states), lambda: events(part), len(states),
+                         len(part), rounds)
     exact = TurningTimes(SCENE)(part)
     ours, theirs = (np.abs(periods / exact - 1).max() for periods in (period(SCENE, part), events(part)[1]))
     return Row(f"extremes and periods of {len(states)} orbits", each(timed.ours),

@@ -1,4 +1,5 @@
-"""A sample of random scenes with a reduction, from a fixed seed: any body, the torque along any principal axis, the wheel across it."""
+"""A sample of random scenes with a reduction, from a fixed seed: any body, the torque along any principal
+axis, the wheel across it."""
 from __future__ import annotations
 
 import math
@@ -15,7 +16,8 @@ KINDS = ("generic", "flat", "rod", "near")
 
 @dataclass(frozen=True)
 class Drawn:
-    """One scene of the sample: its numbers as they are named (moments, wheel, torque), and the seed of its states."""
+    """One scene of the sample: its numbers as they are named (moments, wheel, torque), and the seed of its
+    states."""
 
     number: int
     kind: str
@@ -32,10 +34,12 @@ class Drawn:
     def name(self) -> str:
         """The numbers in words, to be typed in again."""
         axis = next(i for i in range(3) if self.torque[i])
-        return f"D = {self.moments}, lambda = {self.wheel}, M{axis + 1} = {self.torque[axis]}".replace(".0,", ",").replace(".0)", ")")
+        return f"D = {self.moments}, lambda = {self.wheel}, M{axis + 1} = {self.torque[axis]}".replace(
+            ".0,", ",").replace(".0)", ")")
 
     def states(self, count: int, again: int = 0) -> np.ndarray:
-        """(count, 3) states, from a tenth of the rates that wheel and torque bring about to ten times these, all directions alike; others when drawn again."""
+        """(count, 3) states, from a tenth of the rates that wheel and torque bring about to ten times these,
+        all directions alike; others when drawn again."""
         rng = np.random.default_rng([SEED, self.number, again] if again else [SEED, self.number])
         wheel, torque, least = math.hypot(*self.wheel), math.hypot(*self.torque), min(self.moments)
         rate = wheel / least + math.sqrt(torque / least)
@@ -51,7 +55,8 @@ def drawn(count: int, seed: int = SEED) -> list[Drawn]:
 
 def _draw(rng, number) -> Drawn:
     kind = rng.choices(KINDS, (3, 1, 1, 1))[0]
-    second = [rng.uniform(0.05, 1) for _ in range(3)]  # int x^2 dm and so on: their sums in pairs are moments of a body
+    # int x^2 dm and so on: their sums in pairs are moments of a body
+    second = [rng.uniform(0.05, 1) for _ in range(3)]
     i = rng.randrange(3)
     if kind == "flat":
         second[i] = rng.uniform(0.001, 0.02)
@@ -63,8 +68,10 @@ def _draw(rng, number) -> Drawn:
     a, b, c = second
     moments = tuple(round(size * v, 3) for v in (b + c, a + c, a + b))
     axis = rng.randrange(3)
-    wheel = [0.0 if k == axis else round(rng.choice((-1, 1)) * 10 ** rng.uniform(-1, 1.2), 3) for k in range(3)]
+    wheel = [0.0 if k == axis else round(rng.choice((-1, 1)) * 10 ** rng.uniform(-1, 1.2), 3)
+             for k in range(3)]
     if rng.random() < 0.5:
         wheel[(axis + rng.choice((1, 2))) % 3] = 0.0
-    torque = [round(rng.choice((-1, 1)) * 10 ** rng.uniform(-2, 0.3), 4) if k == axis else 0.0 for k in range(3)]
+    torque = [round(rng.choice((-1, 1)) * 10 ** rng.uniform(-2, 0.3), 4) if k == axis else 0.0
+              for k in range(3)]
     return Drawn(number, kind, moments, tuple(wheel), tuple(torque))

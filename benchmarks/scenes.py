@@ -1,8 +1,9 @@
-"""Every question on a sample of random scenes, each scene beside what a careful user of the general tools would write.
+"""Every question on a sample of random scenes, each scene beside what a careful user of the general tools
+would write.
 
-python -m benchmarks.scenes [SCENES [FIRST]]: the rows on so many scenes of the sample, from the number FIRST on; one line a scene goes to stderr, and
-Ctrl-C ends the sample: the rows are those of the scenes that were measured.
-Times are processor times of one thread, each contestant warmed up, in turn on the same states.
+python -m benchmarks.scenes [SCENES [FIRST]]: the rows on so many scenes of the sample, from the number FIRST
+on; one line a scene goes to stderr, and Ctrl-C ends the sample: the rows are those of the scenes that were
+measured. Times are processor times of one thread, each contestant warmed up, in turn on the same states.
 """
 from __future__ import annotations
 
@@ -24,9 +25,12 @@ from .rows import Row, numba_available
 SCENES = 200
 STATES = 20_000     # of ours; theirs are asked of `SAMPLE` of them
 SAMPLE = 32
-HELD = 1000         # bounded motions at least: where a scene has few, of as many states as it takes, for a call has costs of its own
+# bounded motions at least: where a scene has few, of as many states as it takes, for a call has costs of its
+# own
+HELD = 1000
 DRAWS = 500         # times that states are drawn for that
-CLEAR = 1e-6        # of the kinetic energy: nearer to the separatrix heyoka's run may pass it by rounding, and never ends
+# of the kinetic energy: nearer to the separatrix heyoka's run may pass it by rounding, and never ends
+CLEAR = 1e-6
 ROUNDS = 3
 PATIENCE = 1.5      # s for a call: of slower questions fewer states are asked
 LONG = 0.05         # s
@@ -70,17 +74,21 @@ def _row(question, found) -> Row:
     median = statistics.median(m.ours for m in ours)
     words = f"{_time(median)} median, {_time(ninety.ours)} 90 %, {_time(ours[-1].ours)} worst"
     if not known:
-        return Row(f"{len(found)} random scenes, {question}", words, "-", 1.0, (1.0, 1.0), f"worst over median {ours[-1].ours / median:.3g}",
+        return Row(f"{len(found)} random scenes, {question}", words, "-", 1.0, (1.0, 1.0),
+                   f"worst over median {ours[-1].ours / median:.3g}",
                    note=f"worst: {ours[-1].scene}")
     theirs = statistics.median(m.theirs for m in known)
-    return Row(f"{len(found)} random scenes, {question}", words, f"{_time(theirs)} median {OTHERS[question.split(',')[0]]}",
+    return Row(f"{len(found)} random scenes, {question}", words,
+               f"{_time(theirs)} median {OTHERS[question.split(',')[0]]}",
                statistics.median(m.ratio for m in known), (known[0].ratio, known[-1].ratio),
                f"worst over median {ours[-1].ours / median:.3g}", WANTED.get(question, 0),
-               f"wanted on every scene, reached on {sum(m.ratio >= WANTED[question] for m in known)} of {len(known)}; slowest: {ours[-1].scene}; "
+               f"wanted on every scene, reached on {sum(m.ratio >= WANTED[question] for m in known)} of "
+               f"{len(known)}; slowest: {ours[-1].scene}; "
                f"least ratio: {known[0].scene}")
 
 
-OTHERS = {"fate": "heyoka batch with compaction", "extremes": "heyoka with events", "period": "heyoka with events at the turns only",
+OTHERS = {"fate": "heyoka batch with compaction", "extremes": "heyoka with events",
+          "period": "heyoka with events at the turns only",
           "separatrix surfaces": f"Flying Edges at {CELLS}^3, field and contour"}
 
 
@@ -106,19 +114,22 @@ def _scene(one: Drawn, small, told):
     for way in ways():
         ours = _pace(lambda x, way=way: fate(scene, x, fast=way == "numba"), states, rounds)
         found.append(Measured(f"fate, {way}", name, ours, theirs))
-    found[0] = Measured(found[0].question, name, max(found[0].ours - found[1].ours * len(states), 1e-6), float("nan"))
+    found[0] = Measured(found[0].question, name, max(found[0].ours - found[1].ours * len(states), 1e-6),
+                        float("nan"))
     bounded = decided.labels == Fate.BOUNDED
     held, part = states[bounded], states[bounded & clear][:8 if small else SAMPLE]
     if not small:
         held = _enough(one, held)
     if len(part) > 3:
-        for question, ask, other in (("extremes", extremes, SceneEvents(scene)), ("period", period, TurningTimes(scene))):
+        for question, ask, other in (("extremes", extremes, SceneEvents(scene)),
+                                     ("period", period, TurningTimes(scene))):
             theirs = _pace(other, part, rounds)
             ours = _patient(lambda x, ask=ask: ask(scene, x), held, rounds)
             found.append(Measured(question, name, ours, theirs))
     found += _surface(scene, name, rounds, 24 if small else CELLS)
     if told:
-        print(one.number, one.kind, ", ".join(f"{m.question} {_time(m.ours)} ({m.ratio:.3g})" for m in found), file=told, flush=True)
+        print(one.number, one.kind, ", ".join(f"{m.question} {_time(m.ours)} ({m.ratio:.3g})" for m in found),
+              file=told, flush=True)
     return found
 
 
@@ -149,7 +160,8 @@ def _patient(call, states, rounds) -> float:
 
 
 def _pace(call, states, rounds) -> float:
-    """Processor time a state, s, the median of the rounds after one to warm up; one round where a call is long."""
+    """Processor time a state, s, the median of the rounds after one to warm up; one round where a call is
+    long."""
     call(states[:6000])  # more than from where on tables and compiled loops serve
     times = [_time_of(lambda: call(states))]
     times += [_time_of(lambda: call(states)) for _ in range(rounds - 1) if times[0] < LONG]
@@ -163,7 +175,8 @@ def _time_of(call) -> float:
 
 
 def _surface(scene, name, rounds, cells):
-    """The mesh of the separatrix at the error of Flying Edges on a grid of margins in the box that the sheets fill."""
+    """The mesh of the separatrix at the error of Flying Edges on a grid of margins in the box that the sheets
+    fill."""
     whole = separatrix(scene, accuracy=None, shape=(12, 17))
     if not whole.sheets:
         return []
@@ -182,33 +195,41 @@ def _mesh(scene, accuracy):
 
 
 def _contour(scene, axes):
-    """Flying Edges on margins: as the margin falls by the energy along the torque's axis, one plane of fates fills the box."""
+    """Flying Edges on margins: as the margin falls by the energy along the torque's axis, one plane of fates
+    fills the box."""
     import pyvista
     i = next(k for k in range(3) if scene.vector("constant_torque")[k])
     plane = np.zeros([1 if k == i else len(axis) for k, axis in enumerate(axes)] + [3])
     for k, axis in enumerate(axes):
         plane[..., k] = 0.0 if k == i else axis.reshape([-1 if m == k else 1 for m in range(3)])
     gap = fate(scene, plane).margins
-    gap = np.where(np.isfinite(gap), gap, -1e3 * np.abs(gap[np.isfinite(gap)]).max(initial=1.0)).astype(np.float32)
+    gap = np.where(np.isfinite(gap), gap,
+                   -1e3 * np.abs(gap[np.isfinite(gap)]).max(initial=1.0)).astype(np.float32)
     energy = 0.5 * float(scene.body.exact[i]) * axes[i].reshape([-1 if m == i else 1 for m in range(3)]) ** 2
-    grid = pyvista.ImageData(dimensions=[len(axis) for axis in axes], spacing=[axis[1] - axis[0] for axis in axes], origin=[axis[0] for axis in axes])
+    grid = pyvista.ImageData(dimensions=[len(axis) for axis in axes],
+                             spacing=[axis[1] - axis[0] for axis in axes], origin=[axis[0] for axis in axes])
     grid["margin"] = (gap - energy.astype(np.float32)).ravel(order="F")
     return grid.contour([0.0], scalars="margin", method="flying_edges")
 
 
 def _error(scene, contour, cell, sample=400) -> float:
-    """Largest distance of a contour's points from the surface, to first order, at a sample; a cell at most, which is the error at a fold."""
+    """Largest distance of a contour's points from the surface, to first order, at a sample; a cell at most,
+    which is the error at a fold."""
     points = np.random.default_rng(1).permutation(np.asarray(contour.points, float))[:sample]
     if not len(points):
         return cell
     step = 1e-4 * cell
     with np.errstate(all="ignore"):
-        gradient = np.stack([(fate(scene, points + d).margins - fate(scene, points - d).margins) / (2 * step) for d in step * np.eye(3)], axis=-1)
+        gradient = np.stack([(fate(scene, points + d).margins - fate(scene, points - d).margins) / (2 * step)
+                             for d in step * np.eye(3)], axis=-1)
         off = np.abs(fate(scene, points).margins) / np.linalg.norm(gradient, axis=-1)
     off = off[np.isfinite(off)]
     return float(min(off.max(initial=0.0) or cell, cell))
 
 
 if __name__ == "__main__":
-    for row in rows(scenes=int(sys.argv[1]) if sys.argv[1:] else SCENES, first=int(sys.argv[2]) if sys.argv[2:] else 0, told=sys.stderr):
-        print(f"| {row.name} | {row.ours} | {row.theirs} | {row.ratio:.3g} ({row.spread[0]:.3g} to {row.spread[1]:.3g}) | {row.error}; {row.note} |")
+    for row in rows(scenes=int(sys.argv[1]) if sys.argv[1:] else SCENES,
+                    first=int(sys.argv[2]) if sys.argv[2:] else 0, told=sys.stderr):
+        print(
+            f"| {row.name} | {row.ours} | {row.theirs} | {row.ratio:.3g} ({row.spread[0]:.3g} to "
+            f"{row.spread[1]:.3g}) | {row.error}; {row.note} |")

@@ -1,8 +1,10 @@
-"""Spin-up under torques of any direction: how much is decided, by when and at what cost; none against a run of another kind.
+"""Spin-up under torques of any direction: how much is decided, by when and at what cost; none against a run
+of another kind.
 
-python -m benchmarks.spin_up pace SEED SCENES STATES: many states of a scene beside heyoka's own batches run to the times at which the certificates fire.
-python -m benchmarks.spin_up SEED SCENES [TIMES STEPS SECONDS CONTINUED]: random bodies (half generic, the rest flat, rods, nearly
-equal moments), the torque uniform on the sphere, wheels of 0, 0.1, 1, 10 and states of 0.1 to 30 natural units.
+python -m benchmarks.spin_up pace SEED SCENES STATES: many states of a scene beside heyoka's own batches run
+to the times at which the certificates fire. python -m benchmarks.spin_up SEED SCENES [TIMES STEPS SECONDS
+CONTINUED]: random bodies (half generic, the rest flat, rods, nearly equal moments), the torque uniform on the
+sphere, wheels of 0, 0.1, 1, 10 and states of 0.1 to 30 natural units.
 """
 from __future__ import annotations
 
@@ -57,8 +59,10 @@ def violations(scene, answer, span: float, points: int = 400) -> list[str]:
     run = _runge_kutta()(c, np.array(answer.state), times)
     spin = run @ np.array(answer.direction)
     low, high = np.array([trap.line(t) for t in times]).T
-    wrong = [f"line {side}" for side, bad in (("below", spin < low * (1 - 1e-7)), ("above", spin > high * (1 + 1e-7))) if bad.any()]
-    wrong += [f"axis {n + 1}" for n, (a, b) in enumerate(trap.bounds()) if n != i and ((run[:, n] < a) | (run[:, n] > b)).any()]
+    wrong = [f"line {side}" for side,
+             bad in (("below", spin < low * (1 - 1e-7)), ("above", spin > high * (1 + 1e-7))) if bad.any()]
+    wrong += [f"axis {n + 1}" for n, (a, b) in enumerate(trap.bounds()) if n != i
+              and ((run[:, n] < a) | (run[:, n] > b)).any()]
     for share in (.5, .9):
         limit = spin[0] + share * (spin[-1] - spin[0])
         early, late = trap.clock(limit)
@@ -70,7 +74,8 @@ def violations(scene, answer, span: float, points: int = 400) -> list[str]:
 
 @lru_cache(maxsize=1)
 def _runge_kutta():
-    """The classical formula of order 4 at a hundredth of a radian a step (its loss of amplitude is h^5/144 a radian)."""
+    """The classical formula of order 4 at a hundredth of a radian a step (its loss of amplitude is h^5/144 a
+    radian)."""
     import numpy as np
     from numba import njit
 
@@ -121,7 +126,8 @@ def main(seed=1, scenes=100, times=2000.0, steps=60_000, seconds=170.0, continue
 
 
 def pace(seed=1, scenes=10, states=1000, times=2000.0, steps=20_000):
-    """Prints, by scene, what deciding a state costs beside its raw integration by heyoka's batches up to the same time; returns (ours, raw), s."""
+    """Prints, by scene, what deciding a state costs beside its raw integration by heyoka's batches up to the
+    same time; returns (ours, raw), s."""
     import numpy as np
 
     from stabilab.unreduced.spin_up.follow import spin_up_many
@@ -138,18 +144,24 @@ def pace(seed=1, scenes=10, states=1000, times=2000.0, steps=20_000):
             total += ours, raw
             ratios.append(ours / raw if raw else np.inf)  # a clock of ticks may see none go by
             left = int((found.level == 0).sum())
-            print(f"{kind:>8}{wheel:6}{left:10d}{found.steps.mean():9.0f}{1e6 * ours / states:9.1f}{1e6 * raw / states:9.1f}{ratios[-1]:7.2f}")
-    print(f"all together: {total[0] / total[1]:.2f} times the raw integration; median of the scenes {sorted(ratios)[len(ratios) // 2]:.2f}")
+            print(
+                f"{kind:>8}{wheel:6}{left:10d}{found.steps.mean():9.0f}{1e6 * ours / states:9.1f}{1e6 * raw / states:9.1f}{ratios[-1]:7.2f}")
+    print(
+        f"all together: {total[0] / total[1]:.2f} times the raw integration; median of the scenes "
+        f"{sorted(ratios)[len(ratios) // 2]:.2f}")
     return tuple(total)
 
 
 def _raw(scene, starts, times):
-    """Processor time of heyoka's batch integrator for the same starts and times, eight lanes of like times together."""
+    """Processor time of heyoka's batch integrator for the same starts and times, eight lanes of like times
+    together."""
     import heyoka
     import numpy as np
-    D, l, M = ([float(v) for v in vector] for vector in (scene.body.exact, scene.vector("gyrostat"), scene.vector("constant_torque")))
+    D, l, M = ([float(v) for v in vector]
+               for vector in (scene.body.exact, scene.vector("gyrostat"), scene.vector("constant_torque")))
     x = heyoka.make_vars("x", "y", "z")
-    rates = [(M[i] + (D[j] - D[k]) * x[j] * x[k] + l[j] * x[k] - l[k] * x[j]) / D[i] for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1))]
+    rates = [(M[i] + (D[j] - D[k]) * x[j] * x[k] + l[j] * x[k] - l[k] * x[j]) / D[i] for i, j,
+             k in ((0, 1, 2), (1, 2, 0), (2, 0, 1))]
     ta = heyoka.taylor_adaptive_batch(list(zip(x, rates)), np.zeros((3, 8)), tol=2.0**-53)
     order = np.argsort(times)
     order = np.append(order, np.repeat(order[-1:], -len(order) % 8)).reshape(-1, 8)
@@ -162,8 +174,10 @@ def _raw(scene, starts, times):
 
 
 def _table(rows, continued):
-    print(f"{'':>12}{'scenes':>7}{'t<10':>7}{'<100':>7}{'<1e3':>7}{'<5e3':>7}{'all':>7}{'1e3 st':>8}{'1e4':>7}{'1e5':>7}{'med t':>8}{'steps':>7}{'ms':>7}")
-    groups = [(f"wheel {w}", [r for r in rows if r[1] == w]) for w in WHEELS] + [(k, [r for r in rows if r[0] == k]) for k in KINDS]
+    print(
+        f"{'':>12}{'scenes':>7}{'t<10':>7}{'<100':>7}{'<1e3':>7}{'<5e3':>7}{'all':>7}{'1e3 st':>8}{'1e4':>7}{'1e5':>7}{'med t':>8}{'steps':>7}{'ms':>7}")
+    groups = ([(f"wheel {w}", [r for r in rows if r[1] == w]) for w in WHEELS]
+              + [(k, [r for r in rows if r[0] == k]) for k in KINDS])
     groups += [("generic l<=1", [r for r in rows if r[0] == "generic" and r[1] <= 1]), ("all", rows)]
     for name, group in groups:
         if group:
@@ -176,7 +190,8 @@ def _table(rows, continued):
     forms = [(r[2].trap.form, r[2].trap.orders) for r in rows if r[2].level == "certified"]
     print({form: forms.count(form) for form in sorted(set(forms))})
     if continued:
-        print("continued beyond the certificate:", len(forms), "violations:", sum(bool(row[4]) for row in rows))
+        print("continued beyond the certificate:", len(forms), "violations:",
+              sum(bool(row[4]) for row in rows))
 
 
 def _line(group):
@@ -186,7 +201,8 @@ def _line(group):
     text = "".join(share(lambda a, t=t: a.t < t) for t in (10, 100, 1000, 5000, math.inf))
     text += " " + "".join(share(lambda a, n=n: a.steps < n) for n in (1e3, 1e4, 1e5))
     middle = lambda values: sorted(values)[len(values) // 2]
-    return text + f"{middle([r[2].t for r in group]):8.3g}{middle([r[2].steps for r in group]):7d}{middle([r[3] for r in group]):7.1f}"
+    return (text
+            + f"{middle([r[2].t for r in group]):8.3g}{middle([r[2].steps for r in group]):7d}{middle([r[3] for r in group]):7.1f}")
 
 
 if __name__ == "__main__":

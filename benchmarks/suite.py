@@ -6,7 +6,8 @@ from importlib import import_module
 
 from .rows import Row
 
-TOPICS = ("fates", "memory", "orbit_extremes", "periods", "surfaces", "trajectories", "closed_forms", "startup", "late_times", "explorer", "waits", "sweeps",
+TOPICS = ("fates", "memory", "orbit_extremes", "periods", "surfaces", "trajectories", "closed_forms",
+          "startup", "late_times", "explorer", "waits", "sweeps",
           "scenes")
 
 

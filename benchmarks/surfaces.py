@@ -12,7 +12,8 @@ from .timing import side_by_side
 HALF = 6.0        # of the side of the cube that the grid of margins fills
 REACH = 5.6       # with it the sheets go beyond every corner of the cube's section
 ACCURACY = 3e-3   # largest distance of our facets from the surface
-NOTE = ("ours holds meshing too. What limits it is the number of calls: some hundred of NumPy on arrays of a thousand numbers "
+NOTE = ("ours holds meshing too. What limits it is the number of calls: some hundred of NumPy on arrays of a "
+        "thousand numbers "
         "at most (a trial grid, the finished one, the check of the facets) and 80 ends of loops in floats")
 
 
@@ -22,25 +23,31 @@ def rows(small=False) -> list[Row]:
 
 
 def against_flying_edges(cells=512, rounds=7, sample=200_000, checked=24) -> list[Row]:
-    """A separatrix mesh against Flying Edges on a cells^3 grid of margins: contouring alone with the field given, and with
-    the filling of the field. Errors of both are taken at the centres and at the mid-points of the edges of the triangles, to first order
-    at `sample` of them and exactly at the `checked` worst.
+    """A separatrix mesh against Flying Edges on a cells^3 grid of margins: contouring alone with the field
+    given, and with the filling of the field. Errors of both are taken at the centres and at the mid-points of
+    the edges of the triangles, to first order at `sample` of them and exactly at the `checked` worst.
     """
     axis = np.linspace(-HALF, HALF, cells)
     grid = _field(axis)
     theirs = _contour(grid)
-    their_error = _largest_distance(_between(np.asarray(theirs.points, float), theirs.faces.reshape(-1, 4)[:, 1:]), sample, checked)
+    their_error = _largest_distance(_between(np.asarray(theirs.points, float),
+                                             theirs.faces.reshape(-1, 4)[:, 1:]), sample, checked)
     meshes = _mesh()
-    assert all(np.linalg.norm(m.points[:, :2] + [A, 0], axis=1).max() > np.hypot(HALF + A, HALF) for m in meshes)
-    our_error = _largest_distance(np.concatenate([_between(m.points, m.triangles) for m in meshes]), sample, checked)
-    error = f"largest distance of the triangles from the surface: ours {our_error:.1e}, theirs {their_error:.1e}"
+    assert all(np.linalg.norm(m.points[:, :2] + [A, 0], axis=1).max() > np.hypot(HALF + A, HALF)
+               for m in meshes)
+    our_error = _largest_distance(np.concatenate([_between(m.points, m.triangles) for m in meshes]), sample,
+                                  checked)
+    error = (
+        f"largest distance of the triangles from the surface: ours {our_error:.1e}, theirs {their_error:.1e}")
     count, found = sum(len(m.triangles) for m in meshes), []
     name = f"separatrix mesh, {count} triangles (1/{theirs.n_cells / count:.0f} of theirs)"
     for other, what in ((lambda: _contour(grid), "contouring alone"),
                         (lambda: _contour(_field(axis)), "margins and contouring")):
         timed = side_by_side(_mesh, other, 1, 1, rounds)
-        found.append(Row(name, f"{timed.ours * 1e3:.2f} ms", f"{timed.theirs * 1e3:.0f} ms Flying Edges at {cells}^3, {what}, "
-                         f"{theirs.n_cells} triangles", timed.ratio, (timed.low, timed.high), error, 1000.0, NOTE))
+        found.append(Row(name, f"{timed.ours * 1e3:.2f} ms",
+                         f"{timed.theirs * 1e3:.0f} ms Flying Edges at {cells}^3, {what}, "
+                         f"{theirs.n_cells} triangles", timed.ratio, (timed.low, timed.high), error, 1000.0,
+                         NOTE))
     return found
 
 
@@ -53,7 +60,8 @@ def _contour(grid):
 
 
 def _field(axis):
-    """Margins on the cube's grid. The margin at x3 is gap(x1, x2) - x3^2/2: one plane of fates fills the whole."""
+    """Margins on the cube's grid. The margin at x3 is gap(x1, x2) - x3^2/2: one plane of fates fills the
+    whole."""
     import pyvista
     cells = len(axis)
     plane = np.zeros((cells, cells, 3))
@@ -74,7 +82,8 @@ def _between(points, triangles):
 
 
 def _largest_distance(points, sample, checked) -> float:
-    """Largest distance from the separatrix: first order (|margin|/|grad|) on a sample, exact for the worst of it."""
+    """Largest distance from the separatrix: first order (|margin|/|grad|) on a sample, exact for the worst of
+    it."""
     points = np.random.default_rng(1).permutation(points)[:sample]
     step = 1e-5
     with np.errstate(all="ignore"):
@@ -82,7 +91,8 @@ def _largest_distance(points, sample, checked) -> float:
         gradient = np.stack([(fate(SCENE, points + d).margins - fate(SCENE, points - d).margins) / (2 * step)
                              for d in step * np.eye(3)], axis=-1)
         first = np.abs(margin) / np.linalg.norm(gradient, axis=-1)
-    # no first order on circles without a saddle, just inside a fold: exact there too, beside the worst of the others
+    # no first order on circles without a saddle, just inside a fold: exact there too, beside the worst of the
+    # others
     worst = np.argsort(np.where(np.isfinite(first), first, -1.0))[-checked:]
     exact = np.concatenate([points[worst], points[~np.isfinite(first)][:4 * checked]])
     return float(fate(SCENE, exact).velocity_margins.max())

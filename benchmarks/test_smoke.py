@@ -5,12 +5,15 @@ pytest.importorskip("heyoka")
 
 from . import fates, orbit_extremes, spin_up, spin_up_sample, suite
 
-SLOW = ("scenes", "surfaces", "orbit_extremes",  # they compile kernels, for half a minute and more where no cache is
+# they compile kernels, for half a minute and more where no cache is
+SLOW = ("scenes", "surfaces", "orbit_extremes",
         "trajectories")  # it runs many methods
 
 
 @pytest.mark.one_in(2)
-@pytest.mark.parametrize("topic", [pytest.param(topic, marks=pytest.mark.slow if topic in SLOW else ()) for topic in suite.TOPICS])
+@pytest.mark.parametrize("topic",
+                         [pytest.param(topic, marks=pytest.mark.slow if topic in SLOW else ())
+                          for topic in suite.TOPICS])
 def test_topic_gives_rows(topic):
     if topic == "surfaces":
         pytest.importorskip("pyvista")
@@ -43,6 +46,9 @@ def test_the_sample_of_scenes_is_gathered_in_pieces_and_told_as_a_table(tmp_path
     monkeypatch.setattr(spin_up_sample, "PAGE", page)
     spin_up_sample.write(*pieces)
     rows = spin_up_sample.rows_of(pieces)
-    assert [row["number"] for row in rows] == [0, 1, 2, 3, 4, 5] and all(row["cause"] for row in rows if row["level"] == "undecided")
+    assert [row["number"] for row in rows] == [0, 1, 2, 3, 4,
+                                               5] and all(row["cause"] for row in rows
+                                                          if row["level"] == "undecided")
     text = page.read_text(encoding="utf-8")
-    assert "| all | 6 |" in text and "old" not in text and text.startswith("before") and text.endswith("after") and "Undecided: " in text
+    assert "| all | 6 |" in text and "old" not in text and text.startswith("before") and text.endswith(
+        "after") and "Undecided: " in text

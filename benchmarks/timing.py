@@ -19,8 +19,8 @@ class Ratio:
 
 
 def side_by_side(ours, theirs, our_items, their_items, rounds=7, clock=time.perf_counter) -> Ratio:
-    """Run both callables alternately; each returns nothing, items are what one call works off. clock: `time.thread_time` where both work in one thread,
-    which other work on the machine then disturbs less."""
+    """Run both callables alternately; each returns nothing, items are what one call works off. clock:
+    `time.thread_time` where both work in one thread, which other work on the machine then disturbs less."""
     ours(), theirs()
     pairs = [(_time(ours, clock) / our_items, _time(theirs, clock) / their_items) for _ in range(rounds)]
     ratios = sorted(b / a for a, b in pairs)

@@ -1,4 +1,5 @@
-"""The documentation as a site: `make docs` writes it to docs/_site. Sphinx, because the reference comes from docstrings and a warning can fail the build."""
+"""The documentation as a site: `make docs` writes it to docs/_site. Sphinx, because the reference comes from
+docstrings and a warning can fail the build."""
 import re
 import sys
 from pathlib import Path
@@ -20,16 +21,19 @@ exclude_patterns = ["_site"]
 html_theme, html_title = "furo", "stabilab"
 html_static_path, html_css_files = ["static"], ["site.css"]
 html_show_copyright = False
-html_show_search_summary = False  # they are fetched page by page, which a browser refuses from the disk: an error for every result
+# they are fetched page by page, which a browser refuses from the disk: an error for every result
+html_show_search_summary = False
 myst_heading_anchors = 3
 autodoc_typehints, autodoc_typehints_format, maximum_signature_line_length = "signature", "short", 90
 autodoc_member_order = "bysource"
 autodoc_type_aliases = {"ArrayLike": "ArrayLike"}  # else what it stands for, in private names of NumPy
 CHECKED = "Evaluated against the program"
 # What stands outside of docs/ has its page here under another name
-PAGES = {"README.md": "readme.md", "benchmarks/RESULTS.md": "results.md", "CONTRIBUTING.md": "contributing.md", "CHANGELOG.md": "changelog.md"}
+PAGES = {"README.md": "readme.md", "benchmarks/RESULTS.md": "results.md",
+         "CONTRIBUTING.md": "contributing.md", "CHANGELOG.md": "changelog.md"}
 
-# A link that is named by its file, as the repository needs it: here by the page's heading. All pages together have none
+# A link that is named by its file, as the repository needs it: here by the page's heading. All pages together
+# have none
 FILES = re.compile(r"\[[\w./-]+\.md\]\(((?!index\.md)[\w./-]+\.md(?:#[\w-]+)?)\)")
 
 
@@ -42,10 +46,15 @@ def setup(app):
 
 
 def write_pages(app):
-    """The pages that are made from what the repository holds: what stands outside of docs/, reference, notebooks, gallery of cases."""
+    """The pages that are made from what the repository holds: what stands outside of docs/, reference,
+    notebooks, gallery of cases."""
     for outside, name in PAGES.items():
         text = (HERE.parent / outside).read_text(encoding="utf-8")
-        written.page(HERE / name, text.replace("](docs/", "](").replace("](figures/", "](../figures/").replace("](CITATION.cff", "](../CITATION.cff"))
+        written.page(HERE / name,
+                     text.replace("](docs/",
+                                  "](").replace("](figures/",
+                                                "](../figures/").replace("](CITATION.cff",
+                                                                         "](../CITATION.cff"))
     written.page(HERE / "api.md", reference.text())
     notebooks.write(HERE)
     gallery.write(HERE)
@@ -58,11 +67,15 @@ def point_inside(app, name, source):
     source[0] = source[0].replace(".ipynb)", ".md)")
     source[0] = FILES.sub(r"[](\1)", source[0])
     if name.startswith("mathematics/"):  # the formulas first, what checks them at a click
-        source[0] = re.sub(r"^```python\n.*?^```$", rf"<details><summary>{CHECKED}</summary>\n\n\\g<0>\n\n</details>", source[0], flags=re.M | re.S)
+        source[0] = re.sub(r"^```python\n.*?^```$",
+                           rf"<details><summary>{CHECKED}</summary>\n\n\\g<0>\n\n</details>", source[0],
+                           flags=re.M | re.S)
 
 
-TYPED = (nodes.literal, nodes.literal_block, nodes.math, nodes.math_block, nodes.raw, nodes.comment, addnodes.desc_signature)
-# Columns of a table that scrolls in its box anyhow; letters of a cell that stays on one line, and of one that is no paragraph yet
+TYPED = (nodes.literal, nodes.literal_block, nodes.math, nodes.math_block, nodes.raw, nodes.comment,
+         addnodes.desc_signature)
+# Columns of a table that scrolls in its box anyhow; letters of a cell that stays on one line, and of one that
+# is no paragraph yet
 MANY, SHORT, LONG = 5, 26, 120
 
 
@@ -79,13 +92,16 @@ def printed(words):
 
 
 def set_as_a_book(app, document):
-    """Signs and powers of a book in words; a table of many columns keeps its rows low (site.css), with a long last cell in a row of its own below."""
+    """Signs and powers of a book in words; a table of many columns keeps its rows low (site.css), with a long
+    last cell in a row of its own below."""
     for text in list(document.findall(nodes.Text)):
         around = text.parent
         while around is not None and not isinstance(around, TYPED):
             around = around.parent
         if around is None and (POWER.search(text) or printed(str(text)) != str(text)):
-            words, powers = POWER.split(printed(str(text)))[::3], [one[1] or one[2] for one in POWER.finditer(printed(str(text)))]
+            words, powers = POWER.split(printed(str(text)))[::3], [one[1] or one[2]
+                                                                   for one in POWER.finditer(
+                                                                       printed(str(text)))]
             made = [nodes.Text(words[0])]
             for power, after in zip(powers, words[1:], strict=True):
                 made += [nodes.superscript("", power.replace("-", "−")), nodes.Text(after)]
@@ -97,7 +113,8 @@ def set_as_a_book(app, document):
             for row in list(table.findall(nodes.row)):
                 for cell in row:
                     size = len(cell.astext())
-                    cell["classes"].append("whole" if size <= SHORT else "words" if size <= LONG else "paragraph")
+                    cell["classes"].append("whole" if size <= SHORT else "words" if size <= LONG
+                                           else "paragraph")
                 if len(row) == columns and "paragraph" in row[-1]["classes"]:
                     note = nodes.entry("", *row[-1].children, morecols=columns - 1, classes=["note"])
                     row.replace(row[-1], nodes.entry("", classes=["whole"]))

@@ -60,8 +60,10 @@ _HOME = {
     "time_to": "answers.time_to", "TimeTo": "answers.passage.result",
     "trajectory": "answers.trajectory", "ensemble": "integrate.ensemble",
     "simulate": "answers.simulate", "compare": "theories.comparison", "theory": "theories.theory",
-    "Charge": "physics.effects.charge", "Resistance": "physics.effects.resistance", "LiquidCavity": "physics.effects.liquid_cavity",
-    "NewtonianField": "physics.effects.newtonian_field", "Gravity": "physics.effects.gravity", "BodyForce": "physics.effects.body_force",
+    "Charge": "physics.effects.charge", "Resistance": "physics.effects.resistance",
+    "LiquidCavity": "physics.effects.liquid_cavity",
+    "NewtonianField": "physics.effects.newtonian_field", "Gravity": "physics.effects.gravity",
+    "BodyForce": "physics.effects.body_force",
     "derive": "physics.equations", "validity": "physics.law_limits",
     "plot": "show", "sweep": "show.maps.dataset", "atlas": "show.maps.atlas.dataset",
     "basin": "show.maps.basins.dataset", "bifurcation": "maps.bifurcation.ask", "InputError": "errors",
@@ -72,7 +74,8 @@ __all__ = [*_HOME, "__version__"]
 def __getattr__(name: str) -> Any:
     if name in _HOME:
         home = import_module(f"{__name__}.{_HOME[name]}")
-        return getattr(home, name) if hasattr(home, name) else import_module(f"{home.__name__}.{name}")  # a room of its own: plot
+        # a room of its own: plot
+        return getattr(home, name) if hasattr(home, name) else import_module(f"{home.__name__}.{name}")
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 

@@ -5,13 +5,15 @@ import sys
 
 from . import interrupt, streams
 
-# Reading modules makes many objects and no rubbish: with the interpreter's 700 the collector would look through them some
+# Reading modules makes many objects and no rubbish: with the interpreter's 700 the collector would look
+# through them some
 # hundred times before a small command has begun, at a tenth of its time.
 OBJECTS_BETWEEN_COLLECTIONS = 50_000
 
 
 def main() -> None:
-    """Run a command and end the process with its exit code. Interrupts are taken care of before anything slow is imported."""
+    """Run a command and end the process with its exit code. Interrupts are taken care of before anything slow
+    is imported."""
     gc.set_threshold(OBJECTS_BETWEEN_COLLECTIONS)
     streams.occupy()
     interrupt.arm()
@@ -19,7 +21,9 @@ def main() -> None:
         _commands()(None if os.environ.get("STABILAB_QUIET") else streams.SILENCE)
     finally:
         interrupt.disarm()
-        gc.freeze()  # the process ends: its last look for rubbish among all that was read in costs a tenth of a small command
+        # the process ends: its last look for rubbish among all that was read in costs a tenth of a small
+        # command
+        gc.freeze()
 
 
 def _commands():

@@ -9,7 +9,8 @@ from .errors import InputError
 
 
 class Asked(type):
-    """The class of what users make by its name: a call that gives it too much, too little or what it does not know is bad input."""
+    """The class of what users make by its name: a call that gives it too much, too little or what it does not
+    know is bad input."""
 
     def __call__(cls, *given: Any, **named: Any) -> Any:
         try:
@@ -19,15 +20,19 @@ class Asked(type):
             try:
                 takes.bind(None, *given, **named)
             except TypeError as error:
-                names = [str(one.replace(annotation=one.empty)) for one in list(takes.parameters.values())[1:]]
-                raise InputError(f"{cls.__name__}: {error}; expected {cls.__name__}({', '.join(names)})") from None
+                names = [str(one.replace(annotation=one.empty))
+                         for one in list(takes.parameters.values())[1:]]
+                raise InputError(
+                    f"{cls.__name__}: {error}; expected {cls.__name__}({', '.join(names)})") from None
             raise
 
 
 def checked_scene(scene):
     """The scene itself, if it is one."""
     if not (hasattr(scene, "plain") and hasattr(scene, "variables")):
-        raise InputError(f"scene: expected a Scene, a ScaledGyrostat or a case, as stabilab.load gives it, got {came(scene)}")
+        raise InputError(
+            f"scene: expected a Scene, a ScaledGyrostat or a case, as stabilab.load gives it, got "
+            f"{came(scene)}")
     return scene
 
 
@@ -37,18 +42,21 @@ def is_case(given) -> bool:
 
 
 def scene_and_state(given, state):
-    """(scene, state) that a function is asked with; of a case its scene and, where no state is given, its own start."""
+    """(scene, state) that a function is asked with; of a case its scene and, where no state is given, its own
+    start."""
     if is_case(given):
         given, state = given.scene, given.start if state is None else state
     scene = checked_scene(given)
     if state is None:
-        raise InputError("state: expected three numbers for a scene; a case without a [motion] needs them too")
+        raise InputError(
+            "state: expected three numbers for a scene; a case without a [motion] needs them too")
     return scene, state
 
 
 def came(value) -> str:
     """What was given, in a few words: a short value itself, of anything else its type."""
-    return f"{value!r:.80}" if value is None or isinstance(value, (str, int, float, complex)) else f"an object of type {type(value).__name__}"
+    return (f"{value!r:.80}" if value is None or isinstance(value, (str, int, float, complex))
+            else f"an object of type {type(value).__name__}")
 
 
 def checked_case(case):
@@ -72,8 +80,9 @@ def checked_span(span) -> tuple[float, float] | None:
 
 
 def reach_of(span) -> float | None:
-    """How far a span (from, to) reaches from the state, which is that of time 0: to its end, or back to its beginning where it ends by then;
-    None without a span. Extremes are searched over all of that way, as the motion takes it."""
+    """How far a span (from, to) reaches from the state, which is that of time 0: to its end, or back to its
+    beginning where it ends by then; None without a span. Extremes are searched over all of that way, as the
+    motion takes it."""
     return None if span is None else float(span[1] if span[1] > 0 or not span[0] else span[0])
 
 

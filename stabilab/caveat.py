@@ -1,7 +1,8 @@
-"""What limits an answer: a tilt that it leaves out, a limit that comes first, a law that does not hold, a tensor that no rigid body has, samples in
-place of a proof, numbers that are the middles of uncertain ones.
+"""What limits an answer: a tilt that it leaves out, a limit that comes first, a law that does not hold, a
+tensor that no rigid body has, samples in place of a proof, numbers that are the middles of uncertain ones.
 
-A caveat belongs to the answer: every view of it (text, JSON, CSV, sweep, map, page, explorer) shows its words.
+A caveat belongs to the answer: every view of it (text, JSON, CSV, sweep, map, page, explorer) shows its
+words.
 """
 from __future__ import annotations
 

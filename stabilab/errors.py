@@ -19,12 +19,14 @@ class InputError(StabilabError, ValueError):
 
 
 def printable(text: str) -> str:
-    """The text in one line that a terminal shows as it is: what a file holds may neither move the cursor nor forge a line."""
+    """The text in one line that a terminal shows as it is: what a file holds may neither move the cursor nor
+    forge a line."""
     return "".join(c if c.isprintable() else c.encode("unicode_escape").decode("ascii") for c in text)
 
 
 def told(value: object) -> str:
-    """What came instead of what was expected, as Python writes it: not more than 80 characters, and no address, which is another in every run."""
+    """What came instead of what was expected, as Python writes it: not more than 80 characters, and no
+    address, which is another in every run."""
     words = repr(value)
     return (words if " at 0x" not in words else f"{type(value).__name__} that holds no numbers")[:80]
 
@@ -47,15 +49,18 @@ class CaseError(InputError):
         self.path, self.problems = str(path), tuple(problems)
         more = len(self.problems) - self.SHOWN
         lines = [self._line(p) for p in self.problems[:self.SHOWN]]
-        super().__init__("\n".join(lines + ([f"{printable(self.path)}: and {more} more"] if more > 0 else [])))
+        super().__init__("\n".join(lines
+                                   + ([f"{printable(self.path)}: and {more} more"] if more > 0 else [])))
 
     def _line(self, problem: Problem) -> str:
         where = self.path if problem.line is None else f"{self.path}:{problem.line}"
-        return printable(f"{where}: {problem.key}: {problem.message}" if problem.key else f"{where}: {problem.message}")
+        return printable(f"{where}: {problem.key}: {problem.message}" if problem.key
+                         else f"{where}: {problem.message}")
 
 
 class RenderingUnavailable(StabilabError):
-    """Pictures cannot be drawn on this machine; meshes and data were still written, as `summaries` (or `summary`, of one) tells."""
+    """Pictures cannot be drawn on this machine; meshes and data were still written, as `summaries` (or
+    `summary`, of one) tells."""
 
     exit_code = NO_RENDERING
     summaries: list[dict]

@@ -22,10 +22,11 @@ _numbers = count(1)
 
 @contextmanager
 def whole_file(path):
-    """A temporary name beside `path` that becomes `path` when the block ends well, and vanishes when it does not.
+    """A temporary name beside `path` that becomes `path` when the block ends well, and vanishes when it does
+    not.
 
-    Two runs may write one path at once: the last one to end gives the file. What a killed run left is removed. Raises
-    InputError where the disk is full, the folder cannot be written, or `path` is a folder.
+    Two runs may write one path at once: the last one to end gives the file. What a killed run left is
+    removed. Raises InputError where the disk is full, the folder cannot be written, or `path` is a folder.
     """
     path = Path(path)
     with _explained(path):
@@ -44,9 +45,9 @@ def whole_file(path):
 
 @contextmanager
 def new_folder(out):
-    """A temporary folder inside `out` (on the same disk, even where `out` is a mount of its own) that vanishes at the end,
-    however it comes, and `out` with it where it was made for it and nothing came into it. Raises InputError as `whole_file`
-    does."""
+    """A temporary folder inside `out` (on the same disk, even where `out` is a mount of its own) that
+    vanishes at the end, however it comes, and `out` with it where it was made for it and nothing came into
+    it. Raises InputError as `whole_file` does."""
     out = Path(out)
     fresh = not out.exists()
     with _explained(out):
@@ -65,13 +66,15 @@ def new_folder(out):
 
 @contextmanager
 def alone_in(folder, wait=True):
-    """While the block runs, no other run that asks for it puts its files into the folder. BlockingIOError where one does, unless it is waited for."""
+    """While the block runs, no other run that asks for it puts its files into the folder. BlockingIOError
+    where one does, unless it is waited for."""
     with _locked(Path(folder), wait=wait):
         yield
 
 
 def put_in_place(folder, out):
-    """Rename every file of `folder` to its place under `out`: pages after what they show, the first page (index.html) last."""
+    """Rename every file of `folder` to its place under `out`: pages after what they show, the first page
+    (index.html) last."""
     out = Path(out)
     for file in sorted(inside(folder), key=lambda f: (f.suffix == ".html", f.name == "index.html", f)):
         target = out / file.relative_to(folder)
@@ -116,7 +119,8 @@ def _remove_abandoned(folder, pattern):
 
 @contextmanager
 def _locked(path, wait=False):
-    """Hold the lock of a file or folder: the system lets go of it with the process. OSError where another process has it."""
+    """Hold the lock of a file or folder: the system lets go of it with the process. OSError where another
+    process has it."""
     if fcntl is None:
         yield
         return

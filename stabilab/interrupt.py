@@ -1,7 +1,8 @@
 """Ctrl-C: the program ends at once with 130, whatever it was doing, and takes its unfinished files with it.
 
-A KeyboardInterrupt is no way to do that: a library in the middle of an import or a callback may swallow it, turn it
-into an error of its own, or never see it while compiled code runs. So the signal itself ends the process.
+A KeyboardInterrupt is no way to do that: a library in the middle of an import or a callback may swallow it,
+turn it into an error of its own, or never see it while compiled code runs. So the signal itself ends the
+process.
 """
 from __future__ import annotations
 
@@ -12,12 +13,14 @@ from typing import Any
 
 from .errors import INTERRUPTED
 
-PATIENCE = 0.3  # s that the main thread has to answer the signal itself; compiled code may keep it busy for hours
+# s that the main thread has to answer the signal itself; compiled code may keep it busy for hours
+PATIENCE = 0.3
 _undo: list[Any] = []   # what to undo on the way out, last first
 
 
 def arm():
-    """From now on an interrupt ends the process. A program that was started with the signal ignored goes on ignoring it."""
+    """From now on an interrupt ends the process. A program that was started with the signal ignored goes on
+    ignoring it."""
     if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:
         return
     signal.signal(signal.SIGINT, _end)
@@ -41,8 +44,8 @@ def undoing(action):
 
 
 def end_with_parent(hear=lambda line: None):
-    """From now on the process ends when its standard input does: a child whose parent was ended, by whatever, shall not go on. hear(line) is given what
-    comes before."""
+    """From now on the process ends when its standard input does: a child whose parent was ended, by whatever,
+    shall not go on. hear(line) is given what comes before."""
     import _thread
 
     def listen():
@@ -63,7 +66,8 @@ def _end(*_):
 
 
 def _watch():
-    """A second pair of eyes: a thread that ends the process where the main thread is deaf inside compiled code."""
+    """A second pair of eyes: a thread that ends the process where the main thread is deaf inside compiled
+    code."""
     import _thread
     import time
     heard, mouth = os.pipe()

@@ -1,7 +1,9 @@
-"""What takes long to derive, kept on disk from run to run: in the user's cache folder, by its content and the versions that made it.
+"""What takes long to derive, kept on disk from run to run: in the user's cache folder, by its content and the
+versions that made it.
 
-STABILAB_CACHE names another folder; "off" keeps nothing. A file that is broken, or that some other program wrote, is no answer: what was asked for is
-derived again. A folder that cannot be written stays as it is. Files appear whole, so any number of processes may share the folder.
+STABILAB_CACHE names another folder; "off" keeps nothing. A file that is broken, or that some other program
+wrote, is no answer: what was asked for is derived again. A folder that cannot be written stays as it is.
+Files appear whole, so any number of processes may share the folder.
 """
 from __future__ import annotations
 
@@ -22,7 +24,8 @@ MOST = 256  # files of a kind: beyond, the older half goes
 
 
 def cache_folder() -> Path | None:
-    """The folder for what is kept: STABILAB_CACHE where it is set (None where it is "off"), else under XDG_CACHE_HOME, else the platform's place."""
+    """The folder for what is kept: STABILAB_CACHE where it is set (None where it is "off"), else under
+    XDG_CACHE_HOME, else the platform's place."""
     named, given = os.environ.get("STABILAB_CACHE"), os.environ.get("XDG_CACHE_HOME")
     if named:
         return None if named == "off" else Path(named)
@@ -31,15 +34,19 @@ def cache_folder() -> Path | None:
     if sys.platform == "darwin":
         return Path.home() / "Library" / "Caches" / "stabilab"
     if sys.platform == "win32":
-        return Path(os.environ.get("LOCALAPPDATA") or Path.home() / "AppData" / "Local") / "stabilab" / "Cache"
+        return (Path(os.environ.get("LOCALAPPDATA") or Path.home() / "AppData" / "Local")
+                / "stabilab" / "Cache")
     return Path.home() / ".cache" / "stabilab"
 
 
-def kept(kind: str, content: str, sources: Path, versions: tuple[str, ...], make: Callable[[], T], records: Mapping[str, type]) -> T:
-    """What `make` returns, from the disk where it was made before from the same content; made anew each time where it is not to be written down.
+def kept(kind: str, content: str, sources: Path, versions: tuple[str, ...], make: Callable[[], T],
+         records: Mapping[str, type]) -> T:
+    """What `make` returns, from the disk where it was made before from the same content; made anew each time
+    where it is not to be written down.
 
-    kind: the folder; content: everything that the result depends on, in words; sources: the folder of the code that makes it, of which any change
-    counts; versions: of the packages that make it; records: the dataclasses, by their names, of which the result is one and may hold others.
+    kind: the folder; content: everything that the result depends on, in words; sources: the folder of the
+    code that makes it, of which any change counts; versions: of the packages that make it; records: the
+    dataclasses, by their names, of which the result is one and may hold others.
     """
     path = _path(kind, content, sources, versions)
     if path is None:
@@ -52,12 +59,14 @@ def kept(kind: str, content: str, sources: Path, versions: tuple[str, ...], make
 
 
 def in_words(thing: Any) -> str:
-    """All that makes a dataclass equal to another, as a text: a repr may leave out the unrounded numbers beside the doubles."""
+    """All that makes a dataclass equal to another, as a text: a repr may leave out the unrounded numbers
+    beside the doubles."""
     if isinstance(thing, tuple):
         return f"({', '.join(map(in_words, thing))})"
     if not is_dataclass(thing):
         return repr(thing)
-    shown = (f"{field.name}={in_words(getattr(thing, field.name))}" for field in fields(thing) if field.compare)
+    shown = (f"{field.name}={in_words(getattr(thing, field.name))}" for field in fields(thing)
+             if field.compare)
     return f"{type(thing).__module__}.{type(thing).__qualname__}({', '.join(shown)})"
 
 
@@ -66,7 +75,8 @@ def _path(kind: str, content: str, sources: Path, versions: tuple[str, ...]) -> 
         folder = cache_folder()
         if folder is None:
             return None
-        files = sorted((file.name, stat.st_size, stat.st_mtime_ns) for file in sources.rglob("*.py") for stat in (file.stat(),))
+        files = sorted((file.name, stat.st_size, stat.st_mtime_ns) for file in sources.rglob("*.py")
+                       for stat in (file.stat(),))
         made_by = __version__, sys.version_info[:3], versions, files
     except (OSError, RuntimeError):  # no home, or a package that is no folder of files
         return None

@@ -10,7 +10,8 @@ from .version import __version__
 
 def machine() -> dict[str, str]:
     """What the times depend on besides the program."""
-    return {"processor": _processor(), "cores": str(os.cpu_count()), "system": f"{platform.system()} {platform.machine()}"}
+    return {"processor": _processor(), "cores": str(os.cpu_count()),
+            "system": f"{platform.system()} {platform.machine()}"}
 
 
 def _processor() -> str:

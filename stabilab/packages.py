@@ -7,7 +7,8 @@ import sys
 from .errors import InputError, RenderingUnavailable, StabilabError
 
 INSTALLED_AS = {"flint": "python-flint", "PIL": "pillow", "vtkmodules": "vtk"}
-EXTRAS = {"xarray": "data", "pandas": "data", "distributed": "cluster"}  # package -> extra of pyproject.toml that brings it
+# package -> extra of pyproject.toml that brings it
+EXTRAS = {"xarray": "data", "pandas": "data", "distributed": "cluster"}
 DRAWING = ("matplotlib", "pillow", "vtk", "pyvista", "contourpy")
 
 
@@ -23,7 +24,8 @@ def present(name: str) -> bool:
 def cure(module: str) -> str:
     """What to type where a module is not there, and the extra that brings it, if one does."""
     package = INSTALLED_AS.get(module, module)
-    extra = f" (part of stabilab's extra {EXTRAS[package]}: pip install \"stabilab[{EXTRAS[package]}]\")" if package in EXTRAS else ""
+    extra = (f" (part of stabilab's extra {EXTRAS[package]}: pip install \"stabilab[{EXTRAS[package]}]\")"
+             if package in EXTRAS else "")
     return f"pip install {package}{extra}"
 
 
@@ -35,7 +37,8 @@ def demand(*modules: str):
 
 
 def explained(error: ImportError) -> StabilabError | None:
-    """The error in words for the user, without the exit code of a fault; None where the program itself is at fault."""
+    """The error in words for the user, without the exit code of a fault; None where the program itself is at
+    fault."""
     cause, module = _cause(error)
     if module == "stabilab" or module in sys.stdlib_module_names:
         return None
@@ -45,11 +48,13 @@ def explained(error: ImportError) -> StabilabError | None:
     else:
         words = f"{package} cannot be loaded ({str(cause).strip().splitlines()[0] if str(cause).strip() else 'no reason given'}): " \
                 f"install what that names, or the package anew; stabilab doctor names the versions that are there"
-    return RenderingUnavailable(f"no picture can be drawn: {words}") if package in DRAWING else InputError(words)
+    return (RenderingUnavailable(f"no picture can be drawn: {words}") if package in DRAWING
+            else InputError(words))
 
 
 def _cause(error):
-    """(the error that names a module, its outermost package), looking behind those that packages raise in their own words."""
+    """(the error that names a module, its outermost package), looking behind those that packages raise in
+    their own words."""
     link = error
     while isinstance(link, ImportError):
         found = re.search(r"No module named '([\w.]+)'", str(link))

@@ -1,4 +1,5 @@
-"""Processes of this machine that help another one: how many it may use, and an end with the one that started them, whatever ends it."""
+"""Processes of this machine that help another one: how many it may use, and an end with the one that started
+them, whatever ends it."""
 from __future__ import annotations
 
 import os
@@ -19,12 +20,15 @@ def cores() -> int:
 
 @contextmanager
 def helpers(module: str, place: Path, number: int, **streams: Any) -> Iterator[list[subprocess.Popen]]:
-    """While the block runs: `number` fresh interpreters that run a module, told the place where they work. They are killed at its end, however it ends.
+    """While the block runs: `number` fresh interpreters that run a module, told the place where they work.
+    They are killed at its end, however it ends.
 
-    A fresh interpreter each, so that neither threads nor the caller's own script are copied into it. Each has a pipe as its standard input: by its end
-    it learns that the one who started it was killed. streams: what `subprocess.Popen` shall do with the others.
+    A fresh interpreter each, so that neither threads nor the caller's own script are copied into it. Each has
+    a pipe as its standard input: by its end it learns that the one who started it was killed. streams: what
+    `subprocess.Popen` shall do with the others.
     """
-    started = [subprocess.Popen([sys.executable, "-m", module, str(place)], stdin=subprocess.PIPE, **streams) for _ in range(number)]
+    started = [subprocess.Popen([sys.executable, "-m", module, str(place)], stdin=subprocess.PIPE, **streams)
+               for _ in range(number)]
 
     def stop_all() -> None:
         for one in started:

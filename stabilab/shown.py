@@ -1,4 +1,5 @@
-"""How results show themselves: the room that typesets them is asked by name, when a reader asks; no result knows it."""
+"""How results show themselves: the room that typesets them is asked by name, when a reader asks; no result
+knows it."""
 from __future__ import annotations
 
 from dataclasses import fields
@@ -13,13 +14,15 @@ ROOM = "stabilab.show.results"
 
 
 def same(one: Any, other: Any) -> bool:
-    """Whether two values hold the same: arrays with the same bytes, not a number as one that is none either."""
+    """Whether two values hold the same: arrays with the same bytes, not a number as one that is none either.
+    """
     if type(one) is not type(other):
         return False
     if hasattr(one, "tobytes") and hasattr(one, "dtype"):
         if one.shape != other.shape or one.dtype != other.dtype:
             return False
-        return one.tobytes() == other.tobytes() if not one.dtype.hasobject else same(one.tolist(), other.tolist())
+        return (one.tobytes() == other.tobytes() if not one.dtype.hasobject
+                else same(one.tolist(), other.tolist()))
     if isinstance(one, dict):
         return one.keys() == other.keys() and all(same(value, other[key]) for key, value in one.items())
     if isinstance(one, (list, tuple)):
@@ -28,18 +31,21 @@ def same(one: Any, other: Any) -> bool:
 
 
 class Compared:
-    """A data class that holds arrays: one is equal to another by what its fields hold, and has no hash, as arrays have none."""
+    """A data class that holds arrays: one is equal to another by what its fields hold, and has no hash, as
+    arrays have none."""
 
     def __eq__(self, other: object) -> Any:
         if other.__class__ is not self.__class__:
             return NotImplemented
-        return all(same(getattr(self, one.name), getattr(other, one.name)) for one in fields(self) if one.compare)  # type: ignore[arg-type]
+        names = [one.name for one in fields(self) if one.compare]  # type: ignore[arg-type]
+        return all(same(getattr(self, name), getattr(other, name)) for name in names)
 
     __hash__ = None  # type: ignore[assignment]
 
 
 class Shown:
-    """What every result brings: a short line, a table for notebooks, and its numbers with their names as xarray and pandas hold them."""
+    """What every result brings: a short line, a table for notebooks, and its numbers with their names as
+    xarray and pandas hold them."""
 
     def __repr__(self) -> str:
         return _room("words").short(self)
@@ -48,11 +54,13 @@ class Shown:
         return _room("numbers").html(self)
 
     def to_xarray(self) -> xarray.Dataset:
-        """All numbers with their dimensions, units and words. Needs xarray; InputError names it where it is not installed."""
+        """All numbers with their dimensions, units and words. Needs xarray; InputError names it where it is
+        not installed."""
         return _room("numbers").dataset(self)
 
     def to_pandas(self) -> pandas.DataFrame:
-        """All numbers as a table: a row a time, a state, an equilibrium or a component. Needs pandas, as `to_xarray` needs xarray."""
+        """All numbers as a table: a row a time, a state, an equilibrium or a component. Needs pandas, as
+        `to_xarray` needs xarray."""
         return _room("numbers").frame(self)
 
 

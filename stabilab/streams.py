@@ -1,4 +1,5 @@
-"""The standard streams, which may be closed, full or without a reader: what is lost there, and how that is told; and a sign on stderr of a long silence."""
+"""The standard streams, which may be closed, full or without a reader: what is lost there, and how that is
+told; and a sign on stderr of a long silence."""
 from __future__ import annotations
 
 import _thread
@@ -11,7 +12,8 @@ from contextlib import contextmanager
 from .errors import BAD_INPUT, StabilabError
 
 PIPE_CLOSED = 141  # what a shell reports for a program that a closed pipe ended
-SILENCE, WORKING = 1.0, "stabilab: working ..."  # s after which a program that has not written anything says so; not where STABILAB_QUIET is set
+# s after which a program that has not written anything says so; not where STABILAB_QUIET is set
+SILENCE, WORKING = 1.0, "stabilab: working ..."
 LOST = (errno.EPIPE, errno.ENOSPC, errno.EDQUOT, errno.EBADF, errno.EIO, errno.EFBIG)
 
 
@@ -20,13 +22,15 @@ class OutputLost(StabilabError):
 
     def __init__(self, number: int | None = None):
         gone = number == errno.EPIPE
-        super().__init__("" if gone else f"stdout: cannot be written: {os.strerror(number) if number else 'it is closed'}")
+        super().__init__("" if gone
+                         else f"stdout: cannot be written: "
+                              f"{os.strerror(number) if number else 'it is closed'}")
         self.exit_code = PIPE_CLOSED if gone else BAD_INPUT
 
 
 def occupy():
-    """Put /dev/null where the caller closed a standard stream: else the next file that is opened gets its number, and what
-    a library prints there goes into that file."""
+    """Put /dev/null where the caller closed a standard stream: else the next file that is opened gets its
+    number, and what a library prints there goes into that file."""
     for number in range(3):
         try:
             os.fstat(number)
@@ -37,10 +41,12 @@ def occupy():
 
 @contextmanager
 def guarded(silence: float | None = None):
-    """While the block runs, a write to stdout that fails raises OutputLost, and one to stderr is passed over: nobody
-    could read of it. silence: seconds after which stderr says that the program works, where neither has been written to."""
+    """While the block runs, a write to stdout that fails raises OutputLost, and one to stderr is passed over:
+    nobody could read of it. silence: seconds after which stderr says that the program works, where neither
+    has been written to."""
     before, sign = (sys.stdout, sys.stderr), Sign(sys.stderr)
-    sys.stdout, sys.stderr = _Guarded(sys.stdout, _lose, sign.end), _Guarded(sys.stderr, lambda number: None, sign.end)
+    sys.stdout, sys.stderr = _Guarded(sys.stdout, _lose,
+                                      sign.end), _Guarded(sys.stderr, lambda number: None, sign.end)
     if silence is not None:
         _thread.start_new_thread(sign.wait, (silence,))
     try:
@@ -51,7 +57,8 @@ def guarded(silence: float | None = None):
 
 
 class Sign:
-    """A line that the program works, after a silence: on a terminal until something else is written, elsewhere once."""
+    """A line that the program works, after a silence: on a terminal until something else is written,
+    elsewhere once."""
 
     def __init__(self, stream):
         self._stream, self._silent, self._waiting, self._shown = stream, _thread.allocate_lock(), True, False
@@ -81,8 +88,8 @@ class Sign:
 
 
 class Progress:
-    """A line on stderr that tells how far a long answer is, once a second has passed; nothing where nobody watches a terminal. As a context it
-    wipes its line in the end."""
+    """A line on stderr that tells how far a long answer is, once a second has passed; nothing where nobody
+    watches a terminal. As a context it wipes its line in the end."""
 
     def __init__(self, after: float = 1.0, every: float = 0.2):
         self.wanted = bool(sys.stderr and sys.stderr.isatty())
@@ -112,7 +119,8 @@ def _lose(number):
 
 
 class _Guarded:
-    """A text stream (None: a closed one) that hands its loss to lost(errno or None), and again whenever it is written to; before(): first of all then."""
+    """A text stream (None: a closed one) that hands its loss to lost(errno or None), and again whenever it is
+    written to; before(): first of all then."""
 
     def __init__(self, stream, lost, before):
         self._stream, self._lost, self._before = stream, lost, before

@@ -1,4 +1,5 @@
-"""Symbolic values as JSON and back: texts that hold numbers, names and sums, and nothing that could be run."""
+"""Symbolic values as JSON and back: texts that hold numbers, names and sums, and nothing that could be run.
+"""
 from __future__ import annotations
 
 from collections.abc import Mapping
@@ -6,11 +7,13 @@ from dataclasses import fields, is_dataclass
 from fractions import Fraction
 from typing import Any
 
-SUM, PRODUCT, POWER, RATIO, SYMBOL, FRACTION, ROW, TABLE, RECORD = "+", "*", "^", "q", "x", "/", "()", "{}", "record"
+SUM, PRODUCT, POWER, RATIO, SYMBOL, FRACTION, ROW, TABLE, RECORD = ("+", "*", "^", "q", "x", "/", "()", "{}",
+                                                                    "record")
 
 
 def written(thing: Any) -> Any:
-    """SymPy's sums, products, powers, rationals and symbols, fractions, and dataclasses, tuples and dicts of them, as lists for JSON.
+    """SymPy's sums, products, powers, rationals and symbols, fractions, and dataclasses, tuples and dicts of
+    them, as lists for JSON.
 
     Raises TypeError for anything else.
     """
@@ -23,7 +26,8 @@ def written(thing: Any) -> Any:
     if isinstance(thing, dict):
         return [TABLE, *([written(key), written(value)] for key, value in thing.items())]
     if is_dataclass(thing):
-        return [RECORD, type(thing).__name__, {one.name: written(getattr(thing, one.name)) for one in fields(thing) if one.init}]
+        return [RECORD, type(thing).__name__,
+                {one.name: written(getattr(thing, one.name)) for one in fields(thing) if one.init}]
     return _symbolic(thing)
 
 
@@ -32,7 +36,8 @@ def _symbolic(thing: Any) -> list[Any]:
     if isinstance(thing, Rational):
         return [RATIO, int(thing.p), int(thing.q)]
     if type(thing) is Symbol:
-        return [SYMBOL, thing.name, {word: value for word, value in thing.assumptions0.items() if word != "commutative"}]
+        return [SYMBOL, thing.name,
+                {word: value for word, value in thing.assumptions0.items() if word != "commutative"}]
     for sign, kind in ((SUM, Add), (PRODUCT, Mul), (POWER, Pow)):
         if type(thing) is kind:
             return [sign, *map(written, thing.args)]
@@ -40,8 +45,8 @@ def _symbolic(thing: Any) -> list[Any]:
 
 
 def read(data: Any, records: Mapping[str, type]) -> Any:
-    """What `written` wrote. records: the dataclasses that may stand in it, by their names. Raises ValueError, KeyError or TypeError for what it did not
-    write."""
+    """What `written` wrote. records: the dataclasses that may stand in it, by their names. Raises ValueError,
+    KeyError or TypeError for what it did not write."""
     if data is None or isinstance(data, (str, int, float)):
         return data
     sign, *rest = data

@@ -1,6 +1,8 @@
-"""python -m tests.compiled: what two workers of the default tests would each do at the same time is done once, on two cores.
+"""python -m tests.compiled: what two workers of the default tests would each do at the same time is done
+once, on two cores.
 
-The loops that the tests run compiled come into numba's cache beside the sources, and the tests into Python's, their asserts rewritten by pytest.
+The loops that the tests run compiled come into numba's cache beside the sources, and the tests into Python's,
+their asserts rewritten by pytest.
 """
 from __future__ import annotations
 
@@ -22,7 +24,8 @@ from tests.unreduced.spin_up.scenes import random_scene
 
 
 def searches():
-    """Of spin-up: steps of many motions and of one alone, and the tests of their states about fixed and moving centres."""
+    """Of spin-up: steps of many motions and of one alone, and the tests of their states about fixed and
+    moving centres."""
     starts = np.random.default_rng(6).normal(size=(40, 3)) * 3
     for wheel in (0, 0.3):
         scene = random_scene(random.Random(31), wheel)

@@ -1,4 +1,5 @@
-"""What all tests share: hypothesis that draws the same examples every time, no picture left open, and the commands run in this process."""
+"""What all tests share: hypothesis that draws the same examples every time, no picture left open, and the
+commands run in this process."""
 import atexit
 import gc
 import os
@@ -15,7 +16,8 @@ from stabilab.__main__ import OBJECTS_BETWEEN_COLLECTIONS
 
 os.environ.pop("STABILAB_CACHE", None)
 os.environ["STABILAB_QUIET"] = "1"  # whether a command takes longer than a second hangs on the machine
-if "PYTEST_XDIST_WORKER" not in os.environ:  # nothing that a run left is an answer of the next one; the workers of one run share what it keeps
+# nothing that a run left is an answer of the next one; the workers of one run share what it keeps
+if "PYTEST_XDIST_WORKER" not in os.environ:
     os.environ["XDG_CACHE_HOME"] = tempfile.mkdtemp()
     atexit.register(shutil.rmtree, os.environ["XDG_CACHE_HOME"], ignore_errors=True)
 settings.register_profile("same", derandomize=True, deadline=None)
@@ -24,7 +26,8 @@ settings.load_profile("same")
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items):
-    """One in n, and so that each of n values of another parameter comes up too: the 1st, then the 2nd of the next n, and so on."""
+    """One in n, and so that each of n values of another parameter comes up too: the 1st, then the 2nd of the
+    next n, and so on."""
     seen = Counter()
     for item in items:
         if mark := item.get_closest_marker("one_in"):
@@ -35,7 +38,8 @@ def pytest_collection_modifyitems(items):
 
 
 def pytest_collection_finish():
-    """All modules and tests are there and stay: the collector need not look through them again, and comes as seldom as in the program itself."""
+    """All modules and tests are there and stay: the collector need not look through them again, and comes as
+    seldom as in the program itself."""
     gc.freeze()
     gc.set_threshold(OBJECTS_BETWEEN_COLLECTIONS)
 

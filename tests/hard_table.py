@@ -1,8 +1,10 @@
-"""The table of hard cases: errors of naive formulas, of the program, and what half a unit in the last place of the inputs does.
+"""The table of hard cases: errors of naive formulas, of the program, and what half a unit in the last place
+of the inputs does.
 
-python -m tests.hard_table writes docs/hard-cases.md. Each case is a function of `tests.hard`: the naive formula, the program's
-answer and an exact one side by side. Exact values: the potential in 60 and more digits, Taylor series, equations typed in by
-hand and extrapolated, matrix exponentials and zeta functions in ball arithmetic, rational arithmetic.
+python -m tests.hard_table writes docs/hard-cases.md. Each case is a function of `tests.hard`: the naive
+formula, the program's answer and an exact one side by side. Exact values: the potential in 60 and more
+digits, Taylor series, equations typed in by hand and extrapolated, matrix exponentials and zeta functions in
+ball arithmetic, rational arithmetic.
 """
 from __future__ import annotations
 
@@ -85,26 +87,34 @@ def size(error) -> str:
 
 
 def line(row) -> str:
-    last = (row.naive, row.ours, row.exact) if isinstance(row, Verdict) else map(size, (row.naive, row.ours, row.condition))
+    last = (row.naive, row.ours,
+            row.exact) if isinstance(row, Verdict) else map(size, (row.naive, row.ours, row.condition))
     return f"| {' | '.join([row.case, row.asked, row.goes_wrong, *last])} |"
 
 
 def page(found) -> str:
     """The table in Markdown: answers that are numbers first, then those that are words."""
     head = ["# Hard cases", "",
-            "Formulas that are right on paper lose their digits near a separatrix, where two moments are nearly equal, and where numbers of very different "
+            "Formulas that are right on paper lose their digits near a separatrix, where two moments are "
+            "nearly equal, and where numbers of very different "
             "sizes meet. This page",
             "lists such cases, what a plain program answers there, and what stabilab answers.", "",
-            "The columns hold relative errors against answers in 25 digits and more that share no code with the program. *Condition*: what half",
-            "a unit in the last place of every input, and of the answer, does to the answer; the program stays within",
-            f"{ALLOWED} times that. Inputs count as exact numbers, so a naive error below the condition is an error all the",
-            "same, and the program's own is mostly far below. The averaged liquid is judged against a run at 1e-12, by what",
-            "its second order leaves out, eps^(3/2). Written by `python -m tests.hard_table`; each line is tested, its naive",
+            "The columns hold relative errors against answers in 25 digits and more that share no code with "
+            "the program. *Condition*: what half",
+            "a unit in the last place of every input, and of the answer, does to the answer; the program "
+            "stays within",
+            f"{ALLOWED} times that. Inputs count as exact numbers, so a naive error below the condition is "
+            f"an error all the",
+            "same, and the program's own is mostly far below. The averaged liquid is judged against a run at "
+            "1e-12, by what",
+            "its second order leaves out, eps^(3/2). Written by `python -m tests.hard_table`; each line is "
+            "tested, its naive",
             "formula for failing.", ""]
     tables = [(Row, "## Numbers", "naive error | our error | condition"),
               (Verdict, "## Verdicts", "naive code says | we say | so it is")]
     for kind, title, columns in tables:
-        head += [title, "", f"| hard case | asked for | what goes wrong in naive code | {columns} |", "|---" * 6 + "|"]
+        head += [title, "", f"| hard case | asked for | what goes wrong in naive code | {columns} |",
+                 "|---" * 6 + "|"]
         head += [line(row) for row in found if isinstance(row, kind)] + [""]
     return "\n".join(head)
 

@@ -22,13 +22,17 @@ ROUND, LIQUID = Body(("9.5", "9.5", "9")), LiquidCavity(1250, 1000, "1.9")
 
 
 def craft_file(inertia, thruster, wheels, start, centre=(0, 0, 0), **more):
-    """A case file of a spacecraft with one thruster, stuck: (position, direction, force), and what else the file says of it; wheels: (axis, momentum)."""
+    """A case file of a spacecraft with one thruster, stuck: (position, direction, force), and what else the
+    file says of it; wheels: (axis, momentum)."""
     position, direction, force = thruster
     parts = [("body", {"inertia": inertia, "centre_of_mass": centre}),
-             ("[thrusters]", {"name": "A", "position": position, "direction": direction, "force": force, "stuck": True, **more}),
-             *(("[wheels]", {"name": "WVU"[n], "axis": axis, "momentum": momentum}) for n, (axis, momentum) in enumerate(wheels)),
+             ("[thrusters]", {"name": "A", "position": position, "direction": direction, "force": force,
+                              "stuck": True, **more}),
+             *(("[wheels]", {"name": "WVU"[n], "axis": axis, "momentum": momentum}) for n,
+               (axis, momentum) in enumerate(wheels)),
              ("motion", {"angular_velocity": start})]
-    return "".join(f"[{name}]\n" + "".join(f"{key} = {json.dumps(value)}\n" for key, value in keys.items()) for name, keys in parts)
+    return "".join(f"[{name}]\n" + "".join(f"{key} = {json.dumps(value)}\n" for key, value in keys.items())
+                   for name, keys in parts)
 
 
 def written(scene, *state):
@@ -44,8 +48,10 @@ inertia = [9, 8, 4]
 angular_velocity = [0.4, 0.7, 0.3]
 span = [0, 20]
 """
-# mpmath in 60 digits from x1' = x2 x3, x2' = -x3 (x1 + a), x3' = 1 + x2 (x1 + b) on the circle x1 + a = A sin, x2 = A cos:
-# midpoint rule between the turning points, bisected; barrier by findroot. With the double nearest to 0.1 the 18th digit differs.
+# mpmath in 60 digits from x1' = x2 x3, x2' = -x3 (x1 + a), x3' = 1 + x2 (x1 + b) on the circle x1 + a = A
+# sin, x2 = A cos:
+# midpoint rule between the turning points, bisected; barrier by findroot. With the double nearest to 0.1 the
+# 18th digit differs.
 PERIOD, MARGIN = "1.804312247500545757485173072956", "1.632183021364656117174097282608"
 
 
@@ -53,16 +59,19 @@ def answer(command, folder, text, *options):
     """What a command says of a case file, as JSON."""
     path = folder / "case.toml"
     path.write_text(text)
-    done = subprocess.run([sys.executable, "-m", "stabilab", command, str(path), "--json", *options], capture_output=True, text=True, check=True)
+    done = subprocess.run([sys.executable, "-m", "stabilab", command, str(path), "--json", *options],
+                          capture_output=True, text=True, check=True)
     return json.loads(done.stdout)
 
-# Two equal moments, the torque on a transverse axis: the orbit's pair of rates runs along a parabola or a straight line.
+# Two equal moments, the torque on a transverse axis: the orbit's pair of rates runs along a parabola or a
+# straight line.
 PARABOLIC = {
     "first axis": physical((2, 2, 1), (0, 0.25, 0.5), (0.5, 0, 0)),
     "first axis, other sign": physical((2, 2, 1), (0, -1.5, 0.7), (-0.8, 0, 0)),
     "second axis": physical((2, 2, 3), (0.4, 0, -0.9), (0, 0.3, 0)),
     "third axis": physical((1.5, 2, 2), (0.6, -0.3, 0), (0, 0, -0.4)),
-    "oblate": physical((3, 2, 2), (1.5, 0.8, 0), (0, 0, 0.2)), "no gyrostat": physical((2, 2, 1), (0, 0, 0), (1, 0, 0)),
+    "oblate": physical((3, 2, 2), (1.5, 0.8, 0), (0, 0, 0.2)),
+    "no gyrostat": physical((2, 2, 1), (0, 0, 0), (1, 0, 0)),
     "wheel on the symmetry axis": physical((2, 2, 1), (0, 0, 0.5), (0.5, 0, 0)),
     "a sphere": physical((2, 2, 2), (0, 0.5, 1), (0.5, 0, 0))}
 SCALED_MINOR = ScaledGyrostat("0.2", "0.4", (0, 0, 1))

@@ -35,7 +35,8 @@ def strict_json(text):
 @functools.cache
 def classified(fifth):
     """The JSON objects of every fifth case, from one run of the program."""
-    run = subprocess.run([sys.executable, "-m", "stabilab", "classify", *map(str, CASES[fifth::5]), "--json"], capture_output=True,
+    run = subprocess.run([sys.executable, "-m", "stabilab", "classify", *map(str, CASES[fifth::5]), "--json"],
+                         capture_output=True,
                          text=True, cwd=ROOT)
     assert run.returncode == 0 and not run.stderr, run.stderr
     return {answer["case"]: answer for answer in strict_json(run.stdout)}
@@ -52,7 +53,9 @@ torque = [0, 0, 0.1]
 "effects.gyrostat.momentum" = [[0.5, 0, 0], [0.8, 0, 0], [0, 0, 0]]
 """
 each_fifth = pytest.mark.parametrize("fifth", [0, *(pytest.param(n, marks=LATER) for n in range(1, 5))])
-each_case = pytest.mark.parametrize("fifth, path", [pytest.param(n % 5, path, id=path.stem, marks=[LATER] * (n % 5 > 0)) for n, path in enumerate(CASES)])
+each_case = pytest.mark.parametrize("fifth, path",
+                                    [pytest.param(n % 5, path, id=path.stem, marks=[LATER] * (n % 5 > 0))
+                                     for n, path in enumerate(CASES)])
 
 
 @each_fifth
@@ -62,10 +65,13 @@ def test_classify_answers_once_per_case_with_the_documented_keys(fifth):
     for answer in classified(fifth).values():
         assert answer["schema"] == "stabilab.classify/1" and answer["variables"] in ("scaled", "physical")
         assert {"kind", "reason", "points", "curves"} <= answer["equilibria"].keys()
-        assert {"at", "fate", "axis", "because", "margin", "period", "extremes", "invariants"} <= answer["motion"].keys()
-        assert answer["motion"]["margin"].keys() == {"energy", "angular_velocity", "bounds", "witness", "because"}
+        assert {"at", "fate", "axis", "because", "margin", "period", "extremes",
+                "invariants"} <= answer["motion"].keys()
+        assert answer["motion"]["margin"].keys() == {"energy", "angular_velocity", "bounds", "witness",
+                                                     "because"}
         for point in answer["equilibria"]["points"]:
-            turned = {"at_input"} if "frame" in answer else set()  # a full tensor: the state in the frame of the file as well
+            # a full tensor: the state in the frame of the file as well
+            turned = {"at_input"} if "frame" in answer else set()
             assert point.keys() == {"at", "eigenvalues", "linear", "verdict", "because"} | turned
             assert np.shape(point["eigenvalues"]) == (len(point["at"]), 2)
         for curve in answer["equilibria"]["curves"]:
@@ -74,7 +80,8 @@ def test_classify_answers_once_per_case_with_the_documented_keys(fifth):
 
 @each_case
 def test_case_meets_what_it_expects(fifth, path):
-    # The expected facts are written in the case files with their proofs; they come from no run of this program.
+    # The expected facts are written in the case files with their proofs; they come from no run of this
+    # program.
     from stabilab.case.read import load, load_all
     expect, answer = load(path).expect, classified(fifth)[load_all(path)[0].name]
     equilibria, motion = answer["equilibria"], answer["motion"]
@@ -105,14 +112,17 @@ def test_listed_equilibria_are_at_rest(fifth, path):
 
 
 def _rate_and_size(scene, x):
-    """(rates, size of their terms): rates times the moments of inertia, then the rates of gamma where the state has it."""
+    """(rates, size of their terms): rates times the moments of inertia, then the rates of gamma where the
+    state has it."""
     if scene.variables == "scaled":
         terms = np.array([[x[1] * x[2], 0, scene.mu[0]], [-x[2] * x[0], -x[2] * scene.a, scene.mu[1]],
                           [x[1] * x[0], x[1] * scene.b, scene.mu[2]]])
         return terms.sum(axis=1), np.abs(terms).sum(axis=1)
-    D, wheel, torque = (np.array(v, float) for v in (scene.body.inertia, scene.vector("gyrostat"), scene.vector("constant_torque")))
+    D, wheel, torque = (np.array(v, float) for v in (scene.body.inertia, scene.vector("gyrostat"),
+                                                     scene.vector("constant_torque")))
     w, gamma = x[:3], x[3:] if len(x) > 3 else np.zeros(3)
-    charge, drag, field, weight = (scene.effect(n) for n in ("charge", "resistance", "newtonian_field", "gravity"))
+    charge, drag, field, weight = (scene.effect(n)
+                                   for n in ("charge", "resistance", "newtonian_field", "gravity"))
     k = 0.0 if charge is None else charge.strength * (gamma[2] if charge.follows_attitude else 1.0)
     pairs = [(D * w, w), (wheel, w), (w, [0, 0, k])]
     pairs += [(field.strength * gamma, D * gamma)] if field else []
@@ -144,7 +154,8 @@ def _liquid(cavity, D, wheel, w):
 def test_every_invariant_and_number_of_a_run_has_its_unit_in_text(fifth):
     from stabilab.show.terminal.motion import QUANTITIES
     motions = [answer["motion"] for answer in classified(fifth).values()]
-    assert {name for motion in motions for part in ("invariants", "evidence") for name in motion[part]} <= set(QUANTITIES)
+    assert {name for motion in motions for part in ("invariants", "evidence")
+            for name in motion[part]} <= set(QUANTITIES)
 
 
 def test_numbers_in_json_are_doubles_to_the_last_digit(stabilab):
@@ -154,8 +165,10 @@ def test_numbers_in_json_are_doubles_to_the_last_digit(stabilab):
 
 def test_infinite_and_missing_values_become_null():
     from stabilab.show.text.answers import as_json
-    value = {"a": [math.inf, -math.inf, math.nan, None, np.float64(0.1), np.int64(3), 1 + 2j], "b": np.array([[1.0, np.inf]])}
-    assert strict_json(as_json(value)) == {"a": [None, None, None, None, 0.1, 3, [1.0, 2.0]], "b": [[1.0, None]]}
+    value = {"a": [math.inf, -math.inf, math.nan, None, np.float64(0.1), np.int64(3), 1 + 2j],
+             "b": np.array([[1.0, np.inf]])}
+    assert strict_json(as_json(value)) == {"a": [None, None, None, None, 0.1, 3, [1.0, 2.0]],
+                                           "b": [[1.0, None]]}
 
 
 def test_case_without_a_motion_has_null_for_it(stabilab, tmp_path):
@@ -175,22 +188,26 @@ def test_strict_turns_an_undecided_fate_into_exit_code_3(stabilab):
     assert stabilab("classify", OFF_AXIS, "--follow", "1")[0] == 0
     code, out, _ = stabilab("classify", OFF_AXIS, "--strict", "--json", "--follow", "1 s")
     told = strict_json(out)[0]["motion"]
-    assert code == 3 and told["fate"] == told["level"] == "undecided" and told["t"] is None and "followed for 1 s" in told["cause"]
+    assert code == 3 and told["fate"] == told["level"] == "undecided" and told[
+        "t"] is None and "followed for 1 s" in told["cause"]
     assert stabilab("classify", MINOR, "--strict")[0] == 0
 
 
 def test_spin_up_off_the_axes_is_the_first_line_with_its_certificate(stabilab):
     code, out, err = stabilab("fate", OFF_AXIS, "--strict")
-    assert code == 0 and not err and out.startswith("off-axis-two: SPINS UP about z (minor axis), positive sense (certified); ")
+    assert code == 0 and not err and out.startswith(
+        "off-axis-two: SPINS UP about z (minor axis), positive sense (certified); ")
     told = strict_json(stabilab("fate", OFF_AXIS, "--json")[1])[0]
     assert (told["fate"], told["level"], told["axis"], told["sense"]) == ("spin-up", "certified", 3, 1)
-    assert told["t"] > 0 and "certified" in told["cause"] and told["bounds"][2][1] is None and None not in told["bounds"][0]
+    assert told["t"] > 0 and "certified" in told["cause"] and told["bounds"][2][
+        1] is None and None not in told["bounds"][0]
     assert "bounds for all times" in stabilab("extremes", OFF_AXIS)[1]
 
 
 def test_spin_up_off_the_axes_is_proved_where_that_is_asked_for(stabilab, tmp_path):
     code, out, err = stabilab("fate", OFF_AXIS, "--certify")
-    assert code == 0 and not err and out.startswith("off-axis-two: SPINS UP about z (minor axis), positive sense (proved); ")
+    assert code == 0 and not err and out.startswith(
+        "off-axis-two: SPINS UP about z (minor axis), positive sense (proved); ")
     path = tmp_path / "c.json"
     code, out, _ = stabilab("classify", OFF_AXIS, "--certify", "--out", path)
     assert code == 0 and "SPINS UP about z (minor axis), positive sense (proved)" in out
@@ -218,7 +235,8 @@ def test_extremes_of_the_ball_with_a_wheel(stabilab):
     code, out, _ = stabilab("extremes", ROOT / "cases/sphere-wheel.toml", "--csv")
     rows = list(csv.DictReader(out.splitlines()))
     assert code == 0 and [row["component"] for row in rows] == ["omega1", "omega2", "omega3"]
-    assert np.allclose([[float(row["min"]), float(row["max"])] for row in rows], [[-0.5, 0.5], [-0.5, 0.5], [0.7, 0.7]], rtol=1e-14)
+    assert np.allclose([[float(row["min"]), float(row["max"])] for row in rows],
+                       [[-0.5, 0.5], [-0.5, 0.5], [0.7, 0.7]], rtol=1e-14)
     code, out, _ = stabilab("extremes", ROOT / "cases/sphere-wheel.toml", MINOR, "--json")
     assert code == 0 and [answer["schema"] for answer in strict_json(out)] == ["stabilab.extremes/1"] * 2
 
@@ -232,14 +250,16 @@ def test_unbounded_extremes_are_inf_in_csv_and_null_in_json(stabilab):
 def test_words_with_commas_stay_one_cell_of_csv(stabilab, tmp_path):
     """Of the name of a case and of what the extremes are known over; with every digit asked for, too."""
     for name, text, options in (('two, "wheels"', (ROOT / "cases/off-axis-two.toml").read_text(), ()),
-                                ("a, b", (ROOT / "cases/minor-axis-100.toml").read_text(), ("--digits", "20"))):
+                                ("a, b", (ROOT / "cases/minor-axis-100.toml").read_text(),
+                                 ("--digits", "20"))):
         path = tmp_path / f"{name}.toml"
         path.write_text(text)
         code, out, _ = stabilab("extremes", path, "--csv", *options)
         rows = list(csv.reader(out.splitlines()))
         told = strict_json(stabilab("extremes", path, "--json")[1])[0]
         assert code == 0 and [len(row) for row in rows] == [6] * 4
-        assert [[row[0], row[4]] for row in rows[1:]] == [[told["case"], told["over"]]] * 3 and told["case"] == name
+        assert [[row[0], row[4]]
+                for row in rows[1:]] == [[told["case"], told["over"]]] * 3 and told["case"] == name
 
 
 def test_simulate_follows_the_closed_form_of_the_ball(stabilab):
@@ -247,7 +267,8 @@ def test_simulate_follows_the_closed_form_of_the_ball(stabilab):
     code, out, _ = stabilab("simulate", ROOT / "cases/sphere-wheel.toml", "--at", "2,0,0.5", "--json")
     answer = strict_json(out)
     assert code == 0 and answer["t"] == [0.0, 0.5, 2.0]
-    assert {"schema": "stabilab.simulate/1", "case": "sphere-wheel", "model": "exact", "time": "s"}.items() <= answer.items()
+    assert {"schema": "stabilab.simulate/1", "case": "sphere-wheel", "model": "exact",
+            "time": "s"}.items() <= answer.items()
     turned = [(0.3 + 0.4j) * np.exp(2j * t) for t in answer["t"]]
     assert np.allclose(answer["state"]["omega"], [[z.real, z.imag, 0.7] for z in turned], rtol=1e-13)
     assert max(answer["invariant_drift"].values()) < 1e-13 and answer["counters"]["steps"] > 0
@@ -255,9 +276,11 @@ def test_simulate_follows_the_closed_form_of_the_ball(stabilab):
 
 def test_every_at_is_taken_and_a_time_named_twice_is_said_to_be_shown_once(stabilab):
     code, out, err = stabilab("simulate", MINOR, "--at", "1,0.5", "--at", "1.0", "--at", "2", "--json")
-    assert code == 0 and strict_json(out)["t"] == [0.5, 1, 2] and "--at: named more than once and shown once: 1\n" in err
+    assert code == 0 and strict_json(out)["t"] == [0.5, 1,
+                                                   2] and "--at: named more than once and shown once: 1\n" in err
     assert "--at" not in stabilab("simulate", MINOR, "--at", "1,0.5", "--at", "2", "--json")[2]
-    assert "--at: named more than once and shown once: 1\n" in stabilab("reference", MINOR, "--at", "1,1", "--digits", "8", "--json")[2]
+    assert "--at: named more than once and shown once: 1\n" in stabilab("reference", MINOR, "--at", "1,1",
+                                                                        "--digits", "8", "--json")[2]
 
 
 def test_simulate_takes_201_times_over_the_span_by_default(stabilab, tmp_path):
@@ -273,7 +296,8 @@ def test_simulate_writes_netcdf_that_reads_back_to_the_last_bit(stabilab, tmp_pa
     stabilab("simulate", MINOR, "--at", "0,1,2", "--out", tmp_path / "run.nc")
     _, out, _ = stabilab("simulate", MINOR, "--at", "0,1,2", "--json")
     with xarray.open_dataset(tmp_path / "run.nc", engine="scipy") as data:
-        assert data["x"].values.tolist() == strict_json(out)["state"]["x"] and data["tau"].values.tolist() == [0, 1, 2]
+        assert data["x"].values.tolist() == strict_json(out)["state"]["x"] and data[
+            "tau"].values.tolist() == [0, 1, 2]
         assert data.attrs["case"] == MINOR.read_text()
     assert [p.name for p in tmp_path.iterdir()] == ["run.nc"]
 
@@ -292,7 +316,8 @@ def test_wrong_options_of_simulate_end_with_2_and_a_reason(stabilab, arguments, 
     assert code == 2 and not out and words in err and "Traceback" not in err
 
 
-@pytest.mark.parametrize("command", [["precision", "--quick"], ["plot"], ["fate"], ["chaos"]], ids=lambda command: command[0])
+@pytest.mark.parametrize("command", [["precision", "--quick"], ["plot"], ["fate"], ["chaos"]],
+                         ids=lambda command: command[0])
 @pytest.mark.parametrize("time", ["0", "-5", "0 min", "nan", "1e400"])
 def test_a_time_to_follow_is_above_zero(stabilab, tmp_path, monkeypatch, command, time):
     monkeypatch.chdir(tmp_path)
@@ -303,13 +328,18 @@ def test_a_time_to_follow_is_above_zero(stabilab, tmp_path, monkeypatch, command
 
 def test_times_may_have_units(stabilab):
     sphere = ROOT / "cases/sphere-wheel.toml"
-    timed, alone = (strict_json(stabilab("simulate", sphere, "--at", at, "--json")[1]) for at in ("0.01 min, 500 ms,2", "0.6,0.5,2"))
+    timed, alone = (strict_json(stabilab("simulate", sphere, "--at", at, "--json")[1])
+                    for at in ("0.01 min, 500 ms,2", "0.6,0.5,2"))
     assert timed["t"] == [0.5, 0.6, 2.0] and timed["state"] == alone["state"]
-    timed, alone = (stabilab("reference", sphere, "--digits", "12", "--at", at)[1].splitlines() for at in ("0.01 min,2", "0.6,2"))
-    assert [line for line in timed if line.startswith("state,")] == (states := [line for line in alone if line.startswith("state,")]) and len(states) == 6
+    timed, alone = (stabilab("reference", sphere, "--digits", "12", "--at", at)[1].splitlines()
+                    for at in ("0.01 min,2", "0.6,2"))
+    assert [line for line in timed
+            if line.startswith("state,")] == (states := [line for line in alone
+                                                         if line.startswith("state,")]) and len(states) == 6
     code, out, err = stabilab("simulate", MINOR, "--at", "1 s")  # scaled time
     assert code == 2 and not out and err.startswith("--at: expected a number without a unit")
-    assert stabilab("simulate", sphere, "--at", "1 m")[2].startswith("--at: expected time (s), got length (m)")
+    assert stabilab("simulate", sphere, "--at",
+                    "1 m")[2].startswith("--at: expected time (s), got length (m)")
 
 
 def test_a_power_is_no_energy(stabilab):
@@ -339,7 +369,8 @@ def test_show_tells_equations_of_a_sweep_once_and_again_where_a_term_is_gone(sta
     path = tmp_path / "two.toml"
     path.write_text(MINOR_SWEPT)
     code, out, _ = stabilab("show", path)
-    assert code == 0 and out.count("Equations of motion") == 2 == out.count("In LaTeX")  # without the wheel there is a term less, and a law more
+    # without the wheel there is a term less, and a law more
+    assert code == 0 and out.count("Equations of motion") == 2 == out.count("In LaTeX")
     same, other = out.split("\n\ntwo-3: ")
     assert "hold for 1 other combination" in same and "other combination" not in other
     assert [line.split() for line in same.splitlines()[-2:]] == [["two-1", "0.5"], ["two-2", "0.8"]]
@@ -347,7 +378,8 @@ def test_show_tells_equations_of_a_sweep_once_and_again_where_a_term_is_gone(sta
 
 def test_show_sets_factors_side_by_side_and_names_as_letters(stabilab):
     """-(λ x ω) and the torque of gravity, (M g r) x γ up to its sign, by hand."""
-    told = "".join(stabilab("show", ROOT / f"cases/{name}.toml")[1].split("In LaTeX")[0] for name in ("top-lx30-lz30", "liquid-base"))
+    told = "".join(stabilab("show", ROOT / f"cases/{name}.toml")[1].split("In LaTeX")[0]
+                   for name in ("top-lx30-lz30", "liquid-base"))
     assert "  D3 ω3' = Mgx γ2 - Mgy γ1 + " in told and "+ λ1 ω2 + ω1 ω2 (D1 - D2)\n" in told and "D1² κ" in told and "  ζ = 1/50" in told
     assert "*" not in told and not re.search(r"kappa|zeta|lambda|gamma", told)
 
@@ -360,14 +392,18 @@ def test_plot_writes_a_picture_and_says_where(stabilab, tmp_path):
 
 def test_surface_without_a_renderer_writes_the_meshes_and_ends_with_4(stabilab, tmp_path, monkeypatch):
     from stabilab.show.surface import render_probe
-    monkeypatch.setattr("stabilab.show.surface.write.probe", lambda: render_probe.Renderer(False, "no GL here"))
+    monkeypatch.setattr("stabilab.show.surface.write.probe",
+                        lambda: render_probe.Renderer(False, "no GL here"))
     code, _, err = stabilab("surface", MINOR, "--out", tmp_path)
     assert code == 4 and "no GL here" in err and render_probe.CURE in err
-    assert {p.name for p in tmp_path.iterdir()} == {f"{MINOR.stem}.{end}" for end in ("vtp", "glb", "stl", "json")} | {"manifest.json"}
+    assert {p.name for p in tmp_path.iterdir()} == {f"{MINOR.stem}.{end}"
+                                                    for end in ("vtp", "glb", "stl",
+                                                                "json")} | {"manifest.json"}
     assert strict_json((tmp_path / f"{MINOR.stem}.json").read_text())["sheets"]
 
 
-# -- [sweep] -----------------------------------------------------------------------------------------------------------
+# -- [sweep]
+# -----------------------------------------------------------------------------------------------------------
 
 SWEPT = """title = "swept"
 [body]
@@ -386,12 +422,14 @@ span = [0, 2]
 "motion.angular_velocity" = [[0.1, 0.2, 0.3], [0.3, 0.2, 0.1]]
 "effects.gyrostat.momentum" = [[0, 0, 1], [0, 0, 2], [0, 0, 3]]
 """
-LABELS = [f"-{i}-{j}" for i in (1, 2) for j in (1, 2, 3)]  # two starts times three wheels, the last key running fastest
+# two starts times three wheels, the last key running fastest
+LABELS = [f"-{i}-{j}" for i in (1, 2) for j in (1, 2, 3)]
 
 
 @pytest.fixture
 def swept(tmp_path, monkeypatch):
-    """Two combinations of a gyrostat under a torque on its minor axis, which every command serves, and six of a charged body."""
+    """Two combinations of a gyrostat under a torque on its minor axis, which every command serves, and six of
+    a charged body."""
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
     (tmp_path / "six.toml").write_text(SWEPT)
@@ -401,7 +439,8 @@ def swept(tmp_path, monkeypatch):
 
 
 @pytest.mark.one_in(3)
-@pytest.mark.parametrize("command", [["classify"], ["extremes"], ["fate"], ["period"], ["simulate", "--at", "0,1"], ["compare"]])
+@pytest.mark.parametrize("command", [["classify"], ["extremes"], ["fate"], ["period"],
+                                     ["simulate", "--at", "0,1"], ["compare"]])
 def test_every_combination_of_a_sweep_has_its_row_in_json(stabilab, swept, command):
     code, out, err = stabilab(command[0], "six.toml", *command[1:], "--json")
     assert code == 0, err
@@ -409,7 +448,8 @@ def test_every_combination_of_a_sweep_has_its_row_in_json(stabilab, swept, comma
 
 
 @pytest.mark.one_in(2)
-@pytest.mark.parametrize("command", [["show"], ["classify", "--why"], ["fate", "--digits", "6"], ["simulate", "--at", "0,1"], ["compare"]])
+@pytest.mark.parametrize("command", [["show"], ["classify", "--why"], ["fate", "--digits", "6"],
+                                     ["simulate", "--at", "0,1"], ["compare"]])
 def test_every_combination_of_a_sweep_that_is_told_in_full_is_named(stabilab, swept, command):
     code, out, err = stabilab(command[0], "six.toml", *command[1:])
     assert code == 0 and all(f"six{label}" in out for label in LABELS), err
@@ -418,15 +458,20 @@ def test_every_combination_of_a_sweep_that_is_told_in_full_is_named(stabilab, sw
 @pytest.mark.one_in(2)
 @pytest.mark.parametrize("command", ["classify", "extremes", "fate", "period"])
 def test_a_sweep_is_one_table_with_a_column_for_each_swept_key(stabilab, swept, command):
-    """The answer, two lines of heads, and a row a combination that begins with what varies, as the file has it; no line is wider than a terminal."""
+    """The answer, two lines of heads, and a row a combination that begins with what varies, as the file has
+    it; no line is wider than a terminal."""
     code, out, err = stabilab(command, "six.toml")
     lines = out.splitlines()
     keys = tomllib.loads(SWEPT)["sweep"]
     moving = {key: [i for i in range(3) if len({row[i] for row in rows}) > 1] for key, rows in keys.items()}
-    expected = [[str(value[i]) for key, value in zip(keys, one) for i in moving[key]] for one in itertools.product(*keys.values())]
-    assert code == 0 and not err and len(lines) == 9 and lines[0].startswith("six: 6 combinations: each BOUNDED for ever")
+    expected = [[str(value[i]) for key, value in zip(keys, one) for i in moving[key]]
+                for one in itertools.product(*keys.values())]
+    assert code == 0 and not err and len(lines) == 9 and lines[0].startswith(
+        "six: 6 combinations: each BOUNDED for ever")
     assert [line.split()[:len(expected[0])] for line in lines[3:]] == expected
-    assert lines[1].split()[:3] == ["ω[1]", "ω[3]", "momentum[3]"] and (command == "extremes" or max(map(len, lines[1:])) <= 80)
+    assert lines[1].split()[:3] == ["ω[1]", "ω[3]",
+                                    "momentum[3]"] and (command == "extremes"
+                                                        or max(map(len, lines[1:])) <= 80)
 
 
 def test_a_combination_of_a_sweep_is_followed_from_its_own_start(stabilab, swept):
@@ -436,9 +481,11 @@ def test_a_combination_of_a_sweep_is_followed_from_its_own_start(stabilab, swept
 
 @pytest.mark.one_in(2)
 @pytest.mark.parametrize("command, ending", [
-    (["simulate", "six.toml", "--at", "0,1"], "csv"), (["compare", "six.toml"], "csv"), (["plot", "two.toml"], "svg"),
+    (["simulate", "six.toml", "--at", "0,1"], "csv"), (["compare", "six.toml"], "csv"),
+    (["plot", "two.toml"], "svg"),
     (["classify", "two.toml", "--certify"], "json"),
-    pytest.param(["precision", "two.toml", "--quick", "--until", "1"], "csv", marks=pytest.mark.slow)], ids=lambda value: value[0])
+    pytest.param(["precision", "two.toml", "--quick", "--until", "1"], "csv", marks=pytest.mark.slow)],
+                         ids=lambda value: value[0])
 def test_files_of_a_sweep_bear_the_labels_of_its_combinations(stabilab, swept, command, ending):
     code, _, err = stabilab(*command, "--out", f"made.{ending}")
     labels = LABELS if "six.toml" in command else ["-1", "-2"]
@@ -449,15 +496,21 @@ def test_files_of_a_sweep_bear_the_labels_of_its_combinations(stabilab, swept, c
 
 def test_surfaces_of_a_sweep_share_a_folder_and_a_manifest(stabilab, swept, monkeypatch):
     from stabilab.show.surface import render_probe
-    monkeypatch.setattr("stabilab.show.surface.write.probe", lambda: render_probe.Renderer(False, "no GL here"))
+    monkeypatch.setattr("stabilab.show.surface.write.probe",
+                        lambda: render_probe.Renderer(False, "no GL here"))
     code, out, err = stabilab("surface", "two.toml", "--out", "made", "--json")
-    assert code == 4 and [row["case"] for row in strict_json(out)] == ["two-1", "two-2"] and "two-2.vtp" in err
-    assert {p.name for p in (swept / "made").iterdir()} == {f"two-{i}.{end}" for i in (1, 2) for end in ("vtp", "glb", "stl", "json")} | {"manifest.json"}
+    assert code == 4 and [row["case"]
+                          for row in strict_json(out)] == ["two-1", "two-2"] and "two-2.vtp" in err
+    assert {p.name
+            for p in (swept / "made").iterdir()} == {f"two-{i}.{end}" for i in (1, 2)
+                                                     for end in ("vtp", "glb", "stl",
+                                                                 "json")} | {"manifest.json"}
 
 
 def test_a_report_has_every_combination_of_a_sweep(swept):
     from stabilab.papers.report.report import of_all
-    assert [case.name for case in of_all(["six.toml", "two.toml"])] == [*(f"six{label}" for label in LABELS), "two-1", "two-2"]
+    assert [case.name for case in of_all(["six.toml", "two.toml"])] == [*(f"six{label}" for label in LABELS),
+                                                                        "two-1", "two-2"]
 
 
 def test_a_combination_that_stops_is_named(stabilab, swept):
@@ -470,20 +523,24 @@ def test_a_file_without_sweep_gives_one_object(stabilab):
 
 
 def test_a_scene_without_a_separatrix_is_an_answer_and_no_file(stabilab, tmp_path):
-    code, out, err = stabilab("surface", ROOT / "cases/middle-axis-100.toml", "--out", tmp_path / "none", "--json")
+    code, out, err = stabilab("surface", ROOT / "cases/middle-axis-100.toml", "--out", tmp_path / "none",
+                              "--json")
     assert code == 0 and strict_json(out)["files"] == [] and strict_json(out)["sheets"] == []
     assert "middle-axis-100: no surface to write: " in err and not list(tmp_path.iterdir())
 
 
 @pytest.mark.parametrize("arguments, known", [
-    (("plot", MINOR, "--out", "a.jpg"), ".png, .svg or .pdf"), (("plot", MINOR, "--out", "a"), ".png, .svg or .pdf"),
-    (("simulate", MINOR, "--out", "a.png"), ".nc or .csv"), (("compare", ROOT / "cases/charged-body.toml", "--out", "a.json"), ".csv"),
+    (("plot", MINOR, "--out", "a.jpg"), ".png, .svg or .pdf"),
+    (("plot", MINOR, "--out", "a"), ".png, .svg or .pdf"),
+    (("simulate", MINOR, "--out", "a.png"), ".nc or .csv"),
+    (("compare", ROOT / "cases/charged-body.toml", "--out", "a.json"), ".csv"),
     (("precision", MINOR, "--out", "a.txt"), ".png, .svg, .pdf or .csv"),
     (("classify", MINOR, "--certify", "--out", "a.toml"), ".json"),
     (("surface", MINOR, "--out", "a.stl"), "a folder"), (("tables", "--out", "a.csv"), "a folder"),
     (("figures", "9", "--out", "a.svg"), "a folder"), (("report", MINOR, "--out", "a.html"), "a folder"),
     (("rerun", ".", "--out", "a.zip"), "")], ids=lambda value: value[0] if isinstance(value, tuple) else None)
-def test_an_ending_that_says_something_else_than_what_is_written_is_refused(stabilab, tmp_path, monkeypatch, arguments, known):
+def test_an_ending_that_says_something_else_than_what_is_written_is_refused(stabilab, tmp_path, monkeypatch,
+                                                                            arguments, known):
     monkeypatch.chdir(tmp_path)
     code, out, err = stabilab(*arguments)
     assert code == 2 and not out and known in err and "Traceback" not in err
@@ -493,7 +550,8 @@ def test_an_ending_that_says_something_else_than_what_is_written_is_refused(stab
 def test_tables_writes_every_table_in_every_format_and_names_them(stabilab, tmp_path):
     code, out, _ = stabilab("tables", "--out", tmp_path)
     written = [p for p in tmp_path.iterdir() if p.name != "manifest.json"]
-    assert code == 0 and sorted(out.split()) == sorted(map(str, written)) and (tmp_path / "manifest.json").exists()
+    assert code == 0 and sorted(out.split()) == sorted(map(str,
+                                                           written)) and (tmp_path / "manifest.json").exists()
     assert {p.suffix for p in written} == {".txt", ".csv", ".md", ".tex", ".html"} and len(written) == 20
 
 
@@ -501,15 +559,21 @@ def test_an_intact_certificate_of_another_case_does_not_pass_for_this_one(stabil
     def write(name, momentum="0.8", rate="0.1"):
         path = tmp_path / f"{name}.toml"
         path.write_text(f"[body]\ninertia = [12, 9, 5]\n[effects.gyrostat]\nmomentum = [{momentum}, 0, 0]\n"
-                        f"[effects.constant_torque]\ntorque = [0, 0, 0.02]\n[motion]\nangular_velocity = [{rate}, 0.05, 0.02]\n", encoding="utf-8")
+                        f"[effects.constant_torque]\ntorque = [0, 0, 0.02]\n[motion]\nangular_velocity = "
+                        f"[{rate}, 0.05, 0.02]\n", encoding="utf-8")
         return path
     own, proof = write("own"), tmp_path / "certificate.json"
     assert stabilab("classify", own, "--certify", "--out", proof)[0] == 0
-    code, out, _ = stabilab("verify", proof, "--case", write("same", "8e-1", "0.10"))  # other decimals of the same numbers
+    # other decimals of the same numbers
+    code, out, _ = stabilab("verify", proof, "--case", write("same", "8e-1", "0.10"))
     assert code == 0 and out.startswith("PROVED: 16 proved\n"
-                                        "about: moments 12 9 5 kg m², wheel 4/5 0 0 N m s, torque 0 0 1/50 N m, state 1/10 1/20 1/50 rad/s\n")
-    for other, words, silent in ((write("wheel", momentum="0.8000000000000000001"), "wheel: the certificate's 4/5 0 0, the case's", "state:"),
-                                 (write("start", rate="0.11"), "state: the certificate's 1/10 1/20 1/50, the case's 11/100 1/20 1/50", "wheel:")):
+                                        "about: moments 12 9 5 kg m², wheel 4/5 0 0 N m s, torque 0 0 1/50 N "
+                                        "m, state 1/10 1/20 1/50 rad/s\n")
+    for other, words, silent in ((write("wheel", momentum="0.8000000000000000001"),
+                                  "wheel: the certificate's 4/5 0 0, the case's", "state:"),
+                                 (write("start", rate="0.11"),
+                                  "state: the certificate's 1/10 1/20 1/50, the case's 11/100 1/20 1/50",
+                                  "wheel:")):
         code, out, err = stabilab("verify", proof, "--case", other)
         assert code == 5 and out.startswith(f"OF ANOTHER CASE than {other}; its own claims: PROVED: ")
         assert words in err and silent not in err and other.name in err
@@ -518,7 +582,9 @@ def test_an_intact_certificate_of_another_case_does_not_pass_for_this_one(stabil
     code, _, err = stabilab("verify", proof, "--case", scaled)
     assert code == 5 and "variables: the certificate's physical, the case's scaled" in err and "state: " in err
     sweep = tmp_path / "sweep.toml"
-    sweep.write_text(own.read_text(encoding="utf-8") + '[sweep]\n"motion.angular_velocity" = [[9, 9, 9], [0.1, 0.05, 0.02]]\n', encoding="utf-8")
+    sweep.write_text(own.read_text(encoding="utf-8")
+                     + '[sweep]\n"motion.angular_velocity" = [[9, 9, 9], [0.1, 0.05, 0.02]]\n',
+                     encoding="utf-8")
     assert stabilab("verify", proof, "--case", sweep)[0] == 0
     code, out, _ = stabilab("verify", proof, "--json")
     assert code == 0 and '"about"' in out
@@ -528,9 +594,12 @@ def test_every_command_has_help_with_an_example(stabilab):
     code, out, _ = stabilab("--help")
     groups = out.split("-h, --help")[1].partition("\n")[2]
     commands = [line.split()[0] for line in groups.splitlines() if line.startswith("  ")]
-    assert code == 0 and set(commands) == {"atlas", "audit", "basin", "bifurcation", "chaos", "classify", "compare", "doctor", "explore", "extremes",
-                                           "fate", "figures", "import", "period", "plot", "precision", "reference", "report", "rerun", "show",
-                                           "simulate", "stuck", "surface", "sweep", "tables", "validate", "verify", "when"}
+    assert code == 0 and set(commands) == {"atlas", "audit", "basin", "bifurcation", "chaos", "classify",
+                                           "compare", "doctor", "explore", "extremes",
+                                           "fate", "figures", "import", "period", "plot", "precision",
+                                           "reference", "report", "rerun", "show",
+                                           "simulate", "stuck", "surface", "sweep", "tables", "validate",
+                                           "verify", "when"}
     assert "--install-completion" in out and "..." not in groups
     for command in commands:
         code, out, _ = stabilab(command, "--help")
@@ -538,17 +607,21 @@ def test_every_command_has_help_with_an_example(stabilab):
 
 
 @pytest.mark.slow
-def test_a_line_reads_the_options_of_its_own_command_alone_and_prints_what_all_commands_together_print(stabilab, monkeypatch):
-    """Typer's building of all commands is the other way; reading the options of every one of them costs more than to import typer."""
+def test_a_line_reads_the_options_of_its_own_command_alone_and_prints_what_all_commands_together_print(
+    stabilab, monkeypatch):
+    """Typer's building of all commands is the other way; reading the options of every one of them costs more
+    than to import typer."""
     from typer.main import get_command
     names = list(get_command(cli.whole()).commands)
-    lines = [[], ["--help"], ["clasify"], ["classify"], ["--version"], ["--versio"], ["classify", "--nosuch"], ["stuck", "classify", "--help"],
+    lines = [[], ["--help"], ["clasify"], ["classify"], ["--version"], ["--versio"], ["classify", "--nosuch"],
+             ["stuck", "classify", "--help"],
              ["--help", "classify"], ["--version", "sweep"], ["clasify", "sweep", "classify"],
              *([name, "--help"] for name in names)]
     for words in lines:
         built = get_command(cli.asked_for(words)).commands
         group = next((group for _, group in GROUPS.values() if words and words[0] in group), names)
-        assert set(built) == set(group) and {name for name, command in built.items() if command.params} == set(words) & set(names) - {"doctor"}
+        assert set(built) == set(group) and {name for name, command in built.items()
+                                             if command.params} == set(words) & set(names) - {"doctor"}
         printed = stabilab(*words)
         with monkeypatch.context() as context:
             context.setattr(cli, "asked_for", lambda words: cli.whole())
@@ -576,9 +649,11 @@ def test_exit_code_of_an_error_is_its_own(stabilab, monkeypatch):
             raise error
         return fail
     from stabilab.errors import Problem, RenderingUnavailable, ToleranceNotMet
-    for error, code, words in [(RenderingUnavailable("no GL"), 4, "no GL"), (ToleranceNotMet("not met"), 5, "not met"),
+    for error, code, words in [(RenderingUnavailable("no GL"), 4, "no GL"),
+                               (ToleranceNotMet("not met"), 5, "not met"),
                                (CaseError("c.toml", [Problem("k", "bad", 3)]), 2, "c.toml:3: k: bad"),
-                               (ZeroDivisionError("oops"), 1, "ZeroDivisionError: oops"), (KeyboardInterrupt(), 130, ""),
+                               (ZeroDivisionError("oops"), 1, "ZeroDivisionError: oops"),
+                               (KeyboardInterrupt(), 130, ""),
                                (PermissionError(13, "Permission denied", "/x"), 2, "/x: Permission denied")]:
         monkeypatch.setattr(show, "load_cases", raising(error))
         came, out, err = stabilab("show", MINOR)
@@ -592,7 +667,8 @@ def test_exit_code_of_an_error_is_its_own(stabilab, monkeypatch):
 def test_reader_that_goes_away_ends_the_program_quietly():
     read, write = os.pipe()
     os.close(read)
-    run = subprocess.run([sys.executable, "-m", "stabilab", "show", str(MINOR)], stdout=write, stderr=subprocess.PIPE, cwd=ROOT)
+    run = subprocess.run([sys.executable, "-m", "stabilab", "show", str(MINOR)], stdout=write,
+                         stderr=subprocess.PIPE, cwd=ROOT)
     os.close(write)
     assert run.returncode == streams.PIPE_CLOSED and run.stderr == b""
 
@@ -602,7 +678,8 @@ def interrupted(arguments, delay, cwd=ROOT):
 
     Its second thread shows that it is armed: the first thing it does, before anything slow is imported.
     """
-    run = subprocess.Popen([sys.executable, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE, cwd=cwd,
+    run = subprocess.Popen([sys.executable, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                           cwd=cwd,
                            # a test run in the background may hand down an ignored SIGINT
                            preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
     try:
@@ -624,23 +701,28 @@ def console_script():
     return ["-c", "import sys; from {} import {} as main; sys.exit(main())".format(*target.split(":"))]
 
 
-has_proc = pytest.mark.skipif(not Path("/proc/self/task").is_dir(), reason="watches the threads of a process in /proc")
+has_proc = pytest.mark.skipif(not Path("/proc/self/task").is_dir(),
+                              reason="watches the threads of a process in /proc")
 
 
-# In turn while typer, numpy, sympy and heyoka are imported (which swallows exceptions), and inside compiled code.
+# In turn while typer, numpy, sympy and heyoka are imported (which swallows exceptions), and inside compiled
+# code.
 @pytest.mark.one_in(7)
 @has_proc
 @pytest.mark.parametrize("delay", [0, 0.03, 0.1, 0.2, 0.3, 0.4, 0.5, 0.7, 2.0])
 @pytest.mark.parametrize("program", [["-m", "stabilab"], console_script()], ids=["module", "script"])
 def test_interrupt_ends_with_130_and_no_traceback(program, delay):
-    # 2e6 units of time keep heyoka for some twenty seconds, in calls of a second into compiled code (1e8 is given up at once)
-    assert interrupted([*program, "simulate", str(MINOR), "--at", "2e6", "--method", "taylor"], delay) == (130, b"", b"")
+    # 2e6 units of time keep heyoka for some twenty seconds, in calls of a second into compiled code (1e8 is
+    # given up at once)
+    assert interrupted([*program, "simulate", str(MINOR), "--at", "2e6", "--method", "taylor"],
+                       delay) == (130, b"", b"")
 
 
 @has_proc
 @pytest.mark.parametrize("delay", [0.1, pytest.param(1.0, marks=pytest.mark.slow)])
 def test_interrupt_of_a_run_in_python_ends_with_130_too(delay):
-    arguments = ["-m", "stabilab", "simulate", str(ROOT / "cases/major-axis-100.toml"), "--at", "1e6", "--method", "RK45"]
+    arguments = ["-m", "stabilab", "simulate", str(ROOT / "cases/major-axis-100.toml"), "--at", "1e6",
+                 "--method", "RK45"]
     assert interrupted(arguments, delay) == (130, b"", b"")
 
 
@@ -649,15 +731,18 @@ def test_interrupt_of_a_run_in_python_ends_with_130_too(delay):
 @pytest.mark.parametrize("busy", ["while True: pass", "time.sleep(1000)", "deaf()"])
 def test_interrupt_leaves_no_half_written_file(tmp_path, busy):
     code = ("import time\nfrom stabilab import interrupt\nfrom stabilab.show.style import whole_file\n"
-            "def deaf():\n    while True:\n        try: time.sleep(0.01)\n        except BaseException: pass\n"
-            "with whole_file('wanted.txt') as waiting:\n    waiting.write_text('half')\n    interrupt.arm()\n    " + busy)
+            "def deaf():\n    while True:\n        try: time.sleep(0.01)\n        except BaseException: "
+            "pass\n"
+            "with whole_file('wanted.txt') as waiting:\n    waiting.write_text('half')\n    "
+            "interrupt.arm()\n    " + busy)
     assert interrupted(["-c", code], 0.1, tmp_path) == (130, b"", b"")
     assert not list(tmp_path.iterdir())
 
 
 @has_proc
 def test_program_started_with_interrupts_ignored_goes_on_ignoring_them():
-    code = ("import os, signal\nsignal.signal(signal.SIGINT, signal.SIG_IGN)\nfrom stabilab import interrupt\n"
+    code = ("import os, signal\nsignal.signal(signal.SIGINT, signal.SIG_IGN)\nfrom stabilab import "
+            "interrupt\n"
             "interrupt.arm()\nos.kill(os.getpid(), signal.SIGINT)\nprint('alive')")
     assert subprocess.run([sys.executable, "-c", code], capture_output=True, cwd=ROOT).stdout == b"alive\n"
 
@@ -672,12 +757,15 @@ def test_output_has_no_escape_codes(stabilab, monkeypatch):
 
 def test_doctor_names_versions_renderer_and_processor(stabilab):
     code, out, _ = stabilab("doctor")
-    assert code == 0 and all(word in out for word in ("stabilab", "numpy", np.__version__, "rendering", "processor"))
-    assert out.startswith(("all that stabilab needs is installed", "NOT INSTALLED")) and "be drawn\nstabilab " in out
+    assert code == 0 and all(word in out
+                             for word in ("stabilab", "numpy", np.__version__, "rendering", "processor"))
+    assert out.startswith(("all that stabilab needs is installed",
+                           "NOT INSTALLED")) and "be drawn\nstabilab " in out
 
 
 def test_doctor_misses_no_package_that_is_for_other_machines(stabilab, monkeypatch):
-    asked = ["numpy>=2.0", 'for-others; sys_platform == "nowhere"', 'for-all; python_version >= "3"', 'of-an-extra; extra == "docs"']
+    asked = ["numpy>=2.0", 'for-others; sys_platform == "nowhere"', 'for-all; python_version >= "3"',
+             'of-an-extra; extra == "docs"']
     monkeypatch.setattr("stabilab.show.text.doctor.metadata.requires", lambda name: asked)
     out = stabilab("doctor")[1]
     assert out.startswith("NOT INSTALLED: for-all;") and "for-others" not in out and "of-an-extra" not in out

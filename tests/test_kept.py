@@ -1,4 +1,5 @@
-"""What is kept on disk between runs is an answer only where it is what was derived: same content, same versions, whole, and of known classes."""
+"""What is kept on disk between runs is an answer only where it is what was derived: same content, same
+versions, whole, and of known classes."""
 from __future__ import annotations
 
 import json
@@ -35,7 +36,8 @@ class Made:
 def made(content, value, versions=("1",), sources=None):
     """(what `kept` gives, whether it was made anew)."""
     asked = []
-    found = kept("kind", content, sources or Path(__file__).parent, versions, lambda: asked.append(1) or Made(value), {"Made": Made})
+    found = kept("kind", content, sources or Path(__file__).parent, versions,
+                 lambda: asked.append(1) or Made(value), {"Made": Made})
     return found.value, bool(asked)
 
 
@@ -54,13 +56,16 @@ def whole(data):
     return sha256(data).hexdigest().encode() + b"\n" + data
 
 
-STRANGE = [["+", "__import__('os').mkdir('made')"], ["+", "x", ["q", 1, 2]], ["q", "1", 2], ["/", 1.5, 2], ["x", 3, {}],
+STRANGE = [["+", "__import__('os').mkdir('made')"], ["+", "x", ["q", 1, 2]], ["q", "1", 2], ["/", 1.5, 2],
+           ["x", 3, {}],
            ["record", "Path", {}], ["^", ["q", 1, 2]], ["eval", "1"], [], {"a": 1}]
 
 
 @pytest.mark.one_in(4)
-@pytest.mark.parametrize("data", [b"", b"x" * 100, whole(b"no JSON"), b"\n" + json.dumps(["record", "Made", {"value": 3}]).encode(), whole(b"3"),
-                                  *(whole(json.dumps(wrapped).encode()) for one in STRANGE for wrapped in (one, ["record", "Made", {"value": one}]))])
+@pytest.mark.parametrize("data", [b"", b"x" * 100, whole(b"no JSON"),
+                                  b"\n" + json.dumps(["record", "Made", {"value": 3}]).encode(), whole(b"3"),
+                                  *(whole(json.dumps(wrapped).encode()) for one in STRANGE
+                                    for wrapped in (one, ["record", "Made", {"value": one}]))])
 def test_a_broken_or_a_strange_file_is_no_answer_and_is_written_anew(folder, data):
     made("a", Fraction(1, 3))
     file, = folder.rglob("*.json")
@@ -84,7 +89,8 @@ def test_the_folder_never_holds_many_files(folder):
 
 
 def test_equations_from_disk_are_those_derived(folder):
-    """Symbols, numbers and rates of a body with wheel, torque and liquid, derived and then read; the rates without the liquid by Euler's equations."""
+    """Symbols, numbers and rates of a body with wheel, torque and liquid, derived and then read; the rates
+    without the liquid by Euler's equations."""
     rigid = Body((2000, 1500, 1000)), Gyrostat((100, 0, 0)), ConstantTorque((0, 0, 20))
     for scene, files in ((Scene(*rigid), 5), (Scene(*rigid, LiquidCavity(1000, 1e-4, 1e-9)), 10)):
         seen = []
@@ -92,16 +98,19 @@ def test_equations_from_disk_are_those_derived(folder):
             equations._physical.cache_clear()
             to_numpy._system.cache_clear()
             system = to_numpy.to_numpy(stabilab.derive(scene))
-            seen.append((system.equations.rhs, system.equations.parameters, system.equations.symbols, system.equations.balances, system.rhs,
+            seen.append((system.equations.rhs, system.equations.parameters, system.equations.symbols,
+                         system.equations.balances, system.rhs,
                          system.entries, system.quantities, system.rates, system([0.1, 0.2, 0.3]).tolist()))
         assert seen[0] == seen[1] and len(list(folder.rglob("*.json"))) == files
         if files == 5:
-            euler = [500 * 0.06 / 2000, (-1000 * 0.03 - 100 * 0.3) / 1500, (500 * 0.02 + 100 * 0.2 + 20) / 1000]
+            euler = [500 * 0.06 / 2000, (-1000 * 0.03 - 100 * 0.3) / 1500,
+                     (500 * 0.02 + 100 * 0.2 + 20) / 1000]
             np.testing.assert_allclose(seen[0][-1], euler, rtol=1e-14)
 
 
 def test_what_an_integrator_steps_is_read_where_effects_take_long_to_multiply_out(folder, monkeypatch):
-    """A liquid's monomials are worked out once for all runs; the quadratic rates of a gyrostat are no file more."""
+    """A liquid's monomials are worked out once for all runs; the quadratic rates of a gyrostat are no file
+    more."""
     def formed(*effects):
         equations._physical.cache_clear()
         to_numpy._system.cache_clear()
@@ -122,7 +131,8 @@ def test_compiled_rates_load_none_of_numpys_tools():
     code = ("import sys, stabilab; from stabilab.physics.to_numpy import to_numpy; "
             "to_numpy(stabilab.derive(stabilab.Scene(stabilab.Body((3, 2, 1.5)))))([1, 2, 3]); "
             "print(*{'numpy.f2py', 'numpy.testing'} & set(sys.modules))")
-    assert subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True).stdout == "\n"
+    assert subprocess.run([sys.executable, "-c", code], check=True, capture_output=True,
+                          text=True).stdout == "\n"
 
 
 def test_numbers_that_are_equal_as_doubles_alone_have_equations_of_their_own(folder):
@@ -131,7 +141,8 @@ def test_numbers_that_are_equal_as_doubles_alone_have_equations_of_their_own(fol
     for _ in range(2):
         for given, moment in (("0.1", Fraction(1, 10)), (0.1, double)):
             equations._physical.cache_clear()
-            scene = Scene(Body((given, "0.12", "0.15")), ConstantTorque((given, 0, 0)), LiquidCavity(1000, 1e-4, 1e-9))
+            scene = Scene(Body((given, "0.12", "0.15")), ConstantTorque((given, 0, 0)),
+                          LiquidCavity(1000, 1e-4, 1e-9))
             parameters = stabilab.derive(scene).parameters
             assert parameters["D1"] == parameters["M1"] == moment
 

@@ -1,1 +1,2 @@
-"""Pages of the documentation that are made from what the repository holds: reference, cases, notebooks. docs/conf.py calls them before Sphinx reads."""
+"""Pages of the documentation that are made from what the repository holds: reference, cases, notebooks.
+docs/conf.py calls them before Sphinx reads."""

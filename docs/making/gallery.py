@@ -1,7 +1,9 @@
-"""The gallery: every case of the repository with its picture, its answer in one line, its file and the commands that give these.
+"""The gallery: every case of the repository with its picture, its answer in one line, its file and the
+commands that give these.
 
-The page `gallery.md` has the pictures in groups, those with a constant torque first; a page a group has the rest. Pictures and answers take
-half a minute, so they are kept beside a hash of the case and of the whole program, and made again when either has changed.
+The page `gallery.md` has the pictures in groups, those with a constant torque first; a page a group has the
+rest. Pictures and answers take half a minute, so they are kept beside a hash of the case and of the whole
+program, and made again when either has changed.
 """
 from __future__ import annotations
 
@@ -20,17 +22,21 @@ HEAD = """# Cases
 Each picture is a case file of the folder `cases/`: a body, what acts on it, and one motion. A click leads to the answer, the file and the commands.
 
 """
-LEAD = "What becomes of each of these cases, in bold; its picture, the commands that give both, and its file.\n\n"
+LEAD = (
+    "What becomes of each of these cases, in bold; its picture, the commands that give both, and its "
+    "file.\n\n")
 
 
 def write(docs: Path, cases: list[Path] | None = None) -> list[str]:
-    """Write gallery.md, gallery/<group>.md and gallery/<case>.png; the names of all cases, in the order of the pages. cases: None for all."""
+    """Write gallery.md, gallery/<group>.md and gallery/<case>.png; the names of all cases, in the order of
+    the pages. cases: None for all."""
     from stabilab.papers.report.whole import GROUPS
     entries = [entry(path, docs / FOLDER) for path in cases or sorted((ROOT / "cases").glob("*.toml"))]
     grouped = {title: [one for one in entries if one["group"] == title] for title, _ in GROUPS}
     grouped = {title: rows for title, rows in grouped.items() if rows}
     page(docs / "gallery.md", overview(grouped))
-    known = {f"{slug(title)}.md" for title in grouped} | {f"{one['name']}{ending}" for one in entries for ending in (".png", ".json")}
+    known = ({f"{slug(title)}.md" for title in grouped}
+             | {f"{one['name']}{ending}" for one in entries for ending in (".png", ".json")})
     for path in (docs / FOLDER).iterdir():
         if path.name not in known:  # of a case or a group that is gone
             path.unlink()
@@ -53,7 +59,8 @@ def entry(path: Path, folder: Path) -> dict:
 
 
 def made(path: Path, folder: Path) -> dict:
-    """Title, source, group, answer and kind of picture of a case, whose picture is drawn. Of a sweep the first combination is drawn."""
+    """Title, source, group, answer and kind of picture of a case, whose picture is drawn. Of a sweep the
+    first combination is drawn."""
     from stabilab.case.read import load_all
     from stabilab.papers.report.whole import group
     from stabilab.show.plot import subject as which
@@ -67,7 +74,8 @@ def made(path: Path, folder: Path) -> dict:
     folder.mkdir(parents=True, exist_ok=True)
     write(one, folder / f"{path.stem}.png", dpi=SHARP)
     first = f"The first of {1 + len(others)} combinations is drawn: " if others else ""
-    return {"title": written(case.title), "source": written(case.source or ""), "group": group(case), "kind": which.default(one),
+    return {"title": written(case.title), "source": written(case.source or ""), "group": group(case),
+            "kind": which.default(one),
             "answer": first + greek(law.warned(law.of_case(case), headline(case, one.motion)))}
 
 
@@ -93,7 +101,8 @@ def overview(grouped: dict[str, list[dict]]) -> str:
 def card(one: dict, where: str) -> str:
     """A picture that leads to its case."""
     alt = html.escape(f"{one['title']}: {one['answer']}", quote=True)
-    return (f'<a href="{FOLDER}/{where}.html#{one["name"].replace("_", "-")}" title="{alt}"><img loading="lazy" src="_images/{one["name"]}.png" alt="{alt}">'
+    return (f'<a href="{FOLDER}/{where}.html#{one["name"].replace("_", "-")}" title="{alt}"><img '
+            f'loading="lazy" src="_images/{one["name"]}.png" alt="{alt}">'
             f'<span>{one["name"]}</span></a>')
 
 
@@ -101,8 +110,10 @@ def section(one: dict) -> str:
     """One case on the page of its group."""
     source = f"\n\n*Source: {plain(one['source'])}.*" if one["source"] else ""
     name = f"cases/{one['name']}.toml"
-    return (f"## {one['name']}\n\n{plain(one['title'])}. **{plain(one['answer'])}.**{source}\n\n![{plain(one['title'])}]({one['name']}.png)\n\n"
-            f"```sh\nstabilab classify {name}\nstabilab plot {name} --kind {one['kind']} --out {one['name']}.png\n```\n\n```toml\n{one['text']}```\n")
+    return (f"## {one['name']}\n\n{plain(one['title'])}. "
+            f"**{plain(one['answer'])}.**{source}\n\n![{plain(one['title'])}]({one['name']}.png)\n\n"
+            f"```sh\nstabilab classify {name}\nstabilab plot {name} --kind {one['kind']} --out "
+            f"{one['name']}.png\n```\n\n```toml\n{one['text']}```\n")
 
 
 def plain(text: str) -> str:

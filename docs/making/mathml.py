@@ -1,4 +1,5 @@
-"""Formulas as MathML, which browsers draw themselves: MathJax would fetch a megabyte from the network at every page, and LaTeX pictures need LaTeX."""
+"""Formulas as MathML, which browsers draw themselves: MathJax would fetch a megabyte from the network at
+every page, and LaTeX pictures need LaTeX."""
 from __future__ import annotations
 
 import re
@@ -28,7 +29,8 @@ def formula(latex: str) -> str:
 
 
 def equations(latex: str) -> list[str]:
-    """The equations of a displayed line, each for itself, so that a narrow page sets them below each other."""
+    """The equations of a displayed line, each for itself, so that a narrow page sets them below each other.
+    """
     whole = _set(latex, "block")
     row = whole[0] if len(whole) == 1 and _kind(whole[0]) == "mrow" else whole
     parts: list[list] = [[]]
@@ -55,7 +57,8 @@ def _set(latex, display):
 
 
 def _spaced(row):
-    """The children of a row with the spaces of LaTeX: none about bars and strokes, a thin one about the name of a function, unless a bracket stands there."""
+    """The children of a row with the spaces of LaTeX: none about bars and strokes, a thin one about the name
+    of a function, unless a bracket stands there."""
     children = list(row)
     for one, child in enumerate(children):
         after = children[one + 1] if one + 1 < len(children) else None

@@ -1,8 +1,9 @@
 """Notebooks: run with what comes with Python and Matplotlib, and made into pages of the site.
 
-A notebook is a list of texts and cells of code with what these print and draw. Jupyter runs them for people; here a cell is run by `exec`, as plain
-Python, so that neither the tests nor the site need a kernel (ipykernel, nbclient and myst-nb bring some forty packages, and a server that starts
-for each notebook). `python docs/making/notebooks.py` runs all of them and keeps their output; the tests compare it with today's.
+A notebook is a list of texts and cells of code with what these print and draw. Jupyter runs them for people;
+here a cell is run by `exec`, as plain Python, so that neither the tests nor the site need a kernel
+(ipykernel, nbclient and myst-nb bring some forty packages, and a server that starts for each notebook).
+`python docs/making/notebooks.py` runs all of them and keeps their output; the tests compare it with today's.
 """
 from __future__ import annotations
 
@@ -33,7 +34,8 @@ def executed(notebook: dict) -> dict:
 
 
 def outputs(source: str, names: dict, count: int) -> list[dict]:
-    """What a cell prints, the value of its last line, and the figures that it opens and leaves open; those of others stay as they are."""
+    """What a cell prints, the value of its last line, and the figures that it opens and leaves open; those of
+    others stay as they are."""
     from matplotlib import pyplot as plt
     before = set(plt.get_fignums())
     body = ast.parse(source).body
@@ -41,13 +43,15 @@ def outputs(source: str, names: dict, count: int) -> list[dict]:
     with contextlib.redirect_stdout(io.StringIO()) as screen:
         exec(compile(ast.Module(body, []), "cell", "exec"), names)
         value = None if last is None else eval(compile(last, "cell", "eval"), names)
-    made = [{"output_type": "stream", "name": "stdout", "text": lines(screen.getvalue())}] if screen.getvalue() else []
+    made = ([{"output_type": "stream", "name": "stdout", "text": lines(screen.getvalue())}]
+            if screen.getvalue() else [])
     figures = [plt.figure(number) for number in plt.get_fignums() if number not in before]
     if value is not None and not figures:
         shown = {"text/plain": lines(repr(value))}
         if hasattr(value, "_repr_html_"):
             shown["text/html"] = lines(value._repr_html_())
-        made.append({"output_type": "execute_result", "execution_count": count, "metadata": {}, "data": shown})
+        made.append({"output_type": "execute_result", "execution_count": count, "metadata": {},
+                     "data": shown})
     for figure in figures:
         drawn = io.BytesIO()
         figure.savefig(drawn, format="png", dpi=SHARP, bbox_inches="tight", metadata={"Software": None})
@@ -93,7 +97,9 @@ def page(path: Path) -> tuple[str, dict[str, bytes]]:
             else:
                 parts.append("```text\n" + "".join(one.get("text") or data["text/plain"]).rstrip() + "\n```")
     title, _, rest = "\n\n".join(parts).partition("\n")
-    return f"{title}\n\n*A notebook: `docs/{FOLDER}/{path.name}` of the repository, to be run in Jupyter.*\n{rest}\n", pictures
+    return (
+        f"{title}\n\n*A notebook: `docs/{FOLDER}/{path.name}` of the repository, to be run in "
+        f"Jupyter.*\n{rest}\n", pictures)
 
 
 def write(docs: Path) -> None:

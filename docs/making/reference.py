@@ -1,4 +1,5 @@
-"""The reference: an entry of Sphinx's autodoc for every public name, in groups, and what makes plain docstrings readable to it."""
+"""The reference: an entry of Sphinx's autodoc for every public name, in groups, and what makes plain
+docstrings readable to it."""
 from __future__ import annotations
 
 import inspect
@@ -7,59 +8,77 @@ from dataclasses import MISSING, fields, is_dataclass
 from importlib import import_module
 
 GROUPS = {
-    "A case": ("load", "Case", "Body", "Scene", "ScaledGyrostat", "Gyrostat", "ConstantTorque", "Charge", "Resistance", "LiquidCavity", "NewtonianField",
+    "A case": ("load", "Case", "Body", "Scene", "ScaledGyrostat", "Gyrostat", "ConstantTorque", "Charge",
+               "Resistance", "LiquidCavity", "NewtonianField",
                "Gravity", "BodyForce"),
-    "Questions about a motion": ("fate", "Fate", "fate_grid", "motion", "extremes", "period", "spin_up", "stuck", "chaos", "time_to", "TimeTo", "validity"),
+    "Questions about a motion": ("fate", "Fate", "fate_grid", "motion", "extremes", "period", "spin_up",
+                                 "stuck", "chaos", "time_to", "TimeTo", "validity"),
     "Questions about all motions": ("equilibria", "separatrix"),
     "Many cases at once": ("sweep", "atlas", "basin", "bifurcation"),
     "Motions in time": ("trajectory", "ensemble", "simulate", "compare", "theory", "derive"),
     "Errors": ("InputError",),
 }
 # What the questions answer, and the plots: name -> module
-ANSWERS = {"FateResult": "stabilab.orbit.fate.result", "Motion": "stabilab.orbit.result", "Equilibria": "stabilab.equilibrium.result",
-           "EquilibriumPoint": "stabilab.equilibrium.result", "EquilibriumCurve": "stabilab.equilibrium.result",
-           "CurveSegment": "stabilab.equilibrium.result", "Separatrix": "stabilab.orbit.separatrix.result", "Sheet": "stabilab.orbit.separatrix.result",
-           "SpinUp": "stabilab.unreduced.spin_up.result", "Trajectory": "stabilab.integrate.trajectory", "Simulation": "stabilab.answers.simulate",
-           "Ensemble": "stabilab.integrate.ensemble", "Stuck": "stabilab.answers.stuck.result", "Comparison": "stabilab.theories.comparison"}
+ANSWERS = {"FateResult": "stabilab.orbit.fate.result", "Motion": "stabilab.orbit.result",
+           "Equilibria": "stabilab.equilibrium.result",
+           "EquilibriumPoint": "stabilab.equilibrium.result",
+           "EquilibriumCurve": "stabilab.equilibrium.result",
+           "CurveSegment": "stabilab.equilibrium.result", "Separatrix": "stabilab.orbit.separatrix.result",
+           "Sheet": "stabilab.orbit.separatrix.result",
+           "SpinUp": "stabilab.unreduced.spin_up.result", "Trajectory": "stabilab.integrate.trajectory",
+           "Simulation": "stabilab.answers.simulate",
+           "Ensemble": "stabilab.integrate.ensemble", "Stuck": "stabilab.answers.stuck.result",
+           "Comparison": "stabilab.theories.comparison"}
 
 
 def text() -> str:
-    """A heading a group, an entry a public name. A public name that no group has is an error: the page is whole."""
+    """A heading a group, an entry a public name. A public name that no group has is an error: the page is
+    whole."""
     import stabilab
     placed = {name for names in GROUPS.values() for name in names} | {"plot", "__version__"}
     if missing := set(stabilab.__all__) ^ placed:
-        raise ValueError(f"docs/making/reference.py, GROUPS: {', '.join(sorted(missing))} stand in one of it and stabilab.__all__ only")
-    parts = ["# Reference\n\nEvery public name of `import stabilab`. Arrays have their components in the last place.\n"]
+        raise ValueError(
+            f"docs/making/reference.py, GROUPS: {', '.join(sorted(missing))} stand in one of it and "
+            f"stabilab.__all__ only")
+    parts = [
+        "# Reference\n\nEvery public name of `import stabilab`. Arrays have their components in the last "
+        "place.\n"]
     for title, names in GROUPS.items():
         parts.append(f"## {title}\n")
         parts += [_entry(f"stabilab.{name}", getattr(stabilab, name)) for name in names]
     parts.append("## Pictures\n")
     parts += [_entry(f"stabilab.plot.{name}", getattr(stabilab.plot, name)) for name in stabilab.plot.__all__]
     parts.append("## What the answers hold\n")
-    parts += [_entry(f"{module}.{name}", getattr(import_module(module), name)) for name, module in ANSWERS.items()]
+    parts += [_entry(f"{module}.{name}", getattr(import_module(module), name)) for name,
+              module in ANSWERS.items()]
     return "\n".join(parts)
 
 
 def _entry(name, thing) -> str:
-    kind = "function" if not inspect.isclass(thing) else "exception" if issubclass(thing, Exception) else "class"
+    kind = ("function" if not inspect.isclass(thing) else "exception" if issubclass(thing, Exception)
+            else "class")
     members = "\n   :members:" if kind == "class" else ""
     return f"```{{eval-rst}}\n.. auto{kind}:: {name}{members}\n```\n"
 
 
 def as_rst(app, what, name, obj, options, lines):
-    """Docstrings are plain sentences with names in single backticks: as literals, and nothing else as markup."""
+    """Docstrings are plain sentences with names in single backticks: as literals, and nothing else as markup.
+    """
     found = re.sub(r"(?<!`)`([^`\n]+)`(?!`)", r"``\1``", "\n".join(lines))
     parts = re.split(r"(``[^`]+``)", found)
-    lines[:] = "".join(part if part.startswith("``") else re.sub(r"([*|\\]|_(?=\W|$))", r"\\\1", part) for part in parts).split("\n")
+    lines[:] = "".join(part if part.startswith("``") else re.sub(r"([*|\\]|_(?=\W|$))", r"\\\1", part)
+                       for part in parts).split("\n")
 
 
 def of_fields(app, what, name, obj, options, signature, returned):
-    """The signature of a record by its fields: what makes them takes anything, to say in words what is missing, or has defaults that are no expressions."""
+    """The signature of a record by its fields: what makes them takes anything, to say in words what is
+    missing, or has defaults that are no expressions."""
     if what != "class" or not is_dataclass(obj):
         return None
     given = []
     for one in fields(obj):
         if one.init:
-            made = f" = {one.default_factory.__name__}()" if one.default_factory is not MISSING else f" = {one.default!r}" if one.default is not MISSING else ""
+            made = (f" = {one.default_factory.__name__}()" if one.default_factory is not MISSING
+                    else f" = {one.default!r}" if one.default is not MISSING else "")
             given.append(f"{one.name}: {one.type}{made}")
     return f"({', '.join(given)})", returned

@@ -1,7 +1,8 @@
 """A certificate: what was found of a case, as exact numbers and brackets that separate code can check.
 
-Equilibria come from exact algebra (rationals and surds), fate, extremes and period from ball arithmetic; nothing here is
-a rounded guess. What cannot be certified is left out and named in `uncertified`. docs/certificate.md has the form.
+Equilibria come from exact algebra (rationals and surds), fate, extremes and period from ball arithmetic;
+nothing here is a rounded guess. What cannot be certified is left out and named in `uncertified`.
+docs/certificate.md has the form.
 """
 from __future__ import annotations
 
@@ -10,7 +11,16 @@ from fractions import Fraction
 from typing import Any
 
 from ..equilibrium.balance import pencil
-from ..equilibrium.gyrostat import DRIFT, balance_fails, conic_curves, isolated_states, plane_centre, plane_moments, plane_of_equal_moments, torque_free_curves
+from ..equilibrium.gyrostat import (
+    DRIFT,
+    balance_fails,
+    conic_curves,
+    isolated_states,
+    plane_centre,
+    plane_moments,
+    plane_of_equal_moments,
+    torque_free_curves,
+)
 from ..equilibrium.stability import curve_with_verdicts, cuts_of, isolated_point
 from ..orbit.extremes.balls import extreme_balls
 from ..orbit.fate.one_state import fate_of
@@ -25,18 +35,22 @@ SCHEMA = "stabilab.certificate/1"
 ROOT_BITS = 150  # roots are known to 160 bits and more (`polynomials.real_roots`, `Surd.fraction`)
 BOX_BITS = 120
 TINY = Fraction(1, 2**1074)  # the least double: a decaying plane's end is only approached, to less than this
-DIGITS, PERIOD_DIGITS = 20, 11  # of the brackets: another's verified quadrature must have room in the period's
+# of the brackets: another's verified quadrature must have room in the period's
+DIGITS, PERIOD_DIGITS = 20, 11
 
 
 def certificate(scene: AnyScene, state: Sequence[Any] | None = None) -> dict[str, Any]:
     """The certificate of a scene and, if given, of the motion from a state (three numbers, taken exactly).
 
-    Returns the object of `stabilab.certificate/1`. Raises InputError as `equilibria` does for effects it does not know.
+    Returns the object of `stabilab.certificate/1`. Raises InputError as `equilibria` does for effects it does
+    not know.
     """
-    out: dict[str, Any] = {"schema": SCHEMA, "program": f"stabilab {__version__}", "scene": None, "equilibria": None, "motion": None,
+    out: dict[str, Any] = {"schema": SCHEMA, "program": f"stabilab {__version__}", "scene": None,
+                           "equilibria": None, "motion": None,
                            "uncertified": []}
     if not scene.plain:
-        out["uncertified"].append("effects beyond the gyrostat and a constant torque: there is no certificate for their equilibria "
+        out["uncertified"].append("effects beyond the gyrostat and a constant torque: there is no "
+                                  "certificate for their equilibria "
                                   "and motions")
         return out
     out["scene"] = _scene(scene)
@@ -47,7 +61,8 @@ def certificate(scene: AnyScene, state: Sequence[Any] | None = None) -> dict[str
 
 
 def subject(scene: AnyScene, state: Sequence[Any] | None = None) -> dict[str, Any]:
-    """What the certificate of this scene and state is about, as `verify.form` tells it; empty for a scene that has none."""
+    """What the certificate of this scene and state is about, as `verify.form` tells it; empty for a scene
+    that has none."""
     if not scene.plain:
         return {}
     return _scene(scene) | ({} if state is None else {"state": [_text(v) for v in state]})
@@ -66,7 +81,8 @@ def _scene(scene: AnyScene) -> dict[str, Any]:
         a, b = scene.exact_ab
         return {"variables": "scaled", "a": _text(a), "b": _text(b), "mu": list(map(_text, scene.exact_mu))}
     return {"variables": "physical", "inertia": list(map(_text, scene.body.exact)),
-            "momentum": list(map(_text, scene.vector("gyrostat"))), "torque": list(map(_text, scene.vector("constant_torque")))}
+            "momentum": list(map(_text, scene.vector("gyrostat"))),
+            "torque": list(map(_text, scene.vector("constant_torque")))}
 
 
 # -- equilibria
@@ -75,13 +91,15 @@ def _scene(scene: AnyScene) -> dict[str, Any]:
 def _equilibria(scene: AnyScene) -> dict[str, Any]:
     p = pencil(scene)
     kind, states, curves = _exact_equilibria(p)
-    return {"kind": kind, "points": sorted((_point(p.form, x) for x in states), key=lambda e: Fraction(e["box"][0][0])),
+    return {"kind": kind,
+            "points": sorted((_point(p.form, x) for x in states), key=lambda e: Fraction(e["box"][0][0])),
             "curves": [_curve(p.form, c) for c in curves],
             "planes": [_plane(p, d) for d in ([] if any(p.M) else plane_moments(p))]}
 
 
 def _exact_equilibria(p: Any) -> tuple[str, list[Any], list[Any]]:
-    """(kind, isolated states as surds, exact curves), by the cases of `equilibria`; planes come on their own."""
+    """(kind, isolated states as surds, exact curves), by the cases of `equilibria`; planes come on their own.
+    """
     if not any(p.M):
         if not any(p.lam) and len(set(p.D)) == 1:
             return "all", [], []
@@ -142,7 +160,8 @@ def _motion(scene: AnyScene, state: tuple[Fraction, ...], uncertified: list[str]
                      "extremes": _extremes(orbit, label), "period": _period(orbit, label)}
 
 
-def _without_reduction(scene: AnyScene, state: tuple[Fraction, ...], claims: dict[str, Any], uncertified: list[str]) -> dict[str, Any] | None:
+def _without_reduction(scene: AnyScene, state: tuple[Fraction, ...], claims: dict[str, Any],
+                       uncertified: list[str]) -> dict[str, Any] | None:
     from .certified_spin_up import certified_spin_up
     from .closed_motion import closed_motion
     if closed := closed_motion(scene, state):
@@ -151,7 +170,8 @@ def _without_reduction(scene: AnyScene, state: tuple[Fraction, ...], claims: dic
     if found is None:
         uncertified.append(f"motion: the scene has no reduction to one degree of freedom; {why}")
         return None
-    return claims | {"fate": Fate.SPIN_UP.word, "axis": found["axis"], "sense": found["sense"], "spin_up": found}
+    return (claims | {"fate": Fate.SPIN_UP.word, "axis": found["axis"], "sense": found["sense"],
+                      "spin_up": found})
 
 
 def _extremes(orbit: Any, label: Fate) -> list[list[Any]]:
@@ -164,7 +184,8 @@ def _period(orbit: Any, label: Fate) -> Any:
 
 
 def _ends(value: Any, digits: int = DIGITS) -> Any:
-    """A bracket round a ball, twice as wide so that another's ball has room in it; None for what is not finite."""
+    """A bracket round a ball, twice as wide so that another's ball has room in it; None for what is not
+    finite."""
     if isinstance(value, float) or not value.is_finite():
         return None
     middle, reach = _exact(value.mid()), _exact(value.rad())

@@ -1,7 +1,9 @@
-"""The part of a certificate that proves a spin-up under a torque of any direction: the way, and an inequality at its end that stays true.
+"""The part of a certificate that proves a spin-up under a torque of any direction: the way, and an inequality
+at its end that stays true.
 
-The inequality is that about the fixed centre where it holds soon, else that about the moving centre, or along the equator of a body of revolution: a
-checker can work out each from the rates alone. docs/certificate.md has the form.
+The inequality is that about the fixed centre where it holds soon, else that about the moving centre, or along
+the equator of a body of revolution: a checker can work out each from the rates alone. docs/certificate.md has
+the form.
 """
 from __future__ import annotations
 
@@ -18,13 +20,16 @@ from ..unreduced.enclosure.run import Course, allowed
 from ..unreduced.spin_up.certificate import natural, tests_of
 from ..unreduced.spin_up.follow import spin_up
 
-BUDGET, STEPS = 60_000, 30_000  # of the run that finds the time, and validated ones: a checker takes a millisecond for each
+# of the run that finds the time, and validated ones: a checker takes a millisecond for each
+BUDGET, STEPS = 60_000, 30_000
 FIXED_ORDERS = ((0, 2), (4, 6), (12, 14), (16, 18))  # lowest first: the check of high ones takes longest
 MOVING_ORDERS = ((2, 4), (4, 6), (8, 10))
-LATER = (1.0, 1.0625, 1.25, 1.5, 2.0, 3.0, 5.0, 8.0)  # times, over that of the first certificate, at which the inequality is asked
+# times, over that of the first certificate, at which the inequality is asked
+LATER = (1.0, 1.0625, 1.25, 1.5, 2.0, 3.0, 5.0, 8.0)
 CHECKPOINTS = 4
 DIGITS = 9  # of the checkpoints' brackets, relative to the greatest rate; wider where the enclosure is
-SURE = Fraction(1 << 20, (1 << 20) + 1)  # what is told of the gain is less by this: the inequality's own rounding
+# what is told of the gain is less by this: the inequality's own rounding
+SURE = Fraction(1 << 20, (1 << 20) + 1)
 
 
 def certified_spin_up(scene: AnyScene, state: Sequence[Any]) -> tuple[dict[str, Any] | None, str]:
@@ -39,35 +44,47 @@ def certified_spin_up(scene: AnyScene, state: Sequence[Any]) -> tuple[dict[str, 
     for later in times:
         box = _box(course, later, state)
         if box is None:
-            return None, f"{found.fate.word}: {found.cause}; its way was not enclosed up to t = {later:.6g} in {STEPS} validated steps"
+            return (None,
+                    f"{found.fate.word}: {found.cause}; its way was not enclosed up to t = {later:.6g} in "
+                    f"{STEPS} validated steps")
         inequality = _holding(tests_of(own), ways, box, unit)
         if inequality:
             t = Fraction(course.t) if course else Fraction(0)
-            return {"axis": found.axis, "sense": found.sense, "t": str(t), **inequality, "way": _checkpoints(scene, state, course, t)}, ""
-    return None, f"{found.fate.word}: {found.cause}; no inequality that a checker knows holds up to t = {times[-1]:.6g}"
+            return {"axis": found.axis, "sense": found.sense, "t": str(t), **inequality,
+                    "way": _checkpoints(scene, state, course, t)}, ""
+    return (None,
+            f"{found.fate.word}: {found.cause}; no inequality that a checker knows holds up to t = "
+            f"{times[-1]:.6g}")
 
 
 def _inequalities(tests: Any, found: Any) -> Iterator[tuple[str, Any, tuple[int, int]]]:
-    """(what it is about, field, orders) of those that say what was found, in the order in which they are asked."""
+    """(what it is about, field, orders) of those that say what was found, in the order in which they are
+    asked."""
     if not found.axis:
         yield from (("equator", field, orders) for field in tests.equatorial for orders in MOVING_ORDERS)
         return
-    for about, fields, all_ in (("fixed centre", tests.fixed, FIXED_ORDERS), ("moving centre", tests.moving, MOVING_ORDERS)):
-        yield from ((about, field, orders) for field in fields if (field.axis + 1, field.sense) == (found.axis, found.sense) for orders in all_)
+    for about, fields, all_ in (("fixed centre", tests.fixed, FIXED_ORDERS),
+                                ("moving centre", tests.moving, MOVING_ORDERS)):
+        yield from ((about, field, orders) for field in fields
+                    if (field.axis + 1, field.sense) == (found.axis, found.sense) for orders in all_)
 
 
 def _box(course: Course | None, t: float, state: Sequence[Any]) -> Any:
     """(middle (3,), radius) of a ball that holds the motion at a time; None where the steps do not reach."""
     if course is None:
         middle = np.array([float(v) for v in state])
-        return middle, float(sum(abs(v - Fraction(m)) for v, m in zip(state, middle.tolist()))) * (1 + 2.0**-40)
+        return middle, float(sum(abs(v - Fraction(m)) for v,
+                                 m in zip(state, middle.tolist()))) * (1 + 2.0**-40)
     course.advance(t, min(STEPS, allowed(course.bits)) - course.steps)
     now = course.now
-    return (now.middle, float(np.abs(now.rest).sum() + now.radius.sum()) * (1 + 2.0**-40)) if course.status == kernel.DONE else None
+    return (now.middle, float(np.abs(now.rest).sum() + now.radius.sum())
+            * (1 + 2.0**-40)) if course.status == kernel.DONE else None
 
 
-def _holding(tests: Any, ways: list[tuple[str, Any, tuple[int, int]]], box: Any, unit: float) -> dict[str, Any] | None:
-    """The first inequality that holds for the ball, its orders and constants in the scene's units; None where none does."""
+def _holding(tests: Any, ways: list[tuple[str, Any, tuple[int, int]]], box: Any,
+             unit: float) -> dict[str, Any] | None:
+    """The first inequality that holds for the ball, its orders and constants in the scene's units; None where
+    none does."""
     middle, near = box
     for about, field, orders in ways:
         constants = tests.certifier(field, orders).constants(middle / unit, near / unit)
@@ -81,7 +98,8 @@ def _holding(tests: Any, ways: list[tuple[str, Any, tuple[int, int]]], box: Any,
 
 
 def _scale(about: str, field: Any) -> float:
-    """The field's amplitude over that of a checker, who knows the rates and no moments: of U + i q V, or of w u + i tau v/w."""
+    """The field's amplitude over that of a checker, who knows the rates and no moments: of U + i q V, or of w
+    u + i tau v/w."""
     return float(abs(field.form.scale[0]) if about == "fixed centre" else np.sqrt(np.prod(field.roots)))
 
 
@@ -91,8 +109,10 @@ def _decimal(value: Fraction, digits: int) -> str:
     return str(Fraction(int(value * Fraction(10) ** exponent)) / Fraction(10) ** exponent)
 
 
-def _checkpoints(scene: AnyScene, state: Sequence[Any], course: Course | None, t: Fraction) -> list[dict[str, Any]]:
-    """Return brackets of the rates at some times up to t. A reader follows the motion by them, and a checker compares its own with them."""
+def _checkpoints(scene: AnyScene, state: Sequence[Any], course: Course | None,
+                 t: Fraction) -> list[dict[str, Any]]:
+    """Return brackets of the rates at some times up to t. A reader follows the motion by them, and a checker
+    compares its own with them."""
     if not t:
         return []
     out, again = [], Course(scene, state, float(t))

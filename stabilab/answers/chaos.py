@@ -1,4 +1,5 @@
-"""Whether motions are regular or chaotic, as far as they are followed: an indicator with its history, not a proof."""
+"""Whether motions are regular or chaotic, as far as they are followed: an indicator with its history, not a
+proof."""
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
@@ -44,9 +45,10 @@ class Order(IntEnum):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Chaos(Shown):
-    """labels (...): of `Order`; megno (...): at the last time, nan of motions that spin up or could not be followed; times (k,): in the scene's time, each
-    twice the one before; history (..., k): MEGNO at them; lyapunov (...): the rate at which neighbours part, per time of the scene, 0 of regular motions
-    and nan where it is not known; lyapunov_error (...): how far the last doubling of the time moved it."""
+    """labels (...): of `Order`; megno (...): at the last time, nan of motions that spin up or could not be
+    followed; times (k,): in the scene's time, each twice the one before; history (..., k): MEGNO at them;
+    lyapunov (...): the rate at which neighbours part, per time of the scene, 0 of regular motions and nan
+    where it is not known; lyapunov_error (...): how far the last doubling of the time moved it."""
 
     labels: np.ndarray
     megno: np.ndarray
@@ -72,14 +74,20 @@ class Chaos(Shown):
             return "its fate is spin-up: it does not come back, and chaos is a property of motions that do"
         if label == Order.UNDECIDED:
             return ("its numbers leave the doubles" if not np.isfinite(self.megno) else
-                    f"after {after} MEGNO is {_shown(float(self.megno))}, neither near 2 nor growing with time: follow it for longer")
+                    f"after {after} MEGNO is {_shown(float(self.megno))}, neither near 2 nor growing with "
+                    f"time: follow it for longer")
         before = f"{_shown(self.history[-2])} at half that time"
         if label == Order.REGULAR and not self.megno < FLAT:
-            return (f"it is an equilibrium (every rate stays as it is), whatever becomes of its neighbours: of them MEGNO tells, "
+            return (f"it is an equilibrium (every rate stays as it is), whatever becomes of its neighbours: "
+                    f"of them MEGNO tells, "
                     f"{_shown(float(self.megno))} after {after}")
         if label == Order.REGULAR:
-            return f"after {after} MEGNO is {_shown(float(self.megno))} ({before}); it tends to 2 on tori, to less where neighbours stay or come together"
-        return f"after {after} MEGNO is {_shown(float(self.megno))} ({before}): it grows with time, neighbours part exponentially"
+            return (
+                f"after {after} MEGNO is {_shown(float(self.megno))} ({before}); it tends to 2 on tori, to "
+                f"less where neighbours stay or come together")
+        return (
+            f"after {after} MEGNO is {_shown(float(self.megno))} ({before}): it grows with time, neighbours "
+            f"part exponentially")
 
 
 def _shown(megno: float) -> str:
@@ -87,19 +95,24 @@ def _shown(megno: float) -> str:
     return f"{0.0 if abs(megno) < 5e-4 else megno:.3f}"
 
 
-def chaos(scene: AnyScene, states: ArrayLike, until: float | None = None, tell: Callable[[int], Any] | None = None) -> Chaos:
-    """Whether the motions from states (..., N) of a scene are regular or chaotic: three rates, or all blocks of a longer state in order.
+def chaos(scene: AnyScene, states: ArrayLike, until: float | None = None,
+          tell: Callable[[int], Any] | None = None) -> Chaos:
+    """Whether the motions from states (..., N) of a scene are regular or chaotic: three rates, or all blocks
+    of a longer state in order.
 
-    By MEGNO, from variational equations derived from the scene's own (see `unreduced.chaos`), followed until a time of the scene (None: a thousand turns of a
-    motion of middling pace). Motions whose fate is spin-up are not followed; a state at rest is regular, however fast its neighbours part. Works for every
-    effect. A label is what was seen up to that time: "regular" is
-    no proof, the slowest chaos takes longer. tell(motions done) is called on the way. Raises InputError for other shapes and numbers.
+    By MEGNO, from variational equations derived from the scene's own (see `unreduced.chaos`), followed until
+    a time of the scene (None: a thousand turns of a motion of middling pace). Motions whose fate is spin-up
+    are not followed; a state at rest is regular, however fast its neighbours part. Works for every effect. A
+    label is what was seen up to that time: "regular" is no proof, the slowest chaos takes longer.
+    tell(motions done) is called on the way. Raises InputError for other shapes and numbers.
     """
     checked_scene(scene)
     equations = equations_of(scene)
     array = float_array(states, "states", f"rows of {len(equations.state)} numbers")
-    rows = checked_starts(equations, array.reshape(-1, array.shape[-1]) if array.ndim and array.size else array)
-    if until is not None and not (isinstance(until, (int, float, np.number)) and 0 < until <= float(np.finfo(float).max)):
+    rows = checked_starts(equations, array.reshape(-1, array.shape[-1]) if array.ndim and array.size
+                          else array)
+    if until is not None and not (isinstance(until, (int, float, np.number))
+                                  and 0 < until <= float(np.finfo(float).max)):
         raise InputError(f"until: expected a time above zero, got {until!r:.40}")
     if effective(scene).plain:  # attitude and path follow from the rates, and say nothing of them
         scene, rows = effective(scene), rows[:, :3].copy()
@@ -112,10 +125,12 @@ def chaos(scene: AnyScene, states: ArrayLike, until: float | None = None, tell: 
     history = np.full((len(rows), len(times)), np.nan)
     if found is not None:
         history[~leaving] = found.megno
-    labels = np.where(leaving, Order.SPIN_UP, np.where(fates == Fate.EQUILIBRIUM, Order.REGULAR, _labels(history)))
+    labels = np.where(leaving, Order.SPIN_UP,
+                      np.where(fates == Fate.EQUILIBRIUM, Order.REGULAR, _labels(history)))
     rate, error = _rates(history, times, labels)
     shaped = lambda values: values.reshape(array.shape[:-1] + values.shape[1:])[()]
-    return Chaos(shaped(labels), shaped(history[:, -1]), times, shaped(history), shaped(rate), shaped(error), turn, scene)
+    return Chaos(shaped(labels), shaped(history[:, -1]), times, shaped(history), shaped(rate), shaped(error),
+                 turn, scene)
 
 
 def long_enough(scene: AnyScene, state: ArrayLike) -> float:
@@ -136,7 +151,8 @@ def _fates(scene: AnyScene, rows: np.ndarray, end: float) -> np.ndarray:
     if scene.plain:
         return np.asarray(fate(scene, rows, follow=end).labels)
     parts = slices(scene.blocks)
-    return np.array([motion(scene, {name: row[part].tolist() for name, part in parts.items()}, brief=True).fate for row in rows], int)
+    return np.array([motion(scene, {name: row[part].tolist() for name, part in parts.items()},
+                            brief=True).fate for row in rows], int)
 
 
 def _labels(history: np.ndarray) -> np.ndarray:
@@ -150,4 +166,6 @@ def _rates(history: np.ndarray, times: np.ndarray, labels: np.ndarray) -> tuple[
     """MEGNO is half the rate times the time, where neighbours part exponentially."""
     now, before = 2 * history[:, -1] / times[-1], 2 * history[:, -2] / times[-2]
     chaotic, regular = labels == Order.CHAOTIC, labels == Order.REGULAR
-    return np.where(chaotic, now, np.where(regular, 0.0, np.nan)), np.where(chaotic, np.abs(now - before), np.where(regular, 0.0, np.nan))
+    return np.where(chaotic, now,
+                    np.where(regular, 0.0, np.nan)), np.where(chaotic, np.abs(now - before),
+                                                              np.where(regular, 0.0, np.nan))

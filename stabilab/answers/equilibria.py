@@ -11,7 +11,8 @@ from ..equilibrium.result import Equilibria
 from ..physics.coefficients import content, limits_of
 from ..physics.scene import AnyScene
 
-# kind of a scene's torques -> (module of `equilibrium`, its function of their coefficients); one that no scene names is not loaded
+# kind of a scene's torques -> (module of `equilibrium`, its function of their coefficients); one that no
+# scene names is not loaded
 BY_KIND = {
     "gyrostat": ("gyrostat", "twin_equilibria"),
     "dissipative": ("dissipative", "dissipative_equilibria"),
@@ -21,14 +22,16 @@ BY_KIND = {
 
 
 def equilibria(scene: Any) -> Equilibria:
-    """Every equilibrium of a Scene (body, gyrostat, constant torque), a ScaledGyrostat or a case, each with its stability.
+    """Every equilibrium of a Scene (body, gyrostat, constant torque), a ScaledGyrostat or a case, each with
+    its stability.
 
-    States are in the scene's variables: rad/s in the principal axes, or the dimensionless x. kind is "none" (the reason
-    says why), "points" (isolated), "curves" or "all". A plane of equilibria (equal moments) is one entry of `curves`
-    named "plane ...": its point(t) runs along one line through the centre, its samples lie on several. Folds are also
-    among the samples, with their verdicts. Scenes with charge, liquid, resistance, gravity, Newtonian field or body
-    force are answered too; there a point may be (omega, gamma), and kind "undecided" says that not all equilibria
-    are known. Raises InputError for effects this analysis does not cover.
+    States are in the scene's variables: rad/s in the principal axes, or the dimensionless x. kind is "none"
+    (the reason says why), "points" (isolated), "curves" or "all". A plane of equilibria (equal moments) is
+    one entry of `curves` named "plane ...": its point(t) runs along one line through the centre, its samples
+    lie on several. Folds are also among the samples, with their verdicts. Scenes with charge, liquid,
+    resistance, gravity, Newtonian field or body force are answered too; there a point may be (omega, gamma),
+    and kind "undecided" says that not all equilibria are known. Raises InputError for effects this analysis
+    does not cover.
     """
     scene = checked_scene(scene.scene if is_case(scene) else scene)
     found = _found(scene)
@@ -44,9 +47,10 @@ def _found(scene: AnyScene) -> Equilibria:
 def other_equilibria(scene: AnyScene) -> Equilibria | None:
     """The equilibria of a scene of known effects; None where it has one that is not known here.
 
-    A constant charge and a force at the centre of mass leave the gyrostat's own analysis; a liquid or resistance:
-    `dissipative`; gravity, a Newtonian field, a charge that follows the attitude: `permanent_rotations`, whose states are
-    (omega, gamma). Where not all equilibria are known, kind is "undecided" and the reason says why.
+    A constant charge and a force at the centre of mass leave the gyrostat's own analysis; a liquid or
+    resistance: `dissipative`; gravity, a Newtonian field, a charge that follows the attitude:
+    `permanent_rotations`, whose states are (omega, gamma). Where not all equilibria are known, kind is
+    "undecided" and the reason says why.
     """
     parts = content(scene)
     if parts is None:

@@ -1,8 +1,9 @@
-"""The fates on a rectangular grid of states: one height per line parallel to the torque's axis, then comparisons.
+"""The fates on a rectangular grid of states: one height per line parallel to the torque's axis, then
+comparisons.
 
-Along such a line the barrier ahead stays the same and the energy is W^2/2 above the place's, so a state is bounded iff
-W^2/2 is less than the height. Lines on which some energy is within rounding of the height, or near an equilibrium, a
-fold or an invariant plane, are answered state by state by `fate`.
+Along such a line the barrier ahead stays the same and the energy is W^2/2 above the place's, so a state is
+bounded iff W^2/2 is less than the height. Lines on which some energy is within rounding of the height, or
+near an equilibrium, a fold or an invariant plane, are answered state by state by `fate`.
 """
 from __future__ import annotations
 
@@ -27,10 +28,12 @@ LINES = 8192  # lines worked on together: enough for NumPy, few enough for a cor
 
 
 def fate_grid(scene: AnyScene, axes: Sequence[ArrayLike]) -> np.ndarray:
-    """Labels (n1, n2, n3), int8 of `Fate`, of the states (axes[0][a], axes[1][b], axes[2][c]); the same as `fate` gives.
+    """Labels (n1, n2, n3), int8 of `Fate`, of the states (axes[0][a], axes[1][b], axes[2][c]); the same as
+    `fate` gives.
 
-    scene: Scene or ScaledGyrostat. axes: three arrays of rates (rad/s, or x when scaled), in any order. Raises
-    InputError for axes that are not three one-dimensional arrays of finite numbers, and as `fate` does.
+    scene: Scene or ScaledGyrostat. axes: three arrays of rates (rad/s, or x when scaled), in any order.
+    Raises InputError for axes that are not three one-dimensional arrays of finite numbers, and as `fate`
+    does.
     """
     scene, axes = effective(scene), _checked_axes(axes)
     labels = np.empty([len(a) for a in axes], np.int8)
@@ -59,7 +62,8 @@ def _checked_axes(axes: Sequence[ArrayLike]) -> list[np.ndarray]:
     except (TypeError, ValueError, OverflowError):
         raise InputError("axes: expected three arrays of numbers") from None
     if len(arrays) != 3 or any(a.ndim != 1 for a in arrays):
-        raise InputError(f"axes: expected three one-dimensional arrays, got shapes {[a.shape for a in arrays]}")
+        raise InputError(
+            f"axes: expected three one-dimensional arrays, got shapes {[a.shape for a in arrays]}")
     if not all(np.isfinite(a).all() for a in arrays):
         raise InputError("axes: every number must be finite")
     return arrays
@@ -73,9 +77,11 @@ def _one_by_one(scene: AnyScene, axes: list[np.ndarray], labels: np.ndarray) -> 
     return labels
 
 
-def _label_lines(table: Any, lines: np.ndarray, energies: np.ndarray, ranked: np.ndarray, labels: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Fill labels (rows, m, rates) of the lines through the states `lines` (rows m, 3) by comparison; returns (doubtful,
-    clear) of (rows m,): an energy is too near to the height, and it is certain which height that is."""
+def _label_lines(table: Any, lines: np.ndarray, energies: np.ndarray, ranked: np.ndarray,
+                 labels: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Fill labels (rows, m, rates) of the lines through the states `lines` (rows m, 3) by comparison; returns
+    (doubtful, clear) of (rows m,): an energy is too near to the height, and it is certain which height that
+    is."""
     x, z, _ = canonical(table, lines)
     with np.errstate(all="ignore"):
         height, scale, clear = way_of(table).heights(table, x, z)
@@ -89,12 +95,15 @@ def _label_lines(table: Any, lines: np.ndarray, energies: np.ndarray, ranked: np
     return (following <= height + doubt) & np.isfinite(height), clear
 
 
-def _settle(scene: AnyScene, table: Any, axes: list[np.ndarray], along: np.ndarray, lines: np.ndarray) -> None:
+def _settle(scene: AnyScene, table: Any, axes: list[np.ndarray], along: np.ndarray,
+            lines: np.ndarray) -> None:
     """Ask `fate` for every state of some lines ((a, b) pairs of indices across the torque's axis)."""
     i = table.axes[0]
     first, second = (n for n in range(3) if n != i)
     for start in range(0, len(lines), TOGETHER):
         a, b = lines[start:start + TOGETHER].T
         states = np.empty((len(a), len(axes[i]), 3))
-        states[..., first], states[..., second], states[..., i] = axes[first][a, None], axes[second][b, None], axes[i]
+        states[..., first], states[...,
+                                   second], states[...,
+                                                   i] = axes[first][a, None], axes[second][b, None], axes[i]
         along[a, b] = fate(scene, states).labels

@@ -1,8 +1,10 @@
-"""A table tells which way answers a scene: it has a row for each kind of scene, and the module of a row answers the same questions as every other.
+"""A table tells which way answers a scene: it has a row for each kind of scene, and the module of a row
+answers the same questions as every other.
 
-One state: `motion(scene, state, span, exact, brief)` -> Motion. Many: `fates(scene, states, fast)` -> FateResult,
-`extremes(scene, states, span, fast)` -> (n, 3, 2), `periods(scene, states, fast)` -> (n,), for rows (n, 3). Kinds that
-follow motions also take `follow`, how long a motion is followed (None: as long as a user waits), and `tell`, which hears of it on the way.
+One state: `motion(scene, state, span, exact, brief)` -> Motion. Many: `fates(scene, states, fast)` ->
+FateResult, `extremes(scene, states, span, fast)` -> (n, 3, 2), `periods(scene, states, fast)` -> (n,), for
+rows (n, 3). Kinds that follow motions also take `follow`, how long a motion is followed (None: as long as a
+user waits), and `tell`, which hears of it on the way.
 """
 from __future__ import annotations
 
@@ -17,8 +19,8 @@ from ..physics.scene import AnyScene, aligned
 
 
 class Kind(NamedTuple):
-    """holds: whether a scene is of this kind, when no row above holds it; one, many: the modules that answer for one state and for many;
-    follows: whether these take `follow` and `tell` (see `following`)."""
+    """holds: whether a scene is of this kind, when no row above holds it; one, many: the modules that answer
+    for one state and for many; follows: whether these take `follow` and `tell` (see `following`)."""
 
     holds: Callable[..., bool]
     one: str
@@ -31,19 +33,25 @@ def _acting(scene: AnyScene) -> int:
     return sum(m != 0 for m in scene.quadratic().m)
 
 
-# The first row that holds a scene answers it: a new kind is a file and a row, above those that would hold it otherwise.
+# The first row that holds a scene answers it: a new kind is a file and a row, above those that would hold it
+# otherwise.
 KINDS = {
-    "bounds": Kind(lambda scene: not scene.plain, "unreduced.bounds", "orbit.many"),  # liquid, medium, field: rows are refused, with the effect's name
+    # liquid, medium, field: rows are refused, with the effect's name
+    "bounds": Kind(lambda scene: not scene.plain, "unreduced.bounds", "orbit.many"),
     "orbit": Kind(lambda scene: reduce(scene) is not None, "orbit.one_state", "orbit.many"),
-    "free": Kind(lambda scene: _acting(scene) == 0, "unreduced.free_gyrostat", "unreduced.free_gyrostat"),  # a wheel with no zero component
-    "growth": Kind(lambda scene: _acting(scene) == 1, "unreduced.growth.law", "unreduced.growth.law"),  # a wheel along the torque
-    "aligned": Kind(lambda scene: aligned(scene) is not None, "unreduced.aligned", "unreduced.aligned"),  # in the plane of two equal moments
+    # a wheel with no zero component
+    "free": Kind(lambda scene: _acting(scene) == 0, "unreduced.free_gyrostat", "unreduced.free_gyrostat"),
+    # a wheel along the torque
+    "growth": Kind(lambda scene: _acting(scene) == 1, "unreduced.growth.law", "unreduced.growth.law"),
+    # in the plane of two equal moments
+    "aligned": Kind(lambda scene: aligned(scene) is not None, "unreduced.aligned", "unreduced.aligned"),
     "off axis": Kind(lambda scene: True, "unreduced.off_axis", "unreduced.off_axis", follows=True),
 }
 
 
 def kind_of(scene: AnyScene) -> str:
-    """The kind of a scene, a key of KINDS; `physics.coefficients.effective` first, where other effects may turn as a wheel does."""
+    """The kind of a scene, a key of KINDS; `physics.coefficients.effective` first, where other effects may
+    turn as a wheel does."""
     return next(name for name, kind in KINDS.items() if kind.holds(scene))
 
 
@@ -57,11 +65,14 @@ def many(scene: AnyScene) -> Any:
     return _module(KINDS[kind_of(scene)].many)
 
 
-def following(scene: AnyScene, follow: float | None = None, tell: Callable[..., Any] | None = None, proof: bool = False) -> dict[str, Any]:
+def following(scene: AnyScene, follow: float | None = None, tell: Callable[..., Any] | None = None,
+              proof: bool = False) -> dict[str, Any]:
     """The options of a kind whose motions are followed; none for the others, whose answers need no run."""
-    if follow is not None and not (isinstance(follow, (int, float)) and math.isfinite(follow) and follow >= 0):
+    if follow is not None and not (isinstance(follow, (int, float)) and math.isfinite(follow)
+                                   and follow >= 0):
         raise InputError(f"follow: expected a time of at least 0, got {follow!r:.80}")
-    return {"follow": follow, "tell": tell} | ({"proof": True} if proof else {}) if KINDS[kind_of(scene)].follows else {}
+    return ({"follow": follow, "tell": tell} | ({"proof": True} if proof else {})
+            if KINDS[kind_of(scene)].follows else {})
 
 
 def _module(place: str) -> Any:

@@ -17,16 +17,19 @@ from .caveats import limited
 from .kinds import following, one
 
 
-def motion(scene: Any, state: Any = None, span: Any = None, brief: bool = False, exact: Sequence[Fraction] | None = None,
-           follow: float | None = None, tell: Callable[..., Any] | None = None, proof: bool = False) -> Motion:
+def motion(scene: Any, state: Any = None, span: Any = None, brief: bool = False,
+           exact: Sequence[Fraction] | None = None,
+           follow: float | None = None, tell: Callable[..., Any] | None = None,
+           proof: bool = False) -> Motion:
     """All that is known of the motion from `state` (three numbers in the scene's variables) at time 0.
 
     scene: a Scene or a ScaledGyrostat, or a case, whose own start and span hold where none are given.
-    Where gamma is part of the state: six numbers (omega, gamma), or a dict of blocks. span: (from, to), in whose times, and from
-    the start to them, extremes are searched where the motion is not integrable. brief: fate and extremes will do; what else costs
-    time (period, margin_velocity, invariants) may be left out. exact: the three rates as they were given (Fractions), of
-    which `state` is the rounding: where the motion has a reduction the answer is theirs. follow, tell: as of `fate`.
-    proof: enclose the way of a motion that is followed, so that its fate is proved where it can be. Raises InputError as `fate` does.
+    Where gamma is part of the state: six numbers (omega, gamma), or a dict of blocks. span: (from, to), in
+    whose times, and from the start to them, extremes are searched where the motion is not integrable. brief:
+    fate and extremes will do; what else costs time (period, margin_velocity, invariants) may be left out.
+    exact: the three rates as they were given (Fractions), of which `state` is the rounding: where the motion
+    has a reduction the answer is theirs. follow, tell: as of `fate`. proof: enclose the way of a motion that
+    is followed, so that its fate is proved where it can be. Raises InputError as `fate` does.
     """
     case = scene if is_case(scene) else None
     if case is not None and state is None:
@@ -34,7 +37,8 @@ def motion(scene: Any, state: Any = None, span: Any = None, brief: bool = False,
     scene, state = scene_and_state(scene, state)
     found = _found(scene, state, checked_span(span), brief, exact, follow, tell, proof)
     limits = limits_of(scene)
-    found = replace(found, validity=limits.of_motion(scene, found)) if limits and found.validity is None else found
+    found = (replace(found, validity=limits.of_motion(scene, found)) if limits and found.validity is None
+             else found)
     return limited(replace(found, largest=_largest(scene, found)), scene, case)
 
 
@@ -46,16 +50,20 @@ def _largest(scene: AnyScene, found: Motion) -> float | None:
     if not twin.plain or found.period is None or pairs is None or found.extremes_over != "all time":
         return None
     sizes = [max(map(abs, pair)) for pair in pairs if None not in pair]
-    most = largest(twin.quadratic(), found.at[:3], found.period) if len(sizes) == 3 and math.hypot(*sizes) < math.inf else None
+    most = (largest(twin.quadratic(), found.at[:3], found.period) if len(sizes) == 3
+            and math.hypot(*sizes) < math.inf else None)
     return None if most is None else min(max(most, *sizes), math.hypot(*sizes))
 
 
-def _found(scene: AnyScene, state: Any, span: tuple[float, float] | None, brief: bool, exact: Sequence[Fraction] | None,
+def _found(scene: AnyScene, state: Any, span: tuple[float, float] | None, brief: bool,
+           exact: Sequence[Fraction] | None,
            follow: float | None, tell: Callable[..., Any] | None, proof: bool) -> Motion:
     parts = None if scene.plain else content(scene)
     with in_range():
         if parts is None or parts.kind != "gyrostat":
-            return one(scene).motion(scene, state, span, exact, brief, **following(scene, follow, tell, proof))
+            return one(scene).motion(scene, state, span, exact, brief,
+                                     **following(scene, follow, tell, proof))
         twin = gyrostat_scene(parts)
-        found = one(twin).motion(twin, split(parts, state)[0], span, exact, **following(twin, follow, tell, proof))
+        found = one(twin).motion(twin, split(parts, state)[0], span, exact,
+                                 **following(twin, follow, tell, proof))
     return replace(found, because=f"{found.because}; {parts.note}") if parts.note else found

@@ -1,4 +1,5 @@
-"""The exact motion of a case is told block by block: its rates, the direction of the vertical, the angles of the attitude, the momentum and the place."""
+"""The exact motion of a case is told block by block: its rates, the direction of the vertical, the angles of
+the attitude, the momentum and the place."""
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
@@ -11,7 +12,18 @@ from ..asked import is_case, scene_and_state
 from ..errors import InputError
 from ..integrate.trajectory import Trajectory
 from ..physics.scene import AnyScene, Scene
-from ..physics.states import angles, as_quaternion, beyond, body_momentum, checked_times, equations_and_start, scalar_last, start_of, to_space, unwrapped
+from ..physics.states import (
+    angles,
+    as_quaternion,
+    beyond,
+    body_momentum,
+    checked_times,
+    equations_and_start,
+    scalar_last,
+    start_of,
+    to_space,
+    unwrapped,
+)
 from ..physics.to_numpy import to_numpy
 from ..shown import Compared, Shown
 from .trajectory import trajectory
@@ -22,7 +34,8 @@ if TYPE_CHECKING:
     from ..physics.law_limits import Validity
 
 STIFF = 1e6  # fastest decay times duration beyond which an explicit method would only shorten its steps
-TURNING = 700  # decays per radian of turn below which an attitude or gamma, which turn on, cost Radau more (measured)
+# decays per radian of turn below which an attitude or gamma, which turn on, cost Radau more (measured)
+TURNING = 700
 STIFF_METHOD, STIFF_RTOL = "Radau", 1e-10
 SHORT_WAY = 1.5  # rad: a step of phi or theta below half a turn by this margin cannot hide a whole one
 ROUNDS, POINTS = 12, 400_000  # of refining the times between the asked-for ones for unwrapping
@@ -34,11 +47,12 @@ INSIDE = 5  # points a step: a Taylor step to the last digit turns the body by u
 class Simulation(Shown, Compared):
     """States of one model at the asked-for times.
 
-    t: (n,), s (tau when scaled); state: name -> (n, m): omega (x when scaled), gamma, angles (psi, phi, theta,
-    continuous from the start, rad) or quaternion (x, y, z, w), momentum (inertial, kg m^2/s), velocity, position (inertial), and for averaged
-    models amplitude, spin, phase (n,). model: "exact", "linear", ...; the rest as of Trajectory.
-    validity: of the scene's laws; what a formula assumes beyond them stands in `reason`. error: name -> size, () or (m,), below
-    which a component is not told from 0: what a check of the digits showed, else the tolerance of the run; none where neither is known.
+    t: (n,), s (tau when scaled); state: name -> (n, m): omega (x when scaled), gamma, angles (psi, phi,
+    theta, continuous from the start, rad) or quaternion (x, y, z, w), momentum (inertial, kg m^2/s),
+    velocity, position (inertial), and for averaged models amplitude, spin, phase (n,). model: "exact",
+    "linear", ...; the rest as of Trajectory. validity: of the scene's laws; what a formula assumes beyond
+    them stands in `reason`. error: name -> size, () or (m,), below which a component is not told from 0: what
+    a check of the digits showed, else the tolerance of the run; none where neither is known.
     """
 
     t: np.ndarray
@@ -55,20 +69,23 @@ class Simulation(Shown, Compared):
 
 
 def errors_of(state: Mapping[str, np.ndarray], share: float) -> dict[str, np.ndarray]:
-    """The error of each component of the parts of a state, a share of the part's largest size over the times."""
-    return {name: np.full(values.shape[1:], share * np.abs(values).max(initial=0.0)) for name, values in state.items()}
+    """The error of each component of the parts of a state, a share of the part's largest size over the times.
+    """
+    return {name: np.full(values.shape[1:], share * np.abs(values).max(initial=0.0)) for name,
+            values in state.items()}
 
 
-def simulate(scene: Any, omega: Any = None, times: ArrayLike | None = None, blocks: Mapping[str, Sequence[float]] | None = None,
+def simulate(scene: Any, omega: Any = None, times: ArrayLike | None = None,
+             blocks: Mapping[str, Sequence[float]] | None = None,
              method: str | None = None, rtol: float | None = None) -> Simulation:
-    """The exact motion of a scene from angular velocity `omega` at the given times. A case stands for its scene; its own start holds where none is
-    given, and the two ends of its span where no times are.
+    """The exact motion of a scene from angular velocity `omega` at the given times. A case stands for its
+    scene; its own start holds where none is given, and the two ends of its span where no times are.
 
-    blocks: the rest of the state at time 0 ("gamma", "velocity", "position": three numbers, "attitude": psi, phi,
-    theta, rad, or a quaternion from body to space, scalar last, which is then told in place of angles); those that the
-    scene needs and blocks leaves out start at gamma = e3, zero angles, rest. method: None
-    is "taylor", or Radau where the decay is so fast that an explicit method would crawl (the reason says so). Raises
-    InputError as `trajectory` does.
+    blocks: the rest of the state at time 0 ("gamma", "velocity", "position": three numbers, "attitude": psi,
+    phi, theta, rad, or a quaternion from body to space, scalar last, which is then told in place of angles);
+    those that the scene needs and blocks leaves out start at gamma = e3, zero angles, rest. method: None
+    is "taylor", or Radau where the decay is so fast that an explicit method would crawl (the reason says so).
+    Raises InputError as `trajectory` does.
     """
     if is_case(scene):
         blocks = scene.blocks if omega is None and blocks is None else blocks
@@ -100,21 +117,25 @@ def in_quaternions(scene: Scene, state: dict[str, np.ndarray]) -> dict[str, np.n
     """The blocks with the quaternion scalar last, and the angular momentum in space."""
     q = state.pop("attitude")
     first = {name: state.pop(name) for name in ("omega", "gamma") if name in state}
-    return first | {"quaternion": scalar_last(q), "momentum": to_space(q, body_momentum(scene, first["omega"]))} | state
+    return (first | {"quaternion": scalar_last(q),
+                     "momentum": to_space(q, body_momentum(scene, first["omega"]))} | state)
 
 
 def _simulation(run: Trajectory, state: dict[str, np.ndarray], *why: str) -> Simulation:
-    return Simulation(run.t, state, "exact", run.method, run.rtol, run.invariant_drift, run.counters, run.status, _reason(run, *why),
+    return Simulation(run.t, state, "exact", run.method, run.rtol, run.invariant_drift, run.counters,
+                      run.status, _reason(run, *why),
                       run.validity, errors_of(state, max(run.rtol or 0.0, ROUNDING)))
 
 
 def _reason(run: Trajectory, *why: str) -> str:
-    """Say why the run stopped and what is to be said of its method. Where it did not stop, say that all times were reached."""
+    """Say why the run stopped and what is to be said of its method. Where it did not stop, say that all times
+    were reached."""
     told = "; ".join(filter(None, (run.reason if run.status != "reached" else "", *why)))
     return told or run.reason
 
 
-def _chosen(scene: AnyScene, start: Mapping[str, Sequence[float]], times: np.ndarray, method: str | None, rtol: float | None) -> tuple[str, float | None, str]:
+def _chosen(scene: AnyScene, start: Mapping[str, Sequence[float]], times: np.ndarray, method: str | None,
+            rtol: float | None) -> tuple[str, float | None, str]:
     """(method, rtol, why) with the stiff method where nothing was asked for and the decay is too fast."""
     if method is not None or not any(not e.keeps_volume for e in scene.effects):
         return "taylor" if method is None else method, rtol, ""
@@ -124,11 +145,14 @@ def _chosen(scene: AnyScene, start: Mapping[str, Sequence[float]], times: np.nda
     turn = float(np.linalg.norm(start["omega"])) if len(equations.blocks) > 1 else 0.0
     if stiffness <= STIFF or fastest < TURNING * turn:
         return "taylor", rtol, ""
-    return STIFF_METHOD, STIFF_RTOL if rtol is None else rtol, (f"stiff: the fastest decay, {fastest:.3g}/s, runs down {stiffness:.2g} times "
-                                                                       f"over the span, so the implicit method {STIFF_METHOD} was taken")
+    return STIFF_METHOD, STIFF_RTOL if rtol is None else rtol, (f"stiff: the fastest decay, {fastest:.3g}/s, "
+                                                                f"runs down {stiffness:.2g} times "
+                                                                       f"over the span, so the implicit "
+                                                                       f"method {STIFF_METHOD} was taken")
 
 
-def _with_attitude(scene: Scene, start: Any, first: Any, times: np.ndarray, method: str, rtol: float | None, why: str) -> Simulation:
+def _with_attitude(scene: Scene, start: Any, first: Any, times: np.ndarray, method: str, rtol: float | None,
+                   why: str) -> Simulation:
     """The run with angles unwrapped over a grid fine enough that no turn is missed."""
     inner, first, doubtful = _grid(scene, start, times, method, rtol), np.asarray(first, float), ""
     for _ in range(ROUNDS):
@@ -139,7 +163,8 @@ def _with_attitude(scene: Scene, start: Any, first: Any, times: np.ndarray, meth
         path = np.empty_like(wrapped)
         path[middle:] = unwrapped(wrapped[middle:], first)
         path[:middle + 1] = unwrapped(wrapped[middle::-1], first)[::-1]
-        wide = np.nonzero(np.abs(np.diff(path[:, 1:], axis=0)).max(axis=1, initial=0.0) > np.pi - SHORT_WAY)[0]
+        wide = np.nonzero(np.abs(np.diff(path[:, 1:], axis=0)).max(axis=1, initial=0.0) > np.pi
+                          - SHORT_WAY)[0]
         if not len(wide) or len(inner) + len(wide) > POINTS or run.status != "reached":
             break
         inner = np.unique(np.concatenate([inner, *(0.5 * (run.t[wide] + run.t[wide + 1]),)]))
@@ -147,17 +172,19 @@ def _with_attitude(scene: Scene, start: Any, first: Any, times: np.ndarray, meth
         doubtful = (f"near t = {run.t[wide[0]]:.6g} the attitude passes the singular angle cos psi = 0; "
                     "phi and theta take the short way there")
     ordered_times = np.sort(times)
-    at = np.searchsorted(run.t, ordered_times if run.status == "reached" else ordered_times[np.isin(ordered_times, run.t)])
+    at = np.searchsorted(run.t, ordered_times if run.status == "reached"
+                         else ordered_times[np.isin(ordered_times, run.t)])
     at = at if len(times) < 2 or times[0] < times[-1] else at[::-1]
     state = {name: run.block(name)[at] for name in run.blocks if name != "attitude"}
     state = {"omega": state.pop("omega"), **({"gamma": state.pop("gamma")} if "gamma" in state else {}),
-             "angles": path[at], "momentum": to_space(q[at], body_momentum(scene, run.block("omega")[at])), **state}
+             "angles": path[at], "momentum": to_space(q[at], body_momentum(scene, run.block("omega")[at])),
+             **state}
     return _simulation(replace(run, t=run.t[at]), state, why, doubtful)
 
 
 def _grid(scene: Scene, start: Any, times: np.ndarray, method: str, rtol: float | None) -> np.ndarray:
-    """The asked-for times, zero, and the method's own steps with points inside each: between the points of a step the
-    body turns by less than a radian or so, however it hurries between the asked-for times."""
+    """The asked-for times, zero, and the method's own steps with points inside each: between the points of a
+    step the body turns by less than a radian or so, however it hurries between the asked-for times."""
     base = np.unique(np.concatenate([[0.0], times]))
     steps: list[float] = []
     trajectory(scene, start, base, method, rtol, steps)

@@ -1,8 +1,10 @@
 """What a tilt of the torque does to a motion: no thruster points exactly along an axis.
 
-A verdict that rests on a torque exactly on an axis is lost with any tilt: the integrals of the axis drift, and the motion leaves its well after a time
-like 1/tilt. Two answers stand beside it: the shortest time to the rate limit that is found at the edge of the cone of torques, and a time before which
-no torque of the cone reaches it (`passage.drift`). Any other motion has a range instead: of the time to its limit, or of its fate, over the cone.
+A verdict that rests on a torque exactly on an axis is lost with any tilt: the integrals of the axis drift,
+and the motion leaves its well after a time like 1/tilt. Two answers stand beside it: the shortest time to the
+rate limit that is found at the edge of the cone of torques, and a time before which no torque of the cone
+reaches it (`passage.drift`). Any other motion has a range instead: of the time to its limit, or of its fate,
+over the cone.
 """
 from __future__ import annotations
 
@@ -39,14 +41,16 @@ WORK = 8_000_000  # multiplications for a proof of the shortest time
 TWICE = 2.0  # times the largest rate of the bounded motion: the limit where none is stated
 UP = 1 + 1e-12  # more than the rounding of a few doubles
 Tried: TypeAlias = list[tuple[float, float]]  # a value and its azimuth
-VERBS = {Fate.BOUNDED: "stays bounded", Fate.SPIN_UP: "spins up", Fate.SEPARATRIX: "lies on a separatrix", Fate.EQUILIBRIUM: "stays as it is",
+VERBS = {Fate.BOUNDED: "stays bounded", Fate.SPIN_UP: "spins up", Fate.SEPARATRIX: "lies on a separatrix",
+         Fate.EQUILIBRIUM: "stays as it is",
          Fate.UNDECIDED: "is undecided"}
 
 
 @dataclass(frozen=True)
 class Cone:
-    """torque: on its axis, N m, principal axes; parts: what each tilted force or torque adds: (whole (3,), first (3,), second (3,), half-angle): at
-    azimuth phi the change is (cos - 1) whole + sin (cos phi first + sin phi second). words: what is tilted; angle: the largest half-angle."""
+    """torque: on its axis, N m, principal axes; parts: what each tilted force or torque adds: (whole (3,),
+    first (3,), second (3,), half-angle): at azimuth phi the change is (cos - 1) whole + sin (cos phi first +
+    sin phi second). words: what is tilted; angle: the largest half-angle."""
 
     torque: np.ndarray
     parts: tuple[Any, ...]
@@ -55,32 +59,41 @@ class Cone:
 
     def at(self, azimuth: float) -> np.ndarray:
         """The torque (3,) at the edge of the cone."""
-        return self.torque + sum((math.cos(a) - 1) * whole + math.sin(a) * (math.cos(azimuth) * first + math.sin(azimuth) * second)
+        return self.torque + sum((math.cos(a) - 1) * whole
+                                 + math.sin(a) * (math.cos(azimuth) * first + math.sin(azimuth) * second)
                                  for whole, first, second, a in self.parts)
 
     def reach(self) -> tuple[float, tuple[float, float]]:
-        """(most of the part across the axis, (least, most) of the component along it) of every torque in the cone."""
+        """(most of the part across the axis, (least, most) of the component along it) of every torque in the
+        cone."""
         axis = int(np.argmax(np.abs(self.torque)))
         across = [n for n in range(3) if n != axis]
-        side = sum((1 - math.cos(a)) * math.hypot(*whole[across]) + math.sin(a) * np.linalg.norm(np.stack([first, second])[:, across], 2)
+        side = sum((1 - math.cos(a)) * math.hypot(*whole[across])
+                   + math.sin(a) * np.linalg.norm(np.stack([first, second])[:, across], 2)
                    for whole, first, second, a in self.parts)
-        along = sum((1 - math.cos(a)) * abs(whole[axis]) + math.sin(a) * math.hypot(first[axis], second[axis]) for whole, first, second, a in self.parts)
+        along = sum((1 - math.cos(a)) * abs(whole[axis]) + math.sin(a) * math.hypot(first[axis], second[axis])
+                    for whole, first, second, a in self.parts)
         blur = (UP - 1) * (float(np.abs(self.torque).max()) + side + along)
-        return float(side) + blur, (float(self.torque[axis] - along) - blur, float(self.torque[axis] + along) + blur)
+        return float(side) + blur, (float(self.torque[axis] - along) - blur,
+                                    float(self.torque[axis] + along) + blur)
 
 
 def cone_of(scene: Scene, case: Any = None, angle: float | None = None) -> Cone:
-    """The cone of a scene's torque: tilted as a whole by `angle`, or, without it, as the stuck thrusters of the case state.
+    """The cone of a scene's torque: tilted as a whole by `angle`, or, without it, as the stuck thrusters of
+    the case state.
 
-    Azimuth 0 of a torque along an axis lies towards the axis that follows it, cyclically; of another across the axis that is farthest from it; of a
-    thruster, across the structural axis that is farthest from its force.
+    Azimuth 0 of a torque along an axis lies towards the axis that follows it, cyclically; of another across
+    the axis that is farthest from it; of a thruster, across the structural axis that is farthest from its
+    force.
     """
     torque = np.array([float(v) for v in scene.vector("constant_torque")])
     axis = int(np.argmax(np.abs(torque)))
-    loose = [] if angle is not None or case is None else [t for t in case.thrusters if t.stuck and t.misalignment]
+    loose = ([] if angle is not None or case is None
+             else [t for t in case.thrusters if t.stuck and t.misalignment])
     if loose:
         parts = tuple(_of_force(case, thruster) for thruster in loose)
-        return Cone(torque, parts, "the force of " + " and ".join(t.name for t in loose), max(part[-1] for part in parts))
+        return Cone(torque, parts, "the force of " + " and ".join(t.name for t in loose),
+                    max(part[-1] for part in parts))
     first, second = (abs(torque[axis]) * np.eye(3)[(axis + n) % 3] for n in (1, 2))
     if np.count_nonzero(torque) > 1:
         first = np.cross(np.eye(3)[int(np.argmin(np.abs(torque)))], torque)
@@ -90,14 +103,16 @@ def cone_of(scene: Scene, case: Any = None, angle: float | None = None) -> Cone:
 
 
 def _of_force(case: Any, thruster: Any) -> tuple[np.ndarray, np.ndarray, np.ndarray, float]:
-    """(whole, first, second, half-angle) of the torque of a thruster whose force points anywhere in its cone, along principal axes."""
+    """(whole, first, second, half-angle) of the torque of a thruster whose force points anywhere in its cone,
+    along principal axes."""
     force = np.array([float(v) for v in thruster.direction])
     arm = np.array([float(v) for v in thruster.arm])
     aside = np.eye(3)[int(np.argmin(np.abs(force)))]
     first = np.cross(aside, force)
     first /= np.linalg.norm(first)
     frame = np.array([[float(v) for v in axis] for axis in case.frame.axes])
-    turned = [frame @ np.cross(arm, float(thruster.force) * v) for v in (force, first, np.cross(force, first))]
+    turned = [frame @ np.cross(arm, float(thruster.force) * v)
+              for v in (force, first, np.cross(force, first))]
     return turned[0], turned[1], turned[2], float(thruster.misalignment)
 
 
@@ -110,11 +125,13 @@ def tilted(scene: Scene, torque: np.ndarray) -> Scene:
 
 @dataclass(frozen=True)
 class Tilt:
-    """angle: half-angle of the cone, rad; of: what is tilted; limit: rad/s, of |omega|, or the least of three components; stated: whether the case
-    gives it. not_before: no torque of the cone reaches the limit before (s, proved). low, high, level: of the shortest time found, as of `TimeTo`,
-    at azimuth (rad) under torque (3,) N m, principal axes; None where none was found, and followed says how long. azimuths, times: (n,) of those that were
-    looked at (one, where a run falls short of not_before), inf where the limit was not reached. untilted: (low, high) of the time at which the bounded
-    motion itself reaches the limit, None where it never does."""
+    """angle: half-angle of the cone, rad; of: what is tilted; limit: rad/s, of |omega|, or the least of three
+    components; stated: whether the case gives it. not_before: no torque of the cone reaches the limit before
+    (s, proved). low, high, level: of the shortest time found, as of `TimeTo`, at azimuth (rad) under torque
+    (3,) N m, principal axes; None where none was found, and followed says how long. azimuths, times: (n,) of
+    those that were looked at (one, where a run falls short of not_before), inf where the limit was not
+    reached. untilted: (low, high) of the time at which the bounded motion itself reaches the limit, None
+    where it never does."""
 
     ranges: ClassVar[bool] = False
 
@@ -141,10 +158,11 @@ class Tilt:
 
 @dataclass(frozen=True)
 class Spread:
-    """angle: half-angle of the cone, rad; of: what is tilted; directions: of the torque that were looked at, its own and those round the edge of the cone.
-    limit: rad/s as of `Limit.least_rate`, None where no limit is asked: then fates says in how many directions the motion has which fate.
-    earliest, latest: (low, high) of the least and the greatest time found, s, None where the limit was not reached in any direction, or not in all of
-    them within `followed`, s; level: of both, as of `TimeTo`. because: why none was looked at."""
+    """angle: half-angle of the cone, rad; of: what is tilted; directions: of the torque that were looked at,
+    its own and those round the edge of the cone. limit: rad/s as of `Limit.least_rate`, None where no limit
+    is asked: then fates says in how many directions the motion has which fate. earliest, latest: (low, high)
+    of the least and the greatest time found, s, None where the limit was not reached in any direction, or not
+    in all of them within `followed`, s; level: of both, as of `TimeTo`. because: why none was looked at."""
 
     ranges: ClassVar[bool] = True
 
@@ -169,31 +187,38 @@ class Spread:
             return f"{by} " + ", ".join(f"{word} in {count}" for word, count in self.fates) + f" {many}"
         reaches = f"reaches {self.limit:.6g} rad/s"
         if self.earliest is None:
-            return f"{by} was not found to reach {self.limit:.6g} rad/s within {self.followed:.6g} s in any {many}"
+            return (
+                f"{by} was not found to reach {self.limit:.6g} rad/s within {self.followed:.6g} s in any "
+                f"{many}")
         first = f"{by} {reaches} after {self.earliest[0]:.6g} s at the earliest"
         if self.latest is None:
             return f"{first} {many} ({self.level}), in some of them not within {self.followed:.6g} s"
         return f"{first} and after {self.latest[1]:.6g} s at the latest {many} ({self.level})"
 
 
-def tilt(scene: AnyScene, state: Any, angle: float | None = None, rate: Any = None, case: Any = None, exact: Exact3 | None = None,
+def tilt(scene: AnyScene, state: Any, angle: float | None = None, rate: Any = None, case: Any = None,
+         exact: Exact3 | None = None,
          ask: dict[str, Any] | None = None) -> Tilt:
     """What a tilt of the torque does to a bounded motion under a torque on a principal axis.
 
-    scene: of a body; state: three rates; angle: rad, the half-angle of the cone of torques (None: what the stuck thrusters of `case` state as
-    their misalignment, else one degree); rate: limit of |omega|, rad/s, or three of its components; ask: or any limit by its name as of `time_to`
-    (neither: twice the largest rate of the bounded motion). exact: three exact numbers that the state is the rounding of.
-    Raises InputError where the torque is not on an axis, or the motion not bounded.
+    scene: of a body; state: three rates; angle: rad, the half-angle of the cone of torques (None: what the
+    stuck thrusters of `case` state as their misalignment, else one degree); rate: limit of |omega|, rad/s, or
+    three of its components; ask: or any limit by its name as of `time_to` (neither: twice the largest rate of
+    the bounded motion). exact: three exact numbers that the state is the rounding of. Raises InputError where
+    the torque is not on an axis, or the motion not bounded.
     """
     scene, state = checked_scene(scene), three_floats(state)
     if scene.variables == "scaled" or not torque_axis(scene) or kind_of(scene) != "orbit":
-        raise InputError("tilt: expected a body under a torque along one of its principal axes, without wheel momentum along it")
+        raise InputError(
+            "tilt: expected a body under a torque along one of its principal axes, without wheel momentum "
+            "along it")
     if Fate(int(fate(scene, state).labels)) not in STEADY:
         raise InputError("tilt: the motion is not bounded as it is: ask time_to of it")
     if angle is None and not (case is not None and any(t.stuck and t.misalignment for t in case.thrusters)):
         angle = DEGREE
     if angle is not None and not 0 < angle < math.pi / 2:
-        raise InputError(f"tilt: expected an angle between 0 and a quarter turn (pi/2 rad), got {angle!r} rad")
+        raise InputError(
+            f"tilt: expected an angle between 0 and a quarter turn (pi/2 rad), got {angle!r} rad")
     stated = ask if rate is None else {"rate": rate}
     question = stated or _twice_the_largest(scene, state)
     limit = asked(scene, **question)
@@ -216,11 +241,14 @@ def tilt(scene: AnyScene, state: Any, angle: float | None = None, rate: Any = No
     if np.isfinite(times).any():
         azimuth = float(azimuths[np.argmin(times)])
         torque = cone.at(azimuth)
-        # by runs: the validated steps of a proof take a machine ten seconds to compile, which nobody who asks for the first time awaits
+        # by runs: the validated steps of a proof take a machine ten seconds to compile, which nobody who asks
+        # for the first time awaits
         first = time_to(tilted(scene, torque), state, **question, exact=exact, work=0)
-        found = {"low": float(first.low), "high": float(first.high) if first.high == first.high else float(times.min()), "level": str(first.level),
+        found = {"low": float(first.low), "high": float(first.high) if first.high == first.high
+                 else float(times.min()), "level": str(first.level),
                  "azimuth": azimuth, "torque": tuple(torque.tolist())}
-    return Tilt(cone.angle, cone.words, least, stated is not None, not_before, **found, followed=followed, azimuths=azimuths, times=times,
+    return Tilt(cone.angle, cone.words, least, stated is not None, not_before, **found, followed=followed,
+                azimuths=azimuths, times=times,
                 untilted=(float(exactly.low), float(exactly.high)) if exactly.high < math.inf else None)
 
 
@@ -230,8 +258,10 @@ def _twice_the_largest(scene: AnyScene, state: Any) -> dict[str, Any]:
     return {"rate": TWICE * math.hypot(*largest.tolist())}
 
 
-def spread(scene: Scene, state: Any, cone: Cone, ask: dict[str, Any] | None, exact: Exact3 | None = None) -> Spread:
-    """The range over the torque itself and those at the edge of its cone. ask: the limit, by its name as of `time_to`; None: the fates."""
+def spread(scene: Scene, state: Any, cone: Cone, ask: dict[str, Any] | None,
+           exact: Exact3 | None = None) -> Spread:
+    """The range over the torque itself and those at the edge of its cone. ask: the limit, by its name as of
+    `time_to`; None: the fates."""
     torques = [cone.torque, *map(cone.at, EDGE)]
     if ask is None:
         found = Counter(VERBS[Fate(int(fate(tilted(scene, torque), state).labels))] for torque in torques)
@@ -242,22 +272,28 @@ def spread(scene: Scene, state: Any, cone: Cone, ask: dict[str, Any] | None, exa
     (own, *times), ends = map(list, zip(*map(time, torques)))
     most = []
     for sign in (1, -1) if np.isfinite([own, *times]).any() else ():
-        best, azimuth = min(nearest_round(partial(signed, sign), [(sign * t, at) for t, at in zip(times, EDGE)]))
+        best, azimuth = min(nearest_round(partial(signed, sign),
+                                          [(sign * t, at) for t, at in zip(times, EDGE)]))
         most.append(cone.torque if sign * own <= best else cone.at(azimuth))
     if not most:
         return Spread(cone.angle, cone.words, len(torques), limit.least_rate(), followed=min(ends))
     exactly = [time_to(tilted(scene, torque), state, **ask, exact=exact, work=WORK) for torque in most]
-    (first, last), all_of_them = [(float(one.low), float(one.high)) for one in exactly], bool(np.isfinite([own, *times]).all())
+    (first, last), all_of_them = [(float(one.low), float(one.high))
+                                  for one in exactly], bool(np.isfinite([own, *times]).all())
     levels = {str(one.level) for one in exactly[:1 + all_of_them]}
-    return Spread(cone.angle, cone.words, len(torques) + 4 * REFINED, limit.least_rate(), first, last if all_of_them and math.isfinite(last[1]) else None,
+    return Spread(cone.angle, cone.words, len(torques) + 4 * REFINED, limit.least_rate(), first,
+                  last if all_of_them and math.isfinite(last[1]) else None,
                   levels.pop() if len(levels) == 1 else "run", min(ends))
 
 
 def nearest_round(value: Callable[[float], float], tried: Tried) -> Tried:
-    """The (value, azimuth) of a function round the edge of a cone that were tried, and more of them, closer and closer to the least."""
+    """The (value, azimuth) of a function round the edge of a cone that were tried, and more of them, closer
+    and closer to the least."""
     step = math.pi / AZIMUTHS
     for _ in range(REFINED):
         best = min(tried)[1]
-        tried = [*tried, *((value(azimuth), azimuth) for azimuth in ((best - step) % (2 * math.pi), (best + step) % (2 * math.pi)))]
+        tried = [*tried,
+                 *((value(azimuth), azimuth)
+                   for azimuth in ((best - step) % (2 * math.pi), (best + step) % (2 * math.pi)))]
         step /= 2
     return tried

@@ -1,4 +1,5 @@
-"""The body of a case: moments or a tensor of inertia, hardware (wheels, thrusters, limits), and frames turned against the principal axes."""
+"""The body of a case: moments or a tensor of inertia, hardware (wheels, thrusters, limits), and frames turned
+against the principal axes."""
 from __future__ import annotations
 
 from dataclasses import replace
@@ -18,8 +19,10 @@ from .units import FORCE, INERTIA, in_dimension, pi, split
 # of mass
 KEYS = ("inertia", "products", "mass", "centre_of_mass")
 PAIRS = {"xy": (0, 1), "xz": (0, 2), "yz": (1, 2)}
-CONVENTIONS = ('"positive" (the products are the integrals of x y dm and so on, the entries of the tensor are minus these; '
-               'NASA 42 and many mass-property reports) or "negative" (the products are the entries of the tensor themselves)')
+CONVENTIONS = ('"positive" (the products are the integrals of x y dm and so on, the entries of the tensor '
+               'are minus these; '
+               'NASA 42 and many mass-property reports) or "negative" (the products are the entries of the '
+               'tensor themselves)')
 
 
 def body_of(top: Table) -> tuple[Body | None, PrincipalAxes | None]:
@@ -34,14 +37,17 @@ def body_of(top: Table) -> tuple[Body | None, PrincipalAxes | None]:
     table.vector("centre_of_mass")
     frame = _frame(table) if table.required("inertia") else None
     try:
-        return (None, None) if frame is None or (mass is None and "mass" in table) else (Body(frame.moments, mass, _slack(table)), frame)
+        return (None, None) if frame is None or (mass is None
+                                                 and "mass" in table) else (Body(frame.moments, mass,
+                                                                                 _slack(table)), frame)
     except InputError as error:
         table.fault(str(error).removeprefix("inertia: "), "inertia")
         return None, None
 
 
 def centre_of_mass(top: Table) -> Exact3 | None:
-    """Where the centre of mass is in the structural frame, m; None where the file does not say. Faults are noted by `body_of`."""
+    """Where the centre of mass is in the structural frame, m; None where the file does not say. Faults are
+    noted by `body_of`."""
     body = top.data.get("body")
     if not isinstance(body, dict) or "centre_of_mass" not in body:
         return None
@@ -50,7 +56,8 @@ def centre_of_mass(top: Table) -> Exact3 | None:
 
 def _frame(table: Table) -> PrincipalAxes | None:
     value = table.data["inertia"]
-    nested = isinstance(value, list) and any(isinstance(row, list) for row in value) and all(isinstance(row, list) for row in value)
+    nested = (isinstance(value, list) and any(isinstance(row, list) for row in value)
+              and all(isinstance(row, list) for row in value))
     if not nested and "products" not in table:
         moments = table.vector("inertia")
         return PrincipalAxes(moments, IDENTITY, True) if moments and _good(table, moments) else None
@@ -70,7 +77,8 @@ def _tensor(table: Table):
     if rows is None:
         return None
     slack = ROUNDING * max(abs(v) for row in rows for v in row)
-    return [[(v + rows[j][i]) / 2 if abs(v - rows[j][i]) <= slack else v for j, v in enumerate(row)] for i, row in enumerate(rows)]
+    return [[(v + rows[j][i]) / 2 if abs(v - rows[j][i]) <= slack else v for j, v in enumerate(row)] for i,
+            row in enumerate(rows)]
 
 
 def _with_products(table: Table):
@@ -84,7 +92,8 @@ def _with_products(table: Table):
     if convention not in signs:
         came = "" if convention is None else f", got {described(convention)}"
         keys = () if convention is None else ("convention",)
-        products.fault(f"products of inertia are printed with either sign: add convention = {CONVENTIONS}{came}", *keys)
+        products.fault(
+            f"products of inertia are printed with either sign: add convention = {CONVENTIONS}{came}", *keys)
         return None
     rows = [[moments[i] if i == j else Fraction(0) for j in range(3)] for i in range(3)]
     for name, (i, j) in PAIRS.items():
@@ -99,7 +108,8 @@ def _good(table: Table, moments) -> bool:
     """Whether three principal moments are positive, within their uncertainties too; the faults of both."""
     negative = [index for index, moment in enumerate(moments) if moment <= 0]
     for index in negative:
-        table.fault(f"number {index + 1} is {float(moments[index])!r}; principal moments are positive", "inertia", index)
+        table.fault(f"number {index + 1} is {float(moments[index])!r}; principal moments are positive",
+                    "inertia", index)
     return not negative and _possible(table, moments)
 
 
@@ -108,17 +118,20 @@ def _possible(table: Table, moments) -> bool:
     for index, moment in enumerate(moments):
         given = table.faults.uncertain.get(table.path + ("inertia", index))
         if given and moment <= given.half:
-            table.fault(f"number {index + 1}: the uncertainty reaches moments down to {float(moment - given.half)!r}; no rigid body has these: "
+            table.fault(f"number {index + 1}: the uncertainty reaches moments down to "
+                        f"{float(moment - given.half)!r}; no rigid body has these: "
                         "make it smaller", "inertia", index)
             return False
     return True
 
 
 def _slack(table: Table) -> Fraction:
-    """How far the digits of the tensor leave open by how much its largest moment exceeds the sum of the others, kg m^2.
+    """How far the digits of the tensor leave open by how much its largest moment exceeds the sum of the
+    others, kg m^2.
 
-    With half units e_ij of the entries that is at most e_11 + e_22 + e_33 + 2 max_i sum_(j != i) e_ij: the trace changes by the
-    first, and an eigenvalue of the tensor less half its trace by at most the largest sum of a row (Gershgorin).
+    With half units e_ij of the entries that is at most e_11 + e_22 + e_33 + 2 max_i sum_(j != i) e_ij: the
+    trace changes by the first, and an eigenvalue of the tensor less half its trace by at most the largest sum
+    of a row (Gershgorin).
     """
     inertia, products = table.data["inertia"], table.data.get("products", {})
     if isinstance(inertia[0], list):
@@ -149,9 +162,10 @@ SAME = Fraction(1, 10**6)  # relative: momentum and inertia x speed given to six
 
 @record
 class Thruster:
-    """position: m, structural frame; direction: unit vector of the force on the body, input frame; force: N; misalignment: half-angle
-    of the cone that the true direction lies in, rad, or None; force_tolerance: half-width, N, or None; stuck: whether it fires for
-    ever; torque: about the centre of mass, N m, input frame, of the force as stated; arm: from there to its position, m."""
+    """position: m, structural frame; direction: unit vector of the force on the body, input frame; force: N;
+    misalignment: half-angle of the cone that the true direction lies in, rad, or None; force_tolerance:
+    half-width, N, or None; stuck: whether it fires for ever; torque: about the centre of mass, N m, input
+    frame, of the force as stated; arm: from there to its position, m."""
 
     name: str
     position: Exact3
@@ -166,7 +180,8 @@ class Thruster:
 
 @record
 class Wheel:
-    """axis: unit vector, input frame; momentum: along it relative to the body, N m s; vector: both as a vector, input frame."""
+    """axis: unit vector, input frame; momentum: along it relative to the body, N m s; vector: both as a
+    vector, input frame."""
 
     name: str
     axis: Exact3
@@ -176,19 +191,22 @@ class Wheel:
 
 @record
 class Limits:
-    """rate: largest |omega|, rad/s, or rates: largest |omega_i| along the axes of the input frame; the other one is None."""
+    """rate: largest |omega|, rad/s, or rates: largest |omega_i| along the axes of the input frame; the other
+    one is None."""
 
     rate: Fraction | None = None
     rates: Exact3 | None = None
 
     def components(self, frame: PrincipalAxes) -> list[tuple[Exact3, Fraction]]:
         """(axis of the input frame as a unit vector along the principal axes, its limit) of `rates`."""
-        return [(frame.turned([Fraction(int(n == m)) for n in range(3)]), most) for m, most in enumerate(self.rates or ())]
+        return [(frame.turned([Fraction(int(n == m)) for n in range(3)]), most) for m,
+                most in enumerate(self.rates or ())]
 
 
 def thrusters_of(top: Table, centre: Exact3 | None) -> tuple[Thruster, ...]:
     """Those without a fault."""
-    found = [_thruster(table, f"thruster {i}", centre or ZERO3) for i, table in enumerate(top.tables("thrusters"), 1)]
+    found = [_thruster(table, f"thruster {i}", centre or ZERO3) for i,
+             table in enumerate(top.tables("thrusters"), 1)]
     _told_apart(top, "thrusters", THRUSTER)
     return tuple(one for one in found if one)
 
@@ -213,7 +231,8 @@ def limits_of(top: Table) -> Limits | None:
     rates = table.vector("rate")
     for index, value in enumerate(rates or ()):
         if value <= 0:
-            table.fault(f"number {index + 1}: expected a positive number, got {float(value)!r}", "rate", index)
+            table.fault(f"number {index + 1}: expected a positive number, got {float(value)!r}", "rate",
+                        index)
             return None
     return None if rates is None else Limits(None, rates)
 
@@ -232,18 +251,25 @@ def judge_limits(top: Table, limits: Limits | None, state: Exact3 | None):
 
 def _too_low(table: Table, which: str, limit, now, degrees, *place):
     digits = 6 if f"{float(limit):.6g}" != f"{float(now):.6g}" else 17
-    told = [f"{float(rate):.{digits}g} rad/s ({float(rate * degrees):.{digits}g} deg/s)" for rate in (limit, now)]
-    table.fault(f"{which}the limit, {told[0]}, is below the rate that the motion starts with, {told[1]}: raise it or start slower", *place)
+    told = [f"{float(rate):.{digits}g} rad/s ({float(rate * degrees):.{digits}g} deg/s)"
+            for rate in (limit, now)]
+    table.fault(
+        f"{which}the limit, {told[0]}, is below the rate that the motion starts with, {told[1]}: raise it or "
+        f"start slower", *place)
 
 
 def _told_apart(top: Table, key: str, allowed):
     """Note what is no key, and names that two of them share."""
     first = {}
-    for table in top.tables(key) if isinstance(top.data.get(key), list) and all(isinstance(t, dict) for t in top.data[key]) else ():
+    for table in top.tables(key) if isinstance(top.data.get(key),
+                                               list) and all(isinstance(t, dict)
+                                                             for t in top.data[key]) else ():
         table.known(allowed)
         name = table.data.get("name")
         if isinstance(name, str) and name in first:
-            table.fault(f"two {key} have the name {described(name).removeprefix('the text ')}: give each its own", "name")
+            table.fault(
+                f"two {key} have the name {described(name).removeprefix('the text ')}: give each its own",
+                "name")
         elif isinstance(name, str):
             first[name] = table
 
@@ -257,20 +283,24 @@ def _name(table: Table, otherwise: str) -> str:
 
 def _thruster(table: Table, otherwise: str, centre: Exact3) -> Thruster | None:
     name, stuck = _name(table, otherwise), table.truth("stuck")
-    complete = table.required("position", "direction", "force", position="add where it is, three numbers in m in the structural frame",
-                              direction="add that of its force on the body, three numbers, any length", force='add its size, such as force = "1 N"')
+    complete = table.required("position", "direction", "force",
+                              position="add where it is, three numbers in m in the structural frame",
+                              direction="add that of its force on the body, three numbers, any length",
+                              force='add its size, such as force = "1 N"')
     position, direction = table.vector("position"), _direction(table, "direction")
     force, tolerance = _force(table)
     angle = table.positive("misalignment", zero=True)
     if angle is not None and 2 * angle >= pi():
-        table.fault(f"expected the half-angle of a cone below 90 deg, got {float(angle * 180 / pi()):.6g} deg; "
+        table.fault(f"expected the half-angle of a cone below 90 deg, got "
+                    f"{float(angle * 180 / pi()):.6g} deg; "
                     'a number alone is in rad, write "1 deg"', "misalignment")
     if not complete or None in (position, direction, force):
         return None
     raw, length = direction
     arm = tuple(p - c for p, c in zip(position, centre))
     torque = tuple(force * t / length for t in cross(arm, raw))
-    return Thruster(name, position, tuple(v / length for v in raw), force, angle, tolerance, stuck, torque, arm)
+    return Thruster(name, position, tuple(v / length for v in raw), force, angle, tolerance, stuck, torque,
+                    arm)
 
 
 def _force(table: Table):
@@ -288,10 +318,13 @@ def _force(table: Table):
         force = table.number("force")
         tolerance = _tolerance(table, force)
     if force is not None and force <= 0:
-        table.fault(f"expected a positive force, got {float(force):.6g} N; turn the direction round for a force the other way", "force")
+        table.fault(
+            f"expected a positive force, got {float(force):.6g} N; turn the direction round for a force the "
+            f"other way", "force")
         return None, None
     if force is not None and tolerance is not None and tolerance >= force:
-        table.fault(f"expected a tolerance below the force, {float(force):.6g} N, got {float(tolerance):.6g} N: the force would have no sure direction",
+        table.fault(f"expected a tolerance below the force, {float(force):.6g} N, got {float(tolerance):.6g} "
+                    f"N: the force would have no sure direction",
                     "force_tolerance" if "force_tolerance" in table else "force")
         return None, None
     return force, tolerance
@@ -313,7 +346,8 @@ def _tolerance(table: Table, force):
 
 
 def _direction(table: Table, key: str):
-    """(the vector as written, its length), or None. The length is exact where it is rational, else good to 240 bits."""
+    """(the vector as written, its length), or None. The length is exact where it is rational, else good to
+    240 bits."""
     vector = table.vector(key)
     if vector is None:
         return None
@@ -324,7 +358,10 @@ def _direction(table: Table, key: str):
 
 
 def _wheel(table: Table, otherwise: str) -> Wheel | None:
-    name, complete = _name(table, otherwise), table.required("axis", axis="add the direction of its momentum, three numbers, frame of the file, any length")
+    name, complete = _name(table,
+                           otherwise), table.required("axis",
+                                                      axis="add the direction of its momentum, three "
+                                                           "numbers, frame of the file, any length")
     axis, momentum = _direction(table, "axis"), _momentum(table)
     if not complete or axis is None or momentum is None:
         return None
@@ -338,23 +375,29 @@ def _momentum(table: Table) -> Fraction | None:
     halves = [key for key in ("inertia", "speed") if key in table]
     if "momentum" not in table and len(halves) < 2:
         said = f"{halves[0]} alone is not enough: " if halves else ""
-        table.fault(f"{said}expected momentum (N m s), or inertia (kg m^2, about the axis) and speed (rad/s, relative to the body)", *halves)
+        table.fault(
+            f"{said}expected momentum (N m s), or inertia (kg m^2, about the axis) and speed (rad/s, "
+            f"relative to the body)", *halves)
         return None
     if len(halves) < 2 or inertia is None or speed is None:
         return momentum
     product = inertia * speed
     if momentum is not None and abs(product - momentum) > SAME * abs(momentum):
-        table.fault(f"{float(momentum):.6g} N m s contradicts inertia x speed, {float(product):.6g} N m s: keep one of them", "momentum")
+        table.fault(
+            f"{float(momentum):.6g} N m s contradicts inertia x speed, {float(product):.6g} N m s: keep one "
+            f"of them", "momentum")
     return momentum if "momentum" in table else product
 
 
 # --- From the frame that a case is written in to principal axes: what the parts add up to, effects and
 # motion turned
 OBLIQUE = "the tensor is not diagonal, and"
-REFUSED = {"x": f"{OBLIQUE} x counts along principal axes: give angular_velocity in rad/s, in the frame of the tensor",
+REFUSED = {"x": f"{OBLIQUE} x counts along principal axes: give angular_velocity in rad/s, in the frame of "
+                f"the tensor",
            "attitude": f"{OBLIQUE} an attitude is not turned to principal axes: give principal moments",
            "velocity": f"{OBLIQUE} a velocity is not turned to principal axes: give principal moments",
-           "position": f"{OBLIQUE} a position is not turned to principal axes: give principal moments"}  # keys of [motion]
+           # keys of [motion]
+           "position": f"{OBLIQUE} a position is not turned to principal axes: give principal moments"}
 
 
 def added(effects: list, thrusters, wheels) -> list:
@@ -385,13 +428,15 @@ def turned_effects(top: Table, effects: list, frame: PrincipalAxes | None) -> li
     turned = [effect.turned(frame) for effect in effects]
     for effect, found in zip(effects, turned):
         if found is None:
-            top.fault(f"{OBLIQUE} {effect.name.replace('_', ' ')} is known along principal axes alone: give principal moments, and "
+            top.fault(f"{OBLIQUE} {effect.name.replace('_', ' ')} is known along principal axes alone: give "
+                      f"principal moments, and "
                       "the rest of the case along them", "effects", effect.name)
     return _at_right_angles([effect for effect in turned if effect is not None])
 
 
 def _at_right_angles(effects: list) -> list:
-    """Momentum across the torque in the input frame is across it along irrational axes too: whether it is decides what becomes of a motion."""
+    """Momentum across the torque in the input frame is across it along irrational axes too: whether it is
+    decides what becomes of a motion."""
     torque = next((e.exact for e in effects if e.name == "constant_torque"), None)
     if torque is None:
         return effects
@@ -408,7 +453,8 @@ def judge_oblique(top: Table, frame: PrincipalAxes | None):
             top.fault(words, "motion", key)
     torque = torque.get("constant_torque") if isinstance(torque, dict) else None
     if isinstance(torque, dict) and "mu" in torque:
-        top.fault(f"{OBLIQUE} mu counts along principal axes: give torque in N m, in the frame of the tensor", "effects", "constant_torque", "mu")
+        top.fault(f"{OBLIQUE} mu counts along principal axes: give torque in N m, in the frame of the tensor",
+                  "effects", "constant_torque", "mu")
 
 
 def turned_motion(motion, frame: PrincipalAxes | None):
@@ -420,5 +466,6 @@ def turned_motion(motion, frame: PrincipalAxes | None):
         vertical = {"gamma": floats(frame.turned(motion.exact_vertical))} if motion.exact_vertical else {}
         return replace(motion, exact=state, state=state and floats(state), blocks=motion.blocks | vertical)
     except OverflowError:
-        motion.table.fault("exceeds the largest double (about 1.8e308) along the principal axes", motion.state_key)
+        motion.table.fault("exceeds the largest double (about 1.8e308) along the principal axes",
+                           motion.state_key)
         return motion

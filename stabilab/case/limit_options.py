@@ -1,4 +1,5 @@
-"""A limit as a command line or [limits] states it: "30 deg/s", "z = 30 deg/s", "5 J", "3 = 20 deg"; exact numbers in SI, along the scene's axes."""
+"""A limit as a command line or [limits] states it: "30 deg/s", "z = 30 deg/s", "5 J", "3 = 20 deg"; exact
+numbers in SI, along the scene's axes."""
 from __future__ import annotations
 
 import math
@@ -18,8 +19,9 @@ OPTIONS = ("rate", "component", "energy", "tilt")
 
 @dataclass(frozen=True)
 class StatedLimit:
-    """ask: the one argument of `time_to`, by name; kind: "rate", "component", "energy" or "tilt"; names: of the quantities, as many as limits, for the
-    reader; limits: in SI; until: the time at which the search ends, or None."""
+    """ask: the one argument of `time_to`, by name; kind: "rate", "component", "energy" or "tilt"; names: of
+    the quantities, as many as limits, for the reader; limits: in SI; until: the time at which the search
+    ends, or None."""
 
     ask: dict
     kind: str
@@ -28,18 +30,25 @@ class StatedLimit:
     until: Fraction | None = None
 
 
-def stated_limit(case: Case, rate: str | None = None, component: str | None = None, energy: str | None = None, tilt: str | None = None,
+def stated_limit(case: Case, rate: str | None = None, component: str | None = None, energy: str | None = None,
+                 tilt: str | None = None,
                  until: str | None = None) -> StatedLimit:
-    """The limit that one of the options states, or [limits] of the case where none is given. Raises InputError that names the option."""
+    """The limit that one of the options states, or [limits] of the case where none is given. Raises
+    InputError that names the option."""
     given = {name: text for name, text in zip(OPTIONS, (rate, component, energy, tilt)) if text is not None}
     if len(given) > 1:
-        raise InputError(f"expected one limit, got {' and '.join(f'--{name}' for name in given)}: ask for each by itself")
-    scaled, end = case.variables == "scaled", None if until is None else _number(until, NONE if case.variables == "scaled" else TIME, "until")
+        raise InputError(
+            f"expected one limit, got {' and '.join(f'--{name}' for name in given)}: ask for each by itself")
+    scaled, end = case.variables == "scaled", None if until is None else _number(until,
+                                                                                 NONE if case.variables
+                                                                                 == "scaled" else TIME,
+                                                                                 "until")
     if not given:
         found = _of_case(case)
     else:
         (name, text), = given.items()
-        found = {"rate": _rate, "component": _component, "energy": _energy, "tilt": _tilt}[name](case, text, NONE if scaled else RATE)
+        found = {"rate": _rate, "component": _component, "energy": _energy,
+                 "tilt": _tilt}[name](case, text, NONE if scaled else RATE)
     return StatedLimit(*found, until=end)  # type: ignore[misc]  # all but the last
 
 
@@ -47,18 +56,22 @@ def stated_angle(text: str, option: str) -> float:
     """An angle of the command line, rad: below a quarter turn. Raises InputError that names the option."""
     angle = float(_number(text, ANGLE, option))
     if not angle < math.pi / 2:
-        raise InputError(f'--{option}: expected an angle below 90 deg, got "{text[:60]}"; a number alone is in rad')
+        raise InputError(
+            f'--{option}: expected an angle below 90 deg, got "{text[:60]}"; a number alone is in rad')
     return angle
 
 
 def _of_case(case):
     if case.limits is None:
-        raise InputError(f'{case.place}: no limit: give --rate "30 deg/s", --component "z = 30 deg/s", --energy "5 J" or --tilt "z = 20 deg", or write '
+        raise InputError(f'{case.place}: no limit: give --rate "30 deg/s", --component "z = 30 deg/s", '
+                         f'--energy "5 J" or --tilt "z = 20 deg", or write '
                          "[limits] rate")
     if case.limits.rate is not None:
         return {"rate": case.limits.rate}, "rate", ("|omega|",), (float(case.limits.rate),)
     pairs = [(_along(case, FILE_AXES[n]), most) for n, most in enumerate(case.limits.rates)]
-    return {"component": pairs}, "component", tuple(f"|omega {name}|" for name in FILE_AXES), tuple(map(float, case.limits.rates))
+    return {"component": pairs}, "component", tuple(f"|omega {name}|"
+                                                    for name in FILE_AXES), tuple(map(float,
+                                                                                      case.limits.rates))
 
 
 def _rate(case, text, dimension):
@@ -68,7 +81,9 @@ def _rate(case, text, dimension):
 
 def _component(case, text, dimension):
     axis, most = _pair(text, dimension, "component")
-    return {"component": (_along(case, axis), most)}, "component", (f"|{'x' if dimension is NONE else 'omega'} {axis}|",), (float(most),)
+    return {"component": (_along(case, axis),
+                          most)}, "component", (f"|{'x' if dimension is NONE else 'omega'} {axis}|",
+                                                ), (float(most),)
 
 
 def _energy(case, text, _):
@@ -86,7 +101,8 @@ def _pair(text, dimension, option):
     axis, equals, rest = text.partition("=")
     axis = axis.strip().lower()
     if not equals or axis not in (*FILE_AXES, "1", "2", "3"):
-        raise InputError(f'--{option}: expected an axis and its limit, as in "z = 30 deg/s" (x, y, z of the file, or 1, 2, 3, the principal axes), '
+        raise InputError(f'--{option}: expected an axis and its limit, as in "z = 30 deg/s" (x, y, z of the '
+                         f'file, or 1, 2, 3, the principal axes), '
                          f'got "{text[:60]}"')
     return axis, _number(rest, dimension, option)
 

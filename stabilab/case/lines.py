@@ -10,13 +10,15 @@ _BARE = re.compile(r"[A-Za-z0-9_-]+")
 _SCALAR = re.compile(r"[^,\]}\n#]+")
 _STRING = re.compile(r'"""(?:[^\\]|\\.)*?"{3,5}|\'\'\'.*?\'{3,5}|"(?:[^"\\\n]|\\.)*"|\'[^\'\n]*\'', re.DOTALL)
 _REFUSED = 50  # parts of one dotted key: the standard reader takes time that grows with their square
-_DEEPEST = 8  # keys below this depth take the line of their ancestor: no case has them, and the map stays small
+# keys below this depth take the line of their ancestor: no case has them, and the map stays small
+_DEEPEST = 8
 
 
 @dataclass
 class KeyLines:
     """line: path (a tuple of keys; list items by index) -> 1-based line of its first appearance;
-    again: path -> line where it is written a second time; too_deep: line of a nesting that no reader should try."""
+    again: path -> line where it is written a second time; too_deep: line of a nesting that no reader should
+    try."""
 
     line: dict[tuple, int] = field(default_factory=dict)
     again: dict[tuple, int] = field(default_factory=dict)
@@ -52,7 +54,8 @@ class _Scan:
         self.text, self.at, self.table, self.found = text, 0, (), KeyLines()
         self.counted, self.lines = 0, 1
         self.arrays: dict[tuple, int] = {}
-        self.implied: set[tuple] = set()  # tables known only through a child: [a.b] before [a] is no repetition
+        # tables known only through a child: [a.b] before [a] is no repetition
+        self.implied: set[tuple] = set()
 
     def document(self):
         while self.skip(_SPACE) < len(self.text):

@@ -9,12 +9,15 @@ from .read import Case, attitude_of
 
 
 def with_quaternion(case: Case) -> Case:
-    """The case with its own attitude, that of its vertical with theta = 0, or identity, as a unit quaternion with its scalar last.
+    """The case with its own attitude, that of its vertical with theta = 0, or identity, as a unit quaternion
+    with its scalar last.
 
     Raises InputError where the variables are scaled: a system without moments has no attitude.
     """
     if case.variables == "scaled":
-        raise InputError(f"{case.place}: --attitude: scaled variables have no attitude: give the motion as angular_velocity, in rad/s")
+        raise InputError(
+            f"{case.place}: --attitude: scaled variables have no attitude: give the motion as "
+            f"angular_velocity, in rad/s")
     vertical = case.blocks.get("gamma")
     angles = case.blocks.get("attitude") or (attitude_of(vertical) if vertical else (0.0, 0.0, 0.0))
     return replace(case, blocks={**case.blocks, "attitude": tuple(scalar_last(quaternion(*angles)).tolist())})

@@ -43,7 +43,8 @@ SLACK = 1e-6  # of a component: a direction given to six decimals is consistent
 
 
 def vertical_of(psi, phi, theta=0.0) -> Float3:
-    """Inertial axis 3 in the body frame at 3-1-2 angles, rad: the third row of R = Rz(theta) Rx(psi) Ry(phi)."""
+    """Inertial axis 3 in the body frame at 3-1-2 angles, rad: the third row of R = Rz(theta) Rx(psi) Ry(phi).
+    """
     return (-math.cos(psi) * math.sin(phi), math.sin(psi), math.cos(psi) * math.cos(phi))
 
 
@@ -54,8 +55,8 @@ def attitude_of(vertical) -> Float3:
 
 
 def judge_attitude(table, given, scene):
-    """Note a vertical and an attitude of [motion] that contradict each other. given: the blocks that the file gives; the zero
-    angles that an attitude starts at where the file gives none count too."""
+    """Note a vertical and an attitude of [motion] that contradict each other. given: the blocks that the file
+    gives; the zero angles that an attitude starts at where the file gives none count too."""
     needed = ordered((*getattr(scene, "blocks", ()), *given))
     if "gamma" not in given or "attitude" not in needed:
         return
@@ -63,11 +64,14 @@ def judge_attitude(table, given, scene):
     if math.dist(vertical_of(*angles), vertical) <= SLACK:
         return
     if "attitude" not in given:
-        table.fault(f"attitude is missing: zero angles have the vertical [0, 0, 1], not {_written(vertical)}; with theta = 0 that is "
+        table.fault(f"attitude is missing: zero angles have the vertical [0, 0, 1], not "
+                    f"{_written(vertical)}; with theta = 0 that is "
                     f"attitude = {_written(attitude_of(vertical))}", "vertical")
         return
-    table.fault(f"contradicts attitude: the angles {_written(angles)} have the vertical {_written(vertical_of(*angles))} (inertial axis 3, "
-                f"body frame), got {_written(vertical)}; leave one of them as it is and make the other agree", "vertical")
+    table.fault(f"contradicts attitude: the angles {_written(angles)} have the vertical "
+                f"{_written(vertical_of(*angles))} (inertial axis 3, "
+                f"body frame), got {_written(vertical)}; leave one of them as it is and make the other agree",
+                "vertical")
 
 
 def _written(vector) -> str:
@@ -75,12 +79,15 @@ def _written(vector) -> str:
 
 
 # --- A case file: a body, its effects and one motion, read from TOML; every fault with file, line and key
-TABLES = ("title", "source", "body", "effects", "thrusters", "wheels", "limits", "scaled", "motion", "output", "expect", "sweep")
+TABLES = ("title", "source", "body", "effects", "thrusters", "wheels", "limits", "scaled", "motion", "output",
+          "expect", "sweep")
 SYSTEMS = ("deg", "si")  # of units in which text is printed
 STATES, SPANS = ("angular_velocity", "x"), ("span", "tau")
-BLOCKS = {"attitude": "attitude", "vertical": "gamma", "velocity": "velocity", "position": "position"}  # key: block
+# key: block
+BLOCKS = {"attitude": "attitude", "vertical": "gamma", "velocity": "velocity", "position": "position"}
 UNIT_SLACK = 1e-6  # a vertical given to six decimals counts as a unit vector and stays as it is
-MIDDLES = Caveat("uncertain", "of the middles of the uncertain numbers; stabilab fate says what their box does")
+MIDDLES = Caveat("uncertain",
+                 "of the middles of the uncertain numbers; stabilab fate says what their box does")
 STAND_IN = Body((3, 2, 1))  # lets the faults of the effects show where the body itself is at fault
 
 
@@ -88,20 +95,23 @@ STAND_IN = Body((3, 2, 1))  # lets the faults of the effects show where the body
 class Case:
     """One case file.
 
-    scene: the Scene (rad/s, s) or ScaledGyrostat (x, tau) in the variables of the case, which `variables` names
-    ("physical" or "scaled"); physical: the Scene in kg m^2, N m, or None where the file gives [scaled]; scaling: the
-    change between the two, None where it is undefined. state: three components at time 0 in the case's variables,
-    body frame, or None; blocks: the other blocks of the state by name ("gamma", "velocity", "position" as three
-    numbers, "attitude" as psi, phi, theta of the 3-1-2 sequence, rad), where the file gives them; span: (from, to) in
-    the case's time or None; expect: facts the case's test asserts; text: the source. uncertain: the numbers given with an
-    uncertainty, whose middles everything else holds; mu: the dimensionless torque where the file gives it for a body.
-    decimals: those of the state as they were written, before the one rounding to doubles (`exact_state`).
+    scene: the Scene (rad/s, s) or ScaledGyrostat (x, tau) in the variables of the case, which `variables`
+    names ("physical" or "scaled"); physical: the Scene in kg m^2, N m, or None where the file gives [scaled];
+    scaling: the change between the two, None where it is undefined. state: three components at time 0 in the
+    case's variables, body frame, or None; blocks: the other blocks of the state by name ("gamma", "velocity",
+    "position" as three numbers, "attitude" as psi, phi, theta of the 3-1-2 sequence, rad), where the file
+    gives them; span: (from, to) in the case's time or None; expect: facts the case's test asserts; text: the
+    source. uncertain: the numbers given with an uncertainty, whose middles everything else holds; mu: the
+    dimensionless torque where the file gives it for a body. decimals: those of the state as they were
+    written, before the one rounding to doubles (`exact_state`).
 
-    A file gives vectors in its own frame; scene, state and vertical are along the principal axes, which `frame` tells (None where
-    the file gives [scaled]); where the tensor is diagonal the two frames are one. thrusters, wheels, limits: as stated, in the frame
-    of the file; torques of the stuck ones and momenta of the wheels are in the scene. inexact: the keys whose unit holds pi, good to
-    240 bits. notes: what was taken for granted, in words. units: "deg" or "si", in which people want to read answers (empty where the file does not
-    say); swept: (key, value as written) of every key of [sweep]. caveats: what the file itself says that limits every answer.
+    A file gives vectors in its own frame; scene, state and vertical are along the principal axes, which
+    `frame` tells (None where the file gives [scaled]); where the tensor is diagonal the two frames are one.
+    thrusters, wheels, limits: as stated, in the frame of the file; torques of the stuck ones and momenta of
+    the wheels are in the scene. inexact: the keys whose unit holds pi, good to
+    240 bits. notes: what was taken for granted, in words. units: "deg" or "si", in which people want to read
+    answers (empty where the file does not say); swept: (key, value as written) of every key of [sweep].
+    caveats: what the file itself says that limits every answer.
     """
 
     path: str
@@ -131,15 +141,18 @@ class Case:
     caveats: tuple[Caveat, ...] = ()
 
     def __repr__(self) -> str:
-        motion = "no motion" if self.state is None else f"state {self.state}" + (f", span {self.span}" if self.span else "")
+        motion = ("no motion" if self.state is None
+                  else f"state {self.state}" + (f", span {self.span}" if self.span else ""))
         return f"Case({self.place}: {self.variables}, {motion})"
 
     @property
     def exact_state(self) -> Exact3 | None:
-        """The state exactly: its decimals as they were written, or, where it was replaced since, the new numbers themselves."""
+        """The state exactly: its decimals as they were written, or, where it was replaced since, the new
+        numbers themselves."""
         if self.state is None:
             return None
-        return self.decimals if self.decimals and floats(self.decimals) == self.state else tuple(map(Fraction, self.state))
+        return (self.decimals if self.decimals and floats(self.decimals) == self.state
+                else tuple(map(Fraction, self.state)))
 
     @property
     def start(self) -> tuple[float, ...] | None:
@@ -149,7 +162,8 @@ class Case:
 
     @property
     def name(self) -> str:
-        """The file's stem, and which combination of its [sweep] this is (`-2-1`: second value of the first key)."""
+        """The file's stem, and which combination of its [sweep] this is (`-2-1`: second value of the first
+        key)."""
         return printable(Path(self.path).stem) + self.variant
 
     @property
@@ -165,7 +179,8 @@ class Case:
 
 @contextmanager
 def blamed_on(case: Case):
-    """What the analysis cannot use becomes an error of the case's file, with the line of the key it speaks of."""
+    """What the analysis cannot use becomes an error of the case's file, with the line of the key it speaks
+    of."""
     try:
         yield
     except CaseError:
@@ -175,14 +190,15 @@ def blamed_on(case: Case):
         keys = {"state": STATES, "span": SPANS}.get(word, ()) if colon else ()
         table = key_lines(case.text).line if keys else {}
         key, line = next(((k, table[("motion", k)]) for k in keys if ("motion", k) in table), (None, None))
-        raise InputError(f"{printable(case.path)}:{line}: motion.{key}: {rest}" if line else f"{case.place}: {error}") from None
+        raise InputError(f"{printable(case.path)}:{line}: motion.{key}: {rest}" if line
+                         else f"{case.place}: {error}") from None
 
 
 def load(path: str | os.PathLike[str]) -> Case:
     """The case in the TOML file `path`. Raises CaseError, an InputError, with all faults of the file at once.
 
-    The case is scaled where the file has [scaled], gives the motion as x, or gives no motion and the torque as mu
-    (and the scaling is defined); else physical. Decimals are read exactly, the motion is rounded once.
+    The case is scaled where the file has [scaled], gives the motion as x, or gives no motion and the torque
+    as mu (and the scaling is defined); else physical. Decimals are read exactly, the motion is rounded once.
     """
     if not isinstance(path, (str, os.PathLike)):
         raise InputError(f"load: expected the path of a case file, got {path!r:.80}")
@@ -193,8 +209,9 @@ def load(path: str | os.PathLike[str]) -> Case:
 def load_all(path) -> list[Case]:
     """The case in the file, or, where it has [sweep], one case for every combination of the values there.
 
-    [sweep] has keys such as "effects.gyrostat.momentum" = [[0, 0, 1], [0, 0, 2]]; each must stand in the file with some
-    value of its own, which the sweep replaces. [expect] speaks of the file's own values and is left out. Raises CaseError as `load` does.
+    [sweep] has keys such as "effects.gyrostat.momentum" = [[0, 0, 1], [0, 0, 2]]; each must stand in the file
+    with some value of its own, which the sweep replaces. [expect] speaks of the file's own values and is left
+    out. Raises CaseError as `load` does.
     """
     path, text, data, faults = _read(path)
     base = _built(path, text, data, faults)
@@ -202,11 +219,13 @@ def load_all(path) -> list[Case]:
     if not found:
         return [base]
     moved = {place(data, key): ("sweep", key) for key in data["sweep"]}
-    return [replace(_built(path, text, values, Faults(faults.lines, moved), suffix), swept=_swept(data["sweep"], suffix)) for suffix, values in found]
+    return [replace(_built(path, text, values, Faults(faults.lines, moved), suffix),
+                    swept=_swept(data["sweep"], suffix)) for suffix, values in found]
 
 
 def _swept(sweep, suffix) -> tuple:
-    """(key, value) of a combination: "-2-1" is the second value of the first key and the first of the second."""
+    """(key, value) of a combination: "-2-1" is the second value of the first key and the first of the second.
+    """
     return tuple((key, values[int(n) - 1]) for (key, values), n in zip(sweep.items(), suffix.split("-")[1:]))
 
 
@@ -217,7 +236,8 @@ def read_text(path, text: str) -> Case:
 
 
 def with_data(path, text: str, data: dict) -> Case:
-    """The case in TOML data that is the text's but for numbers that were put in; its faults are told as of the text."""
+    """The case in TOML data that is the text's but for numbers that were put in; its faults are told as of
+    the text."""
     return _built(path, text, data, Faults(key_lines(text)))
 
 
@@ -246,10 +266,14 @@ def _built(path, text, data, faults, variant="") -> Case:
     span = _span(motion, variables, scaling)
     if faults.problems:
         raise CaseError(path, sorted(faults.problems, key=lambda p: p.line or 0))
-    return Case(path, title, source, scene, variables, physical, scaling, motion.state, span, expect, motion.blocks, text,
-                variant, tuple(faults.uncertain.values()), mu, motion.exact, frame if physical else None, craft.thrusters, craft.wheels,
-                craft.limits, tuple(dict.fromkeys(map(dotted, sorted(faults.inexact, key=str)))), craft.notes, units,
-                caveats=(*(physical.body.caveats if physical else ()), *([MIDDLES] if faults.uncertain else [])))
+    return Case(path, title, source, scene, variables, physical, scaling, motion.state, span, expect,
+                motion.blocks, text,
+                variant, tuple(faults.uncertain.values()), mu, motion.exact, frame if physical else None,
+                craft.thrusters, craft.wheels,
+                craft.limits, tuple(dict.fromkeys(map(dotted, sorted(faults.inexact, key=str)))), craft.notes,
+                units,
+                caveats=(*(physical.body.caveats if physical else ()),
+                         *([MIDDLES] if faults.uncertain else [])))
 
 
 def _units(output: Table | None) -> str:
@@ -259,7 +283,9 @@ def _units(output: Table | None) -> str:
     output.known(("units",))
     wanted = output.text("units").lower()
     if wanted and wanted not in SYSTEMS:
-        output.fault(f"expected {' or '.join(SYSTEMS)} (deg/s and min, or rad/s and s), got {described(wanted)}", "units")
+        output.fault(
+            f"expected {' or '.join(SYSTEMS)} (deg/s and min, or rad/s and s), got {described(wanted)}",
+            "units")
     return wanted
 
 
@@ -277,7 +303,8 @@ def _craft(top: Table) -> _Craft:
         return _Craft()
     centre = centre_of_mass(top)
     thrusters = thrusters_of(top, centre)
-    notes = ("the file gives no centre_of_mass: thrusters are placed from it",) if thrusters and centre is None else ()
+    notes = ("the file gives no centre_of_mass: thrusters are placed from it",
+             ) if thrusters and centre is None else ()
     return _Craft(thrusters, wheels_of(top), limits_of(top), notes)
 
 
@@ -292,7 +319,8 @@ class _Context(NamedTuple):
 
 
 def _physical(top: Table, craft: _Craft) -> tuple[Scene | None, tuple | None, PrincipalAxes | None]:
-    """The scene of [body], [effects] and hardware along principal axes, the dimensionless torque where the file gives it, the axes."""
+    """The scene of [body], [effects] and hardware along principal axes, the dimensionless torque where the
+    file gives it, the axes."""
     if "scaled" in top:
         for key in ("body", "effects", "thrusters", "wheels", "limits"):
             if key in top:
@@ -305,14 +333,17 @@ def _physical(top: Table, craft: _Craft) -> tuple[Scene | None, tuple | None, Pr
     try:
         whole = turned_effects(top, added(made, craft.thrusters, craft.wheels), frame)
     except InputError as error:  # numbers that are good one by one, but not added up or turned
-        top.fault(f"added up along principal axes, {error}", next(key for key in ("thrusters", "wheels", "effects") if key in top))
+        top.fault(f"added up along principal axes, {error}",
+                  next(key for key in ("thrusters", "wheels", "effects") if key in top))
         return None, None, frame
-    torque = top.data.get("effects", {}).get("constant_torque") if isinstance(top.data.get("effects"), dict) else None
+    torque = (top.data.get("effects", {}).get("constant_torque") if isinstance(top.data.get("effects"), dict)
+              else None)
     if not isinstance(torque, dict):  # absent, or no table, which is noted already
         return Scene(body, *whole), None, frame
     mu = Table(("effects", "constant_torque"), torque, Faults(top.faults.lines)).vector("mu")
     if mu and any(thruster.stuck for thruster in craft.thrusters):
-        top.fault("mu cannot be added to the torque of a thruster: give torque in N m", "effects", "constant_torque", "mu")
+        top.fault("mu cannot be added to the torque of a thruster: give torque in N m", "effects",
+                  "constant_torque", "mu")
     return Scene(body, *whole), mu, frame
 
 
@@ -374,7 +405,8 @@ def _motion(top: Table) -> _Motion:
     states, spans = {k: table.vector(k) for k in STATES}, {k: table.numbers(k, 2) for k in SPANS}
     state, span = states.get(state_key), spans.get(span_key)
     if span and not float(span[0]) < float(span[1]):
-        table.fault(f"expected two increasing numbers, got {float(span[0])!r} and {float(span[1])!r}", span_key)
+        table.fault(f"expected two increasing numbers, got {float(span[0])!r} and {float(span[1])!r}",
+                    span_key)
         span = None
     if "scaled" in top:
         for key, other in (("angular_velocity", "x"), ("span", "tau")):
@@ -384,7 +416,8 @@ def _motion(top: Table) -> _Motion:
     if "gamma" in vectors:
         vectors["gamma"] = _unit(table, vectors["gamma"])
     blocks = {block: floats(vector) for block, vector in vectors.items()}
-    return _Motion(table, state_key, floats(state) if state else None, span_key, span, blocks, state, vectors.get("gamma"))
+    return _Motion(table, state_key, floats(state) if state else None, span_key, span, blocks, state,
+                   vectors.get("gamma"))
 
 
 def _unit(table: Table, vertical: Exact3) -> Exact3:
@@ -408,8 +441,11 @@ def _judge_blocks(motion: _Motion, scene):
             table.fault("motion through space needs the mass of the body: give body.mass in kg", key)
     if motion.state is not None and scene is not None and "gamma" in scene.blocks and "gamma" not in given:
         angles = given.get("attitude")
-        told = f"; the attitude given has [{', '.join(f'{v:.10g}' for v in vertical_of(*angles))}]" if angles else ""
-        table.fault(f"vertical is missing: an effect of this scene asks where the vertical is (a direction, body frame){told}")
+        told = (f"; the attitude given has [{', '.join(f'{v:.10g}' for v in vertical_of(*angles))}]" if angles
+                else "")
+        table.fault(
+            f"vertical is missing: an effect of this scene asks where the vertical is (a direction, body "
+            f"frame){told}")
     judge_attitude(table, given, scene)
 
 
@@ -440,14 +476,16 @@ def _in_range(top: Table, scene):
     except InputError:  # other effects: their parameters, and these as rates
         for effect in scene.effects:
             if _too_large(effect, scene.body):
-                top.fault("its numbers, or these over the moments of inertia, exceed the largest double (about 1.8e308): "
+                top.fault("its numbers, or these over the moments of inertia, exceed the largest double "
+                          "(about 1.8e308): "
                           "choose other units", "effects", effect.name)
     return scene
 
 
 def _too_large(effect, body) -> bool:
     try:
-        return not all(math.isfinite(float(v)) and math.isfinite(float(v / min(body.exact))) for v in effect.parameters().values())
+        return not all(math.isfinite(float(v)) and math.isfinite(float(v / min(body.exact)))
+                       for v in effect.parameters().values())
     except OverflowError:
         return True
 

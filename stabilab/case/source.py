@@ -32,7 +32,9 @@ def source_text(path) -> str:
     except FileNotFoundError:
         raise CaseError(path, [Problem("", f"no such file{_neighbour(path)}")]) from None
     except (OSError, ValueError) as error:
-        raise CaseError(path, [Problem("", f"cannot be read: {getattr(error, 'strerror', None) or error}")]) from None
+        raise CaseError(path,
+                        [Problem("",
+                                 f"cannot be read: {getattr(error, 'strerror', None) or error}")]) from None
     if raw is None:
         kind = "a directory" if stat.S_ISDIR(mode) else "a pipe or a device"
         raise CaseError(path, [Problem("", f"expected a TOML file, this is {kind}")])
@@ -42,7 +44,8 @@ def source_text(path) -> str:
         return raw.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         line = raw.count(b"\n", 0, error.start) + 1
-        raise CaseError(path, [Problem("", f"byte 0x{raw[error.start]:02x} is not UTF-8; save the file as UTF-8",
+        raise CaseError(path,
+                        [Problem("", f"byte 0x{raw[error.start]:02x} is not UTF-8; save the file as UTF-8",
                                        line)]) from None
 
 
@@ -60,7 +63,8 @@ def _neighbour(path) -> str:
 
 
 def parsed(path, text: str) -> tuple[dict, Faults]:
-    """The TOML data and an empty list of faults that knows the lines. Raises CaseError where the text is not TOML."""
+    """The TOML data and an empty list of faults that knows the lines. Raises CaseError where the text is not
+    TOML."""
     lines = key_lines(text)
     try:
         if lines.too_deep:
@@ -93,15 +97,17 @@ SWEPT = ("body", "effects", "scaled", "motion", "thrusters", "wheels", "limits")
 
 
 def combinations(top: Table) -> list[tuple[str, dict]]:
-    """(suffix, data) of every combination, the last key running fastest; empty without [sweep]. Suffix "-2-1": the
-    second value of the first key, the first of the second. Faults are kept by the table."""
+    """(suffix, data) of every combination, the last key running fastest; empty without [sweep]. Suffix
+    "-2-1": the second value of the first key, the first of the second. Faults are kept by the table."""
     paths, choices = swept(top)
     plain = {key: value for key, value in top.data.items() if key not in ("sweep", "expect")}
-    return [("".join(f"-{i}" for i, _ in pick), _with(plain, paths, pick)) for pick in product(*choices)] if paths else []
+    return ([("".join(f"-{i}" for i, _ in pick), _with(plain, paths, pick)) for pick in product(*choices)]
+            if paths else [])
 
 
 def swept(top: Table) -> tuple[list[tuple], list[list]]:
-    """The paths that [sweep] replaces and the numbered values of each, both empty where it cannot be run; keeps the faults."""
+    """The paths that [sweep] replaces and the numbered values of each, both empty where it cannot be run;
+    keeps the faults."""
     table = top.table("sweep")
     if table is None:
         return [], []
@@ -111,7 +117,8 @@ def swept(top: Table) -> tuple[list[tuple], list[list]]:
         if not isinstance(values, list) or not values:
             table.fault(f"expected a list of the values that {key} takes, got {described(values)}", key)
         elif _holder(top.data, path) is None:
-            table.fault(f"this file has no key {key}; write it as \"effects.gyrostat.momentum\" or \"thrusters.NAME.force\", "
+            table.fault(f"this file has no key {key}; write it as \"effects.gyrostat.momentum\" or "
+                        f"\"thrusters.NAME.force\", "
                         "with a value in its place", key)
         else:
             paths.append(path)
@@ -129,7 +136,8 @@ def place(data, key: str) -> tuple:
     """The path of a key of [sweep]; a thruster or wheel is named, and stands at its index."""
     path = tuple(key.split("."))
     if len(path) == 3 and isinstance(data.get(path[0]), list):
-        at = [i for i, one in enumerate(data[path[0]]) if isinstance(one, dict) and one.get("name") == path[1]]
+        at = [i for i, one in enumerate(data[path[0]]) if isinstance(one, dict)
+              and one.get("name") == path[1]]
         return (path[0], at[0], path[2]) if at else path
     return path
 

@@ -2,7 +2,8 @@
 
 One table of a case file: reads values by key and notes every fault with its line.
 
-Written by hand rather than with pydantic, whose import alone takes longer than the whole of `stabilab classify`.
+Written by hand rather than with pydantic, whose import alone takes longer than the whole of `stabilab
+classify`.
 """
 from __future__ import annotations
 
@@ -29,8 +30,8 @@ def states_uncertainty(text: str) -> bool:
 
 
 def plus_minus(text: str, wanted: Dimension = NONE) -> tuple[Fraction, Fraction, bool]:
-    """(middle, half-width, whether both are exact) in SI units, of "2000 +- 20", "1500 ± 1 %" (per cent of the middle) or
-    "12 +- 0.5 N". A unit at the end is that of both. Raises InputError."""
+    """(middle, half-width, whether both are exact) in SI units, of "2000 +- 20", "1500 ± 1 %" (per cent of
+    the middle) or "12 +- 0.5 N". A unit at the end is that of both. Raises InputError."""
     if len(text) > 400 or text.count("±") + text.count("+-") != 1:
         raise InputError(f'{_example(wanted)}, got "{text[:60]}"')
     bracketed = _BRACKETS.fullmatch(text)
@@ -42,7 +43,8 @@ def plus_minus(text: str, wanted: Dimension = NONE) -> tuple[Fraction, Fraction,
     if parts[3] and right[1]:
         raise InputError(f'{_example(wanted)}, got "{text[:60]}"')
     if left[1] and not after and not parts[3]:
-        raise InputError(f'the uncertainty has no unit in "{text[:60]}"; write "{left[0]} +- {right[0]} {left[1]}"')
+        raise InputError(
+            f'the uncertainty has no unit in "{text[:60]}"; write "{left[0]} +- {right[0]} {left[1]}"')
     try:
         middle, sharp = quantity(f"{left[0]} {left[1] or after}", wanted)
         half, sharp_half = (exact(right[0]), True) if parts[3] else quantity(f"{right[0]} {after}", wanted)
@@ -64,14 +66,16 @@ def _example(wanted) -> str:
     return f'expected a number and its uncertainty such as "2000 +- 20" or "1500 +- 1 %"{units}'
 
 
-UNSEEN = ("Cc", "Cf", "Cs")  # Unicode's categories of control, format (such as right-to-left override) and surrogate characters
+# Unicode's categories of control, format (such as right-to-left override) and surrogate characters
+UNSEEN = ("Cc", "Cf", "Cs")
 
 
 class Written(str):
     """A number with a point or an exponent as it stands in the file, so that 0.1 means one tenth exactly."""
 
 
-UNCERTAIN = {("body", "inertia"), ("effects", "gyrostat", "momentum"), ("effects", "constant_torque", "torque"),
+UNCERTAIN = {("body", "inertia"), ("effects", "gyrostat", "momentum"),
+             ("effects", "constant_torque", "torque"),
              ("effects", "constant_torque", "mu"), ("motion", "angular_velocity"), ("motion", "x"),
              ("scaled", "a"), ("scaled", "b"), ("scaled", "mu")}  # the keys whose numbers may be uncertain
 
@@ -88,7 +92,8 @@ HOMES = {word: home for home, words in {
 
 
 class Uncertain(NamedTuple):
-    """A number known within bounds: its path in the file (with the list index), the middle and the half-width, exact."""
+    """A number known within bounds: its path in the file (with the list index), the middle and the
+    half-width, exact."""
 
     path: tuple
     middle: Fraction
@@ -96,8 +101,9 @@ class Uncertain(NamedTuple):
 
 
 class Faults:
-    """The faults found so far, each at the line of its key; moved: path -> path of the key that stands for it. uncertain:
-    path -> the number with an uncertainty that was read there; inexact: paths of the numbers whose unit holds pi."""
+    """The faults found so far, each at the line of its key; moved: path -> path of the key that stands for
+    it. uncertain: path -> the number with an uncertainty that was read there; inexact: paths of the numbers
+    whose unit holds pi."""
 
     def __init__(self, lines: KeyLines, moved: dict | None = None):
         self.lines, self.moved = lines, moved or {}
@@ -112,7 +118,8 @@ class Faults:
 
 
 class Table:
-    """A view on the table at `path`; every reader returns None where the key is absent or wrong (and notes why)."""
+    """A view on the table at `path`; every reader returns None where the key is absent or wrong (and notes
+    why)."""
 
     def __init__(self, path: tuple, data: dict, faults: Faults):
         self.path, self.data, self.faults = path, data, faults
@@ -134,7 +141,8 @@ class Table:
         """The one key of `keys` that is present; a fault where two are."""
         present = [key for key in self.data if key in keys]
         if len(present) > 1:
-            self.fault(f"{' and '.join(present)} say the same thing in two ways: keep one of them", present[1])
+            self.fault(f"{' and '.join(present)} say the same thing in two ways: keep one of them",
+                       present[1])
             return None
         return present[0] if present else None
 
@@ -192,7 +200,9 @@ class Table:
             return None
         words = {2: "two", 3: "three"}[count]
         if not isinstance(value, list):
-            self.fault(f"expected {words} numbers in square brackets, got {described(value)}{_in_brackets(value, count)}", key)
+            self.fault(
+                f"expected {words} numbers in square brackets, got "
+                f"{described(value)}{_in_brackets(value, count)}", key)
             return None
         if len(value) != count:
             self.fault(f"expected {words} numbers, got {len(value)}", key)
@@ -226,14 +236,16 @@ class Table:
                 return self._middle(value, keys)
             return self._number(value, keys)
         except InputError as error:
-            row, number = (f"row {keys[1] + 1}, " if len(keys) > 2 else "", f"number {keys[-1] + 1}: " if len(keys) > 1 else "")
+            row, number = (f"row {keys[1] + 1}, " if len(keys) > 2 else "",
+                           f"number {keys[-1] + 1}: " if len(keys) > 1 else "")
             self.fault(row + number + str(error), *keys)
             return None
 
     def _middle(self, text: str, keys) -> Fraction:
         """The middle of an uncertain number, which is noted."""
         if self.path + keys[:1] not in UNCERTAIN or len(keys) > 2:
-            raise InputError(f"takes no uncertainty, got {described(text)}; one may stand in inertia, momentum, torque, mu, "
+            raise InputError(f"takes no uncertainty, got {described(text)}; one may stand in inertia, "
+                             f"momentum, torque, mu, "
                              "a, b, angular_velocity and x")
         path = self.path + keys
         middle, half, sharp = plus_minus(text, dimension_of(path))
@@ -295,10 +307,12 @@ def described(value) -> str:
 
 
 def _in_brackets(value, count: int) -> str:
-    """"; write ..." where a text holds the numbers of a list, perhaps with one unit behind the last of them; of a span the end alone."""
+    """"; write ..." where a text holds the numbers of a list, perhaps with one unit behind the last of them;
+    of a span the end alone."""
     if not isinstance(value, str) or isinstance(value, Written) or len(value) > 200:
         return ""
-    parts = [re.fullmatch(r"([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*([^\d\s].*)?", part.strip()) for part in value.strip("()[] ").split(",")]
+    parts = [re.fullmatch(r"([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*([^\d\s].*)?", part.strip())
+             for part in value.strip("()[] ").split(",")]
     if None in parts or len(parts) != count and (len(parts), count) != (1, 2):
         return ""
     units = [part[2] for part in parts]
@@ -309,9 +323,11 @@ def _in_brackets(value, count: int) -> str:
 
 
 def did_you_mean(word: str, allowed) -> str:
-    """"; did you mean ...?" where a known word is near, else in which table it stands, and the list of what may stand here."""
+    """"; did you mean ...?" where a known word is near, else in which table it stands, and the list of what
+    may stand here."""
     from difflib import get_close_matches
-    home = f"; it is written in {HOMES[word.lower()]}" if word.lower() in HOMES and word.lower() not in allowed else ""
+    home = (f"; it is written in {HOMES[word.lower()]}" if word.lower() in HOMES
+            and word.lower() not in allowed else "")
     near = get_close_matches(word.lower()[:60], list(allowed), n=1, cutoff=0.6)
     return f"; did you mean {near[0]}?" if near else f"{home}; here may stand {', '.join(allowed)}"
 
@@ -327,8 +343,8 @@ KEYS = ("kind", "points", "fate", "axis", "verdicts", "extremes", "period")
 def expected(table: Table | None) -> dict:
     """[expect] with its numbers as floats; faults are kept by the table.
 
-    kind, points (how many), verdicts (one per point), fate, axis (1, 2, 3), period, extremes: three pairs [min, max]
-    (inf where unbounded).
+    kind, points (how many), verdicts (one per point), fate, axis (1, 2, 3), period, extremes: three pairs
+    [min, max] (inf where unbounded).
     """
     if table is None:
         return {}
@@ -363,7 +379,8 @@ def _verdicts(table: Table, key: str):
 
 def _extremes(table: Table, key: str):
     value = table.data[key]
-    if not isinstance(value, list) or len(value) != 3 or not all(isinstance(p, list) and len(p) == 2 for p in value):
+    if not isinstance(value,
+                      list) or len(value) != 3 or not all(isinstance(p, list) and len(p) == 2 for p in value):
         table.fault(f"expected three pairs [min, max], got {described(value)}", key)
         return None
     return [[_float(table, v, key) for v in pair] for pair in value]

@@ -1,8 +1,9 @@
 """Numbers with a unit, exactly: "22 N", "30 deg/s", "0.3 N m s".
 
-A table of our own rather than pint: pint's import takes longer than the whole of `stabilab classify`, its numbers are doubles where
-ours are exact, and an unknown unit should be answered with the few that a spacecraft needs. Exact decimals stay exact in every unit
-but those of a turn (deg, arcmin, arcsec, rev, rpm), which hold pi: these are good to 240 bits.
+A table of our own rather than pint: pint's import takes longer than the whole of `stabilab classify`, its
+numbers are doubles where ours are exact, and an unknown unit should be answered with the few that a
+spacecraft needs. Exact decimals stay exact in every unit but those of a turn (deg, arcmin, arcsec, rev, rpm),
+which hold pi: these are good to 240 bits.
 """
 from __future__ import annotations
 
@@ -30,48 +31,74 @@ class Unit(NamedTuple):
 
 
 PREFIXES = {"n": -9, "u": -6, "µ": -6, "μ": -6, "m": -3, "c": -2, "d": -1, "k": 3, "M": 6, "G": 9}
-BASE = {"m": (1, 0, 0, 0, 0), "g": (0, 1, 0, 0, 0), "s": (0, 0, 1, 0, 0), "A": (0, 0, 0, 1, 0), "rad": (0, 0, 0, 0, 1),
-        "N": (1, 1, -2, 0, 0), "J": (2, 1, -2, 0, 0), "W": (2, 1, -3, 0, 0), "Pa": (-1, 1, -2, 0, 0), "C": (0, 0, 1, 1, 0),
+BASE = {"m": (1, 0, 0, 0, 0), "g": (0, 1, 0, 0, 0), "s": (0, 0, 1, 0, 0), "A": (0, 0, 0, 1, 0),
+        "rad": (0, 0, 0, 0, 1),
+        "N": (1, 1, -2, 0, 0), "J": (2, 1, -2, 0, 0), "W": (2, 1, -3, 0, 0), "Pa": (-1, 1, -2, 0, 0),
+        "C": (0, 0, 1, 1, 0),
         "V": (2, 1, -3, -1, 0), "T": (0, 1, -2, -1, 0), "Nm": (2, 1, -2, 0, 0), "Nms": (2, 1, -1, 0, 0)}
 TURNS = {"deg": 360, "°": 360, "arcmin": 21600, "arcsec": 1296000, "rev": 1}  # how many make a turn
-OTHERS = {"min": ("60", "s"), "h": ("3600", "s"), "day": ("86400", "s"), "week": ("604800", "s"), "lb": ("453.59237", "g"), "t": ("1000000", "g"),
-          "in": ("0.0254", "m"), "ft": ("0.3048", "m"), "lbf": ("4.4482216152605", "N"), "slug": ("44482216152605/3048000000", "g")}
+OTHERS = {"min": ("60", "s"), "h": ("3600", "s"), "day": ("86400", "s"), "week": ("604800", "s"),
+          "lb": ("453.59237", "g"), "t": ("1000000", "g"),
+          "in": ("0.0254", "m"), "ft": ("0.3048", "m"), "lbf": ("4.4482216152605", "N"),
+          "slug": ("44482216152605/3048000000", "g")}
 WORDS = {name: symbol for symbol, names in {
-    "s": "second sec", "min": "minute min", "h": "hour hr", "day": "day", "week": "week", "m": "metre meter", "g": "gram", "kg": "kilogram kg",
-    "t": "tonne", "N": "newton", "J": "joule", "W": "watt", "Pa": "pascal", "C": "coulomb", "V": "volt", "T": "tesla", "A": "ampere amp",
-    "rad": "radian rad", "deg": "degree deg", "arcmin": "arcminute arcmin", "arcsec": "arcsecond arcsec", "rev": "revolution rev turn",
-    "rpm": "rpm", "in": "inch inches", "ft": "foot feet ft", "lb": "pound lb", "lbf": "lbf", "slug": "slug"}.items() for name in names.split()}
-CAPITALS = {"S": "s", "M": "m"}  # alone they mean no other unit, as in DEG/S and KG M^2; N M S is three words, NM would be nm
-ACCEPTED = ("m, kg, g, s, A, rad, N, J, W, Pa, C, V, T with the prefixes n u m c d k M G; deg, arcmin, arcsec, rev, rpm; min, h, day, week; t; "
-            "in, ft, lb, lbf, slug; their English names such as hours, degrees, newtons, in small or capital letters; "
+    "s": "second sec", "min": "minute min", "h": "hour hr", "day": "day", "week": "week", "m": "metre meter",
+    "g": "gram", "kg": "kilogram kg",
+    "t": "tonne", "N": "newton", "J": "joule", "W": "watt", "Pa": "pascal", "C": "coulomb", "V": "volt",
+    "T": "tesla", "A": "ampere amp",
+    "rad": "radian rad", "deg": "degree deg", "arcmin": "arcminute arcmin", "arcsec": "arcsecond arcsec",
+    "rev": "revolution rev turn",
+    "rpm": "rpm", "in": "inch inches", "ft": "foot feet ft", "lb": "pound lb", "lbf": "lbf",
+    "slug": "slug"}.items() for name in names.split()}
+# alone they mean no other unit, as in DEG/S and KG M^2; N M S is three words, NM would be nm
+CAPITALS = {"S": "s", "M": "m"}
+ACCEPTED = ("m, kg, g, s, A, rad, N, J, W, Pa, C, V, T with the prefixes n u m c d k M G; deg, arcmin, "
+            "arcsec, rev, rpm; min, h, day, week; t; "
+            "in, ft, lb, lbf, slug; their English names such as hours, degrees, newtons, in small or capital "
+            "letters; "
             "and products, powers and quotients of these such as N m s, kg m^2, deg/s")
 NONE, LENGTH, MASS, TIME, ANGLE = (0,) * 5, (1, 0, 0, 0, 0), (0, 1, 0, 0, 0), (0, 0, 1, 0, 0), (0, 0, 0, 0, 1)
 RATE, FORCE, TORQUE, MOMENTUM = (0, 0, -1, 0, 1), (1, 1, -2, 0, 0), (2, 1, -2, 0, 0), (2, 1, -1, 0, 0)
 INERTIA, VELOCITY, CHARGE, FLUX = (2, 1, 0, 0, 0), (1, 0, -1, 0, 0), (0, 0, 1, 1, 0), (0, 1, -2, -1, 0)
-PER_SECOND, PER_SECOND_2, DENSITY, VISCOSITY = (0, 0, -1, 0, 0), (0, 0, -2, 0, 0), (-3, 1, 0, 0, 0), (2, 0, -1, 0, 0)
-ATTRACTION, LENGTH_7, ENERGY = (3, 0, -2, 0, 0), (7, 0, 0, 0, 0), (2, 1, -2, 0, 0)  # an energy has the dimension of a torque
-NAMES = {NONE: "a number without a unit", LENGTH: "length (m)", MASS: "mass (kg)", TIME: "time (s)", ANGLE: "angle (rad)",
-         RATE: "angular velocity (rad/s)", FORCE: "force (N)", TORQUE: "torque (N m)", MOMENTUM: "angular momentum (N m s)",
-         INERTIA: "moment of inertia (kg m^2)", VELOCITY: "velocity (m/s)", CHARGE: "charge (C)", FLUX: "magnetic flux density (T)",
-         PER_SECOND: "rate (1/s)", DENSITY: "density (kg/m^3)", VISCOSITY: "kinematic viscosity (m^2/s)", (2, 1, -3, 0, 0): "power (W)",
-         (-1, 1, -2, 0, 0): "pressure (Pa)", (0, 0, -2, 0, 1): "angular acceleration (rad/s^2)", (1, 1, -1, 0, 0): "momentum (N s)"}
+PER_SECOND, PER_SECOND_2, DENSITY, VISCOSITY = (0, 0, -1, 0,
+                                                0), (0, 0, -2, 0, 0), (-3, 1, 0, 0, 0), (2, 0, -1, 0, 0)
+# an energy has the dimension of a torque
+ATTRACTION, LENGTH_7, ENERGY = (3, 0, -2, 0, 0), (7, 0, 0, 0, 0), (2, 1, -2, 0, 0)
+NAMES = {NONE: "a number without a unit", LENGTH: "length (m)", MASS: "mass (kg)", TIME: "time (s)",
+         ANGLE: "angle (rad)",
+         RATE: "angular velocity (rad/s)", FORCE: "force (N)", TORQUE: "torque (N m)",
+         MOMENTUM: "angular momentum (N m s)",
+         INERTIA: "moment of inertia (kg m^2)", VELOCITY: "velocity (m/s)", CHARGE: "charge (C)",
+         FLUX: "magnetic flux density (T)",
+         PER_SECOND: "rate (1/s)", DENSITY: "density (kg/m^3)", VISCOSITY: "kinematic viscosity (m^2/s)",
+         (2, 1, -3, 0, 0): "power (W)",
+         (-1, 1, -2, 0, 0): "pressure (Pa)", (0, 0, -2, 0, 1): "angular acceleration (rad/s^2)",
+         (1, 1, -1, 0, 0): "momentum (N s)"}
 
 DIMENSIONS = {  # of the numbers of a case file; one that is not here is a number without a unit
-    "body.inertia": INERTIA, "body.products.xy": INERTIA, "body.products.xz": INERTIA, "body.products.yz": INERTIA,
+    "body.inertia": INERTIA, "body.products.xy": INERTIA, "body.products.xz": INERTIA,
+    "body.products.yz": INERTIA,
     "body.mass": MASS, "body.centre_of_mass": LENGTH,
-    "thrusters.position": LENGTH, "thrusters.force": FORCE, "thrusters.force_tolerance": FORCE, "thrusters.misalignment": ANGLE,
+    "thrusters.position": LENGTH, "thrusters.force": FORCE, "thrusters.force_tolerance": FORCE,
+    "thrusters.misalignment": ANGLE,
     "wheels.momentum": MOMENTUM, "wheels.inertia": INERTIA, "wheels.speed": RATE,
     "limits.rate": RATE, "motion.angular_velocity": RATE, "motion.span": TIME, "motion.attitude": ANGLE,
     "motion.velocity": VELOCITY, "motion.position": LENGTH, "expect.period": TIME,
-    "effects.gyrostat.momentum": MOMENTUM, "effects.constant_torque.torque": TORQUE, "effects.body_force.force": FORCE,
-    "effects.gravity.weight": FORCE, "effects.gravity.centre_of_mass": LENGTH, "effects.resistance.coefficient": PER_SECOND,
-    "effects.newtonian_field.strength": PER_SECOND_2, "effects.newtonian_field.lambda": ATTRACTION, "effects.newtonian_field.R": LENGTH,
-    "effects.charge.charge": CHARGE, "effects.charge.field": FLUX, "effects.charge.arm": LENGTH, "effects.charge.angle": ANGLE,
-    "effects.liquid_cavity.density": DENSITY, "effects.liquid_cavity.viscosity": VISCOSITY, "effects.liquid_cavity.P0": LENGTH_7,
+    "effects.gyrostat.momentum": MOMENTUM, "effects.constant_torque.torque": TORQUE,
+    "effects.body_force.force": FORCE,
+    "effects.gravity.weight": FORCE, "effects.gravity.centre_of_mass": LENGTH,
+    "effects.resistance.coefficient": PER_SECOND,
+    "effects.newtonian_field.strength": PER_SECOND_2, "effects.newtonian_field.lambda": ATTRACTION,
+    "effects.newtonian_field.R": LENGTH,
+    "effects.charge.charge": CHARGE, "effects.charge.field": FLUX, "effects.charge.arm": LENGTH,
+    "effects.charge.angle": ANGLE,
+    "effects.liquid_cavity.density": DENSITY, "effects.liquid_cavity.viscosity": VISCOSITY,
+    "effects.liquid_cavity.P0": LENGTH_7,
     "effects.liquid_cavity.radius": LENGTH,
 }
 
-_NUMBER = r"(?as)\s*([+-]?(?:\d[\d_]*(?:\.[\d_]*)?|\.\d[\d_]*)(?:[eE][+-]?\d+)?(?:\s*/\s*\d+)?)\s*(.*)"  # compiled where a unit is read
+# compiled where a unit is read
+_NUMBER = r"(?as)\s*([+-]?(?:\d[\d_]*(?:\.[\d_]*)?|\.\d[\d_]*)(?:[eE][+-]?\d+)?(?:\s*/\s*\d+)?)\s*(.*)"
 _FACTOR = re.compile(r"\s*([*·/.\-]|)\s*(1|[A-Za-zµμ°]+)(?:(?:\^|\*\*)?([+-]?\d{1,2})|([²³]))?\s*")
 _SUPER = {"²": 2, "³": 3}
 
@@ -83,7 +110,8 @@ def split(text: str) -> tuple[str, str] | None:
 
 
 def quantity(text: str, wanted: Dimension) -> tuple[Fraction, bool]:
-    """(the number in SI units, whether that is exact) of a number with its unit, or without, which is SI. Raises InputError."""
+    """(the number in SI units, whether that is exact) of a number with its unit, or without, which is SI.
+    Raises InputError."""
     parts = split(text)
     if parts is None:
         return exact(text), True  # which says what is wrong
@@ -93,32 +121,38 @@ def quantity(text: str, wanted: Dimension) -> tuple[Fraction, bool]:
     try:
         unit = in_dimension(parts[1], wanted, text)
     except UnknownUnit as error:
-        raise InputError(f'expected a decimal or a ratio such as "0.1" or "2/3"{"" if wanted == NONE else ", alone or with a unit"}, '
+        raise InputError(f'expected a decimal or a ratio such as "0.1" or '
+                         f'"2/3"{"" if wanted == NONE else ", alone or with a unit"}, '
                          f'got "{text[:60]}"{"" if wanted == NONE else f": {error}"}') from None
     return exact(value * unit.size), unit.exact or not value  # refuses what no double can hold
 
 
 def in_dimension(words: str, wanted: Dimension, text: str = "") -> Unit:
-    """The unit, which must have the dimension that is wanted. Raises InputError with both dimensions otherwise."""
+    """The unit, which must have the dimension that is wanted. Raises InputError with both dimensions
+    otherwise."""
     unit = unit_of(words)
     if unit.dimension != wanted:
         came = text or words
         if wanted == NONE:
             raise InputError(f'expected {named(wanted)}, got {named(unit.dimension)}: "{came[:60]}"')
         also = " or energy (J)" if wanted == ENERGY else ""
-        raise InputError(f'expected {named(wanted)}{also}, got {named(unit.dimension)}: "{came[:60]}"; a number alone is in SI units')
+        raise InputError(
+            f'expected {named(wanted)}{also}, got {named(unit.dimension)}: "{came[:60]}"; a number alone is '
+            f'in SI units')
     return unit
 
 
 def unit_of(words: str) -> Unit:
-    """The unit that a product of units makes. Raises InputError for a word that is none, with those that are accepted."""
+    """The unit that a product of units makes. Raises InputError for a word that is none, with those that are
+    accepted."""
     size, dimension, is_exact, at, divided = Fraction(1), NONE, True, 0, False
     while at < len(words):
         found = _FACTOR.match(words, at)
         if not found or (at == 0 and found[1]):
             raise UnknownUnit(f'unknown unit "{words[:60]}"; accepted are {ACCEPTED}')
         if found[1] == "/" and divided:
-            raise InputError(f'"{words[:60]}" divides twice: write what is divided by in powers, such as m s^-2')
+            raise InputError(
+                f'"{words[:60]}" divides twice: write what is divided by in powers, such as m s^-2')
         divided = divided or found[1] == "/"
         one = _single(found[2], words)
         power = int(found[3] or _SUPER.get(found[4], 1)) * (-1 if divided else 1)
@@ -173,7 +207,8 @@ def _single(word: str, words: str) -> Unit:
 def _near(word: str) -> str:
     from difflib import get_close_matches
     known = [*BASE, *TURNS, *OTHERS, *WORDS, "mN", "cm", "mm", "km", "kN"]
-    near = get_close_matches(word, known, n=1, cutoff=0.6) or get_close_matches(word.lower(), known, n=1, cutoff=0.6)
+    near = (get_close_matches(word, known, n=1, cutoff=0.6)
+            or get_close_matches(word.lower(), known, n=1, cutoff=0.6))
     return f", did you mean {near[0]}?" if near else ""
 
 

@@ -1,5 +1,6 @@
-"""The commands of the program: a file a group of them, with their names and options. Each opens one door, to its file in `commands`, which loads
-cases, asks the analysis and shows the answer. The group that a line names is read, and no other."""
+"""The commands of the program: a file a group of them, with their names and options. Each opens one door, to
+its file in `commands`, which loads cases, asks the analysis and shows the answer. The group that a line names
+is read, and no other."""
 from __future__ import annotations
 
 import os
@@ -23,13 +24,15 @@ def _version(wanted: bool):
         raise typer.Exit()
 
 
-def stabilab(version: Annotated[bool, typer.Option("--version", callback=_version, is_eager=True, help="Show the version and exit.")] = False):
+def stabilab(version: Annotated[bool, typer.Option("--version", callback=_version, is_eager=True,
+                                                   help="Show the version and exit.")] = False):
     """Where a rotating body's equilibria are, which are stable, and whether a motion stays bounded."""
 
 
 def _without_commands() -> typer.Typer:
     """A program with plain help: rich costs more time than the rest of `stabilab --help`."""
-    program = typer.Typer(name="stabilab", cls=Grouped, no_args_is_help=True, rich_markup_mode=None, pretty_exceptions_enable=False,
+    program = typer.Typer(name="stabilab", cls=Grouped, no_args_is_help=True, rich_markup_mode=None,
+                          pretty_exceptions_enable=False,
                           context_settings={"help_option_names": ["-h", "--help"]})
     program.callback()(stabilab)
     return program
@@ -48,15 +51,16 @@ def whole() -> typer.Typer:
 
 
 def asked_for(words) -> typer.Typer:
-    """The program as far as a line asks for it: of the group whose command begins the line, of all groups where none does, the commands that the line
-    names as they are, of the others the name and the help.
+    """The program as far as a line asks for it: of the group whose command begins the line, of all groups
+    where none does, the commands that the line names as they are, of the others the name and the help.
 
-    Typer evaluates and inspects every option of every command that it is given, which takes longer than to import typer. A shell that
-    completes a line names no command in it, and gets them all.
+    Typer evaluates and inspects every option of every command that it is given, which takes longer than to
+    import typer. A shell that completes a line names no command in it, and gets them all.
     """
     if any(name.startswith("_") and name.endswith("_COMPLETE") for name in os.environ):
         return whole()
-    files = [file for file, names in GROUPS.values() if words[:1] and words[0] in names] or [file for file, _ in GROUPS.values()]
+    files = ([file for file, names in GROUPS.values() if words[:1] and words[0] in names]
+             or [file for file, _ in GROUPS.values()])
     needed = _without_commands()
     for command in chain.from_iterable(map(_of_group, files)):
         name = command.name or command.callback.__name__
@@ -76,7 +80,8 @@ def say(text: str):
 def main(silence: float | None = None) -> None:
     """Run a command and end the process with its exit code; stderr hears of a silence of so many seconds."""
     if hasattr(sys.stdout, "reconfigure"):
-        sys.stdout.reconfigure(errors="backslashreplace")  # a terminal or pipe that does not take every letter
+        # a terminal or pipe that does not take every letter
+        sys.stdout.reconfigure(errors="backslashreplace")
     with guarded(silence):
         sys.exit(_run())
 

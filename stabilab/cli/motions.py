@@ -1,4 +1,5 @@
-"""Answers about a motion: what becomes of it, its extremes and period, when it reaches a limit, what helps."""
+"""Answers about a motion: what becomes of it, its extremes and period, when it reaches a limit, what helps.
+"""
 from __future__ import annotations
 
 from pathlib import Path
@@ -6,17 +7,38 @@ from typing import Annotated  # typer reads the annotations at run time
 
 import typer
 
-from .options import CaseFile, CaseFiles, Csv, Digits, Follow, Json, Prove, Si, Strict, Tilt, UnitsOption, Why, either_json_or_csv
+from .options import (
+    CaseFile,
+    CaseFiles,
+    Csv,
+    Digits,
+    Follow,
+    Json,
+    Prove,
+    Si,
+    Strict,
+    Tilt,
+    UnitsOption,
+    Why,
+    either_json_or_csv,
+)
 
 commands = typer.Typer()
 
 
 @commands.command()
 def classify(cases: CaseFiles, json: Json = False, strict: Annotated[bool, typer.Option(
-        "--strict", help="Exit with 3 where a verdict or a fate is undecided or an approximate law does not hold.")] = False,
-             certify: Annotated[bool, typer.Option("--certify", help="Prove the answer in exact numbers and balls, and write it as a "
-                                                                     "certificate that `stabilab verify` checks.")] = False,
-             out: Annotated[Path, typer.Option(metavar="FILE.json", help="Where the certificate goes.")] = Path("certificate.json"),
+        "--strict", help="Exit with 3 where a verdict or a fate is undecided or an approximate law does "
+                         "not hold.")] = False,
+             certify: Annotated[bool,
+                                typer.Option("--certify",
+                                             help="Prove the answer in exact numbers and balls, and write "
+                                                  "it as a "
+                                                                     "certificate that `stabilab verify` "
+                                                                     "checks.")] = False,
+             out: Annotated[Path,
+                            typer.Option(metavar="FILE.json",
+                                         help="Where the certificate goes.")] = Path("certificate.json"),
              follow: Follow = None, tilt: Tilt = None, units: UnitsOption = None, why: Why = False):
     """Find the equilibria, their stability, and the motion's fate.
 
@@ -27,7 +49,8 @@ def classify(cases: CaseFiles, json: Json = False, strict: Annotated[bool, typer
 
 
 @commands.command()
-def fate(cases: CaseFiles, json: Json = False, digits: Digits = None, strict: Strict = False, follow: Follow = None, tilt: Tilt = None,
+def fate(cases: CaseFiles, json: Json = False, digits: Digits = None, strict: Strict = False,
+         follow: Follow = None, tilt: Tilt = None,
          certify: Prove = False, units: UnitsOption = None, why: Why = False):
     """Say what becomes of each motion, and by how much.
 
@@ -53,7 +76,8 @@ def extremes(cases: CaseFiles, json: Json = False,
 
 
 @commands.command()
-def period(cases: CaseFiles, json: Json = False, digits: Digits = None, strict: Strict = False, units: UnitsOption = None, why: Why = False):
+def period(cases: CaseFiles, json: Json = False, digits: Digits = None, strict: Strict = False,
+           units: UnitsOption = None, why: Why = False):
     """Find the period of each motion that repeats.
 
     Example: stabilab period cases/minor-axis-100.toml --digits 30
@@ -64,16 +88,28 @@ def period(cases: CaseFiles, json: Json = False, digits: Digits = None, strict: 
 
 @commands.command()
 def when(cases: CaseFiles,
-         rate: Annotated[str | None, typer.Option(metavar="RATE", help='Of |ω|: "30 deg/s". Default: the limit of [limits].')] = None,
-         component: Annotated[str | None, typer.Option(metavar="AXIS=RATE", help='Of one component\'s size: "z = 30 deg/s"; x, y, z of the file, '
+         rate: Annotated[str | None,
+                         typer.Option(metavar="RATE",
+                                      help='Of |ω|: "30 deg/s". Default: the limit of [limits].')] = None,
+         component: Annotated[str | None,
+                              typer.Option(metavar="AXIS=RATE",
+                                           help='Of one component\'s size: "z = 30 deg/s"; x, y, z of the '
+                                                'file, '
                                                                                  '1, 2, 3 for principal axes.')] = None,
-         energy: Annotated[str | None, typer.Option(metavar="ENERGY", help='Of the kinetic energy: "5 J".')] = None,
-         tilt: Annotated[str | None, typer.Option(metavar="AXIS=ANGLE", help='Of the angle between a body axis and its direction at the start: '
+         energy: Annotated[str | None,
+                           typer.Option(metavar="ENERGY", help='Of the kinetic energy: "5 J".')] = None,
+         tilt: Annotated[str | None,
+                         typer.Option(metavar="AXIS=ANGLE",
+                                      help='Of the angle between a body axis and its direction at the start: '
                                                                              '"z = 20 deg".')] = None,
-         until: Annotated[str | None, typer.Option(metavar="TIME", help='Search no further than this: "10 min".')] = None,
+         until: Annotated[str | None,
+                          typer.Option(metavar="TIME", help='Search no further than this: "10 min".')] = None,
          units: UnitsOption = None, si: Si = False,
          json: Json = False, csv: Csv = False,
-         strict: Annotated[bool, typer.Option("--strict", help="Exit with 3 where the time is not known or an approximate law does not hold.")] = False):
+         strict: Annotated[bool,
+                           typer.Option("--strict",
+                                        help="Exit with 3 where the time is not known or an approximate law "
+                                             "does not hold.")] = False):
     """Say when each motion first reaches a limit.
 
     Enclosed between two times, by roots and not by sampling, or never.
@@ -88,15 +124,23 @@ def when(cases: CaseFiles,
 
 @commands.command()
 def stuck(case: CaseFile,
-          all_thrusters: Annotated[bool, typer.Option("--all-thrusters", help="Each thruster alone, stuck or not; the one that reaches "
-                                                                              "the limit first in front.")] = False,
+          all_thrusters: Annotated[bool,
+                                   typer.Option("--all-thrusters",
+                                                help="Each thruster alone, stuck or not; the one that "
+                                                     "reaches "
+                                                                              "the limit first in "
+                                                                              "front.")] = False,
           units: UnitsOption = None, si: Si = False, why: Why = False,
-          out: Annotated[Path | None, typer.Option(metavar="FILE.png|.svg|.pdf", help="Draw the rates against time.")] = None,
+          out: Annotated[Path | None,
+                         typer.Option(metavar="FILE.png|.svg|.pdf",
+                                      help="Draw the rates against time.")] = None,
           json: Json = False, csv: Csv = False,
-          strict: Annotated[bool, typer.Option("--strict", help="Exit with 3 where a fate is undecided.")] = False):
+          strict: Annotated[bool,
+                            typer.Option("--strict", help="Exit with 3 where a fate is undecided.")] = False):
     """Say what a thruster stuck open does, how soon, what helps.
 
-    Fate, axis, time to the limit of [limits], margins; wheel momenta that keep the motion bounded, thrusters that help.
+    Fate, axis, time to the limit of [limits], margins; wheel momenta that keep the motion bounded, thrusters
+    that help.
 
     Example: stabilab stuck cases/upper-stage.toml
     """
@@ -107,13 +151,21 @@ def stuck(case: CaseFile,
 
 @commands.command()
 def chaos(cases: CaseFiles,
-          until: Annotated[str | None, typer.Option(metavar="TIME", help="How long each motion is followed; default: a thousand turns.")] = None,
-          out: Annotated[Path | None, typer.Option(metavar="FILE.png|.svg|.pdf", help="Draw the Poincaré section and MEGNO over its plane.")] = None,
-          csv: Annotated[bool, typer.Option("--csv", help="CSV on stdout: MEGNO over time.")] = False, json: Json = False,
-          strict: Annotated[bool, typer.Option("--strict", help="Exit with 3 where it stays undecided.")] = False):
+          until: Annotated[str | None,
+                           typer.Option(metavar="TIME",
+                                        help="How long each motion is followed; default: a thousand "
+                                             "turns.")] = None,
+          out: Annotated[Path | None,
+                         typer.Option(metavar="FILE.png|.svg|.pdf",
+                                      help="Draw the Poincaré section and MEGNO over its plane.")] = None,
+          csv: Annotated[bool, typer.Option("--csv", help="CSV on stdout: MEGNO over time.")] = False,
+          json: Json = False,
+          strict: Annotated[bool,
+                            typer.Option("--strict", help="Exit with 3 where it stays undecided.")] = False):
     """Say whether each motion is regular or chaotic.
 
-    By how a small change of the start grows (MEGNO), from variational equations of the case's own; seen up to a time, not proved.
+    By how a small change of the start grows (MEGNO), from variational equations of the case's own; seen up to
+    a time, not proved.
 
     Example: stabilab chaos cases/minor-axis-100.toml
     """

@@ -1,4 +1,5 @@
-"""Into a case: its equations and laws, its models and methods compared, and a case from another program's file."""
+"""Into a case: its equations and laws, its models and methods compared, and a case from another program's
+file."""
 from __future__ import annotations
 
 from pathlib import Path
@@ -25,8 +26,11 @@ def show(case: CaseFile):
 
 @commands.command()
 def compare(case: CaseFile,
-            order: Annotated[int | None, typer.Option(metavar="N", min=1, help="Order of the lindstedt expansion.")] = None,
-            out: Annotated[Path | None, typer.Option(metavar="FILE.csv", help="Write the errors over time.")] = None,
+            order: Annotated[int | None,
+                             typer.Option(metavar="N", min=1,
+                                          help="Order of the lindstedt expansion.")] = None,
+            out: Annotated[Path | None,
+                           typer.Option(metavar="FILE.csv", help="Write the errors over time.")] = None,
             json: Json = False, strict: Strict = False, units: UnitsOption = None):
     """Set the analytic models of a case beside its exact motion.
 
@@ -41,9 +45,16 @@ def compare(case: CaseFile,
 @commands.command()
 def precision(case: CaseFile, json: Json = False,
               csv: Csv = False,
-              out: Annotated[Path | None, typer.Option(metavar="FILE.png|.svg|.pdf|.csv", help="Write the picture or the points.")] = None,
-              until: Annotated[str | None, typer.Option(metavar="TIME", help="End of the span: \"10 min\"; default: the case's own.")] = None,
-              quick: Annotated[bool, typer.Option("--quick", help="Few settings: seconds instead of a minute.")] = False,
+              out: Annotated[Path | None,
+                             typer.Option(metavar="FILE.png|.svg|.pdf|.csv",
+                                          help="Write the picture or the points.")] = None,
+              until: Annotated[str | None,
+                               typer.Option(metavar="TIME",
+                                            help="End of the span: \"10 min\"; default: the "
+                                                 "case's own.")] = None,
+              quick: Annotated[bool,
+                               typer.Option("--quick",
+                                            help="Few settings: seconds instead of a minute.")] = False,
               strict: Strict = False):
     """Measure what accuracy costs: every method, error and time.
 
@@ -57,11 +68,19 @@ def precision(case: CaseFile, json: Json = False,
 
 
 @commands.command(name="import")
-def import_(file: Annotated[Path, typer.Argument(metavar="FILE", help="A NASA 42 spacecraft file, or JSON or a Python dictionary with "
-                                                                      "Basilisk's names.", show_default=False)],
-            out: Annotated[Path | None, typer.Option(metavar="FILE.toml", help="Write the case to a file.")] = None,
-            stuck: Annotated[list[str] | None, typer.Option(metavar="NAME", help="A thruster that is stuck open; may be repeated.")] = None,
-            body: Annotated[int | None, typer.Option(metavar="N", help="Of several bodies in a NASA 42 file, one alone.",
+def import_(file: Annotated[Path,
+                            typer.Argument(metavar="FILE",
+                                           help="A NASA 42 spacecraft file, or JSON or a Python "
+                                                "dictionary with "
+                                                                      "Basilisk's names.",
+                                           show_default=False)],
+            out: Annotated[Path | None,
+                           typer.Option(metavar="FILE.toml", help="Write the case to a file.")] = None,
+            stuck: Annotated[list[str] | None,
+                             typer.Option(metavar="NAME",
+                                          help="A thruster that is stuck open; may be repeated.")] = None,
+            body: Annotated[int | None,
+                            typer.Option(metavar="N", help="Of several bodies in a NASA 42 file, one alone.",
                                                      show_default="all, joined")] = None):
     """Write another program's spacecraft as a case.
 

@@ -12,7 +12,8 @@ commands = typer.Typer()
 
 
 @commands.command()
-def tables(out: Annotated[Path, typer.Option(metavar="DIR", help="Folder for the files.")] = ...):  # type: ignore[assignment]  # typer: must be given
+# typer: must be given
+def tables(out: Annotated[Path, typer.Option(metavar="DIR", help="Folder for the files.")] = ...):  # type: ignore[assignment]
     """Write Tables 1-4 of the constant-torque paper.
 
     Formats: text, CSV, Markdown, LaTeX, HTML.
@@ -27,9 +28,12 @@ def tables(out: Annotated[Path, typer.Option(metavar="DIR", help="Folder for the
 def figures(numbers: Annotated[list[int] | None, typer.Argument(
                 metavar="[N...]", help="Figure numbers of one paper; none: all.", show_default=False)] = None,
             paper: Annotated[str | None, typer.Option(metavar="NAME", autocompletion=completion.papers,
-                                                      help="constant-torque, charged, cavity or top. Default: "
-                                                         "constant-torque where numbers are given, else all.")] = None,
-            out: Annotated[Path, typer.Option(metavar="DIR", help="Folder for the pictures.")] = Path("figures")):
+                                                      help="constant-torque, charged, cavity or top. "
+                                                           "Default: "
+                                                         "constant-torque where numbers are given, "
+                                                         "else all.")] = None,
+            out: Annotated[Path,
+                           typer.Option(metavar="DIR", help="Folder for the pictures.")] = Path("figures")):
     """Draw the figures of the papers.
 
     Each picture gets a text file: caption, command, version, tolerance.

@@ -1,4 +1,5 @@
-"""Proofs and checks: certificates, reference motions, formulas and numbers held against ours, bytes made again."""
+"""Proofs and checks: certificates, reference motions, formulas and numbers held against ours, bytes made
+again."""
 from __future__ import annotations
 
 from pathlib import Path
@@ -13,11 +14,19 @@ commands = typer.Typer()
 
 
 @commands.command()
-def verify(certificate: Annotated[Path, typer.Argument(metavar="CERTIFICATE", help="A certificate.json of classify --certify or bifurcation --certify.",
-                                                       show_default=False, autocompletion=completion.certificates)],
-           case: Annotated[Path | None, typer.Option(metavar="CASE.toml", help="The case it must be of: exit with 5 where scene or "
+def verify(certificate: Annotated[Path,
+                                  typer.Argument(metavar="CERTIFICATE",
+                                                 help="A certificate.json of classify --certify or "
+                                                      "bifurcation --certify.",
+                                                       show_default=False,
+                                                 autocompletion=completion.certificates)],
+           case: Annotated[Path | None,
+                           typer.Option(metavar="CASE.toml",
+                                        help="The case it must be of: exit with 5 where scene or "
                                                         "state differ.")] = None, json: Json = False,
-           strict: Annotated[bool, typer.Option("--strict", help="Exit with 3 where a claim could not be checked.")] = False):
+           strict: Annotated[bool,
+                             typer.Option("--strict",
+                                          help="Exit with 3 where a claim could not be checked.")] = False):
     """Check a certificate with separate code.
 
     Shares only python-flint with the analysis. Exits with 5 where a claim is wrong.
@@ -30,13 +39,19 @@ def verify(certificate: Annotated[Path, typer.Argument(metavar="CERTIFICATE", he
 
 @commands.command()
 def reference(case: CaseFile,
-              at: Annotated[list[str] | None, typer.Option(metavar="T1,T2,...", help="Times from 0 on, with a unit or in that of the case. "
-                                                                                   "Default: 201 times over the span.")] = None,
+              at: Annotated[list[str] | None,
+                            typer.Option(metavar="T1,T2,...",
+                                         help="Times from 0 on, with a unit or in that of the case. "
+                                                                                   "Default: 201 times over "
+                                                                                   "the span.")] = None,
               digits: Annotated[int, typer.Option(metavar="N", help="Digits (1 to 50) of every state.")] = 30,
-              out: Annotated[Path | None, typer.Option(metavar="FILE.csv|.json", help="Write to a file.")] = None, json: Json = False):
+              out: Annotated[Path | None,
+                             typer.Option(metavar="FILE.csv|.json", help="Write to a file.")] = None,
+              json: Json = False):
     """Write a motion with guaranteed digits, to test integrators.
 
-    States, zeros and extremes, period, with versions, case and command: CSV, or JSON. Exits with 5 where digits are not reached.
+    States, zeros and extremes, period, with versions, case and command: CSV, or JSON. Exits with 5 where
+    digits are not reached.
 
     Example: stabilab reference cases/minor-axis-100.toml --digits 30 --out minor-axis-100.csv
     """
@@ -45,10 +60,19 @@ def reference(case: CaseFile,
 
 
 @commands.command()
-def audit(paper: Annotated[str | None, typer.Argument(metavar="[PAPER]", help="A paper on record or a file of claims, .toml; default: all papers.",
-                                                      show_default=False, autocompletion=completion.audited)] = None,
-          equation: Annotated[str | None, typer.Option(metavar="N", help="One equation or claim, as 17 or text-8a.")] = None, json: Json = False,
-          out: Annotated[Path | None, typer.Option("--html", metavar="FILE.html", help="Write a page with the formulas typeset.")] = None):
+def audit(paper: Annotated[str | None,
+                           typer.Argument(metavar="[PAPER]",
+                                          help="A paper on record or a file of claims, .toml; default: all "
+                                               "papers.",
+                                                      show_default=False,
+                                          autocompletion=completion.audited)] = None,
+          equation: Annotated[str | None,
+                              typer.Option(metavar="N",
+                                           help="One equation or claim, as 17 or text-8a.")] = None,
+          json: Json = False,
+          out: Annotated[Path | None,
+                         typer.Option("--html", metavar="FILE.html",
+                                      help="Write a page with the formulas typeset.")] = None):
     """Hold published formulas against the equations of motion.
 
     Each row: holds, holds only under a condition, wrong (with what is right), definition, or not checkable.
@@ -60,13 +84,19 @@ def audit(paper: Annotated[str | None, typer.Argument(metavar="[PAPER]", help="A
 
 
 @commands.command()
-def validate(source: Annotated[str | None, typer.Argument(metavar="[SOURCE]", help="nesc, basilisk, orekit or 42; default: all.", show_default=False,
+def validate(source: Annotated[str | None,
+                               typer.Argument(metavar="[SOURCE]",
+                                              help="nesc, basilisk, orekit or 42; default: all.",
+                                              show_default=False,
                                                       autocompletion=completion.sources)] = None,
              json: Json = False,
-             out: Annotated[Path | None, typer.Option("--html", metavar="FILE.html", help="Write a page with the table.")] = None):
+             out: Annotated[Path | None,
+                            typer.Option("--html", metavar="FILE.html",
+                                         help="Write a page with the table.")] = None):
     """Hold other tools' published numbers against ours.
 
-    Ours with proved digits, theirs, the difference, and its cause. Exits with 5 where a difference is not explained.
+    Ours with proved digits, theirs, the difference, and its cause. Exits with 5 where a difference is not
+    explained.
 
     Example: stabilab validate nesc
     """
@@ -75,9 +105,13 @@ def validate(source: Annotated[str | None, typer.Argument(metavar="[SOURCE]", he
 
 
 @commands.command()
-def rerun(manifest: Annotated[Path, typer.Argument(metavar="MANIFEST", help="A manifest.json, or the folder that holds it.",
-                                                   show_default=False, autocompletion=completion.certificates)],
-          out: Annotated[Path | None, typer.Option(metavar="DIR", help="Keep the new files in an empty folder.")] = None):
+def rerun(manifest: Annotated[Path,
+                              typer.Argument(metavar="MANIFEST",
+                                             help="A manifest.json, or the folder that holds it.",
+                                                   show_default=False,
+                                             autocompletion=completion.certificates)],
+          out: Annotated[Path | None,
+                         typer.Option(metavar="DIR", help="Keep the new files in an empty folder.")] = None):
     """Repeat what made a folder and compare every byte.
 
     Exits with 2 where inputs are missing or changed, with 5 where a file differs.

@@ -1,4 +1,5 @@
-"""`stabilab compare` and `precision`: how far analytic models and numerical methods are from the exact motion, and at what cost."""
+"""`stabilab compare` and `precision`: how far analytic models and numerical methods are from the exact
+motion, and at what cost."""
 from __future__ import annotations
 
 from functools import partial
@@ -25,7 +26,8 @@ def compare(case, order, out, json, strict, units):
     if out:
         write_each(out, [(one, partial(comparison.write, one, found)) for one, found in compared])
     if json:
-        write_json(loaded, [comparison.as_dict(one, found) | law.key(found.validity, one) for one, found in compared])
+        write_json(loaded,
+                   [comparison.as_dict(one, found) | law.key(found.validity, one) for one, found in compared])
     else:
         tell("\n\n".join(law.first(found.validity, comparison.text(one, found, system), system, one.caveats)
                          for (one, found), system in zip(compared, systems)))
@@ -37,7 +39,8 @@ def _compared(case, order):
     if case.span is None:
         raise InputError(f"{case.place}: motion: no span; compare needs span = [0, T] in [motion]")
     if models_of(case.scene) == ("exact",):
-        raise InputError(f"{case.place}: no analytic model applies to this scene; there is nothing to compare")
+        raise InputError(
+            f"{case.place}: no analytic model applies to this scene; there is nothing to compare")
     with blamed_on(case):
         return set_side_by_side(case, order=order)
 
@@ -47,7 +50,8 @@ def precision(case, json, csv, out, until, quick, strict):
     if out:
         shown.checked(out)
     loaded = load_cases([case], motion=True)
-    measured = [measure(one, "quick" if quick else "full", time_asked(until, one, "until")) for one in one_by_one(loaded)]
+    measured = [measure(one, "quick" if quick else "full", time_asked(until, one, "until"))
+                for one in one_by_one(loaded)]
     for found in measured:
         keep(found)
     if out:
@@ -57,6 +61,7 @@ def precision(case, json, csv, out, until, quick, strict):
     elif csv:
         write(shown.csv(*measured))
     else:
-        tell("\n\n".join(law.first(found.validity, shown.text(found), caveats=found.case.caveats) for found in measured))
+        tell("\n\n".join(law.first(found.validity, shown.text(found), caveats=found.case.caveats)
+                         for found in measured))
     all_reached((found.case, found.reference.reason) for found in measured if not found.questions)
     hold_laws(strict, (found.validity for found in measured), [found.case for found in measured])

@@ -19,20 +19,26 @@ def classify(cases, json, strict, certify, out, follow, tilt, units, why):
     if certify:
         from . import certify as proof
         proof.checked(out, cases)
-    answered = [(case, _equilibria(case), tilted(case, motion_of(case, follow=follow, proof=certify), tilt) if case.state else None)
+    answered = [(case, _equilibria(case),
+                 tilted(case, motion_of(case, follow=follow, proof=certify), tilt) if case.state else None)
                 for case in one_by_one(loaded)]
     boxes = over_boxes(loaded, "equilibria", "fate")
     answered = [(case, found, sampled(motion, box)) for (case, found, motion), box in zip(answered, boxes)]
     laws = [law.worst(found.validity, motion and motion.validity) for _, found, motion in answered]
     if json:
-        write(answers.as_json([answers.classification(*answer) | law.key(held, answer[0] if answer[2] is None else None) | uncertain.as_dict(box)
+        write(answers.as_json([answers.classification(*answer)
+                               | law.key(held, answer[0] if answer[2] is None else None)
+                               | uncertain.as_dict(box)
                                for answer, held, box in zip(answered, laws, boxes)]))
     else:
-        texts = [lambda n=n: uncertain.first(boxes[n], classification.text(*answered[n], systems[n], why), systems[n])
+        texts = [lambda n=n: uncertain.first(boxes[n], classification.text(*answered[n], systems[n], why),
+                                             systems[n])
                  for n in range(len(answered))]
-        tell_all(loaded, texts, laws, list(map(uncertain.in_si, boxes, systems)), why, "\n\n", swept_motions([m for *_, m in answered], systems), systems)
+        tell_all(loaded, texts, laws, list(map(uncertain.in_si, boxes, systems)), why, "\n\n",
+                 swept_motions([m for *_, m in answered], systems), systems)
     certified = all([proof.certified(case, out) for case in loaded]) if certify else True
-    undecided = any(answers.undecided(found, motion) for _, found, motion in answered) or any(map(uncertain.undecided, boxes))
+    undecided = (any(answers.undecided(found, motion) for _, found, motion in answered)
+                 or any(map(uncertain.undecided, boxes)))
     leave_undecided(strict, not certified or undecided)
     hold_laws(strict, laws, loaded)
 

@@ -17,7 +17,8 @@ def import_(file, out, stuck, body=None):
     elif body is None:
         craft = import_basilisk.spacecraft(given, file)
     else:
-        raise InputError(f"--body counts the bodies of a NASA 42 spacecraft file, and {printable(str(file))} is none")
+        raise InputError(
+            f"--body counts the bodies of a NASA 42 spacecraft file, and {printable(str(file))} is none")
     text = case_text(craft, file, stuck or ())
     if out:
         with whole_file(out) as waiting:

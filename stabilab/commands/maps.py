@@ -44,7 +44,8 @@ def bifurcation(case, vary, curve, out, certify, csv, json):
         certifiable(spans)
     found = ask(case, spans, curve)
     made = diagram_certificate(found) if certify else None
-    shown, picture = (diagram_words, diagram_picture) if isinstance(found, Diagram) else (plane_words, plane_picture)
+    shown, picture = (diagram_words, diagram_picture) if isinstance(found,
+                                                                    Diagram) else (plane_words, plane_picture)
     files = [picture.write(found, out)] if out else []
     answer(shown, found, json, csv)
     say_written(files)
@@ -53,21 +54,24 @@ def bifurcation(case, vary, curve, out, certify, csv, json):
 
 
 def _certified(made, path):
-    say("\n".join([f"written: {certification.write(made, path)}", f"certified: {len(made['events'])} values, {len(made['pieces'])} counts between them",
+    say("\n".join([f"written: {certification.write(made, path)}",
+                   f"certified: {len(made['events'])} values, {len(made['pieces'])} counts between them",
                    *(f"not certified: {why}" for why in made["uncertified"])]))
 
 
 def basin(case, vary, depth, out, workers, scheduler, follow, csv, json, strict):
     """Show which initial states of a plane spin up, and how rough the boundary is."""
     targets = basin_files.checked(out or [])
-    with basins(case, split_keys(vary or [], "KEY=FROM:TO or KEY=FROM:TO:N"), depth, targets.data, workers, scheduler, follow) as found:
+    with basins(case, split_keys(vary or [], "KEY=FROM:TO or KEY=FROM:TO:N"), depth, targets.data, workers,
+                scheduler, follow) as found:
         files = [basin_files.write(found, path) for path in targets.paths]
     answer(basin_words, found, json, csv)
     say_written(files)
     leave_undecided(strict, strict and (basin_words.undecided(found) or unphysical([found.plan.case])))
 
 
-def atlas(case, torque, wheel, level, refine, certify, follow, timed, limits, out, workers, scheduler, units, csv, json, strict):
+def atlas(case, torque, wheel, level, refine, certify, follow, timed, limits, out, workers, scheduler, units,
+          csv, json, strict):
     """Map all directions of a torque. limits: what is to be reached, by the names of the options."""
     plan = asked(case, torque, wheel, level, refine, certify, follow, timed, **limits)
     system, targets = units_of(plan.case, units), atlas_files.checked(out or [])

@@ -23,7 +23,8 @@ def audit(paper, equation, json, out):
         findings = audited(paper, equation, tell)
     if out is not None:
         say(f"written: {audit_page.page(findings, out)}")
-    either(json, lambda: audit_text.as_dict(findings), lambda: audit_text.text(findings, min(width() or 100, 100)))
+    either(json, lambda: audit_text.as_dict(findings),
+           lambda: audit_text.text(findings, min(width() or 100, 100)))
 
 
 def validate(source, json, out):
@@ -48,6 +49,7 @@ def tables(out):
 def figures(numbers, paper, out):
     """Draw the figures of one paper, or of all."""
     rows = catalogue.chosen(numbers, paper)
-    with manifest.written(out, sys.argv[1:], table.case_files(), {row.file: row.tolerance for row in rows}) as folder:
+    with manifest.written(out, sys.argv[1:], table.case_files(),
+                          {row.file: row.tolerance for row in rows}) as folder:
         made = catalogue.write(numbers, folder, paper_name=paper)
     write_paths([out / path.relative_to(folder) for path in made], out)

@@ -39,9 +39,11 @@ def surface(case, out, json, strict):
             raise
         summaries, unavailable = error.summaries, error
     if json:
-        write_json(loaded, [summary | law.key(held, one, True) for one, summary, held in zip(loaded, summaries, laws)])
+        write_json(loaded, [summary | law.key(held, one, True) for one, summary,
+                            held in zip(loaded, summaries, laws)])
     else:
-        tell("\n".join(law.first(held, words.text(summary, out), caveats=one.caveats) for one, summary, held in zip(loaded, summaries, laws)))
+        tell("\n".join(law.first(held, words.text(summary, out), caveats=one.caveats) for one, summary,
+                       held in zip(loaded, summaries, laws)))
     for one, summary in zip(loaded, summaries if json else ()):
         if not summary["sheets"]:
             say(f"{one.name}: no surface to write: {summary['reason']}")
@@ -53,7 +55,8 @@ def surface(case, out, json, strict):
 def plot(case, kind, out, size, dpi, until, neighbours, units, strict):
     """Draw a case, or the map of a sweep's file."""
     if case.suffix.lower() == ".nc":
-        write(str(_of_file(case, out or Path(f"{printable(case.stem)}.png"), kind, to_file.inches(size), dpi, units)))
+        write(str(_of_file(case, out or Path(f"{printable(case.stem)}.png"), kind, to_file.inches(size), dpi,
+                           units)))
         return
     loaded, drawn = load_cases([case], motion=kind != "equilibria"), []
     units_asked(loaded, units)  # says what is wrong with them
@@ -61,7 +64,8 @@ def plot(case, kind, out, size, dpi, until, neighbours, units, strict):
     for one in loaded:
         with blamed_on(one):
             end = time_asked(until, one, "until")
-            drawn.append(to_file.write(one, endings.labelled(target, one), kind, to_file.inches(size), dpi, units, end, neighbours))
+            drawn.append(to_file.write(one, endings.labelled(target, one), kind, to_file.inches(size), dpi,
+                                       units, end, neighbours))
     laws = [law.of_case(one) for one in loaded]
     for one, held, path in zip(loaded, laws, drawn):
         for line in limiting.beside(one.caveats, units_of(one, units)):
@@ -86,7 +90,8 @@ def chaos(cases, until, out, csv, json, strict):
         endings.file(out, endings.PICTURES)
     for case in one_by_one(loaded):
         with blamed_on(case):
-            rows.append((case, ask_chaos(case.scene, row_of(case.scene, case.state, case.blocks), time_asked(until, case, "until"))))
+            rows.append((case, ask_chaos(case.scene, row_of(case.scene, case.state, case.blocks),
+                                         time_asked(until, case, "until"))))
     drawn = written(out, [(case, partial(chaos_picture.write, case, found)) for case, found in rows])
     laws = [law.of_case(case) for case in loaded]
     if json:
@@ -95,7 +100,8 @@ def chaos(cases, until, out, csv, json, strict):
         write(chaos_words.csv(rows, laws))
     else:
         texts = [partial(chaos_words.text, [row]) for row in rows]
-        tell_all(loaded, texts, laws, [""] * len(rows), False, "\n", lambda of: chaos_words.swept([rows[n] for n in of]), units_asked(loaded, None))
+        tell_all(loaded, texts, laws, [""] * len(rows), False, "\n",
+                 lambda of: chaos_words.swept([rows[n] for n in of]), units_asked(loaded, None))
     say_written(drawn)
     leave_undecided(strict, any(int(found.labels) == Order.UNDECIDED for _, found in rows))
     hold_laws(strict, laws, loaded)

@@ -11,7 +11,8 @@ from .common.output import all_reached, hold_laws, leave_undecided, write
 from .common.tables import swept_extremes, swept_motions, tell_all
 
 
-def answer(question, paths, digits, json, strict, csv=False, follow=None, tilt=None, proof=False, units=None, why=False):
+def answer(question, paths, digits, json, strict, csv=False, follow=None, tilt=None, proof=False, units=None,
+           why=False):
     """Answer a question for every case and say how many digits of it are known."""
     loaded = load_cases(paths, motion=True)
     systems = units_asked(loaded, units)
@@ -31,7 +32,8 @@ def answer(question, paths, digits, json, strict, csv=False, follow=None, tilt=N
         _tell(question, loaded, answered, systems, digits, boxes, why)
     if digits is not None:
         all_reached((case, f"{question}: {short(told)}") for case, _, told in answered if not told.enough)
-    leave_undecided(strict, any(motion.fate.word == "undecided" for _, motion, _ in answered) or any(map(uncertain.undecided, boxes)))
+    leave_undecided(strict, any(motion.fate.word == "undecided" for _, motion, _ in answered)
+                    or any(map(uncertain.undecided, boxes)))
     hold_laws(strict, (motion.validity for _, motion, _ in answered), loaded)
 
 
@@ -39,19 +41,25 @@ def _tell(question, loaded, answered, systems, digits, boxes, why):
     """The answers as text."""
     told, motions = getattr(questions, question), [motion for _, motion, _ in answered]
     say = [digits is not None or not found.enough for *_, found in answered]
-    texts = [lambda n=n: uncertain.first(boxes[n], told(*answered[n], systems[n], digits is not None, say[n], why), systems[n])
+    texts = [lambda n=n: uncertain.first(boxes[n],
+                                         told(*answered[n], systems[n], digits is not None, say[n], why),
+                                         systems[n])
              for n in range(len(answered))]
-    table = swept_extremes(loaded, motions, systems) if question == "extremes" else swept_motions(motions, systems)
+    table = (swept_extremes(loaded, motions, systems) if question == "extremes"
+             else swept_motions(motions, systems))
     boxed = list(map(uncertain.in_si, boxes, systems))
-    tell_all(loaded, texts, [m.validity for m in motions], boxed, why or digits is not None, "\n", table, systems)
+    tell_all(loaded, texts, [m.validity for m in motions], boxed, why or digits is not None, "\n", table,
+             systems)
 
 
 def _told(question, case, motion, digits):
-    """The answer with its digits; where none were asked for and a formula bounds its own error, that is the check."""
+    """The answer with its digits; where none were asked for and a formula bounds its own error, that is the
+    check."""
     found = by_bound(question, motion) if digits is None else None
     if found is None:
         from ..answers.digits.ask import ask
         with blamed_on(case):
-            found = ask(question, case.scene, case.start, DEFAULT if digits is None else digits, case.span, motion, case.exact_state,
+            found = ask(question, case.scene, case.start, DEFAULT if digits is None else digits, case.span,
+                        motion, case.exact_state,
                         **({"aim": True} if digits is None else {}))
     return found

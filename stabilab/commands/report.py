@@ -14,7 +14,8 @@ def report(cases, out, papers, precision, certify, workers, strict):
     beyond: list[str] = []
     undecided: list[str] = []
     loaded = load_cases(cases or [])
-    made = write_report(loaded, out, arguments=sys.argv[1:], papers=papers, precision=precision, certify=certify,
+    made = write_report(loaded, out, arguments=sys.argv[1:], papers=papers, precision=precision,
+                        certify=certify,
                         workers=workers, beyond=beyond, undecided=undecided)
     write("\n".join([*beyond, str(made)]))
     leave_undecided(strict, bool(beyond or undecided) or unphysical(loaded))

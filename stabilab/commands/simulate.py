@@ -1,4 +1,5 @@
-"""`stabilab simulate` and `reference`: a motion in time, by the equations or by a theory, and with guaranteed digits for others to test against."""
+"""`stabilab simulate` and `reference`: a motion in time, by the equations or by a theory, and with guaranteed
+digits for others to test against."""
 from __future__ import annotations
 
 import sys
@@ -27,13 +28,16 @@ def simulate(case, at, model, order, method, rtol, digits, angles, attitude, out
     loaded = load_cases([case], motion=True)
     if attitude:
         if model != "exact" or angles:
-            raise InputError("--attitude: the quaternion is that of the exact motion: give it without --model and --angles")
+            raise InputError(
+                "--attitude: the quaternion is that of the exact motion: give it without --model and "
+                "--angles")
         loaded = [with_quaternion(one) for one in loaded]
     systems = units_asked(loaded, units)
     say_repeated(loaded[0], at)
     if out:
         trajectory_files.checked(out)
-    runs = [(one, *_followed(one, times_asked(one, at), model, method, rtol, order, digits)) for one in one_by_one(loaded)]
+    runs = [(one, *_followed(one, times_asked(one, at), model, method, rtol, order, digits))
+            for one in one_by_one(loaded)]
     if angles:
         runs = [(one, _with_angles(one, run, model, order), reached) for one, run, reached in runs]
     if out:
@@ -41,7 +45,8 @@ def simulate(case, at, model, order, method, rtol, digits, angles, attitude, out
     if json:
         write_json(loaded, [_as_dict(*followed) for followed in runs])
     elif not out:
-        tell("\n\n".join(_as_text(*followed, digits, system, page.width()) for followed, system in zip(runs, systems)))
+        tell("\n\n".join(_as_text(*followed, digits, system, page.width()) for followed,
+                         system in zip(runs, systems)))
     else:
         say_laws([(case, run.validity) for case, run, _ in runs])
         _say_digits(runs)
@@ -61,9 +66,11 @@ def _run_or_best(case, times, model, method, rtol, order, digits):
     if digits is None and chosen:
         return follow(case, times, model, method, rtol, order), None
     if chosen:
-        raise InputError("--digits chooses method and tolerance of the exact motion itself: give it without --model, --method, "
+        raise InputError("--digits chooses method and tolerance of the exact motion itself: give it without "
+                         "--model, --method, "
                          "--rtol and --order")
-    reached = best_reached(case, times, DEFAULT if digits is None else digits, measured=digits is not None, aim=digits is None)
+    reached = best_reached(case, times, DEFAULT if digits is None else digits, measured=digits is not None,
+                           aim=digits is None)
     return reached.run, reached
 
 
@@ -74,18 +81,21 @@ def _with_angles(case, run, model, order):
 
 def _as_dict(case, run, reached) -> dict:
     told = reached and {"asked": reached.asked, "reached": reached.digits, "because": reached.because}
-    return answers.simulation(case, run) | {"digits": told} | {"theory": _theory(case, run)} | law.key(run.validity, case)
+    return (answers.simulation(case, run) | {"digits": told} | {"theory": _theory(case, run)}
+            | law.key(run.validity, case))
 
 
 def _as_text(case, run, reached, digits, units, width) -> str:
     checked = "checked to " if digits is None else ""
     last = f"\n# {checked}{reached.digits:.1f} digits: {reached.because}" if reached else ""
     told = "".join(f"\n# {lettered(units.words(line))}" for line in _theory(case, run, words=True))
-    return law.first(run.validity, text(case, run, units, None if digits is None else _known(reached, digits), width) + last + told, units, case.caveats)
+    return law.first(run.validity, text(case, run, units, None if digits is None else _known(reached, digits),
+                                        width) + last + told, units, case.caveats)
 
 
 def _known(reached, digits) -> int:
-    """Digits of a state that are told: as many as the check vouches for, those asked for at least; exit code 5 says where they are not reached."""
+    """Digits of a state that are told: as many as the check vouches for, those asked for at least; exit code
+    5 says where they are not reached."""
     return max(digits, int(min(reached.digits, 99.0)))
 
 
@@ -114,9 +124,11 @@ def _say_lost(runs):
 
 
 def _judge(runs, digits):
-    """Exit with 5 where a run stopped, the digits asked for were not reached, or no digit was where nobody asked for any."""
+    """Exit with 5 where a run stopped, the digits asked for were not reached, or no digit was where nobody
+    asked for any."""
     all_reached((case, run.reason) for case, run, _ in runs if run.status != "reached")
-    short = [(case, reached) for case, _, reached in runs if reached and not reached.enough and (digits is not None or reached.digits < 1)]
+    short = [(case, reached) for case, _,
+             reached in runs if reached and not reached.enough and (digits is not None or reached.digits < 1)]
     if short:
         raise ToleranceNotMet("\n".join(missed(*row) for row in short))
 

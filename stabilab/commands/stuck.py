@@ -24,7 +24,8 @@ def stuck(case, all_thrusters, units, why, out, json, csv, strict):
         for one in loaded:
             with blamed_on(one):
                 answers.append(ask(one, all_thrusters, tell))
-    drawn = written(out, [(one, partial(draw, one, found, units=system)) for one, found, system in zip(loaded, answers, systems)])
+    drawn = written(out, [(one, partial(draw, one, found, units=system)) for one, found,
+                          system in zip(loaded, answers, systems)])
     if json:
         write_json(loaded, list(map(shown.as_dict, loaded, answers)))
     elif csv:

@@ -17,11 +17,14 @@ def verify(certificate, case, json, strict):
         claims = read(certificate)
         found = check(claims)
     except (Malformed, UnicodeDecodeError) as error:
-        raise InputError(f"{certificate}: {error}; expected a certificate of stabilab classify --certify or stabilab bifurcation --certify") from None
+        raise InputError(
+            f"{certificate}: {error}; expected a certificate of stabilab classify --certify or stabilab "
+            f"bifurcation --certify") from None
     told = about(claims)
     other = _of_another(cases, told, certificate)
     physical = told.get("variables") == "physical"
-    either(json, lambda: certification.as_dict(found, told), lambda: certification.text(found, line(told), case if other else "", physical))
+    either(json, lambda: certification.as_dict(found, told),
+           lambda: certification.text(found, line(told), case if other else "", physical))
     if found.status == "refuted":
         raise ToleranceNotMet(f"{certificate}: a claim is wrong")
     if other:
@@ -30,10 +33,12 @@ def verify(certificate, case, json, strict):
 
 
 def _of_another(cases, told, certificate):
-    """What differs where a certificate is of none of the cases; empty where it is of one, or none is named."""
+    """What differs where a certificate is of none of the cases; empty where it is of one, or none is named.
+    """
     if not cases:
         return ""
     from ..answers.certificate import subject
     apart = [(case, differences(told, subject(case.scene, case.exact_state))) for case in cases]
     return "" if not all(differing for _, differing in apart) else "\n".join(
-        f"{printable(str(certificate))}: of another case than {case.place}: {words}" for case, differing in apart for words in differing)
+        f"{printable(str(certificate))}: of another case than {case.place}: {words}" for case,
+        differing in apart for words in differing)

@@ -24,7 +24,8 @@ def when(cases, limits, units, json, csv, strict):
         with blamed_on(case):
             answered.append((case, limit, limited_time(case, limit.ask, limit.until)))
     laws = [law.until(case, found.validity, float(found.high)) for case, _, found in answered]
-    answered = [(case, limit, replace(found, caveats=(*found.caveats, *of_law(held)))) for (case, limit, found), held in zip(answered, laws)]
+    answered = [(case, limit, replace(found, caveats=(*found.caveats, *of_law(held))))
+                for (case, limit, found), held in zip(answered, laws)]
     if json:
         write(answers.as_json([shown.as_dict(*one) | law.key(held) for one, held in zip(answered, laws)]))
     elif csv:

@@ -1,8 +1,9 @@
-"""What accuracy costs: every way to follow one motion, over a ladder of settings, against a reference that knows its error.
+"""What accuracy costs: every way to follow one motion, over a ladder of settings, against a reference that
+knows its error.
 
-Error: the largest relative error over the asked-for times (each block of the state against its largest size), or of the
-derived answer. Cost: steps, evaluations and wall time; the fastest of several runs, warmed up; what is done once for all
-runs (compiling) apart.
+Error: the largest relative error over the asked-for times (each block of the state against its largest size),
+or of the derived answer. Cost: steps, evaluations and wall time; the fastest of several runs, warmed up; what
+is done once for all runs (compiling) apart.
 """
 from __future__ import annotations
 
@@ -22,16 +23,18 @@ from .event_methods import answer_methods, fate_methods, known_period
 from .methods import Method, Problem, methods, problem
 
 TIMES = 16  # states over the span
-QUESTIONS = {"span": "states over the span", "end": "state at the end", "extremes": "extremes", "period": "period"}
+QUESTIONS = {"span": "states over the span", "end": "state at the end", "extremes": "extremes",
+             "period": "period"}
 PRICED = 2.0  # digits: over less, a price of one says nothing
 EPS = 2.0**-53
 
 
 @dataclass(frozen=True)
 class Effort:
-    """How much is measured. work: of the reference, multiplications; evaluations: a rung that would need more, by the growth
-    from rung to rung, is left out; every: rungs of a ladder; repeats: runs of a rung, and seconds after which fewer do; ends:
-    whether the state at the end is asked for besides those over the span; without: methods that are left out."""
+    """How much is measured. work: of the reference, multiplications; evaluations: a rung that would need
+    more, by the growth from rung to rung, is left out; every: rungs of a ladder; repeats: runs of a rung, and
+    seconds after which fewer do; ends: whether the state at the end is asked for besides those over the span;
+    without: methods that are left out."""
 
     work: int
     evaluations: int
@@ -43,16 +46,17 @@ class Effort:
 
 EFFORTS = {"full": Effort(WORK, 60_000, 1, (7, 0.2)), "quick": Effort(WORK // 4, 12_000, 3, (3, 0.05)),
            "brief": Effort(WORK // 12, 4_000, 3, (2, 0.01), False),
-           "glance": Effort(WORK // 24, 2_000, 3, (2, 0.005), False, ("taylor-batch", "RK45", "RK23", "Radau", "BDF"))}
+           "glance": Effort(WORK // 24, 2_000, 3, (2, 0.005), False,
+                            ("taylor-batch", "RK45", "RK23", "Radau", "BDF"))}
 
 
 @dataclass(frozen=True)
 class Point:
     """One setting of one method on one question.
 
-    error: relative; seconds: fastest run (for one of `lanes` motions followed at once), slowest: the slowest of
-    `repeats`; compile: seconds of what is done once. setting: what `value` is (rtol, nodes, order; formula: nothing).
-    parts: the blocks of the state that the method knows; "" for all.
+    error: relative; seconds: fastest run (for one of `lanes` motions followed at once), slowest: the slowest
+    of `repeats`; compile: seconds of what is done once. setting: what `value` is (rtol, nodes, order;
+    formula: nothing). parts: the blocks of the state that the method knows; "" for all.
     """
 
     question: str
@@ -90,9 +94,10 @@ class FateAnswer:
 class Precision:
     """All that was measured of a case.
 
-    times (n,): where states are compared, as far as the reference agrees with itself; reference: without its states in
-    outputs; sensitivity: relative change of the state over the span per relative change of the start, as one random
-    (seeded) change in the last place shows it, None where not known. left_out: (method, value, why).
+    times (n,): where states are compared, as far as the reference agrees with itself; reference: without its
+    states in outputs; sensitivity: relative change of the state over the span per relative change of the
+    start, as one random (seeded) change in the last place shows it, None where not known. left_out: (method,
+    value, why).
     """
 
     case: Any
@@ -115,7 +120,8 @@ class Precision:
         limits = limits_of(self.case.scene)
         if limits is None or not len(self.reference.t):
             return None
-        return limits.along(self.case.scene, {name: self.reference.states[:, part] for name, part in self.task.slices.items()}, "at the times compared")
+        return limits.along(self.case.scene, {name: self.reference.states[:, part] for name,
+                                              part in self.task.slices.items()}, "at the times compared")
 
     def of(self, question, method=None) -> list[Point]:
         """The points of a question (and a method), coarse to fine."""
@@ -126,8 +132,8 @@ class Precision:
         return [q for q in QUESTIONS if self.of(q)]
 
     def front(self, question="end") -> list[Point]:
-        """The points that no other beats in both error and time, cheapest first. The batch stands apart: it needs
-        several motions at once."""
+        """The points that no other beats in both error and time, cheapest first. The batch stands apart: it
+        needs several motions at once."""
         return pareto(p for p in self.of(question) if p.lanes == 1 and not p.parts)
 
 
@@ -142,7 +148,8 @@ def pareto(points) -> list[Point]:
 
 
 def digit_price(points) -> float | None:
-    """Factor in time for one more digit, by least squares of log time on digits over points where digits still grow."""
+    """Factor in time for one more digit, by least squares of log time on digits over points where digits
+    still grow."""
     rows, top = [], 0.0
     for p in points:
         if p.digits > top + 0.2:
@@ -155,10 +162,12 @@ def digit_price(points) -> float | None:
 
 
 def precision(case, effort: str = "full", until: float | None = None, progress=None) -> Precision:
-    """Measure a case. effort: "full" (a minute), "quick" (few settings, small limits), "brief" (seconds) or "glance" (a second,
-    the methods that are likely to be best). until: end of the span in place of the case's own. progress(words) is called before each method.
+    """Measure a case. effort: "full" (a minute), "quick" (few settings, small limits), "brief" (seconds) or
+    "glance" (a second, the methods that are likely to be best). until: end of the span in place of the case's
+    own. progress(words) is called before each method.
 
-    Raises InputError for a case without a motion and a span, for an end that is not above zero, and for rates that are no polynomials.
+    Raises InputError for a case without a motion and a span, for an end that is not above zero, and for rates
+    that are no polynomials.
     """
     tell = progress or (lambda words: None)
     if until is not None and not 0 < until < math.inf:
@@ -167,17 +176,21 @@ def precision(case, effort: str = "full", until: float | None = None, progress=N
     task, most = problem(case, TIMES), EFFORTS[effort]
     tell("reference")
     period = known_period(task)
-    exact = reference(case.scene, task.start, task.times, task.equations.blocks, period is not None, most.work)
+    exact = reference(case.scene, task.start, task.times, task.equations.blocks, period is not None,
+                      most.work)
     points: list[Point] = []
     left_out: list[Any] = []
-    for method in (m for m in methods(task, most.every) if m.name not in most.without) if len(exact.t) else ():
+    for method in (m for m in methods(task, most.every)
+                   if m.name not in most.without) if len(exact.t) else ():
         tell(method.name)
         _states(task, method, exact, most, points, left_out)
     for method in answer_methods(task, period, most.every) if exact.period else ():
         tell(f"{method.name}, period and extremes")
         _answers(task, method, exact, most, points, left_out)
-    fates = tuple(FateAnswer(name, word, *timing) for name, call in fate_methods(task) for word, *timing in [_timed(call, most)])
-    return Precision(case, task, exact.t, exact, tuple(points), fates, _sensitivity(task, exact), tuple(left_out), effort)
+    fates = tuple(FateAnswer(name, word, *timing) for name, call in fate_methods(task) for word,
+                  *timing in [_timed(call, most)])
+    return Precision(case, task, exact.t, exact, tuple(points), fates, _sensitivity(task, exact),
+                     tuple(left_out), effort)
 
 
 def _timed(call, effort):
@@ -191,12 +204,14 @@ def _timed(call, effort):
 
 
 def _rungs(task, method: Method, effort, left_out):
-    """(setting, run, seconds of preparation) up the ladder; the evaluations of the last run are to be sent back."""
+    """(setting, run, seconds of preparation) up the ladder; the evaluations of the last run are to be sent
+    back."""
     last, growth = 0, 1.0
     for value in method.ladder:
         expected = last * growth
         if method.name in SCIPY_METHODS and expected > effort.evaluations:
-            left_out.append((method.name, value, f"more than the {effort.evaluations} evaluations allowed, by the growth so far"))
+            left_out.append((method.name, value,
+                             f"more than the {effort.evaluations} evaluations allowed, by the growth so far"))
             continue
         start = time.perf_counter()
         run = method.prepare(task, value)
@@ -206,7 +221,8 @@ def _rungs(task, method: Method, effort, left_out):
 
 
 def _climbed(task, method, effort, left_out):
-    """(setting, run, seconds of preparation, take) up the ladder; take(used) is to be called with the evaluations used."""
+    """(setting, run, seconds of preparation, take) up the ladder; take(used) is to be called with the
+    evaluations used."""
     ladder, used = _rungs(task, method, effort, left_out), [None]
     while True:
         try:
@@ -226,18 +242,22 @@ def _states(task, method, exact, effort, points, left_out):
                 left_out.append((method.name, value, "no answer over the whole span"))
                 break
             known = "" if set(answer.parts) == set(task.slices) else ", ".join(answer.parts)
-            points.append(Point(question, method.name, method.setting, value, error, answer.steps, answer.evaluations,
-                                fast / method.lanes, slow / method.lanes, repeats, compiled, method.lanes, known))
+            points.append(Point(question, method.name, method.setting, value, error, answer.steps,
+                                answer.evaluations,
+                                fast / method.lanes, slow / method.lanes, repeats, compiled, method.lanes,
+                                known))
         take(answer.evaluations)
 
 
 def _state_error(task, answer, exact, count) -> float:
-    """Largest relative error over the last `count` times, inf where an answer is missing; never below the reference's own."""
+    """Largest relative error over the last `count` times, inf where an answer is missing; never below the
+    reference's own."""
     worst = float(exact.error[-count:].max())
     for name, values in answer.parts.items():
         part = task.slices[name]
         if name == "attitude":  # q and -q are one attitude; angles do not say which
-            values = values * np.where((values * exact.states[-count:, part]).sum(axis=1) < 0, -1.0, 1.0)[:, None]
+            values = (values * np.where((values * exact.states[-count:, part]).sum(axis=1) < 0, -1.0,
+                                        1.0)[:, None])
         size = np.abs(exact.states[:, part]).max(initial=0.0) or 1.0
         gap = np.abs((values - exact.states[-count:, part]) - exact.rest[-count:, part]).max() / size
         worst = max(worst, float(gap)) if np.isfinite(gap) else math.inf
@@ -247,8 +267,10 @@ def _state_error(task, answer, exact, count) -> float:
 def _answers(task, method, exact, effort, points, left_out):
     for value, run, compiled, take in _climbed(task, method, effort, left_out):
         answer, fast, slow, repeats = _timed(partial(run, None), effort)
-        for question, error in (("period", _period_error(answer, exact)), ("extremes", _extremes_error(answer, exact))):
-            points.append(Point(question, method.name, method.setting, value, error, answer.steps, answer.evaluations, fast,
+        for question, error in (("period", _period_error(answer, exact)),
+                                ("extremes", _extremes_error(answer, exact))):
+            points.append(Point(question, method.name, method.setting, value, error, answer.steps,
+                                answer.evaluations, fast,
                                 slow, repeats, compiled))
         take(answer.evaluations)
 
@@ -266,12 +288,13 @@ def _extremes_error(answer, exact) -> float:
 
 
 def _sensitivity(task, exact) -> float | None:
-    """Largest relative change of the state over the span per relative change of the start, for one change of every
-    component by about a unit in its last place."""
+    """Largest relative change of the state over the span per relative change of the start, for one change of
+    every component by about a unit in its last place."""
     if not len(exact.t):
         return None
     signs = np.random.default_rng(1).choice([-1.0, 1.0], task.start.size)
-    nudged = np.where(task.start == 0, EPS * signs * np.abs(task.start).max(), task.start * (1 + 2 * EPS * signs))
+    nudged = np.where(task.start == 0, EPS * signs * np.abs(task.start).max(),
+                      task.start * (1 + 2 * EPS * signs))
     moved = np.abs(nudged - task.start).max() / (np.abs(task.start).max() or 1.0)
     if not moved:
         return None

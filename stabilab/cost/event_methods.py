@@ -1,7 +1,8 @@
-"""Period, extremes and fate by the general integrators with events, by the reduced form and in ball arithmetic.
+"""Period, extremes and fate by the general integrators with events, by the reduced form and in ball
+arithmetic.
 
-A run follows the motion a little further than one period, notes where each rate vanishes and where it passes the plane
-through the start across the first velocity; the passage nearest the known period is its period.
+A run follows the motion a little further than one period, notes where each rate vanishes and where it passes
+the plane through the start across the first velocity; the passage nearest the known period is its period.
 """
 from __future__ import annotations
 
@@ -29,7 +30,8 @@ EVENT_METHODS = ("RK45", "DOP853", "LSODA")
 
 
 def answer_methods(task: Problem, period: float, every: int = 1) -> list[Method]:
-    """Ways to the period and the extremes of a motion that repeats; run(None) gives parts "period" (1,) and "extremes" (3, 2)."""
+    """Ways to the period and the extremes of a motion that repeats; run(None) gives parts "period" (1,) and
+    "extremes" (3, 2)."""
     found = [Method("taylor", "rtol", TAYLOR_LADDER, _taylor(period))] if heyoka_available() else []
     found += [Method(name, "rtol", SCIPY_LADDER[:10], _scipy(name, period)) for name in EVENT_METHODS]
     found = [thinned(m, every) for m in found]
@@ -61,13 +63,15 @@ def _scipy(name, period) -> Callable:
         from scipy.integrate import solve_ivp
         velocity, rate = task.system(task.start), task.system.rate
         events = [lambda _, y, i=i: rate(y.tolist())[i] for i in range(3)]
-        # the plane is met at the start itself, where rounding upsets SciPy's search: it counts from a quarter period on
+        # the plane is met at the start itself, where rounding upsets SciPy's search: it counts from a quarter
+        # period on
         events.append(lambda t, y: float(velocity @ (y - task.start)) if t > EARLY * period else 1.0)
         options = {"jac": lambda _, y: task.system.jacobian(y)} if name in IMPLICIT else {}
 
         def run(times):
             try:
-                run = solve_ivp(lambda _, y: rate(y.tolist()), (0.0, OVERRUN * period), task.start, method=name, rtol=rtol,
+                run = solve_ivp(lambda _, y: rate(y.tolist()), (0.0, OVERRUN * period), task.start,
+                                method=name, rtol=rtol,
                                 atol=rtol * ATOL_SHARE * np.abs(task.start).max(), events=events, **options)
             except ValueError:  # its event search: "f(a) and f(b) must have different signs"
                 return Answer({"period": np.array([np.nan]), "extremes": np.full((3, 2), np.nan)})
@@ -78,9 +82,11 @@ def _scipy(name, period) -> Callable:
 
 
 def _answer(task, period, found, steps, evaluations) -> Answer:
-    """Period and extremes of the events (time, index, state); nan where the motion was not seen to come home."""
+    """Period and extremes of the events (time, index, state); nan where the motion was not seen to come home.
+    """
     velocity = task.system(task.start)
-    homes = [t for t, i, y in found if i == 3 and t > EARLY * period and task.system(np.asarray(y)) @ velocity > 0]
+    homes = [t for t, i, y in found if i == 3 and t > EARLY * period
+             and task.system(np.asarray(y)) @ velocity > 0]
     home = min(homes, key=lambda t: abs(t - period), default=np.nan)
     extremes = np.repeat(task.start[:3, None], 2, axis=1)
     for t, i, y in found:
@@ -104,7 +110,8 @@ def _balls(task, _):
 
 
 def known_period(task: Problem):
-    """The period of a motion that repeats, or None where the question does not arise (or no reduction answers it)."""
+    """The period of a motion that repeats, or None where the question does not arise (or no reduction answers
+    it)."""
     try:
         if task.equations.blocks != ("omega",) or landscape(task.scene) is None:
             return None
@@ -115,7 +122,8 @@ def known_period(task: Problem):
 
 
 def fate_methods(task: Problem) -> list:
-    """(name, call) of the ways to the fate: by energy in doubles, and by energy in balls; call() -> its word."""
+    """(name, call) of the ways to the fate: by energy in doubles, and by energy in balls; call() -> its word.
+    """
     try:
         if task.equations.blocks != ("omega",) or landscape(task.scene) is None:
             return []
@@ -124,6 +132,8 @@ def fate_methods(task: Problem) -> list:
     reduction = landscape(task.scene).reduction
 
     def in_balls():
-        margin = float(free_margin(task.scene, task.start)) if is_free(task.scene) else decide(Orbit(reduction, task.start)).sign
-        return "at the barrier" if not margin else "below the barrier" if margin > 0 else "above the barrier, or none stands ahead"
+        margin = (float(free_margin(task.scene, task.start)) if is_free(task.scene)
+                  else decide(Orbit(reduction, task.start)).sign)
+        return ("at the barrier" if not margin else "below the barrier" if margin > 0
+                else "above the barrier, or none stands ahead")
     return [("energy", lambda: Fate(int(fate(task.scene, task.start).labels)).word), ("balls", in_balls)]

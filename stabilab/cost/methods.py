@@ -1,4 +1,5 @@
-"""The ways to follow a motion that are set against each other: each a name, a ladder of settings, and how to make a run.
+"""The ways to follow a motion that are set against each other: each a name, a ladder of settings, and how to
+make a run.
 
 `prepare(problem, setting)` returns a callable run(times) -> Answer; what is done once for all runs of a scene
 (compiling, series) happens in it. The counters of an Answer are exact.
@@ -53,19 +54,22 @@ class Problem:
 
 
 def problem(case, count: int) -> Problem:
-    """The motion of a case at `count` times from 0 (left out) to the end of its span. InputError without a motion."""
+    """The motion of a case at `count` times from 0 (left out) to the end of its span. InputError without a
+    motion."""
     if case.state is None or case.span is None:
-        raise InputError(f"{case.path}: motion: expected a state and a span (or tau) in [motion]; precision needs both")
+        raise InputError(
+            f"{case.path}: motion: expected a state and a span (or tau) in [motion]; precision needs both")
     scaled = case.scene.variables == "scaled"
-    equations, start = equations_and_start(case.scene, case.state if scaled else start_of(case.scene, case.state, case.blocks))
+    equations, start = equations_and_start(case.scene, case.state if scaled
+                                           else start_of(case.scene, case.state, case.blocks))
     end = max(case.span, key=abs)
     return Problem(case, equations, start, end * np.arange(1, count + 1) / count)
 
 
 @dataclass(frozen=True)
 class Answer:
-    """parts: block -> (n, m) states at the times of the run; steps, evaluations: of the rates (Taylor: coefficients of
-    the state's series; reduced form: of dt/dtheta; models: None)."""
+    """parts: block -> (n, m) states at the times of the run; steps, evaluations: of the rates (Taylor:
+    coefficients of the state's series; reduced form: of dt/dtheta; models: None)."""
 
     parts: dict
     steps: int | None = None
@@ -74,8 +78,8 @@ class Answer:
 
 @dataclass(frozen=True)
 class Method:
-    """name; setting: what its ladder is in ("rtol", "nodes", "order", "formula"); ladder: coarse to fine; prepare: see the
-    module; lanes: motions followed at once."""
+    """name; setting: what its ladder is in ("rtol", "nodes", "order", "formula"); ladder: coarse to fine;
+    prepare: see the module; lanes: motions followed at once."""
 
     name: str
     setting: str
@@ -88,7 +92,8 @@ def methods(task: Problem, every: int = 1) -> list[Method]:
     """Every method that applies to a motion. every: rungs of each ladder to take, the last always."""
     found = []
     if heyoka_available():
-        found += [Method("taylor", "rtol", TAYLOR_LADDER, _taylor), Method("taylor-batch", "rtol", TAYLOR_LADDER[1::2], _batch, LANES)]
+        found += [Method("taylor", "rtol", TAYLOR_LADDER, _taylor),
+                  Method("taylor-batch", "rtol", TAYLOR_LADDER[1::2], _batch, LANES)]
     found += [Method(name, "rtol", SCIPY_LADDER, _scipy(name)) for name in SCIPY_METHODS]
     found += _reduced(task) + _models(task)
     return [thinned(m, every) for m in found]
@@ -97,7 +102,8 @@ def methods(task: Problem, every: int = 1) -> list[Method]:
 def thinned(method: Method, every: int) -> Method:
     """The method with every so-manieth rung of its ladder, and the last."""
     ladder = method.ladder
-    return replace(method, ladder=tuple(dict.fromkeys((*ladder[:-1:every], ladder[-1])))) if len(ladder) > 2 else method
+    return (replace(method, ladder=tuple(dict.fromkeys((*ladder[:-1:every], ladder[-1])))) if len(ladder) > 2
+            else method)
 
 
 def _split(task, states) -> dict:
@@ -111,7 +117,8 @@ def _taylor(task, tolerance):
         integrator.time = 0.0
         integrator.state[:] = task.start
         _, _, _, steps, *_, out = integrator.propagate_grid(np.concatenate([[0.0], times]))
-        return Answer(_split(task, np.asarray(out).reshape(-1, task.start.size)[1:]), steps, steps * integrator.order)
+        return Answer(_split(task, np.asarray(out).reshape(-1, task.start.size)[1:]), steps,
+                      steps * integrator.order)
     return run
 
 
@@ -120,7 +127,8 @@ def _batch(task, tolerance):
     rates = form(task.equations, task.equations.rhs)
     variables, expressions = heyoka_form(rates.state, rates.symbols, rates.expressions)
     spread = task.start[:, None] * (1 + NUDGE * np.arange(LANES))
-    integrator = heyoka().taylor_adaptive_batch(list(zip(variables, expressions)), spread.copy(), tol=tolerance,
+    integrator = heyoka().taylor_adaptive_batch(list(zip(variables, expressions)), spread.copy(),
+                                                tol=tolerance,
                                               pars=np.repeat(np.array(rates.numbers)[:, None], LANES, axis=1))
 
     def run(times):
@@ -139,7 +147,8 @@ def _scipy(name):
         options = {"jac": lambda _, y: task.system.jacobian(y)} if name in IMPLICIT else {}
 
         def run(times):
-            solver = getattr(integrate, name)(lambda _, y: rate(y.tolist()), 0.0, task.start, times[-1], rtol=rtol,
+            solver = getattr(integrate, name)(lambda _, y: rate(y.tolist()), 0.0, task.start, times[-1],
+                                              rtol=rtol,
                                               atol=floor, **options)
             out, done, steps = np.full((len(times), task.start.size), np.nan), 0, 0
             while solver.status == "running" and solver.nfev < STOP:
@@ -189,9 +198,11 @@ def _model(name):
     def prepare(task, setting):
         def run(times):
             answer = follow(task.case, times, name, order=setting if name == "lindstedt" else None)
-            known = {part: _filled(answer.state[part], len(times)) for part in task.slices if part in answer.state}
+            known = {part: _filled(answer.state[part], len(times)) for part in task.slices
+                     if part in answer.state}
             if "attitude" in task.slices and "angles" in answer.state:
-                known["attitude"] = _filled(quaternion(*np.asarray(answer.state["angles"], float).T).T, len(times))
+                known["attitude"] = _filled(quaternion(*np.asarray(answer.state["angles"], float).T).T,
+                                            len(times))
             return Answer(known)
         return run
     return prepare

@@ -1,9 +1,11 @@
 """Equilibria as a balance of two momentum-like vectors: g x h = M.
 
-Euler's equations D w' = H x w + M and the scaled system x' = h x g + mu (with g = (x1+a, x2, 0), h = (x1+b, 0, -x3))
-have one form. Replacing g by g + h leaves g x h alone and turns the scaled system, for every a and b, into
+Euler's equations D w' = H x w + M and the scaled system x' = h x g + mu (with g = (x1+a, x2, 0), h = (x1+b,
+0, -x3)) have one form. Replacing g by g + h leaves g x h alone and turns the scaled system, for every a and
+b, into
 
-    (D y + lambda) x y + M = 0,   y = A x + u,   D = (1/2, 0, 1), lambda = ((b-a)/2, 0, 0), A = (2, 1, -1), u = (a+b, 0, 0).
+    (D y + lambda) x y + M = 0,   y = A x + u,   D = (1/2, 0, 1), lambda = ((b-a)/2, 0, 0), A = (2, 1, -1), u
+    = (a+b, 0, 0).
 
 So the equilibria of both are those of one Euler balance, with exact coefficients; D need not be positive.
 """
@@ -50,13 +52,15 @@ class Pencil(NamedTuple):
 
 
 def pencil(scene: AnyScene) -> Pencil:
-    """The balance of a Scene or ScaledGyrostat. Raises InputError for effects outside gyrostat and constant torque."""
+    """The balance of a Scene or ScaledGyrostat. Raises InputError for effects outside gyrostat and constant
+    torque."""
     form = scene.quadratic()
     if scene.variables == "scaled":
         a, b = scene.exact_ab
         return Pencil((ONE / 2, ZERO, ONE), ((b - a) / 2, ZERO, ZERO), scene.exact_mu, (2 * ONE, ONE, -ONE),
                       (a + b, ZERO, ZERO), form, True)
-    return Pencil(scene.body.exact, scene.vector("gyrostat"), scene.vector("constant_torque"), (ONE,) * 3, (ZERO,) * 3,
+    return Pencil(scene.body.exact, scene.vector("gyrostat"), scene.vector("constant_torque"), (ONE,) * 3,
+                  (ZERO,) * 3,
                   form, False)
 
 

@@ -17,16 +17,24 @@ from .liquid import balanced_equilibria, liquid_equilibria
 from .medium import resisted_equilibria
 from .result import CurveSegment, Equilibria, EquilibriumCurve, EquilibriumPoint
 
-MINIMUM = ("asymptotically stable", "the potential energy has a strict minimum here and the medium takes energy at every rotation (LaSalle)")
-NO_MINIMUM = ("unstable", "the potential energy is not least here and the medium takes energy at every rotation: states of less energy next to "
+MINIMUM = ("asymptotically stable",
+           "the potential energy has a strict minimum here and the medium takes energy at every rotation "
+           "(LaSalle)")
+NO_MINIMUM = ("unstable",
+              "the potential energy is not least here and the medium takes energy at every rotation: states "
+              "of less energy next to "
                           "this one leave and do not come back")
-CONTINUUM = ("stable", "rest positions of one energy, strictly least across them: they attract their neighbourhood (the others of the eigenvalues "
+CONTINUUM = ("stable",
+             "rest positions of one energy, strictly least across them: they attract their neighbourhood "
+             "(the others of the eigenvalues "
                        "lie on the left), so each of them is stable")
-OPEN = ("undecided", "the second variation of the potential energy is degenerate: a term of higher order decides")
+OPEN = ("undecided",
+        "the second variation of the potential energy is degenerate: a term of higher order decides")
 
 
 def dissipative_equilibria(parts: Content) -> Equilibria:
-    """Equilibria of the angular velocity with resistance, a liquid or both, a wheel, a constant charge and a torque."""
+    """Equilibria of the angular velocity with resistance, a liquid or both, a wheel, a constant charge and a
+    torque."""
     if not parts.kappa:
         return resisted_equilibria(parts)
     if parts.unproved_loss:
@@ -41,10 +49,15 @@ def dissipative_equilibria(parts: Content) -> Equilibria:
 def held_in_a_field(parts: Content) -> Equilibria:
     """Equilibria of a body in a field that a liquid or a medium takes energy from."""
     if parts.kappa:
-        return Equilibria("undecided", "undecided: where the body carries a liquid, the torque of a field or of a turning charge enters the liquid's own "
-                                       "torque, and equilibria beyond those of the body without liquid are not excluded")
+        return Equilibria("undecided",
+                          "undecided: where the body carries a liquid, the torque of a field or of a turning "
+                          "charge enters the liquid's own "
+                                       "torque, and equilibria beyond those of the body without liquid are "
+                                       "not excluded")
     if any(parts.M):
-        return Equilibria("undecided", "undecided: a constant torque and a field hold a turning body against the medium only where four equations in omega "
+        return Equilibria("undecided",
+                          "undecided: a constant torque and a field hold a turning body against the medium "
+                          "only where four equations in omega "
                                        "and gamma meet; no closed form is known")
     return rest_positions(parts)
 
@@ -52,7 +65,8 @@ def held_in_a_field(parts: Content) -> Equilibria:
 def _rest_with_liquid(parts: Content) -> Equilibria:
     c = -float(parts.c)
     rest = EquilibriumPoint((0.0,) * 3, (complex(c, 0.0),) * 3, "stable", "asymptotically stable",
-                            "every motion tends to it: T' <= -2 c T, since the liquid only takes energy and the medium takes 2 c T")
+                            "every motion tends to it: T' <= -2 c T, since the liquid only takes energy and "
+                            "the medium takes 2 c T")
     return Equilibria("points", "T' <= -2 c T, so only rest is an equilibrium", (rest,))
 
 
@@ -63,7 +77,8 @@ def rest_positions(parts: Content) -> Equilibria:
         found = [(rotation, _rest(parts, field, rotation)) for rotation in rotations_at(field, Fraction(0))]
     points = tuple(point for rotation, point in found if not rotation.circle)
     curves = tuple(_continuum(rotation, point) for rotation, point in found if rotation.circle)
-    reason = ("the medium takes energy at every rotation, so only rest is an equilibrium: gamma where the torque of the field vanishes, "
+    reason = ("the medium takes energy at every rotation, so only rest is an equilibrium: gamma where the "
+              "torque of the field vanishes, "
               "(N D + mu) gamma = s, by one polynomial in mu whose real roots are certified")
     return Equilibria("curves" if curves else "points", reason, points, curves)
 

@@ -1,26 +1,30 @@
-"""Permanent rotations of a body in a field at one rate Omega: balance, spectrum, verdict, and the rates at which they change.
+"""Permanent rotations of a body in a field at one rate Omega: balance, spectrum, verdict, and the rates at
+which they change.
 
-Small motions about a permanent rotation omega = Omega gamma of a body in a field: spectrum and second variation.
+Small motions about a permanent rotation omega = Omega gamma of a body in a field: spectrum and second
+variation.
 
 On |gamma| = 1 the amended potential at constant Omega is U = -gamma . S gamma/2 - b . gamma with
-S = (Omega^2 - N) D - Omega E e3 e3^T, b = Omega Lambda + s; a permanent rotation is a critical point, (S - mu) gamma = -b.
-At constant area integral A it gains a positive term of rank one: its second variation on the tangent plane is
-K = mu - S + v v^T/I with v = dU'/dOmega = -(S' gamma + Lambda), I = gamma . D gamma.
+S = (Omega^2 - N) D - Omega E e3 e3^T, b = Omega Lambda + s; a permanent rotation is a critical point, (S -
+mu) gamma = -b. At constant area integral A it gains a positive term of rank one: its second variation on the
+tangent plane is K = mu - S + v v^T/I with v = dU'/dOmega = -(S' gamma + Lambda), I = gamma . D gamma.
 Linear motion: z^2 (z^4 + a z^2 + b), the two zeros from |gamma| and from the curve of permanent rotations;
 a = -tr(J^2)/2 and b = I det K/(D1 D2 D3).
-  K positive definite: stable (energy at constant area has a strict minimum, and it persists as the area changes).
-  det K < 0: b < 0, a positive eigenvalue.
-  K negative definite: the spectrum decides instability; where it is a centre (a > 0, a^2 > 4 b) energy does not decide.
+  K positive definite: stable (energy at constant area has a strict minimum, and it persists as the area
+  changes). det K < 0: b < 0, a positive eigenvalue.
+  K negative definite: the spectrum decides instability; where it is a centre (a > 0, a^2 > 4 b) energy does
+  not decide.
 Written for any scalars, with gamma as a ratio gamma/q, so that the same lines serve balls and polynomials.
 
 All permanent rotations at one rate Omega: (S - mu) gamma = -b, |gamma| = 1, by one polynomial in mu.
 
 The verdict on one permanent rotation, from signs of certified balls.
 
-The rates Omega at which the number of permanent rotations or a sign of their spectrum may change, all of them.
+The rates Omega at which the number of permanent rotations or a sign of their spectrum may change, all of
+them.
 
-The discriminant in mu of the balance, and resultants of the balance with b and with a^2 - 4 b of the spectrum: polynomials in
-Omega with exact coefficients, whose real roots python-flint isolates.
+The discriminant in mu of the balance, and resultants of the balance with b and with a^2 - 4 b of the
+spectrum: polynomials in Omega with exact coefficients, whose real roots python-flint isolates.
 """
 from __future__ import annotations
 
@@ -49,7 +53,8 @@ class Field:
 
     @classmethod
     def of(cls, parts):
-        return cls(*(tuple(map(rational, row)) for row in (parts.D, parts.Lambda, parts.s)), rational(parts.N), rational(parts.E))
+        return cls(*(tuple(map(rational, row)) for row in (parts.D, parts.Lambda, parts.s)),
+                   rational(parts.N), rational(parts.E))
 
     def stiffness(self, Omega):
         """Diagonal of S."""
@@ -70,7 +75,8 @@ def second_variation(field: Field, Omega, mu, gamma, q=1):
     spread = dot(field_inertia(field, gamma), gamma)
     plane = n[1] * n[2] * squares[0] + n[2] * n[0] * squares[1] + n[0] * n[1] * squares[2]
     across = cross(v, gamma)
-    determinant = spread * plane - sum((n[i] * across[i] * across[i] for i in range(1, 3)), n[0] * across[0] * across[0])
+    determinant = (spread * plane - sum((n[i] * across[i] * across[i] for i in range(1, 3)),
+                                        n[0] * across[0] * across[0]))
     trace = dot(across, across) - spread * dot(n, [q * q - x for x in squares])
     return determinant, trace
 
@@ -117,7 +123,8 @@ def _half():
 
 @dataclass(frozen=True)
 class Rotation:
-    """One solution at one Omega: mu and gamma as balls; circle: it stands for all its turns about axis 3 (or its own)."""
+    """One solution at one Omega: mu and gamma as balls; circle: it stands for all its turns about axis 3 (or
+    its own)."""
 
     mu: Number
     gamma: tuple
@@ -150,11 +157,13 @@ def rotations_at(field: Field, Omega: Fraction) -> list[Rotation]:
 
 
 def _directions(P, S, b, acting) -> list[Rotation]:
-    """gamma_i = -b_i/(S_i - mu) at every real root mu of P, rising; with more digits where b is so small that S_i - mu has none left."""
+    """gamma_i = -b_i/(S_i - mu) at every real root mu of P, rising; with more digits where b is so small that
+    S_i - mu has none left."""
     for bits in (BITS, 4 * BITS, 16 * BITS):
         with working(bits):
             found = []
-            for root in sorted((r.real for r, _ in P.numer().complex_roots() if r.imag == 0), key=lambda r: r.mid()):
+            for root in sorted((r.real for r, _ in P.numer().complex_roots() if r.imag == 0),
+                               key=lambda r: r.mid()):
                 gamma = [arb(0)] * 3
                 for axes in acting:
                     for i in axes:
@@ -200,19 +209,29 @@ def rounded_gamma(rotation):
     return tuple(float(g.mid()) for g in rotation.gamma)
 
 
-MINIMUM = ("stable", "energy-Casimir: at constant area integral the energy has a strict minimum on |gamma| = 1 (K positive definite), and it "
+MINIMUM = ("stable",
+           "energy-Casimir: at constant area integral the energy has a strict minimum on |gamma| = 1 (K "
+           "positive definite), and it "
                      "persists as the area changes")
 SADDLE = ("unstable", "det K < 0: b < 0 in z^4 + a z^2 + b, a positive eigenvalue")
 SPIRAL = ("unstable", "a^2 < 4 b in z^4 + a z^2 + b: four eigenvalues off the imaginary axis")
 REAL = ("unstable", "a < 0 < b, a^2 > 4 b in z^4 + a z^2 + b: two positive eigenvalues")
-GYROSCOPIC = ("undecided", "K is negative definite and all eigenvalues are imaginary: the gyroscopic terms stabilise the linear motion, and the "
+GYROSCOPIC = ("undecided",
+              "K is negative definite and all eigenvalues are imaginary: the gyroscopic terms stabilise the "
+              "linear motion, and the "
                            "energy, a saddle here, does not decide for the full one")
-SLEEPING = ("stable", "sleeping top: the spin about the axis of symmetry is a third integral; with distinct frequencies a combination of the "
+SLEEPING = ("stable",
+            "sleeping top: the spin about the axis of symmetry is a third integral; with distinct "
+            "frequencies a combination of the "
                       "three integrals is definite (Chetaev)")
-CIRCLE = ("unstable", "one of a circle of rotations about the axis of symmetry: with any small change of the spin about it gamma drifts round the "
+CIRCLE = ("unstable",
+          "one of a circle of rotations about the axis of symmetry: with any small change of the spin about "
+          "it gamma drifts round the "
                       "circle, so neighbours leave this point")
 OPEN = ("undecided", "a coefficient of the spectrum vanishes here: the next order decides")
-SHELL = ("undecided", "a continuum of rotations at one Omega: its second variation vanishes along it, and a term of higher order decides")
+SHELL = ("undecided",
+         "a continuum of rotations at one Omega: its second variation vanishes along it, and a term of "
+         "higher order decides")
 
 
 def judged(field: Field, Omega: Fraction, rotation) -> EquilibriumPoint:
@@ -238,7 +257,8 @@ def _symmetric(field: Field, k: int) -> bool:
 
 
 def _sleeps(field: Field, gamma) -> bool:
-    """Whether gamma lies along an axis of symmetry (for three equal moments: along the weight and the wheel)."""
+    """Whether gamma lies along an axis of symmetry (for three equal moments: along the weight and the wheel).
+    """
     if field.E == 0 and field.D[0] == field.D[1] == field.D[2]:
         return not any(v != 0 for v in cross(field.s, field.Lambda))
     return any(_symmetric(field, k) and all(gamma[n] == 0 for n in range(3) if n != k) for k in range(3))
@@ -279,7 +299,8 @@ def _pair(square):
     return z, -z
 
 
-NEXT_TO = Fraction(1, 2**90)  # of the distance to the next cut: where branches on the two sides of one are compared
+# of the distance to the next cut: where branches on the two sides of one are compared
+NEXT_TO = Fraction(1, 2**90)
 SHARED = Fraction(1, 2**200)
 
 
@@ -335,11 +356,13 @@ def _used(f) -> set:
 
 
 def _real_roots(f):
-    """Real roots of a polynomial in Omega alone as fractions, rational ones exact; none for a constant or zero."""
+    """Real roots of a polynomial in Omega alone as fractions, rational ones exact; none for a constant or
+    zero."""
     coefficients = {powers[2]: value for powers, value in f.to_dict().items()}
     if not coefficients or max(coefficients) == 0:
         return []
-    return real_roots(Poly.of(fmpq_poly([coefficients.get(i, 0) for i in range(max(coefficients) + 1)])), BITS)
+    return real_roots(Poly.of(fmpq_poly([coefficients.get(i, 0) for i in range(max(coefficients) + 1)])),
+                      BITS)
 
 
 def separated(cuts) -> list[Fraction]:

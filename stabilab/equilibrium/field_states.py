@@ -2,29 +2,32 @@
 
 Circles and spheres of permanent rotations at single rates Omega: where S is the same on axes that carry no b.
 
-Permanent rotations omega = Omega gamma of a body in a field (gravity, Newtonian, charge that follows the attitude; gyrostat).
+Permanent rotations omega = Omega gamma of a body in a field (gravity, Newtonian, charge that follows the
+attitude; gyrostat).
 
-gamma' = 0 makes omega parallel to gamma, and the rest is (S - mu) gamma = -b with the diagonal S(Omega) and b(Omega) of
-`field_balance`: for each Omega the real roots mu of
+gamma' = 0 makes omega parallel to gamma, and the rest is (S - mu) gamma = -b with the diagonal S(Omega) and
+b(Omega) of `field_balance`: for each Omega the real roots mu of
 
     P(mu, Omega) = prod n_g^2 - sum B_g prod_(h != g) n_h^2,    n_g = S_g - mu,  B_g = sum of b_i^2 in g
 
-over the groups g of equal S, gamma_i = -b_i/n_g; and, for a group whose b vanishes, mu = S_g with the part of gamma in it free up to
-|gamma| = 1. The number of roots changes at zeros of the discriminant of P alone, and the signs that the verdicts rest on change at zeros of
-resultants: polynomials in Omega with exact coefficients, all of whose real roots are isolated (python-flint). So the branches
-are complete, and a verdict in the middle of an interval holds all over it.
+over the groups g of equal S, gamma_i = -b_i/n_g; and, for a group whose b vanishes, mu = S_g with the part of
+gamma in it free up to |gamma| = 1. The number of roots changes at zeros of the discriminant of P alone, and
+the signs that the verdicts rest on change at zeros of resultants: polynomials in Omega with exact
+coefficients, all of whose real roots are isolated (python-flint). So the branches are complete, and a verdict
+in the middle of an interval holds all over it.
 
 Steady states omega = Omega gamma of a body in a field under a constant torque along a principal axis.
 
-(S gamma + b) x gamma = -M asks for M . gamma = 0. With M along axis i, and neither wheel nor weight along it, gamma =
-(0, cos t, sin t) on the axes (i, j, k) solves all but one equation, a quadratic in Omega:
+(S gamma + b) x gamma = -M asks for M . gamma = 0. With M along axis i, and neither wheel nor weight along it,
+gamma = (0, cos t, sin t) on the axes (i, j, k) solves all but one equation, a quadratic in Omega:
 
     A (Omega^2 - N) + B Omega + C = 0,   A = (D_j - D_k) cos t sin t,   C = s_j sin t - s_k cos t + M_i,
     B = Lambda_j sin t - Lambda_k cos t -+ E cos t sin t    (- where j is axis 3, + where k is)
 
-So the steady states are two closed curves over t, real where the discriminant, a polynomial in tau = tan(t/2), is not
-negative. Linear motion: z^2 (z^4 + e2 z^2 - e3 z + e4), for |gamma| is kept, the state lies on a curve of others, and the flow keeps
-volume (no z^3 term). The four roots sum to zero, so any root off the imaginary axis brings one with positive real part.
+So the steady states are two closed curves over t, real where the discriminant, a polynomial in tau =
+tan(t/2), is not negative. Linear motion: z^2 (z^4 + e2 z^2 - e3 z + e4), for |gamma| is kept, the state lies
+on a curve of others, and the flow keeps volume (no z^3 term). The four roots sum to zero, so any root off the
+imaginary axis brings one with positive real part.
 """
 from __future__ import annotations
 
@@ -42,8 +45,27 @@ from ..numbers.exact import sqrt_fraction
 from ..numbers.polynomial import Poly, real_roots
 from ..numbers.vectors import CYCLE
 from ..physics.coefficients import Content
-from .field_balance import NEXT_TO, Field, Rotation, blocks, cuts_of, judged, rotations_at, rounded_gamma, separated, step_at
-from .result import CurveSegment, Equilibria, EquilibriumCurve, EquilibriumPoint, float_ends, sample_parameters, values_inside
+from .field_balance import (
+    NEXT_TO,
+    Field,
+    Rotation,
+    blocks,
+    cuts_of,
+    judged,
+    rotations_at,
+    rounded_gamma,
+    separated,
+    step_at,
+)
+from .result import (
+    CurveSegment,
+    Equilibria,
+    EquilibriumCurve,
+    EquilibriumPoint,
+    float_ends,
+    sample_parameters,
+    values_inside,
+)
 
 
 def circles(field: Field, parts: Content):
@@ -52,7 +74,8 @@ def circles(field: Field, parts: Content):
 
 
 def _special(field: Field, parts: Content):
-    """(Omega, rotation) for rational Omega at which b vanishes on axes that share S, though not for every Omega."""
+    """(Omega, rotation) for rational Omega at which b vanishes on axes that share S, though not for every
+    Omega."""
     values = {-s / l for s, l in zip(parts.s, parts.Lambda) if l}
     if parts.N >= 0:
         root = sqrt_fraction(parts.N)
@@ -64,16 +87,20 @@ def _special(field: Field, parts: Content):
 
 
 def _crossings(field: Field, parts: Content):
-    """(Omega, rotation) where S is the same on groups of axes that never carry b: circles, or all directions."""
+    """(Omega, rotation) where S is the same on groups of axes that never carry b: circles, or all directions.
+    """
     idle = [axes for axes, never in _symbolic_groups(parts) if never]
-    where = {Omega for first, second in combinations(idle, 2) for Omega in _same_stiffness(parts, first[0], second[0])}
+    where = {Omega for first, second in combinations(idle, 2)
+             for Omega in _same_stiffness(parts, first[0], second[0])}
     for Omega in sorted(where):  # rounded to 2**-240 where it is irrational, so S is compared within that
         S, b = field.stiffness(rational(Omega)), field.pull(rational(Omega))
-        tiny = rational(max(map(fraction, S), key=abs) * NEXT_TO + NEXT_TO * max(parts.D) * (Omega * Omega + abs(parts.N)))
+        tiny = rational(max(map(fraction, S), key=abs) * NEXT_TO
+                        + NEXT_TO * max(parts.D) * (Omega * Omega + abs(parts.N)))
         for group in idle:
             axes = [i for i in range(3) if abs(S[i] - S[group[0]]) <= abs(tiny)]
             others = [i for i in range(3) if i not in axes]
-            if axes[0] != group[0] or len(axes) == len(group) or any(parts.s[i] or parts.Lambda[i] for i in axes):
+            if axes[0] != group[0] or len(axes) == len(group) or any(parts.s[i] or parts.Lambda[i]
+                                                                     for i in axes):
                 continue
             gamma = [arb(-b[i] / (S[i] - S[axes[0]])) if i in others else arb(0) for i in range(3)]
             rest = 1 - sum((g * g for g in gamma), arb(0))
@@ -106,7 +133,8 @@ def _isolated(field, Omega: Fraction, rotation: Rotation) -> EquilibriumCurve:
 
 
 def around(Omega: Fraction, rotation: Rotation):
-    """(equation, parametrisation, point(t)) of the turns of a rotation within its circle; of a sphere one great circle."""
+    """(equation, parametrisation, point(t)) of the turns of a rotation within its circle; of a sphere one
+    great circle."""
     axes, gamma, rate = rotation.circle, rounded_gamma(rotation), float(Omega)
     radius, names = gamma[axes[0]], ", ".join(f"gamma{i + 1}" for i in axes)
 
@@ -118,23 +146,29 @@ def around(Omega: Fraction, rotation: Rotation):
             f"t: angle in the plane of gamma{axes[0] + 1}, gamma{axes[1] + 1}", point)
 
 
-SAME = 2.0**-30  # far above the 2**-45 by which a branch differs on the two sides of a cut, far below the distance of two branches
-REASON = ("omega = Omega gamma, and (S - mu) gamma = -b with S = (Omega^2 - N) D - Omega E e3 e3^T, b = Omega Lambda + s: for each Omega one "
+# far above the 2**-45 by which a branch differs on the two sides of a cut, far below the distance of two
+# branches
+SAME = 2.0**-30
+REASON = ("omega = Omega gamma, and (S - mu) gamma = -b with S = (Omega^2 - N) D - Omega E e3 e3^T, b = "
+          "Omega Lambda + s: for each Omega one "
           "polynomial in mu; its discriminant and all its real roots are certified")
 
 
 def permanent_rotations(parts: Content) -> Equilibria:
-    """Every permanent rotation as curves over Omega (rad/s, any sign; a point is omega, gamma), with spectrum and verdicts."""
+    """Every permanent rotation as curves over Omega (rad/s, any sign; a point is omega, gamma), with spectrum
+    and verdicts."""
     with many_digits():
         field = Field.of(parts)
         cuts = separated(cuts_of(field))
-        curves = tuple(_curve(field, number, branch, cuts) for number, branch in enumerate(_branches(field, cuts), 1))
+        curves = tuple(_curve(field, number, branch, cuts) for number,
+                       branch in enumerate(_branches(field, cuts), 1))
         curves += circles(field, parts)
     return Equilibria("curves", REASON, curves=curves)
 
 
 def _branches(field, cuts):
-    """[[(lo, hi, index in rotations_at)]]: pieces between neighbouring cuts, joined across them by continuity of gamma."""
+    """[[(lo, hi, index in rotations_at)]]: pieces between neighbouring cuts, joined across them by continuity
+    of gamma."""
     ends = [None, *cuts, None]
     size = max(map(abs, cuts), default=Fraction(1)) or Fraction(1)
     open_, done = [], []
@@ -196,8 +230,10 @@ def _curve(field, number, branch, cuts) -> EquilibriumCurve:
     name = f"branch {number}" + (f", a circle about axis {6 - sum(i + 1 for i in circle)}" if circle else "")
     first, last = segments[0].t[0], segments[-1].t[1]
     return EquilibriumCurve(
-        name, "omega = Omega gamma, ((Omega^2 - N) D gamma + Omega Lambda + s) x gamma = 0" + (" with the charge's term" if field.E != 0 else ""),
-        f"t = Omega from {first:.6g} to {last:.6g} rad/s; gamma_i = -b_i/(S_i - mu)" + (", and all its turns in the circle" if circle else ""),
+        name, "omega = Omega gamma, ((Omega^2 - N) D gamma + Omega Lambda + s) x gamma = 0"
+        + (" with the charge's term" if field.E != 0 else ""),
+        f"t = Omega from {first:.6g} to {last:.6g} rad/s; gamma_i = -b_i/(S_i - mu)"
+        + (", and all its turns in the circle" if circle else ""),
         _point_function(field, branch), tuple(segments), tuple(changes), tuple(samples))
 
 
@@ -234,17 +270,25 @@ def _point_function(field, branch):
 
 
 COS, SIN, ONE = Poly((1, 0, -1)), Poly((0, 2)), Poly((1, 0, 1))  # times 1 + tau^2
-OFF_AXIS = ("undecided: a constant torque off the principal axes, or one with a wheel or weight along it, holds a turning body only where "
+OFF_AXIS = ("undecided: a constant torque off the principal axes, or one with a wheel or weight along it, "
+            "holds a turning body only where "
             "three equations in Omega and gamma meet; no closed form is known")
-SKEW = ("unstable", "e3 != 0 in z^4 + e2 z^2 - e3 z + e4: the four roots sum to zero and are not all imaginary, so one has positive real part")
-PAIR = ("unstable", "e4 < 0, or e2 < 0 < e4, or e2^2 < 4 e4 in z^4 + e2 z^2 + e4: roots off the imaginary axis, whose sum is zero")
-CENTRE = ("undecided", "all eigenvalues are imaginary, and with a torque that does work no integral is known that would decide the full motion")
+SKEW = ("unstable",
+        "e3 != 0 in z^4 + e2 z^2 - e3 z + e4: the four roots sum to zero and are not all imaginary, so one "
+        "has positive real part")
+PAIR = ("unstable",
+        "e4 < 0, or e2 < 0 < e4, or e2^2 < 4 e4 in z^4 + e2 z^2 + e4: roots off the imaginary axis, whose "
+        "sum is zero")
+CENTRE = ("undecided",
+          "all eigenvalues are imaginary, and with a torque that does work no integral is known that would "
+          "decide the full motion")
 OPEN = ("undecided", "a coefficient of the spectrum vanishes here: the next order decides")
 
 
 @dataclass(frozen=True)
 class Plane:
-    """The quadratic in Omega for a torque along axis i, in tau = tan(t/2): coefficients times (1 + tau^2)^2."""
+    """The quadratic in Omega for a torque along axis i, in tau = tan(t/2): coefficients times (1 + tau^2)^2.
+    """
 
     i: int
     square: Poly
@@ -257,7 +301,8 @@ class Plane:
 
 
 def directed_equilibria(parts: Content) -> Equilibria:
-    """Equilibria in a field or with a charge that follows the attitude: permanent rotations, and under a constant torque the steady states."""
+    """Equilibria in a field or with a charge that follows the attitude: permanent rotations, and under a
+    constant torque the steady states."""
     return steady_states(parts) if any(parts.M) else permanent_rotations(parts)
 
 
@@ -269,9 +314,11 @@ def steady_states(parts: Content) -> Equilibria:
         return Equilibria("undecided", OFF_AXIS)
     plane = _plane(parts, i)
     curves = tuple(_steady_curve(parts, plane, lo, hi, side) for lo, hi in _pieces(plane) for side in (-1, 1))
-    reason = (f"torque . gamma = 0 puts gamma across axis {i + 1}, and one quadratic in Omega remains; the intervals where it is real are those of "
+    reason = (f"torque . gamma = 0 puts gamma across axis {i + 1}, and one quadratic in Omega remains; the "
+              f"intervals where it is real are those of "
               "a polynomial in tan(t/2) with exact coefficients")
-    return Equilibria("curves", reason, curves=curves) if curves else Equilibria("none", reason + ": there are none")
+    return (Equilibria("curves", reason, curves=curves) if curves
+            else Equilibria("none", reason + ": there are none"))
 
 
 def _plane(parts: Content, i: int) -> Plane:
@@ -285,7 +332,8 @@ def _plane(parts: Content, i: int) -> Plane:
 
 def _pieces(plane: Plane):
     """Intervals of tau on which the quadratic has two real roots (one where D_j = D_k)."""
-    cuts = {t for p in (plane.discriminant, plane.square, plane.linear if not plane.square else Poly(())) if p.degree > 0 for t in real_roots(p)}
+    cuts = {t for p in (plane.discriminant, plane.square, plane.linear if not plane.square else Poly(()))
+            if p.degree > 0 for t in real_roots(p)}
     cuts |= {Fraction(0)}
     ends = [None, *sorted(cuts), None]
     for lo, hi in zip(ends, ends[1:]):
@@ -300,7 +348,8 @@ def _omega(plane: Plane, tau: Fraction, side: int):
     if a == 0:
         return arb(-c / b) if side < 0 and b != 0 else None
     root = arb(b * b - 4 * a * c).sqrt()
-    near = -(b + root) / 2 if b >= 0 else (root - b) / 2  # the root without cancellation is near/a, the other c/near
+    # the root without cancellation is near/a, the other c/near
+    near = -(b + root) / 2 if b >= 0 else (root - b) / 2
     first, second = near / a, c / near if near != 0 else near / a
     low, high = (first, second) if first < second else (second, first)
     return low if side < 0 else high
@@ -357,9 +406,11 @@ def _steady_curve(parts, plane: Plane, lo, hi, side) -> EquilibriumCurve:
     samples = tuple(s for s in found if s is not None)
     words = {(s.linear, s.verdict, s.because) for s in samples}
     shared = words.pop() if len(words) == 1 else (
-        "degenerate", "undecided", "the verdict changes along this piece, or was decided at the samples only: see them")
+        "degenerate", "undecided",
+        "the verdict changes along this piece, or was decided at the samples only: see them")
     if shared[1] == "unstable":
-        shared = (shared[0], "undecided", "unstable at every sample; between them the signs were not followed")
+        shared = (shared[0], "undecided",
+                  "unstable at every sample; between them the signs were not followed")
 
     def point(t: float):
         if not ends[0] < t < ends[1]:
@@ -369,7 +420,8 @@ def _steady_curve(parts, plane: Plane, lo, hi, side) -> EquilibriumCurve:
             return tuple(float(v.mid()) for v in (*(Omega * g for g in gamma), *gamma))
     which = "lesser" if side < 0 else "greater"
     return EquilibriumCurve(
-        f"{which} Omega for t in ({ends[0]:.6g}, {ends[1]:.6g})", f"gamma{plane.i + 1} = 0, A (Omega^2 - N) + B Omega + C = 0",
+        f"{which} Omega for t in ({ends[0]:.6g}, {ends[1]:.6g})",
+        f"gamma{plane.i + 1} = 0, A (Omega^2 - N) + B Omega + C = 0",
         f"gamma{j + 1} = cos t, gamma{k + 1} = sin t, omega = Omega gamma with the {which} root Omega", point,
         (CurveSegment(ends, *shared),), (), samples)
 

@@ -2,40 +2,47 @@
 
 Equilibria of a torque off every eigenvector of the inertia: none, one, two, or a whole line.
 
-M.y = 0 and M.(D y + lambda) = 0 are two planes that meet in a line y0 + t v, v = M x D M. There (D y + lambda) x y is
-parallel to M, so one quadratic remains:
+M.y = 0 and M.(D y + lambda) = 0 are two planes that meet in a line y0 + t v, v = M x D M. There (D y +
+lambda) x y is parallel to M, so one quadratic remains:
 
-    q(t) = det(D y + lambda, y, M)/M.M + 1 = q2 t^2 + q1 t + q0,   q2 = det(M, D M, D^2 M) up to a positive factor.
+    q(t) = det(D y + lambda, y, M)/M.M + 1 = q2 t^2 + q1 t + q0,   q2 = det(M, D M, D^2 M) up to a positive
+    factor.
 
-q2 vanishes where a component of M does or two moments are equal. All of q vanishes where lambda = (D_v - D) y0 + l v, with
-D v = D_v v and M = l y0 x v: then D y + lambda = D_v y + l v, and the balance holds for every rate t about v.
+q2 vanishes where a component of M does or two moments are equal. All of q vanishes where lambda = (D_v - D)
+y0 + l v, with D v = D_v v and M = l y0 x v: then D y + lambda = D_v y + l v, and the balance holds for every
+rate t about v.
 
 Equilibria of a torque along an eigenvector of the inertia: a conic in the plane across it.
 
-With D M = d M the two conditions M.y = 0 and M.(D y + lambda) = 0 are one plane if lambda.M = 0 and contradict each
-other otherwise. In the plane, with orthogonal eigenvectors P, Q of D (P x Q = w M), y = alpha P + beta Q:
+With D M = d M the two conditions M.y = 0 and M.(D y + lambda) = 0 are one plane if lambda.M = 0 and
+contradict each other otherwise. In the plane, with orthogonal eigenvectors P, Q of D (P x Q = w M), y = alpha
+P + beta Q:
 
     (d_P - d_Q) alpha beta + l_P beta - l_Q alpha + 1/w = 0,   l_P = lambda.P/P.P,  l_Q = lambda.Q/Q.Q,
 
-a hyperbola; two crossing lines where it passes through its own centre; one line y = lambda x M/lambda^2 + t lambda, or
-nothing, where d_P = d_Q. A torque oblique in a plane of equal moments is as good as one on a principal axis.
+a hyperbola; two crossing lines where it passes through its own centre; one line y = lambda x M/lambda^2 + t
+lambda, or nothing, where d_P = d_Q. A torque oblique in a plane of equal moments is as good as one on a
+principal axis.
 
-On the conic the reduced potential has U' = 0 and U'' = m, and (alpha, invariant of the flow, rate about M) are coordinates near every
-equilibrium: so its centres are stable (docs/mathematics/equilibria.md, docs/mathematics/stability.md).
+On the conic the reduced potential has U' = 0 and U'' = m, and (alpha, invariant of the flow, rate about M)
+are coordinates near every equilibrium: so its centres are stable (docs/mathematics/equilibria.md,
+docs/mathematics/stability.md).
 
 Equilibria without a torque: momentum parallel to rotation, D y + lambda = s y.
 
-Curve: y(s) = lambda/(s - D) between its poles, through y = 0 at s = infinity and, for each D_i with lambda_i = 0, a line
-y_i arbitrary at s = D_i. With s = D_p + 1/t for one axis p that carries lambda the curve is rational and whole: t = 0 is
-rest, and t = infinity is the pole at D_p. lambda = 0: the principal axes, planes for equal moments, everything for a sphere.
+Curve: y(s) = lambda/(s - D) between its poles, through y = 0 at s = infinity and, for each D_i with lambda_i
+= 0, a line y_i arbitrary at s = D_i. With s = D_p + 1/t for one axis p that carries lambda the curve is
+rational and whole: t = 0 is rest, and t = infinity is the pole at D_p. lambda = 0: the principal axes, planes
+for equal moments, everything for a sphere.
 
-Stable exactly where m > 0, by energy and Casimir; where a line meets the curve in a pitchfork, exactly where m > 0 on the rest of the line
-(proofs: docs/mathematics/stability.md).
+Stable exactly where m > 0, by energy and Casimir; where a line meets the curve in a pitchfork, exactly where
+m > 0 on the rest of the line (proofs: docs/mathematics/stability.md).
 
-At an equilibrium (D omega + lambda) x omega + M = 0; dotting with omega and with D omega + lambda gives M.omega = 0 and
-M.(D omega + lambda) = 0, two linear conditions, and what is left is at most one quadratic. Existence (parallel vectors,
-signs of discriminants, conics that fall apart into lines) is decided with exact rationals; coordinates are rounded once.
-Source: derived here; Amer et al. 2024 treats lambda along axis 1 and torques on one axis.
+At an equilibrium (D omega + lambda) x omega + M = 0; dotting with omega and with D omega + lambda gives
+M.omega = 0 and M.(D omega + lambda) = 0, two linear conditions, and what is left is at most one quadratic.
+Existence (parallel vectors, signs of discriminants, conics that fall apart into lines) is decided with exact
+rationals; coordinates are rounded once. Source: derived here; Amer et al. 2024 treats lambda along axis 1 and
+torques on one axis.
 """
 from __future__ import annotations
 
@@ -66,25 +73,40 @@ from .result import (
 )
 from .stability import curve_with_verdicts, isolated_point
 
-# Line of equilibria along axis 1 (x1 = X, the others at y2, y3): deltas obey d2' = -P(X) d3, d3' = Q(X) d2, X' = e d2 d3
-# + f d2 + g d3 with P, Q linear in X and m = P Q. Removing the terms linear in d from X' by X -> X - (f/Q) d3 + (g/P) d2
-# leaves a mean drift X' = const f g (Q'P - P'Q) r^2; the bracket is lambda1 (D3 - D2)/(D2 D3), f g ~ (D2-D1)(D1-D3) y2 y3.
-# At a zero of P or Q (not of both: the bracket is not zero) one Jordan block is left, and m = -b z + ... along the line, b != 0:
+# Line of equilibria along axis 1 (x1 = X, the others at y2, y3): deltas obey d2' = -P(X) d3, d3' = Q(X) d2,
+# X' = e d2 d3
+# + f d2 + g d3 with P, Q linear in X and m = P Q. Removing the terms linear in d from X' by X -> X - (f/Q) d3
+# + (g/P) d2
+# leaves a mean drift X' = const f g (Q'P - P'Q) r^2; the bracket is lambda1 (D3 - D2)/(D2 D3), f g ~
+# (D2-D1)(D1-D3) y2 y3.
+# At a zero of P or Q (not of both: the bracket is not zero) one Jordan block is left, and m = -b z + ...
+# along the line, b != 0:
 # `stability.isolated_verdict` has the argument.
 DRIFTING = Grounds(
-    positive=("unstable", "line of equilibria with eigenvalues 0, +-i sqrt(m): at second order in the amplitude r the mean "
-                          "motion is X' = k r^2 along the line with k != 0 (three different moments), r' = O(r^3), so "
+    positive=("unstable",
+              "line of equilibria with eigenvalues 0, +-i sqrt(m): at second order in the amplitude r "
+              "the mean "
+                          "motion is X' = k r^2 along the line with k != 0 (three different moments), r' = "
+                          "O(r^3), so "
                           "neighbours travel a finite way along it"),
-    odd=("unstable", "triple zero eigenvalue on a line of equilibria, where m changes sign: z''' = b z z' + ... with b != 0, and "
-                     "blown up with weights 2, 3, 4 it has a motion z ~ 12/(b t^2) that comes out of the point"),
+    odd=("unstable",
+         "triple zero eigenvalue on a line of equilibria, where m changes sign: z''' = b z z' + ... with b "
+         "!= 0, and "
+                     "blown up with weights 2, 3, 4 it has a motion z ~ 12/(b t^2) that comes out of "
+                     "the point"),
     minimum=("undecided", "triple zero eigenvalue on a line of equilibria: no proof is given"),
     maximum=("undecided", "triple zero eigenvalue on a line of equilibria: no proof is given"))
-# Two equal moments D1 = D2: with alpha' = d3, p(alpha) = d3^2 obeys p'' = -((D1-D3)/D1)^2 p - 2 m(X0 + c alpha), linear,
-# so the motion is that of one degree of freedom in the potential -p/2: concave p (m > 0) turns, a cubic p escapes.
+# Two equal moments D1 = D2: with alpha' = d3, p(alpha) = d3^2 obeys p'' = -((D1-D3)/D1)^2 p - 2 m(X0 + c
+# alpha), linear,
+# so the motion is that of one degree of freedom in the potential -p/2: concave p (m > 0) turns, a cubic p
+# escapes.
 CONCAVE = Grounds(
-    positive=("stable", "symmetric body: d3^2 = p(alpha) with alpha' = d3 and p'' = -k^2 p - 2 m < 0 near the line, so alpha "
+    positive=("stable",
+              "symmetric body: d3^2 = p(alpha) with alpha' = d3 and p'' = -k^2 p - 2 m < 0 near the line, so "
+              "alpha "
                         "turns back and neighbours stay"),
-    odd=("unstable", "symmetric body: d3^2 = p(alpha) with alpha' = d3 has a cubic term here, and motions run off on its "
+    odd=("unstable",
+         "symmetric body: d3^2 = p(alpha) with alpha' = d3 has a cubic term here, and motions run off on its "
                      "rising side"),
     minimum=("undecided", "triple zero eigenvalue on a line of equilibria: no proof is given"),
     maximum=("undecided", "triple zero eigenvalue on a line of equilibria: no proof is given"))
@@ -104,16 +126,20 @@ def isolated_states(p: Pencil) -> tuple[str, list[tuple[Surd, Surd, Surd]], list
     if not (q2 or q1 or q0):
         return lead + "and every point of it is an equilibrium", [], [_whole_line(p, start, v)]
     if not (q2 or q1):
-        return lead + "and on it the remaining condition has no solution (its coefficients of t^2 and t vanish)", [], []
+        return (lead
+                + "and on it the remaining condition has no solution (its coefficients of t^2 and t vanish)",
+                [], [])
     if not q2:
         roots, why = [Surd(-q0 / q1)], "on which the remaining condition is linear: one isolated equilibrium"
     else:
         disc = q1 * q1 - 4 * q2 * q0
         if disc < 0:
-            return lead + f"on which a quadratic without real roots remains (discriminant {decimal(disc)})", [], []
+            return (lead + f"on which a quadratic without real roots remains (discriminant {decimal(disc)})",
+                    [], [])
         middle, half = -q1 / (2 * q2), 1 / (2 * q2)
         roots = [Surd(middle)] if not disc else [Surd(middle, -half, disc), Surd(middle, half, disc)]
-        why = ("on which a quadratic with a positive discriminant remains: two isolated equilibria" if disc else
+        why = ("on which a quadratic with a positive discriminant remains: two isolated equilibria" if disc
+               else
                "on which a quadratic with a double root remains: one equilibrium, the fold of two")
     return lead + why, [p.state(tuple(r * d + s for s, d in zip(start, v))) for r in roots], []
 
@@ -142,17 +168,24 @@ def _whole_line(p: Pencil, start: Exact3, v: Exact3) -> RationalCurve:
         v = unit(along[0])
         x = tuple(Fraction(0) if i == along[0] else c for i, c in enumerate(x))
     grounds = DRIFTING if len(set(p.D)) == 3 else CONCAVE
-    return RationalCurve("equilibrium line", *line_text(p.names, x, v), straight_line(x, v), grounds, scale=size_of(x) / size_of(v))
+    return RationalCurve("equilibrium line", *line_text(p.names, x, v), straight_line(x, v), grounds,
+                         scale=size_of(x) / size_of(v))
 
 
 WHOLE = Poly((1,))  # the denominator of what has none
 
 WELL = Grounds(
-    positive=("stable", "non-degenerate minimum of the reduced potential (U'' = m > 0): energy keeps nearby motions in the "
+    positive=("stable",
+              "non-degenerate minimum of the reduced potential (U'' = m > 0): energy keeps nearby motions "
+              "in the "
                         "well, and the well persists as the invariant changes"),
-    odd=("unstable", "fold: the reduced potential has an inflection here (its first non-zero derivative is of odd order), "
+    odd=("unstable",
+         "fold: the reduced potential has an inflection here (its first non-zero derivative is of odd "
+         "order), "
                      "and motions released on its downhill side run away"),
-    minimum=("stable", "degenerate but strict minimum of the reduced potential (m > 0 on both sides along the curve): its "
+    minimum=("stable",
+             "degenerate but strict minimum of the reduced potential (m > 0 on both sides along the "
+             "curve): its "
                        "walls stand for nearby values of the invariant too"),
     maximum=("unstable", "degenerate maximum of the reduced potential (m < 0 on both sides along the curve)"))
 
@@ -161,13 +194,16 @@ def balance_fails(p: Pencil) -> str | None:
     """Why a torque along an eigenvector of D has no equilibrium at all; None where it has some."""
     if dot(p.lam, p.M):
         if p.scaled:
-            return ("an equilibrium needs mu1 (x1+a) = 0 and mu1 (x1+b) = 0: impossible, as mu1 is not zero and a differs "
+            return ("an equilibrium needs mu1 (x1+a) = 0 and mu1 (x1+b) = 0: impossible, as mu1 is not zero "
+                    "and a differs "
                     "from b")
-        return ("an equilibrium needs M.omega = 0 and M.(D omega + lambda) = 0; M is an eigenvector of D, so these "
+        return ("an equilibrium needs M.omega = 0 and M.(D omega + lambda) = 0; M is an eigenvector of D, so "
+                "these "
                 "contradict each other unless lambda.M = 0, and here lambda.M = " + decimal(dot(p.lam, p.M)))
     first, second, _ = plane_basis(p)
     if first[1] == second[1] and not any(p.lam):
-        return ("across the torque the two moments of inertia are equal and there is no gyrostatic moment: nothing "
+        return ("across the torque the two moments of inertia are equal and there is no gyrostatic moment: "
+                "nothing "
                 "balances the torque, and the rate about its axis grows steadily")
     return None
 
@@ -202,7 +238,8 @@ def _single_line(p: Pencil) -> RationalCurve:
     along = [i for i in range(3) if p.lam[i]]
     direction = unit(along[0]) if len(along) == 1 else p.lam
     scale = size_of(start) / size_of(direction)
-    return RationalCurve("equilibrium line", *line_text(p.names, start, direction), straight_line(start, direction), WELL,
+    return RationalCurve("equilibrium line", *line_text(p.names, start, direction),
+                         straight_line(start, direction), WELL,
                          scale=scale)
 
 
@@ -221,7 +258,8 @@ class _Plane:
         self.leading = 1 if self.oblique or jq == 1 or (jp != 1 and jq == 2) else 0
 
     def state(self, u: Number, v: Number, bottom: Number = WHOLE) -> Triple:
-        """Polynomials (or numbers over bottom = 1) of the state from its two plane components over `bottom`."""
+        """Polynomials (or numbers over bottom = 1) of the state from its two plane components over `bottom`.
+        """
         a, b = u * self.stretch[0], v * self.stretch[1]
         if not self.oblique:
             shift = [self.p.u[i] if self.P[i] or self.Q[i] else ZERO for i in range(3)]
@@ -249,8 +287,10 @@ class _Plane:
         text[other] = sum_of(self.centre[other], f"{decimal(K)}/t")
         left = " ".join(shifted(n, c) for n, c in zip(self.names, self.centre))
         return RationalCurve("equilibrium hyperbola", f"{self.plane_text()}, {left} = {decimal(K)}",
-                             ", ".join([self.plane_text(), *(f"{n} = {v}" for n, v in zip(self.names, text))]),
-                             self.state(parts[0], parts[1], T), WELL, T, (ZERO,), {}, sqrt_fraction(abs(K), 60))
+                             ", ".join([self.plane_text(),
+                                        *(f"{n} = {v}" for n, v in zip(self.names, text))]),
+                             self.state(parts[0], parts[1], T), WELL, T, (ZERO,), {},
+                             sqrt_fraction(abs(K), 60))
 
     def crossing_lines(self) -> list[RationalCurve]:
         """The two lines u = u0 and v = v0 of a conic through its own centre."""
@@ -262,22 +302,27 @@ class _Plane:
             parts[free] = T
             fixed = f"{self.names[1 - free]} = {decimal(self.centre[1 - free])}"
             lines.append(RationalCurve(
-                f"equilibrium line along {self.names[free]}", f"{self.plane_text()}, {fixed}, {self.names[free]} arbitrary",
+                f"equilibrium line along {self.names[free]}",
+                f"{self.plane_text()}, {fixed}, {self.names[free]} arbitrary",
                 f"{self.plane_text()}, {fixed}, {self.names[free]} = t", self.state(*parts), WELL,
                 crossings={self.centre[free]: verdict}, scale=size_of(self.centre)))
         return lines
 
 
 def crossing_verdict(form: QuadraticForm, x: Exact3, e: Exact3) -> Verdict:
-    """The verdict where two lines of equilibria cross (m = 0): by the first non-zero derivative of the reduced potential
-    along its own curve dx/dalpha = J(x) e, U' = -e.x' (a power series with exact coefficients)."""
+    """The verdict where two lines of equilibria cross (m = 0): by the first non-zero derivative of the
+    reduced potential along its own curve dx/dalpha = J(x) e, U' = -e.x' (a power series with exact
+    coefficients)."""
     for power, slope in enumerate(_potential_slope(form, x, e, 8)):
         if slope:
             order = f"U ~ {'+' if slope > 0 else '-'}alpha^{power + 1} along the motion's own curve"
             if power % 2 and slope > 0:
-                return "stable", f"crossing of two lines of equilibria; {order}: a degenerate but strict minimum"
-            return "unstable", f"crossing of two lines of equilibria; {order}: no minimum of the reduced potential"
-    return "undecided", "crossing of two lines of equilibria; the reduced potential is flat to the eighth order"
+                return ("stable",
+                        f"crossing of two lines of equilibria; {order}: a degenerate but strict minimum")
+            return ("unstable",
+                    f"crossing of two lines of equilibria; {order}: no minimum of the reduced potential")
+    return ("undecided",
+            "crossing of two lines of equilibria; the reduced potential is flat to the eighth order")
 
 
 def _potential_slope(form: QuadraticForm, x: Exact3, e: Exact3, terms: int) -> list[Fraction]:
@@ -285,32 +330,50 @@ def _potential_slope(form: QuadraticForm, x: Exact3, e: Exact3, terms: int) -> l
     series = [tuple(x)]
     for n in range(terms):
         c = series[-1]
-        step = [form.kappa[i] * (c[j] * e[k] + c[k] * e[j]) + (form.rho[i] * e[k] + form.sigma[i] * e[j] if n == 0 else 0)
+        step = [form.kappa[i] * (c[j] * e[k] + c[k] * e[j])
+                + (form.rho[i] * e[k] + form.sigma[i] * e[j] if n == 0 else 0)
                 for i, (j, k) in enumerate(CYCLE)]
         series.append(tuple(v / (n + 1) for v in step))
     slope = []
     for n in range(terms):
         pairs = [(series[a], series[n - a]) for a in range(n + 1)]
-        slope.append(-sum((e[i] * (form.kappa[i] * sum(a[j] * b[k] for a, b in pairs) + form.rho[i] * series[n][k]
+        slope.append(-sum((e[i] * (form.kappa[i] * sum(a[j] * b[k] for a, b in pairs)
+                                   + form.rho[i] * series[n][k]
                                    + form.sigma[i] * series[n][j] + (form.m[i] if n == 0 else 0))
                            for i, (j, k) in enumerate(CYCLE)), Fraction(0)))
     return slope
 
 
 CASIMIR = Grounds(
-    positive=("stable", "energy-Casimir: on its momentum sphere the energy has a non-degenerate extremum (m > 0); where the "
+    positive=("stable",
+              "energy-Casimir: on its momentum sphere the energy has a non-degenerate extremum (m > 0); "
+              "where the "
                         "momentum or the rotation vanishes, that integral is itself definite"),
-    odd=("unstable", "fold: on its momentum sphere the energy has an inflection here, no extremum, and motions leave along it"),
-    minimum=("stable", "energy-Casimir: on its momentum sphere the energy has a degenerate but strict extremum (m > 0 on both "
+    odd=("unstable",
+         "fold: on its momentum sphere the energy has an inflection here, no extremum, and motions leave "
+         "along it"),
+    minimum=("stable",
+             "energy-Casimir: on its momentum sphere the energy has a degenerate but strict extremum (m > 0 "
+             "on both "
                        "sides along the curve)"),
-    maximum=("unstable", "on its momentum sphere the energy has a degenerate saddle (m < 0 on both sides along the curve)"))
+    maximum=("unstable",
+             "on its momentum sphere the energy has a degenerate saddle (m < 0 on both sides along the "
+             "curve)"))
 CROSSING = {
-    1: ("stable", "crossing of two curves of equilibria; energy-Casimir: on its momentum sphere the energy has a quartic but "
+    1: ("stable",
+        "crossing of two curves of equilibria; energy-Casimir: on its momentum sphere the energy has a "
+        "quartic but "
                   "strict extremum"),
-    -1: ("unstable", "crossing of two curves of equilibria; on its momentum sphere the energy has a degenerate saddle")}
-REST = ("stable", "a positive definite combination of the integrals is stationary here (for a body at rest: the energy)")
-SYMMETRY_AXIS = ("stable", "the rate about the axis of symmetry and the size of the rate across it are both constant")
-DRIFT = ("unstable", "m = n = 0: with any small change of the rate along the symmetry axis the state runs round the circle of "
+    -1: ("unstable",
+         "crossing of two curves of equilibria; on its momentum sphere the energy has a degenerate saddle")}
+REST = ("stable",
+        "a positive definite combination of the integrals is stationary here (for a body at rest: the "
+        "energy)")
+SYMMETRY_AXIS = ("stable",
+                 "the rate about the axis of symmetry and the size of the rate across it are both constant")
+DRIFT = ("unstable",
+         "m = n = 0: with any small change of the rate along the symmetry axis the state runs round the "
+         "circle of "
                      "equilibria, so neighbours leave")
 
 
@@ -329,8 +392,8 @@ def _projection(p: Pencil, d: Fraction) -> bool:
 
 
 def _line_sign(p: Pencil, i: int) -> int:
-    """Sign of m on the line y_i arbitrary, s = D_i, away from the crossing: that of (D_j - D_i)(D_k - D_i) up to the
-    sign that the change of variables x -> y carries."""
+    """Sign of m on the line y_i arbitrary, s = D_i, away from the crossing: that of (D_j - D_i)(D_k - D_i) up
+    to the sign that the change of variables x -> y carries."""
     j, k = CYCLE[i]
     e = p.form
     return -sign_of(e.kappa[j] * e.kappa[k])
@@ -341,7 +404,8 @@ def _axis_line(p: Pencil, i: int) -> RationalCurve:
     y = tuple(ZERO if n == i else p.lam[n] / (p.D[i] - p.D[n]) for n in range(3))
     start = tuple(ZERO if n == i else v for n, v in enumerate(p.state(y)))
     meeting = -p.u[i] / p.A[i]
-    return RationalCurve(f"line along {p.names[i]}", *line_text(p.names, start, unit(i)), straight_line(start, unit(i)), CASIMIR,
+    return RationalCurve(f"line along {p.names[i]}", *line_text(p.names, start, unit(i)),
+                         straight_line(start, unit(i)), CASIMIR,
                          crossings={meeting: _crossing(p, i)}, scale=size_of(start, (meeting,)))
 
 
@@ -361,12 +425,14 @@ def _main_curve(p: Pencil) -> RationalCurve:
         bottom = bottom * f
     tops = tuple(bottom * T * p.lam[i] // factors[i] if i in factors else Poly(()) for i in range(3))
     poles = tuple(sorted({-f.c[0] / f.c[1] for f in distinct}))
-    crossings = {1 / (p.D[i] - p.D[lead]): _crossing(p, i) for i in range(3) if not p.lam[i] and p.D.count(p.D[i]) == 1}
+    crossings = {1 / (p.D[i] - p.D[lead]): _crossing(p, i) for i in range(3) if not p.lam[i]
+                 and p.D.count(p.D[i]) == 1}
     name = p.names[lead]
     return RationalCurve(
         "curve of momentum along rotation", "D omega + lambda = s omega",
         f"omega_i = lambda_i/(s - D_i), s = D{lead + 1} + 1/t, t = {name}/lambda{lead + 1}",
-        tops, CASIMIR, bottom, poles, crossings, size_of(tuple(1 / (d - p.D[lead]) for d in p.D if d != p.D[lead])))
+        tops, CASIMIR, bottom, poles, crossings,
+        size_of(tuple(1 / (d - p.D[lead]) for d in p.D if d != p.D[lead])))
 
 
 def _along_lambda(p: Pencil, support: list[int]) -> RationalCurve:
@@ -391,7 +457,8 @@ def plane_moments(p: Pencil) -> list[Fraction]:
 
 
 def plane_of_equal_moments(p: Pencil, d: Fraction) -> tuple[int, int, int, Exact3]:
-    """(i, j, k, centre): axes i and j span the plane of equilibria, k is the axis of symmetry, through the exact centre."""
+    """(i, j, k, centre): axes i and j span the plane of equilibria, k is the axis of symmetry, through the
+    exact centre."""
     i, j = (n for n in range(3) if p.D[n] == d)
     k = 3 - i - j
     return i, j, k, tuple(p.lam[k] / (d - p.D[k]) if n == k else ZERO for n in range(3))
@@ -403,22 +470,27 @@ def plane_centre(p: Pencil) -> Verdict:
 
 
 def _plane(p: Pencil, d: Fraction) -> EquilibriumCurve:
-    """The plane of equilibria across the symmetry axis k of a body with two moments d. The curve's point(t) runs along one
-    straight line through its centre; by the symmetry every other line through the centre is alike (samples lie on three)."""
+    """The plane of equilibria across the symmetry axis k of a body with two moments d. The curve's point(t)
+    runs along one straight line through its centre; by the symmetry every other line through the centre is
+    alike (samples lie on three)."""
     i, j, k, start = plane_of_equal_moments(p, d)
     height = start[k]
     centre_verdict = plane_centre(p)
-    rays = [unit(i), unit(j), tuple(Fraction(3, 5) * a + Fraction(4, 5) * b for a, b in zip(unit(i), unit(j)))]
+    rays = [unit(i), unit(j),
+            tuple(Fraction(3, 5) * a + Fraction(4, 5) * b for a, b in zip(unit(i), unit(j)))]
     curve = RationalCurve("", "", "", straight_line(start, rays[0]), CASIMIR)
     zero = (0j, 0j, 0j)
     at = lambda ray, t: tuple(float(s + t * r) for s, r in zip(start, ray))
     half = sample_parameters(ZERO, None, size_of((height,)))
-    outer = [EquilibriumPoint(at(ray, t), zero, "degenerate", *DRIFT) for ray in rays for t in (*(-v for v in half), *half)]
+    outer = [EquilibriumPoint(at(ray, t), zero, "degenerate", *DRIFT) for ray in rays
+             for t in (*(-v for v in half), *half)]
     middle = EquilibriumPoint(at(rays[0], ZERO), zero, "degenerate", *centre_verdict)
-    segments = tuple(CurveSegment(t, "degenerate", *DRIFT) for t in ((float("-inf"), 0.0), (0.0, float("inf"))))
+    segments = tuple(CurveSegment(t, "degenerate", *DRIFT)
+                     for t in ((float("-inf"), 0.0), (0.0, float("inf"))))
     names = p.names
     return EquilibriumCurve(
-        f"plane {names[k]} = {decimal(height)}", f"{names[k]} = {decimal(height)}, {names[i]} and {names[j]} arbitrary",
+        f"plane {names[k]} = {decimal(height)}",
+        f"{names[k]} = {decimal(height)}, {names[i]} and {names[j]} arbitrary",
         f"{names[i]} = t, {names[j]} = 0, {names[k]} = {decimal(height)} and its turns about axis {k + 1}",
         curve.float_point(), segments, (middle.at,), (*outer, middle))
 
@@ -429,8 +501,8 @@ def twin_equilibria(parts: Content) -> Equilibria:
 
 
 def gyrostat_equilibria(scene: AnyScene) -> Equilibria:
-    """Every equilibrium of a Scene (body, gyrostat, constant torque) or ScaledGyrostat, each with its stability, as `answers.equilibria`
-    tells them. Raises InputError for other effects."""
+    """Every equilibrium of a Scene (body, gyrostat, constant torque) or ScaledGyrostat, each with its
+    stability, as `answers.equilibria` tells them. Raises InputError for other effects."""
     p = pencil(scene)
     if not any(p.M):
         return _torque_free(p)
@@ -442,13 +514,15 @@ def gyrostat_equilibria(scene: AnyScene) -> Equilibria:
     if missing:
         return Equilibria("none", missing)
     conic = tuple(curve_with_verdicts(p.form, c) for c in conic_curves(p))
-    return Equilibria("curves", "the torque is along an eigenvector of D with no gyrostatic moment along it: the two balance "
+    return Equilibria("curves",
+                      "the torque is along an eigenvector of D with no gyrostatic moment along it: the two "
+                      "balance "
                                 "conditions are one plane, and in it one conic remains", curves=conic)
 
 
 def number_of_equilibria(scene: AnyScene) -> int | None:
-    """How many equilibria there are, exactly and without their stability, where they are isolated under a wheel and a torque off the
-    principal axes; None where they are not, or other effects act."""
+    """How many equilibria there are, exactly and without their stability, where they are isolated under a
+    wheel and a torque off the principal axes; None where they are not, or other effects act."""
     if not scene.plain:
         return None
     p = pencil(scene)
@@ -460,9 +534,14 @@ def number_of_equilibria(scene: AnyScene) -> int | None:
 
 def _torque_free(p: Pencil) -> Equilibria:
     if not any(p.lam) and len(set(p.D)) == 1:
-        return Equilibria("all", "no torque, no gyrostatic moment and three equal moments: every rate of rotation is constant, "
-                                 "so every state is an equilibrium, stable in the sense that it stays where it is put")
+        return Equilibria("all",
+                          "no torque, no gyrostatic moment and three equal moments: every rate of rotation "
+                          "is constant, "
+                                 "so every state is an equilibrium, stable in the sense that it stays where "
+                                 "it is put")
     exact, planes = torque_free_curves(p)
     curves = (*(curve_with_verdicts(p.form, c) for c in exact), *planes)
-    return Equilibria("curves", "without a torque a state is an equilibrium exactly where momentum and rotation are parallel",
+    return Equilibria("curves",
+                      "without a torque a state is an equilibrium exactly where momentum and rotation are "
+                      "parallel",
                       curves=curves)

@@ -1,16 +1,18 @@
 """Equilibria of a body with a liquid in a cavity: without torque and resistance, and with them.
 
-Permanent rotations of a body with a liquid in a cavity, without torque and resistance, and which of them attract.
+Permanent rotations of a body with a liquid in a cavity, without torque and resistance, and which of them
+attract.
 
-With a = D^-1 (D omega + Lambda) x omega and A = da/domega the rates are (D + kappa L) a, L = A + [omega x]. So a = 0, the
-permanent rotations without liquid, are equilibria; any other needs det(D + kappa L) = 0, where the liquid's torque is
-no longer small against the body's (its derivation fails); for Lambda = 0 the energy
+With a = D^-1 (D omega + Lambda) x omega and A = da/domega the rates are (D + kappa L) a, L = A + [omega x].
+So a = 0, the permanent rotations without liquid, are equilibria; any other needs det(D + kappa L) = 0, where
+the liquid's torque is no longer small against the body's (its derivation fails); for Lambda = 0 the energy
 
     T' = -kappa/(D1 D2 D3) sum (Di - Dj)^2 (Di + Dj - Dk) omega_i^2 omega_j^2
 
-excludes even these. At a = 0 the Jacobian is J = (1 + kappa D^-1 L) A, whose determinant is 0 as that of A is:
-z (z^2 + c2 z + c1). c1, c2 > 0: the curve of equilibria attracts its neighbourhood (it is its own centre manifold), so each point
-of it is stable and neighbouring motions tend to neighbouring points. c1 < 0 or c2 < 0: a root with positive real part.
+excludes even these. At a = 0 the Jacobian is J = (1 + kappa D^-1 L) A, whose determinant is 0 as that of A
+is: z (z^2 + c2 z + c1). c1, c2 > 0: the curve of equilibria attracts its neighbourhood (it is its own centre
+manifold), so each point of it is stable and neighbouring motions tend to neighbouring points. c1 < 0 or c2 <
+0: a root with positive real part.
 
 Equilibria of a body with a liquid under a torque, in a resisting medium, or both.
 
@@ -18,10 +20,10 @@ Three polynomials of third degree in omega. With x = sqrt(2 T) the work of all t
 
     x' <= m - (c - kappa alpha) x + kappa beta x^2,      m = sqrt(M . D^-1 M),
 
-because the liquid's work has a part of fourth degree that is never positive, and parts of second and third degree (from
-wheel and charge; none where Lambda = 0) of at most alpha x^2 + beta x^3. Between the roots x1 < x2 of the right side energy
-falls: there is no equilibrium, and what starts below x2 stays below max(x, x1). All equilibria below x2 lie in the box of
-x1, where exclusion and Krawczyk's test find every one.
+because the liquid's work has a part of fourth degree that is never positive, and parts of second and third
+degree (from wheel and charge; none where Lambda = 0) of at most alpha x^2 + beta x^3. Between the roots x1 <
+x2 of the right side energy falls: there is no equilibrium, and what starts below x2 stays below max(x, x1).
+All equilibria below x2 lie in the box of x1, where exclusion and Krawczyk's test find every one.
 """
 from __future__ import annotations
 
@@ -39,15 +41,32 @@ from ..numbers.vectors import cross, dot
 from ..physics.coefficients import Content, gyrostat_scene, linear_rates, liquid_torque
 from .balance import pencil
 from .gyrostat import torque_free_curves
-from .result import CurveSegment, Equilibria, EquilibriumCurve, EquilibriumPoint, RationalCurve, float_ends, sample_parameters, values_inside
+from .result import (
+    CurveSegment,
+    Equilibria,
+    EquilibriumCurve,
+    EquilibriumPoint,
+    RationalCurve,
+    float_ends,
+    sample_parameters,
+    values_inside,
+)
 
-ATTRACTING = ("stable", "c1, c2 > 0 in z (z^2 + c2 z + c1): the curve of permanent rotations attracts, so this rotation is stable and "
+ATTRACTING = ("stable",
+              "c1, c2 > 0 in z (z^2 + c2 z + c1): the curve of permanent rotations attracts, so this "
+              "rotation is stable and "
                         "every motion from nearby tends to a permanent rotation of the curve")
 REPELLED = ("unstable", "c1 < 0 or c2 < 0 in z (z^2 + c2 z + c1): a root with positive real part")
-LARGEST = ("stable", "asymptotically stable at its angular momentum |H|: the liquid keeps |H|, and on the sphere of constant |H| the energy is least "
-                     "here and falls everywhere else (LaSalle): motions from nearby tend to rotation about this axis")
-NOT_LARGEST = ("unstable", "the energy on the sphere of constant |H| is not least here and the liquid makes it fall wherever the motion is no "
-                           "permanent rotation: states of less energy next to this one leave and do not come back")
+LARGEST = ("stable",
+           "asymptotically stable at its angular momentum |H|: the liquid keeps |H|, and on the sphere of "
+           "constant |H| the energy is least "
+                     "here and falls everywhere else (LaSalle): motions from nearby tend to rotation about "
+                     "this axis")
+NOT_LARGEST = ("unstable",
+               "the energy on the sphere of constant |H| is not least here and the liquid makes it fall "
+               "wherever the motion is no "
+                           "permanent rotation: states of less energy next to this one leave and do not "
+                           "come back")
 REST = ("stable", "the kinetic energy is positive definite and never grows")
 EDGE = ("undecided", "the linear motion is degenerate (c1 c2 = 0): a term of higher order decides")
 
@@ -55,8 +74,11 @@ EDGE = ("undecided", "the linear motion is degenerate (c1 c2 = 0): a term of hig
 def liquid_equilibria(parts: Content) -> Equilibria:
     """Every permanent rotation of a body with a liquid (no torque, no resistance), with its stability."""
     if parts.printed and any(parts.Lambda):
-        return Equilibria("undecided", "the printed torque of the liquid leaves out terms of its own order where a wheel or a charge "
-                                       "acts, so it vanishes on no permanent rotation: undecided; choose torque = \"consistent\"")
+        return Equilibria("undecided",
+                          "the printed torque of the liquid leaves out terms of its own order where a wheel "
+                          "or a charge "
+                                       "acts, so it vanishes on no permanent rotation: undecided; choose "
+                                       "torque = \"consistent\"")
     p = pencil(gyrostat_scene(parts))
     exact, planes = torque_free_curves(p)
     curves = (*(_judged(parts, curve) for curve in exact), *(_plane(parts, plane) for plane in planes))
@@ -65,16 +87,21 @@ def liquid_equilibria(parts: Content) -> Equilibria:
 
 def _reason(parts: Content) -> str:
     if not any(parts.Lambda):
-        return ("the liquid takes energy at every rotation that is not about a principal axis, so the equilibria are the permanent "
+        return ("the liquid takes energy at every rotation that is not about a principal axis, so the "
+                "equilibria are the permanent "
                 "rotations of the free body and no others")
     limit = validity(parts)
-    where = f"wherever |omega| < {float(limit):.6g} rad/s" if limit > 0 else "only in the limit of small kappa"
-    return ("momentum along rotation: the rates are (D + kappa L) a with a the rates without liquid, and D + kappa L is invertible "
-            f"{where}, so there are no others; beyond that the torque of the liquid is as large as the body's own and its derivation does not hold")
+    where = (f"wherever |omega| < {float(limit):.6g} rad/s" if limit > 0
+             else "only in the limit of small kappa")
+    return ("momentum along rotation: the rates are (D + kappa L) a with a the rates without liquid, and D + "
+            "kappa L is invertible "
+            f"{where}, so there are no others; beyond that the torque of the liquid is as large as the "
+            f"body's own and its derivation does not hold")
 
 
 def validity(parts: Content) -> Fraction:
-    """|omega| below which |kappa D^-1 L| < 1 for sure: |L a| <= ((2 d + 1) |omega| + |Lambda|/Dmin) |a|, d = Dmax/Dmin."""
+    """|omega| below which |kappa D^-1 L| < 1 for sure: |L a| <= ((2 d + 1) |omega| + |Lambda|/Dmin) |a|, d =
+    Dmax/Dmin."""
     least, most = min(parts.D), max(parts.D)
     moment = sqrt_fraction(sum((v * v for v in parts.Lambda), Fraction(0)))
     return (least / parts.kappa - moment / least) / (2 * most / least + 1)
@@ -86,7 +113,8 @@ def jacobian(parts: Content, omega, w=1):
     x, y, z = omega
     zero = x * 0
     turn = [[zero, -z, y], [z, zero, -x], [-y, x, zero]]
-    factor = [[(A[i][j] + turn[i][j]) * (parts.kappa / parts.D[i]) + (w if i == j else 0) for j in range(3)] for i in range(3)]
+    factor = [[(A[i][j] + turn[i][j]) * (parts.kappa / parts.D[i]) + (w if i == j else 0) for j in range(3)]
+              for i in range(3)]
     return [[sum((factor[i][n] * A[n][j] for n in range(3)), zero) for j in range(3)] for i in range(3)]
 
 
@@ -123,16 +151,19 @@ def point(parts: Content, omega, verdict=None) -> EquilibriumPoint:
     """A permanent rotation (exact) with spectrum and verdict."""
     c2, c1 = coefficients(jacobian(parts, omega))
     word = _word(c2, c1)
-    return EquilibriumPoint(tuple(float(v) for v in omega), roots(c2, c1), word, *(verdict or _verdict(parts, word)))
+    return EquilibriumPoint(tuple(float(v) for v in omega), roots(c2, c1), word,
+                            *(verdict or _verdict(parts, word)))
 
 
 def _judged(parts: Content, curve: RationalCurve) -> EquilibriumCurve:
-    """Segments, folds and samples of one curve: cut at its poles, at crossings, and where a vanishing c1 or c2 leaves the
-    linear verdict open (any other change of sign does not change it)."""
-    both = [p if isinstance(p, Poly) else Poly((p,)) for p in coefficients(jacobian(parts, curve.numerators, curve.denominator))]
+    """Segments, folds and samples of one curve: cut at its poles, at crossings, and where a vanishing c1 or
+    c2 leaves the linear verdict open (any other change of sign does not change it)."""
+    both = [p if isinstance(p, Poly) else Poly((p,))
+            for p in coefficients(jacobian(parts, curve.numerators, curve.denominator))]
     for t in (*curve.poles, *curve.crossings):
         both = [p.without_root(t) for p in both]
-    inner = sorted({t for p in both if p.degree > 0 for t in real_roots(p)} - {*curve.poles, *curve.crossings})
+    inner = sorted({t for p in both if p.degree > 0 for t in real_roots(p)}
+                   - {*curve.poles, *curve.crossings})
     fixed = {t: _cut(parts, curve, t) for t in (*curve.crossings, *inner) if t not in curve.poles}
     cuts = sorted({*curve.poles, *curve.crossings, *(t for t in inner if fixed[t].linear == "degenerate")})
 
@@ -146,7 +177,8 @@ def _judged(parts: Content, curve: RationalCurve) -> EquilibriumCurve:
 
 
 def _cut(parts, curve, t) -> EquilibriumPoint:
-    """The equilibrium between two segments; a root of c1 or c2 is known to 2**-160, so its vanishing coefficient is set to 0."""
+    """The equilibrium between two segments; a root of c1 or c2 is known to 2**-160, so its vanishing
+    coefficient is set to 0."""
     omega = curve.exact_point(t)
     at_rest = not any(omega)
     c2, c1 = coefficients(jacobian(parts, omega))
@@ -166,8 +198,11 @@ def _sizes(parts, omega):
 
 
 def _plane(parts: Content, plane: EquilibriumCurve) -> EquilibriumCurve:
-    """A plane of equilibria (two equal moments): eigenvalues 0, 0 along it and one across it, q t^2 at distance t from its centre."""
-    across = ("stable", "the plane of permanent rotations attracts (the third eigenvalue is negative), so each of its points is stable and "
+    """A plane of equilibria (two equal moments): eigenvalues 0, 0 along it and one across it, q t^2 at
+    distance t from its centre."""
+    across = ("stable",
+              "the plane of permanent rotations attracts (the third eigenvalue is negative), so each of its "
+              "points is stable and "
                         "motions from nearby tend to a point of the plane")
     away = ("unstable", "the eigenvalue across the plane of permanent rotations is positive")
     centre = REST if not any(parts.Lambda) else EDGE
@@ -177,7 +212,8 @@ def _plane(parts: Content, plane: EquilibriumCurve) -> EquilibriumCurve:
         if at == plane.folds[0]:
             return EquilibriumPoint(at, (0j, 0j, 0j), "degenerate", *centre)
         trace = -coefficients(jacobian(parts, omega))[0]
-        return EquilibriumPoint(at, (0j, 0j, complex(float(trace), 0.0)), "unstable" if trace > 0 else "stable",
+        return EquilibriumPoint(at, (0j, 0j, complex(float(trace), 0.0)),
+                                "unstable" if trace > 0 else "stable",
                                 *(away if trace > 0 else across))
     samples = tuple(judged(s.at) for s in plane.samples)
     side = next(s for s in samples if s.linear != "degenerate")
@@ -188,9 +224,14 @@ def _plane(parts: Content, plane: EquilibriumCurve) -> EquilibriumCurve:
 ROUND = 1 + 1e-9  # more than all roundings of a bound
 RADIUS = 1e-45    # relative radius of the ball in which the sharpened zero is proved to lie
 EVERYWHERE = "the kinetic energy T lies below the value from which it falls (above it there is none)"
-STABLE = ("asymptotically stable", "p2, p0 > 0 and p2 p1 > p0 in z^3 + p2 z^2 + p1 z + p0 (Routh and Hurwitz): all roots lie on the left")
-UNSTABLE = ("unstable", "p0 < 0, p2 < 0 or p2 p1 < p0 in z^3 + p2 z^2 + p1 z + p0 (Routh and Hurwitz): a root with positive real part")
-OPEN = ("undecided", "Routh and Hurwitz leave the roots open: one of the conditions is an equality to some forty digits")
+STABLE = ("asymptotically stable",
+          "p2, p0 > 0 and p2 p1 > p0 in z^3 + p2 z^2 + p1 z + p0 (Routh and Hurwitz): all roots lie on "
+          "the left")
+UNSTABLE = ("unstable",
+            "p0 < 0, p2 < 0 or p2 p1 < p0 in z^3 + p2 z^2 + p1 z + p0 (Routh and Hurwitz): a root with "
+            "positive real part")
+OPEN = ("undecided",
+        "Routh and Hurwitz leave the roots open: one of the conditions is an equality to some forty digits")
 
 
 def balanced_equilibria(parts: Content) -> Equilibria:
@@ -200,21 +241,27 @@ def balanced_equilibria(parts: Content) -> Equilibria:
     torques = balance(parts)
     if reach is None:
         rest = () if any(parts.M) else (_point(parts, torques, (0.0, 0.0, 0.0)),)
-        return Equilibria("undecided", f"{words}; rest is one, as no torque acts on it" if rest else words, rest)
+        return Equilibria("undecided", f"{words}; rest is one, as no torque acts on it" if rest else words,
+                          rest)
     found = zeros([_dictionary(f) for f in torques], reach)
     points = tuple(_point(parts, torques, x) for x in sorted(map(tuple, found.points.tolist())))
     if not found.complete:
-        return Equilibria("undecided", f"undecided: {found.boxes} boxes did not settle the search where {words}; the equilibria found are proved, "
+        return Equilibria("undecided",
+                          f"undecided: {found.boxes} boxes did not settle the search where {words}; the "
+                          f"equilibria found are proved, "
                                        "others are not excluded", points)
     everywhere = words == EVERYWHERE
     kind = "points" if points else "none" if everywhere else "undecided"
-    return Equilibria(kind, f"every box of angular velocities where {words} was proved empty or to hold exactly one equilibrium (Krawczyk)", points)
+    return Equilibria(kind,
+                      f"every box of angular velocities where {words} was proved empty or to hold exactly "
+                      f"one equilibrium (Krawczyk)", points)
 
 
 def _in_polynomials(parts: Content):
     """(omega as flint polynomials, the coefficients of the liquid's torque as flint's rationals)."""
     omega = fmpq_mpoly_ctx.get(("x", "y", "z"), Ordering.lex).gens()
-    return omega, SimpleNamespace(D=tuple(map(rational, parts.D)), Lambda=tuple(map(rational, parts.Lambda)), printed=parts.printed)
+    return omega, SimpleNamespace(D=tuple(map(rational, parts.D)), Lambda=tuple(map(rational, parts.Lambda)),
+                                  printed=parts.printed)
 
 
 def balance(parts: Content):
@@ -231,11 +278,13 @@ def _dictionary(polynomial) -> dict:
 
 
 def bounds(parts: Content) -> tuple[float, float]:
-    """(alpha, beta): |part of degree 2|, |part of degree 3| of omega . (torque of the liquid)/kappa are at most alpha x^2, beta x^3."""
+    """(alpha, beta): |part of degree 2|, |part of degree 3| of omega . (torque of the liquid)/kappa are at
+    most alpha x^2, beta x^3."""
     w, exact = _in_polynomials(parts)
     work, out = _dictionary(dot(w, liquid_torque(exact, w))), {2: 0.0, 3: 0.0}
     for powers, value in work.items():
-        if sum(powers) in out:  # on |y| = 1, y_i = sqrt(D_i) omega_i, a monomial is at most prod (k_i/n)^(k_i/2)
+        # on |y| = 1, y_i = sqrt(D_i) omega_i, a monomial is at most prod (k_i/n)^(k_i/2)
+        if sum(powers) in out:
             largest = 1.0
             for k, d in zip(powers, parts.D):
                 largest *= (k / sum(powers) / float(d)) ** (k / 2) if k else 1.0
@@ -244,7 +293,8 @@ def bounds(parts: Content) -> tuple[float, float]:
 
 
 def trap(parts: Content) -> tuple[float, float] | None:
-    """(x1, x2): sqrt(2 T) falls between them (x2 may be inf); None where the liquid may outweigh the resistance."""
+    """(x1, x2): sqrt(2 T) falls between them (x2 may be inf); None where the liquid may outweigh the
+    resistance."""
     push = sqrt(sum(float(m) ** 2 / float(d) for m, d in zip(parts.M, parts.D))) * ROUND
     alpha, beta = (float(parts.kappa) * v for v in bounds(parts))
     net = float(parts.c) - alpha
@@ -263,14 +313,20 @@ def _region(parts: Content):
         x1, x2 = found
         if x1 == 0:
             x1 = min(1.0, x2 / 2)  # rest alone lies below x2; the search proves it again
-        words = EVERYWHERE if x2 == inf else f"T < {x2 * x2 / 2:.6g} J (beyond it the torque of the liquid may outweigh the medium's)"
+        words = (EVERYWHERE if x2 == inf
+                 else f"T < {x2 * x2 / 2:.6g} J (beyond it the torque of the liquid may outweigh the "
+                      f"medium's)")
         return [x1 / sqrt(float(d)) * ROUND for d in parts.D], words
     limit = max(float(validity(parts)), 0.0)
-    balance = sqrt(sum(float(m / d) ** 2 for m, d in zip(parts.M, parts.D))) / float(parts.c) if parts.c else 0.0
+    balance = (sqrt(sum(float(m / d) ** 2 for m, d in zip(parts.M, parts.D))) / float(parts.c) if parts.c
+               else 0.0)
     if not max(limit, balance):
-        return None, "undecided: the torque of the liquid may outweigh the body's own at every rate, and nothing bounds the equilibria"
+        return (None,
+                "undecided: the torque of the liquid may outweigh the body's own at every rate, and nothing "
+                "bounds the equilibria")
     reach = max(limit, 3 * balance)
-    return [reach] * 3, (f"|omega_i| < {reach:.6g} rad/s (where |omega| > {limit:.6g} rad/s the torque of the liquid may be as large as the body's own: "
+    return [reach] * 3, (f"|omega_i| < {reach:.6g} rad/s (where |omega| > {limit:.6g} rad/s the torque of "
+                         f"the liquid may be as large as the body's own: "
                          "its derivation does not hold there)")
 
 
@@ -279,7 +335,8 @@ def _point(parts: Content, torques, x) -> EquilibriumPoint:
     import numpy as np
     with many_digits():
         ball = _enclosed(torques, x)
-        J = arb_mat([[evaluated(f, ball) / rational(d) for f in row] for row, d in zip(_slopes(torques), parts.D)])
+        J = arb_mat([[evaluated(f, ball) / rational(d) for f in row] for row,
+                     d in zip(_slopes(torques), parts.D)])
         middle = np.array([[float(v.mid()) for v in row] for row in J.tolist()])
         p0, p1, p2, _ = J.charpoly().coeffs()
         if p2 > 0 and p0 > 0 and p2 * p1 > p0:

@@ -1,13 +1,15 @@
-"""Equilibria in a resisting medium: (D omega + Lambda) x omega - c D omega + M = 0, c > 0, all of them and their stability.
+"""Equilibria in a resisting medium: (D omega + Lambda) x omega - c D omega + M = 0, c > 0, all of them and
+their stability.
 
 Given omega_e of one axis e the other two components solve two linear equations, determinant
-q(t) = c^2 + ((D_e - D_i) t + Lambda_e)((D_e - D_j) t + Lambda_e)/(D_i D_j), t = omega_e; put into the third equation they leave one
-polynomial P(t) of degree five at most, with exact coefficients: Sturm's theorem gives all its real roots. The axis is
-chosen so that q has no real root at which the two equations are solvable.
-Stability: the characteristic polynomial is (z + c)^3 + m (z + c) + n, with m, n of the motion without resistance, so
-p2 = 3 c > 0, p1 = 3 c^2 + m, p0 = c^3 + m c + n, and by Routh and Hurwitz all roots lie on the left iff p0 > 0 and
-8 c^3 + 2 c m - n > 0. A sign at a root of P is decided exactly: by distance, and where that is not enough by the common divisor.
-Everywhere T' = M . omega - 2 c T.
+q(t) = c^2 + ((D_e - D_i) t + Lambda_e)((D_e - D_j) t + Lambda_e)/(D_i D_j), t = omega_e; put into the third
+equation they leave one polynomial P(t) of degree five at most, with exact coefficients: Sturm's theorem gives
+all its real roots. The axis is chosen so that q has no real root at which the two equations are solvable.
+Stability: the characteristic polynomial is (z + c)^3 + m (z + c) + n, with m, n of the motion without
+resistance, so p2 = 3 c > 0, p1 = 3 c^2 + m, p0 = c^3 + m c + n, and by Routh and Hurwitz all roots lie on the
+left iff p0 > 0 and
+8 c^3 + 2 c m - n > 0. A sign at a root of P is decided exactly: by distance, and where that is not enough by
+the common divisor. Everywhere T' = M . omega - 2 c T.
 """
 from __future__ import annotations
 
@@ -24,7 +26,9 @@ T = Poly((0, 1))
 BITS = 256
 GLOBAL = "every motion tends to it: "
 REST = (GLOBAL + "T' = -2 c T without a torque, so the energy and with it every rate decays as exp(-c t)")
-ALL_LEFT = "asymptotically stable: p0 > 0 and 8 c^3 + 2 c m - n > 0 in (z + c)^3 + m (z + c) + n (Routh and Hurwitz), so all roots lie on the left"
+ALL_LEFT = (
+    "asymptotically stable: p0 > 0 and 8 c^3 + 2 c m - n > 0 in (z + c)^3 + m (z + c) + n (Routh and "
+    "Hurwitz), so all roots lie on the left")
 SADDLE = "p0 < 0: the product of the roots is positive, so one of them is"
 FOCUS = "8 c^3 + 2 c m - n < 0 (Routh and Hurwitz): a root with positive real part"
 
@@ -35,15 +39,19 @@ def resisted_equilibria(parts: Content) -> Equilibria:
     if not any(parts.M):
         m, n = invariants(form, (Fraction(0),) * 3)
         rest = EquilibriumPoint((0.0,) * 3, damped(m, n, parts.c), "stable", "asymptotically stable", REST)
-        return Equilibria("points", "resistance without a torque: T' = -2 c T, so only rest is an equilibrium", (rest,))
+        return Equilibria("points",
+                          "resistance without a torque: T' = -2 c T, so only rest is an equilibrium", (rest,))
     chosen = next((found for e in _axes(parts.D) if (found := elimination(parts, form, e)) is not None), None)
     if chosen is None:
-        return Equilibria("undecided", "undecided: on every axis the elimination meets a rate at which the other two are not determined")
+        return Equilibria("undecided",
+                          "undecided: on every axis the elimination meets a rate at which the other two are "
+                          "not determined")
     numerators, q, P, e = chosen
     points = []
     for t in real_roots(P, BITS):
         points.append(_point(parts, form, numerators, q, P, t))
-    reason = (f"omega{e + 1} determines the other two rates, and it is a root of a polynomial of degree {P.degree} with exact coefficients, "
+    reason = (f"omega{e + 1} determines the other two rates, and it is a root of a polynomial of degree "
+              f"{P.degree} with exact coefficients, "
               f"whose real roots are {len(points)} by Sturm's theorem")
     return Equilibria("points", reason, tuple(points))
 
@@ -54,25 +62,29 @@ def damped(m, n, c):
 
 
 def _axes(D):
-    """Axes of the largest and smallest moment first: there q > 0 where the axis carries no gyrostatic moment."""
+    """Axes of the largest and smallest moment first: there q > 0 where the axis carries no gyrostatic moment.
+    """
     order = sorted(range(3), key=lambda i: D[i])
     return order[2], order[0], order[1]
 
 
 def elimination(parts: Content, form, e):
-    """((numerators of omega), q, P, e) with omega = numerators(t)/q(t) and P(t) = 0; None where q has a real root at which
-    the two linear equations are solvable."""
+    """((numerators of omega), q, P, e) with omega = numerators(t)/q(t) and P(t) = 0; None where q has a real
+    root at which the two linear equations are solvable."""
     i, j = CYCLE[e]
     c = parts.c
-    # axis i has neighbours (j, e), axis j has (e, i), cyclic: rate_i = kappa_i x_j x_e + rho_i x_e + sigma_i x_j + m_i
+    # axis i has neighbours (j, e), axis j has (e, i), cyclic: rate_i = kappa_i x_j x_e + rho_i x_e + sigma_i
+    # x_j + m_i
     a, b = form.kappa[i] * T + form.sigma[i], form.rho[i] * T + form.m[i]  # c x_i = a x_j + b
-    f, g = form.kappa[j] * T + form.rho[j], form.sigma[j] * T + form.m[j]                            # c x_j = f x_i + g
+    # c x_j = f x_i + g
+    f, g = form.kappa[j] * T + form.rho[j], form.sigma[j] * T + form.m[j]
     q = c * c - a * f
     top_i, top_j = c * b + a * g, c * g + f * b
     common = q.gcd(top_i).gcd(top_j)
     if common.degree > 0 and real_roots(common):
         return None
-    P = (form.kappa[e] * top_i * top_j + form.rho[e] * top_j * q + form.sigma[e] * top_i * q - c * T * q * q + form.m[e] * q * q)
+    P = (form.kappa[e] * top_i * top_j + form.rho[e] * top_j * q + form.sigma[e] * top_i * q - c * T * q * q
+         + form.m[e] * q * q)
     tops = [None] * 3
     tops[i], tops[j], tops[e] = top_i, top_j, T * q
     return tuple(tops), q, _without_common(P, q), e
@@ -110,7 +122,9 @@ def _point(parts, form, numerators, q, P, t) -> EquilibriumPoint:
     numbers = invariants(form, omega)
     linear, verdict, because = _verdict(p0, hurwitz, side, P, t)
     if verdict == "asymptotically stable" and draws_all(parts, omega):
-        because += ("; " + GLOBAL + "V = delta . D delta/2, delta the departure, has V' = -2 c V + omega* . (delta x D delta), a "
+        because += ("; " + GLOBAL
+                    + "V = delta . D delta/2, delta the departure, has V' = -2 c V + omega* . (delta x D "
+                      "delta), a "
                     "negative definite form")
     return EquilibriumPoint(tuple(float(v) for v in omega), damped(*numbers, c), linear, verdict, because)  # type: ignore[call-arg]
 
@@ -121,7 +135,8 @@ def _verdict(p0, hurwitz, side, P, t):
     if p0 and hurwitz:
         return "stable", "asymptotically stable", ALL_LEFT
     if not hurwitz:
-        return "degenerate", "undecided", "a pair of eigenvalues on the imaginary axis: the next order decides"
+        return ("degenerate", "undecided",
+                "a pair of eigenvalues on the imaginary axis: the next order decides")
     order, slope = _crossing(P, t)
     words = f"fold: eigenvalue 0, the others on the left; on the centre manifold z' = a z^{order} + ... "
     if order % 2 == 0:
@@ -154,6 +169,7 @@ def draws_all(parts: Content, omega) -> bool:
 
 
 def energy_bound(parts: Content, T0: float) -> tuple[float, float]:
-    """(largest sqrt(2 T) ever, its limit at late times) from (sqrt(2 T))' <= -c sqrt(2 T) + sqrt(M . D^-1 M)."""
+    """(largest sqrt(2 T) ever, its limit at late times) from (sqrt(2 T))' <= -c sqrt(2 T) + sqrt(M . D^-1 M).
+    """
     push = sum(float(m) ** 2 / float(d) for m, d in zip(parts.M, parts.D)) ** 0.5 / float(parts.c)
     return max((2 * T0) ** 0.5, push), push

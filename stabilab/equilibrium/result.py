@@ -1,4 +1,5 @@
-"""Equilibria as data, and curves of them in exact form: rational in their parameter, cut where stability changes."""
+"""Equilibria as data, and curves of them in exact form: rational in their parameter, cut where stability
+changes."""
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
@@ -20,9 +21,9 @@ if TYPE_CHECKING:
 class EquilibriumPoint:
     """One equilibrium with its verdicts.
 
-    at: three components in the scene's variables. eigenvalues: of the Jacobian there (1/s, or 1/tau when scaled).
-    linear: "stable" (centre), "unstable", "degenerate". verdict: "stable", "unstable", "undecided" (Lyapunov sense,
-    for the full nonlinear motion), because: its proof in words.
+    at: three components in the scene's variables. eigenvalues: of the Jacobian there (1/s, or 1/tau when
+    scaled). linear: "stable" (centre), "unstable", "degenerate". verdict: "stable", "unstable", "undecided"
+    (Lyapunov sense, for the full nonlinear motion), because: its proof in words.
     """
 
     at: Float3
@@ -34,7 +35,8 @@ class EquilibriumPoint:
 
 @record
 class CurveSegment:
-    """A piece of an equilibrium curve with one verdict; `t` is the open parameter interval (ends may be infinite)."""
+    """A piece of an equilibrium curve with one verdict; `t` is the open parameter interval (ends may be
+    infinite)."""
 
     t: tuple[float, float]
     linear: str
@@ -61,9 +63,9 @@ class EquilibriumCurve:
 
 @record
 class Equilibria(Shown):
-    """All equilibria of a scene. kind: "none", "points", "curves" (curves, possibly with points) or "all" (every
-    state is one); reason: why these and no others. validity: of an approximate law (`stabilab.physics.law_limits`), at the points; None where
-    all laws are exact."""
+    """All equilibria of a scene. kind: "none", "points", "curves" (curves, possibly with points) or "all"
+    (every state is one); reason: why these and no others. validity: of an approximate law
+    (`stabilab.physics.law_limits`), at the points; None where all laws are exact."""
 
     kind: str
     reason: str
@@ -78,7 +80,8 @@ Verdict = tuple[str, str]  # (word, because)
 
 
 class Grounds(NamedTuple):
-    """Why a curve's points are what they are: verdicts for m > 0 and for a zero of m by the signs of m beside it."""
+    """Why a curve's points are what they are: verdicts for m > 0 and for a zero of m by the signs of m beside
+    it."""
 
     positive: Verdict
     odd: Verdict        # m changes sign
@@ -88,8 +91,9 @@ class Grounds(NamedTuple):
 
 @record
 class RationalCurve:
-    """x_i(t) = numerators[i](t)/denominator(t). crossings: parameter where another curve meets this one -> verdict.
-    poles: zeros of the denominator, rising, all rational. scale: a parameter size at which something happens."""
+    """x_i(t) = numerators[i](t)/denominator(t). crossings: parameter where another curve meets this one ->
+    verdict. poles: zeros of the denominator, rising, all rational. scale: a parameter size at which something
+    happens."""
 
     name: str
     equation: str
@@ -107,13 +111,16 @@ class RationalCurve:
         return tuple(n(t) / bottom for n in self.numerators)
 
     def float_point(self) -> Callable[[float], Float3]:
-        """point(t) for a float t, each coordinate rounded once; InputError at a pole or a t that is not finite."""
-        return self._rounded_point  # a method of its own, unlike a function made here, can be sent to another process
+        """point(t) for a float t, each coordinate rounded once; InputError at a pole or a t that is not
+        finite."""
+        # a method of its own, unlike a function made here, can be sent to another process
+        return self._rounded_point
 
     def cut(self, cuts: Sequence[Fraction], segment: Callable[..., Any],
             fold: Callable[..., EquilibriumPoint]) -> EquilibriumCurve:
-        """It with verdicts. cuts: parameters, rising; segment(lo, hi): one between two of them (None: infinite) and its
-        samples; fold(t, before, after): the equilibrium between two segments, asked where t is no pole."""
+        """It with verdicts. cuts: parameters, rising; segment(lo, hi): one between two of them (None:
+        infinite) and its samples; fold(t, before, after): the equilibrium between two segments, asked where t
+        is no pole."""
         pieces = [segment(lo, hi) for lo, hi in pairwise([None, *cuts, None])]
         samples, folds = list(pieces[0][1]), []
         for t, (before, _), (after, points) in zip(cuts, pieces, pieces[1:]):
@@ -122,13 +129,15 @@ class RationalCurve:
                 samples.append(folds[-1])
             samples += points
         return EquilibriumCurve(self.name, self.equation, self.parametrisation, self.float_point(),
-                                tuple(s for s, _ in pieces), tuple(point.at for point in folds), tuple(samples))
+                                tuple(s for s, _ in pieces), tuple(point.at for point in folds),
+                                tuple(samples))
 
     def _rounded_point(self, t: float) -> Float3:
         try:
             return tuple(float(v) for v in self.exact_point(Fraction(t)))
         except (ZeroDivisionError, OverflowError, ValueError):
-            raise InputError(f"t = {t!r} lies at an end of the curve ({self.name}): no equilibrium there") from None
+            raise InputError(
+                f"t = {t!r} lies at an end of the curve ({self.name}): no equilibrium there") from None
 
 
 def straight_line(start: Sequence[Fraction], direction: Sequence[Fraction]) -> tuple[Poly, ...]:
@@ -153,7 +162,8 @@ def values_inside(lo: Fraction | None, hi: Fraction | None, scale: Fraction) -> 
 
 
 def sample_parameters(lo: Fraction | None, hi: Fraction | None, scale: Fraction) -> list[Fraction]:
-    """Doubles (as fractions) inside the open interval, spread over it and log-spaced towards its infinite ends."""
+    """Doubles (as fractions) inside the open interval, spread over it and log-spaced towards its infinite
+    ends."""
     if lo is None:
         if hi is not None:
             return [-t for t in reversed(sample_parameters(-hi, None, scale))]
@@ -166,7 +176,8 @@ def sample_parameters(lo: Fraction | None, hi: Fraction | None, scale: Fraction)
     elif hi == 0 or hi < 0 and lo < 100 * hi:
         return [-t for t in reversed(sample_parameters(-hi, -lo, scale))]
     else:
-        raw = [lo + (hi - lo) * f for f in (Fraction(1, 1000), Fraction(1, 10), Fraction(1, 2), Fraction(9, 10), Fraction(999, 1000))]
+        raw = [lo + (hi - lo) * f for f in (Fraction(1, 1000), Fraction(1, 10), Fraction(1, 2),
+                                            Fraction(9, 10), Fraction(999, 1000))]
     rounded = []
     for t in raw:
         try:
@@ -177,7 +188,8 @@ def sample_parameters(lo: Fraction | None, hi: Fraction | None, scale: Fraction)
 
 
 def decimal(value: Number) -> str:
-    """A number for the user's eye: the shortest decimal that reads back as the same double; six digits beyond the doubles."""
+    """A number for the user's eye: the shortest decimal that reads back as the same double; six digits beyond
+    the doubles."""
     try:
         number = float(value)
     except OverflowError:
@@ -185,7 +197,8 @@ def decimal(value: Number) -> str:
     if value and not number:
         from decimal import Context
         digits, value = Context(prec=6, Emin=-10**6, Emax=10**6), Fraction(value)
-        return f"{digits.divide(digits.create_decimal(value.numerator), digits.create_decimal(value.denominator)):e}"
+        return (
+            f"{digits.divide(digits.create_decimal(value.numerator), digits.create_decimal(value.denominator)):e}")
     return repr(number + 0.0).removesuffix(".0")
 
 
@@ -204,7 +217,8 @@ def sum_of(*terms: Number | str) -> str:
     return out or "0"
 
 
-def line_text(names: Sequence[str], start: Sequence[Fraction], direction: Sequence[Fraction]) -> tuple[str, str]:
+def line_text(names: Sequence[str], start: Sequence[Fraction],
+              direction: Sequence[Fraction]) -> tuple[str, str]:
     """(equation, parametrisation) of start + t direction."""
     fixed = [f"{n} = {decimal(s)}" for n, s, d in zip(names, start, direction) if not d]
     free = [n for n, d in zip(names, direction) if d]

@@ -1,4 +1,5 @@
-"""Spectrum and stability of an equilibrium from the exact structure of its characteristic polynomial z^3 + m z + n.
+"""Spectrum and stability of an equilibrium from the exact structure of its characteristic polynomial z^3 + m
+z + n.
 
 The trace of the Jacobian is 0, so the three eigenvalues sum to zero.
   n != 0: one eigenvalue has a positive real part. Unstable, always.
@@ -7,8 +8,9 @@ The trace of the Jacobian is 0, so the three eigenvalues sum to zero.
   n = 0, m = 0: degenerate; a higher term decides, where one can be proved to.
 Signs of m and n are those of rationals or of p + q sqrt(d), never of rounded numbers.
 
-A zero of m on a regular curve of equilibria that is the critical set of a one-degree-of-freedom potential: one of odd order is
-unstable, one of even order stable where m > 0 on both sides and unstable where m < 0. Proofs: docs/mathematics/stability.md.
+A zero of m on a regular curve of equilibria that is the critical set of a one-degree-of-freedom potential:
+one of odd order is unstable, one of even order stable where m > 0 on both sides and unstable where m < 0.
+Proofs: docs/mathematics/stability.md.
 """
 from __future__ import annotations
 
@@ -21,7 +23,16 @@ from ..numbers.exact import Surd, sign_of, sqrt_fraction
 from ..numbers.polynomial import Poly, real_roots
 from ..numbers.vectors import Number
 from ..physics.scene import QuadraticForm
-from .result import CurveSegment, EquilibriumCurve, EquilibriumPoint, RationalCurve, Verdict, float_ends, sample_parameters, values_inside
+from .result import (
+    CurveSegment,
+    EquilibriumCurve,
+    EquilibriumPoint,
+    RationalCurve,
+    Verdict,
+    float_ends,
+    sample_parameters,
+    values_inside,
+)
 
 BITS = 220  # working precision; far above double, so that each printed part is rounded once
 
@@ -29,7 +40,8 @@ BITS = 220  # working precision; far above double, so that each printed part is 
 def invariants(form: QuadraticForm, x: Sequence[Number], w: Number = 1) -> tuple[Number, Number]:
     """(m, n) of the characteristic polynomial z^3 + m z + n of the Jacobian at x / w, times w^2 and w^3.
 
-    form: QuadraticForm. x, w: rationals, surds of one root, or polynomials (a rational curve, w its denominator).
+    form: QuadraticForm. x, w: rationals, surds of one root, or polynomials (a rational curve, w its
+    denominator).
     """
     k, r, s = form.kappa, form.rho, form.sigma
     j12, j13 = k[0] * x[2] + s[0] * w, k[0] * x[1] + r[0] * w
@@ -49,7 +61,8 @@ def eigenvalues(m: Fraction, n: Fraction) -> tuple[complex, ...]:
         return 0j, 0j, 0j
     if not n:
         root = float(sqrt_fraction(abs(m)))
-        return (0j, complex(0.0, root), complex(0.0, -root)) if m > 0 else (0j, complex(root, 0.0), complex(-root, 0.0))
+        return (0j, complex(0.0, root),
+                complex(0.0, -root)) if m > 0 else (0j, complex(root, 0.0), complex(-root, 0.0))
     r = max(real_roots(Poly((n, m, 0, 1)), BITS), key=abs)  # a simple one, of the sign of -n
     # the other two solve z^2 + r z + (r^2 + m) = 0; the sign of its discriminant is that of -4 m^3 - 27 n^2
     kind = -4 * m**3 - 27 * n * n
@@ -67,27 +80,33 @@ POSITIVE_EIGENVALUE = ("unstable", "n = 0 and m < 0 in z^3 + m z + n: the eigenv
 
 
 def linear_word(m_sign: int, n_sign: int) -> str:
-    """The linear verdict from exact signs: "stable" (centre with a simple zero), "unstable" or "degenerate"."""
+    """The linear verdict from exact signs: "stable" (centre with a simple zero), "unstable" or "degenerate".
+    """
     if n_sign or m_sign < 0:
         return "unstable"
     return "stable" if m_sign else "degenerate"
 
 
 def isolated_verdict(m_sign: int, n_sign: int) -> Verdict:
-    """The nonlinear verdict on an isolated equilibrium of a torque off the eigenvectors of D; n = 0 is a fold.
+    """The nonlinear verdict on an isolated equilibrium of a torque off the eigenvectors of D; n = 0 is a
+    fold.
 
-    A fold is unstable: with m > 0 by Chetaev's theorem, with m = 0 by blowing up with the weights 3, 4, 5. Proofs: docs/mathematics/stability.md.
+    A fold is unstable: with m > 0 by Chetaev's theorem, with m = 0 by blowing up with the weights 3, 4, 5.
+    Proofs: docs/mathematics/stability.md.
     """
     if n_sign:
         where = "a negative real root, so the other two have" if n_sign > 0 else "a real root with"
-        return "unstable", (f"n {'>' if n_sign > 0 else '<'} 0 in z^3 + m z + n, whose roots sum to zero: {where} a positive "
+        return "unstable", (f"n {'>' if n_sign > 0 else '<'} 0 in z^3 + m z + n, whose roots sum to zero: "
+                            f"{where} a positive "
                             "real part, whatever m is")
     if m_sign < 0:
         return POSITIVE_EIGENVALUE
     if m_sign > 0:
-        return "unstable", ("fold of two isolated equilibria, eigenvalues 0, +-i sqrt(m): the averaged motion is z' = a z^2 "
+        return "unstable", ("fold of two isolated equilibria, eigenvalues 0, +-i sqrt(m): the averaged "
+                            "motion is z' = a z^2 "
                             "+ b r^2, r' = -a z r with a != 0, and V = z^2 - k^2 r^2 is a Chetaev function")
-    return "unstable", ("fold of two isolated equilibria with a triple zero eigenvalue: z''' = a z^2 + ... with a != 0, and blown up "
+    return "unstable", ("fold of two isolated equilibria with a triple zero eigenvalue: z''' = a z^2 + ... "
+                        "with a != 0, and blown up "
                         "with weights 3, 4, 5 it has a motion z ~ -60/(a t^3) that comes out of the point")
 
 
@@ -99,7 +118,8 @@ def isolated_point(form: QuadraticForm, x: tuple[Surd, Surd, Surd]) -> Equilibri
         at = tuple(float(v.fraction()) for v in x)
         spectrum = eigenvalues(m.fraction(), n.fraction())
     except OverflowError:
-        raise InputError("an equilibrium or its eigenvalues lie beyond the largest double: choose other units") from None
+        raise InputError(
+            "an equilibrium or its eigenvalues lie beyond the largest double: choose other units") from None
     return EquilibriumPoint(at, spectrum, linear_word(m.sign, n.sign), verdict, because)
 
 
@@ -109,14 +129,16 @@ def curve_with_verdicts(form: QuadraticForm, curve: RationalCurve) -> Equilibriu
 
 
 def cuts_of(form: QuadraticForm, curve: RationalCurve) -> list[Fraction]:
-    """The parameters, rising, where stability may change: poles and crossings exactly, zeros of m to 160 bits."""
+    """The parameters, rising, where stability may change: poles and crossings exactly, zeros of m to 160
+    bits."""
     m, _ = invariants(form, curve.numerators, curve.denominator)
     for t in (*curve.poles, *curve.crossings):
         m = m.without_root(t)
     return sorted({*curve.poles, *curve.crossings, *(real_roots(m) if m.degree > 0 else ())})
 
 
-def _segment(form: QuadraticForm, curve: RationalCurve, lo: Fraction | None, hi: Fraction | None) -> tuple[CurveSegment, list[EquilibriumPoint]]:
+def _segment(form: QuadraticForm, curve: RationalCurve, lo: Fraction | None,
+             hi: Fraction | None) -> tuple[CurveSegment, list[EquilibriumPoint]]:
     """The segment between two neighbouring cuts (None: infinite) and its samples."""
     middle = values_inside(lo, hi, curve.scale)
     m_sign = sign_of(_m_at(form, curve, middle))
@@ -125,7 +147,8 @@ def _segment(form: QuadraticForm, curve: RationalCurve, lo: Fraction | None, hi:
     for t in sample_parameters(lo, hi, curve.scale) or [middle]:
         try:
             at = tuple(float(v) for v in curve.exact_point(t))
-            samples.append(EquilibriumPoint(at, eigenvalues(_m_at(form, curve, t), Fraction(0)), word, verdict, because))
+            samples.append(EquilibriumPoint(at, eigenvalues(_m_at(form, curve, t), Fraction(0)), word,
+                                            verdict, because))
         except OverflowError:  # a far sample beyond the largest double is left out
             continue
     return CurveSegment(float_ends(lo, hi), word, verdict, because), samples
@@ -136,7 +159,8 @@ def _regular_verdict(curve: RationalCurve, m_sign: int) -> Verdict:
         return POSITIVE_EIGENVALUE
     if m_sign > 0:
         return curve.grounds.positive
-    return "undecided", "m and n vanish all along this curve: the linear motion is degenerate and no proof is known here"
+    return ("undecided",
+            "m and n vanish all along this curve: the linear motion is degenerate and no proof is known here")
 
 
 def _fold(curve: RationalCurve, t: Fraction, before: CurveSegment, after: CurveSegment) -> EquilibriumPoint:

@@ -1,7 +1,8 @@
 """Ensembles: many motions of one scene to the same times, a few of them in step with one another.
 
-Each step of the Taylor series serves a row of motions, one to a lane of the processor's vectors. A lane's numbers do not
-depend on its neighbours, nor on how many workers share the rows out: the same bytes come whatever the company.
+Each step of the Taylor series serves a row of motions, one to a lane of the processor's vectors. A lane's
+numbers do not depend on its neighbours, nor on how many workers share the rows out: the same bytes come
+whatever the company.
 """
 from __future__ import annotations
 
@@ -23,7 +24,8 @@ from .quadratic_series import FAST, SLOW, in_unit, own_unit
 from .to_heyoka import TAYLOR_TOLERANCE, borrowed_taylor, heyoka_available
 from .trajectory import PATIENCE, REPORT, STEP_LIMIT, integrated, steps_left
 
-# Motions in step: eight doubles fill the widest vectors there are, and narrower ones two or four at a time. Not asked of
+# Motions in step: eight doubles fill the widest vectors there are, and narrower ones two or four at a time.
+# Not asked of
 # the machine, so that every machine groups alike.
 LANES = 8
 
@@ -32,10 +34,10 @@ LANES = 8
 class Ensemble(Shown, Compared):
     """Motions of one scene at common times.
 
-    t: (m,), s (tau when scaled); states: (n, m, N), one motion per row of the starts; reached: (n, m), False where a
-    motion could not go on so far (its states hold inf there); stopped: number of the motion -> why. method: "taylor"
-    or, without heyoka, "DOP853"; rtol: its tolerance; counters: steps of all motions together. status: "reached" when
-    all are, else "stopped".
+    t: (m,), s (tau when scaled); states: (n, m, N), one motion per row of the starts; reached: (n, m), False
+    where a motion could not go on so far (its states hold inf there); stopped: number of the motion -> why.
+    method: "taylor" or, without heyoka, "DOP853"; rtol: its tolerance; counters: steps of all motions
+    together. status: "reached" when all are, else "stopped".
     """
 
     t: np.ndarray
@@ -49,24 +51,29 @@ class Ensemble(Shown, Compared):
 
     @property
     def validity(self):
-        """Of an approximate law (`stabilab.physics.law_limits`) at the times told, value and holds (n,); None where all laws are exact."""
+        """Of an approximate law (`stabilab.physics.law_limits`) at the times told, value and holds (n,); None
+        where all laws are exact."""
         limits = limits_of(self.scene)
         if limits is None:
             return None
-        return limits.along(self.scene, {name: self.states[..., part] for name, part in slices(self.scene.blocks).items()}, "at the times told")
+        return limits.along(self.scene, {name: self.states[..., part] for name,
+                                         part in slices(self.scene.blocks).items()}, "at the times told")
 
     @property
     def status(self) -> str:
         return "stopped" if self.stopped else "reached"
 
 
-def ensemble(scene: AnyScene, states: ArrayLike, times: ArrayLike, rtol: float | None = None, workers: int = 1) -> Ensemble:
-    """The motions of a scene from many starts at t = 0, at the given times; the laws are not checked (`trajectory` does).
+def ensemble(scene: AnyScene, states: ArrayLike, times: ArrayLike, rtol: float | None = None,
+             workers: int = 1) -> Ensemble:
+    """The motions of a scene from many starts at t = 0, at the given times; the laws are not checked
+    (`trajectory` does).
 
-    states: (n, N), a row for each motion as `trajectory` takes it. times: (m,) as for `trajectory`. rtol: relative
-    tolerance, None for half an ulp. workers: threads that share the rows out, 0 for all cores; the answer has the same
-    bytes for any number. Where heyoka is not installed every motion is run by itself with SciPy's DOP853, and workers
-    gain nothing. Raises InputError for states, times, rtol and workers that are none.
+    states: (n, N), a row for each motion as `trajectory` takes it. times: (m,) as for `trajectory`. rtol:
+    relative tolerance, None for half an ulp. workers: threads that share the rows out, 0 for all cores; the
+    answer has the same bytes for any number. Where heyoka is not installed every motion is run by itself with
+    SciPy's DOP853, and workers gain nothing. Raises InputError for states, times, rtol and workers that are
+    none.
     """
     equations, times, rtol = equations_of(scene), checked_times(times), checked_rtol(rtol)
     starts = checked_starts(equations, states)
@@ -85,13 +92,15 @@ def ensemble(scene: AnyScene, states: ArrayLike, times: ArrayLike, rtol: float |
     workers = min(workers, len(groups))  # more would have nothing to do
     with ThreadPoolExecutor(workers) if workers > 1 else nullcontext() as pool:
         steps = sum((pool.map if pool else map)(run, (groups[i::workers] for i in range(workers))))
-    return Ensemble(times, run.out, np.isfinite(run.out).all(axis=2), dict(sorted(run.stopped.items())), "taylor", rtol,
+    return Ensemble(times, run.out, np.isfinite(run.out).all(axis=2), dict(sorted(run.stopped.items())),
+                    "taylor", rtol,
                     {"steps": steps}, scene)
 
 
 def _units(scene, starts, rates):
     """(n,) `own_unit` of each motion: most are ordinary, which a look at all of them together shows."""
-    size, units = np.maximum(np.abs(starts).max(axis=1), np.sqrt(np.abs(rates).max(axis=1))), np.ones(len(starts))
+    size, units = np.maximum(np.abs(starts).max(axis=1),
+                             np.sqrt(np.abs(rates).max(axis=1))), np.ones(len(starts))
     for n in np.flatnonzero(~((size >= SLOW) & (size <= FAST))):
         units[n] = own_unit(scene, starts[n].tolist(), rates[n].tolist())
     return units
@@ -102,10 +111,12 @@ def _by_units(scene, starts, times, rtol, workers, units):
     out, stopped, steps = np.empty((len(starts), times.size, 3)), {}, 0
     for unit in sorted(set(units.tolist())):
         rows = np.flatnonzero(units == unit)
-        part = ensemble(scene if unit == 1 else in_unit(scene, unit), starts[rows] / unit, times * unit, rtol, workers)
+        part = ensemble(scene if unit == 1 else in_unit(scene, unit), starts[rows] / unit, times * unit, rtol,
+                        workers)
         out[rows], steps = part.states * unit, steps + part.counters["steps"]
         stopped |= {int(rows[n]): why for n, why in part.stopped.items()}
-    return Ensemble(times, out, np.isfinite(out).all(axis=2), dict(sorted(stopped.items())), "taylor", rtol, {"steps": steps}, scene)
+    return Ensemble(times, out, np.isfinite(out).all(axis=2), dict(sorted(stopped.items())), "taylor", rtol,
+                    {"steps": steps}, scene)
 
 
 def _workers(workers):
@@ -115,7 +126,8 @@ def _workers(workers):
 
 
 def _groups(system, starts):
-    """Rows of LANES motions of similar pace: the slowest of a row keeps the others waiting. The last row is filled up."""
+    """Rows of LANES motions of similar pace: the slowest of a row keeps the others waiting. The last row is
+    filled up."""
     with np.errstate(all="ignore"):
         pace = np.linalg.norm(starts[:, :3], axis=1) + np.linalg.norm(system(starts), axis=1)
     order = np.argsort(pace, kind="stable")
@@ -124,7 +136,8 @@ def _groups(system, starts):
 
 
 class _Rows:
-    """Called with rows of LANES numbers of motions, it puts their states into `out` and answers the steps they took."""
+    """Called with rows of LANES numbers of motions, it puts their states into `out` and answers the steps
+    they took."""
 
     def __init__(self, scene, forms, rtol, starts, times):
         self.scene, self.forms, self.rtol, self.starts, self.times = scene, forms, rtol, starts, times
@@ -135,23 +148,27 @@ class _Rows:
         for chosen, sense in ((times < 0, -1), (times > 0, 1)):
             way = np.flatnonzero(chosen)[np.argsort(times[chosen] * sense)]
             if way.size:
-                self.grids.append((way, np.repeat(np.concatenate([[0.0], times[way]])[:, None], LANES, axis=1)))
+                self.grids.append((way,
+                                   np.repeat(np.concatenate([[0.0], times[way]])[:, None], LANES, axis=1)))
 
     def __call__(self, groups) -> int:
         with borrowed_taylor(self.forms, self.rtol, LANES) as ta:
             return sum(self._row(ta, group, way, grid) for group in groups for way, grid in self.grids)
 
     def _row(self, ta, lanes, way, grid) -> int:
-        """A row of motions one way; those that cannot go on give up their lane, and the others start again."""
+        """A row of motions one way; those that cannot go on give up their lane, and the others start again.
+        """
         points, steps = self._propagated(ta, lanes, grid, REPORT)
         if any(result[0].name == "step_limit" for result in ta.propagate_res):
             for number in {int(n) for n, time, result in zip(lanes, ta.time, ta.propagate_res)
-                           if result[0].name == "step_limit" and steps_left(time, grid[-1, 0] - time) > PATIENCE * STEP_LIMIT}:
+                           if result[0].name == "step_limit"
+                           and steps_left(time, grid[-1, 0] - time) > PATIENCE * STEP_LIMIT}:
                 self._alone(number)
             lanes = self._left(lanes)
             points, steps = self._propagated(ta, lanes, grid) if lanes.size else (points, [])
         while lanes.size and not self._arrived(ta, grid, points):
-            for number in {int(n) for n, result in zip(lanes, ta.propagate_res) if result[0].name != "time_limit"}:
+            for number in {int(n) for n,
+                           result in zip(lanes, ta.propagate_res) if result[0].name != "time_limit"}:
                 self._alone(number)
             lanes = self._left(lanes)
             points, steps = self._propagated(ta, lanes, grid) if lanes.size else (points, [])
@@ -176,11 +193,13 @@ class _Rows:
 
     def _alone(self, number):
         """A motion that its lane could not finish: as far as `trajectory` takes it, and why no farther."""
-        self.stopped[number] = _single(self.scene, self.starts[number], self.times, "taylor", self.rtol, self.out[number])[0]
+        self.stopped[number] = _single(self.scene, self.starts[number], self.times, "taylor", self.rtol,
+                                       self.out[number])[0]
 
 
 def _single(scene, start, times, method, rtol, out):
-    """(why it stopped or "", run) of one motion, its states put into `out` (m, N), inf where it did not get."""
+    """(why it stopped or "", run) of one motion, its states put into `out` (m, N), inf where it did not get.
+    """
     run = integrated(scene, start, times, method, rtol, laws=False)
     out[:] = np.inf
     out[np.isin(times, run.t)] = run.states
@@ -193,4 +212,5 @@ def _one_by_one(scene, starts, times, rtol):
         why, run = _single(scene, start, times, "taylor", rtol, out[number])
         stopped |= {number: why} if why else {}
         steps += run.counters["steps"]
-    return Ensemble(times, out, np.isfinite(out).all(axis=2), stopped, run.method, run.rtol, {"steps": steps}, scene)
+    return Ensemble(times, out, np.isfinite(out).all(axis=2), stopped, run.method, run.rtol, {"steps": steps},
+                    scene)

@@ -2,13 +2,14 @@
 
 Local extremes of a motion's components: every root of every rate over a span, none lost between samples.
 
-With heyoka the Taylor polynomial of each rate over each step is searched for all its real roots. SciPy's stand-in
-looks for sign changes on the step's own interpolant, which can miss a pair of roots closer than a sixteenth of a step.
+With heyoka the Taylor polynomial of each rate over each step is searched for all its real roots. SciPy's
+stand-in looks for sign changes on the step's own interpolant, which can miss a pair of roots closer than a
+sixteenth of a step.
 
 The first root of an expression along a run in machine precision, whatever the scene.
 
-With heyoka the Taylor polynomial of the expression over each step is searched for all its real roots; SciPy's stand-in looks for sign
-changes on the step's own interpolant, sixteen to a step.
+With heyoka the Taylor polynomial of the expression over each step is searched for all its real roots; SciPy's
+stand-in looks for sign changes on the step's own interpolant, sixteen to a step.
 """
 from __future__ import annotations
 
@@ -31,8 +32,8 @@ class RateRoots:
     """Roots of the rates of all components of the state, in the order of the motion.
 
     t: (n,) times; component: (n,) index of the rate that vanishes; states: (n, N) there; start, end: (N,)
-    states at t = 0 and at t_reached (the end of the span, or earlier where the run had to stop: `reason` says why);
-    method: "taylor" or "DOP853".
+    states at t = 0 and at t_reached (the end of the span, or earlier where the run had to stop: `reason` says
+    why); method: "taylor" or "DOP853".
     """
 
     t: np.ndarray
@@ -56,7 +57,8 @@ class RateRoots:
 
 
 def roots_of_rates(scene, state, t_end: float, tolerance: float = TAYLOR_TOLERANCE) -> RateRoots:
-    """Every root of x_i' for 0 < |t| < |t_end|, for the motion that is at `state` (as `trajectory` takes it) at t = 0.
+    """Every root of x_i' for 0 < |t| < |t_end|, for the motion that is at `state` (as `trajectory` takes it)
+    at t = 0.
 
     t_end: s (tau when scaled), of either sign. Raises InputError for a state that is none. Rates
     that vanish identically have no roots.
@@ -77,11 +79,13 @@ def roots_of_rates(scene, state, t_end: float, tolerance: float = TAYLOR_TOLERAN
 def _in_unit(scene, state, t_end, tolerance, unit, mass) -> RateRoots:
     """The same in the motion's own units: exact, as they are powers of two."""
     found = roots_of_rates(in_unit(scene, unit, mass), state / unit, t_end * unit, tolerance)
-    return replace(found, t=found.t / unit, states=found.states * unit, start=state, end=found.end * unit, t_reached=found.t_reached / unit)
+    return replace(found, t=found.t / unit, states=found.states * unit, start=state, end=found.end * unit,
+                   t_reached=found.t_reached / unit)
 
 
 def _taylor_roots(equations, state, t_end, tolerance):
-    with taylor_events(to_numpy(equations).motion_and_rates, tolerance) as (integrator, found), np.errstate(all="ignore"):
+    with taylor_events(to_numpy(equations).motion_and_rates,
+                       tolerance) as (integrator, found), np.errstate(all="ignore"):
         integrator.time = 0.0
         integrator.state[:] = state
         outcome, _, _, steps, *_ = integrator.propagate_until(t_end, max_steps=STEP_LIMIT)
@@ -96,7 +100,8 @@ def _taylor_roots(equations, state, t_end, tolerance):
 def _sorted(hits, start, end, t_reached, method, steps, reason):
     hits = sorted(hits, key=lambda h: abs(h[0]))
     return RateRoots(np.array([h[0] for h in hits]), np.array([h[1] for h in hits], int),
-                     np.array([h[2] for h in hits]).reshape(-1, len(start)), np.array(start), np.array(end), float(t_reached),
+                     np.array([h[2] for h in hits]).reshape(-1, len(start)), np.array(start), np.array(end),
+                     float(t_reached),
                      method, int(steps), reason)
 
 
@@ -114,7 +119,8 @@ def _scipy_roots(equations, state, t_end, tolerance):
             before = solver.y.copy()
             solver.step()
             if solver.status == "failed" or not np.isfinite(solver.y).all():
-                return _sorted(hits, state, before, solver.t_old or 0.0, "DOP853", steps, "stopped: the numbers overflowed")
+                return _sorted(hits, state, before, solver.t_old or 0.0, "DOP853", steps,
+                               "stopped: the numbers overflowed")
             steps += 1
             hits += _step_roots(system, solver, before, run)
     reason = "" if solver.status == "finished" else f"stopped: {STEP_LIMIT} steps were not enough"
@@ -146,12 +152,15 @@ def _land(run, t, y, t_end):
 
 
 TOGETHER = 400  # steps between looks at what was found
-LONGEST = 1e6  # natural times a step may take: a motion that is a polynomial of time has steps without end, whose powers overflow
+# natural times a step may take: a motion that is a polynomial of time has steps without end, whose powers
+# overflow
+LONGEST = 1e6
 
 
 @dataclass(frozen=True)
 class FirstRoot:
-    """t: the first root, None where none was found; until: the time that the run reached; ended: whether that is the time asked for; steps: taken."""
+    """t: the first root, None where none was found; until: the time that the run reached; ended: whether that
+    is the time asked for; steps: taken."""
 
     t: float | None
     until: float
@@ -159,19 +168,24 @@ class FirstRoot:
     steps: int
 
 
-def first_root(equations, state, expressions, t_max: float, steps: int, tolerance: float = TAYLOR_TOLERANCE) -> FirstRoot:
-    """The first time in (0, t_max] at which one of the expressions (SymPy, in the equations' state and rationals) is zero.
+def first_root(equations, state, expressions, t_max: float, steps: int,
+               tolerance: float = TAYLOR_TOLERANCE) -> FirstRoot:
+    """The first time in (0, t_max] at which one of the expressions (SymPy, in the equations' state and
+    rationals) is zero.
 
     state: (N,) at time 0; steps: after so many the run is given up.
     """
     system, state = to_numpy(equations), np.asarray(state, float)
     with np.errstate(all="ignore"):
         changes = np.asarray(system(state), float)
-    return root_of(form(equations, (*equations.rhs, *expressions)), system.rate, state, changes, t_max, steps, tolerance)
+    return root_of(form(equations, (*equations.rhs, *expressions)), system.rate, state, changes, t_max, steps,
+                   tolerance)
 
 
-def root_of(forms, rate, state, changes, t_max: float, steps: int, tolerance: float = TAYLOR_TOLERANCE) -> FirstRoot:
-    """The same of a form, the rates first and then the expressions; rate: of a list of floats; changes: (N,) the rates at time 0."""
+def root_of(forms, rate, state, changes, t_max: float, steps: int,
+            tolerance: float = TAYLOR_TOLERANCE) -> FirstRoot:
+    """The same of a form, the rates first and then the expressions; rate: of a list of floats; changes: (N,)
+    the rates at time 0."""
     longest = _longest(np.asarray(changes, float), state)
     if heyoka_available():
         return _by_taylor(forms, state, t_max, steps, tolerance, longest)
@@ -183,20 +197,24 @@ def _by_taylor(forms, state, t_max, steps, tolerance, longest):
         integrator.time, done = 0.0, 0
         integrator.state[:] = state
         while True:
-            outcome, _, _, taken, *_ = integrator.propagate_until(t_max, max_steps=min(TOGETHER, steps - done), max_delta_t=longest)
+            outcome, _, _, taken, *_ = integrator.propagate_until(t_max,
+                                                                  max_steps=min(TOGETHER, steps - done),
+                                                                  max_delta_t=longest)
             done += taken
             hits = [t for t, *_ in found if t > 0]
             if hits:
                 return FirstRoot(min(hits), float(integrator.time), True, done)
             alive = np.isfinite(integrator.state).all()
             if outcome.name != "step_limit" or done >= steps or not alive:
-                return FirstRoot(None, float(integrator.time) if alive else 0.0, outcome.name == "time_limit" and bool(alive), done)
+                return FirstRoot(None, float(integrator.time) if alive else 0.0,
+                                 outcome.name == "time_limit" and bool(alive), done)
 
 
 def _longest(changes, state) -> float:
     """The longest step, by the rates of the start and the roots of their changes."""
     changes = np.abs(changes[:3])
-    size = max(float(np.abs(state[:3]).max()), math.sqrt(float(changes.max())) if np.isfinite(changes).all() else 1.0)
+    size = max(float(np.abs(state[:3]).max()),
+               math.sqrt(float(changes.max())) if np.isfinite(changes).all() else 1.0)
     return LONGEST / size if size > 0 else math.inf
 
 

@@ -1,25 +1,30 @@
 """A motion enclosed by power series in integers, and when it crosses a limit.
 
-The motion of a gyrostat under constant torque, enclosed: a Taylor series in integers, and a proved bound of its error.
+The motion of a gyrostat under constant torque, enclosed: a Taylor series in integers, and a proved bound of
+its error.
 
-Numbers are integers in units of 2^-bits. Any polynomial p obeys p' = f(p) + defect, and here the defect is bounded term by term: what
-rounds each coefficient, and what the products have beyond the order. The difference e of two solutions of
+Numbers are integers in units of 2^-bits. Any polynomial p obeys p' = f(p) + defect, and here the defect is
+bounded term by term: what rounds each coefficient, and what the products have beyond the order. The
+difference e of two solutions of
 
     x_i' = kappa_i x_j x_k + rho_i x_k + sigma_i x_j + m_i        (i, j, k cyclic)
 
-in the norm (sum q_i e_i^2)^(1/2), q weights with sum q_i kappa_i = 0 (the moments of inertia), grows at most by the factor exp(integral of mu),
+in the norm (sum q_i e_i^2)^(1/2), q weights with sum q_i kappa_i = 0 (the moments of inertia), grows at most
+by the factor exp(integral of mu),
 
-    mu = (4/3 sum S_jk^2 / (q_j q_k))^(1/2),    2 S_jk = (q_j kappa_j + q_k kappa_k) x_i + q_j sigma_j + q_k rho_k
+    mu = (4/3 sum S_jk^2 / (q_j q_k))^(1/2),    2 S_jk = (q_j kappa_j + q_k kappa_k) x_i + q_j sigma_j + q_k
+    rho_k
 
-(proof: docs/mathematics/numbers.md; in physical variables the wheel drops out). With bits to spare for that factor the
-enclosure is as narrow as wanted, and no set has to be turned. A direction n at rest in space obeys n' = n x omega, and its error
-grows by that of omega alone: |e_n|' <= |n| |e_omega|.
+(proof: docs/mathematics/numbers.md; in physical variables the wheel drops out). With bits to spare for that
+factor the enclosure is as narrow as wanted, and no set has to be turned. A direction n at rest in space obeys
+n' = n x omega, and its error grows by that of omega alone: |e_n|' <= |n| |e_omega|.
 
 The first time at which a quantity of an enclosed motion reaches a limit, by roots: nothing is sampled.
 
-On a piece the quantity less its limit is a polynomial g(s), 0 <= s <= 1, known to within err. From a place where g + err < 0 a bound B of
-|g''| tells how far g + err stays below 0: to the root of g + err + g' s + B s^2 / 2. These steps end at the first root of g + err
-from below, quadratically where it is simple, and pass whatever only comes near. A place behind where g - err > 0 is the upper end.
+On a piece the quantity less its limit is a polynomial g(s), 0 <= s <= 1, known to within err. From a place
+where g + err < 0 a bound B of |g''| tells how far g + err stays below 0: to the root of g + err + g' s + B
+s^2 / 2. These steps end at the first root of g + err from below, quadratically where it is simple, and pass
+whatever only comes near. A place behind where g - err > 0 is the upper end.
 """
 from __future__ import annotations
 
@@ -39,10 +44,12 @@ MORE = 1.0 + 2.0**-40  # more than the rounding of a few doubles
 
 @dataclass(frozen=True)
 class Piece:
-    """The motion over one step: component i is sum_n rows[i][n] s^n 2^-bits, 0 <= s <= 1, and at most radii[i] 2^-bits off.
+    """The motion over one step: component i is sum_n rows[i][n] s^n 2^-bits, 0 <= s <= 1, and at most
+    radii[i] 2^-bits off.
 
-    start, length: in the motion's own time, exact; sizes: sum_n |rows[i][n]|, which is not below |component i|. Components 0, 1, 2 are the
-    rates in their own unit; 3, 4, 5 those of the direction, where one is followed.
+    start, length: in the motion's own time, exact; sizes: sum_n |rows[i][n]|, which is not below |component
+    i|. Components 0, 1, 2 are the rates in their own unit; 3, 4, 5 those of the direction, where one is
+    followed.
     """
 
     start: Fraction
@@ -56,9 +63,9 @@ class Piece:
 class IntegerFlow:
     """The pieces of the motion from an exact start, by `step`.
 
-    form: `physics.quadratic.QuadraticForm`; weights: q above, positive rationals; start: three rationals; unit: one of the motion's
-    own rates in the scene's, a rational (the motion's own time runs `unit` times as fast); direction: n at the start, three rationals, or None.
-    work: multiplications done.
+    form: `physics.quadratic.QuadraticForm`; weights: q above, positive rationals; start: three rationals;
+    unit: one of the motion's own rates in the scene's, a rational (the motion's own time runs `unit` times as
+    fast); direction: n at the start, three rationals, or None. work: multiplications done.
     """
 
     def __init__(self, form, weights, start, bits: int, unit: Fraction = Fraction(1), direction=None):
@@ -70,7 +77,8 @@ class IntegerFlow:
         q = [Fraction(w) / largest for w in weights]
         if sum(w * k for w, k in zip(q, form.kappa)):
             raise ValueError("the weights do not make the cubic terms cancel")
-        self.q, self.shear = [float(w) for w in q], [_shear(form, q, unit, *axes) for axes in zip(range(3), *zip(*CYCLE))]
+        self.q, self.shear = [float(w) for w in q], [_shear(form, q, unit, *axes)
+                                                     for axes in zip(range(3), *zip(*CYCLE))]
         self.least = math.sqrt(min(self.q)) / MORE
         self.error = math.ceil(math.sqrt(sum(self.q)) * MORE)  # the start is within half a last place
         self.turned = 2
@@ -90,7 +98,8 @@ class IntegerFlow:
         sizes = [sum(map(abs, row)) for row in rows]
         self._widen(rows, products, sizes, h)
         radius = math.ceil(self.error / self.least * MORE)
-        radii = [math.ceil(self.error / math.sqrt(q) * MORE) for q in self.q] + [self.turned] * (len(rows) - 3)
+        radii = ([math.ceil(self.error / math.sqrt(q) * MORE) for q in self.q]
+                 + [self.turned] * (len(rows) - 3))
         piece = Piece(self.now, Fraction(ticks, 1 << CLOCK), self.bits, rows, radii, sizes)
         if radius.bit_length() > 900:
             raise OverflowError("the error has grown beyond the range of doubles")
@@ -99,13 +108,15 @@ class IntegerFlow:
         return piece
 
     def forget(self, bits: int):
-        """Take the error as 2^-bits of what it is: from here on pieces are taken at their word, and only its growth is of interest."""
+        """Take the error as 2^-bits of what it is: from here on pieces are taken at their word, and only its
+        growth is of interest."""
         self.error >>= bits
 
     def _pairs(self):
         """(row, row, which of them) of every product that the rates are made of."""
         pairs = [CYCLE[i] for i in range(3)]
-        return pairs + [(3 + a, b) for j, k in CYCLE for a, b in ((j, k), (k, j))] if len(self.x) > 3 else pairs
+        return (pairs + [(3 + a, b) for j, k in CYCLE for a, b in ((j, k), (k, j))] if len(self.x) > 3
+                else pairs)
 
     def _series(self, ticks):
         """(coefficients of each component times the step's powers, those of every product)."""
@@ -134,15 +145,19 @@ class IntegerFlow:
         defects = []
         for i, (j, k) in enumerate(CYCLE):
             kappa, rho, sigma = (abs(row[i]) * one for row in (self.kappa, self.rho, self.sigma))
-            inexact = kappa * N + N + 1 + (sum(map(abs, products[i])) + N + sizes[j] + sizes[k]) * one  # products cut, sums cut, coefficients rounded
+            # products cut, sums cut, coefficients rounded
+            inexact = kappa * N + N + 1 + (sum(map(abs, products[i])) + N + sizes[j] + sizes[k]) * one
             beyond = kappa * tails[i] + rho * abs(rows[k][N]) + sigma * abs(rows[j][N])
             defects.append((rounding + h * (inexact + beyond)) * MORE)
         before = self.error
-        grown = (before + math.sqrt(sum(q * d * d for q, d in zip(self.q, defects)))) * math.exp(h * self._growth(sizes) * MORE)
+        grown = (before
+                 + math.sqrt(sum(q * d * d for q,
+                                 d in zip(self.q, defects)))) * math.exp(h * self._growth(sizes) * MORE)
         self.error = math.ceil(grown * MORE)
         if len(rows) > 3:
             cut = [rounding + h * (2 * N + tails[3 + 2 * i] + tails[4 + 2 * i]) for i in range(3)]
-            turned = self.turned + math.sqrt(sum(c * c for c in cut)) + h * (self.turns + 2.0**-40) * self.error / self.least
+            turned = (self.turned + math.sqrt(sum(c * c for c in cut))
+                      + h * (self.turns + 2.0**-40) * self.error / self.least)
             self.turned = math.ceil(turned * MORE)
 
     def _growth(self, sizes):
@@ -158,14 +173,16 @@ def _rounded(values, bits, by=1):
 def _shear(form, q, unit, i, j, k):
     """(a, b) with |S_jk| (q_j q_k)^(-1/2) <= a |x_i| + b."""
     root = 2 * math.sqrt(float(q[j] * q[k])) / MORE
-    through, constant = q[j] * form.kappa[j] + q[k] * form.kappa[k], (q[j] * form.sigma[j] + q[k] * form.rho[k]) / unit
+    through, constant = q[j] * form.kappa[j] + q[k] * form.kappa[k], (q[j] * form.sigma[j]
+                                                                      + q[k] * form.rho[k]) / unit
     return abs(float(through)) / root * MORE, abs(float(constant)) / root * MORE
 
 
 def _tail(first, second, order, bits):
     """Bound of the sum of |first_i| |second_j| over i + j >= order, in units of 2^-bits."""
     total, rest = 0, 0
-    for a, b in zip(reversed(first), second):  # a is first's coefficient order - j where b is second's j; rest gathers |first_i|, i >= order - j
+    # a is first's coefficient order - j where b is second's j; rest gathers |first_i|, i >= order - j
+    for a, b in zip(reversed(first), second):
         rest += abs(a)
         total += rest * abs(b)
     return (total >> bits) + 1
@@ -178,9 +195,11 @@ SHORTER = 1.0 - 2.0**-30  # less than what rounding adds to a step's length
 
 @dataclass(frozen=True)
 class Threshold:
-    """A quantity and its limit: sum_r c_r (a_r . y)^2 reaches `limit` from below, or, with `falls`, a . y reaches it from above.
+    """A quantity and its limit: sum_r c_r (a_r . y)^2 reaches `limit` from below, or, with `falls`, a . y
+    reaches it from above.
 
-    y: the components of a `Piece`, in the motion's own unit; terms: ((c_r, a_r), ...), positive c_r, a_r as many rationals as there are components.
+    y: the components of a `Piece`, in the motion's own unit; terms: ((c_r, a_r), ...), positive c_r, a_r as
+    many rationals as there are components.
     """
 
     terms: tuple
@@ -194,7 +213,8 @@ class Threshold:
 
 
 class Search:
-    """The first crossing of one threshold, as the pieces of a motion come by. low, high: in the motion's own time; None as long as not found.
+    """The first crossing of one threshold, as the pieces of a motion come by. low, high: in the motion's own
+    time; None as long as not found.
 
     exactly: whether the error of the pieces is taken into account; else they are taken at their word.
     """
@@ -238,7 +258,8 @@ class _Excess:
         if self.falls:
             self.err = off[0] + 1
         else:  # squares, then weights and limit rounded
-            self.err = self._sum([2 * v * r + r * r for v, r in zip(self.sizes, off)]) + sum((v * v >> self.bits) + 1 for v in self.sizes) + self.one
+            self.err = (self._sum([2 * v * r + r * r for v, r in zip(self.sizes, off)])
+                        + sum((v * v >> self.bits) + 1 for v in self.sizes) + self.one)
         self.bend, self.rough = self._bend(), self._rough(max(map(len, self.rows)))
 
     def _sum(self, values):
@@ -247,12 +268,15 @@ class _Excess:
     def _bend(self):
         first = [sum(n * abs(v) for n, v in enumerate(row)) for row in self.rows]
         second = [sum(n * (n - 1) * abs(v) for n, v in enumerate(row)) for row in self.rows]
-        return second[0] if self.falls else 2 * self._sum([f * f + v * w for f, v, w in zip(first, self.sizes, second)])
+        return (second[0] if self.falls
+                else 2 * self._sum([f * f + v * w for f, v, w in zip(first, self.sizes, second)]))
 
     def _rough(self, terms):
         """What rounding may take from the slope."""
         steep = [sum(n * abs(v) for n, v in enumerate(row)) for row in self.rows]
-        return terms * (terms + 1) if self.falls else 2 * self._sum([terms * (terms + 1) * v + terms * w for v, w in zip(self.sizes, steep)]) + 2
+        return (terms * (terms + 1) if self.falls
+                else 2 * self._sum([terms * (terms + 1) * v + terms * w for v, w in zip(self.sizes, steep)])
+                + 2)
 
     def stays_below(self):
         """Whether bounds of the components alone keep g below 0."""
@@ -262,7 +286,8 @@ class _Excess:
         return self.size + self.err < self.limit << self.bits
 
     def value(self, s):
-        """(g, g') at s, an integer in units of 2^-bits; g' is not too small, and rounding of g is part of err."""
+        """(g, g') at s, an integer in units of 2^-bits; g' is not too small, and rounding of g is part of
+        err."""
         found = []
         for row in self.rows:
             v = slope = 0
@@ -272,10 +297,13 @@ class _Excess:
             found.append((v, slope))
         if self.falls:
             return self.limit - found[0][0], self.rough - found[0][1]
-        return self._sum([v * v for v, _ in found]) - (self.limit << self.bits), 2 * self._sum([v * w for v, w in found]) + self.rough
+        return self._sum([v * v for v,
+                          _ in found]) - (self.limit << self.bits), 2 * self._sum(
+                              [v * w for v, w in found]) + self.rough
 
     def reaches(self, sign, s=0):
-        """The last place that the steps reach from s before g + sign err may be 0; None where there is no such place in the piece."""
+        """The last place that the steps reach from s before g + sign err may be 0; None where there is no
+        such place in the piece."""
         while True:
             value, slope = self.value(s)
             gap = -(value + sign * self.err)
@@ -296,7 +324,8 @@ class _Excess:
         return int(min(ahead, 2.0) * SHORTER * self.one)
 
     def surely_beyond(self, s):
-        """A place from s on where g - err > 0, as near as can be told; None where there is none in the piece."""
+        """A place from s on where g - err > 0, as near as can be told; None where there is none in the piece.
+        """
         while s is not None:
             for places in range(SHORT - 2, WIDE, -1):
                 behind = min(s + (self.one >> places), self.one)
@@ -309,11 +338,13 @@ class _Excess:
 
 def _combined(vector, piece):
     """(the row of a . y, how far it may be off), in units of 2^-bits."""
-    used = [(Fraction(a), row, radius, size) for a, row, radius, size in zip(vector, piece.rows, piece.radii, piece.sizes) if a]
+    used = [(Fraction(a), row, radius, size) for a, row, radius,
+            size in zip(vector, piece.rows, piece.radii, piece.sizes) if a]
     if len(used) == 1 and abs(used[0][0]) == 1:
         a, row, radius, _ = used[0]
         return (row if a > 0 else [-v for v in row]), radius
     factors = [round(a * (1 << piece.bits)) for a, *_ in used]
-    rows = [sum(f * v for f, v in zip(factors, column)) >> piece.bits for column in zip(*(row for _, row, _, _ in used))]
+    rows = [sum(f * v for f, v in zip(factors, column)) >> piece.bits
+            for column in zip(*(row for _, row, _, _ in used))]
     radius = sum(math.ceil(abs(a)) * r + (size >> piece.bits) + 1 for a, _, r, size in used) + len(rows)
     return rows, radius

@@ -1,5 +1,6 @@
-"""How far approximate laws hold along a motion of a gyrostat whose attitude is given: its rates, and axis 3 of space in its body, by power series in
-plain floats. A small command asks for no more of the run, and would spend its time on loading what compiles a step.
+"""How far approximate laws hold along a motion of a gyrostat whose attitude is given: its rates, and axis 3
+of space in its body, by power series in plain floats. A small command asks for no more of the run, and would
+spend its time on loading what compiles a step.
 """
 from __future__ import annotations
 
@@ -22,10 +23,12 @@ NEAR = 0.9  # of the largest value yet: a point so high may stand beside a great
 FINER = 20  # of the golden section: 7e-5 of the way between two points, and the square of that of the value
 
 
-def law_along(scene: AnyScene, omega: Sequence[float], gamma: Sequence[float], span: tuple[float, float]) -> Validity | None:
-    """The validity of a scene along its motion from time 0 to both ends of `span` (s): rates at time 0 in rad/s and axis 3 of space, a unit vector, in
-    the frame of the body. None where another way must be taken: effects that turn the body otherwise than a wheel and a constant torque do, a motion
-    longer than STEPS or too fast for doubles.
+def law_along(scene: AnyScene, omega: Sequence[float], gamma: Sequence[float],
+              span: tuple[float, float]) -> Validity | None:
+    """The validity of a scene along its motion from time 0 to both ends of `span` (s): rates at time 0 in
+    rad/s and axis 3 of space, a unit vector, in the frame of the body. None where another way must be taken:
+    effects that turn the body otherwise than a wheel and a constant torque do, a motion longer than STEPS or
+    too fast for doubles.
     """
     parts = content(scene)
     if parts is None or parts.kind != "gyrostat":
@@ -40,7 +43,8 @@ def law_along(scene: AnyScene, omega: Sequence[float], gamma: Sequence[float], s
 
 
 def _pieces(form: QuadraticForm, x: Sequence[float], end: float) -> list | None:
-    """(length, series of the six components) of each step from time 0 to `end`, which may lie before it; None where these are too many."""
+    """(length, series of the six components) of each step from time 0 to `end`, which may lie before it; None
+    where these are too many."""
     t, pieces = 0.0, []
     while t != end:
         series = _series(form, x)
@@ -54,7 +58,8 @@ def _pieces(form: QuadraticForm, x: Sequence[float], end: float) -> list | None:
 
 
 def _series(form: QuadraticForm, x: Sequence[float]) -> list[list[float]]:
-    """The coefficients of the powers of time from 0 to ORDER: of three rates, and of a direction n at rest in space, n' = n x omega."""
+    """The coefficients of the powers of time from 0 to ORDER: of three rates, and of a direction n at rest in
+    space, n' = n x omega."""
     rates, n = coefficients(form, tuple(x[:3]), ORDER), [[v] for v in x[3:]]
     for power in range(ORDER):
         back = [one[power::-1] for one in rates]
@@ -66,7 +71,8 @@ def _series(form: QuadraticForm, x: Sequence[float]) -> list[list[float]]:
 
 def _length(series: list[list[float]]) -> float:
     """A length over which the last two terms stay below SHARE of the rates' size and of the direction's."""
-    return min(length(part, SHARE * (max(abs(one[0]) for one in part) or max(abs(one[1]) for one in part))) for part in (series[:3], series[3:]))
+    return min(length(part, SHARE * (max(abs(one[0]) for one in part) or max(abs(one[1]) for one in part)))
+               for part in (series[:3], series[3:]))
 
 
 class _State:
@@ -83,7 +89,8 @@ class _State:
 
 
 def _largest(value_at, pieces) -> float | None:
-    """The largest value of a limit along the pieces; None where it hangs on a part of the state beside rates and direction."""
+    """The largest value of a limit along the pieces; None where it hangs on a part of the state beside rates
+    and direction."""
     best = -math.inf
     for h, series in pieces:
         def at(t, series=series):
@@ -95,5 +102,7 @@ def _largest(value_at, pieces) -> float | None:
         for n, value in enumerate(values):
             first, last = max(n - 1, 0), min(n + 1, INSIDE)
             if value >= NEAR * best and value >= max(values[first], values[last]):
-                best = max(best, *(-size for _, size in golden_section(lambda t: -at(t), h * first / INSIDE, h * last / INSIDE, FINER)))
+                best = max(best,
+                           *(-size for _, size in golden_section(lambda t: -at(t), h * first / INSIDE,
+                                                                 h * last / INSIDE, FINER)))
     return best if pieces else None

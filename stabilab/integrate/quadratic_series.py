@@ -2,15 +2,18 @@
 
 A motion in its own unit of time, in which its rates are of order one.
 
-The step control of Taylor series is relative to the state above size 1 but absolute below: rates of 1e-5 rad/s would lose
-five digits, and coefficients of a series in t underflow for slower ones still. Euler's equations with a gyrostatic moment, a
-constant torque and a resisting medium are homogeneous: with omega = u y and t = s/u, y obeys them with moment/u, torque/u^2 and
-resistance/u. For u a power of two the change is exact. So is a unit of mass, which leaves the motion as it is, but not the squares in its laws.
+The step control of Taylor series is relative to the state above size 1 but absolute below: rates of 1e-5
+rad/s would lose five digits, and coefficients of a series in t underflow for slower ones still. Euler's
+equations with a gyrostatic moment, a constant torque and a resisting medium are homogeneous: with omega = u y
+and t = s/u, y obeys them with moment/u, torque/u^2 and resistance/u. For u a power of two the change is
+exact. So is a unit of mass, which leaves the motion as it is, but not the squares in its laws.
 
-One motion with quadratic rates by its power series in plain floats: for pictures that follow a hand, where neither NumPy nor a compiled step is at hand.
+One motion with quadratic rates by its power series in plain floats: for pictures that follow a hand, where
+neither NumPy nor a compiled step is at hand.
 
-The rates are x_i' = kappa_i x_j x_k + rho_i x_k + sigma_i x_j + m_i, so the coefficients of the series follow from one another by products of series.
-A picture needs no last digit: a step leaves SHARE of the state's size at most.
+The rates are x_i' = kappa_i x_j x_k + rho_i x_k + sigma_i x_j + m_i, so the coefficients of the series follow
+from one another by products of series. A picture needs no last digit: a step leaves SHARE of the state's size
+at most.
 """
 from __future__ import annotations
 
@@ -27,15 +30,18 @@ from ..numbers.vectors import CYCLE
 from ..physics.effects.base import Effect
 from ..physics.scene import AnyScene, Body, QuadraticForm, ScaledGyrostat, Scene
 
-SLOW, FAST = 2.0**-4, 2.0**20  # between these the unit stays: the control is at most 16 times coarser than asked
+# between these the unit stays: the control is at most 16 times coarser than asked
+SLOW, FAST = 2.0**-4, 2.0**20
 
 LIGHT, HEAVY = 2.0**-200, 2.0**200  # moments whose squares underflow beside `compiled.FEATHER`, or overflow
 
-POWERS = {"gyrostat": (1, 1), "constant_torque": (2, 1), "resistance": (1, 0)}  # of the units of rate and of mass in an effect's strength
+# of the units of rate and of mass in an effect's strength
+POWERS = {"gyrostat": (1, 1), "constant_torque": (2, 1), "resistance": (1, 0)}
 
 
 def own_unit(scene: AnyScene, state: Sequence[float], rates: Sequence[float]) -> float:
-    """The power of two near the size of a motion's rates, 1 where they are ordinary or the scene has other effects.
+    """The power of two near the size of a motion's rates, 1 where they are ordinary or the scene has other
+    effects.
 
     The size is that of the state (three numbers) or of what its rates make of it, the root of omega'.
     """
@@ -46,7 +52,8 @@ def own_unit(scene: AnyScene, state: Sequence[float], rates: Sequence[float]) ->
 
 
 def mass_unit(scene: AnyScene) -> float:
-    """The power of two near the largest moment of a body, 1 where it is ordinary or the scene has other effects or no body."""
+    """The power of two near the largest moment of a body, 1 where it is ordinary or the scene has other
+    effects or no body."""
     if scene.variables == "scaled" or not _homogeneous(scene):
         return 1.0
     size = max(scene.body.inertia)
@@ -61,14 +68,16 @@ def _homogeneous(scene: AnyScene) -> bool:
 
 
 def in_unit(scene: AnyScene, unit: float | Fraction, mass: float | Fraction = 1.0) -> AnyScene:
-    """The scene whose rates are those of `scene` over `unit`, in a time that runs `unit` times as fast; its moments over `mass`.
+    """The scene whose rates are those of `scene` over `unit`, in a time that runs `unit` times as fast; its
+    moments over `mass`.
 
     Raises InputError where torque or wheel are no doubles beside rates of this size.
     """
     try:
         return _changed(scene, unit, mass)
     except InputError as error:
-        raise InputError(f"state: in the unit of rates of this size, {unit:.1e}, a number of the scene leaves the range of doubles, and a run in "
+        raise InputError(f"state: in the unit of rates of this size, {unit:.1e}, a number of the scene "
+                         f"leaves the range of doubles, and a run in "
                          f"doubles does not follow the motion ({error})") from None
 
 
@@ -77,22 +86,26 @@ def _changed(scene: AnyScene, unit: float | Fraction, mass: float | Fraction) ->
     if scene.variables == "scaled":
         a, b = scene.exact_ab
         return ScaledGyrostat(a / u, b / u, tuple(v / (u * u) for v in scene.exact_mu))
-    return Scene(Body(tuple(d / m for d in scene.body.exact)), *(_divided(effect, u, m) for effect in scene.effects))
+    return Scene(Body(tuple(d / m for d in scene.body.exact)),
+                 *(_divided(effect, u, m) for effect in scene.effects))
 
 
 def _divided(effect: Any, u: Fraction, m: Fraction) -> Effect:
     """The effect with its strength in the units."""
     rate, mass = POWERS[effect.name]
     unit = u**rate * m**mass
-    return type(effect)(tuple(v / unit for v in effect.exact) if isinstance(effect.exact, tuple) else effect.exact / unit)
+    return type(effect)(tuple(v / unit for v in effect.exact) if isinstance(effect.exact, tuple)
+                        else effect.exact / unit)
 
 
 ORDER = 14
 SHARE = 1e-8  # of the size of the state: the last term of a step
 STEPS = 120    # of a motion at most; a revolution takes some five
 INSIDE = 12     # points a step
-APART = (1, 2, 3)  # shares by which the components of a start are moved: it leaves every plane through two of them
-NEAR, HALVED = 0.01, 12  # of the largest value: what may still exceed it between two points; golden sections for that
+# shares by which the components of a start are moved: it leaves every plane through two of them
+APART = (1, 2, 3)
+# of the largest value: what may still exceed it between two points; golden sections for that
+NEAR, HALVED = 0.01, 12
 BACK = 1e-5  # of the size of the state: a motion that ends so near its start was followed well
 LARGEST = 1e100  # a rate beyond which a motion is not drawn on
 
@@ -100,8 +113,9 @@ Path = tuple[list[float], list[tuple[float, ...]]]
 
 
 def followed(form: QuadraticForm, start: tuple[float, ...], until: float, steps: int = STEPS) -> Path:
-    """(times, states) of the motion from t = 0 on, dense enough to be drawn as a line, to `until` or as far as so many steps go. Raises InputError
-    where its numbers are so large that not even its first step can be formed in doubles."""
+    """(times, states) of the motion from t = 0 on, dense enough to be drawn as a line, to `until` or as far
+    as so many steps go. Raises InputError where its numbers are so large that not even its first step can be
+    formed in doubles."""
     t, x = 0.0, tuple(map(float, start))
     times, states = [t], [x]
     for _ in range(steps):
@@ -109,8 +123,10 @@ def followed(form: QuadraticForm, start: tuple[float, ...], until: float, steps:
         if not all(map(math.isfinite, (c for one in series for c in one))):
             if t:
                 break
-            raise InputError(f"this motion is too fast to be drawn: with a rate of {max(map(abs, x)):.3g} and these torques and momenta the powers of its "
-                             "series exceed what a double holds (1.8e308); expected numbers of a body that can be built, in SI units")
+            raise InputError(f"this motion is too fast to be drawn: with a rate of {max(map(abs, x)):.3g} "
+                             f"and these torques and momenta the powers of its "
+                             "series exceed what a double holds (1.8e308); expected numbers of a body that "
+                             "can be built, in SI units")
         size = max(abs(one[0]) for one in series) or max(map(abs, form.coefficients[3]))
         h = min(length(series, SHARE * size), until - t)
         for n in range(1, INSIDE + 1):
@@ -123,8 +139,10 @@ def followed(form: QuadraticForm, start: tuple[float, ...], until: float, steps:
     return times, states
 
 
-def largest(form: QuadraticForm, start: tuple[float, ...], until: float, steps: int = 4 * STEPS) -> float | None:
-    """The largest |x| of a motion that repeats after `until`, to some eight digits; None where so many steps do not come back to its start."""
+def largest(form: QuadraticForm, start: tuple[float, ...], until: float,
+            steps: int = 4 * STEPS) -> float | None:
+    """The largest |x| of a motion that repeats after `until`, to some eight digits; None where so many steps
+    do not come back to its start."""
     t, x = 0.0, tuple(map(float, start))
     best, size = math.hypot(*x), max(map(abs, x)) or max(map(abs, form.coefficients[3]))
     for _ in range(steps):
@@ -138,7 +156,8 @@ def largest(form: QuadraticForm, start: tuple[float, ...], until: float, steps: 
         top = max(range(INSIDE + 1), key=sizes.__getitem__)
         if sizes[top] > best * (1 - NEAR):
             ends = places[max(top - 1, 0)], places[min(top + 1, INSIDE)]
-            best = max(best, *(-value for _, value in golden_section(partial(_size, series, sign=-1.0), *ends, HALVED)))
+            best = max(best, *(-value for _,
+                               value in golden_section(partial(_size, series, sign=-1.0), *ends, HALVED)))
         t, x = t + h, tuple(summed(one, h) for one in series)
         if t >= until:
             return best if all(abs(a - b) <= BACK * best for a, b in zip(x, start)) else None
@@ -150,8 +169,9 @@ def _size(series: list[list[float]], share: float, sign: float = 1.0) -> float:
 
 
 def parting(form: QuadraticForm, path: Path, share: float = SHARE, seen: float = 1e-3) -> int:
-    """How many of the first points of a path (of `followed`) lie where they are seen to lie, whatever its steps left: so many steps of the motion whose
-    start is moved by `share` end within `seen` of the path's, of the largest rate. A zero stays: what holds a rate at zero holds it in floats too."""
+    """How many of the first points of a path (of `followed`) lie where they are seen to lie, whatever its
+    steps left: so many steps of the motion whose start is moved by `share` end within `seen` of the path's,
+    of the largest rate. A zero stays: what holds a rate at zero holds it in floats too."""
     times, states = path
     width = seen * max(abs(v) for x in states for v in x)
     x = tuple(v * (1 + n * share) for v, n in zip(states[0], APART))
@@ -168,7 +188,8 @@ def coefficients(form: QuadraticForm, x: tuple[float, ...], order: int = ORDER) 
     kappa, rho, sigma, m = form.coefficients
     a = [[float(v)] for v in x]
     for n in range(order):
-        products = [kappa[i] * sum(map(mul, a[j], reversed(a[k]))) + rho[i] * a[k][n] + sigma[i] * a[j][n] + (m[i] if n == 0 else 0.0)
+        products = [kappa[i] * sum(map(mul, a[j], reversed(a[k]))) + rho[i] * a[k][n] + sigma[i] * a[j][n]
+                    + (m[i] if n == 0 else 0.0)
                     for i, (j, k) in enumerate(CYCLE)]
         for one, value in zip(a, products):
             one.append(value / (n + 1))

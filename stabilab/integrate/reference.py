@@ -1,12 +1,14 @@
 """A motion to many digits, its error known: power series in mpmath or balls.
 
-Taylor series of a scene's exact equations in many digits, and what is looked for along them: a return, extremes.
+Taylor series of a scene's exact equations in many digits, and what is looked for along them: a return,
+extremes.
 
-The rates of every scene are polynomials in the state with rational coefficients. The series x = sum x_n t^n obeys
-(n+1) x_(n+1) = sum of c_m m_n over the monomials m, and a product's series is the convolution of its factors'. The
-numbers are midpoints of python-flint's balls.
+The rates of every scene are polynomials in the state with rational coefficients. The series x = sum x_n t^n
+obeys (n+1) x_(n+1) = sum of c_m m_n over the monomials m, and a product's series is the convolution of its
+factors'. The numbers are midpoints of python-flint's balls.
 
-A motion in many digits which knows its own error: Taylor series of the exact equations, run at two precisions.
+A motion in many digits which knows its own error: Taylor series of the exact equations, run at two
+precisions.
 
 Nothing is shared with the methods that are judged by it but the equations themselves.
 """
@@ -44,7 +46,8 @@ class Recursion:
                 terms = Poly(equations.numeric(rate), *equations.state).terms()
             except PolynomialError:
                 raise InputError("the reference needs rates that are polynomials in the state") from None
-            self.rates.append([(self._place(powers), Fraction(int(c.p), int(c.q))) for powers, c in terms if c != 0])
+            self.rates.append([(self._place(powers), Fraction(int(c.p), int(c.q))) for powers,
+                               c in terms if c != 0])
 
     def _place(self, powers):
         """Row of the monomial's series (-1: the number 1), forming the products it needs."""
@@ -102,10 +105,11 @@ def value(row, s, derivative=0):
 
 
 def steps(recursion, start, digits, budget, numbers, sense=1, swing=False):
-    """Steps from the start at time 0, without end; raises Exhausted where the budget (a list of one count) is used up.
+    """Steps from the start at time 0, without end; raises Exhausted where the budget (a list of one count) is
+    used up.
 
-    numbers: the kind (`balls.Digits`), to be taken while it is the working one. swing: the way back to the start is looked for, so a step
-    is no longer than what changes in it is told.
+    numbers: the kind (`balls.Digits`), to be taken while it is the working one. swing: the way back to the
+    start is looked for, so a step is no longer than what changes in it is told.
     """
     order, rates = int(1.15 * digits) + 4, recursion.in_balls(numbers)
     x, now = [numbers.ball(v) for v in start], numbers.ball(0)
@@ -134,7 +138,8 @@ def _length(rows, order, digits):
 
 
 def _length_of_change(rows, order, digits):
-    """Twice the step whose tail is 10^-digits of the largest of its first terms: a swing may be as small as it likes beside the state."""
+    """Twice the step whose tail is 10^-digits of the largest of its first terms: a swing may be as small as
+    it likes beside the state."""
     from flint import arb
     top, longest = max(abs(row[order]) for row in rows), arb(0)
     for n in (1, 2, 3):
@@ -171,7 +176,8 @@ class Loop:
 
 
 def widen(pairs, step, end):
-    """Let the least and greatest values of the first components take in a step as far as `end` after its start."""
+    """Let the least and greatest values of the first components take in a step as far as `end` after its
+    start."""
     for row, pair in zip(step.rows, pairs):
         slopes = [n * c for n, c in enumerate(row)][1:]
         for s in [*_roots(slopes, step.length), end]:
@@ -220,7 +226,8 @@ def _unit():
 
 
 DIGITS = (30, 42, 84, 168, 336)  # of successive runs; each is checked by the one before
-AGREEMENT = 1e-19  # two runs agree where they differ by less than this share of the state: far below a double's 1e-16
+# two runs agree where they differ by less than this share of the state: far below a double's 1e-16
+AGREEMENT = 1e-19
 WORK = 60_000_000  # multiplications of all runs together, some ten seconds
 SEARCH = 20  # evaluations of a series that the search for its roots takes in a step
 GUARD = 8  # digits that the roundings of a run may use up
@@ -230,10 +237,11 @@ GUARD = 8  # digits that the roundings of a run may use up
 class Reference:
     """States (n, N) at times t (n,) as unevaluated sums states + rest of two doubles.
 
-    error: (n,) the difference between the last two runs, relative as of `relative_errors`; digits: of those two runs. period: (time, rest,
-    error) of the first return, or None; extremes: least and greatest of each of the first three components over that
-    period as (3, 2, 2) sums of two doubles, or None, extremes_error relative. status: "agrees" or "stopped", where t
-    holds the longest part of the span on which they agree (reason says why it ends). work: multiplications.
+    error: (n,) the difference between the last two runs, relative as of `relative_errors`; digits: of those
+    two runs. period: (time, rest, error) of the first return, or None; extremes: least and greatest of each
+    of the first three components over that period as (3, 2, 2) sums of two doubles, or None, extremes_error
+    relative. status: "agrees" or "stopped", where t holds the longest part of the span on which they agree
+    (reason says why it ends). work: multiplications.
     """
 
     t: np.ndarray
@@ -253,14 +261,15 @@ class Reference:
 def one_run(recursion, start, times, digits, budget, orbit=False):
     """(states at the times reached, (period, extremes) or None) as balls at `digits` decimal digits.
 
-    times: of one sign, moving away from 0. orbit: the motion is known to repeat: its return is found, and later times
-    are folded by the period, so that they cost nothing.
+    times: of one sign, moving away from 0. orbit: the motion is known to repeat: its return is found, and
+    later times are folded by the period, so that they cost nothing.
     """
     found, passed, loop = [], [], Loop() if orbit else None
     with working(int((digits + GUARD) * 3.33)) as numbers:
         wanted = [numbers.ball(t) for t in times]
         try:
-            for step in steps(recursion, start, digits, budget, numbers, -1 if len(times) and times[-1] < 0 else 1, orbit):
+            for step in steps(recursion, start, digits, budget, numbers,
+                              -1 if len(times) and times[-1] < 0 else 1, orbit):
                 while len(found) < len(wanted) and abs(wanted[len(found)] - step.start) <= abs(step.length):
                     found.append(step.at((wanted[len(found)] - step.start).mid()))
                 if loop:
@@ -284,8 +293,8 @@ def _folded(passed, time, period):
 
 
 def relative_errors(values, states, rest, slices) -> np.ndarray:
-    """(n,) error of states (n, N): in each block the largest component's distance over the block's largest size in the
-    run, the worst block counting."""
+    """(n,) error of states (n, N): in each block the largest component's distance over the block's largest
+    size in the run, the worst block counting."""
     worst = np.zeros(len(states))
     for part in slices.values():
         size = np.abs(states[:, part]).max(initial=0.0)
@@ -297,9 +306,10 @@ def relative_errors(values, states, rest, slices) -> np.ndarray:
 def reference(scene, start, times, blocks=(), orbit=False, work: int = WORK) -> Reference:
     """The motion from `start` (N numbers, taken as exact) at increasing (or decreasing) times of one sign.
 
-    blocks: blocks of state beyond those the scene needs. orbit: the motion is known to repeat: find its period and
-    extremes as well, and fold later times by the period. work: multiplications allowed. Where two precisions do not agree
-    within it, the longest part of the span that does is returned, with status "stopped". Raises InputError for rates that are no polynomials.
+    blocks: blocks of state beyond those the scene needs. orbit: the motion is known to repeat: find its
+    period and extremes as well, and fold later times by the period. work: multiplications allowed. Where two
+    precisions do not agree within it, the longest part of the span that does is returned, with status
+    "stopped". Raises InputError for rates that are no polynomials.
     """
     equations = derive(scene, blocks)
     recursion, times, budget = Recursion(equations), np.asarray(times, float), [work]
@@ -307,18 +317,22 @@ def reference(scene, start, times, blocks=(), orbit=False, work: int = WORK) -> 
     orbit = orbit and not (times < 0).any()
     empty = np.empty((0, recursion.size))
     for digits in DIGITS:
-        kept = 0 if before else budget[0] * 2 // 3  # of the work, for the second run: it costs twice the first
+        # of the work, for the second run: it costs twice the first
+        kept = 0 if before else budget[0] * 2 // 3
         budget[0] -= kept
         now = one_run(recursion, start, times, digits, budget, orbit)
         budget[0] = max(budget[0], 0) + kept if kept else budget[0]
         if before is not None:
             found = _compared(times, before, now, parts, work - budget[0])
             best = found if best is None or len(found.t) >= len(best.t) else best
-        if budget[0] < 0 or (best and best.status == "agrees" and (best.period is None or best.period[2] <= AGREEMENT)):
+        if budget[0] < 0 or (best and best.status == "agrees"
+                             and (best.period is None or best.period[2] <= AGREEMENT)):
             break
         before = digits, now
-    return best or Reference(np.empty(0), empty, empty, np.empty(0), DIGITS[:2], parts, status="stopped", work=work - budget[0],
-                             reason=f"a run in {DIGITS[0]} digits takes more than the {work:.1g} multiplications allowed")
+    return best or Reference(np.empty(0), empty, empty, np.empty(0), DIGITS[:2], parts, status="stopped",
+                             work=work - budget[0],
+                             reason=f"a run in {DIGITS[0]} digits takes more than the {work:.1g} "
+                                    f"multiplications allowed")
 
 
 def _compared(times, before, now, parts, work) -> Reference:
@@ -332,11 +346,14 @@ def _compared(times, before, now, parts, work) -> Reference:
     reach = n if good.all() else int(np.argmin(good))
     ok, end = reach == len(times), times[reach - 1] if reach else 0.0
     why = "two precisions agree at every time" if ok else (
-        f"{low_digits} and {DIGITS[DIGITS.index(low_digits) + 1]} digits agree up to t = {end:.6g} of {times[-1]:.6g}, and "
-        + ("the multiplications allowed went no further" if reach == n else "not beyond: the motion is too sensitive"))
+        f"{low_digits} and {DIGITS[DIGITS.index(low_digits) + 1]} digits agree up to t = {end:.6g} of "
+        f"{times[-1]:.6g}, and "
+        + ("the multiplications allowed went no further" if reach == n
+           else "not beyond: the motion is too sensitive"))
     period, extremes, extremes_error = _orbits(low_loop, loop)
     high_digits = DIGITS[DIGITS.index(low_digits) + 1]
-    return Reference(times[:reach], states[:reach], rest[:reach], error[:reach], (low_digits, high_digits), parts, period, extremes,
+    return Reference(times[:reach], states[:reach], rest[:reach], error[:reach], (low_digits, high_digits),
+                     parts, period, extremes,
                      extremes_error, "agrees" if ok else "stopped", why, work)
 
 
@@ -349,7 +366,8 @@ def pairs(rows):
 
 
 def _orbits(low, high):
-    """((period, rest, relative error), extremes (3, 2, 2), their relative error) of two runs, or three Nones."""
+    """((period, rest, relative error), extremes (3, 2, 2), their relative error) of two runs, or three Nones.
+    """
     if low is None or high is None:
         return None, None, None
     (t0, pairs0), (t1, pairs1) = low, high

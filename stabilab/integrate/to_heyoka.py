@@ -12,7 +12,8 @@ import numpy as np
 from ..physics.equations import Equations
 from ..physics.to_numpy import Form, equations_of, form
 
-# Default tolerance of the Taylor series: half an ulp of 1. In a spin-up the phase grows as t^2, so a relative 1e-12
+# Default tolerance of the Taylor series: half an ulp of 1. In a spin-up the phase grows as t^2, so a relative
+# 1e-12
 # per step would cost 2e-5 at t = 1000; a tighter step costs a few per cent.
 TAYLOR_TOLERANCE = 2.0**-53
 # Quadratures ride along scaled by this power of two (exact), too small ever to steer the step size.
@@ -29,17 +30,19 @@ def heyoka_available() -> bool:
 
 
 def heyoka():
-    """The package. It logs to stdout, among the answers, so it is left no message: of a cache on disk without a home, of a step that fails."""
+    """The package. It logs to stdout, among the answers, so it is left no message: of a cache on disk without
+    a home, of a step that fails."""
     import heyoka
     heyoka.set_logger_level_critical()
     return heyoka
 
 
 def to_taylor(equations: Equations, quadratures=(), tolerance: float = TAYLOR_TOLERANCE):
-    """A heyoka integrator at t = 0 whose state is the scene's, followed by FEATHER times one integral per quadrature.
+    """A heyoka integrator at t = 0 whose state is the scene's, followed by FEATHER times one integral per
+    quadrature.
 
-    quadratures: SymPy expressions of the state, integrated alongside without steering the step. Raises ImportError
-    where heyoka is not installed (ask `heyoka_available` first).
+    quadratures: SymPy expressions of the state, integrated alongside without steering the step. Raises
+    ImportError where heyoka is not installed (ask `heyoka_available` first).
     """
     equations = equations_of(equations)
     everything = form(equations, (*equations.rhs, *quadratures))
@@ -49,11 +52,11 @@ def to_taylor(equations: Equations, quadratures=(), tolerance: float = TAYLOR_TO
 
 
 def borrowed_taylor(forms: Form, tolerance: float = TAYLOR_TOLERANCE, lanes: int = 0) -> _Borrowed:
-    """Context giving an integrator as `to_taylor` makes them, which goes back for the next user: copying one takes
-    longer than some hundred steps. Its time and state are those of its last user: set them.
+    """Context giving an integrator as `to_taylor` makes them, which goes back for the next user: copying one
+    takes longer than some hundred steps. Its time and state are those of its last user: set them.
 
-    forms: `form(equations, (*rhs, *quadratures))`. lanes: 0, or how many motions step together (state, pars and the
-    rest are then (..., lanes)). An integrator whose user failed is not handed on.
+    forms: `form(equations, (*rhs, *quadratures))`. lanes: 0, or how many motions step together (state, pars
+    and the rest are then (..., lanes)). An integrator whose user failed is not handed on.
     """
     return _Borrowed(forms, tolerance, lanes)
 
@@ -64,7 +67,8 @@ class _Borrowed:
     """A context by itself: one made of a generator costs a short run a hundredth of its time."""
 
     def __init__(self, forms, tolerance, lanes):
-        self.key, self.numbers = (forms.structure, tolerance, lanes), np.reshape(forms.numbers, (-1, 1)) if lanes else forms.numbers
+        self.key, self.numbers = (forms.structure, tolerance,
+                                  lanes), np.reshape(forms.numbers, (-1, 1)) if lanes else forms.numbers
 
     def __enter__(self):
         self.free = _free(*self.key)
@@ -90,12 +94,14 @@ def _free(structure, tolerance, lanes) -> list:
 def taylor_events(event_forms: Form, tolerance: float = TAYLOR_TOLERANCE):
     """Context giving (integrator, found): a heyoka integrator that notes every root of every event it passes.
 
-    event_forms: `form(equations, (*rhs, *events))`, the rates first. found: list of (time, index of event, state),
-    emptied at the start. The integrator is shared within the process and held by a lock: set its time and state.
+    event_forms: `form(equations, (*rhs, *events))`, the rates first. found: list of (time, index of event,
+    state), emptied at the start. The integrator is shared within the process and held by a lock: set its time
+    and state.
     """
     with _LOCK:
         integrator, recorder = _event_integrator(event_forms.structure, tolerance)
-        integrator.pars[:] = event_forms.numbers[:len(integrator.pars)]  # constant events, which are left out, may hold the last
+        # constant events, which are left out, may hold the last
+        integrator.pars[:] = event_forms.numbers[:len(integrator.pars)]
         recorder.found.clear()
         yield integrator, recorder.found
 
@@ -131,7 +137,8 @@ def heyoka_form(state, symbols, expressions):
 
 def _from_sympy(expression, swap):
     """heyoka.from_sympy turns away ratios and lone numbers; `form` has left only integers and symbols."""
-    return heyoka().expression(float(expression)) if expression.is_number else heyoka().from_sympy(expression, swap)
+    return (heyoka().expression(float(expression)) if expression.is_number
+            else heyoka().from_sympy(expression, swap))
 
 
 @lru_cache(maxsize=64)
@@ -142,7 +149,8 @@ def _integrator(structure, tolerance, lanes=0):
     extra = extra if isinstance(extra, list) else [extra]
     rates[n:] = [FEATHER * r for r in rates[n:]]
     make, shape = (heyoka().taylor_adaptive_batch, (lanes,)) if lanes else (heyoka().taylor_adaptive, ())
-    return make(list(zip([*variables, *extra], rates)), np.zeros((count, *shape)), pars=np.zeros((len(structure.symbols), *shape)), tol=tolerance)
+    return make(list(zip([*variables, *extra], rates)), np.zeros((count, *shape)),
+                pars=np.zeros((len(structure.symbols), *shape)), tol=tolerance)
 
 
 @lru_cache(maxsize=64)
@@ -151,5 +159,6 @@ def _event_integrator(structure, tolerance):
     variables, everything = heyoka_form(structure.state, structure.symbols, structure.expressions)
     events = [heyoka().nt_event(e, _Note(i, recorder, n)) for i, e in enumerate(everything[n:])
               if structure.expressions[n + i].free_symbols & set(structure.state)]
-    integrator = heyoka().taylor_adaptive(list(zip(variables, everything[:n])), [0.0] * n, tol=tolerance, nt_events=events)
+    integrator = heyoka().taylor_adaptive(list(zip(variables, everything[:n])), [0.0] * n, tol=tolerance,
+                                          nt_events=events)
     return integrator, recorder

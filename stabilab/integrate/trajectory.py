@@ -1,9 +1,10 @@
-"""One motion in time, by Taylor series or SciPy, with its balance laws; SciPy in the place of the Taylor series.
+"""One motion in time, by Taylor series or SciPy, with its balance laws; SciPy in the place of the Taylor
+series.
 
 Trajectories: the state at asked-for times, and how far the run departs from the laws of the motion.
 
-The laws are checked against the integrals of their rates, which ride along in the same run without steering its
-steps (feathered, see `to_heyoka`), so a law with a non-zero rate is as good a witness as a constant.
+The laws are checked against the integrals of their rates, which ride along in the same run without steering
+its steps (feathered, see `to_heyoka`), so a law with a non-zero rate is as good a witness as a constant.
 """
 from __future__ import annotations
 
@@ -25,18 +26,22 @@ if TYPE_CHECKING:
 
 
 SCIPY_METHODS = ("RK45", "RK23", "DOP853", "Radau", "BDF", "LSODA")
-# SciPy's own default is 1e-3, too coarse to judge a motion by; 1e-10 is within reach of every method in the list.
+# SciPy's own default is 1e-3, too coarse to judge a motion by; 1e-10 is within reach of every method in the
+# list.
 SCIPY_RTOL = 1e-10
 # What DOP853 can still hold in double precision; it stands in for the Taylor series.
 FALLBACK_RTOL = 1e-13
-# Absolute tolerance of the SciPy runs relative to the size of the state: keeps rtol meaningful at zero crossings.
+# Absolute tolerance of the SciPy runs relative to the size of the state: keeps rtol meaningful at zero
+# crossings.
 ATOL_SHARE = 1e-3
 STEP_LIMIT = 20_000_000
-REPORT, PATIENCE = 1_000_000, 5  # steps after which the rest is forecast; forecast over STEP_LIMIT that ends the run
+# steps after which the rest is forecast; forecast over STEP_LIMIT that ends the run
+REPORT, PATIENCE = 1_000_000, 5
 OUTCOMES = {"err_nf_state": "the numbers overflowed"}
 
 
-def integrated(scene, state, times, method: str = "taylor", rtol: float | None = None, steps: list | None = None,
+def integrated(scene, state, times, method: str = "taylor", rtol: float | None = None,
+               steps: list | None = None,
                laws: bool = True) -> Trajectory:
     """States of a scene at the given times, followed in steps; see `answers.trajectory` for the arguments.
 
@@ -84,7 +89,8 @@ def integrated(scene, state, times, method: str = "taylor", rtol: float | None =
 
 
 def parted(times) -> tuple[np.ndarray, int, np.ndarray]:
-    """(those before 0, how many are 0: one or none, those after it) of times in a row either way; before and after begin next to 0."""
+    """(those before 0, how many are 0: one or none, those after it) of times in a row either way; before and
+    after begin next to 0."""
     rising = times if times.size < 2 or times[1] > times[0] else times[::-1]
     first, last = rising.searchsorted(0.0), rising.searchsorted(0.0, "right")
     return rising[:first][::-1], int(last - first), rising[last:]
@@ -110,7 +116,8 @@ def _in_unit(scene, state, times, rtol, steps, laws, unit, mass) -> Trajectory:
 
 
 def departures(system, state, points) -> dict[str, float]:
-    """Law name -> largest |Q(t) - Q(0) - integral of its rate| over the largest size of its terms in the run."""
+    """Law name -> largest |Q(t) - Q(0) - integral of its rate| over the largest size of its terms in the run.
+    """
     if not len(points):
         return {}
     n = state.size
@@ -135,8 +142,8 @@ class _Taylor:
         self.counters = {"steps": 0}
 
     def run(self, state, grid, passed=None, watch=None):
-        """(states and law integrals at the times of `grid`, failure or None); grid moves away from 0 without it.
-        passed: a list that takes the ends of the steps; watch: is told the state there."""
+        """(states and law integrals at the times of `grid`, failure or None); grid moves away from 0 without
+        it. passed: a list that takes the ends of the steps; watch: is told the state there."""
         note = {}
         if passed is not None or watch is not None:
             def seen(ta):
@@ -170,16 +177,18 @@ class _Taylor:
             self.counters["steps"] += steps
             rows.append(out.reshape(-1, size)[1:])
             if outcome.name != "step_limit":
-                return rows[0] if len(rows) == 1 else np.concatenate(rows), OUTCOMES.get(outcome.name, outcome.name)
+                return rows[0] if len(rows) == 1 else np.concatenate(rows), OUTCOMES.get(outcome.name,
+                                                                                         outcome.name)
             left = steps_left(ta.time - last, grid[-1] - ta.time)
             if self.counters["steps"] - begun >= STEP_LIMIT or left > PATIENCE * STEP_LIMIT:
-                return np.concatenate(rows), (f"the last {REPORT} steps went from t = {last:.9g} to {ta.time:.9g}, the rest would "
+                return np.concatenate(rows), (f"the last {REPORT} steps went from t = {last:.9g} to "
+                                              f"{ta.time:.9g}, the rest would "
                                               f"take some {left:.1g} steps")
 
 
 class _SciPy:
-    """Runs of a SciPy method; counters add up over the runs. landing: end a step on each asked-for time (costs a
-    step, saves the interpolant's error)."""
+    """Runs of a SciPy method; counters add up over the runs. landing: end a step on each asked-for time
+    (costs a step, saves the interpolant's error)."""
 
     def __init__(self, system, method, rtol, landing=False):
         self.system, self.method, self.rtol, self.landing = system, method, rtol, landing
@@ -187,7 +196,8 @@ class _SciPy:
 
     def run(self, state, grid, passed=None, watch=None):
         """As of _Taylor."""
-        y, t, points, h = np.concatenate([state, np.zeros(len(self.system.equations.balances))]), 0.0, [], None
+        y, t, points, h = np.concatenate([state,
+                                          np.zeros(len(self.system.equations.balances))]), 0.0, [], None
         failure = None
         with np.errstate(all="ignore"):
             for piece in (grid[i:i + 1] for i in range(len(grid))) if self.landing else (grid,):
@@ -240,7 +250,8 @@ class _SciPy:
             return weight * self.system.rate_and_laws(y[:n].tolist())
 
         floor = self.rtol * ATOL_SHARE * (np.abs(y[:n]).max() or 1.0)
-        options = {"jac": self._padded_jacobian(n, y.size)} if self.method in ("Radau", "BDF", "LSODA") else {}
+        options = ({"jac": self._padded_jacobian(n, y.size)} if self.method in ("Radau", "BDF", "LSODA")
+                   else {})
         options |= {} if h is None else {"first_step": min(h, abs(end - t))}
         return getattr(integrate, self.method)(rates, t, y, end, rtol=self.rtol, atol=floor, **options)
 
@@ -261,9 +272,11 @@ def _stopped(points, grid, why):
 class Trajectory(Shown, Compared):
     """States at the asked-for times.
 
-    t: (n,) times; states: (n, N), blocks: where each block of the state stands in the N columns; invariant_drift: law name -> largest relative
-    departure from it over the run; counters: integrator's own counts (steps, rate evaluations); status: "reached", "stopped" (reason says why). validity: of an
-    approximate law (`stabilab.physics.law_limits`), its largest value at any step of the run; None where all laws are exact.
+    t: (n,) times; states: (n, N), blocks: where each block of the state stands in the N columns;
+    invariant_drift: law name -> largest relative departure from it over the run; counters: integrator's own
+    counts (steps, rate evaluations); status: "reached", "stopped" (reason says why). validity: of an
+    approximate law (`stabilab.physics.law_limits`), its largest value at any step of the run; None where all
+    laws are exact.
     """
 
     t: np.ndarray
@@ -285,9 +298,11 @@ class Trajectory(Shown, Compared):
 # --- SciPy's DOP853 in the place of the Taylor series, where heyoka is not installed: its steps, and roots
 # on their interpolants
 def stand_in(rate, state, end: float, t: float = 0.0, rtol: float = FALLBACK_RTOL, atol: float | None = None):
-    """The solver from a state (n,) at time t until `end`; rate: of a list of floats. atol: by default `floor` of the state."""
+    """The solver from a state (n,) at time t until `end`; rate: of a list of floats. atol: by default `floor`
+    of the state."""
     from scipy.integrate import DOP853
-    return DOP853(lambda _, x: np.array(rate(x.tolist())), t, state, end, rtol=rtol, atol=floor(state, rtol) if atol is None else atol)
+    return DOP853(lambda _, x: np.array(rate(x.tolist())), t, state, end, rtol=rtol,
+                  atol=floor(state, rtol) if atol is None else atol)
 
 
 def floor(state, rtol: float) -> float:

@@ -22,8 +22,8 @@ MANY = 12  # names in a message
 
 
 class Key(NamedTuple):
-    """One number of a case. name: as one writes it, components counted from 1; paths: where it stands in the file's data, two places for a product of
-    inertia, which stands on both sides of a tensor's diagonal."""
+    """One number of a case. name: as one writes it, components counted from 1; paths: where it stands in the
+    file's data, two places for a product of inertia, which stands on both sides of a tensor's diagonal."""
 
     name: str
     paths: tuple[tuple[Any, ...], ...]
@@ -31,11 +31,13 @@ class Key(NamedTuple):
 
 def keys_of(data: dict[str, Any]) -> dict[str, Key]:
     """Every number of a case's data by its name."""
-    return {name: Key(name, _both_sides(data, path)) for table in SWEPT if table in data for name, path in _numbers(data[table], table, (table,))}
+    return {name: Key(name, _both_sides(data, path)) for table in SWEPT if table in data for name,
+            path in _numbers(data[table], table, (table,))}
 
 
 def key_of(data: dict[str, Any], text: str) -> Key:
-    """The number that is meant: its whole name, or the end of one where no other number ends so. Raises InputError with what is near otherwise."""
+    """The number that is meant: its whole name, or the end of one where no other number ends so. Raises
+    InputError with what is near otherwise."""
     known, asked = keys_of(data), _tight(text)
     if text.strip() in known:
         return known[text.strip()]
@@ -47,7 +49,8 @@ def key_of(data: dict[str, Any], text: str) -> Key:
         raise InputError(f"vary {printable(text)[:80]}: may be {_names_in_words(ending)}: write one of them")
     parts = [name for name in known if f".{asked}[" in f".{_tight(name)}"]
     if parts:
-        raise InputError(f"vary {printable(text)[:80]}: has several numbers: vary one of them, {_names_in_words(parts)}")
+        raise InputError(
+            f"vary {printable(text)[:80]}: has several numbers: vary one of them, {_names_in_words(parts)}")
     raise InputError(f"vary {printable(text)[:80]}: this case has no such number{_near(asked, known)}")
 
 
@@ -77,7 +80,8 @@ def _numbers(value: Any, name: str, path: tuple[Any, ...]) -> Iterator[tuple[str
         tables = bool(value) and all(isinstance(part, dict) for part in value)
         for n, part in enumerate(value):
             own = part.get("name") if tables else None
-            yield from _numbers(part, f"{name}.{own}" if isinstance(own, str) else f"{name}[{n + 1}]", (*path, n))
+            yield from _numbers(part, f"{name}.{own}" if isinstance(own, str) else f"{name}[{n + 1}]",
+                                (*path, n))
     elif _is_number(value):
         yield name, path
 
@@ -98,14 +102,17 @@ def _both_sides(data: dict[str, Any], path: tuple[Any, ...]) -> tuple[tuple[Any,
 def _near(asked: str, known: dict[str, Key]) -> str:
     tails = {name.rpartition(".")[2].lower(): name for name in known}
     words = asked[:80].lower()
-    found = [_closest(words, {name.lower(): name for name in known}), _closest(words.rpartition(".")[2], tails), _closest(words, tails)]
+    found = [_closest(words, {name.lower(): name for name in known}),
+             _closest(words.rpartition(".")[2], tails), _closest(words, tails)]
     _, near = max((one for one in found if one), key=lambda one: one[0], default=(0, None))
-    return f"; did you mean {printable(near)}?" if near else f"; it has {_names_in_words(list(known))}" if known else "; it has none that may vary"
+    return (f"; did you mean {printable(near)}?" if near
+            else f"; it has {_names_in_words(list(known))}" if known else "; it has none that may vary")
 
 
 def _closest(asked: str, names: dict[str, str]) -> tuple[float, str] | None:
     """(how near, the name) of the nearest; None where none is near."""
-    return next(((SequenceMatcher(None, asked, found).ratio(), names[found]) for found in get_close_matches(asked, names, n=1, cutoff=0.6)), None)
+    return next(((SequenceMatcher(None, asked, found).ratio(), names[found])
+                 for found in get_close_matches(asked, names, n=1, cutoff=0.6)), None)
 
 
 def _names_in_words(names: list[str]) -> str:
@@ -118,12 +125,14 @@ MOST = 100_000_000  # points of a sweep
 DIGITS = 40  # of the decimals in which a logarithmic range is divided: the same doubles on every machine
 _COUNT = re.compile(r"\s*([+-]?\d+)\s*([^\s.\d].*|)", re.DOTALL)
 _LOG = re.compile(r"\s*log\b\s*(.*)", re.DOTALL)
-EXPECTED = 'expected start:stop:count such as "0:30:31 deg/s", start:stop:count:log, or a list such as "1, 2, 5"'
+EXPECTED = (
+    'expected start:stop:count such as "0:30:31 deg/s", start:stop:count:log, or a list such as "1, 2, 5"')
 
 
 @dataclass(frozen=True)
 class Axis:
-    """key: the number that varies; values: doubles in `unit`, in order; unit: as it was written, "" for the SI unit (or none) of the key."""
+    """key: the number that varies; values: doubles in `unit`, in order; unit: as it was written, "" for the
+    SI unit (or none) of the key."""
 
     key: Key
     values: tuple[float, ...]
@@ -137,7 +146,8 @@ class Axis:
     def si(self) -> tuple[float, ...]:
         """The values in SI units, as a case file that gives them would be read."""
         of = dimension_of(self.key.paths[0])
-        return tuple(float(quantity(self.written(n), of)[0]) for n in range(len(self.values))) if self.unit else self.values
+        return (tuple(float(quantity(self.written(n), of)[0]) for n in range(len(self.values))) if self.unit
+                else self.values)
 
     @property
     def shown_unit(self) -> str:
@@ -197,9 +207,12 @@ def _with_one_unit(words: list[str], unit: str, text: str) -> tuple[list[Fractio
     parts = [split(word.strip()) for word in words]
     if None in parts:
         raise InputError(f'{EXPECTED}, got "{printable(text)[:60]}"')
-    units = {own for _, own in parts if own} | ({unit} if unit else set())  # type: ignore[misc]  # none is None
+    # none is None
+    units = {own for _, own in parts if own} | ({unit} if unit else set())  # type: ignore[misc]
     if len(units) > 1:
-        raise InputError(f'expected one unit, at the end, got {" and ".join(sorted(map(printable, units)))} in "{printable(text)[:60]}"')
+        raise InputError(
+            f'expected one unit, at the end, got {" and ".join(sorted(map(printable, units)))} in '
+            f'"{printable(text)[:60]}"')
     return [exact(number) for number, _ in parts], next(iter(units), "")  # type: ignore[misc]
 
 
@@ -208,7 +221,8 @@ def _spread(start: Fraction, stop: Fraction, count: int, log: bool) -> list[floa
         raise InputError(f"expected at least one point and at most {MOST:,}, got {count}")
     if count == 1:
         if start != stop:
-            raise InputError("one point cannot reach from start to stop: give the value alone, or a count of two or more")
+            raise InputError(
+                "one point cannot reach from start to stop: give the value alone, or a count of two or more")
         return [_double(start)]
     if not log:
         return [_double(start + (stop - start) * n / (count - 1)) for n in range(count)]
@@ -230,6 +244,9 @@ def _judge(values: list[float]) -> None:
     if not values:
         raise InputError("expected at least one point, got none")
     seen: set[float] = set()
-    again = next((value for value in values if value in seen or seen.add(value)), None)  # type: ignore[func-returns-value]  # add gives None
+    # add gives None
+    again = next((value for value in values if value in seen or seen.add(value)), None)  # type: ignore[func-returns-value]
     if again is not None:
-        raise InputError(f"the value {again!r} comes twice: give each once (a range of fewer points, where doubles cannot tell them apart)")
+        raise InputError(
+            f"the value {again!r} comes twice: give each once (a range of fewer points, where doubles cannot "
+            f"tell them apart)")

@@ -1,6 +1,8 @@
-"""A certificate of a diagram over one number: the scene as polynomials in it, every value at which equilibria change, and how many there are between.
+"""A certificate of a diagram over one number: the scene as polynomials in it, every value at which equilibria
+change, and how many there are between.
 
-What is claimed is checked by other algebra (`verify.diagram`): trace forms and Sturm's sequences, where the diagram comes from resultants and balls.
+What is claimed is checked by other algebra (`verify.diagram`): trace forms and Sturm's sequences, where the
+diagram comes from resultants and balls.
 """
 from __future__ import annotations
 
@@ -27,24 +29,34 @@ MOST = 64  # events that a certificate may hold
 def certifiable(spans: Sequence[Any]) -> None:
     """Refuse ranges of which no certificate can be made, before any work."""
     if len(spans) > 1:
-        raise InputError("--certify: a certificate is of a diagram over one number; over two, certify lines of the plane one by one")
+        raise InputError(
+            "--certify: a certificate is of a diagram over one number; over two, certify lines of the plane "
+            "one by one")
 
 
 def diagram_certificate(found: Diagram) -> dict[str, Any]:
-    """The object of `stabilab.diagram-certificate/1`. Raises InputError for a diagram of more events than it may hold."""
+    """The object of `stabilab.diagram-certificate/1`. Raises InputError for a diagram of more events than it
+    may hold."""
     if found.kind == CURVES:
-        raise InputError(f"--certify: {found.what.partition(';')[0]}: stabilab classify --certify proves them at one value")
+        raise InputError(
+            f"--certify: {found.what.partition(';')[0]}: stabilab classify --certify proves them at "
+            f"one value")
     pieces, events = _changes(found)
     if len(events) > MOST:
-        raise InputError(f"--certify: a certificate holds at most {MOST} events, this range has {len(events)}: divide it")
+        raise InputError(
+            f"--certify: a certificate holds at most {MOST} events, this range has {len(events)}: divide it")
     family, span = found.family, found.family.spans[0]
     axis = fixed_axis(family)
-    return {"schema": SCHEMA, "program": f"stabilab {__version__}", "number": span.key.name + (f" ({span.unit})" if span.unit else ""),
-            "scene": _scene(family), "counted": found.kind, "axis": 0 if found.kind == ISOLATED or axis is None else axis + 1,
+    return {"schema": SCHEMA, "program": f"stabilab {__version__}",
+            "number": span.key.name + (f" ({span.unit})" if span.unit else ""),
+            "scene": _scene(family), "counted": found.kind,
+            "axis": 0 if found.kind == ISOLATED or axis is None else axis + 1,
             "start": _start(family) if found.kind == LEAF else None, "range": [str(span.low), str(span.high)],
-            "pieces": [{"equilibria": _count(piece.count), "stable": _stable(found, piece)} for piece in pieces],
+            "pieces": [{"equilibria": _count(piece.count), "stable": _stable(found, piece)}
+                       for piece in pieces],
             "events": [{"t": _bounds(event), "equilibria": _count(event.count)} for event in events],
-            "uncertified": [f"{len(found.connections)} connections: the heights of saddles hold an angle and are isolated by balls alone"]
+            "uncertified": [f"{len(found.connections)} connections: the heights of saddles hold an angle and "
+                            f"are isolated by balls alone"]
             if found.connections else []}
 
 
@@ -74,7 +86,8 @@ def _count(count: int) -> int | None:
 
 
 def _stable(found: Diagram, piece: Piece) -> int | None:
-    return None if found.kind == BORDERS or piece.count == ENDLESS else sum(state.verdict == "stable" for state in piece.states)
+    return (None if found.kind == BORDERS or piece.count == ENDLESS
+            else sum(state.verdict == "stable" for state in piece.states))
 
 
 def _bounds(event: Event) -> list[str]:
@@ -92,7 +105,8 @@ def _scene(family: Family) -> dict[str, Any]:
     if family.scaled:  # of the pencil: u1 = a + b, lam1 = (b - a)/2
         half = univariate(n["u"][0], 2) / 2
         lean = univariate(n["lam"][0], 2)
-        return {"variables": "scaled", "a": [_written(half - lean)], "b": [_written(half + lean)], "mu": [_written(univariate(c, 2)) for c in n["M"]]}
+        return {"variables": "scaled", "a": [_written(half - lean)], "b": [_written(half + lean)],
+                "mu": [_written(univariate(c, 2)) for c in n["M"]]}
     return {"variables": "physical"} | {name: [_written(univariate(c, 2)) for c in n[key]] for name, key in
                                         (("inertia", "D"), ("momentum", "lam"), ("torque", "M"))}
 
@@ -101,7 +115,8 @@ def _start(family: Family) -> list[list[str]]:
     """The state in the case's variables, x = (y - u)/A."""
     n = family.numbers
     scales = (2, 1, -1) if family.scaled else (1, 1, 1)
-    return [_written((univariate(y, 2) - univariate(u, 2)) / rational(Fraction(a))) for y, u, a in zip(n["y"], n["u"], scales)]
+    return [_written((univariate(y, 2) - univariate(u, 2)) / rational(Fraction(a))) for y, u,
+            a in zip(n["y"], n["u"], scales)]
 
 
 def _written(f: fmpq_poly) -> list[str]:

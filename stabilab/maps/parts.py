@@ -2,8 +2,9 @@
 
 What is finished of a sweep: a folder beside its file with a part for every chunk, whole or absent.
 
-A part is the records of a chunk as they lie in memory, with a digest of them and of the sweep before them. The folder says of which sweep it is, and by
-which command; a run that was killed leaves it there, and the same command goes on from it. Refinements, each a sweep, have folders of their own.
+A part is the records of a chunk as they lie in memory, with a digest of them and of the sweep before them.
+The folder says of which sweep it is, and by which command; a run that was killed leaves it there, and the
+same command goes on from it. Refinements, each a sweep, have folders of their own.
 """
 from __future__ import annotations
 
@@ -90,14 +91,17 @@ def states_of(plan: Plan, case: Case, low: int, high: int) -> np.ndarray:
     return _turned(case, _as_written(plan, low, high)) if plan.inner else np.array([case.state], float)
 
 
-def states_between(plan: Plan, case: Case, index: np.ndarray, dimension: int, share: np.ndarray) -> np.ndarray:
-    """(n, 3): the same of places between points: rows of `index` (n, dimensions), each moved by a share of the way to the next along a dimension."""
+def states_between(plan: Plan, case: Case, index: np.ndarray, dimension: int,
+                   share: np.ndarray) -> np.ndarray:
+    """(n, 3): the same of places between points: rows of `index` (n, dimensions), each moved by a share of
+    the way to the next along a dimension."""
     states = np.tile(_base(plan), (len(index), 1))
     for n in plan.inner:
         axis, at = plan.axes[n], index[:, n]
         values = np.array(axis.si)
         here = values[at]
-        states[:, axis.key.paths[0][2]] = here + (values[np.minimum(at + 1, len(values) - 1)] - here) * share if n == dimension else here
+        states[:, axis.key.paths[0][2]] = (here + (values[np.minimum(at + 1, len(values) - 1)] - here) * share
+                                           if n == dimension else here)
     return _turned(case, states)
 
 
@@ -105,15 +109,18 @@ def _turned(case: Case, written: np.ndarray) -> np.ndarray:
     frame = case.frame
     if frame is None or frame.as_given:
         return written
-    rows = [[float(part) for part in axis] for axis in frame.axes]  # sums in one order, whatever library would multiply matrices
-    return np.stack([(row[0] * written[:, 0] + row[1] * written[:, 1]) + row[2] * written[:, 2] for row in rows], axis=1)
+    # sums in one order, whatever library would multiply matrices
+    rows = [[float(part) for part in axis] for axis in frame.axes]
+    return np.stack([(row[0] * written[:, 0] + row[1] * written[:, 1]) + row[2] * written[:, 2]
+                     for row in rows], axis=1)
 
 
 def _as_written(plan: Plan, low: int, high: int) -> np.ndarray:
     """The same in the frame of the file."""
     states = np.tile(_base(plan), (high - low, 1))
     asked = plan.places(low, high)
-    places = np.unravel_index(np.arange(low, high) if isinstance(asked, range) else np.array(asked), [plan.shape[n] for n in plan.inner])
+    places = np.unravel_index(np.arange(low, high) if isinstance(asked, range) else np.array(asked),
+                              [plan.shape[n] for n in plan.inner])
     for dimension, at in zip(plan.inner, places):
         if dimension < len(plan.axes):
             axis = plan.axes[dimension]
@@ -130,13 +137,17 @@ def _base(plan: Plan) -> list[float]:
     """The rates as the file gives them."""
     first = plan.inner[0]
     varied = plan.axes[first].key if first < len(plan.axes) else plan.sampled.keys[0]
-    return [float(value) for value in Table(("motion",), plan.data["motion"], Faults(KeyLines())).vector(varied.paths[0][1])]
+    return [float(value) for value in Table(("motion",), plan.data["motion"],
+                                            Faults(KeyLines())).vector(varied.paths[0][1])]
 
 
 # --- The answers for a chunk of points, in rows of one record each
 COMPILED = 200  # states for which loading numba's code pays: half a second, of librations in plain Python
-POINTED_WORK = 100_000  # multiplications for the proof of a time in an atlas: it leaves long motions to compiled steps, which prove them sooner
-NO_CASE_VALUES = {"fate": NO_CASE, "level": -1, "reason": -1, "when_level": -1, "chaos": -1, "equilibria": NONE, "stable": NONE, "unstable": NONE, "open": NONE}
+# multiplications for the proof of a time in an atlas: it leaves long motions to compiled steps, which prove
+# them sooner
+POINTED_WORK = 100_000
+NO_CASE_VALUES = {"fate": NO_CASE, "level": -1, "reason": -1, "when_level": -1, "chaos": -1,
+                  "equilibria": NONE, "stable": NONE, "unstable": NONE, "open": NONE}
 
 PERIODS = {Fate.EQUILIBRIUM: 0.0, Fate.SPIN_UP: np.inf, Fate.SEPARATRIX: np.inf}  # of motions that have none
 
@@ -190,7 +201,8 @@ def _many(plan: Plan, case: Case, states: np.ndarray, out: np.ndarray) -> None:
     if {"fate", "level", "reason", "island", "margin", "distance"} & set(asked):
         found = fate(scene, states, **_following(plan, case))
         columns: dict[str, Callable[[], Any]] = {
-            "fate": lambda: found.labels, "spin_axis": lambda: found.axis * found.sense, "reason": lambda: found.reasons, "margin": lambda: found.margins,
+            "fate": lambda: found.labels, "spin_axis": lambda: found.axis * found.sense,
+            "reason": lambda: found.reasons, "margin": lambda: found.margins,
             "level": lambda: found.level_numbers(LEVELS), "distance": lambda: found.velocity_margins,
             "island": lambda: 0 if found.followed is None else found.followed.islands}
         for name, column in columns.items():
@@ -209,7 +221,8 @@ def _many(plan: Plan, case: Case, states: np.ndarray, out: np.ndarray) -> None:
 
 
 def _following(plan: Plan, case: Case) -> dict[str, Any]:
-    """How motions of an atlas are followed: each is alone in its scene, and all of them together are worth the compiler."""
+    """How motions of an atlas are followed: each is alone in its scene, and all of them together are worth
+    the compiler."""
     if plan.pointed is None or not KINDS[kind_of(effective(case.scene))].follows:
         return {"follow": plan.longest}
     return {"follow": plan.longest, "fast": installed() or None, "proof": plan.pointed.certify}
@@ -223,13 +236,16 @@ def _chaos(plan: Plan, case: Case, states: np.ndarray, out: np.ndarray) -> None:
     out["chaos"], out["megno"], out["lyapunov"] = found.labels, found.megno, found.lyapunov
 
 
-def _extremes_and_periods(case: Case, states: np.ndarray, box: bool, times: bool) -> tuple[np.ndarray | None, np.ndarray | None]:
-    """(extremes or None, periods or None). Whether numba serves hangs on the number of states alone, not on what this process did before: its last
-    digits are not those of plain Python."""
+def _extremes_and_periods(case: Case, states: np.ndarray, box: bool,
+                          times: bool) -> tuple[np.ndarray | None, np.ndarray | None]:
+    """(extremes or None, periods or None). Whether numba serves hangs on the number of states alone, not on
+    what this process did before: its last digits are not those of plain Python."""
     kind = kind_of(effective(case.scene))
     if kind == "orbit":
-        return extremes_and_periods(case.scene, states, box=box, period=times, by_numba=len(states) >= COMPILED)
-    return _extremes(case, states, KINDS[kind].follows) if box else None, period(case.scene, states) if times else None
+        return extremes_and_periods(case.scene, states, box=box, period=times,
+                                    by_numba=len(states) >= COMPILED)
+    return _extremes(case, states,
+                     KINDS[kind].follows) if box else None, period(case.scene, states) if times else None
 
 
 def _extremes(case: Case, states: np.ndarray, follows: bool) -> np.ndarray:
@@ -243,7 +259,8 @@ def _extremes(case: Case, states: np.ndarray, follows: bool) -> np.ndarray:
 
 def _times(found, out: np.ndarray) -> None:
     out["when_low"], out["when_high"] = found.low, found.high
-    out["when_level"] = [LIMIT_LEVELS.index(word) if word in LIMIT_LEVELS else 0 for word in np.ravel(found.level)]
+    out["when_level"] = [LIMIT_LEVELS.index(word) if word in LIMIT_LEVELS else 0
+                         for word in np.ravel(found.level)]
 
 
 def _single(plan: Plan, case: Case, states: np.ndarray, out: np.ndarray) -> None:
@@ -254,8 +271,10 @@ def _single(plan: Plan, case: Case, states: np.ndarray, out: np.ndarray) -> None
         found = motion(here.scene, here.start, here.span, brief, here.exact_state, plan.longest)
         pairs = found.extremes or ((np.nan, np.nan),) * 3
         known = lambda value: np.nan if value is None else value
-        columns = {"fate": found.fate, "spin_axis": found.axis * found.sense, "level": LEVELS.index(found.level), "reason": -1,
-                   "margin": known(found.margin_energy), "distance": known(found.margin_velocity), "least": [low for low, _ in pairs],
+        columns = {"fate": found.fate, "spin_axis": found.axis * found.sense,
+                   "level": LEVELS.index(found.level), "reason": -1,
+                   "margin": known(found.margin_energy), "distance": known(found.margin_velocity),
+                   "least": [low for low, _ in pairs],
                    "greatest": [high for _, high in pairs],
                    "period": PERIODS.get(found.fate, np.nan) if found.period is None else found.period}
         for name, value in columns.items():
@@ -263,7 +282,8 @@ def _single(plan: Plan, case: Case, states: np.ndarray, out: np.ndarray) -> None
                 out[name][n] = value
         if "when" in plan.answers:
             limit = plan.limit_of(here)
-            _times(time_to(here.scene, start_of(here.scene, here.state, here.blocks), **limit.ask, t_max=limit.until), out[n:n + 1])
+            _times(time_to(here.scene, start_of(here.scene, here.state, here.blocks), **limit.ask,
+                           t_max=limit.until), out[n:n + 1])
 
 
 def _equilibria(case: Case, out: np.ndarray) -> None:
@@ -271,9 +291,11 @@ def _equilibria(case: Case, out: np.ndarray) -> None:
         out["equilibria"] = number
         return
     found = equilibria(case.scene)
-    verdicts = [point.verdict for point in found.points] + [piece.verdict for curve in found.curves for piece in curve.segments]
+    verdicts = ([point.verdict for point in found.points]
+                + [piece.verdict for curve in found.curves for piece in curve.segments])
     number = {"none": 0, "points": len(found.points), "undecided": OPEN}.get(found.kind, ENDLESS)
-    counts = {"equilibria": number, "stable": verdicts.count("stable"), "unstable": verdicts.count("unstable")}
+    counts = {"equilibria": number, "stable": verdicts.count("stable"),
+              "unstable": verdicts.count("unstable")}
     for name, value in (counts | {"open": len(verdicts) - counts["stable"] - counts["unstable"]}).items():
         if name in out.dtype.names:
             out[name] = value
@@ -290,8 +312,9 @@ def place_of(out: Path) -> Path:
 
 @contextmanager
 def kept(plan: Plan, folder: Path, command: str = "") -> Iterator[Path]:
-    """The folder for the parts of this sweep alone, made where it is not there. command: that asks for it, if it is part of something else. Raises
-    InputError where the folder holds another sweep, or another run is at it."""
+    """The folder for the parts of this sweep alone, made where it is not there. command: that asks for it, if
+    it is part of something else. Raises InputError where the folder holds another sweep, or another run is at
+    it."""
     try:
         folder.mkdir(parents=True, exist_ok=True)
         with alone_in(folder, wait=False):
@@ -302,7 +325,8 @@ def kept(plan: Plan, folder: Path, command: str = "") -> Iterator[Path]:
                 finally:
                     _remove_if_empty(folder)
     except BlockingIOError:
-        raise InputError(f"{folder}: another run is at work on this sweep: wait for it, or give another --out") from None
+        raise InputError(
+            f"{folder}: another run is at work on this sweep: wait for it, or give another --out") from None
     except OSError as error:
         if error.filename is None or Path(error.filename) not in (folder, *folder.parents):
             raise
@@ -320,7 +344,9 @@ def _remove_if_empty(folder: Path) -> None:
 def _claim(plan: Plan, folder: Path, command: str) -> None:
     claim = folder / PLAN
     if not claim.exists() and any(not entry.name.startswith(".") for entry in folder.iterdir()):
-        raise InputError(f"{folder}: holds files that are no sweep's, and would be removed with its parts: move them, or give another --out")
+        raise InputError(
+            f"{folder}: holds files that are no sweep's, and would be removed with its parts: move them, or "
+            f"give another --out")
     if claim.exists() and any(folder.glob("part-*")):  # of one killed before its first part nothing is lost
         if plan.digest not in claim.read_text(encoding="utf-8"):
             raise InputError(_of_another(folder, claim, command))
@@ -336,13 +362,17 @@ def _of_another(folder: Path, claim: Path, command: str) -> str:
     except (ValueError, TypeError, KeyError):  # an older version did not say
         told = None
     file = re.sub(r"(\.\d+)?\.parts$", "", folder.name)
-    folders = sorted(path for path in folder.parent.glob(f"{escape(file)}*.parts") if re.fullmatch(r"(\.\d+)?\.parts", path.name.removeprefix(file)))
+    folders = sorted(path for path in folder.parent.glob(f"{escape(file)}*.parts")
+                     if re.fullmatch(r"(\.\d+)?\.parts", path.name.removeprefix(file)))
     number = sum(1 for path in folders for _ in path.glob("part-*"))
     if told == command:
         what = "this command, before the case file or the program changed"
     else:
-        what = f"another command, which goes on from them: {printable(told)} --out {file}" if told else "another command or version"
-    return f"{folder}: holds finished parts ({number}) of {what}; to replace them: rm -r {shlex.join(map(str, folders))}; or give another --out"
+        what = (f"another command, which goes on from them: {printable(told)} --out {file}" if told
+                else "another command or version")
+    return (
+        f"{folder}: holds finished parts ({number}) of {what}; to replace them: rm -r "
+        f"{shlex.join(map(str, folders))}; or give another --out")
 
 
 def write(plan: Plan, folder: Path, number: int, rows: bytes) -> None:
@@ -358,11 +388,13 @@ def read(plan: Plan, folder: Path, number: int) -> np.ndarray | None:
     except FileNotFoundError:
         return None
     rows = found[DIGEST:]
-    return np.frombuffer(rows, record(plan.answers)) if _digest(plan, number, rows) == found[:DIGEST] else None
+    return (np.frombuffer(rows, record(plan.answers)) if _digest(plan, number, rows) == found[:DIGEST]
+            else None)
 
 
 def _digest(plan: Plan, number: int, rows: bytes) -> bytes:
-    """Of the rows as those of this chunk of this sweep: a worker that outlived another run may have left a part."""
+    """Of the rows as those of this chunk of this sweep: a worker that outlived another run may have left a
+    part."""
     return hashlib.sha256(f"{plan.digest} {number} ".encode() + rows).digest()
 
 

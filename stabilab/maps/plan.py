@@ -1,9 +1,11 @@
 """What a sweep computes: points over ranges, lists or random samples, and the answers at each.
 
-A sweep before it is run: a case, the numbers of it that vary, what is asked, and how the points fall into chunks.
+A sweep before it is run: a case, the numbers of it that vary, what is asked, and how the points fall into
+chunks.
 
-Scenes run in the outer order and states of one scene in the inner one, so that a chunk is one call of a kernel wherever one serves. The order in
-which the user named the axes is restored when the parts are put together. Chunks depend on the sweep alone, never on who computes them.
+Scenes run in the outer order and states of one scene in the inner one, so that a chunk is one call of a
+kernel wherever one serves. The order in which the user named the axes is restored when the parts are put
+together. Chunks depend on the sweep alone, never on who computes them.
 """
 from __future__ import annotations
 
@@ -51,7 +53,8 @@ def unpacked(text: str) -> np.ndarray:
 # it, and for how many
 @dataclass(frozen=True)
 class Samples:
-    """count points, uniform in the box. keys: the uncertain numbers; numbers: their middles and half-widths."""
+    """count points, uniform in the box. keys: the uncertain numbers; numbers: their middles and half-widths.
+    """
 
     keys: tuple[Key, ...]
     numbers: tuple[Uncertain, ...]
@@ -64,7 +67,8 @@ class Samples:
         bits = np.random.PCG64(self.seed)
         bits.advance(start * width)
         unit = np.random.Generator(bits).random((stop - start, width))
-        middle, half = (np.array([float(getattr(one, name)) for one in self.numbers]) for name in ("middle", "half"))
+        middle, half = (np.array([float(getattr(one, name)) for one in self.numbers])
+                        for name in ("middle", "half"))
         return middle + half * (2.0 * unit - 1.0)
 
     def unit(self, number: int) -> str:
@@ -72,8 +76,10 @@ class Samples:
         return si_unit(self.keys[number].paths[0]) or "1"
 
 
-def samples_of(case: Case, known: dict[str, Key], taken: set[tuple[Any, ...]], count: int | None, seed: int) -> Samples | None:
-    """The samples asked for over the numbers that the case gives with an uncertainty, those left out that vary by themselves."""
+def samples_of(case: Case, known: dict[str, Key], taken: set[tuple[Any, ...]], count: int | None,
+               seed: int) -> Samples | None:
+    """The samples asked for over the numbers that the case gives with an uncertainty, those left out that
+    vary by themselves."""
     if count is None:
         return None
     if isinstance(count, bool) or not isinstance(count, int) or not 0 < count <= MOST:
@@ -83,15 +89,19 @@ def samples_of(case: Case, known: dict[str, Key], taken: set[tuple[Any, ...]], c
     by_path = {path: key for key in known.values() for path in key.paths}
     numbers = tuple(one for one in case.uncertain if one.path not in taken)
     if not numbers:
-        raise InputError(f'samples: {case.place} gives no number with an uncertainty: write one as "2000 +- 20"')
+        raise InputError(
+            f'samples: {case.place} gives no number with an uncertainty: write one as "2000 +- 20"')
     return Samples(tuple(by_path[one.path] for one in numbers), numbers, count, seed)
 
 
 AXES = 4
 RATES = ("angular_velocity", "x")  # keys of [motion] whose numbers leave the scene as it is
-CHUNK_SECONDS, LARGEST = 1.0, 1 << 17  # of one processor that a chunk takes, roughly, so that a killed run keeps something; its most points
-# answer -> seconds for a state of a scene with an orbit, for one whose motions are followed; measured, to size chunks alone
-COST = {"fate": (1e-6, 1e-3), "level": (0, 0), "reason": (0, 0), "margin": (0, 0), "distance": (3e-2, 0), "extremes": (1e-5, 2e-2), "period": (1e-5, 0),
+# of one processor that a chunk takes, roughly, so that a killed run keeps something; its most points
+CHUNK_SECONDS, LARGEST = 1.0, 1 << 17
+# answer -> seconds for a state of a scene with an orbit, for one whose motions are followed; measured, to
+# size chunks alone
+COST = {"fate": (1e-6, 1e-3), "level": (0, 0), "reason": (0, 0), "margin": (0, 0), "distance": (3e-2, 0),
+        "extremes": (1e-5, 2e-2), "period": (1e-5, 0),
         "when": (0.1, 0.1), "island": (0, 0), "equilibria": (0, 0), "verdict": (0, 0), "chaos": (2e-2, 5e-2)}
 SCENE_COST = (3e-3, 3e-2)
 POINTED_COST = 5e-2  # of a direction of an atlas, all answers together
@@ -113,9 +123,11 @@ class Chunk(NamedTuple):
 
 @dataclass(frozen=True)
 class Plan:
-    """path, text: of the case; vary: (name, what was asked) in the user's order; samples, seed: of random points, None without; answers: names of
-    `columns.ANSWERS`; limit: options of `when`, by name; listed: of a plane of states those places alone (`listed.packed`), in one row; follow: how long
-    motions are followed that only a run decides, as it was written; pointed: of an atlas, its directions, the only dimension then."""
+    """path, text: of the case; vary: (name, what was asked) in the user's order; samples, seed: of random
+    points, None without; answers: names of `columns.ANSWERS`; limit: options of `when`, by name; listed: of a
+    plane of states those places alone (`listed.packed`), in one row; follow: how long motions are followed
+    that only a run decides, as it was written; pointed: of an atlas, its directions, the only dimension
+    then."""
 
     path: str
     text: str = field(repr=False)
@@ -161,7 +173,8 @@ class Plan:
     def inner(self) -> tuple[int, ...]:
         """The dimensions along which only the state varies."""
         keys = [(axis.key,) for axis in self.axes] + ([self.sampled.keys] if self.sampled else [])
-        return tuple(n for n, of in enumerate(keys) if all(key.paths[0][0] == "motion" and key.paths[0][1] in RATES for key in of))
+        return tuple(n for n, of in enumerate(keys)
+                     if all(key.paths[0][0] == "motion" and key.paths[0][1] in RATES for key in of))
 
     @property
     def outer(self) -> tuple[int, ...]:
@@ -196,7 +209,8 @@ class Plan:
 
     @cached_property
     def longest(self) -> float | None:
-        """How long motions are followed, in the time of the case; None for as long as an answer takes unasked."""
+        """How long motions are followed, in the time of the case; None for as long as an answer takes
+        unasked."""
         if self.follow is None:
             return None
         try:
@@ -212,9 +226,11 @@ class Plan:
         """All points, in order."""
         most = self._points_of_a_chunk()
         if self.states >= most:
-            return tuple(Chunk(n, n + 1, low, min(low + most, self.states)) for n in range(self.scenes) for low in range(0, self.states, most))
+            return tuple(Chunk(n, n + 1, low, min(low + most, self.states)) for n in range(self.scenes)
+                         for low in range(0, self.states, most))
         together = max(1, most // self.states)
-        return tuple(Chunk(n, min(n + together, self.scenes), 0, self.states) for n in range(0, self.scenes, together))
+        return tuple(Chunk(n, min(n + together, self.scenes), 0, self.states)
+                     for n in range(0, self.scenes, together))
 
     @cached_property
     def cost(self) -> float:
@@ -229,11 +245,15 @@ class Plan:
         return max(1, min(LARGEST, int(CHUNK_SECONDS / self.cost)))
 
     def as_json(self, brief: bool = False) -> str:
-        """All of the plan, for another process. brief: without the folder of the case, for a file that is to be the same wherever it is made."""
+        """All of the plan, for another process. brief: without the folder of the case, for a file that is to
+        be the same wherever it is made."""
         pointed = {} if self.pointed is None else {"pointed": self.pointed.told()}
-        return json.dumps({"version": __version__, "path": os.path.basename(self.path) if brief else self.path, "text": self.text,
-                           "vary": self.vary, "samples": self.samples, "seed": self.seed, "answers": self.answers, "limit": self.limit}
-                          | pointed | {name: told for name, told in (("listed", self.listed), ("follow", self.follow)) if told})
+        return json.dumps({"version": __version__,
+                           "path": os.path.basename(self.path) if brief else self.path, "text": self.text,
+                           "vary": self.vary, "samples": self.samples, "seed": self.seed,
+                           "answers": self.answers, "limit": self.limit}
+                          | pointed | {name: told for name,
+                                       told in (("listed", self.listed), ("follow", self.follow)) if told})
 
     @cached_property
     def digest(self) -> str:
@@ -262,33 +282,42 @@ def from_json(text: str) -> Plan:
     told = json.loads(text)
     rows = lambda name: tuple((key, value) for key, value in told[name])
     pointed = pointed_from(told["pointed"]) if "pointed" in told else None
-    return Plan(told["path"], told["text"], rows("vary"), told["samples"], told["seed"], tuple(told["answers"]), rows("limit"), told.get("listed", ""),
+    return Plan(told["path"], told["text"], rows("vary"), told["samples"], told["seed"],
+                tuple(told["answers"]), rows("limit"), told.get("listed", ""),
                 told.get("follow"), pointed)
 
 
-def split_keys(words: Sequence[str], expected: str = "KEY=START:STOP:COUNT or KEY=A,B,C") -> list[tuple[str, str]]:
-    """(key, values) of every KEY=VALUES of a command line. expected: the form that the command takes, for whom it misses."""
+def split_keys(words: Sequence[str],
+               expected: str = "KEY=START:STOP:COUNT or KEY=A,B,C") -> list[tuple[str, str]]:
+    """(key, values) of every KEY=VALUES of a command line. expected: the form that the command takes, for
+    whom it misses."""
     for word in words:
         if "=" not in word:
             raise InputError(f'--vary: expected {expected}, got "{printable(word)[:60]}"')
-    return [(key.strip(), values.strip()) for key, _, values in (word.rpartition("=") for word in words)]  # values have none, a wheel's name may
+    # values have none, a wheel's name may
+    return [(key.strip(), values.strip()) for key, _, values in (word.rpartition("=") for word in words)]
 
 
 def place_and_text(question: str, case: Any) -> tuple[str, str]:
-    """(path, text) of a case, or of a case file by its path. Raises InputError, in the name of what was asked, for anything else."""
+    """(path, text) of a case, or of a case file by its path. Raises InputError, in the name of what was
+    asked, for anything else."""
     if isinstance(case, Case):
         return os.fspath(case.path), case.text
     if not isinstance(case, (str, os.PathLike)):
-        raise InputError(f"{question}: expected a case, as of load(...), or the path of a case file, got {case!r:.80}")
+        raise InputError(
+            f"{question}: expected a case, as of load(...), or the path of a case file, got {case!r:.80}")
     return os.fspath(case), source_text(case)
 
 
-def planned(case: Case | str | os.PathLike[str], vary: Mapping[str, Any] | Sequence[tuple[str, Any]], samples: int | None = None, seed: int = 1,
+def planned(case: Case | str | os.PathLike[str], vary: Mapping[str, Any] | Sequence[tuple[str, Any]],
+            samples: int | None = None, seed: int = 1,
             answer: Any = None, follow: str | None = None, **limit: str | None) -> Plan:
     """A sweep whose every part is checked. Raises InputError with what is wrong."""
     path, text = place_and_text("sweep", case)
-    rows = [(name, asked if isinstance(asked, str) else _plain(name, asked)) for name, asked in (vary.items() if isinstance(vary, Mapping) else vary)]
-    plan = Plan(path, text, tuple(rows), samples, seed, asked_answers(answer), tuple((k, v) for k, v in limit.items() if v is not None),
+    rows = [(name, asked if isinstance(asked, str) else _plain(name, asked)) for name,
+            asked in (vary.items() if isinstance(vary, Mapping) else vary)]
+    plan = Plan(path, text, tuple(rows), samples, seed, asked_answers(answer),
+                tuple((k, v) for k, v in limit.items() if v is not None),
                 follow=follow)
     _judge(plan)
     return plan
@@ -298,26 +327,37 @@ def _plain(name: str, asked: Any) -> list[float]:
     try:
         return [float(value) for value in asked]
     except (TypeError, ValueError):
-        raise InputError(f'vary {printable(name)}: expected a text such as "0:30:31 deg/s" or numbers in a row, got {asked!r:.60}') from None
+        raise InputError(
+            f'vary {printable(name)}: expected a text such as "0:30:31 deg/s" or numbers in a row, got '
+            f'{asked!r:.60}') from None
 
 
 def _judge(plan: Plan) -> None:
     case = plan.case
     if not plan.vary and plan.samples is None:
-        raise InputError('nothing varies: give --vary KEY=START:STOP:COUNT, such as --vary "motion.angular_velocity[1]=0:30:31 deg/s", or --samples N')
+        raise InputError(
+            'nothing varies: give --vary KEY=START:STOP:COUNT, such as --vary '
+            '"motion.angular_velocity[1]=0:30:31 deg/s", or --samples N')
     taken: dict[Any, str] = {}
     for axis in plan.axes:
         for path in axis.key.paths:
             if path in taken:
-                raise InputError(f"vary {printable(axis.key.name)}: this number varies already, as {printable(taken[path])}: give it once")
+                raise InputError(
+                    f"vary {printable(axis.key.name)}: this number varies already, as "
+                    f"{printable(taken[path])}: give it once")
             taken[path] = axis.key.name
     if len(plan.shape) > AXES:
         raise InputError(f"expected at most {AXES} axes, got {len(plan.shape)}")
     if plan.points > MOST:
-        raise InputError(f"{' x '.join(map(str, plan.shape))} are {plan.points:,} points; at most {MOST:,} are run")
+        raise InputError(
+            f"{' x '.join(map(str, plan.shape))} are {plan.points:,} points; at most {MOST:,} are run")
     if plan.limit and "when" not in plan.answers:
-        raise InputError(f"{plan.limit[0][0]}: belongs to the answer when, which is not asked for: add it, as in --answer fate,when")
+        raise InputError(
+            f"{plan.limit[0][0]}: belongs to the answer when, which is not asked for: add it, as in --answer "
+            f"fate,when")
     moving = [name for name in plan.answers if name not in ("equilibria", "verdict")]
     if moving and case.state is None:
-        raise InputError(f"{case.place}: motion: expected x or angular_velocity in [motion]; {', '.join(moving)} need a state")
+        raise InputError(
+            f"{case.place}: motion: expected x or angular_velocity in [motion]; {', '.join(moving)} need "
+            f"a state")
     plan.limit_of(case), plan.longest  # say what is wrong with them

@@ -1,8 +1,10 @@
 """A sweep run by processes of this machine or a Dask cluster, and where its fates change.
 
-The same chunks on the workers of a Dask scheduler that is there already: numbers go out, records come back, this process writes the parts.
+The same chunks on the workers of a Dask scheduler that is there already: numbers go out, records come back,
+this process writes the parts.
 
-The workers need no common disk. One that dies costs the chunks it was at, which others do again; who computes a chunk does not change its bytes.
+The workers need no common disk. One that dies costs the chunks it was at, which others do again; who computes
+a chunk does not change its bytes.
 """
 from __future__ import annotations
 
@@ -41,12 +43,14 @@ from .plan import Plan, from_json
 
 ADDRESS = re.compile(r"\w+://[^\s/]+:\d+")
 PATIENCE = 10  # seconds in which a scheduler answers, and its first worker shows up
-AHEAD = 3  # chunks that wait at each thread of a worker: none is idle, and no more records lie about than that
+# chunks that wait at each thread of a worker: none is idle, and no more records lie about than that
+AHEAD = 3
 
 
 def by_cluster(plan: Plan, folder: Path, left: list[int], address: str) -> Iterator[int]:
-    """The chunks `left`, computed by the workers of the scheduler at `address`, each as soon as its part is there. Raises InputError where no scheduler
-    answers, where it has no worker, and where one lacks this version of stabilab."""
+    """The chunks `left`, computed by the workers of the scheduler at `address`, each as soon as its part is
+    there. Raises InputError where no scheduler answers, where it has no worker, and where one lacks this
+    version of stabilab."""
     demand("distributed")
     from distributed import as_completed
     client = _client(address)
@@ -75,7 +79,8 @@ def by_cluster(plan: Plan, folder: Path, left: list[int], address: str) -> Itera
 
 
 def computed(text: str, number: int) -> tuple[str, bytes | str]:
-    """What a worker does: ("records", bytes) of a chunk of the plan, or ("fault", words) of what the case has wrong."""
+    """What a worker does: ("records", bytes) of a chunk of the plan, or ("fault", words) of what the case has
+    wrong."""
     try:
         return "records", answered(from_json(text), number).tobytes()
     except StabilabError as error:
@@ -87,12 +92,15 @@ def _client(address: str) -> Any:
 
     from distributed import Client
     if not ADDRESS.fullmatch(address):
-        raise InputError(f"scheduler: expected an address such as tcp://127.0.0.1:8786, got {printable(address)[:80]}")
-    logging.getLogger("distributed").setLevel(logging.CRITICAL)  # of a scheduler that is gone it would print a page
+        raise InputError(
+            f"scheduler: expected an address such as tcp://127.0.0.1:8786, got {printable(address)[:80]}")
+    # of a scheduler that is gone it would print a page
+    logging.getLogger("distributed").setLevel(logging.CRITICAL)
     try:
         return Client(address, timeout=PATIENCE, set_as_default=False)
     except (OSError, TimeoutError, ValueError, ImportError) as error:
-        raise InputError(f"scheduler {printable(address)[:80]}: does not answer ({_first_line(error)}): start one with `dask scheduler` and give the "
+        raise InputError(f"scheduler {printable(address)[:80]}: does not answer ({_first_line(error)}): "
+                         f"start one with `dask scheduler` and give the "
                          "address that it prints, such as tcp://127.0.0.1:8786") from None
 
 
@@ -102,12 +110,17 @@ def _checked(client: Any, address: str) -> int:
     try:
         client.wait_for_workers(1, timeout=PATIENCE)
     except TimeoutError:
-        raise InputError(f"scheduler {printable(address)[:80]}: has no workers: start some with `dask worker {printable(address)[:60]}`") from None
+        raise InputError(
+            f"scheduler {printable(address)[:80]}: has no workers: start some with `dask worker "
+            f"{printable(address)[:60]}`") from None
     found = client.run(version, "stabilab", on_error="return")
     for worker, answer in found.items():
         if answer != __version__:
-            has = f"has stabilab {answer}" if isinstance(answer, str) else f"lacks the package stabilab ({_first_line(answer)})"
-            raise InputError(f"worker {worker}: {has}: install stabilab {__version__} there, as here, with the same libraries")
+            has = (f"has stabilab {answer}" if isinstance(answer, str)
+                   else f"lacks the package stabilab ({_first_line(answer)})")
+            raise InputError(
+                f"worker {worker}: {has}: install stabilab {__version__} there, as here, with the same "
+                f"libraries")
     return sum(client.nthreads().values())
 
 
@@ -123,7 +136,8 @@ def _records(future: Any, address: str) -> bytes:
             why = f"a worker lacks a package: {_first_line(error)}"
         else:
             why = f"{name}: {_first_line(error)}"
-        raise InputError(f"scheduler {printable(address)[:80]}: {why}; finished chunks are kept where --out names a file, and the same command goes on "
+        raise InputError(f"scheduler {printable(address)[:80]}: {why}; finished chunks are kept where --out "
+                         f"names a file, and the same command goes on "
                          "from them") from None
     if kind == "fault":
         raise InputError(what)
@@ -147,8 +161,8 @@ class WorkerLost(StabilabError):
 
 
 def by_workers(plan: Plan, folder: Path, left: list[int], number: int) -> Iterator[int]:
-    """The chunks `left`, computed by `number` processes, each as soon as its part is there. Raises what a worker found wrong, and WorkerLost where one
-    ended."""
+    """The chunks `left`, computed by `number` processes, each as soon as its part is there. Raises what a
+    worker found wrong, and WorkerLost where one ended."""
     waiting: queue.SimpleQueue[int] = queue.SimpleQueue()
     told: queue.SimpleQueue[tuple[str, Any]] = queue.SimpleQueue()
     for chunk in left:
@@ -168,7 +182,8 @@ def by_workers(plan: Plan, folder: Path, left: list[int], number: int) -> Iterat
 def _lost(plan: Plan, folder: Path, chunk: int, code: int) -> str:
     why = f"signal {-code} ({signal.Signals(-code).name})" if code < 0 else f"exit code {code}"
     cure = "; it may have run out of memory: try fewer --workers" if code == -signal.SIGKILL else ""
-    return (f"{folder}: a worker ended by {why} while it computed chunk {chunk + 1} of {len(plan.chunks)}{cure}; finished chunks are kept where --out names "
+    return (f"{folder}: a worker ended by {why} while it computed chunk {chunk + 1} of "
+            f"{len(plan.chunks)}{cure}; finished chunks are kept where --out names "
             "a file, and the same command goes on from them")
 
 
@@ -189,7 +204,8 @@ def _feed(worker, waiting, told) -> None:
         if word == DONE:
             told.put((DONE, int(rest)))
             continue
-        told.put((FAILED, InputError(rest.replace("\x1f", "\n")) if word == FAILED else (chunk, worker.wait())))
+        told.put((FAILED, InputError(rest.replace("\x1f", "\n")) if word == FAILED
+                  else (chunk, worker.wait())))
         return
 
 
@@ -221,8 +237,8 @@ WORTH = 3.0  # seconds of work for which another process is worth its start
 
 @dataclass(frozen=True)
 class Swept:
-    """records: of the shape of the plan's sweep; resumed: points that an earlier run had finished; broken: numbers that make no case, with why (of the
-    first)."""
+    """records: of the shape of the plan's sweep; resumed: points that an earlier run had finished; broken:
+    numbers that make no case, with why (of the first)."""
 
     plan: Plan
     records: np.ndarray
@@ -232,10 +248,12 @@ class Swept:
 
 
 @contextmanager
-def run(plan: Plan, out: Path | None = None, workers: int | None = None, scheduler: str | None = None, command: str = "") -> Iterator[Swept]:
-    """The finished sweep as a context; the parts of `out` are removed when its block ends well, and stay otherwise. out: the file that the parts are
-    for, None to keep none. workers: processes on this machine; None: one a core where that pays.
-    scheduler: address of a Dask scheduler whose workers do it instead. command: of what the sweep is part of."""
+def run(plan: Plan, out: Path | None = None, workers: int | None = None, scheduler: str | None = None,
+        command: str = "") -> Iterator[Swept]:
+    """The finished sweep as a context; the parts of `out` are removed when its block ends well, and stay
+    otherwise. out: the file that the parts are for, None to keep none. workers: processes on this machine;
+    None: one a core where that pays. scheduler: address of a Dask scheduler whose workers do it instead.
+    command: of what the sweep is part of."""
     _judge(workers)
     with _folder(plan, out, command) as folder:
         left = parts.missing(plan, folder)
@@ -259,15 +277,18 @@ def _folder(plan, out, command):
         with parts.kept(plan, parts.place_of(Path(out)), command) as folder:
             yield folder
     else:
-        with tempfile.TemporaryDirectory(prefix="stabilab-") as folder, undoing(partial(shutil.rmtree, folder, True)):
+        with tempfile.TemporaryDirectory(prefix="stabilab-") as folder, undoing(
+            partial(shutil.rmtree, folder, True)):
             yield Path(folder)
 
 
-def _makers(plan: Plan, folder: Path, left: list[int], workers: int | None, scheduler: str | None) -> Iterable[int]:
+def _makers(plan: Plan, folder: Path, left: list[int], workers: int | None,
+            scheduler: str | None) -> Iterable[int]:
     """The chunks left, each as soon as its part is there."""
     if scheduler is not None:
         return by_cluster(plan, folder, left, scheduler)
-    enough = int(sum(plan.chunks[n].points for n in left) * plan.cost / WORTH)  # processes that have something to do besides starting
+    # processes that have something to do besides starting
+    enough = int(sum(plan.chunks[n].points for n in left) * plan.cost / WORTH)
     number = min(max(1, min(cores(), enough)) if workers is None else workers, len(left))
     return by_workers(plan, folder, left, number) if number > 1 else _here(plan, folder, left)
 
@@ -304,12 +325,14 @@ def _counted(plan: Plan, points: int) -> Iterator[Callable[[int], None]]:
             gone = time.monotonic() - begin
             rate = done / gone if gone else 0.0
             remains = f", about {_time((points - done) / rate)} left" if rate and done < points else ""
-            progress(f"{plan.points - points + done:,} of {plan.points:,} points, {rate:,.0f} a second{remains}")
+            progress(
+                f"{plan.points - points + done:,} of {plan.points:,} points, {rate:,.0f} a second{remains}")
         yield tell
 
 
 def _time(seconds: float) -> str:
-    return f"{seconds:.0f} s" if seconds < 120 else f"{seconds / 60:.0f} min" if seconds < 7200 else f"{seconds / 3600:.1f} h"
+    return (f"{seconds:.0f} s" if seconds < 120 else f"{seconds / 60:.0f} min" if seconds < 7200
+            else f"{seconds / 3600:.1f} h")
 
 
 # --- Where the fate changes along the lines of a map: on the separatrix itself where states alone vary,
@@ -319,20 +342,24 @@ HALVINGS = 40  # of a line between two points of a map
 
 def known_exactly(plan: Plan, first: int, second: int) -> bool:
     """Whether states alone vary along the two dimensions, in a scene whose fates come in arrays."""
-    return {first, second} <= set(plan.inner) and effective(plan.case.scene).plain and all(n < len(plan.axes) for n in plan.inner)
+    return ({first, second} <= set(plan.inner) and effective(plan.case.scene).plain
+            and all(n < len(plan.axes) for n in plan.inner))
 
 
-def changes(plan: Plan, index: tuple[int, ...], dimension: int, lower: np.ndarray, spun: np.ndarray, halvings: int = HALVINGS) -> np.ndarray:
+def changes(plan: Plan, index: tuple[int, ...], dimension: int, lower: np.ndarray, spun: np.ndarray,
+            halvings: int = HALVINGS) -> np.ndarray:
     """(lines,): at what share of the way from a point to the next along `dimension` the fate changes.
 
-    index: the place along every dimension of the points, in rows (lines, dimensions) by `lower`; spun: whether the lower point spins up. By halving
-    the line, each half asked for its fate: to the last digits of a picture and beyond.
+    index: the place along every dimension of the points, in rows (lines, dimensions) by `lower`; spun:
+    whether the lower point spins up. By halving the line, each half asked for its fate: to the last digits of
+    a picture and beyond.
     """
     case = case_of(plan, _scene(plan, index))
     low, high = np.zeros(len(lower)), np.ones(len(lower))
     for _ in range(halvings):
         middle = 0.5 * (low + high)
-        same = (fate(case.scene, states_between(plan, case, lower, dimension, middle)).labels == Fate.SPIN_UP) == spun
+        same = (fate(case.scene, states_between(plan, case, lower, dimension, middle)).labels
+                == Fate.SPIN_UP) == spun
         low, high = np.where(same, middle, low), np.where(same, high, middle)
     return 0.5 * (low + high)
 

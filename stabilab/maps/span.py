@@ -17,7 +17,8 @@ EXPECTED = 'expected from:to such as "0:0.5 N m"'
 
 @dataclass(frozen=True)
 class Span:
-    """key: the number that varies; low < high: its ends in `unit`, exact; unit: as it was written, "" for the SI unit (or none) of the key."""
+    """key: the number that varies; low < high: its ends in `unit`, exact; unit: as it was written, "" for the
+    SI unit (or none) of the key."""
 
     key: Key
     low: Fraction
@@ -45,10 +46,14 @@ def spans_of(data: dict[str, Any], vary: Sequence[tuple[str, Any]]) -> tuple[Spa
     if not vary:
         raise InputError('nothing varies: give --vary KEY=FROM:TO, such as --vary "torque[3]=0:0.5"')
     if len(vary) > 2:
-        raise InputError(f"expected one or two numbers that vary, got {len(vary)}: a diagram has no more; stabilab sweep takes up to four")
+        raise InputError(
+            f"expected one or two numbers that vary, got {len(vary)}: a diagram has no more; stabilab sweep "
+            f"takes up to four")
     spans = tuple(span_of(key_of(data, name), asked) for name, asked in vary)
     if len(spans) == 2 and set(spans[0].key.paths) & set(spans[1].key.paths):
-        raise InputError(f"vary {printable(spans[1].key.name)}: this number varies already, as {printable(spans[0].key.name)}: give it once")
+        raise InputError(
+            f"vary {printable(spans[1].key.name)}: this number varies already, as "
+            f"{printable(spans[0].key.name)}: give it once")
     return spans
 
 
@@ -75,11 +80,15 @@ def _of_numbers(asked: Any) -> tuple[Fraction, Fraction]:
 def _of_text(text: str) -> tuple[Fraction, Fraction, str]:
     parts = text.split(":")
     if len(parts) in (3, 4):
-        raise InputError(f'{EXPECTED}, got "{printable(text)[:60]}": a diagram is exact and has no number of steps (stabilab sweep has)')
+        raise InputError(
+            f'{EXPECTED}, got "{printable(text)[:60]}": a diagram is exact and has no number of steps '
+            f'(stabilab sweep has)')
     read = [split(part.strip()) for part in parts]
     if len(read) != 2 or read[0] is None or read[1] is None:
         raise InputError(f'{EXPECTED}, got "{printable(text)[:60]}"')
     (low, first), (high, second) = read[0], read[1]
     if first and second and first != second:
-        raise InputError(f'expected one unit, at the end, got {printable(first)} and {printable(second)} in "{printable(text)[:60]}"')
+        raise InputError(
+            f'expected one unit, at the end, got {printable(first)} and {printable(second)} in '
+            f'"{printable(text)[:60]}"')
     return exact(low), exact(high), second or first

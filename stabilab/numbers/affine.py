@@ -1,9 +1,11 @@
-"""Numbers over a box of uncertain parameters: middle, linear part and a bound on all the rest, for many boxes at once.
+"""Numbers over a box of uncertain parameters: middle, linear part and a bound on all the rest, for many boxes
+at once.
 
-A number is c + sum_k g_k e_k + r with |e_k| <= 1 for every parameter and |r| <= e: the mean-value form, carried through every
-operation, so that its surplus is quadratic in the box's width. The bound e takes in rounding (of doubles; functions are
-taken to err by less than four units in the last place). What is undefined somewhere in the box has e = inf or NaN, and
-then no comparison with it holds. Source: affine arithmetic, de Figueiredo and Stolfi, Numerical Algorithms 37 (2004).
+A number is c + sum_k g_k e_k + r with |e_k| <= 1 for every parameter and |r| <= e: the mean-value form,
+carried through every operation, so that its surplus is quadratic in the box's width. The bound e takes in
+rounding (of doubles; functions are taken to err by less than four units in the last place). What is undefined
+somewhere in the box has e = inf or NaN, and then no comparison with it holds. Source: affine arithmetic, de
+Figueiredo and Stolfi, Numerical Algorithms 37 (2004).
 """
 from __future__ import annotations
 
@@ -19,7 +21,8 @@ LEAST = 1e-300       # what underflow may lose
 
 
 class Affine:
-    """c (...,), g (..., parameters), e (...,); batches broadcast. Exactly zero numbers stay the plain number 0."""
+    """c (...,), g (..., parameters), e (...,); batches broadcast. Exactly zero numbers stay the plain number
+    0."""
 
     __slots__ = ("c", "g", "e")
     __array_ufunc__ = None  # arrays leave the arithmetic to this class
@@ -107,11 +110,12 @@ class Affine:
         return self._image(s, c, 1.0, 1.0), self._image(c, -s, 1.0, 1.0)
 
     def _image(self, value: Number, slope: Number, bend: Number, size: float = 0.0) -> Affine:
-        """A function with this value and slope at c and a second derivative of at most `bend` over the box; size: of what its
-        library rounds inside."""
+        """A function with this value and slope at c and a second derivative of at most `bend` over the box;
+        size: of what its library rounds inside."""
         r, steep = self.reach, np.abs(slope)
         e = steep * self.e + 0.5 * bend * r * r
-        return Affine(value, _times(slope, self.g), e + ROUNDINGS * (np.abs(value) + size * (1 + r) + steep * r + e) + LEAST)
+        return Affine(value, _times(slope, self.g),
+                      e + ROUNDINGS * (np.abs(value) + size * (1 + r) + steep * r + e) + LEAST)
 
 
 def lifted(value: Number) -> Affine:

@@ -1,7 +1,7 @@
 """Balls: numbers that surely hold the true value, by python-flint, in as many digits as a question needs.
 
-The kind of ball is a value: a question takes it as its argument and hands it on to whatever computes. One that the balls
-leave open raises `Unclear`, and `settled` asks it again with twice the bits.
+The kind of ball is a value: a question takes it as its argument and hands it on to whatever computes. One
+that the balls leave open raises `Unclear`, and `settled` asks it again with twice the bits.
 """
 from __future__ import annotations
 
@@ -30,11 +30,12 @@ class Unclear(Exception):
 
 @contextmanager
 def working(bits: int, terms: int = 10) -> Iterator[Digits]:
-    """Context in which python-flint works with so many bits, for this thread alone; gives the kind of number, `Digits`. terms: of a power series, at
-    the most; flint leaves out what lies beyond without a word.
+    """Context in which python-flint works with so many bits, for this thread alone; gives the kind of number,
+    `Digits`. terms: of a power series, at the most; flint leaves out what lies beyond without a word.
 
-    flint's precision belongs to the process: whoever forms balls from inexact ones holds the one lock that goes with it. It
-    stands on the library itself, where the checker of certificates, which imports nothing from here, finds it too.
+    flint's precision belongs to the process: whoever forms balls from inexact ones holds the one lock that
+    goes with it. It stands on the library itself, where the checker of certificates, which imports nothing
+    from here, finds it too.
     """
     import flint
     with vars(flint).setdefault("stabilab_lock", RLock()), flint.ctx.workprec(bits):
@@ -85,12 +86,14 @@ class Digits:
 
     @staticmethod
     def real_roots(coefficients: Sequence[Number]) -> list[tuple[arb, int]]:
-        """(root, multiplicity) of the real roots of a polynomial with rational coefficients, lowest first; certified."""
+        """(root, multiplicity) of the real roots of a polynomial with rational coefficients, lowest first;
+        certified."""
         return real_roots_of(polynomial(*coefficients))
 
 
 def settled(question: Callable[[Digits], T], bits: int = START_BITS, most: int = 1 << 17) -> T:
-    """question(numbers), with twice the bits as long as it is `Unclear`; the last Unclear when `most` are not enough.
+    """question(numbers), with twice the bits as long as it is `Unclear`; the last Unclear when `most` are not
+    enough.
 
     numbers: a `Digits`, with its `bits`. bits: at first.
     """
@@ -111,10 +114,12 @@ def rational(value: Number) -> fmpq:
 
 
 def real_roots_of(poly: fmpq_poly) -> list[tuple[arb, int]]:
-    """(root, multiplicity) of the real roots of flint's polynomial as balls of the working precision, lowest first; certified.
+    """(root, multiplicity) of the real roots of flint's polynomial as balls of the working precision, lowest
+    first; certified.
 
-    flint finds all complex roots at once by an iteration that halves its error a step where roots nearly meet, and starts again
-    with twice the digits until it tells them apart: seconds for a pair 10^-150 apart. Such a polynomial goes to Sturm's theorem.
+    flint finds all complex roots at once by an iteration that halves its error a step where roots nearly
+    meet, and starts again with twice the digits until it tells them apart: seconds for a pair 10^-150 apart.
+    Such a polynomial goes to Sturm's theorem.
     """
     from flint import arb
     if poly.degree() < 1:
@@ -179,7 +184,8 @@ def _middle(a: fmpq, b: fmpq) -> fmpq:
 
 
 def _narrowed(factor: fmpq_poly, a: fmpq, b: fmpq, bits: int) -> tuple[fmpq, fmpq]:
-    """The bracket (a, b) of a simple root to 2**-bits relative, by Newton's step where the slope has a sign."""
+    """The bracket (a, b) of a simple root to 2**-bits relative, by Newton's step where the slope has a sign.
+    """
     from flint import arb, arb_poly
     rising, slope = factor(b) > 0, arb_poly(factor.derivative())
     while (b - a) * 2**bits > min(abs(a), abs(b)):
@@ -238,6 +244,7 @@ def polynomial(*coefficients: Number) -> fmpq_poly:
 
 
 def shares_root(first: fmpq_poly, second: fmpq_poly, root: arb) -> bool:
-    """Whether the root (a ball that isolates it among those of `first`) is one of `second` as well; flint's polynomials."""
+    """Whether the root (a ball that isolates it among those of `first`) is one of `second` as well; flint's
+    polynomials."""
     common = first.gcd(second)
     return any(z.overlaps(root) for z, _ in real_roots_of(common))

@@ -1,10 +1,12 @@
-"""Divided differences of the exponential: the response of a chain of oscillators and integrators at any small divisor.
+"""Divided differences of the exponential: the response of a chain of oscillators and integrators at any small
+divisor.
 
-D[x0 ... xn](t) = t^n exp[x0 t, ..., xn t], that is the inverse Laplace transform of 1/((s - x0) ... (s - xn)). Partial
-fractions divide by every difference of two nodes, and lose all digits where two of them meet; here nodes closer than a
-few units (times t) form a cluster, treated by Taylor's series about one of them, and the recursion
-D[S] = (D[S - i] - D[S - j]) / (xj - xi) runs only between the two farthest nodes of a set (McCurdy, Ng and Parlett 1984,
-Math. Comp. 43, 501-528, for real nodes). Every subset of the nodes is needed anyway, by the recursion and by the caller.
+D[x0 ... xn](t) = t^n exp[x0 t, ..., xn t], that is the inverse Laplace transform of 1/((s - x0) ... (s -
+xn)). Partial fractions divide by every difference of two nodes, and lose all digits where two of them meet;
+here nodes closer than a few units (times t) form a cluster, treated by Taylor's series about one of them, and
+the recursion D[S] = (D[S - i] - D[S - j]) / (xj - xi) runs only between the two farthest nodes of a set
+(McCurdy, Ng and Parlett 1984, Math. Comp. 43, 501-528, for real nodes). Every subset of the nodes is needed
+anyway, by the recursion and by the caller.
 """
 from __future__ import annotations
 
@@ -26,14 +28,15 @@ LARGEST_EXPONENT = 700.0  # exp(709.78) is the largest double; the rest is room 
 MOST_TERMS = 100  # reached by no cluster narrower than 30
 
 
-def divided_differences(nodes: Sequence[ArrayLike], counts: Iterable[Counts], t: ArrayLike, low: Sequence[ArrayLike] | None = None) -> dict[Counts, np.ndarray]:
+def divided_differences(nodes: Sequence[ArrayLike], counts: Iterable[Counts], t: ArrayLike,
+                        low: Sequence[ArrayLike] | None = None) -> dict[Counts, np.ndarray]:
     """D over several multisets of the same nodes, sharing their parts.
 
-    nodes: sequence of complex scalars or arrays, broadcast against the real t (1/s and s). counts: one tuple per answer:
-    how often it takes each node. low: what the nodes lost to rounding (same shapes), where a difference of two nodes is
-    known better than the nodes themselves. Answers {counts: complex array of the broadcast shape}. For imaginary nodes
-    the error is of the size that half a unit in the last place of nodes and t causes (measured: tests). Raises InputError
-    where exp overflows.
+    nodes: sequence of complex scalars or arrays, broadcast against the real t (1/s and s). counts: one tuple
+    per answer: how often it takes each node. low: what the nodes lost to rounding (same shapes), where a
+    difference of two nodes is known better than the nodes themselves. Answers {counts: complex array of the
+    broadcast shape}. For imaginary nodes the error is of the size that half a unit in the last place of nodes
+    and t causes (measured: tests). Raises InputError where exp overflows.
     """
     low = [0.0] * len(nodes) if low is None else low
     shape = np.broadcast_shapes(np.shape(t), *(np.shape(x) for x in (*nodes, *low)))
@@ -41,7 +44,9 @@ def divided_differences(nodes: Sequence[ArrayLike], counts: Iterable[Counts], t:
     nodes, low = ([np.broadcast_to(np.asarray(x, complex), shape).ravel() for x in xs] for xs in (nodes, low))
     if t.size and max(np.max(x.real * t) for x in nodes) > LARGEST_EXPONENT:
         worst = max(np.max(x.real * t) for x in nodes)
-        raise InputError(f"the motion grows like exp({worst:.6g}), beyond the largest double (exp(709)): ask for shorter times")
+        raise InputError(
+            f"the motion grows like exp({worst:.6g}), beyond the largest double (exp(709)): ask for "
+            f"shorter times")
     table = _Table(nodes, low, t)
     return {c: (table.scaled(tuple(c)) * t ** (sum(c) - 1)).reshape(shape) for c in map(tuple, counts)}
 
@@ -49,13 +54,15 @@ def divided_differences(nodes: Sequence[ArrayLike], counts: Iterable[Counts], t:
 def cluster_width(n: int) -> float:
     """Sets of n + 1 nodes no wider than this are summed by Taylor's series.
 
-    The recursion multiplies errors by up to 2 n / width at each step down, the series by up to exp(width / 2).
+    The recursion multiplies errors by up to 2 n / width at each step down, the series by up to exp(width /
+    2).
     """
     return max(1.5, 0.9 * n)
 
 
 class _Table:
-    """exp[x0 t, ...] of the sub-multisets asked for, each computed once; all arrays are flat and of one length."""
+    """exp[x0 t, ...] of the sub-multisets asked for, each computed once; all arrays are flat and of one
+    length."""
 
     def __init__(self, nodes: Sequence[np.ndarray], low: Sequence[np.ndarray], t: np.ndarray) -> None:
         self.exponential = [_accurate_exp(x, rest, t) for x, rest in zip(nodes, low)]
@@ -105,7 +112,8 @@ class _Table:
 
 
 def _homogeneous_series(gaps: list[np.ndarray], n: int) -> np.ndarray:
-    """sum over k of h_k(gaps) / (n + k)!, h_k the complete homogeneous polynomial (the other arguments are zero)."""
+    """sum over k of h_k(gaps) / (n + k)!, h_k the complete homogeneous polynomial (the other arguments are
+    zero)."""
     partial = [np.ones_like(gaps[0]) for _ in gaps]  # h_k of the first 1, 2, ... gaps
     weight = 1.0 / factorial(n)
     terms = [np.full_like(gaps[0], weight)]
@@ -117,7 +125,8 @@ def _homogeneous_series(gaps: list[np.ndarray], n: int) -> np.ndarray:
         for r, gap in enumerate(gaps):
             partial[r] = below = below + gap * partial[r]
         terms.append(partial[-1] * weight)
-        bound *= reach / k  # |h_k| n! / (n + k)! <= reach^k / k!, as h_k of n + 1 arguments has (n + k)! / (n! k!) terms
+        # |h_k| n! / (n + k)! <= reach^k / k!, as h_k of n + 1 arguments has (n + k)! / (n! k!) terms
+        bound *= reach / k
         if bound < 1e-19 and reach < k:
             break
     total = terms.pop()

@@ -1,7 +1,9 @@
-"""Twofold numbers: unevaluated sums of two doubles, 32 digits, for the few differences that decide a small divisor.
+"""Twofold numbers: unevaluated sums of two doubles, 32 digits, for the few differences that decide a small
+divisor.
 
-Error-free sum of Knuth and product of Dekker, as in Shewchuk (1997) and in Hida, Li and Bailey (2001); whole arrays at
-once, no fused multiply-add needed. Magnitudes must stay within 1e-140 ... 1e140, so that no partial product is lost.
+Error-free sum of Knuth and product of Dekker, as in Shewchuk (1997) and in Hida, Li and Bailey (2001); whole
+arrays at once, no fused multiply-add needed. Magnitudes must stay within 1e-140 ... 1e140, so that no partial
+product is lost.
 """
 from __future__ import annotations
 
@@ -47,7 +49,8 @@ class Twofold:
         other = twofold(other)
         first = self.high / other.high
         rest = self - other * first
-        return Twofold(*exact_sum(first, rest.high / other.high)) + (rest - other * (rest.high / other.high)).high / other.high
+        return (Twofold(*exact_sum(first, rest.high / other.high))
+                + (rest - other * (rest.high / other.high)).high / other.high)
 
     def __neg__(self) -> Twofold:
         return Twofold(-self.high, -self.low)

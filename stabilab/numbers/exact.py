@@ -15,15 +15,18 @@ from ..errors import InputError
 from ..record import record
 from .vectors import Exact3, Number
 
-_DIGITS = r"\d+(?:_\d+)*"  # one way only to match: else a long wrong number would be tried in exponentially many
-_DECIMAL = re.compile(rf"\s*[+-]?(?:{_DIGITS}(?:\.(?:{_DIGITS})?)?|\.{_DIGITS})(?:[eE][+-]?\d{{1,4}})?\s*", re.ASCII)
+# one way only to match: else a long wrong number would be tried in exponentially many
+_DIGITS = r"\d+(?:_\d+)*"
+_DECIMAL = re.compile(rf"\s*[+-]?(?:{_DIGITS}(?:\.(?:{_DIGITS})?)?|\.{_DIGITS})(?:[eE][+-]?\d{{1,4}})?\s*",
+                      re.ASCII)
 _RATIO = re.compile(r"\s*[+-]?\d+\s*/\s*\d+\s*", re.ASCII)
 
 
 def exact(value: object, name: str = "") -> Fraction:
-    """The rational number that `value` denotes: int, float (its binary value), Fraction, or a string holding a
-    decimal or a ratio ("0.1", "2/3"). Raises InputError for anything else, and where the double nearest to the
-    value would be infinite or would lose a nonzero value to zero; its words begin with `name`, where there is one."""
+    """The rational number that `value` denotes: int, float (its binary value), Fraction, or a string holding
+    a decimal or a ratio ("0.1", "2/3"). Raises InputError for anything else, and where the double nearest to
+    the value would be infinite or would lose a nonzero value to zero; its words begin with `name`, where
+    there is one."""
     if name:
         try:
             return exact(value)
@@ -35,7 +38,8 @@ def exact(value: object, name: str = "") -> Fraction:
     except OverflowError:
         raise InputError(f"{_short(value)} is larger than the largest double (about 1.8e308)") from None
     if number and not rounded:
-        raise InputError(f"{_short(value)} is smaller than the smallest double (about 4.9e-324); write 0 if zero is meant")
+        raise InputError(
+            f"{_short(value)} is smaller than the smallest double (about 4.9e-324); write 0 if zero is meant")
     return number
 
 
@@ -48,7 +52,8 @@ def _parse(value: Any) -> Fraction:
     if isinstance(value, bool):
         raise InputError(f"expected a number, got the truth value {str(value).lower()}")
     if isinstance(value, (Integral, Rational)):
-        return Fraction(int(value.numerator), int(value.denominator)) if isinstance(value, Rational) else Fraction(int(value))
+        return (Fraction(int(value.numerator), int(value.denominator)) if isinstance(value, Rational)
+                else Fraction(int(value)))
     if isinstance(value, Real):
         if not math.isfinite(value):
             raise InputError(f"expected a finite number, got {float(value)}")
@@ -64,8 +69,9 @@ def _parse(value: Any) -> Fraction:
 
 
 def half_unit(value: object) -> Fraction:
-    """Half a unit of the last digit of a number as it was written, a double in its shortest digits; 0 of a ratio, of a Fraction, and of a whole
-    number of less than four digits: whoever writes 2 or 100 means exactly that."""
+    """Half a unit of the last digit of a number as it was written, a double in its shortest digits; 0 of a
+    ratio, of a Fraction, and of a whole number of less than four digits: whoever writes 2 or 100 means
+    exactly that."""
     written = repr(value) if isinstance(value, float) else str(value)
     digits, _, power = "".join(written.replace("_", "").split()).lower().partition("e")
     if isinstance(value, Fraction) or "/" in digits or ("." not in digits and len(digits.lstrip("+-")) < 4):
@@ -89,7 +95,8 @@ def exact_vector(values: Iterable[object], name: str) -> Exact3:
 
 
 def sqrt_fraction(value: Fraction, bits: int = 240) -> Fraction:
-    """A rational within 2**-bits relative of the square root of a non-negative rational; exact for exact squares."""
+    """A rational within 2**-bits relative of the square root of a non-negative rational; exact for exact
+    squares."""
     n, d = value.numerator, value.denominator
     rn, rd = math.isqrt(n), math.isqrt(d)
     if rn * rn == n and rd * rd == d:
@@ -100,7 +107,8 @@ def sqrt_fraction(value: Fraction, bits: int = 240) -> Fraction:
 
 @contextmanager
 def mpmath_alone() -> Iterator[ModuleType]:
-    """Context giving mpmath to this thread alone: its precision, and the digits of pi that it keeps, belong to the process."""
+    """Context giving mpmath to this thread alone: its precision, and the digits of pi that it keeps, belong
+    to the process."""
     import mpmath
     with _MPMATH:
         yield mpmath
@@ -110,8 +118,9 @@ _MPMATH = RLock()
 
 
 def precise(name: str, *arguments: Fraction, bits: int = 240) -> Fraction:
-    """A rational within about 2**-bits of a function of a rational ("cos") or of a constant ("pi"), in integers alone: a small command that asks for
-    the cosine of one angle need not read mpmath, whose numbers these are, to the last of bits + 20 places."""
+    """A rational within about 2**-bits of a function of a rational ("cos") or of a constant ("pi"), in
+    integers alone: a small command that asks for the cosine of one angle need not read mpmath, whose numbers
+    these are, to the last of bits + 20 places."""
     places = bits + 20
     if name == "pi":
         return _rounded(pi_in(places + GUARD), places + GUARD, places)
@@ -201,7 +210,8 @@ class Surd:
 
     def __mul__(self, other: Number) -> Surd:
         if isinstance(other, Surd):
-            return Surd(self.p * other.p + self.q * other.q * self.d, self.p * other.q + self.q * other.p, self.d)
+            return Surd(self.p * other.p + self.q * other.q * self.d, self.p * other.q + self.q * other.p,
+                        self.d)
         return Surd(self.p * other, self.q * other, self.d)
 
     def __neg__(self) -> Surd:

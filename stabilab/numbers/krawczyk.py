@@ -1,7 +1,9 @@
-"""All common zeros of three polynomials in a box, by exclusion and by proof of existence (Krawczyk), none lost.
+"""All common zeros of three polynomials in a box, by exclusion and by proof of existence (Krawczyk), none
+lost.
 
-A box is put aside where the linear part at its middle outweighs all higher terms (no zero), settled where Krawczyk's test
-holds on the box half as large again (exactly one zero there), and halved otherwise. Rounding is covered by a slack far above it.
+A box is put aside where the linear part at its middle outweighs all higher terms (no zero), settled where
+Krawczyk's test holds on the box half as large again (exactly one zero there), and halved otherwise. Rounding
+is covered by a slack far above it.
 """
 from __future__ import annotations
 
@@ -19,7 +21,8 @@ SLACK = 1e-11     # relative to the sum of the terms' sizes; some forty rounding
 
 @dataclass(frozen=True)
 class Zeros:
-    """points: (n, 3) approximations, each with a zero of its own proved next to it; complete: False where the budget of boxes ran out."""
+    """points: (n, 3) approximations, each with a zero of its own proved next to it; complete: False where the
+    budget of boxes ran out."""
 
     points: np.ndarray
     complete: bool
@@ -27,15 +30,18 @@ class Zeros:
 
 
 class _Polynomials:
-    """Three polynomials {powers: coefficient} with all their derivatives, over batches of points (n, 3): one table of monomials serves them all."""
+    """Three polynomials {powers: coefficient} with all their derivatives, over batches of points (n, 3): one
+    table of monomials serves them all."""
 
     def __init__(self, polynomials: Sequence[Polynomial]) -> None:
         first = [[_derivative(p, k) for k in range(3)] for p in polynomials]
         second = [[[_derivative(q, l) for l in range(3)] for q in row] for row in first]
-        self.third = np.array([[[[_constant(_derivative(q, m)) for m in range(3)] for q in row] for row in rows] for rows in second])
+        self.third = np.array([[[[_constant(_derivative(q, m)) for m in range(3)] for q in row]
+                                for row in rows] for rows in second])
         self.f = _columns(polynomials)
         self.J = _columns([q for row in first for q in row])
-        self.all = np.concatenate([self.f, self.J, _columns([q for rows in second for row in rows for q in row])], axis=1)
+        self.all = np.concatenate([self.f, self.J,
+                                   _columns([q for rows in second for row in rows for q in row])], axis=1)
 
     def values(self, x: np.ndarray) -> np.ndarray:
         return _monomials(x) @ self.f
@@ -82,9 +88,11 @@ def _constant(polynomial: Polynomial) -> float:
 
 
 def zeros(polynomials: Sequence[Polynomial], reach: Sequence[float]) -> Zeros:
-    """All common zeros of three polynomials {(i, j, k): coefficient}, of third degree at most, with |x_i| <= reach_i."""
+    """All common zeros of three polynomials {(i, j, k): coefficient}, of third degree at most, with |x_i| <=
+    reach_i."""
     system = _Polynomials(polynomials)
-    middles, halves = np.zeros((1, 3)), np.asarray(reach, float)[None] * 1.0123456789  # no zero of a symmetric system on an edge
+    # no zero of a symmetric system on an edge
+    middles, halves = np.zeros((1, 3)), np.asarray(reach, float)[None] * 1.0123456789
     found: list[tuple[np.ndarray, np.ndarray, np.ndarray]] = []
     used = 0
     while len(middles):
@@ -98,17 +106,20 @@ def zeros(polynomials: Sequence[Polynomial], reach: Sequence[float]) -> Zeros:
 
 
 def _sieve(system: _Polynomials, m: np.ndarray, h: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """(keep, settled) for boxes m +- h: not proved empty; proved to hold, half as large again, exactly one zero."""
+    """(keep, settled) for boxes m +- h: not proved empty; proved to hold, half as large again, exactly one
+    zero."""
     values, J, H = system.at(m)
     Y = _inverses(J)
     size = np.abs(Y) @ (SLACK * system.sizes(np.abs(m) + h))[..., None]
     g = np.abs((Y @ values[..., None])[..., 0])
     linear = np.abs(Y @ J)
     higher = lambda w: (np.abs(Y) @ (0.5 * np.einsum("nikl,nk,nl->ni", np.abs(H), w, w)
-                                     + np.einsum("iklm,nk,nl,nm->ni", np.abs(system.third), w, w, w) / 6)[..., None])[..., 0]
+                                     + np.einsum("iklm,nk,nl,nm->ni", np.abs(system.third), w, w,
+                                                 w) / 6)[..., None])[..., 0]
     empty = (g > (linear @ h[..., None])[..., 0] + higher(h) + size[..., 0]).any(axis=1)
     w = WIDER * h
-    change = np.einsum("nikl,nl->nik", np.abs(H), w) + 0.5 * np.einsum("iklm,nl,nm->nik", np.abs(system.third), w, w)
+    change = (np.einsum("nikl,nl->nik", np.abs(H), w)
+              + 0.5 * np.einsum("iklm,nl,nm->nik", np.abs(system.third), w, w))
     spread = np.abs(Y @ J - np.eye(3)) + np.abs(Y) @ change
     settled = (g + (spread @ w[..., None])[..., 0] + size[..., 0] < w).all(axis=1) & ~empty
     return ~empty, settled

@@ -17,26 +17,33 @@ def installed() -> bool:
 
 
 def wanted(n: int, fast: bool | None, loaded: bool, cold: int, warm: int) -> bool:
-    """fast: True always, False never, None from `cold` states on (from `warm` once the code is loaded) where numba is installed.
+    """fast: True always, False never, None from `cold` states on (from `warm` once the code is loaded) where
+    numba is installed.
 
     Raises InputError for fast=True without numba.
     """
     if fast is None:
         return n >= (warm if loaded else cold) and installed()
     if fast and not installed():
-        raise InputError("fast=True needs numba, which is not installed: pip install numba, or leave fast out")
+        raise InputError(
+            "fast=True needs numba, which is not installed: pip install numba, or leave fast out")
     return bool(fast)
 
 
-def compiled(module: ModuleType, inlined: Container[str], variant: str = "", **instead: Any) -> dict[str, Any]:
-    """The names of a module of straight-line kernels with all its functions compiled; kept on disk where there is a place for it.
+def compiled(module: ModuleType, inlined: Container[str], variant: str = "",
+             **instead: Any) -> dict[str, Any]:
+    """The names of a module of straight-line kernels with all its functions compiled; kept on disk where
+    there is a place for it.
 
-    instead: what stands for names of the module, for compiled code; variant: names the code that has these, which the disk keeps apart."""
+    instead: what stands for names of the module, for compiled code; variant: names the code that has these,
+    which the disk keeps apart."""
     return _kept(lambda cache: _compiled(module, inlined, cache, variant, instead))
 
 
-def twins(module: ModuleType, make: Callable[[str, FunctionType], Any], variant: str = "", **instead: Any) -> dict[str, Any]:
-    """The names of a module with `make` of a twin of each of its functions, which sees these names; instead, variant: as of `compiled`."""
+def twins(module: ModuleType, make: Callable[[str, FunctionType], Any], variant: str = "",
+          **instead: Any) -> dict[str, Any]:
+    """The names of a module with `make` of a twin of each of its functions, which sees these names; instead,
+    variant: as of `compiled`."""
     names: dict[str, Any] = vars(module) | instead
     for name, function in list(names.items()):
         if isinstance(function, FunctionType) and function.__module__ == module.__name__:
@@ -53,13 +60,16 @@ def compiled_function(function: FunctionType) -> Any:
 
 
 def _kept(make: Callable[[bool], Any]) -> Any:
-    """make(True), or make(False) where numba finds no folder that it may write to: then each process compiles anew."""
+    """make(True), or make(False) where numba finds no folder that it may write to: then each process compiles
+    anew."""
     try:
         return make(True)
     except RuntimeError:
         return make(False)
 
 
-def _compiled(module: ModuleType, inlined: Container[str], cache: bool, variant: str, instead: dict[str, Any]) -> dict[str, Any]:
+def _compiled(module: ModuleType, inlined: Container[str], cache: bool, variant: str,
+              instead: dict[str, Any]) -> dict[str, Any]:
     from numba import njit
-    return twins(module, lambda name, twin: njit(cache=cache, error_model="numpy", forceinline=name in inlined)(twin), variant, **instead)
+    return twins(module, lambda name, twin: njit(cache=cache, error_model="numpy",
+                                                 forceinline=name in inlined)(twin), variant, **instead)

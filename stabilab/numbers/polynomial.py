@@ -1,4 +1,5 @@
-"""Polynomials in one variable with exact coefficients, and all their real roots: python-flint's, which know no Fraction."""
+"""Polynomials in one variable with exact coefficients, and all their real roots: python-flint's, which know
+no Fraction."""
 from __future__ import annotations
 
 from collections.abc import Iterable
@@ -15,7 +16,8 @@ if TYPE_CHECKING:
 
 
 class Poly:
-    """Polynomial with rational coefficients, lowest power first; joins with rationals. flint: the library's own."""
+    """Polynomial with rational coefficients, lowest power first; joins with rationals. flint: the library's
+    own."""
 
     __slots__ = ("flint",)
 
@@ -87,8 +89,8 @@ def _flint(value: Number) -> fmpq_poly | fmpq:
 
 
 def real_roots(p: Poly, bits: int = 160) -> list[Fraction]:
-    """Every real root of a nonzero polynomial once, rising, within 2**-bits relative, rational ones exactly; none is missed and none
-    is invented."""
+    """Every real root of a nonzero polynomial once, rising, within 2**-bits relative, rational ones exactly;
+    none is missed and none is invented."""
     from flint import arb
     factors = [factor for factor, _ in p.flint.factor()[1]]
     if not factors:

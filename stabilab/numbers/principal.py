@@ -24,15 +24,18 @@ Moment: TypeAlias = tuple[Fraction, bool]  # and whether it is exact
 BITS = 240  # of the numbers that cannot be rational
 IDENTITY = tuple(tuple(Fraction(i == j) for j in range(3)) for i in range(3))
 NAMES = "xyz"
-NOTHING = Fraction(1, 1 << 200)  # of a vector: a component as small is what irrational axes, good to BITS, leave of zero
+# of a vector: a component as small is what irrational axes, good to BITS, leave of zero
+NOTHING = Fraction(1, 1 << 200)
 
 
 @record
 class PrincipalAxes:
-    """moments: three, in the tensor's unit; axes: rows, unit vectors of the principal axes in the input frame, right-handed.
+    """moments: three, in the tensor's unit; axes: rows, unit vectors of the principal axes in the input
+    frame, right-handed.
 
-    exact: whether both are without error; else error bounds that of every moment relative to the largest and, as an angle in rad,
-    that of every axis. A tensor that is diagonal keeps its order; else the moments descend.
+    exact: whether both are without error; else error bounds that of every moment relative to the largest and,
+    as an angle in rad, that of every axis. A tensor that is diagonal keeps its order; else the moments
+    descend.
     """
 
     moments: Exact3
@@ -47,15 +50,18 @@ class PrincipalAxes:
 
     def turned(self, vector: Sequence[Number]) -> Triple:
         """The components along the principal axes of a vector of the input frame."""
-        return tuple(vector) if self.as_given else tuple(sum(a * v for a, v in zip(axis, vector)) for axis in self.axes)
+        return (tuple(vector) if self.as_given
+                else tuple(sum(a * v for a, v in zip(axis, vector)) for axis in self.axes))
 
     def back(self, vector: Sequence[Number]) -> Triple:
         """The components in the input frame of a vector given along the principal axes."""
-        return tuple(vector) if self.as_given else tuple(sum(self.axes[i][j] * vector[i] for i in range(3)) for j in range(3))
+        return (tuple(vector) if self.as_given
+                else tuple(sum(self.axes[i][j] * vector[i] for i in range(3)) for j in range(3)))
 
 
 def without_trace(vector: Exact3, other: Exact3) -> Exact3:
-    """A vector that was turned to principal axes, without the trace along another one that irrational axes leave where the two are at right angles."""
+    """A vector that was turned to principal axes, without the trace along another one that irrational axes
+    leave where the two are at right angles."""
     level, size = dot(vector, other), dot(other, other)
     if not level or level * level > NOTHING * NOTHING * size * dot(vector, vector):
         return vector
@@ -63,8 +69,9 @@ def without_trace(vector: Exact3, other: Exact3) -> Exact3:
 
 
 def principal_axes(tensor: Sequence[Sequence[Number]]) -> PrincipalAxes:
-    """The principal moments and axes of an inertia tensor: 3 x 3 exact numbers. Raises InputError where it is not symmetric or a
-    moment is not positive; that the largest exceeds the sum of the others, as of no rigid body, is for `Body` to say."""
+    """The principal moments and axes of an inertia tensor: 3 x 3 exact numbers. Raises InputError where it is
+    not symmetric or a moment is not positive; that the largest exceeds the sum of the others, as of no rigid
+    body, is for `Body` to say."""
     rows = tuple(tuple(Fraction(v) for v in row) for row in tensor)
     wrong = fault_of(rows)
     if wrong:
@@ -80,16 +87,20 @@ def principal_axes(tensor: Sequence[Sequence[Number]]) -> PrincipalAxes:
 
 
 def fault_of(rows: Rows) -> str | None:
-    """What keeps a 3 x 3 tensor of rationals from being symmetric with positive principal moments, in words; None where nothing does."""
+    """What keeps a 3 x 3 tensor of rationals from being symmetric with positive principal moments, in words;
+    None where nothing does."""
     for i, j in ((0, 1), (0, 2), (1, 2)):
         if rows[i][j] != rows[j][i]:
-            return (f"the tensor is not symmetric: its {NAMES[i]}{NAMES[j]} entry is {float(rows[i][j])!r} and its {NAMES[j]}{NAMES[i]} "
-                    f"entry {float(rows[j][i])!r}, they differ by {float(abs(rows[i][j] - rows[j][i])):.6g}; write the same number in both places")
+            return (f"the tensor is not symmetric: its {NAMES[i]}{NAMES[j]} entry is {float(rows[i][j])!r} "
+                    f"and its {NAMES[j]}{NAMES[i]} "
+                    f"entry {float(rows[j][i])!r}, they differ by {float(abs(rows[i][j] - rows[j][i])):.6g}; "
+                    f"write the same number in both places")
     polynomial = _characteristic(rows)
     constant, linear, square, _ = polynomial.c
     if not (constant < 0 < linear and square < 0):  # the signs of three positive roots, as all are real
         least = float(real_roots(polynomial)[0])
-        return (f"the tensor is not positive definite: its least principal moment is {least:.6g} kg m^2, and those of a body are positive; "
+        return (f"the tensor is not positive definite: its least principal moment is {least:.6g} kg m^2, and "
+                f"those of a body are positive; "
                 "are the products too large, or their sign convention another one?")
     return None
 
@@ -105,7 +116,8 @@ def _characteristic(m: Rows) -> Poly:
 
 
 def _moments(m: Rows, polynomial: Poly, bits: int) -> tuple[Moment, Moment, Moment]:
-    """((moment, whether it is rational and exact), ...) descending, as often as they are repeated; their sum is the exact trace."""
+    """((moment, whether it is rational and exact), ...) descending, as often as they are repeated; their sum
+    is the exact trace."""
     trace = m[0][0] + m[1][1] + m[2][2]
     roots = [(root, polynomial(root) == 0) for root in reversed(real_roots(polynomial, bits))]
     if len(roots) == 3:
@@ -133,8 +145,10 @@ def _axes(m: Rows, moments: Sequence[Moment], bits: int) -> PrincipalAxes | None
 
 
 def _three(m: Rows, moments: Sequence[Moment], bits: int) -> list[Triple] | None:
-    """Three directions. Where one moment is rational its direction is exact and the others exactly across it."""
-    order = sorted(range(3), key=lambda i: (not moments[i][1], i == 1))  # the best two; the third is across them
+    """Three directions. Where one moment is rational its direction is exact and the others exactly across it.
+    """
+    # the best two; the third is across them
+    order = sorted(range(3), key=lambda i: (not moments[i][1], i == 1))
     exact = [moments[i][1] for i in order]
     first, second = (_column(m, moments[i][0]) for i in order[:2])
     if not any(first) or not any(second):
@@ -160,14 +174,16 @@ def _rounded(numbers: Sequence[Fraction], bits: int) -> Triple:
 
 
 def _column(m: Rows, moment: Fraction) -> Triple:
-    """The direction that (m - moment I) leaves out: the largest column of its adjugate; zero where two moments are alike."""
+    """The direction that (m - moment I) leaves out: the largest column of its adjugate; zero where two
+    moments are alike."""
     a = _shifted(m, moment)
     adjugate = [cross(a[1], a[2]), cross(a[2], a[0]), cross(a[0], a[1])]  # symmetric
     return adjugate[max(range(3), key=lambda i: abs(adjugate[i][i]))]
 
 
 def _unit(direction: Triple, bits: int) -> Triple:
-    """Scaled to length 1, exactly where that is rational; the scale has so many bits, so that exact zeros and angles stay."""
+    """Scaled to length 1, exactly where that is rational; the scale has so many bits, so that exact zeros and
+    angles stay."""
     square = dot(direction, direction)
     length = sqrt_fraction(square, bits)
     if length * length != square:
@@ -202,8 +218,9 @@ def _positive(axis: Triple) -> Triple:
 def _error(m: Rows, values: Sequence[Fraction], axes: Sequence[Triple]) -> Fraction | None:
     """A bound of the errors of moments and axes; None where two moments are too close for this many bits.
 
-    A vector v of length 1 with |m v - D v| = r is within r of a moment, and within 2 r/gap (as an angle) of its axis, where gap is
-    the distance from D to the other moments. The lengths differ from 1 by the error of their square roots.
+    A vector v of length 1 with |m v - D v| = r is within r of a moment, and within 2 r/gap (as an angle) of
+    its axis, where gap is the distance from D to the other moments. The lengths differ from 1 by the error of
+    their square roots.
     """
     worst, scale = Fraction(0), values[0]
     for value, axis in zip(values, axes):
@@ -216,5 +233,6 @@ def _error(m: Rows, values: Sequence[Fraction], axes: Sequence[Triple]) -> Fract
 
 
 def _rounded_up(value: Fraction) -> Fraction:
-    return Fraction(0) if not value else Fraction(1, 1 << max(0, value.denominator.bit_length() - value.numerator.bit_length() - 1))
+    return (Fraction(0) if not value
+            else Fraction(1, 1 << max(0, value.denominator.bit_length() - value.numerator.bit_length() - 1)))
 

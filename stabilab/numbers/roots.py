@@ -16,15 +16,17 @@ MOST_STEPS = 4000  # bisection alone takes no more than 2200, over all doubles
 TINY = 1e-290  # so small a sum of products may have lost some to underflow
 
 
-def bracketed_newton(fun: Callable[..., tuple[np.ndarray, np.ndarray]], lo: np.ndarray, hi: np.ndarray, start: np.ndarray,
-                     args: Sequence[np.ndarray] = (), rising: bool | np.ndarray = True, iterations: int = 200, enough: float = 2 * EPS) -> np.ndarray:
+def bracketed_newton(fun: Callable[..., tuple[np.ndarray, np.ndarray]], lo: np.ndarray, hi: np.ndarray,
+                     start: np.ndarray,
+                     args: Sequence[np.ndarray] = (), rising: bool | np.ndarray = True, iterations: int = 200,
+                     enough: float = 2 * EPS) -> np.ndarray:
     """Roots of monotone functions, one per element.
 
-    fun(x, *args) -> (value, slope), all arrays (n,); lo, hi, start: arrays (n,), the root lies in [lo, hi] (ends may
-    be any way round the root's side is decided by `rising`, a bool or array). Newton steps that leave the bracket are
-    replaced by bisection, so it converges for every continuous monotone function; it stops at two units in the last
-    place, or after a Newton step shorter than `enough`, relative (1e-9 leaves 1e-18 where it converges quadratically).
-    Returns (n,).
+    fun(x, *args) -> (value, slope), all arrays (n,); lo, hi, start: arrays (n,), the root lies in [lo, hi]
+    (ends may be any way round the root's side is decided by `rising`, a bool or array). Newton steps that
+    leave the bracket are replaced by bisection, so it converges for every continuous monotone function; it
+    stops at two units in the last place, or after a Newton step shorter than `enough`, relative (1e-9 leaves
+    1e-18 where it converges quadratically). Returns (n,).
     """
     import numpy as np
     x = np.array(start, float)
@@ -43,7 +45,8 @@ def bracketed_newton(fun: Callable[..., tuple[np.ndarray, np.ndarray]], lo: np.n
         lo = np.where(right, lo, x)
         new = x - step
         inside = (new >= lo) & (new <= hi) & ((np.abs(step) < 0.5 * last) | (round_ < 3))
-        inside |= np.abs(step) <= enough * np.abs(x)  # at the root: rounding alone may point outside or fail to halve
+        # at the root: rounding alone may point outside or fail to halve
+        inside |= np.abs(step) <= enough * np.abs(x)
         middle = 0.5 * (lo + hi)
         new = np.where(inside, new, middle)
         move = np.abs(new - x)
@@ -56,15 +59,18 @@ def bracketed_newton(fun: Callable[..., tuple[np.ndarray, np.ndarray]], lo: np.n
             break
         if round_ >= 4:  # most are done by now: go on with the rest only
             keep = ~done
-            live, x, lo, hi, last, upward = live[keep], new[keep], lo[keep], hi[keep], last[keep], upward[keep]
+            live, x, lo, hi, last, upward = live[keep], new[keep], lo[keep], hi[keep], last[keep], upward[
+                keep]
             args = tuple(a[keep] for a in args)
         else:
             x = new
     return out
 
 
-def golden_section(size_of: Callable[[float], float], low: float, high: float, steps: int) -> tuple[tuple[float, float], tuple[float, float]]:
-    """Two places close together, each with its size, after so many steps towards the least size between low and high."""
+def golden_section(size_of: Callable[[float], float], low: float, high: float,
+                   steps: int) -> tuple[tuple[float, float], tuple[float, float]]:
+    """Two places close together, each with its size, after so many steps towards the least size between low
+    and high."""
     golden = (math.sqrt(5) - 1) / 2
     a, b = high - golden * (high - low), low + golden * (high - low)
     at_a, at_b = size_of(a), size_of(b)
@@ -83,8 +89,9 @@ def golden_section(size_of: Callable[[float], float], low: float, high: float, s
 def real_polynomial_roots(coefficients: Sequence[Fraction]) -> list[float]:
     """Real roots, ascending, of a polynomial with exact (Fraction) coefficients, highest first.
 
-    The roots of the derivative separate those of the polynomial; signs at the separators are exact, so no root of odd
-    multiplicity is missed or invented. A root of even multiplicity is returned where a separator is an exact root.
+    The roots of the derivative separate those of the polynomial; signs at the separators are exact, so no
+    root of odd multiplicity is missed or invented. A root of even multiplicity is returned where a separator
+    is an exact root.
     """
     coefficients = list(coefficients)
     while coefficients and not coefficients[0]:
@@ -104,8 +111,10 @@ def real_polynomial_roots(coefficients: Sequence[Fraction]) -> list[float]:
             total = total * x + a
         return total
 
-    # Fujiwara: no root exceeds twice the largest |a_i/a_0|^(1/i); as a power of two, so that the knots stay short
-    bound = Fraction(2) ** (2 + max(_log2(a / coefficients[0]) // i + 1 for i, a in enumerate(coefficients) if i and a))
+    # Fujiwara: no root exceeds twice the largest |a_i/a_0|^(1/i); as a power of two, so that the knots stay
+    # short
+    bound = (Fraction(2) ** (2 + max(_log2(a / coefficients[0]) // i + 1 for i,
+                                     a in enumerate(coefficients) if i and a)))
     knots = [-bound, *(Fraction(r) for r in real_polynomial_roots(derivative)), bound]
     roots = []
     for left, right in zip(knots, knots[1:]):
@@ -122,7 +131,8 @@ def _log2(value: Fraction) -> int:
     return abs(value.numerator).bit_length() - value.denominator.bit_length()
 
 
-def _bisect_newton(value: Callable[[Number], Number], left: Fraction, right: Fraction, fl: Fraction, coefficients: Sequence[Fraction]) -> float:
+def _bisect_newton(value: Callable[[Number], Number], left: Fraction, right: Fraction, fl: Fraction,
+                   coefficients: Sequence[Fraction]) -> float:
     """The root in (left, right), to the nearest double or its neighbour: floats guide, exact signs decide."""
     unit = Fraction(2) ** -max(_log2(a) for a in coefficients if a)  # coefficients of any size would overflow
     slopes = [float(a * unit) for a in coefficients]
@@ -137,15 +147,17 @@ def _bisect_newton(value: Callable[[Number], Number], left: Fraction, right: Fra
         if TINY < size < math.inf and not abs(f) < 1e-10 * size:
             return f, df, (f > 0) != (fl > 0)
         exact = value(Fraction(x)) * unit  # the sign must be exact
-        return float(exact) if _log2(exact) < 1000 else math.inf, df, (exact > 0) != (fl > 0) if exact else None
+        return float(exact) if _log2(exact) < 1000 else math.inf, df, (exact
+                                                                       > 0) != (fl > 0) if exact else None
     return held_newton(look, float(left), float(right), 0.9, 1e-17)
 
 
-def held_newton(look: Callable[[float], tuple[float, float, bool | None]], low: float, high: float, share: float, enough: float) -> float:
+def held_newton(look: Callable[[float], tuple[float, float, bool | None]], low: float, high: float,
+                share: float, enough: float) -> float:
     """The root between two floats, to a double or its neighbour: Newton's method held in a bracket.
 
-    look(x) -> (value, slope, whether x lies beyond the root; None where it is the root). share: of the bracket, the longest step that
-    is taken; enough: the last step, relative.
+    look(x) -> (value, slope, whether x lies beyond the root; None where it is the root). share: of the
+    bracket, the longest step that is taken; enough: the last step, relative.
     """
     x = between(low, high)
     for _ in range(MOST_STEPS):
@@ -185,8 +197,8 @@ def _derivative(c: Sequence[float]) -> list[float]:
 
 
 def real_roots_of(c: Sequence[float]) -> list[float]:
-    """Real roots of odd multiplicity, ascending: between those of the derivative, by Newton's method in a bracket. A pair
-    that rounding hides lies where the polynomial is flat to rounding."""
+    """Real roots of odd multiplicity, ascending: between those of the derivative, by Newton's method in a
+    bracket. A pair that rounding hides lies where the polynomial is flat to rounding."""
     if len(c) < 2:
         return []
     if len(c) == 2:

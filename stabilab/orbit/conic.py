@@ -1,8 +1,9 @@
-"""The curve of equilibria in the plane of the reduction, cut where the invariant Q = Z^2 - e X^2 is stationary.
+"""The curve of equilibria in the plane of the reduction, cut where the invariant Q = Z^2 - e X^2 is
+stationary.
 
-G X Z + c Z + d X + mu = 0 is a hyperbola, two lines or one line. Between its folds (points where it touches an orbit)
-Q is monotone along it, so each piece meets an orbit at most once: that makes the search for all barriers and wells of
-every orbit complete and vectorised.
+G X Z + c Z + d X + mu = 0 is a hyperbola, two lines or one line. Between its folds (points where it touches
+an orbit) Q is monotone along it, so each piece meets an orbit at most once: that makes the search for all
+barriers and wells of every orbit complete and vectorised.
 """
 from __future__ import annotations
 
@@ -17,8 +18,9 @@ BESIDE = 0.1  # of |h|: nearer to the centre of the orbits than that
 
 
 class Piece(NamedTuple):
-    """Part of the hyperbola X = (K/h - c)/G, Z = h - d/G with h between `inner` and `outer` in size (0 and inf at the
-    open ends), of one sign; `rising`: Q grows with |h|. barrier: it holds saddles (maxima of the potential)."""
+    """Part of the hyperbola X = (K/h - c)/G, Z = h - d/G with h between `inner` and `outer` in size (0 and
+    inf at the open ends), of one sign; `rising`: Q grows with |h|. barrier: it holds saddles (maxima of the
+    potential)."""
 
     sign: int
     inner: float
@@ -37,7 +39,8 @@ class Line(NamedTuple):
 
 
 class Conic:
-    """The equilibria of a reduction with circles or hyperbolas, and their pieces. Exact constants decide degeneracy."""
+    """The equilibria of a reduction with circles or hyperbolas, and their pieces. Exact constants decide
+    degeneracy."""
 
     e: int  # of the invariant Z^2 - e X^2
     planes: tuple[float, ...] = ()  # invariants at which an orbit falls apart
@@ -63,11 +66,13 @@ class Conic:
         K = Fraction(0) if _conic_degenerates(reduction) else c * d / G - mu
         self.K, self.shift = float(K), float(d / G)
         if K == 0:
-            # from the feet: of two almost equal moments the crossing lies so far out that the way back would cost all digits
+            # from the feet: of two almost equal moments the crossing lies so far out that the way back would
+            # cost all digits
             self.lines = (Line(float(-c / G), 0.0, 0.0, 1.0), Line(0.0, float(-d / G), 1.0, 0.0))
             self.tangents = float(-self.e * (c / G) ** 2), float((d / G) ** 2)
             return
-        self.quartic = quartic = [Fraction(1), -d / G, Fraction(0), -self.e * c * K / G**2, self.e * K * K / G**2]
+        self.quartic = quartic = [Fraction(1), -d / G, Fraction(0), -self.e * c * K / G**2,
+                                  self.e * K * K / G**2]
         self.folds = tuple(real_polynomial_roots([_shorten(a) for a in quartic]))
 
         def exact_at(h):
@@ -106,7 +111,8 @@ class Conic:
         return (-1, ", left loop"), (1, ", right loop")
 
     def _pieces(self, exact_at, G, c, d):
-        """The pieces by exact signs: of two almost equal moments the terms of the slope cancel to the last digit."""
+        """The pieces by exact signs: of two almost equal moments the terms of the slope cancel to the last
+        digit."""
         e = self.e
         for sign in (-1, 1):
             cuts = sorted(abs(f) for f in self.folds if f * sign > 0)
@@ -117,8 +123,8 @@ class Conic:
                 yield Piece(sign, inner, outer, rising, slope > 0)
 
     def critical_places(self, Q, wanted=None):
-        """Every equilibrium on the orbits Q (n,): a list of (X, Z, exists, barrier) with arrays (n,), barrier None
-        where it is to be decided from the slope. wanted: True for barriers only."""
+        """Every equilibrium on the orbits Q (n,): a list of (X, Z, exists, barrier) with arrays (n,), barrier
+        None where it is to be decided from the slope. wanted: True for barriers only."""
         found, thin = [], self._nearly_straight(Q)
         for piece in self.pieces:
             if wanted is None or piece.barrier == wanted:
@@ -141,7 +147,8 @@ class Conic:
         inner, outer, sign = piece.inner, piece.outer, piece.sign
         value = lambda size: self.invariant(sign * size)
         with np.errstate(all="ignore"):
-            ends = [value(inner) if inner else self._end(inner), value(outer) if np.isfinite(outer) else np.inf]
+            ends = [value(inner) if inner else self._end(inner),
+                    value(outer) if np.isfinite(outer) else np.inf]
         low, high = (ends[0], ends[1]) if piece.rising else (ends[1], ends[0])
         exists = (Q > low) & (Q < high)
         x, z = np.zeros(Q.shape), np.zeros(Q.shape)
@@ -156,7 +163,8 @@ class Conic:
         return -self.e * np.inf if self.K else self.invariant(inner)
 
     def _solve(self, piece, Q):
-        """|h| with invariant Q on a piece: plain Newton, longer next to a fold; the safe search for the rest."""
+        """|h| with invariant Q on a piece: plain Newton, longer next to a fold; the safe search for the rest.
+        """
         import numpy as np
         size, rest = np.empty(Q.shape), np.arange(Q.size)
         for steps in (6, 14):
@@ -189,7 +197,8 @@ class Conic:
         else:
             start = 0.5 * (lo + hi)
 
-        # told from the lower end by 1 and more: where log|h| itself is near 0, no step would ever be short against it
+        # told from the lower end by 1 and more: where log|h| itself is near 0, no step would ever be short
+        # against it
         def fun(t, Q, lo):
             h = sign * lo * np.exp(t - 1)
             x, z = (K / h - c) / G, h - s
@@ -198,7 +207,8 @@ class Conic:
         t = bracketed_newton(fun, *ends, 1 + np.log(start / lo), (Q, lo), rising=piece.rising, enough=SHORT)
         h = sign * lo * np.exp(t - 1)
         near = np.hypot((K / h - c) / G, h - s) < BESIDE * np.abs(h)
-        if near.any():  # there Q bends within the orbit's size, and a step that is short against h is none against that
+        # there Q bends within the orbit's size, and a step that is short against h is none against that
+        if near.any():
             some = tuple(v[near] for v in (*ends, t, Q, lo))
             t[near] = bracketed_newton(fun, *some[:3], some[3:], rising=piece.rising)
         return lo * np.exp(t - 1)
@@ -238,8 +248,9 @@ class CircleConic(Conic):
         return ((-1, ""),) if sense else super().sides(sense)
 
     def _nearly_straight(self, Q):
-        """(n,) True where, inside the circle, the conic differs so little from a line that the line is the better guess
-        (two moments equal to many digits): X = (K/h - c)/G would lose all digits. The caller polishes along the orbit."""
+        """(n,) True where, inside the circle, the conic differs so little from a line that the line is the
+        better guess (two moments equal to many digits): X = (K/h - c)/G would lose all digits. The caller
+        polishes along the orbit."""
         import numpy as np
         if not self.pieces or self.limit is None:
             return super()._nearly_straight(Q)
@@ -272,7 +283,8 @@ class CircleConic(Conic):
                     step = (z * z + x * x * scale - Q) / (2 * (x * scale - z * ratio / y))
                     y = y - step
                 last, size = np.abs(step) / np.minimum(np.abs(y), abs(G) * root), piece.sign * K / y
-            # a last step of 1e-9, of the circle's radius too, leaves 1e-18 where convergence is quadratic, as it is away from the fold
+            # a last step of 1e-9, of the circle's radius too, leaves 1e-18 where convergence is quadratic, as
+            # it is away from the fold
             return size, (last < 1e-9) & (size > piece.inner * (1 + 1e-4)) & (size < piece.outer * (1 - 1e-4))
 
 
@@ -311,7 +323,8 @@ def _inside(inner, outer):
 
 
 def _sharpened(coefficients, root: float) -> Fraction:
-    """A root of a polynomial (highest power first) to some 200 bits, from the nearest double; that double at a double root."""
+    """A root of a polynomial (highest power first) to some 200 bits, from the nearest double; that double at
+    a double root."""
     x = Fraction(root)
     for _ in range(3):
         value = slope = Fraction(0)
@@ -333,17 +346,19 @@ def _shorten(value: Fraction, bits: int = 300) -> Fraction:
 
 
 def _conic_degenerates(reduction) -> bool:
-    """True iff c d = G mu exactly: with cj = rho - kappa sj, ck = sigma - kappa sk, torque T this is cj ck = kappa T."""
+    """True iff c d = G mu exactly: with cj = rho - kappa sj, ck = sigma - kappa sk, torque T this is cj ck =
+    kappa T."""
     r = reduction
     across_j, across_k = r.across
     return across_j * across_k == r.kappa * r.torque
 
 
 def planes_touched(reduction) -> tuple[int, ...]:
-    """(+1 or -1) or (): the hyperbola of equilibria touches the invariant plane Z = -X or Z = X, exactly: (c + flip d)^2 = 4 flip (c d - G mu).
+    """(+1 or -1) or (): the hyperbola of equilibria touches the invariant plane Z = -X or Z = X, exactly: (c
+    + flip d)^2 = 4 flip (c d - G mu).
 
-    With cj, ck, T of `_conic_degenerates`, f the reflection and n = sqrt|p q| both sides without 2 flip c d are |p q| times
-    cj^2 |q| + ck^2 |p| and flip f sgn(p) n (2 cj ck - 4 kappa T).
+    With cj, ck, T of `_conic_degenerates`, f the reflection and n = sqrt|p q| both sides without 2 flip c d
+    are |p q| times cj^2 |q| + ck^2 |p| and flip f sgn(p) n (2 cj ck - 4 kappa T).
     """
     r = reduction
     (cj, ck), p, q = r.across, abs(r.p), abs(r.q)

@@ -1,4 +1,5 @@
-"""Extremes and periods of many states in one pass: fates, then librations row by row, the rest by NumPy, and balls of what these leave open."""
+"""Extremes and periods of many states in one pass: fates, then librations row by row, the rest by NumPy, and
+balls of what these leave open."""
 from __future__ import annotations
 
 import numpy as np
@@ -21,14 +22,16 @@ from .result import Fate, without_return
 
 
 def extremes_and_periods(scene, states, *, box=True, period=True, by_numba: bool | None = None):
-    """(extremes (..., 3, 2), periods (...,)) in one go, each as the function of its name gives it; None for one that
-    is not asked for. For scenes with a reduction only (InputError for others, and as `extremes` raises it).
+    """(extremes (..., 3, 2), periods (...,)) in one go, each as the function of its name gives it; None for
+    one that is not asked for. For scenes with a reduction only (InputError for others, and as `extremes`
+    raises it).
 
     by_numba: as of `settle_rows`.
     """
     scene, array = effective(scene), checked_states(states)
     if reduce(scene) is None:
-        raise InputError("extremes_and_periods: this scene has no reduction to one coordinate; ask for `extremes` with a"
+        raise InputError("extremes_and_periods: this scene has no reduction to one coordinate; ask for "
+                         "`extremes` with a"
                          " span, or for `period`")
     flat = np.ascontiguousarray(array.reshape(-1, 3))
     boxes, periods = np.empty((len(flat) if box else 0, 3, 2)), np.empty(len(flat) if period else 0)
@@ -44,7 +47,8 @@ def extremes_and_periods(scene, states, *, box=True, period=True, by_numba: bool
         rows = near[start:start + CHUNK]
         some, times = _of_chunk(scene, flat[rows], box, period, by_numba)
         boxes[rows if box else []], periods[rows if period else []] = some, times
-    return boxes.reshape(array.shape + (2,)) if box else None, periods.reshape(array.shape[:-1]) if period else None
+    return boxes.reshape(array.shape
+                         + (2,)) if box else None, periods.reshape(array.shape[:-1]) if period else None
 
 
 def _of_chunk(scene, states, box, period, by_numba):
@@ -56,7 +60,8 @@ def _of_chunk(scene, states, box, period, by_numba):
     left_open = np.where(trapped, BOX * box + PERIOD * period, 0).astype(np.uint8)
     settle_rows(land, states, boxes, periods, left_open, by_numba)
     if box:
-        boxes[~trapped] = open_extremes(land, states[~trapped], decided.labels[~trapped], decided.margins[~trapped])
+        boxes[~trapped] = open_extremes(land, states[~trapped], decided.labels[~trapped],
+                                        decided.margins[~trapped])
         for index in np.nonzero((left_open & BOX > 0) | (~trapped & np.isnan(boxes).any(axis=(1, 2))))[0]:
             boxes[index] = precise_extremes(Orbit(land.reduction, states[index]), int(decided.labels[index]))
         boxes[:, :, 0] = np.minimum(boxes[:, :, 0], states)  # rounding must not exclude the state itself

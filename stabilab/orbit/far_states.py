@@ -1,7 +1,8 @@
-"""Motions whose squares leave the range of doubles: answered in their own unit of rate, where their numbers are of order one.
+"""Motions whose squares leave the range of doubles: answered in their own unit of rate, where their numbers
+are of order one.
 
-Rates and time change by a power of two (`own_unit`), which is exact; energies go with its square. What is no double in the
-scene's own units in the end is NaN in arrays, and told in words of one motion.
+Rates and time change by a power of two (`own_unit`), which is exact; energies go with its square. What is no
+double in the scene's own units in the end is NaN in arrays, and told in words of one motion.
 """
 from __future__ import annotations
 
@@ -25,23 +26,28 @@ BEYOND = "beyond the range of doubles"
 
 @contextmanager
 def in_range(what: str = "state"):
-    """Context of an answer that has no unit of its own: InputError where its numbers leave the range of doubles."""
+    """Context of an answer that has no unit of its own: InputError where its numbers leave the range of
+    doubles."""
     try:
         yield
     except OverflowError:
-        raise InputError(f"{what}: the squares of rates, moments or momenta this large are {BEYOND}: choose other units") from None
+        raise InputError(
+            f"{what}: the squares of rates, moments or momenta this large are {BEYOND}: choose "
+            f"other units") from None
 
 
 @lru_cache(maxsize=64)
 def scene_exponent(scene) -> int | None:
-    """log2 of the size of the rates that wheel and torque bring about, to a unit or two; None without either."""
+    """log2 of the size of the rates that wheel and torque bring about, to a unit or two; None without either.
+    """
     form = scene.quadratic()
     found = [_exponent(v) for v in (*form.rho, *form.sigma) if v] + [_exponent(v) // 2 for v in form.m if v]
     return max(found, default=None)
 
 
 def far_exponent(scene, state) -> int | None:
-    """The exponent k of the own unit 2^k of a motion from `state` (floats or Fractions); None where its size is ordinary."""
+    """The exponent k of the own unit 2^k of a motion from `state` (floats or Fractions); None where its size
+    is ordinary."""
     found = [_exponent(Fraction(v)) for v in state if v]
     if (own := scene_exponent(scene)) is not None:
         found.append(own)
@@ -53,10 +59,13 @@ def far_rows(scene, states):
     """(n,) True for the states (n, 3) that `far_exponent` has a unit for."""
     import numpy as np
     own = scene_exponent(scene)
-    # wheel or torque of ordinary size, and no larger rate: all of them are ordinary, told without a row's own size
-    if own is not None and abs(own) <= ORDINARY and len(states) and max(states.max(), -states.min()) < 2.0**ORDINARY:
+    # wheel or torque of ordinary size, and no larger rate: all of them are ordinary, told without a row's own
+    # size
+    if own is not None and abs(own) <= ORDINARY and len(states) and max(states.max(),
+                                                                        -states.min()) < 2.0**ORDINARY:
         return np.zeros(len(states), bool)
-    if own is not None and -ORDINARY <= own <= ORDINARY and np.abs(states).max(initial=0.0) < 2.0 ** (ORDINARY - 1):
+    if own is not None and -ORDINARY <= own <= ORDINARY and np.abs(states).max(initial=0.0) < 2.0 ** (
+        ORDINARY - 1):
         return np.zeros(len(states), bool)  # as below, with a third of the calls, which few states notice
     sizes = np.abs(states).max(axis=1, initial=0.0)
     moving = sizes > 0
@@ -72,7 +81,8 @@ def _exponent(value: Fraction) -> int:
 def own(orbit: Orbit, k: int) -> Orbit:
     """The orbit in the unit 2^k."""
     u, reduction = Fraction(2) ** k, orbit.reduction
-    near = replace(reduction, s=reduction.s / u, p0=reduction.p0 / u, q0=reduction.q0 / u, rho=reduction.rho / u,
+    near = replace(reduction, s=reduction.s / u, p0=reduction.p0 / u, q0=reduction.q0 / u,
+                   rho=reduction.rho / u,
                    sigma=reduction.sigma / u, m=reduction.m / (u * u))
     return Orbit(near, tuple(Fraction(v) / u for v in orbit.state))
 
@@ -87,14 +97,15 @@ def powered(value: float, k: int) -> float:
 
 
 def far_fate(scene, orbit: Orbit, k: int, near: Orbit | None = None):
-    """The fate of one state of a scene, as an `OneFate`; near: its orbit in the unit 2^k, where that is at hand."""
+    """The fate of one state of a scene, as an `OneFate`; near: its orbit in the unit 2^k, where that is at
+    hand."""
     found = fate_of(scene, orbit, near or own(orbit, k))
     return found if is_free(scene) else found._replace(margin=powered(found.margin, 2 * k))
 
 
 def in_scene_unit(found: Motion, k: int, state, margin: float) -> Motion:
-    """A motion found in the unit 2^k, but for its extremes, in the scene's own; state: the doubles of its start; margin: of its fate, in
-    the scene's unit."""
+    """A motion found in the unit 2^k, but for its extremes, in the scene's own; state: the doubles of its
+    start; margin: of its fate, in the scene's unit."""
     lost = ["the margin in energy"] if math.isnan(margin) else []
 
     def told(name, value, power):
@@ -109,8 +120,10 @@ def in_scene_unit(found: Motion, k: int, state, margin: float) -> Motion:
     if found.extremes and pairs is None:
         lost.append("an extreme")
     because = found.because + (f"; {BEYOND}: {', '.join(lost)}" if lost else "")
-    return replace(found, at=state, because=because, extremes=pairs, invariants={n: v for n, v in invariants.items() if not math.isnan(v)},
-                   extremes_over=found.extremes_over if pairs or not found.extremes else f"none: {BEYOND}", **fields)
+    return replace(found, at=state, because=because, extremes=pairs,
+                   invariants={n: v for n, v in invariants.items() if not math.isnan(v)},
+                   extremes_over=found.extremes_over if pairs or not found.extremes else f"none: {BEYOND}",
+                   **fields)
 
 
 def _finite(pairs):
@@ -119,8 +132,8 @@ def _finite(pairs):
 
 
 def far_numbers(scene, state):
-    """((3, 2) extremes, period) of one state of a scene with a reduction, as rows of `extremes` and `period` have them; NaN where
-    they are no doubles."""
+    """((3, 2) extremes, period) of one state of a scene with a reduction, as rows of `extremes` and `period`
+    have them; NaN where they are no doubles."""
     orbit, k = Orbit(reduce(scene), state), far_exponent(scene, state) or 0
     near = own(orbit, k)
     label = fate_of(scene, orbit, near).label

@@ -18,16 +18,18 @@ from .reduction import reduce
 # --- Barriers and wells along the orbits of many states at once: what the three geometries have in common,
 # and circle and hyperbola
 EPS = 2.0**-52
-ONE_STEP, MOST_STEPS = 3e-9, 8  # a Newton step as small leaves its square; from half a radian five are enough, but at a fold
+# a Newton step as small leaves its square; from half a radian five are enough, but at a fold
+ONE_STEP, MOST_STEPS = 3e-9, 8
 LOST = 1e-3  # of the terms: a sum that is smaller than this share has lost more than three digits
 
 
 class Landscape:
     """A reduction with its potential and its curve of equilibria, on one of the three geometries.
 
-    start(states) gives places (arrays), W and the size of rounding in the place; critical(place) the equilibria on
-    each orbit: offsets theta_c - theta_0 (n, m), places (n, m) and which are barriers; missing ones have offset nan.
-    Places are (X, Z) on a circle, (X + Z, X - Z) on a hyperbola, (omega_j, omega_k) on a parabola.
+    start(states) gives places (arrays), W and the size of rounding in the place; critical(place) the
+    equilibria on each orbit: offsets theta_c - theta_0 (n, m), places (n, m) and which are barriers; missing
+    ones have offset nan. Places are (X, Z) on a circle, (X + Z, X - Z) on a hyperbola, (omega_j, omega_k) on
+    a parabola.
     """
 
     conic: Conic | None = None
@@ -46,7 +48,8 @@ class Landscape:
         return False
 
     def start(self, states):
-        """(place, W, size): place a pair of arrays, size a pair with the magnitudes whose rounding limits the place."""
+        """(place, W, size): place a pair of arrays, size a pair with the magnitudes whose rounding limits the
+        place."""
         raise NotImplementedError
 
     def critical(self, place, barriers_only=False):
@@ -105,7 +108,8 @@ class Landscape:
         return np.zeros(np.shape(place[0]), bool)
 
     def polished(self, spot):
-        """Newton steps along the orbit: whatever the conic lost, the force regains. Most need one tiny step."""
+        """Newton steps along the orbit: whatever the conic lost, the force regains. Most need one tiny step.
+        """
         first, second = spot
         step = self._newton_step(spot)
         first, second = self.potential.nudge(spot, np.where(np.abs(step) < ONE_STEP, step, 0.0))
@@ -180,7 +184,8 @@ class ConicLandscape(Landscape):
         return twofold_constants(self.reduction)
 
     def _exactly(self, close, states, place, of):
-        """The place with the rows of `close` formed anew by `of` from (X, Z) to 30 digits; from exact ones where these may leave nothing."""
+        """The place with the rows of `close` formed anew by `of` from (X, Z) to 30 digits; from exact ones
+        where these may leave nothing."""
         if not close.any():
             return place
         first, second = (np.array(v) for v in place)
@@ -188,7 +193,8 @@ class ConicLandscape(Landscape):
         x, z = twofold_places(self.twofold, self.reduction.j, self.reduction.k, some)
         with np.errstate(all="ignore"):
             found = [v.value() if isinstance(v, Twofold) else v for v in of(x, z)]
-            sure = np.minimum(*np.abs(found)) > SURE * (np.abs(some).sum(axis=1) + self.reduction.parabolic_shift_size) / self.least_scale
+            sure = (np.minimum(*np.abs(found)) > SURE
+                    * (np.abs(some).sum(axis=1) + self.reduction.parabolic_shift_size) / self.least_scale)
         first[close], second[close] = found
         indices = np.argwhere(close)
         for index in map(tuple, indices[~sure]):  # () where one state is asked for
@@ -221,7 +227,8 @@ class ConicLandscape(Landscape):
             offset, spot, exists = self.located(place, Q, x, z, exists)
             offsets[:, column] = np.where(exists, offset, np.nan)
             places[:, :, column] = spot
-            barrier[:, column] = (self.potential.slope(spot) > 0 if is_barrier is None else is_barrier) & exists
+            barrier[:, column] = (self.potential.slope(spot) > 0 if is_barrier is None
+                                  else is_barrier) & exists
         return offsets, places, barrier
 
     def located(self, place, Q, x, z, exists):
@@ -229,11 +236,13 @@ class ConicLandscape(Landscape):
         raise NotImplementedError
 
     def way(self, spot, place, near):
-        """theta from a place to another on its orbit, which is rounded; on a circle the turn is that of `near`."""
+        """theta from a place to another on its orbit, which is rounded; on a circle the turn is that of
+        `near`."""
         raise NotImplementedError
 
     def blurred(self, spot, place, size):
-        """(what rounding of a place, of that size of terms, may cost in energy besides; how far, of its size, it lies off the orbit of a spot)."""
+        """(what rounding of a place, of that size of terms, may cost in energy besides; how far, of its size,
+        it lies off the orbit of a spot)."""
         return 0.0, 0.0
 
     def may_have_barriers(self) -> bool:
@@ -245,9 +254,12 @@ class ConicLandscape(Landscape):
 
 
 # --- Barriers and wells along the orbits of many states at once, on circles, hyperbolas and parabolas
-DOUBLE_ROOT = 1e-10  # share of a cubic's discriminant: two roots 1e-7 apart, hardly told in doubles, leave 1e-14 of it and more
-ROUNDINGS = 64  # units of rounding allowed for in the error bound of a margin: some thirty operations, each counted twice
-CENTRE = 1e-10  # of the asymptotes' distance from a hyperbola's centre: nearer to it the conic's doubles place no equilibrium
+# share of a cubic's discriminant: two roots 1e-7 apart, hardly told in doubles, leave 1e-14 of it and more
+DOUBLE_ROOT = 1e-10
+# units of rounding allowed for in the error bound of a margin: some thirty operations, each counted twice
+ROUNDINGS = 64
+# of the asymptotes' distance from a hyperbola's centre: nearer to it the conic's doubles place no equilibrium
+CENTRE = 1e-10
 
 
 def angle_between(place, spot):
@@ -261,8 +273,9 @@ def _discriminant(a, b, c, d):
 
 
 def _real_roots(a, b, c, d):
-    """(n, 3) the real roots of cubics, to the rounding of their coefficients: three, or one and NaN. Those that a cosine gives, or Cardano's formula
-    in the order that does not cancel; eigenvalues of companion matrices would cost ten times as much."""
+    """(n, 3) the real roots of cubics, to the rounding of their coefficients: three, or one and NaN. Those
+    that a cosine gives, or Cardano's formula in the order that does not cancel; eigenvalues of companion
+    matrices would cost ten times as much."""
     with np.errstate(all="ignore"):
         middle = -b / (3 * a)
         p, q = (c + b * middle) / a, (d + middle * (c + 2 * b * middle / 3)) / a
@@ -272,7 +285,8 @@ def _real_roots(a, b, c, d):
         roots = np.array([2 * reach * np.cos(third - k * TURN / 3) for k in range(3)])
         one = -np.copysign(np.cbrt(0.5 * np.abs(q) + np.sqrt(np.maximum(0.25 * q * q + p**3 / 27, 0))), q)
         other = np.where(one == 0, 0.0, -p / (3 * one))
-        alone = np.where(p > 0, -q / (one * one + p / 3 + other * other), one + other)  # where p > 0 the sum would cancel
+        # where p > 0 the sum would cancel
+        alone = np.where(p > 0, -q / (one * one + p / 3 + other * other), one + other)
         lone = np.array([np.where((p == 0) & (q == 0), 0.0, alone), *np.full((2, *alone.shape), np.nan)])
         return (middle + np.where(three, roots, lone)).T
 
@@ -311,10 +325,12 @@ class CircleLandscape(ConicLandscape):
         return np.where(offset > np.pi, angle_between((place[0][:, None], place[1][:, None]), spot), offset)
 
     def repeated(self, offset, spot, energy, barrier):
-        behind, fall = offset <= 0, TURN * self.potential.mu  # one turn earlier the tilt has lifted the potential by 2 pi mu
+        # one turn earlier the tilt has lifted the potential by 2 pi mu
+        behind, fall = offset <= 0, TURN * self.potential.mu
         offset = np.concatenate([offset - TURN * ~behind, offset + TURN * behind], axis=1)
         energy = np.concatenate([energy - fall * ~behind, energy + fall * behind], axis=1)
-        return offset, np.concatenate([spot, spot], axis=2), energy, np.concatenate([barrier, barrier], axis=1)
+        return offset, np.concatenate([spot, spot],
+                                      axis=2), energy, np.concatenate([barrier, barrier], axis=1)
 
 
 class HyperbolaLandscape(ConicLandscape):
@@ -328,7 +344,8 @@ class HyperbolaLandscape(ConicLandscape):
         return self._exactly(close, states, (xi, eta), lambda ex, ez: (ex + ez, ex - ez))
 
     def _settle_plane(self, first, second, index, state):
-        if self.reduction.exact_invariant_sign(state) == 0:  # 240-bit roots may leave a remainder where there is none
+        # 240-bit roots may leave a remainder where there is none
+        if self.reduction.exact_invariant_sign(state) == 0:
             small = first if abs(first[index]) < abs(second[index]) else second
             small[index] = 0.0
 
@@ -344,7 +361,8 @@ class HyperbolaLandscape(ConicLandscape):
         with np.errstate(all="ignore"):
             xi = np.where(big, xi, -Q / eta)
             eta = np.where(big, -Q / xi, eta)
-            exists = exists & (np.sign(xi) == np.sign(place[0])) & (np.sign(eta) == np.sign(place[1]))  # both 0 on a plane
+            # both 0 on a plane
+            exists = exists & (np.sign(xi) == np.sign(place[0])) & (np.sign(eta) == np.sign(place[1]))
             spot = np.where(exists, xi, place[0]), np.where(exists, eta, place[1])
             spot = self.polished(spot)
             offset = np.where(big, np.log(spot[0] / place[0]), -np.log(spot[1] / place[1]))
@@ -356,8 +374,10 @@ class HyperbolaLandscape(ConicLandscape):
 
     def blurred(self, spot, place, size):
         wide, largest = size[0] + size[1], np.maximum(np.abs(place[0]), np.abs(place[1]))
-        beside = np.abs(place[0] * place[1] - spot[0] * spot[1]) / ((np.abs(place[0]) + np.abs(place[1])) * wide)
-        return self.potential.mu * wide / largest, beside  # the tilt falls by mu times the logarithm of the place
+        beside = (np.abs(place[0] * place[1] - spot[0] * spot[1])
+                  / ((np.abs(place[0]) + np.abs(place[1])) * wide))
+        # the tilt falls by mu times the logarithm of the place
+        return self.potential.mu * wide / largest, beside
 
     def beside_fold(self, place):
         """(n,) True where rounding of the place may make or unmake a pair of equilibria of its orbit."""
@@ -372,8 +392,8 @@ class HyperbolaLandscape(ConicLandscape):
         return np.abs(pot.G) * s * s + pot.slopes * s + pot.mu
 
     def beside_centre(self, place):
-        """(n,) True where an equilibrium may stand so near the centre of a place's hyperbola that the conic, which is known by its
-        distance from its asymptotes, loses or invents it."""
+        """(n,) True where an equilibrium may stand so near the centre of a place's hyperbola that the conic,
+        which is known by its distance from its asymptotes, loses or invents it."""
         near = self._near_centre()
         if near is None:
             return np.zeros(np.shape(place[0]), bool)
@@ -420,12 +440,14 @@ class ParabolaLandscape(Landscape):
         else:
             roots = _real_roots(*cubic)
             for _ in range(3):
-                value = ((cubic[0][:, None] * roots + cubic[1][:, None]) * roots + cubic[2][:, None]) * roots + cubic[3][:, None]
+                value = ((cubic[0][:, None] * roots + cubic[1][:, None]) * roots
+                         + cubic[2][:, None]) * roots + cubic[3][:, None]
                 slope = (3 * cubic[0][:, None] * roots + 2 * cubic[1][:, None]) * roots + cubic[2][:, None]
                 with np.errstate(all="ignore"):
                     step = value / slope
                 roots = roots - np.where(np.isfinite(step) & (np.abs(step) <= 0.1 * np.abs(roots)), step, 0)
-        spot = np.array(self.potential.move(tuple(v[:, None] for v in place), np.where(np.isnan(roots), 0.0, roots)))
+        spot = np.array(self.potential.move(tuple(v[:, None] for v in place),
+                                            np.where(np.isnan(roots), 0.0, roots)))
         barrier = (self.potential.slope(tuple(spot)) > 0) & ~np.isnan(roots)
         return roots, spot, barrier
 
@@ -434,7 +456,8 @@ class ParabolaLandscape(Landscape):
         pot, (first, second, third) = self.potential, self.potential.derivatives(place)
         steep, bent, _ = pot.derivative_terms(place)
         cubic = third / 6, second / 2, first, pot.force(place)
-        blurred = cubic[0], *(np.abs(v) + ROUNDINGS * EPS * size for v, size in zip(cubic[1:], (bent / 2, steep, pot.terms(place))))
+        blurred = cubic[0], *(np.abs(v) + ROUNDINGS * EPS * size for v,
+                              size in zip(cubic[1:], (bent / 2, steep, pot.terms(place))))
         terms, most = _discriminant(*cubic), sum(map(np.abs, _discriminant(*blurred)))
         size = sum(map(np.abs, terms))
         return (np.abs(sum(terms)) <= DOUBLE_ROOT * size + (most - size)) & (most > 0)
@@ -450,7 +473,8 @@ class ParabolaLandscape(Landscape):
         place = self.start(states)[0] if place is None else place
         first, _, third = self.potential.derivatives(place)
         size = abs(self.potential.kappa) + abs(self.potential.rho) + abs(self.potential.sigma)
-        small = 1e-5 * size * (1 + np.abs(place[0]) + np.abs(place[1])) ** 2  # far above rounding: exact arithmetic tells the rest
+        # far above rounding: exact arithmetic tells the rest
+        small = 1e-5 * size * (1 + np.abs(place[0]) + np.abs(place[1])) ** 2
         return (np.abs(first) <= small) & (np.abs(third) <= small)
 
 
@@ -459,8 +483,8 @@ GEOMETRIES = {-1: CircleLandscape, 1: HyperbolaLandscape, 0: ParabolaLandscape}
 
 @lru_cache(maxsize=64)
 def in_doubles(scene) -> bool:
-    """Whether the constants of a scene's landscape, and their squares, are doubles; they are not where wheel and torque are hundreds of
-    decades apart. Arrays of such a scene are answered one motion at a time."""
+    """Whether the constants of a scene's landscape, and their squares, are doubles; they are not where wheel
+    and torque are hundreds of decades apart. Arrays of such a scene are answered one motion at a time."""
     try:
         land = landscape(scene)
     except OverflowError:

@@ -13,5 +13,6 @@ def extremes(scene, states, span=None, fast: bool | None = None):
 
 
 def periods(scene, states, fast: bool | None = None):
-    """(n,); inf where the motion does not repeat, 0 at an equilibrium, NaN where it is undecided; `fast` is not needed."""
+    """(n,); inf where the motion does not repeat, 0 at an equilibrium, NaN where it is undecided; `fast` is
+    not needed."""
     return extremes_and_periods(scene, states, box=False)[1]

@@ -2,9 +2,9 @@
 
 The reduced potential of one state in ball arithmetic: where doubles cannot decide, or would lose digits.
 
-Inputs (the state's doubles or fractions, the scene's rationals) are exact; every number is a ball that surely holds the true
-value (`balls`). The mechanics is the same for any number of digits; what it is on a circle, a hyperbola and a
-parabola, `ball_geometry` says.
+Inputs (the state's doubles or fractions, the scene's rationals) are exact; every number is a ball that surely
+holds the true value (`balls`). The mechanics is the same for any number of digits; what it is on a circle, a
+hyperbola and a parabola, `ball_geometry` says.
 """
 from __future__ import annotations
 
@@ -21,18 +21,20 @@ from .reduction import Reduction
 
 
 class Spot(NamedTuple):
-    """An equilibrium on the orbit at offset y. kind: +1 a maximum of V (barrier), -1 a minimum (well), 0 neither."""
+    """An equilibrium on the orbit at offset y. kind: +1 a maximum of V (barrier), -1 a minimum (well), 0
+    neither."""
 
     y: Number
     kind: int
 
 
 class BallOrbit:
-    """The orbit of one state in balls: V along it as a function of the offset y = theta - theta_0, and its equilibria.
+    """The orbit of one state in balls: V along it as a function of the offset y = theta - theta_0, and its
+    equilibria.
 
-    numbers: the kind of ball that it computes in; to be used where that came from, inside `settled`. What a geometry has to say
-    besides: its `place`, `components`, `height`, `force` and `slope` at an offset, its equilibria (`_found`), `tops`
-    and `swept`.
+    numbers: the kind of ball that it computes in; to be used where that came from, inside `settled`. What a
+    geometry has to say besides: its `place`, `components`, `height`, `force` and `slope` at an offset, its
+    equilibria (`_found`), `tops` and `swept`.
     """
 
     place: Callable[..., Any]
@@ -101,8 +103,8 @@ class BallOrbit:
         return self.w * 0
 
     def barriers(self) -> list[Spot]:
-        """The barriers that the fate depends on: on a circle those ahead within one turn, on an invariant plane those ahead,
-        else all."""
+        """The barriers that the fate depends on: on a circle those ahead within one turn, on an invariant
+        plane those ahead, else all."""
         return [s for s in self.spots if s.kind > 0]
 
     def margins(self) -> list:
@@ -110,15 +112,18 @@ class BallOrbit:
         return [self.height(s.y) - self.energy for s in self.barriers()]
 
     def margin(self):
-        """The margin that decides the fate: of the highest barrier on a circle, else of the one nearest in height; None without a barrier."""
+        """The margin that decides the fate: of the highest barrier on a circle, else of the one nearest in
+        height; None without a barrier."""
         return min(self.margins(), key=lambda v: abs(v.mid()), default=None)
 
     def margins_to_tie(self, margin) -> list:
-        """The margins of the barriers that a motion of their energy would tend to, given that which decides the fate."""
+        """The margins of the barriers that a motion of their energy would tend to, given that which decides
+        the fate."""
         return [margin]
 
     def wall(self, inner, side):
-        """An offset on one side of all equilibria, from `inner` on, where the potential is higher than the energy; None on a circle."""
+        """An offset on one side of all equilibria, from `inner` on, where the potential is higher than the
+        energy; None on a circle."""
         step, outer = 1, inner + side
         while not sign(self.height(outer) - self.energy) > 0:
             step *= 2
@@ -126,7 +131,8 @@ class BallOrbit:
         return outer
 
     def end_of_plane(self, side):
-        """(offset, W^2/2 there) of the end of an invariant plane that the motion would tend to on that side, or None."""
+        """(offset, W^2/2 there) of the end of an invariant plane that the motion would tend to on that side,
+        or None."""
         return None
 
     def invariants(self) -> dict[str, float]:
@@ -174,12 +180,14 @@ class BallConic(BallOrbit):
         if abs(y) < 1:
             return self._height_nearby(y)
         x, z = self.place(y)
-        return -self.mu * y - (x - self.x) * (self.G * (x + self.x) / 2 + self.c) - self.r.e * self.d * (z - self.z)
+        return (-self.mu * y - (x - self.x) * (self.G * (x + self.x) / 2 + self.c)
+                - self.r.e * self.d * (z - self.z))
 
     def _height_nearby(self, y):
         """The same with the exact force at the state taken out, so that a short way keeps its digits."""
         swing = self._swing(y)
-        return rise_at(self.G, self.c, self.d, self.mu, self.r.e, (self.x, self.z), swing, y - swing[0], self._pull)
+        return rise_at(self.G, self.c, self.d, self.mu, self.r.e, (self.x, self.z), swing, y - swing[0],
+                       self._pull)
 
     @cached_property
     def _pull(self):
@@ -207,13 +215,15 @@ class BallConic(BallOrbit):
             yield from self._on_two_lines(-rho / r.kappa, -sigma / r.kappa)
         elif r.kappa or sigma:  # U = -(rho V + m)/(kappa V + sigma) in V^2/aq - e U^2/ap = Q
             top, bottom, square = Poly((m, rho)), Poly((sigma, r.kappa)), Poly((-self.Q, 0, 1 / aq))
-            for v, many in self.numbers.real_roots((square * bottom * bottom - top * top * (Fraction(r.e) / ap)).c):
+            for v, many in self.numbers.real_roots((square * bottom * bottom
+                                                    - top * top * (Fraction(r.e) / ap)).c):
                 yield -(ball(rho) * v + ball(m)) / (ball(r.kappa) * v + ball(sigma)), v, many
         elif rho:
             yield from self._on_line_v(-m / rho)
 
     def _on_two_lines(self, u, v):
-        """The equilibria with omega_j + s_j = u or omega_k + s_k = v; one with both counts once, as often as on both lines."""
+        """The equilibria with omega_j + s_j = u or omega_k + s_k = v; one with both counts once, as often as
+        on both lines."""
         found = [*self._on_line_v(v), *self._on_line_u(u)]
         if v * v / abs(self.r.q) - self.r.e * u * u / abs(self.r.p) == self.Q:
             both = tuple(map(self.numbers.ball, (u, v)))
@@ -236,7 +246,8 @@ class BallConic(BallOrbit):
     def _offset(self, u, v):
         """Offset at which the orbit passes the equilibrium, or None where it is on another branch."""
         (x, z), ball = self._canonical(u, v), self.numbers.ball
-        return self._way(x, z, self.force_here == 0 and u.overlaps(ball(self.u + self.sj)) and v.overlaps(ball(self.v + self.sk)))
+        return self._way(x, z, self.force_here == 0 and u.overlaps(ball(self.u + self.sj))
+                         and v.overlaps(ball(self.v + self.sk)))
 
     def _way(self, x, z, here):
         """`_offset` of the equilibrium at (X, Z); here: it is the state itself."""
@@ -245,7 +256,8 @@ class BallConic(BallOrbit):
     def invariants(self):
         found, angle = {"Q": float(self.Q)}, self._direction()
         if angle is not None:
-            energy = self.energy - self.mu * angle - self.x * (self.G * self.x / 2 + self.c) - self.r.e * self.d * self.z
+            energy = (self.energy - self.mu * angle - self.x * (self.G * self.x / 2 + self.c)
+                      - self.r.e * self.d * self.z)
             found["energy"] = float(energy.mid()) * self.r.energy_unit
         return found
 
@@ -255,7 +267,8 @@ class BallConic(BallOrbit):
 
 
 # --- An orbit in balls on each of the three geometries of the reduction: circle, hyperbola, parabola
-FAR = 1 << 13  # exp(-FAR) is nothing against any double: an offset that stands for the end of an invariant plane
+# exp(-FAR) is nothing against any double: an offset that stands for the end of an invariant plane
+FAR = 1 << 13
 
 
 class BallCircle(BallConic):
@@ -305,7 +318,8 @@ class BallCircle(BallConic):
         return margin
 
     def margins_to_tie(self, margin):
-        """Without a torque a motion tends to whichever barrier its energy equals, be another one higher or not."""
+        """Without a torque a motion tends to whichever barrier its energy equals, be another one higher or
+        not."""
         return [margin] if self.r.sense else self.margins()
 
     def wall(self, inner, side):
@@ -323,7 +337,8 @@ class BallCircle(BallConic):
         return [k * quarter - angle for k in range(-8, 9)]
 
     def swept(self, left) -> list:
-        """Offsets among which both components are least and greatest on the way of a spin-up, which turned back at `left` (or never)."""
+        """Offsets among which both components are least and greatest on the way of a spin-up, which turned
+        back at `left` (or never)."""
         return [self.energy * 0, *self.tops()]
 
     def _direction(self):
@@ -331,7 +346,8 @@ class BallCircle(BallConic):
 
 
 class BallHyperbola(BallConic):
-    """A hyperbola with its two invariant planes, in xi = X + Z and eta = X - Z, which grow and decay like exp(+-theta)."""
+    """A hyperbola with its two invariant planes, in xi = X + Z and eta = X - Z, which grow and decay like
+    exp(+-theta)."""
 
     def _set_up(self, speed):
         super()._set_up(speed)
@@ -465,19 +481,23 @@ TIE_BITS = 4096  # with so many the extremes of a motion on the separatrix are w
 
 
 class Orbit:
-    """The orbit of one state (three doubles or Fractions, taken exactly), built once in each kind of number that a question asks for."""
+    """The orbit of one state (three doubles or Fractions, taken exactly), built once in each kind of number
+    that a question asks for."""
 
     def __init__(self, reduction: Reduction, state: Sequence[Number]) -> None:
         self.reduction, self.state = reduction, state
         self._built: dict[Any, BallOrbit] = {}
 
-    def settled(self, question: Callable[[BallOrbit], Any], bits: int = START_BITS, most: int = MOST_BITS) -> Any:
-        """question(orbit) of its `BallOrbit`, as `balls.settled` asks: with more bits as long as it is `Unclear`."""
+    def settled(self, question: Callable[[BallOrbit], Any], bits: int = START_BITS,
+                most: int = MOST_BITS) -> Any:
+        """question(orbit) of its `BallOrbit`, as `balls.settled` asks: with more bits as long as it is
+        `Unclear`."""
         return settled(lambda numbers: question(self._in(numbers)), bits, most)
 
     def invariants(self) -> dict[str, float]:
-        """Q (the squared radius of the circle, or Z^2 - X^2 on a hyperbola) in canonical units, and the energy W^2/2 + V in
-        the scene's, with the turn angle counted from the direction X = 0; nothing on a parabola."""
+        """Q (the squared radius of the circle, or Z^2 - X^2 on a hyperbola) in canonical units, and the
+        energy W^2/2 + V in the scene's, with the turn angle counted from the direction X = 0; nothing on a
+        parabola."""
         return self.settled(lambda found: found.invariants(), FIRST_BITS)
 
     def _in(self, numbers: Any) -> BallOrbit:

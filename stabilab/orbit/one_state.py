@@ -1,4 +1,5 @@
-"""The motion of one state of a scene with an orbit: fate, extremes, margins, period, invariants; no arrays."""
+"""The motion of one state of a scene with an orbit: fate, extremes, margins, period, invariants; no arrays.
+"""
 from __future__ import annotations
 
 import math
@@ -23,19 +24,23 @@ def motion(scene, state, span=None, exact=None, brief: bool = False) -> Motion:
         return _reduced(orbit, state, fate_of(scene, orbit), brief)
     near = own(orbit, far)
     decided = far_fate(scene, orbit, far, near)
-    return in_scene_unit(_reduced(near, tuple(map(float, near.state)), decided, brief, far), far, state, decided.margin)
+    return in_scene_unit(_reduced(near, tuple(map(float, near.state)), decided, brief, far), far, state,
+                         decided.margin)
 
 
 def _reduced(orbit, state, decided, brief, k=0) -> Motion:
-    """All that is known of a motion with this orbit and fate; state: the doubles of its start. The extremes are in units 2^-k of the orbit's."""
+    """All that is known of a motion with this orbit and fate; state: the doubles of its start. The extremes
+    are in units 2^-k of the orbit's."""
     fields = judged(state, decided)
     fields |= {"margin_energy": finite(decided.margin), "tolerance": 1e-12,
                "extremes": extremes_of(orbit, decided.label, k)}
-    return Motion(**fields, **({"period": _period(orbit, decided)} if brief else _rest(orbit, state, decided)))
+    return Motion(**fields,
+                  **({"period": _period(orbit, decided)} if brief else _rest(orbit, state, decided)))
 
 
 def _rest(orbit, state, decided) -> dict:
-    return {**apart_fields(orbit, state, decided), "period": _period(orbit, decided), "invariants": orbit.invariants()}
+    return {**apart_fields(orbit, state, decided), "period": _period(orbit, decided),
+            "invariants": orbit.invariants()}
 
 
 def _period(orbit, decided) -> float | None:
@@ -43,11 +48,13 @@ def _period(orbit, decided) -> float | None:
 
 
 def apart_fields(orbit: Orbit, state, decided) -> dict:
-    """The fields of a Motion that tell the distance from the separatrix; state: the doubles of the orbit's."""
+    """The fields of a Motion that tell the distance from the separatrix; state: the doubles of the orbit's.
+    """
     if decided.label == Fate.SEPARATRIX or decided.margin == 0:
         return {"margin_velocity": 0.0, "velocity_bounds": (0.0, 0.0), "velocity_witness": state}
     found = distance_of(orbit.reduction, orbit.state, orbit)
     if not math.isfinite(found.upper):
         return {"velocity_because": found.because}
-    return {"margin_velocity": found.value, "velocity_bounds": (found.lower, found.upper), "velocity_witness": found.witness,
+    return {"margin_velocity": found.value, "velocity_bounds": (found.lower, found.upper),
+            "velocity_witness": found.witness,
             "velocity_because": found.because}

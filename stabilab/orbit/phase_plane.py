@@ -1,4 +1,5 @@
-"""The geometry of the phase plane of a reduced motion: heights, saddles, centres, separatrices, the motion's own curve."""
+"""The geometry of the phase plane of a reduced motion: heights, saddles, centres, separatrices, the motion's
+own curve."""
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -36,7 +37,8 @@ class PhasePlane:
 
     @property
     def unit(self) -> float:
-        """Turn angle about the axis (rad for a body) per canonical angle; its sign is that of the reflection."""
+        """Turn angle about the axis (rad for a body) per canonical angle; its sign is that of the reflection.
+        """
         return self.land.unit
 
     def height(self, y, origin=0.0):
@@ -62,7 +64,8 @@ class PhasePlane:
     def _critical(self):
         """[(y, is a saddle)] on the orbit; for a circle within one turn of the state."""
         found = sorted(GEOMETRIES[self.land.e](self))
-        return [(y, bool(self.potential.slope(self.potential.move(self.place, np.float64(y))) > 0)) for y in found]
+        return [(y, bool(self.potential.slope(self.potential.move(self.place, np.float64(y))) > 0))
+                for y in found]
 
     @property
     def saddles(self) -> list[float]:
@@ -77,12 +80,15 @@ class PhasePlane:
         turn = self.land.turn
         if np.isinf(turn):
             return [y for y in ys if low <= y <= high]
-        return sorted(y + turn * n for y in ys for n in range(int(np.floor((low - y) / turn)), int(np.ceil((high - y) / turn)) + 1)
+        return sorted(y + turn * n for y in ys
+                      for n in range(int(np.floor((low - y) / turn)), int(np.ceil((high - y) / turn)) + 1)
                       if low <= y + turn * n <= high)
 
     def separatrix(self, saddle, low, high, points=2001):
-        """(y, W >= 0) of the curve that runs through the saddle, as far as it hangs together; dense at its ends."""
-        y = np.unique(np.concatenate([np.linspace(low, high, points), saddle + np.geomspace(1e-6, 1, 60) * (high - saddle),
+        """(y, W >= 0) of the curve that runs through the saddle, as far as it hangs together; dense at its
+        ends."""
+        y = np.unique(np.concatenate([np.linspace(low, high, points),
+                                      saddle + np.geomspace(1e-6, 1, 60) * (high - saddle),
                                       saddle - np.geomspace(1e-6, 1, 60) * (saddle - low), [saddle]]))
         drop = -self.height(y, saddle)
         drop[y == saddle] = 0.0
@@ -102,7 +108,8 @@ class PhasePlane:
         return brentq(lambda y: float(self.height(y, saddle)), left, right, xtol=1e-13)
 
     def loop(self, saddle, low, high):
-        """(end, end) of the homoclinic loop through the saddle, None where it does not close in the window."""
+        """(end, end) of the homoclinic loop through the saddle, None where it does not close in the window.
+        """
         y, W = self.separatrix(saddle, low, high)
         for end, at_wall in ((y[0], W[0] == 0), (y[-1], W[-1] == 0)):
             if at_wall and abs(end - saddle) > 1e-4:
@@ -111,7 +118,8 @@ class PhasePlane:
 
 
 def phase_plane(scene, state) -> PhasePlane | None:
-    """The phase plane of the motion from `state`; None where the scene does not reduce. Raises InputError beyond doubles."""
+    """The phase plane of the motion from `state`; None where the scene does not reduce. Raises InputError
+    beyond doubles."""
     with in_range("phase plane"):
         land = landscape_in_doubles(scene)
     if land is None:
@@ -120,11 +128,13 @@ def phase_plane(scene, state) -> PhasePlane | None:
     return PhasePlane(land, tuple(float(v) for v in place), float(w))
 
 
-RESTING = 1e-4  # of what the potential rises in a unit of y: a motion with less is shown in the well that it rests in
+# of what the potential rises in a unit of y: a motion with less is shown in the well that it rests in
+RESTING = 1e-4
 
 
 def window(plane: PhasePlane) -> tuple[float, float]:
-    """The range of y worth drawing: a turn and a half of a circle; between high walls of a hyperbola or parabola."""
+    """The range of y worth drawing: a turn and a half of a circle; between high walls of a hyperbola or
+    parabola."""
     if np.isfinite(plane.land.turn):
         marks = plane.saddles + plane.centres
         middle = float(np.mean(marks)) if marks else 0.0
@@ -157,7 +167,8 @@ def _side(plane, edge, sense, ceiling, cellar):
 
 
 def motion_curve(plane: PhasePlane, low, high, points=4001):
-    """(y, W >= 0) of the motion through the state: its connected piece of the level curve inside [low, high]."""
+    """(y, W >= 0) of the motion through the state: its connected piece of the level curve inside [low, high].
+    """
     from scipy.optimize import brentq
     free = lambda v: plane.W0**2 / 2 - float(plane.height(v))
     ends = []
@@ -185,8 +196,8 @@ def _on_circle(plane):
 
 
 def _on_hyperbola(plane):
-    """xi eta = Q on all of the orbit, so that the sign of one of them tells the branch: that of the larger one at the equilibrium. Next to an asymptote
-    the smaller one is rounding."""
+    """xi eta = Q on all of the orbit, so that the sign of one of them tells the branch: that of the larger
+    one at the equilibrium. Next to an asymptote the smaller one is rounding."""
     xi, eta = plane.place
     for x, z in _on_conic(plane):
         ahead, behind = x + z, x - z
@@ -200,7 +211,8 @@ def _on_hyperbola(plane):
 
 def _on_conic(plane):
     """(X, Z) of the equilibria with the invariant of the orbit."""
-    return [(float(x[0]), float(z[0])) for x, z, exists, _ in plane.land.conic.critical_places(np.array([plane.Q])) if exists[0]]
+    return [(float(x[0]), float(z[0])) for x, z, exists,
+            _ in plane.land.conic.critical_places(np.array([plane.Q])) if exists[0]]
 
 
 def _on_parabola(plane):

@@ -1,10 +1,11 @@
 """The reduced potential: differences of height and force along an orbit, free of cancellation.
 
-Each class is one geometry of the reduction (circle, hyperbola, parabola) with the same small interface, and what the geometry says
-of every motion. A *place* is a
-pair of arrays that moves along the orbit with the coordinate theta; `rise(y, place, force)` is V(theta + y) - V(theta).
-At an equilibrium (force 0) the first-order terms drop out analytically, so barriers and turning points keep their
-digits next to a separatrix. The formulas serve arrays and Python floats alike; floats load no NumPy.
+Each class is one geometry of the reduction (circle, hyperbola, parabola) with the same small interface, and
+what the geometry says of every motion. A *place* is a
+pair of arrays that moves along the orbit with the coordinate theta; `rise(y, place, force)` is V(theta + y) -
+V(theta). At an equilibrium (force 0) the first-order terms drop out analytically, so barriers and turning
+points keep their digits next to a separatrix. The formulas serve arrays and Python floats alike; floats load
+no NumPy.
 """
 from __future__ import annotations
 
@@ -74,14 +75,16 @@ def force_at(G, c, d, mu, x, z):
 
 
 def slope_at(G, c, d, e, x, z):
-    """dF/dtheta there, e the sign of p q; numbers of one state (arrays form the squares' difference as a product)."""
+    """dF/dtheta there, e the sign of p q; numbers of one state (arrays form the squares' difference as a
+    product)."""
     return G * (z * z + e * x * x) + e * c * x + d * z
 
 
 def rise_at(G, c, d, mu, e, place, swing, lag, force):
     """V(theta + y) - V(theta) from (X, Z), free of cancellation; numbers of any kind.
 
-    swing: (sin y, cos y - 1), or of sinh and cosh; lag: y less the first of them; force: that at the place, exactly.
+    swing: (sin y, cos y - 1), or of sinh and cosh; lag: y less the first of them; force: that at the place,
+    exactly.
     """
     (x, z), (s, b) = place, swing
     dx = z * s + x * b
@@ -96,7 +99,8 @@ class Circle:
     where = "the major or the minor axis"
     rank = 0  # of a scene's reductions the least is taken: a circle is compact
     centred = True  # whether orbits have a common centre, and canonical variables told from it
-    walled = False  # whether the potential has walls on both sides of every orbit but for a set of measure zero
+    # whether the potential has walls on both sides of every orbit but for a set of measure zero
+    walled = False
 
     @classmethod
     def of(cls, reduction):
@@ -165,13 +169,16 @@ class Circle:
 
     def rise(self, y, place, force=0.0):
         half = sin(0.5 * y)
-        return rise_at(self.G, self.c, self.d, self.mu, -1, place, (sin(y), -2 * half * half), y_minus_sin(y), force)
+        return rise_at(self.G, self.c, self.d, self.mu, -1, place, (sin(y), -2 * half * half), y_minus_sin(y),
+                       force)
 
     def height_over(self, place, spot, offset):
-        """(V at an equilibrium `spot`, `offset` ahead of a place of its circle, above V at the place; its rounding), arrays.
+        """(V at an equilibrium `spot`, `offset` ahead of a place of its circle, above V at the place; its
+        rounding), arrays.
 
-        Sine and cosine come from the places, not from the offset, and squares of coordinates are differences formed as
-        products: where the place is half a turn or a whole one from the spot, G A^2 is far above any height and drops out.
+        Sine and cosine come from the places, not from the offset, and squares of coordinates are differences
+        formed as products: where the place is half a turn or a whole one from the spot, G A^2 is far above
+        any height and drops out.
         """
         import numpy as np
         (x0, z0), (x, z) = place, spot
@@ -181,9 +188,11 @@ class Circle:
         cross, bent = self.G * x * z, 0.5 * self.G * (z - x) * (z + x)
         tilt, pull = self.mu * y_minus_sin(offset), u * (np.abs(self.d * z) + np.abs(self.c * x))
         height = bent * s * s + cross * s * u + u * (self.d * z - self.c * x) - tilt
-        # a rounding of each term; of the angle and the radius of the place; and of the equilibrium, where the force should vanish
+        # a rounding of each term; of the angle and the radius of the place; and of the equilibrium, where the
+        # force should vanish
         angle = (np.abs(x * z0) + np.abs(z * x0) + np.abs(x0 * z0)) / Q
-        unsure = (np.abs(bent * s * s) + np.abs(cross * s * u) + pull + np.abs(tilt) + np.abs(self.force(place)) * angle
+        unsure = (np.abs(bent * s * s) + np.abs(cross * s * u) + pull + np.abs(tilt)
+                  + np.abs(self.force(place)) * angle
                   + (self.mu + np.abs(cross) + self.terms(spot) + np.abs(self.force(spot)) / EPS) * np.abs(s))
         return height, EPS * unsure
 
@@ -264,10 +273,12 @@ class Hyperbola:
                 + self.e2 * eta * two(-y) - force * y)
 
     def rounding(self, y, spot, place, size):
-        """Rounding of `rise` from an equilibrium `spot` to a place y away, that of the place (by its `size`) included; arrays."""
+        """Rounding of `rise` from an equilibrium `spot` to a place y away, that of the place (by its `size`)
+        included; arrays."""
         xi, eta = abs(spot[0]), abs(spot[1])
         two, eighth = exp_minus_two_terms, 0.125 * abs(self.G)
-        terms = (eighth * (xi * xi * two(2 * y) + eta * eta * two(-2 * y)) + abs(self.e1) * xi * two(y) + abs(self.e2) * eta * two(-y))
+        terms = (eighth * (xi * xi * two(2 * y) + eta * eta * two(-2 * y)) + abs(self.e1) * xi * two(y)
+                 + abs(self.e2) * eta * two(-y))
         blur = 3 + (size[0] + size[1]) * (1 / abs(place[0]) + 1 / abs(place[1]))
         return EPS * (4 * terms + abs(self.force(place)) * blur) + abs(self.force(spot) * y)
 
@@ -336,13 +347,14 @@ class Parabola:
         at, bend, curl = (abs(v) for v in self.derivatives(place))
         way = abs(y)
         cubic = self.terms(place) + way * (at + way * (bend / 2 + way * curl / 6))
-        terms = 4 * way * way * (first / 2 + way * (second / 6 + way * third / 24)) + abs(self.force(place)) * (2 * way + 4 * cubic / first)
+        terms = (4 * way * way * (first / 2 + way * (second / 6 + way * third / 24))
+                 + abs(self.force(place)) * (2 * way + 4 * cubic / first))
         return EPS * terms + abs(self.force(spot) * y)
 
 
 def derivatives_on_parabola(r, u, v):
-    """F', F'', F''' along a parabola at (omega_j, omega_k) = (u, v), where p q = 0 and F is a cubic. r: its reduction or
-    its `Parabola`; floats, arrays, fractions or intervals."""
+    """F', F'', F''' along a parabola at (omega_j, omega_k) = (u, v), where p q = 0 and F is a cubic. r: its
+    reduction or its `Parabola`; floats, arrays, fractions or intervals."""
     a, b = r.p * v + r.p0, r.q * u + r.q0
     first = r.kappa * (a * v + u * b) + r.rho * b + r.sigma * a
     second = r.kappa * (2 * a * b + r.p * b * v + u * r.q * a) + r.rho * r.q * a + r.sigma * r.p * b

@@ -4,16 +4,18 @@ With alpha' = omega_i + s the two other components obey linear equations in alph
 
     d omega_j/d alpha = p (omega_k + s_k),   d omega_k/d alpha = q (omega_j + s_j),
 
-so they move on a circle (p q < 0), a hyperbola (p q > 0) or a parabola (p q = 0), and alpha is the coordinate of a
-particle in a potential. In the canonical variables
+so they move on a circle (p q < 0), a hyperbola (p q > 0) or a parabola (p q = 0), and alpha is the coordinate
+of a particle in a potential. In the canonical variables
 
-    X = (omega_j + s_j)/sqrt|p|,  Z = sgn(p) (omega_k + s_k)/sqrt|q|,  theta = n alpha,  W = theta',  n = sqrt|p q|,
+    X = (omega_j + s_j)/sqrt|p|,  Z = sgn(p) (omega_k + s_k)/sqrt|q|,  theta = n alpha,  W = theta',  n =
+    sqrt|p q|,
     dX/dtheta = Z,  dZ/dtheta = e X  (e = sgn(p q)),   Q = Z^2 - e X^2 = const,
     theta'' = F = mu + G X Z + c Z + d X,   V = -mu theta - G X^2/2 - c X - e d Z,   E = W^2/2 + V = const.
 
 Proof, and what the geometries mean for fates: docs/mathematics/reduction.md.
-(Amer et al. 2024 have the special cases lambda along axis 1 with a torque on axis 3 or 2: eqs (13)-(25), (44)-(66).)
-A reflection of theta makes mu >= 0. Coefficients are formed exactly from the rationals of the scene and rounded once.
+(Amer et al. 2024 have the special cases lambda along axis 1 with a torque on axis 3 or 2: eqs (13)-(25),
+(44)-(66).) A reflection of theta makes mu >= 0. Coefficients are formed exactly from the rationals of the
+scene and rounded once.
 """
 from __future__ import annotations
 
@@ -52,9 +54,9 @@ class Reduction:
     """A scene seen as a particle in a potential (see the module text).
 
     axis i (0-based); j, k the cyclic others; shift s of omega_i; p, p0, q, q0 of the linear pair
-    (d omega_j/d alpha = p omega_k + p0, d omega_k/d alpha = q omega_j + q0); kappa, rho, sigma, m of the rate of
-    omega_i = kappa omega_j omega_k + rho omega_k + sigma omega_j + m. All exact. weight: twice the kinetic energy of
-    omega_i per omega_i^2 (D_i, or 1 for scaled variables).
+    (d omega_j/d alpha = p omega_k + p0, d omega_k/d alpha = q omega_j + q0); kappa, rho, sigma, m of the rate
+    of omega_i = kappa omega_j omega_k + rho omega_k + sigma omega_j + m. All exact. weight: twice the kinetic
+    energy of omega_i per omega_i^2 (D_i, or 1 for scaled variables).
     """
 
     axis: int
@@ -113,20 +115,25 @@ class Reduction:
 
     @cached_property
     def exact_constants(self) -> dict[str, Fraction]:
-        """G, c, d, mu, n, sj, sk, rx = sqrt|p|, rz = sgn(p) sqrt|q|, flip; after the reflection that makes mu >= 0.
+        """G, c, d, mu, n, sj, sk, rx = sqrt|p|, rz = sgn(p) sqrt|q|, flip; after the reflection that makes mu
+        >= 0.
 
-        Elliptic and hyperbolic only. Roots are kept to 240 bits, so these are "exact" for every later rounding.
+        Elliptic and hyperbolic only. Roots are kept to 240 bits, so these are "exact" for every later
+        rounding.
         """
         ap, aq = abs(self.p), abs(self.q)
         found = self.constants_in(Fraction, sqrt_fraction(ap), sqrt_fraction(aq), sqrt_fraction(ap * aq))
         sj, sk = self.centre
         return {**found._asdict(), "sj": sj, "sk": sk, "flip": Fraction(found.flip)}
 
-    def constants_in(self, number: Callable[[Fraction], Number], rp: Number, rq: Number, n: Number) -> Constants:
-        """The constants in a kind of number: number makes one of a Fraction; rp, rq, n: the roots of |p|, |q| and |p q| in it."""
+    def constants_in(self, number: Callable[[Fraction], Number], rp: Number, rq: Number,
+                     n: Number) -> Constants:
+        """The constants in a kind of number: number makes one of a Fraction; rp, rq, n: the roots of |p|, |q|
+        and |p q| in it."""
         (across_j, across_k), torque = self.across, self.torque
         ap, aq, sp, flip = abs(self.p), abs(self.q), _sign(self.p), -1 if self.torque < 0 else 1
-        return Constants(number(self.kappa * sp * ap * aq), flip * sp * number(across_j * aq) * rp, number(across_k * ap) * rq,
+        return Constants(number(self.kappa * sp * ap * aq), flip * sp * number(across_j * aq) * rp,
+                         number(across_k * ap) * rq,
                          flip * n * number(torque), n, rp, sp * rq, flip)
 
     @cached_property
@@ -154,7 +161,8 @@ class Reduction:
         g, low = self.constants, self.shift_remainders
         x = g["flip"] * (shifted(states[..., self.j], g["sj"], low[0]) / g["rx"])
         z = shifted(states[..., self.k], g["sk"], low[1]) / g["rz"]
-        w = g["flip"] * (g["n"] * shifted(states[..., self.axis], float(self.s), float(self.s - Fraction(float(self.s)))))
+        w = (g["flip"] * (g["n"] * shifted(states[..., self.axis], float(self.s),
+                                           float(self.s - Fraction(float(self.s))))))
         return x, z, w
 
     @cached_property
@@ -167,7 +175,8 @@ class Reduction:
         """(X, Z, W) of one state of floats, with the 240-bit constants: no cancellation in the shifts."""
         g = self.exact_constants
         u, v, w = (Fraction(float(state[a])) for a in (self.j, self.k, self.axis))
-        return (g["flip"] * (u + g["sj"]) / g["rx"], (v + g["sk"]) / g["rz"], g["flip"] * g["n"] * (w + self.s))
+        return (g["flip"] * (u + g["sj"]) / g["rx"], (v + g["sk"]) / g["rz"],
+                g["flip"] * g["n"] * (w + self.s))
 
     def component_j(self, x: Number) -> Number:
         """omega_j of canonical X (floats, arrays)."""
@@ -193,8 +202,8 @@ class Reduction:
 
     @property
     def parabolic_shift_size(self) -> float:
-        """How far the centre of the conic is from the origin, in units of the components: large for nearly equal
-        moments, where the canonical variables cancel and the precise path takes over."""
+        """How far the centre of the conic is from the origin, in units of the components: large for nearly
+        equal moments, where the canonical variables cancel and the precise path takes over."""
         if not self.geometry.centred:
             return 0.0
         return max(abs(self.constants["sj"]), abs(self.constants["sk"]))
@@ -203,21 +212,25 @@ class Reduction:
 def reduction_about(form: QuadraticForm, axis: int, weight: Fraction = Fraction(1)) -> Reduction | None:
     """The reduction about principal axis `axis`, or None where the scene has none.
 
-    It exists iff the torque has no component along the other axes and both their rates share a factor (omega_i + s).
+    It exists iff the torque has no component along the other axes and both their rates share a factor
+    (omega_i + s).
     """
     j, k = CYCLE[axis]
     if form.m[j] or form.m[k]:
         return None
-    # omega_j' = (kappa_j omega_k + rho_j) omega_i + sigma_j omega_k; omega_k' = (kappa_k omega_j + sigma_k) omega_i + rho_k omega_j
+    # omega_j' = (kappa_j omega_k + rho_j) omega_i + sigma_j omega_k; omega_k' = (kappa_k omega_j + sigma_k)
+    # omega_i + rho_k omega_j
     s = _common_shift(form, j, k)
     if s is None:
         return None
     return Reduction(axis=axis, s=s, p=form.kappa[j], p0=form.rho[j], q=form.kappa[k], q0=form.sigma[k],
-                     kappa=form.kappa[axis], rho=form.rho[axis], sigma=form.sigma[axis], m=form.m[axis], weight=weight)
+                     kappa=form.kappa[axis], rho=form.rho[axis], sigma=form.sigma[axis], m=form.m[axis],
+                     weight=weight)
 
 
 def _common_shift(form: QuadraticForm, j: int, k: int) -> Fraction | None:
-    """s with sigma_j = s kappa_j, s rho_j = 0, rho_k = s kappa_k, s sigma_k = 0; None if there is no such s."""
+    """s with sigma_j = s kappa_j, s rho_j = 0, rho_k = s kappa_k, s sigma_k = 0; None if there is no such s.
+    """
     s = Fraction(0)
     if form.sigma[j] or form.rho[k]:
         if not form.kappa[j] or not form.kappa[k]:
@@ -228,10 +241,11 @@ def _common_shift(form: QuadraticForm, j: int, k: int) -> Fraction | None:
     return s
 
 
-@lru_cache(maxsize=64)  # every question asks for it several times, and its rationals cost more than a few states
+@lru_cache(
+    maxsize=64)  # every question asks for it several times, and its rationals cost more than a few states
 def reduce(scene: AnyScene) -> Reduction | None:
-    """The reduction that serves `scene` (cached): about the torque's axis, or, without torque, about any axis that allows one
-    (elliptic preferred: its circle is compact). None where there is none."""
+    """The reduction that serves `scene` (cached): about the torque's axis, or, without torque, about any axis
+    that allows one (elliptic preferred: its circle is compact). None where there is none."""
     form = scene.quadratic()
     weights = scene.body.exact if scene.variables == "physical" else (Fraction(1),) * 3
     axes = [i for i in range(3) if form.m[i]]
@@ -244,7 +258,8 @@ def reduce(scene: AnyScene) -> Reduction | None:
 
 
 def shifted(value: Any, shift: float, low: float) -> Any:
-    """value + (shift + low) to a rounding of the sum, however much of it cancels (Knuth's two-sum); numbers or arrays."""
+    """value + (shift + low) to a rounding of the sum, however much of it cancels (Knuth's two-sum); numbers
+    or arrays."""
     whole = value + shift
     part = whole - value
     return whole + ((value - (whole - part)) + (shift - part) + low)

@@ -19,8 +19,9 @@ if TYPE_CHECKING:  # a scene of exact laws does not load it
 class Fate(IntEnum):
     """What becomes of a state as time goes on; `word` is the word of reports and JSON.
 
-    BOUNDED: every rate stays within bounds for ever. SPIN_UP: one grows without bound. SEPARATRIX: exactly between the two. EQUILIBRIUM: the state does
-    not change. UNDECIDED: nothing is proved, and the reason is told.
+    BOUNDED: every rate stays within bounds for ever. SPIN_UP: one grows without bound. SEPARATRIX: exactly
+    between the two. EQUILIBRIUM: the state does not change. UNDECIDED: nothing is proved, and the reason is
+    told.
     """
 
     BOUNDED = 0
@@ -40,21 +41,23 @@ class Motion(Shown):
     """Everything known about the motion from one state.
 
     axis: 1, 2, 3 of the spin-up, 0 otherwise; sense: +1 or -1 of the spin-up, 0 otherwise.
-    margin_energy: height of the barrier ahead minus energy (negative above it; None where no barrier stands ahead at
-    this value of the invariant); without a torque the kinetic energy of the nearest saddle of the same momentum minus the
-    motion's. margin_velocity: smallest change of the state that reaches the separatrix, at
-    whatever value of the invariant, to 1e-9, or where that is not reached a number that it is proved not to be below
-    (None where the scene has none, or nothing is known: then velocity_because says why). velocity_bounds: (proved lower bound,
-    distance of velocity_witness), velocity_witness: a state on the separatrix as near as that; velocity_because: why the two
-    bounds are apart. period: None where the motion does not repeat, or is undecided. extremes: ((min, max),) * 3 over t >= 0, entries +-inf where
-    unbounded, None where unknown; extremes_over: "all time" or the span they were searched over. validity: of an approximate
-    law (`stabilab.physics.law_limits`), with its largest value along the motion; None where all laws are exact. tilt: what a tilt of its
-    torque off the axis does to a bounded motion (`answers.tilt`), where that was asked; first: the limit of its case in words and its `TimeTo`,
-    likewise; caveats: all that limits the answer (`answers.caveats`). largest: |omega| at the most, over all time, where a motion
-    repeats or rests, to eight digits. level: of the
-    fate, "exact", "certified" (a theorem applied to a run of machine precision) or "undecided". Of motions that were followed until a
-    certificate held, or as long as was asked: cause: what was found on the way, in words; bounds: ((low, high),) * 3 of the rates at
-    all t >= 0, wider than the extremes, +-inf where unbounded (None where not known).
+    margin_energy: height of the barrier ahead minus energy (negative above it; None where no barrier stands
+    ahead at this value of the invariant); without a torque the kinetic energy of the nearest saddle of the
+    same momentum minus the motion's. margin_velocity: smallest change of the state that reaches the
+    separatrix, at whatever value of the invariant, to 1e-9, or where that is not reached a number that it is
+    proved not to be below (None where the scene has none, or nothing is known: then velocity_because says
+    why). velocity_bounds: (proved lower bound, distance of velocity_witness), velocity_witness: a state on
+    the separatrix as near as that; velocity_because: why the two bounds are apart. period: None where the
+    motion does not repeat, or is undecided. extremes: ((min, max),) * 3 over t >= 0, entries +-inf where
+    unbounded, None where unknown; extremes_over: "all time" or the span they were searched over. validity: of
+    an approximate law (`stabilab.physics.law_limits`), with its largest value along the motion; None where
+    all laws are exact. tilt: what a tilt of its torque off the axis does to a bounded motion
+    (`answers.tilt`), where that was asked; first: the limit of its case in words and its `TimeTo`, likewise;
+    caveats: all that limits the answer (`answers.caveats`). largest: |omega| at the most, over all time,
+    where a motion repeats or rests, to eight digits. level: of the fate, "exact", "certified" (a theorem
+    applied to a run of machine precision) or "undecided". Of motions that were followed until a certificate
+    held, or as long as was asked: cause: what was found on the way, in words; bounds: ((low, high),) * 3 of
+    the rates at all t >= 0, wider than the extremes, +-inf where unbounded (None where not known).
     """
 
     at: Float3
@@ -87,9 +90,11 @@ def judged(state: Float3, decided: Any) -> dict[str, Any]:
     """The fields of a Motion that its decided fate fills: label, reason in words, axis and sense."""
     because = decided.because
     if decided.label == Fate.SPIN_UP and (decided.axis or decided.sense):
-        because += f"; it spins up about axis {decided.axis}" if decided.axis else "; it spins up about the torque"
+        because += (f"; it spins up about axis {decided.axis}" if decided.axis
+                    else "; it spins up about the torque")
     level = "undecided" if decided.label == Fate.UNDECIDED else "exact"
-    return {"at": state, "fate": decided.label, "because": because, "axis": decided.axis, "sense": decided.sense, "level": level}
+    return {"at": state, "fate": decided.label, "because": because, "axis": decided.axis,
+            "sense": decided.sense, "level": level}
 
 
 def finite(value: Number) -> float | None:
@@ -103,14 +108,15 @@ def repeats(time: float) -> float | None:
 
 
 def without_return(label: int) -> float:
-    """What stands for the period of a motion that is not known to be bounded: 0 at rest, inf where it does not repeat, NaN where its
-    fate is undecided, as it may repeat or not."""
+    """What stands for the period of a motion that is not known to be bounded: 0 at rest, inf where it does
+    not repeat, NaN where its fate is undecided, as it may repeat or not."""
     return {Fate.EQUILIBRIUM: 0.0, Fate.UNDECIDED: math.nan}.get(Fate(int(label)), math.inf)
 
 
 def no_period(fate: Fate) -> str:
     """Why a motion with this fate has no period told, in words."""
-    known = {Fate.UNDECIDED: "the period is not known: the fate is undecided", Fate.BOUNDED: "no period is known of this motion",
+    known = {Fate.UNDECIDED: "the period is not known: the fate is undecided",
+             Fate.BOUNDED: "no period is known of this motion",
              Fate.EQUILIBRIUM: "the state is an equilibrium and has no period"}
     return known.get(fate, "the motion does not repeat")
 

@@ -1,1 +1,2 @@
-"""Papers: the audit of printed formulas, other tools' numbers, tables, figures and the report on all of them."""
+"""Papers: the audit of printed formulas, other tools' numbers, tables, figures and the report on all of them.
+"""

@@ -24,7 +24,8 @@ SHOWN_DIGITS = 6  # in the readable formats; the CSV holds every double in full
 
 @dataclass(frozen=True)
 class Table:
-    """A table: number in the paper, title, caption, header and rows; cells are strings, ints, floats or None."""
+    """A table: number in the paper, title, caption, header and rows; cells are strings, ints, floats or None.
+    """
 
     number: int
     title: str
@@ -49,15 +50,18 @@ def cell(value) -> str:
     return str(value)
 
 
-# -- what the tables say ------------------------------------------------------------------------------------------------
+# -- what the tables say
+# ------------------------------------------------------------------------------------------------
 
 
 TORQUE_COLUMNS = {"wheel": "gyrostat", "torque signs": "mu", "equilibria": "number", "form": "form",
                   "condition": "condition", "characteristic polynomial": "polynomial", "spectrum": "spectrum",
                   "linear": "linear", "nonlinear": "nonlinear"}
-_SIGNS = {"mu1": "μ1", "mu2": "μ2", "mu3": "μ3", "!=": "≠", "+-": "±", "-+": "∓", " - ": " − ", "= -": "= −", "(-": "(−", "sqrt": "√",
+_SIGNS = {"mu1": "μ1", "mu2": "μ2", "mu3": "μ3", "!=": "≠", "+-": "±", "-+": "∓", " - ": " − ", "= -": "= −",
+          "(-": "(−", "sqrt": "√",
           "^2": "²", "^3": "³", "^4": "⁴", "<=": "≤", ">=": "≥"}
-_MINUS = re.compile(r"(?<=\bb)-(?=a\b)|(?<![^ (,/|])-(?=[\wμ(])")  # b-a, and before a number, a letter or a bracket; not within a word
+# b-a, and before a number, a letter or a bracket; not within a word
+_MINUS = re.compile(r"(?<=\bb)-(?=a\b)|(?<![^ (,/|])-(?=[\wμ(])")
 
 
 def torque_signs() -> Table:
@@ -65,9 +69,12 @@ def torque_signs() -> Table:
     scene = paper.scene("minor", 100)
     rows = [tuple(_signs(getattr(row, field)) for field in TORQUE_COLUMNS.values())
             for pair in ((scene.a, scene.b), (scene.a, scene.a)) for row in torque_table(*pair)]
-    return Table(1, "Equilibria and their stability under every constant torque", "All sign combinations of the torque "
-                 "(μ1, μ2, μ3). The paper grants eight equilibria whenever μ1 μ2 μ3 ≥ 0; there are never more than two "
-                 "isolated ones, and curves only for a torque along one axis or none.", tuple(TORQUE_COLUMNS), tuple(rows),
+    return Table(1, "Equilibria and their stability under every constant torque",
+                 "All sign combinations of the torque "
+                 "(μ1, μ2, μ3). The paper grants eight equilibria whenever μ1 μ2 μ3 ≥ 0; there are never "
+                 "more than two "
+                 "isolated ones, and curves only for a torque along one axis or none.", tuple(TORQUE_COLUMNS),
+                 tuple(rows),
                  wide=True)
 
 
@@ -82,26 +89,34 @@ def _signs(value) -> str | None:
     return _MINUS.sub("−", value)
 
 
-EXTREMES_HEADER = ("case", "λ1", "a", "b", "x1(0)", "x2(0)", "x3(0)", "fate", "period", "x1 min", "x1 max", "x2 min",
+EXTREMES_HEADER = ("case", "λ1", "a", "b", "x1(0)", "x2(0)", "x3(0)", "fate", "period", "x1 min", "x1 max",
+                   "x2 min",
                    "x2 max", "x3 min", "x3 max")
 EXTREMES = {
     2: (("minor-axis",), "Extremes, torque on the minor axis, from x(0) = (2.5, 4, 0.1)",
         "Extremes over all time. The paper's own table rests on x1² + x2² = F², which is not constant."),
     3: (("middle-axis",), "Extremes, torque on the middle axis, from x(0) = (1.7, 1.1, −0.2)",
         "Extremes over all time. The paper's own table rests on x1² − x3² = 2N, which is not constant."),
-    4: (("middle-axis-equal", "middle-axis-plane"), "Extremes, torque on the middle axis, from x(0) = (2.5, 1.3, 2.5)",
-        "The paper takes x1(0) = x3(0) for an invariant plane. It is none unless b = 0: the first three rows show what the "
-        "state really does, x1 and x3 part at once. The last three rows show the case that was meant, x1 + b = x3."),
+    4: (("middle-axis-equal", "middle-axis-plane"),
+        "Extremes, torque on the middle axis, from x(0) = (2.5, 1.3, 2.5)",
+        "The paper takes x1(0) = x3(0) for an invariant plane. It is none unless b = 0: the first three rows "
+        "show what the "
+        "state really does, x1 and x3 part at once. The last three rows show the case that was meant, x1 + "
+        "b = x3."),
 }
 
 
 def cases_folder() -> Path:
-    """The folder of the papers' case files: they come with the package. Raises InputError where they are not found."""
+    """The folder of the papers' case files: they come with the package. Raises InputError where they are not
+    found."""
     package = Path(__file__).resolve().parents[1]
-    for folder in (package / "cases", package.parent / "cases"):  # the first is a link, which some systems do not unpack
+    # the first is a link, which some systems do not unpack
+    for folder in (package / "cases", package.parent / "cases"):
         if (folder / "minor-axis-100.toml").is_file():
             return folder.resolve()
-    raise InputError(f"the papers' case files (minor-axis-100.toml and so on) are not in {package / 'cases'}: install stabilab anew")
+    raise InputError(
+        f"the papers' case files (minor-axis-100.toml and so on) are not in {package / 'cases'}: install "
+        f"stabilab anew")
 
 
 def case_files(stems=("*",)) -> list[str]:
@@ -114,15 +129,18 @@ def extremes_table(number: int, folder: Path | None = None) -> Table:
     """Table 2, 3 or 4: extremes of every component over all time, from the case files."""
     families, title, caption = EXTREMES[number]
     folder = folder or cases_folder()
-    rows = [_extremes_row(folder / f"{family}-{lam}.toml", lam) for family in families for lam in paper.LAMBDAS]
+    rows = [_extremes_row(folder / f"{family}-{lam}.toml", lam) for family in families
+            for lam in paper.LAMBDAS]
     return Table(number, title, caption, EXTREMES_HEADER, tuple(rows))
 
 
 def _extremes_row(path, lam):
     case = load(path)
     found = motion(case.scene, case.start, case.span, exact=case.exact_state)
-    period, extremes = (ask(name, case.scene, case.start, DECIMALS, case.span, found, case.exact_state).decimals for name in ("period", "extremes"))
-    return (case.name, lam, case.scene.a, case.scene.b, *case.state, found.fate.word, float(period), *(float(v) for pair in extremes for v in pair))
+    period, extremes = (ask(name, case.scene, case.start, DECIMALS, case.span, found,
+                            case.exact_state).decimals for name in ("period", "extremes"))
+    return (case.name, lam, case.scene.a, case.scene.b, *case.state, found.fate.word, float(period),
+            *(float(v) for pair in extremes for v in pair))
 
 
 def tables(tell: Callable[[int, int, str], None] | None = None) -> tuple[Table, ...]:
@@ -135,7 +153,8 @@ def tables(tell: Callable[[int, int, str], None] | None = None) -> tuple[Table, 
     return tuple(made)
 
 
-# -- formats -----------------------------------------------------------------------------------------------------------
+# -- formats
+# -----------------------------------------------------------------------------------------------------------
 
 
 def text(table: Table, width: int = 160) -> str:
@@ -164,16 +183,22 @@ def comma_separated(table: Table) -> str:
 
 def markdown(table: Table) -> str:
     """A pipe table under its title."""
-    line = lambda cells: "| " + " | ".join(c.replace("\\", "\\\\").replace("|", "\\|").replace("\n", " ") for c in cells) + " |"
-    rows = [line(table.header), "|" + " --- |" * len(table.header), *(line([cell(v) for v in row]) for row in table.rows)]
+    line = lambda cells: "| " + " | ".join(c.replace("\\", "\\\\").replace("|", "\\|").replace("\n", " ")
+                                           for c in cells) + " |"
+    rows = [line(table.header), "|" + " --- |" * len(table.header),
+            *(line([cell(v) for v in row]) for row in table.rows)]
     return "\n".join([f"**Table {table.number}.** {table.title}", "", *rows, "", table.caption, ""])
 
 
-_LATEX = {"\\": r"\textbackslash{}", "&": r"\&", "%": r"\%", "$": r"\$", "#": r"\#", "_": r"\_", "{": r"\{", "}": r"\}",
+_LATEX = {"\\": r"\textbackslash{}", "&": r"\&", "%": r"\%", "$": r"\$", "#": r"\#", "_": r"\_", "{": r"\{",
+          "}": r"\}",
           "~": r"\textasciitilde{}", "^": r"\textasciicircum{}", "<": "$<$", ">": "$>$", "|": "$|$",
-          "λ": r"$\lambda$", "μ": r"$\mu$", "ω": r"$\omega$", "σ": r"$\sigma$", "ζ": r"$\zeta$", "α": r"$\alpha$",
-          "τ": r"$\tau$", "²": "$^2$", "³": "$^3$", "⁴": "$^4$", "≥": r"$\ge$", "≤": r"$\le$", "≠": r"$\ne$", "±": r"$\pm$", "∓": r"$\mp$",
-          "−": "$-$", "–": "--", "√": r"$\surd$", "×": r"$\times$", "·": r"$\cdot$", "∞": r"$\infty$", "′": "$'$",
+          "λ": r"$\lambda$", "μ": r"$\mu$", "ω": r"$\omega$", "σ": r"$\sigma$", "ζ": r"$\zeta$",
+          "α": r"$\alpha$",
+          "τ": r"$\tau$", "²": "$^2$", "³": "$^3$", "⁴": "$^4$", "≥": r"$\ge$", "≤": r"$\le$", "≠": r"$\ne$",
+          "±": r"$\pm$", "∓": r"$\mp$",
+          "−": "$-$", "–": "--", "√": r"$\surd$", "×": r"$\times$", "·": r"$\cdot$", "∞": r"$\infty$",
+          "′": "$'$",
           "₁": "$_1$", "₂": "$_2$", "₃": "$_3$", "⟂": r"$\perp$", "Δ": r"$\Delta$"}
 
 
@@ -184,12 +209,14 @@ def latex_escape(words: str) -> str:
 
 def latex(table: Table) -> str:
     """A booktabs tabular inside a table float; needs \\usepackage{booktabs} (and tabularx for Table 1)."""
-    columns = "".join("X" if table.wide else ("l" if _is_text(table, i) else "r") for i in range(len(table.header)))
+    columns = "".join("X" if table.wide else ("l" if _is_text(table, i) else "r")
+                      for i in range(len(table.header)))
     begin, end = ((rf"\begin{{tabularx}}{{\linewidth}}{{{columns}}}", r"\end{tabularx}") if table.wide else
                   (rf"\begin{{tabular}}{{{columns}}}", r"\end{tabular}"))
     line = lambda cells: " & ".join(latex_escape(c) for c in cells) + r" \\"
     return "\n".join([r"\begin{table}", r"\centering\footnotesize",
-                      rf"\caption{{{latex_escape(table.title)}. {latex_escape(table.caption)}}}", begin, r"\toprule",
+                      rf"\caption{{{latex_escape(table.title)}. {latex_escape(table.caption)}}}", begin,
+                      r"\toprule",
                       line(table.header), r"\midrule", *(line([cell(v) for v in row]) for row in table.rows),
                       r"\bottomrule", end, r"\end{table}", ""])
 
@@ -200,11 +227,16 @@ def _is_text(table, column):
 
 def html_fragment(table: Table) -> str:
     """A <table> with everything escaped."""
-    kinds = ["sentence" if table.wide else "words" if _is_text(table, n) else "number" for n in range(len(table.header))]
-    head = "".join(f'<th scope="col" class="{kind}">{html.escape(h)}</th>' for kind, h in zip(kinds, table.header))
-    body = "\n".join("<tr>" + "".join(f'<td class="{kind}">{html.escape(_signed(v))}</td>' for kind, v in zip(kinds, row)) + "</tr>" for row in table.rows)
-    return (f'<table id="table-{table.number}">\n<caption>Table {table.number}. {html.escape(table.title)}</caption>\n'
-            f"<thead><tr>{head}</tr></thead>\n<tbody>\n{body}\n</tbody>\n</table>\n<p class=\"note\">{html.escape(table.caption)}</p>\n")
+    kinds = ["sentence" if table.wide else "words" if _is_text(table, n) else "number"
+             for n in range(len(table.header))]
+    head = "".join(f'<th scope="col" class="{kind}">{html.escape(h)}</th>' for kind,
+                   h in zip(kinds, table.header))
+    body = "\n".join("<tr>" + "".join(f'<td class="{kind}">{html.escape(_signed(v))}</td>' for kind,
+                                      v in zip(kinds, row)) + "</tr>" for row in table.rows)
+    return (f'<table id="table-{table.number}">\n<caption>Table {table.number}. '
+            f'{html.escape(table.title)}</caption>\n'
+            f"<thead><tr>{head}</tr></thead>\n<tbody>\n{body}\n</tbody>\n</table>\n<p "
+            f"class=\"note\">{html.escape(table.caption)}</p>\n")
 
 
 def _signed(value) -> str:
@@ -215,9 +247,11 @@ def _signed(value) -> str:
 def html_page(table: Table) -> str:
     """The fragment as a page of its own."""
     return ('<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">'
-            '<meta name="viewport" content="width=device-width, initial-scale=1"><link rel="icon" href="data:,"><title>'
+            '<meta name="viewport" content="width=device-width, initial-scale=1"><link rel="icon" '
+            'href="data:,"><title>'
             f"Table {table.number}. {html.escape(table.title)}</title>\n<style>"
-            "body{font:14px sans-serif;margin:1em}div{overflow-x:auto}table{border-collapse:collapse}caption{text-align:left;font-weight:600}"
+            "body{font:14px "
+            "sans-serif;margin:1em}div{overflow-x:auto}table{border-collapse:collapse}caption{text-align:left;font-weight:600}"
             "td,th{padding:.25em .6em;border-bottom:1px solid #ccc;text-align:right;vertical-align:top}"
             ".words,.sentence{text-align:left}.words{white-space:nowrap}.sentence{min-width:4.5em}"
             "@media(max-width:36rem){td.sentence:nth-child(n+4){min-width:13em}}</style>"
@@ -225,13 +259,18 @@ def html_page(table: Table) -> str:
 
 
 # what tables() reads
-STEMS = tuple(f"{family}-{lam}" for families, *_ in EXTREMES.values() for family in families for lam in paper.LAMBDAS)
-TOLERANCES = {"equilibria and verdicts": "exact", "extremes and periods": "roots of the rates and of the reduced potential in balls, rounded once"}
+STEMS = tuple(f"{family}-{lam}" for families,
+              *_ in EXTREMES.values() for family in families for lam in paper.LAMBDAS)
+TOLERANCES = {"equilibria and verdicts": "exact",
+              "extremes and periods": "roots of the rates and of the reduced potential in balls, "
+                                      "rounded once"}
 FORMATS = {"txt": text, "csv": comma_separated, "md": markdown, "tex": latex, "html": html_page}
 
 
-def write_tables(out, formats=tuple(FORMATS), tell: Callable[[int, int, str], None] | None = None) -> list[Path]:
-    """Write Tables 1-4 into the folder `out`, one file a format (see FORMATS). tell: as of `tables`. Returns the paths."""
+def write_tables(out, formats=tuple(FORMATS),
+                 tell: Callable[[int, int, str], None] | None = None) -> list[Path]:
+    """Write Tables 1-4 into the folder `out`, one file a format (see FORMATS). tell: as of `tables`. Returns
+    the paths."""
     for name in formats:
         if name not in FORMATS:
             raise InputError(f"format {name!r}: expected one of {', '.join(FORMATS)}")

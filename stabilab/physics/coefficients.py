@@ -1,13 +1,14 @@
-"""A scene in numbers: coefficients of its rates, one state checked without NumPy, the dimensionless variables of the papers, and whether laws are approximate.
+"""A scene in numbers: coefficients of its rates, one state checked without NumPy, the dimensionless variables
+of the papers, and whether laws are approximate.
 
 What acts on the body, in exact numbers: a constant charge turns it as a wheel of moment -k e3 would.
 
     D omega' = (D omega + Lambda) x omega + M - c D omega + kappa (omega'' + omega x omega')
                + s x gamma + N gamma x D gamma + E gamma3 omega x e3,      gamma' = gamma x omega
 
-Lambda = lambda - k e3 (gyrostat, charge of constant angle; k is no part of the angular momentum, yet the rates are the
-same), s = M g times the centre of mass, E = e H l^2 of a charge whose angle follows the attitude. A force at the centre
-of mass does not turn the body.
+Lambda = lambda - k e3 (gyrostat, charge of constant angle; k is no part of the angular momentum, yet the
+rates are the same), s = M g times the centre of mass, E = e H l^2 of a charge whose angle follows the
+attitude. A force at the centre of mass does not turn the body.
 
 The dimensionless variables of Amer et al. 2024, eqs (2)-(4), both ways.
 
@@ -35,7 +36,8 @@ from .effects import effect_class
 from .effects.base import Effect
 from .scene import ZERO3, AnyScene, Body, ScaledGyrostat, Scene
 
-KNOWN = {"gyrostat", "constant_torque", "charge", "resistance", "liquid_cavity", "newtonian_field", "gravity", "body_force"}
+KNOWN = {"gyrostat", "constant_torque", "charge", "resistance", "liquid_cavity", "newtonian_field", "gravity",
+         "body_force"}
 ZERO = Fraction(0)
 
 
@@ -67,23 +69,30 @@ class Content:
 
     @property
     def unproved_loss(self) -> str:
-        """Why the liquid may give energy: T' = -kappa/(D1 D2 D3) sum (Di - Dj)^2 (Di + Dj - Dk) wi^2 wj^2 falls for the moments of a mass
-        distribution alone. Empty where it only takes energy, as far as this sum goes, or there is none."""
+        """Why the liquid may give energy: T' = -kappa/(D1 D2 D3) sum (Di - Dj)^2 (Di + Dj - Dk) wi^2 wj^2
+        falls for the moments of a mass distribution alone. Empty where it only takes energy, as far as this
+        sum goes, or there is none."""
         broken = self.kappa and 2 * max(self.D) > sum(self.D)
-        return "undecided: the liquid takes energy for the moments of a rigid body alone, and no rigid body has these" if broken else ""
+        return (
+            "undecided: the liquid takes energy for the moments of a rigid body alone, and no rigid body "
+            "has these" if broken else "")
 
     @property
     def kind(self) -> str:
         """"gyrostat" (Lambda and M alone), "dissipative", "directed" or "directed and dissipative"."""
-        words = [word for word, there in (("directed", self.directed), ("dissipative", self.dissipative)) if there]
+        words = [word for word, there in (("directed", self.directed), ("dissipative", self.dissipative))
+                 if there]
         return " and ".join(words) or "gyrostat"
 
     @property
     def note(self) -> str:
         """What was put aside or taken together, for the reader; empty where nothing was."""
-        parts = ["the charge turns the body as a gyrostatic moment -k e3 would: Lambda = lambda - k e3, as long as the angle of axis 3 to the "
+        parts = ["the charge turns the body as a gyrostatic moment -k e3 would: Lambda = lambda - k e3, as "
+                 "long as the angle of axis 3 to the "
                  "field is the constant one, which is judged where an attitude is given"] * self.charged
-        parts += ["the force at the centre of mass does not turn the body: the rotation is judged as if it were absent"] * self.forced
+        parts += (
+            ["the force at the centre of mass does not turn the body: the rotation is judged as if it were "
+             "absent"] * self.forced)
         return "; ".join(parts)
 
 
@@ -104,12 +113,14 @@ def content(scene: AnyScene) -> Content | None:
     for name, key in (("resistance", "c"), ("newtonian_field", "N"), ("gravity", "s")):
         if (effect := scene.effect(name)) is not None:
             numbers[key] = effect.exact
-    return Content(scene.body.exact, tuple(lam), scene.vector("constant_torque"), forced=scene.effect("body_force") is not None,
+    return Content(scene.body.exact, tuple(lam), scene.vector("constant_torque"),
+                   forced=scene.effect("body_force") is not None,
                    **numbers)
 
 
 def shortened(value: Fraction) -> Fraction:
-    """A cosine known to 240 bits, cut to 96: far within a double, and polynomials with it stay short. Short numbers stay exact."""
+    """A cosine known to 240 bits, cut to 96: far within a double, and polynomials with it stay short. Short
+    numbers stay exact."""
     excess = value.denominator.bit_length() - 96
     if excess <= 32:
         return value
@@ -135,12 +146,14 @@ class Together(Effect):
 
 def gyrostat_scene(parts: Content) -> Scene:
     """The scene of a gyrostat and a constant torque that has the same rates (kind "gyrostat")."""
-    torque = [effect_class("constant_torque")(parts.M)] if any(parts.M) else []  # a scene loads no effect that it does not have
+    # a scene loads no effect that it does not have
+    torque = [effect_class("constant_torque")(parts.M)] if any(parts.M) else []
     return Scene(Body(parts.D), Together(parts.Lambda), *torque)
 
 
 def linear_rates(D: Sequence[Number], omega: Sequence[Number], H: Sequence[Number]) -> list[list[Number]]:
-    """Rows of the derivative by omega of D^-1 (D omega + Lambda) x omega, where H = D omega + Lambda (any scalar type)."""
+    """Rows of the derivative by omega of D^-1 (D omega + Lambda) x omega, where H = D omega + Lambda (any
+    scalar type)."""
     rows = []
     for i, (j, k) in enumerate(((1, 2), (2, 0), (0, 1))):  # D_i a_i = H_j omega_k - H_k omega_j
         row = [omega[0] * 0] * 3
@@ -161,7 +174,8 @@ def rates(parts: Content, omega: Sequence[Number], gamma: Sequence[Number] | Non
     if parts.kappa:
         total = [t + parts.kappa * v for t, v in zip(total, liquid_torque(parts, w))]
     if gamma:
-        field = (cross(parts.s, g), cross(g, tuple(parts.N * d * x for d, x in zip(D, g))), cross(w, (0, 0, parts.E * g[2])))
+        field = (cross(parts.s, g), cross(g, tuple(parts.N * d * x for d, x in zip(D, g))),
+                 cross(w, (0, 0, parts.E * g[2])))
         total = [t + sum(part[i] for part in field) for i, t in enumerate(total)]
     return tuple(t / d for t, d in zip(total, D)), cross(g, w) if gamma else ()
 
@@ -182,8 +196,8 @@ def at_rest(parts: Content, omega: Sequence[Number], gamma: Sequence[Number] | N
 
 
 def effective(scene: AnyScene) -> AnyScene:
-    """The scene itself, or, where charges of constant angle and forces are all it has besides, its twin with the
-    gyrostatic moment lambda - k e3. Other scenes come back as they are."""
+    """The scene itself, or, where charges of constant angle and forces are all it has besides, its twin with
+    the gyrostatic moment lambda - k e3. Other scenes come back as they are."""
     if checked_scene(scene).plain:
         return scene
     parts = content(scene)
@@ -204,13 +218,16 @@ def split(parts: Content, state: Any) -> tuple[Float3, Float3 | None]:
     if not parts.directed:
         return omega, None
     if not gamma:
-        raise InputError("state: an effect of this scene asks where the vertical is: give gamma too (six numbers, or a dict of blocks)")
+        raise InputError(
+            "state: an effect of this scene asks where the vertical is: give gamma too (six numbers, or a "
+            "dict of blocks)")
     return omega, gamma
 
 
 def _row(values: Any) -> tuple[float, ...]:
     """Finite floats in one row; InputError otherwise."""
-    if isinstance(values, (tuple, list)) and values and all(type(v) is float and math.isfinite(v) for v in values):
+    if isinstance(values,
+                  (tuple, list)) and values and all(type(v) is float and math.isfinite(v) for v in values):
         return tuple(values)
     from .states import numbers_in_a_row  # other kinds of numbers, and the words for what is none
     return tuple(map(float, numbers_in_a_row(values, "state")))
@@ -263,7 +280,8 @@ def torque_measure(body: Body, torque: Sequence[Fraction]) -> Fraction:
 def scaling(body: Body, u: Fraction) -> Scaling:
     """The change of variables for torque measure u > 0."""
     if u <= 0:
-        raise InputError("the scaled variables are undefined without a torque (u = 0): use physical variables, "
+        raise InputError("the scaled variables are undefined without a torque (u = 0): use physical "
+                         "variables, "
                          "or give the torque as mu (then u = 1)")
     k1, k2, k3 = shape_factors(body)
     return Scaling(tuple(sqrt_fraction(u * k) for k in (k1, k2, k3)), 1 / sqrt_fraction(u * k1 * k2 * k3), u)
@@ -273,19 +291,21 @@ def torque_from_mu(body: Body, mu: Sequence[Number], u: Fraction = Fraction(1)) 
     """M (N m), exact to 240 bits, from the dimensionless torque; u = 1 is the paper's choice."""
     ks = shape_factors(body)
     k = ks[0] * ks[1] * ks[2]
-    return tuple(d * u * sqrt_fraction(k * kj) * m for d, kj, m in zip(body.exact, ks, exact_vector(mu, "mu")))
+    return tuple(d * u * sqrt_fraction(k * kj) * m for d, kj,
+                 m in zip(body.exact, ks, exact_vector(mu, "mu")))
 
 
 def to_scaled(scene: Scene, mu: Sequence[Number] | None = None) -> tuple[ScaledGyrostat, Scaling]:
     """The scaled twin of a physical scene and the change of variables.
 
-    mu: the dimensionless torque where the case gave it (u = 1, no rounding through M); otherwise u from the torque
-    and mu of unit length. Raises InputError where undefined (equal or unordered moments, no torque, a gyrostatic
-    moment off axis 1).
+    mu: the dimensionless torque where the case gave it (u = 1, no rounding through M); otherwise u from the
+    torque and mu of unit length. Raises InputError where undefined (equal or unordered moments, no torque, a
+    gyrostatic moment off axis 1).
     """
     lam = scene.vector("gyrostat")
     if lam[1] or lam[2]:
-        raise InputError("the scaled variables need the gyrostatic moment along axis 1; use physical variables")
+        raise InputError(
+            "the scaled variables need the gyrostatic moment along axis 1; use physical variables")
     d1, d2, d3 = scene.body.exact
     torque = scene.vector("constant_torque")
     u = Fraction(1) if mu is not None else torque_measure(scene.body, torque)
@@ -293,7 +313,8 @@ def to_scaled(scene: Scene, mu: Sequence[Number] | None = None) -> tuple[ScaledG
     k1, k2, k3 = shape_factors(scene.body)
     if mu is None:
         k = k1 * k2 * k3
-        mu = tuple(m / (d * u * sqrt_fraction(k * kj)) for m, d, kj in zip(torque, scene.body.exact, (k1, k2, k3)))
+        mu = tuple(m / (d * u * sqrt_fraction(k * kj)) for m, d,
+                   kj in zip(torque, scene.body.exact, (k1, k2, k3)))
     root = sqrt_fraction(u * k1)
     return ScaledGyrostat(lam[0] / ((d1 - d3) * root), lam[0] / ((d1 - d2) * root), tuple(mu)), change
 
@@ -301,7 +322,8 @@ def to_scaled(scene: Scene, mu: Sequence[Number] | None = None) -> tuple[ScaledG
 # --- Approximate laws of a scene: how far they hold is asked through here, so that a scene of exact laws
 # loads nothing of it
 def limits_of(scene: AnyScene) -> ModuleType | None:
-    """What tells how far the approximate laws of a scene hold, `law_limits`; None where all its laws are exact."""
+    """What tells how far the approximate laws of a scene hold, `law_limits`; None where all its laws are
+    exact."""
     if not scene.approximate:
         return None
     from . import law_limits

@@ -29,7 +29,8 @@ Symbols: TypeAlias = dict[str, Symbolic]
 
 @dataclass(frozen=True)
 class Balance:
-    """A law grad(quantity) . rhs == rate, identically in state and parameters; `name` says which, `words` what."""
+    """A law grad(quantity) . rhs == rate, identically in state and parameters; `name` says which, `words`
+    what."""
 
     name: str
     words: str
@@ -37,15 +38,17 @@ class Balance:
     rate: Symbolic
 
 
-@dataclass(frozen=True, eq=False, repr=False)  # one and the same object per scene: what is made of it is kept by identity
+@dataclass(frozen=True, eq=False,
+           repr=False)  # one and the same object per scene: what is made of it is kept by identity
 class Equations:
     """Equations of motion as SymPy values.
 
-    blocks: the parts of the state (see `blocks`); state: symbols of the state; parameters: symbol name -> exact value,
-    in order of declaration, but for those that are zero, which are nowhere in the equations; symbols: name -> symbol, same order;
-    rhs: rates of the state, 1/s of it (1/tau when scaled); torques: name -> triple,
-    the parts of inertia * rhs (body frame, N m); inertia: the factors of the rates on the left; energy: kinetic energy; balances: the laws.
-    content: what they were derived from, in words, where what is made of them may be kept on disk; a changed copy has none.
+    blocks: the parts of the state (see `blocks`); state: symbols of the state; parameters: symbol name ->
+    exact value, in order of declaration, but for those that are zero, which are nowhere in the equations;
+    symbols: name -> symbol, same order; rhs: rates of the state, 1/s of it (1/tau when scaled); torques: name
+    -> triple, the parts of inertia * rhs (body frame, N m); inertia: the factors of the rates on the left;
+    energy: kinetic energy; balances: the laws. content: what they were derived from, in words, where what is
+    made of them may be kept on disk; a changed copy has none.
     """
 
     variables: str
@@ -67,7 +70,8 @@ class Equations:
 
     @cached_property
     def jacobian(self) -> Symbolic:
-        """Immutable matrix d rhs_i / d state_j; formed for those who ask, for a liquid's takes as long as all the rest."""
+        """Immutable matrix d rhs_i / d state_j; formed for those who ask, for a liquid's takes as long as all
+        the rest."""
         from sympy import ImmutableMatrix
         return ImmutableMatrix([[rate.diff(x) for x in self.state] for rate in self.rhs])
 
@@ -84,16 +88,19 @@ class Equations:
 def derive(scene: AnyScene, also: Iterable[str] = ()) -> Equations:
     """Equations of motion of a Scene (omega, rad/s, body frame) or of a ScaledGyrostat (x).
 
-    The state has the blocks that the scene's effects need, and those named in `also` (physical scenes only). Right-hand sides, energy, Jacobian and
-    balance laws are SymPy expressions. Raises InputError for what is no scene, and for velocity or position of a body without a mass.
+    The state has the blocks that the scene's effects need, and those named in `also` (physical scenes only).
+    Right-hand sides, energy, Jacobian and balance laws are SymPy expressions. Raises InputError for what is
+    no scene, and for velocity or position of a body without a mass.
     """
-    return _scaled(scene) if checked_scene(scene).variables == "scaled" else _physical(scene, ordered((*scene.blocks, *also)) if also else scene.blocks)
+    return (_scaled(scene) if checked_scene(scene).variables == "scaled"
+            else _physical(scene, ordered((*scene.blocks, *also)) if also else scene.blocks))
 
 
 def values(equations: Equations) -> dict[Symbolic, Symbolic]:
     """Symbol -> SymPy rational of every parameter."""
     from sympy import Rational
-    return {equations.symbols[name]: Rational(v.numerator, v.denominator) for name, v in equations.parameters.items()}
+    return {equations.symbols[name]: Rational(v.numerator, v.denominator) for name,
+            v in equations.parameters.items()}
 
 
 def turn_angles() -> tuple[Symbolic, ...]:
@@ -119,7 +126,8 @@ def with_zeros(names: Iterable[str], symbols: Symbols) -> Symbols:
 
 
 def strengths(scene: Scene, symbols: Symbols) -> Symbols:
-    """What the formulas of the scene's effects are called with: a symbol for every parameter that is not zero."""
+    """What the formulas of the scene's effects are called with: a symbol for every parameter that is not
+    zero."""
     return symbols | with_zeros([name for effect in scene.effects for name in effect.parameters()], symbols)
 
 
@@ -130,9 +138,11 @@ def add_terms(u: Iterable[Number], v: Iterable[Number]) -> Triple:
 @lru_cache(maxsize=32)  # one answer asks for the same equations several times
 def _physical(scene: Scene, names: tuple[str, ...]) -> Equations:
     content = in_words((scene, names))
-    if any(type(effect).__module__.partition(".")[0] != __package__.partition(".")[0] for effect in scene.effects):
+    if any(type(effect).__module__.partition(".")[0] != __package__.partition(".")[0]
+           for effect in scene.effects):
         return _derived(scene, names)  # a user's own effect may change without a word
-    equations: Equations = kept_of_symbols("equations", content, lambda: _derived(scene, names), Equations, Balance)
+    equations: Equations = kept_of_symbols("equations", content, lambda: _derived(scene, names), Equations,
+                                           Balance)
     object.__setattr__(equations, "content", content)
     return equations
 
@@ -140,7 +150,8 @@ def _physical(scene: Scene, names: tuple[str, ...]) -> Equations:
 def kept_of_symbols(kind: str, content: str, make: Callable[[], Any], *records: type) -> Any:
     """What `make` returns, made of SymPy's values and these dataclasses, from the disk where it is there."""
     from sympy import __version__
-    return kept(kind, content, Path(__file__).parent, (__version__,), make, {record.__name__: record for record in records})
+    return kept(kind, content, Path(__file__).parent, (__version__,), make,
+                {record.__name__: record for record in records})
 
 
 def _derived(scene: Scene, names: tuple[str, ...]) -> Equations:
@@ -176,15 +187,19 @@ def _derived(scene: Scene, names: tuple[str, ...]) -> Equations:
     energy, H = dot(motion.spin, motion.omega) / 2, add_terms(motion.spin, carried)
     balances = [
         Balance("energy", "work and energy: T' = omega . (torques that do work)" if potential == 0 else
-                "work and energy: (T + potential)' = omega . (other torques that do work)", energy + potential,
+                "work and energy: (T + potential)' = omega . (other torques that do work)",
+                energy + potential,
                 dot(motion.omega, working)),
-        Balance("momentum", "angular momentum: (|H|^2/2)' = H . (outer torques)", dot(H, H) / 2, dot(H, outer))]
+        Balance("momentum", "angular momentum: (|H|^2/2)' = H . (outer torques)", dot(H, H) / 2,
+                dot(H, outer))]
     if "gamma" in blocks:
         balances += _gamma_laws(scene, motion, p, H)
     if "attitude" in blocks:
         q = blocks["attitude"]
-        balances.append(Balance("quaternion", "the quaternion keeps its length", sum(a**2 for a in q), Integer(0)))
-    return Equations("physical", state, parameters, symbols, inertia, torques, rhs, energy, tuple(balances), names)
+        balances.append(Balance("quaternion", "the quaternion keeps its length", sum(a**2 for a in q),
+                                Integer(0)))
+    return Equations("physical", state, parameters, symbols, inertia, torques, rhs, energy, tuple(balances),
+                     names)
 
 
 def _gamma_laws(scene: Scene, motion: MotionView, symbols: Symbols, H: Triple) -> Iterator[Balance]:
@@ -198,9 +213,12 @@ def _gamma_laws(scene: Scene, motion: MotionView, symbols: Symbols, H: Triple) -
             rest = add_terms(rest, effect.torque_along(motion, symbols) or zero)
         else:
             quantity -= area
-    yield Balance("area", "angular momentum along gamma: (H . gamma - shares of the torques)' = gamma . (other torques)",
+    yield Balance("area",
+                  "angular momentum along gamma: (H . gamma - shares of the torques)' = gamma . (other "
+                  "torques)",
                   quantity, dot(rest, gamma))
-    yield Balance("gamma", "gamma is a unit vector fixed in space: |gamma|^2 is constant", dot(gamma, gamma), Integer(0))
+    yield Balance("gamma", "gamma is a unit vector fixed in space: |gamma|^2 is constant", dot(gamma, gamma),
+                  Integer(0))
 
 
 class MotionView:
@@ -212,7 +230,8 @@ class MotionView:
     attitude: tuple[Symbolic, ...]
     velocity: Triple
 
-    def __init__(self, scene: Scene, blocks: Mapping[str, tuple[Symbolic, ...]], D: Triple, symbols: Symbols) -> None:
+    def __init__(self, scene: Scene, blocks: Mapping[str, tuple[Symbolic, ...]], D: Triple,
+                 symbols: Symbols) -> None:
         self._scene, self._blocks, self._symbols, self.D = scene, blocks, symbols, D
         self.__dict__ |= blocks
         self.spin = tuple(d * w for d, w in zip(D, self.omega))
@@ -279,10 +298,13 @@ def _scaled(scene: ScaledGyrostat) -> Equations:
                "constant_torque": tuple(mu)}
     rhs = reduce(add_terms, torques.values())
     X, Y = x1 + a, x1 + b
-    circle = Balance("circle", "((x1+a)^2 + x2^2)' = 2 mu1 (x1+a) + 2 mu2 x2", X**2 + x2**2, 2 * mu[0] * X + 2 * mu[1] * x2)
-    hyperbola = Balance("hyperbola", "((x1+b)^2 - x3^2)' = 2 mu1 (x1+b) - 2 mu3 x3", Y**2 - x3**2, 2 * mu[0] * Y - 2 * mu[2] * x3)
+    circle = Balance("circle", "((x1+a)^2 + x2^2)' = 2 mu1 (x1+a) + 2 mu2 x2", X**2 + x2**2,
+                     2 * mu[0] * X + 2 * mu[1] * x2)
+    hyperbola = Balance("hyperbola", "((x1+b)^2 - x3^2)' = 2 mu1 (x1+b) - 2 mu3 x3", Y**2 - x3**2,
+                        2 * mu[0] * Y - 2 * mu[2] * x3)
     energy = ((b - a) * x1**2 + b * x2**2 + a * x3**2) / 2
-    work = Balance("energy", "work and energy, (b circle - a hyperbola)/2: T' = (b-a) mu1 x1 + b mu2 x2 + a mu3 x3",
+    work = Balance("energy",
+                   "work and energy, (b circle - a hyperbola)/2: T' = (b-a) mu1 x1 + b mu2 x2 + a mu3 x3",
                    energy, (b - a) * mu[0] * x1 + b * mu[1] * x2 + a * mu[2] * x3)
     return Equations("scaled", x, parameters, symbols, (Integer(1),) * 3, torques, rhs, energy,
                      (circle, hyperbola, work))
@@ -292,9 +314,10 @@ def _scaled(scene: ScaledGyrostat) -> Equations:
 def invariants(scene: AnyScene) -> tuple[Balance, ...]:
     """The laws that hold for this very scene, its numbers put in.
 
-    A Balance whose rate is 0 is a constant of the motion; a constant rate grows exactly in proportion to time; a
-    quantity may hold turn angles alpha_i; a rate that is a multiple of its quantity makes quantity = 0 an invariant
-    plane. Derived from the assembled equations, so a new effect is judged without being named here.
+    A Balance whose rate is 0 is a constant of the motion; a constant rate grows exactly in proportion to
+    time; a quantity may hold turn angles alpha_i; a rate that is a multiple of its quantity makes quantity =
+    0 an invariant plane. Derived from the assembled equations, so a new effect is judged without being named
+    here.
     """
     equations = derive(scene)
     laws = [*conserved(equations)]
@@ -319,13 +342,16 @@ def conserved(equations: Equations) -> Iterator[Balance]:
 
 
 def _outer(scene: Scene, equations: Equations) -> tuple[Triple, ...] | None:
-    """(carried momentum, outer torque) of a physical scene as exact numbers, or None where they vary with the state."""
+    """(carried momentum, outer torque) of a physical scene as exact numbers, or None where they vary with the
+    state."""
     from sympy import Integer, expand
     zero, p = (Integer(0),) * 3, strengths(scene, equations.symbols)
     momenta = [e.momentum(p) or zero for e in scene.effects]
     parts = [equations.torques[e.name] for e in scene.effects]
-    torques = [tuple(a - b for a, b in zip(part, cross(h, equations.state[:3]))) for part, h in zip(parts, momenta)]
-    pair = tuple(tuple(equations.numeric(expand(Integer(0) + v)) for v in reduce(add_terms, rows, zero)) for rows in (momenta, torques))
+    torques = [tuple(a - b for a, b in zip(part, cross(h, equations.state[:3]))) for part,
+               h in zip(parts, momenta)]
+    pair = tuple(tuple(equations.numeric(expand(Integer(0) + v)) for v in reduce(add_terms, rows, zero))
+                 for rows in (momenta, torques))
     return None if any(v.free_symbols for row in pair for v in row) else pair
 
 
@@ -337,22 +363,27 @@ def _physical_laws(scene: Scene, equations: Equations) -> Iterator[Balance]:
     D = [equations.numeric(d) for d in equations.inertia]
     T, half_H2 = (equations.numeric(law.quantity) for law in equations.balances[:2])
     if any(M):
-        yield Balance("energy with turn angles", "constant torque: T - M . (turn angles) is constant, alpha_i' = omega_i",
+        yield Balance("energy with turn angles",
+                      "constant torque: T - M . (turn angles) is constant, alpha_i' = omega_i",
                       T - dot(M, alpha), T * 0)
     moments = {D[i] for i in range(3) if M[i]}
     if len(moments) == 1:
         d, rate = moments.pop(), dot(M, lam)
-        words = ("torque along a principal axis (or in a plane of equal moments), no gyrostatic component along it: "
-                 "the quadratic invariant C is constant" if rate == 0 else "torque along a principal axis: |H|^2/2 - D_M T grows by lambda . M each second, "
+        words = ("torque along a principal axis (or in a plane of equal moments), no gyrostatic component "
+                 "along it: "
+                 "the quadratic invariant C is constant" if rate == 0
+                 else "torque along a principal axis: |H|^2/2 - D_M T grows by lambda . M each second, "
                                    "so there is no equilibrium and no bounded motion")
         yield Balance("quadratic", words, half_H2 - d * T, rate)
     elif moments:
         turned = dot(tuple(d * m for d, m in zip(D, M)), alpha)
-        yield Balance("momentum with turn angles", "constant torque: |H|^2/2 - (D M) . (turn angles) changes by lambda . M "
+        yield Balance("momentum with turn angles",
+                      "constant torque: |H|^2/2 - (D M) . (turn angles) changes by lambda . M "
                       "each second", half_H2 - turned, dot(M, lam))
     for i, (j, k) in enumerate(((1, 2), (2, 0), (0, 1))):
         if D[j] == D[k] and lam[j] == lam[k] == 0:
-            yield Balance(f"spin {i + 1}", f"symmetric body: the spin about axis {i + 1} changes by its torque alone",
+            yield Balance(f"spin {i + 1}",
+                          f"symmetric body: the spin about axis {i + 1} changes by its torque alone",
                           omega[i], M[i] / D[i])
 
 
@@ -361,17 +392,23 @@ def _scaled_laws(equations: Equations) -> Iterator[Balance]:
     a, b, mu1, mu2, mu3 = (equations.numeric(s) for s in with_zeros(SCALED, equations.symbols).values())
     alpha = turn_angles()
     if mu1 != 0 or mu2 != 0:
-        yield Balance("circle with turn angles", "((x1+a)^2 + x2^2)/2 - mu1 alpha1 - mu2 alpha2 changes by mu1 a per unit "
-                      "of tau, alpha_i' = x_i", ((x1 + a)**2 + x2**2) / 2 - mu1 * alpha[0] - mu2 * alpha[1], mu1 * a)
+        yield Balance("circle with turn angles",
+                      "((x1+a)^2 + x2^2)/2 - mu1 alpha1 - mu2 alpha2 changes by mu1 a per unit "
+                      "of tau, alpha_i' = x_i", ((x1 + a)**2 + x2**2) / 2 - mu1 * alpha[0] - mu2 * alpha[1],
+                      mu1 * a)
     if mu1 != 0 or mu3 != 0:
-        yield Balance("hyperbola with turn angles", "((x1+b)^2 - x3^2)/2 - mu1 alpha1 + mu3 alpha3 changes by mu1 b per "
-                      "unit of tau, alpha_i' = x_i", ((x1 + b)**2 - x3**2) / 2 - mu1 * alpha[0] + mu3 * alpha[2], mu1 * b)
+        yield Balance("hyperbola with turn angles",
+                      "((x1+b)^2 - x3^2)/2 - mu1 alpha1 + mu3 alpha3 changes by mu1 b per "
+                      "unit of tau, alpha_i' = x_i",
+                      ((x1 + b)**2 - x3**2) / 2 - mu1 * alpha[0] + mu3 * alpha[2], mu1 * b)
     if mu2 == 0 and mu3 == 0 and mu1 != 0:
         words = ("a = b, torque on axis 1: x2^2 + x3^2 is constant" if a == b else
                  "torque on axis 1: J = x2^2 + x3^2 - 2(b-a) x1 changes by -2(b-a) mu1 per unit of tau, "
                  "so there is no equilibrium and no bounded motion")
         yield Balance("J", words, x2**2 + x3**2 - 2 * (b - a) * x1, -2 * (b - a) * mu1)
     if mu1 == mu3:
-        yield Balance("plane x1 + b = x3", "mu1 = mu3: the plane x1 + b = x3 is invariant", x1 + b - x3, -x2 * (x1 + b - x3))
+        yield Balance("plane x1 + b = x3", "mu1 = mu3: the plane x1 + b = x3 is invariant", x1 + b - x3,
+                      -x2 * (x1 + b - x3))
     if mu1 == -mu3:
-        yield Balance("plane x1 + b = -x3", "mu1 = -mu3: the plane x1 + b = -x3 is invariant", x1 + b + x3, x2 * (x1 + b + x3))
+        yield Balance("plane x1 + b = -x3", "mu1 = -mu3: the plane x1 + b = -x3 is invariant", x1 + b + x3,
+                      x2 * (x1 + b + x3))

@@ -1,7 +1,8 @@
-"""How far an approximate law holds along a motion: its dimensionless number, the largest value met, and the limit.
+"""How far an approximate law holds along a motion: its dimensionless number, the largest value met, and the
+limit.
 
-An effect declares `approximate` and gives its `limits` (`effects.base`). A scene of exact laws has none, and what stands here is
-then neither called nor imported.
+An effect declares `approximate` and gives its `limits` (`effects.base`). A scene of exact laws has none, and
+what stands here is then neither called nor imported.
 """
 from __future__ import annotations
 
@@ -27,12 +28,14 @@ ROWS = 4096  # of a run that are looked at together
 
 @dataclass(frozen=True)
 class Validity:
-    """One number of one effect, the most exceeded of the scene (the first declared where none is); `also`: its other numbers, the same way.
+    """One number of one effect, the most exceeded of the scene (the first declared where none is); `also`:
+    its other numbers, the same way.
 
-    value: its largest value over the motion, a float; for several motions an array, one each; None where it hangs on a part of
-    the state that was not given. limit: what it must not exceed. holds: whether no number of the scene exceeds its limit (an array likewise,
-    which has True too where no known one does; None: no known one does, and not all are known). over: where the value was looked for. follows: what a
-    number beyond the limit means; source: of the law; needs: what of the state it hangs on.
+    value: its largest value over the motion, a float; for several motions an array, one each; None where it
+    hangs on a part of the state that was not given. limit: what it must not exceed. holds: whether no number
+    of the scene exceeds its limit (an array likewise, which has True too where no known one does; None: no
+    known one does, and not all are known). over: where the value was looked for. follows: what a number
+    beyond the limit means; source: of the law; needs: what of the state it hangs on.
     """
 
     effect: str
@@ -63,7 +66,8 @@ class Validity:
     @property
     def words(self) -> str:
         """One line: status, effect, number, value, limit, and what follows."""
-        told = "; also ".join(v._told() for v in (self, *(v for v in self.also if not v.held or v.value is None)))
+        told = "; also ".join(v._told()
+                              for v in (self, *(v for v in self.also if not v.held or v.value is None)))
         return f"{self._head}: {effect_words(self.effect)}: {told}"
 
     @property
@@ -78,13 +82,15 @@ class Validity:
 
     def as_dict(self) -> dict[str, Any]:
         """What JSON says of it."""
-        named = {name: getattr(self, name) for name in ("status", "effect", "number", "value", "limit", "holds", "over", "follows", "source")}
+        named = {name: getattr(self, name) for name in ("status", "effect", "number", "value", "limit",
+                                                        "holds", "over", "follows", "source")}
         return named | {"also": [v.as_dict() for v in self.also]}
 
     def _measured(self) -> str:
         if self.value is None:
             return f"{self.number}: it needs {self.needs}, which is not given, limit {self.limit:g}"
-        size = "unbounded" if math.isinf(_largest(self.value)) else f"{float(f'{_largest(self.value):.3g}'):g}"
+        size = ("unbounded" if math.isinf(_largest(self.value))
+                else f"{float(f'{_largest(self.value):.3g}'):g}")
         return f"{self.number}, {size} {self.over}, limit {self.limit:g}"
 
     def _told(self) -> str:
@@ -98,10 +104,12 @@ def _largest(value: float | np.ndarray | None) -> float:
 
 
 def validity(scene: AnyScene, states: States, over: str = "at the start") -> Validity | None:
-    """How far the approximate laws of a scene hold at states (..., N): the blocks of the scene in order, omega alone, or a dict of blocks.
+    """How far the approximate laws of a scene hold at states (..., N): the blocks of the scene in order,
+    omega alone, or a dict of blocks.
 
-    None where all its laws are exact. States are in rad/s along the principal axes. For arrays `value` and `holds` are arrays (...,). over: where
-    the states are, in words. Raises InputError for blocks that the scene does not have.
+    None where all its laws are exact. States are in rad/s along the principal axes. For arrays `value` and
+    `holds` are arrays (...,). over: where the states are, in words. Raises InputError for blocks that the
+    scene does not have.
     """
     return _judged(checked_scene(scene), _blocks(scene, states), over, None)
 
@@ -112,7 +120,8 @@ def along(scene: AnyScene, states: States, over: str) -> Validity | None:
 
 
 def of_motion(scene: AnyScene, motion: Any) -> Validity | None:
-    """Of a motion that is known by its extremes alone: the corner of its box, which is at least what it reaches."""
+    """Of a motion that is known by its extremes alone: the corner of its box, which is at least what it
+    reaches."""
     if motion.extremes is None:
         return validity(scene, motion.at)
     corner = (max(map(abs, pair)) for pair in motion.extremes)
@@ -123,7 +132,8 @@ def at_equilibria(scene: AnyScene, found: Any) -> Validity | None:
     """Of equilibria: at the isolated ones; where there are curves alone, which run to any rate, at rest."""
     if found.points:
         return worst(*(validity(scene, point.at, "at an equilibrium") for point in found.points))
-    return validity(scene, (0.0,) * 3, "at rest (it grows with the rate along a curve)" if found.curves else "at rest")
+    return validity(scene, (0.0,) * 3,
+                    "at rest (it grows with the rate along a curve)" if found.curves else "at rest")
 
 
 def worst(*found: Validity | None) -> Validity | None:
@@ -165,7 +175,8 @@ def _larger(one: Validity | None, two: Validity | None) -> Validity | None:
     if one is None or two is None:
         return one or two
     pairs = {(v.effect, v.number): v for v in (replace(two, also=()), *two.also)}
-    best = [max(v, pairs[v.effect, v.number], key=lambda v: -1.0 if v.value is None else v.value) for v in (replace(one, also=()), *one.also)]
+    best = [max(v, pairs[v.effect, v.number], key=lambda v: -1.0 if v.value is None else v.value)
+            for v in (replace(one, also=()), *one.also)]
     return _together(best)
 
 
@@ -191,14 +202,17 @@ def _judged(scene: AnyScene, blocks: Blocks, over: str, axis: int | None) -> Val
     return of_values(scene, lambda limit: _value(limit, blocks, axis), over)
 
 
-def of_values(scene: AnyScene, value_of: Callable[[Limit], float | np.ndarray | None], over: str) -> Validity | None:
-    """The validity of a scene whose limits have the values that `value_of` tells of each, found over what `over` says in words."""
+def of_values(scene: AnyScene, value_of: Callable[[Limit], float | np.ndarray | None],
+              over: str) -> Validity | None:
+    """The validity of a scene whose limits have the values that `value_of` tells of each, found over what
+    `over` says in words."""
     found = []
     for effect in scene.approximate:
         for limit in effect.limits(scene):
             value = value_of(limit)
             holds = None if value is None else value <= limit.limit
-            found.append(Validity(effect.name, limit.number, value, limit.limit, holds, over, limit.follows, limit.source, limit.needs))
+            found.append(Validity(effect.name, limit.number, value, limit.limit, holds, over, limit.follows,
+                                  limit.source, limit.needs))
     return _together(found)
 
 
@@ -231,6 +245,7 @@ def _both(one: bool | np.ndarray | None, two: bool | np.ndarray | None) -> bool 
     """Whether both hold; of one that is not known the other decides only where it does not hold."""
     if one is None or two is None:
         known = two if one is None else one
-        return known if known is not None and not (known if isinstance(known, bool) else known.all()) else None
+        return (known if known is not None and not (known if isinstance(known, bool) else known.all())
+                else None)
     return one & two
 

@@ -4,8 +4,8 @@ Quadratic rate equations of a gyrostat under constant torque, with exact coeffic
 
     x_i' = kappa_i x_j x_k + rho_i x_k + sigma_i x_j + m_i        (i, j, k cyclic)
 
-Physical and scaled variables both have this form, so one analysis serves both. Coefficients are exact rationals:
-differences such as D1 - D2 or b - a are formed before the one rounding to double.
+Physical and scaled variables both have this form, so one analysis serves both. Coefficients are exact
+rationals: differences such as D1 - D2 or b - a are formed before the one rounding to double.
 
 Turning a symmetric body so that its torque lies along a principal axis: every axis in the plane of two equal
 moments is principal.
@@ -38,11 +38,12 @@ ROUNDING = Fraction(1, 1 << 48)  # of the largest moment: what a routine of eige
 class Body(metaclass=Asked):
     """A rigid body seen from its principal axes 1, 2, 3.
 
-    inertia: three principal moments of inertia about the centre of mass or a fixed point, kg m^2, in any order,
-    equal ones allowed; numbers or exact strings. `exact` keeps them unrounded. mass: kg, only where the body also
-    travels. slack: kg m^2, by how much rounding may let the largest moment exceed the sum of the other two, which those
-    of no mass distribution do; None for half a unit of the last digit of each. A larger excess is a caveat of every
-    answer: Euler's equations hold for any positive moments. Raises InputError for a moment that is not positive.
+    inertia: three principal moments of inertia about the centre of mass or a fixed point, kg m^2, in any
+    order, equal ones allowed; numbers or exact strings. `exact` keeps them unrounded. mass: kg, only where
+    the body also travels. slack: kg m^2, by how much rounding may let the largest moment exceed the sum of
+    the other two, which those of no mass distribution do; None for half a unit of the last digit of each. A
+    larger excess is a caveat of every answer: Euler's equations hold for any positive moments. Raises
+    InputError for a moment that is not positive.
     """
 
     inertia: Sequence[Given]
@@ -54,7 +55,8 @@ class Body(metaclass=Asked):
         moments = exact_vector(self.inertia, "inertia")
         for number, moment in enumerate(moments, 1):
             if moment <= 0:
-                raise InputError(f"inertia: moment {number} is {float(moment):g}; principal moments are positive")
+                raise InputError(
+                    f"inertia: moment {number} is {float(moment):g}; principal moments are positive")
         if self.mass is not None:
             mass = exact(self.mass, "mass")
             if mass <= 0:
@@ -67,7 +69,8 @@ class Body(metaclass=Asked):
 
     @property
     def excess(self) -> Fraction:
-        """The largest moment less the sum of the other two, kg m^2: not positive for the moments of a mass distribution."""
+        """The largest moment less the sum of the other two, kg m^2: not positive for the moments of a mass
+        distribution."""
         return 2 * max(self.exact) - sum(self.exact)
 
     @property
@@ -76,9 +79,12 @@ class Body(metaclass=Asked):
         largest, excess = max(self.exact), self.excess
         if excess <= max(exact(self.slack), ROUNDING * largest):
             return ()
-        return (Caveat("unphysical", f"no rigid body has this tensor: the largest principal moment, {float(largest):.12g} kg m^2, exceeds "
+        return (Caveat("unphysical",
+                       f"no rigid body has this tensor: the largest principal moment, {float(largest):.12g} "
+                       f"kg m^2, exceeds "
                        f"the sum of the other two, {float(largest - excess):.12g}, by {float(excess):.6g} "
-                       f"({float(100 * excess / largest):.2g} % of it); Euler's equations are solved as they stand"),)
+                       f"({float(100 * excess / largest):.2g} % of it); Euler's equations are solved as "
+                       f"they stand"),)
 
 
 # --- The blocks a state may consist of, in their order: the angular velocity always, the others when
@@ -104,9 +110,11 @@ ORDER = tuple(BLOCKS)
 PARTS = BLOCKS | {part.name: part for part in (
     Block("x", ("x1", "x2", "x3"), "", "angular velocity, body frame, scaled"),
     Block("angles", ("psi", "phi", "theta"), "rad", "psi, phi, theta of the 3-1-2 sequence, continuous"),
-    Block("quaternion", ("qx", "qy", "qz", "qw"), "", "attitude as a unit quaternion, scalar last: turns components along the axes of the rates to "
+    Block("quaternion", ("qx", "qy", "qz", "qw"), "",
+          "attitude as a unit quaternion, scalar last: turns components along the axes of the rates to "
           "inertial ones"),
-    Block("euler", ("precession psi", "nutation theta", "rotation phi"), "rad", "classical Euler angles of the vertical, continuous"),
+    Block("euler", ("precession psi", "nutation theta", "rotation phi"), "rad",
+          "classical Euler angles of the vertical, continuous"),
     Block("momentum", ("H1", "H2", "H3"), "kg m^2/s", "angular momentum, inertial frame"),
     Block("amplitude", ("amplitude",), "rad/s", "amplitude of the transverse rate"),
     Block("spin", ("spin",), "rad/s", "averaged rate about axis 3"),
@@ -153,11 +161,13 @@ class QuadraticForm:
         if isinstance(x[0], float):
             rows = self.coefficients
         kappa, rho, sigma, m = rows
-        return [kappa[i] * x[j] * x[k] + rho[i] * x[k] + sigma[i] * x[j] + m[i] for i, (j, k) in enumerate(CYCLE)]
+        return [kappa[i] * x[j] * x[k] + rho[i] * x[k] + sigma[i] * x[j] + m[i] for i,
+                (j, k) in enumerate(CYCLE)]
 
     def jacobian(self, x: Sequence[Number]) -> list[list[Number]]:
         """3 x 3 nested list: derivative of rate i by component; entries of the type of x."""
-        kappa, rho, sigma, _ = self.coefficients if isinstance(x[0], float) else (self.kappa, self.rho, self.sigma, 0)
+        kappa, rho, sigma, _ = (self.coefficients if isinstance(x[0], float)
+                                else (self.kappa, self.rho, self.sigma, 0))
         rows = []
         for i, (j, k) in enumerate(CYCLE):
             row = [x[0] * 0] * 3
@@ -168,7 +178,8 @@ class QuadraticForm:
 
 
 def euler_form(inertia: Exact3, momentum: Exact3, torque: Exact3) -> QuadraticForm:
-    """D omega' = (D omega + lambda) x omega + M as rates of omega (theory: Euler's equations of a gyrostat)."""
+    """D omega' = (D omega + lambda) x omega + M as rates of omega (theory: Euler's equations of a gyrostat).
+    """
     D, lam = inertia, momentum
     return QuadraticForm(
         kappa=tuple((D[j] - D[k]) / D[i] for i, (j, k) in enumerate(CYCLE)),
@@ -178,9 +189,11 @@ def euler_form(inertia: Exact3, momentum: Exact3, torque: Exact3) -> QuadraticFo
 
 
 def scaled_form(a: Fraction, b: Fraction, mu: Exact3) -> QuadraticForm:
-    """x1' = x2 x3 + mu1, x2' = -x3 (x1 + a) + mu2, x3' = x2 (x1 + b) + mu3 (Amer et al. 2024, eqs (3), (5))."""
+    """x1' = x2 x3 + mu1, x2' = -x3 (x1 + a) + mu2, x3' = x2 (x1 + b) + mu3 (Amer et al. 2024, eqs (3), (5)).
+    """
     zero, one = Fraction(0), Fraction(1)
-    return QuadraticForm(kappa=(one, -one, one), rho=(zero, zero, b), sigma=(zero, -a, zero), m=tuple(mu), symbol="x")
+    return QuadraticForm(kappa=(one, -one, one), rho=(zero, zero, b), sigma=(zero, -a, zero), m=tuple(mu),
+                         symbol="x")
 
 
 def rests(form: QuadraticForm, state: Iterable[Number]) -> bool:
@@ -194,11 +207,12 @@ ZERO3 = (Fraction(0),) * 3
 
 @record
 class Scene(metaclass=Asked):
-    """A body and its effects, each at most once. Effects not named here do not exist for any later step, and one of zero
-    strength is not kept: it equals an absent one in every answer because it is absent.
+    """A body and its effects, each at most once. Effects not named here do not exist for any later step, and
+    one of zero strength is not kept: it equals an absent one in every answer because it is absent.
 
-    Scene(body, effect, effect ...): vectors are along the body's principal axes, in kg, m, s. States are the rates about these axes, (..., 3) in rad/s;
-    effects that need more of the state add blocks to it. Raises InputError for anything but a Body and effects, and for an effect named twice.
+    Scene(body, effect, effect ...): vectors are along the body's principal axes, in kg, m, s. States are the
+    rates about these axes, (..., 3) in rad/s; effects that need more of the state add blocks to it. Raises
+    InputError for anything but a Body and effects, and for an effect named twice.
     """
 
     body: Body
@@ -208,12 +222,17 @@ class Scene(metaclass=Asked):
     time_unit = "s"
 
     def __init__(self, body: Body | None = None, *effects: Effect):
-        flat = tuple(effects[0]) if len(effects) == 1 and isinstance(effects[0], (tuple, list)) else tuple(effects)
+        flat = (tuple(effects[0]) if len(effects) == 1 and isinstance(effects[0], (tuple, list))
+                else tuple(effects))
         if not isinstance(body, Body):
-            raise InputError(f"scene: expected a Body first, such as Scene(Body((3, 2, 1)), ...), got {'nothing' if body is None else f'{body!r:.80}'}")
+            raise InputError(
+                f"scene: expected a Body first, such as Scene(Body((3, 2, 1)), ...), got "
+                f"{'nothing' if body is None else f'{body!r:.80}'}")
         for effect in flat:
             if not isinstance(effect, Effect):
-                raise InputError(f"scene: expected effects after the body, such as Gyrostat or ConstantTorque, got {effect!r:.80}")
+                raise InputError(
+                    f"scene: expected effects after the body, such as Gyrostat or ConstantTorque, got "
+                    f"{effect!r:.80}")
         names = [e.name for e in flat]
         for name in names:
             if names.count(name) > 1:
@@ -244,12 +263,14 @@ class Scene(metaclass=Asked):
         return next((e for e in self.effects if e.name == name), None)
 
     def vector(self, name: str) -> Exact3:
-        """Exact vector of the gyrostat, the constant torque or the weight (N m, along its arm); zero where the scene does not name it."""
+        """Exact vector of the gyrostat, the constant torque or the weight (N m, along its arm); zero where
+        the scene does not name it."""
         found = self.effect(name)
         return ZERO3 if found is None else found.exact
 
     def quadratic(self) -> QuadraticForm:
-        """The rates with exact coefficients. Raises InputError for effects outside gyrostat and constant torque."""
+        """The rates with exact coefficients. Raises InputError for effects outside gyrostat and constant
+        torque."""
         return self._form
 
     @cached_property
@@ -257,18 +278,21 @@ class Scene(metaclass=Asked):
         """Kept, for every question asks for it several times."""
         other = self._beyond()
         if other:
-            raise InputError(f"this analysis covers a gyrostat and a constant torque; the scene also has {', '.join(map(effect_words, other))}")
+            raise InputError(
+                f"this analysis covers a gyrostat and a constant torque; the scene also has "
+                f"{', '.join(map(effect_words, other))}")
         return euler_form(self.body.exact, self.vector("gyrostat"), self.vector("constant_torque"))
 
 
 @record
 class ScaledGyrostat(metaclass=Asked):
-    """The dimensionless system of Amer et al. 2024, eq. (5), for any real a, b, mu; accepted wherever a scene is.
+    """The dimensionless system of Amer et al. 2024, eq. (5), for any real a, b, mu; accepted wherever a scene
+    is.
 
     x1' = x2 x3 + mu1,  x2' = -x3 (x1 + a) + mu2,  x3' = x2 (x1 + b) + mu3, the dash for d/dtau
 
-    a, b: two numbers for moments and wheel; mu: three for the torque; numbers or exact strings such as "1/5". States are x (..., 3), times tau.
-    Raises InputError for what is no number.
+    a, b: two numbers for moments and wheel; mu: three for the torque; numbers or exact strings such as "1/5".
+    States are x (..., 3), times tau. Raises InputError for what is no number.
     """
 
     a: Given
@@ -304,8 +328,8 @@ AnyScene: TypeAlias = Scene | ScaledGyrostat
 
 
 class Turn(NamedTuple):
-    """twin: the scene with its torque along one axis. rotation: rows of Fractions, omega_twin = rotation @ omega, good to 240
-    bits. exact: no row was rounded."""
+    """twin: the scene with its torque along one axis. rotation: rows of Fractions, omega_twin = rotation @
+    omega, good to 240 bits. exact: no row was rounded."""
 
     twin: Scene
     rotation: list[list[Fraction]]
@@ -325,8 +349,8 @@ class Turn(NamedTuple):
 def aligned(scene: AnyScene) -> Turn | None:
     """The scene turned so that its torque lies along one axis, where its equal moments allow it.
 
-    The twin has the same moments; its torque lies exactly along an axis, and its gyrostatic component along the torque
-    is exactly zero where the scene's is.
+    The twin has the same moments; its torque lies exactly along an axis, and its gyrostatic component along
+    the torque is exactly zero where the scene's is.
     """
     if scene.variables != "physical":
         return None
@@ -362,6 +386,7 @@ def _turned(scene: Scene, vectors: Mapping[str, Sequence[Fraction]]) -> Scene:
 
 
 def torque_axis(scene: AnyScene) -> int:
-    """The principal axis, 1 to 3, that the whole torque of a scene is along; 0 where there is none, or other effects act."""
+    """The principal axis, 1 to 3, that the whole torque of a scene is along; 0 where there is none, or other
+    effects act."""
     acting = [n for n, m in enumerate(scene.quadratic().m, 1) if m] if scene.plain else []
     return acting[0] if len(acting) == 1 else 0

@@ -2,8 +2,9 @@
 
 Attitudes: quaternions inside, the 3-1-2 angles psi, phi, theta at the door.
 
-The rotation from body to space is R = Rz(theta) Rx(psi) Ry(phi) (Galal et al., charged body: eq. (30); its R23 is
-misprinted). The angles are singular where cos psi = 0: there phi and theta are not determined one by one.
+The rotation from body to space is R = Rz(theta) Rx(psi) Ry(phi) (Galal et al., charged body: eq. (30); its
+R23 is misprinted). The angles are singular where cos psi = 0: there phi and theta are not determined one by
+one.
 """
 from __future__ import annotations
 
@@ -40,7 +41,8 @@ def angles(q: ArrayLike) -> np.ndarray:
     """(psi, phi, theta) in (-pi, pi], psi in [-pi/2, pi/2], of quaternions (..., 4): array (..., 3)."""
     r = rotation(np.moveaxis(np.asarray(q, float), -1, 0))
     across = np.hypot(r[2][0], r[2][2])
-    return np.stack([np.arctan2(r[2][1], across), np.arctan2(-r[2][0], r[2][2]), np.arctan2(-r[0][1], r[1][1])], axis=-1)
+    return np.stack([np.arctan2(r[2][1], across), np.arctan2(-r[2][0], r[2][2]),
+                     np.arctan2(-r[0][1], r[1][1])], axis=-1)
 
 
 def vertical(found: ArrayLike) -> np.ndarray:
@@ -50,7 +52,8 @@ def vertical(found: ArrayLike) -> np.ndarray:
 
 
 def beyond(found: ArrayLike) -> np.ndarray:
-    """The other 3-1-2 angles (..., 3) of the same attitudes, with cos psi < 0 where `found` has cos psi > 0."""
+    """The other 3-1-2 angles (..., 3) of the same attitudes, with cos psi < 0 where `found` has cos psi > 0.
+    """
     psi, phi, theta = np.moveaxis(np.asarray(found, float), -1, 0)
     return np.stack([np.pi - psi, phi + np.pi, theta + np.pi], axis=-1)
 
@@ -80,8 +83,9 @@ def body_momentum(scene: Scene, omega: np.ndarray) -> np.ndarray:
 
 # --- States, starts and times as the program takes them, checked once: arrays
 def float_array(values: Any, name: str, expected: str = "numbers") -> np.ndarray:
-    """The values as an array of doubles; InputError "name: expected ..., got ..." for what has none: no numbers, rows of
-    unlike length, larger than any double. What came is written out only then, which takes long of a thousand times."""
+    """The values as an array of doubles; InputError "name: expected ..., got ..." for what has none: no
+    numbers, rows of unlike length, larger than any double. What came is written out only then, which takes
+    long of a thousand times."""
     try:
         return np.asarray(real(np.asarray(values), name), float)
     except (TypeError, ValueError, OverflowError):
@@ -102,7 +106,8 @@ def three_numbers(state: Any, name: str = "state") -> np.ndarray:
         raise InputError(f"{name}: expected three numbers, got {array.size} of them")
     return array
 
-REST = {"gamma": (0.0, 0.0, 1.0), "attitude": (1.0, 0.0, 0.0, 0.0), "velocity": (0.0,) * 3, "position": (0.0,) * 3}
+REST = {"gamma": (0.0, 0.0, 1.0), "attitude": (1.0, 0.0, 0.0, 0.0), "velocity": (0.0,) * 3,
+        "position": (0.0,) * 3}
 
 
 def equations_and_start(scene: AnyScene, state: Any) -> tuple[Equations, np.ndarray]:
@@ -111,12 +116,15 @@ def equations_and_start(scene: AnyScene, state: Any) -> tuple[Equations, np.ndar
         equations, array = equations_of(scene), numbers_in_a_row(state, "state")
         wanted = len(equations.state)
         if array.size != wanted:
-            words = "three numbers" if wanted == 3 else f"{wanted} numbers ({', '.join(map(str, equations.state))})"
+            words = ("three numbers" if wanted == 3
+                     else f"{wanted} numbers ({', '.join(map(str, equations.state))})")
             raise InputError(f"state: expected {words}, got {array.size} of them")
         return equations, array
     unknown = [name for name in state if name not in BLOCKS]
     if unknown or "omega" not in state:
-        raise InputError(f"state: expected the block omega and any of {', '.join(ORDER[1:])}; got {', '.join(state) or 'none'}")
+        raise InputError(
+            f"state: expected the block omega and any of {', '.join(ORDER[1:])}; got "
+            f"{', '.join(state) or 'none'}")
     equations = derive(scene, state)
     rows = []
     for name in equations.blocks:
@@ -163,7 +171,8 @@ def checked_states(states: Any) -> np.ndarray:
 
 
 def equilibrium_mask(scene: AnyScene, states: np.ndarray) -> np.ndarray:
-    """(n,) True where every rate of the state vanishes: in doubles to their rounding, then, for the few that pass, exactly."""
+    """(n,) True where every rate of the state vanishes: in doubles to their rounding, then, for the few that
+    pass, exactly."""
     form = scene.quadratic()
     kappa, rho, sigma, m = form.coefficients
     candidate = np.ones(len(states), bool)
@@ -183,16 +192,22 @@ def checked_starts(equations: Equations, states: Any) -> np.ndarray:
     wanted = len(equations.state)
     array = float_array(states, "states", f"rows of {wanted} numbers")
     if array.ndim != 2 or array.shape[1] != wanted or not len(array):
-        raise InputError(f"states: expected rows of {wanted} numbers ({', '.join(map(str, equations.state))}), got the shape {array.shape}")
+        raise InputError(
+            f"states: expected rows of {wanted} numbers ({', '.join(map(str, equations.state))}), got the "
+            f"shape {array.shape}")
     if not np.isfinite(array).all():
         raise InputError(f"states: row {int(np.argmin(np.isfinite(array).all(axis=1)))} is not finite")
     return array
 
 
-def start_of(scene: AnyScene, omega: Sequence[float], blocks: Mapping[str, Sequence[float]]) -> dict[str, Sequence[float]]:
-    """The blocks of the state at time 0 as `trajectory` takes them; attitude from its 3-1-2 angles, or a quaternion with its scalar last."""
+def start_of(scene: AnyScene, omega: Sequence[float],
+             blocks: Mapping[str, Sequence[float]]) -> dict[str, Sequence[float]]:
+    """The blocks of the state at time 0 as `trajectory` takes them; attitude from its 3-1-2 angles, or a
+    quaternion with its scalar last."""
     if not isinstance(blocks, Mapping):
-        raise InputError(f"blocks: expected blocks of the state by name, such as {{'gamma': (0, 0, 1)}}, got {blocks!r:.80}")
+        raise InputError(
+            f"blocks: expected blocks of the state by name, such as {{'gamma': (0, 0, 1)}}, got "
+            f"{blocks!r:.80}")
     start = {"omega": omega, **blocks}
     for name in ordered((*scene.blocks, *blocks)):
         if name == "attitude":
@@ -201,7 +216,8 @@ def start_of(scene: AnyScene, omega: Sequence[float], blocks: Mapping[str, Seque
 
 
 def _attitude(given: Sequence[float]) -> tuple[float, ...]:
-    """The unit quaternion, scalar first, of three angles, or of four numbers: a quaternion with its scalar last."""
+    """The unit quaternion, scalar first, of three angles, or of four numbers: a quaternion with its scalar
+    last."""
     if not as_quaternion(given):
         return tuple(quaternion(*three_numbers(given, "state: attitude").tolist()))
     x, y, z, w = float_array(given, "state: attitude", "four numbers").tolist()

@@ -1,8 +1,8 @@
 """From symbols to numbers: the one gate to NumPy and to heyoka's Taylor series.
 
 An expression that is polynomial in the state keeps its monomials; each coefficient is formed from the exact
-parameters and rounded once (D2 - D3 of two nearly equal moments keeps all its digits), so the compiled code depends
-on the monomials alone and is shared by all scenes of the same structure within a process.
+parameters and rounded once (D2 - D3 of two nearly equal moments keeps all its digits), so the compiled code
+depends on the monomials alone and is shared by all scenes of the same structure within a process.
 """
 from __future__ import annotations
 
@@ -59,7 +59,8 @@ class Form:
 
 
 def form(equations: Equations, expressions: Iterable[Symbolic], drop_constants: bool = False) -> Form:
-    """Expressions with one numbered coefficient per monomial; monomials whose coefficient is exactly 0 vanish."""
+    """Expressions with one numbered coefficient per monomial; monomials whose coefficient is exactly 0
+    vanish."""
     return _form(equations.state, _known(equations), tuple(expressions), drop_constants)
 
 
@@ -68,8 +69,10 @@ def _known(equations: Equations) -> Known:
     return tuple(values(equations).items())
 
 
-@lru_cache(maxsize=128)  # a comparison asks for the same scene dozens of times, and this is most of a short run
-def _form(state: tuple[Symbolic, ...], known: Known, expressions: tuple[Symbolic, ...], drop_constants: bool) -> Form:
+@lru_cache(
+    maxsize=128)  # a comparison asks for the same scene dozens of times, and this is most of a short run
+def _form(state: tuple[Symbolic, ...], known: Known, expressions: tuple[Symbolic, ...],
+          drop_constants: bool) -> Form:
     numbers_of = dict(known)
     symbols: list[Symbolic] = []
     numbers: list[float] = []
@@ -88,7 +91,8 @@ def _form(state: tuple[Symbolic, ...], known: Known, expressions: tuple[Symbolic
 
 
 @lru_cache(maxsize=512)  # scenes of one structure have the same expressions, and other numbers
-def _terms(expression: Symbolic, state: tuple[Symbolic, ...]) -> list[tuple[tuple[int, ...], Symbolic]] | None:
+def _terms(expression: Symbolic,
+           state: tuple[Symbolic, ...]) -> list[tuple[tuple[int, ...], Symbolic]] | None:
     """(powers, factor) of each monomial of the state; None of what is no polynomial in it."""
     from sympy import Poly, PolynomialError
     try:
@@ -102,8 +106,10 @@ def _monomial(state: Sequence[Symbolic], powers: Sequence[int]) -> Symbolic:
     return prod(x**n for x, n in zip(state, powers))
 
 
-def _coefficient(factor: Symbolic, known: dict[Symbolic, Symbolic], symbols: list[Symbolic], numbers: list[float]) -> Symbolic:
-    """A symbol for the coefficient (its number rounded once), 0 where it vanishes, the integer itself where it is one."""
+def _coefficient(factor: Symbolic, known: dict[Symbolic, Symbolic], symbols: list[Symbolic],
+                 numbers: list[float]) -> Symbolic:
+    """A symbol for the coefficient (its number rounded once), 0 where it vanishes, the integer itself where
+    it is one."""
     from sympy import Integer
     if factor.is_Integer:
         return factor
@@ -111,8 +117,10 @@ def _coefficient(factor: Symbolic, known: dict[Symbolic, Symbolic], symbols: lis
     return Integer(0) if exact.is_zero else _numbered(_rounded(exact), symbols, numbers)
 
 
-def _unstructured(expression: Symbolic, known: dict[Symbolic, Symbolic], symbols: list[Symbolic], numbers: list[float]) -> Symbolic:
-    """An expression that is no polynomial in the state: every parameter and every ratio in it becomes a number."""
+def _unstructured(expression: Symbolic, known: dict[Symbolic, Symbolic], symbols: list[Symbolic],
+                  numbers: list[float]) -> Symbolic:
+    """An expression that is no polynomial in the state: every parameter and every ratio in it becomes a
+    number."""
     from sympy import Float, Rational
     swap = {p: _numbered(_rounded(v), symbols, numbers) for p, v in known.items() if expression.has(p)}
     swapped = expression.subs(swap)
@@ -130,13 +138,15 @@ def _rounded(exact: Symbolic) -> float:
     try:
         return float(Fraction(int(exact.p), int(exact.q))) if exact.is_Rational else float(exact.evalf(30))
     except OverflowError:
-        raise InputError("a number of the equations or of their laws (the square of a moment, say) is beyond the largest double: "
+        raise InputError("a number of the equations or of their laws (the square of a moment, say) is beyond "
+                         "the largest double: "
                          "choose other units") from None
 
 
 @dataclass(frozen=True)
 class System:
-    """A scene's equations as numbers, each part formed where it is asked for. Arrays: batch first, component last; any float or complex type."""
+    """A scene's equations as numbers, each part formed where it is asked for. Arrays: batch first, component
+    last; any float or complex type."""
 
     equations: Equations
 
@@ -153,7 +163,8 @@ class System:
     @cached_property
     def quantities(self) -> Form:
         """The laws', up to additive constants."""
-        return self._formed("quantities", lambda: [law.quantity for law in self.equations.balances], drop_constants=True)
+        return self._formed("quantities", lambda: [law.quantity for law in self.equations.balances],
+                            drop_constants=True)
 
     @cached_property
     def rates(self) -> Form:
@@ -176,15 +187,18 @@ class System:
         return self._stepped("motion and rates", lambda: self.equations.rhs)
 
     def _stepped(self, name: str, beside: Callable[[], Iterable[Symbolic]] = tuple) -> Form:
-        """The rates of the state and what rides along; kept on disk only with effects that take long to multiply out."""
+        """The rates of the state and what rides along; kept on disk only with effects that take long to
+        multiply out."""
         if QUICK.issuperset(self.equations.torques):
             return form(self.equations, (*self.equations.rhs, *beside()))
         return self._formed(name, lambda: (*self.equations.rhs, *beside()))
 
-    def _formed(self, name: str, expressions: Callable[[], Iterable[Symbolic]], drop_constants: bool = False) -> Form:
+    def _formed(self, name: str, expressions: Callable[[], Iterable[Symbolic]],
+                drop_constants: bool = False) -> Form:
         """A part, from the disk where the equations may be kept there."""
         equations, make = self.equations, lambda: form(self.equations, expressions(), drop_constants)
-        return kept_of_symbols("forms", f"{equations.content} {name}", make, Form) if equations.content else make()
+        return (kept_of_symbols("forms", f"{equations.content} {name}", make, Form) if equations.content
+                else make())
 
     def __call__(self, x: ArrayLike) -> np.ndarray:
         """Rates of the states x: (..., 3) -> (..., 3)."""
@@ -215,11 +229,13 @@ class System:
         return {law.name: flat[..., i] for i, law in enumerate(self.equations.balances)}
 
     def law_sizes(self, x: ArrayLike) -> dict[str, np.ndarray]:
-        """Law name -> sum of the absolute terms of its quantity: what a relative departure is measured against."""
+        """Law name -> sum of the absolute terms of its quantity: what a relative departure is measured
+        against."""
         return {name: sizes for name, (_, sizes) in self.law_values(x).items()}
 
     def law_values(self, x: ArrayLike) -> dict[str, tuple[np.ndarray, np.ndarray]]:
-        """Law name -> (`invariants`, `law_sizes`) at the states x, each term formed once: (..., 3) -> two of (...)."""
+        """Law name -> (`invariants`, `law_sizes`) at the states x, each term formed once: (..., 3) -> two of
+        (...)."""
         quantities, sizes = self.laws(x)
         return {law.name: pair for law, pair in zip(self.equations.balances, zip(quantities, sizes))}
 
@@ -264,12 +280,14 @@ def _function(arguments: tuple[Symbolic, ...], expressions: tuple[Symbolic, ...]
     return lambdified(arguments, list(expressions))
 
 
-def lambdified(arguments: Sequence[Symbolic], expressions: Sequence[Symbolic], cse: bool = False) -> Callable[..., Any]:
-    """The expressions as one function of NumPy's arrays, made by one thread at a time: a second one would find the names that
-    SymPy collects for the first function half collected."""
+def lambdified(arguments: Sequence[Symbolic], expressions: Sequence[Symbolic],
+               cse: bool = False) -> Callable[..., Any]:
+    """The expressions as one function of NumPy's arrays, made by one thread at a time: a second one would
+    find the names that SymPy collects for the first function half collected."""
     from sympy import lambdify
     with _NAMES:
-        return lambdify(arguments, expressions, [np], cse=cse)  # of the word "numpy" SymPy would make a star import, which loads NumPy's tests
+        # of the word "numpy" SymPy would make a star import, which loads NumPy's tests
+        return lambdify(arguments, expressions, [np], cse=cse)
 
 
 _NAMES = RLock()
@@ -280,7 +298,8 @@ def _call(form: Form, x: Sequence[float]) -> list[float]:
 
 
 def _evaluate(form: Form, x: ArrayLike) -> np.ndarray:
-    """Values of the form at x (..., 3), one per expression in the last place; constants are spread over the batch."""
+    """Values of the form at x (..., 3), one per expression in the last place; constants are spread over the
+    batch."""
     x = _inexact(x)
     out = np.empty(x.shape[:-1] + (len(form.expressions),), x.dtype)
     for i, value in enumerate(form.function(*np.moveaxis(x, -1, 0), *form.numbers)):
@@ -289,7 +308,8 @@ def _evaluate(form: Form, x: ArrayLike) -> np.ndarray:
 
 
 def _columns(form: Form, x: ArrayLike) -> np.ndarray:
-    """`_evaluate` with one row an expression: (..., 3) -> (expressions, ...), which many states in a row fill faster."""
+    """`_evaluate` with one row an expression: (..., 3) -> (expressions, ...), which many states in a row fill
+    faster."""
     x = _inexact(x)
     columns = np.ascontiguousarray(x.transpose((x.ndim - 1, *range(x.ndim - 1))))
     out = np.empty((len(form.expressions), *x.shape[:-1]), x.dtype)

@@ -1,8 +1,9 @@
 """What an axis of a case is called: one convention for every text, page, picture and table.
 
-Axes 1, 2, 3 of a scene are the principal axes. Where the tensor of the file is diagonal they are the file's x, y, z; of a full tensor they are the major,
-the intermediate and the minor axis, whose direction in the frame of the file stands beside the word; of a scaled case they are the paper's x1, x2, x3.
-A body of revolution has a symmetry axis and two transverse ones.
+Axes 1, 2, 3 of a scene are the principal axes. Where the tensor of the file is diagonal they are the file's
+x, y, z; of a full tensor they are the major, the intermediate and the minor axis, whose direction in the
+frame of the file stands beside the word; of a scaled case they are the paper's x1, x2, x3. A body of
+revolution has a symmetry axis and two transverse ones.
 """
 from __future__ import annotations
 
@@ -16,15 +17,18 @@ from ..record import record
 if TYPE_CHECKING:
     from ..case.read import Case
 
-NUMBERED = re.compile(r"\b(?:the )?(?:principal )?axis ([123])\b|\b(?:the )?(?:principal )?axes ([123](?:(?:, | and )[123])+)\b")
+NUMBERED = re.compile(
+    r"\b(?:the )?(?:principal )?axis ([123])\b|\b(?:the )?(?:principal )?axes ([123](?:(?:, | and "
+    r")[123])+)\b")
 IN_FILE = " in the file's frame"
 RANKS = ("major", "intermediate", "minor")
 
 
 @record
 class Axes:
-    """letters: of the axes of the file or of the paper, "" of a full tensor; words: which axis each one is by its moment, "" where they are all alike or
-    unknown; directions: unit vectors in the frame of the file, right-handed, None of a scaled case and of a scene without a file."""
+    """letters: of the axes of the file or of the paper, "" of a full tensor; words: which axis each one is by
+    its moment, "" where they are all alike or unknown; directions: unit vectors in the frame of the file,
+    right-handed, None of a scaled case and of a scene without a file."""
 
     letters: tuple[str, ...]
     words: tuple[str, ...]
@@ -40,12 +44,15 @@ class Axes:
         if not number:
             return ""
         letter, word = self.letters[number - 1], self.words[number - 1]
-        return ("+" if sense > 0 else "-") + (letter or word + (f" {number}" if self.words.count(word) > 1 else ""))
+        return ("+" if sense > 0 else "-") + (letter
+                                              or word + (f" {number}" if self.words.count(word) > 1 else ""))
 
     def whole(self, number: int) -> str:
-        """Where it is named first: "z (minor axis)", or "the minor axis, (0.019, -0.060, 0.998) in the file's frame"."""
+        """Where it is named first: "z (minor axis)", or "the minor axis, (0.019, -0.060, 0.998) in the file's
+        frame"."""
         letter, word = self.letters[number - 1], self.words[number - 1]
-        return f"{letter} ({word} axis)" if letter and word else letter or f"the {word} axis, {self.direction(number)}{IN_FILE}"
+        return (f"{letter} ({word} axis)" if letter and word else letter
+                or f"the {word} axis, {self.direction(number)}{IN_FILE}")
 
     def brief(self, number: int) -> str:
         """After another axis of the same line: "x", or what `whole` says where there is no letter."""
@@ -67,15 +74,19 @@ class Axes:
         return told(self.directions[number - 1]) if self.directions else ""
 
     def sentence(self, text: str, name: Callable[[int], str] | None = None) -> str:
-        """A sentence of the analysis with names (of `short`, where no other are asked) for the numbers of its axes."""
+        """A sentence of the analysis with names (of `short`, where no other are asked) for the numbers of its
+        axes."""
         if self == PLAIN:
             return text
-        return NUMBERED.sub(lambda found: " and ".join((name or self.short)(int(n)) for n in re.findall("[123]", found[0])), text)
+        return NUMBERED.sub(lambda found: " and ".join((name or self.short)(int(n))
+                                                       for n in re.findall("[123]", found[0])), text)
 
     def key(self, number: int | None) -> dict[str, Any]:
-        """The keys of an axis in JSON: its number, name, and direction in the frame of the file; null where there is none."""
+        """The keys of an axis in JSON: its number, name, and direction in the frame of the file; null where
+        there is none."""
         along = self.directions[number - 1] if number and self.directions else None
-        return {"axis": number or None, "axis_name": self.name(number) if number else None, "axis_direction": along}
+        return {"axis": number or None, "axis_name": self.name(number) if number else None,
+                "axis_direction": along}
 
 
 PLAIN = Axes(("axis 1", "axis 2", "axis 3"), ("",) * 3)  # of a scene without a case
@@ -86,9 +97,12 @@ def axes_of(case: Case) -> Axes:
     if case.variables == "scaled":
         return Axes(("x1", "x2", "x3"), ("",) * 3)
     frame = case.frame
-    rows = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)) if frame is None else tuple(tuple(float(v) + 0.0 for v in row) for row in frame.axes)
+    rows = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0),
+            (0.0, 0.0, 1.0)) if frame is None else tuple(tuple(float(v) + 0.0 for v in row)
+                                                         for row in frame.axes)
     letters = tuple("xyz") if frame is None or frame.as_given else ("",) * 3
-    return Axes(letters, _words(case.scene.body.exact), rows)  # type: ignore[union-attr]  # a scene with a body
+    # a scene with a body
+    return Axes(letters, _words(case.scene.body.exact), rows)  # type: ignore[union-attr]
 
 
 def _words(moments) -> tuple[str, ...]:

@@ -1,4 +1,5 @@
-"""What limits an answer, in text: a limit that comes first, the condition beside a verdict, and a line for all else."""
+"""What limits an answer, in text: a limit that comes first, the condition beside a verdict, and a line for
+all else."""
 from __future__ import annotations
 
 import re
@@ -34,9 +35,11 @@ def tilted(caveats: Iterable[Caveat], units: Units) -> str:
 
 
 def shared(answers: Sequence[Iterable[Caveat]], units: Units) -> str:
-    """" only while ...", or of how many answers it is said, for several answers in one line; what a tilt does to each is left to each."""
+    """" only while ...", or of how many answers it is said, for several answers in one line; what a tilt does
+    to each is left to each."""
     told = Counter(re.split("[:;]", condition(caveats, units))[0] for caveats in answers)
-    return "".join(f"{words}" if count == len(answers) else f" ({count} of them{words})" for words, count in told.items() if words)
+    return "".join(f"{words}" if count == len(answers) else f" ({count} of them{words})" for words,
+                   count in told.items() if words)
 
 
 def noted(caveats: Iterable[Caveat], text: str, units: Units) -> str:
@@ -76,4 +79,5 @@ def _named(case: Any, caveats: Iterable[Caveat]) -> list[Caveat]:
 
 
 def _of(kind: str, caveats: Iterable[Caveat], units: Units, begins: str = "") -> str:
-    return "; ".join(words(one, units) for one in caveats if one.kind == kind and one.words.startswith(begins))
+    return "; ".join(words(one, units) for one in caveats if one.kind == kind
+                     and one.words.startswith(begins))

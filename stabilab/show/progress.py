@@ -30,7 +30,8 @@ def told():
 
 
 def each(items: Iterable[Any], name: Callable[[Any], str]) -> Iterator[Any]:
-    """The items one by one; where they take longer than a second, a terminal is told which of how many it is, and about how long the rest takes."""
+    """The items one by one; where they take longer than a second, a terminal is told which of how many it is,
+    and about how long the rest takes."""
     rows = list(items)
     with counted() as tell:
         for done, item in enumerate(rows):
@@ -41,7 +42,8 @@ def each(items: Iterable[Any], name: Callable[[Any], str]) -> Iterator[Any]:
 
 @contextmanager
 def counted() -> Iterator[Callable[[int, int, str], None]]:
-    """Context giving tell(done, count, words): which of how many it is, and about how long the rest takes; silent where no terminal is."""
+    """Context giving tell(done, count, words): which of how many it is, and about how long the rest takes;
+    silent where no terminal is."""
     begin = time.monotonic()
     with Progress() as progress:
         def tell(done: int, count: int, words: str) -> None:

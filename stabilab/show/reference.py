@@ -26,24 +26,33 @@ BITS = 1100  # more than any run has
 
 
 def as_dict(case, times, digits: int, arguments=()) -> tuple[dict, Tabulated]:
-    """(the whole reference as JSON has it, the run). times: rationals, from 0 on; arguments: of the command line."""
+    """(the whole reference as JSON has it, the run). times: rationals, from 0 on; arguments: of the command
+    line."""
     run = tabulated(case.scene, case.start, case.exact_state, times, digits)
     known = motion(case.scene, case.start, case.span, exact=case.exact_state)
-    told = {question: ask(question, case.scene, case.start, digits, case.span, known, case.exact_state) for question in ("period", "extremes")}
-    return {"schema": SCHEMA, "case": case.name, "title": case.title, "variables": case.variables, "time": case.scene.time_unit, "digits": digits,
-            "provenance": _provenance(case, arguments), "subject": subject(effective(case.scene), case.exact_state),
+    told = {question: ask(question, case.scene, case.start, digits, case.span, known, case.exact_state)
+            for question in ("period", "extremes")}
+    return {"schema": SCHEMA, "case": case.name, "title": case.title, "variables": case.variables,
+            "time": case.scene.time_unit, "digits": digits,
+            "provenance": _provenance(case, arguments),
+            "subject": subject(effective(case.scene), case.exact_state),
             "trajectory": {"level": run.level, "because": run.because, "components": list(run.components),
                            "rows": [{"t": decimal(t), "values": texts, "within": within(row, texts)}
-                                    for t, row in zip(run.t, run.states) for texts in [[written(v, digits) for v in row]]]},
-            "events": {"because": run.events_because, "list": [_event(one, run, digits) for one in run.events]},
-            "period": _told(told["period"]), "extremes": _told(told["extremes"]) | {"over": known.extremes_over}
+                                    for t, row in zip(run.t, run.states)
+                                    for texts in [[written(v, digits) for v in row]]]},
+            "events": {"because": run.events_because,
+                       "list": [_event(one, run, digits) for one in run.events]},
+            "period": _told(told["period"]),
+            "extremes": _told(told["extremes"]) | {"over": known.extremes_over}
             } | key(limited(known, case.scene, case).caveats), run
 
 
 def _provenance(case, arguments):
     made = manifest.environment()
-    return {"program": made["program"]["name"], "version": made["program"]["version"], "sources_sha256": made["program"]["sha256"],
-            **{name: made["versions"][name] for name in VERSIONS}, "case_file": case.path, "case_sha256": manifest.sha256(case.path),
+    return {"program": made["program"]["name"], "version": made["program"]["version"],
+            "sources_sha256": made["program"]["sha256"],
+            **{name: made["versions"][name] for name in VERSIONS}, "case_file": case.path,
+            "case_sha256": manifest.sha256(case.path),
             "command": shlex.join(["stabilab", *arguments])}
 
 
@@ -68,19 +77,23 @@ def written(ball, digits) -> str:
 def within(balls, texts) -> float:
     """How far the written numbers are from the true ones at most."""
     with working(BITS) as numbers:
-        return max(math.nextafter(float((ball - numbers.ball(Fraction(text))).abs_upper()), math.inf) for ball, text in zip(balls, texts))
+        return max(math.nextafter(float((ball - numbers.ball(Fraction(text))).abs_upper()), math.inf)
+                   for ball, text in zip(balls, texts))
 
 
 def _event(one, run, digits):
     t, value = written(one.t, digits), written(one.value, digits)
-    return {"kind": one.kind, "component": run.components[one.component], "t": t, "t_within": within([one.t], [t]),
+    return {"kind": one.kind, "component": run.components[one.component], "t": t,
+            "t_within": within([one.t], [t]),
             "value": value, "value_within": within([one.value], [value])}
 
 
 def _told(told) -> dict:
     values = told.values if told.decimals is None else told.decimals
-    value = None if values is None else [[str(v) for v in pair] for pair in values] if told.question == "extremes" else str(values)
-    return {"value": value, "digits": None if told.digits is None else min(told.digits, 99.0), "because": told.because}
+    value = (None if values is None else [[str(v) for v in pair] for pair in values]
+             if told.question == "extremes" else str(values))
+    return {"value": value, "digits": None if told.digits is None else min(told.digits, 99.0),
+            "because": told.because}
 
 
 def missing(case, made: dict, run: Tabulated) -> list[tuple]:
@@ -94,18 +107,23 @@ def missing(case, made: dict, run: Tabulated) -> list[tuple]:
 
 
 def csv(made: dict) -> str:
-    """One table: a row a number; kind, time, quantity, value, within (how far it is off at most, where known), known as."""
+    """One table: a row a number; kind, time, quantity, value, within (how far it is off at most, where
+    known), known as."""
     rows: list = [("kind", "time", "quantity", "value", "within", "known")]
-    rows += [("provenance", None, key, value, None, None) for key, value in {"case": made["case"], "digits": made["digits"], **made["provenance"]}.items()]
+    rows += [("provenance", None, key, value, None, None) for key,
+             value in {"case": made["case"], "digits": made["digits"], **made["provenance"]}.items()]
     course = made["trajectory"]
     for row in course["rows"]:
-        rows += [("state", row["t"], name, value, row["within"], course["level"]) for name, value in zip(course["components"], row["values"])]
+        rows += [("state", row["t"], name, value, row["within"], course["level"]) for name,
+                 value in zip(course["components"], row["values"])]
     for one in made["events"]["list"]:
-        rows.append((one["kind"], one["t"], one["component"], one["value"], max(one["t_within"], one["value_within"]), course["level"]))
+        rows.append((one["kind"], one["t"], one["component"], one["value"],
+                     max(one["t_within"], one["value_within"]), course["level"]))
     period, extremes = made["period"], made["extremes"]
     rows.append(("period", None, made["time"], period["value"], None, period["because"]))
     for name, pair in zip(course["components"], extremes["value"] or ()):
-        rows += [(f"{word} over {extremes['over']}", None, name, value, None, extremes["because"]) for word, value in zip(("least", "greatest"), pair)]
+        rows += [(f"{word} over {extremes['over']}", None, name, value, None, extremes["because"]) for word,
+                 value in zip(("least", "greatest"), pair)]
     rows += [("caveat", None, one["kind"], one["words"], None, None) for one in made["caveats"]]
     return comma.lines(rows)
 
@@ -119,5 +137,6 @@ def write(made: dict, path) -> Path:
     """The reference as a file."""
     path = Path(path)
     with whole_file(path) as waiting:
-        waiting.write_text(csv(made) if endings.ending(path) == ".csv" else answers.as_json(made) + "\n", encoding="utf-8")
+        waiting.write_text(csv(made) if endings.ending(path) == ".csv" else answers.as_json(made) + "\n",
+                           encoding="utf-8")
     return path

@@ -5,7 +5,8 @@ import numpy as np
 
 
 def spread(low: float, high: float, number: int) -> np.ndarray:
-    """Parameters inside (low, high), dense at both ends, geometric towards an infinite end and towards zero."""
+    """Parameters inside (low, high), dense at both ends, geometric towards an infinite end and towards zero.
+    """
     if np.isfinite(low) and np.isfinite(high):
         return low + (high - low) * (1 - np.cos(np.linspace(1e-3, np.pi - 1e-3, number))) / 2
     if np.isfinite(low):

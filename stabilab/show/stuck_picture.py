@@ -21,13 +21,15 @@ MOST_PANELS = 4
 
 
 def draw(case, found, path, units: Units) -> Path:
-    """Write the picture of an answer (`answers.stuck`) to a file (.png, .svg or .pdf): a panel a row, the first four of them."""
+    """Write the picture of an answer (`answers.stuck`) to a file (.png, .svg or .pdf): a panel a row, the
+    first four of them."""
     endings.file(path, endings.PICTURES)
     demand(*style.PACKAGES)
     scenario = scenario_of(case)
     rows = found.rows[:MOST_PANELS]
     with style.drawing() as plt:
-        figure, axes = plt.subplots(len(rows), 1, figsize=(7.6, 1.0 + 3.4 * len(rows)), layout="constrained", squeeze=False)
+        figure, axes = plt.subplots(len(rows), 1, figsize=(7.6, 1.0 + 3.4 * len(rows)), layout="constrained",
+                                    squeeze=False)
         for ax, row in zip(axes[:, 0], rows):
             _panel(ax, scenario, row, units)
         figure.suptitle(style.literal(case.heading), fontsize=10.5, wrap=True)
@@ -35,8 +37,10 @@ def draw(case, found, path, units: Units) -> Path:
         return style.save(figure, path)
 
 
-LOOKS = (("|ω|", {"color": style.BLACK, "linewidth": 3.0}), ("ω along x", {"color": style.BLUE, "linewidth": 1.1}),
-         ("ω along y", {"color": style.ORANGE, "linewidth": 1.1}), ("ω along z", {"color": style.GREEN, "linewidth": 1.1}))
+LOOKS = (("|ω|", {"color": style.BLACK, "linewidth": 3.0}),
+         ("ω along x", {"color": style.BLUE, "linewidth": 1.1}),
+         ("ω along y", {"color": style.ORANGE, "linewidth": 1.1}),
+         ("ω along z", {"color": style.GREEN, "linewidth": 1.1}))
 LIMIT = {"color": style.VERMILION, "linestyle": "--", "linewidth": 1.4}
 REACHED = {"marker": "o", "color": style.VERMILION, "markersize": 6, "linestyle": "none"}
 
@@ -76,7 +80,8 @@ def _limit(ax, row, t, values, per_time, per_rate):
     if row.time_to_limit:
         when = sum(row.time_to_limit) / 2
         at = [np.interp(when, t, values[:, n]) for n in range(4)]
-        where = at[0] if not isinstance(row.limit, tuple) else max(zip(at[1:], row.limit), key=lambda one: abs(one[0]) / one[1])[0]
+        where = (at[0] if not isinstance(row.limit, tuple)
+                 else max(zip(at[1:], row.limit), key=lambda one: abs(one[0]) / one[1])[0])
         ax.plot([when * per_time], [where * per_rate], zorder=5, **REACHED)
 
 

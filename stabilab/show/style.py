@@ -1,4 +1,5 @@
-"""One visual style for every picture: colours, markers and line styles by meaning, and bytes that do not change."""
+"""One visual style for every picture: colours, markers and line styles by meaning, and bytes that do not
+change."""
 from __future__ import annotations
 
 import re
@@ -31,37 +32,45 @@ MEANING = {  # what a line or a point stands for -> how it is drawn
 }
 MARKER = {
     "centre": {"marker": "o", "color": BLUE, "markersize": 6, "linestyle": "none"},
-    "saddle": {"marker": "o", "markerfacecolor": "white", "markeredgecolor": VERMILION, "markeredgewidth": 1.6,
+    "saddle": {"marker": "o", "markerfacecolor": "white", "markeredgecolor": VERMILION,
+               "markeredgewidth": 1.6,
                "markersize": 6.5, "linestyle": "none"},
     "degenerate": {"marker": "D", "color": GREEN, "markersize": 6, "linestyle": "none"},
     "start": {"marker": "s", "color": BLACK, "markersize": 5, "linestyle": "none"},
     "turning": {"marker": "^", "color": GREEN, "markersize": 6, "linestyle": "none"},
 }
-EQUILIBRIA = {"stable": "stable equilibria", "unstable": "unstable equilibria", "degenerate": "degenerate equilibria",
+EQUILIBRIA = {"stable": "stable equilibria", "unstable": "unstable equilibria",
+              "degenerate": "degenerate equilibria",
               "undecided": "equilibria of undecided stability"}  # kind -> its words in a legend
 SHEETS = (SKY, ORANGE, GREEN, PURPLE, YELLOW, BLUE, VERMILION)  # surfaces, in order
-BESIDE = (SKY, GREEN, PURPLE, "#B59A6A")  # surfaces beside a motion, which is orange, and the nearest point of them, which is yellow
+# surfaces beside a motion, which is orange, and the nearest point of them, which is yellow
+BESIDE = (SKY, GREEN, PURPLE, "#B59A6A")
 SERIES = (BLUE, ORANGE, GREEN, PURPLE, VERMILION)               # one curve each for a list of parameters
 
 PACKAGES = ("matplotlib", "PIL")  # of every picture
 DPI = 110
-QUICK = 6        # level at which a PNG is packed; the most of 9 takes ten times as long for 3 to 8 % less, which only the large ones are worth:
+# level at which a PNG is packed; the most of 9 takes ten times as long for 3 to 8 % less, which only the
+# large ones are worth:
+QUICK = 6
 LARGE = 100_000  # bytes
 LETTER, KEY = 0.07, 0.7  # inches that a letter of a legend, and its key with the gap, take
 TITLE = 0.0075  # inches that a letter of a title takes, a point of its size
-ROOMY, SMALLEST = (5.6, 3.8), 0.7  # inches from which on letters have their full size; the least share of it in smaller figures: 7 points
+# inches from which on letters have their full size; the least share of it in smaller figures: 7 points
+ROOMY, SMALLEST = (5.6, 3.8), 0.7
 RC: dict[Any, Any] = {  # of Matplotlib
     "figure.dpi": DPI, "savefig.dpi": DPI, "figure.facecolor": "white", "axes.facecolor": "white",
     "font.family": "DejaVu Sans", "font.size": 10, "axes.titlesize": 10.5, "axes.labelsize": 10.5,
     "legend.fontsize": 8.5, "xtick.labelsize": 9, "ytick.labelsize": 9, "axes.linewidth": 0.8,
     "axes.grid": True, "grid.color": "#DDDDDD", "grid.linewidth": 0.5, "axes.axisbelow": True,
-    "legend.frameon": True, "legend.framealpha": 0.92, "legend.edgecolor": "#BBBBBB", "lines.solid_capstyle": "round",
+    "legend.frameon": True, "legend.framealpha": 0.92, "legend.edgecolor": "#BBBBBB",
+    "lines.solid_capstyle": "round",
     "mathtext.fontset": "dejavusans", "axes.formatter.use_mathtext": True, "svg.hashsalt": "stabilab",
 }
 
 
 def kind_of(part: Any) -> str:
-    """Which of EQUILIBRIA an equilibrium or a piece of a curve of them is: as its verdict has it, which a linear centre in a field does not decide."""
+    """Which of EQUILIBRIA an equilibrium or a piece of a curve of them is: as its verdict has it, which a
+    linear centre in a field does not decide."""
     if part.linear == "stable" and part.verdict == "undecided":
         return "undecided"
     return part.linear if part.linear in EQUILIBRIA else "degenerate"
@@ -73,14 +82,16 @@ def colour_of(kind: str) -> str:
 
 
 def quiet_matplotlib() -> None:
-    """Leave Matplotlib no message below an error: without a home that can be written it warns at length, and draws all the same."""
+    """Leave Matplotlib no message below an error: without a home that can be written it warns at length, and
+    draws all the same."""
     import logging
     logging.getLogger("matplotlib").setLevel(logging.ERROR)
 
 
 @contextmanager
 def drawing():
-    """matplotlib.pyplot with this style and the file back end; figures opened inside are closed at the end."""
+    """matplotlib.pyplot with this style and the file back end; figures opened inside are closed at the end.
+    """
     quiet_matplotlib()
     import matplotlib
     matplotlib.use("Agg", force=False)
@@ -100,8 +111,9 @@ _UNDATED = {".svg": {"Date": None, "Creator": None},
 
 
 def save(figure, path, dpi: float | None = None) -> Path:
-    """Write a picture in the format of its ending (.png, .svg, .pdf), whole or not at all, with no date or version inside: the
-    same picture gives the same bytes. dpi: dots an inch, None for those of the house. Raises InputError for other endings."""
+    """Write a picture in the format of its ending (.png, .svg, .pdf), whole or not at all, with no date or
+    version inside: the same picture gives the same bytes. dpi: dots an inch, None for those of the house.
+    Raises InputError for other endings."""
     path = endings.file(path, endings.PICTURES)
     kind = endings.ending(path)
     if kind == ".png":
@@ -113,7 +125,8 @@ def save(figure, path, dpi: float | None = None) -> Path:
 
 
 def _drawn(figure, dpi):
-    """The figure as a Pillow image. A canvas lays it out and draws it once; savefig would draw it twice, and pack what is unpacked at once."""
+    """The figure as a Pillow image. A canvas lays it out and draws it once; savefig would draw it twice, and
+    pack what is unpacked at once."""
     import numpy as np
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from PIL import Image
@@ -129,7 +142,8 @@ def _drawn(figure, dpi):
 
 
 def write(out, draw, dpi: float | None = None) -> Path:
-    """Write the figure that draw(plt) makes and return its path. Raises InputError for another ending, before anything is drawn."""
+    """Write the figure that draw(plt) makes and return its path. Raises InputError for another ending, before
+    anything is drawn."""
     demand(*PACKAGES)
     target = endings.file(out, endings.PICTURES)
     with drawing() as plt:
@@ -137,7 +151,8 @@ def write(out, draw, dpi: float | None = None) -> Path:
 
 
 def write_small(image, path) -> None:
-    """Write a Pillow image as a PNG of 256 colours, the style's own among them: well under 200 kB for a drawing."""
+    """Write a Pillow image as a PNG of 256 colours, the style's own among them: well under 200 kB for a
+    drawing."""
     import numpy as np
     from PIL import Image
     image = image.convert("RGB")
@@ -146,7 +161,8 @@ def write_small(image, path) -> None:
     palette = np.vstack([ours, common])[:256].astype(np.int32)
     parts = np.asarray(image).astype(np.int32)
     pixels = parts[..., 0] << 16 | parts[..., 1] << 8 | parts[..., 2]  # a number a colour
-    place = np.zeros(1 << 24, bool)  # of all colours there are: a mark and a look are quicker than to sort a million pixels
+    # of all colours there are: a mark and a look are quicker than to sort a million pixels
+    place = np.zeros(1 << 24, bool)
     place[pixels] = True
     numbers = np.flatnonzero(place)
     entry = place.view(np.uint8)
@@ -165,8 +181,9 @@ def _packed(image, level) -> bytes:
 
 
 def _nearest(colours, palette):
-    """Of each colour the entry of the palette that is nearest, the first of equals. Pillow's own search is coarse (white comes out as 252); this one is
-    exact: squares and products of such numbers are whole numbers below 2^24, which single precision holds."""
+    """Of each colour the entry of the palette that is nearest, the first of equals. Pillow's own search is
+    coarse (white comes out as 252); this one is exact: squares and products of such numbers are whole numbers
+    below 2^24, which single precision holds."""
     import numpy as np
     known = palette.astype(np.float32)
     squares = (known**2).sum(axis=1)
@@ -178,12 +195,15 @@ def legend(figure, rows, columns=4):
     """One legend below the picture: rows of (name, look)."""
     from matplotlib.lines import Line2D
     names = [name for name, _ in rows]
-    figure.legend([Line2D([], [], **look) for _, look in rows], names, loc="outside lower center", ncols=min(columns, len(rows)))
+    figure.legend([Line2D([], [], **look) for _, look in rows], names, loc="outside lower center",
+                  ncols=min(columns, len(rows)))
 
 
 def letters(size: tuple[float, float] | None) -> dict[str, float]:
-    """The sizes of letters in a figure of so many inches: smaller in a small one, of which words would leave nothing else."""
-    share = 1.0 if size is None else max(SMALLEST, min(1.0, *(given / roomy for given, roomy in zip(size, ROOMY))))
+    """The sizes of letters in a figure of so many inches: smaller in a small one, of which words would leave
+    nothing else."""
+    share = (1.0 if size is None
+             else max(SMALLEST, min(1.0, *(given / roomy for given, roomy in zip(size, ROOMY)))))
     return {key: share * value for key, value in RC.items() if key.endswith("size")}
 
 
@@ -194,7 +214,8 @@ def share() -> float:
 
 
 def fitting(names: list[str], width: float) -> int:
-    """The most columns of a legend that fit below a figure of so many inches; it is filled column by column."""
+    """The most columns of a legend that fit below a figure of so many inches; it is filled column by column.
+    """
     room = (width - 0.3) / share()
     widths = [KEY + LETTER * len(re.sub(r"[$_\\]|\\\w+", "", name)) for name in names]
     for count in range(len(names), 1, -1):
@@ -206,10 +227,12 @@ def fitting(names: list[str], width: float) -> int:
 
 
 def clauses(text: str, width: float) -> str:
-    """A title of clauses in lines that fit a figure of so many inches: each ends with a clause where one alone is no longer than a line."""
+    """A title of clauses in lines that fit a figure of so many inches: each ends with a clause where one
+    alone is no longer than a line."""
     import matplotlib
     from matplotlib.font_manager import FontProperties
-    most = (width - 0.3) / (TITLE * FontProperties(size=matplotlib.rcParams["axes.titlesize"]).get_size_in_points())
+    most = (width
+            - 0.3) / (TITLE * FontProperties(size=matplotlib.rcParams["axes.titlesize"]).get_size_in_points())
     lines = [""]
     for clause in re.split(r"(?<=; )", text):
         if lines[-1] and len(lines[-1]) + len(clause.rstrip()) > most:
@@ -219,13 +242,15 @@ def clauses(text: str, width: float) -> str:
 
 
 def literal(text: str) -> str:
-    """A title of the user's as it is drawn: its names as letters (lambda1 becomes λ1), and a dollar is a dollar, which begins no formula.
-    (Matplotlib's parse_math=False does not reach the lines that it wraps.)"""
+    """A title of the user's as it is drawn: its names as letters (lambda1 becomes λ1), and a dollar is a
+    dollar, which begins no formula. (Matplotlib's parse_math=False does not reach the lines that it
+    wraps.)"""
     return written(text).replace("$", r"\$")
 
 
 def name_space(ax, zoom=0.92, order=(1, 2, 3)):
-    """Labels of the three axes of a 3-D picture, close to it and not clipped; `order`: components along its axes."""
+    """Labels of the three axes of a 3-D picture, close to it and not clipped; `order`: components along its
+    axes."""
     from matplotlib.ticker import MaxNLocator
     for setter, component, pad in zip((ax.set_xlabel, ax.set_ylabel, ax.set_zlabel), order, (-2, -2, -4)):
         setter(f"$x_{component}$", labelpad=pad, rotation=0)

@@ -32,8 +32,8 @@ OF_RATES = re.compile(r"\((-?\d[-+.\de]*(?:, -?\d[-+.\de]*)+)\) rad/s(?![\w^])")
 class Units:
     """A system of units: `name` is "deg", "si", or "scaled" for dimensionless variables.
 
-    `rates` and `angles` are units; `ladder` has the units of time, each with the number of seconds from which it is used; `axes` names the axes of the
-    case that is told.
+    `rates` and `angles` are units; `ladder` has the units of time, each with the number of seconds from which
+    it is used; `axes` names the axes of the case that is told.
     The methods turn a value in SI (or in the variables of a scaled case) into text with its unit.
     """
 
@@ -93,7 +93,8 @@ class Units:
     def times(self, longest: float) -> Unit:
         """The unit of time that suits times up to `longest` seconds."""
         size = abs(longest)
-        return next((unit for least, unit in self.ladder if size >= least), self.ladder[-1][1])  # the last also of NaN
+        # the last also of NaN
+        return next((unit for least, unit in self.ladder if size >= least), self.ladder[-1][1])
 
     def told(self, value: float, unit: Unit, digits: int = DIGITS) -> str:
         """The number in the unit, with the unit's name."""
@@ -107,9 +108,10 @@ class Units:
         return f"{number(start * one, digits)} to {number(end * one, digits)} {name}"
 
     def words(self, words: str, digits: int = DIGITS - 1) -> str:
-        """A sentence of the analysis, whose angles and rates are in rad and rad/s and whose times in s, with all in these units; "s in [0, 20]" becomes
-        "0 to 20 s", and with names for the numbers of axes."""
-        words = AFTER.sub(lambda found: f"{found[1]} {self.time(float(found[2]), digits)}", self.axes.sentence(words))
+        """A sentence of the analysis, whose angles and rates are in rad and rad/s and whose times in s, with
+        all in these units; "s in [0, 20]" becomes "0 to 20 s", and with names for the numbers of axes."""
+        words = AFTER.sub(lambda found: f"{found[1]} {self.time(float(found[2]), digits)}",
+                          self.axes.sentence(words))
         words = SPAN.sub(lambda found: self.span(found[1], float(found[2]), float(found[3])), words)
         words = MOMENT.sub(lambda found: self.moment(float(found[1]), digits), words)
         if self.rates[0] in ("rad/s", ""):
@@ -134,7 +136,8 @@ class Units:
         return f"({', '.join(number(float(v) * one, digits) for v in values)}) {name}".rstrip()
 
 
-CLOCK = ((172800.0, ("day", 1 / 86400)), (7200.0, ("h", 1 / 3600)), (120.0, ("min", 1 / 60)), (0.0, ("s", 1.0)))
+CLOCK = ((172800.0, ("day", 1 / 86400)), (7200.0, ("h", 1 / 3600)), (120.0, ("min", 1 / 60)),
+         (0.0, ("s", 1.0)))
 DEG = Units("deg", ("deg/s", TURN), ("deg", TURN), CLOCK)
 SI = Units("si", ("rad/s", 1.0), ("rad", 1.0), ((0.0, ("s", 1.0)),))
 SCALED = Units("scaled", ("", 1.0), ("rad", 1.0), ((0.0, ("tau", 1.0)),))
@@ -142,7 +145,8 @@ SYSTEMS = {"deg": DEG, "si": SI}
 
 
 def units_of(case: Case, asked: str | None = None) -> Units:
-    """The units for a case: those asked for, else those of its [output], else degrees. A scaled case has none."""
+    """The units for a case: those asked for, else those of its [output], else degrees. A scaled case has
+    none."""
     named = asked.lower() if isinstance(asked, str) else asked
     if named is not None and named not in SYSTEMS:
         raise InputError(f"--units: expected {' or '.join(SYSTEMS)}, got {asked!r:.40}")
@@ -150,17 +154,21 @@ def units_of(case: Case, asked: str | None = None) -> Units:
     return replace(system, axes=axes_of(case))
 
 
-PARAMETERS = (("lambda", "N m s"), ("D", "kg m^2"), ("M", "N m"), ("mass", "kg"), ("f", "N"), ("k", "N m s"), ("eHl2", "N m s"),
-              ("kappa", "N m s^3"), ("zeta", "1/s"), ("Mgx", "N m"), ("Mgy", "N m"), ("Mgz", "N m"), ("N", "1/s^2"))
+PARAMETERS = (("lambda", "N m s"), ("D", "kg m^2"), ("M", "N m"), ("mass", "kg"), ("f", "N"), ("k", "N m s"),
+              ("eHl2", "N m s"),
+              ("kappa", "N m s^3"), ("zeta", "1/s"), ("Mgx", "N m"), ("Mgy", "N m"), ("Mgz", "N m"),
+              ("N", "1/s^2"))
 
 
 def parameter_unit(name: str) -> str:
-    """The SI unit of a parameter of the equations of motion by its name (lambda1, D3, mass); nothing for those that have names of their own."""
+    """The SI unit of a parameter of the equations of motion by its name (lambda1, D3, mass); nothing for
+    those that have names of their own."""
     return next((unit for stem, unit in PARAMETERS if name == stem or name.removeprefix(stem).isdigit()), "")
 
 
 def number(value: float, digits: int = SHORT) -> str:
-    """So many significant digits at most, below a million whole where these do not reach the point; a word where it has none."""
+    """So many significant digits at most, below a million whole where these do not reach the point; a word
+    where it has none."""
     if math.isinf(value):
         return "unbounded" if value > 0 else "-unbounded"
     told = f"{value + 0.0:.{digits}g}"
@@ -168,15 +176,18 @@ def number(value: float, digits: int = SHORT) -> str:
 
 
 def but_for_rounding(pairs, tolerance: float | None):
-    """Least and greatest of each component, with 0 for what is no more than the tolerance of the largest of them, to which they are known."""
+    """Least and greatest of each component, with 0 for what is no more than the tolerance of the largest of
+    them, to which they are known."""
     if pairs is None:
         return None
-    known = (tolerance or 0.0) * max((abs(v) for pair in pairs for v in pair if v is not None and math.isfinite(v)), default=0.0)
+    known = (tolerance or 0.0) * max((abs(v) for pair in pairs for v in pair if v is not None
+                                      and math.isfinite(v)), default=0.0)
     return tuple(tuple(0.0 if v is not None and abs(v) <= known else v for v in pair) for pair in pairs)
 
 
 def bracket(low: float, high: float) -> tuple[str, str]:
-    """Both ends with as many decimals as tell them apart, six digits at most; the lower rounded down and the upper up."""
+    """Both ends with as many decimals as tell them apart, six digits at most; the lower rounded down and the
+    upper up."""
     most = max(0, 5 - math.floor(math.log10(high)))
     decimals = most if not high > low else min(most, max(0, 1 - math.floor(math.log10(high - low))))
     step = Decimal(1).scaleb(-decimals)

@@ -24,9 +24,9 @@ SHARED = ("omega", "gamma", "angles", "momentum", "velocity", "position")
 class Departure(Compared):
     """Error of one part of the state under one model.
 
-    error: (n,) largest component's distance from the exact motion, inf where the model has stopped; scale: the largest
-    exact component over the span, against which `first` is measured: {0.01: time of the first 1 % error or None, 0.1:
-    ...}, a stop being an error of any size; largest: while the model runs.
+    error: (n,) largest component's distance from the exact motion, inf where the model has stopped; scale:
+    the largest exact component over the span, against which `first` is measured: {0.01: time of the first 1 %
+    error or None, 0.1: ...}, a stop being an error of any size; largest: while the model runs.
     """
 
     model: str
@@ -39,8 +39,9 @@ class Departure(Compared):
 
 @dataclass(frozen=True, repr=False, eq=False)
 class Comparison(Shown, Compared):
-    """t: (n,) times; runs: model -> Simulation, the exact one first; departures: one per model and part of the state;
-    refused: model -> why it has no answer for this motion; theory: what else the theory says (`theory.theory`)."""
+    """t: (n,) times; runs: model -> Simulation, the exact one first; departures: one per model and part of
+    the state; refused: model -> why it has no answer for this motion; theory: what else the theory says
+    (`theory.theory`)."""
 
     t: np.ndarray
     runs: dict
@@ -59,11 +60,12 @@ def compare(case: Any, times: ArrayLike | None = None, order: int | None = None)
 
     case: as `stabilab.load` gives it, with a motion; order: of the fast top's expansion.
 
-    The first times of 1 % and 10 % error are bracketed on the grid and refined by evaluating both models in between.
-    Raises InputError as `follow` does.
+    The first times of 1 % and 10 % error are bracketed on the grid and refined by evaluating both models in
+    between. Raises InputError as `follow` does.
     """
     if order is not None and "lindstedt" not in models_of(checked_case(case).scene):
-        raise InputError(f"order: belongs to the model \"lindstedt\"; this scene has {', '.join(models_of(case.scene))}")
+        raise InputError(
+            f"order: belongs to the model \"lindstedt\"; this scene has {', '.join(models_of(case.scene))}")
     if checked_case(case).span is None and times is None:
         raise InputError("compare: the case states no span: give it times")
     times = np.linspace(case.span[0], case.span[1], GRID) if times is None else checked_times(times)
@@ -91,7 +93,8 @@ def side_by_side(case, times, order: int | None = None) -> tuple[dict, dict]:
 def _gap(run, exact, part):
     shown = min(len(run.t), len(exact.t))
     gap = np.full(len(exact.t), np.inf)
-    gap[:shown] = np.abs(np.asarray(run.state[part])[:shown] - np.asarray(exact.state[part])[:shown]).max(axis=1)
+    gap[:shown] = np.abs(np.asarray(run.state[part])[:shown]
+                         - np.asarray(exact.state[part])[:shown]).max(axis=1)
     return gap
 
 

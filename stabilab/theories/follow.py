@@ -1,4 +1,5 @@
-"""The models a case can be followed with: the exact motion, and the analytic solutions that apply to its scene."""
+"""The models a case can be followed with: the exact motion, and the analytic solutions that apply to its
+scene."""
 from __future__ import annotations
 
 import difflib
@@ -36,8 +37,8 @@ def follow(case, times, model: str = "exact", method: str | None = None, rtol: f
            order: int | None = None) -> Simulation:
     """The motion of a case by one model at the given times.
 
-    order: of the expansion, for "lindstedt" only. Raises InputError for a model that does not apply to the scene, with
-    those that do, and as `simulate` does.
+    order: of the expansion, for "lindstedt" only. Raises InputError for a model that does not apply to the
+    scene, with those that do, and as `simulate` does.
     """
     if model not in MODELS:
         close = difflib.get_close_matches(str(model), MODELS, 1)
@@ -48,9 +49,11 @@ def follow(case, times, model: str = "exact", method: str | None = None, rtol: f
     if model == "exact":
         return simulate(case.scene, case.state, times, case.blocks, method, rtol)
     if model not in models_of(case.scene):
-        raise InputError(f"model: {model!r} does not apply to this scene; it has {', '.join(models_of(case.scene))}")
+        raise InputError(
+            f"model: {model!r} does not apply to this scene; it has {', '.join(models_of(case.scene))}")
     if method is not None or rtol is not None:
-        raise InputError(f"method, rtol: the model {model!r} is a formula; they belong to the model \"exact\"")
+        raise InputError(
+            f"method, rtol: the model {model!r} is a formula; they belong to the model \"exact\"")
     run = family(case.scene).follow(model, case, times, order)
     limits = limits_of(case.scene)
     if limits is None or "omega" not in run.state or not len(run.t):

@@ -1,1 +1,2 @@
-"""Motions that no orbit serves: endless growth by law, torques between equal axes, free gyrostats, torques off the axes, bounds."""
+"""Motions that no orbit serves: endless growth by law, torques between equal axes, free gyrostats, torques
+off the axes, bounds."""

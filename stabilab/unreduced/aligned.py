@@ -1,6 +1,8 @@
-"""A torque in the plane of two equal moments: the body turned so that the torque lies on an axis has an orbit, or grows by law.
+"""A torque in the plane of two equal moments: the body turned so that the torque lies on an axis has an
+orbit, or grows by law.
 
-The twin's answers are those of the scene, told in the body's own axes; extremes of body components are roots of their own rates.
+The twin's answers are those of the scene, told in the body's own axes; extremes of body components are roots
+of their own rates.
 """
 from __future__ import annotations
 
@@ -31,7 +33,9 @@ from .growth.law import captured_fate, unbounded
 from .near_rest import beside_rest, small_loop
 
 TURN_ROUNDINGS = 16  # units of rounding that turning a state costs: nine products and sums
-NO_SPAN = "this motion does not repeat, and its torque acts between the axes: give span=T ({unit}), or a span in the case's [motion]"
+NO_SPAN = (
+    "this motion does not repeat, and its torque acts between the axes: give span=T ({unit}), or a span in "
+    "the case's [motion]")
 TURN_SHARE = 1e-36  # of the energies: half the digits of a turn by irrational numbers
 
 
@@ -45,9 +49,11 @@ def motion(scene, state, span=None, exact=None, brief: bool = False) -> Motion:
     fields = {**judged(state, decided), "margin_energy": finite(decided.margin), "period": repeats(time)}
     if decided.label == Fate.EQUILIBRIUM or repeats(time) is not None:
         box = turned_extremes(scene, given, decided.label, time, None)
-        fields |= {"extremes": pairs(box)} if np.isfinite(box).all() else {"extremes_over": "none: a run of one period was too long"}
+        fields |= ({"extremes": pairs(box)} if np.isfinite(box).all()
+                   else {"extremes_over": "none: a run of one period was too long"})
     else:
-        fields |= {"extremes_over": f"none: {NO_SPAN.format(unit=scene.time_unit)}"} if span is None else seen_over(scene, state, span)
+        fields |= ({"extremes_over": f"none: {NO_SPAN.format(unit=scene.time_unit)}"} if span is None
+                   else seen_over(scene, state, span))
     return Motion(**fields, **({} if brief else turned_apart(aligned(scene), orbit, state, decided)))
 
 
@@ -57,7 +63,8 @@ def twin_orbit(turn, state) -> Orbit:
 
 
 def turned_apart(turn, orbit, state, decided) -> dict:
-    """The fields of a Motion that tell the distance from the separatrix: that of the twin, as a turn keeps distances."""
+    """The fields of a Motion that tell the distance from the separatrix: that of the twin, as a turn keeps
+    distances."""
     if decided.label == Fate.UNDECIDED:
         return {"velocity_because": f"not known: {decided.because}"}
     found = apart_fields(orbit, state, decided)
@@ -65,7 +72,9 @@ def turned_apart(turn, orbit, state, decided) -> dict:
     if witness in (None, state):
         return found
     back = tuple(zip(*turn.rotation))  # the inverse of a rotation
-    return found | {"velocity_witness": tuple(float(sum(r * Fraction(v) for r, v in zip(row, witness))) for row in back)}
+    return (found
+            | {"velocity_witness": tuple(float(sum(r * Fraction(v) for r, v in zip(row, witness)))
+                                         for row in back)})
 
 
 def aligned_fate(scene, state, orbit) -> OneFate:
@@ -80,7 +89,8 @@ def turned_fate(turn, state, orbit) -> OneFate:
         return unbounded(captured_fate(turn.twin, tuple(map(float, orbit.state))))._replace(axis=0, sense=0)
     found = fate_of(turn.twin, orbit)
     speed = sum(float(v) ** 2 for v in state)
-    scale = max(map(float, turn.twin.body.exact)) * speed + max(abs(float(m)) for m in turn.twin.vector("constant_torque"))
+    scale = (max(map(float, turn.twin.body.exact)) * speed
+             + max(abs(float(m)) for m in turn.twin.vector("constant_torque")))
     if not turn.exact and abs(found.margin) <= TURN_SHARE * scale:
         return OneFate(Fate.UNDECIDED, Reason.TURN_ROUNDS, math.nan)
     return found._replace(axis=0)  # the spin-up is about the torque's direction, not about a body axis
@@ -92,8 +102,8 @@ def fates(scene, states, fast: bool | None = None) -> FateResult:
 
 
 def _label(scene, states, out) -> int:
-    """By the twin's formulas in doubles; in many digits where a change of the state in its last places, as the turn makes,
-    could matter."""
+    """By the twin's formulas in doubles; in many digits where a change of the state in its last places, as
+    the turn makes, could matter."""
     turn = aligned(scene)
     turned, land = states @ turn.matrix.T, landscape(turn.twin)
     result = _twin_fates(turn.twin, turned)
@@ -109,7 +119,8 @@ def _label(scene, states, out) -> int:
         for i in range(3):
             moved = turned.copy()
             moved[:, i] += step
-            change += np.abs(np.nan_to_num(_twin_fates(turn.twin, moved).margins - result.margins, nan=0.0, posinf=np.inf, neginf=np.inf))
+            change += np.abs(np.nan_to_num(_twin_fates(turn.twin, moved).margins - result.margins, nan=0.0,
+                                           posinf=np.inf, neginf=np.inf))
     doubtful = (np.abs(result.margins) <= 2 * change) | land.nearly_flat(turned)
     for index in np.nonzero(doubtful)[0]:
         state = states[index].tolist()
@@ -126,12 +137,13 @@ def extremes(scene, states, span=None, fast: bool | None = None):
     """(n, 3, 2) over all time where the motion repeats, else over the span."""
     labels = fates(scene, states).labels
     times = turned_periods(scene, states, labels)
-    return np.array([turned_extremes(scene, *one, span) for one in zip(states, labels, times)]).reshape(-1, 3, 2)
+    return np.array([turned_extremes(scene, *one, span)
+                     for one in zip(states, labels, times)]).reshape(-1, 3, 2)
 
 
 def turned_extremes(scene, state, label, time, span):
-    """(3, 2) extremes in a plane of equal moments of a motion with this label and period: roots of the body components' own rates
-    over one period, or over the span."""
+    """(3, 2) extremes in a plane of equal moments of a motion with this label and period: roots of the body
+    components' own rates over one period, or over the span."""
     if label == Fate.EQUILIBRIUM:
         return np.array([[float(v)] * 2 for v in state])
     form = scene.quadratic()
@@ -151,7 +163,8 @@ def periods(scene, states, fast: bool | None = None):
 
 
 def turned_period(orbit, label) -> float:
-    """The period of one motion with this orbit of its twin; inf where it does not repeat, NaN where it is undecided."""
+    """The period of one motion with this orbit of its twin; inf where it does not repeat, NaN where it is
+    undecided."""
     if orbit.reduction is None:  # its momentum grows by law
         return 0.0 if label == Fate.EQUILIBRIUM else math.inf
     return period_of(orbit, label)
@@ -163,6 +176,7 @@ def turned_periods(scene, states, labels):
     if reduce(turn.twin) is None:
         return np.where(labels == Fate.EQUILIBRIUM, 0.0, np.inf)
     out, bounded = np.where(labels == Fate.EQUILIBRIUM, 0.0, np.inf), labels == Fate.BOUNDED
-    if bounded.any():  # a state at rest, turned in doubles, hardly moves: a period that no number of bits finds
+    # a state at rest, turned in doubles, hardly moves: a period that no number of bits finds
+    if bounded.any():
         out[bounded] = many.periods(turn.twin, states[bounded] @ turn.matrix.T)
     return out

@@ -1,7 +1,8 @@
 """The motion of a body with more than a gyrostat and a constant torque: bounded or not, and where it tends.
 
-What proves a bound here: the energy falls (liquid, resistance), or resistance outgrows any torque of bounded size, or
-energy and |gamma| = 1 are kept (field). Each proof comes with its numbers. Extremes are roots of the rates over the span.
+What proves a bound here: the energy falls (liquid, resistance), or resistance outgrows any torque of bounded
+size, or energy and |gamma| = 1 are kept (field). Each proof comes with its numbers. Extremes are roots of the
+rates over the span.
 """
 from __future__ import annotations
 
@@ -18,7 +19,8 @@ from ..physics.coefficients import Content, at_rest, content, split
 
 
 def motion(scene, state, span=None, exact=None, brief: bool = False) -> Motion:
-    """See `answers.motion`. state: three numbers; six, omega and gamma, or a dict of blocks, where gamma is part of the state.
+    """See `answers.motion`. state: three numbers; six, omega and gamma, or a dict of blocks, where gamma is
+    part of the state.
 
     Raises InputError for a scene with an effect that is not known here."""
     parts = content(scene)
@@ -53,7 +55,9 @@ def judged(parts: Content, omega, gamma) -> tuple[Fate, str, dict]:
     if parts.c:
         return _resisted(parts, T0)
     if any(parts.M):
-        return (Fate.UNDECIDED, "undecided: the torque does work at the rate M . omega, and what the liquid takes, of fourth order in the rates, "
+        return (Fate.UNDECIDED,
+                "undecided: the torque does work at the rate M . omega, and what the liquid takes, of fourth "
+                "order in the rates, "
                 "vanishes about the principal axes: no bound is proved", {})
     return _liquid(parts, omega, T0)
 
@@ -62,10 +66,12 @@ def _resisted(parts: Content, T0) -> tuple[Fate, str, dict]:
     least = sqrt(float(min(parts.D)))
     takes = "T' <= " if parts.kappa else "T' = "
     if not any(parts.M):
-        return (Fate.BOUNDED, f"{takes}-2 c T: the energy falls at least as T(0) exp(-2 c t), so the motion tends to rest",
+        return (Fate.BOUNDED,
+                f"{takes}-2 c T: the energy falls at least as T(0) exp(-2 c t), so the motion tends to rest",
                 {"energy": T0, "rate_bound": sqrt(2 * T0) / least})
     largest, late = energy_bound(parts, T0)
-    words = (f"{takes}M . omega - 2 c T <= sqrt(2 T) (sqrt(M . D^-1 M) - c sqrt(2 T)): resistance outgrows the torque, so |omega| <= "
+    words = (f"{takes}M . omega - 2 c T <= sqrt(2 T) (sqrt(M . D^-1 M) - c sqrt(2 T)): resistance outgrows "
+             f"the torque, so |omega| <= "
              f"{largest / least:.6g} rad/s always and <= {late / least:.6g} rad/s in the end")
     bounds = {"energy": T0, "rate_bound": largest / least, "late_rate_bound": late / least}
     if parts.kappa:
@@ -73,23 +79,31 @@ def _resisted(parts: Content, T0) -> tuple[Fate, str, dict]:
     found = resisted_equilibria(parts)
     drawn = [p for p in found.points if GLOBAL in p.because]
     if drawn:
-        where = "it tends to the equilibrium (" + ", ".join(f"{v:.12g}" for v in drawn[0].at) + ") rad/s, as every motion does"
+        where = ("it tends to the equilibrium (" + ", ".join(f"{v:.12g}" for v in drawn[0].at)
+                 + ") rad/s, as every motion does")
     else:
         attracting = sum(p.verdict == "asymptotically stable" for p in found.points)
-        where = f"where it tends is undecided: {attracting} of {len(found.points)} equilibria attract their neighbourhood, and no proof covers all motions"
+        where = (
+            f"where it tends is undecided: {attracting} of {len(found.points)} equilibria attract their "
+            f"neighbourhood, and no proof covers all motions")
     return Fate.BOUNDED, f"{words}; {where}", bounds
 
 
 def _liquid(parts: Content, omega, T0) -> tuple[Fate, str, dict]:
     """Liquid alone: |H| stays where no wheel acts, the energy falls."""
     if any(parts.Lambda):  # the printed torque
-        return (Fate.BOUNDED, "the printed torque of the liquid takes energy, T' <= 0; where the motion tends is undecided, since "
-                "this torque changes the angular momentum", {"energy": T0, "rate_bound": sqrt(2 * T0 / float(min(parts.D)))})
+        return (Fate.BOUNDED,
+                "the printed torque of the liquid takes energy, T' <= 0; where the motion tends is "
+                "undecided, since "
+                "this torque changes the angular momentum",
+                {"energy": T0, "rate_bound": sqrt(2 * T0 / float(min(parts.D)))})
     w = tuple(map(Fraction, omega))
     square, twice = sum((d * x) ** 2 for d, x in zip(parts.D, w)), sum(d * x * x for d, x in zip(parts.D, w))
     size, order = sqrt(float(square)), sorted(range(3), key=lambda i: -parts.D[i])
     bounds = {"energy": T0, "momentum": size, "rate_bound": size / float(min(parts.D))}
-    words = "the liquid keeps |H| and takes energy at every rotation that is not permanent (LaSalle), so the motion is bounded"
+    words = (
+        "the liquid keeps |H| and takes energy at every rotation that is not permanent (LaSalle), so the "
+        "motion is bounded")
     first, second = order[:2]
     if parts.D[first] == parts.D[second]:
         return Fate.BOUNDED, words + " and tends to permanent rotations of its |H|", bounds
@@ -97,25 +111,37 @@ def _liquid(parts: Content, omega, T0) -> tuple[Fate, str, dict]:
     final[first] = size / float(parts.D[first]) * (1 if w[first] > 0 else -1)
     if twice * parts.D[second] < square:
         place = ", ".join(f"{v:.12g}" for v in final)
-        return (Fate.BOUNDED, f"{words}; its energy is below that of rotation about axis {second + 1} at this |H|, so it stays on its side and tends to "
+        return (Fate.BOUNDED,
+                f"{words}; its energy is below that of rotation about axis {second + 1} at this |H|, so it "
+                f"stays on its side and tends to "
                 f"rotation about axis {first + 1}, the axis of the largest moment: ({place})", bounds)
-    return (Fate.BOUNDED, f"{words} and tends to a permanent rotation of its |H|: about axis {first + 1} (largest moment) but for a set of measure zero; "
-            "which sense is undecided, since its energy is not below that of rotation about the next axis", bounds)
+    return (Fate.BOUNDED,
+            f"{words} and tends to a permanent rotation of its |H|: about axis {first + 1} (largest moment) "
+            f"but for a set of measure zero; "
+            "which sense is undecided, since its energy is not below that of rotation about the next axis",
+            bounds)
 
 
 def _wheel_and_liquid(parts: Content, T0) -> tuple[Fate, str, dict]:
-    """With Lambda the liquid's work has parts of either sign, which resistance outweighs below a certain energy."""
+    """With Lambda the liquid's work has parts of either sign, which resistance outweighs below a certain
+    energy."""
     found, x0 = trap(parts), sqrt(2 * T0)
     if found is None or x0 >= found[1]:
-        return (Fate.UNDECIDED, "undecided: with a wheel or a charge the liquid keeps |H| to first order in kappa only, and its work has parts "
+        return (Fate.UNDECIDED,
+                "undecided: with a wheel or a charge the liquid keeps |H| to first order in kappa only, and "
+                "its work has parts "
                 "of either sign; no bound is proved for this state", {"energy": T0})
     x1, x2 = found
     least = sqrt(float(min(parts.D)))
-    where = f"above {x1 * x1 / 2:.6g} J" if x2 == inf else f"between {x1 * x1 / 2:.6g} and {x2 * x2 / 2:.6g} J"
-    words = (f"resistance outweighs torque and liquid: the kinetic energy falls wherever it is {where}, so |omega| <= "
+    where = (f"above {x1 * x1 / 2:.6g} J" if x2 == inf
+             else f"between {x1 * x1 / 2:.6g} and {x2 * x2 / 2:.6g} J")
+    words = (f"resistance outweighs torque and liquid: the kinetic energy falls wherever it is {where}, so "
+             f"|omega| <= "
              f"{max(x0, x1) / least:.6g} rad/s always")
-    end = f" and <= {x1 / least:.6g} rad/s in the end; where it tends is undecided" if x1 else "; the motion tends to rest"
-    return Fate.BOUNDED, words + end, {"energy": T0, "rate_bound": max(x0, x1) / least, "late_rate_bound": x1 / least}
+    end = (f" and <= {x1 / least:.6g} rad/s in the end; where it tends is undecided" if x1
+           else "; the motion tends to rest")
+    return Fate.BOUNDED, words + end, {"energy": T0, "rate_bound": max(x0, x1) / least,
+                                       "late_rate_bound": x1 / least}
 
 
 def _directed(parts: Content, omega, gamma) -> tuple[Fate, str, dict]:
@@ -125,19 +151,28 @@ def _directed(parts: Content, omega, gamma) -> tuple[Fate, str, dict]:
     least, most = float(min(parts.D)), float(max(parts.D))
     floor = -hypot(*s) + N / 2 * (least if N > 0 else most)
     if parts.kappa:
-        return (Fate.UNDECIDED, "undecided: the torque of the field enters the liquid's own, whose work may have either sign; no bound is proved",
+        return (Fate.UNDECIDED,
+                "undecided: the torque of the field enters the liquid's own, whose work may have either "
+                "sign; no bound is proved",
                 {"energy": T0 + V0})
     if not any(parts.M):
         rate = sqrt(max(0.0, 2 * (T0 + V0 - floor) / least))
         kept = "falls (the medium takes 2 c T)" if parts.c else "is kept"
         end = "; it tends to rest (LaSalle)" if parts.c else ""
-        return (Fate.BOUNDED, f"|gamma| = 1 bounds the potential energy from below and the sum of kinetic and potential energy {kept}: T <= "
-                f"{T0 + V0 - floor:.6g} J, so |omega| <= {rate:.6g} rad/s{end}", {"energy": T0 + V0, "rate_bound": rate})
+        return (Fate.BOUNDED,
+                f"|gamma| = 1 bounds the potential energy from below and the sum of kinetic and potential "
+                f"energy {kept}: T <= "
+                f"{T0 + V0 - floor:.6g} J, so |omega| <= {rate:.6g} rad/s{end}",
+                {"energy": T0 + V0, "rate_bound": rate})
     if parts.c:
         torque = hypot(*map(float, parts.M)) + hypot(*s) + abs(N) * (most - least) / 2
         late = torque / sqrt(least) / float(parts.c)
         rate = max(sqrt(2 * T0), late) / sqrt(least)
-        return (Fate.BOUNDED, f"the torque is at most {torque:.6g} N m, and T' <= |torque| |omega| - 2 c T: resistance outgrows it, so |omega| <= {rate:.6g} "
+        return (Fate.BOUNDED,
+                f"the torque is at most {torque:.6g} N m, and T' <= |torque| |omega| - 2 c T: resistance "
+                f"outgrows it, so |omega| <= {rate:.6g} "
                 "rad/s; where it tends is undecided", {"energy": T0 + V0, "rate_bound": rate})
-    return (Fate.UNDECIDED, "undecided: the constant torque does work in a body that also turns in a field; no bound and no release is proved",
+    return (Fate.UNDECIDED,
+            "undecided: the constant torque does work in a body that also turns in a field; no bound and no "
+            "release is proved",
             {"energy": T0 + V0})

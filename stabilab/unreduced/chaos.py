@@ -1,11 +1,14 @@
-"""Regular or chaotic motion, by how a small change of its start grows: the mean exponential growth of nearby orbits (MEGNO; Cincotta, Giordano, Simo 2003).
+"""Regular or chaotic motion, by how a small change of its start grows: the mean exponential growth of nearby
+orbits (MEGNO; Cincotta, Giordano, Simo 2003).
 
-The change v obeys the variational equations v' = J(x) v, whose J is the symbolic derivative of the very equations of motion. With L(t) = ln |v(t)|,
+The change v obeys the variational equations v' = J(x) v, whose J is the symbolic derivative of the very
+equations of motion. With L(t) = ln |v(t)|,
 
     Y(t) = 2 [L(t) - (1/t) integral of L over (0, t)],     MEGNO(T) = (1/T) integral of Y over (0, T).
 
-Neighbours on tori part in proportion to time: MEGNO -> 2. Neighbours that keep their distance: -> 0; that come together: to ever lower numbers. Where they
-part exponentially, at the rate s, it grows as s T / 2. A number of a finite time: what stays regular for so long may be chaotic in the end.
+Neighbours on tori part in proportion to time: MEGNO -> 2. Neighbours that keep their distance: -> 0; that
+come together: to ever lower numbers. Where they part exponentially, at the rate s, it grows as s T / 2. A
+number of a finite time: what stays regular for so long may be chaotic in the end.
 """
 from __future__ import annotations
 
@@ -25,29 +28,35 @@ from ..physics.to_numpy import equations_of, form, to_numpy
 
 LANES = 8
 STAGES = 6         # doublings of the time: 1/32 of it is the first
-SAMPLES = 12       # of ln |v| in a turn; more than twice the faster swing of |v|, so that its mean is that of the motion
+# of ln |v| in a turn; more than twice the faster swing of |v|, so that its mean is that of the motion
+SAMPLES = 12
 TURNS = 1000       # that a motion is followed unless a time is given
 
 
 @dataclass(frozen=True)
 class Growth:
-    """times: (stages,) in the scene's time; megno: (n, stages), nan from where on a motion could not be followed."""
+    """times: (stages,) in the scene's time; megno: (n, stages), nan from where on a motion could not be
+    followed."""
 
     times: np.ndarray
     megno: np.ndarray
 
 
 def turn_of(scene: Any, states: np.ndarray) -> float:
-    """The time (scene's time) of a turn of a motion of middling pace among states (n, N): 2 pi over rate, or over the root of what changes it."""
+    """The time (scene's time) of a turn of a motion of middling pace among states (n, N): 2 pi over rate, or
+    over the root of what changes it."""
     rates = to_numpy(scene)(states)[:, :3]
     pace = np.maximum(np.abs(states[:, :3]).max(axis=1), np.sqrt(np.abs(rates).max(axis=1)))
     found = float(np.median(pace))
     return 2 * math.pi / found if found > 0 else 1.0
 
 
-def growth(scene: Any, states: np.ndarray, until: float, turn: float, tell: Callable[[int], Any] | None = None) -> Growth:
-    """MEGNO of motions from states (n, N) at `until` and at its halves; turn: `turn_of` them. tell(motions done)."""
-    unit = own_unit(scene, np.abs(states[:, :3]).max(axis=0).tolist(), np.abs(to_numpy(scene)(states)[:, :3]).max(axis=0).tolist())
+def growth(scene: Any, states: np.ndarray, until: float, turn: float,
+           tell: Callable[[int], Any] | None = None) -> Growth:
+    """MEGNO of motions from states (n, N) at `until` and at its halves; turn: `turn_of` them. tell(motions
+    done)."""
+    unit = own_unit(scene, np.abs(states[:, :3]).max(axis=0).tolist(),
+                    np.abs(to_numpy(scene)(states)[:, :3]).max(axis=0).tolist())
     if unit != 1:
         found = growth(in_unit(scene, unit), states / unit, until * unit, turn * unit, tell)
         return replace(found, times=found.times / unit)
@@ -93,17 +102,20 @@ def _lengths(change: np.ndarray) -> np.ndarray:
 
 
 def _megno(logs: np.ndarray, step: float) -> np.ndarray:
-    """MEGNO at the end of ln |v| (samples, n), 0 at the first; by the rule of trapezes, which of what swings many times leaves nothing."""
+    """MEGNO at the end of ln |v| (samples, n), 0 at the first; by the rule of trapezes, which of what swings
+    many times leaves nothing."""
     with np.errstate(all="ignore"):
         t = step * np.arange(len(logs))[:, None]
-        area = np.concatenate([np.zeros((1, logs.shape[1])), np.cumsum(0.5 * (logs[1:] + logs[:-1]), axis=0) * step])
+        area = np.concatenate([np.zeros((1, logs.shape[1])),
+                               np.cumsum(0.5 * (logs[1:] + logs[:-1]), axis=0) * step])
         y = 2 * (logs - area / np.maximum(t, step))
         found = (0.5 * (y[1:] + y[:-1])).sum(axis=0) * step / t[-1, 0]
     return np.where(np.isfinite(found), found, np.nan)
 
 
 def _change(size: int) -> np.ndarray:
-    """A first change of length 1, along no axis and no plane of the body: it has a part across the motion and its tori."""
+    """A first change of length 1, along no axis and no plane of the body: it has a part across the motion and
+    its tori."""
     raw = np.array([math.sqrt(n + 2) - 1 for n in range(size)]) * (-1.0) ** np.arange(size)
     return raw / np.linalg.norm(raw)
 
@@ -114,7 +126,8 @@ def varied(equations: Equations) -> Equations:
     from sympy import symbols
     n = len(equations.state)
     change = symbols(f"change1:{n + 1}", real=True)
-    linear = tuple(sum((equations.jacobian[i, j] * change[j] for j in range(n)), 0 * change[0]) for i in range(n))
+    linear = tuple(sum((equations.jacobian[i, j] * change[j] for j in range(n)), 0 * change[0])
+                   for i in range(n))
     return replace(equations, state=(*equations.state, *change), rhs=(*equations.rhs, *linear))
 
 
@@ -124,7 +137,8 @@ def _by_taylor(scene: Any, x: np.ndarray, grid: np.ndarray) -> np.ndarray:
     with borrowed_taylor(forms, TAYLOR_TOLERANCE, LANES) as ta, np.errstate(all="ignore"):
         ta.set_time(0.0)
         ta.state[:] = np.where(np.isfinite(x), x, 0.0).T
-        points = ta.propagate_grid(np.tile(grid[:, None], LANES), max_steps=STEP_LIMIT)[1].transpose(0, 2, 1).copy()
+        points = ta.propagate_grid(np.tile(grid[:, None], LANES),
+                                   max_steps=STEP_LIMIT)[1].transpose(0, 2, 1).copy()
         points[:, ~np.isfinite(x).all(axis=1)] = np.nan
     return points
 
@@ -136,6 +150,7 @@ def _by_scipy(scene: Any, x: np.ndarray, grid: np.ndarray) -> np.ndarray:
     out = np.full((len(grid), *x.shape), np.nan)
     for n, start in enumerate(x):
         if np.isfinite(start).all():
-            found = solve_ivp(rate, (0.0, grid[-1]), start, "DOP853", t_eval=grid, rtol=FALLBACK_RTOL, atol=FALLBACK_RTOL * 1e-3)
+            found = solve_ivp(rate, (0.0, grid[-1]), start, "DOP853", t_eval=grid, rtol=FALLBACK_RTOL,
+                              atol=FALLBACK_RTOL * 1e-3)
             out[:found.y.shape[1], n] = found.y.T
     return out

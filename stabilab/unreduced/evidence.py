@@ -1,4 +1,5 @@
-"""What a run over a span shows of a motion, labelled so: extremes, size, energy, and the axis that holds a growing spin. It proves nothing."""
+"""What a run over a span shows of a motion, labelled so: extremes, size, energy, and the axis that holds a
+growing spin. It proves nothing."""
 from __future__ import annotations
 
 import math
@@ -16,11 +17,15 @@ from ..physics.to_numpy import equations_of, to_numpy
 
 # A run that has not shown what is asked after this many steps (seconds of work) gives up and says so.
 STEP_BUDGET = 1_000_000
-# An axis is called the spin-up's when in this many doublings of the run in a row it keeps its sense and its least rate
-# grows by this factor, and no other axis does (a spin like the square root of time gives 1.41, a steady spin-up 2); in the last
-# it exceeds the whole spin of the beginning, which a temporary capture, however slowly its swing dies out, never does.
+# An axis is called the spin-up's when in this many doublings of the run in a row it keeps its sense and its
+# least rate
+# grows by this factor, and no other axis does (a spin like the square root of time gives 1.41, a steady
+# spin-up 2); in the last
+# it exceeds the whole spin of the beginning, which a temporary capture, however slowly its swing dies out,
+# never does.
 DOUBLINGS, GROWTH = 3, 1.2
-# Or when it keeps its sense through the last doubling, ends ten times faster than the whole spin began, and holds this
+# Or when it keeps its sense through the last doubling, ends ten times faster than the whole spin began, and
+# holds this
 # share of the squared spin throughout.
 SHARE, FASTER = 0.9, 10.0
 
@@ -29,9 +34,10 @@ SHARE, FASTER = 0.9, 10.0
 class Evidence:
     """What a run over a span shows; it proves nothing beyond it.
 
-    span: its length, s (tau when scaled); extremes: (3, 2) over it, ends included, as roots of the rates; size: |omega|
-    (or |x|) at the start, at the end, and its largest value at those roots; energy: kinetic energy at start and end; trend:
-    "rises", "falls", "oscillates"; drift: relative departure from the balance laws.
+    span: its length, s (tau when scaled); extremes: (3, 2) over it, ends included, as roots of the rates;
+    size: |omega| (or |x|) at the start, at the end, and its largest value at those roots; energy: kinetic
+    energy at start and end; trend: "rises", "falls", "oscillates"; drift: relative departure from the balance
+    laws.
     """
 
     fate: Fate
@@ -67,13 +73,16 @@ def evidence(scene, state, span) -> Evidence:
     sizes = np.linalg.norm(np.vstack([points, roots.states]), axis=1)
     unit = scene.time_unit
     over = f"{unit} in [0, {roots.t_reached:g}]"
-    return Evidence(Fate.UNDECIDED, _why_undecided(scene) + (f"; {roots.reason}" if roots.reason else ""), roots.t_reached,
-                    roots.extremes(), over, (float(sizes[0]), float(sizes[len(points) - 1]), float(sizes.max())),
+    return Evidence(Fate.UNDECIDED, _why_undecided(scene) + (f"; {roots.reason}" if roots.reason else ""),
+                    roots.t_reached,
+                    roots.extremes(), over,
+                    (float(sizes[0]), float(sizes[len(points) - 1]), float(sizes.max())),
                     (float(energy[0]), float(energy[-1])), _trend(energy), run.invariant_drift, roots.steps)
 
 
 def extremes_over(scene, state, length: float) -> np.ndarray:
-    """(3, 2) extremes from `state` (three numbers) over a span of this length; NaN where the run ends before the span does."""
+    """(3, 2) extremes from `state` (three numbers) over a span of this length; NaN where the run ends before
+    the span does."""
     roots = _searched(scene, three_numbers(state), length)
     return np.full((3, 2), np.nan) if roots.reason else roots.extremes()
 
@@ -87,7 +96,8 @@ def _searched(scene, state, length: float) -> RateRoots:
 def _why_undecided(scene):
     torque = [f"axis {i + 1}" for i, m in enumerate(scene.quadratic().m) if m]
     if len(torque) > 1:
-        return (f"the torque is off the principal axes (components on {' and '.join(torque)}): no invariant is known that decides "
+        return (f"the torque is off the principal axes (components on {' and '.join(torque)}): no invariant "
+                f"is known that decides "
                 "boundedness; a run over a span cannot")
     return "boundedness was not decided; the run shows this span alone"
 
@@ -104,7 +114,8 @@ def _trend(energy):
 
 
 def growth(scene, state, t_max: float) -> Growth:
-    """Run in doubling spans, up to t_max or the step budget, until one axis clearly holds the growing spin."""
+    """Run in doubling spans, up to t_max or the step budget, until one axis clearly holds the growing spin.
+    """
     here, t, steps, stages = three_numbers(state), 0.0, 0, []
     begin = np.linalg.norm(here) + math.sqrt(max(abs(float(v)) for v in scene.quadratic().m))
     span = min(10 / math.sqrt(max(abs(float(v)) for v in scene.quadratic().m)), t_max)
@@ -120,22 +131,27 @@ def growth(scene, state, t_max: float) -> Growth:
         if i is None and share.max() > SHARE and np.abs(here).max() > FASTER * begin:
             i = int(share.argmax())
         if i is not None and abs(stages[-1][0][i]) == 1:
-            words = f"it alone keeps its sense and grows; least rate in the last half of the run {stages[-1][1][i]:.4g}"
+            words = (
+                f"it alone keeps its sense and grows; least rate in the last half of the run "
+                f"{stages[-1][1][i]:.4g}")
             return Growth(i + 1, int(stages[-1][0][i]), t, words, steps)
         span = min(t, t_max - t)
     return Growth(0, 0, t, "no axis holds the spin", steps)
 
 
 def _holder(stages, begin):
-    """The one axis that keeps its sense through the stages while its least rate grows, past `begin`; None where it is not one."""
+    """The one axis that keeps its sense through the stages while its least rate grows, past `begin`; None
+    where it is not one."""
     senses, least = (np.array(column) for column in zip(*stages))
-    held = (np.abs(senses.sum(axis=0)) == len(stages)) & (least[1:] > GROWTH * least[:-1]).all(axis=0) & (least[-1] > begin)
+    held = (np.abs(senses.sum(axis=0)) == len(stages)) & (least[1:] > GROWTH
+                                                          * least[:-1]).all(axis=0) & (least[-1] > begin)
     return int(held.argmax()) if held.sum() == 1 else None
 
 
 def span_needed(scene) -> InputError:
     """What is said to whoever asks for extremes that are not known for all time, and names no span."""
-    return InputError("this scene has no reduction, so its extremes are searched over a time span: give span=T "
+    return InputError("this scene has no reduction, so its extremes are searched over a time span: give "
+                      "span=T "
                       f"({scene.time_unit}), or a span in the case's [motion]")
 
 
@@ -144,12 +160,14 @@ def seen_over(scene, state, span) -> dict:
     seen = evidence(scene, state, reach_of(span))
     return {"extremes": pairs(seen.extremes), "extremes_over": seen.extremes_over,
             "evidence": {"span": seen.span, "size_start": seen.size[0], "size_end": seen.size[1],
-                         "size_largest": seen.size[2], "energy_start": seen.energy[0], "energy_end": seen.energy[1],
+                         "size_largest": seen.size[2], "energy_start": seen.energy[0],
+                         "energy_end": seen.energy[1],
                          "energy_trend": seen.trend, "steps": seen.steps,
                          "invariant_drift": max(seen.drift.values(), default=0.0)}}
 
 
 def size_words(evidence, unit: str) -> str:
     """How the size of the rates went. unit: with a space before, or nothing of a scaled case."""
-    return (f"from {evidence['size_start']:.6g} to {evidence['size_end']:.6g}{unit} (largest {evidence['size_largest']:.6g}{unit}), "
+    return (f"from {evidence['size_start']:.6g} to {evidence['size_end']:.6g}{unit} (largest "
+            f"{evidence['size_largest']:.6g}{unit}), "
             f"and its energy {evidence['energy_trend']}")

@@ -1,9 +1,10 @@
-"""Motions without a torque that no orbit serves: a gyrostatic moment with no zero component. They are closed, and one return to the
-first extreme gives the period and every extreme.
+"""Motions without a torque that no orbit serves: a gyrostatic moment with no zero component. They are closed,
+and one return to the first extreme gives the period and every extreme.
 
-Squares of rates beyond some 1e150 are no doubles. Such a motion is followed in its own unit 2^k of rate, where its numbers are of
-order one: with rates and gyrostatic moment over u the motion is the same in a time that runs u times as fast, and for a power of two
-the change is exact. What is no double in the scene's own units in the end is NaN in arrays, and told in words of one motion.
+Squares of rates beyond some 1e150 are no doubles. Such a motion is followed in its own unit 2^k of rate,
+where its numbers are of order one: with rates and gyrostatic moment over u the motion is the same in a time
+that runs u times as fast, and for a power of two the change is exact. What is no double in the scene's own
+units in the end is NaN in arrays, and told in words of one motion.
 """
 from __future__ import annotations
 
@@ -28,15 +29,17 @@ from ..physics.states import equilibrium_mask, three_numbers
 from .evidence import STEP_BUDGET
 from .near_rest import beside_rest, small_loop
 
-NOT_SHEETS = "not known: the separatrix of a free gyrostat whose moment has no zero component is known by its energy on each momentum sphere, not as sheets"
+NOT_SHEETS = (
+    "not known: the separatrix of a free gyrostat whose moment has no zero component is known by its energy "
+    "on each momentum sphere, not as sheets")
 # Two points of a closed orbit are the same where they agree to this share of the orbit's size.
 SAME_POINT = 1e-9
 
 
 @dataclass(frozen=True)
 class PeriodExtremes:
-    """extremes: (3, 2) over `over` ("all time" or the span searched); period: inf on a separatrix, NaN where no return
-    was found."""
+    """extremes: (3, 2) over `over` ("all time" or the span searched); period: inf on a separatrix, NaN where
+    no return was found."""
 
     extremes: np.ndarray
     period: float
@@ -45,12 +48,14 @@ class PeriodExtremes:
 
 
 def extremes_over_period(scene, state) -> PeriodExtremes:
-    """Period and extremes of a motion without torque (any gyrostatic moment), from one return to its first extreme.
+    """Period and extremes of a motion without torque (any gyrostatic moment), from one return to its first
+    extreme.
 
-    Each extreme is polished on the two invariants of the state, so it does not carry the run's drift. An equilibrium has
-    period 0; a motion on a separatrix has period inf, one next to it that does not return within the step budget NaN, and their
-    extremes are over the span run. Numbers that are no doubles are NaN. Raises InputError where a torque acts, and where rates and
-    gyrostatic moment are so far apart that no unit makes doubles of both.
+    Each extreme is polished on the two invariants of the state, so it does not carry the run's drift. An
+    equilibrium has period 0; a motion on a separatrix has period inf, one next to it that does not return
+    within the step budget NaN, and their extremes are over the span run. Numbers that are no doubles are NaN.
+    Raises InputError where a torque acts, and where rates and gyrostatic moment are so far apart that no unit
+    makes doubles of both.
     """
     form, given = scene.quadratic(), list(state)
     state = three_numbers(state)
@@ -58,23 +63,29 @@ def extremes_over_period(scene, state) -> PeriodExtremes:
         raise InputError("the period by return is for motions without torque; this scene has one")
     exact = [Fraction(v) for v in given]
     if not any(form.rate(exact)):
-        return PeriodExtremes(np.stack([state, state], axis=1), 0.0, "all time", "equilibrium: every rate is exactly 0")
+        return PeriodExtremes(np.stack([state, state], axis=1), 0.0, "all time",
+                              "equilibrium: every rate is exactly 0")
     k, mass = _own_exponent(form, exact), mass_unit(scene)
     if k or mass != 1:
         unit = Fraction(2) ** k
-        scene, exact, state = in_unit(scene, unit, mass), [v / unit for v in exact], np.array([as_double(v / unit) for v in exact])
+        scene, exact, state = in_unit(scene, unit,
+                                      mass), [v / unit
+                                              for v in exact], np.array([as_double(v / unit) for v in exact])
     form = scene.quadratic()
     if beside_rest(form, exact) and (loop := small_loop(form, exact)):
         period, swings = loop
-        return PeriodExtremes(np.array([[scaled_double(v, k) for v in pair] for pair in swings]), _no_double_is_nan(scaled_double(period, -k)),
-                              "all time", "no torque: the motion is closed and periodic; followed in many digits, as its rates are small")
+        return PeriodExtremes(np.array([[scaled_double(v, k) for v in pair] for pair in swings]),
+                              _no_double_is_nan(scaled_double(period, -k)),
+                              "all time", "no torque: the motion is closed and periodic; followed in many "
+                                          "digits, as its rates are small")
     tied = scene.variables == "physical" and free_fate(scene, exact).label == Fate.SEPARATRIX
     follow = _without_return if tied else _by_return
     return _in_scene_unit(follow(scene, form, state, k), k)
 
 
 def _own_exponent(form, x) -> int:
-    """k of the own unit 2^k of a motion: the size of its rates, or of what these make of it, the root of omega'; 0 where it is ordinary."""
+    """k of the own unit 2^k of a motion: the size of its rates, or of what these make of it, the root of
+    omega'; 0 where it is ordinary."""
     size = max([_exponent(v) for v in x if v] + [_exponent(v) // 2 for v in form.rate(x) if v])
     return 0 if -ORDINARY <= size <= ORDINARY else size
 
@@ -94,11 +105,13 @@ def _in_scene_unit(found: PeriodExtremes, k: int) -> PeriodExtremes:
         return found
     with np.errstate(over="ignore", under="ignore"):
         box = np.ldexp(found.extremes, k)
-    return replace(found, extremes=np.where(np.isfinite(box), box, np.nan), period=found.period if math.isinf(found.period) else powered(found.period, -k))
+    return replace(found, extremes=np.where(np.isfinite(box), box, np.nan),
+                   period=found.period if math.isinf(found.period) else powered(found.period, -k))
 
 
 def _by_return(scene, form, state, k) -> PeriodExtremes:
-    """By a run to the first return; extremes and period in the unit 2^k of the scene asked for, in which this one is, words in its own."""
+    """By a run to the first return; extremes and period in the unit 2^k of the scene asked for, in which this
+    one is, words in its own."""
     span, roots = _first_span(form, state), None
     while roots is None or (roots.steps < STEP_BUDGET and not roots.reason):
         roots = roots_of_rates(scene, state, span)
@@ -106,14 +119,17 @@ def _by_return(scene, form, state, k) -> PeriodExtremes:
         if closing is not None:
             return _one_period(scene, roots, closing)
         span *= 4
-    return PeriodExtremes(roots.extremes(), math.nan, f"{scene.time_unit} in [0, {powered(roots.t_reached, -k):g}]",
+    return PeriodExtremes(roots.extremes(), math.nan,
+                          f"{scene.time_unit} in [0, {powered(roots.t_reached, -k):g}]",
                           f"no return within {roots.steps} steps: next to a separatrix")
 
 
 def _without_return(scene, form, state, k) -> PeriodExtremes:
     """On a separatrix: a run would leave it by its rounding and return, which the motion never does."""
     roots = roots_of_rates(scene, state, _first_span(form, state))
-    return PeriodExtremes(roots.extremes(), math.inf, f"{scene.time_unit} in [0, {powered(roots.t_reached, -k):g}]", "on a separatrix it does not return")
+    return PeriodExtremes(roots.extremes(), math.inf,
+                          f"{scene.time_unit} in [0, {powered(roots.t_reached, -k):g}]",
+                          "on a separatrix it does not return")
 
 
 def _first_span(form, x):
@@ -157,16 +173,19 @@ def _quadrics(scene):
 
 
 def _polish(form, first, second, start, x, i):
-    """Newton on rate_i = 0 and the two invariants of `start`, differences formed as products; x where it does not help."""
+    """Newton on rate_i = 0 and the two invariants of `start`, differences formed as products; x where it does
+    not help."""
     better = x.copy()
     for _ in range(3):
-        residual = [w @ ((better - start) * (better + start)) / 2 + l @ (better - start) for w, l in (first, second)]
+        residual = [w @ ((better - start) * (better + start)) / 2 + l @ (better - start) for w,
+                    l in (first, second)]
         matrix = np.array([w * better + l for w, l in (first, second)] + [form.jacobian(better.tolist())[i]])
         scale = np.abs(matrix).max(axis=1)
         if not (scale > 0).all():
             return x
         try:
-            better = better - np.linalg.solve(matrix / scale[:, None], np.array([*residual, form.rate(better.tolist())[i]]) / scale)
+            better = (better - np.linalg.solve(matrix / scale[:, None],
+                                               np.array([*residual, form.rate(better.tolist())[i]]) / scale))
         except np.linalg.LinAlgError:
             return x
     return better if np.abs(better - x).max() <= 1e-9 * np.abs(x).max() else x
@@ -190,7 +209,8 @@ def motion(scene, state, span=None, exact=None, brief: bool = False) -> Motion:
         closed = extremes_over_period(scene, given)
         open_ = closed.reason if math.isnan(closed.period) and closed.over != "all time" else ""
         whole = bool(np.isfinite(closed.extremes).all())
-        lost += ([] if whole else ["an extreme"]) + (["the period"] if math.isnan(closed.period) and closed.over == "all time" else [])
+        lost += ([] if whole else ["an extreme"]) + (["the period"] if math.isnan(closed.period)
+                                                     and closed.over == "all time" else [])
         fields |= {"extremes": pairs(closed.extremes) if whole else None, "period": repeats(closed.period),
                    "extremes_over": closed.over if whole else f"none: {BEYOND}"}
     known = judged(state, decided)
@@ -205,9 +225,11 @@ def fates(scene, states, fast: bool | None = None):
 
 
 def extremes(scene, states, span=None, fast: bool | None = None):
-    """(n, 3, 2) over all time; NaN on a separatrix and next to it, where a run shows its own span alone (`extremes_over_period`)."""
+    """(n, 3, 2) over all time; NaN on a separatrix and next to it, where a run shows its own span alone
+    (`extremes_over_period`)."""
     rest = equilibrium_mask(scene, states)
-    known = (np.stack([s, s], axis=1) if still else _for_all_time(extremes_over_period(scene, s)) for s, still in zip(states, rest))
+    known = (np.stack([s, s], axis=1) if still else _for_all_time(extremes_over_period(scene, s)) for s,
+             still in zip(states, rest))
     return np.array(list(known)).reshape(-1, 3, 2)
 
 
@@ -218,4 +240,5 @@ def _for_all_time(found: PeriodExtremes) -> np.ndarray:
 def periods(scene, states, fast: bool | None = None):
     """(n,); 0 at an equilibrium, inf on a separatrix, NaN where no return is found next to it."""
     rest = equilibrium_mask(scene, states)
-    return np.array([0.0 if still else extremes_over_period(scene, s).period for s, still in zip(states, rest)])
+    return np.array([0.0 if still else extremes_over_period(scene, s).period for s,
+                     still in zip(states, rest)])

@@ -1,8 +1,9 @@
 """A closed motion that starts next to an equilibrium, seen from its start.
 
-In y = x - x(0) the rates are again a quadratic form, with exact coefficients and y(0) = 0: kappa stays, rho and sigma take in
-kappa x(0), and the constant part is the exact rate at the start, however small. So the digits that x(0) and its neighbour
-have in common cost nothing, and a swing of 1e-17 is followed as well as one of 1.
+In y = x - x(0) the rates are again a quadratic form, with exact coefficients and y(0) = 0: kappa stays, rho
+and sigma take in kappa x(0), and the constant part is the exact rate at the start, however small. So the
+digits that x(0) and its neighbour have in common cost nothing, and a swing of 1e-17 is followed as well as
+one of 1.
 """
 from __future__ import annotations
 
@@ -18,14 +19,16 @@ WORK = 6_000_000  # multiplications, about a second
 
 
 def beside_rest(form, state) -> bool:
-    """Whether the rates at the state (floats or Fractions) are that small against their terms, but not all zero."""
+    """Whether the rates at the state (floats or Fractions) are that small against their terms, but not all
+    zero."""
     return 0 < smallness(form, state) <= BESIDE
 
 
 def smallness(form, state) -> Fraction:
     """The largest rate at the state over the largest sum of the terms that make a rate; 0 at rest."""
     x = [Fraction(v) for v in state]
-    terms = max(abs(form.kappa[i] * x[j] * x[k]) + abs(form.rho[i] * x[k]) + abs(form.sigma[i] * x[j]) + abs(form.m[i])
+    terms = max(abs(form.kappa[i] * x[j] * x[k]) + abs(form.rho[i] * x[k]) + abs(form.sigma[i] * x[j])
+                + abs(form.m[i])
                 for i, (j, k) in enumerate(CYCLE))
     return max(map(abs, form.rate(x))) / terms if terms else Fraction(0)
 
@@ -43,7 +46,8 @@ class FromStart:
 
     def in_balls(self, numbers):
         """The coefficients as balls of the working precision."""
-        return [[numbers.ball(v).mid() for v in row] for row in (self.kappa, self.rho, self.sigma, self.constant)]
+        return [[numbers.ball(v).mid() for v in row]
+                for row in (self.kappa, self.rho, self.sigma, self.constant)]
 
     def series(self, coefficients, y, order):
         """Taylor coefficients 0..order of y, one list a component."""
@@ -64,10 +68,12 @@ class FromStart:
 
 
 def small_loop(form, state, digits: int = DIGITS):
-    """(period, [(least, greatest)] * 3) of a closed motion as balls; None where it did not return within the work allowed."""
+    """(period, [(least, greatest)] * 3) of a closed motion as balls; None where it did not return within the
+    work allowed."""
     from ..integrate.reference import one_run
     share = smallness(form, state)
-    lost = len(str(share.denominator // share.numerator))  # a saddle so near magnifies by as much on the way out, and on the way back
+    # a saddle so near magnifies by as much on the way out, and on the way back
+    lost = len(str(share.denominator // share.numerator))
     _, found = one_run(FromStart(form, state), (0, 0, 0), [], digits + 2 * lost, [WORK], orbit=True)
     if found is None:
         return None

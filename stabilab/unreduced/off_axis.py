@@ -1,7 +1,9 @@
-"""A torque off the principal axes: spin-up with its certificate, found by following the motion, or undecided with the cause seen.
+"""A torque off the principal axes: spin-up with its certificate, found by following the motion, or undecided
+with the cause seen.
 
-No integral of motion is known that would settle boundedness here. `spin_up` follows each motion until an inequality holds that stays true
-for ever; what it finds is told here in the words of every other kind of scene, with the bounds that hold for all times.
+No integral of motion is known that would settle boundedness here. `spin_up` follows each motion until an
+inequality holds that stays true for ever; what it finds is told here in the words of every other kind of
+scene, with the bounds that hold for all times.
 """
 from __future__ import annotations
 
@@ -32,31 +34,40 @@ PATIENCE = 600_000  # steps for which a motion is followed where nobody says how
 AS_WRITTEN = 120  # times fewer steps where numba is not installed
 ENDLESS = 10**9     # steps where the caller names a time
 BOUND_DIGITS = 10  # decimals of a bound for all times
-REASON = {"undecided": Reason.OFF_AXIS, "certified": Reason.CERTIFIED, "proved": Reason.CERTIFIED, "exact": Reason.CLOSED_FORM}
-NO_SPAN = ("not known without a certificate of spin-up: give span=T ({unit}), or a span in the case's [motion], to search them over a time span, "
+REASON = {"undecided": Reason.OFF_AXIS, "certified": Reason.CERTIFIED, "proved": Reason.CERTIFIED,
+          "exact": Reason.CLOSED_FORM}
+NO_SPAN = ("not known without a certificate of spin-up: give span=T ({unit}), or a span in the case's "
+           "[motion], to search them over a time span, "
            "or follow=T to look for the certificate longer")
 
 
-def motion(scene, state, span=None, exact=None, brief: bool = False, follow: float | None = None, tell=None, proof: bool = False) -> Motion:
-    """See `answers.motion`. Extremes over the span where one is given, else bounds for all times where spin-up is certified."""
+def motion(scene, state, span=None, exact=None, brief: bool = False, follow: float | None = None, tell=None,
+           proof: bool = False) -> Motion:
+    """See `answers.motion`. Extremes over the span where one is given, else bounds for all times where
+    spin-up is certified."""
     state = three_floats(state)
     if rests(scene.quadratic(), exact or state):
         decided = at_rest(scene, OneFate(Fate.UNDECIDED, Reason.OFF_AXIS, math.nan))
-        return Motion(**judged(state, decided), margin_energy=finite(decided.margin), extremes=tuple((v, v) for v in state), velocity_because=NO_SHEETS)
+        return Motion(**judged(state, decided), margin_energy=finite(decided.margin),
+                      extremes=tuple((v, v) for v in state), velocity_because=NO_SHEETS)
     start = list(exact or state) if proof else state
     found = spin_up(scene, start, **_limits(follow), tell=tell, proof=proof)
     decided = OneFate(found.fate, REASON[found.level], math.nan, found.axis, found.sense)
     bounds = bounds_for_ever(scene, start, found)
-    fields = {**judged(state, decided), "velocity_because": NO_SHEETS, "level": found.level, "cause": found.cause, "bounds": bounds,
-              "extremes": bounds, "extremes_over": "all time, as bounds" if bounds else NO_SPAN.format(unit=scene.time_unit)}
+    fields = {**judged(state, decided), "velocity_because": NO_SHEETS, "level": found.level,
+              "cause": found.cause, "bounds": bounds,
+              "extremes": bounds, "extremes_over": "all time, as bounds" if bounds
+              else NO_SPAN.format(unit=scene.time_unit)}
     fields["because"] = f"{decided.because}; {found.cause}"
-    known = {"t_certificate" if found.fate == Fate.SPIN_UP else "followed_until": found.t, "steps_followed": found.steps,
+    known = {"t_certificate" if found.fate == Fate.SPIN_UP else "followed_until": found.t,
+             "steps_followed": found.steps,
              "small_change_grew": found.condition}
     seen = {} if span is None else seen_over(scene, state, span)
     if found.fate == Fate.UNDECIDED and "an island is seen" in found.cause:
         fields["because"] += _middle(scene, found.state)
     if seen and found.fate == Fate.UNDECIDED:
-        fields["because"] += "; over the span the size of its rates went " + size_words(seen["evidence"], "" if scene.variables == "scaled" else " rad/s")
+        fields["because"] += ("; over the span the size of its rates went "
+                              + size_words(seen["evidence"], "" if scene.variables == "scaled" else " rad/s"))
     return Motion(**fields | seen | {"evidence": {**seen.get("evidence", {}), **known}})
 
 
@@ -65,7 +76,8 @@ def _middle(scene, state) -> str:
     orbit = in_the_middle(scene, state)
     if orbit is None:
         return ""
-    return (f"; in its middle is a periodic motion of period {orbit.period:.6g} {scene.time_unit}, elliptic: neighbours turn about it by "
+    return (f"; in its middle is a periodic motion of period {orbit.period:.6g} {scene.time_unit}, elliptic: "
+            f"neighbours turn about it by "
             f"{math.degrees(orbit.angle):.4g} deg from passage to passage")
 
 
@@ -77,24 +89,28 @@ def _limits(follow) -> dict:
 
 
 def bounds_for_ever(scene, state, found: SpinUp) -> tuple | None:
-    """((low, high),) * 3 of the rates at all t >= 0 of a motion that spins up: those of the trap from found.t on, and the extremes of the run
-    until then (where the spin-up is proved: what the enclosure of the way cannot leave); None where they are not known."""
+    """((low, high),) * 3 of the rates at all t >= 0 of a motion that spins up: those of the trap from found.t
+    on, and the extremes of the run until then (where the spin-up is proved: what the enclosure of the way
+    cannot leave); None where they are not known."""
     if found.fate != Fate.SPIN_UP or found.trap is None:
         return None
     later = tuple((outward(a, ROUND_FLOOR), outward(b, ROUND_CEILING)) for a, b in found.trap.bounds())
     if not found.t:
         return later
-    before = _extremes_until(scene, state, found) if found.passed <= PATIENCE else _reach(scene, state, found.t)
+    before = (_extremes_until(scene, state, found) if found.passed <= PATIENCE
+              else _reach(scene, state, found.t))
     return before and tuple((min(a, c), max(b, d)) for (a, b), (c, d) in zip(later, before))
 
 
 def outward(bound: float, towards: str) -> float:
-    """A bound to BOUND_DIGITS decimals, rounded to its safe side: the trap's last places differ from processor to processor."""
+    """A bound to BOUND_DIGITS decimals, rounded to its safe side: the trap's last places differ from
+    processor to processor."""
     if not bound or not math.isfinite(bound):
         return bound
     told = float(Context(prec=BOUND_DIGITS, rounding=towards).create_decimal_from_float(bound))
     side = math.inf if towards == ROUND_CEILING else -math.inf
-    return told if told == bound or (told > bound) == (side > 0) else math.nextafter(told, side)  # the double next to the decimal
+    # the double next to the decimal
+    return told if told == bound or (told > bound) == (side > 0) else math.nextafter(told, side)
 
 
 def _extremes_until(scene, state, found: SpinUp) -> tuple | None:
@@ -105,12 +121,15 @@ def _extremes_until(scene, state, found: SpinUp) -> tuple | None:
 
 
 def _reach(scene, state, t: float) -> tuple | None:
-    """((low, high),) * 3 of the rates until t: with W_i = sqrt(D_i) omega_i, D omega' = M - omega x (D omega + l) gives |W|' <= |D^(-1/2) M|."""
+    """((low, high),) * 3 of the rates until t: with W_i = sqrt(D_i) omega_i, D omega' = M - omega x (D omega
+    + l) gives |W|' <= |D^(-1/2) M|."""
     if scene.variables == "scaled":
         return None
     D, M = ([float(v) for v in vector] for vector in (scene.body.exact, scene.vector("constant_torque")))
-    size = math.hypot(*(math.sqrt(d) * float(v) for d, v in zip(D, state))) + t * math.hypot(*(m / math.sqrt(d) for m, d in zip(M, D)))
-    return tuple((outward(-size / math.sqrt(d), ROUND_FLOOR), outward(size / math.sqrt(d), ROUND_CEILING)) for d in D)
+    size = (math.hypot(*(math.sqrt(d) * float(v) for d, v in zip(D, state)))
+            + t * math.hypot(*(m / math.sqrt(d) for m, d in zip(M, D))))
+    return tuple((outward(-size / math.sqrt(d), ROUND_FLOOR), outward(size / math.sqrt(d), ROUND_CEILING))
+                 for d in D)
 
 
 @dataclass(frozen=True)
@@ -128,7 +147,8 @@ class Followed:
 
     @property
     def islands(self) -> np.ndarray:
-        """(n,) int8: 2 where a motion is seen to stay on what looks like a bounded island, 1 where it is undecided and an island may exist, else 0."""
+        """(n,) int8: 2 where a motion is seen to stay on what looks like a bounded island, 1 where it is
+        undecided and an island may exist, else 0."""
         out = np.zeros(len(self.place), np.int8)
         for n in np.flatnonzero(np.append(self.found.fate, 0)[self.place] == Fate.UNDECIDED).tolist():
             out[n] = _island(self.row(n))
@@ -145,8 +165,10 @@ def _island(found: SpinUp | None) -> int:
     return 2 if "an island is seen" in found.cause else int("a bounded island may exist" in found.cause)
 
 
-def fates(scene, states, fast: bool | None = None, follow: float | None = None, tell=None, proof: bool = False) -> FateResult:
-    """Fates of states (n, 3), followed in batches until each is certified. proof: then proved, one after another."""
+def fates(scene, states, fast: bool | None = None, follow: float | None = None, tell=None,
+          proof: bool = False) -> FateResult:
+    """Fates of states (n, 3), followed in batches until each is certified. proof: then proved, one after
+    another."""
     rest = equilibrium_mask(scene, states)
     moving = np.flatnonzero(~rest)
     found = spin_up_many(scene, states[moving], **_limits(follow), tell=tell, fast=fast, proof=proof)
@@ -170,12 +192,13 @@ def periods(scene, states, fast: bool | None = None):
 
 
 def extremes(scene, states, span=None, fast: bool | None = None, follow: float | None = None, tell=None):
-    """(n, 3, 2) over the span [0, span], NaN where a run ends before it; without it bounds for all t >= 0 of the motions whose spin-up is
-    certified, NaN for the others (InputError where there is nothing else)."""
+    """(n, 3, 2) over the span [0, span], NaN where a run ends before it; without it bounds for all t >= 0 of
+    the motions whose spin-up is certified, NaN for the others (InputError where there is nothing else)."""
     rest = equilibrium_mask(scene, states)
     still = np.stack([states, states], axis=2)
     if span is not None:
-        return np.array([one if at else extremes_over(scene, s, span) for s, one, at in zip(states, still, rest)]).reshape(-1, 3, 2)
+        return np.array([one if at else extremes_over(scene, s, span) for s, one,
+                         at in zip(states, still, rest)]).reshape(-1, 3, 2)
     moving = np.flatnonzero(~rest)
     found = spin_up_many(scene, states[moving], **_limits(follow), tell=tell, fast=fast)
     if len(moving) and not (found.fate == Fate.SPIN_UP).any():

@@ -1,4 +1,5 @@
-"""What a run over a span shows of a motion whose bounds alone are proved: extremes as roots of the rates, and how the energy went."""
+"""What a run over a span shows of a motion whose bounds alone are proved: extremes as roots of the rates, and
+how the energy went."""
 from __future__ import annotations
 
 import numpy as np
@@ -14,7 +15,8 @@ STIFF = 1e5  # fastest decay times span beyond which a search for extremes would
 
 
 def seen_over(scene, omega, gamma, span) -> dict:
-    """Extremes as roots of the rates from the start to the end of the span, and how the energy went; empty where the decay is too fast."""
+    """Extremes as roots of the rates from the start to the end of the span, and how the energy went; empty
+    where the decay is too fast."""
     start = {"omega": omega} | ({"gamma": gamma} if gamma else {})
     turning = Scene(scene.body, *(e for e in scene.effects if e.name != "body_force"))
     equations, state = equations_and_start(turning, start)
@@ -37,4 +39,5 @@ def _validity(scene, found, over) -> dict:
     limits = limits_of(scene)
     if limits is None:
         return {}
-    return {"validity": limits.along(scene, np.vstack([found.start, found.states, found.end]), f"over {over}")}
+    return {"validity": limits.along(scene, np.vstack([found.start, found.states, found.end]),
+                                     f"over {over}")}

@@ -1,9 +1,12 @@
-"""Periodic motions under a torque of any direction with a wheel, and whether they are elliptic: Newton's method on the return map of a section.
+"""Periodic motions under a torque of any direction with a wheel, and whether they are elliptic: Newton's
+method on the return map of a section.
 
-A section is a plane on which one rate has a value and grows (or falls). The map from one passage to the next is evaluated by Taylor series, its derivative by
-the variational equations V' = J(x) V beside it: a change dx of the start moves the next passage, at the time t and the state y, by V dx - f(y) (V dx)_k/f_k(y).
-The flow keeps volume, so the product of the map's two multipliers at a fixed point is 1: two real ones (hyperbolic), or exp(+- i angle): elliptic, and
-then, where the angle is in no low resonance and the map twists, tori surround it (KAM): the island in which neighbours stay. That is not proved here.
+A section is a plane on which one rate has a value and grows (or falls). The map from one passage to the next
+is evaluated by Taylor series, its derivative by the variational equations V' = J(x) V beside it: a change dx
+of the start moves the next passage, at the time t and the state y, by V dx - f(y) (V dx)_k/f_k(y). The flow
+keeps volume, so the product of the map's two multipliers at a fixed point is 1: two real ones (hyperbolic),
+or exp(+- i angle): elliptic, and then, where the angle is in no low resonance and the map twists, tori
+surround it (KAM): the island in which neighbours stay. That is not proved here.
 """
 from __future__ import annotations
 
@@ -43,7 +46,8 @@ class Section:
 
 @dataclass(frozen=True)
 class Periodic:
-    """A periodic motion: its state on the section, its period (scene's time) and the two multipliers of the return map there."""
+    """A periodic motion: its state on the section, its period (scene's time) and the two multipliers of the
+    return map there."""
 
     state: tuple
     period: float
@@ -59,19 +63,22 @@ class Periodic:
     @property
     def angle(self) -> float:
         """By which neighbours turn about it from passage to passage, rad; nan where it is not elliptic."""
-        return abs(math.atan2(self.multipliers[0].imag, self.multipliers[0].real)) if self.elliptic else math.nan
+        return (abs(math.atan2(self.multipliers[0].imag, self.multipliers[0].real)) if self.elliptic
+                else math.nan)
 
 
-def passage(scene: Any, state: Any, section: Section, linear: bool = True) -> tuple[float, np.ndarray, np.ndarray] | None:
-    """(time, state, derivative of the state with respect to the start at that time) of the next passage; None where there is none in STEPS steps.
-    linear: the derivative too, else it stays the identity."""
+def passage(scene: Any, state: Any, section: Section,
+            linear: bool = True) -> tuple[float, np.ndarray, np.ndarray] | None:
+    """(time, state, derivative of the state with respect to the start at that time) of the next passage; None
+    where there is none in STEPS steps. linear: the derivative too, else it stays the identity."""
     rows = np.array(scene.quadratic().coefficients, float)
     x, V, t, k = np.array(state, float), np.eye(3), 0.0, section.axis
     for _ in range(STEPS):
         a, A = _series(rows, x, V, linear)
         h = _length(a)
         row = section.sense * (a[:, k] - section.level * (np.arange(len(a)) == 0))
-        on_it = not t and abs(row[0]) <= 1e-13 * abs(x).max()  # the start itself is no passage: what is left of the polynomial without that root
+        # the start itself is no passage: what is left of the polynomial without that root
+        on_it = not t and abs(row[0]) <= 1e-13 * abs(x).max()
         between = _rising(_over(row[1:] if on_it else row, h))
         if between is not None:
             root = _root(row, between[0] * h, between[1] * h)
@@ -83,7 +90,8 @@ def passage(scene: Any, state: Any, section: Section, linear: bool = True) -> tu
 
 
 def periodic(scene: Any, state: Any, section: Section) -> Periodic | None:
-    """The periodic motion near a state, which is moved onto the section; None where Newton's method finds none."""
+    """The periodic motion near a state, which is moved onto the section; None where Newton's method finds
+    none."""
     x = np.array(state, float)
     x[section.axis], across = section.level, section.across
     for _ in range(PASSES):
@@ -95,7 +103,8 @@ def periodic(scene: Any, state: Any, section: Section) -> Periodic | None:
         slope = (V - np.outer(f, V[section.axis]) / f[section.axis])[np.ix_(across, across)]
         gap = (y - x)[across]
         if np.abs(gap).max() < CLOSED * np.abs(x).max():
-            return Periodic(tuple(x.tolist()), t, tuple(complex(v) for v in np.linalg.eigvals(slope)), section)
+            return Periodic(tuple(x.tolist()), t, tuple(complex(v) for v in np.linalg.eigvals(slope)),
+                            section)
         try:
             x[across] += np.linalg.solve(np.eye(2) - slope, gap)
         except np.linalg.LinAlgError:
@@ -109,7 +118,8 @@ def about_centre(scene: Any, centre: Centre) -> Periodic | None:
     """The periodic motion that averaging has at a centre, by its formula as the first guess."""
     i = centre.axis - 1
     j, k = CYCLE[i]
-    D, l, M = ([float(v) for v in vector] for vector in (scene.body.exact, scene.vector("gyrostat"), scene.vector("constant_torque")))
+    D, l, M = ([float(v) for v in vector]
+               for vector in (scene.body.exact, scene.vector("gyrostat"), scene.vector("constant_torque")))
     P, Q = (D[i] - D[k]) * centre.spin + l[i], (D[i] - D[j]) * centre.spin + l[i]
     if not P * Q > 0:
         return None
@@ -121,7 +131,8 @@ def about_centre(scene: Any, centre: Centre) -> Periodic | None:
 
 
 def in_the_middle(scene: Any, state: Any) -> Periodic | None:
-    """The elliptic periodic motion in the middle of the passages of a motion that recurs; None where the mean of these leads to none."""
+    """The elliptic periodic motion in the middle of the passages of a motion that recurs; None where the mean
+    of these leads to none."""
     states = sampled(scene, state)
     if states is None:
         return None
@@ -136,23 +147,26 @@ def in_the_middle(scene: Any, state: Any) -> Periodic | None:
 
 
 def sections(states: np.ndarray) -> list[Section]:
-    """The three planes through the mean of states (n, 3) along a motion, the one that it crosses most and farthest first."""
+    """The three planes through the mean of states (n, 3) along a motion, the one that it crosses most and
+    farthest first."""
     middle = states.mean(axis=0)
-    swings = [np.count_nonzero(np.diff(np.signbit(states[:, n] - middle[n]))) * states[:, n].std() for n in range(3)]
+    swings = [np.count_nonzero(np.diff(np.signbit(states[:, n] - middle[n]))) * states[:, n].std()
+              for n in range(3)]
     return [Section(axis, float(middle[axis]), 1) for axis in np.argsort(swings)[::-1].tolist()]
 
 
 def passages(scene: Any, state: Any, section: Section, count: int) -> list[np.ndarray]:
     """The next passages of a section, fewer than `count` where there are no more in STEPS steps."""
     places: list[np.ndarray] = []
-    while len(places) < count and (found := passage(scene, places[-1] if places else state, section, linear=False)) is not None:
+    while len(places) < count and (found := passage(scene, places[-1] if places else state, section,
+                                                    linear=False)) is not None:
         places.append(found[1])
     return places
 
 
 def continued(scenes: Any, known: Periodic) -> Periodic | None:
-    """The periodic motion of scenes(1) that one of scenes(0) becomes, followed in steps of the share that are halved where Newton's method fails; None
-    where it gets lost. scenes: share -> scene."""
+    """The periodic motion of scenes(1) that one of scenes(0) becomes, followed in steps of the share that are
+    halved where Newton's method fails; None where it gets lost. scenes: share -> scene."""
     share, step, now, section = 0.0, 1 / 4, known, known.section
     while share < 1:
         if step < 1 / SHARES:
@@ -172,7 +186,8 @@ def elliptic_of(scene: Any) -> list[Periodic]:
 
 
 def sampled(scene: Any, state: Any, steps: int = 400, until: float = math.inf) -> np.ndarray | None:
-    """(n, 3) states at the ends of some Taylor steps, before a time (scene's time) where one is given; None where the numbers overflow."""
+    """(n, 3) states at the ends of some Taylor steps, before a time (scene's time) where one is given; None
+    where the numbers overflow."""
     rows, out = np.array(scene.quadratic().coefficients, float), []
     x, t = np.array(state, float), 0.0
     for _ in range(steps):
@@ -195,15 +210,18 @@ def _series(rows, x, V, linear):
     for n in range(ORDER):
         back = a[n::-1]
         for i, (j, k) in enumerate(CYCLE):
-            a[n + 1, i] = (kappa[i] * (a[:n + 1, j] @ back[:, k]) + rho[i] * a[n, k] + sigma[i] * a[n, j] + (m[i] if n == 0 else 0.0)) / (n + 1)
+            a[n + 1, i] = (kappa[i] * (a[:n + 1, j] @ back[:, k]) + rho[i] * a[n, k] + sigma[i] * a[n, j]
+                           + (m[i] if n == 0 else 0.0)) / (n + 1)
             if linear:
-                A[n + 1, i] = (kappa[i] * (back[:, j] @ A[:n + 1, k] + back[:, k] @ A[:n + 1, j]) + rho[i] * A[n, k] + sigma[i] * A[n, j]) / (n + 1)
+                A[n + 1, i] = (kappa[i] * (back[:, j] @ A[:n + 1, k] + back[:, k] @ A[:n + 1, j])
+                               + rho[i] * A[n, k] + sigma[i] * A[n, j]) / (n + 1)
     return a, A
 
 
 def _length(a) -> float:
     size = max(np.abs(a[0]).max(), 1e-300)
-    return float(min((TOLERANCE * size / max(np.abs(a[n]).max(), 1e-300)) ** (1 / n) for n in (ORDER - 1, ORDER)))
+    return float(min((TOLERANCE * size / max(np.abs(a[n]).max(), 1e-300)) ** (1 / n)
+                     for n in (ORDER - 1, ORDER)))
 
 
 def _at(a, h):
@@ -212,18 +230,21 @@ def _at(a, h):
 
 
 def _over(row, h: float) -> np.ndarray:
-    """Bernstein's coefficients of a polynomial on [0, h]: it lies between the least and the greatest of them, and has no more zeros than they change sign."""
+    """Bernstein's coefficients of a polynomial on [0, h]: it lies between the least and the greatest of them,
+    and has no more zeros than they change sign."""
     return _shares(len(row) - 1) @ (row * h ** np.arange(len(row)))
 
 
 @lru_cache(maxsize=4)
 def _shares(n: int) -> np.ndarray:
-    return np.array([[math.comb(j, i) / math.comb(n, i) if i <= j else 0.0 for i in range(n + 1)] for j in range(n + 1)])
+    return np.array([[math.comb(j, i) / math.comb(n, i) if i <= j else 0.0 for i in range(n + 1)]
+                     for j in range(n + 1)])
 
 
 def _rising(values: np.ndarray, low: float = 0.0, high: float = 1.0) -> tuple[float, float] | None:
-    """The part of [low, high] in which a polynomial, by its coefficients there, first comes from below zero to zero or above; None where it never does.
-    Halved until it has one zero at most: a step of the series may pass the plane and come back."""
+    """The part of [low, high] in which a polynomial, by its coefficients there, first comes from below zero
+    to zero or above; None where it never does. Halved until it has one zero at most: a step of the series may
+    pass the plane and come back."""
     signs = values >= 0
     changes = np.count_nonzero(signs[1:] != signs[:-1])
     if changes == 0 or high - low < NARROW:
@@ -239,7 +260,8 @@ def _rising(values: np.ndarray, low: float = 0.0, high: float = 1.0) -> tuple[fl
 
 
 def _root(row, low: float, high: float) -> float:
-    """The zero in [low, high] of a polynomial that rises through zero there: halving, then Newton's method in the bracket."""
+    """The zero in [low, high] of a polynomial that rises through zero there: halving, then Newton's method in
+    the bracket."""
     h, t = high, (low + high) / 2
     slope = row[1:] * np.arange(1, len(row))
     for _ in range(200):

@@ -1,7 +1,7 @@
 """A second look at a certificate, by code that shares only python-flint with the analysis.
 
-Nothing of the rest of the package is imported here: equations, equilibria, stability and fate are worked out again from
-the numbers of the scene (docs/certificate.md has the mathematics), and every claim is compared.
+Nothing of the rest of the package is imported here: equations, equilibria, stability and fate are worked out
+again from the numbers of the scene (docs/certificate.md has the mathematics), and every claim is compared.
 """
 from __future__ import annotations
 
@@ -32,8 +32,8 @@ class Finding:
 
 @dataclass(frozen=True)
 class Verification:
-    """All findings on a certificate. status: "refuted" if any claim is, "proved" if all are, else "partly". silent: the
-    parts of which it claims nothing."""
+    """All findings on a certificate. status: "refuted" if any claim is, "proved" if all are, else "partly".
+    silent: the parts of which it claims nothing."""
 
     findings: tuple[Finding, ...]
     silent: tuple[str, ...] = ()
@@ -47,17 +47,20 @@ class Verification:
 def verify(certificate: dict) -> Verification:
     """Check a certificate as read from its file. Raises `Malformed` (a ValueError) where it is no such thing.
 
-    All of it is read before anything is worked out, so a certificate that is malformed anywhere is malformed at once.
+    All of it is read before anything is worked out, so a certificate that is malformed anywhere is malformed
+    at once.
     """
     if isinstance(certificate, dict) and certificate.get("schema") == DIAGRAM:
         return _verify_diagram(certificate)
     check_frame(certificate)
     silent = tuple(part for part in ("equilibria", "motion") if certificate.get(part) is None)
-    findings = [Finding(f"key {where}", "not checked", "this key has no meaning here") for where in strangers(certificate)]
+    findings = [Finding(f"key {where}", "not checked", "this key has no meaning here")
+                for where in strangers(certificate)]
     note = lambda claim, status, reason="": findings.append(Finding(claim, status, reason))
     if len(silent) == 2 and certificate.get("scene") is None:
         return Verification(tuple(findings), silent)  # a certificate of nothing: its `uncertified` says why
-    with working(OUTSIDE):  # a check is one question: what lies between its parts of more bits is of the same thread
+    # a check is one question: what lies between its parts of more bits is of the same thread
+    with working(OUTSIDE):
         rates = Rates.of_scene(certificate.get("scene"))
         equilibria = None if "equilibria" in silent else equilibria_of(certificate["equilibria"])
         motion = None if "motion" in silent else motion_of(certificate["motion"])
@@ -71,7 +74,8 @@ def verify(certificate: dict) -> Verification:
 def _verify_diagram(certificate: dict) -> Verification:
     """The same of a diagram over one number."""
     check_frame(certificate, DIAGRAM)
-    findings = [Finding(f"key {where}", "not checked", "this key has no meaning here") for where in strangers(certificate, DIAGRAM_KEYS)]
+    findings = [Finding(f"key {where}", "not checked", "this key has no meaning here")
+                for where in strangers(certificate, DIAGRAM_KEYS)]
     claims = claims_of(certificate)
     check_diagram(claims, lambda claim, status, reason="": findings.append(Finding(claim, status, reason)))
     return Verification(tuple(findings))

@@ -1,14 +1,30 @@
 """Curves, lines and planes of equilibria: where they are, and how stable.
 
-What decides where m and n vanish, or where the linear motion is a centre on a line of equilibria that no potential explains.
+What decides where m and n vanish, or where the linear motion is a centre on a line of equilibria that no
+potential explains.
 
-Each function returns (verdict, reason), or None where it proves nothing. docs/certificate.md has the arguments.
+Each function returns (verdict, reason), or None where it proves nothing. docs/certificate.md has the
+arguments.
 """
 from __future__ import annotations
 
 from fractions import Fraction
 
-from .numbers import LINEAR, VERDICT, Malformed, bracket, brief, entries, exact_sign, field, fraction, numbers, q, real_zeros, word
+from .numbers import (
+    LINEAR,
+    VERDICT,
+    Malformed,
+    bracket,
+    brief,
+    entries,
+    exact_sign,
+    field,
+    fraction,
+    numbers,
+    q,
+    real_zeros,
+    word,
+)
 from .rates import AHEAD, characteristic
 
 
@@ -36,11 +52,14 @@ def product(A, B):
 
 
 def on_common_level(rates, x):
-    """By the points near an equilibrium that share both integrals with it: none, stable (the sum of the squares of their
-    changes is a Lyapunov function); regular branches, unstable (in and out alternate along them)."""
-    (B, g), (A, h) = [(quad, [b * v + l for b, v, l in zip(quad, x, linear)]) for quad, linear in rates.integrals]
+    """By the points near an equilibrium that share both integrals with it: none, stable (the sum of the
+    squares of their changes is a Lyapunov function); regular branches, unstable (in and out alternate along
+    them)."""
+    (B, g), (A, h) = [(quad, [b * v + l for b, v, l in zip(quad, x, linear)]) for quad,
+                      linear in rates.integrals]
     if not (any(g) or any(h)):
-        mixed = {exact_sign(v) for v in cross(A, B)} >= {1, -1}  # no d_i^2 >= 0 but zero solves both equations
+        # no d_i^2 >= 0 but zero solves both equations
+        mixed = {exact_sign(v) for v in cross(A, B)} >= {1, -1}
         return ("stable", "a combination of the integrals is definite there") if mixed else None
     if not any(g):
         (B, g), (A, h) = (A, h), (B, g)
@@ -64,15 +83,18 @@ def _meets_surface(A, g, B):
     free = 3 - sum(carried)
     if len(carried) != 2 or not (g[free] or B[free]):
         return None
-    # two planes, and g is not normal to both: in one a regular curve, across which the combination changes sign
-    return "unstable", "branches of equal integrals pass through it, along which motions come in and go out in turn"
+    # two planes, and g is not normal to both: in one a regular curve, across which the combination changes
+    # sign
+    return ("unstable",
+            "branches of equal integrals pass through it, along which motions come in and go out in turn")
 
 
 # -- a reduction to one degree of freedom
 
 
 def reducing_direction(rates, curve):
-    """e with x' = eta J(P x) e across e and eta' = F(P x) along it, P x in a plane that holds the curve; or None."""
+    """e with x' = eta J(P x) e across e and eta' = F(P x) along it, P x in a plane that holds the curve; or
+    None."""
     unit = lambda i: [Fraction(int(n == i)) for n in range(3)]
     places = [(rates.m, n, c) for n, c in rates.conditions if any(n)]
     last = curve.bottom.degree()
@@ -84,7 +106,8 @@ def reducing_direction(rates, curve):
 
 
 def _reduces(rates, e, n, c, curve) -> bool:
-    """Whether on the plane n.x + c = 0 the rates point along e and J e lies in it, and e's own quadratic rate is zero."""
+    """Whether on the plane n.x + c = 0 the rates point along e and J e lies in it, and e's own quadratic rate
+    is zero."""
     if not dot(n, e) or any(kappa * e[j] * e[k] for kappa, (j, k) in zip(rates.kappa, AHEAD)):
         return False
     if sum((q(v) * top for v, top in zip(n, curve.tops)), q(c) * curve.bottom) != 0:
@@ -99,11 +122,13 @@ def _reduces(rates, e, n, c, curve) -> bool:
     return True
 
 
-TERMS = 6  # F along an orbit combines exp(+-2 n alpha), exp(+-n alpha) and 1: its first five coefficients decide
+# F along an orbit combines exp(+-2 n alpha), exp(+-n alpha) and 1: its first five coefficients decide
+TERMS = 6
 
 
 def on_own_orbit(rates, x, e):
-    """By the first coefficient of the force F along dx/dalpha = J(x) e: odd and negative a strict minimum of the potential."""
+    """By the first coefficient of the force F along dx/dalpha = J(x) e: odd and negative a strict minimum of
+    the potential."""
     from flint import fmpq_poly
     base = turned(rates.jacobian([Fraction(0)] * 3), e)
     series = [list(x)]
@@ -126,35 +151,41 @@ def on_own_orbit(rates, x, e):
 
 
 def drift(rates, J, m):
-    """A polynomial whose sign is that of the mean motion along a line of equilibria, at second order in a disturbance; times a
-    power of m. J, m: along the line. 0, +-i sqrt(m): P = J^2 + m projects on the line, and J J^T m + J^2 J^2^T holds the means
-    of d_i d_j over a turn."""
+    """A polynomial whose sign is that of the mean motion along a line of equilibria, at second order in a
+    disturbance; times a power of m. J, m: along the line. 0, +-i sqrt(m): P = J^2 + m projects on the line,
+    and J J^T m + J^2 J^2^T holds the means of d_i d_j over a turn."""
     square = product(J, J)
     turn = lambda M: [list(row) for row in zip(*M)]
     once, twice = product(J, turn(J)), product(square, turn(square))
     means = [[m * a + b for a, b in zip(r, s)] for r, s in zip(once, twice)]
     lead = next((i for i in range(3) if any(square[i][j] + (m if i == j else 0) != 0 for j in range(3))), 0)
     left = [square[lead][j] + (m if lead == j else 0) for j in range(3)]
-    return sum((left[i] * q(rates.kappa[i]) * means[j][k] for i, (j, k) in enumerate(AHEAD) if rates.kappa[i]), m * 0)
+    return sum((left[i] * q(rates.kappa[i]) * means[j][k] for i,
+                (j, k) in enumerate(AHEAD) if rates.kappa[i]), m * 0)
 
 
 def leaves_fold(J, zero):
-    """At a simple zero of m on a line of equilibria where J^2 is not zero: z' = y, y' = w, w' = b z y + ..., b = -dm/dz."""
+    """At a simple zero of m on a line of equilibria where J^2 is not zero: z' = y, y' = w, w' = b z y + ...,
+    b = -dm/dz."""
     whole = zero.order == 1 and any(entry % zero.factor != 0 for row in product(J, J) for entry in row)
-    return ("unstable", "m changes sign on a line of equilibria: z ~ 12/(b t^2) leaves the point") if whole else None
+    return ("unstable",
+            "m changes sign on a line of equilibria: z ~ 12/(b t^2) leaves the point") if whole else None
 
 
 def leaves_double_root(rates, x, m):
-    """At an isolated equilibrium with n = 0 <= m: z' = a z^2 + ... with a not 0 (m > 0), z''' = a z^2 + ... (m = 0)."""
+    """At an isolated equilibrium with n = 0 <= m: z' = a z^2 + ... with a not 0 (m > 0), z''' = a z^2 + ...
+    (m = 0)."""
     J = rates.jacobian(x)
     square = product(J, J)
-    along = [[v + m * (i == j) for j, v in enumerate(row)] for i, row in enumerate(square)]  # v w^T, J v = 0 = w J
+    # v w^T, J v = 0 = w J
+    along = [[v + m * (i == j) for j, v in enumerate(row)] for i, row in enumerate(square)]
     row = next((r for r in along if any(r)), None)
     if row is None:
         return None
     v = [r[next(i for i in range(3) if row[i])] for r in along]
     bend = sum(row[i] * rates.kappa[i] * v[j] * v[k] for i, (j, k) in enumerate(AHEAD))
-    why = "z' = a z^2 + b r^2, r' = -a z r with a not 0" if m else "z''' = a z^2 with a not 0: z ~ -60/(a t^3) leaves the point"
+    why = ("z' = a z^2 + b r^2, r' = -a z r with a not 0" if m
+           else "z''' = a z^2 with a not 0: z ~ -60/(a t^3) leaves the point")
     return ("unstable", f"a double root: {why}") if bend else None
 
 
@@ -173,7 +204,8 @@ class Curve:
         tops = [numbers(r, f"{where}.numerators[{i}]") for i, r in enumerate(rows)]
         bottom = numbers(field(table, "denominator", where), f"{where}.denominator")
         from flint import fmpq_poly
-        self.tops, self.bottom = [fmpq_poly([q(c) for c in row]) for row in tops], fmpq_poly([q(c) for c in bottom])
+        self.tops, self.bottom = [fmpq_poly([q(c) for c in row])
+                                  for row in tops], fmpq_poly([q(c) for c in bottom])
         if self.bottom == 0:
             raise Malformed(f"{where}.denominator: expected a polynomial that is not zero")
         common = self.bottom
@@ -182,7 +214,8 @@ class Curve:
         self.tops, self.bottom = [top // common for top in self.tops], self.bottom // common
         self.degree = max(p.degree() for p in (*self.tops, self.bottom))
         self.claim = f"{'straight line' if self.straight else f'curve of degree {self.degree}'} ({where})"
-        self.segments = [_piece(s, f"{where}.segments[{i}]") for i, s in enumerate(entries(table, "segments", where))]
+        self.segments = [_piece(s, f"{where}.segments[{i}]") for i,
+                         s in enumerate(entries(table, "segments", where))]
         self.folds = [(bracket(field(f, "t", w), f"{w}.t"), *_words(f, w))
                       for i, f in enumerate(entries(table, "folds", where)) for w in [f"{where}.folds[{i}]"]]
 
@@ -239,20 +272,25 @@ def check_curve(rates, curve, note):
     m, n = characteristic(J)
     if n != 0 or m == 0:
         note(f"{curve.claim}: verdicts", "refuted" if n != 0 else "not checked",
-             "the Jacobian's determinant does not vanish along it" if n != 0 else "three zero eigenvalues all along")
+             "the Jacobian's determinant does not vanish along it" if n != 0
+             else "three zero eigenvalues all along")
         return
     pole = lambda z: curve.bottom % z.factor == 0
     marks = real_zeros(m * curve.bottom)
     inner = [z for z in marks if not pole(z)]
     if len(curve.segments) != len(marks) + 1 or len(curve.folds) != len(inner):
-        note(curve.claim, "refuted", f"m has {len(inner)} zeros and the curve {len(marks) - len(inner)} poles: {len(marks) + 1} pieces "
-                                     f"and {len(inner)} folds, not {len(curve.segments)} and {len(curve.folds)}")
+        note(curve.claim, "refuted",
+             f"m has {len(inner)} zeros and the curve {len(marks) - len(inner)} poles: {len(marks) + 1} "
+             f"pieces "
+                                     f"and {len(inner)} folds, not {len(curve.segments)} and "
+                                     f"{len(curve.folds)}")
         return
     along = _Along(rates, curve, J, m)
     bounds = [None, *marks, None]
     signs = [_sign_between(m, low, high) for low, high in zip(bounds, bounds[1:])]
     for number, (piece, sign) in enumerate(zip(curve.segments, signs)):
-        _check_piece(along, note, f"{curve.claim}: piece {number + 1}", piece, bounds[number:number + 2], sign)
+        _check_piece(along, note, f"{curve.claim}: piece {number + 1}", piece, bounds[number:number + 2],
+                     sign)
     for zero, fold in zip(inner, curve.folds):
         number = marks.index(zero)
         _check_fold(along, note, zero, fold, signs[number:number + 2])
@@ -272,7 +310,9 @@ def _check_piece(along, note, where, piece, bounds, sign):
 
 def _check_fold(along, note, zero, fold, signs):
     ends, linear, verdict = fold
-    claim = f"{along.curve.claim}: fold near t = {brief((zero.low + zero.high) / 2)}: linear {linear}, verdict {verdict}"
+    claim = (
+        f"{along.curve.claim}: fold near t = {brief((zero.low + zero.high) / 2)}: linear {linear}, verdict "
+        f"{verdict}")
     if not _agrees(ends, zero) or linear != "degenerate":
         note(claim, "refuted", "m vanishes elsewhere, or does vanish here")
     else:
@@ -289,7 +329,8 @@ def judged(verdict, proof, otherwise):
 
 
 class _Along:
-    """What decides stability along one curve: the integrals without a torque, a reduction, or the drift along the line."""
+    """What decides stability along one curve: the integrals without a torque, a reduction, or the drift along
+    the line."""
 
     def __init__(self, rates, curve, J, m):
         self.rates, self.curve, self.J, self.m = rates, curve, J, m
@@ -302,14 +343,16 @@ class _Along:
             return "stable", "m > 0: a strict extremum"
         low, high = bounds
         k = drift(self.rates, self.J, self.m) if self.curve.straight else 0
-        others = [z for z in real_zeros(k) if self.m % z.factor != 0] if k != 0 else []  # those of m bound the piece
+        # those of m bound the piece
+        others = [z for z in real_zeros(k) if self.m % z.factor != 0] if k != 0 else []
         if k == 0 or any((low is None or low.before(z)) and (high is None or z.before(high)) for z in others):
             return None
         return "unstable", "a slow drift along the line of equilibria, of one sense all along the piece"
 
     def fold(self, zero, signs):
         """The verdict at a zero of m between pieces with these signs of m."""
-        minors = [self.J[a][c] * self.J[b][d] - self.J[a][d] * self.J[b][c] for a, b in PAIRS for c, d in PAIRS]
+        minors = [self.J[a][c] * self.J[b][d] - self.J[a][d] * self.J[b][c] for a, b in PAIRS for c,
+                  d in PAIRS]
         if all(v % zero.factor == 0 for v in minors):
             return self._crossing(zero)
         if self.settled:
@@ -355,7 +398,8 @@ class Plane:
         self.normal = cross(self.u, self.v)
         if not any(self.normal):
             raise Malformed(f"{where}.directions: expected two directions that are not parallel")
-        self.linear, self.verdict = word(table, "linear", where, LINEAR), word(table, "verdict", where, VERDICT)
+        self.linear, self.verdict = word(table, "linear", where,
+                                         LINEAR), word(table, "verdict", where, VERDICT)
         centre = field(table, "centre", where, dict)
         self.centre = numbers(field(centre, "at", f"{where}.centre"), f"{where}.centre.at", 3)
         self.centre_verdict = word(centre, "verdict", f"{where}.centre", VERDICT)
@@ -363,7 +407,8 @@ class Plane:
 
     def grid(self, size):
         """size x size of its points."""
-        return [[b + p * u + r * v for b, u, v in zip(self.base, self.u, self.v)] for p in range(size) for r in range(size)]
+        return [[b + p * u + r * v for b, u, v in zip(self.base, self.u, self.v)] for p in range(size)
+                for r in range(size)]
 
     def lies(self, axis, height) -> bool:
         """Whether it is the plane x_axis = height."""
@@ -376,25 +421,34 @@ def plane_of(table, where) -> Plane:
 
 
 def check_plane(rates, plane, note):
-    """Findings on a plane: all of it at rest, all of it with three zero eigenvalues, and left by a drift but at the centre."""
-    if any(any(rates.at(x)) for x in plane.grid(3)):  # a quadratic function that vanishes on a 3 x 3 grid vanishes
+    """Findings on a plane: all of it at rest, all of it with three zero eigenvalues, and left by a drift but
+    at the centre."""
+    # a quadratic function that vanishes on a 3 x 3 grid vanishes
+    if any(any(rates.at(x)) for x in plane.grid(3)):
         note(plane.claim, "refuted", "the rates do not vanish all over the plane")
         return
     note(plane.claim, "proved", "the rates vanish all over it")
-    zero = not any(v for x in plane.grid(4) for v in characteristic(rates.jacobian(x)))  # m, n: of degree 3 at most
-    note(f"{plane.claim}: linear {plane.linear}", "proved" if zero and plane.linear == "degenerate" else "refuted",
+    # m, n: of degree 3 at most
+    zero = not any(v for x in plane.grid(4) for v in characteristic(rates.jacobian(x)))
+    note(f"{plane.claim}: linear {plane.linear}",
+         "proved" if zero and plane.linear == "degenerate" else "refuted",
          "m and n vanish all over it" if zero else "m or n does not vanish all over it")
     proof = _turning(rates, plane)
     if proof is not None and not _at(rates, proof, plane.centre, plane):
         note(f"{plane.claim}: centre", "refuted", "the turning does not vanish there")
         return
-    for where, verdict, true in (("but its centre", plane.verdict, "unstable"), ("its centre", plane.centre_verdict, "stable")):
-        why = proof and (true, f"beside the plane x' = d J(x) e turns about the centre, d the distance along e, axis {proof.index(1) + 1}")
+    for where, verdict, true in (("but its centre", plane.verdict, "unstable"),
+                                 ("its centre", plane.centre_verdict, "stable")):
+        why = (proof
+               and (
+                   true, f"beside the plane x' = d J(x) e turns about the centre, d the distance along e, "
+                         f"axis {proof.index(1) + 1}"))
         note(f"{plane.claim}: {where} {verdict}", *judged(verdict, why, "no axis of symmetry was found"))
 
 
 def _turning(rates, plane):
-    """The axis e with x_e constant whose J(x) e turns x in the plane (so that beside it states run round circles); or None."""
+    """The axis e with x_e constant whose J(x) e turns x in the plane (so that beside it states run round
+    circles); or None."""
     for i, (j, k) in enumerate(AHEAD):
         still = not any((rates.kappa[i], rates.rho[i], rates.sigma[i], rates.m[i]))
         if still and plane.lies(i, plane.base[i]) and rates.kappa[j] * rates.kappa[k] < 0:

@@ -1,7 +1,7 @@
 """What a certificate claims of equilibria, checked: each is one, none is missing, its stability.
 
-Do the curves cover everything? In the plane of the two conditions they are a conic; without a torque every s of
-D x + lambda = s x must be passed.
+Do the curves cover everything? In the plane of the two conditions they are a conic; without a torque every s
+of D x + lambda = s x must be passed.
 """
 from __future__ import annotations
 
@@ -10,7 +10,17 @@ from fractions import Fraction
 from functools import partial
 from math import isqrt
 
-from .curves import Curve, Plane, check_curve, check_plane, curve_of, identically_zero, judged, leaves_double_root, plane_of
+from .curves import (
+    Curve,
+    Plane,
+    check_curve,
+    check_plane,
+    curve_of,
+    identically_zero,
+    judged,
+    leaves_double_root,
+    plane_of,
+)
 from .numbers import LINEAR, VERDICT, Malformed, bracket, brief, entries, exact_sign, field, q, word
 from .rates import characteristic, excluded, only_zero
 
@@ -53,7 +63,8 @@ class Place:
 
 @dataclass(frozen=True)
 class Line:
-    """The line where the two conditions meet. places: the equilibria on it, or None where all of it is at rest."""
+    """The line where the two conditions meet. places: the equilibria on it, or None where all of it is at
+    rest."""
 
     places: tuple[Place, ...] | None
 
@@ -78,7 +89,8 @@ def contradictory(rates) -> bool:
 
 
 def _roots(g):
-    """(middle, reach, root) of the distinct real zeros middle + reach sqrt(root) of a polynomial of degree 2 or less."""
+    """(middle, reach, root) of the distinct real zeros middle + reach sqrt(root) of a polynomial of degree 2
+    or less."""
     if len(g) < 3:
         return [(-g[0] / g[1], Fraction(0), Fraction(0))] if len(g) == 2 else []
     root = g[1] * g[1] - 4 * g[2] * g[0]
@@ -87,11 +99,14 @@ def _roots(g):
 
 
 def whole_line(kind, points, curves, places):
-    """(status, reason): equilibria of a torque whose two conditions meet in a line. places: those on it (`Line`)."""
+    """(status, reason): equilibria of a torque whose two conditions meet in a line. places: those on it
+    (`Line`)."""
     if places is None:
         whole = kind == "curves" and len(curves) == 1 and not points and curves[0].straight
-        return ("proved" if whole else "refuted"), "the rates vanish all along the line where the two conditions meet"
-    once = len(points) == len(places) and all(sum(place.within(p.box) for p in points) == 1 for place in places)
+        return ("proved" if whole
+                else "refuted"), "the rates vanish all along the line where the two conditions meet"
+    once = (len(points) == len(places)
+            and all(sum(place.within(p.box) for p in points) == 1 for place in places))
     right = once and not curves and kind == ("points" if places else "none")
     why = f"on the line where the two conditions meet the rates have {len(places)} common zeros"
     return ("proved" if right else "refuted"), f"{why}, {'' if once else 'not '}each in a box of its own"
@@ -128,7 +143,8 @@ def _line(rates):
 
 
 def _common_factor(rates, foot, v) -> list[Fraction]:
-    """Coefficients, lowest first, of the greatest common divisor of the rates on the line; [] where all vanish."""
+    """Coefficients, lowest first, of the greatest common divisor of the rates on the line; [] where all
+    vanish."""
     from flint import fmpq_poly
     line = [fmpq_poly([q(f), q(d)]) for f, d in zip(foot, v)]
     total = fmpq_poly([])
@@ -145,14 +161,16 @@ def whole_conic(rates, kind, points, curves):
     A, B, C, D, E, F = conic
     if not any((A, B, C, D, E)):
         right = kind == "none" and not curves and not points
-        return ("proved" if right else "refuted"), "in the plane one condition is left, and it is a constant that is not zero"
+        return ("proved" if right
+                else "refuted"), "in the plane one condition is left, and it is a constant that is not zero"
     if points or kind != "curves":
         return "refuted", "the equilibria are a conic: curves, without isolated points"
     degenerate = 4 * A * C * F + B * D * E - A * E * E - C * D * D - B * B * F == 0
     if not degenerate:
         one = curves[0] if len(curves) == 1 else None
         proper = one is not None and one.degree == 2 and one.bottom.degree() < 2
-        return ("proved" if proper else "refuted"), "a conic that does not fall apart; a parametrisation of degree 2 runs over all of it"
+        return ("proved" if proper
+                else "refuted"), "a conic that does not fall apart; a parametrisation of degree 2 runs over all of it"
     lines = [_line_in_plane(rates, c) for c in curves]
     if any(line is None for line in lines):
         return "refuted", "the conic falls apart into lines; a curve is none"
@@ -161,7 +179,8 @@ def whole_conic(rates, kind, points, curves):
     right = product is not None and not twice and _proportional(product, conic)
     if not right and len(lines) == 1:
         right = _proportional(_product(lines * 2), conic)
-    return ("proved" if right else "refuted"), "the conic falls apart into lines, whose product is the condition"
+    return ("proved" if right
+            else "refuted"), "the conic falls apart into lines, whose product is the condition"
 
 
 def _free(rates):
@@ -172,7 +191,8 @@ def _free(rates):
 
 
 def _conic(rates):
-    """Coefficients of p^2, p r, r^2, p, r, 1 of the one condition in the plane; None where the rates are not multiples of one."""
+    """Coefficients of p^2, p r, r^2, p, r, 1 of the one condition in the plane; None where the rates are not
+    multiples of one."""
     pivot, (i, j), normal, constant = _free(rates)
 
     def at(p, r):
@@ -197,7 +217,8 @@ def _proportional(a, b) -> bool:
 
 
 def _line_in_plane(rates, curve):
-    """(l, m, n) of the line l p + m r + n = 0 that the curve runs along; None where it is no straight line."""
+    """(l, m, n) of the line l p + m r + n = 0 that the curve runs along; None where it is no straight line.
+    """
     if not curve.straight:
         return None
     _, (i, j), *_ = _free(rates)
@@ -222,10 +243,13 @@ def whole_torque_free(rates, kind, points, curves, planes):
         return "refuted", "without a torque no equilibrium is isolated"
     free = rates.parallel is not None and not any(rates.parallel[1]) and len(set(rates.parallel[0])) == 1
     if kind != ("all" if free else "curves"):
-        return "refuted", "without a torque they are curves, or every rate of rotation for a sphere that carries no gyrostatic moment"
+        return ("refuted",
+                "without a torque they are curves, or every rate of rotation for a sphere that carries no "
+                "gyrostatic moment")
     if free:
         alone = not curves and not planes
-        return ("proved" if alone else "refuted"), "every rate of rotation is constant: there are no curves or planes to list"
+        return ("proved" if alone
+                else "refuted"), "every rate of rotation is constant: there are no curves or planes to list"
     missing, spare = _matched(_parts(rates), curves, planes)
     if missing:
         return "refuted", f"{missing[0]} is missing"
@@ -233,7 +257,9 @@ def whole_torque_free(rates, kind, points, curves, planes):
         return "refuted", f"{spare[0]} is listed twice, or is no part of its own"
     if rates.parallel is None:
         return "proved", "x2 x3 = x3 (x1 + a) = x2 (x1 + b) = 0 are three lines"
-    return "proved", "every s of D x + lambda = s x is passed, and each axis that carries no gyrostatic moment is there"
+    return ("proved",
+            "every s of D x + lambda = s x is passed, and each axis that carries no gyrostatic moment "
+            "is there")
 
 
 def _matched(parts, curves, planes):
@@ -251,19 +277,23 @@ def _matched(parts, curves, planes):
 def _parts(rates):
     """(name, test of a claimed curve or plane) of each part of the equilibria without a torque."""
     if rates.parallel is None:
-        return [(f"the line along x{i + 1}", partial(_is_the_line, *line)) for i, line in enumerate(_scaled_lines(rates))]
+        return [(f"the line along x{i + 1}", partial(_is_the_line, *line)) for i,
+                line in enumerate(_scaled_lines(rates))]
     D, lam = rates.parallel
-    parts = [("the curve that passes every s of D x + lambda = s x", partial(_passes_every_s, D, lam))] if any(lam) else []
+    parts = ([("the curve that passes every s of D x + lambda = s x", partial(_passes_every_s, D, lam))]
+             if any(lam) else [])
     for d in sorted(set(D)):
         axes = [i for i in range(3) if D[i] == d]
         if any(lam[i] for i in axes):
             continue
         if len(axes) > 1:
             across = 3 - sum(axes)
-            parts.append((f"the plane across axis {across + 1}", partial(_is_the_plane, across, lam[across] / (d - D[across]))))
+            parts.append((f"the plane across axis {across + 1}",
+                          partial(_is_the_plane, across, lam[across] / (d - D[across]))))
             continue
         base = [Fraction(0) if i in axes else lam[i] / (d - D[i]) for i in range(3)]
-        parts.append((f"the line along axis {axes[0] + 1}", partial(_is_the_line, base, [Fraction(int(i in axes)) for i in range(3)])))
+        parts.append((f"the line along axis {axes[0] + 1}",
+                      partial(_is_the_line, base, [Fraction(int(i in axes)) for i in range(3)])))
     return parts
 
 
@@ -283,11 +313,13 @@ def _is_the_line(base, direction, claimed) -> bool:
         return False
     points = [claimed.at(Fraction(t)) for t in (0, 1)]
     return all(u[i] * direction[j] == u[j] * direction[i]
-               for p in points for u in [[a - b for a, b in zip(p, base)]] for i in range(3) for j in range(3))
+               for p in points for u in [[a - b for a, b in zip(p, base)]] for i in range(3)
+               for j in range(3))
 
 
 def _passes_every_s(D, lam, curve) -> bool:
-    """Whether s = (D_l x_l + lambda_l)/x_l is of degree 1 in t, and infinite t is where the curve itself is infinite."""
+    """Whether s = (D_l x_l + lambda_l)/x_l is of degree 1 in t, and infinite t is where the curve itself is
+    infinite."""
     if not isinstance(curve, Curve):
         return False
     l = next(i for i in range(3) if lam[i])
@@ -307,7 +339,8 @@ def _passes_every_s(D, lam, curve) -> bool:
 # --- Are these all the equilibria, and are the verdicts on them right? Exact algebra for how many,
 # Krawczyk's test for where
 KINDS = ("none", "points", "curves", "all")
-BITS = (128, 512, 2048, 8192)  # of the boxes about an exact zero, where the box claimed is too wide for Krawczyk's test
+# of the boxes about an exact zero, where the box claimed is too wide for Krawczyk's test
+BITS = (128, 512, 2048, 8192)
 
 
 @dataclass(frozen=True)
@@ -322,8 +355,10 @@ class Claims:
 
 def equilibria_of(table) -> Claims:
     """The claims on equilibria. Raises `Malformed` before anything is worked out."""
-    read = lambda key, made: [made(v, f"equilibria.{key}[{i}]") for i, v in enumerate(entries(table, key, "equilibria"))]
-    return Claims(word(table, "kind", "equilibria", KINDS), read("points", _Point), read("curves", curve_of), read("planes", plane_of))
+    read = lambda key, made: [made(v, f"equilibria.{key}[{i}]") for i,
+                              v in enumerate(entries(table, key, "equilibria"))]
+    return Claims(word(table, "kind", "equilibria", KINDS), read("points", _Point), read("curves", curve_of),
+                  read("planes", plane_of))
 
 
 def check_equilibria(rates, claims, note):
@@ -349,7 +384,8 @@ class _Point:
         if len(boxes) != 3:
             raise Malformed(f"{where}.box: expected three brackets")
         self.box = [bracket(b, f"{where}.box[{i}]") for i, b in enumerate(boxes)]
-        self.linear, self.verdict = word(table, "linear", where, LINEAR), word(table, "verdict", where, VERDICT)
+        self.linear, self.verdict = word(table, "linear", where,
+                                         LINEAR), word(table, "verdict", where, VERDICT)
         self.claim = f"equilibrium near ({', '.join(brief((a + b) / 2) for a, b in self.box)})"
         self.exact = all(a == b for a, b in self.box)
 
@@ -364,7 +400,9 @@ def _check_point(rates, point, line, note):
             _judge(rates, point, x, note)
     elif line is None or line.places is None:
         none = excluded(rates, point.box)
-        note(point.claim, *(("refuted", "a rate does not vanish in the box") if none else ("not checked", "no isolated equilibrium is known there")))
+        note(point.claim,
+             *(("refuted", "a rate does not vanish in the box") if none
+               else ("not checked", "no isolated equilibrium is known there")))
     else:
         _check_box(rates, point, line.places, note)
 
@@ -376,7 +414,8 @@ def _check_box(rates, point, places, note):
         note(point.claim, "refuted", f"the box holds {len(held)} zeros of the rates, not one")
         return
     signs = only_zero(rates, point.box)
-    note(point.claim, "proved", "Krawczyk's test: one and only one equilibrium in the box" if signs else "it holds one of the exact zeros of the rates")
+    note(point.claim, "proved", "Krawczyk's test: one and only one equilibrium in the box" if signs
+         else "it holds one of the exact zeros of the rates")
     if held[0].rational:
         _judge(rates, point, held[0].rational, note)
         return
@@ -384,7 +423,8 @@ def _check_box(rates, point, places, note):
     if signs:
         _say(point, *signs, None, note)
     else:
-        note(f"{point.claim}: linear {point.linear}, verdict {point.verdict}", "not checked", f"the signs of m and n are not known with {BITS[-1]} bits")
+        note(f"{point.claim}: linear {point.linear}, verdict {point.verdict}", "not checked",
+             f"the signs of m and n are not known with {BITS[-1]} bits")
 
 
 def _judge(rates, point, x, note):
@@ -394,12 +434,14 @@ def _judge(rates, point, x, note):
 
 
 def _say(point, m, n, root, note):
-    """Verdicts from the signs of m and n; an isolated equilibrium. root: the proof for a double root with n = 0 <= m."""
+    """Verdicts from the signs of m and n; an isolated equilibrium. root: the proof for a double root with n =
+    0 <= m."""
     linear = "unstable" if n or m == -1 else "stable" if m else "degenerate"
     where = f"signs of m and n give {linear}"
     note(f"{point.claim}: linear {point.linear}", "proved" if point.linear == linear else "refuted", where)
     proof = ("unstable", where) if linear == "unstable" else root
-    note(f"{point.claim}: verdict {point.verdict}", *judged(point.verdict, proof, "the leading term vanishes too"))
+    note(f"{point.claim}: verdict {point.verdict}",
+         *judged(point.verdict, proof, "the leading term vanishes too"))
 
 
 # -- completeness
@@ -419,7 +461,8 @@ def _check_complete(rates, claims, line, note):
         status, reason = "refuted", "with a torque no plane of equilibria exists"
     elif contradictory(rates):
         none = kind == "none" and not points and not curves
-        status, reason = ("proved" if none else "refuted"), "the two linear conditions contradict each other: there are none"
+        status, reason = ("proved" if none
+                          else "refuted"), "the two linear conditions contradict each other: there are none"
     elif line is None:
         status, reason = whole_conic(rates, kind, points, curves)
     else:

@@ -17,10 +17,12 @@ KEYS = {
     "equilibria": {
         "kind": None, "points": [dict.fromkeys(("box", "linear", "verdict"))],
         "curves": [{"numerators": None, "denominator": None, "segments": [PIECE], "folds": [PIECE]}],
-        "planes": [{**dict.fromkeys(("base", "directions", "linear", "verdict")), "centre": dict.fromkeys(("at", "verdict"))}]},
+        "planes": [{**dict.fromkeys(("base", "directions", "linear", "verdict")),
+                    "centre": dict.fromkeys(("at", "verdict"))}]},
     "motion": {**dict.fromkeys(("state", "fate", "axis", "sense", "extremes", "period")),
                "closed": dict.fromkeys(("law", "direction", "gain", "most")),
-               "spin_up": {**dict.fromkeys(("about", "axis", "sense", "orders", "t", "cone", "least", "gain")), "way": [dict.fromkeys(("t", "box"))]}}}
+               "spin_up": {**dict.fromkeys(("about", "axis", "sense", "orders", "t", "cone", "least",
+                                            "gain")), "way": [dict.fromkeys(("t", "box"))]}}}
 SCENES = {"physical": ("variables", "inertia", "momentum", "torque"), "scaled": ("variables", "a", "b", "mu")}
 
 
@@ -46,7 +48,8 @@ def _once(pairs) -> dict:
     table = dict(pairs)
     if len(table) != len(pairs):
         names = [name for name, _ in pairs]
-        raise Malformed(f"the key {shown(next(n for n in names if names.count(n) > 1))} stands twice in one object")
+        raise Malformed(
+            f"the key {shown(next(n for n in names if names.count(n) > 1))} stands twice in one object")
     return table
 
 
@@ -72,7 +75,8 @@ def strangers(certificate, keys=None) -> list[str]:
     """Where keys stand that have no meaning: nothing is known of what they say."""
     scene = certificate.get("scene")
     known = SCENES.get(field(scene, "variables", "scene", str), ()) if scene is not None else ()
-    return list(_strangers(certificate, (KEYS if keys is None else keys) | {"scene": dict.fromkeys(known)}, ""))
+    return list(_strangers(certificate, (KEYS if keys is None else keys) | {"scene": dict.fromkeys(known)},
+                           ""))
 
 
 def _strangers(value, known, where):
@@ -90,18 +94,21 @@ def _strangers(value, known, where):
 # --- What a certificate is about: the numbers of its scene and state, in a line, and compared with those of
 # a case
 WORDS = {"inertia": "moments", "momentum": "wheel"}
-UNITS = {"inertia": "kg m^2", "momentum": "N m s", "torque": "N m", "state": "rad/s"}  # of a scene that is not scaled
+# of a scene that is not scaled
+UNITS = {"inertia": "kg m^2", "momentum": "N m s", "torque": "N m", "state": "rad/s"}
 
 
 def about(certificate: dict) -> dict:
-    """Its scene and state as plain strings, in the order of the form: {"variables": .., "inertia": [..], .., "state": [..]};
-    empty where it names no scene. For a certificate that `verify` has read without complaint."""
+    """Its scene and state as plain strings, in the order of the form: {"variables": .., "inertia": [..], ..,
+    "state": [..]}; empty where it names no scene. For a certificate that `verify` has read without
+    complaint."""
     if diagram.is_one(certificate):
         return diagram.about(certificate)
     scene, motion = certificate.get("scene"), certificate.get("motion")
     if scene is None:
         return {}
-    return {key: scene[key] for key in SCENES[scene["variables"]]} | ({"state": motion["state"]} if motion else {})
+    return ({key: scene[key] for key in SCENES[scene["variables"]]}
+            | ({"state": motion["state"]} if motion else {}))
 
 
 def line(told: dict) -> str:
@@ -109,17 +116,19 @@ def line(told: dict) -> str:
     if "number" in told:
         return diagram.line(told)
     units = UNITS if told.get("variables") == "physical" else {}
-    parts = [f"{WORDS.get(key, key)} {_short(value)} {units.get(key, '')}".rstrip() for key, value in told.items() if key != "variables"]
+    parts = [f"{WORDS.get(key, key)} {_short(value)} {units.get(key, '')}".rstrip() for key,
+             value in told.items() if key != "variables"]
     return f"about: {', '.join(parts) or 'no scene'}" + ("" if "state" in told or not told else ", no state")
 
 
 def differences(told: dict, case: dict) -> list[str]:
-    """What a certificate is about that a case is not: both as `about` tells it, numbers compared exactly. A certificate
-    without a motion says nothing of a state, so the case's may be any."""
+    """What a certificate is about that a case is not: both as `about` tells it, numbers compared exactly. A
+    certificate without a motion says nothing of a state, so the case's may be any."""
     if "number" in told:
         return diagram.differences(told, case)
     keys = [*told, *(key for key in case if key not in told and key != "state")]
-    return [f"{WORDS.get(key, key)}: the certificate's {_short(told.get(key))}, the case's {_short(case.get(key))}"
+    return [f"{WORDS.get(key, key)}: the certificate's {_short(told.get(key))}, the case's "
+            f"{_short(case.get(key))}"
             for key in keys if _exact(told.get(key)) != _exact(case.get(key))]
 
 

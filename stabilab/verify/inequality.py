@@ -2,42 +2,53 @@
 
 The inequality of spin-up: true at one time, it is true for ever.
 
-In the normal form (`normal_form`), let M > 0. Energy and amplitude are corrected by terms c zeta^j zeta*^k X^-n: adding -c/(i om (j - k))
-zeta^j zeta*^k X^-(n+1) takes an oscillating term (j != k) of degree n out of a rate, at the price of what the rest of d/dt makes of the
-added term. One after another, lowest degree first, up to a degree:
+In the normal form (`normal_form`), let M > 0. Energy and amplitude are corrected by terms c zeta^j zeta*^k
+X^-n: adding -c/(i om (j - k)) zeta^j zeta*^k X^-(n+1) takes an oscillating term (j != k) of degree n out of a
+rate, at the price of what the rest of d/dt makes of the added term. One after another, lowest degree first,
+up to a degree:
 
-    Y = X^2/2 + (added),                     Y' = M X + m + (left),      m constant, what is left of degree 0 and more;
+    Y = X^2/2 + (added),                     Y' = M X + m + (left),      m constant, what is left of degree 0
+    and more;
     B = |zeta|^2 (1 + m/(M X)) + (added),    B' = (left),                all of degree 2 and more.
 
-Let e, k, b be the sums of |c| A^(j+k) z^-n over Y's added, Y's left and B's added terms, and r that of |c| A^(j+k) z^(1-n)/(n - 1) over
-what is left of B'. If
+Let e, k, b be the sums of |c| A^(j+k) z^-n over Y's added, Y's left and B's added terms, and r that of |c|
+A^(j+k) z^(1-n)/(n - 1) over what is left of B'. If
 
-    X > z, |zeta| < A,    Y > z^2/2 + e,    eta = M - (max(0, -m) + k)/z > 0,    [B + b + r/eta]/(1 + min(0, m)/(M z)) < A^2
+    X > z, |zeta| < A,    Y > z^2/2 + e,    eta = M - (max(0, -m) + k)/z > 0,    [B + b + r/eta]/(1 + min(0,
+    m)/(M z)) < A^2
 
-at one time, then as long as |zeta| < A and X > z: Y' > 0, so y = sqrt(2 (Y - e)) <= X stays above z and y y' = Y' >= M y - max(0, -m) - k
-gives X >= y >= z + eta t; so the integral of X^-n is at most z^(1-n)/(eta (n - 1)), and |zeta|^2 stays below A^2 with the margin it began
-with. So both hold for ever, and X grows at least at the rate eta.
+at one time, then as long as |zeta| < A and X > z: Y' > 0, so y = sqrt(2 (Y - e)) <= X stays above z and y y'
+= Y' >= M y - max(0, -m) - k gives X >= y >= z + eta t; so the integral of X^-n is at most z^(1-n)/(eta (n -
+1)), and |zeta|^2 stays below A^2 with the margin it began with. So both hold for ever, and X grows at least
+at the rate eta.
 
 The inequality of spin-up about the moving centre: true at one time, it is true for ever.
 
-In the form of `moving_form` let M > 0, z such that P, Q > 0 from z on, and Om = sqrt(P Q), which rises and is concave there, as P and Q do not fall and
-are linear. By adding -c/(i (j - k)) zeta^j zeta*^k P^-(a+2)/4 Q^-(b+2)/4 an oscillating term (j != k) is taken out of a rate, at the price of x' times what
-d/dx and r zeta* + f make of the added term; one after another, those that fall slowest first:
+In the form of `moving_form` let M > 0, z such that P, Q > 0 from z on, and Om = sqrt(P Q), which rises and is
+concave there, as P and Q do not fall and are linear. By adding -c/(i (j - k)) zeta^j zeta*^k P^-(a+2)/4
+Q^-(b+2)/4 an oscillating term (j != k) is taken out of a rate, at the price of x' times what d/dx and r zeta*
++ f make of the added term; one after another, those that fall slowest first:
 
-    Y = int Om dx + (added),           Y' = Om G + (left);         B = (G/M) |zeta|^2 + (added),    B' = (left).
+    Y = int Om dx + (added),           Y' = Om G + (left);         B = (G/M) |zeta|^2 + (added),    B' =
+    (left).
 
-M times the rate of (G/M) |zeta|^2, with x' = G + g Im zeta^2 + Re(k* zeta) and without the mean part, which vanishes (`moving_form`), is
+M times the rate of (G/M) |zeta|^2, with x' = G + g Im zeta^2 + Re(k* zeta) and without the mean part, which
+vanishes (`moving_form`), is
 
     (x' - G) G' |zeta|^2 + 2 G [x' r Re zeta^2 + (G + g Im zeta^2) Re(f* zeta) + Re(k* f* zeta^2)/2],
 
-where g Im zeta^2 r Re zeta^2 = (g r/2) Im zeta^4 is written so. The factor P^(-a/4) Q^(-b/4) of a term is at most its greatest value from z on, and there is a
-falling majorant with an integral from z on: both from P, Q and the quotient, which is monotone. Let e, k, b be the sums of |c| A^(j+k) times the greatest
-factors of Y's added, Y's left over Om and B's added terms, r the same with the integrals of what is left of B', and G_ <= G from z on. If
+where g Im zeta^2 r Re zeta^2 = (g r/2) Im zeta^4 is written so. The factor P^(-a/4) Q^(-b/4) of a term is at
+most its greatest value from z on, and there is a falling majorant with an integral from z on: both from P, Q
+and the quotient, which is monotone. Let e, k, b be the sums of |c| A^(j+k) times the greatest factors of Y's
+added, Y's left over Om and B's added terms, r the same with the integrals of what is left of B', and G_ <= G
+from z on. If
 
-    x > z,  |zeta| < A,  (x - z) (Om(x) + Om(z))/2 + (Y's added) > e,  eta = G_ - k > 0,  [B + b + r/eta] M/G_ < A^2
+    x > z,  |zeta| < A,  (x - z) (Om(x) + Om(z))/2 + (Y's added) > e,  eta = G_ - k > 0,  [B + b + r/eta] M/G_
+    < A^2
 
-at one time, then as long as |zeta| < A and x > z: Y' >= Om eta > 0, so int_z^x Om > 0 keeps its margin, x >= y with Om(y) y' = Y' >= Om(y) eta, hence x >= z +
-eta t, the integral of B' over time is at most r/eta, and |zeta|^2 stays below A^2. So both hold for ever, and x grows at least at the rate eta.
+at one time, then as long as |zeta| < A and x > z: Y' >= Om eta > 0, so int_z^x Om > 0 keeps its margin, x >=
+y with Om(y) y' = Y' >= Om(y) eta, hence x >= z + eta t, the integral of B' over time is at most r/eta, and
+|zeta|^2 stays below A^2. So both hold for ever, and x grows at least at the rate eta.
 """
 from __future__ import annotations
 
@@ -74,7 +85,9 @@ class Inequality:
             raise Unsuited(f"orders up to {MOST_ORDER} are worked out here")
         self.form, self.M = form, ball(form.M)
         self.spin_rate = _spin_rate(form)
-        energy = self._corrected(product({(0, 0, -1): 1}, {key: c for key, c in self.spin_rate.items() if key[0] + key[1]}), orders[0], {})
+        energy = self._corrected(product({(0, 0, -1): 1},
+                                         {key: c for key, c in self.spin_rate.items() if key[0] + key[1]}),
+                                 orders[0], {})
         self.m = energy.left.pop((0, 0, 0), ball(0) * 0)
         self.m = getattr(self.m, "real", self.m)
         self.energy = energy
@@ -97,7 +110,8 @@ class Inequality:
             if not moving:
                 return Ledger(added, rate)
             lowest = min(n for _, _, n in moving)
-            now = {(j, k, n + 1): -rate.pop((j, k, n)) / (_i() * self.form.om * (j - k)) for j, k, n in moving if n == lowest}
+            now = {(j, k, n + 1): -rate.pop((j, k, n)) / (_i() * self.form.om * (j - k)) for j, k,
+                   n in moving if n == lowest}
             added, rate = total(added, now), total(rate, self._price(now))
             if len(rate) > MOST_TERMS:
                 raise Unsuited("more terms than are worked out here")
@@ -107,15 +121,16 @@ class Inequality:
         i, form, out = _i(), self.form, {}
         for (j, k, n), c in terms.items():
             for to, value in (((j - 1, k + 1, n), j * c * i * form.h), ((j - 1, k, n), j * c * form.mu),
-                              ((j + 1, k - 1, n), -k * c * i * form.h), ((j, k - 1, n), k * c * conjugate(form.mu))):
+                              ((j + 1, k - 1, n), -k * c * i * form.h),
+                              ((j, k - 1, n), k * c * conjugate(form.mu))):
                 if min(to[:2]) >= 0:
                     out[to] = out[to] + value if to in out else value
         steeper = {(j, k, n + 1): -n * c for (j, k, n), c in terms.items() if n}
         return total(out, product(steeper, self.spin_rate))
 
     def faults(self, state, A, z):
-        """(what does not hold, in words, and whether it surely does not; eta as a ball) for the state (balls) and the exact numbers A, z;
-        nothing where all holds."""
+        """(what does not hold, in words, and whether it surely does not; eta as a ball) for the state (balls)
+        and the exact numbers A, z; nothing where all holds."""
         X, zeta = self.form.place(state)
         A, z, size = ball(A), ball(z), abs(zeta)
         faults = [compared(X, z, "X > z"), compared(A, size, "|zeta| < A")]
@@ -123,13 +138,16 @@ class Inequality:
         m = self.m
         eta = self.M - ((-m).max(ball(0)) + k) / z
         energy = X * X / 2 + _value(self.energy.added, X, zeta)
-        faults += [compared(energy, z * z / 2 + e, "the energy is high enough"), compared(eta, ball(0), "the spin grows")]
+        faults += [compared(energy, z * z / 2 + e, "the energy is high enough"),
+                   compared(eta, ball(0), "the spin grows")]
         low = 1 + m.min(ball(0)) / (self.M * z)
         faults.append(compared(low, ball(0), "the weight is positive"))
         if eta > 0 and low > 0:
-            r = sum((abs(c) * A**(j + k) * z**(1 - n) / (n - 1) for (j, k, n), c in self.amplitude.left.items()), ball(0))
+            r = sum((abs(c) * A**(j + k) * z**(1 - n) / (n - 1) for (j, k, n),
+                     c in self.amplitude.left.items()), ball(0))
             start = size * size * (1 + m / (self.M * X)) + _value(self.amplitude.added, X, zeta)
-            faults.append(compared(A * A, (start + _bound(self.amplitude.added, A, z) + r / eta) / low, "the amplitude stays below A"))
+            faults.append(compared(A * A, (start + _bound(self.amplitude.added, A, z) + r / eta) / low,
+                                   "the amplitude stays below A"))
         return [fault for fault in faults if fault], eta
 
 
@@ -153,7 +171,8 @@ def _spin_rate(form):
     """X' as terms."""
     from flint import acb
     half, i = ball(1) / 2, _i()
-    return {(0, 0, 0): acb(ball(form.M)), (2, 0, 0): -i * form.g * half, (0, 2, 0): i * form.g * half, (1, 0, 0): conjugate(form.kap) * half,
+    return {(0, 0, 0): acb(ball(form.M)), (2, 0, 0): -i * form.g * half, (0, 2, 0): i * form.g * half,
+            (1, 0, 0): conjugate(form.kap) * half,
             (0, 1, 0): form.kap * half}
 
 
@@ -200,12 +219,15 @@ class MovingInequality:
             raise Unsuited(f"about the moving centre orders up to {MOST_MOVING_ORDER} are worked out")
         self.form = form
         self.alike = form.quotient is not None
-        self.root = form.quotient.root(4) if self.alike else form.Q[1].root(4) if form.Q[0].is_zero() else None  # Q is then no variable of its own
+        # Q is then no variable of its own
+        self.root = (form.quotient.root(4) if self.alike else form.Q[1].root(4) if form.Q[0].is_zero()
+                     else None)
         k, self.f = self._folded(form.k), self._folded(form.f)
         i, star = _i(), {key: conjugate(c) for key, c in k.items()}
         self.G = {(0, 0, *key): c for key, c in self._folded(form.G).items()}
         swing = {(2, 0, 0, 0): -i * form.g / 2, (0, 2, 0, 0): i * form.g / 2}
-        beat = {(1, 0, *key): c / 2 for key, c in star.items()} | {(0, 1, *key): c / 2 for key, c in k.items()}
+        beat = ({(1, 0, *key): c / 2 for key, c in star.items()} | {(0, 1, *key): c / 2 for key,
+                                                                    c in k.items()})
         self.swing = total(swing, beat)  # x' - G
         self.spin_rate = total(self.G, self.swing)
         self.r = {} if form.r.is_zero() else self._folded({(4, 4): form.r + 0 * i})
@@ -216,8 +238,10 @@ class MovingInequality:
         self.amplitude_left = _Sizes(self.amplitude.left)
 
     def _folded(self, terms):
-        """Terms {(a, b): c}; where Q is constant, or a multiple of P, its powers become part of the others."""
-        return terms if self.root is None else total(*({self._place(a, b): c * self.root**-b} for (a, b), c in terms.items()))
+        """Terms {(a, b): c}; where Q is constant, or a multiple of P, its powers become part of the others.
+        """
+        return (terms if self.root is None
+                else total(*({self._place(a, b): c * self.root**-b} for (a, b), c in terms.items())))
 
     def _place(self, a, b):
         return (a + b if self.alike else a, 0) if self.root is not None else (a, b)
@@ -231,12 +255,14 @@ class MovingInequality:
     def _drift(self, star, swing, beat):
         """The rate of (G/M) |zeta|^2 without its mean part."""
         form, i = self.form, _i()
-        real = lambda terms, n: total({(n, 0, *key[2:]): c / 2 for key, c in terms.items()}, {(0, n, *key[2:]): conjugate(c) / 2 for key, c in terms.items()})
+        real = lambda terms, n: total({(n, 0, *key[2:]): c / 2 for key, c in terms.items()},
+                                      {(0, n, *key[2:]): conjugate(c) / 2 for key, c in terms.items()})
         f = {(0, 0, *key): conjugate(c) for key, c in self.f.items()}
         r = {(0, 0, *key): c for key, c in self.r.items()}
         turn, twice = real(r, 2), product({(4, 0, 0, 0): -i * form.g / 4, (0, 4, 0, 0): i * form.g / 4}, r)
         inner = total(product(total(self.G, beat), turn), twice, product(total(self.G, swing), real(f, 1)),
-                      real({key: c / 2 for key, c in product({(0, 0, *key): c for key, c in star.items()}, f).items()}, 2))
+                      real({key: c / 2 for key,
+                            c in product({(0, 0, *key): c for key, c in star.items()}, f).items()}, 2))
         steeper = {(j + 1, k + 1, a, b): c for (j, k, a, b), c in self._slope(self.G).items()}
         rate = total(product(self.swing, steeper), product({key: 2 * c for key, c in self.G.items()}, inner))
         return {key: c / form.M for key, c in rate.items()}
@@ -254,7 +280,8 @@ class MovingInequality:
         parts = [self._slope(terms)]
         for (m, n), c in self.f.items():
             parts.append({(j - 1, k, a + m, b + n): j * v * c for (j, k, a, b), v in terms.items() if j})
-            parts.append({(j, k - 1, a + m, b + n): k * v * conjugate(c) for (j, k, a, b), v in terms.items() if k})
+            parts.append({(j, k - 1, a + m, b + n): k * v * conjugate(c) for (j, k, a, b),
+                          v in terms.items() if k})
         for (m, n), c in self.r.items():
             parts.append({(j - 1, k + 1, a + m, b + n): j * v * c for (j, k, a, b), v in terms.items() if j})
             parts.append({(j + 1, k - 1, a + m, b + n): k * v * c for (j, k, a, b), v in terms.items() if k})
@@ -282,16 +309,20 @@ class MovingInequality:
         if any(faults):
             return [fault for fault in faults if fault], ball(0)
         faults = [compared(x, z, "x > z"), compared(A, size, "|zeta| < A")]
-        e, k, b = (sizes.bound(A, from_z) for sizes in (self.energy_added, self.energy_left, self.amplitude_added))
-        least = form.M + sum((c.real.min(ball(0)) * from_z.greatest(a, b) for (_, _, a, b), c in self.G.items() if a or b), ball(0))
+        e, k, b = (sizes.bound(A, from_z)
+                   for sizes in (self.energy_added, self.energy_left, self.amplitude_added))
+        least = (form.M + sum((c.real.min(ball(0)) * from_z.greatest(a, b) for (_, _, a, b),
+                               c in self.G.items() if a or b), ball(0)))
         eta = least - k
         mean = (x - z) * (_turning(form, x) + from_z.turning) / 2
-        faults += [compared(mean + self._value(self.energy.added, x, zeta), e, "the energy is high enough"), compared(eta, ball(0), "the spin grows")]
+        faults += [compared(mean + self._value(self.energy.added, x, zeta), e, "the energy is high enough"),
+                   compared(eta, ball(0), "the spin grows")]
         if eta > 0 and least > 0:
             r = self.amplitude_left.bound(A, from_z, tails=True)
             weight = self._value(self.G, x, zeta) / form.M
             start = weight * size * size + self._value(self.amplitude.added, x, zeta)
-            faults.append(compared(A * A, (start + b + r / eta) * form.M / least, "the amplitude stays below A"))
+            faults.append(compared(A * A, (start + b + r / eta) * form.M / least,
+                                   "the amplitude stays below A"))
         return [fault for fault in faults if fault], eta
 
     def _value(self, terms, x, zeta):
@@ -330,7 +361,8 @@ class _Factors:
             self.roots = P.root(4), Q.root(4)
             self.turning = (P * Q).sqrt()
             if not self.alone:  # each quotient is monotone: its greatest value is at x or far off
-                self.up, self.down = (Q / P).max(self.q / self.p).root(4), (P / Q).max(self.p / self.q).root(4)
+                self.up, self.down = (Q / P).max(self.q
+                                                 / self.p).root(4), (P / Q).max(self.p / self.q).root(4)
         self.known: dict = {}
 
     def at(self, a, b):
@@ -348,7 +380,8 @@ class _Factors:
         return self.up ** -b * self.at(a + b, 0) if b < 0 else self.down ** -a * self.at(0, a + b)
 
     def tail(self, a, b):
-        """The integral from x on of a majorant that falls: one factor stays at its value, or a power of the quotient splits off; the least of these."""
+        """The integral from x on of a majorant that falls: one factor stays at its value, or a power of the
+        quotient splits off; the least of these."""
         P, Q = self.ends
         found = []
         if a > 4 and b >= 0:

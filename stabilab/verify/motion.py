@@ -5,7 +5,26 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
 
-from .numbers import SPLIT, Malformed, Open, Spent, above, ball, below, bracket, exact_sign, field, hull, narrowed, numbers, shown, sign, word, working, zeros
+from .numbers import (
+    SPLIT,
+    Malformed,
+    Open,
+    Spent,
+    above,
+    ball,
+    below,
+    bracket,
+    exact_sign,
+    field,
+    hull,
+    narrowed,
+    numbers,
+    shown,
+    sign,
+    word,
+    working,
+    zeros,
+)
 from .orbit import ClosedClaims, Orbit, check_closed, closed_of, period_of, round_once
 from .spin_up import SpinUpClaims, check_spin_up, spin_up_of
 
@@ -15,7 +34,8 @@ FAR = 2**WINDOWS - 1  # where they end
 
 
 class Facts:
-    """What is proved of one orbit at the working precision of so many bits: fate, reason, ends (balls or None), extremes."""
+    """What is proved of one orbit at the working precision of so many bits: fate, reason, ends (balls or
+    None), extremes."""
 
     def __init__(self, orbit):
         from flint import ctx
@@ -23,7 +43,9 @@ class Facts:
         circle, sense = orbit.kind < 0, exact_sign(orbit.tilt)
         self.ends, self.round = None, False
         if orbit.forceless():
-            self.fate, self.reason = "bounded", "no force along the orbit: this rate is constant, and so is the circle's radius"
+            self.fate, self.reason = ("bounded",
+                                      "no force along the orbit: this rate is constant, and so is the "
+                                      "circle's radius")
             if not circle:
                 raise Open
         elif circle and sense == 0:
@@ -38,17 +60,22 @@ class Facts:
         elif circle:
             ahead = _turning(orbit, sense)
             if ahead is None:
-                self.fate, self.reason = "spin-up", "no barrier within one turn ahead reaches the energy, and each turn is lower"
+                self.fate, self.reason = ("spin-up",
+                                          "no barrier within one turn ahead reaches the energy, and each "
+                                          "turn is lower")
             else:
                 behind = _turning(orbit, -sense)
-                self.fate, self.reason = "bounded", "a barrier above the energy stands ahead, and the tilt rises behind"
+                self.fate, self.reason = ("bounded",
+                                          "a barrier above the energy stands ahead, and the tilt rises "
+                                          "behind")
                 self.ends = sorted((ahead, behind), key=lambda end: float(end.mid()))
         else:
             ends = [_turning(orbit, side) for side in (-1, 1)]
             if None in ends:
                 self.fate, self.reason = _released(orbit, ends)
             else:
-                self.fate, self.reason, self.ends = "bounded", "walls above the energy stand on both sides", ends
+                self.fate, self.reason, self.ends = ("bounded", "walls above the energy stand on both sides",
+                                                     ends)
         self.extremes = self._extremes(sense)
 
     def _extremes(self, sense):
@@ -69,12 +96,14 @@ class Facts:
             steady = o.constant(0) and o.constant(1)
             slowest = ball(sense * o.y0) if steady else _slowest_ahead(o, sense)
             low, high = (slowest - ball(o.s), None) if sense > 0 else (None, -slowest - ball(o.s))
-            ranges = {o.axis: (low, high)} | dict(zip((o.j, o.k), _whole_circle(o) if o.kind < 0 else _to_the_end(o, sense)))
+            ranges = ({o.axis: (low, high)}
+                      | dict(zip((o.j, o.k), _whole_circle(o) if o.kind < 0 else _to_the_end(o, sense))))
         return [ranges[i] for i in range(3)]
 
 
 def _turning(orbit, side):
-    """The turning point on one side as a ball; None where the motion passes every barrier of a circle's next turn."""
+    """The turning point on one side as a ball; None where the motion passes every barrier of a circle's next
+    turn."""
     if orbit.y0 == 0 and exact_sign(orbit.F0) == -side:
         return ball(0)
     inner, low, windows = None, Fraction(0), WINDOWS
@@ -103,14 +132,17 @@ def _turning(orbit, side):
 
 
 def _spots(orbit, start: Fraction, end: Fraction):
-    """The zeros of the force from start to end where it changes sign, in that order; without one at alpha = 0 itself."""
+    """The zeros of the force from start to end where it changes sign, in that order; without one at alpha = 0
+    itself."""
     if orbit.touches():
         return []
     low, high = sorted((start, end))
     folds, turn = orbit.folds(), below(orbit.turn) if orbit.kind < 0 else 1
     at_zero = orbit.F0 == 0
-    multiple = [(spot + n * orbit.turn, order) for spot, order in folds for n in range(int(low // turn) - 1, int(high // turn) + 2)]
-    found = zeros(orbit.force, orbit.force_slope, low, high, at_zero and low == 0, at_zero and high == 0, orbit.purse,
+    multiple = [(spot + n * orbit.turn, order) for spot,
+                order in folds for n in range(int(low // turn) - 1, int(high // turn) + 2)]
+    found = zeros(orbit.force, orbit.force_slope, low, high, at_zero and low == 0, at_zero and high == 0,
+                  orbit.purse,
                   multiple, orbit.force_bend)
     return found if end > start else found[::-1]
 
@@ -129,20 +161,23 @@ def _turns_below(orbit, side) -> int:
 
 
 def _crossing(orbit, inner, outer):
-    """Where U = E between the last barrier or well below the energy (None: the start) and a place above it."""
+    """Where U = E between the last barrier or well below the energy (None: the start) and a place above it.
+    """
     a = Fraction(0) if inner is None else (above(inner) if outer > inner else below(inner))
     b = below(outer) if outer > ball(a) else above(outer)
     low, high = sorted((a, b))
     df = lambda x: -orbit.force(x)
     # U - E is monotone between neighbouring zeros of the force, so a change of sign is a single zero
     lo_sign, hi_sign = sign(orbit.excess(ball(low))), sign(orbit.excess(ball(high)))
-    if None in (lo_sign, hi_sign) or lo_sign * hi_sign >= 0:  # from rest a well comes first, so neither is zero
+    # from rest a well comes first, so neither is zero
+    if None in (lo_sign, hi_sign) or lo_sign * hi_sign >= 0:
         raise Open
     return _single(orbit.excess, df, low, high)
 
 
 def _single(f, df, a, b):
-    """The zero of a function known to be monotone on [a, b], with a change of sign: halving, then interval Newton."""
+    """The zero of a function known to be monotone on [a, b], with a change of sign: halving, then interval
+    Newton."""
     left = sign(f(ball(a)))
     for _ in range(2000):
         if sign(df(hull(a, b))):
@@ -179,7 +214,8 @@ def _heights_round(orbit):
 def _ranges(orbit, left, right):
     """((low, high) of u, (low, high) of v) on [left, right]."""
     low, high = below(left), above(right)
-    room = (high - low) / 1024  # u or v may turn just where the motion does: no ball would tell the sign of its slope there
+    # u or v may turn just where the motion does: no ball would tell the sign of its slope there
+    room = (high - low) / 1024
     out = []
     for which in (0, 1):
         f = lambda x, w=which: orbit.slopes(x)[w]
@@ -192,7 +228,8 @@ def _ranges(orbit, left, right):
                     continue
                 value = orbit.place(z)[which]
                 for end, there in ((left, values[0]), (right, values[1])):
-                    if z.overlaps(end):  # beside the end by less than its own width: inside or not makes no difference
+                    # beside the end by less than its own width: inside or not makes no difference
+                    if z.overlaps(end):
                         value = value.union(there)
                 values.append(value)
         least = most = values[0]
@@ -221,7 +258,8 @@ def _slowest_ahead(orbit, sense):
         low, high = (behind, ball(0)) if sense > 0 else (ball(0), behind)
         return -(-2 * _lowest(orbit, low, high)).sqrt()
     slowest = ball(orbit.E)
-    ahead = orbit.past_a_turn if orbit.kind < 0 else Fraction(FAR)  # the force has its last sign from there on
+    # the force has its last sign from there on
+    ahead = orbit.past_a_turn if orbit.kind < 0 else Fraction(FAR)
     for spot in _spots(orbit, Fraction(0), sense * ahead):
         slowest = slowest.min(-orbit.excess(spot))
     return (2 * slowest).sqrt()
@@ -236,7 +274,8 @@ def _behind(orbit, sense):
 
 
 def _to_the_end(orbit, sense):
-    """Ranges of u and v on a decaying plane, from where the motion turns back to the plane's end; or constant."""
+    """Ranges of u and v on a decaying plane, from where the motion turns back to the plane's end; or
+    constant."""
     if orbit.constant(0) and orbit.constant(1):
         return [(ball(v), ball(v)) for v in (orbit.u0, orbit.v0)]
     back = exact_sign(orbit.y0) * sense < 0
@@ -245,21 +284,25 @@ def _to_the_end(orbit, sense):
 
 
 def _released(orbit, ends):
-    """(fate, reason) of an orbit without a wall on one side: pure spin, or a decaying plane of a hyperbola."""
+    """(fate, reason) of an orbit without a wall on one side: pure spin, or a decaying plane of a hyperbola.
+    """
     if orbit.constant(0) and orbit.constant(1) and orbit.F0:
         return "spin-up", "x_j and x_k stay constant, and so does the force"
     side = -1 if ends[0] is None else 1
     if orbit.kind > 0 and orbit.decays() == side == exact_sign(orbit.tilt):
-        # the windows reached no wall; from their end on, the place stays so near its centre that the force is the tilt
+        # the windows reached no wall; from their end on, the place stays so near its centre that the force is
+        # the tilt
         if sign(orbit.force_beyond(FAR)) == side:
-            return "spin-up", "a plane that decays in the direction of the torque; no barrier on it reaches the energy"
+            return ("spin-up",
+                    "a plane that decays in the direction of the torque; no barrier on it reaches the energy")
     raise Open
 
 
 # --- Is the fate of the state what the certificate says, and do its brackets hold the extremes and the
 # period?
 BITS, MOST_BITS = 192, 6144
-CLOSER = 4  # times the bits that settled the fate: a bracket that these do not tell from the true value is left open
+# times the bits that settled the fate: a bracket that these do not tell from the true value is left open
+CLOSER = 4
 GOALS = (48, 96, 192)  # bits of the period, likewise
 FATES = ("bounded", "spin-up", "separatrix", "equilibrium", "undecided")
 
@@ -286,11 +329,15 @@ class Claims:
 
 def motion_of(table) -> Claims:
     """The claims on a motion. Raises `Malformed` before anything is worked out."""
-    extremes, period, spin_up, closed = (table.get(key) if isinstance(table, dict) else None for key in ("extremes", "period", "spin_up", "closed"))
-    return Claims(numbers(field(table, "state", "motion"), "motion.state", 3), word(table, "fate", "motion", FATES),
+    extremes, period, spin_up, closed = (table.get(key) if isinstance(table, dict) else None
+                                         for key in ("extremes", "period", "spin_up", "closed"))
+    return Claims(numbers(field(table, "state", "motion"), "motion.state", 3),
+                  word(table, "fate", "motion", FATES),
                   _whole(table, "axis", range(4)), _whole(table, "sense", range(-1, 2)),
-                  None if extremes is None else _pairs(extremes), None if period is None else bracket(period, "motion.period"),
-                  None if spin_up is None else spin_up_of(spin_up), None if closed is None else closed_of(closed))
+                  None if extremes is None else _pairs(extremes),
+                  None if period is None else bracket(period, "motion.period"),
+                  None if spin_up is None else spin_up_of(spin_up),
+                  None if closed is None else closed_of(closed))
 
 
 def _whole(table, key, known):
@@ -303,13 +350,16 @@ def _whole(table, key, known):
 
 def _pairs(claimed):
     """Three pairs of brackets, None for what is unbounded."""
-    if not (isinstance(claimed, list) and [len(pair) if isinstance(pair, list) else 0 for pair in claimed] == [2, 2, 2]):
+    if not (isinstance(claimed, list)
+            and [len(pair) if isinstance(pair, list) else 0 for pair in claimed] == [2, 2, 2]):
         raise Malformed(f"motion.extremes: expected three pairs of brackets, got {shown(claimed)}")
-    return [[None if ends is None else bracket(ends, f"motion.extremes[{i}][{k}]") for k, ends in enumerate(pair)] for i, pair in enumerate(claimed)]
+    return [[None if ends is None else bracket(ends, f"motion.extremes[{i}][{k}]") for k,
+             ends in enumerate(pair)] for i, pair in enumerate(claimed)]
 
 
 def check_motion(rates, claims, note):
-    """Findings on the certificate's part `motion`: every claim of it is among them, unless the fate is wrong."""
+    """Findings on the certificate's part `motion`: every claim of it is among them, unless the fate is wrong.
+    """
     if not any(rates.at(claims.state)):
         _check_rest(claims, note)
         return
@@ -326,7 +376,8 @@ def check_motion(rates, claims, note):
     proof = orbit and _Proof(orbit)
     found = proof and at_rising_precision(proof.facts)
     if found is None:
-        _leave_open(claims, f"not decided with {MOST_BITS} bits" if orbit else "the scene has no reduction to one degree of freedom", note)
+        _leave_open(claims, f"not decided with {MOST_BITS} bits" if orbit
+                    else "the scene has no reduction to one degree of freedom", note)
         return
     axis = orbit.axis + 1 if found.fate == "spin-up" else 0
     _check_words(claims, found.fate, axis, exact_sign(orbit.tilt) if axis else 0, found.reason, note)
@@ -358,7 +409,8 @@ def _check_trapped(rates, claims, note):
     for claim, *_ in _named(claims.extremes, [(None, None)] * 3):
         note(claim, "not checked", "the inequality says nothing of the time before")
     if claims.period is not None:
-        note("period", "refuted" if status == "proved" else "not checked", "a motion that spins up does not repeat")
+        note("period", "refuted" if status == "proved" else "not checked",
+             "a motion that spins up does not repeat")
 
 
 def _check_closed(rates, claims, note):
@@ -371,7 +423,8 @@ def _check_closed(rates, claims, note):
     for claim, *_ in _named(claims.extremes, [(None, None)] * 3):
         note(claim, "not checked", "the closed solution bounds sizes alone")
     if claims.period is not None:
-        note("period", "refuted" if fate == "spin-up" else "not checked", "the closed solution is not asked for a period")
+        note("period", "refuted" if fate == "spin-up" else "not checked",
+             "the closed solution is not asked for a period")
     if claims.spin_up:
         check_spin_up(rates, claims.state, claims.spin_up, note)
 
@@ -406,7 +459,8 @@ def _named(claimed, found):
 
 
 def _orbit(rates, state):
-    """The orbit about the torque's axis, or, without one, about the first axis that allows it, circles first."""
+    """The orbit about the torque's axis, or, without one, about the first axis that allows it, circles first.
+    """
     acting = [i for i in range(3) if rates.m[i]]
     if len(acting) > 1:
         return None
@@ -420,7 +474,8 @@ def _orbit(rates, state):
 
 
 def at_rising_precision(question, least=None, most=None):
-    """question() at more and more bits while it raises Open; None when the most are not enough, or the work is too much."""
+    """question() at more and more bits while it raises Open; None when the most are not enough, or the work
+    is too much."""
     bits = least or BITS
     while bits <= (most or MOST_BITS):
         with working(bits):
@@ -439,20 +494,26 @@ def _check_numbers(claims, proof, found, note):
         i, k = true
         if said is None or found.extremes[i][k] is None:
             unbounded = found.extremes[i][k] is None
-            note(claim, "proved" if unbounded and said is None else "refuted", "unbounded" if unbounded else "bounded")
+            note(claim, "proved" if unbounded and said is None else "refuted",
+                 "unbounded" if unbounded else "bounded")
         else:
-            status = at_rising_precision(lambda i=i, k=k, said=said: _within(proof.facts().extremes[i][k], *said), found.bits, CLOSER * found.bits)
-            note(claim, status or "not checked", "roots on the potential" if status else "the bracket ends too close to the true value")
+            status = at_rising_precision(lambda i=i, k=k,
+                                         said=said: _within(proof.facts().extremes[i][k], *said), found.bits,
+                                         CLOSER * found.bits)
+            note(claim, status or "not checked",
+                 "roots on the potential" if status else "the bracket ends too close to the true value")
     if claims.period is not None and found.fate != "bounded":
         note("period", "refuted", "a motion that spins up does not repeat")
     elif claims.period is not None:
         status = _period_status(proof, claims.period, found.bits)
-        note("period", status or "not checked", "verified quadrature between the turning points, or round the circle" if status
+        note("period", status or "not checked",
+             "verified quadrature between the turning points, or round the circle" if status
              else "the verified quadrature did not close, or not on one side of the bracket's ends")
 
 
 def _period_status(proof, said, bits):
-    """Whether the bracket holds the period, by quadratures to more and more digits; None where they leave it open."""
+    """Whether the bracket holds the period, by quadratures to more and more digits; None where they leave it
+    open."""
     for goal in GOALS:
         true = at_rising_precision(partial(proof.period, goal), max(bits, 4 * goal))
         try:
@@ -484,7 +545,8 @@ class _Proof:
 
 
 def _within(true, low, high) -> str:
-    """"proved" or "refuted": that the ball lies in the bracket. Raises Open where it is neither inside nor outside."""
+    """"proved" or "refuted": that the ball lies in the bracket. Raises Open where it is neither inside nor
+    outside."""
     least, most = below(true), above(true)
     if low <= least and most <= high:
         return "proved"

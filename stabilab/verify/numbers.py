@@ -1,9 +1,11 @@
-"""Numbers of certificates read exactly, balls and their precision, zeros of a function on an interval, real roots of polynomials.
+"""Numbers of certificates read exactly, balls and their precision, zeros of a function on an interval, real
+roots of polynomials.
 
 python-flint's working precision, for one thread at a time.
 
-It belongs to the whole process, which may run the analysis in another thread meanwhile. So whoever needs it holds one lock,
-and the lock stands on the library: the one thing that checker and analysis share, and neither has to know the other.
+It belongs to the whole process, which may run the analysis in another thread meanwhile. So whoever needs it
+holds one lock, and the lock stands on the library: the one thing that checker and analysis share, and neither
+has to know the other.
 """
 from __future__ import annotations
 
@@ -16,7 +18,8 @@ from threading import RLock
 from typing import Any
 
 # --- Exact numbers, brackets and balls as a certificate writes them
-DIGITS = 4300  # of a whole number, and of an exponent's value: Python's own limit; longer is an attack, not a certificate
+# of a whole number, and of an exponent's value: Python's own limit; longer is an attack, not a certificate
+DIGITS = 4300
 MOST = 64  # entries of a list: no scene has nearly as many equilibria, curves, pieces or coefficients
 NUMBER = re.compile(r"[-+]?([0-9]+(/[0-9]+)?|([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]{1,5})?)")
 LINEAR, VERDICT = ("stable", "unstable", "degenerate"), ("stable", "unstable", "undecided")
@@ -40,8 +43,10 @@ def number(text, where: str) -> Fraction:
         raise Malformed(f"{where}: expected a number as a string, got {shown(text)}")
     _, _, exponent = text.lower().partition("e")
     plain = len(text) <= 2 * DIGITS + 2 and NUMBER.fullmatch(text)
-    if not plain or max(map(len, re.findall("[0-9]+", text))) > DIGITS or (exponent and abs(int(exponent)) > DIGITS):
-        raise Malformed(f"{where}: expected an integer, a decimal or p/q of at most {DIGITS} digits, got {shown(text)}")
+    if not plain or max(map(len, re.findall("[0-9]+",
+                                            text))) > DIGITS or (exponent and abs(int(exponent)) > DIGITS):
+        raise Malformed(
+            f"{where}: expected an integer, a decimal or p/q of at most {DIGITS} digits, got {shown(text)}")
     try:
         return Fraction(text)
     except (ValueError, ZeroDivisionError):
@@ -51,7 +56,8 @@ def number(text, where: str) -> Fraction:
 def numbers(values, where: str, count: int | None = None) -> list[Fraction]:
     """A list of exact numbers."""
     if not isinstance(values, list) or len(values) > MOST or (count is not None and len(values) != count):
-        raise Malformed(f"{where}: expected a list of {count or f'at most {MOST}'} numbers, got {shown(values)}")
+        raise Malformed(
+            f"{where}: expected a list of {count or f'at most {MOST}'} numbers, got {shown(values)}")
     return [number(v, f"{where}[{i}]") for i, v in enumerate(values)]
 
 
@@ -165,11 +171,14 @@ class Purse:
         self.cells -= 1
 
 
-def zeros(f, df, low: Fraction, high: Fraction, at_low=False, at_high=False, purse=None, multiple=(), bend=None):
-    """Balls that hold one zero of f each, rising, and no zero on (low, high) is elsewhere but those of even order in `multiple`.
+def zeros(f, df, low: Fraction, high: Fraction, at_low=False, at_high=False, purse=None, multiple=(),
+          bend=None):
+    """Balls that hold one zero of f each, rising, and no zero on (low, high) is elsewhere but those of even
+    order in `multiple`.
 
-    multiple: (ball, order) of zeros of higher order, by algebra, all of them; bend: then, the derivative of an order over a ball.
-    at_low, at_high: f is known to vanish exactly at that end; such a zero is not listed. purse: pays for the cells.
+    multiple: (ball, order) of zeros of higher order, by algebra, all of them; bend: then, the derivative of
+    an order over a ball. at_low, at_high: f is known to vanish exactly at that end; such a zero is not
+    listed. purse: pays for the cells.
     """
     purse = purse or Purse(CELLS)
     from flint import ctx
@@ -204,7 +213,8 @@ def zeros(f, df, low: Fraction, high: Fraction, at_low=False, at_high=False, pur
 
 
 def _multiple(multiple, bend, a, b, at_end):
-    """The (ball, order) of the only zero of a cell, if it is one of higher order: within it, or at its end zero, where f is known to vanish."""
+    """The (ball, order) of the only zero of a cell, if it is one of higher order: within it, or at its end
+    zero, where f is known to vanish."""
     for spot, order in multiple:
         inside = a < below(spot) and above(spot) < b or at_end and 0 in (a, b) and 0 in spot
         if inside and order < 4 and sign(bend(hull(a, b), order)):
@@ -213,7 +223,8 @@ def _multiple(multiple, bend, a, b, at_end):
 
 
 def narrowed(f, df, a: Fraction, b: Fraction):
-    """The ball of the one zero of a function that is monotone on [a, b] and changes sign there: interval Newton."""
+    """The ball of the one zero of a function that is monotone on [a, b] and changes sign there: interval
+    Newton."""
     from flint import ctx
     x = hull(a, b)
     for _ in range(4 * ctx.prec.bit_length() + 40):
@@ -269,15 +280,18 @@ START_BITS, MOST_BITS = 64, 1 << 15
 
 @dataclass(frozen=True)
 class Zero:
-    """A real zero of an irreducible factor: order in the polynomial, low <= zero <= high (equal where it is rational)."""
+    """A real zero of an irreducible factor: order in the polynomial, low <= zero <= high (equal where it is
+    rational)."""
 
     factor: Any
     order: int
     low: Fraction
     high: Fraction
 
-    def within(self, low: Fraction, high: Fraction) -> bool:  # type: ignore[return]  # the loop ends in an answer
-        """Whether the zero lies in [low, high]; irrational zeros are enclosed more closely until it is plain."""
+    # the loop ends in an answer
+    def within(self, low: Fraction, high: Fraction) -> bool:  # type: ignore[return]
+        """Whether the zero lies in [low, high]; irrational zeros are enclosed more closely until it is plain.
+        """
         for zero in self._closer():
             if zero.high < low or high < zero.low:
                 return False
@@ -296,8 +310,10 @@ class Zero:
         while bits <= MOST_BITS:
             yield zero
             bits *= 2
-            zero = next(z for z in _zeros_of(self.factor, self.order, bits) if z.low <= zero.high and zero.low <= z.high)
-        raise Malformed(f"curve: a zero of m that {MOST_BITS} bits do not tell from another number of the certificate")
+            zero = next(z for z in _zeros_of(self.factor, self.order, bits) if z.low <= zero.high
+                        and zero.low <= z.high)
+        raise Malformed(
+            f"curve: a zero of m that {MOST_BITS} bits do not tell from another number of the certificate")
 
 
 def real_zeros(polynomial) -> list[Zero]:

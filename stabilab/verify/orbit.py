@@ -2,9 +2,11 @@
 
 What a certificate says of a motion with a closed solution, read and judged by the rates alone.
 
-free: no torque, so that sum D x^2 is constant. sphere: the rates are x' = m - n x x with a fixed n (or none); the part along n grows at the rate m . n/|n|, the
-part across goes round a circle. axis of symmetry: x_i' = m_i, and the two others turn at the rate w = kappa_j x_i + sigma_j under a constant push: where m_i is
-not zero w' is constant, so that (van der Corput) their size stays below that of the start and 8 |push|/|w'|^(1/2); where it is, w is constant.
+free: no torque, so that sum D x^2 is constant. sphere: the rates are x' = m - n x x with a fixed n (or none);
+the part along n grows at the rate m . n/|n|, the part across goes round a circle. axis of symmetry: x_i' =
+m_i, and the two others turn at the rate w = kappa_j x_i + sigma_j under a constant push: where m_i is not
+zero w' is constant, so that (van der Corput) their size stays below that of the start and 8
+|push|/|w'|^(1/2); where it is, w is constant.
 """
 from __future__ import annotations
 
@@ -13,7 +15,24 @@ from fractions import Fraction
 from functools import lru_cache
 from types import SimpleNamespace
 
-from .numbers import CELLS, Malformed, Open, Purse, above, ball, below, exact_sign, hull, number, numbers, q, shown, sign, word, working
+from .numbers import (
+    CELLS,
+    Malformed,
+    Open,
+    Purse,
+    above,
+    ball,
+    below,
+    exact_sign,
+    hull,
+    number,
+    numbers,
+    q,
+    shown,
+    sign,
+    word,
+    working,
+)
 from .rates import AHEAD
 
 LAWS = ("free", "sphere", "axis of symmetry")
@@ -22,8 +41,8 @@ BITS = 192
 
 @dataclass(frozen=True)
 class ClosedClaims:
-    """law; direction of the growth (any length), gain: it grows at least so fast, most: what is across it, or the whole rate of a bounded motion, is never
-    larger. None where nothing is claimed."""
+    """law; direction of the growth (any length), gain: it grows at least so fast, most: what is across it, or
+    the whole rate of a bounded motion, is never larger. None where nothing is claimed."""
 
     law: str
     direction: list[Fraction] | None
@@ -47,12 +66,15 @@ def closed_of(table) -> ClosedClaims:
     if not isinstance(table, dict):
         raise Malformed(f"{where}: expected an object, got {shown(table)}")
     law, direction = word(table, "law", where, LAWS), table.get("direction")
-    sizes = [None if table.get(key) is None else number(table[key], f"{where}.{key}") for key in ("gain", "most")]
-    return ClosedClaims(law, None if direction is None else numbers(direction, f"{where}.direction", 3), *sizes)
+    sizes = [None if table.get(key) is None else number(table[key], f"{where}.{key}")
+             for key in ("gain", "most")]
+    return ClosedClaims(law, None if direction is None else numbers(direction, f"{where}.direction", 3),
+                        *sizes)
 
 
 def check_closed(rates, state, claims: ClosedClaims, note):
-    """Findings on a closed solution; (fate, axis, sense, reason) that it proves, or (None, 0, 0, why it proves nothing)."""
+    """Findings on a closed solution; (fate, axis, sense, reason) that it proves, or (None, 0, 0, why it
+    proves nothing)."""
     with working(BITS):
         truth = _truth(rates, state, claims.law)
         if isinstance(truth, str):
@@ -69,14 +91,18 @@ def check_closed(rates, state, claims: ClosedClaims, note):
 
 def _check_numbers(claims, truth, note):
     if claims.direction is not None:
-        right = truth.direction is not None and any(claims.direction) and _parallel(claims.direction, truth.direction)
-        note("direction", "proved" if right else "refuted", "the growth has this direction" if right else "it is not that of the growth")
+        right = (truth.direction is not None and any(claims.direction)
+                 and _parallel(claims.direction, truth.direction))
+        note("direction", "proved" if right else "refuted",
+             "the growth has this direction" if right else "it is not that of the growth")
     if claims.gain is not None:
         right = truth.gain_square is not None and 0 < claims.gain and claims.gain**2 <= truth.gain_square
-        note("gain", "proved" if right else "refuted", f"the rate {'grows' if right else 'does not grow'} at least as fast")
+        note("gain", "proved" if right else "refuted",
+             f"the rate {'grows' if right else 'does not grow'} at least as fast")
     if claims.most is not None:
         right = bool(truth.most <= ball(claims.most))
-        note("most", "proved" if right else "not checked", "the size worked out anew is below it" if right else "the size worked out anew is not below it")
+        note("most", "proved" if right else "not checked",
+             "the size worked out anew is below it" if right else "the size worked out anew is not below it")
 
 
 def _truth(rates, state, law):
@@ -92,7 +118,8 @@ def _free(rates, state):
     if any(rates.m):
         return "a torque acts"
     D = rates.parallel[0]
-    return Truth(None, None, ball(sum((d * x * x for d, x in zip(D, state)), Fraction(0)) / min(D)).sqrt(), "without torque the energy is constant")
+    return Truth(None, None, ball(sum((d * x * x for d, x in zip(D, state)), Fraction(0)) / min(D)).sqrt(),
+                 "without torque the energy is constant")
 
 
 def _sphere(rates, state):
@@ -102,12 +129,15 @@ def _sphere(rates, state):
     if [-v for v in turn] != [rates.sigma[j] for j, _ in AHEAD]:
         return "the rates are not those of a turn"
     if not any(turn):
-        return Truth(list(rates.m), _dot(rates.m, rates.m), _across(state, rates.m), "equal moments without a wheel: the rates are constant")
+        return Truth(list(rates.m), _dot(rates.m, rates.m), _across(state, rates.m),
+                     "equal moments without a wheel: the rates are constant")
     along, square = _dot(rates.m, turn), _dot(turn, turn)
     size = _across(state, turn) + 2 * _across(rates.m, turn) / ball(square).sqrt()
     if not along:
-        return Truth(None, None, size + ball(_dot(state, turn) ** 2 / square).sqrt(), "equal moments, the torque across the wheel: the rates go round a circle")
-    return Truth([v if along > 0 else -v for v in turn], along**2 / square, size, "equal moments: the rate along the wheel's momentum grows steadily")
+        return Truth(None, None, size + ball(_dot(state, turn) ** 2 / square).sqrt(),
+                     "equal moments, the torque across the wheel: the rates go round a circle")
+    return Truth([v if along > 0 else -v for v in turn], along**2 / square, size,
+                 "equal moments: the rate along the wheel's momentum grows steadily")
 
 
 def _symmetric(rates, state):
@@ -118,7 +148,8 @@ def _symmetric(rates, state):
         return "no axis, or more than one, about which the spin obeys the torque alone"
     (i,) = found
     j, k = AHEAD[i]
-    if rates.rho[j] or rates.sigma[k] or rates.kappa[j] != -rates.kappa[k] or rates.sigma[j] != -rates.rho[k] or not rates.kappa[j]:
+    if rates.rho[j] or rates.sigma[k] or rates.kappa[j] != -rates.kappa[k] or rates.sigma[j] != -rates.rho[
+        k] or not rates.kappa[j]:
         return "the other two rates do not turn as a body of revolution's"
     flat = [v * (n != i) for n, v in enumerate(rates.m)]
     cone, push = (ball(_dot(v, v)).sqrt() for v in ([x * (n != i) for n, x in enumerate(state)], flat))
@@ -128,8 +159,10 @@ def _symmetric(rates, state):
         return Truth(unit, rates.m[i] ** 2, size, "the spin about the axis of symmetry is linear in time")
     turn = rates.kappa[j] * state[i] + rates.sigma[j]
     if turn:
-        return Truth(None, None, cone + 2 * push / ball(abs(turn)) + ball(abs(state[i])), "the turn about the axis of symmetry is steady")
-    return Truth(flat, _dot(flat, flat), _across(state, flat), "the transverse rates do not turn: they grow along the torque")
+        return Truth(None, None, cone + 2 * push / ball(abs(turn)) + ball(abs(state[i])),
+                     "the turn about the axis of symmetry is steady")
+    return Truth(flat, _dot(flat, flat), _across(state, flat),
+                 "the transverse rates do not turn: they grow along the torque")
 
 
 def _axis(direction):
@@ -157,10 +190,13 @@ def _parallel(a, b):
 # --- One orbit as motion in a potential: x_j, x_k as functions of alpha with alpha' = x_i + s, and y^2/2 +
 # U(alpha) = E
 class Orbit:
-    """The orbit of an exact state about axis i; the rates must be (x_i + s)(p x_k + p0), (x_i + s)(q x_j + q0) across it.
+    """The orbit of an exact state about axis i; the rates must be (x_i + s)(p x_k + p0), (x_i + s)(q x_j +
+    q0) across it.
 
-    u, v: x_j and x_k; du/dalpha = p v + p0, dv/dalpha = q u + q0; y' = F(alpha), U' = -F, U(0) = 0. kind: -1 circle,
-    1 hyperbola, 0 parabola; tilt: the constant part of the force, in whose direction a circle's potential falls.
+    u, v: x_j and x_k; du/dalpha = p v + p0, dv/dalpha = q u + q0; y' = F(alpha), U' = -F, U(0) = 0. kind: -1
+    circle,
+    1 hyperbola, 0 parabola; tilt: the constant part of the force, in whose direction a circle's potential
+    falls.
     """
 
     def __init__(self, rates, axis, state):
@@ -170,7 +206,8 @@ class Orbit:
         j, k = AHEAD[axis]
         self.axis, self.j, self.k, self.s, self._touches, self.purse = axis, j, k, shift, None, Purse(CELLS)
         self.p, self.p0, self.q, self.q0 = rates.kappa[j], rates.rho[j], rates.kappa[k], rates.sigma[k]
-        self.kappa, self.rho, self.sigma, self.m = (c[axis] for c in (rates.kappa, rates.rho, rates.sigma, rates.m))
+        self.kappa, self.rho, self.sigma, self.m = (c[axis]
+                                                    for c in (rates.kappa, rates.rho, rates.sigma, rates.m))
         self.u0, self.v0, self.y0 = state[j], state[k], state[axis] + shift
         self.E = self.y0 * self.y0 / 2
         self.kind = exact_sign(self.p * self.q)
@@ -213,7 +250,8 @@ class Orbit:
 
     @property
     def past_a_turn(self) -> Fraction:
-        """Somewhat more than a turn: at a whole one the force may vanish again, and no ball would tell its sign there."""
+        """Somewhat more than a turn: at a whole one the force may vanish again, and no ball would tell its
+        sign there."""
         return above(self.turn) * 65 / 64
 
     def constant(self, which) -> bool:
@@ -223,7 +261,8 @@ class Orbit:
 
     def forceless(self) -> bool:
         """Whether the force vanishes all along."""
-        return not any((self.kappa, self.rho, self.sigma, self.m)) or (self.constant(0) and self.constant(1) and not self.F0)
+        return (not any((self.kappa, self.rho, self.sigma, self.m))
+                or (self.constant(0) and self.constant(1) and not self.F0))
 
     def place(self, alpha):
         """(u, v) at a ball alpha, real or complex."""
@@ -237,7 +276,8 @@ class Orbit:
         return g.cu + g.du * c + g.su * s, g.cv + g.dv * c + g.sv * s
 
     def decays(self) -> int:
-        """On a plane of a hyperbola: 1 where the place decays with growing alpha, -1 where it grows, else 0."""
+        """On a plane of a hyperbola: 1 where the place decays with growing alpha, -1 where it grows, else 0.
+        """
         if self.kind < 1:
             return 0
         a, b = self.p * self.v0 + self.p0, self.q * self.u0 + self.q0
@@ -247,7 +287,8 @@ class Orbit:
         return -exact_sign(a * du) or -exact_sign(b * dv)
 
     def touches(self) -> bool:
-        """Whether the force has only zeros of even order on its conic, or on a plane of a hyperbola: it never changes sign."""
+        """Whether the force has only zeros of even order on its conic, or on a plane of a hyperbola: it never
+        changes sign."""
         if not self.kind:
             return False
         if self._touches is None:
@@ -257,13 +298,16 @@ class Orbit:
     def _even_zeros(self) -> bool:
         cu, cv, du, dv = self.cu, self.cv, self.u0 - self.cu, self.v0 - self.cv
         if self.decays():  # a quadratic in the exponential
-            bend, slope = self.kappa * du * dv, self.kappa * (cu * dv + cv * du) + self.rho * dv + self.sigma * du
-            return slope * slope == 4 * bend * (self.kappa * cu * cv + self.rho * cv + self.sigma * cu + self.m)
+            bend, slope = self.kappa * du * dv, self.kappa * (cu * dv
+                                                              + cv * du) + self.rho * dv + self.sigma * du
+            return (slope * slope
+                    == 4 * bend * (self.kappa * cu * cv + self.rho * cv + self.sigma * cu + self.m))
         force = self._along_chords()
         return force != 0 and all(order % 2 == 0 for _, order in force.factor()[1])
 
     def _along_chords(self):
-        """The force where the line of slope t through the state meets the conic again, times w^2 of `_chord`: a polynomial of degree four in t."""
+        """The force where the line of slope t through the state meets the conic again, times w^2 of `_chord`:
+        a polynomial of degree four in t."""
         w, u, v = self._chord()
         return q(self.kappa) * u * v + (q(self.rho) * v + q(self.sigma) * u) * w + q(self.m) * w * w
 
@@ -272,12 +316,14 @@ class Orbit:
         du, dv = self.u0 - self.cu, self.v0 - self.cv
         from flint import fmpq_poly
         t = fmpq_poly([0, 1])
-        w = q(self.q) - q(self.p) * t * t  # the line of slope t through the state meets the conic again at (u, v)/w
+        # the line of slope t through the state meets the conic again at (u, v)/w
+        w = q(self.q) - q(self.p) * t * t
         step = -2 * (q(self.q * du) - q(self.p * dv) * t)
         return w, q(self.u0) * w + step, q(self.v0) * w + t * step
 
     def folds(self) -> list:
-        """[(ball, order)] of the places alpha, within half a turn of the state, where the force vanishes to second or third order exactly; on a circle."""
+        """[(ball, order)] of the places alpha, within half a turn of the state, where the force vanishes to
+        second or third order exactly; on a circle."""
         if self.kind >= 0 or self.touches():
             return []
         force, places = self._along_chords(), []
@@ -285,7 +331,8 @@ class Orbit:
         w, u, v = ([arb(c) for c in row.coeffs()] for row in self._chord())
         for factor, order in force.factor()[1]:
             if order > 1:
-                places += [(_poly(u, root) / _poly(w, root), _poly(v, root) / _poly(w, root), order) for root in _real_roots(factor)]
+                places += [(_poly(u, root) / _poly(w, root), _poly(v, root) / _poly(w, root), order)
+                           for root in _real_roots(factor)]
         if force.degree() < 3:  # the line of no finite slope
             places.append((ball(self.u0), ball(2 * self.cv - self.v0), 4 - force.degree()))
         found = [(self._offset(u, v), order) for u, v, order in places]
@@ -323,7 +370,8 @@ class Orbit:
         return g.kappa * u * v + g.rho * v + g.sigma * u + g.m
 
     def force_beyond(self, far):
-        """The force on a decaying plane of a hyperbola, over all |alpha| >= far in the direction of the decay."""
+        """The force on a decaying plane of a hyperbola, over all |alpha| >= far in the direction of the
+        decay."""
         return self._force_at(*self._on_plane((-self.balls.n * far).exp().union(ball(0))))
 
     def force_bend(self, alpha, order):
@@ -349,7 +397,8 @@ class Orbit:
         if self.kind == 0:
             return _poly(g.Us, alpha)
         u, v = self.place(alpha)
-        return g.half_a * (u * u - g.u0 * g.u0) + g.half_b * (v * v - g.v0 * g.v0) + g.c * (u - g.u0) + g.d * (v - g.v0) - g.tilt * alpha
+        return (g.half_a * (u * u - g.u0 * g.u0) + g.half_b * (v * v - g.v0 * g.v0) + g.c * (u - g.u0)
+                + g.d * (v - g.v0) - g.tilt * alpha)
 
     def excess(self, alpha):
         """U - E: negative where the motion may be."""
@@ -380,12 +429,14 @@ def _poly(coefficients, alpha):
 
 
 def _shift(rates, axis):
-    """s with which both rates across the axis are multiples of (x_i + s), and no torque acts there; None without one."""
+    """s with which both rates across the axis are multiples of (x_i + s), and no torque acts there; None
+    without one."""
     j, k = AHEAD[axis]
     if rates.m[j] or rates.m[k]:
         return None
     # rate j: kappa x_k x_i + rho x_i + sigma x_k;  rate k: kappa x_i x_j + rho x_j + sigma x_i
-    for s in [c / d for c, d in ((rates.sigma[j], rates.kappa[j]), (rates.rho[k], rates.kappa[k])) if d] or [Fraction(0)]:
+    for s in [c / d for c, d in ((rates.sigma[j], rates.kappa[j]), (rates.rho[k], rates.kappa[k]))
+              if d] or [Fraction(0)]:
         if (rates.sigma[j] == s * rates.kappa[j] and s * rates.rho[j] == 0
                 and rates.rho[k] == s * rates.kappa[k] and s * rates.sigma[k] == 0):
             return s
@@ -402,12 +453,14 @@ def _real_roots(factor):
 # --- The period of a motion between two turning points: verified quadrature, with the root at each end
 # bounded by hand
 def period_of(orbit, ends, goal):
-    """T = 2 int_l^r dalpha / sqrt(2 (E - U)) as a ball, to about `goal` bits. Raises Open where the precision does not do."""
+    """T = 2 int_l^r dalpha / sqrt(2 (E - U)) as a ball, to about `goal` bits. Raises Open where the precision
+    does not do."""
     left, right = ends
     length = below(right) - above(left)
     if not length > 0:
         raise Open
-    step = length / 2**(2 * goal // 3)  # this part of the way at each end is bounded by the force's range instead
+    # this part of the way at each end is bounded by the force's range instead
+    step = length / 2**(2 * goal // 3)
     inner_left, inner_right = above(left) + step, below(right) - step
     total = _end(orbit, left, inner_left) + _end(orbit, right, inner_right)
     return 2 * (total + _integral(orbit, ball(inner_left), ball(inner_right), goal))
@@ -441,7 +494,8 @@ def _rsqrt(w, analytic):
 
 
 def _end(orbit, turning, inner):
-    """int from the turning point to `inner` of dalpha/sqrt(2 (E - U)): E - U is between f and F times the distance."""
+    """int from the turning point to `inner` of dalpha/sqrt(2 (E - U)): E - U is between f and F times the
+    distance."""
     outer = below(turning) if ball(inner) > turning else above(turning)
     force = abs(orbit.force(hull(*sorted((outer, inner)))))
     if sign(force) != 1:

@@ -1,4 +1,5 @@
-"""The rates of a gyrostat from the certificate's numbers, and equilibria proved unique in a box by Krawczyk's operator."""
+"""The rates of a gyrostat from the certificate's numbers, and equilibria proved unique in a box by Krawczyk's
+operator."""
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -14,8 +15,9 @@ AHEAD = ((1, 2), (2, 0), (0, 1))
 @dataclass(frozen=True)
 class Rates:
     """Coefficients (each a list of three fractions), and two affine conditions (normal, constant) that every
-    equilibrium meets: normal . x + constant = 0. torque: whether any component of it acts. integrals: two functions
-    sum (a_i x_i^2/2 + b_i x_i), each as (a, b), whose rates along the motion are these conditions."""
+    equilibrium meets: normal . x + constant = 0. torque: whether any component of it acts. integrals: two
+    functions sum (a_i x_i^2/2 + b_i x_i), each as (a, b), whose rates along the motion are these
+    conditions."""
 
     kappa: list
     rho: list
@@ -31,7 +33,8 @@ class Rates:
         """The rates of the certificate's scene."""
         kind = field(scene, "variables", "scene", str)
         if kind == "physical":
-            D, lam, M = (numbers(field(scene, key, "scene"), f"scene.{key}", 3) for key in ("inertia", "momentum", "torque"))
+            D, lam, M = (numbers(field(scene, key, "scene"), f"scene.{key}", 3)
+                         for key in ("inertia", "momentum", "torque"))
             if min(D) <= 0:
                 raise Malformed("scene.inertia: expected positive moments")
             return cls.of_body(D, lam, M)
@@ -47,7 +50,8 @@ class Rates:
         rho = [lam[j] / D[i] for i, (j, k) in enumerate(AHEAD)]
         sigma = [-lam[k] / D[i] for i, (j, k) in enumerate(AHEAD)]
         m = [M[i] / D[i] for i in range(3)]
-        conditions = ((list(M), Fraction(0)), ([d * t for d, t in zip(D, M)], sum(l * t for l, t in zip(lam, M))))
+        conditions = ((list(M), Fraction(0)),
+                      ([d * t for d, t in zip(D, M)], sum(l * t for l, t in zip(lam, M))))
         integrals = (D, [Fraction(0)] * 3), ([d * d for d in D], [d * l for d, l in zip(D, lam)])
         return cls(kappa, rho, sigma, m, conditions, any(M), integrals, (D, lam))
 
@@ -62,7 +66,8 @@ class Rates:
     def at(self, x):
         """The rates at x: fractions, balls or polynomials alike."""
         return [self._lift(self.kappa[i], x) * x[j] * x[k] + self._lift(self.rho[i], x) * x[k]
-                + self._lift(self.sigma[i], x) * x[j] + self._lift(self.m[i], x) for i, (j, k) in enumerate(AHEAD)]
+                + self._lift(self.sigma[i], x) * x[j] + self._lift(self.m[i], x) for i,
+                (j, k) in enumerate(AHEAD)]
 
     def jacobian(self, x):
         """Rows of derivatives of the rates."""
@@ -94,7 +99,8 @@ BITS, MOST_BITS = 128, 1 << 14
 
 
 def only_zero(rates, box):
-    """(sign of m, sign of n) at the one zero in the box of three brackets, or None where the test does not close."""
+    """(sign of m, sign of n) at the one zero in the box of three brackets, or None where the test does not
+    close."""
     from flint import arb_mat
     bits = BITS
     while bits <= MOST_BITS:

@@ -1,20 +1,24 @@
-"""A spin-up off the axes, checked: the motion up to the state of the inequality by Taylor series in balls, then the inequality.
+"""A spin-up off the axes, checked: the motion up to the state of the inequality by Taylor series in balls,
+then the inequality.
 
-Where a motion surely is at given times: Taylor series in python-flint's balls, with enough bits instead of a guess.
+Where a motion surely is at given times: Taylor series in python-flint's balls, with enough bits instead of a
+guess.
 
-x_i' = kappa_i x_j x_k + rho_i x_k + sigma_i x_j + m_i from an exact start. The set that holds the state is c + P E: c and the matrix P
-exact, E a box. A step takes c along by its Taylor polynomial, P by the derivative J of the motion (entries as balls over the whole set; the
-mean value theorem), and adds what both err by to E, through the inverse of P. P follows the stretching of the true motion alone, so its
-inverse needs no more bits than that stretching takes.
+x_i' = kappa_i x_j x_k + rho_i x_k + sigma_i x_j + m_i from an exact start. The set that holds the state is c
++ P E: c and the matrix P exact, E a box. A step takes c along by its Taylor polynomial, P by the derivative J
+of the motion (entries as balls over the whole set; the mean value theorem), and adds what both err by to E,
+through the inverse of P. P follows the stretching of the true motion alone, so its inverse needs no more bits
+than that stretching takes.
 
-The tail of a series. With alpha_n = |a_n| h^n, n <= N, P their sum and T the sum of all later ones, the recursion (n + 1) a_(n+1) = ...
-summed from n = N on says
+The tail of a series. With alpha_n = |a_n| h^n, n <= N, P their sum and T the sum of all later ones, the
+recursion (n + 1) a_(n+1) = ... summed from n = N on says
 
     T_i <= D_i + h/(N + 1) [|kappa| (P_j T_k + T_j P_k + T_j T_k) + |rho| T_k + |sigma| T_j],
-    D_i  = h/(N + 1) [|kappa| sum over m + n >= N of alpha_j,m alpha_k,n + |rho| alpha_k,N + |sigma| alpha_j,N]
+    D_i  = h/(N + 1) [|kappa| sum over m + n >= N of alpha_j,m alpha_k,n + |rho| alpha_k,N + |sigma|
+    alpha_j,N]
 
-for each partial sum in terms of the one before. So any T with which the right side is at most T bounds the tail, by induction. The series
-of J likewise, linear in its own tail.
+for each partial sum in terms of the one before. So any T with which the right side is at most T bounds the
+tail, by induction. The series of J likewise, linear in its own tail.
 """
 from __future__ import annotations
 
@@ -24,7 +28,20 @@ from operator import mul
 
 from .inequality import MOST_ORDER, Inequality, MovingInequality, Unsuited
 from .normal_form import equator, form_about, moving_form
-from .numbers import Malformed, above, ball, below, bracket, brief, entries, field, number, shown, word, working
+from .numbers import (
+    Malformed,
+    above,
+    ball,
+    below,
+    bracket,
+    brief,
+    entries,
+    field,
+    number,
+    shown,
+    word,
+    working,
+)
 
 AHEAD = ((1, 2), (2, 0), (0, 1))
 PATIENCE = 20  # times the present step that later ones may be, in the mean
@@ -36,7 +53,8 @@ class Lost(Exception):
 
 
 class Way:
-    """The set along the motion from three exact numbers, at the time t (exact). bits: of the centre; allowed: steps."""
+    """The set along the motion from three exact numbers, at the time t (exact). bits: of the centre; allowed:
+    steps."""
 
     def __init__(self, rates, state, bits: int, allowed: int):
         self.allowed = allowed
@@ -62,13 +80,16 @@ class Way:
 
     def _reach(self):
         """c + P E less c: balls about zero."""
-        return [sum((self.P[i][j] * _about_zero(self.box[j]) for j in range(3)), _nothing()) for i in range(3)]
+        return [sum((self.P[i][j] * _about_zero(self.box[j]) for j in range(3)), _nothing())
+                for i in range(3)]
 
     def _step(self, t):
         a = _series(self.numbers, self.centre, self.order)
         h = self._length(a)
         if t - self.t > PATIENCE * h * (self.allowed - self.steps):
-            raise Lost(f"not followed beyond t = {brief(self.t)}: at this pace {self.allowed} steps do not reach {brief(t)}")
+            raise Lost(
+                f"not followed beyond t = {brief(self.t)}: at this pace {self.allowed} steps do not reach "
+                f"{brief(t)}")
         around = [c + r for c, r in zip(self.centre, self._reach())]
         with working(LINEAR_BITS):
             wide = _series(self.coarse, around, LINEAR_ORDER)
@@ -79,7 +100,8 @@ class Way:
             tail = _tail(self.numbers, a, length)
             with working(LINEAR_BITS):
                 wide_tail = _tail(self.coarse, wide, length)
-                ends = wide_tail and [_linear_end(self.coarse, wide, wide_tail, column, length) for column in columns]
+                ends = (wide_tail
+                        and [_linear_end(self.coarse, wide, wide_tail, column, length) for column in columns])
             if tail and ends and None not in ends:
                 break
             h /= 2
@@ -91,12 +113,15 @@ class Way:
 
     def _carry(self, end, J):
         """The set at the end of a step: its centre a ball, J the derivative over the set."""
-        product = [[sum((J[i][k] * self.P[k][j] for k in range(3)), _nothing()) for j in range(3)] for i in range(3)]
+        product = [[sum((J[i][k] * self.P[k][j] for k in range(3)), _nothing()) for j in range(3)]
+                   for i in range(3)]
         self.centre, self.P = [v.mid() for v in end], [[v.mid() for v in row] for row in product]
         E = [_about_zero(v) for v in self.box]
-        left = [v - v.mid() + sum(((product[i][j] - self.P[i][j]) * E[j] for j in range(3)), _nothing()) for i, v in enumerate(end)]
+        left = [v - v.mid() + sum(((product[i][j] - self.P[i][j]) * E[j] for j in range(3)), _nothing())
+                for i, v in enumerate(end)]
         inverse = _inverse(self.P)
-        self.box = [(E[i] + sum((inverse[i][j] * left[j] for j in range(3)), _nothing())).abs_upper() for i in range(3)]
+        self.box = [(E[i] + sum((inverse[i][j] * left[j] for j in range(3)), _nothing())).abs_upper()
+                    for i in range(3)]
         if not all(v.is_finite() for v in (*self.box, *self.centre)):
             raise Lost(f"the set has no bounds any more at t = {brief(self.t)}")
 
@@ -142,7 +167,8 @@ def _series(numbers, start, order):
     for n in range(order):
         backward = [row[::-1] for row in rows]
         for i, (j, k) in enumerate(AHEAD):
-            new = kappa[i] * sum(map(mul, rows[j], backward[k])) + rho[i] * backward[k][0] + sigma[i] * backward[j][0]
+            new = (kappa[i] * sum(map(mul, rows[j], backward[k])) + rho[i] * backward[k][0]
+                   + sigma[i] * backward[j][0])
             rows[i].append((new if n else new + m[i]) / (n + 1))
     return rows
 
@@ -153,7 +179,8 @@ def _linear(numbers, x, column, order):
     V = [[ball(int(i == column))] for i in range(3)]
     for n in range(order):
         back = [row[n::-1] for row in x]
-        new = [kappa[i] * (sum(map(mul, V[k], back[j])) + sum(map(mul, V[j], back[k]))) + rho[i] * V[k][n] + sigma[i] * V[j][n]
+        new = [kappa[i] * (sum(map(mul, V[k], back[j])) + sum(map(mul, V[j], back[k]))) + rho[i] * V[k][n]
+               + sigma[i] * V[j][n]
                for i, (j, k) in enumerate(AHEAD)]
         for i, row in enumerate(V):
             row.append(new[i] / (n + 1))
@@ -183,8 +210,11 @@ def _tail(numbers, rows, h):
     sizes, sums = _sizes(rows, h)
     kappa, rho, sigma, _ = [[abs(v) for v in row] for row in numbers]
     share = h / len(rows[0])
-    known = [share * (kappa[i] * _beyond(sizes[j], sizes[k]) + rho[i] * sizes[k][-1] + sigma[i] * sizes[j][-1]) for i, (j, k) in enumerate(AHEAD)]
-    return _closed(known, lambda T: [share * (kappa[i] * (sums[j] * T[k] + T[j] * sums[k] + T[j] * T[k]) + rho[i] * T[k] + sigma[i] * T[j])
+    known = [share * (kappa[i] * _beyond(sizes[j], sizes[k]) + rho[i] * sizes[k][-1]
+                      + sigma[i] * sizes[j][-1]) for i, (j, k) in enumerate(AHEAD)]
+    return _closed(known,
+                   lambda T: [share * (kappa[i] * (sums[j] * T[k] + T[j] * sums[k] + T[j] * T[k])
+                                       + rho[i] * T[k] + sigma[i] * T[j])
                                      for i, (j, k) in enumerate(AHEAD)], sums)
 
 
@@ -206,10 +236,13 @@ def _linear_end(numbers, x, known_tail, V, h):
     sums, T = known_tail
     kappa, rho, sigma, _ = [[abs(c) for c in row] for row in numbers]
     share = h / len(V[0])
-    known = [share * (kappa[i] * (_beyond(sizes[j], v[k]) + _beyond(sizes[k], v[j]) + T[j] * vsum[k] + T[k] * vsum[j])
+    known = [share * (kappa[i] * (_beyond(sizes[j], v[k]) + _beyond(sizes[k], v[j]) + T[j] * vsum[k]
+                                  + T[k] * vsum[j])
                       + rho[i] * v[k][-1] + sigma[i] * v[j][-1]) for i, (j, k) in enumerate(AHEAD)]
     whole = [a + b for a, b in zip(sums, T)]
-    closed = _closed(known, lambda U: [share * (kappa[i] * (whole[j] * U[k] + whole[k] * U[j]) + rho[i] * U[k] + sigma[i] * U[j])
+    closed = _closed(known,
+                     lambda U: [share * (kappa[i] * (whole[j] * U[k] + whole[k] * U[j]) + rho[i] * U[k]
+                                         + sigma[i] * U[j])
                                        for i, (j, k) in enumerate(AHEAD)], vsum)
     return closed and [_value(row, h) + _about_zero(u) for row, u in zip(V, closed[1])]
 
@@ -224,7 +257,8 @@ def _value(row, h):
 
 def _inverse(P):
     """The inverse of an exact 3 x 3 matrix, entries as balls."""
-    minor = lambda i, j: (P[(i + 1) % 3][(j + 1) % 3] * P[(i + 2) % 3][(j + 2) % 3] - P[(i + 1) % 3][(j + 2) % 3] * P[(i + 2) % 3][(j + 1) % 3])
+    minor = lambda i, j: (P[(i + 1) % 3][(j + 1) % 3] * P[(i + 2) % 3][(j + 2) % 3]
+                          - P[(i + 1) % 3][(j + 2) % 3] * P[(i + 2) % 3][(j + 1) % 3])
     determinant = sum((P[0][j] * minor(0, j) for j in range(3)), _nothing())
     if 0 in determinant:
         raise Lost("the set's directions have become parallel")
@@ -238,8 +272,9 @@ MOST_STEPS = 40_000  # of all ways together: some minute
 
 @dataclass(frozen=True)
 class SpinUpClaims:
-    """about: the form, a key of `FORMS`; axis (1, 2, 3; 0 in the equator), sense; orders; t: when the inequality holds; cone, least, gain: its A and z and
-    the rate at which the spin grows at least, in the units of the rates; way: [(time, three brackets)], times rising."""
+    """about: the form, a key of `FORMS`; axis (1, 2, 3; 0 in the equator), sense; orders; t: when the
+    inequality holds; cone, least, gain: its A and z and the rate at which the spin grows at least, in the
+    units of the rates; way: [(time, three brackets)], times rising."""
 
     about: str
     axis: int
@@ -257,7 +292,8 @@ def spin_up_of(table) -> SpinUpClaims:
     where = "motion.spin_up"
     if not isinstance(table, dict):
         raise Malformed(f"{where}: expected an object, got {shown(table)}")
-    t, cone, least, gain = (number(field(table, key, where), f"{where}.{key}") for key in ("t", "cone", "least", "gain"))
+    t, cone, least, gain = (number(field(table, key, where), f"{where}.{key}")
+                            for key in ("t", "cone", "least", "gain"))
     if t < 0:
         raise Malformed(f"{where}.t: expected a time that is not before the start, got {shown(table['t'])}")
     orders = field(table, "orders", where, list)
@@ -268,13 +304,15 @@ def spin_up_of(table) -> SpinUpClaims:
         raise Malformed(f"{where}.way: expected rising times")
     about = word(table, "about", where, tuple(FORMS)) if "about" in table else "fixed centre"
     axes, senses = ((0,), (1,)) if about == "equator" else ((1, 2, 3), (-1, 1))
-    return SpinUpClaims(about, _one_of(table, "axis", axes), _one_of(table, "sense", senses), tuple(orders), t, cone, least, gain, way)
+    return SpinUpClaims(about, _one_of(table, "axis", axes), _one_of(table, "sense", senses), tuple(orders),
+                        t, cone, least, gain, way)
 
 
 def _one_of(table, key, known):
     value = field(table, key, "motion.spin_up")
     if type(value) is not int or value not in known:
-        raise Malformed(f"motion.spin_up.{key}: expected one of {', '.join(map(str, known))}, got {shown(value)}")
+        raise Malformed(
+            f"motion.spin_up.{key}: expected one of {', '.join(map(str, known))}, got {shown(value)}")
     return value
 
 
@@ -288,7 +326,8 @@ def _point(entry, where):
 
 
 def check_spin_up(rates, state, claims: SpinUpClaims, note) -> tuple[str, str]:
-    """Findings on the way and on the inequality; ("proved", "refuted" or "not checked", reason) of the spin-up itself."""
+    """Findings on the way and on the inequality; ("proved", "refuted" or "not checked", reason) of the
+    spin-up itself."""
     findings, verdict, left = [], ("not checked", ""), MOST_STEPS
     for bits in BITS:
         way = Way(rates, state, bits, left)
@@ -330,7 +369,8 @@ def _judged(rates, claims, way):
     with working(max(way.bits, 128)):
         form = make(rates, claims.axis - 1, claims.sense)
         if form is None or not form.M > 0:
-            why = "the spin there does not turn the other two" if form is None else "the torque's component does not have the sense of the spin"
+            why = ("the spin there does not turn the other two" if form is None
+                   else "the torque's component does not have the sense of the spin")
             return [(_trap(claims), "refuted", why)], ("not checked", why)
         inequality = inequality_of(form, claims.orders)
     found, states = [], {}
@@ -361,6 +401,8 @@ def _trapped(inequality, state, claims):
     if not faults and not gain >= ball(claims.gain):
         faults = [("the spin grows as fast as claimed", bool(gain < ball(claims.gain)))]
     if not faults:
-        return "proved", f"the inequality of orders {claims.orders[0]} and {claims.orders[1]}, worked out anew, holds: the spin grows for ever"
+        return ("proved",
+                f"the inequality of orders {claims.orders[0]} and {claims.orders[1]}, worked out anew, "
+                f"holds: the spin grows for ever")
     words = f"the inequality fails: {', '.join(words for words, _ in faults)}"
     return ("refuted" if any(surely for _, surely in faults) else "not checked"), words

@@ -13,7 +13,10 @@ from stabilab import Body, ConstantTorque, Gyrostat, InputError, Scene, simulate
 BODY = "[body]\ninertia = [3, 2, 1.5]\n"
 REST = "[motion]\nangular_velocity = [0.3, -0.2, 0.5]\nspan = [0, 20]\n"
 MORE = '[effects.gyrostat]\nmomentum = [0.1, 0.2, -0.3]\n[effects.constant_torque]\ntorque = [0, 0, 0.05]\n'
-D, WHEEL, TORQUE, START = np.array([3, 2, 1.5]), np.array([0.1, 0.2, -0.3]), np.array([0, 0, 0.05]), np.array([0.3, -0.2, 0.5])
+D, WHEEL, TORQUE, START = np.array([3, 2,
+                                    1.5]), np.array([0.1, 0.2,
+                                                     -0.3]), np.array([0, 0,
+                                                                       0.05]), np.array([0.3, -0.2, 0.5])
 TIMES = [0, 4, 9.5, 20]
 
 
@@ -21,9 +24,11 @@ def _turned(first=None, wheel=WHEEL, torque=TORQUE):
     """(rates, matrices from body to space) at the times, by DOP853 for R' = R [omega x]."""
     def rate(_, y):
         w, R = y[:3], y[3:].reshape(3, 3)
-        return [*((np.cross(D * w + wheel, w) + torque) / D), *(R @ [[0, -w[2], w[1]], [w[2], 0, -w[0]], [-w[1], w[0], 0]]).ravel()]
+        return [*((np.cross(D * w + wheel, w) + torque) / D),
+                *(R @ [[0, -w[2], w[1]], [w[2], 0, -w[0]], [-w[1], w[0], 0]]).ravel()]
     first = np.eye(3) if first is None else first
-    run = solve_ivp(rate, (0, 20), [*START, *first.ravel()], method="DOP853", t_eval=TIMES, rtol=1e-12, atol=1e-13)
+    run = solve_ivp(rate, (0, 20), [*START, *first.ravel()], method="DOP853", t_eval=TIMES, rtol=1e-12,
+                    atol=1e-13)
     return run.y[:3].T, run.y[3:].T.reshape(-1, 3, 3)
 
 
@@ -46,14 +51,17 @@ def test_the_quaternion_of_a_spacecraft_is_scalar_last_from_body_to_space(stabil
     assert code == 0 and "scalar last" in found["quaternion"]
     assert np.array(found["state"]["omega"]) == pytest.approx(rates, abs=1e-9)
     q = np.array(found["state"]["quaternion"])
-    assert Rotation.from_quat(q).as_matrix() == pytest.approx(matrices, abs=1e-9) and np.linalg.norm(q, axis=1) == pytest.approx(1, abs=1e-14)
+    assert Rotation.from_quat(q).as_matrix() == pytest.approx(matrices,
+                                                              abs=1e-9) and np.linalg.norm(q,
+                                                                                           axis=1) == pytest.approx(1, abs=1e-14)
     assert q[0].tolist() == [0, 0, 0, 1]
 
 
 def test_a_free_body_keeps_its_momentum_in_space(stabilab, case):
     state = json.loads(_asked(stabilab, case(BODY + REST), "--json")[1])["state"]
     momenta = Rotation.from_quat(state["quaternion"]).apply(D * np.array(state["omega"]))
-    assert np.ptp(momenta, axis=0).max() < 1e-13 and momenta == pytest.approx(np.array(state["momentum"]), abs=1e-13)
+    assert np.ptp(momenta,
+                  axis=0).max() < 1e-13 and momenta == pytest.approx(np.array(state["momentum"]), abs=1e-13)
 
 
 def test_it_begins_with_the_attitude_of_the_case(stabilab, case):
@@ -66,9 +74,12 @@ def test_it_begins_with_the_attitude_of_the_case(stabilab, case):
 
 def test_it_begins_with_the_vertical_of_the_case(stabilab, case):
     """Inertial axis 3 is the vertical: its body components are the third row of R."""
-    path = case(BODY + "[effects.gravity]\nweight = 0.1\ncentre_of_mass = [0, 0, 1]\n" + REST + "vertical = [0, 3, 4]\n")
+    path = case(BODY + "[effects.gravity]\nweight = 0.1\ncentre_of_mass = [0, 0, 1]\n" + REST
+                + "vertical = [0, 3, 4]\n")
     state = json.loads(_asked(stabilab, path, "--json")[1])["state"]
-    assert Rotation.from_quat(state["quaternion"]).as_matrix()[:, 2] == pytest.approx(np.array(state["gamma"]), abs=1e-12)
+    assert Rotation.from_quat(state["quaternion"]).as_matrix()[:,
+                                                               2] == pytest.approx(np.array(state["gamma"]),
+                                                                                   abs=1e-12)
     assert state["gamma"][0] == pytest.approx([0, 0.6, 0.8])
 
 
@@ -76,7 +87,8 @@ def test_quarter_turns_about_axis_1_pass_where_angles_are_singular():
     """omega = (1, 0, 0): q = (sin t/2, 0, 0, cos t/2); psi = 90 deg leaves phi and theta open."""
     times = np.pi / 2 * np.arange(5)
     q = simulate(Scene(Body((3, 2, 1.5))), (1, 0, 0), times, {"attitude": (0, 0, 0, 1)}).state["quaternion"]
-    assert q == pytest.approx(np.column_stack([np.sin(times / 2), 0 * times, 0 * times, np.cos(times / 2)]), abs=1e-14)
+    assert q == pytest.approx(np.column_stack([np.sin(times / 2), 0 * times, 0 * times, np.cos(times / 2)]),
+                              abs=1e-14)
 
 
 @pytest.mark.parametrize("digits", [9, 15])
@@ -84,17 +96,20 @@ def test_digits_are_those_of_the_quaternion_too(stabilab, case, digits):
     code, out, _ = _asked(stabilab, case(BODY + MORE + REST), "--json", "--digits", digits)
     found = json.loads(out)
     assert code == 0 and found["digits"]["reached"] >= digits
-    assert Rotation.from_quat(found["state"]["quaternion"]).as_matrix() == pytest.approx(_turned()[1], abs=1e-8)
+    assert Rotation.from_quat(found["state"]["quaternion"]).as_matrix() == pytest.approx(_turned()[1],
+                                                                                         abs=1e-8)
 
 
 def test_csv_and_netcdf_carry_it_and_say_what_it_is(stabilab, case, tmp_path):
     xarray, path = pytest.importorskip("xarray"), case(BODY + MORE + REST)
     wanted = json.loads(_asked(stabilab, path, "--json")[1])["state"]["quaternion"]
-    assert _asked(stabilab, path, "--out", tmp_path / "a.csv")[0] == _asked(stabilab, path, "--out", tmp_path / "a.nc")[0] == 0
+    assert _asked(stabilab, path, "--out",
+                  tmp_path / "a.csv")[0] == _asked(stabilab, path, "--out", tmp_path / "a.nc")[0] == 0
     rows = list(csv.DictReader(io.StringIO((tmp_path / "a.csv").read_text())))
     assert [[float(row[name]) for name in ("qx", "qy", "qz", "qw")] for row in rows] == wanted
     with xarray.open_dataset(tmp_path / "a.nc") as data:
-        assert data["quaternion"].values.tolist() == wanted and "scalar last" in data["quaternion"].attrs["long_name"]
+        assert data["quaternion"].values.tolist() == wanted and "scalar last" in data["quaternion"].attrs[
+            "long_name"]
     assert "# qx, qy, qz, qw: attitude as a unit quaternion, scalar last" in _asked(stabilab, path)[1]
 
 
@@ -109,4 +124,5 @@ def test_what_has_no_attitude_says_so(stabilab, case):
     assert code == 2 and not out and "scaled variables have no attitude" in err
     assert stabilab("simulate", case(BODY + REST), "--attitude", "--model", "linear")[0] == 2
     with pytest.raises(InputError, match="not zero"):
-        simulate(Scene(Body((3, 2, 1.5)), Gyrostat((0, 0, 1)), ConstantTorque((0, 0, 1))), (1, 0, 0), [0, 1], {"attitude": (0, 0, 0, 0)})
+        simulate(Scene(Body((3, 2, 1.5)), Gyrostat((0, 0, 1)), ConstantTorque((0, 0, 1))), (1, 0, 0), [0, 1],
+                 {"attitude": (0, 0, 0, 0)})

@@ -1,4 +1,5 @@
-"""Regular, chaotic, spinning up or undecided: what is said of motions, one by one, in arrays, in sweeps and on the command line."""
+"""Regular, chaotic, spinning up or undecided: what is said of motions, one by one, in arrays, in sweeps and
+on the command line."""
 from __future__ import annotations
 
 import json
@@ -22,7 +23,9 @@ from tests.unreduced.test_chaos import TAME, TOP, WILD
 @pytest.mark.slow
 def test_arrays_have_a_label_for_each_state():
     found = stabilab.chaos(TOP, [[WILD, TAME]])
-    assert found.labels.tolist() == [[Order.CHAOTIC, Order.REGULAR]] and found.history.shape == (1, 2, 6) and found.megno.shape == (1, 2)
+    assert found.labels.tolist() == [[Order.CHAOTIC,
+                                      Order.REGULAR]] and found.history.shape == (1, 2,
+                                                                                  6) and found.megno.shape == (1, 2)
     assert found.lyapunov[0, 0] > 5 * found.lyapunov_error[0, 0] > 0 and found.lyapunov[0, 1] == 0
 
 
@@ -33,11 +36,13 @@ def test_a_motion_that_spins_up_is_not_followed():
 
 
 def test_a_state_at_rest_is_not_chaotic_however_fast_its_neighbours_part():
-    """The case states, by hand, that every rate vanishes where two equilibria have merged: a constant motion, beside which others part."""
+    """The case states, by hand, that every rate vanishes where two equilibria have merged: a constant motion,
+    beside which others part."""
     fold = case("off-axis-fold")
     found = stabilab.chaos(fold.scene, [list(fold.state), [0.1, 0.2, 0.3]])
     assert found.labels[0] == Order.REGULAR and found.megno[0] > 100 and found.lyapunov[0] == 0
-    assert words.text([(fold, stabilab.chaos(fold.scene, fold.state))]).startswith("off-axis-fold: REGULAR: it is an equilibrium")
+    assert words.text([(fold, stabilab.chaos(fold.scene, fold.state))]).startswith(
+        "off-axis-fold: REGULAR: it is an equilibrium")
 
 
 def test_a_chaotic_motion_followed_briefly_is_undecided_or_regular_so_far_and_the_time_is_told():
@@ -50,7 +55,9 @@ def test_attitude_and_path_say_nothing_of_the_rates():
     assert stabilab.chaos(one.scene, [*one.state, *np.zeros(10)], until=100).labels == Order.REGULAR
 
 
-@pytest.mark.parametrize("states, until, words", [((1, 2), None, "rows of 6 numbers"), ("abc", None, "rows of 6"), (WILD, 0, "until"), (WILD, "x", "until"),
+@pytest.mark.parametrize("states, until, words",
+                         [((1, 2), None, "rows of 6 numbers"), ("abc", None, "rows of 6"), (WILD, 0, "until"),
+                          (WILD, "x", "until"),
                                                   ((*WILD[:5], np.nan), None, "not finite")])
 def test_bad_input_is_refused(states, until, words):
     with pytest.raises(InputError, match=words):
@@ -63,7 +70,8 @@ def test_because_is_of_one_motion():
 
 
 def test_a_sweep_asks_the_same_of_each_state():
-    with run(planned(CASES / "minor-axis-100.toml", {"x[3]": "0.1, 3"}, answer="chaos", follow="200"), workers=1) as found:
+    with run(planned(CASES / "minor-axis-100.toml", {"x[3]": "0.1, 3"}, answer="chaos", follow="200"),
+             workers=1) as found:
         pass
     scene = case("minor-axis-100").scene
     expected = stabilab.chaos(scene, [[2.5, 4, 0.1], [2.5, 4, 3]], until=200)
@@ -74,11 +82,14 @@ def test_a_sweep_asks_the_same_of_each_state():
 def test_the_command_says_it_in_words_json_and_csv():
     path = str(CASES / "minor-axis-100.toml")
     say = lambda *more: CliRunner().invoke(cli.whole(), ["chaos", path, "--until", "300", *more]).stdout
-    assert say().startswith("minor-axis-100: REGULAR as far as it was followed: after ") and "no proof" in say()
+    assert say().startswith(
+        "minor-axis-100: REGULAR as far as it was followed: after ") and "no proof" in say()
     told = json.loads(say("--json"))
     one = case("minor-axis-100")
-    assert told["schema"] == "stabilab.chaos/1" and told["answer"] == "regular" and told["megno"] == float(stabilab.chaos(one.scene, one.state, 300).megno)
-    assert say("--csv").splitlines()[0] == "case,answer,time,megno,caveats" and len(say("--csv").splitlines()) == 7
+    assert told["schema"] == "stabilab.chaos/1" and told["answer"] == "regular" and told["megno"] == float(
+        stabilab.chaos(one.scene, one.state, 300).megno)
+    assert say("--csv").splitlines()[0] == "case,answer,time,megno,caveats" and len(
+        say("--csv").splitlines()) == 7
 
 
 SWEPT = """
@@ -106,15 +117,21 @@ def test_a_sweep_is_one_table_and_the_law_is_told_first(stabilab, tmp_path):
     code, out, _ = stabilab("chaos", path, "--until", "60")
     lines = out.splitlines()
     assert code == 0 and len(lines) == 7 and lines[1].startswith("law: charge: ")
-    assert lines[0] == "BEYOND THE LAW; by that law: three: 3 combinations: 3 REGULAR as far as it was followed"
-    assert lines[2].split() == ["ω[1]", "ω[2]", "ω[3]", "motion", "turns", "MEGNO"] and {line.split()[3] for line in lines[4:]} == {"REGULAR"}
+    assert lines[
+        0] == "BEYOND THE LAW; by that law: three: 3 combinations: 3 REGULAR as far as it was followed"
+    assert lines[2].split() == ["ω[1]", "ω[2]", "ω[3]", "motion", "turns",
+                                "MEGNO"] and {line.split()[3] for line in lines[4:]} == {"REGULAR"}
     told = json.loads(stabilab("chaos", path, "--until", "60", "--json")[1])
     assert [one["validity"]["effect"] for one in told] == ["charge"] * 3
     assert [f"{one['megno']:.4f}" for one in told] == [line.split()[-1] for line in lines[4:]]
     assert stabilab("chaos", path, "--until", "60", "--strict")[0] == 3
-    rows = [(SimpleNamespace(scene=SimpleNamespace(time_unit="s")), Chaos(np.array(label), np.array(6.0), np.array([1.0, 2.0]), np.array([3.0, 6.0]),
-                                                                         np.array(0.5), np.array(0.1), 1.0, None)) for label in (Order.CHAOTIC, Order.REGULAR)]
-    assert words.swept(rows)[1][-1] == ("doubles in", "s") and [row[-1] for row in words.swept(rows)[2]] == ["1.39", ""]  # ln 2/0.5
+    rows = [(SimpleNamespace(scene=SimpleNamespace(time_unit="s")),
+             Chaos(np.array(label), np.array(6.0), np.array([1.0, 2.0]), np.array([3.0, 6.0]),
+                                                                         np.array(0.5), np.array(0.1), 1.0,
+                   None)) for label in (Order.CHAOTIC, Order.REGULAR)]
+    # ln 2/0.5
+    assert words.swept(rows)[1][-1] == ("doubles in",
+                                        "s") and [row[-1] for row in words.swept(rows)[2]] == ["1.39", ""]
 
 
 @pytest.mark.slow
@@ -133,7 +150,8 @@ def test_the_picture_of_a_motion_that_spins_up_says_that_it_is_not_followed(stab
 
 
 def test_a_megno_next_to_zero_has_no_minus():
-    found = Chaos(np.array(Order.REGULAR), np.array(-1e-5), np.array([1.0, 2.0]), np.array([-2e-5, -1e-5]), np.array(0.0), np.array(0.0), 1.0, None)
+    found = Chaos(np.array(Order.REGULAR), np.array(-1e-5), np.array([1.0, 2.0]), np.array([-2e-5, -1e-5]),
+                  np.array(0.0), np.array(0.0), 1.0, None)
     assert "MEGNO is 0.000 (0.000 at half" in found.because
     case = SimpleNamespace(name="rest", scene=SimpleNamespace(time_unit="s"))
     assert words.text([(case, found)]).count(" 0.0000") == 2

@@ -35,7 +35,8 @@ class Drift(Effect):
 def test_an_effect_that_is_not_known_is_run_and_not_judged():
     scene = Scene(Body((3, 2, 1)), Drift())
     assert content(scene) is None and other_equilibria(scene) is None
-    for question in (equilibria, lambda scene: motion(scene, (1.0, 0.5, 0.25)), lambda scene: stabilab.fate(scene, np.ones(3))):
+    for question in (equilibria, lambda scene: motion(scene, (1.0, 0.5, 0.25)),
+                     lambda scene: stabilab.fate(scene, np.ones(3))):
         with pytest.raises(InputError):
             question(scene)
     assert list(models_of(scene)) == ["exact"]

@@ -11,19 +11,29 @@ CASE = stabilab.load(Path(__file__).parents[2] / "cases" / "thruster-stuck-major
 
 def test_a_case_stands_for_its_scene_its_start_and_its_span():
     scene, start, span = CASE.scene, CASE.start, CASE.span
-    assert stabilab.fate(CASE).labels == stabilab.fate(scene, start).labels and stabilab.fate(CASE).margins == stabilab.fate(scene, start).margins
-    assert stabilab.period(CASE) == stabilab.period(scene, start) and stabilab.equilibria(CASE) == stabilab.equilibria(scene)
+    assert stabilab.fate(CASE).labels == stabilab.fate(scene,
+                                                       start).labels and stabilab.fate(
+                                                           CASE).margins == stabilab.fate(scene,
+                                                                                          start).margins
+    assert stabilab.period(CASE) == stabilab.period(scene,
+                                                    start) and stabilab.equilibria(
+                                                        CASE) == stabilab.equilibria(scene)
     assert np.array_equal(stabilab.extremes(CASE), stabilab.extremes(scene, start, span))
-    assert np.array_equal(stabilab.simulate(CASE).state["omega"], stabilab.simulate(scene, start, span).state["omega"])
-    assert stabilab.motion(CASE).extremes == stabilab.motion(scene, start, span, exact=CASE.exact_state).extremes
+    assert np.array_equal(stabilab.simulate(CASE).state["omega"],
+                          stabilab.simulate(scene, start, span).state["omega"])
+    assert stabilab.motion(CASE).extremes == stabilab.motion(scene, start, span,
+                                                             exact=CASE.exact_state).extremes
     other = (0.1, 0.2, 0.3)
     assert stabilab.motion(CASE, other).at == other and stabilab.fate(CASE, [other]).labels.shape == (1,)
     assert np.array_equal(stabilab.simulate(CASE, times=[0, 1]).t, [0, 1])
 
 
-@pytest.mark.parametrize("ask", [stabilab.fate, stabilab.period, stabilab.extremes, stabilab.equilibria, stabilab.motion, stabilab.stuck,
+@pytest.mark.parametrize("ask", [stabilab.fate, stabilab.period, stabilab.extremes, stabilab.equilibria,
+                                 stabilab.motion, stabilab.stuck,
                                  lambda given: stabilab.simulate(given, (1, 0, 0), [0.0, 1.0])])
-@pytest.mark.parametrize("wrong, named", [({"body": list(range(500))}, "type dict"), (np.zeros(300), "type ndarray"), ("cases/x.toml", "'cases/x.toml'")])
+@pytest.mark.parametrize("wrong, named",
+                         [({"body": list(range(500))}, "type dict"), (np.zeros(300), "type ndarray"),
+                          ("cases/x.toml", "'cases/x.toml'")])
 def test_a_wrong_type_is_named_and_never_shown_whole(ask, wrong, named):
     with pytest.raises(stabilab.InputError) as error:
         ask(wrong)
@@ -31,11 +41,13 @@ def test_a_wrong_type_is_named_and_never_shown_whole(ask, wrong, named):
 
 
 def test_a_case_shows_itself_in_one_short_line():
-    assert repr(CASE).startswith("Case(") and "thruster-stuck-major-axis.toml: physical, state (" in repr(CASE) and len(repr(CASE)) < 200
+    assert repr(CASE).startswith("Case(") and "thruster-stuck-major-axis.toml: physical, state (" in repr(
+        CASE) and len(repr(CASE)) < 200
 
 
 def test_a_scene_alone_needs_a_state():
-    for ask in (stabilab.fate, stabilab.period, stabilab.extremes, stabilab.motion, lambda scene: stabilab.simulate(scene, times=[0, 1])):
+    for ask in (stabilab.fate, stabilab.period, stabilab.extremes, stabilab.motion,
+                lambda scene: stabilab.simulate(scene, times=[0, 1])):
         with pytest.raises(stabilab.InputError, match="state: expected"):
             ask(CASE.scene)
     with pytest.raises(stabilab.InputError, match="times: expected"):

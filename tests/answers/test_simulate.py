@@ -1,4 +1,5 @@
-"""Exact motions with more blocks of state than the angular velocity, against equations typed in by hand in mpmath."""
+"""Exact motions with more blocks of state than the angular velocity, against equations typed in by hand in
+mpmath."""
 import mpmath as mp
 import numpy as np
 import pytest
@@ -17,7 +18,8 @@ def make(name, *arguments):
 
 BODY = Body((8.7, 8.6, 11.1), 10)
 D = [mp.mpf("8.7"), mp.mpf("8.6"), mp.mpf("11.1")]
-CHARGED = Scene(Body(("8.7", "8.6", "11.1"), 10), make("charge", "0.003", 100, "1.02", "0.37"), Gyrostat((0, 0, "1.3")),
+CHARGED = Scene(Body(("8.7", "8.6", "11.1"), 10), make("charge", "0.003", 100, "1.02", "0.37"),
+                Gyrostat((0, 0, "1.3")),
                 ConstantTorque((4, 0, 0)), make("body_force", (0, 0, 3)))
 
 
@@ -28,31 +30,39 @@ def test_charged_body_and_its_angles_agree_with_the_kinematic_equations_of_the_p
         rates = euler.charged(D, k, [0, 0, mp.mpf("1.3")], [4, 0, 0])
     run = simulate(CHARGED, (0, 0, 0.25), [0.5, 1.5])
     for row, time in enumerate((0.5, 1.5)):
-        exact = np.array([float(v) for v in euler.integrate(rates, [0, 0, 0.25, 0, 0, 0], time, int(24 * time))])
-        np.testing.assert_allclose(run.state["omega"][row], exact[:3], rtol=0, atol=1e-13 * np.abs(exact[:3]).max())
-        np.testing.assert_allclose(run.state["angles"][row], exact[3:], rtol=0, atol=1e-12 * np.abs(exact[3:]).max())
+        exact = np.array([float(v) for v in euler.integrate(rates, [0, 0, 0.25, 0, 0, 0], time,
+                                                            int(24 * time))])
+        np.testing.assert_allclose(run.state["omega"][row], exact[:3], rtol=0,
+                                   atol=1e-13 * np.abs(exact[:3]).max())
+        np.testing.assert_allclose(run.state["angles"][row], exact[3:], rtol=0,
+                                   atol=1e-12 * np.abs(exact[3:]).max())
 
 
 def test_top_agrees_with_euler_poisson_at_forty_digits():
-    scene = Scene(Body((3, 2, "1.5")), Gyrostat((1, 0, "0.5")), make("gravity", 20, ("0.1", "0.05", "0.2")), make("newtonian_field", "0.75"))
+    scene = Scene(Body((3, 2, "1.5")), Gyrostat((1, 0, "0.5")), make("gravity", 20, ("0.1", "0.05", "0.2")),
+                  make("newtonian_field", "0.75"))
     rates = euler.top([3, 2, mp.mpf("1.5")], [1, 0, mp.mpf("0.5")], [2, 1, 4], mp.mpf("0.75"))
     start = ([0.5, -1.0, 4.0], [0.6, 0.0, 0.8])
     run = simulate(scene, start[0], [2.0], {"gamma": start[1]})
     exact = [float(v) for v in euler.integrate(rates, [*start[0], *start[1]], 2, 50)]
-    np.testing.assert_allclose(np.concatenate([run.state["omega"][0], run.state["gamma"][0]]), exact, rtol=0, atol=2e-13 * 5)
+    np.testing.assert_allclose(np.concatenate([run.state["omega"][0], run.state["gamma"][0]]), exact, rtol=0,
+                               atol=2e-13 * 5)
     assert max(run.invariant_drift.values()) < 1e-14
 
 
 @pytest.mark.one_in(2)
 @pytest.mark.parametrize("kappa_over", [50, 1000])
 def test_liquid_agrees_with_the_chain_rule_by_hand(kappa_over):
-    scene = Scene(Body(("9.51", "9.3", 9)), make("liquid_cavity", 1250, kappa_over, "1.9"), Gyrostat((0, 0, "0.1")),
+    scene = Scene(Body(("9.51", "9.3", 9)), make("liquid_cavity", 1250, kappa_over, "1.9"),
+                  Gyrostat((0, 0, "0.1")),
                   make("resistance", "0.02"), ConstantTorque((0, 0, "-0.06")))
     with mp.workdps(40):
-        rates = euler.liquid([mp.mpf("9.51"), mp.mpf("9.3"), mp.mpf(9)], mp.mpf("0.1"), mp.mpf("1.9") * 1250 / kappa_over,
+        rates = euler.liquid([mp.mpf("9.51"), mp.mpf("9.3"), mp.mpf(9)], mp.mpf("0.1"),
+                             mp.mpf("1.9") * 1250 / kappa_over,
                              mp.mpf("0.02"), [0, 0, mp.mpf("-0.06")])
     run = simulate(scene, (1.0, 0.25, 1.0), [0.5])
-    exact = np.array([float(v) for v in euler.integrate(rates, [1, 0.25, 1], 0.5, 24 if kappa_over > 50 else 48)])
+    exact = np.array([float(v) for v in euler.integrate(rates, [1, 0.25, 1], 0.5,
+                                                        24 if kappa_over > 50 else 48)])
     np.testing.assert_allclose(run.state["omega"][0], exact, rtol=0, atol=1e-12 * np.abs(exact).max())
 
 
@@ -63,7 +73,8 @@ def test_angles_and_quaternions_are_inverse_and_the_third_row_is_the_papers():
         q = quaternion(psi, phi, theta)
         np.testing.assert_allclose(angles(q), (psi, phi, theta), atol=1e-14)
         third = [to_space(q, e)[2] for e in np.eye(3)]
-        np.testing.assert_allclose(third, (-np.cos(psi) * np.sin(phi), np.sin(psi), np.cos(psi) * np.cos(phi)), atol=1e-15)
+        np.testing.assert_allclose(third, (-np.cos(psi) * np.sin(phi), np.sin(psi),
+                                           np.cos(psi) * np.cos(phi)), atol=1e-15)
 
 
 def test_angles_count_whole_turns_between_far_apart_times():
@@ -75,19 +86,21 @@ def test_angles_count_whole_turns_between_far_apart_times():
 @pytest.mark.one_in(2)
 @pytest.mark.parametrize("times", [[10.0], [20.0], [-10.0, 20.0]])
 def test_angles_count_the_turns_of_a_pendulum_that_rests_at_the_asked_for_times(times):
-    """It leaves the upper rest by 1e-4 rad/s, whips round once in 11.3 s and is back near rest at 10 and 20 s: the angle
-    is the integral of the rate, by an independent fine run in small steps."""
+    """It leaves the upper rest by 1e-4 rad/s, whips round once in 11.3 s and is back near rest at 10 and 20
+    s: the angle is the integral of the rate, by an independent fine run in small steps."""
     from scipy.integrate import solve_ivp
     scene = Scene(Body((12, 9, 5)), make("gravity", 100, (0, 0, "0.5")))
     run = simulate(scene, (0.0, 1e-4, 0.0), times, {"gamma": (0, 0, -1), "attitude": (0, 0, 0)})
     for time, phi in zip(times, run.state["angles"][:, 1]):
-        own = solve_ivp(lambda t, y: (y[1], 50 / 9 * np.sin(y[0])), (0, time), (0, 1e-4), rtol=1e-12, atol=1e-14, method="DOP853")
+        own = solve_ivp(lambda t, y: (y[1], 50 / 9 * np.sin(y[0])), (0, time), (0, 1e-4), rtol=1e-12,
+                        atol=1e-14, method="DOP853")
         np.testing.assert_allclose(phi, own.y[0, -1], rtol=0, atol=1e-6)
     assert abs(phi) > 6
 
 
 def test_angles_start_where_the_case_says_whichever_branch_it_takes():
-    """psi = 2 and (pi - 2, pi, pi) are one attitude; the run stays with the one that was given. Spin about axis 3: theta."""
+    """psi = 2 and (pi - 2, pi, pi) are one attitude; the run stays with the one that was given. Spin about
+    axis 3: theta."""
     for first in ((2.0, 0.1, -0.2), (2.0, 7.0, 9.0), (-9.0, 0.1, 0.2), (1.0, -4.0, 12.0)):
         run = simulate(Scene(BODY), (0.0, 0.0, 0.5), [0.0, 0.125], {"attitude": first})
         np.testing.assert_allclose(run.state["angles"][0], first, atol=1e-14)
@@ -95,7 +108,8 @@ def test_angles_start_where_the_case_says_whichever_branch_it_takes():
 
 
 def test_the_points_for_counting_turns_come_from_the_method_that_was_asked_for():
-    """A rotation about axis 3 at 40 rad/s seen at its ends alone, by a method whose steps are not those of the series."""
+    """A rotation about axis 3 at 40 rad/s seen at its ends alone, by a method whose steps are not those of
+    the series."""
     for method in ("RK45", "Radau"):
         run = simulate(Scene(BODY), (0.0, 0.0, 40.0), [0.0, 5.0], {"attitude": (0.0, 0.0, 0.0)}, method, 1e-6)
         assert run.method == method and run.state["angles"][1, 2] == pytest.approx(200.0, rel=1e-3)
@@ -119,7 +133,8 @@ def test_a_force_along_the_spin_axis_of_a_steady_spin_gives_uniform_acceleration
 def test_gamma_and_attitude_tell_the_same_vertical():
     """gamma started along the inertial third axis stays the third row of the rotation."""
     scene = Scene(BODY, make("charge", "0.5", 2, 1, "attitude"), ConstantTorque((0.4, 0.1, 0)))
-    run = simulate(scene, (0.3, 0.1, 1.0), [3.0, 9.0], {"gamma": (0.0, 0.0, 1.0), "attitude": (0.0, 0.0, 0.0)})
+    run = simulate(scene, (0.3, 0.1, 1.0), [3.0, 9.0],
+                   {"gamma": (0.0, 0.0, 1.0), "attitude": (0.0, 0.0, 0.0)})
     for gamma, (psi, phi, theta) in zip(run.state["gamma"], run.state["angles"]):
         third = [to_space(quaternion(psi, phi, theta), e)[2] for e in np.eye(3)]
         np.testing.assert_allclose(gamma, third, atol=1e-13)
@@ -130,16 +145,20 @@ def test_a_stiff_liquid_is_followed_by_an_implicit_method_that_says_so():
     run = simulate(scene, (1.0, 0.5, 1.0), [2e5])
     assert run.method == "Radau" and "stiff" in run.reason
     momentum = np.linalg.norm(np.array([9.51, 9.3, 9]) * run.state["omega"][0])
-    assert momentum == pytest.approx(np.linalg.norm([9.51, 4.65, 9.0]), rel=1e-6)  # |H| is constant without rotor (theory)
+    # |H| is constant without rotor (theory)
+    assert momentum == pytest.approx(np.linalg.norm([9.51, 4.65, 9.0]), rel=1e-6)
 
 
 def test_a_stiff_scene_with_an_attitude_is_left_to_the_series_where_the_turn_costs_the_implicit_method_more():
     """Measured: 40 Radau steps a radian at 0.25 ms against 0.8 Taylor steps a decay at 0.02 ms."""
     from stabilab.answers.simulate import _chosen
     from stabilab.physics.states import start_of
-    scene = Scene(Body(("9.51", "9.3", 9)), make("liquid_cavity", 1250, "0.01", "1.9"), Gyrostat((0, 0, "0.1")))
-    for omega, blocks, method in (((1, 0.5, 1), {}, "Radau"), ((1, 0.5, 1), {"attitude": (0, 0, 0)}, "taylor"),
-                                  ((1000, 500, 1000), {"gamma": (0, 0, 1)}, "Radau")):  # the decay grows as omega^2
+    scene = Scene(Body(("9.51", "9.3", 9)), make("liquid_cavity", 1250, "0.01", "1.9"),
+                  Gyrostat((0, 0, "0.1")))
+    for omega, blocks, method in (((1, 0.5, 1), {}, "Radau"),
+                                  ((1, 0.5, 1), {"attitude": (0, 0, 0)}, "taylor"),
+                                  # the decay grows as omega^2
+                                  ((1000, 500, 1000), {"gamma": (0, 0, 1)}, "Radau")):
         assert _chosen(scene, start_of(scene, omega, blocks), np.array([2e4]), None, None)[0] == method
 
 

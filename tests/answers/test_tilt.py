@@ -1,4 +1,5 @@
-"""What a tilt of the torque does to a bounded motion: bounds and times against brute force in long doubles, which shares no code."""
+"""What a tilt of the torque does to a bounded motion: bounds and times against brute force in long doubles,
+which shares no code."""
 from __future__ import annotations
 
 import json
@@ -35,11 +36,13 @@ angular_velocity = [0.10, 0.05, 0.02]
 def true_time(scene, torque, state, rate, t_max):
     """Of |omega| = rate, by the oracle."""
     limit = np.ones(3), np.zeros(3), REAL(rate) ** 2
-    return first_crossing(scene.body.inertia, np.array(scene.vector("gyrostat"), float), torque, state, limit, t_max)
+    return first_crossing(scene.body.inertia, np.array(scene.vector("gyrostat"), float), torque, state, limit,
+                          t_max)
 
 
 def bounded_motion(rng):
-    """(scene, state, size of the torque) of a bounded motion under a torque on the major or the minor axis."""
+    """(scene, state, size of the torque) of a bounded motion under a torque on the major or the minor axis.
+    """
     while True:
         moments = rng.dirichlet((1.0, 1.0, 1.0)) + 0.02
         D, axis = moments.sum() - moments, 0
@@ -48,18 +51,21 @@ def bounded_motion(rng):
         wheel[axis] = 0
         torque = np.eye(3)[axis] * rng.choice([-1, 1]) * rng.choice([0.1, 1.0])
         state = rng.normal(size=3)
-        scene = package.Scene(package.Body(tuple(D)), package.Gyrostat(tuple(wheel)), package.ConstantTorque(tuple(torque)))
+        scene = package.Scene(package.Body(tuple(D)), package.Gyrostat(tuple(wheel)),
+                              package.ConstantTorque(tuple(torque)))
         if package.Fate(package.fate(scene, state).labels).word == "bounded":
             return scene, state, torque
 
 
 def held(rng):
-    """Whether a bound that says something is kept by a random torque of its cone; the bound over the time found."""
+    """Whether a bound that says something is kept by a random torque of its cone; the bound over the time
+    found."""
     scene, state, torque = bounded_motion(rng)
     angle = rng.choice([0.003, 0.03, 0.2])
     rate = float(np.linalg.norm(np.abs(package.extremes(scene, state)).max(axis=-1)) * rng.uniform(1.1, 3))
     size, axis = np.abs(torque).max(), int(np.argmax(np.abs(torque)))
-    bound = stays_below(scene, state, rate, size * math.sin(angle), tuple(sorted((torque[axis], torque[axis] * math.cos(angle)))))
+    bound = stays_below(scene, state, rate, size * math.sin(angle),
+                        tuple(sorted((torque[axis], torque[axis] * math.cos(angle)))))
     tilted, azimuth = angle * rng.choice([1.0, 1.0, 0.5]), rng.uniform(0, 2 * math.pi)
     across = [n for n in range(3) if n != axis]
     actual = torque * math.cos(tilted)
@@ -86,7 +92,8 @@ def test_no_torque_of_many_cones_reaches_the_limit_before_the_bound():
 
 
 def test_the_bound_grows_as_one_over_the_tilt():
-    bounds = [stays_below(ON_AXIS, STATE, 2.0, 0.02 * math.sin(a), (0.02 * math.cos(a), 0.02)) for a in (1e-4, 1e-3, 1e-2)]
+    bounds = [stays_below(ON_AXIS, STATE, 2.0, 0.02 * math.sin(a), (0.02 * math.cos(a), 0.02))
+              for a in (1e-4, 1e-3, 1e-2)]
     assert np.allclose(np.array(bounds) * [1e-4, 1e-3, 1e-2] / bounds[0] / 1e-4, 1, rtol=0.05)
 
 
@@ -116,33 +123,40 @@ finally:
 
 
 def test_a_first_answer_compiles_no_kernel_and_few_integrators(tmp_path):
-    """The README's first command. Validated steps take ten seconds to compile; an integrator a fifth of one, so all azimuths share it: one for the
-    torques with three components, one for those with two, one of another tolerance for the error."""
+    """The README's first command. Validated steps take ten seconds to compile; an integrator a fifth of one,
+    so all azimuths share it: one for the torques with three components, one for those with two, one of
+    another tolerance for the error."""
     (tmp_path / "my.toml").write_text(CASE)
-    run = subprocess.run([sys.executable, "-c", FIRST, "fate", "my.toml", "--tilt", "1 deg"], capture_output=True, text=True, cwd=tmp_path,
+    run = subprocess.run([sys.executable, "-c", FIRST, "fate", "my.toml", "--tilt", "1 deg"],
+                         capture_output=True, text=True, cwd=tmp_path,
                          env=os.environ | {"PYTHONPATH": str(CASES.parent)})
     *answer, counts = run.stdout.splitlines()
     kernels, integrators = json.loads(counts)
-    assert "tilted by 1 deg it reaches 18.04 deg/s after 108.4 min (run)" in answer[0] and kernels == 0 and integrators <= 3
+    assert "tilted by 1 deg it reaches 18.04 deg/s after 108.4 min (run)" in answer[
+        0] and kernels == 0 and integrators <= 3
 
 
 def test_one_azimuth_is_followed_where_runs_end_before_the_limit_can_be_reached(monkeypatch):
     """By a count of the runs; far beyond the steps of a run, no azimuth shows more than the bound does."""
     runs, once = [], run_once
-    monkeypatch.setattr("stabilab.answers.tilt.run_once", lambda *given, **more: runs.append(given) or once(*given, **more))
+    monkeypatch.setattr("stabilab.answers.tilt.run_once", lambda *given,
+                        **more: runs.append(given) or once(*given, **more))
     weak = package.Scene(BODY, WHEEL, package.ConstantTorque((0, 0, 2e-5)))
     found = tilt(weak, STATE, math.radians(0.01), rate=2)
-    assert not found.ends and found.followed < found.not_before and len(runs) == len(found.azimuths) == len(found.times) == 1
+    assert not found.ends and found.followed < found.not_before and len(runs) == len(found.azimuths) == len(
+        found.times) == 1
     assert len(tilt(ON_AXIS, STATE, math.radians(1), rate=2).times) == len(runs) - 1 > 12
 
 
 def test_a_limit_that_the_bounded_motion_reaches_by_itself_is_told_so():
     found = tilt(ON_AXIS, STATE, rate="0.13")
-    assert found.untilted[0] == package.time_to(ON_AXIS, STATE, rate="0.13").low and found.not_before <= found.untilted[0]
+    assert found.untilted[0] == package.time_to(ON_AXIS, STATE,
+                                                rate="0.13").low and found.not_before <= found.untilted[0]
 
 
 @pytest.mark.parametrize("scene, state, words", [
-    (package.Scene(BODY, WHEEL, package.ConstantTorque(("0.001", 0, "0.02"))), STATE, "a torque along one of its principal axes"),
+    (package.Scene(BODY, WHEEL, package.ConstantTorque(("0.001", 0, "0.02"))), STATE,
+     "a torque along one of its principal axes"),
     (ON_AXIS, [0.1, 0.05, 0.9], "not bounded"),
     (package.ScaledGyrostat("0.2", "0.4", (0, 0, 1)), [0.1, 0.2, 0.1], "expected a body"),
 ])
@@ -160,12 +174,17 @@ def test_the_times_of_tilted_torques_in_the_documentation_are_those_of_brute_for
     told = {row[0]: row[1:] for row in _table()}
     angle, column = math.radians(degrees), [0.1, 0.5, 1, 5].index(degrees)
     bound = stays_below(ON_AXIS, STATE, 2, 0.02 * math.sin(angle), (0.02 * math.cos(angle), 0.02))
-    assert float(told["any, not before"][column]) == pytest.approx(bound / 60, abs=0.01) and float(told["any, not before"][column]) <= bound / 60
+    assert float(told["any, not before"][column]) == pytest.approx(bound / 60,
+                                                                   abs=0.01) and float(
+                                                                       told["any, not before"][
+                                                                           column]) <= bound / 60
     proved = 0
     for azimuth in range(0, 360, 30):
         phi = math.radians(azimuth)
-        torque = 0.02 * np.array([math.sin(angle) * math.cos(phi), math.sin(angle) * math.sin(phi), math.cos(angle)])
-        found = package.time_to(package.Scene(BODY, WHEEL, package.ConstantTorque(tuple(torque))), STATE, rate=2)
+        torque = (0.02 * np.array([math.sin(angle) * math.cos(phi), math.sin(angle) * math.sin(phi),
+                                   math.cos(angle)]))
+        found = package.time_to(package.Scene(BODY, WHEEL, package.ConstantTorque(tuple(torque))), STATE,
+                                rate=2)
         assert found.low > bound
         proved += found.level == "proved"
         word = told[f"{azimuth} deg"][column]
@@ -185,7 +204,8 @@ def _table():
     return [[cell.strip() for cell in line.strip("|").split("|")] for line in lines]
 
 
-THRUSTER = craft_file([12.0, 9.0, 5.0], ([0.6, 0.0, 0.25], [0, 1, 0], "0.04 N"), [([1, 0, 0], 0.8)], [0.10, 0.05, 0.02], [0.1, 0.0, 0.25], misalignment="2 deg")
+THRUSTER = craft_file([12.0, 9.0, 5.0], ([0.6, 0.0, 0.25], [0, 1, 0], "0.04 N"), [([1, 0, 0], 0.8)],
+                      [0.10, 0.05, 0.02], [0.1, 0.0, 0.25], misalignment="2 deg")
 
 
 def test_the_cone_of_a_thruster_is_that_of_its_force(tmp_path):
@@ -197,11 +217,13 @@ def test_the_cone_of_a_thruster_is_that_of_its_force(tmp_path):
     assert np.allclose(cone.torque, [0, 0, 0.02]) and cone.words == "the force of A"
     for azimuth in np.linspace(0, 6, 7):
         torque = cone.at(azimuth)
-        # arm x F' = torque has the solutions F' = (torque x arm)/arm^2 + c arm; the one in the cone has |F'| = |F|
+        # arm x F' = torque has the solutions F' = (torque x arm)/arm^2 + c arm; the one in the cone has |F'|
+        # = |F|
         across = np.cross(torque, arm) / (arm @ arm)
         along = math.sqrt(max(0.0, force @ force - across @ across))
         assert abs(torque @ arm) < 1e-17
-        assert min(abs((across + sign * along * arm / 0.5) @ force / (force @ force) - math.cos(math.radians(2))) for sign in (1, -1)) < 1e-12
+        assert min(abs((across + sign * along * arm / 0.5) @ force / (force @ force)
+                       - math.cos(math.radians(2))) for sign in (1, -1)) < 1e-12
         assert math.hypot(*torque[:2]) <= side and low <= torque[2] <= high
 
 
@@ -218,7 +240,10 @@ def test_the_headline_says_what_the_word_bounded_rests_on(stabilab, tmp_path, co
 @pytest.mark.parametrize("command", ["fate", "stuck"])
 def test_the_headline_says_the_longer_of_what_is_proved_and_what_was_followed(stabilab, tmp_path, command):
     """A bound of days was told as "not found within hours" in the first line."""
-    text = CASE.replace("12.0, 9.0, 5.0", "28.5, 28.45, 33.42").replace("[0.8, 0.0, 0.0]", "[0.0145, 0, -0.104]").replace("[0.0, 0.0, 0.02]", "[0, -0.0136, 0]")
+    text = CASE.replace("12.0, 9.0, 5.0",
+                        "28.5, 28.45, 33.42").replace("[0.8, 0.0, 0.0]",
+                                                      "[0.0145, 0, -0.104]").replace("[0.0, 0.0, 0.02]",
+                                                                                     "[0, -0.0136, 0]")
     path = tmp_path / "near.toml"
     path.write_text(text.replace("[0.10, 0.05, 0.02]", "[0.789, -3.57, -2.77]") + "[limits]\nrate = 11.75\n")
     answer = json.loads(stabilab(command, path, "--json")[1])
@@ -236,10 +261,12 @@ def test_a_stated_limit_or_misalignment_brings_the_tilt_by_itself(stabilab, tmp_
     code, out, _ = stabilab("fate", path)
     assert code == 0 and "BOUNDED only while the torque is exactly along z (minor axis): tilted by 1 deg it reaches 114.6 deg/s after 1" in out.splitlines()[0]
     row = json.loads(stabilab("fate", path, "--json")[1])[0]["tilt"]
-    assert row["limit"] == 2 and row["limit_stated"] and row["time"][0] <= row["time"][1] and 0 < row["not_before"] < row["time"][0]
+    assert row["limit"] == 2 and row["limit_stated"] and row["time"][0] <= row["time"][1] and 0 < row[
+        "not_before"] < row["time"][0]
     path.write_text(THRUSTER)
     out = stabilab("fate", path)[1]
-    assert "BOUNDED only while" in out.splitlines()[0] and "tilted by 2 deg: the force of A" in out and "no limit is stated" in out
+    assert "BOUNDED only while" in out.splitlines()[
+        0] and "tilted by 2 deg: the force of A" in out and "no limit is stated" in out
 
 
 def test_a_tilt_may_be_asked_for(stabilab, tmp_path):
@@ -251,8 +278,10 @@ def test_a_tilt_may_be_asked_for(stabilab, tmp_path):
 
 
 def test_a_steady_rotation_is_not_told_to_be_at_rest():
-    """M = omega x (D omega + l) with omega = (1, 2, 3), l = (0, 0, 7), D = (3, 2, 1.5), by hand; a cone of no width."""
-    scene = package.Scene(package.Body((3, 2, "1.5")), package.Gyrostat((0, 0, 7)), package.ConstantTorque((11, "-2.5", -2)))
+    """M = omega x (D omega + l) with omega = (1, 2, 3), l = (0, 0, 7), D = (3, 2, 1.5), by hand; a cone of no
+    width."""
+    scene = package.Scene(package.Body((3, 2, "1.5")), package.Gyrostat((0, 0, 7)),
+                          package.ConstantTorque((11, "-2.5", -2)))
     found = spread(scene, (1.0, 2.0, 3.0), Cone(np.array([11, -2.5, -2]), (), "the torque", 0.0), None)
     assert found.fates == (("stays as it is", 13),)
 
@@ -260,7 +289,8 @@ def test_a_steady_rotation_is_not_told_to_be_at_rest():
 @pytest.mark.parametrize("torque", [[0.0, 0.0, 0.02], [0.001, 0.0, 0.02]])
 def test_rates_whose_squares_are_no_doubles_are_answered_in_words(stabilab, tmp_path, torque):
     path = tmp_path / "fast.toml"
-    path.write_text(CASE.replace("[0.0, 0.0, 0.02]", str(torque)).replace("[0.10, 0.05, 0.02]", "[1e160, 2e159, 1e158]"))
+    path.write_text(CASE.replace("[0.0, 0.0, 0.02]",
+                                 str(torque)).replace("[0.10, 0.05, 0.02]", "[1e160, 2e159, 1e158]"))
     code, out, err = stabilab("fate", path, "--tilt", "1 deg")
     assert code == 0 and "not looked at with rates whose squares are no doubles" in out and "Warning" not in err
     code, out, _ = stabilab("when", path, "--rate", "3e160 rad/s")

@@ -1,4 +1,5 @@
-"""Whatever stands in a case file: it is a case, or an error that names file and line; nothing in it is ever run."""
+"""Whatever stands in a case file: it is a case, or an error that names file and line; nothing in it is ever
+run."""
 import ast
 import csv
 import os
@@ -35,7 +36,8 @@ def test_a_mutated_case_is_a_case_or_names_its_faults(tmp_path_factory, raw):
     judged(raw, tmp_path_factory.getbasetemp() / "mutated.toml")
 
 
-# -- what fuzzing found ------------------------------------------------------------------------------------------------
+# -- what fuzzing found
+# ------------------------------------------------------------------------------------------------
 
 BODY = "[body]\ninertia = [3, 2, 1]\n"
 
@@ -51,7 +53,9 @@ def judge(tmp_path):
 
 def test_a_long_number_with_a_wrong_letter_is_refused_at_once(judge):
     """A pattern that could match digits in many ways tried them all: 2^50 of them."""
-    (message,) = judge(BODY + f'[motion]\nx = [0, 0, "{"1234567890" * 30}b1"]\n[effects.constant_torque]\nmu = [0, 0, 1]\n')
+    (message,) = judge(BODY
+                       + f'[motion]\nx = [0, 0, "{"1234567890" * 30}b1"]\n[effects.constant_torque]\nmu = '
+                         f'[0, 0, 1]\n')
     assert "expected a decimal or a ratio" in message
 
 
@@ -61,7 +65,8 @@ def test_a_ratio_may_have_any_blank_in_it(judge, number):
     assert one.scene.exact_ab == (Fraction(1, 2), 1)
 
 
-@pytest.mark.parametrize("number", ["١", "１", "1\\u00a0/2", "1__0", "1_", "_1", "1e", ".", "0x1", "1e12345", "", " "])
+@pytest.mark.parametrize("number",
+                         ["١", "１", "1\\u00a0/2", "1__0", "1_", "_1", "1e", ".", "0x1", "1e12345", "", " "])
 def test_what_only_looks_like_a_number_is_refused(judge, number):
     (message,) = judge(f'[scaled]\na = "{number}"\nb = 1\nmu = [0, 0, 1]\n')
     assert "expected a decimal or a ratio" in message
@@ -70,7 +75,8 @@ def test_what_only_looks_like_a_number_is_refused(judge, number):
 @pytest.mark.parametrize("text, words", [
     ('[scaled]\na = "\\u001b[31m\\u0007"\nb = 1\nmu = [0, 0, 1]\n', "\\x1b[31m\\x07"),
     (BODY + '"\\u202e" = 1\n', "unknown key"), ('title = "\\u001b[2J"\n' + BODY, "U+001B"),
-    ('source = "a\\u202eb"\n' + BODY, "U+202E"), (BODY + '[effects]\n"a\\nb.toml:1: forged" = 1\n', "unknown effect")])
+    ('source = "a\\u202eb"\n' + BODY, "U+202E"),
+    (BODY + '[effects]\n"a\\nb.toml:1: forged" = 1\n', "unknown effect")])
 def test_no_file_sends_escape_codes_or_forges_a_line(judge, text, words):
     """`judged` looks at every character of the message."""
     (message,) = judge(text)
@@ -93,24 +99,32 @@ def test_one_case_of_a_sweep_file_makes_no_combinations(tmp_path, monkeypatch):
     assert load(path).scene.body.exact == (3, 2, 1)
 
 
-# -- nothing of a case file is ever run --------------------------------------------------------------------------------
+# -- nothing of a case file is ever run
+# --------------------------------------------------------------------------------
 
 SOURCES = sorted((Path(stabilab_package.__file__).parent).rglob("*.py"))
-RUNNING = {"eval", "exec", "compile", "__import__", "execfile", "breakpoint"}  # builtins that turn text into code
-UNPACKING = {"pickle", "cPickle", "_pickle", "dill", "cloudpickle", "joblib", "marshal", "shelve", "jsonpickle", "yaml"}
-EXPRESSIONS = {"sympify", "parse_expr", "parse_latex", "parse_mathematica", "S", "lambdify", "literal_eval", "from_string"}
-# The formulas of the papers are texts of the package itself; lambdify gets expressions that the program built.
+# builtins that turn text into code
+RUNNING = {"eval", "exec", "compile", "__import__", "execfile", "breakpoint"}
+UNPACKING = {"pickle", "cPickle", "_pickle", "dill", "cloudpickle", "joblib", "marshal", "shelve",
+             "jsonpickle", "yaml"}
+EXPRESSIONS = {"sympify", "parse_expr", "parse_latex", "parse_mathematica", "S", "lambdify", "literal_eval",
+               "from_string"}
+# The formulas of the papers are texts of the package itself; lambdify gets expressions that the program
+# built.
 ALLOWED = {("papers/audit/special/constant_torque.py", "sympify"), ("physics/to_numpy.py", "lambdify"),
            ("theories/cavity/averaged.py", "lambdify")}
-OWN_OBJECTS = {("show/report/workers.py", "pickle")}  # between the processes of one report, in a folder that the first has just made
+# between the processes of one report, in a folder that the first has just made
+OWN_OBJECTS = {("show/report/workers.py", "pickle")}
 
 
 def called(tree):
-    """(name, line) of every function called by its own or by its last name; methods of the program's own objects count too."""
+    """(name, line) of every function called by its own or by its last name; methods of the program's own
+    objects count too."""
     for node in ast.walk(tree):
         if isinstance(node, ast.Call):
             function = node.func
-            name = function.id if isinstance(function, ast.Name) else function.attr if isinstance(function, ast.Attribute) else ""
+            name = (function.id if isinstance(function, ast.Name)
+                    else function.attr if isinstance(function, ast.Attribute) else "")
             yield name, isinstance(function, ast.Name), node
 
 
@@ -122,11 +136,15 @@ def dangers(path, tree):
         if any(k.arg == "allow_pickle" and getattr(k.value, "value", None) is not False or
                k.arg == "shell" and getattr(k.value, "value", None) is not False for k in node.keywords):
             found.append((name, node.lineno))
-        if name == "load" and isinstance(node.func, ast.Attribute) and getattr(node.func.value, "id", "") in ("np", "numpy"):
+        if name == "load" and isinstance(node.func,
+                                         ast.Attribute) and getattr(node.func.value, "id",
+                                                                    "") in ("np", "numpy"):
             found.append(("numpy.load", node.lineno))
     for node in ast.walk(tree):
-        names = [a.name for a in node.names] if isinstance(node, ast.Import) else [node.module or ""] if isinstance(node, ast.ImportFrom) else []
-        found += [(name, node.lineno) for name in names if name.split(".")[0] in UNPACKING and (path, name) not in OWN_OBJECTS]
+        names = ([a.name for a in node.names] if isinstance(node, ast.Import) else [node.module or ""]
+                 if isinstance(node, ast.ImportFrom) else [])
+        found += [(name, node.lineno) for name in names if name.split(".")[0] in UNPACKING
+                  and (path, name) not in OWN_OBJECTS]
     return found
 
 
@@ -137,19 +155,22 @@ def test_no_module_turns_text_into_code_or_objects():
 
 
 def test_the_search_for_dangers_finds_each_of_them():
-    text = ("import pickle\nfrom joblib import load\neval(x)\nexec(x)\nsp.sympify(x)\nnp.load(x)\nf(x, allow_pickle=True)\n"
+    text = ("import pickle\nfrom joblib import load\neval(x)\nexec(x)\nsp.sympify(x)\nnp.load(x)\nf(x, "
+            "allow_pickle=True)\n"
             "subprocess.run(x, shell=True)\nroot.eval(x)\nre.compile(x)\n")
     assert sorted(line for _, line in dangers("case.py", ast.parse(text))) == [1, 2, 3, 4, 5, 6, 7, 8]
 
 
-@pytest.mark.parametrize("text", ["__import__('os').mkdir('made')", "2*pi", "sqrt(2)", "9**9**9", "lambda: 0", "1 + 1", "(1)", "1;2", "1 if 1 else 2"])
+@pytest.mark.parametrize("text", ["__import__('os').mkdir('made')", "2*pi", "sqrt(2)", "9**9**9", "lambda: 0",
+                                  "1 + 1", "(1)", "1;2", "1 if 1 else 2"])
 def test_an_expression_in_a_case_file_is_refused_not_run(judge, tmp_path, monkeypatch, text):
     monkeypatch.chdir(tmp_path)
     (message,) = judge(f'[scaled]\na = "{text}"\nb = 1\nmu = [0, 0, 1]\n')
     assert "expected a decimal or a ratio" in message and not (tmp_path / "made").exists()
 
 
-# -- files that are none -----------------------------------------------------------------------------------------------
+# -- files that are none
+# -----------------------------------------------------------------------------------------------
 
 
 def refused(stabilab, *arguments):
@@ -159,7 +180,8 @@ def refused(stabilab, *arguments):
 
 
 @pytest.mark.one_in(3)
-@pytest.mark.parametrize("command", ["classify", "extremes", "show", "simulate", "plot", "precision", "compare", "surface", "report"])
+@pytest.mark.parametrize("command", ["classify", "extremes", "show", "simulate", "plot", "precision",
+                                     "compare", "surface", "report"])
 def test_every_command_refuses_what_is_no_file_with_2(stabilab, tmp_path, monkeypatch, command):
     monkeypatch.chdir(tmp_path)
     where = ["--out", "made"] if command in ("surface", "report") else []
@@ -185,13 +207,16 @@ def test_a_file_that_may_not_be_read_or_vanishes_is_refused(tmp_path, monkeypatc
             raise failures[-1]
         return real(file, *rest, **named)
     monkeypatch.setattr("builtins.open", failing)
-    for failure, words in ((PermissionError(13, "Permission denied"), "Permission denied"), (OSError(5, "Input/output error"), "Input/output"),
-                           (FileNotFoundError(2, "No such file"), "no such file")):  # it vanished after it was looked at
+    for failure, words in ((PermissionError(13, "Permission denied"), "Permission denied"),
+                           (OSError(5, "Input/output error"), "Input/output"),
+                           # it vanished after it was looked at
+                           (FileNotFoundError(2, "No such file"), "no such file")):
         failures.append(failure)
         assert words in refused(stabilab, "classify", path)
 
 
-@pytest.mark.parametrize("name", ["it's & <b> $x_1$ %.toml", "naïve Ω.toml", "new\nline.toml", "esc\x1b[31m.toml", "-.toml"])
+@pytest.mark.parametrize("name", ["it's & <b> $x_1$ %.toml", "naïve Ω.toml", "new\nline.toml",
+                                  "esc\x1b[31m.toml", "-.toml"])
 def test_any_file_name_is_answered(stabilab, tmp_path, monkeypatch, name):
     monkeypatch.chdir(tmp_path)
     Path(name).write_text(BODY)
@@ -212,12 +237,15 @@ def test_a_file_name_that_is_not_utf8_is_refused(stabilab, tmp_path, monkeypatch
 
 def test_output_that_takes_ascii_only_is_no_fault(tmp_path):
     (tmp_path / "my.toml").write_text('title = "Ω → ω"\n' + BODY, encoding="utf-8")
-    run = subprocess.run([sys.executable, "-m", "stabilab", "classify", tmp_path / "my.toml"], capture_output=True,
+    run = subprocess.run([sys.executable, "-m", "stabilab", "classify", tmp_path / "my.toml"],
+                         capture_output=True,
                          env=os.environ | {"PYTHONIOENCODING": "ascii"})
-    assert run.returncode == OK and rb"Omega \u2192 omega" in run.stdout, run.stderr  # letters that have a name are named, others escaped
+    # letters that have a name are named, others escaped
+    assert run.returncode == OK and rb"Omega \u2192 omega" in run.stdout, run.stderr
 
 
-# -- pages and documents -----------------------------------------------------------------------------------------------
+# -- pages and documents
+# -----------------------------------------------------------------------------------------------
 
 HOSTILE = "<script>alert(1)</script> & \\\\input{/etc/passwd} $x_1$ %d {{ 7*7 }} \\\"q\\\" # ~ ^"
 
@@ -227,9 +255,11 @@ def test_latex_of_a_hostile_title_is_text():
     words = HOSTILE.replace("\\\\", "\\").replace('\\"', '"')
     one = Table(9, words, words, (words, "b"), ((words, 1.0), ("=1+1", None)))
     tex = latex(one)
-    bare = re.sub(r"\\(textbackslash|textasciitilde|textasciicircum)\{\}|\\[&%$#_{}]|\$[<>|]\$", "", tex)  # what was escaped
+    # what was escaped
+    bare = re.sub(r"\\(textbackslash|textasciitilde|textasciicircum)\{\}|\\[&%$#_{}]|\$[<>|]\$", "", tex)
     body = bare.split(r"\midrule")[1].split(r"\bottomrule")[0]
-    assert r"\input" not in tex and "<" not in body and body.count("&") == 2 and not set("%$#_{}~^") & set(body)
+    assert r"\input" not in tex and "<" not in body and body.count("&") == 2 and not set("%$#_{}~^") & set(
+        body)
     assert "<script>" not in html_page(one) and "&lt;script&gt;" in html_page(one)
     assert all(line.count(" | ") == 1 for line in markdown(one).splitlines() if line.startswith("| "))
     assert next(csv.reader(comma_separated(one).splitlines()))[0] == words
@@ -240,47 +270,69 @@ def test_a_hostile_title_is_text_in_every_output_of_a_case(stabilab, tmp_path, m
     """Text, JSON, pictures (no mathematics is set in titles) and meshes; the report has its own test."""
     monkeypatch.chdir(tmp_path)
     text = next(p for p in CASES if p.stem == "minor-axis-100").read_text(encoding="utf-8")
-    Path("my.toml").write_text(re.sub(r"(?m)^(title|source) = .*$", lambda m: f'{m[1]} = "{HOSTILE}"', text), encoding="utf-8")
-    for arguments in (["classify", "my.toml"], ["classify", "my.toml", "--json"], ["show", "my.toml"], ["plot", "my.toml"],
-                      ["simulate", "my.toml", "--at", "0,1", "--out", "my.nc"], ["simulate", "my.toml", "--at", "0,1", "--out", "my.csv"]):
+    Path("my.toml").write_text(re.sub(r"(?m)^(title|source) = .*$", lambda m: f'{m[1]} = "{HOSTILE}"', text),
+                               encoding="utf-8")
+    for arguments in (["classify", "my.toml"], ["classify", "my.toml", "--json"], ["show", "my.toml"],
+                      ["plot", "my.toml"],
+                      ["simulate", "my.toml", "--at", "0,1", "--out", "my.nc"],
+                      ["simulate", "my.toml", "--at", "0,1", "--out", "my.csv"]):
         code, out, err = stabilab(*arguments)
         assert code == OK, err
     assert "<script>" not in Path("my.csv").read_text()
 
 
 @pytest.mark.parametrize("command", ["classify", "extremes", "fate", "period"])
-def test_what_the_analysis_refuses_is_an_error_of_the_file_and_its_line(stabilab, tmp_path, monkeypatch, command):
+def test_what_the_analysis_refuses_is_an_error_of_the_file_and_its_line(stabilab, tmp_path, monkeypatch,
+                                                                        command):
     monkeypatch.chdir(tmp_path)
-    Path("fast.toml").write_text("[body]\ninertia = [2000, 1500, 1000]\n[effects.gyrostat]\nmomentum = [100, 0, 0]\n"
-                                 "[effects.constant_torque]\ntorque = [-1, 0, 0]\n[motion]\nangular_velocity = [1e160, 2e160, 1]\n", encoding="utf-8")
+    Path("fast.toml").write_text("[body]\ninertia = [2000, 1500, 1000]\n[effects.gyrostat]\nmomentum = [100, "
+                                 "0, 0]\n"
+                                 "[effects.constant_torque]\ntorque = [-1, 0, 0]\n[motion]\nangular_velocity "
+                                 "= [1e160, 2e160, 1]\n", encoding="utf-8")
     code, out, err = stabilab(command, "fast.toml")
     assert code == BAD_INPUT and not out
     assert err.startswith("fast.toml:8: motion.angular_velocity: ") and "largest double" in err
 
 
-SCENE, OFF = stabilab_package.ScaledGyrostat("0.2", "0.4", (0, 0, 1)), stabilab_package.ScaledGyrostat("0.2", "0.4", (1, 1, 1))
+SCENE, OFF = stabilab_package.ScaledGyrostat("0.2", "0.4",
+                                             (0, 0, 1)), stabilab_package.ScaledGyrostat("0.2", "0.4",
+                                                                                         (1, 1, 1))
 STATE = [0.1, 0.05, 0.02]
-ASKED = {name: lambda scene=SCENE, states=STATE, name=name, **more: getattr(stabilab_package, name)(scene, states, **more)
+ASKED = {name: lambda scene=SCENE, states=STATE, name=name,
+         **more: getattr(stabilab_package, name)(scene, states, **more)
          for name in ("fate", "motion", "extremes", "period", "spin_up")}
-ASKED["trajectory"] = lambda scene=SCENE, states=STATE, times=(0, 1): stabilab_package.trajectory(scene, states, times)
-ASKED["ensemble"] = lambda scene=SCENE, states=STATE, times=(0, 1): stabilab_package.ensemble(scene, [states], times)
-ASKED |= {name: lambda scene=SCENE, name=name: getattr(stabilab_package, name)(scene) for name in ("equilibria", "separatrix", "derive")}
+ASKED["trajectory"] = lambda scene=SCENE, states=STATE, times=(0,
+                                                               1): stabilab_package.trajectory(scene, states,
+                                                                                               times)
+ASKED["ensemble"] = lambda scene=SCENE, states=STATE, times=(0,
+                                                             1): stabilab_package.ensemble(scene, [states],
+                                                                                           times)
+ASKED |= {name: lambda scene=SCENE, name=name: getattr(stabilab_package, name)(scene)
+          for name in ("equilibria", "separatrix", "derive")}
 WITH_STATES = ("fate", "motion", "extremes", "period", "spin_up", "trajectory", "ensemble")
 NO_SCENES = ("x", None, 3, [1, 2], object())
-NO_STATES = (None, "abc", ["a", "b", "c"], [[1, 2, 3], [1, 2]], [1j, 0, 0], np.array([1 + 0j, 2, 3]), [np.nan, 0, 0], [np.inf, 0, 0], [1, 2], {}, [None] * 3)
-WRONG = [*((name, {"scene": bad}) for name in ASKED for bad in NO_SCENES), *((name, {"states": bad}) for name in WITH_STATES for bad in NO_STATES),
-         *((name, {"digits": bad}) for name in ("fate", "extremes", "period") for bad in (0, 51, -1, 2.5, "x", True, [1])),
-         *((name, {"scene": OFF, "span": bad}) for name in ("extremes", "motion") for bad in ("x", np.nan, np.inf, [1], (1, 2, 3), object())),
-         *((name, {"times": bad}) for name in ("trajectory", "ensemble") for bad in (None, "x", [np.nan], [[1]], [2, 1, 3], [1j]))]
+NO_STATES = (None, "abc", ["a", "b", "c"], [[1, 2, 3], [1, 2]], [1j, 0, 0], np.array([1 + 0j, 2, 3]),
+             [np.nan, 0, 0], [np.inf, 0, 0], [1, 2], {}, [None] * 3)
+WRONG = [*((name, {"scene": bad}) for name in ASKED for bad in NO_SCENES),
+         *((name, {"states": bad}) for name in WITH_STATES for bad in NO_STATES),
+         *((name, {"digits": bad}) for name in ("fate", "extremes", "period")
+           for bad in (0, 51, -1, 2.5, "x", True, [1])),
+         *((name, {"scene": OFF, "span": bad}) for name in ("extremes", "motion")
+           for bad in ("x", np.nan, np.inf, [1], (1, 2, 3), object())),
+         *((name, {"times": bad}) for name in ("trajectory", "ensemble")
+           for bad in (None, "x", [np.nan], [[1]], [2, 1, 3], [1j]))]
 
 
-@pytest.mark.parametrize("name, wrong", WRONG, ids=[f"{n}-{name}" for n, (name, _) in enumerate(WRONG)])  # the same in every process
+@pytest.mark.parametrize("name, wrong", WRONG,
+                         # the same in every process
+                         ids=[f"{n}-{name}" for n, (name, _) in enumerate(WRONG)])
 def test_every_public_function_tells_a_wrong_argument_in_words(name, wrong):
     with pytest.raises(InputError):
         ASKED[name](**wrong)
 
 
-@pytest.mark.parametrize("wrong", [lambda: stabilab_package.load(None), lambda: stabilab_package.Scene(None), lambda: stabilab_package.Scene("x"),
+@pytest.mark.parametrize("wrong", [lambda: stabilab_package.load(None), lambda: stabilab_package.Scene(None),
+                                   lambda: stabilab_package.Scene("x"),
                                    lambda: stabilab_package.Scene(stabilab_package.Body((3, 2, 1)), 5)])
 def test_a_case_or_scene_made_of_something_else_is_told_in_words(wrong):
     with pytest.raises(InputError):

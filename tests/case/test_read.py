@@ -27,7 +27,8 @@ def test_every_case_of_the_repository_loads_and_says_what_it_is(path):
 
 
 def test_scaled_case_has_the_papers_a_and_b(case):
-    # Amer et al. 2024, eq. (2) with D = (2000, 1500, 1000), u = 1: k1 = 1/4, a = lambda1/500, b = lambda1/250, by hand.
+    # Amer et al. 2024, eq. (2) with D = (2000, 1500, 1000), u = 1: k1 = 1/4, a = lambda1/500, b =
+    # lambda1/250, by hand.
     read = case(BODY + WHEEL + MU + "[motion]\nx = [2.5, 4.0, 0.1]\ntau = [0.0, 15.0]\n")
     assert read.variables == "scaled" and read.scene.exact_ab == (Fraction(1, 5), Fraction(2, 5))
     assert read.scene.exact_mu == (0, 0, 1) and read.state == (2.5, 4.0, 0.1) and read.span == (0.0, 15.0)
@@ -38,7 +39,8 @@ def test_scaled_case_has_the_papers_a_and_b(case):
 def test_written_decimals_are_exact_in_the_scene():
     for path in CASES:
         if path.stem == "off-axis-two":
-            assert load(path).scene.vector("constant_torque") == (Fraction(1, 10), Fraction(1, 5), Fraction(1, 10))
+            assert load(path).scene.vector("constant_torque") == (Fraction(1, 10), Fraction(1, 5),
+                                                                  Fraction(1, 10))
 
 
 def test_numbers_may_be_exact_strings(case):
@@ -74,14 +76,17 @@ def test_span_is_converted_between_seconds_and_tau(case):
 
 FAULTS = [
     # text, line, key, words of the message
-    (BODY + "[effects.gyrostatt]\nmomentum = [1, 0, 0]\n", 3, "effects.gyrostatt", "did you mean gyrostat? Known effects: gyrostat, constant_torque"),
+    (BODY + "[effects.gyrostatt]\nmomentum = [1, 0, 0]\n", 3, "effects.gyrostatt",
+     "did you mean gyrostat? Known effects: gyrostat, constant_torque"),
     (BODY + "angular_velocity = [0, 1, 0]\n", 3, "body.angular_velocity", "it is written in [motion]"),
     (BODY + "[start]\nangular_velocity = [0, 1, 0]\n", 3, "start", "it is written in [motion]"),
     (BODY + "[effects.magnet]\nfield = 1\n", 3, "effects.magnet", "here may stand gyrostat, constant_torque"),
-    (BODY + "[effects.gyrostat]\nmomentun = [1, 0, 0]\n", 4, "effects.gyrostat.momentun", "did you mean momentum?"),
+    (BODY + "[effects.gyrostat]\nmomentun = [1, 0, 0]\n", 4, "effects.gyrostat.momentun",
+     "did you mean momentum?"),
     (BODY + "[effects.gyrostat]\n", 3, "effects.gyrostat", "momentum is missing"),
     (BODY + "[effects.constant_torque]\n", 3, "effects.constant_torque", "expected torque"),
-    (BODY + "[effects]\nconstant_torque = 1\n", 4, "effects.constant_torque", "expected a table [effects.constant_torque], got the number 1"),
+    (BODY + "[effects]\nconstant_torque = 1\n", 4, "effects.constant_torque",
+     "expected a table [effects.constant_torque], got the number 1"),
     (BODY + "[effects]\nconstant_torque = [0, 0, 1]\n", 4, "effects.constant_torque", "got a list of 3"),
     ("[effects]\ngyrostat.momentum = [1, 0, 0]\n", None, "", "expected a table [body]"),
     ("[boby]\ninertia = [1, 1, 1]\n" + BODY, 1, "boby", "did you mean body?"),
@@ -89,43 +94,57 @@ FAULTS = [
     ("title = 3\n" + BODY, 1, "title", "expected a text in quotes, got the number 3"),
     ("title = 3.5\n" + BODY, 1, "title", "expected a text in quotes, got the number 3.5"),
     ("[body]\n", 1, "body", "inertia is missing"),
-    ("[body]\ninertia = 5.0\n", 2, "body.inertia", "expected three numbers in square brackets, got the number 5.0"),
+    ("[body]\ninertia = 5.0\n", 2, "body.inertia",
+     "expected three numbers in square brackets, got the number 5.0"),
     (BODY + '[motion]\nangular_velocity = "0.1, -6e-2 , .3 deg/s"\n', 4, "motion.angular_velocity",
      'got the text "0.1, -6e-2 , .3 deg/s"; write ["0.1 deg/s", "-6e-2 deg/s", ".3 deg/s"]'),
-    (BODY + '[motion]\nangular_velocity = "(1 deg/s, 2 rpm, 3 rad/s)"\n', 4, "motion.angular_velocity", '3 rad/s)"; write ["1 deg/s", "2 rpm", "3 rad/s"]'),
-    (BODY + '[motion]\nangular_velocity = [1, 2, 3]\nspan = "20 min"\n', 5, "motion.span", 'got the text "20 min"; write [0, "20 min"]'),
+    (BODY + '[motion]\nangular_velocity = "(1 deg/s, 2 rpm, 3 rad/s)"\n', 4, "motion.angular_velocity",
+     '3 rad/s)"; write ["1 deg/s", "2 rpm", "3 rad/s"]'),
+    (BODY + '[motion]\nangular_velocity = [1, 2, 3]\nspan = "20 min"\n', 5, "motion.span",
+     'got the text "20 min"; write [0, "20 min"]'),
     ("[body]\ninertia = [1, 2]\n", 2, "body.inertia", "expected three numbers, got 2"),
-    ("[body]\ninertia = [1,\n # half\n -2, 2]\n", 4, "body.inertia", "number 2 is -2.0; principal moments are positive"),
+    ("[body]\ninertia = [1,\n # half\n -2, 2]\n", 4, "body.inertia",
+     "number 2 is -2.0; principal moments are positive"),
     ("[body]\ninertia = [1, nan, 1]\n", 2, "body.inertia", "number 2: expected a finite number, got nan"),
     ("[body]\ninertia = [1, 1e400, 1]\n", 2, "body.inertia", "larger than the largest double"),
     ("[body]\ninertia = [1, 1e-400, 1]\n", 2, "body.inertia", "smaller than the smallest double"),
-    ("[body]\ninertia = [1, true, 1]\n", 2, "body.inertia", "number 2: expected a number, got the truth value true"),
+    ("[body]\ninertia = [1, true, 1]\n", 2, "body.inertia",
+     "number 2: expected a number, got the truth value true"),
     ("[body]\ninertia = [1, 1979-05-27, 1]\n", 2, "body.inertia", "got a date or time"),
     ("[body]\ninertia = [1, [1], 1]\n", 2, "body.inertia", "got a list of 1"),
     ('[body]\ninertia = [1, "1/0", 1]\n', 2, "body.inertia", "divides by zero"),
     ('[body]\ninertia = [1, "one", 1]\n', 2, "body.inertia", "expected a decimal or a ratio"),
     ("[body]\ninertia = [1, 0x" + "f" * 6000 + ", 1]\n", 2, "body.inertia", "larger than the largest double"),
     ("[body]\ninertia = [1, 1" + "0" * 6000 + ", 1]\n", 2, "", "more than 4000 digits"),
-    ("[body]\ninertia = [1e-300, 1e-300, 1e-300]\n[effects.constant_torque]\ntorque = [1e300, 0, 0]\n", 1, "body", "exceed the largest double"),
-    (BODY + "[effects.constant_torque]\nmu = [0, 0, 1]\ntorque = [0, 0, 1]\n", 5, "effects.constant_torque.torque", "keep one"),
-    (BODY + "[motion]\nx = [1, 1, 1]\nangular_velocity = [1, 1, 1]\n", 5, "motion.angular_velocity", "keep one"),
+    ("[body]\ninertia = [1e-300, 1e-300, 1e-300]\n[effects.constant_torque]\ntorque = [1e300, 0, 0]\n", 1,
+     "body", "exceed the largest double"),
+    (BODY + "[effects.constant_torque]\nmu = [0, 0, 1]\ntorque = [0, 0, 1]\n", 5,
+     "effects.constant_torque.torque", "keep one"),
+    (BODY + "[motion]\nx = [1, 1, 1]\nangular_velocity = [1, 1, 1]\n", 5, "motion.angular_velocity",
+     "keep one"),
     (BODY + "[motion]\nspan = [0, 1]\ntau = [0, 1]\n", 5, "motion.tau", "keep one"),
-    (BODY + "[motion]\nangular_velocity = [1, 1, 1]\nspan = [1, 1]\n", 5, "motion.span", "expected two increasing numbers"),
-    (BODY + "[motion]\nangular_velocity = [1, 1, 1]\nspan = [0, inf]\n", 5, "motion.span", "finite number, got inf"),
+    (BODY + "[motion]\nangular_velocity = [1, 1, 1]\nspan = [1, 1]\n", 5, "motion.span",
+     "expected two increasing numbers"),
+    (BODY + "[motion]\nangular_velocity = [1, 1, 1]\nspan = [0, inf]\n", 5, "motion.span",
+     "finite number, got inf"),
     (BODY + "[motion]\nx = [1, 1, 1]\n", 4, "motion.x", "undefined without a torque"),
     (BODY + "[motion]\ntau = [1, 2]\n", 4, "motion.tau", "undefined without a torque"),
     ("[body]\ninertia = [1, 1, 1]\n" + MU, 4, "effects.constant_torque.mu", "need D1 > D2 > D3"),
-    (BODY + "[effects.gyrostat]\nmomentum = [0, 1, 0]\n" + MU + "[motion]\nx = [1, 1, 1]\n", 8, "motion.x", "along axis 1"),
+    (BODY + "[effects.gyrostat]\nmomentum = [0, 1, 0]\n" + MU + "[motion]\nx = [1, 1, 1]\n", 8, "motion.x",
+     "along axis 1"),
     ("[scaled]\na = 1\nb = 2\nmu = [0, 0, 1]\n" + BODY, 5, "body", "keep one or the other"),
     ("[scaled]\na = 1\nmu = [0, 0, 1]\n", 1, "scaled", "b is missing"),
-    ("[scaled]\na = 1\nb = 2\nmu = [0, 0, 1]\n[motion]\nangular_velocity = [1, 1, 1]\n", 6, "motion.angular_velocity", "give x"),
-    ("[scaled]\na = 1\nb = 2\nmu = [0, 0, 1]\n[motion]\nx = [1, 1, 1]\nspan = [0, 1]\n", 7, "motion.span", "give tau"),
+    ("[scaled]\na = 1\nb = 2\nmu = [0, 0, 1]\n[motion]\nangular_velocity = [1, 1, 1]\n", 6,
+     "motion.angular_velocity", "give x"),
+    ("[scaled]\na = 1\nb = 2\nmu = [0, 0, 1]\n[motion]\nx = [1, 1, 1]\nspan = [0, 1]\n", 7, "motion.span",
+     "give tau"),
     (BODY + "[expect]\nkind = 'point'\n", 4, "expect.kind", "expected one of none, points, curves, all"),
     (BODY + "[expect]\nfaet = 'bounded'\n", 4, "expect.faet", "did you mean fate?"),
     (BODY + "[expect]\naxis = 4\n", 4, "expect.axis", "whole number from 1 to 3"),
     (BODY + "[expect]\nextremes = [[0, 1]]\n", 4, "expect.extremes", "three pairs"),
     (BODY + "[body]\n", 3, "body", "written a second time; the first is in line 1"),
-    ("[body]\ninertia = [1, 1, 1]\ninertia = [1, 1, 1]\n", 3, "body.inertia", "written a second time; the first is in line 2"),
+    ("[body]\ninertia = [1, 1, 1]\ninertia = [1, 1, 1]\n", 3, "body.inertia",
+     "written a second time; the first is in line 2"),
     ("[body]\ninertia = [1, 1, 1] 3\n", 2, "", "not TOML"),
     ("[body]\ninertia = [1, 1,\n", 3, "", "not TOML"),
     (b"[body]\n# caf\xe9\ninertia = [1, 1, 1]\n", 2, "", "byte 0xe9 is not UTF-8"),
@@ -137,7 +156,8 @@ FAULTS = [
 ]
 
 
-@pytest.mark.parametrize("text, line, key, words", FAULTS, ids=[f"{i}-{f[3][:24]}" for i, f in enumerate(FAULTS)])
+@pytest.mark.parametrize("text, line, key, words", FAULTS,
+                         ids=[f"{i}-{f[3][:24]}" for i, f in enumerate(FAULTS)])
 def test_fault_names_line_key_and_reason(faults, text, line, key, words):
     found = faults(text)
     assert [(l, k) for l, k, message in found if words in message] == [(line, key)], found
@@ -233,8 +253,10 @@ x = 'it''s'
 z = 1979-05-27 07:32:00
 '''
     line = key_lines(text).line
-    wanted = {("quoted.key", "sub"): 2, ("a", "b"): 5, ("a", "b", "c", "d"): 6, ("a", "b", "c", "e", 1, "f"): 6,
-              ("a", "b", "list", 0): 8, ("a", "b", "list", 1, 1): 10, ("rows", 0, "x"): 13, ("rows", 1, "x"): 15}
+    wanted = {("quoted.key", "sub"): 2, ("a", "b"): 5, ("a", "b", "c", "d"): 6,
+              ("a", "b", "c", "e", 1, "f"): 6,
+              ("a", "b", "list", 0): 8, ("a", "b", "list", 1, 1): 10, ("rows", 0, "x"): 13,
+              ("rows", 1, "x"): 15}
     assert {path: line.get(path) for path in wanted} == wanted
     assert not key_lines(text.split("x = 'it")[0]).again
 
@@ -244,16 +266,21 @@ CHARGE = BODY + "[effects.charge]\ncharge = 1\nfield = 1\narm = 1\nangle = {}\n"
 
 @pytest.mark.parametrize("angle", ["0.3", "1.5", "1.6", "2.9", "-2.9", "4.7", "5", "100"])
 def test_strength_of_a_charge_has_the_sign_of_the_cosine(case, angle):
-    assert case(CHARGE.format(angle)).scene.effect("charge").strength == pytest.approx(math.cos(float(angle)), rel=1e-15)
+    assert case(CHARGE.format(angle)).scene.effect("charge").strength == pytest.approx(math.cos(float(angle)),
+                                                                                       rel=1e-15)
 
 
 @pytest.mark.parametrize("text, line, key, words", [
     (CHARGE.format('"atitude"'), 7, "effects.charge.angle", '"attitude", got "atitude"'),
     (CHARGE.format("0.3").replace("= 1\n", "= 1e160\n"), 3, "effects.charge", "largest double"),
-    (BODY + "[effects.newtonian_field]\nlambda = 1e300\nR = 1e-100\n", 3, "effects.newtonian_field", "largest double"),
-    (BODY + "[effects.gravity]\nweight = 1e300\ncentre_of_mass = [0, 0, 1e300]\n", 3, "effects.gravity", "other units"),
-    (BODY.replace("00.0", "e-200") + "[effects.gravity]\nweight = 1e200\ncentre_of_mass = [0, 0, 1]\n", 3, "effects.gravity", "other units"),
-    (BODY + "[effects.liquid_cavity]\ndensity = 1e300\nviscosity = 1e-300\nP0 = 1e30\n", 3, "effects.liquid_cavity", "other units")])
+    (BODY + "[effects.newtonian_field]\nlambda = 1e300\nR = 1e-100\n", 3, "effects.newtonian_field",
+     "largest double"),
+    (BODY + "[effects.gravity]\nweight = 1e300\ncentre_of_mass = [0, 0, 1e300]\n", 3, "effects.gravity",
+     "other units"),
+    (BODY.replace("00.0", "e-200") + "[effects.gravity]\nweight = 1e200\ncentre_of_mass = [0, 0, 1]\n", 3,
+     "effects.gravity", "other units"),
+    (BODY + "[effects.liquid_cavity]\ndensity = 1e300\nviscosity = 1e-300\nP0 = 1e30\n", 3,
+     "effects.liquid_cavity", "other units")])
 def test_numbers_that_are_good_one_by_one_only_are_refused_at_their_effect(faults, text, line, key, words):
     (found,) = faults(text)
     assert found[:2] == (line, key) and words in found[2] and len(found[2]) < 200
@@ -268,17 +295,24 @@ angular_velocity = [0, 0, 1]
 
 
 def test_a_vertical_that_contradicts_the_attitude_is_refused_with_both(faults, case):
-    """psi, phi, theta = 0, atan2(-0.6, 0.8), anything has (0.6, 0, 0.8) as third row of Rz(theta) Rx(psi) Ry(phi), by hand."""
+    """psi, phi, theta = 0, atan2(-0.6, 0.8), anything has (0.6, 0, 0.8) as third row of Rz(theta) Rx(psi)
+    Ry(phi), by hand."""
     (found,) = faults(TILTED + "attitude = [0, 0, 0]\nvertical = [0.6, 0, 0.8]\n")
-    assert found[1] == "motion.vertical" and all(w in found[2] for w in ("contradicts attitude", "[0, 0, 1]", "[0.6, 0, 0.8]"))
+    assert found[1] == "motion.vertical" and all(w in found[2]
+                                                 for w in ("contradicts attitude", "[0, 0, 1]",
+                                                           "[0.6, 0, 0.8]"))
     assert TILTED.count("\n") + 2 == found[0]
-    assert case(TILTED + "attitude = [0, -0.643501108793, 2.5]\nvertical = [0.6, 0, 0.8]\n").blocks["gamma"] == (0.6, 0, 0.8)
-    assert case(TILTED + "attitude = [0, -0.643501, 0]\nvertical = [0.6, 0, 0.8]\n").blocks  # agrees to the decimals given
+    assert case(TILTED
+                + "attitude = [0, -0.643501108793, 2.5]\nvertical = [0.6, 0, 0.8]\n").blocks["gamma"] == (
+                    0.6, 0, 0.8)
+    # agrees to the decimals given
+    assert case(TILTED + "attitude = [0, -0.643501, 0]\nvertical = [0.6, 0, 0.8]\n").blocks
     assert len(faults(TILTED + "attitude = [0, -0.6434, 0]\nvertical = [0.6, 0, 0.8]\n")) == 1
 
 
 def test_an_attitude_left_out_is_asked_for_where_zero_angles_contradict_the_vertical(faults):
-    (found,) = faults(TILTED.replace("inertia", "mass = 1\ninertia") + "vertical = [0.6, 0, 0.8]\nvelocity = [0, 0, 0]\n")
+    (found,) = faults(TILTED.replace("inertia", "mass = 1\ninertia")
+                      + "vertical = [0.6, 0, 0.8]\nvelocity = [0, 0, 0]\n")
     assert found[1] == "motion.vertical" and "attitude = [0, -0.6435011088, 0]" in found[2]
     (found,) = faults(TILTED + "attitude = [0, -0.643501108793, 0]\n")
     assert "vertical is missing" in found[2] and "[0.6, 0, 0.8]" in found[2]
@@ -286,12 +320,15 @@ def test_an_attitude_left_out_is_asked_for_where_zero_angles_contradict_the_vert
 
 def test_a_bad_value_of_a_sweep_is_shown_where_it_stands(tmp_path):
     path = tmp_path / "sweep.toml"
-    path.write_text(BODY + "[effects.gravity]\nweight = 1\ncentre_of_mass = [0, 0, 1]\n[motion]\nangular_velocity = [0, 0, 1]\n"
+    path.write_text(BODY
+                    + "[effects.gravity]\nweight = 1\ncentre_of_mass = [0, 0, 1]\n[motion]\nangular_velocity "
+                      "= [0, 0, 1]\n"
                     'vertical = [0, 0, 1]\n[sweep]\n"motion.vertical" = [[0, 0, 1], [0, 0, 0]]\n')
     with pytest.raises(CaseError) as caught:
         load_all(path)
     (problem,) = caught.value.problems
-    assert (problem.line, problem.key) == (10, "motion.vertical") and "got zero" in problem.message and "[sweep]" in problem.message
+    assert (problem.line, problem.key) == (10,
+                                           "motion.vertical") and "got zero" in problem.message and "[sweep]" in problem.message
 
 
 def test_a_motion_in_many_digits_starts_from_the_decimals(tmp_path):
@@ -304,17 +341,22 @@ def test_a_motion_in_many_digits_starts_from_the_decimals(tmp_path):
     assert found.enough and omega[2] / omega[0] == pytest.approx(0.75, rel=1e-13)
 
 
-@pytest.mark.parametrize("given, unit", [("[0, 3, 4]", (0, 0.6, 0.8)), ("[0, 0, 2e-9]", (0, 0, 1)), ("[1, 1, 1]", (3**-0.5,) * 3),
-                                         ("[0.666667, 0.666667, 0.333333]", (0.666667, 0.666667, 0.333333))])  # six decimals stay as they are
+@pytest.mark.parametrize("given, unit", [("[0, 3, 4]", (0, 0.6, 0.8)), ("[0, 0, 2e-9]", (0, 0, 1)),
+                                         ("[1, 1, 1]", (3**-0.5,) * 3),
+                                         # six decimals stay as they are
+                                         ("[0.666667, 0.666667, 0.333333]", (0.666667, 0.666667, 0.333333))])
 def test_a_vertical_has_any_length(tmp_path, given, unit):
     path = tmp_path / "own.toml"
-    path.write_text(BODY + f"[effects.gravity]\nweight = 1\ncentre_of_mass = [0, 0, 1]\n[motion]\nangular_velocity = [0, 0, 1]\nvertical = {given}\n")
+    path.write_text(BODY
+                    + f"[effects.gravity]\nweight = 1\ncentre_of_mass = [0, 0, "
+                      f"1]\n[motion]\nangular_velocity = [0, 0, 1]\nvertical = {given}\n")
     assert load(path).blocks["gamma"] == pytest.approx(unit, abs=1e-16)
 
 
 def test_systems_of_units_are_named_in_any_case(tmp_path, stabilab):
     path = tmp_path / "own.toml"
     path.write_text(BODY + "[motion]\nangular_velocity = [0.1, 0.2, 0.3]\n")
-    assert stabilab("fate", path, "--units", "SI") == stabilab("fate", path, "--units", "si") != stabilab("fate", path)
+    assert stabilab("fate", path, "--units",
+                    "SI") == stabilab("fate", path, "--units", "si") != stabilab("fate", path)
     path.write_text(path.read_text() + '[output]\nunits = "SI"\n')
     assert load(path).units == "si"

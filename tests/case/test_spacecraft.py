@@ -1,4 +1,5 @@
-"""A spacecraft as an engineer states it: tensor, thrusters, wheels, limits, units; what it adds up to and what is refused."""
+"""A spacecraft as an engineer states it: tensor, thrusters, wheels, limits, units; what it adds up to and
+what is refused."""
 import json
 import math
 import random
@@ -23,14 +24,22 @@ WHEEL = '[[wheels]]\naxis = [0, 0, 2]\nmomentum = "0.5 N m s"\n'
 
 
 def test_thrusters_wheels_and_torques_add_up_exactly(case):
-    """(p - c) x F with p - c = (1, 1, 3), F = 10 (0, 3, 4)/5: (4 - 9, -4, 3) 2, by hand; the wheel's axis has length 2."""
-    read = case(DIAGONAL + "centre_of_mass = [0, 1, 0]\n" + THRUSTER + "stuck = true\n" + WHEEL + '[effects.constant_torque]\ntorque = ["1 N m", 0, 0]\n'
+    """(p - c) x F with p - c = (1, 1, 3), F = 10 (0, 3, 4)/5: (4 - 9, -4, 3) 2, by hand; the wheel's axis has
+    length 2."""
+    read = case(DIAGONAL + "centre_of_mass = [0, 1, 0]\n" + THRUSTER + "stuck = true\n" + WHEEL
+                + '[effects.constant_torque]\ntorque = ["1 N m", 0, 0]\n'
                 "[effects.gyrostat]\nmomentum = [0, 0, 1]\n")
-    assert read.scene.vector("constant_torque") == (-9, -8, 6) and read.scene.vector("gyrostat") == (0, 0, Fraction(3, 2))
+    assert read.scene.vector("constant_torque") == (-9, -8,
+                                                    6) and read.scene.vector("gyrostat") == (0, 0,
+                                                                                             Fraction(3, 2))
     (thruster,), (wheel,) = read.thrusters, read.wheels
-    assert thruster.torque == (-10, -8, 6) and thruster.direction == (0, Fraction(3, 5), Fraction(4, 5)) and thruster.stuck
+    assert thruster.torque == (-10, -8,
+                               6) and thruster.direction == (0, Fraction(3, 5),
+                                                             Fraction(4, 5)) and thruster.stuck
     assert wheel.axis == (0, 0, 1) and wheel.momentum == Fraction(1, 2) and wheel.name == "wheel 1"
-    assert read.frame.as_given and read.frame.moments == (3, 2, Fraction(3, 2)) and not read.notes and not read.inexact
+    assert read.frame.as_given and read.frame.moments == (3, 2,
+                                                          Fraction(
+                                                              3, 2)) and not read.notes and not read.inexact
 
 
 def test_a_thruster_that_is_not_stuck_does_not_act(case):
@@ -43,12 +52,14 @@ def test_force_and_tolerance_may_be_one_number_or_two(case):
     one = case(DIAGONAL + THRUSTER.replace('"10 N"', '"10 N +- 5 %"'))
     two = case(DIAGONAL + THRUSTER + 'force_tolerance = "0.5 N"\n')
     three = case(DIAGONAL + THRUSTER + 'force_tolerance = "5 %"\nmisalignment = 0.01\n')
-    assert one.thrusters[0].force_tolerance == two.thrusters[0].force_tolerance == three.thrusters[0].force_tolerance == Fraction(1, 2)
+    assert one.thrusters[0].force_tolerance == two.thrusters[0].force_tolerance == three.thrusters[
+        0].force_tolerance == Fraction(1, 2)
     assert three.thrusters[0].misalignment == Fraction(1, 100) and one.thrusters[0].force == 10
 
 
 def test_a_wheel_may_be_given_by_its_inertia_and_speed(case):
-    read = case(DIAGONAL + '[[wheels]]\nname = "W"\naxis = [1, 0, 0]\ninertia = 0.01\nspeed = 50\nmomentum = 0.5\n')
+    read = case(DIAGONAL
+                + '[[wheels]]\nname = "W"\naxis = [1, 0, 0]\ninertia = 0.01\nspeed = 50\nmomentum = 0.5\n')
     assert read.scene.vector("gyrostat") == (Fraction(1, 2), 0, 0)
     turning = case(DIAGONAL + '[[wheels]]\naxis = [1, 0, 0]\ninertia = 0.01\nspeed = "-3000 rpm"\n')
     assert turning.wheels[0].momentum == pytest.approx(-math.pi) and turning.inexact == ("wheels.speed",)
@@ -60,11 +71,15 @@ def test_limits_are_a_rate_or_three(case):
 
 
 def test_products_have_the_sign_of_their_convention(case):
-    """A positive integral of x y dm pulls the major axis away from the diagonal of the first quadrant: the entry is minus it."""
+    """A positive integral of x y dm pulls the major axis away from the diagonal of the first quadrant: the
+    entry is minus it."""
     tensor = case(FULL)
-    entries = case("[body]\ninertia = [3, 2, 1.5]\nproducts = {xy = 0.1, yz = 0.2, convention = \"negative\"}\n")
-    integrals = case("[body]\ninertia = [3, 2, 1.5]\nproducts = {xy = -0.1, yz = -0.2, convention = \"positive\"}\n")
-    assert tensor.frame == entries.frame == integrals.frame and tensor.frame.axes[0][0] * tensor.frame.axes[0][1] > 0
+    entries = case(
+        "[body]\ninertia = [3, 2, 1.5]\nproducts = {xy = 0.1, yz = 0.2, convention = \"negative\"}\n")
+    integrals = case(
+        "[body]\ninertia = [3, 2, 1.5]\nproducts = {xy = -0.1, yz = -0.2, convention = \"positive\"}\n")
+    assert tensor.frame == entries.frame == integrals.frame and tensor.frame.axes[0][0] * tensor.frame.axes[
+        0][1] > 0
 
 
 def test_products_of_zero_leave_the_order_of_the_moments(case):
@@ -72,18 +87,25 @@ def test_products_of_zero_leave_the_order_of_the_moments(case):
 
 
 def test_the_motion_is_turned_with_the_tensor_and_told_in_both_frames(case, stabilab):
-    read = case(FULL + '[effects.gravity]\nweight = 2\ncentre_of_mass = [0, 0, 0.5]\n[motion]\nangular_velocity = ["1 deg/s", 0.5, 0]\n'
+    read = case(FULL
+                + '[effects.gravity]\nweight = 2\ncentre_of_mass = [0, 0, 0.5]\n[motion]\nangular_velocity = '
+                  '["1 deg/s", 0.5, 0]\n'
                 "vertical = [0, 0.6, 0.8]\nspan = [0, 1]\n")
-    assert [float(v) for v in read.frame.back(read.decimals)] == pytest.approx([math.pi / 180, 0.5, 0], abs=1e-15)
-    assert [float(v) for v in read.frame.back(read.blocks["gamma"])] == pytest.approx([0, 0.6, 0.8], abs=1e-15)
+    assert [float(v)
+            for v in read.frame.back(read.decimals)] == pytest.approx([math.pi / 180, 0.5, 0], abs=1e-15)
+    assert [float(v)
+            for v in read.frame.back(read.blocks["gamma"])] == pytest.approx([0, 0.6, 0.8], abs=1e-15)
     arm = read.scene.effect("gravity")
     assert [float(v) for v in read.frame.back(arm.exact)] == pytest.approx([0, 0, 1], abs=1e-15)
     assert read.inexact == ("motion.angular_velocity",)
     told = json.loads(stabilab("classify", SPACECRAFT[2], "--json")[1])[0]
     rates = [math.radians(v) for v in (1.5, 0.1, -0.05)]
-    assert told["motion"]["at_input"] == pytest.approx(rates, abs=1e-15) and told["frame"]["moments"] == sorted(told["frame"]["moments"], reverse=True)
+    assert told["motion"]["at_input"] == pytest.approx(rates,
+                                                       abs=1e-15) and told["frame"]["moments"] == sorted(
+                                                           told["frame"]["moments"], reverse=True)
     axes = told["frame"]["axes"]
-    assert [sum(a * v for a, v in zip(axis, rates)) for axis in axes] == pytest.approx(told["motion"]["at"], abs=1e-15)
+    assert [sum(a * v for a, v in zip(axis, rates))
+            for axis in axes] == pytest.approx(told["motion"]["at"], abs=1e-15)
     for command in ("classify", "show"):
         assert "principal axes" in stabilab(command, SPACECRAFT[2])[1]
     run = json.loads(stabilab("simulate", SPACECRAFT[2], "--at", "0", "--json")[1])
@@ -92,7 +114,8 @@ def test_the_motion_is_turned_with_the_tensor_and_told_in_both_frames(case, stab
 
 def test_a_diagonal_case_has_no_frame_to_tell(stabilab):
     for command in ("classify", "fate", "extremes", "period"):
-        assert "frame" not in json.loads(stabilab(command, ROOT / "cases/minor-axis-100.toml", "--json")[1])[0]
+        assert "frame" not in json.loads(stabilab(command, ROOT / "cases/minor-axis-100.toml",
+                                                  "--json")[1])[0]
 
 
 def rotation(rng):
@@ -100,7 +123,8 @@ def rotation(rng):
     a, b, c, d = (Fraction(rng.randint(-9, 9)) for _ in range(4))
     n = a * a + b * b + c * c + d * d or 1
     a = a if a or b or c or d else Fraction(1)
-    rows = ((a*a + b*b - c*c - d*d, 2*(b*c - a*d), 2*(b*d + a*c)), (2*(b*c + a*d), a*a - b*b + c*c - d*d, 2*(c*d - a*b)),
+    rows = ((a*a + b*b - c*c - d*d, 2*(b*c - a*d), 2*(b*d + a*c)),
+            (2*(b*c + a*d), a*a - b*b + c*c - d*d, 2*(c*d - a*b)),
             (2*(b*d - a*c), 2*(c*d + a*b), a*a - b*b - c*c + d*d))
     return [[v / n for v in row] for row in rows]
 
@@ -113,9 +137,12 @@ def in_frame(turn, moments, torque, wheel, state):
     """The same spacecraft with every vector turned."""
     def vector(v):
         return [sum(turn[i][j] * v[j] for j in range(3)) for i in range(3)]
-    tensor = [[sum(turn[i][k] * moments[k] * turn[j][k] for k in range(3)) for j in range(3)] for i in range(3)]
-    return (f"[body]\ninertia = {written(tensor)}\n[effects.constant_torque]\ntorque = {written(vector(torque))}\n[effects.gyrostat]\n"
-            f"momentum = {written(vector(wheel))}\n[motion]\nangular_velocity = {written(vector(state))}\nspan = [0, 20]\n")
+    tensor = [[sum(turn[i][k] * moments[k] * turn[j][k] for k in range(3)) for j in range(3)]
+              for i in range(3)]
+    return (f"[body]\ninertia = {written(tensor)}\n[effects.constant_torque]\ntorque = "
+            f"{written(vector(torque))}\n[effects.gyrostat]\n"
+            f"momentum = {written(vector(wheel))}\n[motion]\nangular_velocity = "
+            f"{written(vector(state))}\nspan = [0, 20]\n")
 
 
 def invariant(extremes, one):
@@ -125,13 +152,19 @@ def invariant(extremes, one):
 
 
 @pytest.mark.one_in(3)
-@pytest.mark.parametrize("torque, wheel", [((0, 0, Fraction(1, 5)), (0, 2, 0)), ((Fraction(1, 10), 0, 0), (0, 0, 0)),
-                                           ((Fraction(1, 10), Fraction(1, 5), Fraction(1, 10)), (Fraction(1, 3), 0, 0))])
+@pytest.mark.parametrize("torque, wheel",
+                         [((0, 0, Fraction(1, 5)), (0, 2, 0)), ((Fraction(1, 10), 0, 0), (0, 0, 0)),
+                                           ((Fraction(1, 10), Fraction(1, 5), Fraction(1, 10)),
+                                            (Fraction(1, 3), 0, 0))])
 def test_the_frame_of_the_input_changes_no_physical_answer(case, torque, wheel):
     """Ten random frames: physics does not know them (moments, fate, margin, period, extremes)."""
-    rng, moments, state = random.Random(13), (3, 2, Fraction(3, 2)), (Fraction(1, 10), Fraction(1, 5), Fraction(3, 10))
+    rng, moments, state = random.Random(13), (3, 2,
+                                              Fraction(3, 2)), (Fraction(1, 10), Fraction(1, 5),
+                                                                Fraction(3, 10))
     read = case(in_frame([[1, 0, 0], [0, 1, 0], [0, 0, 1]], moments, torque, wheel, state))
-    base, verdicts = stabilab.motion(read.scene, read.start, read.span), sorted(p.verdict for p in stabilab.equilibria(read.scene).points)
+    base, verdicts = stabilab.motion(read.scene, read.start,
+                                     read.span), sorted(p.verdict
+                                                        for p in stabilab.equilibria(read.scene).points)
     for _ in range(10):
         turned = case(in_frame(rotation(rng), moments, torque, wheel, state))
         assert turned.frame.moments == moments and turned.frame.exact
@@ -145,10 +178,15 @@ def test_the_frame_of_the_input_changes_no_physical_answer(case, torque, wheel):
 
 
 def test_an_irrational_frame_changes_no_answer_beyond_rounding(case):
-    """Tensor, torque and start along the eigenvector (1, 1, 1) of moment 10, by hand: the torque stays on its axis exactly."""
-    read = case('[body]\ninertia = [[8, 0, 2], [0, 9, 1], [2, 1, 7]]\n[[thrusters]]\nposition = [1, -1, 0]\ndirection = [1, 1, -2]\nforce = 1\nstuck = true\n'
+    """Tensor, torque and start along the eigenvector (1, 1, 1) of moment 10, by hand: the torque stays on its
+    axis exactly."""
+    read = case('[body]\ninertia = [[8, 0, 2], [0, 9, 1], [2, 1, 7]]\n[[thrusters]]\nposition = [1, -1, '
+                '0]\ndirection = [1, 1, -2]\nforce = 1\nstuck = true\n'
                 "[motion]\nangular_velocity = [0.1, 0.1, 0.1]\nspan = [0, 10]\n")
-    assert [v != 0 for v in read.scene.vector("constant_torque")] == [v != 0 for v in read.decimals] and sum(map(bool, read.decimals)) == 1
+    assert [v != 0
+            for v in read.scene.vector("constant_torque")] == [v != 0
+                                                               for v in read.decimals] and sum(
+                                                                   map(bool, read.decimals)) == 1
     assert stabilab.motion(read.scene, read.start, read.span, exact=read.exact_state).fate.word == "spin-up"
 
 
@@ -158,44 +196,63 @@ FAULTS = [
     ("[body]\ninertia = [[3, 0.1, 0], [0.2, 2, 0.2], [0, 0.2, 1.5]]\n", 2, "body.inertia", "not symmetric"),
     ("[body]\ninertia = [[1, 2, 0], [2, 1, 0], [0, 0, 1]]\n", 2, "body.inertia", "not positive definite"),
     ("[body]\ninertia = [[3, 0], [0, 2]]\n", 2, "body.inertia", "three rows of three numbers"),
-    ("[body]\ninertia = [[3, 0, 0], [0, 2, 0],\n [0, 0, true]]\n", 3, "body.inertia", "row 3, number 3: expected a number"),
-    ('[body]\ninertia = [["3 +- 1 %", 0, 0], [0, 2, 0], [0, 0, 2]]\n', 2, "body.inertia", "takes no uncertainty"),
-    ("[body]\ninertia = [3, 2, 1.5]\nproducts = {xy = 0.1}\n", 3, "body.products", '"positive" (the products are the integrals'),
-    ("[body]\ninertia = [3, 2, 1.5]\nproducts = {xy = 0.1, convention = 'plus'}\n", 3, "body.products.convention", '"negative" (the products are the entries'),
-    ("[body]\ninertia = [3, 2, 1.5]\nproducts = {zx = 0.1, convention = 'positive'}\n", 3, "body.products.zx", "here may stand xy, xz, yz, convention"),
+    ("[body]\ninertia = [[3, 0, 0], [0, 2, 0],\n [0, 0, true]]\n", 3, "body.inertia",
+     "row 3, number 3: expected a number"),
+    ('[body]\ninertia = [["3 +- 1 %", 0, 0], [0, 2, 0], [0, 0, 2]]\n', 2, "body.inertia",
+     "takes no uncertainty"),
+    ("[body]\ninertia = [3, 2, 1.5]\nproducts = {xy = 0.1}\n", 3, "body.products",
+     '"positive" (the products are the integrals'),
+    ("[body]\ninertia = [3, 2, 1.5]\nproducts = {xy = 0.1, convention = 'plus'}\n", 3,
+     "body.products.convention", '"negative" (the products are the entries'),
+    ("[body]\ninertia = [3, 2, 1.5]\nproducts = {zx = 0.1, convention = 'positive'}\n", 3, "body.products.zx",
+     "here may stand xy, xz, yz, convention"),
     (FULL + "products = {xy = 0.1, convention = 'positive'}\n", 3, "body.products", "keep one of them"),
     (DIAGONAL + THRUSTER.replace("[0, 3, 4]", "[0, 0, 0]"), 6, "thrusters.direction", "got zero"),
     (DIAGONAL + THRUSTER.replace("10 N", "10 nweton"), 7, "thrusters.force", "accepted are"),
     (DIAGONAL + THRUSTER.replace("10 N", "10 kg"), 7, "thrusters.force", "expected force (N), got mass (kg)"),
     (DIAGONAL + THRUSTER.replace("10 N", "-10 N"), 7, "thrusters.force", "turn the direction round"),
     (DIAGONAL + THRUSTER + 'misalignment = "90 deg"\n', 8, "thrusters.misalignment", "below 90 deg"),
-    (DIAGONAL + THRUSTER + "misalignment = 2\n", 8, "thrusters.misalignment", 'a number alone is in rad, write "1 deg"'),
+    (DIAGONAL + THRUSTER + "misalignment = 2\n", 8, "thrusters.misalignment",
+     'a number alone is in rad, write "1 deg"'),
     (DIAGONAL + THRUSTER + THRUSTER, 9, "thrusters.name", 'two thrusters have the name "A1"'),
     (DIAGONAL + THRUSTER.replace("position = [1, 2, 3]\n", ""), 3, "thrusters", "position is missing"),
     (DIAGONAL + THRUSTER.replace("position", "postion"), 5, "thrusters.postion", "did you mean position?"),
     (DIAGONAL + THRUSTER + 'stuck = "yes"\n', 8, "thrusters.stuck", "expected true or false"),
-    (DIAGONAL + THRUSTER.replace('"10 N"', '"10 N +- 5 %"') + "force_tolerance = 1\n", 8, "thrusters.force_tolerance", "keep one"),
+    (DIAGONAL + THRUSTER.replace('"10 N"', '"10 N +- 5 %"') + "force_tolerance = 1\n", 8,
+     "thrusters.force_tolerance", "keep one"),
     (DIAGONAL + THRUSTER + 'force_tolerance = "-5 %"\n', 8, "thrusters.force_tolerance", "not negative"),
     (DIAGONAL + THRUSTER + 'force_tolerance = "120 %"\n', 8, "thrusters.force_tolerance", "below the force"),
     (DIAGONAL + THRUSTER.replace('"10 N"', '"10 N +- 11 N"'), 7, "thrusters.force", "below the force"),
     ("thrusters = 3\n" + DIAGONAL, 1, "thrusters", "expected tables [[thrusters]]"),
-    (DIAGONAL + "[[wheels]]\nmomentum = 1\n", 3, "wheels", "axis is missing: add the direction of its momentum"),
+    (DIAGONAL + "[[wheels]]\nmomentum = 1\n", 3, "wheels",
+     "axis is missing: add the direction of its momentum"),
     (DIAGONAL + "[[wheels]]\naxis = [0, 0, 0]\nmomentum = 1\n", 4, "wheels.axis", "got zero"),
     (DIAGONAL + "[[wheels]]\naxis = [0, 0, 1]\n", 3, "wheels", "expected momentum (N m s), or inertia"),
     (DIAGONAL + "[[wheels]]\naxis = [0, 0, 1]\nspeed = 3\n", 5, "wheels.speed", "speed alone is not enough"),
-    (DIAGONAL + "[[wheels]]\naxis = [0, 0, 1]\nspeed = 3\ninertia = 2\nmomentum = 5\n", 7, "wheels.momentum", "contradicts inertia x speed, 6 N m s"),
-    (DIAGONAL + "[limits]\nrate = 0.2999999999\n" + MOTION, 4, "limits.rate", "the limit, 0.29999999989999998 rad/s"),
-    (DIAGONAL + '[limits]\nrate = "10 deg/s"\n' + MOTION, 4, "limits.rate", "below the rate that the motion starts with, 0.3 rad/s"),
-    (FULL + "[limits]\nrate = [0.15,\n 0.15, 0.3]\n" + MOTION, 5, "limits.rate", "number 2: the limit, 0.15 rad/s"),
+    (DIAGONAL + "[[wheels]]\naxis = [0, 0, 1]\nspeed = 3\ninertia = 2\nmomentum = 5\n", 7, "wheels.momentum",
+     "contradicts inertia x speed, 6 N m s"),
+    (DIAGONAL + "[limits]\nrate = 0.2999999999\n" + MOTION, 4, "limits.rate",
+     "the limit, 0.29999999989999998 rad/s"),
+    (DIAGONAL + '[limits]\nrate = "10 deg/s"\n' + MOTION, 4, "limits.rate",
+     "below the rate that the motion starts with, 0.3 rad/s"),
+    (FULL + "[limits]\nrate = [0.15,\n 0.15, 0.3]\n" + MOTION, 5, "limits.rate",
+     "number 2: the limit, 0.15 rad/s"),
     (DIAGONAL + "[limits]\nrate = [1, -2, 3]\n", 4, "limits.rate", "positive"),
     (DIAGONAL + "[limits]\nspeed = 3\n", 4, "limits.speed", "unknown key"),
-    (DIAGONAL + '[limits]\nrate = "3 N"\n', 4, "limits.rate", "expected angular velocity (rad/s), got force (N)"),
-    (DIAGONAL + STUCK + "[effects.constant_torque]\nmu = [0, 0, 1]\n", 10, "effects.constant_torque.mu", "give torque in N m"),
-    (FULL + "[effects.constant_torque]\nmu = [0, 0, 1]\n", 4, "effects.constant_torque.mu", "mu counts along principal axes"),
-    (FULL + "[effects.charge]\ncharge = 1\nfield = 1\narm = 1\nangle = 0.3\n", 3, "effects.charge", "known along principal axes alone"),
-    (FULL + "[motion]\nangular_velocity = [1, 1, 1]\nattitude = [0, 0, 0]\n", 5, "motion.attitude", "not turned"),
-    (DIAGONAL + STUCK.replace("10 N", "1e200 N").replace("[1, 2, 3]", "[1e200, 0, 0]"), 3, "thrusters", "largest double"),
-    (FULL + "[motion]\nangular_velocity = [1.7e308, 1.7e308, 1.7e308]\n", 4, "motion.angular_velocity", "along the principal axes"),
+    (DIAGONAL + '[limits]\nrate = "3 N"\n', 4, "limits.rate",
+     "expected angular velocity (rad/s), got force (N)"),
+    (DIAGONAL + STUCK + "[effects.constant_torque]\nmu = [0, 0, 1]\n", 10, "effects.constant_torque.mu",
+     "give torque in N m"),
+    (FULL + "[effects.constant_torque]\nmu = [0, 0, 1]\n", 4, "effects.constant_torque.mu",
+     "mu counts along principal axes"),
+    (FULL + "[effects.charge]\ncharge = 1\nfield = 1\narm = 1\nangle = 0.3\n", 3, "effects.charge",
+     "known along principal axes alone"),
+    (FULL + "[motion]\nangular_velocity = [1, 1, 1]\nattitude = [0, 0, 0]\n", 5, "motion.attitude",
+     "not turned"),
+    (DIAGONAL + STUCK.replace("10 N", "1e200 N").replace("[1, 2, 3]", "[1e200, 0, 0]"), 3, "thrusters",
+     "largest double"),
+    (FULL + "[motion]\nangular_velocity = [1.7e308, 1.7e308, 1.7e308]\n", 4, "motion.angular_velocity",
+     "along the principal axes"),
     ("[scaled]\na = 1\nb = 2\nmu = [0, 0, 1]\n" + WHEEL, 5, "wheels", "keep one or the other"),
 ]
 
@@ -207,9 +264,12 @@ def test_a_fault_is_told_with_line_key_and_cure(faults, text, line, key, words):
 
 def test_a_sweep_may_name_a_thruster(tmp_path):
     path = tmp_path / "sweep.toml"
-    path.write_text(DIAGONAL + STUCK + '[sweep]\n"thrusters.A1.force" = ["10 N", "20 N"]\n"limits.rate" = [1, 2]\n[limits]\nrate = 3\n')
+    path.write_text(DIAGONAL + STUCK
+                    + '[sweep]\n"thrusters.A1.force" = ["10 N", "20 N"]\n"limits.rate" = [1, '
+                      '2]\n[limits]\nrate = 3\n')
     found = load_all(path)
-    assert [(float(c.thrusters[0].force), float(c.limits.rate)) for c in found] == [(10, 1), (10, 2), (20, 1), (20, 2)]
+    assert [(float(c.thrusters[0].force), float(c.limits.rate))
+            for c in found] == [(10, 1), (10, 2), (20, 1), (20, 2)]
     path.write_text(path.read_text().replace("20 N", "20 kg"))
     with pytest.raises(CaseError) as caught:
         load_all(path)
@@ -219,9 +279,11 @@ def test_a_sweep_may_name_a_thruster(tmp_path):
 def test_uncertain_numbers_beside_hardware_keep_their_box(case):
     """Thrusters and wheels shift the middle of a box and leave its widths."""
     from stabilab.answers.uncertain.box import box_of
-    read = case('[body]\ninertia = ["3 +- 1 %", 2, "1.5 +- 0.01 kg m^2"]\n' + STUCK + '[effects.constant_torque]\ntorque = ["1 +- 0.1 N m", 0, 0]\n')
+    read = case('[body]\ninertia = ["3 +- 1 %", 2, "1.5 +- 0.01 kg m^2"]\n' + STUCK
+                + '[effects.constant_torque]\ntorque = ["1 +- 0.1 N m", 0, 0]\n')
     box = box_of(read)
-    assert box.middle["torque"] == read.scene.vector("constant_torque") and box.half["torque"] == (Fraction(1, 10), 0, 0)
+    assert box.middle["torque"] == read.scene.vector("constant_torque") and box.half["torque"] == (
+        Fraction(1, 10), 0, 0)
     assert box.half["inertia"] == (Fraction(3, 100), 0, Fraction(1, 100))
 
 
@@ -242,10 +304,12 @@ def test_the_torque_of_a_stuck_thruster_is_that_of_its_force(path):
 
 def read_centre(data):
     sizes = {"mm": Fraction(1, 1000)}
-    return [Fraction(v.split()[0]) * sizes[v.split()[1]] if isinstance(v, str) else Fraction(str(v)) for v in data["body"]["centre_of_mass"]]
+    return [Fraction(v.split()[0]) * sizes[v.split()[1]] if isinstance(v, str) else Fraction(str(v))
+            for v in data["body"]["centre_of_mass"]]
 
 
-# -- import ------------------------------------------------------------------------------------------------------------
+# -- import
+# ------------------------------------------------------------------------------------------------------------
 
 FORTY_TWO = """<<<<<<<<  42: Spacecraft Description File   >>>>>>>>
 Own test craft              !  Description
@@ -276,25 +340,34 @@ LAN                         ! Ang Vel wrt [NL], Att [QA] wrt [NLF]
 -1.0  0.0  0.0              ! Thrust Axis
 3                           ! Node
 """
-BASILISK = {"ModelTag": "own", "hub": {"mHub": 750.0, "r_BcB_B": [[0.0], [0.0], [0.1]], "IHubPntBc_B": [900.0, 2.0, 0.0, 2.0, 800.0, 0.0, 0.0, 0.0, 600.0],
+BASILISK = {"ModelTag": "own", "hub": {"mHub": 750.0, "r_BcB_B": [[0.0], [0.0], [0.1]],
+                                       "IHubPntBc_B": [900.0, 2.0, 0.0, 2.0, 800.0, 0.0, 0.0, 0.0, 600.0],
                                        "omega_BN_BInit": [0.001, -0.01, 0.03], "sigma_BNInit": [0.1, 0, 0]},
-            "thrusters": [{"label": "a", "thrLoc_B": [0.5, 1, 0], "thrDir_B": [0, 0, 1], "MaxThrust": 0.9, "steadyIsp": 226.7}],
+            "thrusters": [{"label": "a", "thrLoc_B": [0.5, 1, 0], "thrDir_B": [0, 0, 1], "MaxThrust": 0.9,
+                           "steadyIsp": 226.7}],
             "reactionWheels": {"RW1": {"gsHat_B": [1, 0, 0], "Js": 0.25, "Omega": 52.0}}}
 
 
 def test_a_spacecraft_of_42_becomes_a_case_with_its_products_turned_round(tmp_path, stabilab):
     (tmp_path / "SC_Own.txt").write_text(FORTY_TWO)
     code, _, err = stabilab("import", tmp_path / "SC_Own.txt", "--out", tmp_path / "own.toml")
-    assert code == 0 and all(words in err for words in ("thr 0: 1.5 N", "at node 3", "relative to the orbit frame", "Ang Vel wrt")) and "Saturation" not in err
+    assert code == 0 and all(words in err
+                             for words in ("thr 0: 1.5 N", "at node 3", "relative to the orbit frame",
+                                           "Ang Vel wrt")) and "Saturation" not in err
     read = load(tmp_path / "own.toml")
-    tensor = [[100, -1, Fraction(1, 2)], [-1, 200, -2], [Fraction(1, 2), -2, 250]]  # minus the products: 42 reads them so
+    # minus the products: 42 reads them so
+    tensor = [[100, -1, Fraction(1, 2)], [-1, 200, -2], [Fraction(1, 2), -2, 250]]
     from stabilab.numbers.principal import principal_axes
-    assert read.frame == principal_axes(tensor) and read.title == "Own test craft" and read.scene.body.mass == 100
+    assert read.frame == principal_axes(
+        tensor) and read.title == "Own test craft" and read.scene.body.mass == 100
     assert [float(v) for v in read.frame.back(read.scene.vector("gyrostat"))] == pytest.approx([4, 2, 0])
-    assert [float(v) for v in read.frame.back(read.decimals)] == pytest.approx([math.radians(v) for v in (0.3, 0.4, 0.5)])
+    assert [float(v)
+            for v in read.frame.back(read.decimals)] == pytest.approx([math.radians(v)
+                                                                       for v in (0.3, 0.4, 0.5)])
 
 
-@pytest.mark.parametrize("ending, write", [(".json", json.dumps), (".py", lambda data: f"spacecraft = {data!r}\n")])
+@pytest.mark.parametrize("ending, write",
+                         [(".json", json.dumps), (".py", lambda data: f"spacecraft = {data!r}\n")])
 def test_a_dictionary_of_basilisk_becomes_a_case(tmp_path, stabilab, ending, write):
     path = tmp_path / f"own{ending}"
     path.write_text(write(BASILISK))
@@ -302,13 +375,18 @@ def test_a_dictionary_of_basilisk_becomes_a_case(tmp_path, stabilab, ending, wri
     assert code == 0 and all(words in err for words in ("a: steadyIsp", "sigma_BNInit", "hub alone"))
     (tmp_path / "own.toml").write_text(out)
     read = load(tmp_path / "own.toml")
-    assert [float(v) for v in read.thrusters[0].torque] == pytest.approx([0.9, -0.45, 0]) and read.thrusters[0].stuck  # (0.5, 1, -0.1) x 0.9 e3
+    # (0.5, 1, -0.1) x 0.9 e3
+    assert [float(v)
+            for v in read.thrusters[0].torque] == pytest.approx([0.9, -0.45, 0]) and read.thrusters[0].stuck
     assert read.wheels[0].name == "RW1" and read.wheels[0].momentum == 13 and sum(read.frame.moments) == 2300
 
 
-@pytest.mark.parametrize("text, words", [("hello", "expected a NASA 42 spacecraft file"), ("{}", "IHubPntBc_B"), ("x = {'a': open('b')}", "plain numbers"),
-                                         ('{"IHubPntBc_B": [1, 2]}', "nine numbers"), ('{"IHubPntBc_B": [1, 1, "x"]}', "expected a number"),
-                                         ('{"IHubPntBc_B": [1, 1, -9]}', "positive"), (FORTY_TWO.replace("100.  200.0", "100. x"), "Moments of Inertia")])
+@pytest.mark.parametrize("text, words", [("hello", "expected a NASA 42 spacecraft file"),
+                                         ("{}", "IHubPntBc_B"), ("x = {'a': open('b')}", "plain numbers"),
+                                         ('{"IHubPntBc_B": [1, 2]}', "nine numbers"),
+                                         ('{"IHubPntBc_B": [1, 1, "x"]}', "expected a number"),
+                                         ('{"IHubPntBc_B": [1, 1, -9]}', "positive"),
+                                         (FORTY_TWO.replace("100.  200.0", "100. x"), "Moments of Inertia")])
 def test_what_cannot_be_imported_is_refused(tmp_path, stabilab, text, words):
     path = tmp_path / "own.json"
     path.write_text(text)
@@ -381,7 +459,8 @@ REFERENCE                   ! Mass Props referenced to REFPT_CM or REFPT_JOINT
 
 
 def _masses(mass, tensor, centre):
-    """Six equal point masses with this mass, centre and tensor: two on each principal axis, at the roots of the second moments."""
+    """Six equal point masses with this mass, centre and tensor: two on each principal axis, at the roots of
+    the second moments."""
     import numpy as np
     moments, axes = np.linalg.eigh(tensor)
     arms = [np.sqrt(3 * (moments.sum() / 2 - m) / mass) * axis for m, axis in zip(moments, axes.T)]
@@ -389,19 +468,23 @@ def _masses(mass, tensor, centre):
 
 
 def _chain(about_origin):
-    """(tensor about the common centre, that centre, turns of bodies 1 and 2) of the bodies above, in the frame of body 0, by SciPy and point masses."""
+    """(tensor about the common centre, that centre, turns of bodies 1 and 2) of the bodies above, in the
+    frame of body 0, by SciPy and point masses."""
     import numpy as np
     from scipy.spatial.transform import Rotation
-    to = lambda sequence, *angles: Rotation.from_euler("".join("XYZ"[int(n) - 1] for n in sequence), angles, degrees=True).as_matrix().T
+    to = lambda sequence, *angles: Rotation.from_euler("".join("XYZ"[int(n) - 1] for n in sequence), angles,
+                                                       degrees=True).as_matrix().T
     before = to("312", 10, 20, 30)
     one = to("123", -15, 25, 35) @ to("231", 20, 30, 0) @ before  # two of three angles are free
-    at = np.array([0.5, 0.6, 0.7]) + before.T @ [0, 0, 0.4] - one.T @ [0.1, -0.2, 0.3]  # one displacement, along axis 3
+    # one displacement, along axis 3
+    at = np.array([0.5, 0.6, 0.7]) + before.T @ [0, 0, 0.4] - one.T @ [0.1, -0.2, 0.3]
     two = to("312", 0, 90, 0) @ to("321", 5, -50, 60)
     far = np.array([0, 1, 0]) - two.T @ [0, 0, -1]
     turns, origins = [np.eye(3), one, two @ one], [np.zeros(3), at, at + one.T @ far]
     points, weights = [], []
     for turn, origin, (mass, moments, (xy, xz, yz), centre) in zip(turns, origins, (
-            (10, (4, 5, 6), (0.2, -0.1, 0.3), (0.1, 0.2, 0.3)), (4, (2, 2.5, 3), (0.1, 0.2, -0.3), (0, 0.1, -0.2)),
+            (10, (4, 5, 6), (0.2, -0.1, 0.3), (0.1, 0.2, 0.3)),
+            (4, (2, 2.5, 3), (0.1, 0.2, -0.3), (0, 0.1, -0.2)),
             (2, (1, 1.25, 1.5), (0, 0, 0), (0.3, 0, 0)))):
         tensor, centre = np.diag(moments) - [[0, xy, xz], [xy, 0, yz], [xz, yz, 0]], np.array(centre)
         if about_origin:
@@ -424,7 +507,8 @@ def test_several_bodies_are_one_with_their_joints_locked(tmp_path, stabilab, ref
     assert found["body"]["mass"] == 16 and found["body"]["centre_of_mass"] == pytest.approx(centre, rel=1e-10)
     for row, wanted in zip(found["body"]["inertia"], tensor):
         assert row == pytest.approx(wanted, rel=1e-10)
-    assert found["effects"]["gyrostat"]["momentum"] == pytest.approx(turns[0].T @ [0, 0, 1] + turns[1].T @ [0.5, 0, 0], rel=1e-10)
+    assert found["effects"]["gyrostat"]["momentum"] == pytest.approx(turns[0].T @ [0, 0, 1]
+                                                                     + turns[1].T @ [0.5, 0, 0], rel=1e-10)
     assert found["wheels"][0]["axis"] == pytest.approx(turns[2].T @ [0, 1, 1], rel=1e-10)
     along = re.search(r"thr 0: 1.5 N along \[(.*?)\]", err)[1]
     assert list(map(float, along.split(","))) == pytest.approx(turns[2].T @ [0, 0, -1], rel=1e-10)
@@ -435,34 +519,45 @@ def test_one_of_several_bodies_alone(tmp_path, stabilab):
     path.write_text(JOINED.replace("REFERENCE", "REFPT_CM"))
     code, out, err = stabilab("import", path, "--body", 2)
     found, (_, _, turns) = tomllib.loads(out), _chain(False)
-    assert code == 0 and found["body"] == {"inertia": [1, 1.25, 1.5], "mass": 2, "centre_of_mass": [0.3, 0, 0]} and "combined" not in err
+    assert code == 0 and found["body"] == {"inertia": [1, 1.25, 1.5], "mass": 2,
+                                           "centre_of_mass": [0.3, 0, 0]} and "combined" not in err
     assert found["wheels"] == [{"name": "wheel 0", "axis": [0, 1, 1], "momentum": 4}]
-    assert [float(v.split()[0]) for v in found["motion"]["angular_velocity"]] == pytest.approx(turns[2] @ [1, 2, 3], rel=1e-10)
+    assert [float(v.split()[0])
+            for v in found["motion"]["angular_velocity"]] == pytest.approx(turns[2] @ [1, 2, 3], rel=1e-10)
     assert "wheels" not in tomllib.loads(stabilab("import", path, "--body", 0)[1])
-    assert stabilab("import", path, "--body", 3)[0] == 2 and "bodies 0 to 2" in stabilab("import", path, "--body", 3)[2]
+    assert stabilab("import", path, "--body",
+                    3)[0] == 2 and "bodies 0 to 2" in stabilab("import", path, "--body", 3)[2]
 
 
 def test_four_booms_about_a_spinner_by_hand():
-    """Demo/SC_TumbleSat of NASA's 42: booms of 94.25 kg with moments (0.47, 8.09, 8.09), their centres 1 m from the axis, at 0, 90, 180, 270 deg."""
+    """Demo/SC_TumbleSat of NASA's 42: booms of 94.25 kg with moments (0.47, 8.09, 8.09), their centres 1 m
+    from the axis, at 0, 90, 180, 270 deg."""
     from stabilab.case.foreign.import_42 import Joint, Part, joined, places, turn
-    none, boom = (Fraction(0),) * 3, [[Fraction(v) if i == j else 0 for j in range(3)] for i, v in enumerate(("0.47", "8.09", "8.09"))]
-    parts = [Part(Fraction("1963.5"), [[5174, 0, 0], [0, 3593, 0], [0, 0, Fraction("245.4")]], (0, 0, Fraction("2.5")), none)]
+    none, boom = (Fraction(0),) * 3, [[Fraction(v) if i == j else 0 for j in range(3)] for i,
+                                      v in enumerate(("0.47", "8.09", "8.09"))]
+    parts = [Part(Fraction("1963.5"), [[5174, 0, 0], [0, 3593, 0], [0, 0, Fraction("245.4")]],
+                  (0, 0, Fraction("2.5")), none)]
     joints = []
     for n, (x, y) in enumerate(((1, 0), (0, 1), (-1, 0), (0, -1))):
         parts.append(Part(Fraction("94.25"), boom, (Fraction(1, 2), 0, 0), none))
-        joints.append(Joint(0, n + 1, turn((Fraction(90 * n), 0, 0), "312"), (Fraction(x, 2), Fraction(y, 2), Fraction("2.5"))))
+        joints.append(Joint(0, n + 1, turn((Fraction(90 * n), 0, 0), "312"),
+                            (Fraction(x, 2), Fraction(y, 2), Fraction("2.5"))))
     found = joined(parts, places(joints, 5))
-    across = 2 * Fraction("0.47") + 2 * (Fraction("8.09") + Fraction("94.25"))  # two booms along the axis, two at 1 m from it
+    # two booms along the axis, two at 1 m from it
+    across = 2 * Fraction("0.47") + 2 * (Fraction("8.09") + Fraction("94.25"))
     along = 4 * (Fraction("8.09") + Fraction("94.25"))
-    assert found.tensor == ((5174 + across, 0, 0), (0, 3593 + across, 0), (0, 0, Fraction("245.4") + along)) and found.centre == (0, 0, Fraction("2.5"))
+    assert found.tensor == ((5174 + across, 0, 0), (0, 3593 + across, 0),
+                            (0, 0, Fraction("245.4") + along)) and found.centre == (0, 0, Fraction("2.5"))
 
 
 def test_a_line_with_a_number_too_many_is_named(tmp_path, stabilab):
-    path, four = tmp_path / "SC_Own.txt", FORTY_TWO.replace("1.0   0.0   0.0             ! Wheel", "0  1.0   0.0   0.0          ! Wheel")
+    path, four = tmp_path / "SC_Own.txt", FORTY_TWO.replace("1.0   0.0   0.0             ! Wheel",
+                                                            "0  1.0   0.0   0.0          ! Wheel")
     line = 1 + four.splitlines().index(next(words for words in four.splitlines() if "Wheel Axis" in words))
     path.write_text(four)
     code, _, err = stabilab("import", path)
     assert code == 2 and f'SC_Own.txt:{line}: Wheel Axis Components, [X, Y, Z]: expected three numbers, got "0  1.0   0.0   0.0"' in err
-    path.write_text(four.replace("4.0                         ! Initial", "0.0                         ! Initial"))
+    path.write_text(four.replace("4.0                         ! Initial",
+                                 "0.0                         ! Initial"))
     code, out, err = stabilab("import", path)
     assert code == 0 and "wheels" not in out and f"line {line}: Wheel Axis" in err and "no momentum and is left out" in err

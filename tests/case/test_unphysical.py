@@ -1,4 +1,5 @@
-"""Tensors that no rigid body has: silent within the digits given, a caveat beyond them, and the answer follows."""
+"""Tensors that no rigid body has: silent within the digits given, a caveat beyond them, and the answer
+follows."""
 import math
 from fractions import Fraction
 
@@ -19,7 +20,8 @@ def caveats(inertia, more=""):
 
 
 @pytest.mark.parametrize("written, half", [
-    ("0.333", "0.0005"), ("2.50", "0.005"), ("1e3", 0), ("1.20e-2", "0.00005"), ("5174", "0.5"), ("100", 0), ("2/3", 0), (7, 0),
+    ("0.333", "0.0005"), ("2.50", "0.005"), ("1e3", 0), ("1.20e-2", "0.00005"), ("5174", "0.5"), ("100", 0),
+    ("2/3", 0), (7, 0),
     (12345, "0.5"), (0.25, "0.005"), (Fraction(1, 3), 0)])  # by hand
 def test_half_a_unit_of_the_last_digit(written, half):
     assert half_unit(written) == Fraction(half)
@@ -27,7 +29,8 @@ def test_half_a_unit_of_the_last_digit(written, half):
 
 @pytest.mark.parametrize("digits", ["%.6f", "%#.6g", "%.3f"])
 def test_a_flat_plate_printed_in_any_frame_is_a_body(digits):
-    """diag(1, 2, 3) is a flat plate: the triangle inequality is an equality, and rounding breaks it by 1e-7 in about half of all frames."""
+    """diag(1, 2, 3) is a flat plate: the triangle inequality is an equality, and rounding breaks it by 1e-7
+    in about half of all frames."""
     rng, broken = np.random.default_rng(29), 0
     for frame in Rotation.random(16, rng).as_matrix():
         printed = [[digits % v for v in row] for row in frame @ np.diag([1.0, 2, 3]) @ frame.T]
@@ -43,7 +46,8 @@ def test_a_flat_plate_printed_in_any_frame_is_a_body(digits):
     ("[4.0, 2.0, 1.0]", "4", "3", "1"),                  # its SC_BBM
     ("[8, 4, 0.4]", "8", "4.4", "3.6"), ("[1, 2, 3.5]", "3.5", "3", "0.5"),
     ('["4 g cm^2", "2 g cm^2", "1 g cm^2"]', "4e-07", "3e-07", "1e-07"),
-    ("[[3, 0, 0], [0, 2, 0.1], [0, 0.1, 0.5]]", "3", "2.5", "0.5")])  # the trace less the moment that stands alone
+    # the trace less the moment that stands alone
+    ("[[3, 0, 0], [0, 2, 0.1], [0, 0.1, 0.5]]", "3", "2.5", "0.5")])
 def test_a_larger_excess_is_a_caveat_with_its_size_in_decimals(inertia, largest, others, excess):
     (found,) = caveats(inertia)
     assert found.kind == "unphysical"
@@ -67,7 +71,8 @@ def test_products_have_digits_too():
 
 
 def test_python_has_it_of_the_body_and_rounding_of_doubles_is_silent():
-    assert Body((4, 2, 1)).caveats and not Body(("0.333", "0.333", "0.667")).caveats and not Body((1, 2, 3)).caveats
+    assert Body((4, 2, 1)).caveats and not Body(("0.333", "0.333",
+                                                 "0.667")).caveats and not Body((1, 2, 3)).caveats
     moments = np.linalg.eigvalsh(np.array([[1.7, 0.3, 0.1], [0.3, 1.4, 0.2], [0.1, 0.2, 1.1]]))
     assert not Body((*moments[:2], moments[0] + moments[1] + 4e-16)).caveats
 
@@ -90,7 +95,8 @@ def test_fates_extremes_and_equilibria_are_those_of_eulers_equations():
     rng, words = np.random.default_rng(11), []
     for _ in range(8):
         D, wheel, torque = _torques(rng)
-        start, scene = rng.normal(size=3), Scene(Body(tuple(D)), Gyrostat(tuple(wheel)), ConstantTorque(tuple(torque)))
+        start, scene = rng.normal(size=3), Scene(Body(tuple(D)), Gyrostat(tuple(wheel)),
+                                                 ConstantTorque(tuple(torque)))
         assert scene.body.caveats
         rate = lambda t, w, D=D, h=wheel, M=torque: (np.cross(D * w + h, w) + M) / D
         found = stabilab.motion(scene, tuple(start))
@@ -114,25 +120,34 @@ def test_fates_extremes_and_equilibria_are_those_of_eulers_equations():
 
 def test_certificates_of_such_a_body_are_proved(stabilab, tmp_path):
     path, proof = tmp_path / "own.toml", tmp_path / "own.json"
-    path.write_text("[body]\ninertia = [8, 4, 0.4]\n[effects.constant_torque]\ntorque = [0, 0, 0.1]\n[motion]\nangular_velocity = [0.1, 0.2, 0.3]\n")
+    path.write_text(
+        "[body]\ninertia = [8, 4, 0.4]\n[effects.constant_torque]\ntorque = [0, 0, "
+        "0.1]\n[motion]\nangular_velocity = [0.1, 0.2, 0.3]\n")
     assert stabilab("classify", path, "--certify", "--out", proof)[0] == 0
     code, out, err = stabilab("verify", proof)
     assert code == 0 and "proved" in out.lower()
 
 
 def test_a_liquid_proves_nothing_of_a_body_that_does_not_exist():
-    """T' = -kappa/(D1 D2 D3) sum (Di - Dj)^2 (Di + Dj - Dk) wi^2 wj^2 (SymPy, tests/physics/test_laws) is positive at (1, 1, 0) for D = (2, 1, 4)."""
+    """T' = -kappa/(D1 D2 D3) sum (Di - Dj)^2 (Di + Dj - Dk) wi^2 wj^2 (SymPy, tests/physics/test_laws) is
+    positive at (1, 1, 0) for D = (2, 1, 4)."""
     liquid = stabilab.LiquidCavity(1250, 1000, "1.9")
     scene = Scene(Body((2, 1, 4)), liquid)
-    assert stabilab.motion(scene, (1, 1, 0)).fate.word == "undecided" and stabilab.equilibria(scene).kind == "undecided"
+    assert stabilab.motion(scene,
+                           (1, 1, 0)).fate.word == "undecided" and stabilab.equilibria(
+                               scene).kind == "undecided"
     whole = Scene(Body((2, 3, 4)), liquid)
-    assert stabilab.motion(whole, (1, 1, 0)).fate.word == "bounded" and stabilab.equilibria(whole).kind == "curves"
+    assert stabilab.motion(whole,
+                           (1, 1, 0)).fate.word == "bounded" and stabilab.equilibria(whole).kind == "curves"
 
 
-@pytest.mark.parametrize("command", [["fate"], ["classify"], ["extremes"], ["period"], ["sweep", "--vary", "torque[3]=0:1:2"]], ids=lambda given: given[0])
+@pytest.mark.parametrize("command", [["fate"], ["classify"], ["extremes"], ["period"],
+                                     ["sweep", "--vary", "torque[3]=0:1:2"]], ids=lambda given: given[0])
 def test_strict_leaves_with_3_and_without_it_the_answer_follows(stabilab, tmp_path, command):
     path, name = tmp_path / "own.toml", command[0]
-    path.write_text("[body]\ninertia = [8, 4, 0.4]\n[effects.constant_torque]\ntorque = [0, 0, 0.1]\n[motion]\nangular_velocity = [0.1, 0.2, 0.3]\n")
+    path.write_text(
+        "[body]\ninertia = [8, 4, 0.4]\n[effects.constant_torque]\ntorque = [0, 0, "
+        "0.1]\n[motion]\nangular_velocity = [0.1, 0.2, 0.3]\n")
     assert stabilab(name, path, *command[1:])[0] == 0
     assert stabilab(name, path, *command[1:], "--strict")[0] == 3
     path.write_text(path.read_text().replace("[8, 4, 0.4]", "[8, 4, 5]"))
@@ -140,7 +155,8 @@ def test_strict_leaves_with_3_and_without_it_the_answer_follows(stabilab, tmp_pa
 
 
 def test_a_tensor_that_doubles_made_unsymmetric_is_read():
-    """Q diag(1, 2, 3) Q^T by NumPy, all digits printed: entries across the diagonal differ by a unit in their last place."""
+    """Q diag(1, 2, 3) Q^T by NumPy, all digits printed: entries across the diagonal differ by a unit in their
+    last place."""
     frame = Rotation.random(None, np.random.default_rng(3)).as_matrix()
     tensor = frame @ np.diag([1.0, 2, 3]) @ frame.T
     tensor[0, 1] = np.nextafter(tensor[1, 0], 9)

@@ -1,4 +1,5 @@
-"""What accuracy costs: the reference knows its own error, counters are exact, and outputs say what was measured."""
+"""What accuracy costs: the reference knows its own error, counters are exact, and outputs say what was
+measured."""
 import csv
 import json
 import math
@@ -40,14 +41,17 @@ def case(name):
 
 def sums(found):
     """States of a reference as mpmath numbers."""
-    return [[mp.mpf(float(a)) + mp.mpf(float(b)) for a, b in zip(*rows)] for rows in zip(found.states, found.rest)]
+    return [[mp.mpf(float(a)) + mp.mpf(float(b)) for a, b in zip(*rows)]
+            for rows in zip(found.states, found.rest)]
 
 
-# -- the reference -----------------------------------------------------------------------------------------------------
+# -- the reference
+# -----------------------------------------------------------------------------------------------------
 
 
 def test_reference_meets_eulers_elliptic_functions_within_its_error():
-    # Torque-free motion from omega2 = 0 in closed form (Landau and Lifshitz, Mechanics, section 37), in mpmath.
+    # Torque-free motion from omega2 = 0 in closed form (Landau and Lifshitz, Mechanics, section 37), in
+    # mpmath.
     D, start, times = (1, 2, 3), (1.0, 0.0, 1.0), np.array([0.5, 3.0, 11.0])
     found = reference(Scene(Body(D)), start, times)
     with mp.workdps(45):
@@ -56,7 +60,8 @@ def test_reference_meets_eulers_elliptic_functions_within_its_error():
         assert M2 > E2 * two
         rate = mp.sqrt((three - two) * (M2 - E2 * one) / (one * two * three))
         m = (two - one) * (E2 * three - M2) / ((three - two) * (M2 - E2 * one))
-        tops = (mp.sqrt((E2 * three - M2) / (one * (three - one))), mp.sqrt((E2 * three - M2) / (two * (three - two))),
+        tops = (mp.sqrt((E2 * three - M2) / (one * (three - one))),
+                mp.sqrt((E2 * three - M2) / (two * (three - two))),
                 mp.sqrt((M2 - E2 * one) / (three * (three - one))))
         for t, state in zip(times, sums(found)):
             cn, sn, dn = (mp.ellipfun(name, rate * float(t), m=m) for name in ("cn", "sn", "dn"))
@@ -82,13 +87,15 @@ def test_reference_of_a_sphere_with_a_wheel_turns_at_the_wheels_rate():
         top = mp.sqrt(mp.mpf(5) / 4)
         for component, (low, high) in enumerate(((-top, top), (-top, top), (mp.mpf(1) / 4,) * 2)):
             for side, exact in enumerate((low, high)):
-                value = mp.mpf(found.extremes[component, side, 0]) + mp.mpf(found.extremes[component, side, 1])
+                value = (mp.mpf(found.extremes[component, side, 0])
+                         + mp.mpf(found.extremes[component, side, 1]))
                 assert abs(value - exact) <= 10 * max(found.extremes_error, 1e-31)
 
 
 def test_reference_agrees_with_another_taylor_series_on_a_spin_up():
     # tests/oracles/taylor.py: mpmath, its own recursion and equations.
-    scene, start, times = case("thruster-negative-minor-axis").scene, (0.5, -0.25, 0.125), np.array([2.0, 5.0])
+    scene, start, times = case("thruster-negative-minor-axis").scene, (0.5, -0.25,
+                                                                       0.125), np.array([2.0, 5.0])
     found = reference(scene, start, times)
     lam, torque = (tuple(scene.vector(name)) for name in ("gyrostat", "constant_torque"))
     with mp.workdps(50):
@@ -121,17 +128,20 @@ def test_recursion_forms_each_product_once():
     assert recursion.rates[0][0][1] == Fraction(D[1] - D[2]) / D[0]
 
 
-# -- the methods -------------------------------------------------------------------------------------------------------
+# -- the methods
+# -------------------------------------------------------------------------------------------------------
 
 
 @pytest.mark.one_in(3)
-@pytest.mark.parametrize("name", ["torque-free-body", "minor-axis-100", "middle-axis-double-well", "wheel-and-thruster",
+@pytest.mark.parametrize("name", ["torque-free-body", "minor-axis-100", "middle-axis-double-well",
+                                  "wheel-and-thruster",
                                   "symmetric-spin-up", "thruster-negative-minor-axis"])
 def test_reduced_form_gives_the_state_at_any_time_without_a_step(name):
     one = case(name)
     task = problem(one, 6)
     exact = reference(one.scene, task.start, task.times)
-    errors = [relative_errors(reduced(one.scene, task.start, n).at(exact.t), exact.states, exact.rest, exact.slices).max()
+    errors = [relative_errors(reduced(one.scene, task.start, n).at(exact.t), exact.states, exact.rest,
+                              exact.slices).max()
               for n in ladder(one.scene, task.start)]
     assert errors[-1] < 3e-14 and errors[0] > errors[-1] or max(errors) < 1e-14
 
@@ -158,7 +168,8 @@ def test_scipy_counters_are_scipys_own():
     rk = next(m for m in methods(task) if m.name == "RK45")
     answer = rk.prepare(task, 1e-6)(task.times[-1:])
     size = max(abs(v) for v in task.start)
-    run = solve_ivp(lambda t, y: task.system(y), (0, task.times[-1]), task.start, method="RK45", rtol=1e-6, atol=1e-9 * size)
+    run = solve_ivp(lambda t, y: task.system(y), (0, task.times[-1]), task.start, method="RK45", rtol=1e-6,
+                    atol=1e-9 * size)
     assert (answer.steps, answer.evaluations) == (len(run.t) - 1, run.nfev)
     assert np.allclose(answer.parts["omega"][-1], run.y[:, -1], rtol=0, atol=1e-15)
 
@@ -177,7 +188,8 @@ def test_every_model_of_a_case_is_among_the_methods():
     assert {"lindstedt", "printed", "RK45", "Radau", "LSODA"} <= names and "reduced" not in names
 
 
-# -- the measurement ---------------------------------------------------------------------------------------------------
+# -- the measurement
+# ---------------------------------------------------------------------------------------------------
 
 
 @pytest.fixture(scope="module")
@@ -191,7 +203,8 @@ def measured():
 def test_every_question_of_a_periodic_motion_is_measured(measured):
     assert measured.questions == ["span", "end", "extremes", "period"]
     for question in ("span", "end"):
-        assert {"RK45", "RK23", "DOP853", "Radau", "BDF", "LSODA", "reduced"} <= {p.method for p in measured.of(question)}
+        assert {"RK45", "RK23", "DOP853", "Radau", "BDF", "LSODA",
+                "reduced"} <= {p.method for p in measured.of(question)}
     assert {"reduced", "balls"} <= {p.method for p in measured.of("period")}
     assert [f.word for f in measured.fates if f.method == "energy"] == ["bounded"]
 
@@ -210,11 +223,13 @@ def test_no_error_is_below_the_references_own(measured):
 
 
 def test_settings_that_would_cost_too_much_are_named(measured):
-    assert measured.left_out and all(value < 1e-3 and "evaluations" in why for _, value, why in measured.left_out)
+    assert measured.left_out and all(value < 1e-3 and "evaluations" in why for _, value,
+                                     why in measured.left_out)
 
 
 def test_sensitivity_is_that_of_the_phase():
-    # D = (1, 1, 2): omega1, omega2 turn at the rate omega3, so a change of omega3 by d turns them by d t: shift d t against
+    # D = (1, 1, 2): omega1, omega2 turn at the rate omega3, so a change of omega3 by d turns them by d t:
+    # shift d t against
     # the length sqrt 2; largest components are within sqrt 2 of lengths.
     body, start = Scene(Body((1, 1, 2))), np.array([1.0, 1.0, 1.0])
     task = SimpleNamespace(start=start, equations=derive(body), slices={"omega": slice(0, 3)})
@@ -223,7 +238,8 @@ def test_sensitivity_is_that_of_the_phase():
 
 
 def point(digits, seconds, **other):
-    fields = {"question": "end", "method": "RK45", "setting": "rtol", "value": 1.0, "error": 10.0**-digits, "steps": 1, "evaluations": 1,
+    fields = {"question": "end", "method": "RK45", "setting": "rtol", "value": 1.0, "error": 10.0**-digits,
+              "steps": 1, "evaluations": 1,
               "seconds": seconds, "slowest": seconds, "repeats": 1, "compile": 0.0}
     return Point(**(fields | other))
 
@@ -241,7 +257,8 @@ def test_price_of_a_digit_is_the_slope_of_the_logarithm():
     assert digit_price([point(2, 4.0), point(4, 16.0), point(4.01, 900.0)]) == pytest.approx(2.0)
 
 
-# -- outputs -----------------------------------------------------------------------------------------------------------
+# -- outputs
+# -----------------------------------------------------------------------------------------------------------
 
 
 def test_words_tell_price_reference_and_limit(measured):
@@ -262,7 +279,8 @@ def test_picture_shows_a_panel_a_question_and_a_line_a_method(measured):
         figure = shown.picture(plt, measured)
         visible = [ax for ax in figure.axes if ax.get_visible()]
         assert len(visible) == len(measured.questions)
-        drawn = [line for line in visible[0].lines if len(line.get_xdata()) and line.get_marker() not in ("None", None, "")]
+        drawn = [line for line in visible[0].lines if len(line.get_xdata())
+                 and line.get_marker() not in ("None", None, "")]
         assert len(drawn) == len({p.method for p in measured.of("span")}) + 1  # the front lies under them
         assert len(drawn[0].get_xdata()) == len(measured.front("span")) > 1
         assert "cores" in figure.legends[0].get_title().get_text()
@@ -271,14 +289,17 @@ def test_picture_shows_a_panel_a_question_and_a_line_a_method(measured):
 def test_page_has_words_of_every_case_and_a_picture_of_every_kind(tmp_path, monkeypatch, measured):
     one = replace(measured, points=tuple(measured.of("span")))  # a small picture
     efforts, told = [], []
-    monkeypatch.setattr("stabilab.cost.accuracy.precision", lambda case, effort: efforts.append(effort) or replace(one, case=case))
+    monkeypatch.setattr("stabilab.cost.accuracy.precision", lambda case,
+                        effort: efforts.append(effort) or replace(one, case=case))
     other = replace(FREE, state=(0.3, 0.2, 0.1), title="the same equations")
     path = precision_page.page([FREE, other, replace(FREE, span=None)], tmp_path, told.append)
     html = path.read_text(encoding="utf-8")
-    assert path == tmp_path / "precision.html" and told[0] == "precision of torque-free-body" and efforts == ["brief", "glance"]
+    assert path == tmp_path / "precision.html" and told[0] == "precision of torque-free-body" and efforts == [
+        "brief", "glance"]
     assert "six digits cost" in html and html.count("<img") == 1 and "no motion with a span" in html
     assert (tmp_path / "precision" / "torque-free-body.png").stat().st_size > 5000
-    assert (tmp_path / "precision" / "torque-free-body.csv").exists() and "precision/torque-free-body.csv" in html
+    assert (tmp_path
+            / "precision" / "torque-free-body.csv").exists() and "precision/torque-free-body.csv" in html
     assert f"{measured.reference.error.max():.0e}".replace("-", "−") in html  # the reference's own error
 
 
@@ -289,9 +310,11 @@ def test_command_answers_in_strict_json(stabilab, monkeypatch, tmp_path, measure
     def refuse(word):
         raise AssertionError(word)
     points = tmp_path / "p.csv"
-    code, out, err = stabilab("precision", CASES / "torque-free-body.toml", "--quick", "--json", "--out", points)
+    code, out, err = stabilab("precision", CASES / "torque-free-body.toml", "--quick", "--json", "--out",
+                              points)
     answer = json.loads(out, parse_constant=refuse)
-    assert code == 0 and answer["schema"] == "stabilab.precision/1" and str(points) in err and points.read_text() == shown.csv(measured) + "\n"
+    assert code == 0 and answer["schema"] == "stabilab.precision/1" and str(
+        points) in err and points.read_text() == shown.csv(measured) + "\n"
     assert len(answer["points"]) == len(measured.points) and answer["reference"]["status"] == "agrees"
     assert {"processor", "cores", "system"} <= answer["machine"].keys() and answer["versions"]["stabilab"]
 
@@ -299,7 +322,8 @@ def test_command_answers_in_strict_json(stabilab, monkeypatch, tmp_path, measure
 def test_command_takes_another_end_of_the_span(stabilab, monkeypatch, tmp_path, measured):
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     given = []
-    monkeypatch.setattr("stabilab.commands.accuracy.measure", lambda case, effort, until=None: given.append((effort, until)) or measured)
+    monkeypatch.setattr("stabilab.commands.accuracy.measure", lambda case, effort,
+                        until=None: given.append((effort, until)) or measured)
     code, out, _ = stabilab("precision", CASES / "torque-free-body.toml", "--until", "1500", "--csv")
     assert code == 0 and given == [("full", 1500.0)] and out.startswith("case,question,method")
 
@@ -310,12 +334,14 @@ def test_times_reach_from_zero_to_the_end_of_the_span():
 
 
 def test_command_refuses_other_endings_before_it_measures(stabilab, monkeypatch, tmp_path):
-    monkeypatch.setattr("stabilab.commands.accuracy.measure", lambda case, effort, until=None: pytest.fail("measured"))
+    monkeypatch.setattr("stabilab.commands.accuracy.measure", lambda case, effort,
+                        until=None: pytest.fail("measured"))
     code, out, err = stabilab("precision", CASES / "torque-free-body.toml", "--out", tmp_path / "p.txt")
     assert code == 2 and not out and ".png, .svg, .pdf or .csv" in err
 
 
-# -- the front that is kept --------------------------------------------------------------------------------------------
+# -- the front that is kept
+# --------------------------------------------------------------------------------------------
 
 
 def test_front_is_kept_per_motion_machine_and_version(tmp_path, monkeypatch, measured):
@@ -328,8 +354,10 @@ def test_front_is_kept_per_motion_machine_and_version(tmp_path, monkeypatch, mea
     assert all(a.digits < b.digits and a.cost < b.cost for a, b in zip(kept, kept[1:]))
     assert precision_front.front(case("sphere-wheel")) == ()
     coarse = replace(measured, points=measured.points[:1])
-    assert precision_front.keep(coarse) == path and precision_front.front(FREE) == kept  # quick: nothing is lost
-    assert precision_front.keep(replace(coarse, effort="full")) == path and len(precision_front.front(FREE)) == 1
+    # quick: nothing is lost
+    assert precision_front.keep(coarse) == path and precision_front.front(FREE) == kept
+    assert precision_front.keep(replace(coarse,
+                                        effort="full")) == path and len(precision_front.front(FREE)) == 1
     short = replace(measured, effort="full", reference=replace(measured.reference, status="stopped"))
     assert precision_front.keep(short) is None  # it would speak of times that were not judged
     monkeypatch.setattr("stabilab.answers.digits.front.versions", lambda: {"stabilab": "0"})
@@ -344,7 +372,8 @@ def test_a_folder_that_cannot_be_written_keeps_nothing(tmp_path, monkeypatch, me
     assert precision_front.keep(measured) is None
 
 
-# -- digits asked for --------------------------------------------------------------------------------------------------
+# -- digits asked for
+# --------------------------------------------------------------------------------------------------
 
 
 @pytest.fixture(scope="module")
@@ -392,12 +421,16 @@ def test_reduced_form_serves_digits_where_it_was_measured_to(monkeypatch, judged
     assert relative_errors(reached.run.state["x"], exact.states, exact.rest, exact.slices).max() <= 1e-12
 
 
-def test_digits_that_nothing_reaches_end_with_5_after_the_states_that_come_nearest(stabilab, tmp_path, monkeypatch):
-    # off an unstable plane by rounding: not one digit is sure, so it is no answer whether or not digits were asked for
+def test_digits_that_nothing_reaches_end_with_5_after_the_states_that_come_nearest(stabilab, tmp_path,
+                                                                                   monkeypatch):
+    # off an unstable plane by rounding: not one digit is sure, so it is no answer whether or not digits were
+    # asked for
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
-    monkeypatch.setattr("stabilab.integrate.reference.DIGITS", (30, 42))  # those that this motion takes cost seconds
+    # those that this motion takes cost seconds
+    monkeypatch.setattr("stabilab.integrate.reference.DIGITS", (30, 42))
     for options, wanted in (((), 5), (("--digits", "10"), 5)):
-        code, out, err = stabilab("simulate", CASES / "middle-axis-spin-up.toml", "--at", "0,20", "--json", *options)
+        code, out, err = stabilab("simulate", CASES / "middle-axis-spin-up.toml", "--at", "0,20", "--json",
+                                  *options)
         told = json.loads(out)
         assert code == wanted and ("10 digits asked for" in err) == (wanted == 5)
         assert told["digits"]["asked"] == 10 and told["digits"]["reached"] < 3
@@ -408,15 +441,18 @@ def test_an_attitude_is_followed_in_many_digits_too(tmp_path, monkeypatch):
     # against the closed form of a ball that spins about axis 3 without torque: theta = 2 t, many turns of it
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     ball = replace(case("charged-body"), scene=Scene(Body((2, 2, 2), mass=1)), state=(0.0, 0.0, 2.0),
-                   blocks={"attitude": (0.0, 0.0, 0.0), "velocity": (1.0, 0.0, 0.0), "position": (0.0, 0.0, 0.0)})
+                   blocks={"attitude": (0.0, 0.0, 0.0), "velocity": (1.0, 0.0, 0.0),
+                           "position": (0.0, 0.0, 0.0)})
     times = np.array([0.0, 1.0, 30.0])
     found = precision_digits._many_digits(ball, times, 15)
     assert np.abs(found.run.state["angles"][:, 2] - 2 * times).max() < 1e-14 and found.digits >= 15
-    assert np.abs(found.run.state["position"][:, 0] - times).max() < 1e-14 and list(found.run.state)[:3] == ["omega", "angles", "momentum"]
+    assert np.abs(found.run.state["position"][:, 0]
+                  - times).max() < 1e-14 and list(found.run.state)[:3] == ["omega", "angles", "momentum"]
 
 
 def test_models_are_judged_on_the_attitude(monkeypatch):
-    # a model whose angles are the exact ones, given with the other sign of the quaternion, has no error in the attitude
+    # a model whose angles are the exact ones, given with the other sign of the quaternion, has no error in
+    # the attitude
     one = case("charged-body-small-torque")
     task = problem(one, 2)
     exact = reference(one.scene, task.start, task.times, task.equations.blocks, work=60_000_000)
@@ -438,10 +474,12 @@ def test_simulate_tells_the_digits_and_how_they_were_checked(stabilab, tmp_path,
     assert code == 0 and "digits: " in out.splitlines()[-1]
     told = json.loads(stabilab("simulate", path, "--at", "0,5", "--json")[1])["digits"]
     assert told["asked"] == 10 and told["reached"] >= 10
-    assert json.loads(stabilab("simulate", path, "--at", "0,5", "--json", "--rtol", "1e-4")[1])["digits"] is None
+    assert json.loads(stabilab("simulate", path, "--at", "0,5", "--json", "--rtol",
+                               "1e-4")[1])["digits"] is None
 
 
-@pytest.mark.parametrize("options", [("--digits", "16"), ("--digits", "0"), ("--digits", "6", "--rtol", "1e-3"),
+@pytest.mark.parametrize("options",
+                         [("--digits", "16"), ("--digits", "0"), ("--digits", "6", "--rtol", "1e-3"),
                                      ("--digits", "6", "--method", "RK45")])
 def test_digits_that_make_no_sense_are_refused(stabilab, options):
     code, out, err = stabilab("simulate", CASES / "minor-axis-100.toml", "--at", "1", *options)
@@ -450,7 +488,8 @@ def test_digits_that_make_no_sense_are_refused(stabilab, options):
 
 @pytest.mark.slow
 def test_a_start_on_an_unstable_plane_is_beyond_doubles_but_not_beyond_many_digits(tmp_path, monkeypatch):
-    # On the plane x1 + b = -x3 (a law of the equations, see `show`) the distance from pure spin obeys u' = -x2 u: it dies out.
+    # On the plane x1 + b = -x3 (a law of the equations, see `show`) the distance from pure spin obeys u' =
+    # -x2 u: it dies out.
     # Off it by rounding, the distance grows as fast.
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     one = case("middle-axis-spin-up")

@@ -24,7 +24,8 @@ def test_a_point_beyond_the_end_of_a_branch_is_refused():
                 with pytest.raises(InputError, match="outside"):
                     curve.point(end + side * (1 + abs(end)))
 
-INTERVALS = [(None, None), (F(-3), None), (F(0), None), (F(2, 7), None), (F(-3), F(2)), (F(0), F(1, 3)), (F(1, 1000), F(1000)),
+INTERVALS = [(None, None), (F(-3), None), (F(0), None), (F(2, 7), None), (F(-3), F(2)), (F(0), F(1, 3)),
+             (F(1, 1000), F(1000)),
              (F(1, 10), F(20)), (F(1), F(50)), (F(5), F(6)), (F(1), F(100)),
              (F(1, 10**9), F(10**9)), (F(-2), F(3, 10**7)), (F(0), F(10**7))]
 
@@ -34,11 +35,15 @@ def test_samples_lie_inside_their_interval_rising_and_mirrored(lo, hi):
     for a, b in ((lo, hi), tuple(None if end is None else -end for end in (hi, lo))):
         samples = sample_parameters(a, b, F(1))
         assert len(samples) >= 4 and all(F(float(t)) == t for t in samples)
-        assert samples == sorted(set(samples)) and (a is None or samples[0] > a) and (b is None or samples[-1] < b)
-        assert samples == [-t for t in reversed(sample_parameters(None if b is None else -b, None if a is None else -a, F(1)))]
+        assert samples == sorted(set(samples)) and (a is None
+                                                    or samples[0] > a) and (b is None or samples[-1] < b)
+        assert samples == [-t
+                           for t in reversed(sample_parameters(None if b is None else -b,
+                                                               None if a is None else -a, F(1)))]
 
 
-@pytest.mark.parametrize("lo, hi", [(F(1, 1000), F(1000)), (F(1, 10**9), F(10**9)), (F(3), F(301)), (F(1, 10), F(20)),
+@pytest.mark.parametrize("lo, hi",
+                         [(F(1, 1000), F(1000)), (F(1, 10**9), F(10**9)), (F(3), F(301)), (F(1, 10), F(20)),
                                     (F(7), F(7000))])
 def test_samples_of_a_wide_interval_are_spread_over_its_decades(lo, hi):
     places = [math.log(t / lo) / math.log(hi / lo) for t in sample_parameters(lo, hi, F(1))]

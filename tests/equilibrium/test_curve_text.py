@@ -1,4 +1,5 @@
-"""What is said of curves of equilibria: equations, parametrisations and crossings, read and checked against the rates."""
+"""What is said of curves of equilibria: equations, parametrisations and crossings, read and checked against
+the rates."""
 from __future__ import annotations
 
 import re
@@ -15,24 +16,30 @@ from stabilab.equilibrium.stability import curve_with_verdicts
 from tests.equilibrium.test_gyrostat import CURVED
 from tests.oracles.pairs import physical
 
-LINES = [((4, 3, 2), (1, 5, 14), (0, 7, -5)), ((2, 2, 1), (2, 1, 3), (1, -2, 0)), ((2, 2, 1), (2, 1, 3), (-1, 2, 0)),
-         ((5, 4, 2), (2, 3, 0), (0, 0, -6)), ((5, 4, 2), (2, 3, 0), (0, 0, 7)), ((5, 4, 2), (2, 3, 0), (0, 0, -7)),
-         ((5, 4, 5), (2, 3, 0), (0, 0, -6)), ((2, 2, 1), (1, -2, 0), (0, 0, 1)), ((3, 3, 3), (1, -2, -3), (0, 0, 0)),
+LINES = [((4, 3, 2), (1, 5, 14), (0, 7, -5)), ((2, 2, 1), (2, 1, 3), (1, -2, 0)),
+         ((2, 2, 1), (2, 1, 3), (-1, 2, 0)),
+         ((5, 4, 2), (2, 3, 0), (0, 0, -6)), ((5, 4, 2), (2, 3, 0), (0, 0, 7)),
+         ((5, 4, 2), (2, 3, 0), (0, 0, -7)),
+         ((5, 4, 5), (2, 3, 0), (0, 0, -6)), ((2, 2, 1), (1, -2, 0), (0, 0, 1)),
+         ((3, 3, 3), (1, -2, -3), (0, 0, 0)),
          ((3, 3, 3), (-1, 2.5, 1), (0, 0, 0))]
 ON_EVERY_AXIS = [tuple(tuple(v[n] for n in order) for v in case) for case in LINES
                  for order in ((0, 1, 2), (1, 2, 0), (2, 0, 1))]
 
 
 def said(text, t):
-    """{name: value} of the clauses "name = 2 + 3 t" of an equation or a parametrisation, at t; a product as its own name."""
+    """{name: value} of the clauses "name = 2 + 3 t" of an equation or a parametrisation, at t; a product as
+    its own name."""
     value = lambda e: eval(re.sub(r"([\d.]) t", r"\1*t", e), {"t": t})
-    pairs = [c.split(" = ", 1) for c in re.sub(r", N = e x M = \([^)]*\)", "", text).split(", ") if " = " in c]
+    pairs = [c.split(" = ", 1) for c in re.sub(r", N = e x M = \([^)]*\)", "", text).split(", ")
+             if " = " in c]
     return {name: value(e) for name, e in pairs if "alpha N" not in e and "omega" not in e}
 
 
 @pytest.mark.parametrize("D, lam, M", CURVED + ON_EVERY_AXIS)
 def test_the_words_about_a_curve_of_equilibria_name_its_points(D, lam, M):
-    """Every clause of the equation and of the parametrisation, read as arithmetic, at points where the rates vanish."""
+    """Every clause of the equation and of the parametrisation, read as arithmetic, at points where the rates
+    vanish."""
     scene, problem = physical(D, lam, M)
     for curve in equilibria(scene).curves:
         for t in (0.375, -2.75, 1.9):
@@ -64,9 +71,11 @@ def test_the_words_about_a_curve_of_equilibria_name_its_points(D, lam, M):
     ((5, 4, 5), (2, 3, 0), (0, 0, -6), "stable"),
     ((4, 5, 5), (3, 0, 2), (0, -6, 0), "stable"), ((5, 5, 4), (0, 2, 3), (-6, 0, 0), "stable")])
 def test_where_two_lines_cross_the_potential_has_the_power_and_the_sign_that_are_named(D, lam, M, expected):
-    """dx/dalpha = J(x) e by mpmath from the oracle's rates (a quadratic's central difference is its derivative), U' = -e.x'."""
+    """dx/dalpha = J(x) e by mpmath from the oracle's rates (a quadratic's central difference is its
+    derivative), U' = -e.x'."""
     scene, problem = physical(D, lam, M)
-    crossings = {(p.at, p.verdict, p.because) for c in equilibria(scene).curves for p in c.samples if "U ~" in p.because}
+    crossings = {(p.at, p.verdict, p.because) for c in equilibria(scene).curves for p in c.samples
+                 if "U ~" in p.because}
     assert {verdict for _, verdict, _ in crossings} == {expected}
     for at, verdict, because in crossings:
         sign, power = re.search(r"U ~ ([+-])alpha\^(\d+)", because).groups()
@@ -75,7 +84,8 @@ def test_where_two_lines_cross_the_potential_has_the_power_and_the_sign_that_are
             def along(_, x):
                 ahead, behind = (problem.rate([mp.mpf(v) + s * m for v, m in zip(x, M)]) for s in (1, -1))
                 return [(u - v) / 2 for u, v in zip(ahead, behind)]
-            flow = {s: mp.odefun(lambda t, x, s=s: [s * v for v in along(t, x)], 0, [mp.mpf(v) for v in at]) for s in (1, -1)}
+            flow = {s: mp.odefun(lambda t, x, s=s: [s * v for v in along(t, x)], 0, [mp.mpf(v) for v in at])
+                    for s in (1, -1)}
             pull = lambda t: -sum(m * v for m, v in zip(M, problem.rate(flow[1 if t > 0 else -1](abs(t)))))
             step = mp.mpf(1) / 1024 / max(map(abs, M))
             assert mp.sign(pull(step)) == (1 if sign == "+" else -1)
@@ -85,7 +95,8 @@ def test_where_two_lines_cross_the_potential_has_the_power_and_the_sign_that_are
 
 @pytest.mark.parametrize("a", ["0.25", "-1.5"])
 def test_the_free_scaled_body_without_a_wheel_rests_where_its_three_axes_meet(a):
-    """x2 x3 = 0, x3 (x1 + a) = 0, x2 (x1 + a) = 0: three lines through (-a, 0, 0), where alone all are at rest."""
+    """x2 x3 = 0, x3 (x1 + a) = 0, x2 (x1 + a) = 0: three lines through (-a, 0, 0), where alone all are at
+    rest."""
     curves = equilibria(ScaledGyrostat(a, a, (0, 0, 0))).curves
     assert len(curves) == 3
     for curve in curves:
@@ -99,4 +110,5 @@ def test_a_line_on_which_the_motion_is_degenerate_all_along_is_left_undecided():
     line = RationalCurve("line", "", "", straight_line((F(0),) * 3, (F(1), F(0), F(0))), WELL)
     found = curve_with_verdicts(Scene(Body((1, 1, 1))).quadratic(), line)
     assert {(s.linear, s.verdict) for s in (*found.segments, *found.samples)} == {("degenerate", "undecided")}
-    assert all(p.eigenvalues == (0, 0, 0) for p in found.samples) and len(found.segments) == 1 and not found.folds
+    assert all(p.eigenvalues == (0, 0, 0)
+               for p in found.samples) and len(found.segments) == 1 and not found.folds

@@ -1,4 +1,5 @@
-"""Equilibria against exact elimination (SymPy), the equations themselves, symmetries and the cases of the theory."""
+"""Equilibria against exact elimination (SymPy), the equations themselves, symmetries and the cases of the
+theory."""
 from __future__ import annotations
 
 import math
@@ -42,7 +43,8 @@ def scaled_equations(a, b, mu):
 
 
 def real_solutions(equations, w, form=(3, 7, 19)):
-    """Real values of a separating linear form over all solutions, by a Groebner basis: [] if none, None if a continuum."""
+    """Real values of a separating linear form over all solutions, by a Groebner basis: [] if none, None if a
+    continuum."""
     import sympy as sp
     u = sp.Symbol("u")
     basis = sp.groebner([*equations, u - sum(c * v for c, v in zip(form, w))], *w, u, order="lex")
@@ -100,8 +102,10 @@ def test_scaled_isolated_equilibria_are_those_of_exact_elimination(seed):
         assert values(p.at for p in found.points) == pytest.approx(solutions, rel=1e-12, abs=1e-12)
 
 
-CURVED = [  # D, lambda, M: hyperbola, lines that cross, one line, oblique torque on a symmetric body, torque-free
-    (D_PAPER, (100, 0, 0), (0, 0, 204)), ((5, 4, 2), (2, 3, 0), (0, 0, -6)), ((5, 4, 2), (2, 3, 0), (0, 0, 6)),
+# D, lambda, M: hyperbola, lines that cross, one line, oblique torque on a symmetric body, torque-free
+CURVED = [
+    (D_PAPER, (100, 0, 0), (0, 0, 204)), ((5, 4, 2), (2, 3, 0), (0, 0, -6)),
+    ((5, 4, 2), (2, 3, 0), (0, 0, 6)),
     ((5, 4, 5), (2, 3, 0), (0, 0, -6)), ((2, 2, 1), (1, 2, 0), (0, 0, 1)), ((2, 2, 1), (2, 1, 3), (1, -2, 0)),
     ((3, 3, 3), (1, 2, 3), (3, 0, -1)), ((5, 4, 2), (1, 2, 3), (0, 0, 0)), ((5, 4, 2), (1, 0, 3), (0, 0, 0)),
     ((5, 4, 2), (0, 1, 0), (0, 0, 0)), ((4, 4, 2), (1, 2, 3), (0, 0, 0)), ((4, 4, 2), (1, 2, 0), (0, 0, 0)),
@@ -122,11 +126,14 @@ def test_curves_meet_any_plane_where_exact_elimination_says(D, lam, M):
         expected = real_solutions([*equations, sum(n * v for n, v in zip(normal, w)) - height], w)
         met = set()
         for c in curves:
-            condition = sum((n * sp.Poly([sp.Rational(v.numerator, v.denominator) for v in reversed(q.c)] or [0], t)
+            condition = sum((n * sp.Poly([sp.Rational(v.numerator, v.denominator) for v in reversed(q.c)]
+                                         or [0], t)
                              for n, q in zip(normal, c.numerators)), sp.Poly(0, t))
-            condition -= height * sp.Poly([sp.Rational(v.numerator, v.denominator) for v in reversed(c.denominator.c)], t)
+            condition -= (height * sp.Poly([sp.Rational(v.numerator, v.denominator)
+                                            for v in reversed(c.denominator.c)], t))
             if not condition.is_ground:
-                met |= {tuple(map(float, c.exact_point(F(str(sp.N(r, 40)))))) for r in sp.real_roots(condition)}
+                met |= {tuple(map(float, c.exact_point(F(str(sp.N(r, 40))))))
+                        for r in sp.real_roots(condition)}
         assert values(met) == pytest.approx(expected, rel=1e-9, abs=1e-9)
 
 
@@ -140,7 +147,8 @@ def test_every_sample_and_fold_of_a_curve_is_an_equilibrium(D, lam, M):
 
 
 def residual(scene, at) -> float:
-    """Largest |rate| over the size of its terms and of the derivative times the rounding of `at`; exact arithmetic."""
+    """Largest |rate| over the size of its terms and of the derivative times the rounding of `at`; exact
+    arithmetic."""
     x, form = [F(v) for v in at], scene.quadratic()
     worst = 0.0
     for i, (j, k) in enumerate(((1, 2), (2, 0), (0, 1))):
@@ -183,17 +191,21 @@ def folds(found, change=lambda v: v):
 @settings(max_examples=60, deadline=None)
 @given(body, st.tuples(number, number, number), st.tuples(number, number, number), st.integers(-20, 20))
 def test_faster_rotation_scales_the_answer(D, lam, M, power):
-    """omega -> s omega, lambda -> s lambda, M -> s^2 M, time -> time/s; s is a power of two, so every digit agrees."""
+    """omega -> s omega, lambda -> s lambda, M -> s^2 M, time -> time/s; s is a power of two, so every digit
+    agrees."""
     s = F(2) ** power
-    one, two = equilibria(physical(D, lam, M)), equilibria(physical(D, [s * v for v in lam], [s * s * v for v in M]))
+    one, two = equilibria(physical(D, lam,
+                                   M)), equilibria(physical(D, [s * v for v in lam], [s * s * v for v in M]))
     grown = lambda v: tuple(float(s) * c for c in v)
     assert [grown(p.at) for p in one.points] == [p.at for p in two.points]
-    assert [tuple(float(s) * z for z in p.eigenvalues) for p in one.points] == [p.eigenvalues for p in two.points]
+    assert [tuple(float(s) * z for z in p.eigenvalues)
+            for p in one.points] == [p.eigenvalues for p in two.points]
     assert folds(one, grown) == folds(two)
 
 
 SIGNS = [  # theory: (signs of x, signs of (a, b), signs of mu), time reversed or not
-    ((1, -1, -1), 1, (1, -1, -1)), ((-1, 1, -1), -1, (-1, 1, -1)), ((1, -1, 1), 1, (-1, 1, -1)), ((1, 1, -1), 1, (-1, -1, 1))]
+    ((1, -1, -1), 1, (1, -1, -1)), ((-1, 1, -1), -1, (-1, 1, -1)), ((1, -1, 1), 1, (-1, 1, -1)),
+    ((1, 1, -1), 1, (-1, -1, 1))]
 
 
 @settings(max_examples=60, deadline=None)
@@ -205,11 +217,15 @@ def test_sign_symmetries_carry_equilibria_to_equilibria(a, b, mu, symmetry):
     flip = lambda v: tuple(s * c + 0.0 for s, c in zip(sx, v))
     assert sorted(flip(p.at) for p in one.points) == sorted(tuple(v + 0.0 for v in p.at) for p in two.points)
     assert folds(one, flip) == folds(two)
-    assert [p.verdict for p in sorted(one.points, key=lambda p: flip(p.at))] == [p.verdict for p in sorted(two.points, key=lambda p: p.at)]
+    assert [p.verdict for p in sorted(one.points,
+                                      key=lambda p: flip(p.at))] == [p.verdict
+                                                                     for p in sorted(two.points,
+                                                                                     key=lambda p: p.at)]
 
 
 def test_coordinates_are_correct_to_the_last_digit_for_nearly_equal_moments():
-    """Against 60-digit roots of the same conditions (mpmath), D1 - D2 = 1e-12 D1 and a torque off the axes."""
+    """Against 60-digit roots of the same conditions (mpmath), D1 - D2 = 1e-12 D1 and a torque off the axes.
+    """
     import mpmath as mp
     with mp.workdps(60):
         D = [mp.mpf(1), 1 - mp.mpf(10) ** -12, mp.mpf(1) / 2]
@@ -219,13 +235,15 @@ def test_coordinates_are_correct_to_the_last_digit_for_nearly_equal_moments():
         c, a1, b1 = f(mp.mpf(0)), f(mp.mpf(1)), f(mp.mpf(-1))
         A, B = (a1 + b1) / 2 - c, (a1 - b1) / 2
         disc = B * B - 4 * A * c
-        expected = sorted(tuple(map(float, w((-B + s * mp.sqrt(disc)) / (2 * A))[0])) for s in (1, -1)) if disc >= 0 else []
+        expected = (sorted(tuple(map(float, w((-B + s * mp.sqrt(disc)) / (2 * A))[0])) for s in (1, -1))
+                    if disc >= 0 else [])
     scene = physical(("1", 1 - F(1, 10**12), "1/2"), (1, 2, -1), (F(3, 7), F(-2, 3), 1))
     assert [p.at for p in equilibria(scene).points] == expected
 
 
 def rotated(D, lam, M, s):
-    """(omega, remaining condition) at parameter s of the line M.omega = 0 = M.(D omega + lambda), plain mpmath algebra."""
+    """(omega, remaining condition) at parameter s of the line M.omega = 0 = M.(D omega + lambda), plain
+    mpmath algebra."""
     import mpmath as mp
     solve = mp.matrix([[M[0], M[1]], [D[0] * M[0], D[1] * M[1]]])
     right = mp.matrix([-M[2] * s, -sum(l * m for l, m in zip(lam, M)) - D[2] * M[2] * s])
@@ -260,7 +278,8 @@ def test_folds_of_the_minor_axis_lie_on_the_fold_circle(scale):
         assert X * X + h * h == pytest.approx(h**2 + h**6, rel=1e-14)
 
 
-@pytest.mark.parametrize("c, count", [(0, 0), (F("1.7547653505"), 0), (F("1.7547653507"), 2), (F("-1.7547653507"), 2), (9, 2)])
+@pytest.mark.parametrize("c, count", [(0, 0), (F("1.7547653505"), 0), (F("1.7547653507"), 2),
+                                      (F("-1.7547653507"), 2), (9, 2)])
 def test_the_middle_axis_has_folds_only_beyond_the_cusp(c, count):
     """|c| > 4 3^(-3/4) = 1.75476535060... (theory)."""
     (curve,) = equilibria(ScaledGyrostat(0, c, (0, 1, 0))).curves
@@ -272,7 +291,8 @@ def test_the_middle_axis_folds_are_the_roots_of_their_quartic():
     import mpmath as mp
     (curve,) = equilibria(ScaledGyrostat(0, "1.76", (0, 1, 0))).curves
     with mp.workdps(50):
-        roots = sorted(float(r.real) for r in mp.polyroots([1, 0, 0, mp.mpf("1.76"), 1], maxsteps=200, extraprec=200)
+        roots = sorted(float(r.real)
+                       for r in mp.polyroots([1, 0, 0, mp.mpf("1.76"), 1], maxsteps=200, extraprec=200)
                        if abs(r.imag) < mp.mpf(10) ** -30)
     assert [f[2] for f in curve.folds] == roots
 
@@ -292,8 +312,8 @@ def test_existence_turns_exactly_where_the_discriminant_vanishes():
 
 
 def test_a_line_of_equilibria_exists_for_a_torque_on_no_axis():
-    """lambda = (l, (D1-D2) y2, (D1-D3) y3), M = l (0, y3, -y2): H = D1 omega + (l,0,0) for every rate about axis 1, so
-    H x omega + M = 0 by hand."""
+    """lambda = (l, (D1-D2) y2, (D1-D3) y3), M = l (0, y3, -y2): H = D1 omega + (l,0,0) for every rate about
+    axis 1, so H x omega + M = 0 by hand."""
     (curve,) = equilibria(physical((4, 3, 2), (1, 5, 14), (0, 7, -5))).curves
     assert curve.point(3.25) == (3.25, 5.0, 7.0)
     assert real_solutions(*euler((4, 3, 2), (1, 5, 14), (0, 7, -5))) is None
@@ -318,25 +338,30 @@ def test_curve_points_are_refused_at_a_pole():
 
 
 @pytest.mark.parametrize("inertia, momentum, words", [
-    ("3, 3, 2", "0, 0, 0", "plane ω3 = 0 (unstable but at single points)"),  # rest is stable by the energy, its neighbours in the plane turn away
+    # rest is stable by the energy, its neighbours in the plane turn away
+    ("3, 3, 2", "0, 0, 0", "plane ω3 = 0 (unstable but at single points)"),
     ("3, 3, 2", "0, 0, 1", "plane ω3 = 1 (unstable but at single points)")])
-def test_words_of_a_curve_leave_out_the_points_that_do_otherwise(stabilab, tmp_path, inertia, momentum, words):
+def test_words_of_a_curve_leave_out_the_points_that_do_otherwise(stabilab, tmp_path, inertia, momentum,
+                                                                 words):
     path = tmp_path / "round.toml"
     path.write_text(f"[body]\ninertia = [{inertia}]\n[effects.gyrostat]\nmomentum = [{momentum}]\n")
     assert words in stabilab("classify", path)[1]
 
 
 def test_classification_needs_no_numerical_library():
-    code = ("import sys; from stabilab import ScaledGyrostat, equilibria; equilibria(ScaledGyrostat(0, 1, (0, 0, 1)));"
+    code = ("import sys; from stabilab import ScaledGyrostat, equilibria; equilibria(ScaledGyrostat(0, 1, "
+            "(0, 0, 1)));"
             "sys.exit(any(m in sys.modules for m in ('numpy', 'scipy', 'sympy', 'mpmath')))")
     assert subprocess.run([sys.executable, "-c", code]).returncode == 0
 
 
 def test_a_discriminant_beyond_the_doubles_is_still_told():
     u = F(10) ** 60
-    scene = Scene(Body((4, 2, 3)), Gyrostat((-u * 3 / 10, 4 * u, 2 * u)), ConstantTorque((-u * u, 2 * u * u, -4 * u * u)))
+    scene = Scene(Body((4, 2, 3)), Gyrostat((-u * 3 / 10, 4 * u, 2 * u)),
+                  ConstantTorque((-u * u, 2 * u * u, -4 * u * u)))
     assert stabilab.equilibria(scene).kind == "none"  # law: as for u = 1
-    assert decimal(F(10) ** 400 * F(-2, 3)) == "-6.66667e+399" and decimal(F(10) ** -400 / 7) == "1.42857e-401"
+    assert decimal(F(10) ** 400 * F(-2,
+                                    3)) == "-6.66667e+399" and decimal(F(10) ** -400 / 7) == "1.42857e-401"
 
 
 def test_a_sphere_has_a_line_of_equilibria_where_its_wheel_lies_across_the_torque():
@@ -345,5 +370,6 @@ def test_a_sphere_has_a_line_of_equilibria_where_its_wheel_lies_across_the_torqu
     (line,) = equilibria(Scene(Body((2, 2, 2)), Gyrostat(wheel), ConstantTorque(torque))).curves
     for sample in line.samples:
         foot = np.cross(wheel, torque) / 10
-        np.testing.assert_allclose(np.cross(np.array(sample.at) - foot, wheel), 0, atol=1e-12 * (1 + np.abs(sample.at).max()))
+        np.testing.assert_allclose(np.cross(np.array(sample.at) - foot, wheel), 0,
+                                   atol=1e-12 * (1 + np.abs(sample.at).max()))
     assert equilibria(Scene(Body((2, 2, 2)), Gyrostat((3, 0, 1)), ConstantTorque(torque))).kind == "none"

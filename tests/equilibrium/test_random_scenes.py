@@ -1,5 +1,5 @@
-"""Random scenes, half of them degenerate: no equilibrium missed or invented, no wrong verdict, what is not proved is counted; and wild
-ones, whose fates, extremes and periods are the same by every way to them."""
+"""Random scenes, half of them degenerate: no equilibrium missed or invented, no wrong verdict, what is not
+proved is counted; and wild ones, whose fates, extremes and periods are the same by every way to them."""
 import collections
 import json
 import os
@@ -29,15 +29,19 @@ def generic(rng):
 
 
 def random_scene(rng, degenerate):
-    """(the scene, the oracle's arguments): small rationals, or doubles over six decades; zero components in both."""
+    """(the scene, the oracle's arguments): small rationals, or doubles over six decades; zero components in
+    both."""
     pick = small if degenerate else generic
     size = Fraction(1) if degenerate else Fraction(float(10 ** rng.uniform(-3, 3)))
     if rng.random() < 0.3:
-        a, b, mu = pick(rng), pick(rng), [pick(rng) * size if rng.random() < 0.8 else Fraction(0) for _ in range(3)]
-        if degenerate and a != b and rng.random() < 0.1:  # the two isolated equilibria in one (c^2 + 4 mu2 mu3/mu1 = 0, by hand)
+        a, b, mu = pick(rng), pick(rng), [pick(rng) * size if rng.random() < 0.8 else Fraction(0)
+                                          for _ in range(3)]
+        # the two isolated equilibria in one (c^2 + 4 mu2 mu3/mu1 = 0, by hand)
+        if degenerate and a != b and rng.random() < 0.1:
             mu[0] = -4 * mu[1] * mu[2] / (b - a) ** 2
         return ScaledGyrostat(a, b, mu), (by_hand.of_scaled, (a, b, mu))
-    D = [Fraction(int(v)) for v in rng.integers(2, 5, 3)] if degenerate else [Fraction(float(v)) for v in rng.uniform(1, 2, 3)]
+    D = ([Fraction(int(v)) for v in rng.integers(2, 5, 3)] if degenerate
+         else [Fraction(float(v)) for v in rng.uniform(1, 2, 3)])
     lam, M = ([pick(rng) if rng.random() < 0.6 else Fraction(0) for _ in range(3)] for _ in range(2))
     lam = [v * size for v in lam]
     if degenerate and rng.random() < 0.05:
@@ -66,7 +70,8 @@ def numbers(row):
 
 
 def disagreements(claims, model, answer) -> list[str]:
-    """A certificate's equilibria against the elimination: kind, counts, places, and the words by the signs of m and n."""
+    """A certificate's equilibria against the elimination: kind, counts, places, and the words by the signs of
+    m and n."""
     points, curves, planes = claims["points"], claims["curves"], claims["planes"]
     said = claims["kind"], len(points), len(curves), len(planes)
     true = answer.kind, len(answer.roots), answer.curves, answer.planes
@@ -75,13 +80,15 @@ def disagreements(claims, model, answer) -> list[str]:
     wrong = []
     for root, start, v in answer.roots:
         m, n = (root.sign_of(p) for p in by_hand.m_and_n_on_line(model, start, v))
-        here = [p for p in points if all(within(root, c, d, numbers(ends)) for c, d, ends in zip(start, v, p["box"]))]
+        here = [p for p in points if all(within(root, c, d, numbers(ends)) for c, d,
+                                         ends in zip(start, v, p["box"]))]
         word = "unstable" if n or m < 0 else "stable" if m else "degenerate"
         if len(here) != 1 or here[0]["linear"] != word or here[0]["verdict"] != "unstable":
             wrong.append(f"point: {here} for {word}")
     rows = [([numbers(p) for p in c["numerators"]], numbers(c["denominator"])) for c in curves]
     for x in answer.samples:
-        if any(model.rate(x)) or not (any(by_hand.on_curve(x, *row) for row in rows) or any(in_plane(p, x) for p in planes)):
+        if any(model.rate(x)) or not (any(by_hand.on_curve(x, *row) for row in rows)
+                                      or any(in_plane(p, x) for p in planes)):
             wrong.append(f"missed: {x}")
     for c, row in zip(curves, rows):
         wrong += [w for s in c["segments"] for w in piece_disagrees(s, model, *row)]
@@ -103,20 +110,23 @@ def in_plane(plane, x) -> bool:
 
 
 def piece_disagrees(piece, model, tops, bottom):
-    """At three places of a piece: at rest, n = 0, and m < 0 unstable, m > 0 a centre. A piece whose ends' brackets overlap names no place for sure."""
+    """At three places of a piece: at rest, n = 0, and m < 0 unstable, m > 0 a centre. A piece whose ends'
+    brackets overlap names no place for sure."""
     low, high = (None if end is None else numbers(end) for end in piece["t"])
     if low and high and not low[1] < high[0]:
         return
     steps = [Fraction(2)**k for k in (-8, 0, 8)]
     shares = [Fraction(n, 7) for n in (1, 3, 6)]
-    places = ([low[1] + (high[0] - low[1]) * f for f in shares] if low and high else [low[1] + s for s in steps] if low else
+    places = ([low[1] + (high[0] - low[1]) * f for f in shares] if low and high
+              else [low[1] + s for s in steps] if low else
               [high[0] - s for s in steps] if high else [Fraction(k) for k in (-5, 0, 5)])
     for t in places:
         below = by_hand.value(bottom, t)
         x = [by_hand.value(top, t) / below for top in tops]
         m, n = by_hand.m_and_n(model, x)
         linear, verdict = piece["linear"], piece["verdict"]
-        if any(model.rate(x)) or n or linear != ("unstable" if m < 0 else "stable") or (m < 0 and verdict != "unstable"):
+        if any(model.rate(x)) or n or linear != ("unstable" if m < 0
+                                                 else "stable") or (m < 0 and verdict != "unstable"):
             yield f"piece at t = {float(t)}: rates {model.rate(x)}, m = {m}, n = {n}, said {linear}, {verdict}"
 
 
@@ -151,9 +161,11 @@ def examined(count, seed, degenerate, answers=True):
 def same_answer(found, claims):
     """The answer in doubles has the certificate's counts, places and words."""
     assert found.kind == claims["kind"]
-    assert len(found.points) == len(claims["points"]) and len(found.curves) == len(claims["curves"]) + len(claims["planes"])
+    assert len(found.points) == len(claims["points"]) and len(found.curves) == len(claims["curves"]) + len(
+        claims["planes"])
     for p in found.points:
-        assert any((p.linear, p.verdict) == (c["linear"], c["verdict"]) and all(map(rounded_into, p.at, map(numbers, c["box"])))
+        assert any((p.linear, p.verdict) == (c["linear"], c["verdict"])
+                   and all(map(rounded_into, p.at, map(numbers, c["box"])))
                    for c in claims["points"]), p
 
 
@@ -176,10 +188,12 @@ def test_the_elimination_sees_what_is_missed_or_wrong():
                 seen[part] += 1
                 assert disagreements(claims | {part: claims[part][1:]}, model, answer)
         if claims["points"]:
-            assert disagreements(claims | {"points": [p | {"verdict": "stable"} for p in claims["points"]]}, model, answer)
+            assert disagreements(claims | {"points": [p | {"verdict": "stable"} for p in claims["points"]]},
+                                 model, answer)
         if claims["curves"]:
             turn = {"stable": "unstable", "unstable": "stable"}
-            turned = [c | {"segments": [s | {"linear": turn[s["linear"]]} for s in c["segments"]]} for c in claims["curves"]]
+            turned = [c | {"segments": [s | {"linear": turn[s["linear"]]} for s in c["segments"]]}
+                      for c in claims["curves"]]
             assert disagreements(claims | {"curves": turned}, model, answer)
     assert min(seen[part] for part in ("points", "curves", "planes")) > 0, seen
 
@@ -188,7 +202,8 @@ def test_the_elimination_sees_what_is_missed_or_wrong():
 @pytest.mark.parametrize("degenerate", [False, True], ids=["generic", "degenerate"])
 @pytest.mark.parametrize("count, seed", [(150, 1), pytest.param(3000, 2, marks=pytest.mark.slow)])
 def test_no_verdict_is_wrong_and_no_equilibrium_missed_or_invented(degenerate, count, seed):
-    # exact rational elimination in Fractions (tests/oracles/elimination.py) and the separate checker; nothing is left undecided
+    # exact rational elimination in Fractions (tests/oracles/elimination.py) and the separate checker; nothing
+    # is left undecided
     tally = examined(count, [seed, degenerate], degenerate)
     assert tally["scenes"] == count and tally["undecided"] == 0, tally
 
@@ -220,19 +235,25 @@ def one_wild_scene(seed, number, states, tabled, digits, scene_of=wild_scene, st
 WAYS = (False,) if find_spec("numba") is None else (False, True)  # NumPy, and compiled
 
 
-@pytest.mark.parametrize("scenes", [(3, 4), pytest.param([0, 1, 2, *range(5, 100)], marks=pytest.mark.slow)], ids=["two", "the others of a hundred"])
+@pytest.mark.parametrize("scenes", [(3, 4), pytest.param([0, 1, 2, *range(5, 100)], marks=pytest.mark.slow)],
+                         ids=["two", "the others of a hundred"])
 def test_wild_scenes_have_one_answer_by_every_way_to_it(scenes):
-    """One state, small arrays (NumPy and compiled), large ones (tables) and thirty digits, each within what it promises."""
+    """One state, small arrays (NumPy and compiled), large ones (tables) and thirty digits, each within what
+    it promises."""
     found = [wrong for n in scenes for wrong in one_wild_scene(1, n, 1, n == 3, n % 50 == 4)]
     assert not found, f"{len(found)}, the first: {found[0]}"
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("scenes", [
-    [*range(20), 95, 104, 114, 122, 1145], pytest.param(range(20, 1500), marks=pytest.mark.slow)], ids=["twenty and what once failed", "the others"])
+    [*range(20), 95, 104, 114, 122, 1145], pytest.param(range(20, 1500), marks=pytest.mark.slow)],
+                         ids=["twenty and what once failed", "the others"])
 def test_scenes_of_small_numbers_have_one_answer_by_every_way_to_it(scenes):
-    """Turning points, centres and places at rest are doubles there: roots whose balls have no width, and wells without depth."""
-    found = [wrong for n in scenes for wrong in one_wild_scene(3, n, 3, n % 20 == 0, n // 4 + 1 if n % 4 == 1 else 0, tidy_scene, tidy_state)]
+    """Turning points, centres and places at rest are doubles there: roots whose balls have no width, and
+    wells without depth."""
+    found = [wrong for n in scenes
+             for wrong in one_wild_scene(3, n, 3, n % 20 == 0, n // 4 + 1 if n % 4 == 1 else 0, tidy_scene,
+                                         tidy_state)]
     assert not found, f"{len(found)}, the first ten: {found[:10]}"
 
 
@@ -241,5 +262,6 @@ def test_scenes_of_small_numbers_have_one_answer_by_every_way_to_it(scenes):
 @pytest.mark.parametrize("piece", range(20))
 def test_ten_thousand_wild_scenes_have_one_answer_by_every_way_to_it(piece):
     count = int(os.environ.get("STABILAB_SCENES", 500))
-    found = [wrong for n in range(count) for wrong in one_wild_scene(100 + piece, n, 3, n % 10 == 0, n // 10 + 1 if n % 10 == 1 else 0)]
+    found = [wrong for n in range(count)
+             for wrong in one_wild_scene(100 + piece, n, 3, n % 10 == 0, n // 10 + 1 if n % 10 == 1 else 0)]
     assert not found, f"{len(found)}, the first ten: {found[:10]}"

@@ -55,10 +55,14 @@ def everything(found):
 
 
 SCENES = [
-    ScaledGyrostat("0.2", "0.4", (0, 0, 1)), ScaledGyrostat("0.2", "3.4", (0, 1, 0)), ScaledGyrostat(0, 0, (1, 0, 0)),
-    ScaledGyrostat("0.2", "0.4", (1, 1, 0)), ScaledGyrostat("0.2", "0.4", (1, 1, 1)), ScaledGyrostat("0.2", "0.4", (0, 0, 0)),
-    physical((5, 4, 2), (2, 3, 0), (0, 0, 1)), physical((5, 4, 2), (1, 2, 3), (0, 0, 0)), physical((2, 2, 1), (2, 1, 3), (1, -2, 0)),
-    physical((3, 3, 3), (1, 2, 3), (3, 0, -1)), physical((5, 4, 2), (2, 3, 0), (0, 0, -6)), physical((4, 3, 2), (1, 5, 14), (0, 7, -5))]
+    ScaledGyrostat("0.2", "0.4", (0, 0, 1)), ScaledGyrostat("0.2", "3.4", (0, 1, 0)),
+    ScaledGyrostat(0, 0, (1, 0, 0)),
+    ScaledGyrostat("0.2", "0.4", (1, 1, 0)), ScaledGyrostat("0.2", "0.4", (1, 1, 1)),
+    ScaledGyrostat("0.2", "0.4", (0, 0, 0)),
+    physical((5, 4, 2), (2, 3, 0), (0, 0, 1)), physical((5, 4, 2), (1, 2, 3), (0, 0, 0)),
+    physical((2, 2, 1), (2, 1, 3), (1, -2, 0)),
+    physical((3, 3, 3), (1, 2, 3), (3, 0, -1)), physical((5, 4, 2), (2, 3, 0), (0, 0, -6)),
+    physical((4, 3, 2), (1, 5, 14), (0, 7, -5))]
 
 
 @pytest.mark.parametrize("scene", SCENES)
@@ -83,7 +87,8 @@ def test_cubic_roots_are_correct_to_the_last_digits(m0, me, n0, ne):
         if not (m or n):
             expected = [mp.mpc(0)] * 3
         else:
-            expected = mp.polyroots([1, 0, mp.mpf(m.numerator) / m.denominator, mp.mpf(n.numerator) / n.denominator],
+            expected = mp.polyroots([1, 0, mp.mpf(m.numerator) / m.denominator,
+                                     mp.mpf(n.numerator) / n.denominator],
                                     maxsteps=500, extraprec=400)
         for z in found:
             best = min(expected, key=lambda e: abs(e - mp.mpc(z)))
@@ -104,7 +109,8 @@ def test_conjugates_and_zeros_of_the_spectrum_are_exact(m, n):
 
 
 def test_a_triple_of_real_roots_survives_a_double_root():
-    """(z - 1)^2 (z + 2) = z^3 - 3 z + 2, and one part in 1e30 beside it: 1 +- 1e-15/sqrt(3)... from the square root."""
+    """(z - 1)^2 (z + 2) = z^3 - 3 z + 2, and one part in 1e30 beside it: 1 +- 1e-15/sqrt(3)... from the
+    square root."""
     assert sorted(v.real for v in eigenvalues(F(-3), F(2))) == [-2.0, 1.0, 1.0]
     beside = eigenvalues(F(-3), 2 + F(1, 10**20))
     assert beside[1].imag == pytest.approx(1e-10 / math.sqrt(3), rel=1e-9)
@@ -132,7 +138,8 @@ def test_the_reason_names_the_sign_of_the_real_root():
 
 
 @settings(max_examples=100, deadline=None)
-@given(st.lists(st.fractions(-1000, 1000, max_denominator=999), min_size=1, max_size=4, unique=True), st.integers(1, 3))
+@given(st.lists(st.fractions(-1000, 1000, max_denominator=999), min_size=1, max_size=4, unique=True),
+       st.integers(1, 3))
 def test_every_real_root_is_found_once_whatever_its_multiplicity(roots, power):
     p = Poly((1, 0, 1))  # and a complex pair
     for r in roots:
@@ -166,10 +173,12 @@ def test_the_middle_axis_is_stable_iff_the_sum_is_positive(c):
 
 @pytest.mark.parametrize("seed", range(8))
 def test_isolated_equilibria_are_always_unstable(seed):
-    """They are left at the rate of the positive eigenvalue: SciPy from a hair beside them along its eigenvector."""
+    """They are left at the rate of the positive eigenvalue: SciPy from a hair beside them along its
+    eigenvector."""
     rng = random.Random(seed)
     while True:
-        scene = ScaledGyrostat(*(F(rng.randint(-20, 20), 10) for _ in range(2)), [F(rng.randint(-9, 9), 5) for _ in range(3)])
+        scene = ScaledGyrostat(*(F(rng.randint(-20, 20), 10) for _ in range(2)),
+                               [F(rng.randint(-9, 9), 5) for _ in range(3)])
         found = equilibria(scene)
         if found.points:
             break
@@ -195,7 +204,8 @@ def stays(scene, at, span=60.0, seed=0):
     rng, out = np.random.default_rng(seed), []
     for size in (1e-4, 1e-6):
         kicks = rng.normal(size=(3, 3))
-        out.append(max(excursion(scene, np.array(at) + size * k / np.linalg.norm(k), np.array(at), span) for k in kicks) / size)
+        out.append(max(excursion(scene, np.array(at) + size * k / np.linalg.norm(k), np.array(at), span)
+                       for k in kicks) / size)
     return out
 
 
@@ -203,12 +213,16 @@ STABLE = [SCENES[i] for i in (0, 1, 2, 6, 7, 8, 9)]
 
 
 @pytest.mark.one_in(3)
-@pytest.mark.parametrize("scene", [*STABLE[::3], *(pytest.param(scene, marks=pytest.mark.slow) for n, scene in enumerate(STABLE) if n % 3)])
+@pytest.mark.parametrize("scene",
+                         [*STABLE[::3], *(pytest.param(scene, marks=pytest.mark.slow) for n,
+                                          scene in enumerate(STABLE) if n % 3)])
 def test_neighbours_of_stable_points_stay_in_proportion(scene):
-    """Excursion/disturbance stays of order one for both sizes: SciPy over 60 time units. Only samples of moderate size."""
+    """Excursion/disturbance stays of order one for both sizes: SciPy over 60 time units. Only samples of
+    moderate size."""
     checked = 0
     for p in everything(equilibria(scene)):
-        # a weak centre multiplies a disturbance by sqrt(m_fast/m_slow): compare only where the frequency is of order one
+        # a weak centre multiplies a disturbance by sqrt(m_fast/m_slow): compare only where the frequency is
+        # of order one
         if p.verdict == p.linear == "stable" and max(map(abs, p.at)) < 10 and abs(p.eigenvalues[1]) > 0.5:
             large, fine = stays(scene, p.at)
             assert large < 100 and fine < 100
@@ -221,7 +235,8 @@ LEFT = [  # scene, degenerate equilibrium, a motion of `span` from a disturbance
     (ScaledGyrostat(0, 0, (1, 0, 0)), (0.0, 1.0, -1.0)),            # fold of the major axis, a = b
     (physical((5, 4, 2), (2, 3, 0), (0, 0, -6)), (-2.0, 3.0, 0.0)),  # two lines of equilibria cross
     (physical((3, 3, 2), (1, 0, 7), (0, 7, -5)), (-1.0, 5.0, 7.0)),  # fold on a line, symmetric body
-    (physical((2, 2, 1), (0, 0, 1), (0, 0, 0)), (1.0, 0.0, 1.0)),    # plane of a symmetric body: drift round the circle
+    # plane of a symmetric body: drift round the circle
+    (physical((2, 2, 1), (0, 0, 1), (0, 0, 0)), (1.0, 0.0, 1.0)),
     (ScaledGyrostat(0, 1, (0, 0, 0)), (-1.0, 0.0, 0.0))]             # crossing on the middle side
 
 
@@ -238,7 +253,8 @@ def test_degenerate_equilibria_called_unstable_are_left(scene, at):
 KEPT = [
     (ScaledGyrostat(0, 1, (0, 0, 0)), (0.0, 0.0, 0.0)),              # crossing on the minor side
     (ScaledGyrostat(0, 0, (0, 0, 0)), (0.0, 0.0, 0.0)),
-    (physical((5, 4, 5), (2, 3, 0), (0, 0, 6)), None),               # two crossing lines, quartic minimum (if they cross)
+    # two crossing lines, quartic minimum (if they cross)
+    (physical((5, 4, 5), (2, 3, 0), (0, 0, 6)), None),
     (physical((5, 4, 5), (2, 3, 0), (0, 0, -6)), None),
     (physical((2, 2, 1), (0, 0, 1), (0, 0, 0)), (0.0, 0.0, 1.0)),    # spin of a symmetric body about its axis
     (physical((4, 4, 2), (1, 2, 0), (0, 0, 0)), (-0.5, -1.0, 0.0))]
@@ -247,7 +263,8 @@ KEPT = [
 @pytest.mark.parametrize("scene, at", KEPT)
 def test_degenerate_equilibria_called_stable_keep_their_neighbours(scene, at):
     """A quartic well lets a disturbance d grow to about d^(1/2): 1e-4 must stay within 0.05."""
-    degenerate = [s for s in everything(equilibria(scene)) if s.linear == "degenerate" and s.verdict == "stable"]
+    degenerate = [s for s in everything(equilibria(scene)) if s.linear == "degenerate"
+                  and s.verdict == "stable"]
     if at is not None:
         degenerate = [s for s in degenerate if s.at == pytest.approx(at, abs=1e-15)]
         assert degenerate
@@ -261,30 +278,35 @@ def test_crossing_lines_of_a_symmetric_body_meet_in_a_strict_minimum():
     """D1 = D3: U ~ alpha^4 with a positive factor (by hand: U'''' = -3 kappa_i kappa_k v_j^2 > 0)."""
     found = [equilibria(physical((5, 4, 5), (2, 3, 0), (0, 0, M))) for M in (6, -6)]
     (crossed,) = [f for f in found if len(f.curves) == 2]
-    verdicts = {p.verdict for c in crossed.curves for p in c.samples if p.linear == "degenerate" and "crossing" in p.because}
+    verdicts = {p.verdict for c in crossed.curves for p in c.samples if p.linear == "degenerate"
+                and "crossing" in p.because}
     assert verdicts == {"stable"}
 
 
 def test_a_line_of_equilibria_on_no_axis_is_left_by_slow_drift():
-    """Three different moments: centres by their spectrum, yet X' = k r^2 for a disturbance r of omega2. By hand at
-    omega1 = 0: k = (f g/2P)(Q'/Q - P'/P) with P = 1/3, P' = 2/3, Q = Q' = 1/2, f = -7/4, g = 5/2. SciPy measures the mean."""
+    """Three different moments: centres by their spectrum, yet X' = k r^2 for a disturbance r of omega2. By
+    hand at omega1 = 0: k = (f g/2P)(Q'/Q - P'/P) with P = 1/3, P' = 2/3, Q = Q' = 1/2, f = -7/4, g = 5/2.
+    SciPy measures the mean."""
     scene = physical((4, 3, 2), (1, 5, 14), (0, 7, -5))
     (curve,) = equilibria(scene).curves
     (p,) = [s for s in curve.samples if s.at == (0.0, 5.0, 7.0)]
     assert p.linear == "stable" and p.verdict == "unstable"
     k = (-7 / 4) * (5 / 2) / (2 / 3) * (1 - 2)
     for size in (1e-3, 2e-3):
-        run = solve_ivp(rates(scene), (0, 400), np.array(p.at) + [0, size, 0], method="DOP853", rtol=1e-11, atol=1e-14,
+        run = solve_ivp(rates(scene), (0, 400), np.array(p.at) + [0, size, 0], method="DOP853", rtol=1e-11,
+                        atol=1e-14,
                         dense_output=True)
         period = 2 * math.pi / math.sqrt(1 / 6)
         early, late = (np.mean(run.sol(np.linspace(t, t + period, 4001)[:-1])[0]) for t in (0, 20 * period))
-        assert (late - early) / (20 * period * size**2) == pytest.approx(k, rel=0.1)  # next order: k varies along the way
+        # next order: k varies along the way
+        assert (late - early) / (20 * period * size**2) == pytest.approx(k, rel=0.1)
 
 
 def test_the_zero_hopf_fold_is_unstable_though_its_linear_motion_is_a_centre():
     scene = ScaledGyrostat(0, 2, (-3, 3, 1))  # c^2 + 4 mu2 mu3/mu1 = 0
     (p,) = equilibria(scene).points
-    assert p.linear == "stable" and p.verdict == "unstable" and p.eigenvalues[0] == 0 and p.eigenvalues[1].real == 0.0
+    assert p.linear == "stable" and p.verdict == "unstable" and p.eigenvalues[0] == 0 and p.eigenvalues[
+        1].real == 0.0
     values, vectors = np.linalg.eig(jacobian(scene, p.at))
     axis = np.real(vectors[:, int(np.argmin(abs(values)))])
     axis /= np.linalg.norm(axis)
@@ -292,23 +314,29 @@ def test_the_zero_hopf_fold_is_unstable_though_its_linear_motion_is_a_centre():
     assert max(excursion(scene, at + s * 0.02 * axis, at, 2000, limit=0.3) for s in (1, -1)) > 0.29
 
 
-TRIPLE_ZERO = [  # fold with m = 0: c^2 = -4 mu2 mu3/mu1 and m = 4 (mu2^2 - mu3^2)/c^2 - c^2/4 = 0 by hand: c = 2, mu2^2 - mu3^2 = 1
+# fold with m = 0: c^2 = -4 mu2 mu3/mu1 and m = 4 (mu2^2 - mu3^2)/c^2 - c^2/4 = 0 by hand: c = 2, mu2^2 -
+# mu3^2 = 1
+TRIPLE_ZERO = [
     (ScaledGyrostat(0, 2, (F(-15, 16), F(5, 4), F(3, 4))), (-1.0, -0.75, -1.25)),
-    # a line of equilibria along omega1 on no axis: m = P Q, P = (1 + 2 omega1)/3 and Q = (1 + omega1)/2 by hand
-    (physical((4, 3, 2), (1, 5, 14), (0, 7, -5)), (-1.0, 5.0, 7.0)), (physical((4, 3, 2), (1, 5, 14), (0, 7, -5)), (-0.5, 5.0, 7.0))]
+    # a line of equilibria along omega1 on no axis: m = P Q, P = (1 + 2 omega1)/3 and Q = (1 + omega1)/2 by
+    # hand
+    (physical((4, 3, 2), (1, 5, 14), (0, 7, -5)), (-1.0, 5.0, 7.0)),
+    (physical((4, 3, 2), (1, 5, 14), (0, 7, -5)), (-0.5, 5.0, 7.0))]
 
 
 @pytest.mark.one_in(3)
 @pytest.mark.parametrize("scene, at", TRIPLE_ZERO)
 def test_a_triple_zero_eigenvalue_off_the_axes_is_unstable(scene, at):
-    """SciPy: from ever nearer starts (t ~ r^(-1/3) or r^(-1/2) by the leading terms) the motion goes out to the same distance."""
+    """SciPy: from ever nearer starts (t ~ r^(-1/3) or r^(-1/2) by the leading terms) the motion goes out to
+    the same distance."""
     found = equilibria(scene)
     (p,) = {(s.linear, s.verdict, s.eigenvalues) for s in everything(found) if s.at == at}
     assert p == ("degenerate", "unstable", (0j, 0j, 0j))
     rng = np.random.default_rng(5)
     for size in (1e-3, 1e-5):
         starts = rng.normal(size=(3, 3))
-        reached = [excursion(scene, np.array(at) + size * k / np.linalg.norm(k), np.array(at), 60 / size**0.5, limit=0.1) for k in starts]
+        reached = [excursion(scene, np.array(at) + size * k / np.linalg.norm(k), np.array(at), 60 / size**0.5,
+                             limit=0.1) for k in starts]
         assert max(reached) > 0.099, (size, reached)
 
 
@@ -331,7 +359,8 @@ def test_a_gyrostat_at_rest_is_stable(lam):
 
 @pytest.mark.parametrize("scene", SCENES)
 def test_segments_and_samples_tell_one_story(scene):
-    """Every segment's verdict is that of the exact sign of m at its samples, here recomputed in floats where it is clear."""
+    """Every segment's verdict is that of the exact sign of m at its samples, here recomputed in floats where
+    it is clear."""
     for curve in equilibria(scene).curves:
         for s in curve.samples:
             J = jacobian(scene, s.at)
@@ -350,7 +379,8 @@ def test_the_words_about_an_isolated_equilibrium_are_those_of_its_cubic(m, n):
     real = [z.real for z in roots if abs(z.imag) < 1e-9]
     word, because = isolated_verdict((m > 0) - (m < 0), (n > 0) - (n < 0))
     assert word == "unstable" and because.startswith(f"n {'>' if n > 0 else '<'} 0")
-    assert ("negative real root" in because) == (n > 0) and (n < 0 or min(real) < 0) and (n > 0 or max(real) > 0)
+    assert ("negative real root" in because) == (n > 0) and (n < 0
+                                                             or min(real) < 0) and (n > 0 or max(real) > 0)
 
 
 def cubics():
@@ -362,12 +392,14 @@ def cubics():
         a = F(rng.randint(-99, 99), rng.randint(1, 99))
         b = rng.choice([a, a + F(1, 10**15), F(rng.randint(-99, 99), rng.randint(1, 99))])
         yield a * b - (a + b) ** 2, a * b * (a + b)
-    yield from [(F(0), F(0)), (F(2), F(0)), (F(-2), F(0)), (F(1, 10**40), F(0)), (F(0), F(5)), (F(0), F(-1, 10**30)),
+    yield from [(F(0), F(0)), (F(2), F(0)), (F(-2), F(0)), (F(1, 10**40), F(0)), (F(0), F(5)),
+                (F(0), F(-1, 10**30)),
                 (F(-3), F(2)), (F(-3), F(-2)), (F(-1), F(1, 10**70)), (F(-1), F(-1, 10**70))]
 
 
 def test_the_three_eigenvalues_together_have_the_coefficients_of_their_cubic():
-    """Vieta, exactly: z1 + z2 + z3 = 0, z1 z2 + z1 z3 + z2 z3 = m, z1 z2 z3 = -n, to the rounding of each root."""
+    """Vieta, exactly: z1 + z2 + z3 = 0, z1 z2 + z1 z3 + z2 z3 = m, z1 z2 z3 = -n, to the rounding of each
+    root."""
     for m, n in cubics():
         roots = [(F(z.real), F(z.imag)) for z in eigenvalues(m, n)]
         times = lambda p, q: (p[0] * q[0] - p[1] * q[1], p[0] * q[1] + p[1] * q[0])

@@ -27,7 +27,8 @@ def evaluate(text, values):
     from sympy import Symbol
     from sympy.parsing.sympy_parser import implicit_multiplication, parse_expr, standard_transformations
     names = {n: Symbol(n) for n in values}
-    return complex(parse_expr(text.replace("^", "**"), names, (*standard_transformations, implicit_multiplication)).subs(values))
+    return complex(parse_expr(text.replace("^", "**"), names,
+                              (*standard_transformations, implicit_multiplication)).subs(values))
 
 
 @pytest.mark.parametrize("name", GYROSTATS)
@@ -65,7 +66,8 @@ def test_the_polynomial_of_each_row_has_the_eigenvalues_as_roots(name, row):
             assert abs(z**3 + m * z + n) <= 1e-12 * size + slack
 
 
-@pytest.mark.parametrize("name, row", [(n, r) for n, r in PAIRS if r.form.startswith("(") and r.counts == (1,)])
+@pytest.mark.parametrize("name, row",
+                         [(n, r) for n, r in PAIRS if r.form.startswith("(") and r.counts == (1,)])
 def test_the_printed_form_of_a_single_equilibrium_is_its_place(name, row):
     a, b = GYROSTATS[name]
     mu = magnitudes(row, 2)
@@ -83,9 +85,11 @@ def test_the_printed_equations_of_every_form_hold_at_the_equilibria(name, row):
     for k, p in enumerate((*found.points, *(s for c in found.curves for s in c.samples[::4]))):
         values = numbers(a, b, mu, p.at)
         for equation in row.form.split(", "):
-            left, right = (evaluate(side.replace("+-", "+" if k else "-"), values).real for side in equation.split(" = "))
+            left, right = (evaluate(side.replace("+-", "+" if k else "-"), values).real
+                           for side in equation.split(" = "))
             # a product of a far coordinate and a nearly cancelled one keeps the rounding of the far one
-            assert left == pytest.approx(right, rel=1e-11, abs=1e-10 * max(1, *map(abs, p.at)) / max(1, abs(p.at[0])))
+            assert left == pytest.approx(right, rel=1e-11,
+                                         abs=1e-10 * max(1, *map(abs, p.at)) / max(1, abs(p.at[0])))
 
 
 def test_the_number_for_three_torques_turns_where_the_row_says():

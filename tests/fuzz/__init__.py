@@ -1,1 +1,2 @@
-"""What may be written into a case file, and what must come of it: a case, or an error that names file and line."""
+"""What may be written into a case file, and what must come of it: a case, or an error that names file and
+line."""

@@ -1,7 +1,9 @@
-"""`make fuzz`: the case loader under a coverage-guided fuzzer, on bytes and by grammar, half of the time each.
+"""`make fuzz`: the case loader under a coverage-guided fuzzer, on bytes and by grammar, half of the time
+each.
 
-python -m tests.fuzz [SECONDS] [FOLDER]; what breaks it is kept in FOLDER (default .fuzz) as crash-*, timeout-* or oom-*, and
-the exit code is 1. `python -m tests.fuzz replay FILE...` shows again what such a file does.
+python -m tests.fuzz [SECONDS] [FOLDER]; what breaks it is kept in FOLDER (default .fuzz) as crash-*,
+timeout-* or oom-*, and the exit code is 1. `python -m tests.fuzz replay FILE...` shows again what such a file
+does.
 """
 import subprocess
 import sys
@@ -17,7 +19,8 @@ def main(seconds=600, folder=".fuzz"):
     folder = Path(folder)
     (folder / "corpus").mkdir(parents=True, exist_ok=True)
     _write_seeds(folder)
-    codes = [subprocess.run([sys.executable, "-m", __spec__.name, "one", target, str(folder), str(int(seconds) // 2)]).returncode
+    codes = [subprocess.run([sys.executable, "-m", __spec__.name, "one", target, str(folder),
+                             str(int(seconds) // 2)]).returncode
              for target in TARGETS]
     found = sorted(p for kind in ("crash", "timeout", "oom") for p in folder.glob(f"{kind}-*"))
     print("\n".join([f"found: {path}" for path in found] or ["nothing found"]))
@@ -38,7 +41,8 @@ def one(target, folder, seconds):
     with atheris.instrument_imports(include=["stabilab", "tomllib"]):
         import_module("tomllib._parser")  # where the standard reader works
         import_module("stabilab.case.read")
-    options = [f"-max_total_time={seconds}", f"-timeout={SLOWEST}", f"-rss_limit_mb={MEMORY}", f"-artifact_prefix={folder}/",
+    options = [f"-max_total_time={seconds}", f"-timeout={SLOWEST}", f"-rss_limit_mb={MEMORY}",
+               f"-artifact_prefix={folder}/",
                "-print_final_stats=1", "-verbosity=0", "-seed=1"]
     if target == "bytes":
         options += ["-max_len=8192", f"-dict={folder}/words", f"{folder}/corpus"]
@@ -76,4 +80,5 @@ def replay(*files):
 
 
 if __name__ == "__main__":
-    {"one": one, "replay": replay}.get(sys.argv[1] if sys.argv[1:] else "", lambda *_: main(*sys.argv[1:]))(*sys.argv[2:])
+    {"one": one, "replay": replay}.get(sys.argv[1] if sys.argv[1:] else "",
+                                       lambda *_: main(*sys.argv[1:]))(*sys.argv[2:])

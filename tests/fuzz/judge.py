@@ -4,12 +4,15 @@ import math
 from stabilab.case.read import Case, load, load_all
 from stabilab.errors import CaseError
 
-LONGEST = 200_000  # characters of all messages about one file: 10,000 faults would help nobody, nor would a screenful of one
-WHOLE_FILE = ("expected a table [body]", "longer than", "exceed the largest double", "more than 4000 digits")  # these may name no line
+# characters of all messages about one file: 10,000 faults would help nobody, nor would a screenful of one
+LONGEST = 200_000
+# these may name no line
+WHOLE_FILE = ("expected a table [body]", "longer than", "exceed the largest double", "more than 4000 digits")
 
 
 def judged(raw: bytes, path) -> list[Case] | CaseError:
-    """What becomes of a file with these bytes; anything but cases or a CaseError in order is an AssertionError or comes through."""
+    """What becomes of a file with these bytes; anything but cases or a CaseError in order is an
+    AssertionError or comes through."""
     path.write_bytes(raw)
     try:
         cases = [load(path), *load_all(path)]
@@ -17,7 +20,8 @@ def judged(raw: bytes, path) -> list[Case] | CaseError:
         _in_order(error, str(path), lines=raw.count(b"\n") + 1)
         return error
     for case in cases:
-        numbers = (*(case.state or ()), *(case.span or ()), *(v for block in case.blocks.values() for v in block))
+        numbers = (*(case.state or ()), *(case.span or ()),
+                   *(v for block in case.blocks.values() for v in block))
         assert all(map(math.isfinite, numbers)), numbers
         assert case.span is None or case.span[0] < case.span[1], case.span
     return cases
@@ -32,6 +36,7 @@ def _in_order(error: CaseError, path: str, lines: int):
     for problem in error.problems:
         assert problem.message, error
         if problem.line is None:
-            assert problem.message.startswith(WHOLE_FILE) or any(words in problem.message for words in WHOLE_FILE), problem
+            assert problem.message.startswith(WHOLE_FILE) or any(words in problem.message
+                                                                 for words in WHOLE_FILE), problem
         else:
             assert 1 <= problem.line <= lines, problem

@@ -1,4 +1,5 @@
-"""States whose labels, extremes and periods are asked of the program and of the potential in 60 to 200 digits."""
+"""States whose labels, extremes and periods are asked of the program and of the potential in 60 to 200
+digits."""
 from __future__ import annotations
 
 import numpy as np
@@ -11,8 +12,8 @@ from tests.orbit.extremes.test_extremes import assert_extremes
 
 
 def agrees(pair, states, digits=120, extremes=True, tolerance=1e-11, period=True):
-    """Labels, and for states that are not equilibria their extremes and (bounded) periods, equal the oracle's.
-    Returns the words."""
+    """Labels, and for states that are not equilibria their extremes and (bounded) periods, equal the
+    oracle's. Returns the words."""
     scene, problem = pair
     states = np.atleast_2d(np.asarray(states, float))
     words = [energy.label(problem, tuple(s), digits=digits) for s in states.tolist()]
@@ -25,5 +26,6 @@ def agrees(pair, states, digits=120, extremes=True, tolerance=1e-11, period=True
             if word in ("bounded", "spin-up"):
                 assert_extremes(box, energy.extremes(problem, state, digits=digits), tolerance)
             if word == "bounded" and period:
-                assert got == pytest.approx(float(energy.period(problem, state, digits=digits)), rel=tolerance)
+                assert got == pytest.approx(float(energy.period(problem, state, digits=digits)),
+                                            rel=tolerance)
     return words

@@ -1,4 +1,5 @@
-"""Bodies under a torque along an axis: torques tiny and huge, nearly and exactly equal moments, two lines (groups 4, 6, 7)."""
+"""Bodies under a torque along an axis: torques tiny and huge, nearly and exactly equal moments, two lines
+(groups 4, 6, 7)."""
 from __future__ import annotations
 
 import math
@@ -14,8 +15,9 @@ CYCLE = ((1, 2), (2, 0), (0, 1))
 
 
 class Textbook:
-    """The reduced motion as the derivation writes it, in doubles: the perpendicular pair about the centre of its circle,
-    w_j = -s_j + (w_j0 + s_j) cos ka + ..., and U = (D_j w_j^2 + D_k w_k^2)/2 - M a. Divides by D_i - D_j and D_i - D_k."""
+    """The reduced motion as the derivation writes it, in doubles: the perpendicular pair about the centre of
+    its circle, w_j = -s_j + (w_j0 + s_j) cos ka + ..., and U = (D_j w_j^2 + D_k w_k^2)/2 - M a. Divides by
+    D_i - D_j and D_i - D_k."""
 
     def __init__(self, inertia, momentum, torque, state):
         self.D, self.i = inertia, next(i for i in range(3) if torque[i])
@@ -36,13 +38,15 @@ class Textbook:
         return 0.5 * (self.D[self.j] * wj ** 2 + self.D[self.k] * wk ** 2) - self.M * angle
 
     def fastest(self, reach):
-        """Largest rate about the axis of the torque along a grid of `reach` radians either side, the energies subtracted."""
+        """Largest rate about the axis of the torque along a grid of `reach` radians either side, the energies
+        subtracted."""
         grid = np.linspace(-reach, reach, 200_001)
         speed2 = self.w ** 2 + 2 * (self.potential(0.0) - self.potential(grid)) / self.D[self.i]
         stops = np.flatnonzero(speed2 < 0)
         lo, hi = stops[stops < 100_000].max(initial=0), stops[stops > 100_000].min(initial=200_000)
         n = lo + int(np.argmax(speed2[lo:hi]))
-        y0, y1, y2 = speed2[n - 1:n + 2]  # the top of a parabola: the grid costs no digits that rounding leaves
+        # the top of a parabola: the grid costs no digits that rounding leaves
+        y0, y1, y2 = speed2[n - 1:n + 2]
         return math.sqrt(y1 + (y0 - y2) ** 2 / (8 * (2 * y1 - y0 - y2)))
 
 
@@ -87,7 +91,8 @@ def tiny_torque(size):
     momentum, torque = (0.4, -0.7, 0.0), (0.0, 0.0, size)
     pair = physical((3.0, 2.0, 1.5), momentum, torque)
     states = [tuple(s) for s in (np.random.default_rng(4).normal(size=(16, 3)) * (1, 1, 4)).tolist()]
-    return labels(f"torque {size:g} against a gyrostat of order 1", "`abs(M) < 1e-9` counts as no torque", pair, states,
+    return labels(f"torque {size:g} against a gyrostat of order 1", "`abs(M) < 1e-9` counts as no torque",
+                  pair, states,
                   lambda s: "bounded" if abs(size) < 1e-9 else "undecided")
 
 
@@ -100,7 +105,8 @@ def slow_rates(size):
 
 
 def a_near_b(gap):
-    """4. x3 of the isolated equilibrium with (x1 + a)(x1 + b) = mu2 mu3/mu1 = 1e-20, b - a = gap: x3 = mu2/(x1 + a)."""
+    """4. x3 of the isolated equilibrium with (x1 + a)(x1 + b) = mu2 mu3/mu1 = 1e-20, b - a = gap: x3 =
+    mu2/(x1 + a)."""
     a, b, mu = 1.0, 1.0 + gap, (1.0, 1e-10, 1e-10)
     x1 = -(a + b) / 2 + math.sqrt(((b - a) / 2) ** 2 + mu[1] * mu[2] / mu[0])
     naive = mu[1] / (x1 + a) if x1 + a else math.inf
@@ -112,26 +118,32 @@ def a_near_b(gap):
         with mp.workdps(60):
             half, product = energy.num((b - a) / 2), energy.num(m2 * m3 / m1)
             return energy.num(m2) / (mp.sqrt(half ** 2 + product) - half)
-    return numbers(f"b - a = {gap:g}", "an equilibrium's x3", "x1 + a from x1, the root of a quadratic", naive, ours, ask,
+    return numbers(f"b - a = {gap:g}", "an equilibrium's x3", "x1 + a from x1, the root of a quadratic",
+                   naive, ours, ask,
                    (a, b, *mu))
 
 
 def far_along_the_hyperbola(h):
-    """7. a = 0, b = 1/4, minor axis, x2 = h, x1 = -b - 1/h: a centre with x1 (x1 + b) - x2^2 = m > 0, at a distance 1/h."""
+    """7. a = 0, b = 1/4, minor axis, x2 = h, x1 = -b - 1/h: a centre with x1 (x1 + b) - x2^2 = m > 0, at a
+    distance 1/h."""
     state = (-0.25 - 1 / h, h, 0.0)
     J = np.array([[0, state[2], state[1]], [-state[2], 0, -state[0]], [state[1], state[0] + 0.25, 0.0]])
-    turn = np.linalg.qr(np.random.default_rng(7).normal(size=(3, 3)))[0]  # body axes are not the principal ones
+    # body axes are not the principal ones
+    turn = np.linalg.qr(np.random.default_rng(7).normal(size=(3, 3)))[0]
     naive = "stable" if np.linalg.eigvals(turn @ J @ turn.T).real.max() < 1e-9 else "unstable"
-    segment, = (s for c in stabilab.equilibria(stabilab.ScaledGyrostat(0.0, 0.25, (0, 0, 1))).curves for s in c.segments
+    segment, = (s for c in stabilab.equilibria(stabilab.ScaledGyrostat(0.0, 0.25, (0, 0, 1))).curves
+                for s in c.segments
                 for t in [on_curve(c, state)] if t is not None and s.t[0] < t < s.t[1])
     problem = model.scaled(0, 0.25, (0, 0, 1))
     centre = kind_of(problem, state)
-    return Verdict(f"equilibrium at a distance of {1 / h:.1g}", "stability", "`max Re < 1e-9` of computed eigenvalues", naive,
+    return Verdict(f"equilibrium at a distance of {1 / h:.1g}", "stability",
+                   "`max Re < 1e-9` of computed eigenvalues", naive,
                    segment.verdict, "stable" if centre == "centre" else "unstable")
 
 
 def on_curve(curve, state):
-    """The parameter of a curve x2 = t or x1 = t of equilibria at which it passes the state; None if it does not."""
+    """The parameter of a curve x2 = t or x1 = t of equilibria at which it passes the state; None if it does
+    not."""
     for t in (state[0], state[1], -state[0], -state[1]):
         try:
             if np.allclose(curve.point(t), state, rtol=1e-12, atol=0):
@@ -142,13 +154,15 @@ def on_curve(curve, state):
 
 
 def kind_of(problem, state):
-    """Saddle or centre: the stationary angle nearest to the start on the state's own circle, in 100 digits."""
+    """Saddle or centre: the stationary angle nearest to the start on the state's own circle, in 100 digits.
+    """
     motion = energy.Reduced(problem, state, 100)
     return min(motion.stationary(), key=lambda m: abs(m[0]))[1]
 
 
 def two_lines(axis):
-    """7. M = -lambda_j lambda_k/(D_j - D_k): the conic is two lines; the formula w_k(w_j) holds one of them."""
+    """7. M = -lambda_j lambda_k/(D_j - D_k): the conic is two lines; the formula w_k(w_j) holds one of them.
+    """
     D, (j, k), momentum, moment = PAPER_BODY, CYCLE[axis], [0.0] * 3, [0.0] * 3
     gap = D[j] - D[k]
     momentum[j], momentum[k] = 0.25 * abs(gap), 62.5  # binary fractions throughout
@@ -162,5 +176,6 @@ def two_lines(axis):
     scene, problem = physical(D, momentum, moment)
     ours = stabilab.Fate(int(stabilab.fate(scene, np.array(state)).labels)).word
     exact = "equilibrium" if problem.rate([energy.Fraction(v) for v in state]) == [0, 0, 0] else "none"
-    return Verdict(f"equilibrium conic of two lines, torque on axis {axis + 1}", "is a state on the second line at rest?",
+    return Verdict(f"equilibrium conic of two lines, torque on axis {axis + 1}",
+                   "is a state on the second line at rest?",
                    "w_k as a function of w_j: 0/0 on that line", naive, ours, exact)

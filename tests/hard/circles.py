@@ -1,4 +1,5 @@
-"""Minor axis: next to separatrices, on large circles, by folds, far from the origin, about centres (groups 1, 2, 3, 4, 11)."""
+"""Minor axis: next to separatrices, on large circles, by folds, far from the origin, about centres (groups 1,
+2, 3, 4, 11)."""
 from __future__ import annotations
 
 import math
@@ -29,8 +30,8 @@ def barrier_minus_energy(a, b, state):
 
 
 def expanded(a, b, state):
-    """The same from the sums of squares multiplied out, as the papers' first integrals are: x1^2 + 2 a x1 + a^2 + x2^2 and
-    x3^2/2 - x1^2/2 - b x1 - t."""
+    """The same from the sums of squares multiplied out, as the papers' first integrals are: x1^2 + 2 a x1 +
+    a^2 + x2^2 and x3^2/2 - x1^2/2 - b x1 - t."""
     x1, x2, v = state
     radius2, here = x1 * x1 + 2 * a * x1 + a * a + x2 * x2, math.atan2(x1 + a, x2)
     height = lambda x1, angle: -angle - x1 * x1 / 2 - b * x1
@@ -86,7 +87,8 @@ def textbook_period(a, b, state):
     phi = (np.arange(4000) + 0.5) * np.pi / 4000  # the midpoint rule: periodic in phi
     theta = 0.5 * (left + right) - 0.5 * (right - left) * np.cos(phi)
     with np.errstate(invalid="ignore"):
-        return 2 * np.nansum(np.pi / 4000 * 0.5 * (right - left) * np.sin(phi) / np.sqrt(2 * (level - height(theta))))
+        return (2 * np.nansum(np.pi / 4000 * 0.5 * (right - left) * np.sin(phi)
+                              / np.sqrt(2 * (level - height(theta)))))
 
 
 def margin_by_a_separatrix(distance):
@@ -96,7 +98,8 @@ def margin_by_a_separatrix(distance):
 
 
 def on_a_large_circle(radius):
-    """2. The doubles nearest to the separatrix: their margin is less than the rounding of the energies, A^2."""
+    """2. The doubles nearest to the separatrix: their margin is less than the rounding of the energies, A^2.
+    """
     pair = scaled(0.25, 0.75, (0, 0, 1))
     angles = np.random.default_rng(2).uniform(0, 2 * math.pi, 22).tolist()
     states = [brink(pair[1], (radius * math.sin(t) - 0.25, radius * math.cos(t)), 0.0) for t in angles]
@@ -108,28 +111,33 @@ def margin_on_a_large_circle(radius):
     """2. The margin of a state a tilt's worth below the barrier."""
     start = (radius * math.sin(1.9) - 0.25, radius * math.cos(1.9))
     state = brink(scaled(0.25, 0.75, (0, 0, 1))[1], start, -radius ** -2)
-    return margin_row(f"circle of radius A = {radius:g}", "U of order A^2 hides a tilt of order 1", 0.25, 0.75, state)
+    return margin_row(f"circle of radius A = {radius:g}", "U of order A^2 hides a tilt of order 1", 0.25,
+                      0.75, state)
 
 
 def well_before_its_fold(share):
-    """3. a = b = 0: the centre h = 1 - share on a circle just larger than the fold's; its well is share^3 deep."""
+    """3. a = b = 0: the centre h = 1 - share on a circle just larger than the fold's; its well is share^3
+    deep."""
     h = 1 - share
     state = (-1 / h, h, share ** 1.5)
-    return margin_row(f"well {share:g} before its fold", "a quartic with a nearly double root; two energies subtracted",
+    return margin_row(f"well {share:g} before its fold",
+                      "a quartic with a nearly double root; two energies subtracted",
                       0.0, 0.0, state)
 
 
 def huge_gyrostat(size):
     """4. a = -size, b = -2 size: the energies are of order size^2."""
     a, b = -size, -2 * size
-    return margin_row(f"gyrostat {size:g} times what the torque holds", "U of order c A hides a tilt of order 1", a, b,
+    return margin_row(f"gyrostat {size:g} times what the torque holds",
+                      "U of order c A hides a tilt of order 1", a, b,
                       (size + 0.5, 2.0, 0.25))
 
 
 def far_from_the_origin(base):
     """11. a, b of order 1e8 with c = 3/4."""
     state = (-base - 1.5, 2.0, 0.25)
-    return margin_row(f"a, b = {base:g}, b - a = 0.75", "squares of a multiplied out", base, base + 0.75, state, naive=expanded)
+    return margin_row(f"a, b = {base:g}, b - a = 0.75", "squares of a multiplied out", base, base + 0.75,
+                      state, naive=expanded)
 
 
 def circle_of_no_radius(radius):
@@ -146,7 +154,8 @@ def circle_of_no_radius(radius):
 
 
 def minute_orbit(amplitude):
-    """11. Largest x3 of an orbit about the centre (-2, 1/2), a = b = 0, started one unit in the last place beside it."""
+    """11. Largest x3 of an orbit about the centre (-2, 1/2), a = b = 0, started one unit in the last place
+    beside it."""
     state = (-2.0, 0.5 + 2.0 ** -52, amplitude)
     ask = lambda *x: energy.extremes(model.scaled(0, 0, (0, 0, 1)), x, digits=120)[2][1]
     ours = float(stabilab.extremes(scaled(0.0, 0.0, (0, 0, 1))[0], np.array(state))[2, 1])

@@ -23,7 +23,8 @@ def rates(t, x):
 
 
 def swing(turns, case, goes_wrong, naive):
-    """The state after many periods. Exact: the period in 60 digits, and a Taylor series over what is left of the time."""
+    """The state after many periods. Exact: the period in 60 digits, and a Taylor series over what is left of
+    the time."""
     scene, problem = scaled(A, B, MU)
     time = float(turns * energy.period(problem, SWING, digits=60)) + 1.0
 
@@ -45,7 +46,8 @@ def stepped(turns):
     """9. The state by an explicit method at its usual tolerance."""
     from scipy.integrate import solve_ivp
     run = lambda time: solve_ivp(rates, (0, time), SWING, "RK45", rtol=1e-6, atol=1e-9).y[:, -1].tolist()
-    return swing(turns, f"swing followed for {turns:g} periods", "RK45 at 1e-6: the energy drifts with every step", run)
+    return swing(turns, f"swing followed for {turns:g} periods",
+                 "RK45 at 1e-6: the energy drifts with every step", run)
 
 
 def after_measured_periods(time):
@@ -59,7 +61,8 @@ def after_measured_periods(time):
 
 
 def spun_up(state, time):
-    """x1, x2 at `time` of a spin-up: the angle theta on the circle from summed_time(theta) = time by the secant method."""
+    """x1, x2 at `time` of a spin-up: the angle theta on the circle from summed_time(theta) = time by the
+    secant method."""
     from flint import arb, ctx
     with ctx.workprec(120):
         exact = lambda v: arb(Fraction(v).numerator) / arb(Fraction(v).denominator)
@@ -72,7 +75,8 @@ def spun_up(state, time):
         while abs(float((ahead - theta).mid())) > 1e-26 * float(ahead):
             theta, ahead = ahead, arb((ahead - now * (ahead - theta) / (now - behind)).mid())
             behind, now = now, late(ahead)
-        return [mp.mpf(v.str(30, radius=False)) for v in (radius * ahead.sin() - arb(1) / 5, radius * ahead.cos())]
+        return [mp.mpf(v.str(30, radius=False))
+                for v in (radius * ahead.sin() - arb(1) / 5, radius * ahead.cos())]
 
 
 def spins_up(time):
@@ -81,16 +85,20 @@ def spins_up(time):
     ours = stabilab.trajectory(MINOR, SPINNING, [time], "reduced").states[0, :2].tolist()
     naive = stabilab.trajectory(MINOR, SPINNING, [time], rtol=1e-12).states[0, :2].tolist()
     return numbers(f"spin-up after {time ** 2 / (4 * math.pi):.0e} turns", "x1, x2",
-                   "steps at a tolerance of 1e-12: the phase errs by its share of t^2/2", naive, ours, ask, (time, *SPINNING))
+                   "steps at a tolerance of 1e-12: the phase errs by its share of t^2/2", naive, ours, ask,
+                   (time, *SPINNING))
 
 
 def released(c):
-    """9. Captured about axis 3 for 10/c units of time before it spins up about axis 1: J = J0 - 2 c t holds exactly, so no
-    motion is bounded and, for c > 0, x1 grows beyond all bounds (proof in theory of the major axis)."""
+    """9. Captured about axis 3 for 10/c units of time before it spins up about axis 1: J = J0 - 2 c t holds
+    exactly, so no motion is bounded and, for c > 0, x1 grows beyond all bounds (proof in theory of the major
+    axis)."""
     from scipy.integrate import solve_ivp
     flow = lambda t, x: (x[1] * x[2] + 1, -x[2] * x[0], x[1] * (x[0] + c))
     run = solve_ivp(flow, (0, 1000), (0.0, -1.0, 5.0), "DOP853", rtol=1e-10, atol=1e-12)
-    naive = "bounded" if np.abs(run.y[:, run.t > 500]).max() <= 1.01 * np.abs(run.y[:, run.t < 500]).max() else "spin-up"
+    naive = ("bounded" if np.abs(run.y[:, run.t > 500]).max() <= 1.01 * np.abs(run.y[:, run.t < 500]).max()
+             else "spin-up")
     answer = captured_fate(stabilab.ScaledGyrostat(0.0, c, (1, 0, 0)), (0.0, -1.0, 5.0))
-    return Verdict(f"major axis, c = {c:g}", "fate and axis", "a run over 1000 units stays within its bounds", naive,
+    return Verdict(f"major axis, c = {c:g}", "fate and axis", "a run over 1000 units stays within its bounds",
+                   naive,
                    f"{answer.fate.word} about axis {answer.axis}", "spin-up about axis 1")

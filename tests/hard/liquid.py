@@ -1,4 +1,5 @@
-"""Body with a cavity of viscous liquid: slow and stiff damping, nearly degenerate roots, the printed torque, amplitude zero."""
+"""Body with a cavity of viscous liquid: slow and stiff damping, nearly degenerate roots, the printed torque,
+amplitude zero."""
 from __future__ import annotations
 
 import math
@@ -20,7 +21,8 @@ SHAPE, STATE = (9.5, 9.25, 9.0), (0.5, -0.25, 1.0)
 
 
 def block(D, kappa, spin, axis=2):
-    """The two rows of the Jacobian across a rotation, exact: five points give the derivative of rates of degree 4."""
+    """The two rows of the Jacobian across a rotation, exact: five points give the derivative of rates of
+    degree 4."""
     rates, step = euler.liquid(D, Fraction(0), kappa, Fraction(0), [Fraction(0)] * 3), Fraction(1, 8)
 
     def along(n):
@@ -44,15 +46,19 @@ def largest_rate(rows):
 
 
 def rotation(D, kappa, axis):
-    """(the rotation about an axis that the program tells of with a spin next to 1, its spin, its two rows exact)."""
-    points = [p for c in stabilab.equilibria(Scene(Body(D), LiquidCavity(1, 1, kappa))).curves for p in c.samples]
+    """(the rotation about an axis that the program tells of with a spin next to 1, its spin, its two rows
+    exact)."""
+    points = [p for c in stabilab.equilibria(Scene(Body(D), LiquidCavity(1, 1, kappa))).curves
+              for p in c.samples]
     about = [p for p in points if p.at[axis] and not any(v for n, v in enumerate(p.at) if n != axis)]
     point = min(about, key=lambda p: abs(math.log(abs(p.at[axis]))))
-    return point, point.at[axis], block([Fraction(v) for v in D], Fraction(kappa), Fraction(point.at[axis]), axis)
+    return point, point.at[axis], block([Fraction(v) for v in D], Fraction(kappa), Fraction(point.at[axis]),
+                                        axis)
 
 
 def computed(rows):
-    """Largest real part of the eigenvalues but 0 by NumPy, the body axes turned against the principal ones."""
+    """Largest real part of the eigenvalues but 0 by NumPy, the body axes turned against the principal ones.
+    """
     turn = np.linalg.qr(np.random.default_rng(3).normal(size=(3, 3)))[0]
     J = np.zeros((3, 3))
     J[:2, :2] = np.array(rows, float)
@@ -81,7 +87,8 @@ def nearly_degenerate(gap):
 def slow_growth(kappa):
     """A rotation about the least moment gains on the liquid: unstable, at a rate below rounding."""
     point, _, rows = rotation(SHAPE, kappa, 2)
-    return Verdict(f"liquid, kappa = {kappa:g}", "stability of the least axis", "`max Re < 1e-9` of computed eigenvalues",
+    return Verdict(f"liquid, kappa = {kappa:g}", "stability of the least axis",
+                   "`max Re < 1e-9` of computed eigenvalues",
                    "stable" if computed(rows) < 1e-9 else "unstable", point.verdict,
                    "unstable" if largest_rate(rows) > 0 else "stable")
 
@@ -99,10 +106,12 @@ def motion_row(case, wrong, kappa, gamma3, time, steps, naive):
 
 
 def printed_torque(time):
-    """The liquid's torque as printed holds for a body without rotor: with one its terms have the wrong sign and size."""
+    """The liquid's torque as printed holds for a body without rotor: with one its terms have the wrong sign
+    and size."""
     scene = Scene(Body(SHAPE), Gyrostat((0, 0, 1.5)), LiquidCavity(1, 1, 1.0, "printed"))
     naive = lambda: stabilab.trajectory(scene, STATE, [time]).states[0].tolist()
-    return motion_row(f"liquid and rotor at t = {time:g} s", "the printed torque leaves terms of its own order out",
+    return motion_row(f"liquid and rotor at t = {time:g} s",
+                      "the printed torque leaves terms of its own order out",
                       1.0, 1.5, time, 12, naive)
 
 
@@ -124,8 +133,9 @@ def stiff(kappa):
 
 
 def amplitude_zero(eps):
-    """A = 0 on the way through d r = g with a torque across the axis: A and its phase have no rates of their own there. Judged
-    against the exact motion, equations by hand; condition: eps^(3/2), what the second order leaves out."""
+    """A = 0 on the way through d r = g with a torque across the axis: A and its phase have no rates of their
+    own there. Judged against the exact motion, equations by hand; condition: eps^(3/2), what the second order
+    leaves out."""
     scene, end = small_body(eps), 1 / eps
     exact = by_hand(scene, (0.0, 0.0, 1.0), np.array([0.0, end]), rtol=1e-12)[-1]
     found = averaged(scene, (0.0, 0.0, 1.0), [end], order=2).omega[0]
@@ -135,5 +145,6 @@ def amplitude_zero(eps):
         naive = -(M1 * math.sin(phi) + M2 * math.cos(phi)) / (9.0 * A)
     except ZeroDivisionError:
         naive = math.inf
-    return Row(f"averaged liquid, amplitude 0, small parameter {eps:g}", "state", "polar coordinates: division by 0", naive,
+    return Row(f"averaged liquid, amplitude 0, small parameter {eps:g}", "state",
+               "polar coordinates: division by 0", naive,
                float(np.abs(found - exact).max() / np.abs(exact).max()), eps ** 1.5)

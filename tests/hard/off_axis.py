@@ -1,4 +1,5 @@
-"""A torque a hair off a principal axis: isolated equilibria, far away, unstable at rates below rounding (group 10)."""
+"""A torque a hair off a principal axis: isolated equilibria, far away, unstable at rates below rounding
+(group 10)."""
 from __future__ import annotations
 
 from fractions import Fraction
@@ -16,12 +17,14 @@ def jacobian(a, b, x):
 
 
 def determinant(J):
-    return sum(J[0][i] * (J[1][(i + 1) % 3] * J[2][(i + 2) % 3] - J[1][(i + 2) % 3] * J[2][(i + 1) % 3]) for i in range(3))
+    return sum(J[0][i] * (J[1][(i + 1) % 3] * J[2][(i + 2) % 3] - J[1][(i + 2) % 3] * J[2][(i + 1) % 3])
+               for i in range(3))
 
 
 def verdict(off):
-    """10. Torque (off, 1, 0) by the middle axis, c = 1/4: x1 = -b, x2 = off c, x3 = -1/c, exactly. det J = -n is not zero,
-    so one root of z^3 + m z + n, whose roots sum to zero, has a positive real part, about n/(2 m)."""
+    """10. Torque (off, 1, 0) by the middle axis, c = 1/4: x1 = -b, x2 = off c, x3 = -1/c, exactly. det J = -n
+    is not zero, so one root of z^3 + m z + n, whose roots sum to zero, has a positive real part, about n/(2
+    m)."""
     a, b = 0.0, 0.25
     x = (-Fraction(b), Fraction(off) / 4, Fraction(-4))
     problem = model.scaled(a, b, (off, 1, 0))
@@ -30,7 +33,8 @@ def verdict(off):
     found = np.linalg.eigvals(np.array(J, float)).real.max()
     point, = stabilab.equilibria(stabilab.ScaledGyrostat(a, b, (off, 1, 0))).points
     return Verdict(f"torque {off:g} rad off the middle axis", "stability of its equilibrium",
-                   "`max Re < 1e-9` of computed eigenvalues", "stable" if found < 1e-9 else "unstable", point.verdict, exact)
+                   "`max Re < 1e-9` of computed eigenvalues", "stable" if found < 1e-9 else "unstable",
+                   point.verdict, exact)
 
 
 def growth_rate(off):
@@ -42,7 +46,8 @@ def growth_rate(off):
             x = (Fraction(-1, 4), off / 4, Fraction(-4))
             J = jacobian(Fraction(a), Fraction(b), x)
             m = sum(J[i][i] * J[j][j] - J[i][j] * J[j][i] for i, j in ((0, 1), (0, 2), (1, 2)))
-            roots = mp.polyroots([1, 0, energy.num(m), energy.num(-determinant(J))], maxsteps=500, extraprec=400)
+            roots = mp.polyroots([1, 0, energy.num(m), energy.num(-determinant(J))], maxsteps=500,
+                                 extraprec=400)
             return max(mp.re(z) for z in roots)
     J = np.array(jacobian(a, b, (-b, off / 4, -4.0)))
     naive = float(np.linalg.eigvals(J).real.max())
@@ -53,8 +58,8 @@ def growth_rate(off):
 
 
 def far_away(off):
-    """10. Torque (off^3, off, 1) by the minor axis, b - a = 1: (x1 + a)(x1 + b) = 1/off^2, so x1 is about +-1/off; searched for
-    by Newton's method from a box of starts, as one does who knows no closed form."""
+    """10. Torque (off^3, off, 1) by the minor axis, b - a = 1: (x1 + a)(x1 + b) = 1/off^2, so x1 is about
+    +-1/off; searched for by Newton's method from a box of starts, as one does who knows no closed form."""
     a, b, mu = 0.0, 1.0, (off * off * off, off, 1.0)
     distance = float(1 / Fraction(off))  # (x1 + a)(x1 + b) = off/off^3
 
@@ -73,8 +78,10 @@ def far_away(off):
     points = stabilab.equilibria(stabilab.ScaledGyrostat(a, b, mu)).points
     near = [p for p in points if abs(abs(p.at[0]) / distance - 1) < 1e-6]
     problem = model.scaled(a, b, mu)
-    rest = [[abs(float(v)) for v in problem.rate(p.at)] for p in near]  # against terms of size off^3, off and 1
+    # against terms of size off^3, off and 1
+    rest = [[abs(float(v)) for v in problem.rate(p.at)] for p in near]
     small = all(f <= 4e-16 * term for row in rest for f, term in zip(row, mu))
     exact = 2 if Fraction(b - a) ** 2 / 4 + Fraction(mu[1]) * Fraction(mu[2]) / Fraction(mu[0]) > 0 else 0
-    return Verdict(f"torque {off:g} rad off the minor axis", "number of equilibria", "Newton's method from a box of starts",
+    return Verdict(f"torque {off:g} rad off the minor axis", "number of equilibria",
+                   "Newton's method from a box of starts",
                    str(len(found)), str(len(near) if small else "wrong places"), str(exact))

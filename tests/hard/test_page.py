@@ -1,4 +1,5 @@
-"""The table of hard cases: the naive formula fails, the program is as good as its inputs allow, and the page is current."""
+"""The table of hard cases: the naive formula fails, the program is as good as its inputs allow, and the page
+is current."""
 import math
 import re
 
@@ -36,10 +37,12 @@ def test_the_naive_formula_fails_where_a_case_is_called_hard(n):
 
 def test_every_kind_of_hard_case_has_a_quick_line():
     """Groups 1 to 11 of the gyrostat, the small divisors, the liquid, the top."""
-    kinds = ["separatrix", "large circle", "fold", "parameters", "invariant planes", "symmetric", "conic", "start", "late",
+    kinds = ["separatrix", "large circle", "fold", "parameters", "invariant planes", "symmetric", "conic",
+             "start", "late",
              "off axis", "cancellation", "small divisors", "liquid", "top"]
     assert list(dict.fromkeys(about for about, *_ in ROWS)) == kinds
-    assert {about for about, *_, slow in ROWS if not slow} == set(kinds) - {"late"}  # a million turns are no quick line
+    # a million turns are no quick line
+    assert {about for about, *_, slow in ROWS if not slow} == set(kinds) - {"late"}
 
 
 @pytest.mark.slow

@@ -1,4 +1,5 @@
-"""Accuracy over units and strengths, measured by what half a unit in the last place of every input does (the condition)."""
+"""Accuracy over units and strengths, measured by what half a unit in the last place of every input does (the
+condition)."""
 from __future__ import annotations
 
 import math
@@ -12,16 +13,18 @@ from tests.hard.row import UNIT, distance, half_units
 from tests.oracles import energy, model
 from tests.oracles.pairs import WORDS, physical, random_body
 
-ALLOWED = 8  # times the condition, and times half a unit in the last place of the distance to the centre of the conic
+# times the condition, and times half a unit in the last place of the distance to the centre of the conic
+ALLOWED = 8
 DIGITS = 60
 
 
 class Problem:
-    """One body, torque on one axis, gyrostatic moment across it, one state; asks the oracle and the program the same."""
+    """One body, torque on one axis, gyrostatic moment across it, one state; asks the oracle and the program
+    the same."""
 
     def __init__(self, seed, strengths=0.0):
-        """Units of inertia, rate and so of momentum and torque, 1e-12 ... 1e12 each; beyond them gyrostat and torque are 10^u,
-        |u| <= strengths, times as strong as the body's own."""
+        """Units of inertia, rate and so of momentum and torque, 1e-12 ... 1e12 each; beyond them gyrostat and
+        torque are 10^u, |u| <= strengths, times as strong as the body's own."""
         rng = np.random.default_rng(seed)
         mass, rate = 10.0 ** rng.uniform(-12, 12, 2)
         strong = 10.0 ** rng.uniform(-strengths, strengths, 2)
@@ -51,21 +54,24 @@ class Problem:
         return ask
 
     def answer(self, question, **options):
-        value = getattr(stabilab, {"margin": "fate"}.get(question, question))(self.scene, np.array(self.state), **options)
+        value = getattr(stabilab,
+                        {"margin": "fate"}.get(question,
+                                               question))(self.scene, np.array(self.state), **options)
         if question == "extremes":
             return finite(value.tolist())
         return float(value.margins if question == "margin" else value)
 
     @property
     def reach(self):
-        """How far out the centre of the circle or hyperbola lies, in units of the state. Doubles lose this factor, so that
-        beyond 1e4 ball arithmetic takes over (`extremes.SHIFT_LIMIT`)."""
+        """How far out the centre of the circle or hyperbola lies, in units of the state. Doubles lose this
+        factor, so that beyond 1e4 ball arithmetic takes over (`extremes.SHIFT_LIMIT`)."""
         D, i = self.inputs, self.axis
         centre = max(abs(D[3] / (D[self.j] - D[i])), abs(D[4] / (D[self.k] - D[i])))
         return min(centre / max(map(abs, self.state)), 1e4)
 
     def errors(self, question, **options):
-        """(error of the answer, condition), relative to the exact answer; None where it is none or infinite."""
+        """(error of the answer, condition), relative to the exact answer; None where it is none or infinite.
+        """
         ask = self.asked(question)
         exact = ask(*map(Fraction, self.inputs))
         if exact is None or exact == []:
@@ -121,6 +127,7 @@ def test_powers_of_two_as_units_change_no_bit_of_rates_and_periods(power):
     body, state = (3.0, 2.0, 1.5), np.array([0.3, -0.2, 0.4])
     one, _ = physical(body, (0.4, -0.7, 0.0), (0.0, 0.0, 0.2))
     other, _ = physical(body, (0.4 * unit, -0.7 * unit, 0.0), (0.0, 0.0, 0.2 * unit ** 2))
-    np.testing.assert_array_equal(stabilab.extremes(other, state * unit), stabilab.extremes(one, state) * unit)
+    np.testing.assert_array_equal(stabilab.extremes(other, state * unit),
+                                  stabilab.extremes(one, state) * unit)
     assert stabilab.period(other, state * unit) == stabilab.period(one, state) / unit
     assert stabilab.fate(other, state * unit).margins == stabilab.fate(one, state).margins * unit ** 2

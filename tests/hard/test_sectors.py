@@ -1,6 +1,8 @@
-"""The hard cases 5, 10 and 11: invariant planes of the middle axis, torques off the axes, cancellation, cusp, minute orbits.
+"""The hard cases 5, 10 and 11: invariant planes of the middle axis, torques off the axes, cancellation, cusp,
+minute orbits.
 
-Answers from 60 to 300-digit oracles; that straightforward code goes wrong there is shown line by line in `hard_table`.
+Answers from 60 to 300-digit oracles; that straightforward code goes wrong there is shown line by line in
+`hard_table`.
 """
 from __future__ import annotations
 
@@ -18,15 +20,17 @@ from tests.oracles.pairs import scaled
 SPIN_UP, UNDECIDED = int(Fate.SPIN_UP), int(Fate.UNDECIDED)
 
 
-# 5. Middle axis next to the invariant planes -------------------------------------------------------------------------
+# 5. Middle axis next to the invariant planes
+# -------------------------------------------------------------------------
 
 @pytest.mark.one_in(2)
 @pytest.mark.parametrize("tiny", [1e-3, 1e-8, 1e-15, 1e-30, pytest.param(1e-100, marks=pytest.mark.slow),
                                   pytest.param(1e-300, marks=pytest.mark.slow)])
 @pytest.mark.parametrize("y", [1.0, *(pytest.param(y, marks=pytest.mark.slow) for y in (-2.0, 0.125))])
 def test_case_5_a_state_a_hair_off_the_spin_up_plane_turns_back(tiny, y):
-    """x1 + b = y + tiny exactly, x3 = -y: C = 2 y tiny. In doubles x1 + b rounds to y, and the state looks as if on the
-    plane; cosh and sinh of an angle near ln(1/tiny)/2 overflow or cancel. Proof of "bounded": U grows on both sides."""
+    """x1 + b = y + tiny exactly, x3 = -y: C = 2 y tiny. In doubles x1 + b rounds to y, and the state looks as
+    if on the plane; cosh and sinh of an angle near ln(1/tiny)/2 overflow or cancel. Proof of "bounded": U
+    grows on both sides."""
     pair = scaled(0.25, tiny, (0, 1, 0))
     digits = 120 + int(-1.2 * math.log10(tiny))
     words = agrees(pair, [(y, s, -y) for s in (0.5, -1.0, 0.0)], digits=digits, period=tiny >= 1e-30)
@@ -36,7 +40,8 @@ def test_case_5_a_state_a_hair_off_the_spin_up_plane_turns_back(tiny, y):
 
 @pytest.mark.parametrize("tiny", [1e-6, 1e-15, 1e-30, 1e-100])
 def test_case_5_the_largest_x2_grows_like_the_root_of_the_logarithm(tiny):
-    """x2max = sqrt(2 ln(1/tiny) + O(1)) (theory): far from overflow, though the angle's exponentials are not."""
+    """x2max = sqrt(2 ln(1/tiny) + O(1)) (theory): far from overflow, though the angle's exponentials are not.
+    """
     scene, _ = scaled(0.0, tiny, (0, 1, 0))
     top = stabilab.extremes(scene, np.array([1.0, 0.0, -1.0]))[1, 1]
     assert abs(top ** 2 - 2 * math.log(1 / tiny)) < 4
@@ -50,7 +55,8 @@ def test_case_5_states_with_an_invariant_of_1e_minus_30_are_bounded(x3):
     agrees(pair, [(-1.0, 0.5, x3), (-1.0, -3.0, x3), (-1.0 + abs(x3) * 2, 0.5, x3)], digits=200)
 
 
-@pytest.mark.parametrize("y, c, spins", [(1.0, 0.5, True), (-2.0, 1.5, True), (3.0, -1.0, True), (-1.5, 3.0, True)])
+@pytest.mark.parametrize("y, c, spins",
+                         [(1.0, 0.5, True), (-2.0, 1.5, True), (3.0, -1.0, True), (-1.5, 3.0, True)])
 def test_case_5_on_the_plane_itself_the_motion_spins_up(y, c, spins):
     """Y = -x3 exactly (mu2 = 1): all of the plane for |c| < 2 or c Y < 0 (theory)."""
     pair = scaled(0.0, c, (0, 1, 0))
@@ -62,7 +68,8 @@ def test_case_5_part_of_the_plane_is_captured_when_c_exceeds_two():
     """|c| > 2 and c Y > 0: a well opens on the plane Y = -x3; its states are bounded, faster ones spin up."""
     c = 3.0
     pair = scaled(0.0, c, (0, 1, 0))
-    words = agrees(pair, [(y - c, v, -y) for y in (0.5, 1.0, 2.0, 2.5) for v in (0.0625, -0.25, 1.0, 6.0)], extremes=False)
+    words = agrees(pair, [(y - c, v, -y) for y in (0.5, 1.0, 2.0, 2.5) for v in (0.0625, -0.25, 1.0, 6.0)],
+                   extremes=False)
     assert {"bounded", "spin-up"} <= set(words)
 
 
@@ -80,18 +87,21 @@ def test_case_5_on_the_other_plane_the_motion_is_periodic(y):
     assert level(high) == pytest.approx(0.125 + level(y), rel=1e-11)
 
 
-# 10. Torque a hair off a principal axis ------------------------------------------------------------------------------
+# 10. Torque a hair off a principal axis
+# ------------------------------------------------------------------------------
 
 @pytest.mark.one_in(3)
 @pytest.mark.parametrize("off", [1e-9, -1e-12, 1e-300])
 def test_case_10_a_torque_off_the_axis_by_any_amount_is_not_rounded_to_the_axis(off):
-    """Isolated equilibria, at distance 1/off, and no integral: a label from the reduced motion would be a guess."""
+    """Isolated equilibria, at distance 1/off, and no integral: a label from the reduced motion would be a
+    guess."""
     scene, _ = scaled(0.2, 0.4, (0, off, 1))
     result = stabilab.fate(scene, np.array([2.5, 4.0, 0.1]))
     assert result.labels == UNDECIDED and result.because
 
 
-# 11. Cancellation between a and b, circles without a radius, the cusp, minute orbits ----------------------------------
+# 11. Cancellation between a and b, circles without a radius, the cusp, minute orbits
+# ----------------------------------
 
 @pytest.mark.one_in(3)
 @pytest.mark.parametrize("mu", [(0, 0, 1), (0, 0, -1), (0, 1, 0)])
@@ -112,14 +122,16 @@ def test_case_11_circles_of_no_or_hardly_any_radius_spin_up_without_nan(radius, 
     result = stabilab.fate(scene, state)
     assert result.labels == SPIN_UP and result.margins == -np.inf
     box = stabilab.extremes(scene, state)
-    assert box[2, 1] == np.inf and box[2, 0] == pytest.approx(min(speed, 0.0) if speed < 0 else speed, rel=1e-7)
+    assert box[2, 1] == np.inf and box[2, 0] == pytest.approx(min(speed, 0.0) if speed < 0 else speed,
+                                                              rel=1e-7)
     np.testing.assert_allclose(box[:2], [[-radius, radius]] * 2, rtol=1e-11)
 
 
 @pytest.mark.parametrize("sign", [1, -1])
 def test_case_11_the_double_well_just_above_the_cusp_is_found(sign):
-    """|c| = 1.76 against the cusp 1.75477: saddles exist for a window of about 1e-4 of the invariant, which a scan misses.
-    Equilibria g with g^4 + c g + 1 < 0 are saddles; they and their neighbours must get their margins."""
+    """|c| = 1.76 against the cusp 1.75477: saddles exist for a window of about 1e-4 of the invariant, which a
+    scan misses. Equilibria g with g^4 + c g + 1 < 0 are saddles; they and their neighbours must get their
+    margins."""
     c = 1.76 * sign
     pair = scaled(0.0, c, (0, 1, 0))
     g = -sign * 3 ** -0.25  # the middle of the window, where g^4 + c g + 1 is least for |c| at the cusp
@@ -140,8 +152,8 @@ def test_case_11_the_double_well_just_above_the_cusp_is_found(sign):
 @pytest.mark.parametrize("amplitude", [1e-6, 1e-12, 1e-17, 1e-100])
 @pytest.mark.parametrize("mu, state", [((0, 0, 1), (-2.0, 0.5)), ((0, 0, 1), (-8.0, 0.125))])
 def test_case_11_an_orbit_of_any_smallness_about_a_centre_has_its_period_and_extremes(amplitude, mu, state):
-    """E - U(centre) is 1e-34 against terms of order one; x3max must come out as the amplitude, T as 2 pi/sqrt(m) with
-    m = X^2 - x2^2 = 1/h^2 - h^2 for a = b = 0."""
+    """E - U(centre) is 1e-34 against terms of order one; x3max must come out as the amplitude, T as 2
+    pi/sqrt(m) with m = X^2 - x2^2 = 1/h^2 - h^2 for a = b = 0."""
     pair = scaled(0, 0, mu)
     h = state[1]
     probe = np.array([*state, amplitude])
@@ -149,4 +161,5 @@ def test_case_11_an_orbit_of_any_smallness_about_a_centre_has_its_period_and_ext
     np.testing.assert_allclose(stabilab.extremes(pair[0], probe)[2], [-amplitude, amplitude], rtol=1e-11)
     harmonic = 2 * math.pi / math.sqrt(h ** -2 - h ** 2)
     # the correction to the harmonic period is of the order of (amplitude/h)^2
-    assert stabilab.period(pair[0], probe) == pytest.approx(harmonic, rel=max(100 * (amplitude / h) ** 2, 1e-11))
+    assert stabilab.period(pair[0], probe) == pytest.approx(harmonic,
+                                                            rel=max(100 * (amplitude / h) ** 2, 1e-11))

@@ -1,4 +1,5 @@
-"""The fast top: resonances, the printed tilt, angles where the axis stands upright, a vertical across the axis."""
+"""The fast top: resonances, the printed tilt, angles where the axis stands upright, a vertical across the
+axis."""
 from __future__ import annotations
 
 import math
@@ -31,26 +32,32 @@ def resonance_nearby(distance):
         with mp.workdps(60):
             spin = C + lz / r0
             return abs(mp.sqrt(energy.num((spin - B) / A * (spin - A) / B)) - 1)
-    return numbers(f"top {distance:g} from Omega = 1", "the small divisor", "1 - Omega^2 from rounded moments", naive,
+    return numbers(f"top {distance:g} from Omega = 1", "the small divisor",
+                   "1 - Omega^2 from rounded moments", naive,
                    found[0].distance, ask, (*moments, lz, R0))
 
 
 def exact_resonance(lz):
-    """C* = A + B in decimals that are no binary fractions: doubles divide by what rounding leaves. Exact: rationals."""
+    """C* = A + B in decimals that are no binary fractions: doubles divide by what rounding leaves. Exact:
+    rationals."""
     from fractions import Fraction
     A, B, C, r0 = "1.2", "1.1", "0.7", "150"
-    alpha, beta = ((float(C) + float(lz) / 150 - float(B)) / float(A), (float(A) - float(C) - float(lz) / 150) / float(B))
+    alpha, beta = ((float(C) + float(lz) / 150 - float(B)) / float(A),
+                   (float(A) - float(C) - float(lz) / 150) / float(B))
     divisor = 1 + alpha * beta
     spin = Fraction(C) + Fraction(lz) / Fraction(r0)
     scene = Scene(Body((A, B, C)), Gravity("0.5", ARM), Gyrostat(("0.1", 0, lz)))
     motion = lindstedt(scene, START, [0.0], 3)
-    return Verdict(f"top with C* = A + B, l_z = {lz}", "does its expansion exist?", "division by 1 - Omega^2 in doubles",
-                   "yes" if divisor != 0 else "no", "no" if motion.status == "resonant" and motion.order == 0 else "yes",
+    return Verdict(f"top with C* = A + B, l_z = {lz}", "does its expansion exist?",
+                   "division by 1 - Omega^2 in doubles",
+                   "yes" if divisor != 0 else "no",
+                   "no" if motion.status == "resonant" and motion.order == 0 else "yes",
                    "no" if spin == Fraction(A) + Fraction(B) else "yes")
 
 
 def tilted(gamma):
-    """p, q after a third of a turn of the periodic motion; exact: the equations by hand in 25 digits from the same start."""
+    """p, q after a third of a turn of the periodic motion; exact: the equations by hand in 25 digits from the
+    same start."""
     scene = top(0.1)
     start = START | {"gamma": gamma}
     motion = lindstedt(scene, start, [0.0], 14)
@@ -67,14 +74,17 @@ def tilted(gamma):
     except InputError:  # its scaling divides by gamma0''
         naive = [math.inf, math.inf]
     ours = motion.at([time])[0][0, :2].tolist()
-    return numbers(f"top with l_x, vertical {tuple(gamma)}", "p, q", "the printed solution (41)", naive, ours, ask, state)
+    return numbers(f"top with l_x, vertical {tuple(gamma)}", "p, q", "the printed solution (41)", naive, ours,
+                   ask, state)
 
 
 def upright(tilt):
-    """Steady precession of the symmetric top at a small tilt: A cos(t) P^2 - (C r + l_z) P - M g z = 0, slow root."""
+    """Steady precession of the symmetric top at a small tilt: A cos(t) P^2 - (C r + l_z) P - M g z = 0, slow
+    root."""
     A, C, lz, arm = 16.0, 11.0, 30.0, 0.5
     start = {"omega": START["omega"], "gamma": (tilt, 0.0, math.sqrt(1 - tilt * tilt))}
-    motion = lindstedt(Scene(Body((A, A, C)), Gravity(WEIGHT, (0, 0, arm)), Gyrostat((0, 0, lz))), start, [0.0], 16)
+    motion = lindstedt(Scene(Body((A, A, C)), Gravity(WEIGHT, (0, 0, arm)), Gyrostat((0, 0, lz))), start,
+                       [0.0], 16)
     p, q, _ = motion.omega[0]
     g1, g2, g3 = motion.gamma[0]
     with np.errstate(all="ignore"):
@@ -84,6 +94,8 @@ def upright(tilt):
         with mp.workdps(60):
             A, C, r, lz, weight, arm, tilt = map(energy.num, (A, C, r, lz, weight, arm, tilt))
             spin = C * r + lz
-            return [2 * -weight * arm / (spin + mp.sqrt(spin * spin + 4 * A * mp.sqrt(1 - tilt * tilt) * weight * arm)), r]
-    return numbers(f"top {tilt:g} rad from upright", "precession and spin", "psi' divides by 1 - gamma''^2", [naive, R0],
+            return [2 * -weight * arm
+                    / (spin + mp.sqrt(spin * spin + 4 * A * mp.sqrt(1 - tilt * tilt) * weight * arm)), r]
+    return numbers(f"top {tilt:g} rad from upright", "precession and spin", "psi' divides by 1 - gamma''^2",
+                   [naive, R0],
                    [mean_precession(motion), R0], ask, (A, C, R0, lz, WEIGHT, arm, tilt))

@@ -8,14 +8,17 @@ from tests.house.rooms import PACKAGE, tree_of
 
 
 def is_sign(node, beside=()) -> bool:
-    """Whether an expression is the sign e of p q: an attribute `.e`, or a name `e` that is not compared with anything but 0."""
+    """Whether an expression is the sign e of p q: an attribute `.e`, or a name `e` that is not compared with
+    anything but 0."""
     if isinstance(node, ast.Name) and node.id == "e":
-        return all(isinstance(other, ast.Constant) and other.value == 0 for other in beside if other is not node)
+        return all(isinstance(other, ast.Constant) and other.value == 0 for other in beside
+                   if other is not node)
     return isinstance(node, ast.Attribute) and node.attr == "e"
 
 
 def asks(tree, names=True) -> Iterator[int]:
-    """The lines that test it: a comparison, the truth of it, or a table that it opens. names: the name `e` counts too."""
+    """The lines that test it: a comparison, the truth of it, or a table that it opens. names: the name `e`
+    counts too."""
     nodes = list(ast.walk(tree))
     caught = {id(n) for h in nodes if isinstance(h, ast.ExceptHandler) and h.name == "e" for n in ast.walk(h)}
     for node in nodes:
@@ -32,12 +35,13 @@ def asks(tree, names=True) -> Iterator[int]:
             tested = [node.operand]
         elif isinstance(node, ast.Subscript):
             tested = [node.slice]
-        yield from (one.lineno for one in tested if (names or isinstance(one, ast.Attribute)) and is_sign(one, beside) and id(one) not in caught)
+        yield from (one.lineno for one in tested if (names or isinstance(one, ast.Attribute))
+                    and is_sign(one, beside) and id(one) not in caught)
 
 
 def places() -> list[str]:
-    """file:line of every test in the package: of attributes anywhere, of names in `orbit`, for elsewhere an e is an effect or an entry. The
-    checker's geometry is its own."""
+    """file:line of every test in the package: of attributes anywhere, of names in `orbit`, for elsewhere an e
+    is an effect or an entry. The checker's geometry is its own."""
     found = []
     for path in sorted(PACKAGE.rglob("*.py")):
         file = path.relative_to(PACKAGE).as_posix()

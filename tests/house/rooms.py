@@ -14,22 +14,26 @@ from typing import NamedTuple
 ROOT = Path(__file__).resolve().parents[2]
 PACKAGE = ROOT / "stabilab"
 PAGE = ROOT / "docs" / "house.md"
-GROUND = {"caveat", "errors", "files", "interrupt", "machine", "packages", "streams", "asked", "shown", "version", "record", "processes", "kept", "written"}
+GROUND = {"caveat", "errors", "files", "interrupt", "machine", "packages", "streams", "asked", "shown",
+          "version", "record", "processes", "kept", "written"}
 # room -> rooms that it may import, besides itself and the ground; None: nothing, the ground included
 MAY: dict[str, str | None] = {
-    "numbers": "", "physics": "numbers", "case": "physics numbers", "integrate": "physics numbers", "equilibrium": "physics numbers",
+    "numbers": "", "physics": "numbers", "case": "physics numbers", "integrate": "physics numbers",
+    "equilibrium": "physics numbers",
     "orbit": "physics numbers", "unreduced": "orbit equilibrium integrate physics numbers",
-    "answers": "unreduced orbit equilibrium integrate physics numbers", "theories": "answers integrate physics numbers",
+    "answers": "unreduced orbit equilibrium integrate physics numbers",
+    "theories": "answers integrate physics numbers",
     "maps": "answers orbit equilibrium case integrate physics numbers",
     "cost": "theories answers orbit integrate physics numbers", "verify": None,
     "show": "maps cost theories answers unreduced orbit equilibrium integrate case physics numbers verify",
     "papers": "show maps cost theories answers unreduced orbit equilibrium integrate case physics numbers",
-    "commands": "papers show maps cost theories answers unreduced orbit equilibrium integrate case physics numbers verify"}
+    "commands": "papers show maps cost theories answers unreduced orbit equilibrium integrate case physics "
+                "numbers verify"}
 
 
 class Import(NamedTuple):
-    """One imported name: importing module, imported module, the name (None where the module itself is meant), the line, and
-    whether the import stands inside a function."""
+    """One imported name: importing module, imported module, the name (None where the module itself is meant),
+    the line, and whether the import stands inside a function."""
 
     source: str
     target: str
@@ -56,18 +60,22 @@ def tree_of(path: Path) -> ast.Module:
 
 
 def statements(node, inside=False, left_out=lambda node: False) -> Iterator[tuple[ast.AST, bool]]:
-    """(statement, whether it stands inside a function) of all below a node, but for those left out and what is in them. Expressions, nineteen
-    of twenty nodes of a file, hold no statement and are not walked."""
-    for child in (child for part in ("body", "handlers", "orelse", "finalbody", "cases") for child in getattr(node, part, ())):
+    """(statement, whether it stands inside a function) of all below a node, but for those left out and what
+    is in them. Expressions, nineteen of twenty nodes of a file, hold no statement and are not walked."""
+    for child in (child for part in ("body", "handlers", "orelse", "finalbody", "cases")
+                  for child in getattr(node, part, ())):
         if not left_out(child):
             yield child, inside
-            yield from statements(child, inside or isinstance(child, (ast.FunctionDef, ast.AsyncFunctionDef)), left_out)
+            yield from statements(child, inside or isinstance(child, (ast.FunctionDef, ast.AsyncFunctionDef)),
+                                  left_out)
 
 
 def imports(name: str, path: Path, known) -> list[Import]:
     """Every import of a file that leads inside the package, those inside functions too."""
-    left_out = for_types if name == "stabilab" else lambda node: False  # the public table names every room for type checkers, and loads none
-    return [Import(name, target, imported, node.lineno, inside) for node, inside in statements(tree_of(path), left_out=left_out)
+    # the public table names every room for type checkers, and loads none
+    left_out = for_types if name == "stabilab" else lambda node: False
+    return [Import(name, target, imported, node.lineno, inside) for node,
+            inside in statements(tree_of(path), left_out=left_out)
             for target, imported in _names(node, name, path.name == "__init__.py", known)]
 
 
@@ -98,12 +106,14 @@ def all_imports() -> list[Import]:
 
 
 def room(name: str) -> str:
-    """The room of a module: the first folder below the package, or the module itself where it lies in none."""
+    """The room of a module: the first folder below the package, or the module itself where it lies in none.
+    """
     return name.split(".")[1] if "." in name else "stabilab"
 
 
 def circles(arrows) -> list[list[str]]:
-    """The circles among (source, target) arrows: strongly connected components of more than one member (Tarjan)."""
+    """The circles among (source, target) arrows: strongly connected components of more than one member
+    (Tarjan)."""
     graph = defaultdict(set)
     for source, target in arrows:
         graph[source].add(target)
@@ -135,7 +145,8 @@ def drawing() -> str:
     for one in all_imports():
         into[room(one.source)].add(room(one.target))
     rows = ["cli", *reversed(_floors())]
-    lines = (f"    {name:<12}-> {', '.join(other for other in rows if other in into[name] - {name})}" for name in rows)
+    lines = (f"    {name:<12}-> {', '.join(other for other in rows if other in into[name] - {name})}"
+             for name in rows)
     return "\n".join(line.removesuffix("-> ").rstrip() for line in lines)
 
 
@@ -143,7 +154,8 @@ def _floors() -> list[str]:
     """The rooms from the lowest to the highest: each after those that it may import."""
     order: list[str] = []
     while len(order) < len(MAY):
-        order += [name for name, may in MAY.items() if name not in order and set((may or "").split()) <= set(order)]
+        order += [name for name, may in MAY.items() if name not in order
+                  and set((may or "").split()) <= set(order)]
     return order
 
 
@@ -152,7 +164,8 @@ def main() -> None:
     text = PAGE.read_text(encoding="utf-8")
     head, rest = text.split("<!-- drawing -->\n", 1)
     tail = rest.split("<!-- end of drawing -->", 1)[1]
-    PAGE.write_text(f"{head}<!-- drawing -->\n\n{drawing()}\n\n<!-- end of drawing -->{tail}", encoding="utf-8")
+    PAGE.write_text(f"{head}<!-- drawing -->\n\n{drawing()}\n\n<!-- end of drawing -->{tail}",
+                    encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -1,4 +1,5 @@
-"""What a newcomer adds: a kind of scene and a question, each one file and one row, in a copy of the package."""
+"""What a newcomer adds: a kind of scene and a question, each one file and one row, in a copy of the package.
+"""
 from __future__ import annotations
 
 import json
@@ -52,7 +53,8 @@ def periods(scene, states, fast=None):
 '''
 KIND_ROW = (
     "answers/kinds.py", "KINDS",
-    '    "sphere": Kind(lambda scene: _module("unreduced.sphere").holds(scene), "unreduced.sphere", "unreduced.sphere"),\n')
+    '    "sphere": Kind(lambda scene: _module("unreduced.sphere").holds(scene), "unreduced.sphere", '
+    '"unreduced.sphere"),\n')
 QUESTION = '''"""How far each rate swings."""
 from __future__ import annotations
 
@@ -91,7 +93,8 @@ def added(package, file, text, row):
 
 
 def told_by(folder):
-    done = subprocess.run([sys.executable, "-c", ASKED], cwd=folder, env={**os.environ, "PYTHONPATH": str(folder)}, capture_output=True, text=True)
+    done = subprocess.run([sys.executable, "-c", ASKED], cwd=folder,
+                          env={**os.environ, "PYTHONPATH": str(folder)}, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     return json.loads(done.stdout)
 
@@ -112,6 +115,8 @@ def test_a_seventh_kind_and_a_new_question_are_one_file_and_one_row_each(copy):
     assert after["kinds"] == ["sphere", "orbit"] and after["because"] == "a sphere keeps its rates"
     assert after["swing"][0] == [0.0, 0.0, 0.0]
     # the README's own numbers of this satellite: greatest less least rate
-    assert after["swing"][1] == pytest.approx([0.102485584364 - 0.0946418204942, 0.0521865054855 + 0.0882677138107, 2 * 0.0806376591042], rel=1e-10)
+    assert after["swing"][1] == pytest.approx([0.102485584364 - 0.0946418204942,
+                                               0.0521865054855 + 0.0882677138107, 2 * 0.0806376591042],
+                                              rel=1e-10)
     assert after["many"] == [[3], [[[v, v] for v in (0.1, 0.05, 0.02)]], [0.0]]
     assert after["satellite"] == before["satellite"], "the other kinds answer as before"

@@ -1,4 +1,5 @@
-"""The structure of the package: which room imports which, no circles, no private names, light commands stay light."""
+"""The structure of the package: which room imports which, no circles, no private names, light commands stay
+light."""
 from __future__ import annotations
 
 import ast
@@ -12,10 +13,24 @@ import pytest
 
 import stabilab
 from tests.house import geometry, rooms
-from tests.house.rooms import GROUND, MAY, PACKAGE, PAGE, ROOT, all_imports, circles, modules, room, statements, tree_of
+from tests.house.rooms import (
+    GROUND,
+    MAY,
+    PACKAGE,
+    PAGE,
+    ROOT,
+    all_imports,
+    circles,
+    modules,
+    room,
+    statements,
+    tree_of,
+)
 
-HEAVY = {"sympy", "scipy", "matplotlib", "pyvista", "vtk", "vtkmodules", "heyoka", "xarray", "pandas", "mpmath", "flint",
-         "rich", "jinja2", "pydantic", "numba", "dask", "distributed", "trame", "h5netcdf", "hypothesis", "pytest"}
+HEAVY = {"sympy", "scipy", "matplotlib", "pyvista", "vtk", "vtkmodules", "heyoka", "xarray", "pandas",
+         "mpmath", "flint",
+         "rich", "jinja2", "pydantic", "numba", "dask", "distributed", "trame", "h5netcdf", "hypothesis",
+         "pytest"}
 # What draws or writes: no other room than show and papers may open it.
 DRAWING = {"matplotlib", "pyvista", "vtk", "vtkmodules", "trame", "jinja2", "xarray", "rich"}
 MODULES = sorted(PACKAGE.rglob("*.py"))
@@ -28,7 +43,8 @@ DOORS = {
     ("stabilab.answers.certificate", "stabilab.answers.certified_spin_up"): "loads numpy",
     ("stabilab.answers.certificate", "stabilab.answers.closed_motion"): "loads numpy",
     ("stabilab.commands.classify", "stabilab.commands.certify"): "loaded for --certify alone",
-    ("stabilab.commands.common.motions", "stabilab.answers.uncertain.verdicts"): "loaded for uncertain numbers alone",
+    ("stabilab.commands.common.motions",
+     "stabilab.answers.uncertain.verdicts"): "loaded for uncertain numbers alone",
     ("stabilab.commands.common.motions", "stabilab.commands.common.tilt"): "loads numpy",
     ("stabilab.commands.pictures", "stabilab.show.explore.serve"): "loads what serves a page",
     ("stabilab.commands.pictures", "stabilab.show.explore.static"): "loads what writes a page as a folder",
@@ -51,7 +67,8 @@ DOORS = {
 
 
 def test_rooms_import_only_what_they_may():
-    wrong = [f"{one.source}:{one.line} imports {one.target}" for one in all_imports() if not _allowed(room(one.source), room(one.target))]
+    wrong = [f"{one.source}:{one.line} imports {one.target}" for one in all_imports()
+             if not _allowed(room(one.source), room(one.target))]
     assert not wrong
 
 
@@ -75,7 +92,8 @@ def test_a_circle_is_found():
 
 
 def test_imports_inside_functions_are_doors():
-    inside = {(one.source, one.target) for one in all_imports() if one.inside and room(one.source) not in ("cli", "__main__", "stabilab")}
+    inside = {(one.source, one.target) for one in all_imports() if one.inside
+              and room(one.source) not in ("cli", "__main__", "stabilab")}
     assert inside - set(DOORS) == set()
     assert set(DOORS) - inside == set(), "a door that nobody uses any more"
 
@@ -87,14 +105,17 @@ def test_imports_inside_functions_are_few():
 
 def test_a_command_opens_one_door():
     """What its file in `commands` needs, that file imports at its head."""
-    functions = [function for path in (PACKAGE / "cli").glob("*.py") for function, _ in statements(tree_of(path)) if isinstance(function, ast.FunctionDef)]
-    doors = Counter(function.name for function in functions for node, _ in statements(function) if isinstance(node, ast.ImportFrom) and node.level)
+    functions = [function for path in (PACKAGE / "cli").glob("*.py") for function,
+                 _ in statements(tree_of(path)) if isinstance(function, ast.FunctionDef)]
+    doors = Counter(function.name for function in functions for node,
+                    _ in statements(function) if isinstance(node, ast.ImportFrom) and node.level)
     assert set(doors.values()) == {1}, doors
     assert set(doors) >= {function.name for function in functions if function.decorator_list} - {"whole"}
 
 
 def test_no_private_name_crosses_a_module():
-    crossing = [f"{one.source}:{one.line} {one.target}.{one.name}" for one in all_imports() if one.name and re.match(r"_(?!_)", one.name)]
+    crossing = [f"{one.source}:{one.line} {one.target}.{one.name}" for one in all_imports() if one.name
+                and re.match(r"_(?!_)", one.name)]
     assert not crossing
 
 
@@ -109,7 +130,8 @@ def test_no_module_of_the_package_bears_a_public_name():
     assert not {name.split(".")[1] for name in modules() if name.count(".") == 1} & set(stabilab.__all__)
 
 
-@pytest.mark.parametrize("folder", sorted({path.parent for path in MODULES}), ids=lambda p: str(p.relative_to(ROOT)))
+@pytest.mark.parametrize("folder", sorted({path.parent for path in MODULES}),
+                         ids=lambda p: str(p.relative_to(ROOT)))
 def test_a_folder_holds_at_most_sixteen_files(folder):
     assert len(list(folder.glob("*.py"))) <= FILES_IN_A_FOLDER
 
@@ -127,7 +149,9 @@ def test_few_places_ask_for_the_sign_of_the_geometry():
 
 
 def test_a_test_of_the_sign_is_found():
-    asked = "if r.e < 0: pass\nx = 1 if not land.e else 2\ntable[land.e]\nif e == 0: pass\nif e > most: pass\ny = r.e * 2\n"
+    asked = (
+        "if r.e < 0: pass\nx = 1 if not land.e else 2\ntable[land.e]\nif e == 0: pass\nif e > most: pass\ny "
+        "= r.e * 2\n")
     assert sorted(geometry.asks(ast.parse(asked))) == [1, 2, 3, 4]
 
 
@@ -137,8 +161,8 @@ def test_the_drawing_of_the_rooms_is_that_of_the_imports():
 
 
 def imports(path):
-    """(line, module as a dotted name) of every import of a file, inside functions too, relative ones made absolute; but for those that type
-    checkers alone read, which load nothing."""
+    """(line, module as a dotted name) of every import of a file, inside functions too, relative ones made
+    absolute; but for those that type checkers alone read, which load nothing."""
     package = ["stabilab", *path.relative_to(PACKAGE).parent.parts]
     for node, _ in statements(tree_of(path), left_out=rooms.for_types):
         if isinstance(node, ast.Import):
@@ -154,7 +178,8 @@ def imports(path):
 
 def test_nothing_rests_on_an_assert():
     # `python -O` leaves asserts out: a step of a proof would be gone
-    assert not [f"{path}:{node.lineno}" for path in MODULES for node, _ in statements(tree_of(path)) if isinstance(node, ast.Assert)]
+    assert not [f"{path}:{node.lineno}" for path in MODULES for node,
+                _ in statements(tree_of(path)) if isinstance(node, ast.Assert)]
 
 
 def test_heavy_packages_are_imported_inside_functions_only():
@@ -165,17 +190,21 @@ def test_heavy_packages_are_imported_inside_functions_only():
 
 
 def test_only_show_and_papers_draw_and_write_files_of_pictures():
-    assert not [f"{path}:{line} {name}" for path in MODULES if path.relative_to(PACKAGE).parts[0] not in ("show", "papers")
+    assert not [f"{path}:{line} {name}" for path in MODULES
+                if path.relative_to(PACKAGE).parts[0] not in ("show", "papers")
                 for line, name, _ in imports(path) if name.split(".")[0] in DRAWING]
 
 
 def loaded_by(*arguments) -> set[str]:
     """Top-level packages in sys.modules after a command ran to its end, in a fresh interpreter."""
     code = ("import sys, atexit\nsys.argv = ['stabilab'] + sys.argv[1:]\n"
-            "atexit.register(lambda: print('LOADED', *sorted({m.split('.')[0] for m in sys.modules}), file=sys.stderr))\n"
+            "atexit.register(lambda: print('LOADED', *sorted({m.split('.')[0] for m in sys.modules}), "
+            "file=sys.stderr))\n"
             "from stabilab.__main__ import main\nmain()\n")
-    plain = {name: value for name, value in os.environ.items() if not name.startswith("COVERAGE")}  # which loads modules of its own
-    run = subprocess.run([sys.executable, "-c", code, *map(str, arguments)], capture_output=True, text=True, cwd=ROOT, env=plain)
+    # which loads modules of its own
+    plain = {name: value for name, value in os.environ.items() if not name.startswith("COVERAGE")}
+    run = subprocess.run([sys.executable, "-c", code, *map(str, arguments)], capture_output=True, text=True,
+                         cwd=ROOT, env=plain)
     assert run.returncode == 0, run.stderr
     return set(next(line for line in run.stderr.splitlines() if line.startswith("LOADED")).split()[1:])
 
@@ -186,22 +215,27 @@ def test_help_loads_neither_numpy_nor_anything_heavy():
 
 @pytest.mark.parametrize("command", ["classify", "extremes"])
 def test_one_state_under_a_constant_torque_loads_neither_numpy_nor_anything_heavy(command):
-    names = ("minor-axis-100", "middle-axis-300", "wheel-and-thruster", "thruster-negative-minor-axis", "thruster-stuck-major-axis",
-             "torque-free-gyrostat", "symmetric-body", "charged-body")  # of one process: what any of them loads stays loaded
+    names = ("minor-axis-100", "middle-axis-300", "wheel-and-thruster", "thruster-negative-minor-axis",
+             "thruster-stuck-major-axis",
+             # of one process: what any of them loads stays loaded
+             "torque-free-gyrostat", "symmetric-body", "charged-body")
     loaded = loaded_by(command, *(f"cases/{name}.toml" for name in names), "--json")
     assert not loaded & (HEAVY | {"numpy"}) - {"flint"}  # balls are python-flint's
     assert {"stabilab", "fractions", "json", "flint"} <= loaded  # the probe sees what is loaded
 
 
 def test_one_state_reads_no_more_than_its_answer_needs():
-    """A first answer of a light command takes at most half a second of processor time; some fifth of a millisecond is a
-    module's, and modules can be counted where time cannot. What a question does not need is not loaded: these two take
+    """A first answer of a light command takes at most half a second of processor time; some fifth of a
+    millisecond is a module's, and modules can be counted where time cannot. What a question does not need is
+    not loaded: these two take
     142 and 148."""
     code = ("import sys, atexit\nsys.argv = ['stabilab', 'classify', sys.argv[1]]\n"
-            "atexit.register(lambda: print('LOADED', sum(m.split('.')[0] == 'stabilab' for m in sys.modules), file=sys.stderr))\n"
+            "atexit.register(lambda: print('LOADED', sum(m.split('.')[0] == 'stabilab' for m in "
+            "sys.modules), file=sys.stderr))\n"
             "from stabilab.__main__ import main\nmain()\n")
     for name, most in (("minor-axis-100", 160), ("charged-body", 165)):
-        run = subprocess.run([sys.executable, "-c", code, f"cases/{name}.toml"], capture_output=True, text=True, cwd=ROOT)
+        run = subprocess.run([sys.executable, "-c", code, f"cases/{name}.toml"], capture_output=True,
+                             text=True, cwd=ROOT)
         assert int(run.stderr.split("LOADED ")[1]) <= most, name
 
 
@@ -212,7 +246,8 @@ def test_one_state_that_doubles_cannot_settle_loads_the_library_for_many_digits_
 
 @pytest.mark.one_in(2)
 @pytest.mark.parametrize("arguments, needed", [
-    (("show", "cases/minor-axis-100.toml"), {"sympy", "mpmath"}),  # sympy brings mpmath, and both look for gmpy2 and flint
+    # sympy brings mpmath, and both look for gmpy2 and flint
+    (("show", "cases/minor-axis-100.toml"), {"sympy", "mpmath"}),
     (("simulate", "cases/minor-axis-100.toml", "--at", "0,1"), {"heyoka", "sympy", "mpmath", "flint"}),
     (("doctor",), set())])
 def test_a_command_loads_no_heavy_package_that_it_does_not_use(arguments, needed):
@@ -228,7 +263,8 @@ def test_loading_a_case_needs_no_numpy():
 def test_an_effect_that_no_case_names_is_not_imported():
     code = ("import sys, stabilab; stabilab.load(sys.argv[1]);"
             "print(sorted(m for m in sys.modules if m.startswith('stabilab.physics.effects.')))")
-    run = subprocess.run([sys.executable, "-c", code, "cases/off-axis-two.toml"], cwd=ROOT, capture_output=True, text=True)
+    run = subprocess.run([sys.executable, "-c", code, "cases/off-axis-two.toml"], cwd=ROOT,
+                         capture_output=True, text=True)
     assert "stabilab.physics.effects.constant_torque" in run.stdout
     # scaling needs the torque's class alone; the gyrostat is not named by this case
     assert "stabilab.physics.effects.gyrostat" not in run.stdout

@@ -1,4 +1,5 @@
-"""What a command loads: of the effects only those that its scene names, and of approximate laws nothing where all are exact."""
+"""What a command loads: of the effects only those that its scene names, and of approximate laws nothing where
+all are exact."""
 import json
 import subprocess
 import sys
@@ -12,22 +13,31 @@ ROOT = Path(__file__).parents[2]
 BODY = "[body]\ninertia = {inertia}\nmass = 5\n"
 MOTION = "[motion]\nangular_velocity = [0.1, 0.05, 0.02]\nspan = [0, 1]\n"
 EFFECTS = {
-    "gyrostat": "momentum = [0.8, 0, 0.1]", "constant_torque": "torque = [0, 0, 0.02]", "charge": "charge = 0.1\nfield = 1\narm = 1\nangle = 0.3",
-    "resistance": "coefficient = 0.1", "liquid_cavity": "density = 1\nviscosity = 1\nradius = 0.1", "newtonian_field": "strength = 0.5",
+    "gyrostat": "momentum = [0.8, 0, 0.1]", "constant_torque": "torque = [0, 0, 0.02]",
+    "charge": "charge = 0.1\nfield = 1\narm = 1\nangle = 0.3",
+    "resistance": "coefficient = 0.1", "liquid_cavity": "density = 1\nviscosity = 1\nradius = 0.1",
+    "newtonian_field": "strength = 0.5",
     "gravity": "weight = 1\ncentre_of_mass = [0.1, 0, 0]", "body_force": "force = [1, 0, 0]"}
 GAMMA = ("newtonian_field", "gravity")
 PAIRS = (("gyrostat", "constant_torque"), ("charge", "constant_torque"), ("liquid_cavity", "resistance"))
 ROUND, SLOW_START = "[12, 5, 5]", MOTION.replace("0.1, 0.05, 0.02", "1e-9, 2e-9, 3e-9")
-# (effects, inertia, motion); equal moments turn a torque onto an axis, a slow motion runs in its own unit of time: other code
-FEW = (((), "[12, 9, 5]", MOTION), (("charge",), "[12, 9, 5]", MOTION), (("constant_torque",), ROUND, SLOW_START))
-MANY = (*(((name,), "[12, 9, 5]", MOTION) for name in EFFECTS), *((pair, "[12, 9, 5]", MOTION) for pair in PAIRS), *FEW,
-        (("gyrostat", "constant_torque"), ROUND, MOTION), ((), ROUND, SLOW_START), (("gyrostat",), ROUND, SLOW_START),
+# (effects, inertia, motion); equal moments turn a torque onto an axis, a slow motion runs in its own unit of
+# time: other code
+FEW = (((), "[12, 9, 5]", MOTION), (("charge",), "[12, 9, 5]", MOTION),
+       (("constant_torque",), ROUND, SLOW_START))
+MANY = (*(((name,), "[12, 9, 5]", MOTION) for name in EFFECTS),
+        *((pair, "[12, 9, 5]", MOTION) for pair in PAIRS), *FEW,
+        (("gyrostat", "constant_torque"), ROUND, MOTION), ((), ROUND, SLOW_START),
+        (("gyrostat",), ROUND, SLOW_START),
         (("resistance",), ROUND, SLOW_START))
-COMMANDS = ("show {case}", "classify {case}", "fate {case}", "extremes {case}", "period {case}", "simulate {case} --at 1")
-OTHERS = ("classify {case} --certify --out c.json", "fate {case} --digits 12", "extremes {case} --digits 12", "simulate {case} --at 1 --digits 6",
+COMMANDS = ("show {case}", "classify {case}", "fate {case}", "extremes {case}", "period {case}",
+            "simulate {case} --at 1")
+OTHERS = ("classify {case} --certify --out c.json", "fate {case} --digits 12", "extremes {case} --digits 12",
+          "simulate {case} --at 1 --digits 6",
           "compare {case}", "plot {case} --out p.png", "precision {case} --quick", "surface {case} --out s")
 
-# Runs each command line in turn in one process, with the package loaded anew for each, and prints what of it was loaded.
+# Runs each command line in turn in one process, with the package loaded anew for each, and prints what of it
+# was loaded.
 RUNNER = """
 import contextlib, io, json, sys
 import numpy, sympy
@@ -57,13 +67,16 @@ def written(folder, names, inertia, motion):
 
 
 def check(folder, commands, scenes):
-    tried = [(names, command, written(folder, names, *more)) for command in commands for names, *more in scenes]
+    tried = [(names, command, written(folder, names, *more)) for command in commands for names,
+             *more in scenes]
     lines = [command.format(case=path).split() for _, command, path in tried]
-    run = subprocess.run([sys.executable, "-c", RUNNER, json.dumps(lines)], capture_output=True, text=True, cwd=folder)
+    run = subprocess.run([sys.executable, "-c", RUNNER, json.dumps(lines)], capture_output=True, text=True,
+                         cwd=folder)
     assert run.returncode == 0, run.stderr
     for (names, command, path), (code, modules, said) in zip(tried, json.loads(run.stdout)):
         assert code in (0, 2, 3, 4, 5), (command, path.name, said)
-        loaded = {name for name, (module, _) in REGISTRY.items() if f"stabilab.physics.effects.{module}" in modules}
+        loaded = {name for name, (module, _) in REGISTRY.items()
+                  if f"stabilab.physics.effects.{module}" in modules}
         assert loaded <= set(names), (command, path.name, loaded)
         if "liquid_cavity" not in names and "charge" not in names:
             assert "stabilab.physics.law_limits" not in modules, (command, path.name)
@@ -90,10 +103,12 @@ for path in sys.argv[1:]:
 
 def test_one_state_is_answered_and_certified_with_python_flint_alone():
     """On circles, hyperbolas, without a torque, and where a separatrix is near enough for many digits."""
-    cases = [f"cases/{name}.toml" for name in ("minor-axis-100", "middle-axis-double-well", "torque-free-body", "uncertain-separatrix")]
+    cases = [f"cases/{name}.toml" for name in ("minor-axis-100", "middle-axis-double-well",
+                                               "torque-free-body", "uncertain-separatrix")]
     run = subprocess.run([sys.executable, "-c", ALONE, *cases], capture_output=True, text=True, cwd=ROOT)
     assert run.returncode == 0, run.stderr
-    assert [line.split()[1:] for line in run.stdout.splitlines()] == [["bounded", "True", "curves", "bounded"]] * 4
+    assert [line.split()[1:] for line in run.stdout.splitlines()] == [["bounded", "True", "curves",
+                                                                       "bounded"]] * 4
 
 
 def test_commands_load_only_the_effects_that_the_scene_names(tmp_path):

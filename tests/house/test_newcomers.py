@@ -1,11 +1,13 @@
-"""Two newcomers: one walks the README from top to bottom, one goes from a spacecraft's data sheet to a decision."""
+"""Two newcomers: one walks the README from top to bottom, one goes from a spacecraft's data sheet to a
+decision."""
 import re
 
 import pytest
 
 from .test_readme import README, blocks, commands, files, follow, in_python, run, run_here
 
-# What a data sheet says: moments in kg m^2, places in m, an attitude thruster of 40 mN aligned to a degree, panels that break at 30 deg/s.
+# What a data sheet says: moments in kg m^2, places in m, an attitude thruster of 40 mN aligned to a degree,
+# panels that break at 30 deg/s.
 SHEET = """title = "Data sheet 7: small satellite"
 
 [body]
@@ -76,14 +78,18 @@ def test_an_engineer_goes_from_a_data_sheet_to_a_decision(tmp_path):
 
     code, answer = said("stabilab stuck sheet.toml", tmp_path)
     first = answer.splitlines()[0]
-    assert code == 0 and first.startswith("sheet: STAYS BOUNDED") and "only while the torque is exactly along z (minor axis)" in first
+    assert code == 0 and first.startswith(
+        "sheet: STAYS BOUNDED") and "only while the torque is exactly along z (minor axis)" in first
     reached = re.search(r"tilted by 1 deg it reaches 30 deg/s after ([\d.]+) (min|h)", first)
     hours = float(reached[1]) / (60 if reached[2] == "min" else 1)
     least = float(re.search(r"not before\s+([\d.]+) min", answer)[1]) / 60
     assert 0 < least < hours < 24  # so there is time to close a valve, and how much is proved
-    threshold = float(re.search(r"wheel W1, now 0.8 N m s, keeps it bounded at up to \S+ N m s or ([\d.]+) N m s or more", answer)[1])
+    threshold = float(
+        re.search(r"wheel W1, now 0.8 N m s, keeps it bounded at up to \S+ N m s or ([\d.]+) N m s or more",
+                  answer)[1])
 
-    for momentum, fate in ((threshold * 1.01, "BOUNDED"), (threshold * 0.99, "SPINS UP")):  # the decision: keep the wheel above that
+    # the decision: keep the wheel above that
+    for momentum, fate in ((threshold * 1.01, "BOUNDED"), (threshold * 0.99, "SPINS UP")):
         sheet.write_text(SHEET % f"{momentum:.9f}")
         code, answer = said("stabilab fate sheet.toml", tmp_path)
         assert code == 0 and f" {fate} " in answer.splitlines()[0], answer

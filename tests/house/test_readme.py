@@ -1,9 +1,10 @@
-"""What README.md and docs/ say is so: their commands run, their output is what comes, their files and links exist.
+"""What README.md and docs/ say is so: their commands run, their output is what comes, their files and links
+exist.
 
-Conventions of those pages. A block ```toml or ```python whose first line is a comment with a path is that file. A ```python block with
->>> is a doctest. In a ```console block lines after "$ " are commands; what follows is the whole output, where a line "..." stands for any lines
-and "..." inside a line for any text. Every command must end with 0, unless "$ echo $?" follows it. Lines of a ```sh block are
-commands too.
+Conventions of those pages. A block ```toml or ```python whose first line is a comment with a path is that
+file. A ```python block with >>> is a doctest. In a ```console block lines after "$ " are commands; what
+follows is the whole output, where a line "..." stands for any lines and "..." inside a line for any text.
+Every command must end with 0, unless "$ echo $?" follows it. Lines of a ```sh block are commands too.
 """
 import contextlib
 import doctest
@@ -25,12 +26,16 @@ from stabilab.show.surface.render_probe import CURE, probe
 
 ROOT = Path(__file__).parents[2]
 README, GUIDE = ROOT / "README.md", ROOT / "docs/guide.md"
-MADE = {"readme.md", "results.md", "api.md", "gallery.md", "contributing.md", "changelog.md"}  # by docs/conf.py, from what stands elsewhere
+# by docs/conf.py, from what stands elsewhere
+MADE = {"readme.md", "results.md", "api.md", "gallery.md", "contributing.md", "changelog.md"}
 LISTS = {"index.md"}  # of pages alone, which the last test here looks through
 CHAPTERS = [page for page in sorted((ROOT / "docs/mathematics").glob("*.md")) if page.name not in LISTS]
-PAGES = [README, *(page for page in sorted((ROOT / "docs").glob("*.md")) if page.name not in MADE | LISTS), *CHAPTERS]
+PAGES = [README, *(page for page in sorted((ROOT / "docs").glob("*.md")) if page.name not in MADE | LISTS),
+         *CHAPTERS]
 NAMES = [page.relative_to(ROOT).as_posix() for page in PAGES]
-SECONDS = 1800  # a command that takes so long hangs: the report takes some four minutes on one core, more where others work beside it
+# a command that takes so long hangs: the report takes some four minutes on one core, more where others work
+# beside it
+SECONDS = 1800
 SLOW = ("stabilab report", "stabilab precision", "python -m pytest")  # run by the slow tests
 HEYOKA = importlib.util.find_spec("heyoka") is not None
 
@@ -64,11 +69,14 @@ def files(text):
 
 
 def as_pattern(shown):
-    """The regular expression of an output shown, "..." standing for what is left out. Where that is in a line, its columns may stand wider apart: they are as
-    wide as their longest number, and the last digits of a run hang on the machine."""
-    lines = [r"(?:.*\n)*?" if line == "..." else "[^\n]*".join(map(re.escape, line.rstrip().split("..."))) + r"[ ]*\n"
+    """The regular expression of an output shown, "..." standing for what is left out. Where that is in a
+    line, its columns may stand wider apart: they are as wide as their longest number, and the last digits of
+    a run hang on the machine."""
+    lines = [r"(?:.*\n)*?" if line == "..."
+             else "[^\n]*".join(map(re.escape, line.rstrip().split("..."))) + r"[ ]*\n"
              for line in shown.splitlines()]
-    return re.compile("".join(re.sub(r"(?:\\ ){2,}", "[ ]{2,}", line) if "[^\n]*" in line else line for line in lines))
+    return re.compile("".join(re.sub(r"(?:\\ ){2,}", "[ ]{2,}", line) if "[^\n]*" in line else line
+                              for line in lines))
 
 
 def make_knows(target):
@@ -80,7 +88,8 @@ def make_knows(target):
 
 def serves(*arguments):
     """A command that serves until it is interrupted tells its address."""
-    run = subprocess.Popen([sys.executable, "-m", "stabilab", *arguments], cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+    run = subprocess.Popen([sys.executable, "-m", "stabilab", *arguments], cwd=ROOT, stdout=subprocess.PIPE,
+                           stderr=subprocess.DEVNULL, text=True)
     try:
         return run.stdout.readline().startswith("http://127.0.0.1:")
     finally:
@@ -90,23 +99,30 @@ def serves(*arguments):
 
 # Commands that are not run here, for they install or take minutes, and how each is checked instead.
 NOT_RUN = {
-    "make report": lambda: "-m venv .venv" in make_knows("report") and "stabilab report cases/*.toml --papers --precision --out report" in make_knows("report"),
+    "make report": lambda: "-m venv .venv" in make_knows("report")
+    and "stabilab report cases/*.toml --papers --precision --out report" in make_knows("report"),
     "make test": lambda: "-m venv .venv" in make_knows("test") and "-m pytest" in make_knows("test"),
-    'pip install -e ".[all]"': lambda: 'readme = "README.md"' in (ROOT / "pyproject.toml").read_text() and README.exists(),
+    'pip install -e ".[all]"': lambda: 'readme = "README.md"' in (ROOT / "pyproject.toml").read_text()
+    and README.exists(),
     "apt install libegl1 libgl1-mesa-dri": lambda: CURE == "apt install libegl1 libgl1-mesa-dri",
-    "make coverage": lambda: "--cov" in make_knows("coverage") and "fail_under = 95" in (ROOT / "pyproject.toml").read_text(),
+    "make coverage": lambda: "--cov" in make_knows("coverage")
+    and "fail_under = 95" in (ROOT / "pyproject.toml").read_text(),
     "make mutate": lambda: "-m tests.mutate" in make_knows("mutate"),
-    "stabilab explore cases/thruster-stuck-major-axis.toml": lambda: serves("explore", "cases/thruster-stuck-major-axis.toml", "--no-browser"),
+    "stabilab explore cases/thruster-stuck-major-axis.toml": lambda: serves("explore",
+                                                                            "cases/thruster-stuck-major-axis.toml", "--no-browser"),
     "make docs": lambda: "-m sphinx" in make_knows("docs"),
-    "python -m benchmarks": lambda: importlib.util.find_spec("benchmarks.__main__") and "-m benchmarks" in make_knows("bench"),
+    "python -m benchmarks": lambda: importlib.util.find_spec("benchmarks.__main__")
+    and "-m benchmarks" in make_knows("bench"),
 }
 
 
 def run(command, folder):
-    """(what the terminal shows, exit code), with the stabilab of this interpreter on the path, or that of a copy in the folder."""
+    """(what the terminal shows, exit code), with the stabilab of this interpreter on the path, or that of a
+    copy in the folder."""
     own = folder if (folder / "stabilab").is_dir() else ROOT
     env = {name: value for name, value in os.environ.items() if name != "PYTEST_ADDOPTS"} | {
-        "PATH": os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]]), "PYTHONPATH": str(own),
+        "PATH": os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]]),
+        "PYTHONPATH": str(own),
         "PYTHONDONTWRITEBYTECODE": "1"}
     done = subprocess.run(command, shell=True, cwd=folder, env=env, stdin=subprocess.DEVNULL, text=True,
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=SECONDS)
@@ -116,15 +132,16 @@ def run(command, folder):
 def run_here(command, folder):
     """The same in this process, which has imported what a process of its own imports first."""
     screen = io.TextIOWrapper(io.BytesIO(), encoding="utf-8", write_through=True)
-    with (contextlib.chdir(folder), mock.patch.object(sys, "argv", shlex.split(command)), contextlib.redirect_stdout(screen),
+    with (contextlib.chdir(folder), mock.patch.object(sys, "argv", shlex.split(command)),
+          contextlib.redirect_stdout(screen),
           contextlib.redirect_stderr(screen), pytest.raises(SystemExit) as left):
         cli.main()
     return screen.buffer.getvalue().decode("utf-8"), left.value.code or errors.OK
 
 
 def follow(text, folder, wanted):
-    """Run the commands of a page that `wanted` picks, in order; assert exit codes and outputs; the commands run. The first is run by a shell, as
-    a reader does, and all of a page that changes the program."""
+    """Run the commands of a page that `wanted` picks, in order; assert exit codes and outputs; the commands
+    run. The first is run by a shell, as a reader does, and all of a page that changes the program."""
     followed = [item for item in commands(text) if item[0] not in NOT_RUN and wanted(item[0])]
     for n, (command, shown, stated) in enumerate(followed):
         by_shell = n == 0 or (folder / "stabilab").is_dir() or not command.startswith("stabilab ")
@@ -134,7 +151,8 @@ def follow(text, folder, wanted):
         else:
             assert code == stated, f"$ {command}\nended with {code}\n{output}"
         if shown is not None and (HEYOKA or not command.startswith("stabilab simulate")):
-            assert as_pattern(shown).fullmatch(output), f"$ {command}\nprinted\n{output}\nbut the page shows\n{shown}"
+            assert as_pattern(shown).fullmatch(
+                output), f"$ {command}\nprinted\n{output}\nbut the page shows\n{shown}"
     return [command for command, _, _ in followed]
 
 
@@ -155,7 +173,8 @@ def in_python(text):
     for body in sessions:
         test = doctest.DocTestParser().get_doctest(body, names, "page", "page", 0)
         report = []
-        result = doctest.DocTestRunner(optionflags=doctest.ELLIPSIS, verbose=False).run(test, out=report.append, clear_globs=False)
+        result = doctest.DocTestRunner(optionflags=doctest.ELLIPSIS,
+                                       verbose=False).run(test, out=report.append, clear_globs=False)
         names.update(test.globs)
         assert test.examples and result.failed == 0, "".join(report)
 
@@ -194,7 +213,8 @@ def test_commands_of_the_guide_print_what_it_shows(guide):
     done = follow(text, folder, lambda command: not command.startswith(SLOW))
     needed = ("show", "classify", "extremes", "surface", "simulate", "plot", "tables")
     assert all(any(command.startswith(f"stabilab {name} ") for command in done) for name in needed)
-    for name in ("my.csv", "my.png", "surfaces/my.vtp", "surfaces/my.glb", "surfaces/my.stl", "tables/table-4.tex"):
+    for name in ("my.csv", "my.png", "surfaces/my.vtp", "surfaces/my.glb", "surfaces/my.stl",
+                 "tables/table-4.tex"):
         assert (folder / name).stat().st_size > 0
 
 
@@ -216,8 +236,10 @@ def test_the_page_of_stuck_thrusters_prints_what_it_shows(tmp_path, wanted):
     assert follow(text, folder, lambda command: command.startswith(f"stabilab {wanted}"))
 
 
-FOLLOWED = {"README.md", "docs/guide.md", "docs/start.md", "docs/stuck.md", "docs/adding-an-effect.md"}  # by the tests beside this one
-OTHERS = [page for page, name in zip(PAGES, NAMES) if name not in FOLLOWED and ("```console" in page.read_text() or "```sh" in page.read_text())]
+# by the tests beside this one
+FOLLOWED = {"README.md", "docs/guide.md", "docs/start.md", "docs/stuck.md", "docs/adding-an-effect.md"}
+OTHERS = [page for page, name in zip(PAGES, NAMES) if name not in FOLLOWED
+          and ("```console" in page.read_text() or "```sh" in page.read_text())]
 
 
 @pytest.mark.slow
@@ -283,7 +305,8 @@ def test_fates_and_exit_codes_in_the_guide_are_those_of_the_program():
     fates, effects = rows[rows.index("fate"):], rows[rows.index("effect"):rows.index("fate")]
     assert {row.strip("`") for row in fates if row.startswith("`")} == {fate.word for fate in Fate}
     assert [row[1:].split("`")[0] for row in effects if row.startswith("`")] == list(REGISTRY)
-    codes = {errors.OK, errors.BUG, errors.BAD_INPUT, errors.UNDECIDED, errors.NO_RENDERING, errors.TOLERANCE_NOT_MET, errors.INTERRUPTED}
+    codes = {errors.OK, errors.BUG, errors.BAD_INPUT, errors.UNDECIDED, errors.NO_RENDERING,
+             errors.TOLERANCE_NOT_MET, errors.INTERRUPTED}
     assert {int(row) for row in rows if row.isdigit()} == codes
 
 
@@ -292,7 +315,8 @@ def test_cost_table_is_what_simulate_counts(guide):
     """Counters within a tenth (a processor's rounding moves a step), departures within a factor of three."""
     from stabilab import load, trajectory
     case = load(guide[1] / "my.toml")
-    table = re.findall(r"^\| (\w+) \| (1e-\d+) \| (\d+) \| (?:order )?(\d+) \| (\S+) \|$", (ROOT / "docs/cost.md").read_text(), re.M)
+    table = re.findall(r"^\| (\w+) \| (1e-\d+) \| (\d+) \| (?:order )?(\d+) \| (\S+) \|$",
+                       (ROOT / "docs/cost.md").read_text(), re.M)
     assert len(table) >= 8
     for method, rtol, steps, other, departure in table:
         run = trajectory(case.scene, case.state, [300.0], method=method, rtol=float(rtol))

@@ -19,11 +19,14 @@ class _Fields:
 
 def _made(decorator):
     """The class above, made by a decorator, under one name."""
-    return decorator(type("Made", (), {"__annotations__": dict(_Fields.__annotations__), "__doc__": "x", "c": field(default_factory=dict, compare=False),
-                                       "d": field(default="d", repr=False), "__module__": __name__, "__qualname__": "Made"}))
+    return decorator(type("Made", (), {"__annotations__": dict(_Fields.__annotations__), "__doc__": "x",
+                                       "c": field(default_factory=dict, compare=False),
+                                       "d": field(default="d", repr=False), "__module__": __name__,
+                                       "__qualname__": "Made"}))
 
 
-Made, Standard = _made(record), _made(dataclass(frozen=True))  # expected throughout: what the standard library's own class does
+# expected throughout: what the standard library's own class does
+Made, Standard = _made(record), _made(dataclass(frozen=True))
 
 
 @record
@@ -49,7 +52,8 @@ def test_a_frozen_data_class_may_stand_below_a_record():
         b: int = 3
 
     one = replace(Below(1), b=5)
-    assert one == Below(1, 5) and hash(one) == hash(Below(1, 5)) and asdict(one) == {"a": 1, "b": 5}  # as one data class below another
+    # as one data class below another
+    assert one == Below(1, 5) and hash(one) == hash(Below(1, 5)) and asdict(one) == {"a": 1, "b": 5}
     for name in ("a", "b", "c"):
         with pytest.raises(FrozenInstanceError):
             setattr(one, name, 0)
@@ -66,8 +70,10 @@ def test_a_record_says_what_the_standard_class_says():
 
 
 def test_records_are_equal_as_the_standard_ones():
-    pairs = [((1, ()), (1, ())), ((1, ()), (2, ())), ((1, (), {"k": 1}), (1, ())), ((1, (), {}, "e"), (1, ()))]
-    assert [Made(*a) == Made(*b) for a, b in pairs] == [Standard(*a) == Standard(*b) for a, b in pairs] == [True, False, True, False]
+    pairs = [((1, ()), (1, ())), ((1, ()), (2, ())), ((1, (), {"k": 1}), (1, ())),
+             ((1, (), {}, "e"), (1, ()))]
+    assert [Made(*a) == Made(*b) for a,
+            b in pairs] == [Standard(*a) == Standard(*b) for a, b in pairs] == [True, False, True, False]
     assert One(1) != (1,) and One(1) != Two(1, 0) and One(1) == One(1) and hash(One(1)) == hash((1,))
 
 
@@ -106,10 +112,13 @@ def test_the_hash_of_a_record_is_formed_once_and_stays_in_its_process():
 
     counted = Counted()
     one = One(counted)
-    assert hash(one) == hash(one) == hash((counted,)) and Counted.asked == 2  # once for the record, once for the tuple
+    # once for the record, once for the tuple
+    assert hash(one) == hash(one) == hash((counted,)) and Counted.asked == 2
     copied = copy.copy(one)
     assert hash(copied) == hash(one) and Counted.asked == 3  # a copy forms its own
-    assert pickle.dumps(Two(1, 3)) == pickle.dumps(_hashed(Two(1, 3))) and asdict(_hashed(Two(1, 3))) == {"a": 1, "b": 6}
+    assert pickle.dumps(Two(1,
+                            3)) == pickle.dumps(_hashed(Two(1, 3))) and asdict(_hashed(Two(1, 3))) == {
+                                "a": 1, "b": 6}
 
 
 def _hashed(one):

@@ -1,4 +1,5 @@
-"""The site of the documentation: `make docs` builds it and ends at a warning; what its pages hold is told here without Sphinx."""
+"""The site of the documentation: `make docs` builds it and ends at a warning; what its pages hold is told
+here without Sphinx."""
 import inspect
 import re
 import runpy
@@ -22,8 +23,10 @@ STEMS = sorted(path.stem for path in CASES)
 def pages():
     """Every page that is written by hand, from docs/."""
     made = {"_site", gallery.FOLDER, notebooks.FOLDER}
-    return {path.relative_to(ROOT / "docs").with_suffix("").as_posix() for path in (ROOT / "docs").rglob("*.md")
-            if not made & set(path.relative_to(ROOT / "docs").parts) and path.name not in MADE and path != ROOT / "docs/index.md"}
+    return {path.relative_to(ROOT / "docs").with_suffix("").as_posix()
+            for path in (ROOT / "docs").rglob("*.md")
+            if not made & set(path.relative_to(ROOT / "docs").parts) and path.name not in MADE
+            and path != ROOT / "docs/index.md"}
 
 
 def contents(page, folder=""):
@@ -33,19 +36,24 @@ def contents(page, folder=""):
 
 
 def test_every_page_stands_in_the_contents_of_the_site():
-    assert contents("index.md") | contents("mathematics/index.md", "mathematics/") == pages() | {f"notebooks/{path.stem}" for path in NOTEBOOKS} \
+    assert contents("index.md") | contents("mathematics/index.md",
+                                           "mathematics/") == pages() | {f"notebooks/{path.stem}"
+                                                                         for path in NOTEBOOKS} \
         | {name.removesuffix(".md") for name in MADE}
-    assert "-m sphinx" in make_knows("docs") and "-W" in make_knows("docs") and "make docs" in (ROOT / ".ci/run").read_text()
+    assert "-m sphinx" in make_knows("docs") and "-W" in make_knows("docs") and "make docs" in (
+        ROOT / ".ci/run").read_text()
 
 
 def test_every_public_name_stands_in_the_reference():
     text = reference.text()
-    assert all(f":: stabilab.{name}\n" in text for name in stabilab.__all__ if name not in ("plot", "__version__"))
+    assert all(f":: stabilab.{name}\n" in text for name in stabilab.__all__
+               if name not in ("plot", "__version__"))
 
 
 def public():
     """(name, function or class) of everything public, the plots among it."""
-    return [(name, getattr(stabilab, name)) for name in stabilab.__all__ if name not in ("plot", "__version__")] \
+    return [(name, getattr(stabilab, name)) for name in stabilab.__all__
+            if name not in ("plot", "__version__")] \
         + [(f"plot.{name}", getattr(stabilab.plot, name)) for name in stabilab.plot.__all__]
 
 
@@ -54,9 +62,11 @@ def test_every_public_function_has_types_and_says_what_it_takes_and_refuses():
     assert len(functions) > 25
     for name, function in functions:
         signature, says = inspect.signature(function), inspect.getdoc(function)
-        bare = [p.name for p in signature.parameters.values() if p.annotation is p.empty] + ["return"] * (signature.return_annotation is signature.empty)
+        bare = ([p.name for p in signature.parameters.values() if p.annotation is p.empty]
+                + ["return"] * (signature.return_annotation is signature.empty))
         assert not bare, f"{name}: no type for {', '.join(bare)}"
-        assert re.search(r"Raises|InputError", says) or name.startswith("plot."), f"{name}: what does it refuse?"
+        assert re.search(r"Raises|InputError",
+                         says) or name.startswith("plot."), f"{name}: what does it refuse?"
 
 
 def test_every_public_class_says_its_units_or_what_it_stands_for():
@@ -72,23 +82,27 @@ def test_every_case_stands_in_the_gallery_under_a_group(tmp_path, monkeypatch):
     def undrawn(path, folder):
         folder.mkdir(exist_ok=True)
         (folder / f"{path.stem}.png").touch()
-        return {"title": path.stem, "source": "", "group": GROUPS[len(path.stem) % len(GROUPS)][0], "kind": "time", "answer": "none"}
+        return {"title": path.stem, "source": "", "group": GROUPS[len(path.stem) % len(GROUPS)][0],
+                "kind": "time", "answer": "none"}
 
     monkeypatch.setattr(gallery, "made", undrawn)
     assert sorted(gallery.write(tmp_path)) == STEMS
     page = (tmp_path / "gallery.md").read_text(encoding="utf-8")
     titles = re.findall(r"^## \[(.*)\]\((.*)\)$", page, re.M)
     assert titles[0][0] == "Constant torque along a principal axis" and len(titles) >= 6
-    held = [name for _, path in titles for name in re.findall(r"^## (.*)$", (tmp_path / path).read_text(encoding="utf-8"), re.M)]
+    held = [name for _, path in titles
+            for name in re.findall(r"^## (.*)$", (tmp_path / path).read_text(encoding="utf-8"), re.M)]
     assert sorted(held) == STEMS and all(f'src="_images/{name}.png"' in page for name in held)
 
 
-def test_a_case_of_the_gallery_has_picture_answer_file_and_commands_and_is_kept_until_it_changes(tmp_path, monkeypatch):
+def test_a_case_of_the_gallery_has_picture_answer_file_and_commands_and_is_kept_until_it_changes(
+    tmp_path, monkeypatch):
     folder = tmp_path / gallery.FOLDER
     (minor,) = [path for path in CASES if path.stem == "minor-axis-100"]
     gallery.write(tmp_path, [minor])
     page = (folder / "constant-torque-along-a-principal-axis.md").read_text(encoding="utf-8")
-    assert "BOUNDED only while the torque is exactly along x3" in page and minor.read_text(encoding="utf-8") in page
+    assert "BOUNDED only while the torque is exactly along x3" in page and minor.read_text(
+        encoding="utf-8") in page
     assert "stabilab plot cases/minor-axis-100.toml --kind phase" in page and "λ1 = 100" in page
     assert (folder / "minor-axis-100.png").read_bytes().startswith(b"\x89PNG")
     (gone := folder / "of-a-case-that-is-gone.png").touch()
@@ -96,16 +110,19 @@ def test_a_case_of_the_gallery_has_picture_answer_file_and_commands_and_is_kept_
         patch.setattr(gallery, "made", lambda path, folder: pytest.fail("drawn again"))
         gallery.write(tmp_path, [minor])
     assert not gone.exists()
-    (changed := tmp_path / minor.name).write_text(minor.read_text(encoding="utf-8") + "# more\n", encoding="utf-8")
+    (changed := tmp_path / minor.name).write_text(minor.read_text(encoding="utf-8") + "# more\n",
+                                                  encoding="utf-8")
     drawn = []
-    monkeypatch.setattr(gallery, "made", lambda path, folder: drawn.append(path) or {"title": "", "source": "", "group": "No torque", "kind": "", "answer": ""})
+    monkeypatch.setattr(gallery, "made", lambda path, folder: drawn.append(path)
+                        or {"title": "", "source": "", "group": "No torque", "kind": "", "answer": ""})
     gallery.write(tmp_path, [changed])
     assert drawn == [changed]
 
 
 def test_the_gallery_says_before_an_answer_that_it_leaves_its_law(tmp_path):
     """25 t of liquid in a body of 9 kg m^2: "BOUNDED for ever" alone stood above a picture that says it."""
-    assert gallery.made(ROOT / "cases/liquid-base.toml", tmp_path)["answer"].startswith("BEYOND THE LAW; by that law: BOUNDED for ever")
+    assert gallery.made(ROOT / "cases/liquid-base.toml",
+                        tmp_path)["answer"].startswith("BEYOND THE LAW; by that law: BOUNDED for ever")
 
 
 @pytest.mark.parametrize("path", NOTEBOOKS, ids=[path.stem for path in NOTEBOOKS])
@@ -114,13 +131,16 @@ def test_a_notebook_is_whole_and_its_page_has_every_cell_picture_and_link(path):
     text, pictures = notebooks.page(path)
     assert notebook["nbformat"] == 4 and all("id" in cell for cell in notebook["cells"])
     assert all("".join(cell["source"]) in text for cell in notebook["cells"][1:]) and text.startswith("# ")
-    assert len(pictures) == text.count("![What the cell above draws]") >= 1 and all(drawn.startswith(b"\x89PNG") for drawn in pictures.values())
-    assert all((path.parent / target.split("#")[0]).exists() for target in re.findall(r"\]\((\.\./[^)]+)\)", text))
+    assert len(pictures) == text.count("![What the cell above draws]") >= 1 and all(
+        drawn.startswith(b"\x89PNG") for drawn in pictures.values())
+    assert all((path.parent / target.split("#")[0]).exists()
+               for target in re.findall(r"\]\((\.\./[^)]+)\)", text))
 
 
 def test_a_cell_shows_what_it_prints_its_value_and_its_own_figures():
     from matplotlib import pyplot as plt
-    others = [plt.figure(figsize=(1, 1)).number, *plt.get_fignums()]   # a figure that somebody else left open is none of the cell's
+    # a figure that somebody else left open is none of the cell's
+    others = [plt.figure(figsize=(1, 1)).number, *plt.get_fignums()]
     made = notebooks.outputs("import matplotlib.pyplot as plt\nprint(1)\na = 2\na + 1", names := {}, 1)
     assert [one["output_type"] for one in made] == ["stream", "execute_result"] and names["a"] == 2
     assert notebooks.texts({"cells": [{"outputs": made}]}) == ["1\n", "3"]
@@ -155,11 +175,14 @@ def test_words_have_the_signs_of_a_book_and_commands_stay_as_they_are_typed(conf
     from docutils.utils import new_document
     page = new_document("page")
     page += [nodes.paragraph("", "", nodes.Text("x is -5, to "), nodes.literal("", "f -5")),
-             nodes.paragraph("", "alpha’’ = U’, the papers’ 1 - x1’, 0.25 us with us, x^2 + A^(1/2) in N m^-1, 2 of test_x - one - by the bodies’"),
+             nodes.paragraph("",
+                             "alpha’’ = U’, the papers’ 1 - x1’, 0.25 us with us, x^2 + A^(1/2) in N m^-1, 2 "
+                             "of test_x - one - by the bodies’"),
              nodes.paragraph("", "one-sided - as ever")]
     conf["set_as_a_book"](None, page)
     assert page[0].astext() == "x is −5, to f -5"
-    assert page[1].astext() == "alpha″ = U′, the papers’ 1 − x1′, 0.25 µs with us, x2 + A1/2 in N m−1, 2 of test_x − one − by the bodies’"
+    assert page[
+        1].astext() == "alpha″ = U′, the papers’ 1 − x1′, 0.25 µs with us, x2 + A1/2 in N m−1, 2 of test_x − one − by the bodies’"
     assert [one.astext() for one in page[1].findall(nodes.superscript)] == ["2", "1/2", "−1"]
 
 
@@ -179,8 +202,10 @@ def test_a_table_of_many_columns_has_low_rows_and_a_long_last_cell_stands_below_
 
 
 @pytest.mark.parametrize(("written", "told"), [
-    ("[docs/atlas.md](atlas.md) and [benchmarks/RESULTS.md](../benchmarks/RESULTS.md)", "[](atlas.md) and [](results.md)"),
-    ("[the README](../README.md), [docs/index.md](index.md)", "[the README](readme.md), [docs/index.md](index.md)")])
+    ("[docs/atlas.md](atlas.md) and [benchmarks/RESULTS.md](../benchmarks/RESULTS.md)",
+     "[](atlas.md) and [](results.md)"),
+    ("[the README](../README.md), [docs/index.md](index.md)",
+     "[the README](readme.md), [docs/index.md](index.md)")])
 def test_a_link_that_a_file_names_has_the_heading_of_the_page(conf, written, told):
     source = [written]
     conf["point_inside"](None, "page", source)
@@ -188,15 +213,20 @@ def test_a_link_that_a_file_names_has_the_heading_of_the_page(conf, written, tol
 
 
 def test_a_record_shows_its_fields_as_its_signature():
-    shown, returned = reference.of_fields(None, "class", "stabilab.Body", stabilab.Body, None, "(*given: Any, **named: Any)", "Any")
-    assert re.fullmatch(r"\(inertia: [^,]+, mass: [^,]+ = None, slack: [^,]+ = None\)", shown) and returned == "Any"  # and not what the class works out of them
+    shown, returned = reference.of_fields(None, "class", "stabilab.Body", stabilab.Body, None,
+                                          "(*given: Any, **named: Any)", "Any")
+    # and not what the class works out of them
+    assert re.fullmatch(r"\(inertia: [^,]+, mass: [^,]+ = None, slack: [^,]+ = None\)",
+                        shown) and returned == "Any"
     assert reference.of_fields(None, "class", "", stabilab.Fate, None, "", "") is None
-    assert "expect: dict = dict()" in reference.of_fields(None, "class", "stabilab.Case", stabilab.Case, None, "", "")[0]
+    assert "expect: dict = dict()" in reference.of_fields(None, "class", "stabilab.Case", stabilab.Case, None,
+                                                          "", "")[0]
 
 
 def plain(made):
     """The signs of a formula in MathML, in order; a thin space as a blank."""
-    return "".join(" " if sign.tag.endswith("mspace") else (sign.text or "").strip() for sign in ElementTree.fromstring(made).iter())
+    return "".join(" " if sign.tag.endswith("mspace") else (sign.text or "").strip()
+                   for sign in ElementTree.fromstring(made).iter())
 
 
 def test_formulas_are_set_as_latex_sets_them():
@@ -204,10 +234,13 @@ def test_formulas_are_set_as_latex_sets_them():
     from making import mathml
     made = mathml.formula("8c^3 + 2cm - n > 0")
     assert plain(made) == "8c3+2cm−n>0" and "<mn>2</mn>" in made  # two times c times m, no centimetres
-    assert mathml.formula(r"\gamma_0''^2").count("<msubsup>") == 1 and plain(mathml.formula(r"\gamma_0''^2")) == "γ0′′2"
+    assert mathml.formula(r"\gamma_0''^2").count("<msubsup>") == 1 and plain(
+        mathml.formula(r"\gamma_0''^2")) == "γ0′′2"
     assert "<mfrac><mn>1</mn><mi>h</mi></mfrac>" in mathml.formula(r"c + \frac1h")
     assert plain(mathml.formula(r"A\cos\varphi\sin^2(x)")) == "A cos φ sin2(x)"
     assert plain(mathml.formula(r"L := \infty")) == "L≔∞" and "<mi>∞</mi>" in mathml.formula(r"s = \infty")
     assert 'lspace="0.278em" rspace="0.278em"' in mathml.formula(r"c \sim v")
     assert mathml.formula("|c|/x").count('lspace="0" rspace="0"') == 3
-    assert [plain(one) for one in mathml.equations(r"a = b, \qquad \left(c \quad d\right) = e, \quad f")] == ["a=b,", "(c d)=e,", "f"]
+    assert [plain(one)
+            for one in mathml.equations(r"a = b, \qquad \left(c \quad d\right) = e, \quad f")] == [
+                "a=b,", "(c d)=e,", "f"]

@@ -15,19 +15,22 @@ from stabilab.answers.digits.ask import ask
 from tests.oracles.pairs import physical, scaled
 
 BODY, SPAN = (3.0, 2.0, 1.5), 2.0
-# (gyrostatic moment, torque): on the minor, middle and major axis, both perpendicular components of the moment present
+# (gyrostatic moment, torque): on the minor, middle and major axis, both perpendicular components of the
+# moment present
 CASES = {"minor": ((0.4, -0.7, 0.0), (0.0, 0.0, 0.3)), "middle": ((0.4, 0.0, -1.9), (0.0, 0.2, 0.0)),
          "major": ((0.0, 0.8, 0.6), (-0.2, 0.0, 0.0))}
 cases = pytest.mark.parametrize("name", CASES)
 MANY = np.random.default_rng(17).normal(size=(60, 3)) * SPAN
 STATES = MANY[:18]  # of the default suite; all of them are slow
-how_many = pytest.mark.parametrize("states", [STATES, pytest.param(MANY, marks=pytest.mark.slow)], ids=["some", "many"])
+how_many = pytest.mark.parametrize("states", [STATES, pytest.param(MANY, marks=pytest.mark.slow)],
+                                   ids=["some", "many"])
 LOOSE = 1e-11  # two evaluations of the same quantity on differently rounded numbers, each good to 1e-12
 
 
 @lru_cache(maxsize=16)
 def answers(scene, states):
-    """(fates, periods, extremes) of states (the bytes of (n, 3) doubles): what every image of them is compared with."""
+    """(fates, periods, extremes) of states (the bytes of (n, 3) doubles): what every image of them is
+    compared with."""
     rows = np.frombuffer(states).reshape(-1, 3)
     return stabilab.fate(scene, rows), stabilab.period(scene, rows), stabilab.extremes(scene, rows)
 
@@ -36,7 +39,8 @@ def compare(scene, states, other, images, margin_factor=1.0, time_factor=1.0, bo
     """Same labels; margins and periods by their factors; extremes through `box` ((n, 3, 2) -> (n, 3, 2))."""
     (first, times, boxes), second = answers(scene, states.tobytes()), stabilab.fate(other, images)
     np.testing.assert_array_equal(first.labels, second.labels)
-    np.testing.assert_allclose(second.margins, first.margins * margin_factor, rtol=LOOSE, atol=LOOSE * margin_factor)
+    np.testing.assert_allclose(second.margins, first.margins * margin_factor, rtol=LOOSE,
+                               atol=LOOSE * margin_factor)
     np.testing.assert_allclose(stabilab.period(other, images), times * time_factor, rtol=1e-9)
     if box is not None:
         expected, got = box(boxes), stabilab.extremes(other, images)
@@ -56,10 +60,13 @@ def signed(boxes, signs):
 @pytest.mark.one_in(2)
 @cases
 @how_many
-@pytest.mark.parametrize("order", [(0, 2, 1), (1, 2, 0), *(pytest.param(order, marks=pytest.mark.slow) for order in ((1, 0, 2), (2, 0, 1), (2, 1, 0)))])
+@pytest.mark.parametrize("order",
+                         [(0, 2, 1), (1, 2, 0),
+                          *(pytest.param(order, marks=pytest.mark.slow)
+                            for order in ((1, 0, 2), (2, 0, 1), (2, 1, 0)))])
 def test_relabelling_the_axes_changes_nothing_but_names(name, order, states):
-    """An odd relabelling P turns the vector product over: (Pa) x (Pb) = -P(a x b); then w, lambda, M change sign. An exchange and a cycle
-    make up all five, and the other three are slow."""
+    """An odd relabelling P turns the vector product over: (Pa) x (Pb) = -P(a x b); then w, lambda, M change
+    sign. An exchange and a cycle make up all five, and the other three are slow."""
     momentum, torque = map(np.array, CASES[name])
     sign = float(np.linalg.det(np.eye(3)[list(order)]).round())
     order = list(order)
@@ -72,12 +79,14 @@ def signed_permutations():
     """All 48 as (order, signs, determinant): component n of an image is signs[n] times component order[n]."""
     for order in permutations(range(3)):
         for signs in product((1, -1), repeat=3):
-            yield list(order), np.array(signs), float(np.linalg.det(np.eye(3)[list(order)]).round() * np.prod(signs))
+            yield list(order), np.array(signs), float(np.linalg.det(np.eye(3)[list(order)]).round()
+                                                      * np.prod(signs))
 
 
 def some_scenes(seed, count):
-    """(moments, wheel, torque, states): a torque about one axis or none, a wheel across it along none, one or two axes (without a
-    torque along three as well), moments sometimes equal, rates and torques over eight decades; floats."""
+    """(moments, wheel, torque, states): a torque about one axis or none, a wheel across it along none, one or
+    two axes (without a torque along three as well), moments sometimes equal, rates and torques over eight
+    decades; floats."""
     rng = np.random.default_rng(seed)
     for n in range(count):
         D, axis, pace = rng.uniform(1, 2, 3), int(rng.integers(3)), 10.0 ** rng.uniform(-4, 4)
@@ -94,19 +103,24 @@ def some_scenes(seed, count):
 def same_motion(one, two, order, signs, energy, scene):
     """Whether two answers for one state (`motion`) tell the same of a motion and of its image."""
     assert (one.fate, one.because.replace(f"axis {one.axis}", "axis"), one.axis) == (
-        two.fate, two.because.replace(f"axis {two.axis}", "axis"), two.axis and order[two.axis - 1] + 1), scene
+        two.fate, two.because.replace(f"axis {two.axis}", "axis"),
+        two.axis and order[two.axis - 1] + 1), scene
     assert not one.axis or two.sense == signs[two.axis - 1] * one.sense, scene
     assert (one.margin_energy is None) == (two.margin_energy is None), scene
-    assert one.margin_energy is None or abs(two.margin_energy - one.margin_energy) <= 1e-11 * (energy + abs(one.margin_energy + energy)), scene
+    assert one.margin_energy is None or abs(two.margin_energy
+                                            - one.margin_energy) <= 1e-11 * (
+                                                energy + abs(one.margin_energy + energy)), scene
     if one.extremes is not None and two.extremes is not None:
         box, image = signed(np.array(one.extremes)[order], signs), np.array(two.extremes)
-        np.testing.assert_allclose(image, box, rtol=0, atol=1e-9 * np.abs(box[np.isfinite(box)]).max(), err_msg=repr(scene))
+        np.testing.assert_allclose(image, box, rtol=0, atol=1e-9 * np.abs(box[np.isfinite(box)]).max(),
+                                   err_msg=repr(scene))
 
 
-@pytest.mark.parametrize("seed", [1, pytest.param(2, marks=pytest.mark.slow), pytest.param(3, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("seed", [1, pytest.param(2, marks=pytest.mark.slow),
+                                  pytest.param(3, marks=pytest.mark.slow)])
 def test_nothing_depends_on_how_the_axes_are_numbered_or_pointed(seed):
-    """P a signed permutation: (P a) x (P b) = det P P (a x b), so w, lambda, M become det P times their images. All 48 for fates of arrays,
-    four of them in turn for periods and for one state."""
+    """P a signed permutation: (P a) x (P b) = det P P (a x b), so w, lambda, M become det P times their
+    images. All 48 for fates of arrays, four of them in turn for periods and for one state."""
     images = list(signed_permutations())
     for n, (D, momentum, torque, states) in enumerate(some_scenes(seed, 6 if seed == 1 else 200)):
         scene, _ = physical(D, momentum, torque)
@@ -119,18 +133,23 @@ def test_nothing_depends_on_how_the_axes_are_numbered_or_pointed(seed):
             image = stabilab.fate(other, turn(states))
             np.testing.assert_array_equal(image.labels, answer.labels, err_msg=repr((scene, order)))
             np.testing.assert_array_equal(image.reasons, answer.reasons, err_msg=repr((scene, order)))
-            np.testing.assert_array_equal(np.isfinite(image.margins), np.isfinite(answer.margins), err_msg=repr((scene, order)))
+            np.testing.assert_array_equal(np.isfinite(image.margins), np.isfinite(answer.margins),
+                                          err_msg=repr((scene, order)))
             here = np.isfinite(answer.margins)
             off = np.abs(image.margins[here] - answer.margins[here])
-            assert (off <= 2e-12 * (energies + np.abs(answer.margins + energies))[here]).all(), (scene, order, off)
+            assert (off <= 2e-12
+                    * (energies + np.abs(answer.margins + energies))[here]).all(), (scene, order, off)
             if m % 12 == n % 12:
-                np.testing.assert_allclose(stabilab.period(other, turn(states)), times, rtol=1e-9, err_msg=repr((scene, order)))
-                same_motion(single, stabilab.motion(other, turn(states[n % 4]), brief=True), order, sign * signs, energies[n % 4], other)
+                np.testing.assert_allclose(stabilab.period(other, turn(states)), times, rtol=1e-9,
+                                           err_msg=repr((scene, order)))
+                same_motion(single, stabilab.motion(other, turn(states[n % 4]), brief=True), order,
+                            sign * signs, energies[n % 4], other)
 
 
 @pytest.mark.parametrize("seed", [4])
 def test_reversed_and_mirrored_free_motions_have_the_same_margins(seed):
-    """Without a torque t -> -t with w, lambda -> -w, -lambda, and with them any mirror, keeps momentum and energy."""
+    """Without a torque t -> -t with w, lambda -> -w, -lambda, and with them any mirror, keeps momentum and
+    energy."""
     for D, momentum, torque, states in some_scenes(seed, 20):
         if torque.any():
             continue
@@ -140,12 +159,17 @@ def test_reversed_and_mirrored_free_motions_have_the_same_margins(seed):
             other, _ = physical(D[order], signs * momentum[order], torque)
             image = stabilab.fate(other, signs * states[:, order])
             np.testing.assert_array_equal(image.labels, answer.labels)
-            np.testing.assert_allclose(image.margins, answer.margins, rtol=0, atol=1e-12 * (D * states**2).sum())
+            np.testing.assert_allclose(image.margins, answer.margins, rtol=0,
+                                       atol=1e-12 * (D * states**2).sum())
 
 
-@pytest.mark.parametrize("step", [5, pytest.param(1, marks=pytest.mark.slow)])  # of the 48: each order and each choice of signs comes up
+@pytest.mark.parametrize("step",
+                         # of the 48: each order and each choice of signs comes up
+                         [5, pytest.param(1, marks=pytest.mark.slow)])
 def test_the_digits_of_a_free_margin_do_not_depend_on_the_numbering_either(step):
-    D, momentum, state = np.array([2.097342044612408, 1.6171673443598118, 1.7957359267338395]), np.array([0.03125, 0.0, -0.0625]), np.array([-2.0, 1.0, 0.0])
+    D, momentum, state = np.array([2.097342044612408, 1.6171673443598118,
+                                   1.7957359267338395]), np.array([0.03125, 0.0,
+                                                                   -0.0625]), np.array([-2.0, 1.0, 0.0])
     asked = {}
     for order, signs, sign in list(signed_permutations())[::step]:
         for wheel in (0.0, 1.0):
@@ -158,7 +182,8 @@ def test_the_digits_of_a_free_margin_do_not_depend_on_the_numbering_either(step)
 
 @cases
 @how_many
-@pytest.mark.parametrize("axis", [0, 1, pytest.param(2, marks=pytest.mark.slow)])  # two half turns are the third
+@pytest.mark.parametrize("axis",
+                         [0, 1, pytest.param(2, marks=pytest.mark.slow)])  # two half turns are the third
 def test_half_turns_about_a_principal_axis_change_only_signs(name, axis, states):
     """S = half turn about an axis: (S a) x (S b) = S (a x b), so w, lambda, M all turn."""
     momentum, torque = map(np.array, CASES[name])
@@ -170,10 +195,12 @@ def test_half_turns_about_a_principal_axis_change_only_signs(name, axis, states)
 
 @cases
 @how_many
-@pytest.mark.parametrize("axis", [0, *(pytest.param(axis, marks=pytest.mark.slow) for axis in (1, 2))])  # a mirror and a half turn are another mirror
+@pytest.mark.parametrize("axis",
+                         # a mirror and a half turn are another mirror
+                         [0, *(pytest.param(axis, marks=pytest.mark.slow) for axis in (1, 2))])
 def test_time_reversal_with_a_mirror_keeps_bounded_motions(name, axis, states):
-    """R = mirror of one axis, t -> -t: D w' = H x w + M becomes the same equation with R lambda and -R M. A bounded
-    motion is periodic, so its past and its future have one label, margin, period and range."""
+    """R = mirror of one axis, t -> -t: D w' = H x w + M becomes the same equation with R lambda and -R M. A
+    bounded motion is periodic, so its past and its future have one label, margin, period and range."""
     momentum, torque = map(np.array, CASES[name])
     mirror = np.where(np.arange(3) == axis, -1.0, 1.0)
     scene, _ = physical(BODY, momentum, torque)
@@ -185,15 +212,19 @@ def test_time_reversal_with_a_mirror_keeps_bounded_motions(name, axis, states):
     compare(scene, bounded, other, bounded * mirror, box=lambda b: signed(b, mirror))
 
 
-# The list of signed permutations and reversals of the scaled system: signs of x, sign of (a, b), signs of mu, reversal.
-SCALED = [((1, -1, -1), 1, (1, -1, -1), False), ((-1, 1, -1), -1, (-1, 1, -1), False), ((-1, -1, 1), -1, (-1, -1, 1), False),
-          ((1, -1, 1), 1, (-1, 1, -1), True), ((1, 1, -1), 1, (-1, -1, 1), True), ((-1, 1, 1), -1, (1, -1, -1), True)]
+# The list of signed permutations and reversals of the scaled system: signs of x, sign of (a, b), signs of mu,
+# reversal.
+SCALED = [((1, -1, -1), 1, (1, -1, -1), False), ((-1, 1, -1), -1, (-1, 1, -1), False),
+          ((-1, -1, 1), -1, (-1, -1, 1), False),
+          ((1, -1, 1), 1, (-1, 1, -1), True), ((1, 1, -1), 1, (-1, -1, 1), True),
+          ((-1, 1, 1), -1, (1, -1, -1), True)]
 
 
 @pytest.mark.one_in(4)
 @pytest.mark.parametrize("signs, moment_sign, torque_signs, reverses", SCALED)
 @pytest.mark.parametrize("mu", [(0, 0, 1.0), (0, 1.0, 0), (0, 0, -0.3), (0, -2.0, 0)])
-def test_discrete_symmetries_of_the_scaled_system_keep_fate_margin_period_and_extremes(mu, signs, moment_sign, torque_signs,
+def test_discrete_symmetries_of_the_scaled_system_keep_fate_margin_period_and_extremes(mu, signs, moment_sign,
+                                                                                       torque_signs,
                                                                                       reverses):
     a, b = 0.3, 2.9
     scene, problem = scaled(a, b, mu)
@@ -209,7 +240,8 @@ def test_discrete_symmetries_of_the_scaled_system_keep_fate_margin_period_and_ex
 
 
 @cases
-@pytest.mark.parametrize("decade", [-12, 7, *(pytest.param(d, marks=pytest.mark.slow) for d in (-7, -3, 3, 12))])
+@pytest.mark.parametrize("decade",
+                         [-12, 7, *(pytest.param(d, marks=pytest.mark.slow) for d in (-7, -3, 3, 12))])
 def test_a_faster_clock_scales_rates_moments_and_torques(name, decade):
     """w -> s w, lambda -> s lambda, M -> s^2 M, t -> t/s."""
     factor = 10.0 ** decade
@@ -248,17 +280,21 @@ def test_binary_units_give_the_very_same_labels(name, power):
     states = [brink(problem, p, s * 2.0 ** -47) for p in pairs for s in (-1, 1)]
     states = np.array([s for s in states if s is not None])
     assert len(states) > 10
-    np.testing.assert_array_equal(stabilab.fate(scene, states).labels, stabilab.fate(other, states * factor).labels)
+    np.testing.assert_array_equal(stabilab.fate(scene, states).labels,
+                                  stabilab.fate(other, states * factor).labels)
 
 
 component = st.floats(-4, 4).map(lambda x: round(x, 6))
 
 
 @settings(deadline=None, max_examples=40, derandomize=True)
-@given(parts=st.tuples(*[st.integers(1, 1000)] * 3), axis=st.integers(0, 2), lam=st.tuples(component, component),
-       torque=st.sampled_from([-100.0, -1.0, -0.01, 0.01, 1.0, 100.0]), state=st.tuples(component, component, component),
+@given(parts=st.tuples(*[st.integers(1, 1000)] * 3), axis=st.integers(0, 2),
+       lam=st.tuples(component, component),
+       torque=st.sampled_from([-100.0, -1.0, -0.01, 0.01, 1.0, 100.0]),
+       state=st.tuples(component, component, component),
        order=st.permutations(range(3)), decade=st.integers(-30, 30))
-def test_fate_of_any_scene_survives_relabelling_and_a_faster_clock(parts, axis, lam, torque, state, order, decade):
+def test_fate_of_any_scene_survives_relabelling_and_a_faster_clock(parts, axis, lam, torque, state, order,
+                                                                   decade):
     a, b, c = parts
     inertia = np.array([b + c, a + c, a + b]) / 1024
     momentum, moment = np.zeros(3), np.zeros(3)

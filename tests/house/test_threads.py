@@ -1,7 +1,7 @@
 """Several threads that ask different questions at once get the answers of one thread, to the bit.
 
-What only one thread may have at a time is named here: the working precision of python-flint and that of mpmath belong to the
-process, and so do the names that SymPy gives to compiled functions.
+What only one thread may have at a time is named here: the working precision of python-flint and that of
+mpmath belong to the process, and so do the names that SymPy gives to compiled functions.
 """
 import ast
 import json
@@ -32,7 +32,8 @@ from stabilab.verify import verify
 ROOT = Path(__file__).parents[2]
 SWITCH = 1e-6  # s after which Python lets another thread run: five thousand times as often as by itself
 # both conics, a parabola, a free body, a spin-up
-ORBITS = ("minor-axis-100", "middle-axis-double-well", "sphere-wheel", "torque-free-body", "wheel-and-thruster")
+ORBITS = ("minor-axis-100", "middle-axis-double-well", "sphere-wheel", "torque-free-body",
+          "wheel-and-thruster")
 OTHERS = ("off-axis-one", "off-axis-fold", "liquid-base", "charged-body-attitude", "symmetric-spin-up")
 FREE = Scene(Body((5, 4, 2)), Gyrostat(("0.3", "0.2", "0.4")))  # no axis without a wheel: no reduction
 HEAVY = Scene(Body((5, 6, 7)), Gravity(20, (0, 0, "0.1")), Gyrostat((0, 0, 1)))
@@ -46,13 +47,15 @@ def case(name):
 def plain(answer):
     """An answer as values that compare bit by bit: arrays by their bytes, functions and scenes left out."""
     if isinstance(answer, np.ndarray):
-        return answer.dtype.str, answer.shape, repr(answer.tolist()) if answer.dtype == object else answer.tobytes()
+        return answer.dtype.str, answer.shape, repr(
+            answer.tolist()) if answer.dtype == object else answer.tobytes()
     if isinstance(answer, dict):
         return {name: plain(v) for name, v in answer.items()}
     if isinstance(answer, (list, tuple)):
         return [plain(v) for v in answer]
     if hasattr(answer, "__dataclass_fields__"):
-        return {name: plain(getattr(answer, name)) for name in answer.__dataclass_fields__ if name not in ("scene", "point")}
+        return {name: plain(getattr(answer, name)) for name in answer.__dataclass_fields__
+                if name not in ("scene", "point")}
     return repr(answer)
 
 
@@ -108,13 +111,15 @@ def restless():
 
 
 def wrong(count, each, alone):
-    """Questions that some of `count` threads, each asking `each` of them in an order of its own, answered otherwise than one."""
+    """Questions that some of `count` threads, each asking `each` of them in an order of its own, answered
+    otherwise than one."""
     told, start = [], threading.Barrier(count)
 
     def run(seed):
         chosen = random.Random(seed)
         start.wait()
-        for name in (name for _ in range(-(-each // len(alone))) for name in chosen.sample(sorted(alone), min(each, len(alone)))):
+        for name in (name for _ in range(-(-each // len(alone)))
+                     for name in chosen.sample(sorted(alone), min(each, len(alone)))):
             try:
                 if QUESTIONS[name]() != alone[name]:
                     told.append(f"{name}: another answer")
@@ -129,7 +134,8 @@ def wrong(count, each, alone):
 
 
 @pytest.mark.one_in(2)
-@pytest.mark.parametrize("count, each", [(2, len(QUESTIONS) // 2), (8, len(QUESTIONS) // 5), pytest.param(2, len(QUESTIONS), marks=pytest.mark.slow)])
+@pytest.mark.parametrize("count, each", [(2, len(QUESTIONS) // 2), (8, len(QUESTIONS) // 5),
+                                         pytest.param(2, len(QUESTIONS), marks=pytest.mark.slow)])
 def test_threads_have_the_answers_of_one_to_the_bit(count, each, alone, restless):
     assert wrong(count, each, alone) == []
 
@@ -168,7 +174,8 @@ def test_analysis_and_checker_hold_one_lock_while_flint_has_their_precision():
 def test_exact_cosines_of_two_threads_keep_their_own_bits(restless):
     cosine = lambda bits: [precise("cos", Fraction(n, 7), bits=bits) for n in range(20)]
     alone, found = {bits: cosine(bits) for bits in (900, 240)}, {}
-    threads = [threading.Thread(target=lambda bits=bits: found.update({bits: cosine(bits)})) for bits in alone]
+    threads = [threading.Thread(target=lambda bits=bits: found.update({bits: cosine(bits)}))
+               for bits in alone]
     for thread in threads:
         thread.start()
     for thread in threads:
@@ -177,7 +184,8 @@ def test_exact_cosines_of_two_threads_keep_their_own_bits(restless):
 
 
 def test_functions_of_symbols_are_made_by_one_thread_at_a_time(monkeypatch):
-    """SymPy collects NumPy's names for the first function; a second one made meanwhile would miss some of them."""
+    """SymPy collects NumPy's names for the first function; a second one made meanwhile would miss some of
+    them."""
     import sympy
     x, busy, most = sympy.Symbol("x"), [], []
     make = sympy.lambdify
@@ -189,7 +197,8 @@ def test_functions_of_symbols_are_made_by_one_thread_at_a_time(monkeypatch):
         busy.pop()
         return make(*args, **options)
     monkeypatch.setattr(sympy, "lambdify", watched)
-    threads = [threading.Thread(target=compiled.lambdified, args=((x,), [sympy.sin(k * x)])) for k in range(4)]
+    threads = [threading.Thread(target=compiled.lambdified, args=((x,), [sympy.sin(k * x)]))
+               for k in range(4)]
     for thread in threads:
         thread.start()
     for thread in threads:
@@ -212,7 +221,8 @@ def test_only_gates_that_hold_a_lock_set_a_precision():
     """Another place that set it would do so while some thread computes."""
     gates = {"numbers/balls.py": "flint", "verify/numbers.py": "flint", "theories/top/series.py": "mpmath"}
     words = ("workprec", "extraprec", "workdps", "extradps")
-    found = {path.relative_to(ROOT / "stabilab").as_posix(): ast.unparse(node.value).split(".")[0] for path in sources(*words)
+    found = {path.relative_to(ROOT / "stabilab").as_posix(): ast.unparse(node.value).split(".")[0]
+             for path in sources(*words)
              for node in nodes(path) if isinstance(node, ast.Attribute) and node.attr in words}
     assert found == gates
 

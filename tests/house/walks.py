@@ -1,7 +1,9 @@
-"""Four walks through the package, traced: how many files and functions answer a question, and how often a call crosses from file to file.
+"""Four walks through the package, traced: how many files and functions answer a question, and how often a
+call crosses from file to file.
 
-`python -m tests.house.walks` walks through this checkout, `python -m tests.house.walks FOLDER` through another one. What numba compiles is not
-seen, and what a first question leaves behind (compiled code, measured fronts) is made before the walk by another scene of its kind.
+`python -m tests.house.walks` walks through this checkout, `python -m tests.house.walks FOLDER` through
+another one. What numba compiles is not seen, and what a first question leaves behind (compiled code, measured
+fronts) is made before the walk by another scene of its kind.
 """
 from __future__ import annotations
 
@@ -73,9 +75,11 @@ HEAD = ("walk", "modules loaded", "files", "functions", "calls across files", "o
 
 
 def walked(name: str, root: Path = ROOT) -> list[int]:
-    """Modules loaded, files and functions that ran, calls from one file into another, and orbits built, of one walk through a checkout."""
+    """Modules loaded, files and functions that ran, calls from one file into another, and orbits built, of
+    one walk through a checkout."""
     before, walk = WALKS[name]
-    done = subprocess.run([sys.executable, "-W", "ignore", "-c", PROGRAM, str(root / "cases"), before or "", walk], cwd=root, text=True,
+    done = subprocess.run([sys.executable, "-W", "ignore", "-c", PROGRAM, str(root / "cases"), before or "",
+                           walk], cwd=root, text=True,
                           capture_output=True, env={**os.environ, "PYTHONPATH": str(root)})
     if done.returncode:
         raise RuntimeError(done.stderr)

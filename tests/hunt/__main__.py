@@ -1,8 +1,8 @@
 """`make hunt`: turn the knobs of a problem so that two ways to its answer disagree as much as they can.
 
-python -m tests.hunt [SECONDS] [FOLDER] [SEED] [NAME...]: differential evolution and hypothesis' target, half of the time each,
-for each of the disagreements (or those named). What parts by more than promised is kept in FOLDER (default .hunt) as
-NAME-*.json, and the exit code is 1.
+python -m tests.hunt [SECONDS] [FOLDER] [SEED] [NAME...]: differential evolution and hypothesis' target, half
+of the time each, for each of the disagreements (or those named). What parts by more than promised is kept in
+FOLDER (default .hunt) as NAME-*.json, and the exit code is 1.
 """
 import json
 import sys
@@ -20,8 +20,10 @@ from tests.hunt.returns import returns
 from tests.hunt.threads import threads
 
 KEPT = 8  # of each disagreement, the worst
-SEARCHES = {name: (function, problem_of) for name, function in {**DISAGREEMENTS, "returns": returns, "threads": threads}.items()} | {
-    "unreduced": (unreduced.unreduced, unreduced.problem_of), "parabolas": (parabolas.parabolas, parabolas.problem_of),
+SEARCHES = {name: (function, problem_of) for name,
+            function in {**DISAGREEMENTS, "returns": returns, "threads": threads}.items()} | {
+    "unreduced": (unreduced.unreduced, unreduced.problem_of),
+    "parabolas": (parabolas.parabolas, parabolas.problem_of),
     "facets": (facets.facets, facets.problem_of)}
 CEILING = 30.0  # of the logarithm: what an optimiser sees of a wrong label
 
@@ -39,7 +41,8 @@ class Hunt:
         self.end = self.most = np.inf
 
     def go(self, how, seconds, seed, questions=np.inf):
-        """how: `evolve` or `aim`, begun anew with the next seed until the time is up or so many questions are asked."""
+        """how: `evolve` or `aim`, begun anew with the next seed until the time is up or so many questions are
+        asked."""
         self.end, self.most = monotonic() + seconds, self.asked + questions
         try:
             while True:
@@ -71,7 +74,8 @@ class Hunt:
         return float(np.clip(np.log10(size), -CEILING, CEILING)) if size > 0 else -CEILING
 
     def _keep(self, size, words, scene, state):
-        row = {"disagreement": self.name, "size": size, "scene": repr(scene), "state": [v.hex() for v in map(float, state)], "words": words}
+        row = {"disagreement": self.name, "size": size, "scene": repr(scene),
+               "state": [v.hex() for v in map(float, state)], "words": words}
         self.kept = sorted([*self.kept, row], key=lambda r: -r["size"])[:KEPT]
         if self.folder:
             for n, one in enumerate(self.kept):
@@ -81,7 +85,8 @@ class Hunt:
 def evolve(hunt, seed):
     """Differential evolution over the cube."""
     from scipy.optimize import differential_evolution
-    differential_evolution(lambda v: -hunt.size(v), [(0, 1)] * KNOBS, maxiter=60, popsize=4, init="sobol", polish=False, tol=0,
+    differential_evolution(lambda v: -hunt.size(v), [(0, 1)] * KNOBS, maxiter=60, popsize=4, init="sobol",
+                           polish=False, tol=0,
                            mutation=(0.4, 1.0), rng=np.random.default_rng(seed))
 
 
@@ -92,7 +97,8 @@ def aim(hunt, seed):
     from hypothesis import strategies as st
 
     @seeded(seed)
-    @settings(max_examples=200, database=None, deadline=None, phases=(Phase.generate, Phase.target), suppress_health_check=list(HealthCheck))
+    @settings(max_examples=200, database=None, deadline=None, phases=(Phase.generate, Phase.target),
+              suppress_health_check=list(HealthCheck))
     @given(st.lists(st.floats(0, 1), min_size=KNOBS, max_size=KNOBS))
     def test(knobs):
         target(hunt.size(knobs))
@@ -111,7 +117,8 @@ def main(seconds=600, folder=".hunt", seed=1, *names):
         hunt.go(evolve, share, seed)
         hunt.go(aim, share, seed)
         found += len(hunt.kept)
-        print(f"{name}: {hunt.asked} questions, largest disagreement {hunt.worst:.3g} of what is promised", flush=True)
+        print(f"{name}: {hunt.asked} questions, largest disagreement {hunt.worst:.3g} of what is promised",
+              flush=True)
         for row in hunt.kept:
             print(f"  {row['size']:.3g}: {row['scene']}\n    from {row['state']}: {row['words']}", flush=True)
     print("nothing found" if not found else f"found: see {folder}")

@@ -30,8 +30,11 @@ EPS = float(np.finfo(float).eps)
 WRONG = math.inf
 NO_QUESTION = (0.0, "")
 ROWS_AND_COLUMNS = (7, 17)  # of a sheet whose places are asked
-FAR_CENTRE = 1e3  # times a place: so far from the centre of its conic, ten times as far as the program asks for, the way there costs it no digits
-ROUNDINGS = 64  # of a place and of the terms of its energy: some ten operations each for shift, place, turn and height
+# times a place: so far from the centre of its conic, ten times as far as the program asks for, the way there
+# costs it no digits
+FAR_CENTRE = 1e3
+# of a place and of the terms of its energy: some ten operations each for shift, place, turn and height
+ROUNDINGS = 64
 
 
 def worst(*found):
@@ -48,14 +51,16 @@ def certified(scene, problem, state):
     motion, states = made["motion"], np.array([state])
     label = Fate(int(stabilab.fate(scene, states).labels[0]))
     if motion is None:
-        sure = label in (Fate.BOUNDED, Fate.SPIN_UP) and motion is None and "separatrix" in str(made["uncertified"])
+        sure = (label in (Fate.BOUNDED, Fate.SPIN_UP) and motion is None
+                and "separatrix" in str(made["uncertified"]))
         return (WRONG, f"{label.word}, but a tie by the certificate") if sure else NO_QUESTION
     if motion["fate"] != label.word:
         return WRONG, f"{label.word}, proved {motion['fate']}"
     found = []
     for fast in (False, True):
         box = stabilab.extremes(scene, states, fast=fast)[0]
-        found += [_against(box[i], motion["extremes"][i], f"component {i + 1}") for i in range(3) if motion["extremes"]]
+        found += [_against(box[i], motion["extremes"][i], f"component {i + 1}") for i in range(3)
+                  if motion["extremes"]]
         if motion["period"]:
             found.append(_against(stabilab.period(scene, states, fast=fast), [motion["period"]], "period"))
     return worst(*found)
@@ -63,12 +68,14 @@ def certified(scene, problem, state):
 
 def _against(values, brackets, name):
     """Doubles against brackets of exact numbers, relative to the largest of them."""
-    middles = [None if b is None else (float(energy.Fraction(b[0])) + float(energy.Fraction(b[1]))) / 2 for b in brackets]
+    middles = [None if b is None else (float(energy.Fraction(b[0])) + float(energy.Fraction(b[1]))) / 2
+               for b in brackets]
     size = max((abs(m) for m in middles if m is not None), default=0.0)
     if any(np.isfinite(v) != (m is not None) for v, m in zip(values, middles)):
         return WRONG, f"{name}: {list(values)}, proved {middles}"
     off = max((abs(float(v) - m) for v, m in zip(values, middles) if m is not None), default=0.0)
-    return (off / size / ELEVEN_DIGITS if size else 0.0), f"{name}: {list(map(float, values))}, proved {middles}"
+    return (off / size / ELEVEN_DIGITS if size
+            else 0.0), f"{name}: {list(map(float, values))}, proved {middles}"
 
 
 def oracle(scene, problem, state):
@@ -101,13 +108,16 @@ def _digits(state):
 def _margin_off(problem, axis, state, got, exact, promise=MARGIN):
     kinetic = 0.5 * float(problem.weight[axis]) * state[axis] ** 2
     terms = abs(exact + kinetic) + kinetic
-    return (abs(got - exact) / (promise * terms) if terms else 0.0), f"margin {got!r}, expected {exact!r}, terms {terms:g}"
+    return (abs(got - exact) / (promise * terms) if terms
+            else 0.0), f"margin {got!r}, expected {exact!r}, terms {terms:g}"
 
 
 def tables(scene, problem, state):
-    """A large array (tables, with numba and without) against small ones (the general formula), in the state's neighbourhood."""
+    """A large array (tables, with numba and without) against small ones (the general formula), in the state's
+    neighbourhood."""
     rng = np.random.default_rng(1)
-    off = 10.0 ** rng.uniform(-17, 0, (MANY, 1)) * rng.choice([-1, 1], (MANY, 3)) * rng.integers(0, 2, (MANY, 3))
+    off = (10.0 ** rng.uniform(-17, 0,
+                               (MANY, 1)) * rng.choice([-1, 1], (MANY, 3)) * rng.integers(0, 2, (MANY, 3)))
     states = np.array(state) * (1 + off)
     one = stabilab.fate(scene, states, fast=False)
     other = stabilab.fate(scene, states, fast=True)
@@ -129,7 +139,8 @@ def tables(scene, problem, state):
     with np.errstate(all="ignore"):
         sizes = np.abs(slow - one.margins) / (2 * MARGIN * (np.abs(slow + kinetic) + kinetic))
     at = int(np.nanargmax(np.where(np.isfinite(sizes), sizes, -1)))
-    return (float(sizes[at]) if np.isfinite(sizes[at]) else 0.0), f"margins {one.margins[at]!r}, {slow[at]!r} of {states[at].tolist()}"
+    return (float(sizes[at]) if np.isfinite(sizes[at])
+            else 0.0), f"margins {one.margins[at]!r}, {slow[at]!r} of {states[at].tolist()}"
 
 
 def one_state(scene, problem, state):
@@ -155,9 +166,10 @@ def _between(values, others, name, promise=ELEVEN_DIGITS):
 
 
 def methods(scene, problem, state):
-    """The state by quadrature against Taylor series, relative to what one unit in the last place of the state and of the
-    period does: the series rounds a few times a step and the quadrature a few times. Where that is not enough, the way may hold
-    what it leads to in its last places only, which the start did not: then both are asked one by one.
+    """The state by quadrature against Taylor series, relative to what one unit in the last place of the state
+    and of the period does: the series rounds a few times a step and the quadrature a few times. Where that is
+    not enough, the way may hold what it leads to in its last places only, which the start did not: then both
+    are asked one by one.
     """
     try:
         speed = _speed(problem, state)
@@ -174,17 +186,22 @@ def methods(scene, problem, state):
         return NO_QUESTION
     size, at = _parted(run, here, effect)
     words = f"t = {times[at]!r}: {here[at].tolist()} and {run.states[at].tolist()}"
-    return (size, words) if size <= 1 else worst(_against_many_digits(problem, state, times[at], here[at], effect[at]),
+    return (size,
+            words) if size <= 1 else worst(_against_many_digits(problem, state, times[at], here[at],
+                                                                effect[at]),
                                                  _step_by_step(scene, problem, state, times[at]))
 
 
 def _and_one_unit_away(scene, problem, state, times):
-    """(states by quadrature (n, 3), what one unit in the last place of the start and of the period does there (n,))."""
-    here, *beside = (stabilab.trajectory(scene, s, times, "reduced", laws=False).states for s in _one_unit_away(state))
+    """(states by quadrature (n, 3), what one unit in the last place of the start and of the period does there
+    (n,))."""
+    here, *beside = (stabilab.trajectory(scene, s, times, "reduced", laws=False).states
+                     for s in _one_unit_away(state))
     period = float(stabilab.period(scene, np.array(state)))
     rates = np.array([[abs(float(r)) for r in problem.rate(x)] for x in here.tolist()])
     effect = sum(np.abs(there - here).max(axis=1) for there in beside) + EPS * np.abs(here).max(axis=1)
-    return here, effect + EPS * rates.max(axis=1) * (np.maximum(times, period) if math.isfinite(period) else times)
+    return here, effect + EPS * rates.max(axis=1) * (np.maximum(times, period) if math.isfinite(period)
+                                                     else times)
 
 
 def _parted(run, states, effect):
@@ -196,7 +213,9 @@ def _parted(run, states, effect):
 def _against_many_digits(problem, state, time, found, effect):
     """The quadrature against a Taylor series of `BITS`."""
     exact = many_digits(problem, state, time)
-    return float(np.abs(exact - found).max() / (UNITS_A_STEP * 10 * effect)), f"t = {time!r}: {found.tolist()}, in {BITS} bits {exact.tolist()}"
+    return float(np.abs(exact - found).max()
+                 / (UNITS_A_STEP * 10
+                    * effect)), f"t = {time!r}: {found.tolist()}, in {BITS} bits {exact.tolist()}"
 
 
 def many_digits(problem, state, time):
@@ -211,7 +230,8 @@ def series_of(problem, bits=BITS):
     x = hy.make_vars("x", "y", "z")
     rates = [of(problem.kappa[i]) * x[j] * x[k] + of(problem.rho[i]) * x[k] + of(problem.sigma[i]) * x[j]
              + of(problem.m[i]) for i, (j, k) in enumerate(CYCLE)]
-    return hy.taylor_adaptive(list(zip(x, rates)), [of(0)] * 3, fp_type=hy.real, prec=bits, tol=hy.real(2.0 ** (20 - bits), bits))
+    return hy.taylor_adaptive(list(zip(x, rates)), [of(0)] * 3, fp_type=hy.real, prec=bits,
+                              tol=hy.real(2.0 ** (20 - bits), bits))
 
 
 def number_of(value, bits=BITS):
@@ -228,8 +248,8 @@ def _flow(series, state, time):
 
 
 def _step_by_step(scene, problem, state, time):
-    """The doubles' series against that of `BITS` over ways of a step's length, relative to what a unit of rounding at the beginning of
-    each does: what the steps round, and not where that leads."""
+    """The doubles' series against that of `BITS` over ways of a step's length, relative to what a unit of
+    rounding at the beginning of each does: what the steps round, and not where that leads."""
     steps = stabilab.trajectory(scene, state, [time], laws=False).counters["steps"]
     count = min(steps, MOST_STEPS)
     times = np.linspace(0, time / steps * count, count + 1)
@@ -237,12 +257,15 @@ def _step_by_step(scene, problem, state, time):
     series, found = series_of(problem), [NO_QUESTION]
     for start, end, length in zip([state, *ends.tolist()], ends, np.diff(times)):
         start = np.array(start)
-        exact, *beside = (_flow(series, start + off, length) for off in (0, *np.eye(3) * EPS * np.abs(start).max()))
+        exact, *beside = (_flow(series, start + off, length)
+                          for off in (0, *np.eye(3) * EPS * np.abs(start).max()))
         effect = sum(np.abs(other - exact).max() for other in beside) + EPS * np.abs(exact).max()
         size = float(np.abs(end - exact).max() / (UNITS_A_STEP * effect))
         if size > 1:  # a way that takes several steps
             size /= stabilab.trajectory(scene, start, [length], laws=False).counters["steps"] + 1
-        found.append((size, f"from {[v.hex() for v in start.tolist()]} for {length!r}: {end.tolist()}, in {BITS} bits {exact.tolist()}"))
+        found.append((size,
+                      f"from {[v.hex() for v in start.tolist()]} for {length!r}: {end.tolist()}, in {BITS} "
+                      f"bits {exact.tolist()}"))
     return worst(*found)
 
 
@@ -259,30 +282,38 @@ def _braked_turns(problem, state):
 
 def _one_unit_away(state):
     """The state, and it with one component after another a unit in the last place larger."""
-    return [state, *(tuple(float(np.nextafter(v, np.inf)) if i == n else v for n, v in enumerate(state)) for i in range(3))]
+    return [state, *(tuple(float(np.nextafter(v, np.inf)) if i == n else v for n, v in enumerate(state))
+                     for i in range(3))]
 
 
 def twins(scene, problem, state):
     """Renamed axes, half a turn, and units of time and mass that are powers of two: the same answers."""
-    return worst(*(_twin(scene, problem, state, name, *made) for name, made in _twins_of(scene, state).items()))
+    return worst(*(_twin(scene, problem, state, name, *made) for name,
+                   made in _twins_of(scene, state).items()))
 
 
 def _twins_of(scene, state):
     """name -> (scene, state, order of axes, signs, factor of rates, factor of energies)."""
     if scene.variables == "scaled":
         a, b, mu = scene.a, scene.b, scene.mu
-        return {"half a turn": (scaled(a, b, (mu[0], -mu[1], -mu[2]))[0], _signed(state, (1, -1, -1)), (0, 1, 2), (1, -1, -1), 1, 1),
-                "other side": (scaled(-a, -b, (-mu[0], mu[1], -mu[2]))[0], _signed(state, (-1, 1, -1)), (0, 1, 2), (-1, 1, -1), 1, 1)}
-    D, (lam, M) = list(map(float, scene.body.exact)), ([float(v) for v in scene.vector(n)] for n in ("gyrostat", "constant_torque"))
+        return {"half a turn": (scaled(a, b, (mu[0], -mu[1], -mu[2]))[0], _signed(state, (1, -1, -1)),
+                                (0, 1, 2), (1, -1, -1), 1, 1),
+                "other side": (scaled(-a, -b, (-mu[0], mu[1], -mu[2]))[0], _signed(state, (-1, 1, -1)),
+                               (0, 1, 2), (-1, 1, -1), 1, 1)}
+    D, (lam, M) = list(map(float, scene.body.exact)), ([float(v) for v in scene.vector(n)]
+                                                       for n in ("gyrostat", "constant_torque"))
     order = (1, 2, 0)
     turn = lambda v: [v[i] for i in order]
     fast, heavy = 2.0 ** 9, 2.0 ** -7
     return {"renamed": (physical(turn(D), turn(lam), turn(M))[0], turn(state), order, (1, 1, 1), 1, 1),
-            "half a turn": (physical(D, _signed(lam, (-1, 1, -1)), _signed(M, (-1, 1, -1)))[0], _signed(state, (-1, 1, -1)),
+            "half a turn": (physical(D, _signed(lam, (-1, 1, -1)), _signed(M, (-1, 1, -1)))[0],
+                            _signed(state, (-1, 1, -1)),
                             (0, 1, 2), (-1, 1, -1), 1, 1),
-            "faster": (physical(D, [v * fast for v in lam], [v * fast**2 for v in M])[0], [v * fast for v in state], (0, 1, 2),
+            "faster": (physical(D, [v * fast for v in lam], [v * fast**2 for v in M])[0],
+                       [v * fast for v in state], (0, 1, 2),
                        (1, 1, 1), fast, fast**2),
-            "heavier": (physical([v * heavy for v in D], [v * heavy for v in lam], [v * heavy for v in M])[0], state, (0, 1, 2),
+            "heavier": (physical([v * heavy for v in D], [v * heavy for v in lam], [v * heavy for v in M])[0],
+                        state, (0, 1, 2),
                         (1, 1, 1), 1, heavy)}
 
 
@@ -305,7 +336,9 @@ def _twin(scene, problem, state, name, other, image, order, signs, rate, unit):
     found = [NO_QUESTION]
     if math.isfinite(margins[0]):
         found.append(_margin_off(problem, axis, state, margins[1], margins[0], 2 * MARGIN))
-    box, image_box = stabilab.extremes(scene, np.array([state]))[0], stabilab.extremes(other, np.array([image]))[0] / rate
+    box, image_box = stabilab.extremes(scene,
+                                       np.array([state]))[0], stabilab.extremes(other,
+                                                                                np.array([image]))[0] / rate
     for i in range(3):
         values = [v * signs[i] for v in box[order[i]]]
         found.append(_between(sorted(values), image_box[i], f"component {i + 1}"))
@@ -316,8 +349,9 @@ def _twin(scene, problem, state, name, other, image, order, signs, rate, unit):
 
 
 def surfaces(scene, problem, state):
-    """Places of the separatrix' sheets against the reduced potential in many digits: each has the energy of a saddle on its own orbit, up to what a
-    few roundings of the place, measured from the centre of its conic, and of the potential's terms do to that."""
+    """Places of the separatrix' sheets against the reduced potential in many digits: each has the energy of a
+    saddle on its own orbit, up to what a few roundings of the place, measured from the centre of its conic,
+    and of the potential's terms do to that."""
     acting = [i for i in range(3) if problem.m[i]]
     if not acting:
         return NO_QUESTION  # without a torque the axis of the reduction is a choice
@@ -333,20 +367,28 @@ def off_surface(problem, axis, sheet, row, column):
     point, (j, k) = tuple(sheet.points[row, column].tolist()), CYCLE[axis]
     if not all(map(math.isfinite, point)):
         return WRONG, f"{sheet.name}, row {row}: {point}"
-    centre = abs(float(problem.sigma[k] / problem.kappa[k])), abs(float(problem.rho[j] / problem.kappa[j]))  # of omega_j, omega_k
-    asymptotes = abs(problem.rho[axis] / problem.kappa[axis]) + abs(problem.sigma[axis] / problem.kappa[axis]) if problem.kappa[axis] else math.inf
+    # of omega_j, omega_k
+    centre = abs(float(problem.sigma[k] / problem.kappa[k])), abs(float(problem.rho[j] / problem.kappa[j]))
+    asymptotes = (abs(problem.rho[axis] / problem.kappa[axis])
+                  + abs(problem.sigma[axis] / problem.kappa[axis]) if problem.kappa[axis] else math.inf)
     if max(centre) > FAR_CENTRE * (abs(point[j]) + abs(point[k]) + float(asymptotes)):
         centre = 0.0, 0.0  # there places are told from their saddles
     u, v = abs(point[j]) + centre[0], abs(point[k]) + centre[1]
-    terms = float(problem.weight[axis]) * (abs(float(problem.kappa[axis])) * u * v + abs(float(problem.rho[axis])) * v
-                                           + abs(float(problem.sigma[axis])) * u + abs(float(problem.m[axis])) + point[axis] ** 2)
+    terms = float(problem.weight[axis]) * (abs(float(problem.kappa[axis])) * u * v
+                                           + abs(float(problem.rho[axis])) * v
+                                           + abs(float(problem.sigma[axis])) * u + abs(float(problem.m[axis]))
+                                           + point[axis] ** 2)
     unit = EPS * max(u, v, abs(point[axis]))
-    beside = [tuple(v + sign * unit * (n == i) for i, v in enumerate(point)) for n in range(3) for sign in (-1, 1)]
+    beside = [tuple(v + sign * unit * (n == i) for i, v in enumerate(point)) for n in range(3)
+              for sign in (-1, 1)]
     gap, *moved = (energy.from_a_saddle(problem, p, digits=_digits(p)) for p in (point, *beside))
     if gap is None or None in moved:
-        return NO_QUESTION  # of rates 1e11 times the wheel's, about nearly equal moments, rounding of the place unmakes the saddle of its orbit
+        # of rates 1e11 times the wheel's, about nearly equal moments, rounding of the place unmakes the
+        # saddle of its orbit
+        return NO_QUESTION
     shaken = float(sum(abs(other - gap) for other in moved)) + EPS * terms
-    return float(gap) / (ROUNDINGS * shaken), f"{sheet.name}, row {row}, column {column}: {point} is {float(gap):.3g} off in energy; rounding: {shaken:.3g}"
+    return float(gap) / (ROUNDINGS
+                         * shaken), f"{sheet.name}, row {row}, column {column}: {point} is {float(gap):.3g} off in energy; rounding: {shaken:.3g}"
 
 
 DISAGREEMENTS = {f.__name__: f for f in (certified, oracle, tables, one_state, methods, twins, surfaces)}

@@ -1,5 +1,6 @@
-"""Bodies with two equal moments and a torque across their symmetry axis, where the reduced potential is a polynomial of the fourth degree:
-fates, margins, extremes and periods of arrays against that polynomial in many digits."""
+"""Bodies with two equal moments and a torque across their symmetry axis, where the reduced potential is a
+polynomial of the fourth degree: fates, margins, extremes and periods of arrays against that polynomial in
+many digits."""
 from __future__ import annotations
 
 import math
@@ -22,7 +23,8 @@ def problem_of(knobs):
     j, k = CYCLE[axis]
     equal, third = (j, k) if pick[1] > 0.5 else (k, j)
     inertia, momentum, torque = [1.0] * 3, [0.0] * 3, [0.0] * 3
-    inertia[third] = 2 * 10.0 ** (-10 * (pick[2] - 0.25)) if pick[2] > 0.25 else 2e-3 + 7.99 * pick[2]  # a needle's, or any up to the flat disc's
+    # a needle's, or any up to the flat disc's
+    inertia[third] = 2 * 10.0 ** (-10 * (pick[2] - 0.25)) if pick[2] > 0.25 else 2e-3 + 7.99 * pick[2]
     if pick[3] > 0.9:
         inertia = [v * 10.0 ** (80 * (pick[3] - 0.95)) for v in inertia]
     rate = 10.0 ** (12 * (pick[6] - 0.5)) if pick[3] < 0.2 else 1.0
@@ -33,7 +35,8 @@ def problem_of(knobs):
 
 
 def parabolas(scene, problem, state):
-    """Of NumPy and of the compiled kernels; extremes and periods by the roots and by quadrature of the polynomial."""
+    """Of NumPy and of the compiled kernels; extremes and periods by the roots and by quadrature of the
+    polynomial."""
     found = [oracle(scene, problem, state)]
     digits = _digits(state)
     word = energy.label(problem, state, digits=digits)
@@ -45,10 +48,14 @@ def parabolas(scene, problem, state):
         box = None
     time = energy.period(problem, state, digits=60) if word == "bounded" else math.inf
     for fast in (False, True):
-        (period,), boxes = stabilab.period(scene, np.array([state]), fast=fast), stabilab.extremes(scene, np.array([state]), fast=fast)[0]
+        (period,), boxes = stabilab.period(scene, np.array([state]),
+                                           fast=fast), stabilab.extremes(scene, np.array([state]),
+                                                                         fast=fast)[0]
         told = _off([period], [time], f"period, fast={fast}")
-        if 1 < told[0] < math.inf:  # next to a flat place the quadrature may miss a narrow peak: the motion itself tells who is right
-            told = min(told, (float(abs(lateness(problem, state, float(period)))) / period / ELEVEN_DIGITS, told[1]))
+        # next to a flat place the quadrature may miss a narrow peak: the motion itself tells who is right
+        if 1 < told[0] < math.inf:
+            told = min(told, (float(abs(lateness(problem, state, float(period)))) / period / ELEVEN_DIGITS,
+                              told[1]))
         found.append(told)
         found += [_off(boxes[i], box[i], f"component {i + 1}, fast={fast}") for i in range(3) if box]
     return worst(*found)
@@ -57,7 +64,8 @@ def parabolas(scene, problem, state):
 def _off(values, exact, name):
     exact = [float(v) for v in exact]
     words = f"{name}: {list(map(float, values))}, expected {exact}"
-    if any(math.isfinite(a) != math.isfinite(b) or (not math.isfinite(b) and a != b) for a, b in zip(values, exact)):
+    if any(math.isfinite(a) != math.isfinite(b) or (not math.isfinite(b) and a != b) for a,
+           b in zip(values, exact)):
         return WRONG, words
     finite = [(float(a), b) for a, b in zip(values, exact) if math.isfinite(b)]
     size = max((abs(b) for _, b in finite), default=0.0)

@@ -1,7 +1,8 @@
-"""From a point of the unit cube to a scene and a state, with the hard corners of the theory a moderate way off.
+"""From a point of the unit cube to a scene and a state, with the hard corners of the theory a moderate way
+off.
 
-Every coordinate is one knob: family, sizes over many decades, how nearly two moments are equal, how near to a separatrix,
-an equilibrium or an invariant plane. An optimiser turns them all.
+Every coordinate is one knob: family, sizes over many decades, how nearly two moments are equal, how near to a
+separatrix, an equilibrium or an invariant plane. An optimiser turns them all.
 """
 from __future__ import annotations
 
@@ -18,7 +19,8 @@ KNOBS = 14
 
 
 def problem_of(knobs):
-    """(scene, oracle's model, state) of a point in [0, 1]^14. Raises stabilab's InputError where there is no such body."""
+    """(scene, oracle's model, state) of a point in [0, 1]^14. Raises stabilab's InputError where there is no
+    such body."""
     pick = [min(max(float(v), 0.0), 1.0) for v in knobs]
     scene, problem = _scaled(pick) if pick[0] < 0.5 else _physical(pick)
     return scene, problem, state_of(scene, problem, pick)
@@ -55,7 +57,8 @@ def _physical(pick):
 
 
 def state_of(scene, problem, pick):
-    """A state round the centre of its conic: anywhere, next to a separatrix, an equilibrium, or an invariant plane."""
+    """A state round the centre of its conic: anywhere, next to a separatrix, an equilibrium, or an invariant
+    plane."""
     acting = [i for i in range(3) if problem.m[i]]
     axis = acting[0] if acting else min(int(3 * pick[0]), 2)
     j, k = CYCLE[axis]
@@ -64,7 +67,8 @@ def state_of(scene, problem, pick):
     angle = 2 * math.pi * pick[9]
     centre = [0.0, 0.0, 0.0]
     if problem.kappa[j] and problem.kappa[k]:
-        centre[k], centre[j] = float(-problem.rho[j] / problem.kappa[j]), float(-problem.sigma[k] / problem.kappa[k])
+        centre[k], centre[j] = float(-problem.rho[j]
+                                     / problem.kappa[j]), float(-problem.sigma[k] / problem.kappa[k])
     state = [0.0, 0.0, 0.0]
     state[j], state[k] = centre[j] + radius * math.sin(angle), centre[k] + radius * math.cos(angle)
     place, near = pick[10], 10.0 ** (-17 * pick[11])
@@ -85,7 +89,8 @@ def _to_plane(problem, state, centre, j, k, near, knob):
     """x_j so that C, the difference of two squares, nearly vanishes."""
     ratio = problem.kappa[j] / problem.kappa[k] if problem.kappa[k] else Fraction(0)
     if ratio > 0:
-        state[j] = centre[j] + math.copysign(math.sqrt(ratio), knob - 0.5) * (state[k] - centre[k]) * (1 + near)
+        state[j] = (centre[j] + math.copysign(math.sqrt(ratio),
+                                              knob - 0.5) * (state[k] - centre[k]) * (1 + near))
 
 
 def _to_equilibrium(problem, state, axis, j, k):
@@ -98,7 +103,8 @@ def _to_equilibrium(problem, state, axis, j, k):
 
 
 def _brink(scene, problem, state, axis, side, distance):
-    """The rate about the torque's axis at which the motion just reaches the barrier, off by a relative distance."""
+    """The rate about the torque's axis at which the motion just reaches the barrier, off by a relative
+    distance."""
     still = list(state)
     still[axis] = 0.0
     margin = float(stabilab.fate(scene, np.array(still)).margins)

@@ -1,4 +1,5 @@
-"""Periods in balls, to the digits asked for, against Euler's equations: after a period a motion is where it was."""
+"""Periods in balls, to the digits asked for, against Euler's equations: after a period a motion is where it
+was."""
 from __future__ import annotations
 
 import random
@@ -19,7 +20,8 @@ LOST = 24  # digits that a series loses at most: of a motion that passes a saddl
 
 
 def returns(scene, problem, state):
-    """The ball of a period, at a number of digits that the state picks, has these; the period in doubles has eleven."""
+    """The ball of a period, at a number of digits that the state picks, has these; the period in doubles has
+    eleven."""
     if reduce(scene) is None or int(stabilab.fate(scene, np.array(state)).labels) != Fate.BOUNDED:
         return NO_QUESTION
     rate = max(abs(float(r)) for r in problem.rate(state))
@@ -28,20 +30,25 @@ def returns(scene, problem, state):
         return NO_QUESTION  # the series would take minutes
     sizes = np.abs(stabilab.extremes(scene, np.array(state)))
     if not sizes[sizes > 0].min(initial=1.0) > 10.0**-LOST * sizes.max():
-        return NO_QUESTION  # beside a plane the series would lose as many digits as the least rate has zeros: of 1e-167 beside 200, some 340
+        # beside a plane the series would lose as many digits as the least rate has zeros: of 1e-167 beside
+        # 200, some 340
+        return NO_QUESTION
     digits = random.Random(repr(state)).choice(ASKED)
     ball = period_ball(Orbit(reduce(scene), state), digits)
     bits = int(3.33 * 2 * (digits + LOST)) + 64
     with mp.workprec(bits):
         middle = mp.mpf(ball.mid().str(2 * digits + LOST, radius=False))
         off = abs(lateness(problem, state, middle, bits) / middle)
-        words = f"{digits} digits asked: {mp.nstr(middle, digits + 3)} is off by {mp.nstr(off, 3)} of itself; in doubles {time!r}"
-        return worst((float(off * mp.mpf(10) ** digits), words), (float(abs(time - middle) / middle) / ELEVEN_DIGITS, words))
+        words = (
+            f"{digits} digits asked: {mp.nstr(middle, digits + 3)} is off by {mp.nstr(off, 3)} of itself; in "
+            f"doubles {time!r}")
+        return worst((float(off * mp.mpf(10) ** digits), words),
+                     (float(abs(time - middle) / middle) / ELEVEN_DIGITS, words))
 
 
 def lateness(problem, state, time, bits=BITS):
-    """By how much of the time a motion is beyond its start after `time`, told from its way and its rate there; by a Taylor series of so many bits. A multiple
-    of the period would pass."""
+    """By how much of the time a motion is beyond its start after `time`, told from its way and its rate
+    there; by a Taylor series of so many bits. A multiple of the period would pass."""
     import heyoka as hy
     with mp.workprec(bits):
         series = series_of(problem, bits)

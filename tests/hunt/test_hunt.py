@@ -15,7 +15,8 @@ from tests.hunt.problems import KNOBS
 @pytest.mark.one_in(2)
 @pytest.mark.parametrize("how", [evolve, aim], ids=["differential evolution", "hypothesis"])
 def test_the_search_finds_a_disagreement_that_was_put_there(how, tmp_path):
-    """A function that exceeds its promise where |x1| is within a tenth of a decade of 10^2.5 only, with a slope towards it."""
+    """A function that exceeds its promise where |x1| is within a tenth of a decade of 10^2.5 only, with a
+    slope towards it."""
     def planted(scene, problem, state):
         return 1.5 * math.exp(-8 * abs(math.log10(abs(state[0]) or 1e-9) - 2.5)), "planted"
     hunt = Hunt("planted", planted, tmp_path)
@@ -34,7 +35,10 @@ def test_an_answer_that_ends_in_a_traceback_is_found(tmp_path):
 
 
 @pytest.mark.one_in(2)
-@pytest.mark.parametrize("name", [pytest.param(name, marks=[pytest.mark.slow] * (name == "facets")) for name in SEARCHES])  # whose distances take seconds
+@pytest.mark.parametrize("name",
+                         # whose distances take seconds
+                         [pytest.param(name, marks=[pytest.mark.slow] * (name == "facets"))
+                          for name in SEARCHES])
 def test_two_ways_to_an_answer_keep_their_promise_on_random_problems(name):
     (function, make), rng, asked = SEARCHES[name], np.random.default_rng(5), 0
     while asked < 4:

@@ -1,4 +1,5 @@
-"""Threads that ask about one scene at once, each with caches as empty as at the start, against one thread alone: the same bytes."""
+"""Threads that ask about one scene at once, each with caches as empty as at the start, against one thread
+alone: the same bytes."""
 from __future__ import annotations
 
 import sys
@@ -15,9 +16,11 @@ SWITCH = 1e-3  # s, after which another thread has its turn
 
 
 def threads(scene, problem, state):
-    """Fates, extremes, periods and sheets, by NumPy and compiled, of a large array in the state's neighbourhood."""
+    """Fates, extremes, periods and sheets, by NumPy and compiled, of a large array in the state's
+    neighbourhood."""
     rng = np.random.default_rng(2)
-    states = np.array(state) * 10.0 ** rng.uniform(-1, 1, (MANY, 3))  # few beside a separatrix, which would go one by one
+    # few beside a separatrix, which would go one by one
+    states = np.array(state) * 10.0 ** rng.uniform(-1, 1, (MANY, 3))
     questions = [(name, fast) for fast in (False, True) for name in QUESTIONS]
     alone = {}
     for question in questions:
@@ -32,10 +35,13 @@ def threads(scene, problem, state):
 
 
 QUESTIONS = {
-    "fate": lambda scene, states, fast: [getattr(stabilab.fate(scene, states, fast=fast), n) for n in ("labels", "margins", "axis", "sense", "reasons")],
+    "fate": lambda scene, states,
+    fast: [getattr(stabilab.fate(scene, states, fast=fast), n)
+           for n in ("labels", "margins", "axis", "sense", "reasons")],
     "extremes": lambda scene, states, fast: [stabilab.extremes(scene, states[::500], fast=fast)],
     "period": lambda scene, states, fast: [stabilab.period(scene, states[::500], fast=fast)],
-    "separatrix": lambda scene, states, fast: [sheet.points for sheet in stabilab.separatrix(scene, shape=(9, 17)).sheets],
+    "separatrix": lambda scene, states,
+    fast: [sheet.points for sheet in stabilab.separatrix(scene, shape=(9, 17)).sheets],
 }
 
 
@@ -71,5 +77,8 @@ def _forget():
     for name, module in list(sys.modules.items()):
         if name.startswith("stabilab.") and "numba" not in name:
             for value in list(vars(module).values()):
-                if hasattr(value, "cache_clear") and getattr(value, "__module__", "").startswith("stabilab.orbit") and "numba" not in value.__module__:
+                if hasattr(value,
+                           "cache_clear") and getattr(value, "__module__",
+                                                      "").startswith(
+                                                          "stabilab.orbit") and "numba" not in value.__module__:
                     value.cache_clear()

@@ -1,5 +1,5 @@
-"""Scenes without a reduction, and how far a scene and its twin part: free gyrostats, torques with a gyrostatic component along
-them, and torques between two equal moments."""
+"""Scenes without a reduction, and how far a scene and its twin part: free gyrostats, torques with a
+gyrostatic component along them, and torques between two equal moments."""
 from __future__ import annotations
 
 import math
@@ -28,7 +28,8 @@ def problem_of(knobs):
     elif pick[0] < 2 / 3:
         axis = int(2.999 * pick[7])
         torque = [wide(pick[8], 1) if i == axis else 0.0 for i in range(3)]
-        if pick[9] > 0.05:  # no component across the torque: the standard form; else a run of a million units is the evidence
+        # no component across the torque: the standard form; else a run of a million units is the evidence
+        if pick[9] > 0.05:
             momentum = [v if i == axis else 0.0 for i, v in enumerate(momentum)]
     else:
         inertia[1] = inertia[0]

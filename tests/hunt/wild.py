@@ -1,6 +1,7 @@
-"""Wild scenes: moments equal to the last digit, needles and discs, wheels and torques over sixteen decades, states at rest, at equilibria,
-beside separatrices and on invariant planes; tidy ones of the small numbers that people write, where much is met exactly; and how far the
-ways to one answer part, in units of what they promise.
+"""Wild scenes: moments equal to the last digit, needles and discs, wheels and torques over sixteen decades,
+states at rest, at equilibria, beside separatrices and on invariant planes; tidy ones of the small numbers
+that people write, where much is met exactly; and how far the ways to one answer part, in units of what they
+promise.
 """
 from __future__ import annotations
 
@@ -47,8 +48,10 @@ def wild_scene(rng):
 
 def _moments(rng):
     shape, (a, b, c) = rng.choice(SHAPES), rng.uniform(1, 2, 3)
-    D = {"any": (a, b, c), "near": (a, a * (1 + 10.0 ** rng.uniform(-9, -7)), c), "twins": (a, a * (1 + 2.0**-50), c), "equal": (a, a, c),
-         "sphere": (a, a, a), "needle": (a, a * (1 + 1e-9 * rng.integers(0, 2)), a * 10.0 ** rng.uniform(-8, -2)),
+    D = {"any": (a, b, c), "near": (a, a * (1 + 10.0 ** rng.uniform(-9, -7)), c),
+         "twins": (a, a * (1 + 2.0**-50), c), "equal": (a, a, c),
+         "sphere": (a, a, a),
+         "needle": (a, a * (1 + 1e-9 * rng.integers(0, 2)), a * 10.0 ** rng.uniform(-8, -2)),
          "disc": (a, b, (a + b) * (1 - 10.0 ** rng.uniform(-15, -2)))}[shape]
     return rng.permutation(D) * (10.0 ** rng.uniform(-6, 6) if rng.random() < 0.2 else 1.0)
 
@@ -59,7 +62,8 @@ def tidy_scene(rng):
         a, b, mu = _small(rng), _small(rng), np.zeros(3)
         mu[rng.integers(1, 3)] = _small(rng)
         return ScaledGyrostat(a, b, tuple(mu.tolist()))
-    D, axis, momentum, torque = rng.permutation(TIDY[rng.integers(len(TIDY))]), int(rng.integers(3)), np.zeros(3), np.zeros(3)
+    D, axis, momentum, torque = rng.permutation(TIDY[rng.integers(len(TIDY))]), int(
+        rng.integers(3)), np.zeros(3), np.zeros(3)
     torque[axis] = _small(rng) * (rng.random() < 0.75)
     for i in range(3):
         if rng.random() < 0.5 and not (torque[axis] and i == axis):
@@ -91,7 +95,8 @@ def wild_state(rng, scene):
         state = _brink(rng, scene, land.reduction.axis, state)
     elif land is not None and kind == "plane" and land.e > 0:
         g, r = land.reduction.constants, land.reduction
-        state[r.j], state[r.k] = (float(rng.choice([-1, 1])) * g["rx"] * unit - g["sj"], g["rz"] * unit - g["sk"])
+        state[r.j], state[r.k] = (float(rng.choice([-1, 1])) * g["rx"] * unit - g["sj"],
+                                  g["rz"] * unit - g["sk"])
     return state.tolist()
 
 
@@ -109,7 +114,8 @@ def _brink(rng, scene, axis, state):
     if not 0 < margin < math.inf or not landscape(scene).sense:
         return state
     weight = 1.0 if scene.variables == "scaled" else float(scene.body.inertia[axis])
-    still[axis] = rng.choice([-1, 1]) * math.sqrt(2 * margin / weight) * (1 + rng.choice([-1, 1]) * 10.0 ** rng.uniform(-15, -3))
+    still[axis] = (rng.choice([-1, 1]) * math.sqrt(2 * margin / weight)
+                   * (1 + rng.choice([-1, 1]) * 10.0 ** rng.uniform(-15, -3)))
     return still
 
 
@@ -117,12 +123,14 @@ def _brink(rng, scene, axis, state):
 
 
 def energies(scene, state, margin):
-    """What a margin's digits are promised of: the kinetic energy (of the torque's axis, or the whole) and the barrier's height over it."""
+    """What a margin's digits are promised of: the kinetic energy (of the torque's axis, or the whole) and the
+    barrier's height over it."""
     acting = [i for i, m in enumerate(scene.quadratic().m) if m]
     if scene.variables == "scaled":
         own = 0.5 * state[acting[0] if acting else 2] ** 2
     else:
-        own = 0.5 * sum(float(d) * v * v for i, (d, v) in enumerate(zip(scene.body.exact, state)) if not acting or i in acting)
+        own = (0.5 * sum(float(d) * v * v for i,
+                         (d, v) in enumerate(zip(scene.body.exact, state)) if not acting or i in acting))
     return own + abs(own + margin)
 
 
@@ -138,7 +146,9 @@ def pairs_part(one, other, promise=2 * DIGITS) -> bool:
         finite = np.isfinite(a)
         if (finite != np.isfinite(b)).any() or (a[~finite] != b[~finite]).any():
             return True
-        if finite.any() and not np.abs(a[finite] - b[finite]).max() <= promise * max(np.abs(a[finite]).max(), np.abs(b[finite]).max()):
+        if finite.any() and not np.abs(a[finite]
+                                       - b[finite]).max() <= promise * max(np.abs(a[finite]).max(),
+                                                                           np.abs(b[finite]).max()):
             return True
     return False
 
@@ -149,7 +159,8 @@ def times_part(one, other, promise=2 * DIGITS) -> bool:
 
 
 def disagreements(scene, states, fast, with_table, with_digits):
-    """In words, with the state: what arrays (NumPy and compiled), a table and many digits say otherwise than one state."""
+    """In words, with the state: what arrays (NumPy and compiled), a table and many digits say otherwise than
+    one state."""
     free = landscape(scene) is None  # its extremes come from a run
     array = np.array(states)
     many, times = stabilab.fate(scene, array), None
@@ -157,7 +168,8 @@ def disagreements(scene, states, fast, with_table, with_digits):
         times = {way: extremes_and_periods(scene, array, by_numba=way) for way in fast}
     ones = [stabilab.motion(scene, state, brief=True) for state in states]
     for n, (state, one) in enumerate(zip(states, ones)):
-        for wrong in [*_against_arrays(scene, state, one, many, n), *(_against_boxes(one, times, n) if times else ())]:
+        for wrong in [*_against_arrays(scene, state, one, many, n),
+                      *(_against_boxes(one, times, n) if times else ())]:
             yield [v.hex() for v in state], wrong
     if with_table:
         yield from _against_table(scene, array, many, fast)
@@ -165,12 +177,14 @@ def disagreements(scene, states, fast, with_table, with_digits):
         n = int(with_digits) % len(states)
         if times:
             yield from _periods_apart(scene, states, times[fast[0]][1])
-        yield from (([v.hex() for v in states[n]], wrong) for wrong in _against_digits(scene, states[n], ones[n], free))
+        yield from (([v.hex() for v in states[n]], wrong)
+                    for wrong in _against_digits(scene, states[n], ones[n], free))
 
 
 def _against_arrays(scene, state, one, many, n):
     label, words = Fate(int(many.labels[n])), REASONS[Reason(int(many.reasons[n]))]
-    if (one.fate, one.axis, one.sense) != (label, many.axis[n], many.sense[n]) or not one.because.startswith(words):
+    if (one.fate, one.axis, one.sense) != (label, many.axis[n],
+                                           many.sense[n]) or not one.because.startswith(words):
         yield f"one state: {one.fate.word} {one.axis} {one.sense}, {one.because}; arrays: {label.word} {many.axis[n]} {many.sense[n]}, {words}"
     if margins_part(scene, state, many.margins[n], one.margin_energy):
         yield f"margin {one.margin_energy!r}, arrays {float(many.margins[n])!r}"
@@ -180,7 +194,8 @@ def _against_boxes(one, times, n):
     for way, (boxes, periods) in times.items():
         if pairs_part(one.extremes, boxes[n]):
             yield f"extremes {one.extremes}, arrays (fast={way}) {boxes[n].tolist()}"
-        if one.fate == Fate.BOUNDED and not periods[n] > 0 or one.fate != Fate.BOUNDED and 0 < periods[n] < math.inf:
+        if one.fate == Fate.BOUNDED and not periods[n] > 0 or one.fate != Fate.BOUNDED and 0 < periods[
+            n] < math.inf:
             yield f"period of arrays (fast={way}) {periods[n]!r}, {one.fate.word}"
     first, *rest = (periods[n] for _, periods in times.values())
     if any(times_part(first, other) for other in rest):
@@ -196,7 +211,8 @@ def _periods_apart(scene, states, periods):
 
 def _against_table(scene, array, few, fast):
     rng = np.random.default_rng(0)
-    states = array[rng.integers(len(array), size=MANY)] * (1 + 10.0 ** rng.uniform(-17, 0, (MANY, 1)) * rng.choice([-1, 1], (MANY, 3)))
+    states = (array[rng.integers(len(array), size=MANY)]
+              * (1 + 10.0 ** rng.uniform(-17, 0, (MANY, 1)) * rng.choice([-1, 1], (MANY, 3))))
     states[:len(array)] = array
     first, *rest = (stabilab.fate(scene, states, fast=way) for way in fast)
     names = ("labels", "margins", "axis", "sense", "reasons")
@@ -209,9 +225,11 @@ def _against_table(scene, array, few, fast):
     for row, n in enumerate(picked):
         state = states[n].tolist()
         if any(getattr(first, name)[n] != getattr(plain, name)[row] for name in names if name != "margins"):
-            yield [v.hex() for v in state], "a large array has another label, axis, sense or reason than a small one"
+            yield [v.hex()
+                   for v in state], "a large array has another label, axis, sense or reason than a small one"
         if margins_part(scene, state, first.margins[n], plain.margins[row]):
-            yield [v.hex() for v in state], f"margin {float(first.margins[n])!r} in a large array, {float(plain.margins[row])!r} in a small one"
+            yield [v.hex()
+                   for v in state], f"margin {float(first.margins[n])!r} in a large array, {float(plain.margins[row])!r} in a small one"
 
 
 def _against_digits(scene, state, one, free):

@@ -1,4 +1,5 @@
-"""Ensembles: the same motions as one by one, whatever the company, and failures that stay with the motion that fails."""
+"""Ensembles: the same motions as one by one, whatever the company, and failures that stay with the motion
+that fails."""
 import sys
 
 import numpy as np
@@ -22,7 +23,8 @@ needs_heyoka = pytest.mark.skipif(not heyoka_available(), reason="heyoka is not 
 def test_states_agree_with_thirty_digit_integration():
     right = model.physical((3, 2, "1.5"), ("0.3", "-0.2", "0.5"), ("0.1", "0.2", "0.1"))
     found = ensemble(SCENE, STATES[:3], [0.5, 3.0])
-    exact = np.array([[[float(v) for v in row] for row in taylor.integrate(right, x, [0.5, 3.0], digits=25)] for x in STATES[:3]])
+    exact = np.array([[[float(v) for v in row] for row in taylor.integrate(right, x, [0.5, 3.0], digits=25)]
+                      for x in STATES[:3]])
     assert np.abs(found.states - exact).max() <= 2e-13 * np.abs(exact).max()
     assert found.status == "reached" and found.reached.all() and not found.stopped
 
@@ -30,7 +32,8 @@ def test_states_agree_with_thirty_digit_integration():
 @pytest.mark.one_in(2)
 @pytest.mark.parametrize("scene, states", [
     (SCENE, STATES), (ScaledGyrostat("0.2", "0.4", (1, 0, 1)), STATES),
-    (Scene(Body((3, 2, "1.5")), effect_class("newtonian_field")("0.3")), np.hstack([STATES, STATES[:, ::-1]]))],
+    (Scene(Body((3, 2, "1.5")), effect_class("newtonian_field")("0.3")),
+     np.hstack([STATES, STATES[:, ::-1]]))],
     ids=["physical", "scaled", "with gamma"])
 def test_an_ensemble_is_its_motions_one_by_one(scene, states):
     found = ensemble(scene, states, TIMES)
@@ -81,9 +84,11 @@ def test_without_heyoka_dop853_takes_over(monkeypatch):
 
 
 @pytest.mark.parametrize("arguments, words", [
-    (((1, 2, 3), [1.0]), "rows of 3 numbers"), (([[1, 2]], [1.0]), "shape"), (([], [1.0]), "rows"), (([["a", 1, 2]], [1.0]), "rows"),
+    (((1, 2, 3), [1.0]), "rows of 3 numbers"), (([[1, 2]], [1.0]), "shape"), (([], [1.0]), "rows"),
+    (([["a", 1, 2]], [1.0]), "rows"),
     (([[1, 2, 3], [1, np.nan, 3]], [1.0]), "row 1 is not finite"), (([[1, 2, 3]], [1.0, 1.0]), "strictly"),
-    (([[1, 2, 3]], [1.0], 2.0), "rtol"), (([[1, 2, 3]], [1.0], None, -1), "workers"), (([[1, 2, 3]], [1.0], None, "two"), "workers")])
+    (([[1, 2, 3]], [1.0], 2.0), "rtol"), (([[1, 2, 3]], [1.0], None, -1), "workers"),
+    (([[1, 2, 3]], [1.0], None, "two"), "workers")])
 def test_bad_input_is_named(arguments, words):
     with pytest.raises(InputError, match=words):
         ensemble(SCENE, *arguments)
@@ -114,7 +119,8 @@ def test_motions_of_very_different_pace_are_followed_each_in_its_own_unit():
 
 @needs_heyoka
 def test_a_motion_of_endless_turns_is_given_up_by_its_pace(monkeypatch):
-    """Its first steps tell how many there would be; the other motion of its row has the bytes that it has alone."""
+    """Its first steps tell how many there would be; the other motion of its row has the bytes that it has
+    alone."""
     steps, propagated = [], ensembles._Rows._propagated
 
     def counted(*arguments):
@@ -125,11 +131,13 @@ def test_a_motion_of_endless_turns_is_given_up_by_its_pace(monkeypatch):
         monkeypatch.setattr(module, "REPORT", 1000)
     scene, ends = Scene(Body((1.063, 1.569, 1.802)), Gyrostat((0, 53.99, 0))), [1.0, 1e9]
     found = ensemble(scene, [(0, 0, -652), (0, 1, 0)], ends)
-    assert list(found.stopped) == [0] and "the rest would take some" in found.stopped[0] and found.reached.tolist() == [[True, False], [True, True]]
+    assert list(found.stopped) == [0] and "the rest would take some" in found.stopped[
+        0] and found.reached.tolist() == [[True, False], [True, True]]
     assert max(max(taken) for _, taken in steps) <= 1000
     assert (found.states[1] == ensemble(scene, [(0, 1, 0)], ends).states[0]).all()
 
 
 def test_more_workers_than_there_are_rows_are_not_made(monkeypatch):
-    monkeypatch.setattr(ensembles, "ThreadPoolExecutor", lambda workers: pytest.fail(f"{workers} workers for one row"))
+    monkeypatch.setattr(ensembles, "ThreadPoolExecutor",
+                        lambda workers: pytest.fail(f"{workers} workers for one row"))
     assert ensemble(SCENE, STATES[:LANES], TIMES, workers=10**400).status == "reached"

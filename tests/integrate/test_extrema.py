@@ -13,7 +13,8 @@ def test_roots_of_rates_without_a_run_or_a_compiler_are_those_of_the_start(monke
     fast = rate_roots.roots_of_rates(scene, state, 3.0)
     monkeypatch.setattr(rate_roots, "heyoka_available", lambda: False)
     slow, none = rate_roots.roots_of_rates(scene, state, 3.0), rate_roots.roots_of_rates(scene, state, 0.0)
-    assert fast.method == "taylor" and slow.method == "DOP853" and not len(none.t) and none.end.tolist() == state.tolist()
+    assert fast.method == "taylor" and slow.method == "DOP853" and not len(
+        none.t) and none.end.tolist() == state.tolist()
     np.testing.assert_allclose(slow.t, fast.t, rtol=1e-8)
     np.testing.assert_allclose(slow.end, fast.end, rtol=1e-8)
 
@@ -23,5 +24,6 @@ def test_a_run_whose_numbers_overflow_is_stopped(compiled, monkeypatch):
     if not compiled:
         monkeypatch.setattr(rate_roots, "heyoka_available", lambda: False)
     with np.errstate(all="ignore"):
-        found = rate_roots.roots_of_rates(Scene(Body((3, 2, 1))), np.array([1e200, 1e200, 1e200]), 1.0)  # rates of 1e400
+        # rates of 1e400
+        found = rate_roots.roots_of_rates(Scene(Body((3, 2, 1))), np.array([1e200, 1e200, 1e200]), 1.0)
     assert "stopped" in found.reason and found.t_reached < 1 and np.isfinite(found.end).all()

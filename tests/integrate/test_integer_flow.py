@@ -1,4 +1,5 @@
-"""Enclosures of a motion by Taylor series in integers, against Taylor series in 60 digits of another code (`tests.oracles.taylor`)."""
+"""Enclosures of a motion by Taylor series in integers, against Taylor series in 60 digits of another code
+(`tests.oracles.taylor`)."""
 from __future__ import annotations
 
 from fractions import Fraction
@@ -10,7 +11,8 @@ from stabilab.integrate.integer_flow import IntegerFlow, Search, Threshold
 from tests.oracles import taylor
 from tests.oracles.pairs import physical, scaled
 
-SCENES = {"gyrostat": (physical((12, 9, 5), (0.75, -0.5, 0.25), (0.25, 0.125, 0.5)), (12, 9, 5), Fraction(1, 2)),
+SCENES = {"gyrostat": (physical((12, 9, 5), (0.75, -0.5, 0.25), (0.25, 0.125, 0.5)), (12, 9, 5),
+                       Fraction(1, 2)),
           "no wheel": (physical((2, 3, 4), (0, 0, 0), (1, 0.5, -0.25)), (2, 3, 4), Fraction(2)),
           "scaled": (scaled(0.5, 0.75, (0.25, 0, 1)), (1, 2, 1), Fraction(1))}
 
@@ -26,7 +28,8 @@ def _pieces(flow, end):
 def test_the_true_motion_is_within_the_radius_of_every_piece(name, bits):
     (scene, model), weights, unit = SCENES[name]
     start = (0.5, -0.25, 1.0)
-    flow = IntegerFlow(scene.quadratic(), [Fraction(w) for w in weights], [Fraction(v) for v in start], bits, unit)
+    flow = IntegerFlow(scene.quadratic(), [Fraction(w) for w in weights], [Fraction(v) for v in start], bits,
+                       unit)
     pieces = list(_pieces(flow, 6))[::5]
     exactly = lambda value: mp.mpf(value.numerator) / value.denominator
     with mp.workdps(80):
@@ -39,10 +42,12 @@ def test_the_true_motion_is_within_the_radius_of_every_piece(name, bits):
 
 
 def test_an_error_of_the_start_is_within_the_radius_for_ever():
-    """The bound of growth alone: two exact starts a little apart, the distance of their motions against the energy norm's growth."""
+    """The bound of growth alone: two exact starts a little apart, the distance of their motions against the
+    energy norm's growth."""
     (scene, _), weights, unit = SCENES["no wheel"]
     form, weights = scene.quadratic(), [Fraction(w) for w in weights]
-    near, far = (IntegerFlow(form, weights, [Fraction(1, 2), Fraction(-1, 4) + gap, Fraction(1)], 200, unit) for gap in (0, Fraction(1, 2**40)))
+    near, far = (IntegerFlow(form, weights, [Fraction(1, 2), Fraction(-1, 4) + gap, Fraction(1)], 200, unit)
+                 for gap in (0, Fraction(1, 2**40)))
     near.error = far.error = 1 << 161  # more than their distance in the norm: 2^-40 / unit of 2^200
     for _ in range(60):
         one = near.step()
@@ -60,7 +65,8 @@ def test_weights_that_leave_cubic_terms_are_refused():
 
 def test_a_direction_at_rest_in_space_keeps_its_length():
     (scene, _), weights, unit = SCENES["gyrostat"]
-    flow = IntegerFlow(scene.quadratic(), [Fraction(w) for w in weights], [Fraction(1, 2)] * 3, 128, unit, (Fraction(0), Fraction(1), Fraction(0)))
+    flow = IntegerFlow(scene.quadratic(), [Fraction(w) for w in weights], [Fraction(1, 2)] * 3, 128, unit,
+                       (Fraction(0), Fraction(1), Fraction(0)))
     for piece in _pieces(flow, 8):
         n = [Fraction(row[0], 1 << 128) for row in piece.rows[3:]]
         off = max(piece.radii[3:])
@@ -88,7 +94,8 @@ def test_a_simple_root_is_enclosed():
 
 
 def test_a_hill_that_stays_below_is_passed_and_the_next_one_found():
-    # (p - limit) with p = 1 - (s - 1/4)^2 (3/4 - s)... : p(1/4) is short of 1 by 2^-40, the later rise crosses
+    # (p - limit) with p = 1 - (s - 1/4)^2 (3/4 - s)... : p(1/4) is short of 1 by 2^-40, the later rise
+    # crosses
     top = 1 - Fraction(1, 2**40)
     done, found = _first((top - Fraction(1, 16), Fraction(1, 2), -1 + Fraction(0), 0), 1)  # top - (s - 1/4)^2
     assert not done and found.low is None
@@ -104,4 +111,6 @@ def test_a_hill_that_touches_within_the_error_is_a_lower_end_and_no_crossing():
 
 def test_what_falls_is_found_too():
     search = Search(Threshold(((Fraction(1), (Fraction(1),)),), Fraction(1, 2), True))
-    assert search.take(_Given((1, 0, -1))) and search.low <= Fraction(7071067811865475, 10**16) + Fraction(1, 10**15) and search.high**2 >= Fraction(1, 2)
+    assert search.take(_Given((1, 0, -1))) and search.low <= Fraction(7071067811865475,
+                                                                      10**16) + Fraction(1,
+                                                                                         10**15) and search.high**2 >= Fraction(1, 2)

@@ -19,7 +19,8 @@ def test_steps_of_slow_rates_are_told_in_the_scenes_time():
 
 @pytest.mark.parametrize("unit", [2.0**-40, 2.0**-130, 2.0**40])
 def test_a_resisted_body_of_any_pace_keeps_its_digits(unit):
-    """Law: with moment, rates and resistance times u the motion is the same in a time 1/u as long; u a power of two rounds nothing."""
+    """Law: with moment, rates and resistance times u the motion is the same in a time 1/u as long; u a power
+    of two rounds nothing."""
     def asked(u):
         scene = Scene(Body((3, 2, 1.5)), Gyrostat((0, 0.1 * u, 0)), Resistance(0.3 * u))
         return np.array(stabilab.motion(scene, (0.3 * u, 2 * u, -u), (0, 5 / u)).extremes) / u
@@ -27,13 +28,18 @@ def test_a_resisted_body_of_any_pace_keeps_its_digits(unit):
 
 
 def test_slow_rates_keep_their_digits_over_many_turns():
-    # found by make hunt: heyoka's step control is absolute below 1, and this motion came out 2e-6 wrong; the quadrature shares
+    # found by make hunt: heyoka's step control is absolute below 1, and this motion came out 2e-6 wrong; the
+    # quadrature shares
     # nothing with the series
     scene = Scene(Body((17.79453855572802, 45.11811854827859, 27.436331240110583)),
-                  Gyrostat((7.860298788078874e-07, -9.999999999999999e-05, 0)), ConstantTorque((0, 0, 5.536147107075782e-13)))
-    state = [float.fromhex(v) for v in ("0x1.0593b1d2568c3p-23", "0x1.72ff16a634dccp-18", "-0x1.f3cb225036df2p-37")]
-    ways = [stabilab.trajectory(scene, state, [2299008064.8281775], method=method).states[0] for method in ("taylor", "reduced")]
-    # an energy that is right to 1e-14 fixes the small swing about axis 2, 5e-4 of it, to 3e-11, and 127 turns of it to 2e-8
+                  Gyrostat((7.860298788078874e-07, -9.999999999999999e-05, 0)),
+                  ConstantTorque((0, 0, 5.536147107075782e-13)))
+    state = [float.fromhex(v) for v in ("0x1.0593b1d2568c3p-23", "0x1.72ff16a634dccp-18",
+                                        "-0x1.f3cb225036df2p-37")]
+    ways = [stabilab.trajectory(scene, state, [2299008064.8281775], method=method).states[0]
+            for method in ("taylor", "reduced")]
+    # an energy that is right to 1e-14 fixes the small swing about axis 2, 5e-4 of it, to 3e-11, and 127 turns
+    # of it to 2e-8
     np.testing.assert_allclose(ways[0], ways[1], rtol=0, atol=2e-8 * max(map(abs, state)))
 
 

@@ -18,14 +18,17 @@ from tests.shared import SCALED_MINOR
 
 BODY = Body((2000, 1500, 1000))
 TORQUED = Scene(BODY, Gyrostat((100, 0, 0)), ConstantTorque((0, 0, "204.1")))
-OFF_AXIS = Scene(Body(("1.000000000001", 1, "0.5")), Gyrostat(("0.1", "0.3", 0)), ConstantTorque((0, 1, "0.1")))
+OFF_AXIS = Scene(Body(("1.000000000001", 1, "0.5")), Gyrostat(("0.1", "0.3", 0)),
+                 ConstantTorque((0, 1, "0.1")))
 CASES = [
     (TORQUED, model.physical((2000, 1500, 1000), (100, 0, 0), (0, 0, "204.1")), (0.5, 2.6, 0.06)),
     (TORQUED, model.physical((2000, 1500, 1000), (100, 0, 0), (0, 0, "204.1")), (1.0, 2.0, 1.0)),
-    (OFF_AXIS, model.physical(("1.000000000001", 1, "0.5"), ("0.1", "0.3", 0), (0, 1, "0.1")), (1.0, 2.0, 1.0)),
+    (OFF_AXIS, model.physical(("1.000000000001", 1, "0.5"), ("0.1", "0.3", 0), (0, 1, "0.1")),
+     (1.0, 2.0, 1.0)),
     (ScaledGyrostat("0.2", "0.4", (0, 0, 1)), model.scaled("0.2", "0.4", (0, 0, 1)), (2.5, 4.0, 0.1)),
     (ScaledGyrostat(0, "0.1", (1, 0, 0)), model.scaled(0, "0.1", (1, 0, 0)), (0.0, -1.0, 5.0)),
-    (Scene(BODY, Gyrostat((1, -700, 300))), model.physical((2000, 1500, 1000), (1, -700, 300)), (1.0, 2.0, -1.0)),
+    (Scene(BODY, Gyrostat((1, -700, 300))), model.physical((2000, 1500, 1000), (1, -700, 300)),
+     (1.0, 2.0, -1.0)),
 ]
 needs_heyoka = pytest.mark.skipif(not heyoka_available(), reason="heyoka is not installed")
 
@@ -55,7 +58,8 @@ def test_states_agree_with_thirty_digit_integration(case):
 def test_spin_up_over_a_long_time_keeps_its_phase():
     """The phase is about t^2/2; forty ulps of it are allowed, the rounding of some thousand steps."""
     case, t = CASES[3], 40.0
-    run, exact = trajectory(case[0], (1.0, 1.0, 1.0), [t]), taylor.integrate(case[1], (1.0, 1.0, 1.0), [t], digits=22)
+    run, exact = trajectory(case[0], (1.0, 1.0, 1.0),
+                            [t]), taylor.integrate(case[1], (1.0, 1.0, 1.0), [t], digits=22)
     assert run.states[0] == pytest.approx([float(v) for v in exact[0]], abs=40 * 2.2e-16 * t * t / 2)
 
 
@@ -72,7 +76,8 @@ def test_without_heyoka_dop853_takes_over_and_says_so(case, without_heyoka):
 @pytest.mark.one_in(2)
 @pytest.mark.parametrize("method", SCIPY_METHODS)
 def test_scipy_methods_agree_within_their_tolerance(method):
-    """Global error against the tolerance: 1e3 local tolerances over some twenty swings (more for low order)."""
+    """Global error against the tolerance: 1e3 local tolerances over some twenty swings (more for low order).
+    """
     case, times = CASES[0], [2.0, 5.0]
     exact = reference(case, times)
     for rtol in (1e-6, 1e-8):
@@ -98,7 +103,8 @@ def test_drift_shows_a_law_broken():
 
 
 def test_quadratures_do_not_steer_the_steps():
-    """A torque-free scene has laws of rate zero, a torqued one not; a torque far below the last place leaves the run as it is."""
+    """A torque-free scene has laws of rate zero, a torqued one not; a torque far below the last place leaves
+    the run as it is."""
     free = trajectory(Scene(BODY), (1, 2, 3), [20.0], "DOP853")
     named = trajectory(Scene(BODY, ConstantTorque((0, 0, "1e-100"))), (1, 2, 3), [20.0], "DOP853")
     assert free.counters["steps"] == named.counters["steps"] and (free.states == named.states).all()
@@ -139,16 +145,20 @@ def test_mirror_images_and_reversals_are_motions(signs, ab, mu, reverse):
 
 
 def test_relabelling_the_axes_relabels_the_motion():
-    one = trajectory(Scene(Body((3, 4, 5)), Gyrostat((1, 2, 3)), ConstantTorque((4, 5, 6))), (0.1, 0.2, 0.3), [5.0]).states[0]
-    two = trajectory(Scene(Body((5, 3, 4)), Gyrostat((3, 1, 2)), ConstantTorque((6, 4, 5))), (0.3, 0.1, 0.2), [5.0]).states[0]
+    one = trajectory(Scene(Body((3, 4, 5)), Gyrostat((1, 2, 3)), ConstantTorque((4, 5, 6))), (0.1, 0.2, 0.3),
+                     [5.0]).states[0]
+    two = trajectory(Scene(Body((5, 3, 4)), Gyrostat((3, 1, 2)), ConstantTorque((6, 4, 5))), (0.3, 0.1, 0.2),
+                     [5.0]).states[0]
     assert two[[1, 2, 0]] == pytest.approx(one, abs=1e-12)
 
 
 def test_units_of_rate_and_time_scale_out():
-    """D -> D, lambda -> s lambda, M -> s^2 M, omega -> s omega, t -> t/s; s a power of two, so bit for bit in exact arithmetic."""
+    """D -> D, lambda -> s lambda, M -> s^2 M, omega -> s omega, t -> t/s; s a power of two, so bit for bit in
+    exact arithmetic."""
     s = 2.0**20
     one = trajectory(TORQUED, (1, 2, 1), [3.0]).states[0]
-    other = trajectory(Scene(BODY, Gyrostat((100 * 2**20, 0, 0)), ConstantTorque((0, 0, Fraction("204.1") * 2**40))),
+    other = trajectory(Scene(BODY, Gyrostat((100 * 2**20, 0, 0)),
+                             ConstantTorque((0, 0, Fraction("204.1") * 2**40))),
                        (s, 2 * s, s), [3.0 / s]).states[0]
     assert other / s == pytest.approx(one, rel=1e-13)
 
@@ -166,8 +176,10 @@ def test_overflow_stops_the_run_with_a_reason_and_no_nan(method):
 
 
 @pytest.mark.parametrize("arguments, words", [
-    (((1, 2), [1.0]), "three numbers"), (((1, 2, np.nan), [1.0]), "finite"), (((1, 2, 3), []), "finite numbers"),
-    (((1, 2, 3), [1.0, 1.0]), "strictly"), (((1, 2, 3), [0, 2.0, 1.0]), "strictly"), (((1, 2, 3), [np.inf]), "finite"),
+    (((1, 2), [1.0]), "three numbers"), (((1, 2, np.nan), [1.0]), "finite"),
+    (((1, 2, 3), []), "finite numbers"),
+    (((1, 2, 3), [1.0, 1.0]), "strictly"), (((1, 2, 3), [0, 2.0, 1.0]), "strictly"),
+    (((1, 2, 3), [np.inf]), "finite"),
     ((("a", 2, 3), [1.0]), "numbers"), (((1, 2, 3), [1.0], "DOP835"), 'did you mean "DOP853"'),
     (((1, 2, 3), [1.0], "tailor"), 'did you mean "taylor"'), (((1, 2, 3), [1.0], "RK45", -1.0), "rtol")])
 def test_bad_input_is_named(arguments, words):
@@ -177,7 +189,8 @@ def test_bad_input_is_named(arguments, words):
 
 def test_a_run_cut_into_stretches_is_the_run_in_one(monkeypatch):
     from stabilab.integrate import trajectory as trajectories
-    scene, times = Scene(Body((12, 9, 5)), Gyrostat(("0.8", 0, 0)), ConstantTorque((0, 0, "0.02"))), [0.0, 1.0, 50.0, 300.0]
+    scene, times = Scene(Body((12, 9, 5)), Gyrostat(("0.8", 0, 0)),
+                         ConstantTorque((0, 0, "0.02"))), [0.0, 1.0, 50.0, 300.0]
     whole = trajectory(scene, (0.1, 0.05, 0.02), times)
     monkeypatch.setattr(trajectories, "REPORT", 7)
     cut = trajectory(scene, (0.1, 0.05, 0.02), times)
@@ -187,10 +200,12 @@ def test_a_run_cut_into_stretches_is_the_run_in_one(monkeypatch):
 
 
 def test_a_run_that_would_crawl_for_ever_stops_and_says_what_is_left(monkeypatch):
-    """Backwards in time the resistance spins the body up by e^20 a second, and the liquid's time shrinks as its square."""
+    """Backwards in time the resistance spins the body up by e^20 a second, and the liquid's time shrinks as
+    its square."""
     from stabilab.integrate import trajectory as trajectories
     from stabilab.physics.effects import effect_class
-    scene = Scene(Body(("9.51", "9.3", 9)), effect_class("resistance")(20), effect_class("liquid_cavity")(1250, 1000, "1.9"))
+    scene = Scene(Body(("9.51", "9.3", 9)), effect_class("resistance")(20),
+                  effect_class("liquid_cavity")(1250, 1000, "1.9"))
     monkeypatch.setattr(trajectories, "REPORT", 5_000)
     monkeypatch.setattr(trajectories, "STEP_LIMIT", 100_000)
     run = trajectory(scene, (1.0, 0.0, 1.0), [-0.25, -1.0, -1.5])
@@ -202,8 +217,10 @@ def test_a_run_that_would_crawl_for_ever_stops_and_says_what_is_left(monkeypatch
 @pytest.mark.parametrize("method", ["taylor", "DOP853"])
 @pytest.mark.parametrize("case", CASES)
 def test_leaving_the_laws_unchecked_leaves_steps_and_states(case, method):
-    """Other expressions beside them let the compiler contract products differently: 100 ulps over some hundred steps."""
-    checked, bare = (trajectory(case[0], case[2], [-3.0, 0.0, 8.0], method, laws=laws) for laws in (True, False))
+    """Other expressions beside them let the compiler contract products differently: 100 ulps over some
+    hundred steps."""
+    checked, bare = (trajectory(case[0], case[2], [-3.0, 0.0, 8.0], method, laws=laws)
+                     for laws in (True, False))
     assert np.abs(checked.states - bare.states).max() <= 100 * 2.2e-16 * np.abs(bare.states).max()
     assert checked.counters == bare.counters
     assert checked.invariant_drift and bare.invariant_drift == {}
@@ -211,9 +228,11 @@ def test_leaving_the_laws_unchecked_leaves_steps_and_states(case, method):
 
 @needs_heyoka
 def test_a_second_run_compiles_and_copies_no_integrator(monkeypatch):
-    """Two scenes of one structure share code and integrator; what the first left in it does not show in the second."""
+    """Two scenes of one structure share code and integrator; what the first left in it does not show in the
+    second."""
     import copy
-    one, other = (Scene(Body((9, 7, d)), Gyrostat((1, 2, 3)), ConstantTorque((1, "0.5", "0.2"))) for d in (4, 5))
+    one, other = (Scene(Body((9, 7, d)), Gyrostat((1, 2, 3)), ConstantTorque((1, "0.5", "0.2")))
+                  for d in (4, 5))
     first = trajectory(other, (1, 2, 3), [4.0]).states
     trajectory(one, (1e200, 1e200, 1.0), [1.0])  # overflows
     before = (to_heyoka._integrator.cache_info().misses, to_heyoka._free.cache_info().misses)
@@ -225,31 +244,38 @@ def test_a_second_run_compiles_and_copies_no_integrator(monkeypatch):
 @needs_heyoka
 @pytest.mark.parametrize("laws", [True, False])
 def test_a_second_run_looks_neither_at_fractions_nor_at_symbols(monkeypatch, laws):
-    """What belongs to the scene is read once: each fraction and symbol that is hashed again costs a short run a hundredth of its time."""
+    """What belongs to the scene is read once: each fraction and symbol that is hashed again costs a short run
+    a hundredth of its time."""
     from sympy.core.basic import Basic
     trajectory(OFF_AXIS, (1, 2, 3), [0.0, 4.0], laws=laws)
     seen = []
     for kind in (Fraction, Basic):
-        monkeypatch.setattr(kind, "__hash__", lambda self, kept=kind.__hash__: seen.append(self) or kept(self))
+        monkeypatch.setattr(kind, "__hash__", lambda self,
+                            kept=kind.__hash__: seen.append(self) or kept(self))
     trajectory(OFF_AXIS, (3, 2, 1), [0.0, 4.0], laws=laws)
     assert not seen
 
 
-@pytest.mark.parametrize("times", [[-3, -1, 0, 2, 4], [-3, -1], [2, 4], [0], [0.0, 1.5], [-2, 0], [-0.0, 1], [5.0], [-5.0]])
+@pytest.mark.parametrize("times", [[-3, -1, 0, 2, 4], [-3, -1], [2, 4], [0], [0.0, 1.5], [-2, 0], [-0.0, 1],
+                                   [5.0], [-5.0]])
 @pytest.mark.parametrize("way", [1, -1])
 def test_times_are_parted_at_zero_and_each_part_leaves_from_there(times, way):
     before, still, after = trajectories.parted(np.array(times[::way], float))
-    assert before.tolist() == sorted((t for t in times if t < 0), reverse=True) and after.tolist() == sorted(t for t in times if t > 0)
+    assert before.tolist() == sorted((t for t in times if t < 0),
+                                     reverse=True) and after.tolist() == sorted(t for t in times if t > 0)
     assert still == times.count(0)
 
 
 @pytest.mark.one_in(2)
 @pytest.mark.parametrize("scale", [2.0**-9, 2.0**-20, 2.0**-33])
 def test_slow_rates_are_followed_to_the_same_digits(scale):
-    # rates, momentum and the root of the torque in a smaller unit of 1/s: the same motion, exactly (Euler's equations are homogeneous)
+    # rates, momentum and the root of the torque in a smaller unit of 1/s: the same motion, exactly (Euler's
+    # equations are homogeneous)
     def followed(unit):
-        scene = Scene(Body((18, 44, 27)), Gyrostat((0.5 * unit, -64 * unit, 0)), ConstantTorque((0, 0, 0.25 * unit**2)))
-        return trajectory(scene, np.array([0.75, 0.375, -0.25]) * unit, np.array([100.0, 900.0]) / unit).states / unit
+        scene = Scene(Body((18, 44, 27)), Gyrostat((0.5 * unit, -64 * unit, 0)),
+                      ConstantTorque((0, 0, 0.25 * unit**2)))
+        return (trajectory(scene, np.array([0.75, 0.375, -0.25]) * unit,
+                           np.array([100.0, 900.0]) / unit).states / unit)
     np.testing.assert_allclose(followed(scale), followed(1.0), rtol=0, atol=1e-11)
 
 
@@ -257,7 +283,8 @@ def test_slow_rates_are_followed_to_the_same_digits(scale):
 @pytest.mark.parametrize("mass", [1.0, 1e-140, 1e-160, 1e150])
 def test_the_laws_of_a_very_light_or_heavy_body_hold_in_its_run(mass):
     """A unit of mass changes no motion, so no drift."""
-    scene = Scene(Body((3 * mass, 2 * mass, 1.5 * mass)), Gyrostat((mass, 2 * mass, -3 * mass)), ConstantTorque((mass, 0, 0)))
+    scene = Scene(Body((3 * mass, 2 * mass, 1.5 * mass)), Gyrostat((mass, 2 * mass, -3 * mass)),
+                  ConstantTorque((mass, 0, 0)))
     assert max(stabilab.trajectory(scene, (0.1, 0.2, 0.3), [0, 1, 5]).invariant_drift.values()) < 1e-14
 
 

@@ -1,4 +1,5 @@
-"""A sweep on the workers of a real Dask scheduler, and in processes that die: the same bytes, or one clear error."""
+"""A sweep on the workers of a real Dask scheduler, and in processes that die: the same bytes, or one clear
+error."""
 from __future__ import annotations
 
 import json
@@ -22,12 +23,15 @@ from stabilab.maps.run import run
 from tests.shared import CASES
 
 MINOR = CASES / "minor-axis-100.toml"
-ASKED = ("sweep", MINOR, "--vary", "x[1]=-4:4:60", "--vary", "x[3]=-3:3:4", "--answer", "fate,margin,distance")  # eight chunks of a second or two
+# eight chunks of a second or two
+ASKED = ("sweep", MINOR, "--vary", "x[1]=-4:4:60", "--vary", "x[3]=-3:3:4", "--answer",
+         "fate,margin,distance")
 posix = pytest.mark.skipif(os.name != "posix", reason="signals of POSIX")
 
 
 def started(*words, **options):
-    return subprocess.Popen([sys.executable, "-m", "stabilab", *map(str, words)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, **options)
+    return subprocess.Popen([sys.executable, "-m", "stabilab", *map(str, words)], stdout=subprocess.PIPE,
+                            stderr=subprocess.PIPE, text=True, **options)
 
 
 def made(out, *more, asked=ASKED):
@@ -48,15 +52,18 @@ def until(number, out, command, pause=0.05):
 @contextmanager
 def a_cluster(folder, workers, environment=None, program=("-m", "distributed.cli.dask_worker")):
     """(address, processes of the workers) of a Dask scheduler on this machine."""
-    told, quiet = folder / "scheduler.json", {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL, "cwd": folder}
-    processes = [subprocess.Popen([sys.executable, "-m", "distributed.cli.dask_scheduler", "--host", "127.0.0.1", "--port", "0", "--no-dashboard",
+    told, quiet = folder / "scheduler.json", {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL,
+                                              "cwd": folder}
+    processes = [subprocess.Popen([sys.executable, "-m", "distributed.cli.dask_scheduler", "--host",
+                                   "127.0.0.1", "--port", "0", "--no-dashboard",
                                    "--scheduler-file", str(told)], **quiet)]
     try:
         while not told.exists() or not told.read_text():
             time.sleep(0.05)
         address = json.loads(told.read_text())["address"]
         words = [address, "--nthreads", "1", "--no-nanny", "--no-dashboard", "--local-directory", str(folder)]
-        processes += [subprocess.Popen([sys.executable, *program, *words], **quiet, env=environment) for _ in range(workers)]
+        processes += [subprocess.Popen([sys.executable, *program, *words], **quiet, env=environment)
+                      for _ in range(workers)]
         yield address, processes[1:]
     finally:
         for process in processes:
@@ -90,7 +97,8 @@ def test_a_worker_without_the_package_is_named(tmp_path):
     with a_cluster(tmp_path, 1, {**os.environ, "PYTHONPATH": str(site)}, program) as (address, _):
         command = started(*ASKED, "--out", tmp_path / "map.nc", "--scheduler", address)
         out, err = command.communicate(timeout=100)
-    assert command.returncode == BAD_INPUT and not out and "lacks the package stabilab" in err and err.count("\n") == 1, err
+    assert command.returncode == BAD_INPUT and not out and "lacks the package stabilab" in err and err.count(
+        "\n") == 1, err
     assert not (tmp_path / "map.nc").exists() and not place_of(tmp_path / "map.nc").exists()
 
 
@@ -100,7 +108,8 @@ def test_a_scheduler_that_is_not_there_or_has_no_workers_is_one_error(tmp_path, 
     pytest.importorskip("distributed")
     address = "tcp://127.0.0.1:9"
     with a_cluster(tmp_path, 0) if workers is not None else pytest.MonkeyPatch.context() as found:
-        command = started(*ASKED, "--out", tmp_path / "map.nc", "--scheduler", found[0] if workers is not None else address)
+        command = started(*ASKED, "--out", tmp_path / "map.nc", "--scheduler",
+                          found[0] if workers is not None else address)
         out, err = command.communicate(timeout=100)
     assert command.returncode == BAD_INPUT and not out and words in err and err.count("\n") == 1, err
     assert not (tmp_path / "map.nc").exists() and not place_of(tmp_path / "map.nc").exists()
@@ -108,7 +117,9 @@ def test_a_scheduler_that_is_not_there_or_has_no_workers_is_one_error(tmp_path, 
 
 def test_an_address_that_is_none_is_refused_before_any_work():
     pytest.importorskip("distributed")
-    with pytest.raises(InputError, match="expected an address"), run(planned(MINOR, {"x[1]": "0:1:3"}), scheduler="localhost"):
+    with pytest.raises(InputError,
+                       match="expected an address"), run(planned(MINOR, {"x[1]": "0:1:3"}),
+                                                         scheduler="localhost"):
         pass
 
 
@@ -156,7 +167,10 @@ with helpers("endless", Path(sys.argv[1]), 2) as found:
 
 
 @posix
-@pytest.mark.parametrize("how", [signal.SIGKILL, *(pytest.param(one, marks=pytest.mark.slow) for one in (signal.SIGTERM, signal.SIGHUP))])
+@pytest.mark.parametrize("how",
+                         [signal.SIGKILL,
+                          *(pytest.param(one, marks=pytest.mark.slow)
+                            for one in (signal.SIGTERM, signal.SIGHUP))])
 def test_workers_end_in_the_middle_of_a_chunk_with_the_process_that_started_them(tmp_path, how):
     (tmp_path / "endless.py").write_text(ENDLESS)
     plan = planned(MINOR, {"x[1]": "0:1:2"})
@@ -168,7 +182,9 @@ def test_workers_end_in_the_middle_of_a_chunk_with_the_process_that_started_them
         assert parent.poll() is None and time.monotonic() < begin + 300
         time.sleep(0.02)
     parent.send_signal(how)
-    parent.communicate(timeout=300)  # its stdout is that of its workers: it is closed when all of them have ended, whose chunks last ten minutes
+    # its stdout is that of its workers: it is closed when all of them have ended, whose chunks last ten
+    # minutes
+    parent.communicate(timeout=300)
     assert parent.returncode == -how
 
 
@@ -183,18 +199,21 @@ def test_a_sweep_ended_by_a_signal_keeps_its_parts_and_goes_on(tmp_path, how):
     command.communicate(timeout=300)
     finished = {path.name: path.stat().st_mtime_ns for path in place_of(out).glob("part-*")}
     time.sleep(2)
-    assert finished == {path.name: path.stat().st_mtime_ns for path in place_of(out).glob("part-*")} != {} and command.returncode == -how
+    assert finished == {path.name: path.stat().st_mtime_ns
+                        for path in place_of(out).glob("part-*")} != {} and command.returncode == -how
     assert made(out, "--workers", "1")
 
 
 LARGE = {"a million on the minor axis": (MINOR, "x[1]=-4:4:1000", "x[3]=-3:3:1000"),
-         "100,000 off the axes": (CASES / "off-axis-two.toml", "angular_velocity[1]=-2:2:400", "angular_velocity[2]=-2:2:250")}
+         "100,000 off the axes": (CASES / "off-axis-two.toml", "angular_velocity[1]=-2:2:400",
+                                  "angular_velocity[2]=-2:2:250")}
 
 
 @posix
 @pytest.mark.slow
 @pytest.mark.parametrize("which", LARGE)
-def test_large_sweeps_give_the_same_bytes_killed_at_a_third_and_on_a_cluster_that_loses_a_worker(tmp_path, which):
+def test_large_sweeps_give_the_same_bytes_killed_at_a_third_and_on_a_cluster_that_loses_a_worker(
+    tmp_path, which):
     """The bytes of one process that nobody disturbs, four ways."""
     pytest.importorskip("distributed")
     case, *vary = LARGE[which]
@@ -214,7 +233,8 @@ def test_large_sweeps_give_the_same_bytes_killed_at_a_third_and_on_a_cluster_tha
         workers[1].kill()
         words = command.communicate(timeout=300)
         assert command.returncode == 0, words
-    assert (tmp_path / "cluster.nc").read_bytes() == whole == made(tmp_path / "two.nc", "--workers", 2, asked=asked)
+    assert (tmp_path / "cluster.nc").read_bytes() == whole == made(tmp_path / "two.nc", "--workers", 2,
+                                                                   asked=asked)
 
 
 @posix
@@ -223,10 +243,12 @@ def test_a_worker_that_is_killed_is_one_error_and_keeps_what_is_finished(tmp_pat
     out = tmp_path / "map.nc"
     command = started(*ASKED, "--out", out, "--workers", "2")
     until(1, out, command)
-    children = subprocess.run(["ps", "-o", "pid=", "--ppid", str(command.pid)], capture_output=True, text=True, check=True).stdout.split()
+    children = subprocess.run(["ps", "-o", "pid=", "--ppid", str(command.pid)], capture_output=True,
+                              text=True, check=True).stdout.split()
     os.kill(int(children[0]), signal.SIGKILL)
     words, err = command.communicate(timeout=100)
-    assert command.returncode == BAD_INPUT and not words and "signal 9 (SIGKILL)" in err and err.count("\n") == 1
+    assert command.returncode == BAD_INPUT and not words and "signal 9 (SIGKILL)" in err and err.count(
+        "\n") == 1
     assert list(place_of(out).glob("part-*")) and made(out, "--workers", "2")
 
 
@@ -237,7 +259,8 @@ def test_a_disk_that_is_full_is_one_error(tmp_path):
         import resource
         signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
         resource.setrlimit(resource.RLIMIT_FSIZE, (600, 600))
-    command = started("sweep", MINOR, "--vary", "x[1]=-4:4:900", "--out", tmp_path / "map.nc", "--workers", 1, preexec_fn=limit)
+    command = started("sweep", MINOR, "--vary", "x[1]=-4:4:900", "--out", tmp_path / "map.nc", "--workers", 1,
+                      preexec_fn=limit)
     words, err = command.communicate(timeout=100)
     assert command.returncode == BAD_INPUT and not words and "cannot be written: File too large" in err and err.count("\n") == 1
     assert list(tmp_path.iterdir()) == []

@@ -46,16 +46,22 @@ def test_blanks_in_a_wheels_name_and_in_a_typed_key_do_not_matter():
 
 
 def test_a_product_of_inertia_stands_on_both_sides():
-    assert key_of(DATA, "inertia[2][1]").paths == key_of(DATA, "inertia[1][2]").paths == (("body", "inertia", 0, 1), ("body", "inertia", 1, 0))
+    assert key_of(DATA,
+                  "inertia[2][1]").paths == key_of(DATA,
+                                                   "inertia[1][2]").paths == (("body", "inertia", 0, 1),
+                                                                              ("body", "inertia", 1, 0))
 
 
 def test_names_and_truths_are_no_numbers():
     assert not [name for name in keys_of(DATA) if name.endswith("name")]
 
 
-@pytest.mark.parametrize("asked, words", [("momentum", "may be wheels.W1.momentum, wheels.W2.momentum"), ("torque", "vary one of them, effects"),
-                                          ("wheels.W3.momentum", "did you mean wheels.W"), ("torqe[3]", "did you mean effects.constant_torque.torque[3]?"),
-                                          ("momentun", "did you mean wheels.W"), ("torqeu[3]", "did you mean effects.constant_torque.torque[3]?"),
+@pytest.mark.parametrize("asked, words", [("momentum", "may be wheels.W1.momentum, wheels.W2.momentum"),
+                                          ("torque", "vary one of them, effects"),
+                                          ("wheels.W3.momentum", "did you mean wheels.W"),
+                                          ("torqe[3]", "did you mean effects.constant_torque.torque[3]?"),
+                                          ("momentun", "did you mean wheels.W"),
+                                          ("torqeu[3]", "did you mean effects.constant_torque.torque[3]?"),
                                           ("inertai[3][3]", "did you mean body.inertia[3][3]?"),
                                           ("TORQUE[3]", "did you mean effects.constant_torque.torque[3]?"),
                                           ("torque.3", "did you mean effects.constant_torque.torque[")])
@@ -70,7 +76,8 @@ def values(text, key="torque[3]"):
 
 
 def test_a_range_has_the_doubles_nearest_to_its_decimals():
-    assert values("0:1:11") == tuple(float(Fraction(n, 10)) for n in range(11))  # np.linspace has 0.30000000000000004
+    # np.linspace has 0.30000000000000004
+    assert values("0:1:11") == tuple(float(Fraction(n, 10)) for n in range(11))
 
 
 def test_a_logarithmic_range_has_equal_ratios():
@@ -86,8 +93,10 @@ def test_a_unit_at_the_end_is_that_of_all():
 
 
 @pytest.mark.parametrize("text, words", [
-    ("0:1:0", "at least one point"), ("", "at least one point"), ("0:1:1", "one point cannot reach"), ("1,2,1", "comes twice"), ("0:1:1.5", "start:stop:count"),
-    ("0:1", "start:stop:count"), ("-1:1:5:log", "one sign"), ("0:1:3 deg/s", "expected torque (N m)"), ("1 N m, 2 mN m", "one unit"), ("a:b:3", "start:stop"),
+    ("0:1:0", "at least one point"), ("", "at least one point"), ("0:1:1", "one point cannot reach"),
+    ("1,2,1", "comes twice"), ("0:1:1.5", "start:stop:count"),
+    ("0:1", "start:stop:count"), ("-1:1:5:log", "one sign"), ("0:1:3 deg/s", "expected torque (N m)"),
+    ("1 N m, 2 mN m", "one unit"), ("a:b:3", "start:stop"),
     ("1:1.0000000000000002:4", "comes twice"), (3.0, "start:stop:count"), ([math.inf], "finite")])
 def test_values_that_are_none_are_told(text, words):
     with pytest.raises(InputError) as error:

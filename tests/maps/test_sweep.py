@@ -31,22 +31,28 @@ def swept(name, vary, **options):
 
 
 def written(tmp_path, name, **replaced):
-    """The same case as a file of its own, with other lines: the oracle never meets the code that puts numbers in."""
+    """The same case as a file of its own, with other lines: the oracle never meets the code that puts numbers
+    in."""
     lines = (CASES / f"{name}.toml").read_text(encoding="utf-8").splitlines()
     path = tmp_path / "point.toml"
-    path.write_text("\n".join(next((f"{key} = {value}" for key, value in replaced.items() if line.startswith(f"{key} =")), line) for line in lines))
+    path.write_text("\n".join(next((f"{key} = {value}" for key, value in replaced.items()
+                                    if line.startswith(f"{key} =")), line) for line in lines))
     return stabilab.load(path)
 
 
 def test_points_have_the_answers_of_cases_written_by_hand(tmp_path):
-    found = swept("minor-axis-100", {"momentum[1]": "-100, 250", "x[3]": "-3:3:5"}, answer="fate,margin,distance,extremes,period")
+    found = swept("minor-axis-100", {"momentum[1]": "-100, 250", "x[3]": "-3:3:5"},
+                  answer="fate,margin,distance,extremes,period")
     for (i, wheel), (j, rate) in itertools.product(enumerate((-100, 250)), enumerate((-3, -1.5, 0, 1.5, 3))):
         one = written(tmp_path, "minor-axis-100", momentum=[wheel, 0, 0], x=[2.5, 4.0, rate])
         expected, row = motion(one.scene, one.start, one.span), found.records[i, j]
         assert (row["fate"], row["spin_axis"]) == (expected.fate, expected.axis * expected.sense)
-        assert row["margin"] == pytest.approx(-np.inf if expected.margin_energy is None else expected.margin_energy, rel=1e-9, abs=1e-9)
-        assert row["distance"] == pytest.approx(np.inf if expected.margin_velocity is None else expected.margin_velocity, rel=1e-8)
-        assert np.stack([row["least"], row["greatest"]], axis=1) == pytest.approx(np.array(expected.extremes), rel=1e-9, abs=1e-9)
+        assert row["margin"] == pytest.approx(-np.inf if expected.margin_energy is None
+                                              else expected.margin_energy, rel=1e-9, abs=1e-9)
+        assert row["distance"] == pytest.approx(np.inf if expected.margin_velocity is None
+                                                else expected.margin_velocity, rel=1e-8)
+        assert np.stack([row["least"], row["greatest"]],
+                        axis=1) == pytest.approx(np.array(expected.extremes), rel=1e-9, abs=1e-9)
         assert row["period"] == pytest.approx(expected.period or np.inf, rel=1e-9)
 
 
@@ -61,13 +67,16 @@ def test_a_state_in_the_frame_of_a_full_tensor_is_turned(tmp_path):
     for n, rate in enumerate(("-1 deg/s", "0 deg/s", "1 deg/s")):
         one = written(tmp_path, "upper-stage", angular_velocity=f'["1.5 deg/s", "{rate}", "-0.05 deg/s"]')
         start = np.array(one.state)
-        assert (found.records["least"][n] <= start + 1e-12).all() and (start <= found.records["greatest"][n] + 1e-12).all()
-        assert found.records["least"][n] == pytest.approx(stabilab.extremes(one.scene, start, one.span)[:, 0], abs=1e-9)
+        assert (found.records["least"][n] <= start
+                + 1e-12).all() and (start <= found.records["greatest"][n] + 1e-12).all()
+        assert found.records["least"][n] == pytest.approx(stabilab.extremes(one.scene, start, one.span)[:, 0],
+                                                          abs=1e-9)
 
 
 def test_equilibria_are_counted_with_their_verdicts(tmp_path):
     found = swept("off-axis-two", {"torque[3]": "-0.1, 0.1"}, answer="equilibria,verdict")
-    for n, torque in enumerate((-0.1, 0.1)):  # by hand, in the case's own comment: two of them iff M1 M2 M3 > 0
+    # by hand, in the case's own comment: two of them iff M1 M2 M3 > 0
+    for n, torque in enumerate((-0.1, 0.1)):
         one = written(tmp_path, "off-axis-two", torque=[0.1, 0.2, torque])
         assert found.records["equilibria"][n] == len(equilibria(one.scene).points) == (2 if torque > 0 else 0)
         assert found.records["unstable"][n] == (2 if torque > 0 else 0) and found.records["stable"][n] == 0
@@ -77,7 +86,9 @@ def test_a_limit_is_reached_when_the_case_alone_reaches_it():
     found = swept("cubesat-3u", {"wheels.pitch.speed": "3000 rpm"}, answer="fate,level,when")
     case = stabilab.load(CASES / "cubesat-3u.toml")
     alone = stabilab.time_to(case.scene, case.state, rate="1.0471975511965977")  # 60 deg/s
-    assert found.records["when_low"][0] == pytest.approx(alone.low, rel=1e-9) and found.records["fate"][0] == Fate.SPIN_UP
+    assert found.records["when_low"][0] == pytest.approx(alone.low,
+                                                         rel=1e-9) and found.records["fate"][
+                                                             0] == Fate.SPIN_UP
 
 
 def test_scenes_without_arrays_are_answered_one_by_one(tmp_path):
@@ -86,13 +97,17 @@ def test_scenes_without_arrays_are_answered_one_by_one(tmp_path):
         text = (CASES / "liquid-base.toml").read_text(encoding="utf-8")
         case = stabilab.load(CASES / "liquid-base.toml")
         first = next(line for line in text.splitlines() if line.startswith("angular_velocity"))
-        one = read_text("x.toml", text.replace(first, f"angular_velocity = [{rate}, {case.state[1]!r}, {case.state[2]!r}]"))
+        one = read_text("x.toml",
+                        text.replace(first,
+                                     f"angular_velocity = [{rate}, {case.state[1]!r}, {case.state[2]!r}]"))
         expected = motion(one.scene, one.start, one.span)
-        assert found.records["fate"][n] == expected.fate and found.records["greatest"][n] == pytest.approx([b for _, b in expected.extremes])
+        assert found.records["fate"][n] == expected.fate and found.records["greatest"][n] == pytest.approx(
+            [b for _, b in expected.extremes])
 
 
 def test_a_period_that_nobody_knows_is_none_and_the_words_say_so():
-    """+inf is of motions that never repeat. The one command says of this top: no period is known of this motion (bounded)."""
+    """+inf is of motions that never repeat. The one command says of this top: no period is known of this
+    motion (bounded)."""
     found = swept("top-fast", {"angular_velocity[1]": "0, 1"}, answer="fate,period")
     assert found.records["fate"].tolist() == [Fate.BOUNDED] * 2 and np.isnan(found.records["period"]).all()
     told = words.text(found)
@@ -101,8 +116,10 @@ def test_a_period_that_nobody_knows_is_none_and_the_words_say_so():
 
 @pytest.mark.slow
 def test_what_has_no_end_and_what_has_no_number_are_told_in_words():
-    """The torque of the case spins this body up: its rates have no end; beside a wheel and a torque on an axis equilibria fill curves."""
-    told = words.text(swept("wheel-and-thruster", {"torque[3]": "0, 204.1, 2000"}, answer="fate,margin,extremes,period,when,equilibria", rate="5000 deg/s"))
+    """The torque of the case spins this body up: its rates have no end; beside a wheel and a torque on an
+    axis equilibria fill curves."""
+    told = words.text(swept("wheel-and-thruster", {"torque[3]": "0, 204.1, 2000"},
+                            answer="fate,margin,extremes,period,when,equilibria", rate="5000 deg/s"))
     table = told.split("torque[3]")[1]
     assert "inf" not in told and "unbounded at 2" in told and "no barrier ahead at 1" in told and "no barrier" in table and "never at 1" in told
     assert "curves" in table and "-1" not in table.split()
@@ -126,8 +143,10 @@ def test_a_limit_is_asked_of_scenes_without_arrays_too():
 
 
 def test_words_of_what_is_no_case_are_those_of_no_answer():
-    found = swept("minor-axis-100", {"inertia[1]": "2000, -9000"}, answer="level,when,equilibria,verdict", rate="100")
-    assert [int(found.records[name][1]) for name in ("level", "when_level", "equilibria", "stable", "open")] == [-1, -1, -3, -3, -3]
+    found = swept("minor-axis-100", {"inertia[1]": "2000, -9000"}, answer="level,when,equilibria,verdict",
+                  rate="100")
+    assert [int(found.records[name][1])
+            for name in ("level", "when_level", "equilibria", "stable", "open")] == [-1, -1, -3, -3, -3]
 
 
 def test_numbers_that_make_no_case_are_told_and_nothing_else_is_lost():
@@ -142,18 +161,23 @@ def test_samples_lie_in_the_box_and_the_nth_is_the_same_for_any_number():
     rows = many.plan.sampled.values(0, 40)
     assert (rows[3:5] == few.plan.sampled.values(3, 5)).all()
     for column, one in zip(rows.T, many.plan.sampled.numbers):
-        assert (np.abs(column - float(one.middle)) <= float(one.half)).all() and np.ptp(column) > float(one.half)
+        assert (np.abs(column
+                       - float(one.middle)) <= float(one.half)).all() and np.ptp(column) > float(one.half)
     assert (few.records["margin"] == many.records["margin"][:5]).all()
-    assert not (swept("uncertain-minor-axis", {}, samples=5, seed=8).records["margin"] == few.records["margin"]).any()
+    assert not (swept("uncertain-minor-axis", {}, samples=5,
+                      seed=8).records["margin"] == few.records["margin"]).any()
 
 
 def test_a_number_that_varies_is_not_sampled_as_well():
     found = swept("uncertain-minor-axis", {"momentum[1]": "200, 400"}, samples=3)
-    assert found.records.shape == (2, 3) and "effects.gyrostat.momentum[1]" not in [key.name for key in found.plan.sampled.keys]
+    assert found.records.shape == (2,
+                                   3) and "effects.gyrostat.momentum[1]" not in [
+                                       key.name for key in found.plan.sampled.keys]
 
 
 def test_chunks_hold_every_point_once_and_are_the_same_from_json():
-    plan = planned(CASES / "minor-axis-100.toml", {"momentum[1]": "1:9:9", "x[1]": "0:4:200", "x[3]": "-3:3:300"})
+    plan = planned(CASES / "minor-axis-100.toml",
+                   {"momentum[1]": "1:9:9", "x[1]": "0:4:200", "x[3]": "-3:3:300"})
     assert sum(chunk.points for chunk in plan.chunks) == plan.points and len(plan.chunks) > 3
     assert from_json(plan.as_json()).chunks == plan.chunks and from_json(plan.as_json()).digest == plan.digest
 
@@ -169,7 +193,8 @@ def test_a_killed_run_goes_on_from_its_parts(tmp_path, monkeypatch):
             parts.write(plan, folder, number, answered(plan, number).tobytes())
     cut = folder / "part-0000002"
     cut.write_bytes(cut.read_bytes()[:-1])  # as a power cut leaves it
-    monkeypatch.setattr("stabilab.maps.run.answered", lambda plan, number: made.append(number) or answered(plan, number))
+    monkeypatch.setattr("stabilab.maps.run.answered", lambda plan,
+                        number: made.append(number) or answered(plan, number))
     with run(plan, tmp_path / "f.nc", workers=1) as found:
         assert (found.records == whole).all() and folder.is_dir()
     assert made == [2, *range(4, 9)] and not folder.exists()
@@ -179,19 +204,25 @@ def test_parts_of_another_sweep_are_left_alone(tmp_path):
     one, other = (planned(CASES / "minor-axis-100.toml", {"x[1]": text}) for text in ("0:1:3", "0:1:4"))
     with parts.kept(one, tmp_path / "f.nc.parts") as folder:
         parts.write(one, folder, 0, answered(one, 0).tobytes())
-    goes_on = "finished parts .1. of another command, which goes on from them: stabilab sweep minor-axis-100.toml "
+    goes_on = (
+        "finished parts .1. of another command, which goes on from them: stabilab sweep minor-axis-100.toml ")
     with pytest.raises(InputError, match=goes_on) as error, run(other, tmp_path / "f.nc", workers=1):
         pass
-    assert str(error.value).endswith(f"; to replace them: rm -r {folder}; or give another --out") and "0:1:3" in str(error.value)
+    assert str(error.value).endswith(
+        f"; to replace them: rm -r {folder}; or give another --out") and "0:1:3" in str(error.value)
     edited = replace(one, text=one.text + "# changed")
-    with pytest.raises(InputError, match="of this command, before the case file or the program changed; to replace them: "), run(edited, tmp_path / "f.nc"):
+    with pytest.raises(InputError,
+                       match="of this command, before the case file or the program changed; to replace "
+                             "them: "), run(edited, tmp_path / "f.nc"):
         pass
 
 
 @pytest.mark.parametrize("line, other", [
     (("atlas", "off-axis-two", "--level", "1", "--refine", "1", "--no-time"), ("--level", "0")),
-    (("basin", "minor-axis-100", "--vary", "x[1]=-4:4:5", "--vary", "x[3]=-3:3:5", "--depth", "2"), ("--depth", "1"))], ids=["atlas", "basin"])
-def test_a_map_killed_after_a_refinement_goes_on_by_its_command_or_says_how_it_is_replaced(tmp_path, stabilab, monkeypatch, line, other):
+    (("basin", "minor-axis-100", "--vary", "x[1]=-4:4:5", "--vary", "x[3]=-3:3:5", "--depth", "2"),
+     ("--depth", "1"))], ids=["atlas", "basin"])
+def test_a_map_killed_after_a_refinement_goes_on_by_its_command_or_says_how_it_is_replaced(
+    tmp_path, stabilab, monkeypatch, line, other):
     monkeypatch.chdir(tmp_path)
     line = (line[0], CASES / f"{line[1]}.toml", *line[2:], "--out", "map.nc", "--workers", "1")
     assert stabilab(*line)[0] == 0
@@ -205,9 +236,11 @@ def test_a_map_killed_after_a_refinement_goes_on_by_its_command_or_says_how_it_i
     code, _, err = stabilab(*line, *other)
     assert code == 2 and f"stabilab {line[0]} {line[1].name} " in err and f"--out map.nc; to replace them: rm -r {' '.join(left)}; or " in err
     made = []
-    monkeypatch.setattr("stabilab.maps.run.answered", lambda plan, number: made.append(number) or answered(plan, number))
+    monkeypatch.setattr("stabilab.maps.run.answered", lambda plan,
+                        number: made.append(number) or answered(plan, number))
     code, out, err = stabilab(*line)
-    assert code == 0 and Path("map.nc").read_bytes() == whole and len(made) == 1 and not list(Path().glob("*.parts"))
+    assert code == 0 and Path("map.nc").read_bytes() == whole and len(made) == 1 and not list(
+        Path().glob("*.parts"))
 
 
 
@@ -228,7 +261,9 @@ def test_files_that_are_no_parts_are_not_removed_with_them(tmp_path):
     own = tmp_path / "f.nc.parts" / "thesis.txt"
     own.parent.mkdir()
     own.write_text("my own", encoding="utf-8")
-    with pytest.raises(InputError, match="no sweep's"), run(planned(CASES / "minor-axis-100.toml", {"x[1]": "0:1:3"}), tmp_path / "f.nc", workers=1):
+    with pytest.raises(InputError,
+                       match="no sweep's"), run(planned(CASES / "minor-axis-100.toml", {"x[1]": "0:1:3"}),
+                                                tmp_path / "f.nc", workers=1):
         pass
     assert own.read_text(encoding="utf-8") == "my own"
 
@@ -237,19 +272,26 @@ def test_files_that_are_no_parts_are_not_removed_with_them(tmp_path):
 def test_an_interrupt_takes_an_empty_folder_of_parts_along(tmp_path):
     program = ("import os, pathlib, signal, sys\n"
                "from stabilab import interrupt\nfrom stabilab.maps import parts, plan\n"
-               "signal.signal(signal.SIGINT, signal.SIG_DFL)\ninterrupt.arm()\n"  # a test run in the background may hand down an ignored one
-               "with parts.kept(plan.planned(sys.argv[1], {'x[1]': '0:1:3'}), pathlib.Path(sys.argv[2])) as folder:\n"
+               # a test run in the background may hand down an ignored one
+               "signal.signal(signal.SIGINT, signal.SIG_DFL)\ninterrupt.arm()\n"
+               "with parts.kept(plan.planned(sys.argv[1], {'x[1]': '0:1:3'}), pathlib.Path(sys.argv[2])) as "
+               "folder:\n"
                "    assert folder.is_dir()\n    os.kill(os.getpid(), signal.SIGINT)\n    signal.pause()\n")
-    code = subprocess.run([sys.executable, "-c", program, CASES / "minor-axis-100.toml", tmp_path / "f.nc.parts"], timeout=60).returncode
+    code = subprocess.run([sys.executable, "-c", program, CASES / "minor-axis-100.toml",
+                           tmp_path / "f.nc.parts"], timeout=60).returncode
     assert code == 130 and not (tmp_path / "f.nc.parts").exists()
 
 
 @pytest.mark.parametrize("options, words", [
     ({"vary": {}}, "nothing varies"),
-    ({"vary": {"x[1]": "0:1:3", "motion.x[1]": "2:3:2"}}, "varies already"), ({"vary": {}, "samples": 3}, "no number with an"),
-    ({"vary": {f"{key}[{n}]": "1:2:2" for key, n in (("x", 1), ("x", 2), ("x", 3), ("momentum", 1), ("momentum", 2))}}, "at most 4 axes"),
-    ({"vary": {"x[1]": "0:1:3"}, "answer": "fats"}, "did you mean fate"), ({"vary": {"x[1]": "0:1:3"}, "answer": "when"}, "no limit"),
-    ({"vary": {"x[1]": "0:1:30000", "x[2]": "0:1:30000"}}, "at most 100,000,000"), ({"vary": {"x[1]": 3}}, "numbers in a row"),
+    ({"vary": {"x[1]": "0:1:3", "motion.x[1]": "2:3:2"}}, "varies already"),
+    ({"vary": {}, "samples": 3}, "no number with an"),
+    ({"vary": {f"{key}[{n}]": "1:2:2" for key,
+               n in (("x", 1), ("x", 2), ("x", 3), ("momentum", 1), ("momentum", 2))}}, "at most 4 axes"),
+    ({"vary": {"x[1]": "0:1:3"}, "answer": "fats"}, "did you mean fate"),
+    ({"vary": {"x[1]": "0:1:3"}, "answer": "when"}, "no limit"),
+    ({"vary": {"x[1]": "0:1:30000", "x[2]": "0:1:30000"}}, "at most 100,000,000"),
+    ({"vary": {"x[1]": 3}}, "numbers in a row"),
     ({"vary": {"x[1]": "0:1:3"}, "rate": "5"}, "rate: belongs to the answer when")])
 def test_what_cannot_be_swept_is_told(options, words):
     with pytest.raises(InputError) as error:

@@ -1,9 +1,10 @@
 """`make mutate`: how many small faults, written into the analysis one at a time, do the tests see?
 
-python -m tests.mutate [--sample N] [--seed S] [--json FILE] [--only LINES] [SUBJECT...]; subjects are those of `SUBJECTS`.
-The faults are those of cosmic-ray's operators (annotations and arguments' defaults of None left alone), N drawn at random
-per subject; nothing is written into the tree. Each fault lives in a child process that imports the package afresh. Slow
-independent answers (`ORACLES`, which share no code with the package) are computed once and remembered.
+python -m tests.mutate [--sample N] [--seed S] [--json FILE] [--only LINES] [SUBJECT...]; subjects are those
+of `SUBJECTS`. The faults are those of cosmic-ray's operators (annotations and arguments' defaults of None
+left alone), N drawn at random per subject; nothing is written into the tree. Each fault lives in a child
+process that imports the package afresh. Slow independent answers (`ORACLES`, which share no code with the
+package) are computed once and remembered.
 """
 import argparse
 import json
@@ -18,27 +19,35 @@ SUBJECTS = {
                    ("equilibrium/test_gyrostat", "equilibrium/test_stability", "equilibrium/test_curve",
                     "answers/test_certificate", "equilibrium/test_curve_text")),
     "stability": (("equilibrium/stability",),
-                  ("equilibrium/test_stability", "equilibrium/test_gyrostat", "answers/test_certificate", "equilibrium/test_curve_text")),
-    "reduction": (("orbit/reduction",), ("orbit/fate/test_fate", "orbit/fate/test_one_state", "orbit/extremes/test_extremes",
+                  ("equilibrium/test_stability", "equilibrium/test_gyrostat", "answers/test_certificate",
+                   "equilibrium/test_curve_text")),
+    "reduction": (("orbit/reduction",),
+                  ("orbit/fate/test_fate", "orbit/fate/test_one_state", "orbit/extremes/test_extremes",
                                          "answers/test_certificate", "orbit/test_reduction")),
     "fate": (("orbit/fate/arrays", "orbit/fate/result", "orbit/landscape", "orbit/fate/table"),
-             ("orbit/fate/test_fate", "orbit/fate/test_one_state", "orbit/fate/test_table", "orbit/fate/test_rounding_bounds",
+             ("orbit/fate/test_fate", "orbit/fate/test_one_state", "orbit/fate/test_table",
+              "orbit/fate/test_rounding_bounds",
               "orbit/fate/test_arrays")),
     "extremes": (("orbit/extremes/arrays", "orbit/extremes_and_periods", "numbers/roots"),
-                 ("orbit/extremes/test_extremes", "numbers/test_roots", "orbit/fate/test_one_state", "orbit/fine/test_rows",
+                 ("orbit/extremes/test_extremes", "numbers/test_roots", "orbit/fate/test_one_state",
+                  "orbit/fine/test_rows",
                   "orbit/extremes/test_guards", "orbit/extremes/test_arrays")),
     "quadrature": (("orbit/flow/periodic", "orbit/flow/spin_up"),
                    ("orbit/extremes/test_extremes", "orbit/flow/test_flow", "orbit/fate/test_one_state")),
-    "barriers": (("orbit/fate/table_kernel", "orbit/fate/table"), ("orbit/fate/test_table", "orbit/fate/test_arrays", "orbit/fate/test_table_kernel",
+    "barriers": (("orbit/fate/table_kernel", "orbit/fate/table"),
+                 ("orbit/fate/test_table", "orbit/fate/test_arrays", "orbit/fate/test_table_kernel",
                                                                          "orbit/fate/test_parabola_kernel")),
     "kernels": (("orbit/fine/rows_kernel", "orbit/extremes/parabola_kernel"),
                 ("orbit/fine/test_rows",)),
-    "separatrix": (("orbit/separatrix/sheets", "orbit/separatrix/homoclinic", "orbit/separatrix/homoclinic_arrays", "orbit/separatrix/saddles"),
+    "separatrix": (("orbit/separatrix/sheets", "orbit/separatrix/homoclinic",
+                    "orbit/separatrix/homoclinic_arrays", "orbit/separatrix/saddles"),
                    ("orbit/separatrix/test_sheets", "orbit/separatrix/test_grid")),
     "growth": (tuple(f"unreduced/growth/{name}" for name in ("law", "certificate")),
                ("unreduced/growth/test_law", "unreduced/growth/test_certificates")),
-    "balls": (("orbit/one_orbit", "orbit/fate/one_state", "orbit/extremes/balls", "orbit/period/balls", "orbit/fate/one_state", "orbit/fate/one_state"),
-              ("orbit/fate/test_fate", "orbit/extremes/test_extremes", "orbit/extremes/test_arrays", "orbit/fate/test_one_state",
+    "balls": (("orbit/one_orbit", "orbit/fate/one_state", "orbit/extremes/balls", "orbit/period/balls",
+               "orbit/fate/one_state", "orbit/fate/one_state"),
+              ("orbit/fate/test_fate", "orbit/extremes/test_extremes", "orbit/extremes/test_arrays",
+               "orbit/fate/test_one_state",
                "orbit/fate/test_tie", "orbit/test_ball_orbit"))}
 
 
@@ -73,17 +82,21 @@ def judged(subject, chosen, files, slowest):
     """A row per fault; the score goes to stdout."""
     start, rows = time.time(), []
     tests = runs.Tests(files, slowest)
-    print(f"{subject}: {len(chosen)} faults, {len(tests.names)} tests in {tests.seconds:.0f} s of processor time", flush=True)
+    print(
+        f"{subject}: {len(chosen)} faults, {len(tests.names)} tests in {tests.seconds:.0f} s of "
+        f"processor time", flush=True)
     for fault in chosen:
         outcome, by = tests.outcome(fault)
-        rows.append({"subject": subject, "module": fault.module, "operator": fault.operator, "occurrence": fault.occurrence,
+        rows.append({"subject": subject, "module": fault.module, "operator": fault.operator,
+                     "occurrence": fault.occurrence,
                      "line": fault.line, "was": fault.was, "now": fault.now, "outcome": outcome, "by": by})
         if outcome == "survived":
             print(f"  survived {fault.module}:{fault.line}\n    - {fault.was}\n    + {fault.now}", flush=True)
     killed = sum(r["outcome"] != "survived" for r in rows)
     alone = sum(files[-1] in r["by"] for r in rows)
     print(f"{subject}: {alone} seen by {files[-1]} alone")
-    print(f"{subject}: {killed} of {len(rows)} seen ({killed / max(len(rows), 1):.1%}), {time.time() - start:.0f} s",
+    print(f"{subject}: {killed} of {len(rows)} seen ({killed / max(len(rows), 1):.1%}), "
+          f"{time.time() - start:.0f} s",
           flush=True)
     return rows
 

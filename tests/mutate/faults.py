@@ -51,8 +51,10 @@ def spots(module: str):
         if name.split("/")[-1] in ("VariableInserter", "VariableReplacer"):  # need arguments of their own
             continue
         operator = get_operator(name)()
-        positions = [place for node in ast_nodes(get_ast(text)) for place in operator.mutation_positions(node)]
-        yield from ((name, n) for n, (start, _) in enumerate(positions) if not any(a <= start < b for a, b in silent))
+        positions = [place for node in ast_nodes(get_ast(text))
+                     for place in operator.mutation_positions(node)]
+        yield from ((name, n) for n, (start, _) in enumerate(positions)
+                    if not any(a <= start < b for a, b in silent))
 
 
 def _annotations(text):

@@ -21,8 +21,10 @@ class Tests:
     """The tests of some files: as faults are found, those that found most first; the last file last."""
 
     def __init__(self, files, slowest):
-        self.paths = [str(ROOT / "tests" / f"{name}.py") for name in files if (ROOT / "tests" / f"{name}.py").exists()]
-        for package in ("numpy", "mpmath", "sympy", "scipy.optimize", "flint", "hypothesis", "pytest", "pytest_benchmark"):
+        self.paths = [str(ROOT / "tests" / f"{name}.py") for name in files
+                      if (ROOT / "tests" / f"{name}.py").exists()]
+        for package in ("numpy", "mpmath", "sympy", "scipy.optimize", "flint", "hypothesis", "pytest",
+                        "pytest_benchmark"):
             importlib.import_module(package)
         _, _, self.memory = _run_child(self.paths, {}, None, (), None)
         _, (durations, failing), self.memory = _run_child(self.paths, self.memory, None, (), None)
@@ -34,7 +36,8 @@ class Tests:
 
     def outcome(self, fault):
         """("killed" or "survived", the first test that failed)."""
-        # the last file comes last, so that what it alone sees shows; else those that found most, then the fastest
+        # the last file comes last, so that what it alone sees shows; else those that found most, then the
+        # fastest
         order = sorted(self.names, key=lambda name: (Path(self.paths[-1]).name in name, -self.found[name]))
         code, failed, _ = _run_child(self.paths, self.memory, fault, order, 20 + 5 * self.seconds)
         if code == 0:
@@ -87,7 +90,8 @@ class Changed(importlib.abc.MetaPathFinder, importlib.abc.SourceLoader):
         self.path = str(ROOT / "stabilab" / f"{fault.module}.py")
 
     def find_spec(self, name, path=None, target=None):
-        return importlib.util.spec_from_file_location(name, self.path, loader=self) if name == self.name else None
+        return (importlib.util.spec_from_file_location(name, self.path, loader=self) if name == self.name
+                else None)
 
     def get_filename(self, name):
         return self.path
@@ -100,7 +104,8 @@ class Plugin:
     """Orders the tests, remembers the oracles' answers, and tells what came of it."""
 
     def __init__(self, memory, order, told, stop):
-        self.memory, self.rank, self.told, self.stop = memory, {name: n for n, name in enumerate(order)}, told, stop
+        self.memory, self.rank, self.told, self.stop = memory, {name: n for n,
+                                                                name in enumerate(order)}, told, stop
         self.durations, self.failing = {}, []
 
     def pytest_collection_modifyitems(self, items):
@@ -108,7 +113,8 @@ class Plugin:
             for name in names if module in sys.modules else ():
                 self._remember(sys.modules[module], name)
         if self.rank:
-            items[:] = sorted((item for item in items if item.nodeid in self.rank), key=lambda item: self.rank[item.nodeid])
+            items[:] = sorted((item for item in items if item.nodeid in self.rank),
+                              key=lambda item: self.rank[item.nodeid])
 
     def _remember(self, module, name):
         """Every module that has the function gets one that asks the memory first."""

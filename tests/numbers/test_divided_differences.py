@@ -1,4 +1,5 @@
-"""Divided differences of the exponential against the exponential of a bidiagonal matrix in ball arithmetic (Opitz)."""
+"""Divided differences of the exponential against the exponential of a bidiagonal matrix in ball arithmetic
+(Opitz)."""
 import math
 
 import numpy as np
@@ -20,7 +21,8 @@ def divided_difference(nodes, t, low=None):
 
 
 def opitz(nodes, t):
-    """D as the corner of exp(t B), B with the nodes on the diagonal and ones above it (Opitz 1964): no division at all."""
+    """D as the corner of exp(t B), B with the nodes on the diagonal and ones above it (Opitz 1964): no
+    division at all."""
     n = len(nodes)
     B = flint.acb_mat(n, n)
     for row, node in enumerate(nodes):
@@ -31,12 +33,14 @@ def opitz(nodes, t):
 
 
 def error_in_half_units(value, nodes, t):
-    """Error of `value` over the change that half a unit in the last place of every node, of t and of the answer makes.
+    """Error of `value` over the change that half a unit in the last place of every node, of t and of the
+    answer makes.
 
     dD/dx_j is D with x_j taken once more; dD/dt is a difference quotient with a step of 2^-120.
     """
     with flint.ctx.workprec(BITS):
-        balls, t_ball, step = [flint.acb(z.real, z.imag) for z in nodes], flint.acb(t), flint.acb(2) ** -120 * t
+        balls, t_ball, step = [flint.acb(z.real, z.imag)
+                               for z in nodes], flint.acb(t), flint.acb(2) ** -120 * t
         exact = opitz(balls, t_ball)
         effect = abs(exact) * 2.0**-53 + abs((opitz(balls, t_ball + step) - exact) / step) * (math.ulp(t) / 2)
         for node, z in zip(balls, nodes):
@@ -51,7 +55,8 @@ def check(nodes, t):
 
 @pytest.mark.one_in(4)
 @pytest.mark.parametrize("distance", [0.0, *(10.0**-n for n in range(2, 15))])
-@pytest.mark.parametrize("nodes", [lambda d: (0, 0, 0, 1j * d, 1.3j, 0.7j), lambda d: (0, 1j, 1j * (1 + d), -1j),
+@pytest.mark.parametrize("nodes",
+                         [lambda d: (0, 0, 0, 1j * d, 1.3j, 0.7j), lambda d: (0, 1j, 1j * (1 + d), -1j),
                                    lambda d: (0, 0, 0, 2j, 2j + d, 2j - d), lambda d: (d, -d, 0, 0, 0.4j)],
                          ids=["near zero", "near each other", "unstable pair", "growing pair and oscillator"])
 def test_clusters_at_every_distance_keep_their_digits(nodes, distance):
@@ -71,14 +76,16 @@ def test_imaginary_nodes_keep_their_digits_from_1e_minus_12_to_1e9():
 def test_real_and_complex_nodes_keep_their_digits():
     rng = np.random.default_rng(4)
     for _ in range(60):
-        nodes = [complex(x, y) for x, y in rng.uniform(-2, 2, (rng.integers(2, 7), 2)) * 10.0 ** rng.uniform(-4, 0)]
+        nodes = [complex(x, y) for x,
+                 y in rng.uniform(-2, 2, (rng.integers(2, 7), 2)) * 10.0 ** rng.uniform(-4, 0)]
         check(nodes, float(10.0 ** rng.uniform(-2, 2)))
 
 
 def test_partial_fractions_lose_the_digits_that_clusters_keep():
     nodes, t = [0j, -0.3j, 1e-6j, -1e-6j], 2.0
     residues = sum(np.exp(z * t) / np.prod([z - other for other in nodes if other != z]) for z in nodes)
-    assert error_in_half_units(complex(residues), nodes, t) > 1e4  # 1/w^2 = 1e12 stands against an answer near 1
+    # 1/w^2 = 1e12 stands against an answer near 1
+    assert error_in_half_units(complex(residues), nodes, t) > 1e4
     check(nodes, t)
 
 
@@ -86,14 +93,16 @@ def test_one_call_for_many_parameters_agrees_with_single_calls():
     rng = np.random.default_rng(5)
     w, t = 10.0 ** rng.uniform(-9, 2, (7, 1)), 10.0 ** rng.uniform(-3, 3, 11)
     D = divided_differences([0, -0.4j, 1j * w, -1j * w], [(2, 1, 1, 1), (1, 0, 1, 1)], t)
-    for counts, nodes in (((2, 1, 1, 1), lambda w: (0, 0, -0.4j, 1j * w, -1j * w)), ((1, 0, 1, 1), lambda w: (0, 1j * w, -1j * w))):
+    for counts, nodes in (((2, 1, 1, 1), lambda w: (0, 0, -0.4j, 1j * w, -1j * w)),
+                          ((1, 0, 1, 1), lambda w: (0, 1j * w, -1j * w))):
         alone = [[complex(divided_difference(nodes(x), y)) for y in t] for x in w[:, 0]]
         assert D[counts].shape == (7, 11)
         np.testing.assert_allclose(D[counts], alone, rtol=2e-14)  # the series may take a term more in a batch
 
 
 def test_what_nodes_lost_to_rounding_counts_in_their_difference():
-    # 1 + d in twofold form: e^(it) (e^(idt) - 1)/(id) has the size |sin(d t/2)/(d/2)|; the rounded node alone gives 0
+    # 1 + d in twofold form: e^(it) (e^(idt) - 1)/(id) has the size |sin(d t/2)/(d/2)|; the rounded node alone
+    # gives 0
     d, t = 3e-17, 1e17
     value = complex(divided_difference([1j, 1j], t, low=[0.0, 1j * d]))
     assert abs(value) == pytest.approx(abs(math.sin(d * t / 2) / (d / 2)), rel=1e-14)
@@ -101,7 +110,9 @@ def test_what_nodes_lost_to_rounding_counts_in_their_difference():
 
 def test_symmetric_in_the_nodes_and_zero_time_selects_the_single_node():
     nodes = (0.3j, -1j, 0.2, 0.3j)
-    assert complex(divided_difference(nodes, 1.7)) == pytest.approx(complex(divided_difference(nodes[::-1], 1.7)), rel=1e-15)
+    assert complex(divided_difference(nodes,
+                                      1.7)) == pytest.approx(complex(divided_difference(nodes[::-1], 1.7)),
+                                                             rel=1e-15)
     assert divided_difference((1j,), 0.0) == 1 and divided_difference((1j, 2j), 0.0) == 0
 
 
@@ -115,9 +126,13 @@ def test_twofold_numbers_keep_32_digits():
     rng = np.random.default_rng(6)
     exact = lambda z: Fraction(float(z.high)) + Fraction(float(z.low))
     for _ in range(200):
-        x, y = (Twofold(*map(np.float64, (v, v * 2.0**-54 * u))) for v, u in zip(10.0 ** rng.uniform(-5, 5, 2), rng.uniform(-1, 1, 2)))
-        for got, want in ((x + y, exact(x) + exact(y)), (x - y, exact(x) - exact(y)), (x * y, exact(x) * exact(y)),
+        x, y = (Twofold(*map(np.float64, (v, v * 2.0**-54 * u))) for v,
+                u in zip(10.0 ** rng.uniform(-5, 5, 2), rng.uniform(-1, 1, 2)))
+        for got, want in ((x + y, exact(x) + exact(y)), (x - y, exact(x) - exact(y)),
+                          (x * y, exact(x) * exact(y)),
                           (x / y, exact(x) / exact(y))):
-            assert abs(exact(got) - want) <= abs(want) * Fraction(2) ** -100 + (abs(exact(x)) + abs(exact(y))) * Fraction(2) ** -104
+            assert abs(exact(got)
+                       - want) <= abs(want) * Fraction(2) ** -100 + (abs(exact(x))
+                                                                     + abs(exact(y))) * Fraction(2) ** -104
         assert abs(exact(x.sqrt()) ** 2 / exact(x) - 1) < Fraction(2) ** -100
     assert (1 - twofold(1e-20)).value() == 1.0 and float((1 - twofold(1e-20)).low) == -1e-20

@@ -1,4 +1,5 @@
-"""Functions of exact numbers: what the integers give is what mpmath, which shares no code with them, rounds to."""
+"""Functions of exact numbers: what the integers give is what mpmath, which shares no code with them, rounds
+to."""
 import random
 from fractions import Fraction
 
@@ -9,7 +10,8 @@ from stabilab.numbers.exact import pi_in, precise
 
 RNG = random.Random(7)
 PI = Fraction(pi_in(400), 1 << 400)
-ANGLES = [Fraction(0), Fraction(355, 226), PI / 2, PI, 2 * PI, PI / 3, Fraction(10) ** 30, Fraction(1, 10**40),
+ANGLES = [Fraction(0), Fraction(355, 226), PI / 2, PI, 2 * PI, PI / 3, Fraction(10) ** 30,
+          Fraction(1, 10**40),
           *(Fraction(str(round(RNG.uniform(-10, 10), RNG.randrange(1, 12)))) for _ in range(150)),
           *(Fraction(RNG.uniform(-10, 10)) * Fraction(10) ** RNG.randrange(-30, 12) for _ in range(150)),
           *(RNG.randrange(-400, 400) * PI / 180 for _ in range(100))]
@@ -27,5 +29,6 @@ def by_mpmath(name, *arguments, bits):
 @pytest.mark.parametrize("bits", [60, 240, 500])
 def test_cosines_and_pi_are_those_of_mpmath_to_the_last_bit(bits):
     assert precise("pi", bits=bits) == by_mpmath("pi", bits=bits)
-    wrong = [angle for angle in ANGLES if precise("cos", angle, bits=bits) != by_mpmath("cos", angle, bits=bits)]
+    wrong = [angle for angle in ANGLES
+             if precise("cos", angle, bits=bits) != by_mpmath("cos", angle, bits=bits)]
     assert not wrong

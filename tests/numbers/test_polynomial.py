@@ -15,7 +15,8 @@ def test_rational_roots_however_close_are_each_found(gap):
     for root in wanted:
         p = p * Poly((-root, 1))
     found = real_roots(p, 64)
-    assert len(found) == 4 and all(abs(f - w) <= abs(w) / 2**64 for f, w in zip(found, wanted)) and found == sorted(found)
+    assert len(found) == 4 and all(abs(f - w) <= abs(w) / 2**64 for f,
+                                   w in zip(found, wanted)) and found == sorted(found)
     assert found == wanted  # exactly, doubles or not
     assert real_roots(Poly((5,))) == [] and real_roots(Poly((0, 0, 3))) == [0]
 

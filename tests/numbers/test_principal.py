@@ -1,4 +1,5 @@
-"""Principal axes of exact tensors: what stays exact, how well the rest is known, and what is no inertia tensor."""
+"""Principal axes of exact tensors: what stays exact, how well the rest is known, and what is no inertia
+tensor."""
 import random
 from fractions import Fraction
 
@@ -8,7 +9,8 @@ from stabilab.errors import InputError
 from stabilab.numbers.principal import IDENTITY, principal_axes
 from stabilab.numbers.vectors import cross, dot
 
-TURN = tuple(tuple(Fraction(v, 3) for v in row) for row in ((2, -1, 2), (2, 2, -1), (-1, 2, 2)))  # orthogonal, by hand
+# orthogonal, by hand
+TURN = tuple(tuple(Fraction(v, 3) for v in row) for row in ((2, -1, 2), (2, 2, -1), (-1, 2, 2)))
 GOOD = Fraction(1, 1 << 240)
 
 
@@ -20,7 +22,8 @@ def turned(rows, moments):
 def tensor_of_points(rng):
     """The tensor of four points of mass 1: possible by its definition, sum of |r|^2 I - r r^T."""
     points = [[Fraction(rng.randint(-999, 999), 1000) for _ in range(3)] for _ in range(4)]
-    return [[sum((dot(p, p) if i == j else 0) - p[i] * p[j] for p in points) for j in range(3)] for i in range(3)]
+    return [[sum((dot(p, p) if i == j else 0) - p[i] * p[j] for p in points) for j in range(3)]
+            for i in range(3)]
 
 
 def judge(tensor, found):
@@ -36,13 +39,15 @@ def judge(tensor, found):
 
 def test_a_diagonal_tensor_keeps_its_order_and_is_exact():
     found = principal_axes([[Fraction(1, 3), 0, 0], [0, Fraction(1, 2), 0], [0, 0, Fraction(2, 5)]])
-    assert found.moments == (Fraction(1, 3), Fraction(1, 2), Fraction(2, 5)) and found.axes == IDENTITY and found.exact and found.as_given
+    assert found.moments == (Fraction(1, 3), Fraction(1, 2),
+                             Fraction(2, 5)) and found.axes == IDENTITY and found.exact and found.as_given
 
 
 DECIMAL = tuple(map(Fraction, ("1.553", "1.35", "0.935")))  # none of them a double
 
 
-@pytest.mark.parametrize("moments", [(3, 2, Fraction(3, 2)), (5, 3, 2), (3, 2, 2 + Fraction(1, 10**60)), DECIMAL])
+@pytest.mark.parametrize("moments",
+                         [(3, 2, Fraction(3, 2)), (5, 3, 2), (3, 2, 2 + Fraction(1, 10**60)), DECIMAL])
 def test_rational_axes_stay_exact(moments):
     found = principal_axes(turned(TURN, moments))
     judge(turned(TURN, moments), found)
@@ -61,7 +66,8 @@ def test_axes_of_random_bodies_are_known_to_240_bits_and_descend(seed):
     tensor = tensor_of_points(random.Random(seed))
     found = principal_axes(tensor)
     judge(tensor, found)
-    assert found.moments[0] > found.moments[1] > found.moments[2] and sum(found.moments) == sum(tensor[i][i] for i in range(3))
+    assert found.moments[0] > found.moments[1] > found.moments[2] and sum(found.moments) == sum(
+        tensor[i][i] for i in range(3))
 
 
 def test_moments_that_are_almost_equal_are_told_apart():
@@ -73,7 +79,8 @@ def test_moments_that_are_almost_equal_are_told_apart():
 
 
 def test_a_flat_body_keeps_the_equality_of_its_moments():
-    """A plate in the plane x y has Dz = Dx + Dy; in its plane the moments are irrational here (discriminant 1 + 4/9 = 13/9)."""
+    """A plate in the plane x y has Dz = Dx + Dy; in its plane the moments are irrational here (discriminant 1
+    + 4/9 = 13/9)."""
     found = principal_axes([[2, Fraction(1, 3), 0], [Fraction(1, 3), 1, 0], [0, 0, 3]])
     assert found.moments[0] == found.moments[1] + found.moments[2] == 3
 
@@ -94,8 +101,10 @@ def test_turning_there_and_back_is_the_identity_to_the_error():
 
 
 @pytest.mark.parametrize("tensor, words", [
-    ([[1, Fraction(1, 10), 0], [Fraction(1, 5), 1, 0], [0, 0, 1]], "not symmetric: its xy entry is 0.1 and its yx entry 0.2, they differ by 0.1"),
-    ([[1, 2, 0], [2, 1, 0], [0, 0, 1]], "not positive definite: its least principal moment is -1 "),  # 1 - 2, by hand
+    ([[1, Fraction(1, 10), 0], [Fraction(1, 5), 1, 0], [0, 0, 1]],
+     "not symmetric: its xy entry is 0.1 and its yx entry 0.2, they differ by 0.1"),
+    # 1 - 2, by hand
+    ([[1, 2, 0], [2, 1, 0], [0, 0, 1]], "not positive definite: its least principal moment is -1 "),
     ([[1, 1, 0], [1, 1, 0], [0, 0, 1]], "not positive definite")])  # its determinant is 0
 def test_what_no_body_has_is_refused_by_exact_signs(tensor, words):
     with pytest.raises(InputError) as caught:

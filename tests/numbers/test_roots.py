@@ -1,4 +1,5 @@
-"""Roots inside a bracket and real roots of exact polynomials: known roots, and how many evaluations they cost."""
+"""Roots inside a bracket and real roots of exact polynomials: known roots, and how many evaluations they
+cost."""
 from __future__ import annotations
 
 import math
@@ -15,7 +16,8 @@ FUNCTIONS = {
     "a line": (lambda x: 3 * (x - 0.7), lambda x: 0 * x + 3, (0.0, 1.0), 0.7, True, 3),
     "a square": (lambda x: x * x - 2, lambda x: 2 * x, (0.0, 2.0), math.sqrt(2), True, 8),
     "a falling logarithm": (lambda x: -np.log(x / 3), lambda x: -1 / x, (1e-3, 1e3), 3.0, False, 24),
-    "a step": (lambda x: np.arctan(1e6 * (x - 0.3)), lambda x: 1e6 / (1 + (1e6 * (x - 0.3)) ** 2), (0.0, 1.0), 0.3, True, 64),
+    "a step": (lambda x: np.arctan(1e6 * (x - 0.3)), lambda x: 1e6 / (1 + (1e6 * (x - 0.3)) ** 2), (0.0, 1.0),
+               0.3, True, 64),
     "a pole": (lambda x: 1 / x - 100, lambda x: -1 / x**2, (1e-9, 1.0), 0.01, False, 40),
     "a ninth power": (lambda x: (x - 0.6) ** 9, lambda x: 9 * (x - 0.6) ** 8, (0.0, 1.0), 0.6, True, 130),
     "a flat start": (lambda x: x**3 - 1, lambda x: 3 * x**2, (-2.0, 2.0), 1.0, True, 24),
@@ -32,7 +34,8 @@ def solved(name, start, enough=2 * EPS):
     def fun(x):
         asked.append(len(x))
         return f(x), slope(x)
-    return bracketed_newton(fun, np.array([lo]), np.array([hi]), np.array([start]), rising=rising, enough=enough)[0], len(asked)
+    return bracketed_newton(fun, np.array([lo]), np.array([hi]), np.array([start]), rising=rising,
+                            enough=enough)[0], len(asked)
 
 
 @pytest.mark.parametrize("part", [0.0, 0.1, 0.5, 0.9, 1.0])
@@ -49,7 +52,8 @@ def test_monotone_functions_give_their_root_from_wherever_the_search_starts(name
 def test_a_root_at_an_end_or_at_the_start_is_returned_at_once():
     for lo, hi, start in ((0.5, 2.0, 1.0), (1.0, 2.0, 1.0), (0.0, 1.0, 1.0)):
         asked = []
-        found = bracketed_newton(lambda x: (asked.append(1) or x - 1, 0 * x + 1), *(np.array([v]) for v in (lo, hi, start)))
+        found = bracketed_newton(lambda x: (asked.append(1) or x - 1, 0 * x + 1),
+                                 *(np.array([v]) for v in (lo, hi, start)))
         assert found[0] == 1.0 and len(asked) == 1
 
 
@@ -74,9 +78,11 @@ def test_each_of_many_has_the_root_it_has_alone_and_leaves_when_it_is_found():
     start = 10.0 ** rng.uniform(-2, 2, 200)
     found = bracketed_newton(fun, *ends, start, (target, way), rising=rising)
     np.testing.assert_allclose(found, np.cbrt(target), rtol=4 * EPS)
-    assert sizes[:5] == [200] * 5 and sizes == sorted(sizes, reverse=True) and sizes[-1] < 100 and len(sizes) < 60
+    assert sizes[:5] == [200] * 5 and sizes == sorted(sizes,
+                                                      reverse=True) and sizes[-1] < 100 and len(sizes) < 60
     for n in (0, 1, 2, 50, 199):
-        alone = bracketed_newton(fun, ends[0][[n]], ends[1][[n]], start[[n]], (target[[n]], way[[n]]), rising=rising[[n]])
+        alone = bracketed_newton(fun, ends[0][[n]], ends[1][[n]], start[[n]], (target[[n]], way[[n]]),
+                                 rising=rising[[n]])
         assert alone[0] == pytest.approx(found[n], rel=4 * EPS)
 
 
@@ -102,16 +108,19 @@ def assert_roots(coefficients, roots):
 def test_products_of_linear_factors_have_their_roots_to_a_unit_in_the_last_place(degree, decades):
     rng = random.Random(degree)
     for _ in range(1 + 12 // degree):
-        roots = {F(rng.choice([-1, 1]) * rng.randint(1, 10**6), rng.randint(1, 10**6)) * F(10) ** rng.randint(-decades, decades)
+        roots = {F(rng.choice([-1, 1]) * rng.randint(1, 10**6),
+                   rng.randint(1, 10**6)) * F(10) ** rng.randint(-decades, decades)
                  for _ in range(degree)}
         scale = F(rng.choice([-1, 1])) * F(10) ** rng.randint(-300, 300)
         assert_roots([scale * a for a in expanded(roots)], roots)
         # a factor without real roots adds none
-        assert_roots([scale * a for a in expanded(roots, ([F(1), F(1), F(1)], [F(3), F(0), F(7, 10**9)]))], roots)
+        assert_roots([scale * a for a in expanded(roots, ([F(1), F(1), F(1)], [F(3), F(0), F(7, 10**9)]))],
+                     roots)
 
 
 @pytest.mark.parametrize("roots", [[F(1), F(1) + F(1, 10**14)], [F(-3), F(3)], [F(0), F(5)], [F(0)],
-                                   [F(1, 3), F(10**40), F(-1, 10**40)], [F(2), F(2) + F(1, 10**9), F(2) + F(2, 10**9)]])
+                                   [F(1, 3), F(10**40), F(-1, 10**40)],
+                                   [F(2), F(2) + F(1, 10**9), F(2) + F(2, 10**9)]])
 def test_roots_that_are_close_opposite_zero_or_decades_apart_are_all_found(roots):
     assert_roots(expanded(roots), roots)
 
@@ -127,18 +136,22 @@ def test_coefficients_beyond_the_range_of_doubles_have_the_same_roots(decades):
 def test_multiple_roots_are_told_once_where_algebra_can_see_them():
     assert real_polynomial_roots(expanded([1, 1, -2])) == [-2.0, 1.0]
     assert real_polynomial_roots(expanded([3, 3, 3])) == [3.0]
-    assert real_polynomial_roots([F(1), F(0), F(-4), F(0), F(4)]) == []  # (x^2 - 2)^2 touches zero at no rational number
+    # (x^2 - 2)^2 touches zero at no rational number
+    assert real_polynomial_roots([F(1), F(0), F(-4), F(0), F(4)]) == []
     assert real_polynomial_roots([F(7), F(0), F(0), F(0)]) == [0.0]
     assert real_polynomial_roots([F(1), F(0), F(0), F(1), F(0)]) == [-1.0, 0.0]
 
 
 def test_leading_zeros_count_for_nothing_and_constants_have_no_roots():
-    assert real_polynomial_roots([]) == real_polynomial_roots([F(0), F(0)]) == real_polynomial_roots([F(0), F(5)]) == []
+    assert real_polynomial_roots([]) == real_polynomial_roots([F(0),
+                                                               F(0)]) == real_polynomial_roots([F(0),
+                                                                                                F(5)]) == []
     assert real_polynomial_roots([F(0), F(0), F(2), F(-3)]) == [1.5]
     assert real_polynomial_roots([F(1), F(0), F(1)]) == []
 
 
-@pytest.mark.parametrize("lo, hi", [(0.0, 1.0), (-1.0, 0.0), (1.0, 1e12), (-1e12, -1.0), (-5.0, 3.0), (1e-300, 1e300),
+@pytest.mark.parametrize("lo, hi",
+                         [(0.0, 1.0), (-1.0, 0.0), (1.0, 1e12), (-1e12, -1.0), (-5.0, 3.0), (1e-300, 1e300),
                                     (2.0, 3.0), (-1e300, -1e-300), (-1e-8, 1e8), (1.0, 150.0)])
 def test_a_point_between_lies_between_and_midway_in_decades_where_the_ends_are_decades_apart(lo, hi):
     x = between(lo, hi)

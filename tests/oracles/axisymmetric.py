@@ -1,8 +1,10 @@
-"""The linear motion of the charged axisymmetric body in arbitrary precision, straight from its differential equations.
+"""The linear motion of the charged axisymmetric body in arbitrary precision, straight from its differential
+equations.
 
-Euler's equations (1) of the paper with r = r0, kinematics (15), Newton's law (37) with the first-order rotation: written
-as one linear system z' = A z of fourteen complex unknowns (products with E = e^(i theta) are unknowns of their own) and
-solved by the matrix exponential of python-flint in ball arithmetic. No frequency, no divided difference, no closed form.
+Euler's equations (1) of the paper with r = r0, kinematics (15), Newton's law (37) with the first-order
+rotation: written as one linear system z' = A z of fourteen complex unknowns (products with E = e^(i theta)
+are unknowns of their own) and solved by the matrix exponential of python-flint in ball arithmetic. No
+frequency, no divided difference, no closed form.
 """
 from __future__ import annotations
 
@@ -57,8 +59,10 @@ def outputs(values: dict):
         set_row(VEL3, [(ONE, x["f3"] / x["m"])] + [(n, x["f2"] * c / x["m"]) for n, c in psi.items()]
                 + [(n, -x["f1"] * c / x["m"]) for n, c in phi.items()])
         set_row(POS3, [(VEL3, acb(1))])
-        start = {ONE: acb(1), E: acb(x["theta0"].cos(), x["theta0"].sin()), PI: x["p0"] + i * x["q0"], PIC: x["p0"] - i * x["q0"],
-                 GAMMA: x["psi0"] + i * x["phi0"], GAMMAC: x["psi0"] - i * x["phi0"], VEL: x["v1"] + i * x["v2"],
+        start = {ONE: acb(1), E: acb(x["theta0"].cos(), x["theta0"].sin()), PI: x["p0"] + i * x["q0"],
+                 PIC: x["p0"] - i * x["q0"],
+                 GAMMA: x["psi0"] + i * x["phi0"], GAMMAC: x["psi0"] - i * x["phi0"],
+                 VEL: x["v1"] + i * x["v2"],
                  POS: x["x1"] + i * x["x2"], VEL3: acb(x["v3"]), POS3: acb(x["x3"])}
         start |= {V: start[E] * start[PI], W: start[E] * start[PIC], U: start[E] * start[GAMMA]}
         for n, value in start.items():
@@ -73,8 +77,8 @@ def outputs(values: dict):
 
 
 def conditioned(values: dict):
-    """(exact, effect): the outputs, and for each the sum of the changes that half a unit in the last place of every
-    input makes (difference quotients with a step of 2^-170)."""
+    """(exact, effect): the outputs, and for each the sum of the changes that half a unit in the last place of
+    every input makes (difference quotients with a step of 2^-170)."""
     from flint import arb, ctx
     exact = outputs(values)
     with ctx.workprec(BITS):
@@ -86,5 +90,6 @@ def conditioned(values: dict):
                 half = math.ulp(values[name]) / 2
                 effect = [e + abs((new - old) / step) * half for e, new, old in zip(effect, moved, exact)]
         for value, size in zip(exact, effect):
-            assert float(value.rad()) <= 1e-12 * float(size.mid()) + 1e-300, "the balls are too wide: raise BITS"
+            assert float(value.rad()) <= 1e-12 * float(
+                size.mid()) + 1e-300, "the balls are too wide: raise BITS"
     return exact, [float(size.mid()) for size in effect]

@@ -1,8 +1,9 @@
 """Equilibria by exact rational elimination: Fractions and Euclid's algorithm alone, nothing of the package.
 
-The rates dotted with omega and with H = D omega + lambda (scaled: with (x1 + a, x2, 0) and (x1 + b, 0, -x3)) are two linear
-conditions. On their common line or plane the three rates are polynomials in one or two variables; without a torque the
-conditions are empty, and D omega + lambda = s omega is solved for s an eigenvalue of D and for other s.
+The rates dotted with omega and with H = D omega + lambda (scaled: with (x1 + a, x2, 0) and (x1 + b, 0, -x3))
+are two linear conditions. On their common line or plane the three rates are polynomials in one or two
+variables; without a torque the conditions are empty, and D omega + lambda = s omega is solved for s an
+eigenvalue of D and for other s.
 """
 from __future__ import annotations
 
@@ -17,7 +18,8 @@ S_VALUES = [Fraction(-7, 3), Fraction(11, 5), Fraction(9, 1)]
 
 @dataclass
 class Answer:
-    """kind: none, points, curves, all. roots: isolated ones; samples: exact points that the curves and planes must hold."""
+    """kind: none, points, curves, all. roots: isolated ones; samples: exact points that the curves and planes
+    must hold."""
 
     kind: str
     roots: list = field(default_factory=list)
@@ -82,7 +84,8 @@ def sturm_count(p, low=None, high=None):
     chain.pop()
 
     def changes(t, side):
-        signs = [(v > 0) - (v < 0) for v in ((value(c, t) if t is not None else c[-1] * (side ** (len(c) - 1))) for c in chain)]
+        signs = [(v > 0) - (v < 0)
+                 for v in ((value(c, t) if t is not None else c[-1] * (side ** (len(c) - 1))) for c in chain)]
         signs = [s for s in signs if s]
         return sum(a != b for a, b in zip(signs, signs[1:]))
     return changes(low, -1) - changes(high, 1)
@@ -135,7 +138,8 @@ def real_roots(p):
 
 
 def linear_solution(rows):
-    """(point, directions) of the affine space normal.x + c = 0 for rows (normal, c); None where they contradict."""
+    """(point, directions) of the affine space normal.x + c = 0 for rows (normal, c); None where they
+    contradict."""
     rows = [[*n, c] for n, c in rows]
     pivots = []
     for column in range(3):
@@ -164,7 +168,8 @@ def linear_solution(rows):
 
 
 def m_and_n(model: Model, x, mul=lambda a, b: a * b, add=lambda *a: sum(a), one=Fraction(1)):
-    """Coefficients of z^3 + m z + n at x: minus the sum of J_ij J_ji, and minus the determinant (zero diagonal)."""
+    """Coefficients of z^3 + m z + n at x: minus the sum of J_ij J_ji, and minus the determinant (zero
+    diagonal)."""
     J = [[None] * 3 for _ in range(3)]
     for i, (j, k) in enumerate(CYCLE):
         J[i][j] = add(mul(model.kappa[i] * one, x[k]), model.sigma[i] * one)
@@ -201,8 +206,10 @@ def of_scaled(a, b, mu) -> tuple[Model, Answer]:
     a, b, mu, zero = Fraction(a), Fraction(b), [Fraction(v) for v in mu], Fraction(0)
     model = scaled(a, b, mu)
     if any(mu):
-        return model, _with_torque(model, [([mu[0], mu[1], zero], mu[0] * a), ([mu[0], zero, -mu[2]], mu[0] * b)])
-    samples = [[t, zero, zero] for t in S_VALUES] + [[-b, t, zero] for t in S_VALUES] + [[-a, zero, t] for t in S_VALUES]
+        return model, _with_torque(model,
+                                   [([mu[0], mu[1], zero], mu[0] * a), ([mu[0], zero, -mu[2]], mu[0] * b)])
+    samples = ([[t, zero, zero] for t in S_VALUES] + [[-b, t, zero] for t in S_VALUES]
+               + [[-a, zero, t] for t in S_VALUES])
     return model, Answer("curves", curves=3, samples=samples)  # x2 x3 = x3 (x1 + a) = x2 (x1 + b) = 0
 
 
@@ -211,15 +218,18 @@ def _free(D, lam):
         return Answer("all")
     found = Answer("curves")
     if any(lam):
-        found.curves, found.samples = 1, [[l / (s - d) for l, d in zip(lam, D)] for s in S_VALUES if s not in D]
+        found.curves, found.samples = 1, [[l / (s - d) for l, d in zip(lam, D)] for s in S_VALUES
+                                          if s not in D]
     for s in set(D):
-        space = linear_solution([([Fraction(int(i == j)) * (D[i] - s) for j in range(3)], lam[i]) for i in range(3)])
+        space = linear_solution([([Fraction(int(i == j)) * (D[i] - s) for j in range(3)], lam[i])
+                                 for i in range(3)])
         if space is not None:
             point, ways = space
             found.curves += len(ways) == 1
             found.planes += len(ways) == 2
             for t in S_VALUES:
-                found.samples.append([p + sum(c * v[i] for c, v in zip((t, 2 - t), ways)) for i, p in enumerate(point)])
+                found.samples.append([p + sum(c * v[i] for c, v in zip((t, 2 - t), ways)) for i,
+                                      p in enumerate(point)])
     return found
 
 
@@ -255,19 +265,22 @@ def _on_plane(model, point, u, w):
         A, C, D, E = (e + west) / 2 - o, (n + s) / 2 - o, (e - west) / 2, (n - s) / 2
         rows.append([A, ne - A - C - D - E - o, C, D, E, o])
     lead = next(r for r in rows if any(r))
-    assert all(a * y == b * x for r in rows for a, x in zip(r, lead) for b, y in zip(r, lead)), "multiples of one conic"
+    assert all(a * y == b * x for r in rows for a, x in zip(r, lead) for b,
+               y in zip(r, lead)), "multiples of one conic"
     A, B, C, D, E, F = lead
     place = lambda p, r: [o + p * a + r * b for o, a, b in zip(point, u, w)]
     if not (A or B or C):
         if not (D or E):
             return Answer("none")
-        return Answer("curves", curves=1, samples=[place(-(E * t + F) / D, t) if D else place(t, -F / E) for t in S_VALUES])
+        return Answer("curves", curves=1,
+                      samples=[place(-(E * t + F) / D, t) if D else place(t, -F / E) for t in S_VALUES])
     disc = B * B - 4 * A * C
     root = Fraction(isqrt(disc.numerator), isqrt(disc.denominator)) if disc > 0 else None
     assert root is not None and root * root == disc, "a hyperbola or two lines, with rational asymptotes"
     whole = 4 * A * C * F + B * D * E - A * E * E - C * D * D - B * B * F
     samples = []
-    ways = [(Fraction(1), (-B + side * root) / (2 * C)) for side in (1, -1)] if C else [(Fraction(0), Fraction(1)), (B, -A)]
+    ways = ([(Fraction(1), (-B + side * root) / (2 * C)) for side in (1, -1)] if C
+            else [(Fraction(0), Fraction(1)), (B, -A)])
     (p1, r1), (p2, r2) = ways  # from o + t way2, along way1: one more point of the conic, if any
     for t in S_VALUES:
         for (a, b), (c, d) in (((p1, r1), (p2, r2)), ((p2, r2), (p1, r1))):

@@ -1,10 +1,11 @@
 """Fate, margin, extremes and period from the reduced potential, in 100-digit arithmetic.
 
-Torque along axis i with x_j' = (p x_k + r) w and x_k' = (q x_j + s) w, where w = x_i + h (h = 0 unless the form has a
-common factor). With angle alpha, alpha' = w, the pair (u, v) = (x_j, x_k) moves on a fixed conic as a function of alpha
-alone and w' = F(u, v), hence w^2 = w0^2 + 2 W(alpha), W = integral of F from the initial state: motion in the potential
--W. Everything below is roots of F (equilibria) and of w^2 (turning points), found exactly by polynomial root isolation.
-Floats are exact numbers; C = 0 and A = 0 are decided in rational arithmetic.
+Torque along axis i with x_j' = (p x_k + r) w and x_k' = (q x_j + s) w, where w = x_i + h (h = 0 unless the
+form has a common factor). With angle alpha, alpha' = w, the pair (u, v) = (x_j, x_k) moves on a fixed conic
+as a function of alpha alone and w' = F(u, v), hence w^2 = w0^2 + 2 W(alpha), W = integral of F from the
+initial state: motion in the potential
+-W. Everything below is roots of F (equilibria) and of w^2 (turning points), found exactly by polynomial root
+isolation. Floats are exact numbers; C = 0 and A = 0 are decided in rational arithmetic.
 """
 from __future__ import annotations
 
@@ -22,7 +23,8 @@ def num(v):
     return mp.mpf(v.numerator) / v.denominator if isinstance(v, Fraction) else mp.mpf(v)
 
 
-# ---- real roots of polynomials, by isolation between the roots of the derivative (coefficients from degree 0 up)
+# ---- real roots of polynomials, by isolation between the roots of the derivative (coefficients from degree 0
+# up)
 
 def _value(c, t):
     return mp.polyval(c[::-1], t)
@@ -33,8 +35,9 @@ def _noise(c, t):
 
 
 def bracketed_root(f, slope, lo, hi):
-    """Root of f in [lo, hi] with a change of sign: Newton steps kept inside the bracket, else halving. A step of the last places ends it where
-    the sign changes just beyond: the next step would leave the bracket by the function's rounding, and halve it from its far end."""
+    """Root of f in [lo, hi] with a change of sign: Newton steps kept inside the bracket, else halving. A step
+    of the last places ends it where the sign changes just beyond: the next step would leave the bracket by
+    the function's rounding, and halve it from its far end."""
     flo = f(lo)
     if flo == 0:
         return lo
@@ -53,7 +56,8 @@ def bracketed_root(f, slope, lo, hi):
             beyond = t + (64 * small * abs(t) if (hi if t == lo else lo) > t else -64 * small * abs(t))
             if (f(beyond) > 0) != (ft > 0):
                 return new
-        if n > 300 or not min(lo, hi) < new < max(lo, hi):  # by then Newton's steps are the function's rounding
+        # by then Newton's steps are the function's rounding
+        if n > 300 or not min(lo, hi) < new < max(lo, hi):
             new = (lo + hi) / 2
         if abs(new - t) <= small * abs(t) or abs(hi - lo) <= small * max(abs(lo), abs(hi)):
             return new
@@ -112,7 +116,8 @@ def _add(*polynomials):
 # ---- the reduction
 
 def reduction_axis(model: Model):
-    """(axis, h) of the torque's axis, or of the first axis that reduces when there is no torque; None if none does."""
+    """(axis, h) of the torque's axis, or of the first axis that reduces when there is no torque; None if none
+    does."""
     axes = [i for i in range(3) if model.m[i]] or [0, 1, 2]
     if len(axes) == 2 or (len(axes) == 3 and any(model.m)):
         return None
@@ -127,7 +132,8 @@ def reduction_axis(model: Model):
 
 
 def kept(method):
-    """A method whose answers an object keeps, each at its precision: label, extremes and period ask for the same ones."""
+    """A method whose answers an object keeps, each at its precision: label, extremes and period ask for the
+    same ones."""
     @wraps(method)
     def asked(self, *arguments):
         key = method.__name__, arguments, mp.mp.prec
@@ -162,7 +168,8 @@ class Reduced:
             self.weight = num(model.weight[i])
             self.w0, self.u0, self.v0 = num(w0), num(u0), num(v0)
             self.F_exact = ka * u0 * v0 + ro * v0 + si * u0 + m
-            self.still = w0 == 0 and self.F_exact == 0 or (self.F_exact == 0 and p * v0 + r == 0 == q * u0 + s)
+            self.still = (w0 == 0 and self.F_exact == 0
+                          or (self.F_exact == 0 and p * v0 + r == 0 == q * u0 + s))
             if p * q == 0:
                 self._polynomial(p, q, r, s, ka, ro, si, m, u0, v0)
                 return
@@ -290,7 +297,8 @@ class Reduced:
     # -- where the motion goes
     @kept
     def _ahead(self, direction):
-        """Equilibria met in the direction +1/-1 from alpha = 0 (excluded), for the elliptic case the turns that matter."""
+        """Equilibria met in the direction +1/-1 from alpha = 0 (excluded), for the elliptic case the turns
+        that matter."""
         marks = [(a, kind) for a, kind in self.stationary()]
         if self.kind != "elliptic" or not marks:
             return [m for m in (marks if direction > 0 else marks[::-1]) if m[0] * direction > 0], 0
@@ -299,7 +307,8 @@ class Reduced:
         if gain < 0:  # uphill: skip the turns that are certainly passed
             lowest = min(self.W(a) for a, _ in marks) - abs(gain)
             first = max(0, int(mp.floor((self.w0 ** 2 / 2 + lowest) / -gain)) - 1)
-        ahead = sorted(((a * direction + n * self.turn, kind) for a, kind in marks for n in range(first, first + 5)),
+        ahead = sorted(((a * direction + n * self.turn, kind) for a,
+                        kind in marks for n in range(first, first + 5)),
                        key=lambda m: m[0])
         ahead = [(direction * a, kind) for a, kind in ahead if a > 0]
         if gain >= 0:  # a barrier downhill stands within one turn or nowhere
@@ -308,8 +317,8 @@ class Reduced:
 
     @kept
     def end(self, direction):
-        """("turn", alpha) turning point, ("limit", alpha) saddle approached for ever, ("open", inf) none; from
-        alpha = 0 in the given direction."""
+        """("turn", alpha) turning point, ("limit", alpha) saddle approached for ever, ("open", inf) none;
+        from alpha = 0 in the given direction."""
         if self.w0 == 0 and self.F_exact * direction < 0:
             return "turn", mp.mpf(0)
         if self.at_centre:
@@ -382,13 +391,15 @@ def label(model, state, digits=DIGITS, axis=None):
 
 @_at(DIGITS)
 def margin(model, state, digits=DIGITS, axis=None):
-    """Barrier minus energy, in the energy unit of the model; None without any saddle on the state's conic. Elliptic:
-    the highest barrier within one turn in the torque's direction; else the saddle (unique wherever it is asked for)."""
+    """Barrier minus energy, in the energy unit of the model; None without any saddle on the state's conic.
+    Elliptic: the highest barrier within one turn in the torque's direction; else the saddle (unique wherever
+    it is asked for)."""
     motion = motion_of(model, tuple(state), digits, axis)
     if motion.at_centre:
         return None
     if motion.kind == "elliptic" and motion.tilt != 0:
-        heights = [-motion.W(a) for a, kind in motion._ahead(1 if motion.tilt > 0 else -1)[0] if kind == "saddle"]
+        heights = [-motion.W(a) for a,
+                   kind in motion._ahead(1 if motion.tilt > 0 else -1)[0] if kind == "saddle"]
     else:
         heights = [-motion.W(a) for a, kind in motion.stationary() if kind == "saddle"]
     return motion.weight * (max(heights) - motion.w0 ** 2 / 2) if heights else None
@@ -396,10 +407,12 @@ def margin(model, state, digits=DIGITS, axis=None):
 
 @_at(DIGITS)
 def from_a_saddle(model, state, digits=DIGITS, axis=None):
-    """The least distance in energy, in the unit of the model, of a motion from a saddle of its own orbit (elliptic: of three turns of it); None without any."""
+    """The least distance in energy, in the unit of the model, of a motion from a saddle of its own orbit
+    (elliptic: of three turns of it); None without any."""
     motion = motion_of(model, tuple(state), digits, axis)
     turns = (-1, 0, 1) if motion.kind == "elliptic" else (0,)
-    heights = [-motion.W(a + n * motion.turn if n else a) for a, kind in motion.stationary() if kind == "saddle" for n in turns]
+    heights = [-motion.W(a + n * motion.turn if n else a) for a,
+               kind in motion.stationary() if kind == "saddle" for n in turns]
     return min((abs(motion.weight * (h - motion.w0 ** 2 / 2)) for h in heights), default=None)
 
 
@@ -409,7 +422,8 @@ def extremes(model, state, digits=DIGITS, axis=None):
     motion = motion_of(model, tuple(state), digits, axis)
     out = [None] * 3
     if motion.still:
-        for n, value in zip((motion.i, motion.j, motion.k), (motion.w0 - num(motion.h), motion.u0, motion.v0)):
+        for n, value in zip((motion.i, motion.j, motion.k),
+                            (motion.w0 - num(motion.h), motion.u0, motion.v0)):
             out[n] = [value, value]
         return out
     (right, hi), (left, lo) = motion.end(+1), motion.end(-1)
@@ -461,7 +475,8 @@ def _levels(motion, which, lo, hi):
         row = (motion.pu, motion.pv)[which]
         if len([a for a in (lo, hi) if mp.isfinite(a)]) < 2 and any(row[1:]):
             raise ValueError("a perpendicular component grows without bound")
-        return ends + [mp.mpf(0)] + [a for a, _ in real_roots([n * c for n, c in enumerate(row)][1:]) if lo <= a <= hi]
+        return (ends + [mp.mpf(0)] + [a for a, _ in real_roots([n * c for n, c in enumerate(row)][1:])
+                                      if lo <= a <= hi])
     if motion.kind == "elliptic":
         k = motion.k0
         first = (mp.atan2(motion.p * motion.V0 / k, motion.U0) if which == 0
@@ -473,7 +488,8 @@ def _levels(motion, which, lo, hi):
         return ends + [a for a in peaks if lo <= a <= hi]
     ratio = (motion.minus / motion.plus if which == 0 else -motion.minus / motion.plus) if motion.plus else 0
     inside = [mp.log(ratio) / (2 * motion.k0)] if ratio > 0 else []
-    limit = [mp.sign(a) * 200 * mp.log(10) / motion.k0 for a in (lo, hi) if not mp.isfinite(a)]  # decayed to the centre
+    # decayed to the centre
+    limit = [mp.sign(a) * 200 * mp.log(10) / motion.k0 for a in (lo, hi) if not mp.isfinite(a)]
     return ends + limit + [a for a in inside if lo <= a <= hi]
 
 
@@ -505,9 +521,10 @@ _GAUSS: dict = {}
 def period(model, state, digits=60, nodes=None):
     """Period of a bounded motion, mpf; 0 at an equilibrium, inf otherwise.
 
-    2 integral dalpha/w with alpha = middle - half cos(phi), which removes the square roots at both turning points. What is left is even and
-    has the period 2 pi in phi: where three times as many equal steps change no more than 1e-16 of it, their sum is taken. Elsewhere, and where
-    `nodes` are given, Gauss-Legendre on panels that shrink geometrically towards both ends and every saddle inside, where the integrand may be
+    2 integral dalpha/w with alpha = middle - half cos(phi), which removes the square roots at both turning
+    points. What is left is even and has the period 2 pi in phi: where three times as many equal steps change
+    no more than 1e-16 of it, their sum is taken. Elsewhere, and where `nodes` are given, Gauss-Legendre on
+    panels that shrink geometrically towards both ends and every saddle inside, where the integrand may be
     steep. `nodes` per panel, 20 without a number; a second call with more nodes bounds the error.
     """
     motion = motion_of(model, tuple(state), digits, None)
@@ -528,8 +545,8 @@ def period(model, state, digits=60, nodes=None):
 
 
 def _by_equal_steps(rate):
-    """Twice the integral of an even function of period 2 pi over [0, pi] by 16, 48 and 144 midpoints, each of the latter holding the former;
-    None where the last two differ."""
+    """Twice the integral of an even function of period 2 pi over [0, pi] by 16, 48 and 144 midpoints, each of
+    the latter holding the former; None where the last two differ."""
     sums, total = [], mp.mpf(0)
     for n in (16, 48, 144):
         total += mp.fsum(rate(mp.pi * (2 * m + 1) / (2 * n)) for m in range(n) if n == 16 or m % 3 != 1)
@@ -542,7 +559,8 @@ def _by_equal_steps(rate):
 def _by_panels(motion, rate, lo, hi, nodes, digits):
     """The same by Gauss-Legendre on panels."""
     middle, half = (hi + lo) / 2, (hi - lo) / 2
-    saddles = [b for a, kind in motion.stationary() if kind != "centre" for b in _turns(motion, a) if lo < b < hi]
+    saddles = [b for a, kind in motion.stationary() if kind != "centre" for b in _turns(motion, a)
+               if lo < b < hi]
     fixed = [mp.mpf(0), mp.pi] + [mp.acos((middle - a) / half) for a in saddles]
     cuts = sorted(set(fixed + [c + s * mp.mpf(4) ** -n for c in fixed for s in (1, -1) for n in range(18)]))
     cuts = [c for c in cuts if 0 <= c <= mp.pi]

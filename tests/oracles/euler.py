@@ -1,7 +1,9 @@
-"""Motions of the other papers' bodies in mpmath, their equations typed in by hand: no code shared with the program.
+"""Motions of the other papers' bodies in mpmath, their equations typed in by hand: no code shared with the
+program.
 
-Taylor series of the solution by recursive differentiation would need the equations' structure; a Richardson-extrapolated
-midpoint rule (Gragg-Bulirsch-Stoer) of high order needs the rates alone and reaches any accuracy.
+Taylor series of the solution by recursive differentiation would need the equations' structure; a
+Richardson-extrapolated midpoint rule (Gragg-Bulirsch-Stoer) of high order needs the rates alone and reaches
+any accuracy.
 """
 from __future__ import annotations
 
@@ -13,7 +15,8 @@ def cross(u, v):
 
 
 def integrate(rates, start, end, steps, columns=12, digits=40):
-    """State at `end` from `start` at 0: `steps` big steps, each extrapolated from `columns` midpoint runs (order 2 columns)."""
+    """State at `end` from `start` at 0: `steps` big steps, each extrapolated from `columns` midpoint runs
+    (order 2 columns)."""
     with mp.workdps(digits):
         y, h = [mp.mpf(v) for v in start], mp.mpf(end) / steps
         counts = [2 * (i + 1) for i in range(columns)]
@@ -53,15 +56,18 @@ def top(D, momentum, arm, field):
     def rates(y):
         w, g = y[:3], y[3:]
         spin = [d * v + l for d, v, l in zip(D, w, momentum)]
-        total = [a + b + field * c for a, b, c in zip(cross(spin, w), cross(arm, g), cross(g, [d * v for d, v in zip(D, g)]))]
+        total = [a + b + field * c for a, b,
+                 c in zip(cross(spin, w), cross(arm, g), cross(g, [d * v for d, v in zip(D, g)]))]
         return [t / d for t, d in zip(total, D)] + cross(g, w)
     return rates
 
 
 def liquid(D, gamma3, kappa, drag, torque):
-    """omega with constant Gamma along axis 3: w0'' by the chain rule on w0' = D^-1 [(D w + Gamma e3) x w], by hand."""
+    """omega with constant Gamma along axis 3: w0'' by the chain rule on w0' = D^-1 [(D w + Gamma e3) x w], by
+    hand."""
     def first(w, v):
-        """Derivative of (D w + G e3) x w / D in direction v, and the value for v = w (bilinear plus linear)."""
+        """Derivative of (D w + G e3) x w / D in direction v, and the value for v = w (bilinear plus linear).
+        """
         spin_w, spin_v = [d * a for d, a in zip(D, w)], [d * a for d, a in zip(D, v)]
         spin_w = [spin_w[0], spin_w[1], spin_w[2] + gamma3]
         total = [a + b for a, b in zip(cross(spin_v, w), cross(spin_w, v))]

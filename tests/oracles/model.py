@@ -1,7 +1,9 @@
-"""The rate equations x_i' = kappa_i x_j x_k + rho_i x_k + sigma_i x_j + m_i, coefficients exact, for every oracle here.
+"""The rate equations x_i' = kappa_i x_j x_k + rho_i x_k + sigma_i x_j + m_i, coefficients exact, for every
+oracle here.
 
-Written from Euler's equations D w' = (D w + lambda) x w + M and from x1' = x2 x3 + mu1, x2' = -x3 (x1 + a) + mu2,
-x3' = x2 (x1 + b) + mu3 (Amer et al. 2024, eqs (1), (3), (5)); floats are taken at their exact binary value.
+Written from Euler's equations D w' = (D w + lambda) x w + M and from x1' = x2 x3 + mu1, x2' = -x3 (x1 + a) +
+mu2, x3' = x2 (x1 + b) + mu3 (Amer et al. 2024, eqs (1), (3), (5)); floats are taken at their exact binary
+value.
 """
 from __future__ import annotations
 
@@ -13,7 +15,8 @@ CYCLE = ((1, 2), (2, 0), (0, 1))
 
 @dataclass(frozen=True)
 class Model:
-    """weight_i turns 1/2 x_i^2 into the energy that margins are measured in: D_i, or 1 for the scaled system."""
+    """weight_i turns 1/2 x_i^2 into the energy that margins are measured in: D_i, or 1 for the scaled system.
+    """
 
     kappa: tuple
     rho: tuple

@@ -1,4 +1,5 @@
-"""The same problem twice: as stabilab's scene and as an oracle's model. (The only file here that imports stabilab.)"""
+"""The same problem twice: as stabilab's scene and as an oracle's model. (The only file here that imports
+stabilab.)"""
 from __future__ import annotations
 
 from functools import lru_cache
@@ -34,8 +35,9 @@ def paper(lambda1, mu):
 
 
 def brink(problem, perpendicular, distance, sense=1, digits=60):
-    """The double state nearest to relative distance `distance` from the separatrix in the torque axis's component,
-    above the given perpendicular pair (j, k cyclic after the axis); None where no barrier stands ahead of it."""
+    """The double state nearest to relative distance `distance` from the separatrix in the torque axis's
+    component, above the given perpendicular pair (j, k cyclic after the axis); None where no barrier stands
+    ahead of it."""
     axis = next(i for i in range(3) if problem.m[i])
     state = [0.0, 0.0, 0.0]
     state[(axis + 1) % 3], state[(axis + 2) % 3] = perpendicular
@@ -49,7 +51,8 @@ def brink(problem, perpendicular, distance, sense=1, digits=60):
 
 @lru_cache(maxsize=512)
 def barrier_ahead(problem, state, digits):
-    """Height over a state without spin of the barrier in the torque's direction; None where none stands higher."""
+    """Height over a state without spin of the barrier in the torque's direction; None where none stands
+    higher."""
     motion = motion_of(problem, state, digits, None)
     forward = 1 if motion.tilt > 0 else -1
     marks = motion._ahead(forward)[0] if motion.kind == "elliptic" else motion.stationary()
@@ -63,14 +66,15 @@ def as_floats(rows):
 
 
 def random_body(rng, decades=0.0):
-    """Three moments obeying the triangle inequality strictly, in random order, over the given decades of shape."""
+    """Three moments obeying the triangle inequality strictly, in random order, over the given decades of
+    shape."""
     parts = 10.0 ** rng.uniform(-decades / 2, decades / 2, 3) + rng.uniform(0.1, 1.0, 3)
     return tuple(float(parts.sum() - p) for p in parts)
 
 
 def random_problem(rng, axis, variables="physical"):
-    """A random (scene, model) with the torque on `axis` (0, 1, 2) in either sense and both perpendicular gyrostatic
-    components; scaled: random a, b."""
+    """A random (scene, model) with the torque on `axis` (0, 1, 2) in either sense and both perpendicular
+    gyrostatic components; scaled: random a, b."""
     size = float(rng.choice([-1, 1]) * 10 ** rng.uniform(-1, 1))
     if variables == "scaled":
         mu = [0.0, 0.0, 0.0]

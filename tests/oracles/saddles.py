@@ -1,8 +1,9 @@
-"""How high the barrier stands over a place: saddles in closed form (quartics) in 50 digits, of the scaled minor and middle axis
-and of a torque about the major axis; from the equations of motion, sharing nothing with the analysis.
+"""How high the barrier stands over a place: saddles in closed form (quartics) in 50 digits, of the scaled
+minor and middle axis and of a torque about the major axis; from the equations of motion, sharing nothing with
+the analysis.
 
-A place is the pair of components across the torque's axis, two doubles taken exactly. The motion turns back before the
-barrier iff v^2/2 < height, v the component along the axis.
+A place is the pair of components across the torque's axis, two doubles taken exactly. The motion turns back
+before the barrier iff v^2/2 < height, v the component along the axis.
 """
 from __future__ import annotations
 
@@ -20,8 +21,8 @@ def _num(v):
 
 
 def _real(coefficients):
-    """Real roots, highest power first: found in doubles, each made exact by Newton's method; those that doubles leave in doubt
-    (a pair about to merge) raise Unclear."""
+    """Real roots, highest power first: found in doubles, each made exact by Newton's method; those that
+    doubles leave in doubt (a pair about to merge) raise Unclear."""
     found = []
     for guess in np.roots([float(c) for c in coefficients]).tolist():
         if abs(guess.imag) > 1e-4 * abs(guess):
@@ -46,8 +47,9 @@ class Unclear(ArithmeticError):
 
 
 def minor(a, b, x1, x2):
-    """Torque mu3 = 1: X = x1 + a = A sin t, x2 = A cos t, t' = x3, t'' = 1 + x2 (X + c); the saddles X = -(c + 1/h), x2 = h with
-    h^4 > c h + 1. Height of the highest one within a turn ahead (None without): U = -t - X (X + 2 c)/2."""
+    """Torque mu3 = 1: X = x1 + a = A sin t, x2 = A cos t, t' = x3, t'' = 1 + x2 (X + c); the saddles X = -(c
+    + 1/h), x2 = h with h^4 > c h + 1. Height of the highest one within a turn ahead (None without): U = -t -
+    X (X + 2 c)/2."""
     with mp.workdps(DIGITS):
         c, X, z = _num(Fraction(b) - Fraction(a)), _num(Fraction(x1) + Fraction(a)), _num(x2)
         here, heights = mp.atan2(X, z), []
@@ -64,8 +66,8 @@ def minor(a, b, x1, x2):
 
 
 def middle(a, b, x3, x1):
-    """Torque mu2 = 1: Y = x1 + b, Y' = x3, x3' = Y along the angle t, t' = x2, t'' = 1 - x3 (Y - c); the saddles x3 = g,
-    Y = c + 1/g with g^4 + c g + 1 < 0, on the branch of the place. U = -t + Y^2/2 - c Y."""
+    """Torque mu2 = 1: Y = x1 + b, Y' = x3, x3' = Y along the angle t, t' = x2, t'' = 1 - x3 (Y - c); the
+    saddles x3 = g, Y = c + 1/g with g^4 + c g + 1 < 0, on the branch of the place. U = -t + Y^2/2 - c Y."""
     with mp.workdps(DIGITS):
         c, Y, z = _num(Fraction(b) - Fraction(a)), _num(Fraction(x1) + Fraction(b)), _num(x3)
         for g in _real([1, 0, Y * Y - z * z - c * c, -2 * c, -1]):
@@ -77,14 +79,16 @@ def middle(a, b, x3, x1):
 
 
 def major(inertia, momentum, torque, w2, w3):
-    """Torque M > 0 about axis 1, gyrostatic moment across it: u = w2 + s2, v = w3 + s3 with u' = p v, v' = q u along the angle;
-    U = (D2 w2^2 + D3 w3^2)/2 - M t. Height in units of D1, of the highest saddle within a turn ahead."""
+    """Torque M > 0 about axis 1, gyrostatic moment across it: u = w2 + s2, v = w3 + s3 with u' = p v, v' = q
+    u along the angle; U = (D2 w2^2 + D3 w3^2)/2 - M t. Height in units of D1, of the highest saddle within a
+    turn ahead."""
     with mp.workdps(DIGITS):
         D1, D2, D3 = map(_num, inertia)
         M, s2, s3 = _num(torque), _num(momentum[1]) / (D2 - D1), _num(momentum[2]) / (D3 - D1)
         p, q = (D3 - D1) / D2, (D1 - D2) / D3
         k, u0, v0 = mp.sqrt(-p * q), _num(w2) + s2, _num(w3) + s3
-        # u = u0 cos + (p/k) v0 sin, v = v0 cos + (q/k) u0 sin of k t; with T = tan(k t/2) the torque's balance is a quartic
+        # u = u0 cos + (p/k) v0 sin, v = v0 cos + (q/k) u0 sin of k t; with T = tan(k t/2) the torque's
+        # balance is a quartic
         U, V, one = [-u0, 2 * p * v0 / k, u0], [-v0, 2 * q * u0 / k, v0], [1, 0, 1]
         times = lambda f, g: [sum(f[i] * g[n - i] for i in range(3) if 0 <= n - i < 3) for n in range(5)]
         balance = [(D2 * p + D3 * q) * uv - D2 * p * s2 * v - D3 * q * s3 * u - M * w
@@ -98,5 +102,6 @@ def major(inertia, momentum, torque, w2, w3):
             if bend < 0:
                 way = 2 * mp.atan(T) / k
                 way += 2 * mp.pi / k if way <= 0 else 0
-                heights.append((D2 * ((u - s2) ** 2 - (u0 - s2) ** 2) + D3 * ((v - s3) ** 2 - (v0 - s3) ** 2)) / 2 - M * way)
+                heights.append((D2 * ((u - s2) ** 2 - (u0 - s2) ** 2) + D3 * ((v - s3) ** 2 - (v0 - s3) ** 2))
+                               / 2 - M * way)
         return max(heights) / D1 if heights else None

@@ -1,7 +1,9 @@
-"""Torque-free motions on their momentum sphere in many digits: all permanent rotations of a momentum, and which are saddles.
+"""Torque-free motions on their momentum sphere in many digits: all permanent rotations of a momentum, and
+which are saddles.
 
-With H = D w + lambda fixed in size, T is stationary where w = H/s, that is (s - D_i) w_i = lambda_i. The roots s of |H|^2 = h^2 come from
-mpmath's roots of a polynomial; the sign of the second derivative of T from its matrix on a basis of the tangent plane.
+With H = D w + lambda fixed in size, T is stationary where w = H/s, that is (s - D_i) w_i = lambda_i. The
+roots s of |H|^2 = h^2 come from mpmath's roots of a polynomial; the sign of the second derivative of T from
+its matrix on a basis of the tangent plane.
 """
 from fractions import Fraction
 
@@ -13,7 +15,8 @@ def num(value):
 
 
 def margin(D, lam, state, digits=60):
-    """Energy of the saddle nearest in energy minus the state's, mpf; None where the sphere has no saddle. Exact arguments."""
+    """Energy of the saddle nearest in energy minus the state's, mpf; None where the sphere has no saddle.
+    Exact arguments."""
     with mp.workdps(digits):
         energy = num(sum(Fraction(d) * Fraction(w) ** 2 for d, w in zip(D, state))) / 2
         apart = [e - energy for e, saddle in rotations(D, lam, state) if saddle]
@@ -21,10 +24,12 @@ def margin(D, lam, state, digits=60):
 
 
 def rotations(D, lam, state):
-    """[(energy, whether a saddle)] of the permanent rotations with the momentum of a state, at mpmath's working precision."""
+    """[(energy, whether a saddle)] of the permanent rotations with the momentum of a state, at mpmath's
+    working precision."""
     D, lam = [Fraction(d) for d in D], [Fraction(l) for l in lam]
     square = sum((d * Fraction(w) + l) ** 2 for d, w, l in zip(D, state, lam))
-    found = [(s, [num(l) / (s - num(d)) if l else mp.mpf(0) for d, l in zip(D, lam)]) for s in _speeds(D, lam, square)]
+    found = [(s, [num(l) / (s - num(d)) if l else mp.mpf(0) for d, l in zip(D, lam)])
+             for s in _speeds(D, lam, square)]
     for i in range(3):
         if lam[i] == 0 and all(D[j] != D[i] for j in range(3) if j != i):  # s = D_i, with any w_i
             w = [Fraction(0) if j == i else lam[j] / (D[i] - D[j]) for j in range(3)]

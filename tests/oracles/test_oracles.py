@@ -1,4 +1,5 @@
-"""The independent oracles agree with each other: Taylor series, tight integration with events, reduced potential."""
+"""The independent oracles agree with each other: Taylor series, tight integration with events, reduced
+potential."""
 from __future__ import annotations
 
 import mpmath as mp
@@ -11,7 +12,8 @@ pytest.importorskip("heyoka", reason="the brute-force oracle integrates with hey
 
 
 def problems(seed, count):
-    """Random models with the torque on a principal axis: elliptic, hyperbolic and parabolic, scaled and physical."""
+    """Random models with the torque on a principal axis: elliptic, hyperbolic and parabolic, scaled and
+    physical."""
     rng = np.random.default_rng(seed)
     for n in range(count):
         size = rng.choice([-1, 1]) * 10 ** rng.uniform(-1, 1)
@@ -26,7 +28,8 @@ def problems(seed, count):
                 inertia[1] = inertia[0]
             axis, lam, torque = rng.integers(3), rng.normal(size=3), np.zeros(3)
             lam[axis], torque[axis] = 0, size
-            yield model.physical(inertia.tolist(), lam.tolist(), torque.tolist()), tuple(rng.normal(size=3) * 2)
+            yield model.physical(inertia.tolist(), lam.tolist(),
+                                 torque.tolist()), tuple(rng.normal(size=3) * 2)
 
 
 @pytest.mark.slow
@@ -36,7 +39,8 @@ def test_potential_and_integration_agree_on_fate_period_and_extremes(seed):
         word = energy.label(problem, state, digits=60)
         assert brute.label(problem, state) == word
         if word == "bounded":
-            assert brute.period(problem, state) == pytest.approx(float(energy.period(problem, state)), rel=1e-11)
+            assert brute.period(problem, state) == pytest.approx(float(energy.period(problem, state)),
+                                                                 rel=1e-11)
             exact = np.array([[float(v) for v in row] for row in energy.extremes(problem, state, digits=60)])
             assert np.max(np.abs(brute.extremes(problem, state) - exact)) < 1e-12 * np.max(np.abs(exact))
         else:

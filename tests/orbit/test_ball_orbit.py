@@ -1,4 +1,5 @@
-"""Facts about ball arithmetic on one state that small faults break: every geometry asked for directly, to the last digit."""
+"""Facts about ball arithmetic on one state that small faults break: every geometry asked for directly, to the
+last digit."""
 from __future__ import annotations
 
 import importlib
@@ -26,7 +27,8 @@ from tests.shared import PARABOLIC
 
 # M_i = -lambda_j lambda_k/(D_j - D_k): the conic of equilibria is two lines
 LINES = {f"two lines, axis {axis + 1}": physical(PAPER_BODY, momentum, torque) for axis, momentum, torque in (
-    (2, (100.0, 50.0, 0.0), (0, 0, -10.0)), (1, (100.0, 0.0, 50.0), (0, 5.0, 0)), (0, (0.0, 100.0, 50.0), (-10.0, 0, 0)))}
+    (2, (100.0, 50.0, 0.0), (0, 0, -10.0)), (1, (100.0, 0.0, 50.0), (0, 5.0, 0)),
+    (0, (0.0, 100.0, 50.0), (-10.0, 0, 0)))}
 ALL = FAMILIES | PARABOLIC | LINES
 SOME = ["minor scaled -", "minor physical", "minor on axis 1", "middle scaled -, |c| above the cusp",
         "middle physical, other sign", "major physical, other sign", "first axis, other sign", "second axis",
@@ -49,7 +51,8 @@ def test_the_margin_of_balls_is_that_of_the_potential(name, bits):
             assert (tie.sign, tie.margin) == (-1, -math.inf)
         else:
             assert tie.sign == (1 if exact > 0 else -1)
-            assert tie.margin * r.energy_unit == pytest.approx(float(exact), rel=2e-15 if bits == START_BITS else 1e-12)
+            assert tie.margin * r.energy_unit == pytest.approx(float(exact),
+                                                               rel=2e-15 if bits == START_BITS else 1e-12)
 
 
 @pytest.mark.parametrize("name", SOME)
@@ -58,23 +61,29 @@ def test_the_extremes_and_period_of_balls_are_those_of_the_potential_to_the_last
     r = reduce(scene)
     for n, state in enumerate(states_of(name, 3)):
         label = WORDS[energy.label(problem, state, digits=40)]
-        assert_extremes(precise_extremes(Orbit(r, state), label), energy.extremes(problem, state, digits=40), 1e-15)
+        assert_extremes(precise_extremes(Orbit(r, state), label), energy.extremes(problem, state, digits=40),
+                        1e-15)
         if n == 0:
-            assert precise_period(Orbit(r, state), label) == pytest.approx(float(energy.period(problem, state, digits=40)), rel=1e-14)
+            assert precise_period(Orbit(r, state),
+                                  label) == pytest.approx(float(energy.period(problem, state, digits=40)),
+                                                          rel=1e-14)
 
 
 @pytest.mark.parametrize("name", ["minor scaled +", "major physical", "middle scaled -, |c| above the cusp"])
 def test_near_a_separatrix_some_hundred_bits_decide_and_algebra_is_not_asked(name, monkeypatch):
     scene, problem = FAMILIES[name]
     exact_tie = importlib.import_module("stabilab.orbit.fate.one_state")
-    monkeypatch.setattr(exact_tie, "exact_tie", lambda orbit: pytest.fail("algebra was asked about a state off the separatrix"))
+    monkeypatch.setattr(exact_tie, "exact_tie",
+                        lambda orbit: pytest.fail("algebra was asked about a state off the separatrix"))
     for off in (1e-14, -1e-15, 0.0):
-        state = brink(problem, {"mi": (-1.25, -1.25), "ma": (19.5, 14.0)}[name[:2]] if "+" not in name else (3.0, 1.0), off)
+        state = brink(problem, {"mi": (-1.25, -1.25), "ma": (19.5, 14.0)}[name[:2]] if "+" not in name
+                      else (3.0, 1.0), off)
         tie = decide(Orbit(reduce(scene), state))
         assert tie.sign == (1 if energy.margin(problem, state) > 0 else -1) and tie.bits < 512
 
 
-@pytest.mark.parametrize("name", ["minor scaled -", "major physical", "middle scaled +", "middle physical, other sign"])
+@pytest.mark.parametrize("name", ["minor scaled -", "major physical", "middle scaled +",
+                                  "middle physical, other sign"])
 def test_energy_and_invariant_of_a_state_are_those_of_every_other_on_its_orbit(name):
     """The state moved along its circle or hyperbola, its rate by the potential's fall on the way."""
     scene = FAMILIES[name][0]
@@ -86,7 +95,8 @@ def test_energy_and_invariant_of_a_state_are_those_of_every_other_on_its_orbit(n
             if w[0] ** 2 - 2 * fall[0] <= 0:
                 continue
             other = land.components(land.potential.move(place, y), np.sqrt(w * w - 2 * fall))[0]
-            one, two = Orbit(land.reduction, state).invariants(), Orbit(land.reduction, other.tolist()).invariants()
+            one, two = Orbit(land.reduction,
+                             state).invariants(), Orbit(land.reduction, other.tolist()).invariants()
             assert set(one) == {"Q", "energy"}
             # the turn angle of a circle is known up to turns, each 2 pi mu of the energy
             turn = 2 * math.pi * land.potential.mu * land.reduction.energy_unit * (land.e < 0)
@@ -100,16 +110,19 @@ def test_energy_and_invariant_of_a_state_are_those_of_every_other_on_its_orbit(n
 @pytest.mark.parametrize("torque", [0.75, -0.75])
 @pytest.mark.parametrize("plane", [-1, 1])
 def test_on_planes_with_irrational_axes_one_state_and_arrays_know_the_fate_and_extremes(plane, torque):
-    """D = (6, 5, 3), lambda = (1/2, 0, 1): planes w3 - 1/2 = +-(w1 + 1/2) and canonical units of sqrt(1/3)."""
+    """D = (6, 5, 3), lambda = (1/2, 0, 1): planes w3 - 1/2 = +-(w1 + 1/2) and canonical units of sqrt(1/3).
+    """
     scene, problem = physical((6, 5, 3), (0.5, 0, 1), (0, torque, 0))
     states = [(y - 0.5, w, 0.5 + plane * y) for y in (-2.0, 0.5, 3.0) for w in (-1.0, 0.25)]
     found, boxes = stabilab.fate(scene, np.array(states)), stabilab.extremes(scene, np.array(states))
     for n, state in enumerate(states):
         one, word = motion(scene, state), energy.label(problem, state, digits=40)
-        assert found.labels[n] == one.fate == WORDS[word] and (found.axis[n], found.sense[n]) == (one.axis, one.sense)
+        assert found.labels[n] == one.fate == WORDS[word] and (found.axis[n],
+                                                               found.sense[n]) == (one.axis, one.sense)
         assert one.because.startswith(found.because[n])
         exact = energy.extremes(problem, state, digits=40)
-        for box in (boxes[n], np.array(one.extremes), precise_extremes(Orbit(reduce(scene), state), WORDS[word])):
+        for box in (boxes[n], np.array(one.extremes),
+                    precise_extremes(Orbit(reduce(scene), state), WORDS[word])):
             assert_extremes(box, exact, 1e-11)
     assert {WORDS["spin-up"]} <= set(found.labels.tolist()) or set(found.labels.tolist()) == {Fate.BOUNDED}
 
@@ -130,24 +143,28 @@ def test_one_state_on_an_invariant_plane_is_told_as_arrays_tell_it(a, b, sign, p
 @pytest.mark.parametrize("turn", [-1, 1])
 @pytest.mark.parametrize("ahead", [-1, 1])
 def test_a_free_motion_on_the_separatrix_tends_to_the_middle_spin_with_extremes_in_closed_form(ahead, turn):
-    """D = (6, 5, 3): there |w1| = |w3|, 9 w1^2 + 5 w2^2 = 2T = 11.45, and w2 falls where w1 w3 > 0, for ever."""
+    """D = (6, 5, 3): there |w1| = |w3|, 9 w1^2 + 5 w2^2 = 2T = 11.45, and w2 falls where w1 w3 > 0, for ever.
+    """
     scene, _ = physical((6, 5, 3))
     state = (turn * 1.0, ahead * 0.7, turn * 1.0)
     most, spin = math.sqrt(11.45 / 9), math.sqrt(11.45 / 5)
     side = sorted((0.0, turn * (most if ahead > 0 else 1.0)))  # w1 is greatest where w2 passes zero
     exact = [side, [-spin, ahead * 0.7], side]
     assert stabilab.fate(scene, np.array(state)).labels == motion(scene, state).fate == Fate.SEPARATRIX
-    for box in (stabilab.extremes(scene, np.array(state)), precise_extremes(Orbit(reduce(scene), state), Fate.SEPARATRIX)):
+    for box in (stabilab.extremes(scene, np.array(state)),
+                precise_extremes(Orbit(reduce(scene), state), Fate.SEPARATRIX)):
         np.testing.assert_allclose(box, exact, rtol=1e-15, atol=1e-15)
 
 
 @pytest.mark.parametrize("l2, l3", [(1, 1), (2, -1), (3, 2), (-1, F(1, 2))])
 def test_rational_states_on_the_separatrix_of_a_free_gyrostat_are_ties_and_their_neighbours_none(l2, l3):
-    """D = (6, 5, 3), D w + lambda = 4 w at p = (0, -l2, l3). Through it, w = p + t v has the energy and |H| of p where
-    sum D (D - 4) v^2 = 12 v1^2 + 5 v2^2 - 3 v3^2 = 0 and t = -2 sum D p v/sum D v^2: rational, as v is."""
+    """D = (6, 5, 3), D w + lambda = 4 w at p = (0, -l2, l3). Through it, w = p + t v has the energy and |H|
+    of p where sum D (D - 4) v^2 = 12 v1^2 + 5 v2^2 - 3 v3^2 = 0 and t = -2 sum D p v/sum D v^2: rational, as
+    v is."""
     scene = Scene(Body((6, 5, 3)), Gyrostat((0, str(l2), str(l3))))
     r, D, p = reduce(scene), (6, 5, 3), (0, -F(l2), F(l3))
-    for a, b, c in ((0, 1, 0), (1, 1, 0), (2, -1, 1), (1, 3, -2)):  # chords of the cone from its point (1, 0, 2)
+    # chords of the cone from its point (1, 0, 2)
+    for a, b, c in ((0, 1, 0), (1, 1, 0), (2, -1, 1), (1, 3, -2)):
         s = F(-2 * (12 * a - 6 * c)) / (12 * a * a + 5 * b * b - 3 * c * c)
         v = (1 + s * a, s * b, 2 + s * c)
         assert 12 * v[0] ** 2 + 5 * v[1] ** 2 == 3 * v[2] ** 2

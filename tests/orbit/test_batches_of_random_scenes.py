@@ -1,5 +1,5 @@
-"""Arrays of states of random scenes, by NumPy and compiled, against each state alone in balls: labels, margins, extremes and periods keep what they promise,
-at every closeness to a separatrix."""
+"""Arrays of states of random scenes, by NumPy and compiled, against each state alone in balls: labels,
+margins, extremes and periods keep what they promise, at every closeness to a separatrix."""
 from __future__ import annotations
 
 import math
@@ -18,23 +18,31 @@ from stabilab.orbit.one_orbit import Orbit
 from stabilab.orbit.period.balls import precise_period
 from stabilab.orbit.reduction import reduce
 
-DIGITS, MARGIN = 1e-11, 1e-12  # promised of extremes and periods, relative to themselves, and of margins, relative to kinetic energy and barrier
+# promised of extremes and periods, relative to themselves, and of margins, relative to kinetic energy and
+# barrier
+DIGITS, MARGIN = 1e-11, 1e-12
 SCENES, STATES, FEW = 200, 300, 24
 FAST = (False, True) if installed() else (False,)
 DEFAULT = range(0, SCENES, 17)
-numbers = pytest.mark.parametrize("number", [*DEFAULT, *(pytest.param(n, marks=pytest.mark.slow) for n in range(SCENES) if n not in DEFAULT)])
+numbers = pytest.mark.parametrize("number",
+                                  [*DEFAULT, *(pytest.param(n, marks=pytest.mark.slow) for n in range(SCENES)
+                                               if n not in DEFAULT)])
 
 
 def beside_and_anywhere(one, count):
-    """(count, 3) states: a half of the sample's, a half of which has the rate about the torque's axis with which its barrier is just reached, off by 1e-3 to
+    """(count, 3) states: a half of the sample's, a half of which has the rate about the torque's axis with
+    which its barrier is just reached, off by 1e-3 to
     1e-12 of itself; all where there is a barrier that high."""
-    states, rng, axis = one.states(count), np.random.default_rng([SEED, one.number, 1]), next(i for i in range(3) if one.torque[i])
+    states, rng, axis = one.states(count), np.random.default_rng([SEED, one.number,
+                                                                  1]), next(i for i in range(3)
+                                                                            if one.torque[i])
     still = states.copy()
     still[:, axis] = 0.0
     height = stabilab.fate(one.scene, still).margins
     near = (np.arange(count) % 2 == 0) & np.isfinite(height) & (height > 0)
     off = 1 + rng.choice((-1, 1), count) * 10.0 ** rng.uniform(-12, -3, count)
-    states[near, axis] = (np.copysign(np.sqrt(2 * np.abs(height) / one.moments[axis]), states[:, axis]) * off)[near]
+    states[near,
+           axis] = (np.copysign(np.sqrt(2 * np.abs(height) / one.moments[axis]), states[:, axis]) * off)[near]
     return states
 
 
@@ -48,22 +56,28 @@ def alone(scene, state):
 
 
 def disagreements(number, count):
-    """[(size in units of what is promised, words)] of the rows that part by more than that; the largest size of all."""
+    """[(size in units of what is promised, words)] of the rows that part by more than that; the largest size
+    of all."""
     one = drawn(number + 1)[number]
     scene, axis = one.scene, next(i for i in range(3) if one.torque[i])
     states = beside_and_anywhere(one, count)
     singles = [alone(scene, state) for state in states.tolist()]
     wrong, largest = [], 0.0
     for fast in FAST:
-        many, (boxes, periods) = stabilab.fate(scene, states, fast=fast), extremes_and_periods(scene, states, by_numba=fast)
+        many, (boxes, periods) = stabilab.fate(scene, states,
+                                               fast=fast), extremes_and_periods(scene, states, by_numba=fast)
         for n, (told, margin, box, period) in enumerate(singles):
-            sizes = [_margins(many.margins[n], margin, 0.5 * one.moments[axis] * states[n, axis] ** 2), *map(_pair, boxes[n], box), _pair(periods[n], period)]
+            sizes = [_margins(many.margins[n], margin, 0.5 * one.moments[axis] * states[n, axis] ** 2),
+                     *map(_pair, boxes[n], box), _pair(periods[n], period)]
             if (told.label, told.axis, told.sense) != (many.labels[n], many.axis[n], many.sense[n]):
                 sizes.append(math.inf)
             largest = max(largest, *sizes)
             if max(sizes) > 1:
-                wrong.append((max(sizes), f"{one.name} from {states[n].tolist()}, fast={fast}: {told.label.word}, {Fate(int(many.labels[n])).word}; margins"
-                                          f" {margin, many.margins[n]}, extremes {box.tolist(), boxes[n].tolist()}, periods {period, periods[n]}"))
+                wrong.append((max(sizes),
+                              f"{one.name} from {states[n].tolist()}, fast={fast}: {told.label.word}, "
+                              f"{Fate(int(many.labels[n])).word}; margins"
+                                          f" {margin, many.margins[n]}, extremes "
+                                          f"{box.tolist(), boxes[n].tolist()}, periods {period, periods[n]}"))
     return wrong, largest
 
 

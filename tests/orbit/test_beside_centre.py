@@ -1,4 +1,5 @@
-"""Motions that pass so close to the centre of their hyperbola that the doubles of the conic cannot place an equilibrium there."""
+"""Motions that pass so close to the centre of their hyperbola that the doubles of the conic cannot place an
+equilibrium there."""
 from __future__ import annotations
 
 from itertools import product
@@ -10,18 +11,23 @@ import stabilab
 from tests.oracles import energy
 from tests.oracles.pairs import physical
 
-D, WHEEL = (1.6268060205249877, 1.7001997084098248, 1.2138327454194524), (0.0, -0.2649180421135625, -0.22016329912160304)
-CENTRE = (0.0, 3.6095480380989766, -0.5331175463238882)  # the pure spin to which the hyperbola's asymptotes belong, to rounding
+D, WHEEL = (1.6268060205249877, 1.7001997084098248,
+            1.2138327454194524), (0.0, -0.2649180421135625, -0.22016329912160304)
+# the pure spin to which the hyperbola's asymptotes belong, to rounding
+CENTRE = (0.0, 3.6095480380989766, -0.5331175463238882)
 
 
-FEW = {(0.0, 0.0), (0.0, 1e-12), (1e-30, 0.0), (1e-18, 1e-15), (-1e-17, 0.0), (1e-15, 1e-12)}  # each torque and each distance; all pairs are slow
+# each torque and each distance; all pairs are slow
+FEW = {(0.0, 0.0), (0.0, 1e-12), (1e-30, 0.0), (1e-18, 1e-15), (-1e-17, 0.0), (1e-15, 1e-12)}
 
 
 @pytest.mark.one_in(3)
 @pytest.mark.parametrize("torque, off", [pytest.param(*pair, marks=() if pair in FEW else pytest.mark.slow)
-                                         for pair in product((0.0, 1e-30, 1e-18, -1e-17, 1e-15), (0.0, 1e-15, 1e-12))])
+                                         for pair in product((0.0, 1e-30, 1e-18, -1e-17, 1e-15),
+                                                             (0.0, 1e-15, 1e-12))])
 def test_extremes_and_period_beside_the_centre_of_a_hyperbola(torque, off):
-    """Beside it all else vanishes, so that the smallest torque makes barriers; arrays lost them, and with them which way the motion goes."""
+    """Beside it all else vanishes, so that the smallest torque makes barriers; arrays lost them, and with
+    them which way the motion goes."""
     scene, model = physical(D, WHEEL, (torque, 0.0, 0.0))
     state = (off, CENTRE[1] + 3 * off, CENTRE[2] - off)
     label = energy.label(model, state)
@@ -34,4 +40,5 @@ def test_extremes_and_period_beside_the_centre_of_a_hyperbola(torque, off):
         ours = float(stabilab.fate(scene, state).margins)
         assert ours == pytest.approx(float("inf") if margin is None else float(margin), rel=1e-6, abs=1e-28)
     if label == "bounded":
-        assert float(stabilab.period(scene, state)) == pytest.approx(float(energy.period(model, state)), rel=1e-9)
+        assert float(stabilab.period(scene, state)) == pytest.approx(float(energy.period(model, state)),
+                                                                     rel=1e-9)

@@ -10,9 +10,12 @@ from tests.oracles import energy, sphere
 from tests.oracles.pairs import WORDS, exactly, physical
 from tests.orbit.extremes.test_extremes import assert_extremes
 
-# Moments that are equal to 1e-15, torque about the other: the conic of equilibria is a line but for its far end, and its fold at 0.018
-# was told from a double of 1e13, whose rounding put it at 0.022. States between had no barrier in the table, and spun up.
-ALMOST_A_LINE = physical((31.487138417043845, 31.488743806858277, 31.487138417043873), (-0.0030301415612889317, 0.0, 0.047942404050166504),
+# Moments that are equal to 1e-15, torque about the other: the conic of equilibria is a line but for its far
+# end, and its fold at 0.018
+# was told from a double of 1e13, whose rounding put it at 0.022. States between had no barrier in the table,
+# and spun up.
+ALMOST_A_LINE = physical((31.487138417043845, 31.488743806858277, 31.487138417043873),
+                         (-0.0030301415612889317, 0.0, 0.047942404050166504),
                          (0.0, 6.0953162715989465e-06, 0.0))
 
 
@@ -25,15 +28,22 @@ def test_the_fold_of_a_conic_that_is_almost_a_line_is_where_exact_arithmetic_has
     np.testing.assert_array_equal(many.labels, WORDS["bounded"])
     np.testing.assert_allclose(many.margins, float(energy.margin(problem, state, digits=200)), rtol=1e-12)
 
-# Free bodies with two moments equal to 1e-11 and better: the equilibria were looked for from where two far lines cross, or a piece of
-# their curve was told a well from a sum that cancels; arrays saw no barrier (margin -inf or inf) where one state did.
+# Free bodies with two moments equal to 1e-11 and better: the equilibria were looked for from where two far
+# lines cross, or a piece of
+# their curve was told a well from a sum that cancels; arrays saw no barrier (margin -inf or inf) where one
+# state did.
 FREE_AND_NEARLY_EQUAL = {
-    "1e-14, on circles": (physical((25.273702030355615, 32.29741709646918, 32.297417096469324), (0, 0, -2.3532746107177696), (0, 0, 0)),
+    "1e-14, on circles": (physical((25.273702030355615, 32.29741709646918, 32.297417096469324),
+                                   (0, 0, -2.3532746107177696), (0, 0, 0)),
                           exactly("-0x1.fa4c571ef478cp-12", "-0x1.762fd8d4bd2d1p-9", "0x1.3ded3f3fbfa69p+2")),
-    "1e-16, on hyperbolas": (physical((16.48872499724158, 24.322645214207345, 24.322645214207352), (0.014074513397013778, 0, -9.173254340866082),
-                                      (0, 0, 0)), exactly("-0x1.6cbf173b94456p+12", "-0x1.017d357c6e739p+13", "-0x1.af54eb630e024p+0")),
-    "3e-12, the other line": (physical((12.308781068493856, 13.716141968863074, 12.30878106910472), (0, 0, 0.4429275768211725), (0, 0, 0)),
-                              exactly("0x1.4f29093db6615p-4", "-0x1.f8a88aff523f9p-4", "-0x1.13f46b0c2e45ep+1")),
+    "1e-16, on hyperbolas": (physical((16.48872499724158, 24.322645214207345, 24.322645214207352),
+                                      (0.014074513397013778, 0, -9.173254340866082),
+                                      (0, 0, 0)), exactly("-0x1.6cbf173b94456p+12", "-0x1.017d357c6e739p+13",
+                                                          "-0x1.af54eb630e024p+0")),
+    "3e-12, the other line": (physical((12.308781068493856, 13.716141968863074, 12.30878106910472),
+                                       (0, 0, 0.4429275768211725), (0, 0, 0)),
+                              exactly("0x1.4f29093db6615p-4", "-0x1.f8a88aff523f9p-4",
+                                      "-0x1.13f46b0c2e45ep+1")),
 }
 
 
@@ -42,7 +52,8 @@ def test_the_saddle_of_a_free_body_is_found_however_nearly_equal_two_moments_are
     (scene, problem), state = FREE_AND_NEARLY_EQUAL[name]
     axis = reduce(scene).axis
     exact = float(sphere.margin(*(scene.body.exact, scene.vector("gyrostat")), state, digits=200))
-    for found in (stabilab.fate(scene, np.array([state])).margins[0], stabilab.motion(scene, state, brief=True).margin_energy):
+    for found in (stabilab.fate(scene, np.array([state])).margins[0],
+                  stabilab.motion(scene, state, brief=True).margin_energy):
         assert found == pytest.approx(exact, rel=1e-11)
     box = stabilab.extremes(scene, np.array([state]))[0]
     assert_extremes(box, energy.extremes(problem, state, digits=200, axis=axis), 1e-11)

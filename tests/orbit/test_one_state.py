@@ -19,8 +19,10 @@ ASKED = {
     "circle, spin-up": (body((12, 9, 5), ("0.8", 0, 0), (0, 0, "0.02")), (0.1, 0.05, 0.9), Fate.SPIN_UP),
     "hyperbola": (ScaledGyrostat("0.2", "0.4", (0, 1, 0)), (0.5, 0.3, 0.2), Fate.BOUNDED),
     "parabola": (PARABOLIC["first axis"][0], (0.3, 0.2, 0.1), Fate.BOUNDED),
-    "rates beyond the squares of doubles": (body((12, 9, 5), ("0.8", 0, 0), (0, 0, "0.02")), (1e200, 3e200, 2e200), Fate.SPIN_UP),
-    "exact rates": (body((12, 9, 5), ("0.8", 0, 0), (0, 0, "0.02")), (Fraction(1, 10), Fraction(1, 20), Fraction(1, 50)), Fate.BOUNDED),
+    "rates beyond the squares of doubles": (body((12, 9, 5), ("0.8", 0, 0), (0, 0, "0.02")),
+                                            (1e200, 3e200, 2e200), Fate.SPIN_UP),
+    "exact rates": (body((12, 9, 5), ("0.8", 0, 0), (0, 0, "0.02")),
+                    (Fraction(1, 10), Fraction(1, 20), Fraction(1, 50)), Fate.BOUNDED),
     "torque between equal axes": (body((9, 9, 5), (0, 0, "0.8"), (3, 4, 0)), (0.1, 0.05, 0.02), Fate.BOUNDED)}
 
 
@@ -40,7 +42,8 @@ def test_the_orbit_of_a_state_is_built_once_in_each_kind_of_number(name, monkeyp
 
 def test_a_motion_that_the_first_bits_leave_open_builds_one_orbit_more_for_each_number_of_bits(monkeypatch):
     scene = ScaledGyrostat("0.2", "0.4", (0, 0, 1))
-    edge = math.sqrt(2 * stabilab.motion(scene, (2.0, 1.0, 0.0)).margin_energy)  # the scaled energy is x3^2/2 + U
+    # the scaled energy is x3^2/2 + U
+    edge = math.sqrt(2 * stabilab.motion(scene, (2.0, 1.0, 0.0)).margin_energy)
     bits, build = [], BallOrbit.__init__
 
     def counted(self, reduction, state, numbers):

@@ -9,7 +9,8 @@ from stabilab.orbit.landscape import landscape
 from stabilab.orbit.phase_plane import phase_plane
 from tests.shared import CASES
 
-NAMES = ("minor-axis-100", "middle-axis-plane-100", "middle-axis-equal-100", "middle-axis-spin-up", "symmetric-spin-up", "two-wheels-minor-axis")
+NAMES = ("minor-axis-100", "middle-axis-plane-100", "middle-axis-equal-100", "middle-axis-spin-up",
+         "symmetric-spin-up", "two-wheels-minor-axis")
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -26,7 +27,8 @@ def test_a_single_state_has_its_place_among_many(name):
 
 
 def test_a_single_state_that_exact_arithmetic_places_on_a_plane_has_its_place():
-    """Far from the wheel's share doubles lose the difference of X and Z, so exact arithmetic forms it: here it is zero by construction."""
+    """Far from the wheel's share doubles lose the difference of X and Z, so exact arithmetic forms it: here
+    it is zero by construction."""
     scene = Scene(Body((3, 2, 1)), Gyrostat((1, 0, 0)), ConstantTorque((0, 1, 0)))
     land = landscape(scene)
     state = np.array([2.0, 0.5, 3.0])
@@ -36,9 +38,11 @@ def test_a_single_state_that_exact_arithmetic_places_on_a_plane_has_its_place():
 
 @pytest.mark.parametrize("wheel", [100, 300, 500])
 def test_the_centre_on_an_invariant_plane_is_where_the_torque_balances(wheel):
-    """Middle axis, x1 + b = x3: on it x2' = 1 + (b - a) x3 - x3^2 by the equations of motion, x3 = x3(0) e^y. Doubles leave 2e-16 of the invariant."""
+    """Middle axis, x1 + b = x3: on it x2' = 1 + (b - a) x3 - x3^2 by the equations of motion, x3 = x3(0) e^y.
+    Doubles leave 2e-16 of the invariant."""
     case = load(str(CASES / f"middle-axis-plane-{wheel}.toml"))
     c = float(case.scene.b - case.scene.a)
     plane = phase_plane(case.scene, case.start)
     assert plane.saddles == [] and abs(plane.Q) < 1e-15
-    assert plane.centres == pytest.approx([math.log((c + math.sqrt(c * c + 4)) / 2 / case.state[2])], abs=1e-14)
+    assert plane.centres == pytest.approx([math.log((c + math.sqrt(c * c + 4)) / 2 / case.state[2])],
+                                          abs=1e-14)

@@ -24,17 +24,20 @@ def test_a_body_with_two_equal_moments_is_parabolic_about_a_transverse_axis():
     r = reduce(Scene(Body((2, 2, 1)), Gyrostat((0, "0.25", "0.5")), ConstantTorque(("0.5", 0, 0))))
     assert (r.kind, r.e, r.parabolic_shift_size) == ("parabolic", 0, 0.0)
 
-REDUCED = {**FAMILIES, "free, gyrostat on the major axis": physical((3, 2, 1), (0.5, 0, 0)), "free": physical((3, 2, 1)),
+REDUCED = {**FAMILIES, "free, gyrostat on the major axis": physical((3, 2, 1), (0.5, 0, 0)),
+           "free": physical((3, 2, 1)),
            "free, gyrostat on the minor axis": physical((3, 2, 1), (0, 0, -0.25)),
            "free, scaled": scaled(0.25, 0.75, (0, 0, 0)),
            "wheel and torque on the symmetry axis": physical((3, 2, 2), (0.5, 0, 0), (0.25, 0, 0)),
-           "wheel and torque on the symmetry axis, other signs": physical((2, 2, 1), (0, 0, -0.5), (0, 0, -0.25)),
+           "wheel and torque on the symmetry axis, other signs": physical((2, 2, 1), (0, 0, -0.5),
+                                                                          (0, 0, -0.25)),
            "wheel on the symmetry axis": physical((2, 3, 2), (0, 0.5, 0))}
 
 
 @pytest.mark.parametrize("name", REDUCED)
 def test_the_canonical_variables_move_as_the_module_says(name):
-    """The exact rates, by the oracle's own coefficients: X' = Z W, Z' = e X W, W' = mu + G X Z + c Z + d X, mu >= 0."""
+    """The exact rates, by the oracle's own coefficients: X' = Z W, Z' = e X W, W' = mu + G X Z + c Z + d X,
+    mu >= 0."""
     scene, problem = REDUCED[name]
     r = reduce(scene)
     g, near = r.exact_constants, lambda a, b, size: abs(a - b) <= F(1, 10**50) * size
@@ -51,22 +54,27 @@ def test_the_canonical_variables_move_as_the_module_says(name):
             assert float(exact) == pytest.approx(float(rounded), rel=1e-14, abs=1e-14 * abs(float(size)))
         back = r.component_i(float(w)), r.component_j(float(x)), r.component_k(float(z))
         assert back == pytest.approx([state[i] for i in (r.axis, r.j, r.k)], rel=1e-13, abs=1e-13)
-    torque = F(scene.mu[r.axis]) if scene.variables == "scaled" else F(scene.vector("constant_torque")[r.axis])
+    torque = (F(scene.mu[r.axis]) if scene.variables == "scaled"
+              else F(scene.vector("constant_torque")[r.axis]))
     assert r.sense == (torque > 0) - (torque < 0)
     # weight W^2/(2 n^2) is the energy of omega_i: the unit is weight/|p q|
     assert r.energy_unit == pytest.approx(float(problem.weight[r.axis] / abs(r.p * r.q)), rel=1e-15)
 
 
 @pytest.mark.parametrize("inertia, momentum, torque", [
-    ((3, 2, 1), (0.5, 0, 0), (0.2, 0, 0)), ((3, 2, 1), (0, 0.5, 0), (0, 0.2, 0)), ((3, 2, 1), (0, 0, 0), (1, 1, 0)),
-    ((3, 2, 2), (0.5, 0.1, 0), (0.2, 0, 0)), ((2, 2, 1), (0.5, 0, 0), (0.2, 0, 0)), ((3, 2, 1), (1, 1, 1), (0, 0, 0))])
+    ((3, 2, 1), (0.5, 0, 0), (0.2, 0, 0)), ((3, 2, 1), (0, 0.5, 0), (0, 0.2, 0)),
+    ((3, 2, 1), (0, 0, 0), (1, 1, 0)),
+    ((3, 2, 2), (0.5, 0.1, 0), (0.2, 0, 0)), ((2, 2, 1), (0.5, 0, 0), (0.2, 0, 0)),
+    ((3, 2, 1), (1, 1, 1), (0, 0, 0))])
 def test_no_reduction_where_the_other_two_rates_share_no_factor(inertia, momentum, torque):
-    """D_j w_j' = (D_k - D_i) w_k (w_i - s) ...: a wheel along the torque's axis asks for D_j = D_k and nothing across it."""
+    """D_j w_j' = (D_k - D_i) w_k (w_i - s) ...: a wheel along the torque's axis asks for D_j = D_k and
+    nothing across it."""
     assert reduce(physical(inertia, momentum, torque)[0]) is None
 
 
 def test_a_wheel_on_the_symmetry_axis_shifts_the_rate_about_it():
-    """D2 w2' = (D3 - D1) w3 w1 - lambda1 w3 vanishes at w1 = -lambda1/(D1 - D3), D2 = D3: s = lambda1/(D1 - D3)."""
+    """D2 w2' = (D3 - D1) w3 w1 - lambda1 w3 vanishes at w1 = -lambda1/(D1 - D3), D2 = D3: s = lambda1/(D1 -
+    D3)."""
     r = reduce(REDUCED["wheel and torque on the symmetry axis"][0])
     assert (r.axis, r.s, r.weight) == (0, F(1, 2), 3)
 
@@ -76,7 +84,8 @@ def test_a_scene_s_rationals_are_reduced_once_however_many_calls_ask(monkeypatch
     scene, made = Scene(Body((9.5, 7.8, 7.9)), Gyrostat((0, 0, "0.17")), ConstantTorque(("-0.3", 0, 0))), []
     for where, name in ((reduction, "reduction_about"), (module, "euler_form")):
         function = getattr(where, name)
-        monkeypatch.setattr(where, name, lambda *given, name=name, function=function: made.append(name) or function(*given))
+        monkeypatch.setattr(where, name, lambda *given, name=name,
+                            function=function: made.append(name) or function(*given))
     states = [[0.1, 0.2, 0.3], [1.0, -2.0, 0.5]]
     for ask in (fate, extremes, period, extremes):
         ask(scene, states)

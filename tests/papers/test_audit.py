@@ -1,4 +1,5 @@
-"""The audit of printed formulas: its verdicts, its machine, and the audit itself held against a run of an independent integrator."""
+"""The audit of printed formulas: its verdicts, its machine, and the audit itself held against a run of an
+independent integrator."""
 
 import json
 import re
@@ -58,13 +59,15 @@ def test_verdicts_known_by_a_proof(name, equation, verdict, condition):
 
 
 def planted(paper, row):
-    """(place, formulas) of the row with the sign of one term flipped, for every term of a sum on the outside of every printed formula."""
+    """(place, formulas) of the row with the sign of one term flipped, for every term of a sum on the outside
+    of every printed formula."""
     formulas = raw(paper, row.printed)
     for n, (left, right) in enumerate(formulas):
         for side, tree in enumerate((left, right)):
             for term in tree.args if tree.is_Add else ():
                 flipped = tree - 2 * term
-                yield n, [*formulas[:n], (flipped, right) if side == 0 else (left, flipped), *formulas[n + 1:]]
+                yield n, [*formulas[:n], (flipped, right) if side == 0 else (left, flipped),
+                          *formulas[n + 1:]]
 
 
 def holding(name):
@@ -76,14 +79,17 @@ def holding(name):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", [pytest.param(name, marks=[] if name == "newtonian-field-top" else pytest.mark.slow) for name in PAPERS])
+@pytest.mark.parametrize("name",
+                         [pytest.param(name, marks=[] if name == "newtonian-field-top" else pytest.mark.slow)
+                          for name in PAPERS])
 def test_every_flipped_sign_in_every_formula_that_holds_is_found(name):
     missed, tried = [], 0
     for paper, row, system, bound in holding(name):
         for _, formulas in planted(paper, row):
             both = pairs(paper, row, formulas, system, bound)
             tried += 1
-            if decide(both, bound, system, row.equation, domain_of(paper, row.domain, both, bound, system), symbolic=False).holds is not False:
+            if decide(both, bound, system, row.equation, domain_of(paper, row.domain, both, bound, system),
+                      symbolic=False).holds is not False:
                 missed.append(row.equation)
     assert tried >= 10 and not missed
 
@@ -96,10 +102,13 @@ def test_the_repair_search_returns_most_of_the_flipped_formulas():
         for paper, row, system, bound in holding(name):
             for n, formulas in planted(paper, row):
                 both = pairs(paper, row, formulas, system, bound)
-                found = repairs(paper, row, formulas, system, bound, domain_of(paper, row.domain, both, bound, system))
+                found = repairs(paper, row, formulas, system, bound,
+                                domain_of(paper, row.domain, both, bound, system))
                 left, right = raw(paper, row.printed)[n]
                 fixed = [sides(fix, paper.symbols) for fix in found]
-                tried, returned = tried + 1, returned + any(sp.expand(a - b - left + right) == 0 or sp.expand(a - b + left - right) == 0 for a, b in fixed)
+                tried, returned = tried + 1, returned + any(sp.expand(a - b - left + right) == 0
+                                                            or sp.expand(a - b + left - right) == 0 for a,
+                                                            b in fixed)
     print(tried, returned)
     assert returned >= 0.75 * tried  # docs/audit.md tells the share
 
@@ -121,19 +130,22 @@ def test_edits_change_one_thing_each():
     symbols = {s: sp.Symbol(s) for s in ("x", "y")}
     tree = parse("x + 2*y", symbols)
     near = set(edits(tree, list(symbols.values()), symbols, False))
-    assert {parse("-x + 2*y", symbols), parse("x - 2*y", symbols), parse("x", symbols), parse("2*y", symbols)} <= near
+    assert {parse("-x + 2*y", symbols), parse("x - 2*y", symbols), parse("x", symbols),
+            parse("2*y", symbols)} <= near
 
 
 def test_the_worked_example_of_the_docs_is_audited(tmp_path):
     example = re.search(r"```toml\n(.*?)```", DOCS.read_text(), re.S)[1]
     (tmp_path / "my-paper.toml").write_text(example)
     ((paper, found),) = audit.audited(str(tmp_path / "my-paper.toml"))
-    assert [(f.row.equation, f.verdict, f.condition) for f in found] == [("1", "only-if", "a = 0"), ("2", "holds", "")]
+    assert [(f.row.equation, f.verdict, f.condition)
+            for f in found] == [("1", "only-if", "a = 0"), ("2", "holds", "")]
 
 
 BAD = [
     ('printed = "x1 + = 0"', "row 1", "cannot read"),
-    ('printed = "x9 = 0"', "row 1", "unknown symbol 'x9' (near it: x2, x1; declare new ones under [symbols]) at position 1"),
+    ('printed = "x9 = 0"', "row 1",
+     "unknown symbol 'x9' (near it: x2, x1; declare new ones under [symbols]) at position 1"),
     ('printed = "x1 + foo(x2) = 0"', "row 1", "unknown function 'foo'"),
     ('printed = "x1"', "row 1", "expected one '='"),
     ("printed = \"__import__('os') = 0\"", "row 1", "unknown function '__import__'"),
@@ -154,7 +166,8 @@ def test_a_bad_row_is_told_with_file_row_and_position(tmp_path, lines, place, wo
 
 def test_a_correction_that_fails_as_well_is_refused(tmp_path):
     path = tmp_path / "mine.toml"
-    path.write_text('[symbols]\n"x1 x2" = "1"\n[[row]]\nequation = "1"\nprinted = "x1 = x2"\ncorrected = "x1 = 2*x2"\n')
+    path.write_text(
+        '[symbols]\n"x1 x2" = "1"\n[[row]]\nequation = "1"\nprinted = "x1 = x2"\ncorrected = "x1 = 2*x2"\n')
     with pytest.raises(InputError, match="corrected formula fails"):
         audit.audited(str(path))
 
@@ -162,7 +175,8 @@ def test_a_correction_that_fails_as_well_is_refused(tmp_path):
 def test_rates_that_do_not_follow_from_their_parent_are_refused(tmp_path):
     path = tmp_path / "mine.toml"
     path.write_text(
-        '[symbols]\n"x y" = "1"\n[systems.a]\nstate = ["x"]\nrates = ["x"]\n[systems.b]\nfollows = "a"\nstate = ["y"]\nrates = ["3*y"]\n'
+        '[symbols]\n"x y" = "1"\n[systems.a]\nstate = ["x"]\nrates = ["x"]\n[systems.b]\nfollows = '
+        '"a"\nstate = ["y"]\nrates = ["3*y"]\n'
         'meaning = {y = "x**2"}\n[[row]]\nequation = "1"\nprinted = "rate(y) = 2*y"\nsystem = "b"\n'
     )
     with pytest.raises(InputError, match="do not follow"):
@@ -186,7 +200,8 @@ def _run(mu, start, a, b):
     from scipy.integrate import solve_ivp
 
     rates = lambda t, x: (x[1] * x[2] + mu[0], -x[2] * (x[0] + a) + mu[1], x[1] * (x[0] + b) + mu[2])
-    return solve_ivp(rates, (0, 6), start, method="DOP853", rtol=1e-12, atol=1e-13, t_eval=np.linspace(0, 6, 61)).y
+    return solve_ivp(rates, (0, 6), start, method="DOP853", rtol=1e-12, atol=1e-13,
+                     t_eval=np.linspace(0, 6, 61)).y
 
 
 INTEGRALS = [  # (torque, start, equation whose rate(...) = 0 is printed and corrected)
@@ -204,7 +219,9 @@ def test_the_corrected_integral_is_constant_along_a_run_and_the_printed_one_is_n
     names = sp.symbols("x1 x2 x3 a b", real=True)
     spread = []
     for text in (row.printed[0], row.corrected[0]):
-        formula = text.split("=")[0].strip()[len("rate(") : -1].replace("atan((x1 + a)/x2)", "atan2(x1 + a, x2)").replace("atan(x1/x2)", "atan2(x1, x2)")
+        formula = text.split("=")[0].strip()[len("rate(") : -1].replace("atan((x1 + a)/x2)",
+                                                                        "atan2(x1 + a, x2)").replace(
+                                                                            "atan(x1/x2)", "atan2(x1, x2)")
         values = sp.lambdify(names, parse(formula, {s.name: s for s in names}))(*states, 0.2, 0.4)
         spread.append(np.ptp(np.mod(values + 2 * np.pi, 4 * np.pi) if "atan" in formula else values))
     assert spread[0] > 0.1 and spread[1] < 1e-9
@@ -236,18 +253,24 @@ def test_read_names_a_missing_file(tmp_path):
 
 
 @pytest.mark.parametrize("name, function", [
-    ("charged-axisymmetric", charged.formulas), ("newtonian-field-top", top.formulas), ("liquid-cavity", cavity.formulas)])
+    ("charged-axisymmetric", charged.formulas), ("newtonian-field-top", top.formulas),
+    ("liquid-cavity", cavity.formulas)])
 def test_the_printed_models_evaluate_the_formulas_that_the_audit_tries(name, function):
     paper, formula = PAPERS[name], function()
-    tried = " ".join(text for row in paper.rows if row.kind not in ("definition", "not-checkable") for text in (*row.printed, *row.where.values()))
-    untried = {key for key, text in paper.formulas.items() if text not in tried and not any(text in other for o, other in paper.formulas.items() if o != key)}
-    second_order = {"theta2_43", "psi2_43", "psi3_43", "phi3_43", "psi_43", "phi_43"}  # (43) is tried to first order, in the nutation
+    tried = " ".join(text for row in paper.rows if row.kind not in ("definition", "not-checkable")
+                     for text in (*row.printed, *row.where.values()))
+    untried = {key for key, text in paper.formulas.items() if text not in tried
+               and not any(text in other for o, other in paper.formulas.items() if o != key)}
+    # (43) is tried to first order, in the nutation
+    second_order = {"theta2_43", "psi2_43", "psi3_43", "phi3_43", "psi_43", "phi_43"}
     assert formula.formulas == paper.formulas and untried <= second_order
 
 
 def test_the_misprints_that_the_charged_model_tells_are_those_of_the_audit():
-    wrong = {row.equation for row in PAPERS["charged-axisymmetric"].rows if row.corrected and row.equation.isdigit()}
-    told = {n for key, (_, words, _) in charged.MISPRINTS.items() if words for n in re.findall(r"\((\d+)\)", key)}
+    wrong = {row.equation for row in PAPERS["charged-axisymmetric"].rows if row.corrected
+             and row.equation.isdigit()}
+    told = {n for key, (_, words, _) in charged.MISPRINTS.items() if words
+            for n in re.findall(r"\((\d+)\)", key)}
     assert wrong - told == {"9"}  # (8) again
     assert told - wrong == {"64"}  # it leaves zeta3 and zeta4 undefined
 
@@ -260,7 +283,8 @@ def test_a_formula_named_as_a_symbol_is_refused(tmp_path):
 
 
 IN_NUMBERS = [  # by hand; x = 7/5, t = 9/10, y stands for t x
-    ("at(diff(sin(x*t), t), t, 0)", 1.4), ("mean(cos(t)**2 * x, t)", 0.7), ("integral(t**2, t, 0, x)", 1.4**3 / 3), ("at(y/t, t, 0)", 1.4),
+    ("at(diff(sin(x*t), t), t, 0)", 1.4), ("mean(cos(t)**2 * x, t)", 0.7),
+    ("integral(t**2, t, 0, x)", 1.4**3 / 3), ("at(y/t, t, 0)", 1.4),
     ("at(y + t, t, 2)", 4.8)]
 
 
@@ -274,27 +298,34 @@ def test_operators_carried_out_in_numbers_and_in_symbols_have_one_value(text, va
     symbols = {name: sp.Symbol(name, real=True) for name in "txy"}
     bound = {"y": parse("t*x", symbols)}
     for in_numbers in (False, True):
-        value_of = Evaluator(mpmath.fp, {"x": mpmath.fp.mpf(1.4), "t": mpmath.fp.mpf(0.9)}, bound, None, in_numbers)
+        value_of = Evaluator(mpmath.fp, {"x": mpmath.fp.mpf(1.4), "t": mpmath.fp.mpf(0.9)}, bound, None,
+                             in_numbers)
         assert abs(value_of(parse(text, symbols)) - value) < 1e-12, in_numbers
 
 
 def test_an_edit_is_tried_in_doubles_without_work_on_symbols(monkeypatch):
-    """Of hundreds of edits of a formula with `at`, few need SymPy: those where a number would be divided by zero. Before, all did."""
+    """Of hundreds of edits of a formula with `at`, few need SymPy: those where a number would be divided by
+    zero. Before, all did."""
     from stabilab.papers.audit import repair
     from stabilab.theories.printed.values import Evaluator
     tried, carried = [], []
     near, plain = repair._Trial._near, Evaluator.plain
-    monkeypatch.setattr(repair._Trial, "_near", lambda self, printed: tried.append(near(self, printed)) or tried[-1])
+    monkeypatch.setattr(repair._Trial, "_near", lambda self,
+                        printed: tried.append(near(self, printed)) or tried[-1])
     monkeypatch.setattr(Evaluator, "plain", lambda self, e: carried.append(len(tried)) or plain(self, e))
     paper = PAPERS["charged-axisymmetric-short"]
-    row = next(row for row in paper.rows if row.kind == "holds" and any("at(" in text for text in row.printed))
-    system, bound, printed = system_of(paper, row.system, row.place), bound_of(paper, row), raw(paper, row.printed)
-    repairs(paper, row, printed, system, bound, domain_of(paper, row.domain, pairs(paper, row, printed, system, bound), bound, system))
+    row = next(row for row in paper.rows if row.kind == "holds"
+               and any("at(" in text for text in row.printed))
+    system, bound, printed = system_of(paper, row.system,
+                                       row.place), bound_of(paper, row), raw(paper, row.printed)
+    repairs(paper, row, printed, system, bound,
+            domain_of(paper, row.domain, pairs(paper, row, printed, system, bound), bound, system))
     assert len(tried) > 100 and 20 * len(set(carried)) < len(tried)
 
 
 def test_formulas_that_plainly_differ_are_not_multiplied_out(monkeypatch):
-    """Most variants of a printed formula are wrong, and one value tells; (x + 1)^2 = x^2 + 2 x + 1 by hand."""
+    """Most variants of a printed formula are wrong, and one value tells; (x + 1)^2 = x^2 + 2 x + 1 by hand.
+    """
     import sympy
     x, seen, expand = sympy.Symbol("x"), [], sympy.expand
     monkeypatch.setattr(sympy, "expand", lambda e: seen.append(e) or expand(e))

@@ -21,7 +21,8 @@ OTHERS = [row for name in ("charged", "cavity", "top") for row in figures.of_pap
 
 
 def test_every_figure_of_the_other_papers_is_on_record():
-    """Galal et al. charged body: Figs 2-24; liquid cavity: 2-13; Amer et al. 2023: 2-7 (Fig. 1 of each is a sketch)."""
+    """Galal et al. charged body: Figs 2-24; liquid cavity: 2-13; Amer et al. 2023: 2-7 (Fig. 1 of each is a
+    sketch)."""
     for name, last in (("charged", 24), ("cavity", 13), ("top", 7)):
         assert [row.number for row in figures.of_paper(name)] == list(range(2, last + 1))
 
@@ -45,19 +46,23 @@ def test_a_figure_number_without_a_paper_belongs_to_the_constant_torque_paper():
 
 def test_the_families_are_those_of_the_papers():
     """Values from the captions of the papers' figures, read back from the scenes that are drawn."""
-    for family, pick in (("lambda3", lambda s: float(s.vector("gyrostat")[2])), ("M1", lambda s: float(s.vector("constant_torque")[0])),
+    for family, pick in (("lambda3", lambda s: float(s.vector("gyrostat")[2])),
+                         ("M1", lambda s: float(s.vector("constant_torque")[0])),
                          ("e", lambda s: s.effect("charge").charge)):
         _, values, _, variant = figures_charged.FAMILIES[family]
         scenes = [panels.sweep(figures_charged.SWEEP)[variant.format(i)].scene for i in (1, 2, 3)]
         assert [float(pick(s)) for s in scenes] == list(values)
     read = {"small": lambda s: s.vector("gyrostat")[2], "large": lambda s: s.vector("gyrostat")[2],
-            "zeta": lambda s: s.effect("resistance").exact * 100, "M3": lambda s: s.vector("constant_torque")[2] * 100,
+            "zeta": lambda s: s.effect("resistance").exact * 100,
+            "M3": lambda s: s.vector("constant_torque")[2] * 100,
             "e": lambda s: s.effect("charge").charge}
     for family, (_, _, files) in figures_cavity.FAMILIES.items():
-        assert [float(read[family](panels.sweep(name)[""].scene)) for name in files.values()] == pytest.approx(list(files))
+        assert [float(read[family](panels.sweep(name)[""].scene))
+                for name in files.values()] == pytest.approx(list(files))
     for pairs in figures_top.FAMILIES.values():
         for lx, lz in pairs:
-            assert tuple(map(float, panels.sweep(f"top-lx{lx}-lz{lz}")[""].scene.vector("gyrostat"))) == (lx, 0, lz)
+            assert tuple(map(float,
+                             panels.sweep(f"top-lx{lx}-lz{lz}")[""].scene.vector("gyrostat"))) == (lx, 0, lz)
 
 
 def _column(exact, printed):
@@ -90,23 +95,29 @@ def test_a_plane_says_of_which_of_its_two_quantities_a_cut_curve_goes_so_far():
     from stabilab.show import style
     plane = panels.Row("$v_1$ (m/s)", "$v_2$ (m/s)", lambda run: (run[1], -run[1] - 1))
     with style.drawing() as plt:
-        words = [text.get_text() for ax in panels.draw_lines(plt, "", [(plane, [_column(np.sin, np.exp)])]).axes for text in ax.texts]
+        words = [text.get_text()
+                 for ax in panels.draw_lines(plt, "", [(plane, [_column(np.sin, np.exp)])]).axes
+                 for text in ax.texts]
     assert words == [f"cut: $v_1$ to {math.exp(10):.0f}, $v_2$ to −{math.exp(10) + 1:.0f}"]
 
 
-@pytest.mark.parametrize("over_time, told", [(True, "cut: from −20 to 22"), (False, "cut: x from −20 to 22, y to 9")])
+@pytest.mark.parametrize("over_time, told",
+                         [(True, "cut: from −20 to 22"), (False, "cut: x from −20 to 22, y to 9")])
 def test_a_curve_that_leaves_a_panel_on_both_sides_tells_both_ends(over_time, told):
     from stabilab.show import style
     sideways = panels.Row("x", "y", lambda run: (run[1], run[1] * 0 + np.clip(run[1], -0.5, 9)))
     with style.drawing() as plt:
-        figure = panels.draw_lines(plt, "", [(ROW if over_time else sideways, [_column(np.sin, lambda t: 1 + 21 * np.cos(np.pi * t))])])
+        figure = panels.draw_lines(plt, "",
+                                   [(ROW if over_time else sideways,
+                                     [_column(np.sin, lambda t: 1 + 21 * np.cos(np.pi * t))])])
         words = [text.get_text() for ax in figure.axes for text in ax.texts]
     assert words == [told]
 
 
 def test_words_on_cuts_without_room_side_by_side_stand_one_above_the_other():
     from stabilab.show import style
-    run = {"exact": (t := np.linspace(0, 10, 101), np.sin(t))} | {name: (t, 1e4 * np.cos(t)) for name in ("linear", "corrected", "printed")}
+    run = ({"exact": (t := np.linspace(0, 10, 101), np.sin(t))}
+           | {name: (t, 1e4 * np.cos(t)) for name in ("linear", "corrected", "printed")})
     with style.drawing() as plt:
         figure = panels.draw_lines(plt, "", [(ROW, [panels.Column("heading", run)])])
         figure.canvas.draw()
@@ -132,25 +143,31 @@ def test_printed_curves_of_the_velocity_are_the_printed_formulas():
     from stabilab.theories.charged.printed import printed
     column = next(iter(figures_charged._columns("lambda3")))
     t, drawn = figures_charged.VELOCITY[0].pick(column.runs["printed"])
-    np.testing.assert_array_equal(drawn, printed(body_of(panels.sweep("charged-sweep")["-1-2-1"]), t).velocity[:, 0])
+    np.testing.assert_array_equal(drawn,
+                                  printed(body_of(panels.sweep("charged-sweep")["-1-2-1"]), t).velocity[:, 0])
     assert {"printed", "corrected", "linear", "exact"} == set(column.runs)
 
 
 def test_the_small_angles_of_the_charged_body_end_after_two_thirds_of_a_second():
     """By hand: from rest the tilt is M1 t^2/(2 D1) at first, so 0.1 rad comes at sqrt(0.2 D1/M1)."""
     words = next(row["is"] for row in claims.charged() if row["says"].startswith("psi and phi"))
-    assert float(re.search(r"after ([\d.]+) s", words)[1]) == pytest.approx(math.sqrt(0.2 * 8.7 / 4), abs=0.006)
+    assert float(re.search(r"after ([\d.]+) s",
+                           words)[1]) == pytest.approx(math.sqrt(0.2 * 8.7 / 4), abs=0.006)
 
 
 def test_the_captions_of_the_charged_body_agree_with_the_exact_motion():
     """The largest r, v and the last eta3 named in the captions, from the runs that are drawn."""
-    for number, family, pick in ((2, "lambda3", lambda s: s["omega"][:, 2].max()), (4, "e", lambda s: s["omega"][:, 2].max()),
-                                 (6, "M1", lambda s: s["omega"][:, 2].max()), (22, "lambda3", lambda s: s["position"][-1, 2]),
-                                 (23, "e", lambda s: s["position"][-1, 2]), (24, "M1", lambda s: s["position"][-1, 2])):
+    for number, family, pick in ((2, "lambda3", lambda s: s["omega"][:, 2].max()),
+                                 (4, "e", lambda s: s["omega"][:, 2].max()),
+                                 (6, "M1", lambda s: s["omega"][:, 2].max()),
+                                 (22, "lambda3", lambda s: s["position"][-1, 2]),
+                                 (23, "e", lambda s: s["position"][-1, 2]),
+                                 (24, "M1", lambda s: s["position"][-1, 2])):
         caption = figures.figure(number, "charged").caption
         for i in (1, 2, 3):
             value = float(pick(figures_charged.runs_of(family)[i - 1]["exact"].state))
-            assert re.search(rf"(?<![\d.]){value:.2f}(?!\d)|(?<![\d.]){value:.0f}(?![\d.])", caption), (number, value)
+            assert re.search(rf"(?<![\d.]){value:.2f}(?!\d)|(?<![\d.]){value:.0f}(?![\d.])",
+                             caption), (number, value)
 
 
 @pytest.mark.slow
@@ -187,7 +204,8 @@ def test_a_chapter_stands_in_the_report_with_claims_errors_and_variant(tmp_path,
     section = chapters.section("top", tmp_path)
     assert section["problem"] == "" and (tmp_path / section["sensible"]["file"]).is_file()
     page = html.render("chapter.html", chapter=section, title=section["title"])
-    for words in ("A fast top in a Newtonian field", "10 % from", "top-sensible.png", "figures/top-06.png", "not so"):
+    for words in ("A fast top in a Newtonian field", "10 % from", "top-sensible.png", "figures/top-06.png",
+                  "not so"):
         assert words in page, words
 
 

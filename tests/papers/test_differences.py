@@ -1,4 +1,5 @@
-"""How far printed curves are from the exact motion, against differences taken by hand from the runs themselves."""
+"""How far printed curves are from the exact motion, against differences taken by hand from the runs
+themselves."""
 import numpy as np
 import pytest
 
@@ -14,7 +15,9 @@ def test_a_figure_tells_the_largest_difference_of_each_panel_at_equal_times():
     n = len(wrong)
     at = np.argmax(abs(wrong - true[:n]))
     assert len(found) == 6 and found[0].status == "compared"  # p and q for three values
-    assert found[0].largest == abs(wrong - true[:n])[at] and found[0].at == runs["exact"].t[at] and found[0].reach == np.ptp(true)
+    assert found[0].largest == abs(wrong
+                                   - true[:n])[at] and found[0].at == runs["exact"].t[at] and found[
+                                       0].reach == np.ptp(true)
 
 
 def test_a_figure_without_printed_curves_has_no_differences():
@@ -24,7 +27,9 @@ def test_a_figure_without_printed_curves_has_no_differences():
 @pytest.mark.parametrize("size, told", [(1444.0, "1444 m (140 times the exact motion's range) at t = 50 s"),
                                         (3.0, "3 m (0.3 of the exact motion's range) at t = 50 s")])
 def test_a_difference_beyond_the_motions_range_is_so_many_times_it(size, told, monkeypatch):
-    monkeypatch.setattr(difference, "differences", lambda _: (difference.Difference(r"$\eta_2$ (m)", "$M_1=4$ N m", size, 10.0, 50.0, "compared"),))
+    monkeypatch.setattr(difference, "differences",
+                        lambda _: (difference.Difference(r"$\eta_2$ (m)", "$M_1=4$ N m", size, 10.0, 50.0,
+                                                         "compared"),))
     assert words(None) == [f"η2, M1=4 N m: {told}"]
 
 
@@ -34,7 +39,8 @@ def test_words_name_quantity_value_size_and_time():
 
 
 @pytest.mark.parametrize("label, text", [
-    (r"$\dot{p}$ (rad/s$^2$)", "dp/dt (rad/s²)"), (r"$\dot{\gamma}''$ (1/s)", "dγ''/dt (1/s)"), ("$M_3=-3$ N m", "M3=−3 N m"),
+    (r"$\dot{p}$ (rad/s$^2$)", "dp/dt (rad/s²)"), (r"$\dot{\gamma}''$ (1/s)", "dγ''/dt (1/s)"),
+    ("$M_3=-3$ N m", "M3=−3 N m"),
     (r"$\lambda_3=15$ kg m$^2$/s", "λ3=15 kg m²/s"), (r"$\gamma\,''$", "γ''"),
     (r"$\omega_1/\omega_3$", "ω1/ω3")])
 def test_labels_are_told_in_plain_text(label, text):

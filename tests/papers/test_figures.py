@@ -1,4 +1,5 @@
-"""What the pictures of the papers show: spans that hold what captions claim, scales, letters, and curves that end or are missing."""
+"""What the pictures of the papers show: spans that hold what captions claim, scales, letters, and curves that
+end or are missing."""
 import re
 
 import numpy as np
@@ -11,7 +12,8 @@ from stabilab.show import style
 from stabilab.show.terminal.letters import some, written
 
 # Names of letters spelt out; a list of its own, so that one left out of the table of letters is seen.
-SPELT = re.compile(r"(?<![A-Za-z])(lambda|omega|psi|phi|theta|eta|zeta|gamma|Gamma|Lambda|Omega|eps|delta|sigma|pi|sqrt)(?![a-z])|\^\d")
+SPELT = re.compile(
+    r"(?<![A-Za-z])(lambda|omega|psi|phi|theta|eta|zeta|gamma|Gamma|Lambda|Omega|eps|delta|sigma|pi|sqrt)(?![a-z])|\^\d")
 
 
 @pytest.fixture
@@ -27,7 +29,8 @@ def test_figures_of_captured_motions_are_drawn_beyond_the_release_they_claim():
     for (lam, (states, seen, release)), claim in zip(longer.items(), claimed):
         turn = np.unwrap(np.arctan2(states[:, 2], states[:, 1]))
         last = np.nonzero(np.diff(np.sign(np.diff(turn))))[0].max() / 400
-        assert abs(last - float(claim)) < 0.06 and abs(release / 400 - last) < 0.01 and len(states) / 400 > last + 5
+        assert abs(last - float(claim)) < 0.06 and abs(release / 400
+                                                       - last) < 0.01 and len(states) / 400 > last + 5
         assert np.array_equal(states[:seen], printed[lam][0])
 
 
@@ -66,22 +69,27 @@ def test_a_curve_that_ends_within_a_panel_is_marked_and_the_panel_says_why(plt):
 
 def test_a_panel_without_a_model_says_why(plt):
     headings = [ax.get_title().replace("\n", " ") for ax in figure(11, "cavity").draw(plt).axes[:3]]
-    assert ["averaging needs small" in heading for heading in headings] == [False, False, True] and "averaged, second order" in headings[2]
+    assert ["averaging needs small" in heading
+            for heading in headings] == [False, False, True] and "averaged, second order" in headings[2]
 
 
 def test_words_on_cut_curves_stand_side_by_side(plt):
     drawn = figure(5, "top").draw(plt)
     drawn.draw_without_rendering()
     rows = [[text.get_window_extent() for text in ax.texts] for ax in drawn.axes]
-    assert sum(len(boxes) > 1 for boxes in rows) >= 5  # rows whose printed and corrected curves both leave the panel
-    assert not [1 for boxes in rows for n, box in enumerate(boxes) for other in boxes[:n] if box.overlaps(other)]
+    # rows whose printed and corrected curves both leave the panel
+    assert sum(len(boxes) > 1 for boxes in rows) >= 5
+    assert not [1 for boxes in rows for n,
+                box in enumerate(boxes) for other in boxes[:n] if box.overlaps(other)]
 
 
 def test_every_line_looks_as_the_legend_says(plt):
     for row in (figure(2, "top"), figure(2, "charged")):
         drawn = row.draw(plt)
-        legend = {(h.get_color(), h.get_linestyle(), h.get_linewidth()) for h in drawn.legends[0].legend_handles}
-        assert {(line.get_color(), line.get_linestyle(), line.get_linewidth()) for ax in drawn.axes for line in ax.lines} <= legend
+        legend = {(h.get_color(), h.get_linestyle(), h.get_linewidth())
+                  for h in drawn.legends[0].legend_handles}
+        assert {(line.get_color(), line.get_linestyle(), line.get_linewidth()) for ax in drawn.axes
+                for line in ax.lines} <= legend
 
 
 def _hue(colour):
@@ -92,20 +100,24 @@ def _hue(colour):
 
 def _named(drawn):
     """[(name, colour)] of a legend."""
-    return [(text.get_text(), handle.get_color()) for text, handle in zip(drawn.legends[0].get_texts(), drawn.legends[0].legend_handles)]
+    return [(text.get_text(), handle.get_color()) for text,
+            handle in zip(drawn.legends[0].get_texts(), drawn.legends[0].legend_handles)]
 
 
 def _model(name):
-    return "corrected" if "corrected integrals" in name else "printed" if name.startswith(("alone", "as printed")) else name
+    return ("corrected" if "corrected integrals" in name
+            else "printed" if name.startswith(("alone", "as printed")) else name)
 
 
 def test_no_colour_of_a_figure_means_two_things(plt):
-    """In the column of printed curves alone the shades are those of the model that they show beside it; no other line has their hue."""
+    """In the column of printed curves alone the shades are those of the model that they show beside it; no
+    other line has their hue."""
     for row in (figure(3, "cavity"), figure(18, "charged"), figure(6, "top")):
         named = [(_model(name), _hue(colour)) for name, colour in _named(row.draw(plt))]
         assert sum(model == "printed" for model, _ in named) == 4
         for model, hue in named:
-            assert [other for other, at in named if other != model and None not in (hue, at) and model in ("printed", "corrected")
+            assert [other for other, at in named if other != model and None not in (hue, at)
+                    and model in ("printed", "corrected")
                     and abs((hue - at + 180) % 360 - 180) < 15] == []
     colours = dict(_named(middle_axis.projections(plt)))
     assert colours.pop("motion of Table 3") not in colours.values()
@@ -115,17 +127,21 @@ def test_no_colour_of_a_figure_means_two_things(plt):
 def test_a_caption_speaks_of_a_column_of_printed_curves_only_where_one_may_stand(name, number, plt):
     row = figure(number, name)
     alone = any("alone" in ax.get_title() for ax in row.draw(plt).axes)
-    assert alone <= ("the first column has them alone" in row.caption) and (number not in (11, 13) or "column" not in row.caption)
+    assert alone <= ("the first column has them alone" in row.caption) and (number not in (11, 13)
+                                                                            or "column" not in row.caption)
 
 
 @pytest.mark.parametrize("plain, letters", [
-    ("lambda3 = 0.1, l_x and r0^2", "λ3 = 0.1, lx and r0²"), ("pi/2, psi, 2 pi/r0; Gamma/eps", "π/2, ψ, 2 π/r0; Γ/ε"), ("sqrt(p^2 + q^2) m^7", "√(p² + q²) m⁷"),
-    ("gamma'' and eta3", "γ'' and η3"), ("a phial, a pistachio, betas; theta-like", "a phial, a pistachio, betas; theta-like")])
+    ("lambda3 = 0.1, l_x and r0^2", "λ3 = 0.1, lx and r0²"),
+    ("pi/2, psi, 2 pi/r0; Gamma/eps", "π/2, ψ, 2 π/r0; Γ/ε"), ("sqrt(p^2 + q^2) m^7", "√(p² + q²) m⁷"),
+    ("gamma'' and eta3", "γ'' and η3"),
+    ("a phial, a pistachio, betas; theta-like", "a phial, a pistachio, betas; theta-like")])
 def test_captions_are_set_in_letters(plain, letters):
     assert written(plain) == letters
 
 
-@pytest.mark.parametrize("row", [figure(2), figure(4), figure(12), figure(8, "charged"), figure(21, "charged"), figure(2, "cavity"), figure(6, "top")],
+@pytest.mark.parametrize("row", [figure(2), figure(4), figure(12), figure(8, "charged"),
+                                 figure(21, "charged"), figure(2, "cavity"), figure(6, "top")],
                          ids=lambda row: row.file)
 def test_captions_and_titles_spell_no_letter(row):
     assert not SPELT.search(row.title + " " + row.caption)
@@ -133,7 +149,8 @@ def test_captions_and_titles_spell_no_letter(row):
 
 @pytest.mark.slow
 def test_no_caption_spells_a_letter():
-    assert [row.file for row in catalogue.chosen() if SPELT.search(f"{row.title} {row.caption} {row.tolerance}")] == []
+    assert [row.file for row in catalogue.chosen()
+            if SPELT.search(f"{row.title} {row.caption} {row.tolerance}")] == []
 
 
 def test_one_thing_is_told_in_the_singular():

@@ -1,4 +1,5 @@
-"""Numbers of other tools against ours: each source's values, the causes, the enclosures against Taylor series of another code, the page of docs."""
+"""Numbers of other tools against ours: each source's values, the causes, the enclosures against Taylor series
+of another code, the page of docs."""
 from __future__ import annotations
 
 import json
@@ -31,12 +32,14 @@ def validated():
 
 @pytest.fixture(scope="module")
 def by_tool(validated):
-    return lambda tool, time: [one for _, found in validated.values() for one in found if one.printed.tool == tool and one.time == time]
+    return lambda tool, time: [one for _, found in validated.values() for one in found
+                               if one.printed.tool == tool and one.time == time]
 
 
 def test_every_value_agrees_or_its_difference_is_explained(validated):
     assert {name: shown.counts(found) for name, (_, found) in validated.items()} == {
-        "42": "no values are printed", "basilisk": "15 agree, 3 differ for a known cause", "nesc": "10 agree, 35 differ for a known cause", "orekit": "3 agree"}
+        "42": "no values are printed", "basilisk": "15 agree, 3 differ for a known cause",
+        "nesc": "10 agree, 35 differ for a known cause", "orekit": "3 agree"}
 
 
 def test_sources_name_repository_commit_and_licence(validated):
@@ -59,9 +62,11 @@ def test_the_tumbling_brick_is_that_of_a_taylor_series_in_many_digits(by_tool):
 
 
 def test_the_attitude_under_a_torque_is_what_the_rates_integrate_to(by_tool):
-    # the rule of order four at 0.025 s: its error is 2^-8 of that at 0.1 s, 3e-7, and shrinks as the fourth power
+    # the rule of order four at 0.025 s: its error is 2^-8 of that at 0.1 s, 3e-7, and shrinks as the fourth
+    # power
     found = by_tool("external torque", "600")
-    left = {step: max(abs(a - float(one.ours)) for a, one in zip(_sigma(found[0].printed, step), found)) for step in ("0.1", "0.05")}
+    left = {step: max(abs(a - float(one.ours)) for a, one in zip(_sigma(found[0].printed, step), found))
+            for step in ("0.1", "0.05")}
     assert 14 < left["0.1"] / left["0.05"] < 18
 
 
@@ -71,13 +76,15 @@ def _sigma(printed, step):
 
 
 def test_the_angular_momentum_of_driven_wheels_and_body_rests_in_space():
-    # no torque from outside: balls of the momentum in space at the start and after a second overlap, and are narrow
+    # no torque from outside: balls of the momentum in space at the start and after a second overlap, and are
+    # narrow
     motion = next(p.motion for p in source("basilisk").printed if p.motion.wheels)
     wheels = motion.wheels
     (found,) = at(motion, [Fraction(1)])
     with working(256) as numbers:
         own = numbers.ball(wheels.momentum) / (200 * numbers.pi())
-        start = [numbers.ball(m) * numbers.ball(w) + own * numbers.ball(s) * numbers.pi() / 30 for m, w, s in zip(motion.inertia, motion.omega, wheels.speed)]
+        start = [numbers.ball(m) * numbers.ball(w) + own * numbers.ball(s) * numbers.pi() / 30 for m, w,
+                 s in zip(motion.inertia, motion.omega, wheels.speed)]
         wheel = [own * (numbers.ball(s) * numbers.pi() / 30 + numbers.ball(w)) + numbers.ball(u) / 2
                  for s, w, u in zip(wheels.speed, motion.omega, wheels.motor)]
         body = [(numbers.ball(m) - own) * w + h for m, w, h in zip(motion.inertia, found.omega, wheel)]
@@ -94,8 +101,10 @@ def test_rules_have_the_orders_that_they_are_named_for():
 
 def test_a_wrong_number_is_neither_agreed_with_nor_explained():
     given = source("nesc")
-    planted = replace(given.printed[3], values=(("10", "-2.41889", "-23.552576515835174", "28.128588284177358"),))
-    assert [one.verdict for one in findings(replace(given, printed=(planted,)))] == ["differs", "explained", "explained"]
+    planted = replace(given.printed[3],
+                      values=(("10", "-2.41889", "-23.552576515835174", "28.128588284177358"),))
+    assert [one.verdict
+            for one in findings(replace(given, printed=(planted,)))] == ["differs", "explained", "explained"]
 
 
 def test_a_difference_without_a_cause_ends_with_5(stabilab, monkeypatch):
@@ -115,27 +124,36 @@ def test_unknown_source_is_bad_input(stabilab):
 def test_json_names_file_value_and_cause(stabilab):
     code, out, _ = stabilab("validate", "orekit", "--json")
     data = json.loads(out)
-    assert code == 0 and data["schema"] == "stabilab.validate/1" and data["sources"][0]["repository"] == "CS-SI/Orekit"
-    assert set(data["sources"][0]["values"][0]) >= {"file", "url", "ours", "ours_within", "theirs", "difference", "tolerance", "verdict", "cause"}
+    assert code == 0 and data["schema"] == "stabilab.validate/1" and data["sources"][0][
+        "repository"] == "CS-SI/Orekit"
+    assert set(data["sources"][0]["values"][0]) >= {"file", "url", "ours", "ours_within", "theirs",
+                                                    "difference", "tolerance", "verdict", "cause"}
 
 
 def test_the_page_shows_every_value(validated, tmp_path):
     text = shown.page(validated.values(), tmp_path / "page.html").read_text(encoding="utf-8")
-    printed = lambda number: re.sub(r"e-0+", "e-", number).replace("-", "−")  # as every page of the report writes a power of ten
-    assert all(printed(number) in text for _, found in validated.values() for one in found for number in (one.ours, one.theirs))
+    # as every page of the report writes a power of ten
+    printed = lambda number: re.sub(r"e-0+", "e-", number).replace("-", "−")
+    assert all(printed(number) in text for _,
+               found in validated.values() for one in found for number in (one.ours, one.theirs))
 
 
-def test_page_and_text_begin_with_a_source_that_has_values_and_a_minus_is_no_hyphen(validated, tmp_path, stabilab):
-    text, page = stabilab("validate")[1], shown.page(validated.values(), tmp_path / "page.html").read_text(encoding="utf-8")
-    first, last = (next(name for name, (_, found) in validated.items() if bool(found) is have) for have in (True, False))
-    assert page.index(f'id="{first}"') < page.index(f'id="{last}"') and text.index(f"\n{first}: ") < text.index(f"\n{last}: ")
+def test_page_and_text_begin_with_a_source_that_has_values_and_a_minus_is_no_hyphen(validated, tmp_path,
+                                                                                    stabilab):
+    text, page = stabilab("validate")[1], shown.page(validated.values(),
+                                                     tmp_path / "page.html").read_text(encoding="utf-8")
+    first, last = (next(name for name, (_, found) in validated.items() if bool(found) is have)
+                   for have in (True, False))
+    assert page.index(f'id="{first}"') < page.index(f'id="{last}"') and text.index(
+        f"\n{first}: ") < text.index(f"\n{last}: ")
     assert not re.search(r">-\d|\de-\d", re.sub(r"href=.*?>", "", page))
     total = sum(len(found) for _, found in validated.values())
     assert sum(map(int, re.findall(r"(\d+) (?:agree|differ)", text.splitlines()[0]))) == total
 
 
 def test_numbers_of_the_page_of_docs_are_those_of_the_findings(validated):
-    """Every table row of docs/validation.md is what the program says of that tool, and below the table stands each cause."""
+    """Every table row of docs/validation.md is what the program says of that tool, and below the table stands
+    each cause."""
     page = PAGE.read_text(encoding="utf-8").splitlines()
     rows, causes = rows_of(validated)
     assert set(rows + causes) <= set(page) and len(causes) == 6
@@ -148,8 +166,10 @@ def rows_of(validated) -> tuple[list[str], list[str]]:
         for group in shown.grouped(found):
             worst, tool = max(group, key=lambda one: one.difference / one.tolerance), group[0].printed.tool
             off = f"{_power(f'{worst.difference:.1e}')} | {_power(f'{worst.tolerance:.0e}')}"
-            rows.append(f"| {given.name} | {tool} | {len(group)} | {written(worst.component)} at {worst.time} s | "
-                        f"{re.sub('^-', '−', worst.ours)} | {re.sub('^-', '−', worst.theirs)} | {off} | {worst.verdict} |")
+            rows.append(f"| {given.name} | {tool} | {len(group)} | {written(worst.component)} at "
+                        f"{worst.time} s | "
+                        f"{re.sub('^-', '−', worst.ours)} | {re.sub('^-', '−', worst.theirs)} | {off} | "
+                        f"{worst.verdict} |")
             if cause := shown.cause(group):
                 causes.append(f"- {given.name}, {tool}: {_power(written(cause))}")
     return rows, causes

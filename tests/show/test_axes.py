@@ -1,4 +1,5 @@
-"""An axis has one name and one sign in every command: beside a run of Euler's equations in the frame of the file, typed in here once more."""
+"""An axis has one name and one sign in every command: beside a run of Euler's equations in the frame of the
+file, typed in here once more."""
 import itertools
 import json
 import re
@@ -27,13 +28,16 @@ span = [0, 100]
 [limits]
 rate = 2
 """
-TURNS = ([[2, -1, 2], [2, 2, -1], [-1, 2, 2]], [[1, 2, 2], [2, 1, -2], [-2, 2, -1]])  # over 3: rotations in rationals
-QUICK = (1, 6, 13)  # of the scenes: two orders of a diagonal tensor and a full one, against their axes and along them
+# over 3: rotations in rationals
+TURNS = ([[2, -1, 2], [2, 2, -1], [-1, 2, 2]], [[1, 2, 2], [2, 1, -2], [-2, 2, -1]])
+# of the scenes: two orders of a diagonal tensor and a full one, against their axes and along them
+QUICK = (1, 6, 13)
 RANKS = ("major", "intermediate", "minor")
 
 
 def scenes():
-    """(name, tensor, torque, start) in the frame of the file. The torque is along a principal axis, which a faster spin about it follows."""
+    """(name, tensor, torque, start) in the frame of the file. The torque is along a principal axis, which a
+    faster spin about it follows."""
     found = []
     for order in itertools.permutations(MOMENTS):
         for rank, sign in ((0, 1), (2, -1)):
@@ -42,13 +46,16 @@ def scenes():
     for n, turn in enumerate(TURNS):
         R = np.array(turn) / 3
         J = R.T @ np.diag(MOMENTS) @ R
-        found += [(f"turn {n} about {RANKS[rank]} {sign:+d}", J, sign * R[rank]) for rank in (0, 2) for sign in (1, -1)]
+        found += [(f"turn {n} about {RANKS[rank]} {sign:+d}", J, sign * R[rank]) for rank in (0, 2)
+                  for sign in (1, -1)]
     return found
 
 
 def file_of(tmp_path, J, along, speed=1.0):
-    """A case, and the direction along which omega grows there by DOP853: of J omega' = M + J omega x omega, all in the frame of the file."""
-    exact = lambda values: "[" + ", ".join(f'"{round(9 * v)}/9"' for v in values) + "]"  # ninths are exact, and the tensor's entries are ninths
+    """A case, and the direction along which omega grows there by DOP853: of J omega' = M + J omega x omega,
+    all in the frame of the file."""
+    # ninths are exact, and the tensor's entries are ninths
+    exact = lambda values: "[" + ", ".join(f'"{round(9 * v)}/9"' for v in values) + "]"
     M = np.round(9 * 0.6 * along * (5 / 3)) / 9 if np.count_nonzero(along) > 1 else along
     start = speed * along + np.cross(along, [0.01, 0.02, 0.03])
     rows = [exact(row) for row in J]
@@ -56,7 +63,8 @@ def file_of(tmp_path, J, along, speed=1.0):
     path = tmp_path / "own.toml"
     path.write_text(TEXT.format(J=tensor, M=exact(M), start=list(map(float, start))))
     back = np.linalg.inv(J)
-    run = solve_ivp(lambda t, w: back @ (M + np.cross(J @ w, w)), (0, 150), start, "DOP853", rtol=1e-8, atol=1e-10)
+    run = solve_ivp(lambda t, w: back @ (M + np.cross(J @ w, w)), (0, 150), start, "DOP853", rtol=1e-8,
+                    atol=1e-10)
     return path, run.y[:, -1] / np.linalg.norm(run.y[:, -1])
 
 
@@ -67,7 +75,9 @@ def agrees(told, axes, grows, word):
     assert word in told["axis_name"] and np.array_equal(axes[told["axis"] - 1], along)
 
 
-@pytest.mark.parametrize("name, J, along", [pytest.param(*one, id=one[0], marks=[pytest.mark.slow] * (n not in QUICK)) for n, one in enumerate(scenes())])
+@pytest.mark.parametrize("name, J, along",
+                         [pytest.param(*one, id=one[0], marks=[pytest.mark.slow] * (n not in QUICK)) for n,
+                          one in enumerate(scenes())])
 def test_every_command_names_the_axis_along_which_a_run_grows(stabilab, tmp_path, name, J, along):
     path, grows = file_of(tmp_path, J, along)
     moments, word = sorted(np.linalg.eigvalsh(J), reverse=True), name.split()[-2]
@@ -76,56 +86,71 @@ def test_every_command_names_the_axis_along_which_a_run_grows(stabilab, tmp_path
     case = load(path)
     found = ask(case)  # once for all that is told of it
     stuck = json.loads(as_json(shown.as_dict(case, found)))
-    fate, classified = (json.loads(stabilab(command, path, "--json")[1])[0] for command in ("fate", "classify"))
+    fate, classified = (json.loads(stabilab(command, path, "--json")[1])[0]
+                        for command in ("fate", "classify"))
     row = stuck["rows"][0]
     axes = np.eye(3) if diagonal else np.array(fate["frame"]["axes"])
     agrees(fate, axes, grows, word)
     agrees(classified["motion"], axes, grows, word)
     agrees(row, np.array(stuck["principal"]["axes"]), grows, word)
-    assert fate["axis"] == row["axis"] == classified["motion"]["axis"] and np.array_equal(axes, stuck["principal"]["axes"])
+    assert fate["axis"] == row["axis"] == classified["motion"]["axis"] and np.array_equal(
+        axes, stuck["principal"]["axes"])
     assert row["direction"] == pytest.approx(grows, abs=0.05) and stuck["schema"] == "stabilab.stuck/2"
     letter = "xyz"[np.abs(grows).argmax()]
-    texts = [shown.text(case, found, units_of(case)), *(stabilab(command, path)[1] for command in ("fate", "classify"))]
+    texts = [shown.text(case, found, units_of(case)),
+             *(stabilab(command, path)[1] for command in ("fate", "classify"))]
     for first in (text.splitlines()[0] for text in texts):
         if diagonal:
             sense = "positive" if grows["xyz".index(letter)] > 0 else "negative"
             assert f"SPINS UP about {letter} ({word} axis), {sense} sense" in first
         else:
-            seen = re.search(rf"SPINS UP about the {word} axis, \((.*?), (.*?), (.*?)\) in the file's frame, (positive|negative) sense", first)
-            assert {"positive": 1, "negative": -1}[seen[4]] * np.array(seen.groups()[:3], float) @ grows > 0.998
+            seen = re.search(
+                rf"SPINS UP about the {word} axis, \((.*?), (.*?), (.*?)\) in the file's frame, "
+                rf"(positive|negative) sense", first)
+            assert {"positive": 1,
+                    "negative": -1}[seen[4]] * np.array(seen.groups()[:3], float) @ grows > 0.998
     cells = dict(zip(*(line.split(",") for line in shown.csv([(case, found)]).splitlines())))
-    assert (cells["axis"], cells["axis_name"], cells["sense"]) == (str(row["axis"]), row["axis_name"], str(row["sense"]))
+    assert (cells["axis"], cells["axis_name"],
+            cells["sense"]) == (str(row["axis"]), row["axis_name"], str(row["sense"]))
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("order", itertools.permutations(MOMENTS))
 def test_a_bound_names_the_axis_of_its_torque_alike(stabilab, tmp_path, order):
-    """A small torque on the minor axis of a body that spins about its major one: nothing that it does by then goes past the barrier."""
+    """A small torque on the minor axis of a body that spins about its major one: nothing that it does by then
+    goes past the barrier."""
     path = tmp_path / "own.toml"
     minor, major = order.index(40), order.index(100)
     torque, start = np.eye(3)[minor] / 100, np.eye(3)[major]
     path.write_text(TEXT.format(J=list(order), M=torque.tolist(), start=start.tolist()))
     for command in ("fate", "stuck"):
-        assert f"while the torque is exactly along {'xyz'[minor]} (minor axis)" in stabilab(command, path)[1].splitlines()[0]
+        assert f"while the torque is exactly along {'xyz'[minor]} (minor axis)" in stabilab(command, path)[
+            1].splitlines()[0]
 
 
 @pytest.mark.slow
 def test_a_full_tensor_of_the_catalogue_is_named_with_its_direction(stabilab, tmp_path):
-    """[[100, 2, -1], [2, 90, 3], [-1, 3, 40]] under a torque off its axes: the direction that is told is NumPy's eigenvector, and the run grows there."""
+    """[[100, 2, -1], [2, 90, 3], [-1, 3, 40]] under a torque off its axes: the direction that is told is
+    NumPy's eigenvector, and the run grows there."""
     J = np.array([[100, 2, -1], [2, 90, 3], [-1, 3, 40.0]])
     path = tmp_path / "geo.toml"
     M, start = np.array([0.1, -0.597, 0.06]), np.array([0.0, 0, 0.0524])
     path.write_text(TEXT.format(J=J.tolist(), M=M.tolist(), start=start.tolist()))
     back = np.linalg.inv(J)
-    run = solve_ivp(lambda t, w: back @ (M + np.cross(J @ w, w)), (0, 2000), start, "DOP853", rtol=1e-8, atol=1e-10)
+    run = solve_ivp(lambda t, w: back @ (M + np.cross(J @ w, w)), (0, 2000), start, "DOP853", rtol=1e-8,
+                    atol=1e-10)
     grows = run.y[:, -1] / np.linalg.norm(run.y[:, -1])
     eigenvectors = np.linalg.eigh(J)[1].T[::-1]
-    fate, stuck = json.loads(stabilab("fate", path, "--json")[1])[0], json.loads(stabilab("stuck", path, "--json")[1])
+    fate, stuck = json.loads(stabilab("fate", path,
+                                      "--json")[1])[0], json.loads(stabilab("stuck", path, "--json")[1])
     for told in (fate, stuck["rows"][0]):
         along = np.array(told["axis_direction"])
-        assert abs(along @ eigenvectors[told["axis"] - 1]) == pytest.approx(1, abs=1e-12) and told["sense"] * along @ grows > 0.95
+        assert abs(along @ eigenvectors[told["axis"] - 1]) == pytest.approx(1,
+                                                                            abs=1e-12) and told[
+                                                                                "sense"] * along @ grows > 0.95
     assert fate["axis"] == stuck["rows"][0]["axis"] and fate["axis_name"] == RANKS[fate["axis"] - 1]
-    assert "about axis" not in stabilab("fate", path)[1] + stabilab("stuck", path)[1] + stabilab("show", path)[1]
+    assert "about axis" not in stabilab("fate",
+                                        path)[1] + stabilab("stuck", path)[1] + stabilab("show", path)[1]
 
 
 def test_caveats_in_json_and_csv_name_the_axis_of_the_paper(stabilab):
@@ -144,7 +169,8 @@ class Plain:
 
 
 @pytest.mark.parametrize("moments, names", [
-    ((3, 2, 1), ("x (major)", "y (intermediate)", "z (minor)")), ((1, 3, 2), ("x (minor)", "y (major)", "z (intermediate)")),
+    ((3, 2, 1), ("x (major)", "y (intermediate)", "z (minor)")),
+    ((1, 3, 2), ("x (minor)", "y (major)", "z (intermediate)")),
     ((2, 3, 2), ("x (transverse)", "y (symmetry)", "z (transverse)")), ((2, 2, 2), ("x", "y", "z"))])
 def test_words_are_those_of_the_moments_and_none_where_all_are_alike(moments, names):
     assert tuple(map(axes_of(Plain(moments)).name, (1, 2, 3))) == names
@@ -154,12 +180,19 @@ def test_words_are_those_of_the_moments_and_none_where_all_are_alike(moments, na
 def test_sentences_have_names_for_numbers_and_scenes_without_a_file_keep_these():
     turned = axes_of(Plain((2, 2, 1), ((0, 1, 0), (0, 0, 1), (1, 0, 0))))
     words = "spin about axis 3, not axes 1 and 2; the torque is on principal axis 3"
-    assert axes_of(Plain((3, 2, 1))).sentence(words) == "spin about the z axis, not the x axis and the y axis; the torque is on the z axis"
-    assert turned.sentence("about axis 3") == "about the symmetry axis" and turned.sentence("on axis 1") == "on the transverse axis (0.000, 1.000, 0.000)"
-    assert turned.signed(1, -1) == "-transverse 1" and turned.signed(3, 1) == "+symmetry" and turned.signed(0, 0) == ""
+    assert axes_of(Plain((3, 2,
+                          1))).sentence(
+                              words) == "spin about the z axis, not the x axis and the y axis; the torque is on the z axis"
+    assert turned.sentence("about axis 3") == "about the symmetry axis" and turned.sentence(
+        "on axis 1") == "on the transverse axis (0.000, 1.000, 0.000)"
+    assert turned.signed(1,
+                         -1) == "-transverse 1" and turned.signed(3,
+                                                                  1) == "+symmetry" and turned.signed(0,
+                                                                                                      0) == ""
     assert PLAIN.sentence(words) == words and PLAIN.whole(2) == "axis 2"
 
 
 def test_components_along_other_axes_than_the_file_s_come_with_these():
     (line,) = note(load("cases/upper-stage.toml"))
-    assert "omega1 about the major axis, (" in line and line.endswith(" in the file's frame") and not note(load("cases/off-axis-two.toml"))
+    assert "omega1 about the major axis, (" in line and line.endswith(" in the file's frame") and not note(
+        load("cases/off-axis-two.toml"))

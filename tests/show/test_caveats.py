@@ -1,4 +1,5 @@
-"""What limits an answer is on every view of it: one table of commands and views, and the times at a limit by SciPy, which shares no code."""
+"""What limits an answer is on every view of it: one table of commands and views, and the times at a limit by
+SciPy, which shares no code."""
 from __future__ import annotations
 
 import json
@@ -36,7 +37,8 @@ span = [0, 50]
 PLAIN = {"inertia": "[100, 90, 40]", "position": "[0.1, 0, 0]", "misaligned": "", "limits": ""}
 CASES = {  # name: (what the file says, words of the caveat)
     "axis": ({"misaligned": 'misalignment = "2 deg"'}, "only while the torque is exactly along "),
-    "limit": ({"position": "[0.1, 0, 0.05]", "limits": '[limits]\nrate = "7 deg/s"'}, "reaches 7 deg/s after "),
+    "limit": ({"position": "[0.1, 0, 0.05]", "limits": '[limits]\nrate = "7 deg/s"'},
+              "reaches 7 deg/s after "),
     "off axis": ({"position": "[0.1, 0, 0.05]", "misaligned": 'misalignment = "1 deg"'}, "tilt"),
     "unphysical": ({"inertia": "[8, 4, 0.4]"}, "no rigid body has "),
     "uncertain": ({"inertia": '["100 +- 1", 90, 40]'}, "uncertain"),
@@ -45,24 +47,36 @@ MOTION = ("axis", "limit", "off axis", "unphysical", "uncertain")
 FILE = ("unphysical", "uncertain")
 ATTITUDE = ("--rate", "50 deg/s")
 VIEWS = [  # (command and options, the cases whose caveat it has to show)
-    (("classify",), MOTION), (("classify", "--json"), MOTION), (("fate",), MOTION), (("fate", "--json"), MOTION),
-    (("extremes",), MOTION), (("extremes", "--json"), MOTION), (("extremes", "--csv"), MOTION), (("period",), MOTION), (("period", "--json"), MOTION),
-    (("when", *ATTITUDE), ("axis", "off axis", *FILE)), (("when", *ATTITUDE, "--json"), ("axis", "off axis", *FILE)),
+    (("classify",), MOTION), (("classify", "--json"), MOTION), (("fate",), MOTION),
+    (("fate", "--json"), MOTION),
+    (("extremes",), MOTION), (("extremes", "--json"), MOTION), (("extremes", "--csv"), MOTION),
+    (("period",), MOTION), (("period", "--json"), MOTION),
+    (("when", *ATTITUDE), ("axis", "off axis", *FILE)),
+    (("when", *ATTITUDE, "--json"), ("axis", "off axis", *FILE)),
     (("when", *ATTITUDE, "--csv"), ("axis", "off axis", *FILE)),
-    (("stuck",), ("axis", "limit", "off axis")), (("stuck", "--json"), ("axis", "off axis", *FILE)), (("stuck", "--csv"), ("axis", "off axis", *FILE)),
+    (("stuck",), ("axis", "limit", "off axis")), (("stuck", "--json"), ("axis", "off axis", *FILE)),
+    (("stuck", "--csv"), ("axis", "off axis", *FILE)),
     (("simulate", "--at", "1"), FILE), (("simulate", "--at", "1", "--json"), FILE), (("show",), FILE),
-    (("chaos", "--until", "50 s"), FILE), (("chaos", "--until", "50 s", "--json"), FILE), (("chaos", "--until", "50 s", "--csv"), FILE),
-    (("reference", "--at", "1", "--digits", "9", "--json"), FILE), (("reference", "--at", "1", "--digits", "9"), FILE),
+    (("chaos", "--until", "50 s"), FILE), (("chaos", "--until", "50 s", "--json"), FILE),
+    (("chaos", "--until", "50 s", "--csv"), FILE),
+    (("reference", "--at", "1", "--digits", "9", "--json"), FILE),
+    (("reference", "--at", "1", "--digits", "9"), FILE),
     (("sweep", "--vary", "wheels.w.momentum=3,4", "--csv"), ("axis", "unphysical")),
     (("sweep", "--vary", "wheels.w.momentum=3,4"), ("axis", "off axis", *FILE)),
     (("sweep", "--vary", "wheels.w.momentum=3,4", "--json"), ("axis", "off axis", *FILE)),
-    (("sweep", "--vary", "wheels.w.momentum=3,4", "--answer", "when", *ATTITUDE, "--csv"), ("axis", "unphysical")),
-    (("basin", "--vary", "angular_velocity[1]=5:6:3 deg/s", "--vary", "angular_velocity[2]=0:1:3 deg/s", "--depth", "0"), ("axis", *FILE)),
-    (("basin", "--vary", "angular_velocity[1]=5:6:3 deg/s", "--vary", "angular_velocity[2]=0:1:3 deg/s", "--depth", "0", "--csv"), ("axis", *FILE)),
-    (("basin", "--vary", "angular_velocity[1]=5:6:3 deg/s", "--vary", "angular_velocity[2]=0:1:3 deg/s", "--depth", "0", "--json"), ("axis", *FILE)),
-    (("bifurcation", "--vary", "wheels.w.momentum=3:4"), FILE), (("bifurcation", "--vary", "wheels.w.momentum=3:4", "--json"), FILE),
+    (("sweep", "--vary", "wheels.w.momentum=3,4", "--answer", "when", *ATTITUDE, "--csv"),
+     ("axis", "unphysical")),
+    (("basin", "--vary", "angular_velocity[1]=5:6:3 deg/s", "--vary", "angular_velocity[2]=0:1:3 deg/s",
+      "--depth", "0"), ("axis", *FILE)),
+    (("basin", "--vary", "angular_velocity[1]=5:6:3 deg/s", "--vary", "angular_velocity[2]=0:1:3 deg/s",
+      "--depth", "0", "--csv"), ("axis", *FILE)),
+    (("basin", "--vary", "angular_velocity[1]=5:6:3 deg/s", "--vary", "angular_velocity[2]=0:1:3 deg/s",
+      "--depth", "0", "--json"), ("axis", *FILE)),
+    (("bifurcation", "--vary", "wheels.w.momentum=3:4"), FILE),
+    (("bifurcation", "--vary", "wheels.w.momentum=3:4", "--json"), FILE),
     (("bifurcation", "--vary", "wheels.w.momentum=3:4", "--csv"), FILE),
-    (("atlas", "--level", "0", "--refine", "0"), ("axis", "off axis", *FILE)), (("atlas", "--level", "0", "--refine", "0", "--json"), ("axis", *FILE)),
+    (("atlas", "--level", "0", "--refine", "0"), ("axis", "off axis", *FILE)),
+    (("atlas", "--level", "0", "--refine", "0", "--json"), ("axis", *FILE)),
     (("atlas", "--level", "0", "--refine", "0", "--csv"), ("axis", "unphysical")),
 ]
 
@@ -79,7 +93,8 @@ def told(name, text) -> bool:
     words = CASES[name][1]
     if name == "axis":  # a number where the JSON or the CSV has one, else the name
         return any(f"{words}{axis}" in text for axis in ("axis 3", "the z axis", "z (minor axis)"))
-    return words in text or (name == "limit" and "reaches 0.122173 rad/s after " in text) or (name == "limit" and "reaches 7 deg/s in " in text)
+    return (words in text or (name == "limit" and "reaches 0.122173 rad/s after " in text)
+            or (name == "limit" and "reaches 7 deg/s in " in text))
 
 
 @pytest.mark.one_in(2)
@@ -104,14 +119,18 @@ def test_a_page_shows_what_limits_its_answer(files, tmp_path, name):
     assert told(name, f"{made['headline']} {' '.join(made['caveats'])} {made['uncertain']}")
 
 
-def test_a_caveat_is_a_key_of_every_object_and_empty_where_nothing_limits_the_answer(stabilab, files, tmp_path):
+def test_a_caveat_is_a_key_of_every_object_and_empty_where_nothing_limits_the_answer(stabilab, files,
+                                                                                     tmp_path):
     free = tmp_path / "free.toml"
     free.write_text(FORM.format(**PLAIN).replace("stuck = true", ""))
     for command in (("classify",), ("fate",), ("extremes",), ("period",), ("when", *ATTITUDE)):
         found = json.loads(stabilab(command[0], free, *command[1:], "--json")[1])
         assert found[0]["caveats"] == [], command
     motion = package.motion(load(files["axis"]).scene, [0.1, 0, 0.01])
-    assert [one.kind for one in motion.caveats] == ["tilt"] and package.time_to(load(files["axis"]).scene, [0.1, 0, 0.01], rate=2).caveats == motion.caveats
+    assert [one.kind
+            for one in motion.caveats] == ["tilt"] and package.time_to(load(files["axis"]).scene,
+                                                                       [0.1, 0, 0.01],
+                                                                       rate=2).caveats == motion.caveats
     assert caveats_of(load(free).scene, True) == ()
 
 
@@ -120,7 +139,8 @@ def test_a_limit_comes_before_the_fate_when_it_is_reached(stabilab, files):
     case = load(files["limit"])
     true = first_time(case, np.array([-0.025, 0, 0.05]), math.radians(7))
     first = stabilab("fate", files["limit"], "--units", "si")[1].split("\n")[0]
-    assert first.startswith("limit: reaches 0.122173 rad/s after ") and float(first.split(" after ")[1].split(" s ")[0]) == pytest.approx(true, rel=2e-4)
+    assert first.startswith("limit: reaches 0.122173 rad/s after ") and float(
+        first.split(" after ")[1].split(" s ")[0]) == pytest.approx(true, rel=2e-4)
 
 
 def test_the_range_over_a_cone_off_the_axes_is_that_of_brute_force(stabilab, files):
@@ -131,11 +151,16 @@ def test_the_range_over_a_cone_off_the_axes_is_that_of_brute_force(stabilab, fil
     arm, force, angle = np.array([0.1, 0, 0.05]), 0.5, math.radians(1)
     times = []
     for azimuth in [None, *np.linspace(0, 2 * math.pi, 72, endpoint=False)]:
-        aside = np.zeros(3) if azimuth is None else math.sin(angle) * np.array([math.cos(azimuth), 0, math.sin(azimuth)])
+        aside = (np.zeros(3) if azimuth is None
+                 else math.sin(angle) * np.array([math.cos(azimuth), 0, math.sin(azimuth)]))
         direction = np.array([0, 1.0 if azimuth is None else math.cos(angle), 0]) + aside
         times.append(first_time(load(files["off axis"]), np.cross(arm, force * direction), math.radians(7)))
-    assert found["earliest"][0] == pytest.approx(min(times), rel=1e-4) and found["latest"][1] == pytest.approx(max(times), rel=1e-4)
-    assert found["earliest"][0] <= min(times) * (1 + 1e-9) and found["latest"][1] >= max(times) * (1 - 1e-9) and found["level"] == "proved"
+    assert found["earliest"][0] == pytest.approx(min(times),
+                                                 rel=1e-4) and found["latest"][1] == pytest.approx(max(times),
+                                                                                                   rel=1e-4)
+    assert found["earliest"][0] <= min(times) * (1
+                                                 + 1e-9) and found["latest"][1] >= max(times) * (
+                                                     1 - 1e-9) and found["level"] == "proved"
 
 
 def first_time(case, torque, rate):
@@ -143,5 +168,6 @@ def first_time(case, torque, rate):
     at_limit = lambda t, w: np.dot(w, w) - rate**2
     at_limit.terminal = True
     start = [math.radians(6), 0, 0.01]
-    run = solve_ivp(lambda t, w: (np.cross(D * w + wheel, w) + torque) / D, (0, 1e4), start, "DOP853", events=at_limit, rtol=1e-11, atol=1e-13)
+    run = solve_ivp(lambda t, w: (np.cross(D * w + wheel, w) + torque) / D, (0, 1e4), start, "DOP853",
+                    events=at_limit, rtol=1e-11, atol=1e-13)
     return run.t_events[0][0]

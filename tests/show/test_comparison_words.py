@@ -18,15 +18,18 @@ def rows(text):
 @pytest.mark.parametrize("units, angle", [("deg", "deg"), ("si", "rad")])
 def test_errors_have_the_units_of_the_other_answers(stabilab, units, angle):
     path, one = CASES / "charged-body-small-torque.toml", math.degrees(1) if units == "deg" else 1.0
-    text, found = stabilab("compare", path, "--units", units)[1], json.loads(stabilab("compare", path, "--json")[1])["departures"]
-    expected = {"omega": ("ω", one, f"{angle}/s"), "angles": ("angles", one, angle), "momentum": ("momentum", 1, "kg m²/s"), "velocity": ("velocity", 1, "m/s"),
+    text, found = stabilab("compare", path, "--units",
+                           units)[1], json.loads(stabilab("compare", path, "--json")[1])["departures"]
+    expected = {"omega": ("ω", one, f"{angle}/s"), "angles": ("angles", one, angle),
+                "momentum": ("momentum", 1, "kg m²/s"), "velocity": ("velocity", 1, "m/s"),
                 "position": ("position", 1, "m")}
     shown = rows(text)
     assert len(shown) == len(found) == 15
     for row in found:
         name, factor, unit = expected[row["part"]]
         largest, of, in_unit = shown[row["model"], name]
-        assert (largest, of) == pytest.approx((row["largest"] * factor, row["scale"] * factor), rel=1e-3) and in_unit.startswith(f"{unit} ")
+        assert (largest, of) == pytest.approx((row["largest"] * factor, row["scale"] * factor),
+                                              rel=1e-3) and in_unit.startswith(f"{unit} ")
 
 
 @pytest.mark.parametrize("name", ["charged-body", "liquid-base", "top-lx30-lz30", "top-fast"])
@@ -34,14 +37,16 @@ def test_notes_are_told_once_with_letters_and_in_one_system_of_units(stabilab, n
     text = stabilab("compare", CASES / f"{name}.toml")[1]
     notes = [line.split(": ", 1)[1] for line in text.splitlines()[2:] if ": " in line]
     assert notes and len(set(notes)) == len(notes)
-    assert not re.search(r"\brad\b|\^|\b(theta|psi|phi|nu|kappa|eps|rho|alpha|omega|Gamma|newtonian)(?![a-z])", text)
+    assert not re.search(
+        r"\brad\b|\^|\b(theta|psi|phi|nu|kappa|eps|rho|alpha|omega|Gamma|newtonian)(?![a-z])", text)
 
 
 def test_a_model_that_is_nowhere_near_is_so_many_times_off(stabilab):
     first = stabilab("compare", CASES / "top-lx30-lz30.toml")[1].splitlines()[0]
     (best,) = re.findall(r"off by ([\d.]+) times its size", first)
     found = json.loads(stabilab("compare", CASES / "top-lx30-lz30.toml", "--json")[1])["departures"]
-    assert float(best) == pytest.approx(min(row["largest"] / row["scale"] for row in found if row["part"] == "omega"), rel=0.01)
+    assert float(best) == pytest.approx(min(row["largest"] / row["scale"] for row in found
+                                            if row["part"] == "omega"), rel=0.01)
 
 
 def test_rounding_is_not_drawn_as_motion():
@@ -53,7 +58,8 @@ def test_rounding_is_not_drawn_as_motion():
     from stabilab.show.text import comparison
     from tests.shared import case
     t = np.linspace(0, 1, 50)
-    run = Simulation(t, {"omega": np.stack([1e-17 * np.sin(40 * t), 0.1 * np.sin(t), 2 + 0 * t], -1)}, "exact", "taylor", None)
+    run = Simulation(t, {"omega": np.stack([1e-17 * np.sin(40 * t), 0.1 * np.sin(t), 2 + 0 * t], -1)},
+                     "exact", "taylor", None)
     with style.drawing() as plt:
         noise, motion, _ = comparison.picture(plt, case("top-fast"), {"exact": run}).axes
         assert np.ptp(noise.get_ylim()) > 1 and np.ptp(motion.get_ylim()) < 10  # deg/s

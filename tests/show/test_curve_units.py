@@ -1,4 +1,5 @@
-"""What is said of curves of equilibria in degrees a second: read as arithmetic, it names the points of the curve."""
+"""What is said of curves of equilibria in degrees a second: read as arithmetic, it names the points of the
+curve."""
 from __future__ import annotations
 
 import math
@@ -18,18 +19,21 @@ TURN = 180 / math.pi
 
 @pytest.mark.parametrize("D, lam, M", CURVED + ON_EVERY_AXIS)
 def test_equation_parametrisation_and_parameter_name_points_of_the_curve_in_degrees(D, lam, M):
-    """Every clause at three points of the curve, whose rates in degrees are those of the curve itself times 180/pi."""
+    """Every clause at three points of the curve, whose rates in degrees are those of the curve itself times
+    180/pi."""
     scene, _ = physical(D, lam, M)
     for curve in equilibria(scene).curves:
         told = in_units(curve, DEG)
         if told.unit == "rad/s":
-            assert re.search(r"alpha|s = D", curve.equation + curve.parametrisation)  # symbols of its own, in SI
+            # symbols of its own, in SI
+            assert re.search(r"alpha|s = D", curve.equation + curve.parametrisation)
             continue
         for t in (0.375, -2.75, 1.9):
             x = {f"omega{n}": v * TURN for n, v in enumerate(curve.point(t), 1)}
             if " turns about " not in told.parametrisation:
                 run = said(told.parametrisation, t * told.one)
-                assert run and {name: x[name] for name in run} == pytest.approx(run, rel=1e-4, abs=1e-4)  # told to six digits
+                # told to six digits
+                assert run and {name: x[name] for name in run} == pytest.approx(run, rel=1e-4, abs=1e-4)
             for name, number in said(told.equation, t * told.one).items():
                 left = re.sub(r"([\w)]) ([(\w])", r"\1 * \2", name.replace(" + ", "+").replace(" - ", "-"))
                 assert eval(left, dict(x)) == pytest.approx(number, rel=1e-4, abs=1e-2)

@@ -16,7 +16,8 @@ from stabilab.show.units import DEG, SI, units_of
 
 ROOT = Path(__file__).parents[2]
 CASES = ROOT / "cases"
-BODY, WHEEL, TORQUE, START = np.array([12.0, 9, 5]), np.array([0.8, 0, 0]), np.array([0, 0, 0.02]), [0.1, 0.05, 0.02]
+BODY, WHEEL, TORQUE, START = np.array([12.0, 9,
+                                       5]), np.array([0.8, 0, 0]), np.array([0, 0, 0.02]), [0.1, 0.05, 0.02]
 TEXT = """[body]
 inertia = [12, 9, 5]
 [effects.gyrostat]
@@ -31,7 +32,8 @@ span = [0, 300]
 
 def followed(start, end):
     """A run of SciPy's DOP853 of Euler's equations written out here: rates at 20,001 times."""
-    run = solve_ivp(lambda t, w: (np.cross(BODY * w + WHEEL, w) + TORQUE) / BODY, (0, end), start, "DOP853", np.linspace(0, end, 20001), rtol=1e-11, atol=1e-13)
+    run = solve_ivp(lambda t, w: (np.cross(BODY * w + WHEEL, w) + TORQUE) / BODY, (0, end), start, "DOP853",
+                    np.linspace(0, end, 20001), rtol=1e-11, atol=1e-13)
     return run.t, run.y
 
 
@@ -51,19 +53,24 @@ def own(tmp_path):
 def test_a_bounded_motion_is_told_with_the_rate_and_the_period_that_a_run_has(own):
     case = own()
     line = headline(case, told(case))
-    found = re.fullmatch(r"BOUNDED only while the torque is exactly along z \(minor axis\); largest rate \|omega\| = "
-                         r"(\S+) deg/s \((\S+) deg/s about ([xyz])\); margin (\S+) deg/s \((\S+) J\); period (\S+) s", line)
+    found = re.fullmatch(r"BOUNDED only while the torque is exactly along z \(minor axis\); largest rate "
+                         r"\|omega\| = "
+                         r"(\S+) deg/s \((\S+) deg/s about ([xyz])\); margin (\S+) deg/s \((\S+) J\); period "
+                         r"(\S+) s", line)
     t, rates = followed(START, 40)
     largest = np.abs(rates).max(axis=1)
-    assert found[3] == "xyz"[largest.argmax()] and float(found[2]) == pytest.approx(math.degrees(largest.max()), rel=5e-4)
-    assert float(found[1]) == pytest.approx(math.degrees(np.linalg.norm(rates, axis=0).max()), rel=5e-4)  # the first of all: |omega|
+    assert found[3] == "xyz"[largest.argmax()] and float(found[2]) == pytest.approx(
+        math.degrees(largest.max()), rel=5e-4)
+    # the first of all: |omega|
+    assert float(found[1]) == pytest.approx(math.degrees(np.linalg.norm(rates, axis=0).max()), rel=5e-4)
     back = np.abs(rates - np.array(START)[:, None]).max(axis=0)
     late = t > 20
     assert float(found[6]) == pytest.approx(t[late][back[late].argmin()], abs=5e-3)
 
 
 def test_the_margin_as_a_rate_is_where_the_fate_of_a_run_changes(own):
-    """From the state of the motion to the nearest one on the separatrix: 1 % nearer the run stays bounded, 1 % farther it leaves."""
+    """From the state of the motion to the nearest one on the separatrix: 1 % nearer the run stays bounded, 1
+    % farther it leaves."""
     found = told(own())
     margin = float(re.search(r"margin (\S+) deg/s", headline(own(), found))[1])
     step = np.array(found.velocity_witness) - START
@@ -80,17 +87,25 @@ def test_units_are_those_that_are_asked_for(own):
 
 @pytest.mark.parametrize("name, words", [
     ("minor-axis-100",
-     r"BOUNDED only while the torque is exactly along x3; largest rate \|x\| = 6.345 \(4.626 about x1\); margin \S+ in x, 1.632 in energy; period 1.804 tau"),
+     r"BOUNDED only while the torque is exactly along x3; largest rate \|x\| = 6.345 \(4.626 about x1\); "
+     r"margin \S+ in x, 1.632 in energy; period 1.804 tau"),
     ("middle-axis-spin-up", r"SPINS UP about x2, positive sense; about the other axes at most \S+"),
-    ("off-axis-two", r"SPINS UP about z \(minor axis\), positive sense \(certified\); about the other axes at most \S+ deg/s"),
-    ("torque-free-body", r"BOUNDED for ever; largest rate \|omega\| = 33.57 deg/s \(28.65 deg/s about [yz]\); "
+    ("off-axis-two",
+     r"SPINS UP about z \(minor axis\), positive sense \(certified\); about the other axes at most "
+     r"\S+ deg/s"),
+    ("torque-free-body",
+     r"BOUNDED for ever; largest rate \|omega\| = 33.57 deg/s \(28.65 deg/s about [yz]\); "
      r"margin \S+ deg/s \(0.0075 J\); period 33.33 s"),
     ("liquid-base", r"BOUNDED for ever; \|omega\| at most 82.17 deg/s"),
     ("top-fast", r"BOUNDED for ever; \|omega\| at most 8627 deg/s"),
-    ("charged-body-attitude", r"UNDECIDED; [^;]+; largest rate \|omega\| at most \S+ deg/s \(\S+ deg/s about y\) within 0 to 50 s"),
-    ("upper-stage", r"SPINS UP about the minor axis, \(1.000, 0.007, -0.004\) in the file's frame, positive sense \(certified\); "
+    ("charged-body-attitude",
+     r"UNDECIDED; [^;]+; largest rate \|omega\| at most \S+ deg/s \(\S+ deg/s about y\) within 0 to 50 s"),
+    ("upper-stage",
+     r"SPINS UP about the minor axis, \(1.000, 0.007, -0.004\) in the file's frame, positive sense "
+     r"\(certified\); "
      r"about the other axes at most \S+ deg/s"),
-    ("sphere-wheel", r"BOUNDED for ever; largest rate \|omega\| = 49.29 deg/s \(40.11 deg/s about z\); period 3.142 s")])
+    ("sphere-wheel",
+     r"BOUNDED for ever; largest rate \|omega\| = 49.29 deg/s \(40.11 deg/s about z\); period 3.142 s")])
 def test_every_kind_of_case_is_answered_in_one_line(name, words):
     case = load(CASES / f"{name}.toml")
     line = headline(case, told(case))
@@ -103,7 +118,8 @@ def test_an_equilibrium_with_a_rate_is_a_steady_rotation_and_one_without_is_rest
     steady = ("STEADY ROTATION (relative equilibrium) only while the torque is exactly along z (minor axis); "
               "every rate stays as it is; rates (-3.82, -1.91, 0) deg/s")
     assert headline(case, told(case)) == steady
-    wheel = Scene(Body((3, 2, 1)), Gyrostat((0, 0, 1)))  # without a torque and a rate nothing changes: D omega' = 0, by hand
+    # without a torque and a rate nothing changes: D omega' = 0, by hand
+    wheel = Scene(Body((3, 2, 1)), Gyrostat((0, 0, 1)))
     assert headline(case, motion(wheel, (0, 0, 0))).startswith("AT REST; every rate stays as it is")
 
 
@@ -111,7 +127,9 @@ def test_an_equilibrium_with_a_rate_is_a_steady_rotation_and_one_without_is_rest
 def test_commands_begin_with_it(stabilab, tmp_path, command, own):
     case = own()
     assert stabilab(command, case.path)[1].splitlines()[0] == lettered(f"my: {headline(case, told(case))}")
-    assert "rad/s" not in stabilab(command, case.path)[1] and "deg" not in stabilab(command, case.path, "--units", "si")[1].split("off that axis")[0]
+    assert "rad/s" not in stabilab(command,
+                                   case.path)[1] and "deg" not in stabilab(command, case.path, "--units",
+                                                                           "si")[1].split("off that axis")[0]
 
 
 def test_proofs_and_algebra_stand_behind_why(stabilab, own):
@@ -130,8 +148,11 @@ def test_open_bounds_of_a_margin_are_told_as_two_numbers(own):
     assert margin(open_, units_of(case)) == "margin 5.729 to 11.46 deg/s (0.5089 J)"
 
 
-@pytest.mark.parametrize("low, high, words", [(5.7296, 11.459, "5.729 to 11.46 deg/s"), (2483386930.5, 2483387077.2, "2.48338693e+09 to 2.48338708e+09 deg/s"),
-                                              (0.0, 3.5, "0 to 3.5 deg/s"), (4.625, 4.625, "4.625 to 4.625 deg/s")])
+@pytest.mark.parametrize("low, high, words",
+                         [(5.7296, 11.459, "5.729 to 11.46 deg/s"),
+                          (2483386930.5, 2483387077.2, "2.48338693e+09 to 2.48338708e+09 deg/s"),
+                                              (0.0, 3.5, "0 to 3.5 deg/s"),
+                          (4.625, 4.625, "4.625 to 4.625 deg/s")])
 def test_open_bounds_are_rounded_outward_with_the_digits_that_tell_them_apart(low, high, words):
     """By hand: two digits of the difference, four digits at least."""
     assert bracketed(low, high, "deg/s", 4) == words

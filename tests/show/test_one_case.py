@@ -25,7 +25,8 @@ CASES = Path(__file__).parents[2] / "cases"
 MINOR = CASES / "minor-axis-100.toml"
 
 
-UNSTABLE_PLANE = "[scaled]\na = 0.5\nb = 1\nmu = [0, 1, 0]\n[motion]\nx = [5, 0, -6]\ntau = [0, 8]\n"  # by hand: (x1 + 1 + x3)' = x2 (x1 + 1 + x3)
+# by hand: (x1 + 1 + x3)' = x2 (x1 + 1 + x3)
+UNSTABLE_PLANE = "[scaled]\na = 0.5\nb = 1\nmu = [0, 1, 0]\n[motion]\nx = [5, 0, -6]\ntau = [0, 8]\n"
 
 
 def _sections(name, tmp_path):
@@ -44,7 +45,10 @@ def _places(packed):
 def test_a_top_has_its_fate_and_says_that_it_has_no_phase_plane(tmp_path):
     """Its state has the vertical too: bounded by the energy (|gamma| = 1 bounds the potential)."""
     page = _sections("top-fast", tmp_path)
-    assert page["fate"] == "bounded" and [picture["title"] for picture in page["pictures"]] == ["Rates over time", "Analytic models beside the exact motion"]
+    assert page["fate"] == "bounded" and [picture["title"]
+                                          for picture in page["pictures"]] == ["Rates over time",
+                                                                               "Analytic models beside the "
+                                                                               "exact motion"]
     assert all((tmp_path / picture["file"]).exists() for picture in page["pictures"])
     assert [what for what, _ in page["absent"]] == ["Phase plane", "The surface on which the motion stays"]
     assert page["space"]["reason"].startswith("no separatrix is drawn: ")
@@ -52,13 +56,15 @@ def test_a_top_has_its_fate_and_says_that_it_has_no_phase_plane(tmp_path):
 
 def test_a_torque_off_the_axes_is_certified_and_has_no_margins(tmp_path):
     page = _sections("off-axis-two", tmp_path)
-    assert page["headline"].startswith("SPINS UP about z (minor axis), positive sense (certified)") and [one["kind"] for one in page["pictures"]] == ["time"]
+    assert page["headline"].startswith("SPINS UP about z (minor axis), positive sense (certified)") and [
+        one["kind"] for one in page["pictures"]] == ["time"]
     assert page["sensitivity"]["rows"] == [] and "no separatrix is known" in page["sensitivity"]["reason"]
     assert "no end" in page["extremes"][2]["within"]
 
 
 def test_a_case_without_a_motion_has_its_equilibria_alone(tmp_path):
-    case = read_text("still.toml", "[body]\ninertia = [3, 2, 1]\n[effects.constant_torque]\ntorque = [0, 0, 0.1]\n")
+    case = read_text("still.toml",
+                     "[body]\ninertia = [3, 2, 1]\n[effects.constant_torque]\ntorque = [0, 0, 0.1]\n")
     page = sections(case, tmp_path, "still")
     assert page["headline"].startswith("No motion is given") and page["equilibria"] and page["space"]
     assert [what for what, _ in page["absent"]] == ["Motion"] and list(tmp_path.iterdir()) == []
@@ -66,11 +72,13 @@ def test_a_case_without_a_motion_has_its_equilibria_alone(tmp_path):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", [
-    "upper-stage", "cubesat-3u", "liquid-base", "charged-body", "charged-body-attitude", "torque-free-gyrostat", "torque-free-body", "sphere-wheel",
+    "upper-stage", "cubesat-3u", "liquid-base", "charged-body", "charged-body-attitude",
+    "torque-free-gyrostat", "torque-free-body", "sphere-wheel",
     "symmetric-spin-up", "uncertain-separatrix", "middle-axis-double-well", "geostationary-22n"])
 def test_every_kind_of_case_has_its_page(name, tmp_path):
     page = _sections(name, tmp_path)
-    assert page["headline"] and page["pictures"] and page["space"] and page["equations"] and page["equilibria"]
+    assert page["headline"] and page["pictures"] and page["space"] and page["equations"] and page[
+        "equilibria"]
 
 
 def test_words_have_the_letters_and_signs_of_a_page():
@@ -86,7 +94,8 @@ def test_the_box_of_the_space_holds_the_motion_and_what_is_nearest_of_the_separa
     (curve,) = [c for c in drawn["curves"] if c["kind"] == "this motion"]
     places = _places(curve["at"]) * drawn["half"] + drawn["middle"]
     for axis, (low, high) in enumerate(moved.extremes):
-        assert abs(places[:, axis].min() - low) < 2e-3 * drawn["half"] and abs(places[:, axis].max() - high) < 2e-3 * drawn["half"]
+        assert abs(places[:, axis].min()
+                   - low) < 2e-3 * drawn["half"] and abs(places[:, axis].max() - high) < 2e-3 * drawn["half"]
     assert {"start", "nearest point of the separatrix"} <= {p["kind"] for p in drawn["points"]}
 
 
@@ -95,16 +104,19 @@ def test_the_space_draws_all_of_a_bounded_motion_and_of_a_spin_up_what_is_near_t
     case = load(CASES / f"{name}.toml")
     moved, found = _space(case)
     (curve,) = [c for c in found["drawn"]["curves"] if c["kind"] == "this motion"]
-    size = np.linalg.norm(_places(curve["at"]) * found["drawn"]["half"] + found["drawn"]["middle"], axis=1).max()
+    size = np.linalg.norm(_places(curve["at"]) * found["drawn"]["half"] + found["drawn"]["middle"],
+                          axis=1).max()
     one, first = units_of(case).rates[1], math.hypot(*case.start[:3])
     if name == "charged-body":  # bounded, and its largest rate is fourteen times that of its start
-        assert size > 3 * first * one and size == pytest.approx(max(abs(v) for row in moved.extremes for v in row) * one, rel=2e-2)
+        assert size > 3 * first * one and size == pytest.approx(max(abs(v) for row in moved.extremes
+                                                                    for v in row) * one, rel=2e-2)
     else:
         assert size < 4 * max(first, moved.margin_velocity or 0.0) * one
 
 
 def test_a_motion_that_turns_often_is_drawn_as_it_is_and_not_by_chords_across_it():
-    """The rates of liquid-sensible go round axis 3 at 5.7 deg/s and more: even chords would cut across, down to less than half of that."""
+    """The rates of liquid-sensible go round axis 3 at 5.7 deg/s and more: even chords would cut across, down
+    to less than half of that."""
     case = load(CASES / "liquid-sensible.toml")
     moved = subject(case).motion
     across = np.hypot(*(line := np.degrees(space._curve(case, moved, False)))[:, :2].T)
@@ -117,11 +129,14 @@ def test_a_thinned_line_is_near_every_point_that_it_leaves_out():
     circle = np.column_stack([np.cos(angle), np.sin(angle), 0 * angle])
     few = thinned(circle, 1e-3)
     middles = (few[1:] + few[:-1]) / 2
-    assert 40 < len(few) < 160 and 1 - np.linalg.norm(middles, axis=1).min() < 1.01e-3 and not angular(circle, 1e-4) and angular(circle[::200], 1e-4)
+    assert 40 < len(few) < 160 and 1 - np.linalg.norm(middles,
+                                                      axis=1).min() < 1.01e-3 and not angular(circle,
+                                                                                              1e-4) and angular(circle[::200], 1e-4)
 
 
 def test_the_sheets_of_the_space_are_those_of_the_separatrix():
-    """Oracle: the energy of the minor axis derived by hand, x3^2/2 - theta - X^2/2 - c X, is that of its saddle all along each loop."""
+    """Oracle: the energy of the minor axis derived by hand, x3^2/2 - theta - X^2/2 - c X, is that of its
+    saddle all along each loop."""
     case = stabilab.load(MINOR)
     _, found = _space(case)
     drawn, scene = found["drawn"], case.scene
@@ -129,39 +144,49 @@ def test_the_sheets_of_the_space_are_those_of_the_separatrix():
     for sheet in drawn["sheets"]:
         places = _places(sheet["at"])
         p = (places * drawn["half"] + drawn["middle"]).reshape(sheet["rows"], sheet["columns"], 3)
-        inside = (np.abs(places) < 8).all(axis=1).reshape(p.shape[:2]).all(axis=1)  # rows of which nothing was moved in
+        # rows of which nothing was moved in
+        inside = (np.abs(places) < 8).all(axis=1).reshape(p.shape[:2]).all(axis=1)
         X, x2, x3 = p[inside, :, 0] + scene.a, p[inside, :, 1], p[inside, :, 2]
         energy = x3**2 / 2 - np.unwrap(np.arctan2(X, x2), axis=1) - X**2 / 2 - (scene.b - scene.a) * X
-        assert inside.any() and np.ptp(energy[2:], axis=1).max() < 2e-3 * (1 + np.abs(X).max() ** 2)  # places are rounded to 1/4095 of the box
+        # places are rounded to 1/4095 of the box
+        assert inside.any() and np.ptp(energy[2:], axis=1).max() < 2e-3 * (1 + np.abs(X).max() ** 2)
 
 
 @pytest.mark.parametrize("plain, told", [
-    ("omega = Omega gamma, (Omega^2 - N) D", "ω = Ω γ, (Ω² − N) D"), ("from -inf to -291.942", "from −∞ to −291.942"), ("sqrt(-m) <= 2", "√(−m) ≤ 2"),
-    ("`stabilab fate CASE --tilt \"1 deg\"` at 3-1-2", "`stabilab fate CASE --tilt \"1 deg\"` at 3-1-2"), ("period 1.804 tau", "period 1.804 τ")])
+    ("omega = Omega gamma, (Omega^2 - N) D", "ω = Ω γ, (Ω² − N) D"),
+    ("from -inf to -291.942", "from −∞ to −291.942"), ("sqrt(-m) <= 2", "√(−m) ≤ 2"),
+    ("`stabilab fate CASE --tilt \"1 deg\"` at 3-1-2", "`stabilab fate CASE --tilt \"1 deg\"` at 3-1-2"),
+    ("period 1.804 tau", "period 1.804 τ")])
 def test_formulas_in_words_have_the_signs_of_a_book_and_commands_stay(plain, told):
     assert printed(plain) == told
 
 
-def test_the_first_line_of_a_page_says_what_the_uncertain_numbers_change_and_the_page_has_one_unit_of_rates(tmp_path):
+def test_the_first_line_of_a_page_says_what_the_uncertain_numbers_change_and_the_page_has_one_unit_of_rates(
+    tmp_path):
     """The file's 1.7 +- 0.02 rad/s are 97.403 +- 1.1459 deg/s by hand."""
     page = sections(load(CASES / "uncertain-separatrix.toml"), tmp_path, "x", deep=False)
-    assert page["headline"].endswith("; BUT within the uncertainties also spin-up about the z axis, positive sense") and page["fate"] == "undecided"
+    assert page["headline"].endswith(
+        "; BUT within the uncertainties also spin-up about the z axis, positive sense") and page[
+            "fate"] == "undecided"
     told = page["uncertain"]
     assert "motion.angular_velocity[3] = 97.4028 ± 1.14592 deg/s" in told and "20 ± 0.2 kg m²" in told
     assert "rad/s" not in told and "^2" not in told and "state = 11.4592, 8.59437, 97.4028 deg/s" in told
     held = sections(load(CASES / "uncertain-minor-axis.toml"), tmp_path, "y", deep=False)
-    assert held["headline"].endswith("; the fate is the same for all that the uncertain numbers may be") and held["fate"] == "bounded"
+    assert held["headline"].endswith(
+        "; the fate is the same for all that the uncertain numbers may be") and held["fate"] == "bounded"
 
 
 def test_a_sentence_of_a_page_has_a_capital_and_its_commands_are_code():
     from stabilab.show.report.html import sentence
-    assert sentence('the rest: `a --b <c>`') == 'The rest: <code>a <span class="nowrap">--b</span> &lt;c&gt;</code>'
+    assert sentence(
+        'the rest: `a --b <c>`') == 'The rest: <code>a <span class="nowrap">--b</span> &lt;c&gt;</code>'
     assert sentence("ω = Ω γ") == "ω = Ω γ" and sentence("omega1_x < 2") == "omega1_x &lt; 2"
 
 
 def test_no_line_ends_between_a_number_and_its_unit_or_within_it():
     from stabilab.show.report.html import together
-    assert together("from 6.8587 N m s on; 0.1 N m (2 J)") == "from 6.8587\u00a0N\u00a0m\u00a0s on; 0.1\u00a0N\u00a0m (2\u00a0J)"
+    assert together(
+        "from 6.8587 N m s on; 0.1 N m (2 J)") == "from 6.8587\u00a0N\u00a0m\u00a0s on; 0.1\u00a0N\u00a0m (2\u00a0J)"
     assert together("5 deg/s and N m s") == "5\u00a0deg/s and N m s"
 
 
@@ -176,40 +201,52 @@ def test_folds_of_a_field_are_told_as_rates_without_the_vertical_behind_them():
     told = table(found, DEG)
     folds = [row["where"] for row in told["rows"] if row["where"].startswith("fold")]
     assert folds and all(where.count(",") == 2 for where in folds)
-    assert len(told["curves"]) == 1 and told["curves"][0][0] == "branch 1 to branch 10"  # one equation, told once
+    # one equation, told once
+    assert len(told["curves"]) == 1 and told["curves"][0][0] == "branch 1 to branch 10"
 
 
 def test_pieces_of_branches_are_told_by_the_rate_about_the_vertical_in_the_unit_of_the_page():
-    """Each end of a piece is a rotation at Omega about the vertical: by the file's numbers its rates, in deg/s, have the length that the row says."""
+    """Each end of a piece is a rotation at Omega about the vertical: by the file's numbers its rates, in
+    deg/s, have the length that the row says."""
     found = equilibria(load(CASES / "top-fast.toml").scene)
     told = table(found, DEG)
-    ends = [words for row in told["rows"] for words in re.findall(r"^branch 3, Ω below (.*) deg/s$", row["where"])]
+    ends = [words for row in told["rows"]
+            for words in re.findall(r"^branch 3, Ω below (.*) deg/s$", row["where"])]
     assert ends and "t from" not in str(told["rows"])
     rates = found.curves[2].point(found.curves[2].segments[0].t[1])[:3]
     assert float(ends[0].replace("−", "-")) == pytest.approx(-math.degrees(math.hypot(*rates)), rel=1e-3)
     assert any(row["where"].endswith(" to −1313.13 deg/s") for row in told["rows"])  # -22.9184 rad/s
-    assert told["curves"] == [("branch 1 to branch 10", "ω = Ω γ, ((Ω² − N) D γ + Ω Λ + s) × γ = 0", ["γᵢ = −bᵢ/(Sᵢ − μ)"])]
+    assert told["curves"] == [("branch 1 to branch 10", "ω = Ω γ, ((Ω² − N) D γ + Ω Λ + s) × γ = 0",
+                               ["γᵢ = −bᵢ/(Sᵢ − μ)"])]
 
 
 def test_a_parameter_that_is_a_rate_or_an_angle_has_its_unit():
     (hyperbola,) = equilibria(load(CASES / "thruster-stuck-major-axis.toml").scene).curves
-    assert table(equilibria(load(CASES / "thruster-stuck-major-axis.toml").scene), DEG)["rows"][0]["where"] == \
-        "equilibrium hyperbola, t below −1.75199 deg/s" and hyperbola.segments[0].t[1] == pytest.approx(-0.03058, abs=1e-5)
+    assert table(equilibria(load(CASES / "thruster-stuck-major-axis.toml").scene),
+                 DEG)["rows"][0]["where"] == \
+        "equilibrium hyperbola, t below −1.75199 deg/s" and hyperbola.segments[0].t[1] == pytest.approx(
+            -0.03058, abs=1e-5)
     told = table(equilibria(load(CASES / "charged-body-attitude.toml").scene), DEG)
     assert any(row["where"] == "lesser Ω, t from −180 to −90 deg" for row in told["rows"])
-    assert [names for names, *_ in told["curves"]] == ["lesser Ω and greater Ω"] and "rad" not in str(told["rows"][0]["where"])
+    assert [names for names,
+            *_ in told["curves"]] == ["lesser Ω and greater Ω"] and "rad" not in str(told["rows"][0]["where"])
 
 
 @pytest.mark.parametrize("name, expected", [
-    ("torque-free-gyrostat", {"meeting point at (−34.3775, 0, 0) deg/s": "unstable", "meeting point at (−17.1887, 0, 0) deg/s": "stable"}),
+    ("torque-free-gyrostat", {"meeting point at (−34.3775, 0, 0) deg/s": "unstable",
+                              "meeting point at (−17.1887, 0, 0) deg/s": "stable"}),
     ("torque-free-body", {"meeting point at (0, 0, 0) deg/s": "stable"}),
-    ("two-wheels-minor-axis", {"fold at (−16.1737, −23.9692, 0) deg/s": "unstable", "fold at (−59.1336, 57.3959, 0) deg/s": "unstable"})])
+    ("two-wheels-minor-axis", {"fold at (−16.1737, −23.9692, 0) deg/s": "unstable",
+                               "fold at (−59.1336, 57.3959, 0) deg/s": "unstable"})])
 def test_a_point_between_two_pieces_of_a_curve_is_told_once_with_its_verdict(name, expected):
-    """docs/mathematics/stability.md: rest of a free body is stable, a fold of a hyperbola is not; a pitchfork as m on the rest of its line. At the two
-    points of the gyrostat the wheel's line meets the lines of the middle and of the minor axis."""
+    """docs/mathematics/stability.md: rest of a free body is stable, a fold of a hyperbola is not; a pitchfork
+    as m on the rest of its line. At the two points of the gyrostat the wheel's line meets the lines of the
+    middle and of the minor axis."""
     rows = table(equilibria(load(CASES / f"{name}.toml").scene), DEG)["rows"]
     points = [row for row in rows if " at (" in row["where"]]
-    assert {row["where"]: row["verdict"] for row in points} == expected and len(points) == len(expected) and all(row["because"] for row in points)
+    assert {row["where"]: row["verdict"]
+            for row in points} == expected and len(points) == len(expected) and all(row["because"]
+                                                                                    for row in points)
 
 
 def test_the_curve_of_a_motion_on_an_unstable_plane_stays_on_it():
@@ -230,13 +267,16 @@ def test_a_column_of_a_sweep_that_says_nothing_is_left_out(tmp_path):
 
 
 def test_the_rates_of_a_sweep_on_an_unstable_plane_stay_on_it(tmp_path, monkeypatch):
-    """By hand: the plane x1 + 1 + x3 = 0 is one of every a, x3 dies out on it and x2 grows with the time: |x| goes along with it."""
+    """By hand: the plane x1 + 1 + x3 = 0 is one of every a, x3 dies out on it and x2 grows with the time: |x|
+    goes along with it."""
     file = tmp_path / "plane.toml"
     file.write_text(UNSTABLE_PLANE + "[sweep]\n\"scaled.a\" = [0.5, 0.25]\n", encoding="utf-8")
     cases = load_all(file)
     kept = []
     save = style.save
-    monkeypatch.setattr(style, "save", lambda figure, path: kept.extend(line.get_xydata() for line in figure.axes[0].lines) or save(figure, path))
+    monkeypatch.setattr(style, "save", lambda figure,
+                        path: kept.extend(line.get_xydata() for line in figure.axes[0].lines)
+                        or save(figure, path))
     sweep.sections(cases, tmp_path, "plane")
     assert len(kept) == 2
     for t, size in (rows.T for rows in kept):
@@ -246,28 +286,37 @@ def test_the_rates_of_a_sweep_on_an_unstable_plane_stay_on_it(tmp_path, monkeypa
 
 def test_the_dot_of_a_rate_is_above_its_letter():
     page = equations(load(CASES / "minor-axis-100.toml"))["equations"]
-    assert all(f"<msub><mover><mi>x</mi><mo>&#x2D9;</mo></mover><mi>{n}</mi></msub><mo>=</mo>" in line for n, line in enumerate(page, 1))
+    assert all(f"<msub><mover><mi>x</mi><mo>&#x2D9;</mo></mover><mi>{n}</mi></msub><mo>=</mo>" in line for n,
+               line in enumerate(page, 1))
 
 
 def test_a_long_sum_goes_on_in_the_next_line_with_its_sign():
     from sympy import Add, Symbol, sympify
 
     from stabilab.show.report import typeset
-    short, long = sympify("a + b"), Add(*(sympify(f"1.2345678*w{n}**2") for n in range(6))) - 9 * Symbol("z") ** 2
+    short, long = sympify("a + b"), Add(*(sympify(f"1.2345678*w{n}**2")
+                                          for n in range(6))) - 9 * Symbol("z") ** 2
     assert "<mtr>" not in typeset.in_lines(short)
     lines = typeset.in_lines(long).split("<mtr>")[1:]
     assert len(lines) > 1 and sum(line.count("1.2345678") for line in lines) == 6
-    assert all(line.split("<mrow>", 1)[1].startswith(("<mo>+</mo>", "<mo>&#x2212;</mo>", "<mrow><mo>&#x2212;</mo>")) for line in lines[1:])
+    assert all(line.split("<mrow>",
+                          1)[1].startswith(("<mo>+</mo>", "<mo>&#x2212;</mo>", "<mrow><mo>&#x2212;</mo>"))
+               for line in lines[1:])
 
 
 def test_parameters_whose_names_are_products_are_set_as_products_and_minus_is_a_minus():
     from sympy import Integer, Symbol
 
     from stabilab.show.report import typeset
-    assert typeset.inner(Symbol("Mgx")) == "<mrow><mi>M</mi><mi>g</mi><msub><mi>x</mi><mi>c</mi></msub></mrow>"
-    assert typeset.inner(Symbol("eHl2")) == (charge := "<mrow><mi>e</mi><mi>H</mi><msup><mi>l</mi><mi>2</mi></msup></mrow>")  # 2 is a power, no index
-    assert f"<msup><mrow><mo>(</mo>{charge}<mo>)</mo></mrow><mn>2</mn></msup>" in typeset.inner(Symbol("eHl2") ** 2)
-    assert f"<mfrac>{charge}<mn>2</mn></mfrac>" in typeset.inner(Symbol("eHl2") / 2) and "<mrow><mo>(" not in typeset.inner(Symbol("Mgx") / 2)
+    assert typeset.inner(
+        Symbol("Mgx")) == "<mrow><mi>M</mi><mi>g</mi><msub><mi>x</mi><mi>c</mi></msub></mrow>"
+    # 2 is a power, no index
+    assert typeset.inner(Symbol("eHl2")) == (
+        charge := "<mrow><mi>e</mi><mi>H</mi><msup><mi>l</mi><mi>2</mi></msup></mrow>")
+    assert f"<msup><mrow><mo>(</mo>{charge}<mo>)</mo></mrow><mn>2</mn></msup>" in typeset.inner(
+        Symbol("eHl2") ** 2)
+    assert f"<mfrac>{charge}<mn>2</mn></mfrac>" in typeset.inner(
+        Symbol("eHl2") / 2) and "<mrow><mo>(" not in typeset.inner(Symbol("Mgx") / 2)
     assert typeset.inner(Integer(-3)) == "<mn>&#x2212;3</mn>" or "-" not in typeset.inner(Integer(-3))
 
 
@@ -277,7 +326,8 @@ def test_a_certificate_without_claims_is_not_said_to_be_checked(name, claims, tm
     page = sections(load(CASES / f"{name}.toml"), tmp_path, name, deep=False, certify=True)
     text = html.render("case.html", case=page, surface=None, pictures="", extra=(), command="", versions=())
     assert bool(page["certificate"]["findings"]) is claims
-    assert ("checked by code that shares nothing" in text) is claims and ("makes no claim that could be checked" in text) is not claims
+    assert ("checked by code that shares nothing" in text) is claims and (
+        "makes no claim that could be checked" in text) is not claims
 
 
 def test_the_imaginary_unit_and_the_base_of_the_exponential_are_plain_letters():
@@ -291,40 +341,53 @@ def test_the_imaginary_unit_and_the_base_of_the_exponential_are_plain_letters():
 @pytest.mark.one_in(2)
 @pytest.mark.parametrize("name", ["top-fast", "liquid-base", "charged-body-attitude"])
 def test_every_parameter_of_the_equations_has_its_unit(name, tmp_path):
-    assert [str(symbol) for symbol, value in equations(load(CASES / f"{name}.toml"))["parameters"] if " " not in value] == []
+    assert [str(symbol) for symbol, value in equations(load(CASES / f"{name}.toml"))["parameters"]
+            if " " not in value] == []
 
 
 def test_a_page_tells_scaled_numbers_as_x_and_a_law_that_needs_no_run_has_no_steps(tmp_path):
     page = _sections("major-axis-captured", tmp_path)
     facts = dict(page["facts"])
     assert facts["start"] == "(−1, 0, 3) at τ = 0"
-    assert "|x| at the start" in facts and not any("ω" in name for name in facts) and "steps of the run" not in facts
+    assert "|x| at the start" in facts and not any("ω" in name
+                                                   for name in facts) and "steps of the run" not in facts
     assert page["over"] == "the finite ones over 0 to 50 τ" and facts["J changes by"] == "2 per unit of τ"
 
 
 @pytest.mark.slow
 def test_moments_certificates_limits_and_the_reduced_energy_are_told_as_what_they_are(tmp_path):
-    """The kinetic energy of the gyrostat is (2000·0.1² + 1500·0.2² + 1000·0.05²)/2 = 41.25 J; that of its reduced motion is another number."""
+    """The kinetic energy of the gyrostat is (2000·0.1² + 1500·0.2² + 1000·0.05²)/2 = 41.25 J; that of its
+    reduced motion is another number."""
     late = sections(load(CASES / "major-axis-spin3-100.toml"), tmp_path, "x", deep=False)
     facts = dict(late["facts"])
-    assert late["pictures"][0]["caption"].endswith(f" The spin-up begins later: the turn reverses for the last time at {facts['last reversal of the turn']}.")
-    assert facts["certificate holds from"].startswith("τ = 6") and facts["last reversal of the turn"].startswith("τ = 6")
-    assert "(proved from τ = 6" in facts["because"] and facts["how it is certified"] == "the turn can reverse no more"
-    assert sections(load(CASES / "major-axis-spin3-500.toml"), tmp_path, "v", deep=False)["pictures"][0]["caption"].endswith("principal axes.")
-    assert dict(sections(load(CASES / "major-axis-100.toml"), tmp_path, "u", deep=False)["facts"])["last reversal of the turn"] == "none after the start"
+    assert late["pictures"][0]["caption"].endswith(
+        f" The spin-up begins later: the turn reverses for the last time at "
+        f"{facts['last reversal of the turn']}.")
+    assert facts["certificate holds from"].startswith("τ = 6") and facts[
+        "last reversal of the turn"].startswith("τ = 6")
+    assert "(proved from τ = 6" in facts["because"] and facts[
+        "how it is certified"] == "the turn can reverse no more"
+    assert sections(load(CASES / "major-axis-spin3-500.toml"), tmp_path, "v",
+                    deep=False)["pictures"][0]["caption"].endswith("principal axes.")
+    assert dict(sections(load(CASES / "major-axis-100.toml"), tmp_path, "u",
+                         deep=False)["facts"])["last reversal of the turn"] == "none after the start"
     captured = dict(sections(load(CASES / "major-axis-captured.toml"), tmp_path, "y", deep=False)["facts"])
     assert captured["how it is certified"] == "the barrier ahead outgrows the energy"
     free = sections(load(CASES / "torque-free-gyrostat.toml"), tmp_path, "z", deep=False)
-    assert "energy" not in dict(free["facts"]) and dict(free["facts"])["energy, reduced motion"].startswith("−398.7")
+    assert "energy" not in dict(free["facts"]) and dict(free["facts"])["energy, reduced motion"].startswith(
+        "−398.7")
     small = sections(load(CASES / "cubesat-3u.toml"), tmp_path, "w", deep=False)
-    assert any(words.startswith("The limit of the case, |ω| = 60 deg/s, is reached after 16.9") for words in small["sensitivity"]["words"])
+    assert any(words.startswith("The limit of the case, |ω| = 60 deg/s, is reached after 16.9")
+               for words in small["sensitivity"]["words"])
 
 
 def test_a_limit_about_three_axes_is_named_once(tmp_path, stabilab):
     """The limits of geostationary-22n are 5 deg/s about each axis of its file."""
     page = sections(load(CASES / "geostationary-22n.toml"), tmp_path, "x", deep=False)
-    assert any(words.startswith("The limit of the case, |ωx|, |ωy| or |ωz| = 5 deg/s, is reached after 8.57") for words in page["sensitivity"]["words"])
-    assert "reaches |ωx|, |ωy| or |ωz| = 5 deg/s in 8.579 s" in stabilab("when", CASES / "geostationary-22n.toml")[1]
+    assert any(words.startswith("The limit of the case, |ωx|, |ωy| or |ωz| = 5 deg/s, is reached after 8.57")
+               for words in page["sensitivity"]["words"])
+    assert "reaches |ωx|, |ωy| or |ωz| = 5 deg/s in 8.579 s" in stabilab("when",
+                                                                         CASES / "geostationary-22n.toml")[1]
 
 
 def test_the_reason_of_an_undecided_fate_does_not_repeat_that_it_is_undecided(tmp_path):
@@ -333,13 +396,16 @@ def test_the_reason_of_an_undecided_fate_does_not_repeat_that_it_is_undecided(tm
 
 @pytest.mark.slow
 def test_limits_about_the_axes_of_the_file_have_a_caption_that_says_so(tmp_path):
-    captions = {name: _sections(name, tmp_path)["pictures"][0]["caption"] for name in ("geostationary-22n", "cubesat-3u")}
-    assert captions == {"geostationary-22n": "The rates along the axes of the file, about which its limits are.",
+    captions = {name: _sections(name, tmp_path)["pictures"][0]["caption"]
+                for name in ("geostationary-22n", "cubesat-3u")}
+    assert captions == {"geostationary-22n": "The rates along the axes of the file, about which its "
+                                             "limits are.",
                         "cubesat-3u": "The rates along the principal axes."}
 
 
 def test_the_legend_of_the_space_names_only_what_is_in_its_box():
-    """The plane of degenerate equilibria of this body, omega3 = 0, lies below the box about the motion at omega3 = 57 deg/s."""
+    """The plane of degenerate equilibria of this body, omega3 = 0, lies below the box about the motion at
+    omega3 = 57 deg/s."""
     drawn = _space(load(CASES / "symmetric-body.toml"))[1]
     assert not any("degenerate" in words for words, _ in drawn["legend"])
     assert all((np.abs(_places(row["at"])) <= 1.0).all(axis=-1).any() for row in drawn["drawn"]["curves"])
@@ -347,22 +413,26 @@ def test_the_legend_of_the_space_names_only_what_is_in_its_box():
 
 @pytest.mark.slow
 def test_an_extreme_that_is_zero_but_for_rounding_is_told_as_zero(tmp_path):
-    """The start has omega2 = 0, where omega2' = 0 too, and the motion comes back to it from above: by hand the least omega2 is 0."""
+    """The start has omega2 = 0, where omega2' = 0 too, and the motion comes back to it from above: by hand
+    the least omega2 is 0."""
     rows = _sections("charged-body", tmp_path)["extremes"]
     assert (rows[1]["name"], rows[1]["least"]) == ("ω2", "0 deg/s")
 
 
-def test_a_page_of_a_sweep_begins_with_the_answer_of_the_commands_and_tells_the_farthest_of_its_laws(stabilab, tmp_path):
+def test_a_page_of_a_sweep_begins_with_the_answer_of_the_commands_and_tells_the_farthest_of_its_laws(
+    stabilab, tmp_path):
     path = CASES / "charged-sweep.toml"
     found = sweep.sections(load_all(path), tmp_path, "charged-sweep")
     first = stabilab("fate", path)[1].splitlines()[0]
     assert first.endswith(f"; by that law: charged-sweep: {found['headline']}")
-    assert found["headline"].startswith("27 combinations: each BOUNDED only while the torque is exactly along x ")
+    assert found["headline"].startswith(
+        "27 combinations: each BOUNDED only while the torque is exactly along x ")
     assert law.of_cases(load_all(path)) == found["law"] and "27 of 27 combinations" in found["law"]
 
 
 def test_the_legend_of_the_space_names_no_sheet_of_which_the_box_holds_only_the_crest():
-    """The two loops of a double well meet in its saddles, of which those in the box of this motion, in the left well, belong to both."""
+    """The two loops of a double well meet in its saddles, of which those in the box of this motion, in the
+    left well, belong to both."""
     names = [name for name, _ in _space(load(CASES / "middle-axis-double-well.toml"))[1]["legend"]]
     assert "Sheet 1, left loop of the separatrix" in names and not any("right loop" in name for name in names)
     assert "unstable equilibria" in names and "nearest point of the separatrix" in names
@@ -372,20 +442,25 @@ def test_equilibria_of_undecided_stability_are_not_drawn_as_stable():
     """Oracle: the verdicts of all pieces, which are undecided, though their linear ones are centres."""
     case = load(CASES / "charged-body-attitude.toml")
     found = equilibria(case.scene)
-    assert {(piece.linear, piece.verdict) for curve in found.curves for piece in curve.segments} == {("stable", "undecided")}
+    assert {(piece.linear, piece.verdict) for curve in found.curves
+            for piece in curve.segments} == {("stable", "undecided")}
     legend = dict(_space(case)[1]["legend"])
     assert "equilibria of undecided stability" in legend and "stable equilibria" not in legend
 
 
 def test_the_trend_of_an_energy_tells_what_it_compares(tmp_path):
-    """major-axis-spin3-500 spins up: its energy has turned before the end of the run, and yet is below that of the beginning."""
-    for name, words in (("major-axis-spin3-500", "lower in the last quarter of the run than ever in the first"),
+    """major-axis-spin3-500 spins up: its energy has turned before the end of the run, and yet is below that
+    of the beginning."""
+    for name, words in (("major-axis-spin3-500",
+                         "lower in the last quarter of the run than ever in the first"),
                         ("off-axis-one", "up and down: the last quarter of the run overlaps with the first")):
         assert dict(_sections(name, tmp_path)["facts"])["the energy"] == words
 
 
 def test_a_margin_to_other_bounded_motions_is_not_told_as_one_that_changes_the_fate(tmp_path):
-    """Without a torque, and about the middle axis with walls on both sides, every motion is bounded; beyond the barrier of a minor axis it spins up."""
-    for name, same in (("torque-free-body", True), ("middle-axis-double-well", True), ("minor-axis-100", False)):
+    """Without a torque, and about the middle axis with walls on both sides, every motion is bounded; beyond
+    the barrier of a minor axis it spins up."""
+    for name, same in (("torque-free-body", True), ("middle-axis-double-well", True),
+                       ("minor-axis-100", False)):
         (row,) = _sections(name, tmp_path)["sensitivity"]["rows"]
         assert ("does not change the fate" in row["because"]) == same

@@ -54,7 +54,8 @@ def test_markdown_rows_keep_their_columns():
 
 
 def test_readable_formats_show_six_digits():
-    assert table.cell(1 / 3) == "0.333333" and table.cell(-math.inf) == "-unbounded" and table.cell(None) == "–"
+    assert table.cell(1
+                      / 3) == "0.333333" and table.cell(-math.inf) == "-unbounded" and table.cell(None) == "–"
 
 
 def test_table_1_has_every_sign_pattern_with_and_without_the_wheel():
@@ -65,13 +66,16 @@ def test_table_1_has_every_sign_pattern_with_and_without_the_wheel():
 
 def test_a_minus_of_table_1_is_no_hyphen():
     words = [value for row in table.torque_signs().rows for value in row if value]
-    assert not [value for value in words if re.search(r"\W-|-\W|-[ab]\b|\d-", value)] and any("energy-Casimir" in value for value in words)
+    assert not [value for value in words
+                if re.search(r"\W-|-\W|-[ab]\b|\d-",
+                             value)] and any("energy-Casimir" in value for value in words)
 
 
 @pytest.mark.parametrize("number", table.EXTREMES)
 def test_the_case_files_of_the_tables_hold_the_papers_data(number):
     import stabilab
-    starts = {"minor-axis": paper.START_MINOR, "middle-axis": paper.START_MIDDLE, "middle-axis-equal": paper.START_PLANE}
+    starts = {"minor-axis": paper.START_MINOR, "middle-axis": paper.START_MIDDLE,
+              "middle-axis-equal": paper.START_PLANE}
     for family in table.EXTREMES[number][0]:
         for lam in paper.LAMBDAS:
             case = stabilab.load(CASES / f"{family}-{lam}.toml")
@@ -85,7 +89,8 @@ def test_the_case_files_of_the_tables_hold_the_papers_data(number):
 @pytest.mark.one_in(2)
 @pytest.mark.parametrize("number", table.EXTREMES)
 def test_tables_agree_with_a_tight_run(number):
-    """Oracle: SciPy's DOP853 at 1e-12 over three periods, extremes of its dense output; no code of the package."""
+    """Oracle: SciPy's DOP853 at 1e-12 over three periods, extremes of its dense output; no code of the
+    package."""
     from scipy.integrate import solve_ivp
     for row in table.extremes_table(number).rows:
         values = dict(zip(table.EXTREMES_HEADER, row))
@@ -94,7 +99,8 @@ def test_tables_agree_with_a_tight_run(number):
         assert values["fate"] == "bounded"
         rates = lambda t, x: (x[1] * x[2] + mu[0], -x[2] * (x[0] + a) + mu[1], x[1] * (x[0] + b) + mu[2])
         end = 3 * values["period"]
-        run = solve_ivp(rates, (0, end), [values[f"x{i}(0)"] for i in (1, 2, 3)], method="DOP853", rtol=1e-12, atol=1e-13,
+        run = solve_ivp(rates, (0, end), [values[f"x{i}(0)"] for i in (1, 2, 3)], method="DOP853", rtol=1e-12,
+                        atol=1e-13,
                         dense_output=True)
         states = run.sol(np.linspace(0, end, 60001))
         for i in (1, 2, 3):  # a grid of 20,000 a period misses an extreme by less than 1e-6
@@ -139,7 +145,8 @@ def test_the_drawn_separatrix_is_a_level_curve_of_the_true_integral(lam):
     y, W = found.separatrix(saddle, -4.0, 4.0)
     theta = np.arctan2(2.5 + scene.a, 4.0) + y
     A, c = np.hypot(2.5 + scene.a, 4.0), scene.b - scene.a
-    energy = W**2 / 2 - theta - (A * np.sin(theta)) ** 2 / 2 - c * A * np.sin(theta)  # derived by hand from (13)
+    # derived by hand from (13)
+    energy = W**2 / 2 - theta - (A * np.sin(theta)) ** 2 / 2 - c * A * np.sin(theta)
     assert np.ptp(energy) < 1e-11 and W[np.argmin(np.abs(y - saddle))] == 0.0
 
 
@@ -228,7 +235,8 @@ def test_the_mesh_is_one_disc_without_degenerate_triangles():
 def test_stl_and_glb_hold_every_triangle():
     made = mesh.triangulate(cone())
     data = mesh.stl([made])
-    assert struct.unpack("<I", data[80:84])[0] == len(made.triangles) and len(data) == 84 + 50 * len(made.triangles)
+    assert struct.unpack("<I",
+                         data[80:84])[0] == len(made.triangles) and len(data) == 84 + 50 * len(made.triangles)
     data = mesh.glb([made], style.SHEETS)
     magic, version, length = struct.unpack("<4sII", data[:12])
     size, kind = struct.unpack("<II", data[12:20])
@@ -236,7 +244,9 @@ def test_stl_and_glb_hold_every_triangle():
     assert (magic, version, length, kind) == (b"glTF", 2, len(data), 0x4E4F534A)
     position, _, index = (document["accessors"][i] for i in range(3))
     assert position["count"] == len(made.points) and index["count"] == 3 * len(made.triangles)
-    assert position["max"] == pytest.approx([1, 1, 1]) and document["buffers"][0]["byteLength"] == len(data) - 28 - size
+    assert position["max"] == pytest.approx([1, 1,
+                                             1]) and document["buffers"][0]["byteLength"] == len(
+                                                 data) - 28 - size
 
 
 def test_empty_meshes_are_valid_files(tmp_path):
@@ -309,7 +319,8 @@ def test_a_picture_is_what_its_ending_says_and_the_same_bytes_again(name, tmp_pa
 def test_what_is_not_a_picture_is_refused_before_anything_is_drawn(tmp_path):
     import stabilab
     for name in ("plane.jpg", "plane", "plane.png.gz", ".png"):
-        with pytest.raises(errors.InputError, match=r"expected a name that ends in \.png, \.svg or \.pdf, got"):
+        with pytest.raises(errors.InputError,
+                           match=r"expected a name that ends in \.png, \.svg or \.pdf, got"):
             plane.write(stabilab.load(CASES / "minor-axis-100.toml"), tmp_path / name)
     assert not list(tmp_path.iterdir())
 
@@ -330,7 +341,8 @@ def test_the_summary_counts_what_the_mesh_holds(tmp_path):
 
 
 def test_surface_points_lie_on_the_level_of_their_saddle(tmp_path):
-    """Oracle: the energy of the minor axis derived by hand, x3^2/2 - theta - X^2/2 - c X, continuous along each loop."""
+    """Oracle: the energy of the minor axis derived by hand, x3^2/2 - theta - X^2/2 - c X, continuous along
+    each loop."""
     from stabilab.orbit.separatrix.sheets import separatrix
     scene = paper.scene("minor", 100)
     for sheet in separatrix(scene, shape=(12, 41)).sheets:
@@ -343,18 +355,22 @@ def test_surface_points_lie_on_the_level_of_their_saddle(tmp_path):
 
 
 def test_a_surface_picture_names_the_axes_of_its_case(tmp_path, monkeypatch):
-    """Expected by eye: the largest, middle and least moment of the file, its principal axes where it is turned, the paper's letters."""
+    """Expected by eye: the largest, middle and least moment of the file, its principal axes where it is
+    turned, the paper's letters."""
     drawn = []
     monkeypatch.setattr(surface, "probe", lambda: render_probe.Renderer(True, "none"))
-    monkeypatch.setattr(surface, "draw", lambda scene, found, meshes, path, names: (drawn.append(tuple(names)), path)[1])
-    text = ("[body]\ninertia = {}\n[effects.gyrostat]\nmomentum = [0.8, 0, 0]\n[effects.constant_torque]\ntorque = {}\n"
+    monkeypatch.setattr(surface, "draw", lambda scene, found, meshes, path,
+                        names: (drawn.append(tuple(names)), path)[1])
+    text = ("[body]\ninertia = {}\n[effects.gyrostat]\nmomentum = [0.8, 0, "
+            "0]\n[effects.constant_torque]\ntorque = {}\n"
             "[motion]\nangular_velocity = [0.1, 0.05, 0.02]\n")
     plain, turned = tmp_path / "plain.toml", tmp_path / "turned.toml"
     plain.write_text(text.format("[12, 9, 5]", "[0, 0, 0.02]"))
     turned.write_text(text.format("[[12, 0, 0], [0, 7, 2], [0, 2, 7]]", "[0, 0.02, -0.02]"))
     for given in (*map(load, (plain, turned, CASES / "minor-axis-100.toml")), paper.scene("minor", 100)):
         surface.write(given, tmp_path, shape=(12, 25))
-    assert drawn == [("x (major)", "y (intermediate)", "z (minor)"), ("major", "intermediate", "minor"), ("x1", "x2", "x3"), ("x1", "x2", "x3")]
+    assert drawn == [("x (major)", "y (intermediate)", "z (minor)"), ("major", "intermediate", "minor"),
+                     ("x1", "x2", "x3"), ("x1", "x2", "x3")]
 
 
 @pytest.mark.slow
@@ -364,20 +380,26 @@ def test_in_a_surface_picture_the_colours_of_equilibria_are_theirs_alone_and_no_
     from stabilab.orbit.separatrix.sheets import separatrix
     scene = paper.scene("minor", 100)
     found = separatrix(scene, shape=(12, 25))
-    stage = surface.plotter(scene, found, [mesh.triangulate(sheet) for sheet in found.sheets], scene.components)
+    stage = surface.plotter(scene, found, [mesh.triangulate(sheet) for sheet in found.sheets],
+                            scene.components)
     try:
-        theirs = {tuple(int(style.MEANING[kind]["color"][i:i + 2], 16) for i in (1, 3, 5)) for kind in ("stable", "unstable", "fold")}
-        coloured = {name for name, actor in stage.actors.items() if hasattr(actor, "prop") and tuple(actor.prop.color.int_rgb) in theirs}
+        theirs = {tuple(int(style.MEANING[kind]["color"][i:i + 2], 16) for i in (1, 3, 5))
+                  for kind in ("stable", "unstable", "fold")}
+        coloured = {name for name, actor in stage.actors.items() if hasattr(actor, "prop")
+                    and tuple(actor.prop.color.int_rgb) in theirs}
         assert coloured and all(name.startswith("line ") for name in coloured)
-        assert "vtkActor2D" not in {type(actor).__name__ for actor in stage.actors.values()}  # labels at points of space
-        box, sheets = stage.renderer.cube_axes_actor.bounds, np.concatenate([sheet.points.reshape(-1, 3) for sheet in found.sheets])
+        # labels at points of space
+        assert "vtkActor2D" not in {type(actor).__name__ for actor in stage.actors.values()}
+        box, sheets = stage.renderer.cube_axes_actor.bounds, np.concatenate(
+            [sheet.points.reshape(-1, 3) for sheet in found.sheets])
         assert all(box[2 * i] < sheets[:, i].min() and sheets[:, i].max() < box[2 * i + 1] for i in range(3))
     finally:
         stage.close()
 
 
 def test_a_picture_is_drawn_once_and_holds_the_nearest_colours_of_its_palette(tmp_path, monkeypatch):
-    """Nearest by a search of its own, colour by colour in Python's whole numbers; the drawing itself by the way of savefig."""
+    """Nearest by a search of its own, colour by colour in Python's whole numbers; the drawing itself by the
+    way of savefig."""
     from matplotlib.figure import Figure
 
     drawn, draw = [], Figure.draw

@@ -39,7 +39,9 @@ def case_of(tmp_path, text):
     return stabilab.load(file)
 
 
-SMALL = "[body]\ninertia = [12, 9, 5]\n[effects.gyrostat]\nmomentum = [0.8, 0, 0]\n[effects.constant_torque]\ntorque = [0, 0, 0.02]\n"
+SMALL = (
+    "[body]\ninertia = [12, 9, 5]\n[effects.gyrostat]\nmomentum = [0.8, 0, "
+    "0]\n[effects.constant_torque]\ntorque = [0, 0, 0.02]\n")
 MOVING = SMALL + "[motion]\nangular_velocity = [0.1, 0.05, 0.02]\nspan = [0, 100]\n"
 
 
@@ -55,7 +57,8 @@ def test_a_plot_returns_the_axes_it_was_given():
 
 
 @pytest.mark.one_in(3)
-@pytest.mark.parametrize("title", [r"thrust at $\\foo$, lambda1 = 100", "5 $ of 7 $", r"x_1 \\$ {y}^", "$x$ " * 40])
+@pytest.mark.parametrize("title",
+                         [r"thrust at $\\foo$, lambda1 = 100", "5 $ of 7 $", r"x_1 \\$ {y}^", "$x$ " * 40])
 def test_a_dollar_in_a_title_is_drawn_as_a_dollar(tmp_path, title):
     """Matplotlib takes what stands between dollars for a formula, and stops at one that it cannot read."""
     case = case_of(tmp_path, f'title = "{title}"\n' + MOVING)
@@ -63,11 +66,14 @@ def test_a_dollar_in_a_title_is_drawn_as_a_dollar(tmp_path, title):
     _, ax = plt.subplots()
     for axes in (stabilab.plot.time(case, ax=ax), stabilab.plot.basin(found)):
         axes.figure.draw_without_rendering()
-        assert axes.title.get_text().replace(r"\$", "").count("$") == 0 and axes.title.get_text().count(r"\$") == title.count("$")
+        assert axes.title.get_text().replace(r"\$",
+                                             "").count("$") == 0 and axes.title.get_text().count(
+                                                 r"\$") == title.count("$")
 
 
 def test_a_small_figure_has_small_letters_and_room_for_the_curves(tmp_path):
-    """Oracle: Matplotlib's own boxes after the layout. With letters of full size the axes took a sixth of such a figure's height."""
+    """Oracle: Matplotlib's own boxes after the layout. With letters of full size the axes took a sixth of
+    such a figure's height."""
     case = case_of(tmp_path, MOVING)
     with style.drawing():
         figure = to_file.DRAWN["time"](subject.subject(case), None, (3.6, 3.0), plt)
@@ -81,44 +87,52 @@ def test_a_small_figure_has_small_letters_and_room_for_the_curves(tmp_path):
 def test_words_on_cut_models_stand_side_by_side():
     t = np.linspace(0, 9, 50)
     bent = {"exact": np.sin(t), "linear": np.exp(t), "corrected": -1e3 * np.exp(t), "printed": 10 * np.exp(t)}
-    runs = {name: SimpleNamespace(t=t, state={"omega": np.column_stack([curve] * 3)}) for name, curve in bent.items()}
+    runs = {name: SimpleNamespace(t=t, state={"omega": np.column_stack([curve] * 3)}) for name,
+            curve in bent.items()}
     with style.drawing():
         figure = comparison.picture(plt, load("minor-axis-100"), runs)
         figure.draw_without_rendering()
         for ax in figure.axes:
             boxes = [text.get_window_extent() for text in ax.texts]
-            assert {text.get_text() for text in ax.texts} == {"cut: to 8103", "cut: to −8.1e+06", "cut: to 81031"}  # e^9 = 8103
+            # e^9 = 8103
+            assert {text.get_text()
+                    for text in ax.texts} == {"cut: to 8103", "cut: to −8.1e+06", "cut: to 81031"}
             assert not [1 for n, box in enumerate(boxes) for other in boxes[:n] if box.overlaps(other)]
 
 
 def test_an_axis_that_varies_by_little_counts_from_a_value_that_its_label_names():
     with style.drawing():
-        figure = stabilab.plot.state(load("charged-body-small-torque"))  # omega3 stays within 7e-6 deg/s of 16.2
+        # omega3 stays within 7e-6 deg/s of 16.2
+        figure = stabilab.plot.state(load("charged-body-small-torque"))
         figure.draw_without_rendering()
         (ax,) = [one for one in figure.axes if one.get_ylabel().startswith(r"$\omega_3$")]
         found = re.fullmatch(r"\$\\omega_3\$ − ([\d.]+) \(\$10\^\{(-\d+)\}\$ deg/s\)", ax.get_ylabel())
         told = [float(text.get_text().replace("−", "-")) for text in ax.get_yticklabels()]
         assert float(found[1]) == 16.2 and not ax.yaxis.get_offset_text().get_text()
-        assert [float(found[1]) + one * 10.0 ** int(found[2]) for one in told] == pytest.approx(list(ax.get_yticks()), abs=1e-12)
+        assert [float(found[1]) + one * 10.0 ** int(found[2])
+                for one in told] == pytest.approx(list(ax.get_yticks()), abs=1e-12)
 
 
 def test_a_model_that_ends_early_says_so_and_words_on_cuts_tell_both_sides():
     t = np.linspace(0, 9, 50)
     runs = {"exact": SimpleNamespace(t=t, state={"omega": np.column_stack([np.sin(t)] * 3)}),
-            "printed": SimpleNamespace(t=t[:40], state={"omega": np.column_stack([20 * np.cos(t[:40])] * 3)}, status="left")}
+            "printed": SimpleNamespace(t=t[:40], state={"omega": np.column_stack([20 * np.cos(t[:40])] * 3)},
+                                       status="left")}
     with style.drawing():
         figure = comparison.picture(plt, load("minor-axis-100"), runs)
         words = [text.get_text() for text in figure.legends[0].get_texts()]
         told = {text.get_text() for ax in figure.axes for text in ax.texts}
         marks = [line.get_xdata() for line in figure.axes[0].get_lines() if line.get_marker() == "X"]
-    assert words[1].startswith("as printed, ends at 7.16") and [list(one) for one in marks] == [[t[39]]]  # 39/49 of 9
+    # 39/49 of 9
+    assert words[1].startswith("as printed, ends at 7.16") and [list(one) for one in marks] == [[t[39]]]
     low = (20 * np.cos(t[:40])).min()
     assert told == {f"cut: −{-low:.3g} to 20"}
 
 
 def test_letters_alone_stand_upright_on_every_axis(tmp_path):
     ax = stabilab.plot.sphere(load("minor-axis-100"))
-    assert [(axis.get_rotate_label(axis.label.get_text()), axis.label.get_rotation()) for axis in (ax.xaxis, ax.yaxis, ax.zaxis)] == [(False, 0)] * 3
+    assert [(axis.get_rotate_label(axis.label.get_text()), axis.label.get_rotation())
+            for axis in (ax.xaxis, ax.yaxis, ax.zaxis)] == [(False, 0)] * 3
 
 
 def test_rates_are_drawn_in_degrees_and_components_make_the_size(tmp_path):
@@ -131,16 +145,22 @@ def test_rates_are_drawn_in_degrees_and_components_make_the_size(tmp_path):
 
 
 def test_of_curves_on_each_other_the_later_ones_are_broken_so_that_all_are_seen(tmp_path):
-    """Oracle: the pixels of the picture. At rest x2 = x3 = -1; of a spin about axis 3 |omega| = omega3 and omega1 = omega2 = 0."""
+    """Oracle: the pixels of the picture. At rest x2 = x3 = -1; of a spin about axis 3 |omega| = omega3 and
+    omega1 = omega2 = 0."""
     rest = stabilab.plot.time(load("off-axis-fold"))
-    spin = stabilab.plot.time(case_of(tmp_path, "[body]\ninertia = [12, 9, 5]\n[motion]\nangular_velocity = [0, 0, 0.1]\nspan = [0, 9]\n"))
+    spin = stabilab.plot.time(case_of(tmp_path,
+                                      "[body]\ninertia = [12, 9, 5]\n[motion]\nangular_velocity = [0, 0, "
+                                      "0.1]\nspan = [0, 9]\n"))
     moving = stabilab.plot.time(case_of(tmp_path, MOVING))
     for ax, together in ((rest, 3), (spin, 4), (moving, 4)):
         ax.figure.canvas.draw()
-        colours = {tuple(round(255 * c) for c in matplotlib.colors.to_rgb(line.get_color())) for line in ax.get_lines()[:together]}
+        colours = {tuple(round(255 * c) for c in matplotlib.colors.to_rgb(line.get_color()))
+                   for line in ax.get_lines()[:together]}
         box = ax.get_window_extent()
-        drawn = np.asarray(ax.figure.canvas.buffer_rgba())[::-1][int(box.y0):int(box.y1), int(box.x0):int(box.x1), :3]
-        seen = {colour: int((np.abs(drawn.astype(int) - colour).max(axis=2) < 12).sum()) for colour in colours}
+        drawn = np.asarray(ax.figure.canvas.buffer_rgba())[::-1][int(box.y0):int(box.y1),
+                                                                 int(box.x0):int(box.x1), :3]
+        seen = {colour: int((np.abs(drawn.astype(int) - colour).max(axis=2) < 12).sum())
+                for colour in colours}
         assert len(colours) == together and min(seen.values()) > 100, seen
     assert all(line.get_linestyle() == "-" for line in moving.get_lines()[:4])
 
@@ -149,8 +169,11 @@ def test_of_curves_on_each_other_the_later_ones_are_broken_so_that_all_are_seen(
 def test_every_part_of_a_state_is_drawn_in_the_units_of_the_other_plots(units, unit, one):
     """Oracle: the states of `simulate`, in rad and s, at the ends."""
     case = load("charged-body-small-torque")
-    figure, found = stabilab.plot.state(case, units=units), stabilab.simulate(case.scene, case.state, case.span, case.blocks)
-    panels = {re.sub(r" [−+] [\d.]+ \(\$10\^\{-\d+\}\$ ", " (", ax.get_ylabel()): ax.get_lines()[0].get_ydata()[-1] for ax in figure.axes}
+    figure, found = stabilab.plot.state(case,
+                                        units=units), stabilab.simulate(case.scene, case.state, case.span,
+                                                                        case.blocks)
+    panels = {re.sub(r" [−+] [\d.]+ \(\$10\^\{-\d+\}\$ ", " (",
+                     ax.get_ylabel()): ax.get_lines()[0].get_ydata()[-1] for ax in figure.axes}
     for n in range(3):
         assert panels[rf"$\omega_{n + 1}$ ({unit}/s)"] == pytest.approx(found.state["omega"][-1, n] * one)
         assert panels[f"$H_{n + 1}$ (kg m²/s)"] == pytest.approx(found.state["momentum"][-1, n])
@@ -163,7 +186,8 @@ def test_drawn_rates_are_those_of_the_motion(tmp_path):
     t, rates = path.path(subject.subject(case_of(tmp_path, MOVING)), 0.0, 100.0)
     D, wheel, torque = np.array([12.0, 9.0, 5.0]), np.array([0.8, 0, 0]), np.array([0, 0, 0.02])
     euler = lambda _, w: (np.cross(D * w + wheel, w) + torque) / D
-    run = solve_ivp(euler, (0, 100), (0.1, 0.05, 0.02), method="DOP853", t_eval=t[::50], rtol=1e-11, atol=1e-13)
+    run = solve_ivp(euler, (0, 100), (0.1, 0.05, 0.02), method="DOP853", t_eval=t[::50], rtol=1e-11,
+                    atol=1e-13)
     assert np.abs(run.y.T - rates[::50]).max() < 1e-8
 
 
@@ -171,9 +195,11 @@ def test_dotted_lines_stand_at_the_extremes_and_grey_ones_a_period_apart(tmp_pat
     case = case_of(tmp_path, MOVING)
     ax = stabilab.plot.time(case)
     found = stabilab.motion(case.scene, case.state)
-    level = {round(float(line.get_ydata()[0]), 9) for line in ax.get_lines() if len(line.get_xdata()) == 2 and line.get_ydata()[0] == line.get_ydata()[1]}
+    level = {round(float(line.get_ydata()[0]), 9) for line in ax.get_lines() if len(line.get_xdata()) == 2
+             and line.get_ydata()[0] == line.get_ydata()[1]}
     assert {round(math.degrees(v), 9) for pair in found.extremes for v in pair} <= level
-    upright = [line.get_xdata()[0] for line in ax.get_lines() if len(line.get_xdata()) == 2 and line.get_xdata()[0] == line.get_xdata()[1]]
+    upright = [line.get_xdata()[0] for line in ax.get_lines() if len(line.get_xdata()) == 2
+               and line.get_xdata()[0] == line.get_xdata()[1]]
     assert np.diff(upright) == pytest.approx(found.period) and len(upright) > 1
 
 
@@ -186,12 +212,14 @@ def test_the_limit_of_a_case_is_marked_where_the_size_of_the_rate_first_reaches_
 
 
 def test_limits_about_axes_of_the_file_are_drawn_beside_the_rates_about_those():
-    """geostationary-22n states its limits about axes that are not principal; at t = 0 the rates are as the file gives them."""
+    """geostationary-22n states its limits about axes that are not principal; at t = 0 the rates are as the
+    file gives them."""
     case = load("geostationary-22n")
     ax = stabilab.plot.time(case)
     start = np.array([line.get_ydata()[0] for line in lines(ax)[1:4]])
     back = case.frame.back([Fraction(v) for v in case.state])
-    assert start == pytest.approx([math.degrees(float(v)) for v in back], abs=1e-9) and "axes of the file" in ax.get_ylabel()
+    assert start == pytest.approx([math.degrees(float(v)) for v in back],
+                                  abs=1e-9) and "axes of the file" in ax.get_ylabel()
     assert "minor axis" in (title := " ".join(ax.get_title().split())) and "in the file's frame" in title
 
 
@@ -204,8 +232,8 @@ def test_a_curve_with_more_turns_than_columns_becomes_a_band_that_holds_it():
 
 @pytest.mark.slow
 def test_a_motion_on_an_unstable_plane_is_drawn_where_it_stays():
-    """By hand: on the plane x1 + 1 = -x3 of this scene x3' = -x2 x3 and x2' = 1 + x3/2 + x3^2, so x3 dies out and x2 grows with the time. A run in doubles is
-    thrown off the plane by rounding at tau = 8."""
+    """By hand: on the plane x1 + 1 = -x3 of this scene x3' = -x2 x3 and x2' = 1 + x3/2 + x3^2, so x3 dies out
+    and x2 grows with the time. A run in doubles is thrown off the plane by rounding at tau = 8."""
     one = subject.subject(stabilab.load(f"{CASES}/middle-axis-spin-up.toml"))
     t, x = path.path(one, 0.0, 12.0)
     assert t[-1] == 12 and abs(x[:, 0] + 1 + x[:, 2]).max() < 1e-15
@@ -214,7 +242,8 @@ def test_a_motion_on_an_unstable_plane_is_drawn_where_it_stays():
 
 
 def test_a_scene_alone_is_drawn_on_its_unstable_plane_too():
-    """By hand: (x1 + 1 + x3)' = x2 (x1 + 1 + x3), so the plane is kept; with x1 = x3 = -1/2 both components have the same last place."""
+    """By hand: (x1 + 1 + x3)' = x2 (x1 + 1 + x3), so the plane is kept; with x1 = x3 = -1/2 both components
+    have the same last place."""
     one = subject.subject(stabilab.ScaledGyrostat(Fraction(1, 2), 1, (0, 1, 0)), state=(-0.5, 3.0, -0.5))
     t, x = path.path(one, 0.0, 6.0)
     assert t[-1] == 6 and abs(x[:, 0] + 1 + x[:, 2]).max() < 1e-15
@@ -231,29 +260,35 @@ def test_a_phase_plane_without_saddles_fills_its_picture(name):
 def test_parts_of_a_state_that_turn_often_are_shown_over_their_first_turns():
     """The top turns some 24 times a second over its 2 s; a span that is asked for is shown whole."""
     one = load("top-fast")
-    ends = [plt.gcf().axes[0].get_lines()[0].get_xdata()[-1] for span in (None, 2.0) if stabilab.plot.state(one, span=span) is not None]
+    ends = [plt.gcf().axes[0].get_lines()[0].get_xdata()[-1] for span in (None, 2.0)
+            if stabilab.plot.state(one, span=span) is not None]
     assert ends[0] < 0.6 and ends[1] == 2.0
 
 
 def test_a_motion_that_never_turns_has_one_branch_in_its_plane():
-    """torque-free-body goes right round axis 1 (H^2 > 2 T D2), so omega1 keeps its sign; one in a well has both."""
+    """torque-free-body goes right round axis 1 (H^2 > 2 T D2), so omega1 keeps its sign; one in a well has
+    both."""
     def signs(name):
         ax = stabilab.plot.phase(load(name))
-        return sorted(float(np.sign(line.get_ydata()[len(line.get_ydata()) // 2])) for line in ax.get_lines() if line.get_color() == "#E69F00")
+        return sorted(float(np.sign(line.get_ydata()[len(line.get_ydata()) // 2])) for line in ax.get_lines()
+                      if line.get_color() == "#E69F00")
     assert signs("torque-free-body") == [1.0] and signs("minor-axis-100") == [-1.0, 1.0]
 
 
 def test_a_motion_all_but_at_rest_in_a_single_well_is_drawn_between_its_walls():
-    """The bottom of the well lies 3e-4 from the start, between two points of the grid: the height of the picture was the root of a negative number."""
+    """The bottom of the well lies 3e-4 from the start, between two points of the grid: the height of the
+    picture was the root of a negative number."""
     ax = plt.figure().add_subplot()
     stabilab.plot.phase(load("charged-body-small-torque"), ax=ax)
     low, high = ax.get_ylim()
-    assert math.isfinite(low) and math.isfinite(high) and high - low > 1e3 * abs(np.ptp(lines(ax)[0].get_ydata()))
+    assert math.isfinite(low) and math.isfinite(high) and high - low > 1e3 * abs(
+        np.ptp(lines(ax)[0].get_ydata()))
 
 
 @pytest.mark.parametrize("size", [1, 1e-2, 1e-4])
 def test_a_motion_between_walls_fills_its_phase_plane_whatever_its_size_in_rad_a_second(size):
-    """A slower body with a weaker torque moves alike (rates by a factor, torque by its square), and so does its picture."""
+    """A slower body with a weaker torque moves alike (rates by a factor, torque by its square), and so does
+    its picture."""
     case = read_text("slow.toml", f"""[body]
 inertia = [8.7, 8.6, 11.1]
 [effects.gyrostat]
@@ -271,8 +306,10 @@ angular_velocity = [0, 0, {0.28 * size}]
 
 def test_a_title_says_that_an_approximate_law_does_not_hold():
     """The charge's law holds while axis 3 keeps its direction, which it does not under the larger torque."""
-    titles = [stabilab.plot.time(load(name)).get_title() for name in ("charged-body", "charged-body-small-torque")]
-    assert ["BEYOND THE LAW;\nby that law: BOUNDED" in title for title in titles] == [True, False] and all("BOUNDED" in title for title in titles)
+    titles = [stabilab.plot.time(load(name)).get_title()
+              for name in ("charged-body", "charged-body-small-torque")]
+    assert ["BEYOND THE LAW;\nby that law: BOUNDED" in title
+            for title in titles] == [True, False] and all("BOUNDED" in title for title in titles)
 
 
 def test_a_motion_too_small_to_be_seen_beside_its_separatrix_is_shown_enlarged():
@@ -285,9 +322,11 @@ def test_the_axis_of_time_has_the_unit_of_the_period_whose_ends_are_marked():
     """two-wheels-minor-axis repeats every 15.567 s over 120 s, which alone would be told in minutes."""
     ax = stabilab.plot.time(load("two-wheels-minor-axis"))
     assert ax.get_xlabel() == "time (s)" and ax.get_xlim() == (0, 120)
-    ends = sorted(float(line.get_xdata()[0]) for line in ax.get_lines() if line.get_color() == "#7A7A7A" and len(set(line.get_xdata())) == 1)
+    ends = sorted(float(line.get_xdata()[0]) for line in ax.get_lines() if line.get_color() == "#7A7A7A"
+                  and len(set(line.get_xdata())) == 1)
     assert ends == pytest.approx([15.5672 * n for n in range(8)], rel=1e-4)
-    assert stabilab.plot.time(load("two-wheels-minor-axis"), span=(0, 3000)).get_xlabel() == "time (min)"  # 193 ends are not marked
+    # 193 ends are not marked
+    assert stabilab.plot.time(load("two-wheels-minor-axis"), span=(0, 3000)).get_xlabel() == "time (min)"
 
 
 def test_lines_of_a_title_end_with_clauses_and_a_legend_of_five_has_one_row():
@@ -303,39 +342,48 @@ def test_lines_of_a_title_end_with_clauses_and_a_legend_of_five_has_one_row():
 
 
 def test_the_enlarged_window_holds_the_start_and_other_energies_up_to_its_edges_on_a_ground_of_its_own():
-    """The mark of the start hid the motion in the large picture, whose lines went through the numbers of the window."""
+    """The mark of the start hid the motion in the large picture, whose lines went through the numbers of the
+    window."""
     ax = stabilab.plot.phase(load("thruster-stuck-major-axis"))
-    (inset,), starts = ax.child_axes, lambda where: [line for line in where.get_lines() if line.get_marker() == "s"]
+    (inset,), starts = ax.child_axes, lambda where: [line for line in where.get_lines()
+                                                     if line.get_marker() == "s"]
     assert not starts(ax) and len(starts(inset)) == 1
     (levels,) = inset.collections
     drawn = np.concatenate([path.vertices for path in levels.get_paths()])
     low, high = inset.get_ylim()
     assert drawn[:, 1].max() > high - 0.02 * (high - low) and drawn[:, 1].min() < low + 0.02 * (high - low)
     ax.figure.draw_without_rendering()
-    ground, = (patch for patch in ax.patches if patch.get_facecolor() == (1.0, 1.0, 1.0, 1.0) and patch.get_zorder() == 4.5)
+    ground, = (patch for patch in ax.patches if patch.get_facecolor() == (1.0, 1.0, 1.0, 1.0)
+               and patch.get_zorder() == 4.5)
     box, numbers = ground.get_window_extent(), inset.get_tightbbox()
     assert box.x0 <= numbers.x0 and box.y0 <= numbers.y0 and box.x1 >= numbers.x1 and box.y1 >= numbers.y1
 
 
 def test_a_bounded_motion_lies_in_its_phase_plane_whole():
-    """That of uncertain-separatrix swings to 95 % of the way to a saddle on one side, and farther than a turn and a third from the middle on the other."""
+    """That of uncertain-separatrix swings to 95 % of the way to a saddle on one side, and farther than a turn
+    and a third from the middle on the other."""
     ax = stabilab.plot.phase(load("uncertain-separatrix"))
     (low, high), motion = ax.get_xlim(), [line for line in ax.get_lines() if line.get_color() == "#E69F00"]
     turns = np.concatenate([line.get_xdata() for line in motion])
     ends = motion[0].get_ydata()[[0, -1]]
-    assert low < turns.min() and turns.max() < high and np.abs(ends).max() < 1e-3 * np.abs(motion[0].get_ydata()).max()
+    assert low < turns.min() and turns.max() < high and np.abs(ends).max() < 1e-3 * np.abs(
+        motion[0].get_ydata()).max()
 
 
 def test_a_motion_of_a_ten_thousandth_of_the_picture_is_shown_enlarged():
     """Its turning points are known to 1e-14 of the picture, which leaves some 1e-6 of its rate there."""
     small = stabilab.plot.phase(load("charged-body-small-torque"))
-    assert len(small.child_axes) == 1 and np.ptp(small.child_axes[0].get_ylim()) < 1e-3 * np.ptp(small.get_ylim())
+    assert len(small.child_axes) == 1 and np.ptp(small.child_axes[0].get_ylim()) < 1e-3 * np.ptp(
+        small.get_ylim())
 
 
 EVERYWHERE = {"time", "space", "budget"}
-KINDS = {"minor-axis-100": EVERYWHERE | {"phase", "sphere", "section", "equilibria"}, "off-axis-two": EVERYWHERE | {"equilibria"},
-         "major-axis-100": EVERYWHERE, "torque-free-gyrostat": EVERYWHERE | {"phase", "sphere", "section", "equilibria"},
-         "liquid-base": EVERYWHERE | {"state", "equilibria"}, "charged-body": EVERYWHERE | {"phase", "sphere", "section", "state", "equilibria"},
+KINDS = {"minor-axis-100": EVERYWHERE | {"phase", "sphere", "section", "equilibria"},
+         "off-axis-two": EVERYWHERE | {"equilibria"},
+         "major-axis-100": EVERYWHERE,
+         "torque-free-gyrostat": EVERYWHERE | {"phase", "sphere", "section", "equilibria"},
+         "liquid-base": EVERYWHERE | {"state", "equilibria"},
+         "charged-body": EVERYWHERE | {"phase", "sphere", "section", "state", "equilibria"},
          "top-fast": EVERYWHERE | {"state", "equilibria"}}
 
 
@@ -354,18 +402,21 @@ def test_every_kind_of_scene_knows_its_kinds_of_plot(name):
 @pytest.mark.parametrize("ending", ["png", "svg", "pdf"])
 def test_the_same_case_gives_the_same_bytes_in_every_format(ending, tmp_path):
     case = load("middle-axis-100")
-    one, two = (to_file.write(case, tmp_path / f"{n}.{ending}", "time", size=(5, 3)).read_bytes() for n in (1, 2))
+    one, two = (to_file.write(case, tmp_path / f"{n}.{ending}", "time", size=(5, 3)).read_bytes()
+                for n in (1, 2))
     assert one == two and one[:5] in (b"\x89PNG\r", b"<?xml", b"%PDF-")
 
 
 def test_a_picture_has_the_size_and_the_dots_asked_for(tmp_path):
     from PIL import Image
-    with Image.open(to_file.write(load("middle-axis-100"), tmp_path / "a.png", "phase", size=(5, 3), dpi=200)) as image:
+    with Image.open(to_file.write(load("middle-axis-100"), tmp_path / "a.png", "phase", size=(5, 3),
+                                  dpi=200)) as image:
         assert image.size == (1000, 600)
 
 
 @pytest.mark.parametrize("options, words", [
-    ({"kind": "nope"}, "expected one of time, phase"), ({"size": (0, 3)}, "1 to 60 inches"), ({"dpi": 3}, "10 to 1200 dots"),
+    ({"kind": "nope"}, "expected one of time, phase"), ({"size": (0, 3)}, "1 to 60 inches"),
+    ({"dpi": 3}, "10 to 1200 dots"),
     ({"kind": "time", "units": "rpm"}, "expected one of deg, si")])
 def test_what_cannot_be_drawn_is_refused_and_nothing_is_written(options, words, tmp_path):
     with pytest.raises(errors.InputError, match=words):
@@ -414,14 +465,18 @@ def of_free_body(H, D, wheel=(0, 0, 0)):
 def test_on_the_momentum_sphere_the_motion_keeps_its_energy_and_the_separatrix_that_of_the_middle_axis():
     """Euler: T = H^2 / (2 D2) on the separatrix of a free body; 3, 2, 1 kg m^2."""
     ax = stabilab.plot.sphere(load("torque-free-body"))
-    motion, separatrix = (np.concatenate([line[np.isfinite(line).all(axis=1)] for line in spatial(ax, colour) if len(line) > 2])
+    motion, separatrix = (np.concatenate([line[np.isfinite(line).all(axis=1)] for line in spatial(ax, colour)
+                                          if len(line) > 2])
                           for colour in (ORANGE, BLACK))
     size = np.linalg.norm(motion, axis=1)
     assert np.ptp(size) < 1e-9 * size[0]
     start = np.array([3, 2, 1]) * (0.2, 0.4, 0.3)
     drawn = size[0] / np.linalg.norm(start)
-    assert drawn == pytest.approx(1.002) and of_free_body(motion, (3, 2, 1)) == pytest.approx(drawn**2 * of_free_body(start, (3, 2, 1)))
-    assert of_free_body(separatrix, (3, 2, 1)) == pytest.approx(size[0] ** 2 / 4, rel=2e-4)  # of a grid of half a degree
+    assert drawn == pytest.approx(1.002) and of_free_body(motion,
+                                                          (3, 2, 1)) == pytest.approx(
+                                                              drawn**2 * of_free_body(start, (3, 2, 1)))
+    # of a grid of half a degree
+    assert of_free_body(separatrix, (3, 2, 1)) == pytest.approx(size[0] ** 2 / 4, rel=2e-4)
 
 
 def test_under_a_torque_on_the_minor_axis_all_lines_stay_on_the_circle_of_the_paper():
@@ -432,11 +487,13 @@ def test_under_a_torque_on_the_minor_axis_all_lines_stay_on_the_circle_of_the_pa
     lines = [line for line in spatial(ax, ORANGE) + spatial(ax, BLACK) if len(line) > 10]
     assert len(lines) >= 4
     for line in lines:
-        assert np.hypot(line[:, 0] + case.scene.a, line[:, 1])[np.isfinite(line[:, 0])] == pytest.approx(radius)
+        assert np.hypot(line[:, 0] + case.scene.a,
+                        line[:, 1])[np.isfinite(line[:, 0])] == pytest.approx(radius)
 
 
 @pytest.mark.one_in(3)
-@pytest.mark.parametrize("name", ["thruster-stuck-major-axis", "minor-axis-100", "wheel-and-thruster", "torque-free-gyrostat", "off-axis-two", "liquid-base"])
+@pytest.mark.parametrize("name", ["thruster-stuck-major-axis", "minor-axis-100", "wheel-and-thruster",
+                                  "torque-free-gyrostat", "off-axis-two", "liquid-base"])
 def test_the_box_of_the_space_of_rates_is_scaled_to_the_motion(name):
     """Not to a surface that reaches a hundred times as far."""
     ax = stabilab.plot.space(load(name))
@@ -457,7 +514,8 @@ def test_triangles_cut_by_a_box_keep_the_area_inside():
     from stabilab.show.plot.in_space import Box
     corners = np.array([[-2, -2, 0], [2, -2, 0], [2, 2, 0], [-2, 2, 0]], float)
     inside = Box.of(np.full(3, -1.0), np.full(3, 1.0)).clipped(corners[[[0, 1, 2], [0, 2, 3]]])
-    area = np.linalg.norm(np.cross(inside[:, 1] - inside[:, 0], inside[:, 2] - inside[:, 0]), axis=1).sum() / 2
+    area = (np.linalg.norm(np.cross(inside[:, 1] - inside[:, 0], inside[:, 2] - inside[:, 0]),
+                           axis=1).sum() / 2)
     assert area == pytest.approx(4) and np.abs(inside).max() <= 1 + 1e-12
 
 
@@ -487,9 +545,12 @@ def test_given_axes_decide_whether_equilibria_are_drawn_in_space():
         stabilab.plot.equilibria(load("torque-free-gyrostat"), ax=flat)
 
 
-@pytest.mark.parametrize("kind", ["space", *(pytest.param(kind, marks=pytest.mark.slow) for kind in ("sphere", "equilibria"))])
+@pytest.mark.parametrize("kind",
+                         ["space", *(pytest.param(kind, marks=pytest.mark.slow)
+                                     for kind in ("sphere", "equilibria"))])
 def test_pictures_in_space_have_the_same_bytes_again(kind, tmp_path):
-    one, two = (to_file.write(load("torque-free-body"), tmp_path / f"{n}.svg", kind).read_bytes() for n in (1, 2))
+    one, two = (to_file.write(load("torque-free-body"), tmp_path / f"{n}.svg", kind).read_bytes()
+                for n in (1, 2))
     assert one == two and len(one) < 3_000_000
 
 
@@ -497,7 +558,8 @@ def test_pictures_in_space_have_the_same_bytes_again(kind, tmp_path):
 
 
 def test_the_box_turns_as_a_body_that_keeps_its_momentum_in_space():
-    """Without a torque R (D omega) is constant; the box of 3, 2, 1 kg m^2: edges as sqrt(2 + 1 - 3), sqrt(3 + 1 - 2), sqrt(3 + 2 - 1)."""
+    """Without a torque R (D omega) is constant; the box of 3, 2, 1 kg m^2: edges as sqrt(2 + 1 - 3), sqrt(3 +
+    1 - 2), sqrt(3 + 2 - 1)."""
     from stabilab.show.plot.turning import THINNEST, turn
     found = turn(subject.subject(load("torque-free-body")), 150)
     momentum = np.einsum("nij,nj->ni", found.rotations, found.omega * (3, 2, 1))
@@ -506,18 +568,21 @@ def test_the_box_turns_as_a_body_that_keeps_its_momentum_in_space():
 
 
 def test_the_vertical_of_a_top_stands_upright_in_space_all_the_time():
-    """R gamma is the third axis of space, with gamma of a run of its own equations (Poisson), which know no attitude."""
+    """R gamma is the third axis of space, with gamma of a run of its own equations (Poisson), which know no
+    attitude."""
     from stabilab.answers.simulate import simulate
     from stabilab.show.plot.turning import turn
     case = load("top-lx30-lz30")
     found = turn(subject.subject(case), 20)
     gamma = simulate(case.scene, case.state, found.t, case.blocks).state["gamma"]
     assert gamma[0] == pytest.approx([1, 0, 0.001], abs=1e-6)
-    assert np.abs(np.einsum("nij,nj->ni", found.rotations, gamma) - (0, 0, 1)).max() < 1e-9  # both runs are good to some 1e-12
+    # both runs are good to some 1e-12
+    assert np.abs(np.einsum("nij,nj->ni", found.rotations, gamma) - (0, 0, 1)).max() < 1e-9
 
 
 def test_an_axis_that_leaves_by_a_hidden_face_is_drawn_before_the_box():
-    """Hidden: the middle of its face lies farther from the eye than that of the box, by Matplotlib's own projection; but where both are near the same."""
+    """Hidden: the middle of its face lies farther from the eye than that of the box, by Matplotlib's own
+    projection; but where both are near the same."""
     from mpl_toolkits.mplot3d.proj3d import proj_transform
     moving = stabilab.plot.attitude(load("torque-free-gyrostat"), frames=30)
     (ax,), seen = moving._fig.axes, set()
@@ -544,17 +609,21 @@ def test_a_film_shows_no_step_in_which_the_eye_would_see_the_body_turn_backwards
 
 @pytest.mark.parametrize("frames", [40, 100])
 def test_a_film_of_a_spin_up_goes_on_for_as_long_as_its_pictures_show_each_step(frames):
-    """Oracle: a run of its own; the rate at the film's end, which is about the greatest so far, times a step of it is some 15 degrees."""
+    """Oracle: a run of its own; the rate at the film's end, which is about the greatest so far, times a step
+    of it is some 15 degrees."""
     from stabilab.show.plot.turning import turn
     case = load("cubesat-3u")
     found = turn(subject.subject(case), frames)
-    rates = np.linalg.norm(stabilab.trajectory(case.scene, case.state, np.linspace(0, found.t[-1], 2001)).states, axis=1)
+    rates = np.linalg.norm(stabilab.trajectory(case.scene, case.state,
+                                               np.linspace(0, found.t[-1], 2001)).states, axis=1)
     assert 15 / 1.2 < math.degrees(rates.max()) * (found.t[1] - found.t[0]) < 16 and not found.whole
 
 
 def test_a_film_that_ends_before_its_span_says_so(tmp_path):
-    """cubesat-3u is followed for 5 min, in which it comes to spin too fast for a film; the body without a torque is shown whole."""
-    for name, told in (("cubesat-3u", r"The first ([\d.]+) s of 5 min are shown\."), ("torque-free-body", "")):
+    """cubesat-3u is followed for 5 min, in which it comes to spin too fast for a film; the body without a
+    torque is shown whole."""
+    for name, told in (("cubesat-3u", r"The first ([\d.]+) s of 5 min are shown\."),
+                       ("torque-free-body", "")):
         moving = stabilab.plot.attitude(load(name), frames=150)
         moving._draw_was_started = True
         words = " ".join(text.get_text() for text in moving._fig.axes[0].texts)
@@ -563,18 +632,22 @@ def test_a_film_that_ends_before_its_span_says_so(tmp_path):
             assert re.search(told, shown) and (told or "The first" not in shown)
         if told:  # the page has more pictures, so it goes on for longer
             ends = [float(re.search(told, shown)[1]) for shown in (words, page)]
-            assert 5 < ends[0] < ends[1] < 300 and ends[1] == pytest.approx(json.loads(re.search(r"const data = (.*?);\n", page)[1])["t"][-1], rel=1e-3)
+            assert 5 < ends[0] < ends[1] < 300 and ends[1] == pytest.approx(
+                json.loads(re.search(r"const data = (.*?);\n", page)[1])["t"][-1], rel=1e-3)
 
 
 def test_the_page_of_an_attitude_needs_nothing_else_and_no_title_ends_its_script(tmp_path):
     case = case_of(tmp_path, 'title = "</script><b>x"\n' + MOVING)
     one, two = (to_file.write(case, tmp_path / name).read_bytes() for name in ("a.html", "b.html"))
     page = one.decode()
-    assert one == two and "http" not in page.replace("http-equiv", "") and page.count("</script>") == 1 and "default-src 'none'" in page
+    assert one == two and "http" not in page.replace("http-equiv",
+                                                     "") and page.count(
+                                                         "</script>") == 1 and "default-src 'none'" in page
 
 
 def test_the_page_of_an_attitude_has_the_letters_of_its_title(tmp_path):
-    page = to_file.write(case_of(tmp_path, 'title = "lambda3 = 2 kg m^2/s"\n' + MOVING), tmp_path / "a.html").read_text(encoding="utf-8")
+    page = to_file.write(case_of(tmp_path, 'title = "lambda3 = 2 kg m^2/s"\n' + MOVING),
+                         tmp_path / "a.html").read_text(encoding="utf-8")
     assert page.count("λ3 = 2 kg m²/s") == 2 and "lambda3" not in page and '"names":["x","y","z"]' in page
 
 
@@ -595,13 +668,17 @@ def test_a_film_is_a_gif_and_what_cannot_be_written_names_what_is_missing(tmp_pa
 
 
 def test_a_rate_that_turns_often_by_little_is_drawn_as_its_line_and_not_as_a_band_too_thin_to_be_seen():
-    """|omega| of this body sways by 0.1 % some hundred times; its legend shows a wide black line. Oracle: the run itself."""
+    """|omega| of this body sways by 0.1 % some hundred times; its legend shows a wide black line. Oracle: the
+    run itself."""
     case = load("liquid-sensible")
     ax = stabilab.plot.time(case)
-    (size,) = [line for line in ax.get_lines() if line.get_color() == style.BLACK and line.get_linewidth() > 2]
+    (size,) = [line for line in ax.get_lines() if line.get_color() == style.BLACK
+               and line.get_linewidth() > 2]
     run = stabilab.simulate(case.scene, case.state, np.linspace(*case.span, 50))
     expected = np.degrees(np.linalg.norm(run.state["omega"], axis=1))
-    assert size.get_ydata()[0] == pytest.approx(expected[0], rel=2e-3) and size.get_ydata()[-1] == pytest.approx(expected[-1], rel=2e-3)
+    assert size.get_ydata()[0] == pytest.approx(expected[0],
+                                                rel=2e-3) and size.get_ydata()[-1] == pytest.approx(
+                                                    expected[-1], rel=2e-3)
     assert len(ax.collections) == 2  # omega1 and omega2, which fill bands
 
 
@@ -613,7 +690,8 @@ def test_a_small_picture_of_costs_has_as_many_questions_as_have_room_and_nothing
         figure.draw_without_rendering()
         shown, (below,) = [ax for ax in figure.axes if ax.get_visible()], figure.legends
         assert len(shown) == panels and tuple(figure.get_size_inches()) == size
-        for box in (below.get_window_extent(), below.get_title().get_window_extent(), *(ax.get_window_extent() for ax in shown)):
+        for box in (below.get_window_extent(), below.get_title().get_window_extent(),
+                    *(ax.get_window_extent() for ax in shown)):
             assert 0 <= box.x0 + 2 and box.x1 <= figure.bbox.width + 2 and 0 <= box.y0 + 2 and box.y1 <= figure.bbox.height + 2
         assert all(ax.get_window_extent().height > figure.bbox.height / 8 for ax in shown)
 
@@ -627,23 +705,28 @@ def test_the_third_axis_is_named_upwards_and_an_axis_seen_from_its_end_has_fewer
             assert ax.zaxis.label.get_rotation() == (90 if " " in ax.get_zlabel() else 0)
             for axis in (ax.xaxis, ax.yaxis, ax.zaxis):
                 low, high = sorted(axis.get_view_interval())
-                boxes = [tick.label1.get_window_extent() for tick in axis.get_major_ticks() if low <= tick.get_loc() <= high]
-                assert len(boxes) >= 2 and not [1 for n, box in enumerate(boxes) for other in boxes[:n] if _deep(box, other)], (name, size)
+                boxes = [tick.label1.get_window_extent() for tick in axis.get_major_ticks()
+                         if low <= tick.get_loc() <= high]
+                assert len(boxes) >= 2 and not [1 for n, box in enumerate(boxes) for other in boxes[:n]
+                                                if _deep(box, other)], (name, size)
             plt.close("all")
 
 
 def _deep(box, other):
     """Whether two boxes share more than a fifth of the smaller one."""
     wide, high = min(box.x1, other.x1) - max(box.x0, other.x0), min(box.y1, other.y1) - max(box.y0, other.y0)
-    return wide > 0 and high > 0 and wide * high > 0.2 * min(box.width * box.height, other.width * other.height)
+    return (wide > 0 and high > 0
+            and wide * high > 0.2 * min(box.width * box.height, other.width * other.height))
 
 
 def test_a_model_that_turns_too_often_to_be_followed_is_a_ground_below_the_exact_motion():
-    """Oracle: Matplotlib's own lines; the expansion of a slow top turns more than a hundred times, that of a fast one as often as the motion."""
+    """Oracle: Matplotlib's own lines; the expansion of a slow top turns more than a hundred times, that of a
+    fast one as often as the motion."""
     t = np.linspace(0, 4, 801)
     for turns, buried in ((400, True), (20, False)):
         bent = {"exact": np.sin(5 * t), "lindstedt": 50 * np.sin(np.pi * turns / 4 * t)}
-        runs = {name: SimpleNamespace(t=t, state={"omega": np.column_stack([curve] * 3)}) for name, curve in bent.items()}
+        runs = {name: SimpleNamespace(t=t, state={"omega": np.column_stack([curve] * 3)}) for name,
+                curve in bent.items()}
         with style.drawing():
             figure = comparison.picture(plt, load("minor-axis-100"), runs)
             exact, model = figure.axes[0].lines

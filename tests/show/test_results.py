@@ -9,20 +9,25 @@ import pytest
 import stabilab
 from stabilab import errors, packages
 
-SCENE = stabilab.Scene(stabilab.Body((12, 9, 5)), stabilab.Gyrostat(("0.8", 0, 0)), stabilab.ConstantTorque((0, 0, "0.02")))
+SCENE = stabilab.Scene(stabilab.Body((12, 9, 5)), stabilab.Gyrostat(("0.8", 0, 0)),
+                       stabilab.ConstantTorque((0, 0, "0.02")))
 STATES = [[0.1, 0.05, 0.02], [0.1, 0.05, 0.9]]
 TIMES = [0.0, 10.0, 20.0]
 CASES = Path(__file__).parents[2] / "cases"
-OFF = stabilab.Scene(stabilab.Body((12, 9, 5)), stabilab.Gyrostat(("0.8", 0, 0)), stabilab.ConstantTorque(("0.01", "0.3", "0.02")))
+OFF = stabilab.Scene(stabilab.Body((12, 9, 5)), stabilab.Gyrostat(("0.8", 0, 0)),
+                     stabilab.ConstantTorque(("0.01", "0.3", "0.02")))
 RESULTS = {
     "Motion": lambda: stabilab.motion(SCENE, STATES[0]), "Equilibria": lambda: stabilab.equilibria(SCENE),
-    "FateResult": lambda: stabilab.fate(SCENE, STATES), "Trajectory": lambda: stabilab.trajectory(SCENE, STATES[0], TIMES),
-    "Simulation": lambda: stabilab.simulate(SCENE, STATES[0], TIMES), "Separatrix": lambda: stabilab.separatrix(SCENE, shape=(5, 7)),
+    "FateResult": lambda: stabilab.fate(SCENE, STATES),
+    "Trajectory": lambda: stabilab.trajectory(SCENE, STATES[0], TIMES),
+    "Simulation": lambda: stabilab.simulate(SCENE, STATES[0], TIMES),
+    "Separatrix": lambda: stabilab.separatrix(SCENE, shape=(5, 7)),
     "TimeTo": lambda: stabilab.time_to(SCENE, STATES, rate=2),
     "Comparison": lambda: stabilab.compare(stabilab.load(CASES / "charged-body-small-torque.toml"), TIMES),
     "Stuck": lambda: stabilab.stuck(stabilab.load(CASES / "upper-stage.toml")),
     "SpinUp": lambda: stabilab.spin_up(OFF, STATES[1]),
-    "Diagram": lambda: stabilab.bifurcation(stabilab.load(CASES / "thruster-stuck-major-axis.toml"), {"torque[1]": "0:0.5"}),
+    "Diagram": lambda: stabilab.bifurcation(stabilab.load(CASES / "thruster-stuck-major-axis.toml"),
+                                            {"torque[1]": "0:0.5"}),
     "Plane": lambda: stabilab.bifurcation(stabilab.load(CASES / "thruster-stuck-major-axis.toml"),
                                           {"torque[1]": "0.1:0.5", "momentum[2]": "0.1:0.5"}),
     "Chaos": lambda: stabilab.chaos(SCENE, STATES, until=40.0),
@@ -42,13 +47,15 @@ def test_a_result_says_in_one_short_line_what_it_answers(results, name):
 
 def test_equations_of_motion_say_in_one_short_line_what_they_hold():
     line = repr(stabilab.derive(SCENE))
-    assert line.startswith("Equations(omega1, omega2, omega3; torques: ") and len(line) < 300 and "\n" not in line
+    assert line.startswith("Equations(omega1, omega2, omega3; torques: ") and len(
+        line) < 300 and "\n" not in line
 
 
 def test_the_line_of_a_motion_has_its_fate_margin_and_period(results):
     """The numbers of the README: 0.508861 J, 0.168910 rad/s, 32.8438 s."""
     line = repr(results["Motion"])
-    assert all(words in line for words in ("bounded", "margin in energy 0.508862", "in rate 0.16891", "period 32.8438"))
+    assert all(words in line for words in ("bounded", "margin in energy 0.508862", "in rate 0.16891",
+                                           "period 32.8438"))
     assert repr(results["FateResult"]) == "FateResult(2 states: 1 bounded, 1 spin-up)"
 
 
@@ -62,16 +69,21 @@ def test_the_lines_of_a_stuck_thruster_of_models_and_of_a_spin_up_have_their_num
 
 def test_tables_of_a_stuck_thruster_of_models_and_of_a_spin_up_hold_their_numbers(results):
     table, rows = results["Stuck"].to_pandas(), results["Stuck"].rows
-    assert list(table["fate"]) == [row.fate for row in rows] and list(table["limit_low"]) == [row.time_to_limit[0] for row in rows]
+    assert list(table["fate"]) == [row.fate
+                                   for row in rows] and list(table["limit_low"]) == [row.time_to_limit[0]
+                                                                                     for row in rows]
     table, rows = results["Comparison"].to_pandas(), results["Comparison"].departures
-    assert list(table["largest"]) == [d.largest for d in rows] and list(table["part"]) == [d.part for d in rows]
-    assert list(results["SpinUp"].to_pandas()["state"]) == list(results["SpinUp"].state) and results["SpinUp"].to_xarray().attrs["t"] == results["SpinUp"].t
+    assert list(table["largest"]) == [d.largest
+                                      for d in rows] and list(table["part"]) == [d.part for d in rows]
+    assert list(results["SpinUp"].to_pandas()["state"]) == list(results["SpinUp"].state) and results[
+        "SpinUp"].to_xarray().attrs["t"] == results["SpinUp"].t
 
 
 @pytest.mark.parametrize("name", RESULTS)
 def test_a_notebook_gets_a_table_in_which_nothing_is_a_tag(results, name):
     page = results[name]._repr_html_()
-    assert page.count("<table>") == page.count("</table>") == 1 and page.count("<tr>") <= 12 and "<script" not in page
+    assert page.count("<table>") == page.count("</table>") == 1 and page.count(
+        "<tr>") <= 12 and "<script" not in page
 
 
 @pytest.mark.parametrize("name", RESULTS)
@@ -93,21 +105,28 @@ def test_what_is_in_a_result_is_escaped_in_a_notebook():
 
 def test_tables_hold_the_numbers_of_the_results(results):
     table = results["Trajectory"].to_pandas()
-    assert list(table.columns) == ["omega1", "omega2", "omega3"] and list(table.index) == TIMES and table.index.name == "time"
+    assert list(table.columns) == ["omega1", "omega2",
+                                   "omega3"] and list(table.index) == TIMES and table.index.name == "time"
     assert np.array_equal(table.to_numpy(), results["Trajectory"].states)
     table = results["FateResult"].to_pandas()
-    assert list(table["fate"]) == ["bounded", "spin-up"] and np.array_equal(table["margin"], results["FateResult"].margins)
+    assert list(table["fate"]) == ["bounded",
+                                   "spin-up"] and np.array_equal(table["margin"],
+                                                                 results["FateResult"].margins)
     table = results["Motion"].to_pandas()
-    assert [tuple(row) for row in table[["least", "greatest"]].to_numpy()] == [tuple(pair) for pair in results["Motion"].extremes]
+    assert [tuple(row)
+            for row in table[["least", "greatest"]].to_numpy()] == [tuple(pair)
+                                                                    for pair in results["Motion"].extremes]
     assert table.attrs["period"] == results["Motion"].period
 
 
 def test_data_sets_have_dimensions_units_and_words(results):
     data = results["Simulation"].to_xarray()
-    assert dict(data.sizes) == {"time": 3, "axis": 3} and data.omega.units == "rad/s" and data.time.units == "s"
+    assert dict(data.sizes) == {"time": 3,
+                                "axis": 3} and data.omega.units == "rad/s" and data.time.units == "s"
     assert float(data.omega.sel(time=20.0, axis=2)) == results["Simulation"].state["omega"][2, 1]
     data = results["FateResult"].to_xarray()
-    assert data.margin.dims == ("state",) and data.margin.units == "J" and data.start.dims == ("state", "axis")
+    assert data.margin.dims == ("state",
+                                ) and data.margin.units == "J" and data.start.dims == ("state", "axis")
     data = results["TimeTo"].to_xarray()
     assert data.low.units == "s" and float(data.low[1]) == results["TimeTo"].low[1]
 
@@ -115,13 +134,16 @@ def test_data_sets_have_dimensions_units_and_words(results):
 def test_a_grid_of_states_keeps_its_shape():
     found = stabilab.fate(SCENE, [[STATES[0], STATES[1], STATES[0]]])
     assert found.to_xarray().fate.shape == (1, 3) and len(found.to_pandas()) == 3
-    assert stabilab.fate(SCENE, STATES[0]).to_xarray().fate.shape == () and len(stabilab.fate(SCENE, STATES[0]).to_pandas()) == 1
+    assert stabilab.fate(SCENE,
+                         STATES[0]).to_xarray().fate.shape == () and len(
+                             stabilab.fate(SCENE, STATES[0]).to_pandas()) == 1
 
 
 def test_results_of_a_top_and_of_a_spin_up_show_themselves():
     """Their states have six numbers, their extremes none or infinite ends."""
     top = stabilab.load(__file__.rsplit("/tests/", 1)[0] + "/cases/top-lx30-lz30.toml")
-    assert stabilab.equilibria(top.scene).to_pandas().shape[1] == 10 and "at6" in stabilab.equilibria(top.scene).to_pandas().columns
+    assert stabilab.equilibria(top.scene).to_pandas().shape[1] == 10 and "at6" in stabilab.equilibria(
+        top.scene).to_pandas().columns
     spin = stabilab.motion(SCENE, STATES[1])
     assert spin.to_pandas()["greatest"].iloc[2] == math.inf and "spin-up about axis 3" in repr(spin)
 
@@ -129,11 +151,14 @@ def test_results_of_a_top_and_of_a_spin_up_show_themselves():
 @pytest.mark.parametrize("module, method", [("xarray", "to_xarray"), ("pandas", "to_pandas")])
 def test_a_package_that_is_not_there_is_named_in_one_line(results, monkeypatch, module, method):
     monkeypatch.setattr(packages, "present", lambda name: name != module)
-    with pytest.raises(errors.InputError, match=f"^{module} is not installed, .*pip install {module} \\(part of stabilab's extra data: .*\\)$") as caught:
+    with pytest.raises(errors.InputError,
+                       match=f"^{module} is not installed, .*pip install {module} \\(part of stabilab's "
+                             f"extra data: .*\\)$") as caught:
         getattr(results["Motion"], method)()
     assert "\n" not in str(caught.value)
 
 
 def test_every_effect_can_be_had_from_the_package():
     from stabilab.physics.effects import REGISTRY
-    assert {name for _, name in REGISTRY.values()} <= set(stabilab.__all__) and stabilab.InputError is errors.InputError
+    assert {name for _,
+            name in REGISTRY.values()} <= set(stabilab.__all__) and stabilab.InputError is errors.InputError

@@ -1,4 +1,5 @@
-"""The Poincaré section of a motion: what is drawn, by another integrator and by what is known of periodic motions, and of what there is none."""
+"""The Poincaré section of a motion: what is drawn, by another integrator and by what is known of periodic
+motions, and of what there is none."""
 import math
 
 import matplotlib
@@ -17,8 +18,10 @@ from matplotlib import pyplot as plt  # after the back end is chosen
 
 CASES = __file__.rsplit("/tests/", 1)[0] + "/cases"
 ORANGE, BLUE, SKY, VERMILION, PURPLE = "#E69F00", "#0072B2", "#56B4E9", "#D55E00", "#CC79A7"
-D, M, WHEEL = np.array([1.2412, .3937, 1.3650]), np.array([.0987, .8450, .5255]), np.array([-.5224, .8309, .1914])
-ISLAND = stabilab.Scene(stabilab.Body(D.tolist()), stabilab.Gyrostat(WHEEL.tolist()), stabilab.ConstantTorque(M.tolist()))
+D, M, WHEEL = np.array([1.2412, .3937,
+                        1.3650]), np.array([.0987, .8450, .5255]), np.array([-.5224, .8309, .1914])
+ISLAND = stabilab.Scene(stabilab.Body(D.tolist()), stabilab.Gyrostat(WHEEL.tolist()),
+                        stabilab.ConstantTorque(M.tolist()))
 START = (-1.572, .657, .738)
 FAR = 10.0  # rad/s: this motion has 4.21 at most
 
@@ -29,7 +32,9 @@ def load(name):
 
 def dots(ax, colour):
     """(n, 2) of the points of a colour."""
-    return np.concatenate([np.empty((0, 2)), *(np.array(line.get_data()).T for line in ax.get_lines() if line.get_color() == colour)])
+    return np.concatenate([np.empty((0, 2)),
+                           *(np.array(line.get_data()).T for line in ax.get_lines()
+                             if line.get_color() == colour)])
 
 
 def euler(_, w):
@@ -47,7 +52,8 @@ def passed(start, axis, level, count, span):
     from scipy.integrate import solve_ivp
     event = lambda t, w: w[axis] - level
     event.direction = 1
-    return solve_ivp(euler, (0, span), start, "DOP853", rtol=1e-12, atol=1e-13, events=event).y_events[0][:count]
+    return solve_ivp(euler, (0, span), start, "DOP853", rtol=1e-12, atol=1e-13,
+                     events=event).y_events[0][:count]
 
 
 def test_every_passage_is_one_that_another_integrator_finds_and_none_is_left_out():
@@ -58,7 +64,8 @@ def test_every_passage_is_one_that_another_integrator_finds_and_none_is_left_out
 
 
 def test_a_passage_that_is_undone_within_the_same_step_is_found():
-    """The plane lies just below the top of a rate, so that the rate is beyond it for a part of a step. Oracle: DOP853 in steps of 0.01."""
+    """The plane lies just below the top of a rate, so that the rate is beyond it for a part of a step.
+    Oracle: DOP853 in steps of 0.01."""
     from scipy.integrate import solve_ivp
 
     from stabilab.unreduced.periodic import Section, passage
@@ -67,7 +74,8 @@ def test_a_passage_that_is_undone_within_the_same_step_is_found():
         top = int(run.y[axis].argmax())
         assert 0 < top < len(run.t) - 1
         level = run.y[axis, top] - 1e-5
-        last = top - 1 - int((run.y[axis, :top][::-1] < level).argmax())  # the last place below the plane before the top
+        # the last place below the plane before the top
+        last = top - 1 - int((run.y[axis, :top][::-1] < level).argmax())
         found = passage(ISLAND, START, Section(axis, level, 1), linear=False)
         assert found is not None and run.t[last] <= found[0] <= run.t[top]
 
@@ -79,38 +87,44 @@ def test_passages_in_an_island_go_round_the_marked_periodic_motion(island):
     from stabilab.unreduced.periodic import in_the_middle
     orbit = in_the_middle(ISLAND, START)
     (back,) = passed(orbit.state, orbit.section.axis, orbit.section.level, 2, 1.5 * orbit.period)[-1:]
-    assert mark == pytest.approx(np.array(orbit.state)[orbit.section.across]) and np.abs(back - orbit.state).max() < 1e-8
+    assert mark == pytest.approx(np.array(orbit.state)[orbit.section.across]) and np.abs(
+        back - orbit.state).max() < 1e-8
     angles = np.sort(np.arctan2(*(own - mark).T))
     assert len(own) == 60 and np.diff(angles).max() < 1 and angles[0] + 2 * math.pi - angles[-1] < 1
 
 
 @pytest.mark.slow
 def test_neighbours_inside_the_island_stay_and_those_far_outside_leave(island):
-    """By DOP853 until a rate is more than twice as large as any of this motion: the two neighbours inside never come so far, the last one outside does."""
+    """By DOP853 until a rate is more than twice as large as any of this motion: the two neighbours inside
+    never come so far, the last one outside does."""
     from scipy.integrate import solve_ivp
 
     from stabilab.unreduced.periodic import in_the_middle
     (mark,), own, stay, leave = (dots(island, colour) for colour in (BLUE, ORANGE, SKY, VERMILION))
     assert np.abs(stay - mark).max() <= np.abs(own - mark).max() and len(stay) == 2 * 61 and len(leave)
     orbit = in_the_middle(ISLAND, START)
-    starts = neighbours_of(np.array(orbit.state), returns(ISLAND, START, orbit.section, 1)[1][0], orbit.section, 4)
+    starts = neighbours_of(np.array(orbit.state), returns(ISLAND, START, orbit.section, 1)[1][0],
+                           orbit.section, 4)
     far = lambda _, w: np.abs(w).max() - FAR
     far.terminal = True
-    ended = [len(solve_ivp(euler, (0, 60 * orbit.period), start, "DOP853", rtol=1e-8, atol=1e-8, events=far).t_events[0]) for start in starts[[0, 1, 3]]]
+    ended = [len(solve_ivp(euler, (0, 60 * orbit.period), start, "DOP853", rtol=1e-8, atol=1e-8,
+                           events=far).t_events[0]) for start in starts[[0, 1, 3]]]
     assert ended == [0, 0, 1]
 
 
 def test_axes_have_the_two_other_rates_in_the_units_asked_for():
     case = load("torque-free-gyrostat")
     deg, si = (stabilab.plot.section(case, units=units, passages=5) for units in ("deg", "si"))
-    assert (si.get_xlabel(), si.get_ylabel()) == (r"$\omega_1$ (rad/s)", r"$\omega_2$ (rad/s)")  # passages of the third
+    # passages of the third
+    assert (si.get_xlabel(), si.get_ylabel()) == (r"$\omega_1$ (rad/s)", r"$\omega_2$ (rad/s)")
     assert dots(deg, ORANGE) == pytest.approx(np.degrees(dots(si, ORANGE))) and "(deg/s)" in deg.get_xlabel()
     plt.close("all")
 
 
 @pytest.mark.slow
 def test_a_periodic_motion_passes_at_one_place_once_a_period_and_neighbours_each_at_theirs():
-    """A motion that reduces to one degree of freedom and is bounded repeats; its period by the integral of the reduced motion."""
+    """A motion that reduces to one degree of freedom and is bounded repeats; its period by the integral of
+    the reduced motion."""
     case = load("minor-axis-100")
     ax = stabilab.plot.section(case, neighbours=3, passages=10)
     own, others = dots(ax, ORANGE), dots(ax, SKY)
@@ -123,11 +137,13 @@ def test_a_periodic_motion_passes_at_one_place_once_a_period_and_neighbours_each
 
 @pytest.mark.slow
 def test_of_a_motion_that_spins_up_the_passages_until_that_is_certain_are_drawn():
-    """cubesat-3u: its certificate holds from 109.7 s on; the passage after the last one that is drawn is later."""
+    """cubesat-3u: its certificate holds from 109.7 s on; the passage after the last one that is drawn is
+    later."""
     one = subject.subject(load("cubesat-3u"))
     until, ax = which.certain_from(one), stabilab.plot.section(one.case)
     times, places = returns(one.twin, one.state, crossed(one.twin, one.state, until), 100)
-    assert len(dots(ax, ORANGE)) == np.count_nonzero(times <= until) < 100 and "until spin-up about the minor axis is certain" in ax.get_title()
+    assert len(dots(ax, ORANGE)) == np.count_nonzero(times
+                                                     <= until) < 100 and "until spin-up about the minor axis is certain" in ax.get_title()
     plt.close("all")
 
 
@@ -140,12 +156,16 @@ def test_several_motions_are_drawn_on_the_plane_of_the_first():
 
 def test_what_has_no_section_is_refused_with_the_reason():
     rest = stabilab.Scene(stabilab.Body((3, 2, 1)))
-    for given, words in (((load("major-axis-100"),), "spin-up about the x1 axis is certain from its start on"), ((load("liquid-base"),), "not with .*liquid"),
-                         ((rest, (0.1, 0, 0)), "an equilibrium"), ((load("off-axis-two").scene,), "needs a state"),
+    for given, words in (((load("major-axis-100"),),
+                          "spin-up about the x1 axis is certain from its start on"),
+                         ((load("liquid-base"),), "not with .*liquid"),
+                         ((rest, (0.1, 0, 0)), "an equilibrium"),
+                         ((load("off-axis-two").scene,), "needs a state"),
                          ((load("torque-free-body"), np.empty((0, 3))), "at least one state")):
         with pytest.raises(errors.InputError, match=words):
             stabilab.plot.section(*given)
-    for options, words in (({"neighbours": -1}, "whole number from 0"), ({"passages": 0}, "whole number from 1")):
+    for options, words in (({"neighbours": -1}, "whole number from 0"),
+                           ({"passages": 0}, "whole number from 1")):
         with pytest.raises(errors.InputError, match=words):
             stabilab.plot.section(load("minor-axis-100"), **options)
 
@@ -154,7 +174,8 @@ def test_what_has_no_section_is_refused_with_the_reason():
 def test_a_section_with_neighbours_is_written_the_same_again_and_other_kinds_have_none(tmp_path, monkeypatch):
     monkeypatch.setattr(plane_section, "PASSAGES", 6)
     case = load("torque-free-body")
-    one, two = (to_file.write(case, tmp_path / f"{n}.png", "section", neighbours=2).read_bytes() for n in (1, 2))
+    one, two = (to_file.write(case, tmp_path / f"{n}.png", "section", neighbours=2).read_bytes()
+                for n in (1, 2))
     assert one == two and one.startswith(b"\x89PNG")
     with pytest.raises(errors.InputError, match="a section alone shows them"):
         to_file.write(case, tmp_path / "a.png", "time", neighbours=2)

@@ -1,4 +1,5 @@
-"""JSON by its standard alone (RFC 8259): no NaN and no Infinity, and no number beyond the doubles but where one without end is documented (docs/stuck.md)."""
+"""JSON by its standard alone (RFC 8259): no NaN and no Infinity, and no number beyond the doubles but where
+one without end is documented (docs/stuck.md)."""
 import json
 import math
 import typing
@@ -9,7 +10,9 @@ import pytest
 from stabilab import cli
 from stabilab.cli import options
 
-BODY = "[body]\ninertia = [12, 9, 5]\n[effects.gyrostat]\nmomentum = {wheel}\n[effects.constant_torque]\ntorque = {torque}\n"
+BODY = (
+    "[body]\ninertia = [12, 9, 5]\n[effects.gyrostat]\nmomentum = {wheel}\n[effects.constant_torque]\ntorque "
+    "= {torque}\n")
 MOTION = "[motion]\nangular_velocity = {rates}\nspan = [0, 3]\n"
 CRAFT = """
 [body]
@@ -32,34 +35,48 @@ angular_velocity = [0.1, 0.05, 0.9]
 """  # intervals of the wheel's momentum without an end
 CASES = {
     "bounded": BODY.format(wheel=[0.8, 0, 0], torque=[0, 0, 0.02]) + MOTION.format(rates=[0.1, 0.05, 0.02]),
-    "spin-up": BODY.format(wheel=[0.8, 0, 0], torque=[0, 0, 0.02]) + MOTION.format(rates=[0.1, 0.05, 4]),  # rates without bound, no period
-    "no saddle": BODY.format(wheel=[0.8, 0, 0], torque=[0.02, 0, 0]) + MOTION.format(rates=[0.1, 0.05, 0.02]),  # infinite distance
-    "off the axes": BODY.format(wheel=[0.8, 0, 0], torque=[0.01, 0.3, 0.02]) + MOTION.format(rates=[0.1, 0.05, 0.02]),
+    # rates without bound, no period
+    "spin-up": BODY.format(wheel=[0.8, 0, 0], torque=[0, 0, 0.02]) + MOTION.format(rates=[0.1, 0.05, 4]),
+    # infinite distance
+    "no saddle": BODY.format(wheel=[0.8, 0, 0], torque=[0.02, 0, 0]) + MOTION.format(rates=[0.1, 0.05, 0.02]),
+    "off the axes": BODY.format(wheel=[0.8, 0, 0], torque=[0.01, 0.3, 0.02])
+    + MOTION.format(rates=[0.1, 0.05, 0.02]),
     "at rest": BODY.format(wheel=[0, 0, 0], torque=[0, 0, 0]) + MOTION.format(rates=[0, 0, 0]),
-    "beyond doubles": BODY.format(wheel=[0, 0, 0], torque=[0, 0, 0.02]) + MOTION.format(rates=["1e160", 0, 0]),  # its energy is no double
-    "liquid": "[body]\ninertia = [12, 9, 5]\n[effects.liquid_cavity]\ndensity = 1\nviscosity = 1\nradius = 0.1\n" + MOTION.format(rates=[0.1, 0, 0.2])}
-CASES["charged"] = (Path(__file__).parents[2] / "cases" / "charged-body-small-torque.toml").read_text(encoding="utf-8")
+    # its energy is no double
+    "beyond doubles": BODY.format(wheel=[0, 0, 0], torque=[0, 0, 0.02])
+    + MOTION.format(rates=["1e160", 0, 0]),
+    "liquid": "[body]\ninertia = [12, 9, 5]\n[effects.liquid_cavity]\ndensity = 1\nviscosity = 1\nradius "
+              "= 0.1\n" + MOTION.format(rates=[0.1, 0, 0.2])}
+CASES["charged"] = (Path(__file__).parents[2]
+                    / "cases" / "charged-body-small-torque.toml").read_text(encoding="utf-8")
 MANY = ["bounded", "spin-up", "no saddle", "off the axes", "at rest", "beyond doubles"]
 SLOW = "beyond doubles"
 # command -> (options, cases)
 ASKED = {"classify": ([], [*MANY, "liquid"]),
-         "fate": ([], MANY), "extremes": ([], MANY), "period": ([], MANY), "when": (["--rate", "0.3 rad/s"], MANY),
-         "simulate": (["--at", "0,1"], MANY), "compare": ([], ["charged"]), "precision": (["--quick"], ["bounded"]),
-         "sweep": (["--vary", "motion.angular_velocity[3]=0:4:3", "--answer", "fate,margin,distance,extremes,period"], ["bounded", "no saddle"]),
-         "basin": (["--vary", "motion.angular_velocity[1]=-1:1:3", "--vary", "motion.angular_velocity[3]=-1:1:3", "--depth", "1"], ["bounded"]),
+         "fate": ([], MANY), "extremes": ([], MANY), "period": ([], MANY),
+         "when": (["--rate", "0.3 rad/s"], MANY),
+         "simulate": (["--at", "0,1"], MANY), "compare": ([], ["charged"]),
+         "precision": (["--quick"], ["bounded"]),
+         "sweep": (["--vary", "motion.angular_velocity[3]=0:4:3", "--answer",
+                    "fate,margin,distance,extremes,period"], ["bounded", "no saddle"]),
+         "basin": (["--vary", "motion.angular_velocity[1]=-1:1:3", "--vary",
+                    "motion.angular_velocity[3]=-1:1:3", "--depth", "1"], ["bounded"]),
          "atlas": (["--level", "0", "--refine", "0"], ["bounded"]), "chaos": (["--until", "5"], ["bounded"]),
          "bifurcation": (["--vary", "torque[3]=-1:1"], ["bounded", "off the axes"]),
-         "reference": (["--at", "0,1", "--digits", "12"], ["bounded"]), "stuck": ([], ["craft"]), "verify": ([], ["certificate"]),
+         "reference": (["--at", "0,1", "--digits", "12"], ["bounded"]), "stuck": ([], ["craft"]),
+         "verify": ([], ["certificate"]),
          "audit": (["constant-torque-gyrostat", "--equation", "17"], [None]), "validate": ([], [None])}
 
 
 def strictly(text, endless=False):
-    """The data, by a reader that takes nothing but the standard's numbers, and of these only doubles (and the number without end)."""
+    """The data, by a reader that takes nothing but the standard's numbers, and of these only doubles (and the
+    number without end)."""
     def no_constant(word):
         pytest.fail(f"{word} is no JSON")
 
     def double(digits):
-        assert math.isfinite(float(digits)) or endless and digits.lstrip("-") == "1e999", f"{digits} is beyond the doubles"
+        assert math.isfinite(float(digits)) or endless and digits.lstrip(
+            "-") == "1e999", f"{digits} is beyond the doubles"
         return float(digits)
     return json.loads(text, parse_constant=no_constant, parse_float=double)
 
@@ -68,13 +85,15 @@ def test_the_reader_here_refuses_what_is_no_number():
     for text in ("[NaN]", "[-Infinity]", "[1e999]"):
         with pytest.raises((pytest.fail.Exception, AssertionError)):
             strictly(text)
-    assert strictly("[1e308, -1e308]") == [1e308, -1e308] and strictly("[-1e999]", endless=True) == [-math.inf]
+    assert strictly("[1e308, -1e308]") == [1e308,
+                                           -1e308] and strictly("[-1e999]", endless=True) == [-math.inf]
 
 
 def with_json():
     """The commands that answer in JSON, by the options they declare."""
     for command in cli.whole().registered_commands:
-        if any(note is options.Json for note in typing.get_type_hints(command.callback, include_extras=True).values()):
+        if any(note is options.Json
+               for note in typing.get_type_hints(command.callback, include_extras=True).values()):
             yield command.name or command.callback.__name__
 
 
@@ -103,7 +122,8 @@ def slow(command, name):
 
 
 @pytest.mark.one_in(3)
-@pytest.mark.parametrize("command, name", [pytest.param(command, name, marks=pytest.mark.slow if slow(command, name) else [])
+@pytest.mark.parametrize("command, name",
+                         [pytest.param(command, name, marks=pytest.mark.slow if slow(command, name) else [])
                                            for command, (_, names) in ASKED.items() for name in names])
 def test_what_a_command_says_in_json_is_read_by_strict_readers(stabilab, tmp_path, command, name):
     code, out, said = stabilab(command, *source(name, tmp_path, stabilab), *ASKED[command][0], "--json")
@@ -114,7 +134,8 @@ def test_what_a_command_says_in_json_is_read_by_strict_readers(stabilab, tmp_pat
 
 @pytest.mark.slow  # a renderer of its own starts, for seconds
 def test_what_surface_writes_and_the_manifest_are_read_by_strict_readers(stabilab, tmp_path):
-    code, out, said = stabilab("surface", *source("bounded", tmp_path, stabilab), "--out", tmp_path / "made", "--json")
+    code, out, said = stabilab("surface", *source("bounded", tmp_path, stabilab), "--out", tmp_path / "made",
+                               "--json")
     assert code in (0, 4), said
     assert strictly(out)
     for path in (tmp_path / "made").glob("*.json"):

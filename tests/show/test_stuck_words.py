@@ -8,11 +8,13 @@ from stabilab.case.read import load
 from stabilab.show.report.one_case.page import sections
 from tests.shared import CASES, craft_file
 
-SATELLITE = craft_file([12.0, 9.0, 5.0], ([0.5, 0, 0], [0, 1, 0], "40 mN"), [([1, 0, 0], "0.8 N m s")], ["5.7 deg/s", "2.9 deg/s", "1.1 deg/s"])
+SATELLITE = craft_file([12.0, 9.0, 5.0], ([0.5, 0, 0], [0, 1, 0], "40 mN"), [([1, 0, 0], "0.8 N m s")],
+                       ["5.7 deg/s", "2.9 deg/s", "1.1 deg/s"])
 
 
 @pytest.mark.slow
-def test_an_interval_that_keeps_the_motion_bounded_is_told_in_six_digits_and_lies_inside_the_exact_one(stabilab, tmp_path):
+def test_an_interval_that_keeps_the_motion_bounded_is_told_in_six_digits_and_lies_inside_the_exact_one(
+    stabilab, tmp_path):
     case = tmp_path / "satellite.toml"
     case.write_text(SATELLITE)
     text = stabilab("stuck", case)[1]
@@ -20,21 +22,29 @@ def test_an_interval_that_keeps_the_motion_bounded_is_told_in_six_digits_and_lie
     (wheel,) = (told[0] if isinstance(told, list) else told)["rows"][0]["wheel_intervals"]
     (_, most), (least, _) = wheel["keeps_bounded"]
     words = re.search(r"keeps it bounded at up to (\S+) N m s or (\S+) N m s or more", text)
-    assert float(words[1]) <= most < float(words[1]) + 1e-6 and float(words[2]) - 1e-7 < least <= float(words[2])
+    assert float(words[1]) <= most < float(words[1]) + 1e-6 and float(words[2]) - 1e-7 < least <= float(
+        words[2])
     page = sections(load(case), tmp_path, "satellite", deep=False)["sensitivity"]["rows"][0]["because"]
     assert "rad/s" not in page and "from 25.58" in page
-    assert "rad/s" not in text and re.search(r"margin, rate +\S+ deg/s along .* from 25\.58\d* deg/s along the same line", text)  # 0.44654 rad/s
+    # 0.44654 rad/s
+    assert "rad/s" not in text and re.search(
+        r"margin, rate +\S+ deg/s along .* from 25\.58\d* deg/s along the same line", text)
 
 
 def test_margins_of_which_nothing_is_known_have_one_line_and_known_ones_one_each(stabilab):
-    off, on = (stabilab("stuck", CASES / f"{name}.toml", "--why")[1].splitlines() for name in ("upper-stage", "thruster-stuck-major-axis"))
-    assert [line[:12] for line in off if line.startswith("  margin") and ":" not in line[:12]] == ["  margins   "]
+    off, on = (stabilab("stuck", CASES / f"{name}.toml", "--why")[1].splitlines()
+               for name in ("upper-stage", "thruster-stuck-major-axis"))
+    assert [line[:12] for line in off if line.startswith("  margin")
+            and ":" not in line[:12]] == ["  margins   "]
     assert [line.split()[1] for line in on if line.startswith("  margin, ")] == ["rate", "wheel", "torque"]
 
 
 def test_an_equilibrium_of_a_turning_body_is_a_steady_rotation(stabilab, tmp_path):
-    """D3 omega3' = M3 + (D1 - D2) omega1 omega2 = 0.03 + 3 (0.1)(-0.1) = 0 exactly, the other rates have omega3 = 0 as a factor: by hand."""
+    """D3 omega3' = M3 + (D1 - D2) omega1 omega2 = 0.03 + 3 (0.1)(-0.1) = 0 exactly, the other rates have
+    omega3 = 0 as a factor: by hand."""
     case = tmp_path / "steady.toml"
-    case.write_text("[body]\ninertia = [12, 9, 5]\n[effects.constant_torque]\ntorque = [0, 0, 0.03]\n[motion]\nangular_velocity = [0.1, -0.1, 0]\n")
+    case.write_text(
+        "[body]\ninertia = [12, 9, 5]\n[effects.constant_torque]\ntorque = [0, 0, "
+        "0.03]\n[motion]\nangular_velocity = [0.1, -0.1, 0]\n")
     for command in ("stuck", "fate", "classify"):
         assert stabilab(command, case)[1].startswith("steady: STEADY ROTATION (relative equilibrium)")

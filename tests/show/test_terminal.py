@@ -1,4 +1,5 @@
-"""What a terminal shows: lines as wide as it, colours there alone, letters that its encoding has, groups of commands, completion."""
+"""What a terminal shows: lines as wide as it, colours there alone, letters that its encoding has, groups of
+commands, completion."""
 import io
 import os
 import re
@@ -71,8 +72,10 @@ def test_the_answer_is_one_line_in_a_pipe(shown):
 
 
 def test_colour_is_on_a_terminal_alone_and_never_where_it_is_not_wanted(shown):
-    assert "\x1b[1;32mBOUNDED" in shown(Screen(), "fate", MINOR) and "\x1b[31munstable" in shown(Screen(), "classify", OFF_AXIS)
-    assert "\x1b" not in shown(Screen(), "fate", MINOR, NO_COLOR="1") and "\x1b" not in shown(Screen(), "fate", MINOR, TERM="dumb")
+    assert "\x1b[1;32mBOUNDED" in shown(Screen(), "fate",
+                                        MINOR) and "\x1b[31munstable" in shown(Screen(), "classify", OFF_AXIS)
+    assert "\x1b" not in shown(Screen(), "fate", MINOR,
+                               NO_COLOR="1") and "\x1b" not in shown(Screen(), "fate", MINOR, TERM="dumb")
     assert "\x1b" not in shown(Screen(False), "fate", MINOR, FORCE_COLOR="1")
 
 
@@ -87,21 +90,27 @@ def test_letters_that_an_encoding_lacks_are_written_out(shown):
 
 
 @pytest.mark.parametrize("plain, people", [
-    ("D1 omega1' = -lambda1*omega2 + alpha3/50", "D1 ω1' = -λ1*ω2 + α3/50"), ("|omega| = 3 deg/s", "|ω| = 3 deg/s"),
+    ("D1 omega1' = -lambda1*omega2 + alpha3/50", "D1 ω1' = -λ1*ω2 + α3/50"),
+    ("|omega| = 3 deg/s", "|ω| = 3 deg/s"),
     ("T' = omega . (torques)", "T' = ω . (torques)"),
     ("alpha_i' = omega_i", "α_i' = ω_i"),
     ("period 1.8 tau", "period 1.8 τ"), ("torque on axis 3, lambda1 = 100", "torque on axis 3, λ1 = 100"),
-    ("cases/liquid-lambda3-20.toml", "cases/liquid-lambda3-20.toml"), ("liquid-lambda3-0_15: BOUNDED", "liquid-lambda3-0_15: BOUNDED"),
-    ("lambda3.toml", "lambda3.toml"), (r"\dot{\omega_{1}}", r"\dot{\omega_{1}}"), ("omega10 mu12", "omega10 mu12"), ("--tau", "--tau"),
-    ("my_omega1", "my_omega1"), ("12 kg m^2", "12 kg m²"), ("4 kg m^2/s", "4 kg m²/s"), ("0.5 (deg/s)^2", "0.5 (deg/s)²"), ("2 (N m s)^2/s", "2 (N m s)²/s"),
-    ("1 N m s^3", "1 N m s³"), ("3 kg/m^3", "3 kg/m³"), ("P0 = 2 m^7", "P0 = 2 m⁷"), ("axes^2", "axes^2"), (r"\mathrm{m}^{2}", r"\mathrm{m}^{2}")])
+    ("cases/liquid-lambda3-20.toml", "cases/liquid-lambda3-20.toml"),
+    ("liquid-lambda3-0_15: BOUNDED", "liquid-lambda3-0_15: BOUNDED"),
+    ("lambda3.toml", "lambda3.toml"), (r"\dot{\omega_{1}}", r"\dot{\omega_{1}}"),
+    ("omega10 mu12", "omega10 mu12"), ("--tau", "--tau"),
+    ("my_omega1", "my_omega1"), ("12 kg m^2", "12 kg m²"), ("4 kg m^2/s", "4 kg m²/s"),
+    ("0.5 (deg/s)^2", "0.5 (deg/s)²"), ("2 (N m s)^2/s", "2 (N m s)²/s"),
+    ("1 N m s^3", "1 N m s³"), ("3 kg/m^3", "3 kg/m³"), ("P0 = 2 m^7", "P0 = 2 m⁷"), ("axes^2", "axes^2"),
+    (r"\mathrm{m}^{2}", r"\mathrm{m}^{2}")])
 def test_names_become_letters_and_files_and_tex_do_not(plain, people):
     assert letters.greek(plain) == people
 
 
 def test_lines_that_go_on_stand_below_their_words():
     text = page.wrapped("  off that axis           " + "any tilt of the torque " * 4, 60).split("\n")
-    assert len(text) > 1 and all(line.startswith(" " * 26 + "any") or line.startswith(" " * 26) for line in text[1:])
+    assert len(text) > 1 and all(line.startswith(" " * 26 + "any") or line.startswith(" " * 26)
+                                 for line in text[1:])
     assert [line[:4] for line in page.wrapped("why: " + "because " * 20, 50).split("\n")[1:]] == ["  be"] * 3
 
 
@@ -110,7 +119,8 @@ def test_a_message_wraps_to_the_terminal_that_stderr_is(shown, monkeypatch, tmp_
     words = {}
     for terminal in (True, False):
         monkeypatch.setattr(sys, "stderr", Screen(terminal))
-        shown(Screen(False), "simulate", ROOT / "cases/liquid-sensible.toml", "--out", tmp_path / "run.csv", columns=50)
+        shown(Screen(False), "simulate", ROOT / "cases/liquid-sensible.toml", "--out", tmp_path / "run.csv",
+              columns=50)
         words[terminal] = sys.stderr.getvalue()
     assert words[True].split() == words[False].split()
     told = {terminal: text.splitlines()[1:] for terminal, text in words.items()}  # below the name of the file
@@ -125,7 +135,8 @@ def test_the_name_of_a_written_file_stays_in_one_piece(monkeypatch):
 
 
 def test_a_fault_keeps_its_file_and_line_in_one_piece(monkeypatch, tmp_path):
-    """Two faults of a file whose name has blanks, on a terminal of fifty columns: each begins with the place, and the rest stands below it."""
+    """Two faults of a file whose name has blanks, on a terminal of fifty columns: each begins with the place,
+    and the rest stands below it."""
     case = tmp_path / "my own case.toml"
     case.write_text('[body]\ninertia = [3, 2]\n[motion]\nangular_velocity = ["3 apples/s", 0, 0]\n')
     monkeypatch.setenv("COLUMNS", "50")
@@ -148,11 +159,15 @@ def test_a_stream_without_letters_gets_their_names(monkeypatch):
 
 def test_help_tells_the_commands_in_groups(stabilab):
     code, out, _ = stabilab("-h")
-    assert code == 0 and stabilab("--help")[1] == out and stabilab("fate", "-h")[1] == stabilab("fate", "--help")[1]
-    heads = [line[:-1] for line in out.splitlines() if line.endswith(":") and not line.startswith((" ", "Options"))]
+    assert code == 0 and stabilab("--help")[1] == out and stabilab("fate",
+                                                                   "-h")[1] == stabilab("fate", "--help")[1]
+    heads = [line[:-1] for line in out.splitlines() if line.endswith(":")
+             and not line.startswith((" ", "Options"))]
     assert heads == list(GROUPS) and max(map(len, out.splitlines())) <= 80
-    named = [line.split()[0] for line in out.split("Options:")[1].split("\n\n", 1)[1].splitlines() if line.startswith("  ")]
-    assert sorted(named) == sorted({command.name or command.callback.__name__ for command in cli.whole().registered_commands})
+    named = [line.split()[0] for line in out.split("Options:")[1].split("\n\n", 1)[1].splitlines()
+             if line.startswith("  ")]
+    assert sorted(named) == sorted({command.name or command.callback.__name__
+                                    for command in cli.whole().registered_commands})
 
 
 def test_a_shell_completes_case_files_and_names(tmp_path):
@@ -160,10 +175,13 @@ def test_a_shell_completes_case_files_and_names(tmp_path):
     (tmp_path / "mine.toml").write_text("")
     (tmp_path / "mine.txt").write_text("")
     (tmp_path / "more").mkdir()
-    for line, offered in (("stabilab classify m", ["mine.toml", "more/"]), ("stabilab fate mine.toml --units ", ["deg", "si"])):
+    for line, offered in (("stabilab classify m", ["mine.toml", "more/"]),
+                          ("stabilab fate mine.toml --units ", ["deg", "si"])):
         words = line.split(" ")
-        run = subprocess.run([sys.executable, "-c", PROGRAM], capture_output=True, text=True, cwd=tmp_path, env=os.environ | {
-            "_STABILAB_COMPLETE": "complete_bash", "COMP_WORDS": line, "COMP_CWORD": str(len(words) - 1), "PYTHONPATH": str(ROOT)})
+        run = subprocess.run([sys.executable, "-c", PROGRAM], capture_output=True, text=True, cwd=tmp_path,
+                             env=os.environ | {
+            "_STABILAB_COMPLETE": "complete_bash", "COMP_WORDS": line, "COMP_CWORD": str(len(words) - 1),
+            "PYTHONPATH": str(ROOT)})
         assert run.stdout.split() == offered, run.stderr
 
 
@@ -173,8 +191,10 @@ def test_names_that_are_offered_are_those_that_are_known():
     from stabilab.show.units import SYSTEMS
     from stabilab.theories.follow import MODELS
     assert completion.units("") == list(SYSTEMS) and completion.kinds("") == list(KINDS)
-    assert set(completion.methods("")) == {"taylor", "reduced", *SCIPY_METHODS} and set(completion.models("")) == set(MODELS)
-    assert {"constant-torque-gyrostat"} <= set(completion.audited("")) and completion.sources("o") == ["orekit"]
+    assert set(completion.methods("")) == {"taylor", "reduced",
+                                           *SCIPY_METHODS} and set(completion.models("")) == set(MODELS)
+    assert {"constant-torque-gyrostat"} <= set(completion.audited("")) and completion.sources("o") == [
+        "orekit"]
 
 
 def test_progress_tells_which_of_how_many_and_the_time_that_is_left_to_a_terminal_alone(monkeypatch):
@@ -188,7 +208,8 @@ def test_progress_tells_which_of_how_many_and_the_time_that_is_left_to_a_termina
         for _ in progress.each("abcd", str.upper):
             now[0] += 2
         told[terminal] = [line.strip() for line in screen.getvalue().split("\r") if line.strip()]
-    assert told == {True: ["2 of 4, about 6 s left: B", "3 of 4, about 4 s left: C", "4 of 4, about 2 s left: D"], False: []}
+    assert told == {True: ["2 of 4, about 6 s left: B", "3 of 4, about 4 s left: C",
+                           "4 of 4, about 2 s left: D"], False: []}
 
 
 def test_long_commands_count_their_steps(monkeypatch, stabilab, tmp_path):
@@ -203,11 +224,13 @@ def test_long_commands_count_their_steps(monkeypatch, stabilab, tmp_path):
         yield lambda done, count, words: steps.append((done, count))
     monkeypatch.setattr(papers, "counted", counted)
     paper = tmp_path / "claims.toml"
-    paper.write_text('[symbols]\n"x y" = "m"\n' + "".join(f'[[row]]\nequation = "{n}"\nprinted = "x + y = y + x"\n' for n in range(3)))
+    paper.write_text('[symbols]\n"x y" = "m"\n'
+                     + "".join(f'[[row]]\nequation = "{n}"\nprinted = "x + y = y + x"\n' for n in range(3)))
     for words in (("audit", paper), ("tables", "--out", tmp_path / "tables"), ("validate", "orekit")):
         steps.clear()
         assert stabilab(*map(str, words))[0] == 0
-        assert len({count for _, count in steps}) == 1 and {done for done, _ in steps} == set(range(steps[0][1])), words
+        assert len({count for _, count in steps}) == 1 and {done for done,
+                                                            _ in steps} == set(range(steps[0][1])), words
 
 
 def test_thrusters_that_do_nothing_are_told_beside_the_answer(stabilab, tmp_path):
@@ -221,8 +244,10 @@ def test_thrusters_that_do_nothing_are_told_beside_the_answer(stabilab, tmp_path
 
 
 def test_a_component_without_a_lower_end_is_told_in_a_word(stabilab, tmp_path):
-    """Torque of -1 N m on axis 3 of a body without a wheel that starts along it: it spins up downwards, by hand."""
-    (tmp_path / "down.toml").write_text('[body]\ninertia = [12, 9, 5]\n[effects.constant_torque]\ntorque = [0, 0, -1]\n'
+    """Torque of -1 N m on axis 3 of a body without a wheel that starts along it: it spins up downwards, by
+    hand."""
+    (tmp_path / "down.toml").write_text('[body]\ninertia = [12, 9, 5]\n[effects.constant_torque]\ntorque = '
+                                        '[0, 0, -1]\n'
                                         '[motion]\nangular_velocity = [0, 0, 0.1]\nspan = [0, 10]\n')
     out = stabilab("classify", tmp_path / "down.toml")[1]
     assert re.search(r"ω3\s+unbounded\s+5\.72958\s+deg/s", out) and "-unbounded" not in out
@@ -231,13 +256,17 @@ def test_a_component_without_a_lower_end_is_told_in_a_word(stabilab, tmp_path):
 @pytest.mark.one_in(2)
 @pytest.mark.parametrize("words, told", [
     (("fate", "--tilt", "1"), '--tilt: 1 alone is in rad: 57.2958 deg; for degrees write "1 deg"'),
-    (("when", "--rate", "1/2"), '--rate: 1/2 alone is in rad/s: 28.6479 deg/s; for degrees write "1/2 deg/s"'),
-    (("when", "--component", "z = 10"), '--component: 10 alone is in rad/s: 572.958 deg/s; for degrees write "10 deg/s"'),
+    (("when", "--rate", "1/2"),
+     '--rate: 1/2 alone is in rad/s: 28.6479 deg/s; for degrees write "1/2 deg/s"'),
+    (("when", "--component", "z = 10"),
+     '--component: 10 alone is in rad/s: 572.958 deg/s; for degrees write "10 deg/s"'),
     (("fate", "--tilt", "1 deg"), ""), (("when", "--rate", "10", "--units", "si"), "")])
 def test_an_angle_without_a_unit_is_told_in_degrees_before_the_answer(stabilab, tmp_path, words, told):
     """180/pi = 57.2958."""
-    (tmp_path / "my.toml").write_text('[body]\ninertia = [12, 9, 5]\n[effects.gyrostat]\nmomentum = [0.8, 0, 0]\n[effects.constant_torque]\n'
-                                      'torque = [0, 0, 0.02]\n[motion]\nangular_velocity = [0.1, 0.05, 0.02]\n')
+    (tmp_path / "my.toml").write_text('[body]\ninertia = [12, 9, 5]\n[effects.gyrostat]\nmomentum = [0.8, 0, '
+                                      '0]\n[effects.constant_torque]\n'
+                                      'torque = [0, 0, 0.02]\n[motion]\nangular_velocity = [0.1, 0.05, '
+                                      '0.02]\n')
     code, _, err = stabilab(words[0], tmp_path / "my.toml", *words[1:])
     assert code == 0 and err.strip() == told
 
@@ -246,16 +275,20 @@ def test_an_angle_without_a_unit_is_told_in_degrees_before_the_answer(stabilab, 
 def test_a_reason_tells_its_rates_in_the_unit_of_the_first_line(stabilab, command):
     """|ω| ≤ sqrt(2 T_limit/D3) = 0.527551 rad/s: 0.527551 · 180/pi = 30.226 deg/s, by hand."""
     case = ROOT / "cases/liquid-sensible.toml"
-    degrees, radians = (re.search("^why: .*$", stabilab(command, case, "--units", units)[1], re.MULTILINE)[0] for units in ("deg", "si"))
+    degrees, radians = (re.search("^why: .*$", stabilab(command, case, "--units", units)[1], re.MULTILINE)[0]
+                        for units in ("deg", "si"))
     assert "|ω| ≤ 30.226 deg/s always" in degrees and "rad/s" not in degrees
     assert "|ω| ≤ 0.527551 rad/s always" in radians and "deg" not in radians
 
 
 def test_times_within_sentences_have_the_unit_of_people():
-    assert units.DEG.words("0.2 over s in [0, 100000], certified from t = 600.5 s on, t = 3 and t = D1 + 2, t = 7 - x") == (
-        "0.2 over 0 to 27.78 h, certified from t = 10.008 min on, t = 3 s and t = D1 + 2, t = 7 - x")  # 100000/3600 = 27.78; 600.5/60 = 10.008
+    assert units.DEG.words("0.2 over s in [0, 100000], certified from t = 600.5 s on, t = 3 and t = D1 + 2, "
+                           "t = 7 - x") == (
+        # 100000/3600 = 27.78; 600.5/60 = 10.008
+        "0.2 over 0 to 27.78 h, certified from t = 10.008 min on, t = 3 s and t = D1 + 2, t = 7 - x")
     assert units.SI.words("over s in [0, 100000] at 2 rad/s") == "over 0 to 100000 s at 2 rad/s"
-    assert units.SCALED.words("over tau in [0, 63.9], proved from t = 63.9429 on") == "over 0 to 63.9 tau, proved from tau = 63.943 on"
+    assert units.SCALED.words(
+        "over tau in [0, 63.9], proved from t = 63.9429 on") == "over 0 to 63.9 tau, proved from tau = 63.943 on"
 
 
 @pytest.mark.one_in(2)
@@ -266,42 +299,52 @@ def test_no_name_of_a_greek_letter_stands_in_an_answer(stabilab, name):
 
 
 def test_a_least_rate_that_is_zero_but_for_rounding_is_told_as_zero(stabilab):
-    """A body at rest about axes 1 and 2, torque on axis 1: ω2 returns to the rest it left and goes no lower, as the motion runs back from there."""
+    """A body at rest about axes 1 and 2, torque on axis 1: ω2 returns to the rest it left and goes no lower,
+    as the motion runs back from there."""
     text = stabilab("extremes", ROOT / "cases/charged-body.toml")[1]
     assert re.search(r"ω2 +0 +232\.664 ", text)
     swept = stabilab("extremes", ROOT / "cases/charged-sweep.toml")[1]
     assert "ω2 least" in swept and not re.search(r"\de-\d", swept)
     exact = stabilab("extremes", ROOT / "cases/charged-body.toml", "--json")[1]
-    assert '"extremes"' in exact and units.but_for_rounding([(1e-13, 2.0), (-1e-11, float("inf"))], 1e-12) == ((0.0, 2.0), (-1e-11, float("inf")))
+    assert '"extremes"' in exact and units.but_for_rounding([(1e-13, 2.0), (-1e-11, float("inf"))],
+                                                            1e-12) == ((0.0, 2.0), (-1e-11, float("inf")))
 
 
 @pytest.mark.parametrize("name", ["cubesat-3u", "minor-axis-100", "top-fast", "charged-sweep", "liquid-base"])
-def test_show_has_no_number_of_more_digits_than_a_person_reads_and_none_of_the_motion_without_unit(stabilab, name):
+def test_show_has_no_number_of_more_digits_than_a_person_reads_and_none_of_the_motion_without_unit(
+    stabilab, name):
     """Nine digits are those of a number as it was given, the ends of which show whether it was understood."""
-    told = re.sub(r"\\begin\{align\*\}.*?\\end\{align\*\}", "", stabilab("show", CASES / f"{name}.toml")[1], flags=re.DOTALL)
+    told = re.sub(r"\\begin\{align\*\}.*?\\end\{align\*\}", "", stabilab("show", CASES / f"{name}.toml")[1],
+                  flags=re.DOTALL)
     given = (CASES / f"{name}.toml").read_text(encoding="utf-8")
-    long = [digits for digits in re.findall(r"\d+\.\d+", told) if len(digits.replace(".", "").strip("0")) > 6 and digits not in given]
+    long = [digits for digits in re.findall(r"\d+\.\d+", told) if len(digits.replace(".", "").strip("0")) > 6
+            and digits not in given]
     assert not long
-    assert all(("deg/s" in line) == (name != "minor-axis-100") for line in told.splitlines() if "motion from" in line)
+    assert all(("deg/s" in line) == (name != "minor-axis-100") for line in told.splitlines()
+               if "motion from" in line)
 
 
 def test_the_answer_comes_first_and_the_files_after_it(tmp_path):
     """On a terminal stderr and stdout are one: what stands first there is read as the answer."""
     case, file = CASES / "wheel-and-thruster.toml", tmp_path / "drawn.png"
-    run = subprocess.run([sys.executable, "-m", "stabilab", "bifurcation", case, "--vary", "torque[3]=0:2000", "--out", file], stdout=subprocess.PIPE,
+    run = subprocess.run([sys.executable, "-m", "stabilab", "bifurcation", case, "--vary", "torque[3]=0:2000",
+                          "--out", file], stdout=subprocess.PIPE,
                          stderr=subprocess.STDOUT, text=True, encoding="utf-8")
     first, *_, last = run.stdout.splitlines()
-    assert first.startswith("wheel-and-thruster: 4 equilibria") and last == f"written: {file}" and file.exists()
+    assert first.startswith(
+        "wheel-and-thruster: 4 equilibria") and last == f"written: {file}" and file.exists()
 
 
 def test_a_case_without_motion_says_that_no_fate_is_told(stabilab, tmp_path):
     path = tmp_path / "still.toml"
-    path.write_text("[body]\ninertia = [12, 9, 5]\n[effects.constant_torque]\ntorque = [0, 0, 0.02]\n", encoding="utf-8")
+    path.write_text("[body]\ninertia = [12, 9, 5]\n[effects.constant_torque]\ntorque = [0, 0, 0.02]\n",
+                    encoding="utf-8")
     assert stabilab("classify", path)[1].split("\n")[0].endswith("; no [motion], so no fate")
 
 
 def test_a_run_shows_no_digit_that_its_check_does_not_vouch_for(stabilab, tmp_path):
-    """6 deg/s at the start is 6 and not 6.000000000000001, as the last place of a double has it after the turn from rad/s."""
+    """6 deg/s at the start is 6 and not 6.000000000000001, as the last place of a double has it after the
+    turn from rad/s."""
     path = tmp_path / "run.toml"
     path.write_text("[body]\ninertia = [12, 9, 5]\n[effects.constant_torque]\ntorque = [0, 0, 0.02]\n"
                     '[motion]\nangular_velocity = ["6 deg/s", 0, "1 deg/s"]\n', encoding="utf-8")

@@ -1,4 +1,5 @@
-"""The units of people: one home, the definitions of degree, minute and hour, and the decimals that tell two bounds apart."""
+"""The units of people: one home, the definitions of degree, minute and hour, and the decimals that tell two
+bounds apart."""
 import math
 import re
 from fractions import Fraction
@@ -20,8 +21,12 @@ angular_velocity = [0.1, 0.05, 0.02]
 
 
 def test_rates_angles_and_their_squares_are_those_of_the_degree():
-    assert DEG.rate(math.pi) == "180 deg/s" and SI.rate(math.pi) == "3.14159 rad/s" and SCALED.rate(math.pi) == "3.14159"  # pi rad are 180 deg
-    assert DEG.angle(math.pi / 6) == "30 deg" and DEG.Q(math.pi**2) == "32400 (deg/s)^2" and SI.Q(0.7) == "0.7 (rad/s)^2"
+    # pi rad are 180 deg
+    assert DEG.rate(math.pi) == "180 deg/s" and SI.rate(math.pi) == "3.14159 rad/s" and SCALED.rate(
+        math.pi) == "3.14159"
+    assert DEG.angle(math.pi
+                     / 6) == "30 deg" and DEG.Q(math.pi**2) == "32400 (deg/s)^2" and SI.Q(
+                         0.7) == "0.7 (rad/s)^2"
     assert DEG.vector((0, math.pi, -math.pi), DEG.rates) == "(0, 180, -180) deg/s"
 
 
@@ -33,35 +38,47 @@ def test_quantities_without_a_turn_are_the_same_in_both_systems():
 
 def test_a_sentence_has_its_angles_rates_and_times_in_these_units():
     """90 deg are pi/2 rad."""
-    words = "turns at -1.5707963267948966 rad/s from 3.141592653589793 rad, by (0, 1.5707963267948966) rad/s and 1.5707963267948966 rad/s^2, at t = 600"
-    assert DEG.words(words) == "turns at -90 deg/s from 180 deg, by (0, 90) deg/s and 90 deg/s^2, at t = 10 min"
+    words = (
+        "turns at -1.5707963267948966 rad/s from 3.141592653589793 rad, by (0, 1.5707963267948966) rad/s and "
+        "1.5707963267948966 rad/s^2, at t = 600")
+    assert DEG.words(
+        words) == "turns at -90 deg/s from 180 deg, by (0, 90) deg/s and 90 deg/s^2, at t = 10 min"
     pairs = "between 1.5707963267948966 and 3.141592653589793 rad, from -1.5707963267948966 to 0 rad/s"
     assert DEG.words(pairs) == "between 90 and 180 deg, from -90 to 0 deg/s"
     assert SI.words(words) == words + " s" and DEG.words("0.7 rad^2/s^2") == "0.7 rad^2/s^2"
-    assert (DEG.of("rad"), SI.of("rad/s"), DEG.of("m")) == (("deg", 180 / math.pi), ("rad/s", 1.0), ("m", 1.0))
+    assert (DEG.of("rad"), SI.of("rad/s"),
+            DEG.of("m")) == (("deg", 180 / math.pi), ("rad/s", 1.0), ("m", 1.0))
 
 
-@pytest.mark.parametrize("seconds, words", [(0.25, "0.25 s"), (32.84379, "32.8438 s"), (119.5, "119.5 s"), (120, "2 min"), (5400, "90 min"), (7200, "2 h"),
-                                            (86400, "24 h"), (864000, "10 day"), (0, "0 s"), (-600, "-10 min")])
+@pytest.mark.parametrize("seconds, words", [(0.25, "0.25 s"), (32.84379, "32.8438 s"), (119.5, "119.5 s"),
+                                            (120, "2 min"), (5400, "90 min"), (7200, "2 h"),
+                                            (86400, "24 h"), (864000, "10 day"), (0, "0 s"),
+                                            (-600, "-10 min")])
 def test_a_time_is_told_in_the_unit_that_suits_it(seconds, words):
     assert DEG.time(seconds) == words and SI.time(seconds).endswith(" s")
 
 
 def test_a_number_that_is_unbounded_is_told_by_a_word_and_zero_has_no_sign():
-    assert number(math.inf) == "unbounded" and number(-math.inf) == "-unbounded" and number(-0.0) == "0" and DEG.rate(math.inf) == "unbounded deg/s"
-    assert number(15904.7) == "15905" and number(-15904.7, 3) == "-15905" and number(1.5e6) == "1.5e+06" and number(0.00012) == "0.00012"
+    assert number(math.inf) == "unbounded" and number(-math.inf) == "-unbounded" and number(
+        -0.0) == "0" and DEG.rate(math.inf) == "unbounded deg/s"
+    assert number(15904.7) == "15905" and number(-15904.7,
+                                                 3) == "-15905" and number(1.5e6) == "1.5e+06" and number(
+                                                     0.00012) == "0.00012"
 
 
-@pytest.mark.parametrize("low, high", [(16.947771205157505, 16.94777120515751), (1.0, 1.0), (0.1, 0.2), (99.99999, 100.00001), (1e-7, 1.5e-7), (1 / 3, 1 / 3)])
+@pytest.mark.parametrize("low, high", [(16.947771205157505, 16.94777120515751), (1.0, 1.0), (0.1, 0.2),
+                                       (99.99999, 100.00001), (1e-7, 1.5e-7), (1 / 3, 1 / 3)])
 def test_a_bracket_holds_what_it_encloses(low, high):
     a, b = map(Fraction, bracket(low, high))
-    assert a <= Fraction(low) and Fraction(high) <= b and b - a <= Fraction(high) / 1000 + 2 * (Fraction(high) - Fraction(low))
+    assert a <= Fraction(low) and Fraction(high) <= b and b - a <= Fraction(high) / 1000 + 2 * (
+        Fraction(high) - Fraction(low))
 
 
 def test_a_case_remembers_its_units_and_an_option_overrides_them(stabilab, tmp_path):
     path = tmp_path / "own.toml"
     path.write_text(CASE)
-    assert units_of(load(path)).name == DEG.name and "5.72958, 2.86479, 1.14592) deg/s" in stabilab("classify", path)[1]
+    assert units_of(load(path)).name == DEG.name and "5.72958, 2.86479, 1.14592) deg/s" in stabilab(
+        "classify", path)[1]
     path.write_text(CASE + '[output]\nunits = "si"\n')
     assert units_of(load(path)).name == SI.name and "(0.1, 0.05, 0.02) rad/s" in stabilab("classify", path)[1]
     assert "(5.72958, 2.86479, 1.14592) deg/s" in stabilab("classify", path, "--units", "deg")[1]
@@ -69,7 +86,8 @@ def test_a_case_remembers_its_units_and_an_option_overrides_them(stabilab, tmp_p
     assert code == 2 and not out and "--units: expected deg or si, got 'rpm'" in err
 
 
-@pytest.mark.parametrize("line, words", [('units = "rpm"', "expected deg or si"), ("units = 3", "expected a text in quotes"),
+@pytest.mark.parametrize("line, words",
+                         [('units = "rpm"', "expected deg or si"), ("units = 3", "expected a text in quotes"),
                                          ('unit = "si"', "did you mean units")])
 def test_units_of_a_case_that_are_none_are_a_fault_with_its_line(stabilab, tmp_path, line, words):
     path = tmp_path / "own.toml"
@@ -85,14 +103,18 @@ def test_a_scaled_case_has_no_units():
 
 
 def test_an_equilibrium_and_a_size_in_the_reasons_are_in_the_units_of_the_rest(stabilab, tmp_path):
-    """The place where the motion ends is told twice on this page, once in the reason: both in the units asked for."""
+    """The place where the motion ends is told twice on this page, once in the reason: both in the units asked
+    for."""
     path = tmp_path / "resisted.toml"
-    path.write_text("[body]\ninertia = [9.5, 9.3, 9.0]\n[effects.resistance]\ncoefficient = 0.02\n[effects.constant_torque]\ntorque = [0.01, 0, -0.06]\n"
+    path.write_text("[body]\ninertia = [9.5, 9.3, 9.0]\n[effects.resistance]\ncoefficient = "
+                    "0.02\n[effects.constant_torque]\ntorque = [0.01, 0, -0.06]\n"
                     "[motion]\nangular_velocity = [0.1, 0, 1]\nspan = [0, 20]\n", encoding="utf-8")
     for units, name, digits in (("deg", "deg/s", 5), ("si", "rad/s", 6)):
         out = stabilab("classify", path, "--units", units)[1]
-        reason, place = (re.search(rf"{before}\((\S+), (\S+), (\S+)\) {name}", out) for before in ("tends to the equilibrium ", "stable   "))
-        assert [f"{float(v):.{digits - 1}g}" for v in reason.groups()] == [f"{float(v):.{digits - 1}g}" for v in place.groups()]
+        reason, place = (re.search(rf"{before}\((\S+), (\S+), (\S+)\) {name}", out)
+                         for before in ("tends to the equilibrium ", "stable   "))
+        assert [f"{float(v):.{digits - 1}g}"
+                for v in reason.groups()] == [f"{float(v):.{digits - 1}g}" for v in place.groups()]
     out = stabilab("fate", CASES / "off-axis-one.toml", "--follow", "20 s")[1]
     start = math.degrees(math.hypot(0.9, 0.5, 0.3))
     assert f"the size of its rates went from {start:.5g} to" in out and "times the spin" in out

@@ -9,15 +9,18 @@ from stabilab.theories.comparison import side_by_side
 
 def liquid_case(folder, torque):
     path = folder / "case.toml"
-    path.write_text("[body]\ninertia = [9.2, 9.1, 9]\n[effects.gyrostat]\nmomentum = [0, 0, 0.1]\n[effects.resistance]\ncoefficient = 0.001\n"
-                    f"[effects.constant_torque]\ntorque = {torque}\n[motion]\nangular_velocity = [1, 0.2, 1]\nspan = [0, 20]\n")
+    path.write_text("[body]\ninertia = [9.2, 9.1, 9]\n[effects.gyrostat]\nmomentum = [0, 0, "
+                    "0.1]\n[effects.resistance]\ncoefficient = 0.001\n"
+                    f"[effects.constant_torque]\ntorque = {torque}\n[motion]\nangular_velocity = [1, 0.2, "
+                    f"1]\nspan = [0, 20]\n")
     return stabilab.load(path)
 
 
 def test_a_model_that_does_not_fit_is_named_with_its_reason_beside_those_that_do(tmp_path):
     times = np.linspace(0, 20, 9)
     runs, refused = side_by_side(liquid_case(tmp_path, [500, 300, 0]), times)
-    assert "exact" in runs and "small disturbances" in refused["averaged1"] and "small disturbances" in refused["averaged2"]
+    assert "exact" in runs and "small disturbances" in refused[
+        "averaged1"] and "small disturbances" in refused["averaged2"]
     runs, _ = side_by_side(liquid_case(tmp_path, [0, 0, -0.006]), times)
     exact, gaps = runs["exact"].state["omega"], {}
     for name in ("averaged1", "averaged2"):

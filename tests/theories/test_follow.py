@@ -29,11 +29,14 @@ def test_the_models_of_a_case_are_those_whose_assumptions_its_scene_meets(name, 
 def test_a_charge_that_follows_the_attitude_is_modelled_with_its_first_angle():
     """gamma3 = 1 at the start: k = e H l^2 = 0.003 * 100 * 1.02^2, by hand."""
     from stabilab.theories.charged.model import body_of
-    assert float(np.max(body_of(load(CASES / "charged-body-attitude.toml")).charge_moment)) == pytest.approx(0.312120, rel=1e-12)
+    assert float(np.max(body_of(load(CASES / "charged-body-attitude.toml")).charge_moment)) == pytest.approx(
+        0.312120, rel=1e-12)
 
 
 def test_a_model_that_does_not_apply_is_refused_with_those_that_do():
-    with pytest.raises(InputError, match="'lindstedt' does not apply to this scene; it has exact, linear, corrected, printed"):
+    with pytest.raises(InputError,
+                       match="'lindstedt' does not apply to this scene; it has exact, linear, corrected, "
+                             "printed"):
         follow(load(CHARGED), [1.0], "lindstedt")
     with pytest.raises(InputError, match='did you mean "linear"'):
         follow(load(CHARGED), [1.0], "liner")
@@ -49,8 +52,8 @@ def test_models_have_the_parts_of_the_state_that_the_exact_motion_has():
 
 
 def test_the_model_printed_follows_the_print_and_the_model_corrected_the_integrals_it_means():
-    """(44) of the paper: I_omega is the integral of I_Gamma, so the rate of omega is -i f3 e^(i r0 t) Gamma/m; (46) as typed
-    misses that, and (61) does not vanish at t = 0."""
+    """(44) of the paper: I_omega is the integral of I_Gamma, so the rate of omega is -i f3 e^(i r0 t)
+    Gamma/m; (46) as typed misses that, and (61) does not vanish at t = 0."""
     from stabilab.theories.charged.model import body_of
     from stabilab.theories.charged.printed import printed
     case, t, h = load(CHARGED), 20.0, 1e-4
@@ -60,11 +63,13 @@ def test_the_model_printed_follows_the_print_and_the_model_corrected_the_integra
         push = -3j * np.exp(1j * angles[2, 2]) * (angles[2, 0] + 1j * angles[2, 1]) / 10
         assert (abs((v[3, 0] - v[1, 0]) / (2 * h) - push.real) < 1e-6) == right
         assert (np.abs(runs[model]["position"][0]).max() < 1e-9) == right
-    np.testing.assert_array_equal(runs["printed"]["position"], printed(body_of(case), [0.0, t - h, t, t + h]).position)
+    np.testing.assert_array_equal(runs["printed"]["position"],
+                                  printed(body_of(case), [0.0, t - h, t, t + h]).position)
 
 
 def test_halving_the_torque_quarters_the_linear_models_error_or_better():
-    """What the linear model drops is of second order in the tilt, so its error in omega falls at least as the torque squared."""
+    """What the linear model drops is of second order in the tilt, so its error in omega falls at least as the
+    torque squared."""
     text = SMALL.read_text()
     errors = []
     for torque in (0.008, 0.004, 0.002):
@@ -89,7 +94,9 @@ def test_the_first_time_of_an_error_is_where_the_error_passes_it():
             if time is None:
                 continue
             if time == 0:  # the printed displacement does not start where the body does
-                assert (departure.model, departure.part) == ("printed", "position") and departure.error[0] > level * departure.scale
+                assert (departure.model,
+                        departure.part) == ("printed",
+                                            "position") and departure.error[0] > level * departure.scale
                 continue
             around = np.array([time * 0.995, time * 1.005])
             gap = np.abs(np.asarray(follow(case, around, departure.model).state[departure.part])
@@ -100,7 +107,8 @@ def test_the_first_time_of_an_error_is_where_the_error_passes_it():
 def test_compare_prints_strict_json_with_a_schema(stabilab):
     code, out, _ = stabilab("compare", SMALL, "--json")
     answer = json.loads(out, parse_constant=lambda word: pytest.fail(word))
-    assert code == 0 and answer["schema"] == "stabilab.compare/1" and set(answer["models"]) == {"exact", "linear", "corrected", "printed"}
+    assert code == 0 and answer["schema"] == "stabilab.compare/1" and set(answer["models"]) == {
+        "exact", "linear", "corrected", "printed"}
     assert {"model", "part", "error", "scale", "largest", "first"} == set(answer["departures"][0])
 
 
@@ -119,7 +127,8 @@ span = [0, 20]
 
 
 def test_a_body_without_charge_torque_and_force_is_the_first_case_of_the_linear_theory():
-    """D1 = D2: Euler's equations have r constant, so the rates are exact; D1 near D2: off by the neglected p q."""
+    """D1 = D2: Euler's equations have r constant, so the rates are exact; D1 near D2: off by the neglected p
+    q."""
     case = _written(PLAIN.format("8.7"))
     assert models_of(case.scene) == ("exact", "linear", "corrected", "printed")
     t = np.linspace(0, 20, 41)
@@ -135,7 +144,8 @@ def test_a_body_without_charge_torque_and_force_is_the_first_case_of_the_linear_
 
 @pytest.mark.parametrize("moment, words", [(-0.4, "unstable band"), (1.3, "none")])
 def test_compare_and_simulate_name_resonances_and_the_unstable_band(stabilab, tmp_path, moment, words):
-    """By hand: a = (2.5 r0 + lambda3 - k)/8.7 and b = (2.4 r0 + lambda3 - k)/8.6 have different signs for lambda3 = -0.4."""
+    """By hand: a = (2.5 r0 + lambda3 - k)/8.7 and b = (2.4 r0 + lambda3 - k)/8.6 have different signs for
+    lambda3 = -0.4."""
     path = tmp_path / "case.toml"
     path.write_text(SMALL.read_text().replace("momentum = [0, 0, 1.3]", f"momentum = [0, 0, {moment}]"))
     a, b = ((s * 0.28274333882308139 + moment - 0.003 * 100 * 1.02**2 * np.cos(0.37)) for s in (2.5, 2.4))
@@ -177,12 +187,16 @@ def test_the_periodic_motion_precesses_as_the_exact_one_through_it():
 
 
 def test_simulate_gives_classical_euler_angles_when_asked_for(stabilab):
-    """gamma = (sin theta sin phi, sin theta cos phi, cos theta), and phi counts whole turns between far times."""
+    """gamma = (sin theta sin phi, sin theta cos phi, cos theta), and phi counts whole turns between far
+    times."""
     code, out, _ = stabilab("simulate", CASES / "top-fast.toml", "--at", "0,0.5,1", "--angles", "--json")
     state = json.loads(out)["state"]
     _, theta, phi = np.transpose(state["euler"])
-    np.testing.assert_allclose(np.transpose(state["gamma"]), [np.sin(theta) * np.sin(phi), np.sin(theta) * np.cos(phi), np.cos(theta)], atol=1e-9)
-    assert code == 0 and 149 < phi[2] - phi[0] < 151 and "Euler angles: theta stays away" in json.loads(out)["reason"]
+    np.testing.assert_allclose(np.transpose(state["gamma"]),
+                               [np.sin(theta) * np.sin(phi), np.sin(theta) * np.cos(phi), np.cos(theta)],
+                               atol=1e-9)
+    assert code == 0 and 149 < phi[2] - phi[0] < 151 and "Euler angles: theta stays away" in json.loads(out)[
+        "reason"]
     code, _, err = stabilab("simulate", CASES / "minor-axis-100.toml", "--at", "1", "--angles")
     assert code == 2 and "need gamma in the state" in err
 
@@ -191,7 +205,8 @@ def test_every_effect_and_the_runs_of_models_have_public_names():
     import stabilab as package
     from stabilab.physics.effects import REGISTRY, effect_class
     assert {effect_class(name).__name__ for name in REGISTRY} <= set(package.__all__)
-    assert all(getattr(package, name) is not None for name in package.__all__) and {"simulate", "compare", "theory"} <= set(package.__all__)
+    assert all(getattr(package, name) is not None
+               for name in package.__all__) and {"simulate", "compare", "theory"} <= set(package.__all__)
 
 
 def test_simulate_gives_every_block_of_the_state_by_name(stabilab):
@@ -206,10 +221,12 @@ def test_simulate_gives_every_block_of_the_state_by_name(stabilab):
 def test_a_sweep_file_is_every_combination_of_its_values():
     cases = load_all(CASES / "charged-sweep.toml")
     assert len(cases) == 27 and len({case.name for case in cases}) == 27
-    seen = {(c.scene.effect("charge").charge, c.scene.effect("gyrostat").moment[2], c.scene.effect("constant_torque").vector[0])
+    seen = {(c.scene.effect("charge").charge, c.scene.effect("gyrostat").moment[2],
+             c.scene.effect("constant_torque").vector[0])
             for c in cases}
     assert seen == {(e, l, m) for e in (0.001, 0.003, 0.005) for l in (1.3, 1.6, 1.9) for m in (4, 4.5, 5)}
-    assert cases[1].name == "charged-sweep-1-1-2" and cases[1].scene.effect("constant_torque").vector[0] == 4.5
+    assert cases[1].name == "charged-sweep-1-1-2" and cases[1].scene.effect("constant_torque").vector[
+        0] == 4.5
 
 
 def test_a_file_without_a_sweep_is_one_case():
@@ -237,11 +254,13 @@ def test_a_fault_in_one_of_the_values_is_a_fault_of_the_file(tmp_path):
 
 
 def test_a_charge_of_constant_angle_is_judged_as_the_gyrostat_that_turns_alike():
-    """k omega x e3 is the rate of a gyrostatic moment -k e3: same fates, extremes, periods for lambda3 - k (by hand)."""
+    """k omega x e3 is the rate of a gyrostatic moment -k e3: same fates, extremes, periods for lambda3 - k
+    (by hand)."""
     import stabilab
     from stabilab.physics.effects import effect_class
     body, torque = stabilab.Body((12, 9, 5)), stabilab.ConstantTorque((0.02, 0, 0))
-    charged = stabilab.Scene(body, torque, stabilab.Gyrostat((0, 0.25, 1)), effect_class("charge")(0.5, 2, 1, 0))
+    charged = stabilab.Scene(body, torque, stabilab.Gyrostat((0, 0.25, 1)),
+                             effect_class("charge")(0.5, 2, 1, 0))
     twin = stabilab.Scene(body, torque, stabilab.Gyrostat((0, 0.25, 0)))
     states = np.random.default_rng(5).normal(size=(20, 3)) / 4
     np.testing.assert_array_equal(stabilab.fate(charged, states).labels, stabilab.fate(twin, states).labels)
@@ -250,11 +269,14 @@ def test_a_charge_of_constant_angle_is_judged_as_the_gyrostat_that_turns_alike()
     assert len(stabilab.separatrix(charged).sheets) == len(stabilab.separatrix(twin).sheets)
 
 
-@pytest.mark.parametrize("command", [["classify"], ["fate"], ["when", "--tilt", "z = 20 deg"], ["when", "--rate", "5"]], ids=" ".join)
+@pytest.mark.parametrize("command", [["classify"], ["fate"], ["when", "--tilt", "z = 20 deg"],
+                                     ["when", "--rate", "5"]], ids=" ".join)
 def test_a_verdict_says_that_it_rests_on_the_constant_angle_of_a_charge(stabilab, command):
-    """Along this motion cos sigma changes by 1.86 of itself (compare says BEYOND THE LAW), which a verdict on the rates alone cannot see."""
+    """Along this motion cos sigma changes by 1.86 of itself (compare says BEYOND THE LAW), which a verdict on
+    the rates alone cannot see."""
     code, out, _ = stabilab(*command, CASES / "charged-body.toml")
-    assert code == 0 and "as long as the angle of the z axis to the field is the constant one" in " ".join(out.split())
+    assert code == 0 and "as long as the angle of the z axis to the field is the constant one" in " ".join(
+        out.split())
 
 
 def test_fate_refuses_a_scene_that_no_theorem_covers_by_name():
@@ -269,12 +291,14 @@ def test_a_run_that_reaches_none_of_the_times_ends_with_5_and_an_empty_table(sta
     """The printed q of this case loses its real value at 7.7 s."""
     case, out = CASES / "liquid-lambda3-0_2.toml", tmp_path / "run.csv"
     code, text, err = stabilab("simulate", case, "--model", "printed", "--at", "15,16", "--out", out)
-    assert code == 5 and out.read_text().splitlines() == ["s,omega1,omega2,omega3,amplitude,spin,phase"] and "no real value" in err
+    assert code == 5 and out.read_text().splitlines() == [
+        "s,omega1,omega2,omega3,amplitude,spin,phase"] and "no real value" in err
     code, text, err = stabilab("simulate", case, "--model", "printed", "--at", "15")
     assert code == 5 and "NOT FOLLOWED: the printed q has no real value at t = 15" in text and "ω1 (deg/s)" in text and "Traceback" not in err
 
 
-@pytest.mark.parametrize("arguments", [("simulate", "top-fast.toml", "--at", "1"), ("compare", "charged-body.toml"),
+@pytest.mark.parametrize("arguments",
+                         [("simulate", "top-fast.toml", "--at", "1"), ("compare", "charged-body.toml"),
                                        ("simulate", "charged-body.toml", "--at", "1", "--model", "linear")])
 def test_an_order_without_an_expansion_to_take_it_is_refused(stabilab, arguments):
     command, name, *rest = arguments
@@ -283,5 +307,6 @@ def test_an_order_without_an_expansion_to_take_it_is_refused(stabilab, arguments
 
 
 def test_scenes_without_a_family_of_models_have_the_exact_one():
-    rod = Scene(Body((3, 2, 1)), Resistance("0.1"), Gyrostat((1, 2, 0)))  # averaging needs the wheel on axis 3 and moments that are alike
+    # averaging needs the wheel on axis 3 and moments that are alike
+    rod = Scene(Body((3, 2, 1)), Resistance("0.1"), Gyrostat((1, 2, 0)))
     assert [list(models_of(scene)) for scene in (SCALED_MINOR, rod)] == [["exact"]] * 2

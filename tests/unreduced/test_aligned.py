@@ -1,6 +1,8 @@
-"""Motions without a reduction of their own: torques in the plane of two equal moments, off the axes, and none at all.
+"""Motions without a reduction of their own: torques in the plane of two equal moments, off the axes, and none
+at all.
 
-The torque (3, 4, 0) turns by an exact rotation onto axis 1 of the same body; runs are SciPy's, of Euler's equations by hand.
+The torque (3, 4, 0) turns by an exact rotation onto axis 1 of the same body; runs are SciPy's, of Euler's
+equations by hand.
 """
 from decimal import ROUND_CEILING, ROUND_FLOOR
 
@@ -23,7 +25,8 @@ D = (2.0, 2.0, 1.0)
 BETWEEN = Scene(Body(D), Gyrostat((0, 0, 2)), ConstantTorque((0.3, 0.4, 0)))
 ALONG = Scene(Body(D), Gyrostat((0, 0, 2)), ConstantTorque((0.5, 0, 0)))
 STATES = np.array([[0.5, -0.25, 0.75], [1.0, 2.0, -1.5], [-0.125, 0.5, 0.25]])
-OFF = Scene(Body((3, 2, 1)), ConstantTorque((-1, 2, -1)))  # (D omega) x omega = (1, -2, 1) at omega = (1, 1, 1)
+# (D omega) x omega = (1, -2, 1) at omega = (1, 1, 1)
+OFF = Scene(Body((3, 2, 1)), ConstantTorque((-1, 2, -1)))
 
 
 def run_extremes(moments, wheel, torque, state, end):
@@ -33,8 +36,10 @@ def run_extremes(moments, wheel, torque, state, end):
 
     def rates(t, w):
         (x, y, z), (a, b, c) = w, wheel  # numpy.cross is slow for three numbers
-        return kappa * (y * z, z * x, x * y) + (np.array((b * z - c * y, c * x - a * z, a * y - b * x)) + torque) / moments
-    run = solve_ivp(rates, (0, end), state, method="DOP853", rtol=1e-10, atol=1e-11, t_eval=np.linspace(0, end, 4001))
+        return (kappa * (y * z, z * x, x * y)
+                + (np.array((b * z - c * y, c * x - a * z, a * y - b * x)) + torque) / moments)
+    run = solve_ivp(rates, (0, end), state, method="DOP853", rtol=1e-10, atol=1e-11,
+                    t_eval=np.linspace(0, end, 4001))
     return np.stack([run.y.min(axis=1), run.y.max(axis=1)], axis=1)
 
 
@@ -46,9 +51,12 @@ def test_a_torque_between_two_equal_axes_moves_the_body_as_one_along_an_axis():
     np.testing.assert_allclose(times, period(ALONG, STATES @ TURN.T), rtol=1e-11)
     assert np.isfinite(times).all() and (between.labels == Fate.BOUNDED).all()
     found, turned = extremes(BETWEEN, STATES), extremes(ALONG, STATES @ TURN.T)
-    np.testing.assert_allclose(found[:, 2], turned[:, 2], rtol=1e-10, atol=1e-12)  # axis 3 is the same in both
+    # axis 3 is the same in both
+    np.testing.assert_allclose(found[:, 2], turned[:, 2], rtol=1e-10, atol=1e-12)
     for state, time, one in zip(STATES, times, found):
-        np.testing.assert_allclose(one, run_extremes(D, (0, 0, 2), (0.3, 0.4, 0), state, 1.01 * time), atol=3e-5)  # sampled to 1/4000
+        # sampled to 1/4000
+        np.testing.assert_allclose(one, run_extremes(D, (0, 0, 2), (0.3, 0.4, 0), state, 1.01 * time),
+                                   atol=3e-5)
         single = motion(BETWEEN, state)
         assert single.period == pytest.approx(time, rel=1e-11) and single.fate == Fate.BOUNDED
         np.testing.assert_allclose(single.extremes, one, rtol=1e-9, atol=1e-12)
@@ -57,13 +65,16 @@ def test_a_torque_between_two_equal_axes_moves_the_body_as_one_along_an_axis():
 # with barriers: the torque (-50, 0, 0) and the wheel (0, 1, 0), turned alike
 BARRED = Scene(Body((4, 4, 2)), Gyrostat(("-0.8", "0.6", 0)), ConstantTorque((-30, -40, 0)))
 BARRED_ALONG = Scene(Body((4, 4, 2)), Gyrostat((0, 1, 0)), ConstantTorque((-50, 0, 0)))
-BESIDE = np.array([[1.0, -7.75, -3.5], [1.0, -7.0, -3.25], [0.5, -0.25, 0.75]])  # (1, -7.5, -3.5) is on the separatrix
+# (1, -7.5, -3.5) is on the separatrix
+BESIDE = np.array([[1.0, -7.75, -3.5], [1.0, -7.0, -3.25], [0.5, -0.25, 0.75]])
 
 
 def test_the_distance_from_a_separatrix_does_not_change_when_the_scene_is_turned():
     """A rotation keeps distances: the exact turn by (3/5, 4/5) puts the torque on axis 1."""
     states = BESIDE @ TURN
-    found, wanted = stabilab.fate(BARRED, states).velocity_margins, stabilab.fate(BARRED_ALONG, BESIDE).velocity_margins
+    found, wanted = stabilab.fate(BARRED,
+                                  states).velocity_margins, stabilab.fate(BARRED_ALONG,
+                                                                          BESIDE).velocity_margins
     assert np.isfinite(wanted).all() and (wanted > 0).all() and (wanted[:2] < 0.5).all()
     np.testing.assert_allclose(found, wanted, rtol=2e-9)
     for state, distance in zip(states, found):
@@ -71,7 +82,8 @@ def test_the_distance_from_a_separatrix_does_not_change_when_the_scene_is_turned
         assert one.margin_velocity == pytest.approx(distance, rel=2e-9)
         witness = np.array(one.velocity_witness)
         assert np.linalg.norm(witness - state) == pytest.approx(distance, rel=2e-9)
-        assert abs(stabilab.fate(BARRED, witness).margins) < 1e-9 * (witness @ witness)  # the witness has the energy of a barrier
+        # the witness has the energy of a barrier
+        assert abs(stabilab.fate(BARRED, witness).margins) < 1e-9 * (witness @ witness)
 
 
 def test_no_change_of_a_bounded_state_below_its_distance_releases_it():
@@ -83,9 +95,11 @@ def test_no_change_of_a_bounded_state_below_its_distance_releases_it():
 
 
 @pytest.mark.parametrize("scene, state, wanted", [
-    (Scene(Body((2, 2, 1)), Gyrostat((3, 4, 0)), ConstantTorque((3, 4, 0))), (0.1, 0.2, 0.3), np.inf),  # a wheel along the torque: no equilibrium
+    # a wheel along the torque: no equilibrium
+    (Scene(Body((2, 2, 1)), Gyrostat((3, 4, 0)), ConstantTorque((3, 4, 0))), (0.1, 0.2, 0.3), np.inf),
     (Scene(Body((3, 2, 1)), Gyrostat((1, 0, 0)), ConstantTorque((1, 0, 0))), (0.1, 0.2, 0.3), np.inf),
-    (OFF, (0.1, 0.2, 0.3), np.nan), (OFF, (1.0, 1.0, 1.0), np.nan)])  # off the axes nothing is known, at rest neither
+    # off the axes nothing is known, at rest neither
+    (OFF, (0.1, 0.2, 0.3), np.nan), (OFF, (1.0, 1.0, 1.0), np.nan)])
 def test_the_distance_from_a_separatrix_is_infinite_only_where_there_is_none(scene, state, wanted):
     np.testing.assert_array_equal(stabilab.fate(scene, np.array(state)).velocity_margins, wanted)
     assert motion(scene, state).margin_velocity is None
@@ -98,13 +112,17 @@ def test_rest_between_the_axes_is_exact():
     assert stabilab.fate(scene, state).labels == Fate.EQUILIBRIUM and period(scene, state) == 0
     np.testing.assert_array_equal(extremes(scene, state), np.stack([state, state], axis=1))
     found = motion(scene, state)
-    assert found.fate == Fate.EQUILIBRIUM and found.period is None and found.extremes == ((-4, -4), (3, 3), (-1, -1))
+    assert found.fate == Fate.EQUILIBRIUM and found.period is None and found.extremes == ((-4, -4), (3, 3),
+                                                                                          (-1, -1))
 
 
 def test_a_spin_along_a_torque_between_the_axes_needs_a_span_for_its_extremes():
     """omega = (omega0 + M t/D): the exact solution while omega_3 = 0 and no rate lies across the torque."""
     scene, state = Scene(Body((2, 2, 1)), ConstantTorque((3, 4, 0))), np.array([3.0, 4.0, 0.0])
-    assert motion(scene, state).fate == Fate.SPIN_UP and motion(scene, state).extremes is None and period(scene, state) == np.inf
+    assert motion(scene,
+                  state).fate == Fate.SPIN_UP and motion(scene,
+                                                         state).extremes is None and period(scene,
+                                                                                            state) == np.inf
     with pytest.raises(InputError, match="span"):
         extremes(scene, state)
     wanted = [[3, 3 + 1.5 * 4], [4, 4 + 2 * 4], [0, 0]]
@@ -113,19 +131,25 @@ def test_a_spin_along_a_torque_between_the_axes_needs_a_span_for_its_extremes():
 
 
 def test_off_the_axes_rest_is_exact_and_the_rest_is_searched_over_a_span():
-    """The second state spins up about axis 3 (certified); a run of 60 s by DOP853 shows it and stays within the bounds for all times."""
+    """The second state spins up about axis 3 (certified); a run of 60 s by DOP853 shows it and stays within
+    the bounds for all times."""
     rest, state = np.array([1.0, 1.0, 1.0]), np.array([1.0, 0.5, -0.25])
     both = np.stack([rest, state])
-    assert period(OFF, both).tolist() == [0.0, np.inf] and stabilab.fate(OFF, both).labels.tolist() == [Fate.EQUILIBRIUM, Fate.SPIN_UP]
+    assert period(OFF, both).tolist() == [0.0,
+                                          np.inf] and stabilab.fate(OFF,
+                                                                    both).labels.tolist() == [
+                                                                        Fate.EQUILIBRIUM, Fate.SPIN_UP]
     np.testing.assert_array_equal(extremes(OFF, rest[None]), [[[1, 1]] * 3])
     found = extremes(OFF, both, span=3.0)
     np.testing.assert_array_equal(found[0], [[1, 1]] * 3)
-    np.testing.assert_allclose(found[1], run_extremes((3, 2, 1), (0, 0, 0), (-1, 2, -1), state, 3.0), atol=3e-6)
+    np.testing.assert_allclose(found[1], run_extremes((3, 2, 1), (0, 0, 0), (-1, 2, -1), state, 3.0),
+                               atol=3e-6)
     assert motion(OFF, rest).extremes == ((1, 1),) * 3
     single = motion(OFF, state, (0, 3))
     assert single.fate == Fate.SPIN_UP and (single.axis, single.sense) == (3, -1)
     np.testing.assert_allclose(single.extremes, found[1], rtol=1e-12)
-    always, long = np.array(motion(OFF, state).extremes), run_extremes((3, 2, 1), (0, 0, 0), (-1, 2, -1), state, 60.0)
+    always, long = np.array(motion(OFF, state).extremes), run_extremes((3, 2, 1), (0, 0, 0), (-1, 2, -1),
+                                                                       state, 60.0)
     assert (always[:, 0] <= long[:, 0]).all() and (long[:, 1] <= always[:, 1]).all()
     assert always[2, 0] == -np.inf and long[2, 0] < -40  # the spin grows as M3/D3 t
     np.testing.assert_array_equal(extremes(OFF, both), [[[1, 1]] * 3, always])
@@ -140,7 +164,9 @@ def test_bounds_are_rounded_to_their_safe_side(bound):
 def test_a_free_motion_with_a_wheel_off_the_axes_repeats():
     scene, state = Scene(Body((3, 2, 1)), Gyrostat((0.5, 0.25, -0.75))), np.array([0.75, 0.5, 1.0])
     one, time = extremes(scene, state), float(period(scene, state))
-    np.testing.assert_allclose(one, run_extremes((3, 2, 1), (0.5, 0.25, -0.75), (0, 0, 0), state, 1.01 * time), atol=1e-5)
+    np.testing.assert_allclose(one,
+                               run_extremes((3, 2, 1), (0.5, 0.25, -0.75), (0, 0, 0), state, 1.01 * time),
+                               atol=1e-5)
     half = motion(scene, state)
     assert half.period == pytest.approx(time) and np.allclose(half.extremes, one, rtol=1e-12)
     with pytest.raises(InputError, match="without torque"):

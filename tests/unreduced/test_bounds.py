@@ -1,4 +1,5 @@
-"""Bounds of motions with a medium, a liquid or a field, in the corners of what is proved; and numbers that are refused."""
+"""Bounds of motions with a medium, a liquid or a field, in the corners of what is proved; and numbers that
+are refused."""
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
@@ -29,15 +30,18 @@ def test_a_liquid_under_a_torque_in_a_medium_is_bounded_as_its_run_is():
     scene = Scene(BODY, Resistance("0.5"), LIQUID, ConstantTorque((1, "0.5", -1)))
     found = motion(scene, ROW)
     assert found.fate == Fate.BOUNDED and "where it tends is undecided" in found.because
-    # the bound without the liquid, which only takes energy: |omega| <= max(sqrt(2 T0), sqrt(M . D^-1 M)/c)/sqrt(D3)
-    assert found.invariants["rate_bound"] >= max(np.linalg.norm(ROW), (1 / 9 + 0.25 / 8 + 1 / 5) ** 0.5 / 0.5 / 5**0.5)
+    # the bound without the liquid, which only takes energy: |omega| <= max(sqrt(2 T0), sqrt(M . D^-1
+    # M)/c)/sqrt(D3)
+    assert found.invariants["rate_bound"] >= max(np.linalg.norm(ROW),
+                                                 (1 / 9 + 0.25 / 8 + 1 / 5) ** 0.5 / 0.5 / 5**0.5)
 
 
 def test_liquid_in_a_body_with_two_equal_largest_moments_carries_it_to_some_axis_of_their_plane():
     found = motion(Scene(Body((9, 9, 5)), LIQUID), ROW)
     size = np.linalg.norm(np.array((9, 9, 5)) * ROW)
     assert found.fate == Fate.BOUNDED and "permanent rotations" in found.because
-    assert found.invariants["momentum"] == pytest.approx(size) and found.invariants["rate_bound"] == pytest.approx(size / 5)
+    assert found.invariants["momentum"] == pytest.approx(size) and found.invariants[
+        "rate_bound"] == pytest.approx(size / 5)
 
 
 def test_liquid_in_a_field_is_left_undecided():
@@ -49,8 +53,10 @@ def test_a_decay_too_fast_for_the_span_is_said_so():
     found = motion(Scene(BODY, Resistance(1000)), ROW, (0, 1e6))  # exp(-1e9)
     assert found.fate == Fate.BOUNDED and "too fast" in found.extremes_over
     near = motion(Scene(BODY, Resistance("0.5")), ROW, (0, 2))
-    run = solve_ivp(lambda t, w: np.cross(np.array((9, 8, 5)) * w, w) / (9, 8, 5) - 0.5 * w, (0, 2), ROW, rtol=1e-11, atol=1e-12, max_step=1e-3)
-    np.testing.assert_allclose(near.extremes, np.stack([run.y.min(axis=1), run.y.max(axis=1)], axis=1), atol=1e-6)
+    run = solve_ivp(lambda t, w: np.cross(np.array((9, 8, 5)) * w, w) / (9, 8, 5) - 0.5 * w, (0, 2), ROW,
+                    rtol=1e-11, atol=1e-12, max_step=1e-3)
+    np.testing.assert_allclose(near.extremes, np.stack([run.y.min(axis=1), run.y.max(axis=1)], axis=1),
+                               atol=1e-6)
 
 
 @pytest.mark.parametrize("wheel", [(0, 0, 0), (1, 2, 3)])

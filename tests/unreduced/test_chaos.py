@@ -1,4 +1,5 @@
-"""How a small change of a start grows, by other derivations, other integrators and what theory says of tori."""
+"""How a small change of a start grows, by other derivations, other integrators and what theory says of tori.
+"""
 from __future__ import annotations
 
 import numpy as np
@@ -22,9 +23,11 @@ def megno(scene, state, turns=400):
 
 
 @pytest.mark.one_in(4)
-@pytest.mark.parametrize("name", ["torque-free-body", "torque-free-gyrostat", "minor-axis-100", "middle-axis-100"])
+@pytest.mark.parametrize("name",
+                         ["torque-free-body", "torque-free-gyrostat", "minor-axis-100", "middle-axis-100"])
 def test_a_motion_of_one_degree_of_freedom_tends_to_two(name):
-    """Neighbours on the orbits of an integrable motion part in proportion to time, and then MEGNO -> 2 (Cincotta, Giordano, Simo 2003)."""
+    """Neighbours on the orbits of an integrable motion part in proportion to time, and then MEGNO -> 2
+    (Cincotta, Giordano, Simo 2003)."""
     one = case(name)
     history = megno(one.scene, one.state, 1500).megno[0]
     away = np.abs(history - 2)
@@ -58,7 +61,8 @@ def test_without_heyoka_scipy_gives_the_same(monkeypatch):
 
 @pytest.mark.slow
 def test_a_heavy_top_is_chaotic_at_the_rate_at_which_two_of_its_motions_part():
-    """Two runs of DOP853 of Euler's and Poisson's equations by hand, brought near again each 5 units of time (Benettin's method)."""
+    """Two runs of DOP853 of Euler's and Poisson's equations by hand, brought near again each 5 units of time
+    (Benettin's method)."""
     from scipy.integrate import solve_ivp
 
     def rate(_, x):
@@ -74,11 +78,13 @@ def test_a_heavy_top_is_chaotic_at_the_rate_at_which_two_of_its_motions_part():
     expected = np.sum(total) / 1500
     found = megno(TOP, WILD, 1000)
     rates = 2 * found.megno[0] / found.times
-    assert rates[-1] == pytest.approx(expected, rel=0.25) and found.megno[0, -1] > 1.6 * found.megno[0, -2] > 10
+    assert rates[-1] == pytest.approx(expected,
+                                      rel=0.25) and found.megno[0, -1] > 1.6 * found.megno[0, -2] > 10
 
 
 def test_the_same_top_near_its_rest_is_regular():
-    """Small swings about the stable rest are two coupled oscillators of different frequencies and a precession: tori."""
+    """Small swings about the stable rest are two coupled oscillators of different frequencies and a
+    precession: tori."""
     assert (megno(TOP, TAME).megno[0, -3:] < 2.3).all()
 
 
@@ -93,7 +99,8 @@ def test_a_motion_has_the_same_numbers_whatever_its_company():
     one = case("minor-axis-100")
     states = np.array([one.state, (2.6, 4, 0.1), (2.4, 4, 0.2)])
     turn = turn_of(one.scene, states)
-    together, alone = growth(one.scene, states, 50 * turn, turn), growth(one.scene, states[1:2], 50 * turn, turn)
+    together, alone = growth(one.scene, states, 50 * turn,
+                             turn), growth(one.scene, states[1:2], 50 * turn, turn)
     assert (together.megno[1] == alone.megno[0]).all()
 
 
@@ -101,4 +108,5 @@ def test_slow_motions_are_followed_in_a_unit_of_their_own():
     """omega/u over t u obeys the same equations without a torque."""
     body = Scene(Body((3, 2, 1)))
     fast, slow = megno(body, (0.5, 1, 0.3), 60), megno(body, np.array([0.5, 1, 0.3]) * 2.0**-30, 60)
-    assert slow.megno == pytest.approx(fast.megno, rel=1e-6) and slow.times == pytest.approx(fast.times * 2.0**30)
+    assert slow.megno == pytest.approx(fast.megno,
+                                       rel=1e-6) and slow.times == pytest.approx(fast.times * 2.0**30)

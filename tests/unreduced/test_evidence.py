@@ -1,4 +1,5 @@
-"""A run that ends before its span shows nothing of the rest: arrays have NaN there, one motion says how far it came."""
+"""A run that ends before its span shows nothing of the rest: arrays have NaN there, one motion says how far
+it came."""
 import numpy as np
 import pytest
 
@@ -17,8 +18,9 @@ SCENES = {
 @pytest.mark.one_in(2)
 @pytest.mark.parametrize("kind", SCENES)
 def test_extremes_that_no_run_has_seen_are_nan(kind):
-    """A wheel of 1e150 turns the transverse rates some 1e149 times a second (Euler's equations: D2 omega2' = -l1 omega3 + ..), so a least and a
-    greatest rate equal to the start's cannot be; and in the growing sense the rate is infinite by law."""
+    """A wheel of 1e150 turns the transverse rates some 1e149 times a second (Euler's equations: D2 omega2' =
+    -l1 omega3 + ..), so a least and a greatest rate equal to the start's cannot be; and in the growing sense
+    the rate is infinite by law."""
     found = extremes(SCENES[kind], np.array(STATES[:1]), span=1.0)
     assert (np.isnan(found) | np.isinf(found)).all() and np.isnan(found[0, 1]).all()
 
@@ -40,11 +42,13 @@ def test_rows_whose_run_was_cut_are_nan_and_the_others_as_before(monkeypatch, ki
 
 
 def test_a_growing_motion_between_equal_axes_has_no_extremes_for_all_time():
-    """|H|^2/2 - D1 T' = M1 l1 > 0 by Euler's equations for D1 = D2 and a wheel on axis 1 alone: the motion is unbounded, so least and greatest
-    rates of a run are those of its span."""
-    scene = Scene(Body((10, 10, 6)), *(effect(v) for effect, v in zip((Gyrostat, ConstantTorque), CUT["aligned, growing"])))
+    """|H|^2/2 - D1 T' = M1 l1 > 0 by Euler's equations for D1 = D2 and a wheel on axis 1 alone: the motion is
+    unbounded, so least and greatest rates of a run are those of its span."""
+    scene = Scene(Body((10, 10, 6)),
+                  *(effect(v) for effect, v in zip((Gyrostat, ConstantTorque), CUT["aligned, growing"])))
     seen, unseen = motion(scene, (.05, .01, .01), (0.0, 5.0)), motion(scene, (.05, .01, .01))
-    assert seen.extremes_over == "s in [0, 5]" and np.array_equal(seen.extremes, extremes(scene, (.05, .01, .01), span=5.0))
+    assert seen.extremes_over == "s in [0, 5]" and np.array_equal(seen.extremes,
+                                                                  extremes(scene, (.05, .01, .01), span=5.0))
     assert unseen.extremes is None and "give span=T" in unseen.extremes_over
 
 
@@ -60,7 +64,8 @@ def test_a_span_is_searched_from_the_start_at_time_0_for_one_state_and_for_array
     scene, state = Scene(Body((10, 10, 6)), Gyrostat(wheel), ConstantTorque(torque)), (.05, .01, .01)
     whole = np.array(motion(scene, state, (0.0, reach)).extremes)
     assert np.array_equal(motion(scene, state, span).extremes, whole)
-    assert np.array_equal(extremes(scene, state, span=span), whole) and np.array_equal(extremes(scene, state, span=reach), whole)
+    assert np.array_equal(extremes(scene, state, span=span),
+                          whole) and np.array_equal(extremes(scene, state, span=reach), whole)
 
 
 def test_extremes_of_a_liquid_are_those_of_the_way_that_its_words_name():

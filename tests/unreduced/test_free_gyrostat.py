@@ -1,4 +1,5 @@
-"""Fates without a reduction: free gyrostats on their momentum sphere, and torques turned onto an axis of a symmetric body."""
+"""Fates without a reduction: free gyrostats on their momentum sphere, and torques turned onto an axis of a
+symmetric body."""
 from fractions import Fraction
 from fractions import Fraction as F
 
@@ -18,8 +19,9 @@ from tests.oracles import sphere
 
 
 def rotations(D, lam, h2, digits=50):
-    """[(energy, whether a saddle)] of the permanent rotations with |H|^2 = h2: Newton's method on (H, 1/s) from many starts, polished
-    in many digits, and the signs of the energy's second derivative in the tangent plane; shares nothing with the sextic."""
+    """[(energy, whether a saddle)] of the permanent rotations with |H|^2 = h2: Newton's method on (H, 1/s)
+    from many starts, polished in many digits, and the signs of the energy's second derivative in the tangent
+    plane; shares nothing with the sextic."""
     D, lam, found, rng = np.array(D, float), [mp.mpf(v) for v in lam], [], np.random.default_rng(1)
     plain = np.array(lam, float)
     rough = []
@@ -33,12 +35,16 @@ def rotations(D, lam, h2, digits=50):
             J = np.block([[np.diag(1 / D - x[3]), -x[:3, None]], [2 * x[None, :3], np.zeros((1, 1))]])
             step = np.linalg.lstsq(J, F, rcond=None)[0]
             x = x - step
-        if np.linalg.norm(step) < 1e-9 * np.linalg.norm(x) and not any(np.linalg.norm(x - y) < 1e-6 * np.linalg.norm(x) for y in rough):
+        if np.linalg.norm(step) < 1e-9 * np.linalg.norm(x) and not any(np.linalg.norm(x - y) < 1e-6
+                                                                       * np.linalg.norm(x) for y in rough):
             rough.append(x)
     with mp.workdps(digits):
         for x in rough:
-            exact = mp.findroot(lambda a, b, c, k: [*((v - l) / mp.mpf(d) - k * v for v, d, l in zip((a, b, c), D.tolist(), lam)),
-                                                    a * a + b * b + c * c - h2], [mp.mpf(v) for v in x.tolist()])
+            exact = mp.findroot(lambda a, b, c,
+                                k: [*((v - l) / mp.mpf(d) - k * v for v, d,
+                                      l in zip((a, b, c), D.tolist(), lam)),
+                                                    a * a + b * b + c * c - h2],
+                                [mp.mpf(v) for v in x.tolist()])
             H, k = [exact[i] for i in range(3)], exact[3]
             across = np.linalg.svd(x[None, :3])[2][1:]
             found.append((sum((v - l) ** 2 / mp.mpf(d) for v, d, l in zip(H, D.tolist(), lam)) / 2,
@@ -47,7 +53,8 @@ def rotations(D, lam, h2, digits=50):
 
 
 @pytest.mark.one_in(4)
-@pytest.mark.parametrize("D, lam", [((4, 3, 2), (1, 2, -1)), ((4, 3, 2), (1e-3, 1e-2, -1e-3)), ((3, 3, 2), (1, 2, 3)), ((2, 2, 2), (1, 2, 3)),
+@pytest.mark.parametrize("D, lam", [((4, 3, 2), (1, 2, -1)), ((4, 3, 2), (1e-3, 1e-2, -1e-3)),
+                                    ((3, 3, 2), (1, 2, 3)), ((2, 2, 2), (1, 2, 3)),
                                     ((4, 3, 2), (30, 1, 2))])
 @pytest.mark.parametrize("state", [(1.0, 0.5, -0.25), (0.125, 2.0, 0.25)])
 def test_the_margin_is_that_of_the_nearest_saddle_found_by_newtons_method(D, lam, state):
@@ -58,7 +65,8 @@ def test_the_margin_is_that_of_the_nearest_saddle_found_by_newtons_method(D, lam
         energy = sum(d * mp.mpf(v) ** 2 for d, v in zip(D, state)) / 2
         points = rotations(D, [mp.mpf(v) for v in lam], h2)
         saddles = [e - energy for e, saddle in points if saddle]
-        assert len(points) - 2 * len(saddles) == 2  # Euler's number of the sphere: none was missed in a way that would show
+        # Euler's number of the sphere: none was missed in a way that would show
+        assert len(points) - 2 * len(saddles) == 2
         margin = free_margin(scene, state)
         if not saddles:
             assert margin.ball is None and stabilab.fate(scene, np.array(state)).margins == np.inf
@@ -69,10 +77,12 @@ def test_the_margin_is_that_of_the_nearest_saddle_found_by_newtons_method(D, lam
 
 
 def free_scenes(seed, count, decades=0.0):
-    """Bodies without a torque, moments distinct, nearly equal or equal, wheels along no, one, two or three axes, and states: floats."""
+    """Bodies without a torque, moments distinct, nearly equal or equal, wheels along no, one, two or three
+    axes, and states: floats."""
     rng = np.random.default_rng(seed)
     while count:
-        D = rng.uniform(1, 2, 3) if count % 4 else np.array([1.5, 1.5 * (1 + rng.choice([0, 1e-15, 1e-8])), rng.uniform(1, 2.5)])
+        D = (rng.uniform(1, 2, 3) if count % 4
+             else np.array([1.5, 1.5 * (1 + rng.choice([0, 1e-15, 1e-8])), rng.uniform(1, 2.5)]))
         lam = rng.normal(size=3) * 10.0 ** rng.uniform(-decades, decades) * (np.arange(3) < count % 5)
         state = rng.normal(size=3) * 10.0 ** rng.uniform(-decades, decades) * (rng.random(3) < 0.9)
         order = rng.permutation(3)
@@ -93,17 +103,21 @@ def test_margins_of_free_bodies_and_gyrostats_are_those_of_the_nearest_saddle_in
     # oracle: mpmath's roots of |H|^2 = h^2 and the second derivative as a matrix (tests/oracles/sphere.py)
     for D, lam, state in free_scenes(5, 25, decades):
         scene, exact = Scene(Body(D), Gyrostat(lam)), sphere.margin(D, lam, state)
-        found = stabilab.fate(scene, np.array([state])).margins[0], stabilab.motion(scene, state, brief=True).margin_energy
+        found = stabilab.fate(scene,
+                              np.array([state])).margins[0], stabilab.motion(scene, state,
+                                                                             brief=True).margin_energy
         if exact is None:
             assert found == (np.inf, None), (scene, state)
         else:
-            assert max(abs(v - float(exact)) for v in found) <= 1e-12 * energies(D, lam, state, float(exact)), (scene, state)
+            assert max(abs(v - float(exact))
+                       for v in found) <= 1e-12 * energies(D, lam, state, float(exact)), (scene, state)
 
 
 def test_a_body_turning_about_its_major_axis_has_a_positive_margin_and_about_its_minor_one_a_negative():
     """By hand: the middle axis has h^2/(2 D2) at the momentum h of the motion, 2 T = sum D w^2."""
     scene = Scene(Body((2, 4, 3)))
-    for state, margin in (((0, 1, 0), 16 / 6 - 4 / 2), ((1, 0, 0), 4 / 6 - 2 / 2), ((0, 0, 1), 0), ((1, 2, 0.5), (4 + 64 + 2.25) / 6 - (2 + 16 + 0.75) / 2)):
+    for state, margin in (((0, 1, 0), 16 / 6 - 4 / 2), ((1, 0, 0), 4 / 6 - 2 / 2), ((0, 0, 1), 0),
+                          ((1, 2, 0.5), (4 + 64 + 2.25) / 6 - (2 + 16 + 0.75) / 2)):
         assert stabilab.fate(scene, np.array(state)).margins == pytest.approx(margin, rel=1e-14)
         assert stabilab.motion(scene, state, brief=True).margin_energy == pytest.approx(margin, rel=1e-14)
 
@@ -116,7 +130,8 @@ def test_large_arrays_of_free_motions_keep_their_digits_and_rarely_need_many():
         assert many.precise <= 12, scene
         for state, margin in zip(states[::2000].tolist(), many.margins[::2000]):
             exact = float(free_margin(scene, state))
-            assert margin == exact or abs(margin - exact) <= 1e-12 * energies(D, lam, state, exact), (scene, state)
+            assert margin == exact or abs(margin
+                                          - exact) <= 1e-12 * energies(D, lam, state, exact), (scene, state)
 
 
 def test_two_saddles_as_far_above_as_below_give_the_margin_of_the_one_above():
@@ -129,8 +144,9 @@ def test_two_saddles_as_far_above_as_below_give_the_margin_of_the_one_above():
 
 
 def saddle_and_another():
-    """(D, lambda, a saddle, another state of its energy and momentum), all rational. H + t v has the saddle's momentum for
-    t = -2 v.H/|v|^2, and its energy as well where sum v_i^2/D_i = |v|^2/s (H = s omega at the saddle)."""
+    """(D, lambda, a saddle, another state of its energy and momentum), all rational. H + t v has the saddle's
+    momentum for t = -2 v.H/|v|^2, and its energy as well where sum v_i^2/D_i = |v|^2/s (H = s omega at the
+    saddle)."""
     D, v = [Fraction(d) for d in (4, 3, 2)], [Fraction(a) for a in (1, 2, 1)]
     s = sum(a * a for a in v) / sum(a * a / d for a, d in zip(v, D))
     omega = [Fraction(1), Fraction(1, 10), Fraction(1, 5)]
@@ -168,7 +184,8 @@ def test_the_digits_of_a_free_margin_are_those_asked_for():
         assert abs(mp.mpf(told.decimals) - nearest) < mp.mpf(10) ** -40 * abs(nearest)
 
 
-# D = (4, 4, 2), lambda = (0, 1, 0), torque (-50, 0, 0), and a state exactly on its separatrix (test_hard_cases, TIES)
+# D = (4, 4, 2), lambda = (0, 1, 0), torque (-50, 0, 0), and a state exactly on its separatrix
+# (test_hard_cases, TIES)
 TIED = (1.0, -7.5, -3.5)
 
 
@@ -180,7 +197,9 @@ def turned_by(cosine, sine):
     return Scene(Body((4, 4, 2)), Gyrostat(momentum), ConstantTorque(torque)), state
 
 
-@pytest.mark.parametrize("cosine, sine", [(Fraction(3, 5), Fraction(4, 5)), (Fraction(-5, 13), Fraction(12, 13)), (Fraction(7, 25), Fraction(-24, 25))])
+@pytest.mark.parametrize("cosine, sine",
+                         [(Fraction(3, 5), Fraction(4, 5)), (Fraction(-5, 13), Fraction(12, 13)),
+                          (Fraction(7, 25), Fraction(-24, 25))])
 def test_a_state_on_the_separatrix_stays_there_when_the_scene_is_turned(cosine, sine):
     scene, state = turned_by(cosine, sine)
     assert kind_of(scene) == "aligned"
@@ -192,27 +211,33 @@ def test_a_state_on_the_separatrix_stays_there_when_the_scene_is_turned(cosine, 
 
 
 def test_a_state_too_near_a_separatrix_for_an_irrational_turn_is_undecided_and_says_why():
-    third = Fraction(1, 3)  # the torque (-50, -50/3, 0) has an irrational length; the saddle's energy is met by a speed of many digits
+    # the torque (-50, -50/3, 0) has an irrational length; the saddle's energy is met by a speed of many
+    # digits
+    third = Fraction(1, 3)
     root = mp.mp.clone()
     root.dps = 90
     scale = root.sqrt(1 + root.mpf(1) / 9)
     cosine, sine = 1 / scale, 1 / (3 * scale)
     as_fraction = lambda v: Fraction(int(root.floor(v * root.mpf(10) ** 80)), 10**80)
-    momentum = tuple(as_fraction(v) for v in (-sine, cosine))  # across the torque to 80 digits, made so exactly below
+    # across the torque to 80 digits, made so exactly below
+    momentum = tuple(as_fraction(v) for v in (-sine, cosine))
     momentum = (-momentum[1] * third, momentum[1], Fraction(0))
     length = as_fraction(50 * cosine)
     scene = Scene(Body((4, 4, 2)), Gyrostat(momentum), ConstantTorque((-length, -length * third, 0)))
     x, y = root.mpf(1), root.mpf("-7.5")
     state = (as_fraction(cosine * x - sine * y), as_fraction(sine * x + cosine * y), Fraction(-7, 2))
     found = stabilab.motion(scene, tuple(map(float, state)), exact=state, brief=True)
-    assert found.fate is Fate.UNDECIDED and "irrational" in found.because and found.margin_energy is None  # its sign is open
+    # its sign is open
+    assert found.fate is Fate.UNDECIDED and "irrational" in found.because and found.margin_energy is None
     off = (state[0], state[1] * (1 + Fraction(1, 10**20)), state[2])
     assert stabilab.motion(scene, tuple(map(float, state)), exact=off, brief=True).fate is Fate.BOUNDED
 
 
-@pytest.mark.parametrize("torque, along", [((1, 2, 0), (0.1, 0.2, 0.0)), ((3, -1, 0), (-0.3, 0.1, 0.0)), ((0.1, 0.7, 0), (0.1, 0.7, 0.0))])
+@pytest.mark.parametrize("torque, along", [((1, 2, 0), (0.1, 0.2, 0.0)), ((3, -1, 0), (-0.3, 0.1, 0.0)),
+                                           ((0.1, 0.7, 0), (0.1, 0.7, 0.0))])
 def test_spin_along_a_torque_between_equal_axes_is_pure_spin_for_arrays_and_single_states(torque, along):
-    """Nothing but the torque acts on a spin along it; turned in doubles, a component of 1e-17 across it would seem to bound it."""
+    """Nothing but the torque acts on a spin along it; turned in doubles, a component of 1e-17 across it would
+    seem to bound it."""
     scene = Scene(Body((4, 4, 2)), Gyrostat((0, 0, 0)), ConstantTorque(torque))
     assert kind_of(scene) == "aligned"
     many = stabilab.fate(scene, np.array([along, np.multiply(along, 2)]))
@@ -227,32 +252,38 @@ def test_arrays_beside_a_turned_separatrix_get_the_labels_of_exact_arithmetic():
     found = stabilab.fate(scene, states)
     singles = [stabilab.motion(scene, tuple(s), brief=True) for s in states.tolist()]
     np.testing.assert_array_equal(found.labels, [m.fate for m in singles])
-    np.testing.assert_allclose(found.margins, [m.margin_energy for m in singles], rtol=1e-9, atol=1e-12 * 140)  # of the energy, 140 J
+    # of the energy, 140 J
+    np.testing.assert_allclose(found.margins, [m.margin_energy for m in singles], rtol=1e-9, atol=1e-12 * 140)
     assert 0 < found.precise < len(states)
 
 
 @pytest.mark.slow
 def test_a_gyrostatic_component_along_a_torque_between_equal_axes_leaves_no_motion_bounded():
-    """Found by the search: decimals of a moment across the torque leave a hair along it, and the turned scene has no reduction.
-    Law: |H|^2/2 - D T grows at the rate lambda.M, D the equal moments (from D omega.M = (D omega).M)."""
+    """Found by the search: decimals of a moment across the torque leave a hair along it, and the turned scene
+    has no reduction. Law: |H|^2/2 - D T grows at the rate lambda.M, D the equal moments (from D omega.M = (D
+    omega).M)."""
     scene = Scene(Body((4, 4, 2)), Gyrostat((-4.1, 3.0750000000000006, 0)), ConstantTorque((3, 4, 0)))
     assert kind_of(scene) == "aligned" and -4.1 * 3 + 3.0750000000000006 * 4 != 0
     states = np.array([(1.0, 0.5, -0.25), (0.1, -2.0, 0.5)])
     many = stabilab.fate(scene, states)
-    assert set(many.labels.tolist()) <= {Fate.SPIN_UP, Fate.UNDECIDED} and (many.margins == -np.inf).all() and not many.axis.any()
+    assert set(many.labels.tolist()) <= {Fate.SPIN_UP,
+                                         Fate.UNDECIDED} and (many.margins
+                                                              == -np.inf).all() and not many.axis.any()
     one = stabilab.motion(scene, tuple(states[0]), brief=True)
     assert one.fate == many.labels[0] and "no motion is bounded" in one.because
 
 
 def test_a_free_gyrostat_at_rest_has_no_period_and_its_doubles_swing_by_rounding():
-    """Momentum and rotation parallel in the decimals of the case, not in its doubles: equal moments turn these about the wheel's
-    moment at the rate |lambda|/D (omega' = lambda x omega/D)."""
+    """Momentum and rotation parallel in the decimals of the case, not in its doubles: equal moments turn
+    these about the wheel's moment at the rate |lambda|/D (omega' = lambda x omega/D)."""
     scene, tenths = Scene(Body((3, 3, 3)), Gyrostat((1, 2, 3))), [Fraction(n, 10) for n in (1, 2, 3)]
     found = stabilab.motion(scene, tuple(map(float, tenths)), exact=tenths)
-    assert found.fate is Fate.EQUILIBRIUM and found.period is None and found.extremes == ((0.1, 0.1), (0.2, 0.2), (0.3, 0.3))
+    assert found.fate is Fate.EQUILIBRIUM and found.period is None and found.extremes == (
+        (0.1, 0.1), (0.2, 0.2), (0.3, 0.3))
     doubles = np.array([0.1, 0.2, 0.3])
     assert stabilab.fate(scene, doubles).labels == Fate.BOUNDED
-    np.testing.assert_allclose(stabilab.extremes(scene, doubles), np.stack([doubles, doubles], axis=1), rtol=0, atol=1e-16)
+    np.testing.assert_allclose(stabilab.extremes(scene, doubles), np.stack([doubles, doubles], axis=1),
+                               rtol=0, atol=1e-16)
     assert stabilab.period(scene, doubles) == pytest.approx(2 * np.pi * 3 / np.sqrt(14), rel=1e-15)
 
 
@@ -260,14 +291,16 @@ SPIN = Scene(Body((12, 9, 5)), Gyrostat(("0.8", "0.5", "0.3")))
 
 
 def permanent(s, ulps=0):
-    """The doubles of the permanent rotation (D + lambda/omega = s), its first rate some units in the last place away."""
+    """The doubles of the permanent rotation (D + lambda/omega = s), its first rate some units in the last
+    place away."""
     w = [float(h / (s - d)) for h, d in zip((mp.mpf(4) / 5, mp.mpf(1) / 2, mp.mpf(3) / 10), (12, 9, 5))]
     return [w[0] + ulps * np.spacing(w[0]), *w[1:]]
 
 
 @pytest.mark.parametrize("s", [20, -3, 6, 11])
 def test_a_swing_by_rounding_about_a_stable_rotation_has_the_period_of_the_linear_motion(s):
-    """2 pi over the frequency of the Jacobian, by NumPy's eigenvalues; the swing is of the size of the start's rounding."""
+    """2 pi over the frequency of the Jacobian, by NumPy's eigenvalues; the swing is of the size of the
+    start's rounding."""
     state = permanent(s, 5)
     frequency = max(abs(np.linalg.eigvals(np.array(SPIN.quadratic().jacobian(state))).imag))
     assert stabilab.period(SPIN, state) == pytest.approx(2 * np.pi / frequency, rel=1e-11)
@@ -275,13 +308,19 @@ def test_a_swing_by_rounding_about_a_stable_rotation_has_the_period_of_the_linea
     assert (box[:, 0] <= state).all() and (state <= box[:, 1]).all() and np.ptp(box, axis=1).max() < 1e-14
 
 
-@pytest.mark.parametrize("s, passages", [(7, 2), (10, 1)])  # outside the figure eight of a saddle, which it rounds, or in a loop of it
+@pytest.mark.parametrize("s, passages",
+                         # outside the figure eight of a saddle, which it rounds, or in a loop of it
+                         [(7, 2), (10, 1)])
 def test_the_period_next_to_an_unstable_rotation_grows_by_the_logarithm_of_the_margin(s, passages):
-    """Each passage of a saddle costs ln(1/margin)/rate, so periods differ by ln of the ratio of the margins over the growth rate."""
+    """Each passage of a saddle costs ln(1/margin)/rate, so periods differ by ln of the ratio of the margins
+    over the growth rate."""
     near, far = permanent(s, 100), permanent(s, 10**6)
     rate = max(np.linalg.eigvals(np.array(SPIN.quadratic().jacobian(near))).real)
     ratio = stabilab.fate(SPIN, far).margins / stabilab.fate(SPIN, near).margins
-    assert stabilab.period(SPIN, near) - stabilab.period(SPIN, far) == pytest.approx(passages * np.log(ratio) / rate, rel=1e-8)
+    assert stabilab.period(SPIN,
+                           near) - stabilab.period(SPIN,
+                                                   far) == pytest.approx(passages * np.log(ratio) / rate,
+                                                                         rel=1e-8)
 
 
 def test_thirty_digits_of_a_swing_by_rounding_are_those_of_the_linear_motion():
@@ -295,9 +334,11 @@ def test_thirty_digits_of_a_swing_by_rounding_are_those_of_the_linear_motion():
 
 def test_a_momentum_sphere_that_touches_its_fold_has_a_margin():
     D, lam, w = (3, 5, 6), (F(8, 3), F(-1), F(1, 3)), (F(5, 3), F(-3, 2), F(1, 3))
-    squared, energy = float(sum((d * v + m) ** 2 for d, v, m in zip(D, w, lam))), float(sum(d * v * v for d, v in zip(D, w)) / 2)
+    squared, energy = float(sum((d * v + m) ** 2 for d, v,
+                                m in zip(D, w, lam))), float(sum(d * v * v for d, v in zip(D, w)) / 2)
     energies, D, lam = [], np.array(D, float), np.array(lam, float)
-    speeds = np.linspace(-40.0, 60.0, 2_000_001)  # oracle: sign changes of |H|^2 - h^2 on a grid, and the Hessian of T on the sphere
+    # oracle: sign changes of |H|^2 - h^2 on a grid, and the Hessian of T on the sphere
+    speeds = np.linspace(-40.0, 60.0, 2_000_001)
     speeds = speeds[np.abs(speeds[:, None] - D).min(axis=1) > 1e-3]
 
     def excess(s):
@@ -312,12 +353,14 @@ def test_a_momentum_sphere_that_touches_its_fold_has_a_margin():
         if sum(H[i] ** 2 * bend[i - 1] * bend[i - 2] for i in range(3)) < 0:
             energies.append((D * (lam / (low - D)) ** 2).sum() / 2)
     nearest = min((e - energy for e in energies), key=abs)
-    assert float(free_margin(Scene(Body((3, 5, 6)), Gyrostat((F(8, 3), -1, F(1, 3)))), w)) == pytest.approx(nearest, rel=1e-9)
+    assert float(free_margin(Scene(Body((3, 5, 6)), Gyrostat((F(8, 3), -1, F(1, 3)))),
+                             w)) == pytest.approx(nearest, rel=1e-9)
 
 
 @pytest.mark.parametrize("unit", [2.0**-40, 2.0**-330, 2.0**330])
 def test_a_free_gyrostat_of_any_pace_returns(unit):
-    """Law: with moment and rates times u the motion is the same in a time 1/u as long; u a power of two rounds nothing."""
+    """Law: with moment and rates times u the motion is the same in a time 1/u as long; u a power of two
+    rounds nothing."""
     def asked(u):
         scene, state = Scene(Body((3, 2, 1.5)), Gyrostat((0.3 * u, -0.4 * u, u))), [0.3 * u, 2 * u, -u]
         return float(stabilab.period(scene, state)) * u, stabilab.extremes(scene, state) / u
@@ -327,28 +370,35 @@ def test_a_free_gyrostat_of_any_pace_returns(unit):
 
 
 @pytest.mark.one_in(3)
-@pytest.mark.parametrize("u", [Fraction(2) ** k for k in (-900, -300, 300, 900)] + [Fraction(10) ** p for p in (155, 160, 200, 300)])
+@pytest.mark.parametrize("u", [Fraction(2) ** k for k in (-900, -300, 300, 900)]
+                         + [Fraction(10) ** p for p in (155, 160, 200, 300)])
 def test_a_free_gyrostat_at_any_rate_is_the_same_motion(u):
-    """Law: with moment and rates times u the motion is the same in a time 1/u as long, and its energies go with u^2."""
+    """Law: with moment and rates times u the motion is the same in a time 1/u as long, and its energies go
+    with u^2."""
     def made(u):
-        return Scene(Body((12, 9, 5)), Gyrostat([v * u for v in (1, 2, 3)])), [Fraction(v) * u for v in (1, Fraction(1, 2), Fraction(-3, 4))]
+        return Scene(Body((12, 9, 5)),
+                     Gyrostat([v * u for v in (1, 2, 3)])), [Fraction(v) * u
+                                                             for v in (1, Fraction(1, 2), Fraction(-3, 4))]
     (scene, state), (plain, start) = made(u), made(1)
     rows, size = np.array([[float(v) for v in state]]), float(u)
-    one, wanted = stabilab.motion(scene, tuple(rows[0]), exact=state), stabilab.motion(plain, tuple(map(float, start)))
+    one, wanted = stabilab.motion(scene, tuple(rows[0]),
+                                  exact=state), stabilab.motion(plain, tuple(map(float, start)))
     assert one.fate == wanted.fate and one.period * size == pytest.approx(wanted.period, rel=1e-11)
     np.testing.assert_allclose(np.array(one.extremes) / size, wanted.extremes, rtol=1e-11)
     np.testing.assert_allclose(stabilab.period(scene, rows) * size, wanted.period, rtol=1e-11)
     np.testing.assert_allclose(stabilab.extremes(scene, rows)[0] / size, wanted.extremes, rtol=1e-11)
     margin = stabilab.fate(scene, rows)
     if abs(np.log2(size)) < 500:
-        assert margin.margins[0] / size**2 == pytest.approx(wanted.margin_energy, rel=1e-11) == one.margin_energy / size**2
+        assert margin.margins[0] / size**2 == pytest.approx(wanted.margin_energy,
+                                                            rel=1e-11) == one.margin_energy / size**2
     else:
         assert np.isnan(margin.margins[0]) and one.margin_energy is None
         assert "the margin in energy" in one.because and "beyond the range of doubles" in margin.because[0]
 
 
 def test_rates_next_to_the_largest_doubles_lose_what_is_no_double_and_say_so():
-    """Law: rates and wheel times u are the same motion, whose extremes beyond 1.797 u are no doubles for u = 1e308."""
+    """Law: rates and wheel times u are the same motion, whose extremes beyond 1.797 u are no doubles for u =
+    1e308."""
     def made(u):
         return Scene(Body((12, 9, 5)), Gyrostat((0.1 * u, 0.2 * u, 0.3 * u))), np.array([1.0, 1.7, -1.7]) * u
     (scene, state), (plain, start) = made(1e308), made(1.0)
@@ -366,10 +416,12 @@ def test_rates_next_to_the_largest_doubles_lose_what_is_no_double_and_say_so():
 def test_the_unit_of_mass_leaves_a_free_motion_as_it_is(mass):
     """Law: moments and wheel times a number give the same rates; the margin in energy goes with it."""
     def asked(u):
-        return stabilab.motion(Scene(Body((12 * u, 9 * u, 5 * u)), Gyrostat((u, 2 * u, 3 * u))), (1.0, 0.5, -0.75))
+        return stabilab.motion(Scene(Body((12 * u, 9 * u, 5 * u)), Gyrostat((u, 2 * u, 3 * u))),
+                               (1.0, 0.5, -0.75))
     found, wanted = asked(mass), asked(1.0)
     np.testing.assert_allclose(found.extremes, wanted.extremes, rtol=1e-11)
-    assert (found.period, found.margin_energy / mass) == pytest.approx((wanted.period, wanted.margin_energy), rel=1e-11)
+    assert (found.period,
+            found.margin_energy / mass) == pytest.approx((wanted.period, wanted.margin_energy), rel=1e-11)
 
 
 def test_the_distance_of_a_free_gyrostat_from_its_separatrix_is_told_as_not_known():
@@ -377,8 +429,11 @@ def test_the_distance_of_a_free_gyrostat_from_its_separatrix_is_told_as_not_know
     found = stabilab.motion(scene, state)
     assert np.isnan(stabilab.fate(scene, np.array([state])).velocity_margins).all()
     assert found.margin_velocity is None and found.velocity_because.startswith("not known")
-    ball = Scene(Body((2, 2, 2)), Gyrostat((1, 2, 3)))  # T = |H - lambda|^2/(2 D) is linear on the sphere |H| = h: it has no saddle
-    assert stabilab.fate(ball, state).velocity_margins == np.inf and "no separatrix" in stabilab.motion(ball, state).velocity_because
+    # T = |H - lambda|^2/(2 D) is linear on the sphere |H| = h: it has no saddle
+    ball = Scene(Body((2, 2, 2)), Gyrostat((1, 2, 3)))
+    assert stabilab.fate(ball,
+                         state).velocity_margins == np.inf and "no separatrix" in stabilab.motion(
+                             ball, state).velocity_because
 
 
 def test_a_free_gyrostat_on_its_separatrix_has_no_distance_from_it():

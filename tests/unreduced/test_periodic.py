@@ -12,8 +12,10 @@ from stabilab.unreduced.spin_up.cause import centres
 from tests.unreduced.spin_up.scenes import rates_of
 
 MIDDLE = Scene(Body((1.4, 1, .6)), Gyrostat((0, 0, .193)), ConstantTorque((.01, -.6, .6)))
-ISLANDS = {"A": (((1.2412, .3937, 1.3650), (.0987, .8450, .5255), (-.5224, .8309, .1914)), (-1.572, .657, .738)),
-           "B": (((.4040, 1.4222, 1.1739), (.9783, .0744, -.1934), (.7499, .6540, .0999)), (1.086, -5.000, 2.545))}
+ISLANDS = {"A": (((1.2412, .3937, 1.3650), (.0987, .8450, .5255), (-.5224, .8309, .1914)),
+                 (-1.572, .657, .738)),
+           "B": (((.4040, 1.4222, 1.1739), (.9783, .0744, -.1934), (.7499, .6540, .0999)),
+                 (1.086, -5.000, 2.545))}
 
 
 def scene_of(D, M, l):
@@ -22,7 +24,8 @@ def scene_of(D, M, l):
 
 def after(scene, start, t):
     """The state by DOP853 at 1e-12."""
-    return solve_ivp(lambda _, y: rates_of(scene)(y.tolist()), (0, t), start, "DOP853", rtol=1e-12, atol=1e-13).y[:, -1]
+    return solve_ivp(lambda _, y: rates_of(scene)(y.tolist()), (0, t), start, "DOP853", rtol=1e-12,
+                     atol=1e-13).y[:, -1]
 
 
 def is_periodic(scene, orbit):
@@ -32,10 +35,12 @@ def is_periodic(scene, orbit):
 def test_a_passage_and_its_derivative_are_those_of_another_integrator():
     start, section = np.array([-6.4, 6.5, 0.35]), Section(2, 0.3, -1)
     t, y, V = passage(MIDDLE, start, section)
-    assert np.allclose(after(MIDDLE, start, t), y, atol=1e-9) and abs(y[2] - 0.3) < 1e-13 and rates_of(MIDDLE)(y.tolist())[2] < 0
+    assert np.allclose(after(MIDDLE, start, t), y,
+                       atol=1e-9) and abs(y[2] - 0.3) < 1e-13 and rates_of(MIDDLE)(y.tolist())[2] < 0
     for n in range(3):  # differences of the other integrator's states at the same time
         step = 1e-5 * np.eye(3)[n]
-        assert np.allclose((after(MIDDLE, start + step, t) - after(MIDDLE, start - step, t)) / 2e-5, V[:, n], atol=1e-4)
+        assert np.allclose((after(MIDDLE, start + step, t) - after(MIDDLE, start - step, t)) / 2e-5, V[:, n],
+                           atol=1e-4)
 
 
 def test_the_periodic_motion_at_the_centre_of_averaging_is_elliptic():
@@ -47,7 +52,8 @@ def test_the_periodic_motion_at_the_centre_of_averaging_is_elliptic():
 
 @pytest.mark.slow
 def test_a_small_change_turns_about_an_elliptic_motion_by_its_angle():
-    """The angle that a neighbour's passages gain about the fixed point is that of the multipliers, and it stays near."""
+    """The angle that a neighbour's passages gain about the fixed point is that of the multipliers, and it
+    stays near."""
     scene = scene_of(*ISLANDS["A"][0])
     orbit = in_the_middle(scene, ISLANDS["A"][1])
     assert is_periodic(scene, orbit) and orbit.elliptic
@@ -73,7 +79,8 @@ def test_the_middle_of_a_small_island_is_found_from_a_motion_in_it():
 def test_an_elliptic_motion_is_continued_to_another_body():
     first, state = ISLANDS["A"]
     last = (1.26, .40, 1.37), (.11, .84, .52), (-.52, .82, .2)
-    scenes = lambda share: scene_of(*(tuple(a + share * (b - a) for a, b in zip(*pair)) for pair in zip(first, last)))
+    scenes = lambda share: scene_of(*(tuple(a + share * (b - a) for a, b in zip(*pair))
+                                      for pair in zip(first, last)))
     orbit = continued(scenes, in_the_middle(scenes(0), state))
     assert orbit.elliptic and is_periodic(scenes(1.0), orbit) and not is_periodic(scenes(0), orbit)
 

@@ -1,10 +1,12 @@
-"""A machine that forges certificates: for each claim many changes, and for each change what is known of it without the checker.
+"""A machine that forges certificates: for each claim many changes, and for each change what is known of it
+without the checker.
 
 A certificate is taken as true, its brackets as holding the true values. What is known of a change:
-"false": what it says cannot be true (a bracket apart from the one that holds the value, another word, an entry lost or doubled);
-"true": it says the same, or less (a bracket round the one that holds the value, an optional claim left out);
-"narrow": a bracket that overlaps the one that holds the value without holding all of it: tests/verify/true_values.py says whether the value is in it;
-"junk": no value of that form at all; "open": it says something of its own, such as of another body.
+"false": what it says cannot be true (a bracket apart from the one that holds the value, another word, an
+entry lost or doubled); "true": it says the same, or less (a bracket round the one that holds the value, an
+optional claim left out); "narrow": a bracket that overlaps the one that holds the value without holding all
+of it: tests/verify/true_values.py says whether the value is in it; "junk": no value of that form at all;
+"open": it says something of its own, such as of another body.
 """
 from __future__ import annotations
 
@@ -13,20 +15,28 @@ from fractions import Fraction as F
 
 GONE = object()  # the key or entry is left out
 LONG = "9" * 4200
-JUNK = [True, False, 5, -1, 0, 1.5, float("nan"), float("inf"), 1e300, 10**30, {}, {"a": 1}, {"0": "1"}, [[]], [[[]]], [None], [True], ["x"], [1, 2], [["1"]],
-        ["1", "2", "3", "4", "5"], ["NaN", "1"], ["1/0", "1"], ["0", "1e400000"], [["0", "1"], ["0", "1"]], [[["0", "1"]]], [{}], ["1", None], "", " ", "x",
-        "NaN", "nan", "inf", "-inf", "Infinity", "1/0", "0/0", "1/", "/1", "1/2/3", "1e", "e5", "1e1000000000", "-1e-1000000000", "1e99999",
+JUNK = [True, False, 5, -1, 0, 1.5, float("nan"), float("inf"), 1e300, 10**30, {}, {"a": 1}, {"0": "1"}, [[]],
+        [[[]]], [None], [True], ["x"], [1, 2], [["1"]],
+        ["1", "2", "3", "4", "5"], ["NaN", "1"], ["1/0", "1"], ["0", "1e400000"], [["0", "1"], ["0", "1"]],
+        [[["0", "1"]]], [{}], ["1", None], "", " ", "x",
+        "NaN", "nan", "inf", "-inf", "Infinity", "1/0", "0/0", "1/", "/1", "1/2/3", "1e", "e5",
+        "1e1000000000", "-1e-1000000000", "1e99999",
         "1E+999999999999999999", "1e4301", "9" * 4301, "1/" + "9" * 4301, "0." + "3" * 4301, "1" * 100_000,
         "\u0661", "\uff11", "\u00bd", "\u00b2", "1\u0660", "\u0660.5", "1_0", " 1", "1 ", "\n1",
         "1\n", "+-1", "--1", "0x10", "1,5", "1.5.2", "0b1", "1j", "(1)", "1e1.5", "1.5/2",
-        "\ud800", "\x1b[31m1", "\x00", "stable\nproved", "Stable", "stable ", "st\u0430ble", "bounded\n", "BOUNDED",
-        "equilibria", "null", "true", "None", "[]", "{}", ["\u0661", "\u0662"], ["2", "1"], [["1", "0"]] * 3, [["1"] * 3] * 3, [[[["1"]]]],
+        "\ud800", "\x1b[31m1", "\x00", "stable\nproved", "Stable", "stable ", "st\u0430ble", "bounded\n",
+        "BOUNDED",
+        "equilibria", "null", "true", "None", "[]", "{}", ["\u0661", "\u0662"], ["2", "1"], [["1", "0"]] * 3,
+        [["1"] * 3] * 3, [[[["1"]]]],
         "points ", "curve", "separatrices"]
-WORDS = {"kind": ("none", "points", "curves", "all"), "linear": ("stable", "unstable", "degenerate"), "verdict": ("stable", "unstable"),
+WORDS = {"kind": ("none", "points", "curves", "all"), "linear": ("stable", "unstable", "degenerate"),
+         "verdict": ("stable", "unstable"),
          "fate": ("bounded", "spin-up", "equilibrium", "separatrix"), "variables": ("physical", "scaled"),
          "about": ("fixed centre", "moving centre", "equator")}
-WORD_IS = {"variables": "junk", "about": "open"}  # another word there; elsewhere it is false. The constants of one form may do for another
-OPTIONAL = {"program", "uncertified", "equilibria", "motion", "axis", "sense", "extremes", "period"}  # a certificate may leave them out
+# another word there; elsewhere it is false. The constants of one form may do for another
+WORD_IS = {"variables": "junk", "about": "open"}
+# a certificate may leave them out
+OPTIONAL = {"program", "uncertified", "equilibria", "motion", "axis", "sense", "extremes", "period"}
 PROSE = {"program", "uncertified"}
 
 
@@ -62,7 +72,8 @@ def claims_of(value, path=()):
     """Paths of everything that can be changed: brackets as wholes, lists, tables, words and numbers."""
     if path:
         yield path
-    bracketed = is_bracket(value) and path[-1] not in ("denominator", "numerators") and not (len(path) > 1 and path[-2] in ("numerators", "directions"))
+    bracketed = (is_bracket(value) and path[-1] not in ("denominator", "numerators")
+                 and not (len(path) > 1 and path[-2] in ("numerators", "directions")))
     if isinstance(value, dict):
         for key in value:
             yield from claims_of(value[key], (*path, key))
@@ -72,7 +83,8 @@ def claims_of(value, path=()):
 
 
 def changes(claims, path, rng, count):
-    """(what is known, new value) of the fixed changes of one claim (a hundred of junk among them) and `count` drawn ones."""
+    """(what is known, new value) of the fixed changes of one claim (a hundred of junk among them) and `count`
+    drawn ones."""
     old = place_of(claims, path)[path[-1]]
     made = [*_fixed(claims, path, old), *(_drawn(claims, path, old, rng) for _ in range(count))]
     return [(known, to) for known, to in made if known]
@@ -95,7 +107,8 @@ def _fixed(claims, path, old):
     if key == "fate":
         yield "weaker", "undecided"
     if key in ("axis", "sense"):
-        yield from (("false", other) for other in range(*((0, 4) if key == "axis" else (-1, 2))) if other != old)
+        yield from (("false", other) for other in range(*((0, 4) if key == "axis" else (-1, 2)))
+                    if other != old)
         yield from (("junk", bad) for bad in (float(old), str(old), -7, 4, 10**40, [old], {"axis": old}))
     if isinstance(old, list) and old and not is_bracket(old) and key not in PROSE:
         if key == "orders":
@@ -114,7 +127,8 @@ def _without(claims, path, old):
     if path[-1] == "spin_up":  # the fate has no proof then
         return "weaker"
     if "spin_up" in path and isinstance(path[-1], str):
-        return {"way": "true", "about": "true" if old in (None, "fixed centre") else "open"}.get(path[-1], "junk")
+        return {"way": "true", "about": "true" if old in (None, "fixed centre")
+                else "open"}.get(path[-1], "junk")
     if "orders" in path:
         return "junk"
     if path[-1] in OPTIONAL or path[:-1] == ("uncertified",):
@@ -136,7 +150,8 @@ def _null(path, old):
         return "false"
     if path[-1] in ("points", "curves", "planes", "segments", "folds") and old:
         return "false"
-    return "junk" if path[-1] == "about" else _without(None, path, old) if isinstance(path[-1], str) else "junk"
+    return ("junk" if path[-1] == "about" else _without(None, path, old) if isinstance(path[-1], str)
+            else "junk")
 
 
 def _junk(path, old, bad):
@@ -156,18 +171,23 @@ def _junk(path, old, bad):
         return "junk"
     if isinstance(old, str) and not isinstance(bad, str):
         return "junk"
-    if bad in (["1", "2"], "0") or key in ("numerators", "denominator") or (len(path) > 1 and path[-2] == "numerators"):
+    if bad in (["1", "2"], "0") or key in ("numerators",
+                                           "denominator") or (len(path) > 1 and path[-2] == "numerators"):
         return "open"
-    return "junk" if isinstance(bad, (bool, int, float)) or (isinstance(bad, str) and bad not in ("0", "1", "2")) or isinstance(old, dict) else "open"
+    return ("junk" if isinstance(bad, (bool, int, float))
+            or (isinstance(bad, str) and bad not in ("0", "1", "2")) or isinstance(old, dict) else "open")
 
 
 def _orders(value):
-    """What is known of orders of the inequality: two whole numbers up to 18 may hold as well as those that were written; nothing else is a pair of orders."""
-    return "open" if isinstance(value, list) and len(value) == 2 and all(type(n) is int and 0 <= n <= 18 for n in value) else "junk"
+    """What is known of orders of the inequality: two whole numbers up to 18 may hold as well as those that
+    were written; nothing else is a pair of orders."""
+    return ("open" if isinstance(value, list) and len(value) == 2
+            and all(type(n) is int and 0 <= n <= 18 for n in value) else "junk")
 
 
 def _some_orders(rng):
-    """Mostly a pair of whole numbers, in range or just beyond; else something else in one place, or one number more."""
+    """Mostly a pair of whole numbers, in range or just beyond; else something else in one place, or one
+    number more."""
     drawn = [rng.randrange(-1, 20) for _ in range(rng.choice((2, 2, 2, 3)))]
     return drawn if rng.randrange(3) else [rng.choice([2.5, "3", True, None]), *drawn[1:]]
 
@@ -184,7 +204,8 @@ def _drawn(claims, path, old, rng):
     if isinstance(old, str) and path[-1] not in WORDS and path[-1] not in ("program", "schema"):
         return "open", str(_other(F(old), rng))
     if path[-1] in ("axis", "sense"):
-        to = rng.choice([rng.randrange(-9, 9) + 0.5, rng.randrange(5, 10**6), -rng.randrange(2, 10**6), str(rng.randrange(9)),
+        to = rng.choice([rng.randrange(-9, 9) + 0.5, rng.randrange(5, 10**6), -rng.randrange(2, 10**6),
+                         str(rng.randrange(9)),
                          bool(rng.randrange(2)), [rng.randrange(4)]])
         return "junk", to
     if isinstance(old, str):
@@ -193,25 +214,32 @@ def _drawn(claims, path, old, rng):
         return ("open" if path[-1] == "program" else "junk"), to
     if isinstance(old, dict):
         key = rng.choice(sorted(old))
-        return rng.choice([("extra", old | {f"{key}{rng.choice(['_', ' ', 's', '2', chr(0x200b)])}": old[key]}),
+        return rng.choice([("extra",
+                            old | {f"{key}{rng.choice(['_', ' ', 's', '2', chr(0x200b)])}": old[key]}),
                            ("extra", {f"x{rng.randrange(10**6)}": rng.choice(JUNK[:40]), **old})])
     if path[-1] in PROSE:
         return "open", rng.choice([["x", "proved"], [], ["\u0661"] * 9])
     if isinstance(old, list) and old:
         i = rng.randrange(len(old))
-        return "junk", [*old[:i], rng.choice([True, 5, 2.5, "x\n", {"z": 1}, [[[[["1"]]]]], "1e1000000000", [[], [[]]]]), *old[i + rng.randrange(2):]]
-    return "junk", [rng.choice([5, True, "x", [["1"]], {"z": 0}, None if path[-1] == "uncertified" else 7.5])] * rng.randrange(1, 4)
+        return "junk", [*old[:i],
+                        rng.choice([True, 5, 2.5, "x\n", {"z": 1}, [[[[["1"]]]]], "1e1000000000",
+                                    [[], [[]]]]), *old[i + rng.randrange(2):]]
+    return "junk", [rng.choice([5, True, "x", [["1"]], {"z": 0},
+                                None if path[-1] == "uncertified" else 7.5])] * rng.randrange(1, 4)
 
 
 def _bracketed(path) -> bool:
-    return path[-1] not in ("denominator",) and not (len(path) > 1 and path[-2] in ("numerators", "directions"))
+    return (path[-1] not in ("denominator",)
+            and not (len(path) > 1 and path[-2] in ("numerators", "directions")))
 
 
 def _other(value, rng):
     """Another number: a little beside, far off, of the other sign, huge, tiny, zero."""
     size = abs(value) or F(1)
-    return rng.choice([value + size / 2**rng.randrange(1, 200), value - size / 2**rng.randrange(1, 200), value * rng.randrange(2, 99),
-                       -value if value else F(1), value + 1, value * F(10)**rng.randrange(-300, 300) + F(1, 7), F(0) if value else F(1, 3),
+    return rng.choice([value + size / 2**rng.randrange(1, 200), value - size / 2**rng.randrange(1, 200),
+                       value * rng.randrange(2, 99),
+                       -value if value else F(1), value + 1,
+                       value * F(10)**rng.randrange(-300, 300) + F(1, 7), F(0) if value else F(1, 3),
                        F(rng.randrange(-9, 10), rng.randrange(1, 9)) + value + F(1, 97)])
 
 
@@ -220,7 +248,8 @@ def _bracket(claims, path, old, rng):
     if old is None:  # infinity, unbounded, or not claimed
         if path[-1] in ("period", "extremes", "equilibria", "motion") or path == ("scene",):
             return (("junk", [["1"], ["2"]]) if path[-1] != "period" else (None, None))
-        ends = sorted((F(rng.randrange(-10**6, 10**6), rng.randrange(1, 999)), F(rng.randrange(-10**6, 10**6), rng.randrange(1, 999))))
+        ends = sorted((F(rng.randrange(-10**6, 10**6), rng.randrange(1, 999)),
+                       F(rng.randrange(-10**6, 10**6), rng.randrange(1, 999))))
         return "false", list(map(str, ends))
     low, high = map(F, old)
     width, size = high - low, max(abs(low), abs(high)) or F(1)
@@ -244,10 +273,13 @@ def _bracket(claims, path, old, rng):
         at = low + width * F(rng.randrange(1, 1000), 1001)
         return "narrow", [str(at), str(at)]
     if what in (5, 6):  # wider
-        return _known(old, low - size * F(rng.randrange(0, 50), 10**rng.randrange(2, 30)), high + little * rng.randrange(0, 9))
+        return _known(old, low - size * F(rng.randrange(0, 50), 10**rng.randrange(2, 30)),
+                      high + little * rng.randrange(0, 9))
     if what == 7:  # all of it on one side of the true bracket, and long
         length = size * 10**rng.randrange(9)
-        return _known(old, *((high + little, high + little + length) if way > 0 else (low - little - length, low - little)))
+        return _known(old,
+                      *((high + little, high + little + length) if way > 0
+                        else (low - little - length, low - little)))
     others = [b for p in claims_of(claims) if is_bracket(b := place_of(claims, p)[p[-1]]) and _bracketed(p)]
     return _known(old, *map(F, rng.choice(others)))
 

@@ -1,4 +1,5 @@
-"""Forged certificates: each claim of a proved one changed in turn is refuted, or left unproved, or refused; never proved."""
+"""Forged certificates: each claim of a proved one changed in turn is refuted, or left unproved, or refused;
+never proved."""
 import copy
 import itertools
 import json
@@ -37,15 +38,21 @@ def physical(D, lam=(0, 0, 0), M=(0, 0, 0)):
 SCENES = {
     "two points": ScaledGyrostat(0, 0, (1, 2, 1)), "a double root": ScaledGyrostat(0, 2, (-3, 3, 1)),
     "a triple zero eigenvalue": ScaledGyrostat(0, 2, (F(-15, 16), F(5, 4), F(3, 4))),
-    "a hyperbola": ScaledGyrostat("0.2", "0.4", (0, 0, 1)), "crossing lines, a minimum": physical((5, 4, 5), (2, 3, 0), (0, 0, -6)),
-    "crossing lines, no minimum": physical((3, 4, 5), (2, 3, 0), (0, 0, 6)), "a single line": physical((1, 2, 2), (0, 1, 1), (1, 0, 0)),
+    "a hyperbola": ScaledGyrostat("0.2", "0.4", (0, 0, 1)),
+    "crossing lines, a minimum": physical((5, 4, 5), (2, 3, 0), (0, 0, -6)),
+    "crossing lines, no minimum": physical((3, 4, 5), (2, 3, 0), (0, 0, 6)),
+    "a single line": physical((1, 2, 2), (0, 1, 1), (1, 0, 0)),
     "a torque oblique among equal moments": physical((2, 2, 1), (1, -1, 1), (1, 1, 0)),
     "an oblique line that is left slowly": physical((4, 3, 2), (1, 5, 14), (0, 7, -5)),
     "an oblique line of a symmetric body": physical((2, 2, 1), (1, 0, 1), (0, 1, 1)),
-    "a free gyrostat": physical((5, 4, 2), (0, 2, 3)), "a free gyrostat, one wheel": physical((5, 4, 2), (0, 2, 0)),
-    "free, three axes": physical((5, 4, 2)), "a plane": physical((2, 2, 1), (0, 0, 1)), "a plane through rest": physical((1, 2, 2)),
-    "free, scaled": ScaledGyrostat(1, 2, (0, 0, 0)), "free, scaled, no wheel": ScaledGyrostat(1, 1, (0, 0, 0)),
-    "none, contradictory": physical((3, 2, 1), (1, 0, 0), (1, 0, 0)), "none, a constant": physical((3, 2, 2), (0, 0, 0), (1, 0, 0)),
+    "a free gyrostat": physical((5, 4, 2), (0, 2, 3)),
+    "a free gyrostat, one wheel": physical((5, 4, 2), (0, 2, 0)),
+    "free, three axes": physical((5, 4, 2)), "a plane": physical((2, 2, 1), (0, 0, 1)),
+    "a plane through rest": physical((1, 2, 2)),
+    "free, scaled": ScaledGyrostat(1, 2, (0, 0, 0)),
+    "free, scaled, no wheel": ScaledGyrostat(1, 1, (0, 0, 0)),
+    "none, contradictory": physical((3, 2, 1), (1, 0, 0), (1, 0, 0)),
+    "none, a constant": physical((3, 2, 2), (0, 0, 0), (1, 0, 0)),
     "none, no real root": ScaledGyrostat(0, 0, (-1, 1, 1)), "all": physical((2, 2, 2))}
 OTHER = {"stable": "unstable", "unstable": "stable", "degenerate": "stable"}
 
@@ -105,22 +112,26 @@ def forgeries(claims):
         line = len(curve["denominator"]) == 1 and all(len(row) < 3 for row in curve["numerators"])
         for i, row in enumerate(curve["numerators"]):
             if not (line and len(row) == 2):  # along a line itself a change is another parametrisation
-                yield from (changed("curves", n, "numerators", i, k, to=str(F(c) + 1)) for k, c in enumerate(row))
+                yield from (changed("curves", n, "numerators", i, k, to=str(F(c) + 1)) for k,
+                            c in enumerate(row))
         for part in ("segments", "folds"):
             for k, piece in enumerate(curve[part]):
                 yield changed("curves", n, part, k, to=None)
-                yield from (changed("curves", n, part, k, word, to=OTHER[piece[word]]) for word in ("linear", "verdict"))
+                yield from (changed("curves", n, part, k, word, to=OTHER[piece[word]])
+                            for word in ("linear", "verdict"))
         for k, fold in enumerate(curve["folds"]):
             yield changed("curves", n, "folds", k, "t", to=moved(fold["t"]))
         for k, piece in enumerate(curve["segments"]):
             for side in (0, 1):
                 end = piece["t"][side]
-                yield changed("curves", n, "segments", k, "t", side, to=["0", "0"] if end is None else moved(end))
+                yield changed("curves", n, "segments", k, "t", side,
+                              to=["0", "0"] if end is None else moved(end))
     for n, plane in enumerate(found["planes"]):
         across = next(i for i in range(3) if not any(F(row[i]) for row in plane["directions"]))
         yield changed("planes", n, "base", across, to=str(F(plane["base"][across]) + 1))
         yield changed("planes", n, "directions", 1, to=["1", "1", "1"])
-        yield from (changed("planes", n, "centre", "at", i, to=str(F(v) + 1)) for i, v in enumerate(plane["centre"]["at"]))
+        yield from (changed("planes", n, "centre", "at", i, to=str(F(v) + 1)) for i,
+                    v in enumerate(plane["centre"]["at"]))
         yield changed("planes", n, "centre", "verdict", to="unstable")
 
 
@@ -137,9 +148,12 @@ def test_a_forged_claim_on_the_equilibria_is_never_proved(name):
 @pytest.mark.parametrize("name", SCENES)
 def test_equilibria_that_are_not_there_are_refuted(name):
     claims = proved(SCENES[name])
-    others = {"points": {"box": [["3", "3"], ["5", "5"], ["7", "7"]], "linear": "unstable", "verdict": "unstable"},
-              "curves": {"numerators": [["3", "1"], ["5"], ["7"]], "denominator": ["1"], "segments": [], "folds": []},
-              "planes": {"base": ["3", "5", "7"], "directions": [["1", "0", "0"], ["0", "1", "1"]], "linear": "degenerate", "verdict": "unstable",
+    others = {"points": {"box": [["3", "3"], ["5", "5"], ["7", "7"]], "linear": "unstable",
+                         "verdict": "unstable"},
+              "curves": {"numerators": [["3", "1"], ["5"], ["7"]], "denominator": ["1"], "segments": [],
+                         "folds": []},
+              "planes": {"base": ["3", "5", "7"], "directions": [["1", "0", "0"], ["0", "1", "1"]],
+                         "linear": "degenerate", "verdict": "unstable",
                          "centre": {"at": ["3", "5", "7"], "verdict": "stable"}}}
     for part, entry in others.items():
         forged = copy.deepcopy(claims)
@@ -157,9 +171,11 @@ def test_the_same_claimed_twice_is_refuted(name):
             assert status_of(forged) == "refuted", part
     for curve in claims["equilibria"]["curves"]:
         if len(curve["denominator"]) == 1 and not curve["folds"]:  # the same line the other way round
-            turned = curve | {"numerators": [[("-" + c).replace("--", "") if k else c for k, c in enumerate(row)] for row in curve["numerators"]],
+            turned = curve | {"numerators": [[("-" + c).replace("--", "") if k else c for k,
+                                              c in enumerate(row)] for row in curve["numerators"]],
                               "segments": curve["segments"][::-1]}
-            assert status_of(claims | {"equilibria": claims["equilibria"] | {"curves": [*claims["equilibria"]["curves"], turned]}}) == "refuted"
+            assert status_of(claims | {"equilibria": claims["equilibria"]
+                                       | {"curves": [*claims["equilibria"]["curves"], turned]}}) == "refuted"
 
 
 CASES = Path(__file__).parents[2] / "cases"
@@ -176,13 +192,17 @@ def test_boxes_without_a_zero_are_refuted():
         point |= {"box": [box] * 3, "verdict": "stable"}
         assert status_of(claims) == "refuted"
     first, second = case_proved("off-axis-two")["equilibria"]["points"]
-    claims["equilibria"]["points"] = [first, first | {"box": [[str(2 * F(low) - F(high)), high] for low, high in first["box"]]}]  # one zero in two boxes
+    # one zero in two boxes
+    claims["equilibria"]["points"] = [first,
+                                      first | {"box": [[str(2 * F(low) - F(high)), high] for low,
+                                                       high in first["box"]]}]
     assert status_of(claims) == "refuted"
     claims["equilibria"]["points"] = [second, first]  # their order says nothing
     assert status_of(claims) == "proved"
 
 
-@pytest.mark.parametrize("change", [{"extremes": [[["5", "6"], ["5", "6"]]] * 3}, {"period": ["1", "2"]}, {"axis": 3}, {"sense": -1}, {"fate": "bounded"},
+@pytest.mark.parametrize("change", [{"extremes": [[["5", "6"], ["5", "6"]]] * 3}, {"period": ["1", "2"]},
+                                    {"axis": 3}, {"sense": -1}, {"fate": "bounded"},
                                     {"extremes": [[None, None]] * 3}], ids=str)
 def test_false_numbers_beside_an_equilibrium_are_refuted(change):
     claims = case_proved("off-axis-fold")
@@ -191,7 +211,8 @@ def test_false_numbers_beside_an_equilibrium_are_refuted(change):
 
 
 @pytest.mark.one_in(2)
-@pytest.mark.parametrize("bad", [True, float("nan"), "1/0", [], [[]], "\u0661", 1.0, "1e1000000000"], ids=ascii)
+@pytest.mark.parametrize("bad", [True, float("nan"), "1/0", [], [[]], "\u0661", 1.0, "1e1000000000"],
+                         ids=ascii)
 @pytest.mark.parametrize("key", ["state", "fate", "axis", "sense", "extremes", "period"])
 @pytest.mark.parametrize("name", ["off-axis-fold", "off-axis-none", "minor-axis-100"])
 def test_junk_in_a_motion_is_refused_whatever_its_fate(name, key, bad):
@@ -216,7 +237,8 @@ def test_a_fate_left_open_still_has_its_numbers_checked():
 
 
 def malformed(claims, where=()):
-    """Every string of the mathematics replaced by what is no number, and every list and object by a string."""
+    """Every string of the mathematics replaced by what is no number, and every list and object by a string.
+    """
     place = claims
     for key in where:
         place = place[key]
@@ -246,12 +268,17 @@ def test_what_is_no_number_or_no_list_is_refused(name):
 
 MOTIONS = {
     "bounded in a well": (ScaledGyrostat("0.2", "0.4", (0, 0, 1)), (3, F(-3, 2), F(3, 10))),
-    "spin-up": (ScaledGyrostat("0.2", "0.4", (0, 0, 1)), (1, 1, 1)), "spin-up after turning": (ScaledGyrostat(0, 0, (0, 0, 1)), (1, 1, -3)),
-    "free, round": (physical((3, 2, 1), (0, 1, 0)), (1, 1, 3)), "free, in a well": (physical((3, 2, 1), (1, 0, 0)), (3, 1, 1)),
-    "free, steady rate": (physical((3, 3, 1)), (1, 1, 1)), "on a hyperbola": (ScaledGyrostat("0.5", 1, (0, 1, 0)), (1, -1, 2)),
+    "spin-up": (ScaledGyrostat("0.2", "0.4", (0, 0, 1)), (1, 1, 1)),
+    "spin-up after turning": (ScaledGyrostat(0, 0, (0, 0, 1)), (1, 1, -3)),
+    "free, round": (physical((3, 2, 1), (0, 1, 0)), (1, 1, 3)),
+    "free, in a well": (physical((3, 2, 1), (1, 0, 0)), (3, 1, 1)),
+    "free, steady rate": (physical((3, 3, 1)), (1, 1, 1)),
+    "on a hyperbola": (ScaledGyrostat("0.5", 1, (0, 1, 0)), (1, -1, 2)),
     "on a decaying plane": (ScaledGyrostat("0.5", 1, (0, 1, 0)), (F(1, 2), -1, F(-3, 2))),
-    # force that vanishes to third order on the circle at (0, -1), and to second at (1, 2): there F = x2 (x1 + 3) - 8 and F' = x2^2 - x1 (x1 + 3) do
-    "past a cusp": (physical((3, 1, 2), (-1, 0, 0)), (0, 1, 0)), "past a fold": (ScaledGyrostat(0, 3, (0, 0, -8)), (2, 1, F(3, 2))),
+    # force that vanishes to third order on the circle at (0, -1), and to second at (1, 2): there F = x2 (x1 +
+    # 3) - 8 and F' = x2^2 - x1 (x1 + 3) do
+    "past a cusp": (physical((3, 1, 2), (-1, 0, 0)), (0, 1, 0)),
+    "past a fold": (ScaledGyrostat(0, 3, (0, 0, -8)), (2, 1, F(3, 2))),
     "held past a fold": (ScaledGyrostat(0, 3, (0, 0, -8)), (2, 1, F(1, 10))),
     "pure spin": (physical((3, 2, 1), (0, 0, 0), (0, 1, 0)), (0, 1, 0)),
     "on a parabola": (physical((2, 2, 1), (0, 1, 1), (1, 0, 0)), (1, 1, 2)),
@@ -260,7 +287,8 @@ MOTIONS = {
     "released to spin": (ScaledGyrostat(0, 0, (0, 0, 1)), (F(1, 2), F(1, 2), 0)),
     "released on a plane": (ScaledGyrostat("0.5", 1, (0, 1, 0)), (F(1, 2), 0, F(-3, 2))),
     "at rest": (ScaledGyrostat(0, 0, (0, 0, 1)), (-3, F(1, 3), 0)),
-    "torque in no axis": (physical((F(7, 5), 1, F(3, 5)), (F(1, 5), F(1, 10), F(-3, 10)), (F(1, 2), F(3, 5), F(31, 50))), (F(1, 10), 1, 2)),
+    "torque in no axis": (physical((F(7, 5), 1, F(3, 5)), (F(1, 5), F(1, 10), F(-3, 10)),
+                                   (F(1, 2), F(3, 5), F(31, 50))), (F(1, 10), 1, 2)),
     "torque in no axis, scaled": (ScaledGyrostat("0.2", "0.4", (-1, "0.5", "0.75")), (-2, 1, F(1, 2)))}
 
 
@@ -270,7 +298,8 @@ def test_a_forged_claim_on_the_motion_is_refuted(name):
     claims = proved(*MOTIONS[name])
     claims["equilibria"] = None
     true = claims["motion"]
-    changes = [{"fate": word} for word in ("bounded", "spin-up", "equilibrium") if word != true["fate"]] + [{"state": ["3", "5", "7"]}]
+    changes = ([{"fate": word} for word in ("bounded", "spin-up", "equilibrium") if word != true["fate"]]
+               + [{"state": ["3", "5", "7"]}])
     if true["fate"] == "spin-up":
         changes += [{"axis": true["axis"] % 3 + 1}, {"sense": -true["sense"]}, {"period": ["1", "2"]}]
     elif true["period"]:
@@ -289,24 +318,33 @@ def test_a_forged_claim_on_the_motion_is_refuted(name):
         assert status == "refuted", (change, verify(claims | {"motion": true | change}).findings)
 
 
-# -- by machine: tests/verify/forge.py says what is known of each change without the checker, tests/verify/true_values.py whether a narrowed
-# bracket holds its value: where it does it is a true claim, proved or left open; where it does not it is refuted
+# -- by machine: tests/verify/forge.py says what is known of each change without the checker,
+# tests/verify/true_values.py whether a narrowed
+# bracket holds its value: where it does it is a true claim, proved or left open; where it does not it is
+# refuted
 
-ALLOWED = {"false": {"refuted", "refused"}, "true": {"proved"}, "same": {"proved"}, "junk": {"refused"}, "extra": {"partly", "refuted", "refused"},
-           "weaker": {"partly", "refuted"}, "narrow": {"partly", "refuted"}, "holds": {"proved", "partly"}, "open": {"proved", "partly", "refuted", "refused"}}
+ALLOWED = {"false": {"refuted", "refused"}, "true": {"proved"}, "same": {"proved"}, "junk": {"refused"},
+           "extra": {"partly", "refuted", "refused"},
+           "weaker": {"partly", "refuted"}, "narrow": {"partly", "refuted"}, "holds": {"proved", "partly"},
+           "open": {"proved", "partly", "refuted", "refused"}}
 KINDS = {name: (scene, None) for name, scene in SCENES.items()} | MOTIONS
-FILES = ("middle-axis-double-well", "middle-axis-spin-up", "off-axis-fold", "off-axis-none", "off-axis-one", "off-axis-two", "sphere-wheel", "symmetric-body",
-         "symmetric-spin-up", "thruster-negative-minor-axis", "torque-free-body", "torque-free-gyrostat", "wheel-and-thruster")
+FILES = ("middle-axis-double-well", "middle-axis-spin-up", "off-axis-fold", "off-axis-none", "off-axis-one",
+         "off-axis-two", "sphere-wheel", "symmetric-body",
+         "symmetric-spin-up", "thruster-negative-minor-axis", "torque-free-body", "torque-free-gyrostat",
+         "wheel-and-thruster")
 
 
 def part_of(claims, path):
-    """The certificate without the other part, which has nothing to do with a claim: it need not be proved again."""
+    """The certificate without the other part, which has nothing to do with a claim: it need not be proved
+    again."""
     other = {"equilibria": "motion", "motion": "equilibria"}.get(path[0])
-    return {key: value for key, value in claims.items() if key != other} if len(path) > 1 and claims.get(path[0]) else claims
+    return ({key: value for key, value in claims.items() if key != other} if len(path) > 1
+            and claims.get(path[0]) else claims)
 
 
 def says_what_is_true(claims):
-    """Whether a certificate of a scene of its own agrees with elimination in fractions, and its motion with the analysis."""
+    """Whether a certificate of a scene of its own agrees with elimination in fractions, and its motion with
+    the analysis."""
     numbers = claims["scene"]
     if numbers["variables"] == "scaled":
         arguments = F(numbers["a"]), F(numbers["b"]), tuple(map(F, numbers["mu"]))
@@ -317,7 +355,8 @@ def says_what_is_true(claims):
         model, answer = by_hand.of_body(*arguments)
         scene = None
     found = claims.get("equilibria")
-    if found and disagreements({part: found.get(part) or [] for part in ("points", "curves", "planes")} | {"kind": found["kind"]}, model, answer):
+    if found and disagreements({part: found.get(part) or [] for part in ("points", "curves", "planes")}
+                               | {"kind": found["kind"]}, model, answer):
         return False
     motion = claims.get("motion")
     if not motion:
@@ -335,12 +374,16 @@ def true_motion(scene, state):
 
 
 def meets(motion, true):
-    """Whether claims on a motion agree with another's: the same words, brackets that have a number in common."""
+    """Whether claims on a motion agree with another's: the same words, brackets that have a number in common.
+    """
     if any(motion.get(key) not in (None, true[key]) for key in ("fate", "axis", "sense")):
         return False
-    pairs = list(zip(sum(motion["extremes"], []), sum(true["extremes"], []))) if motion.get("extremes") and true["extremes"] else []
+    pairs = (list(zip(sum(motion["extremes"], []), sum(true["extremes"], []))) if motion.get("extremes")
+             and true["extremes"] else [])
     pairs += [(motion["period"], true["period"])] if motion.get("period") and true["period"] else []
-    return all((one is None) == (two is None) and (one is None or max(F(one[0]), F(two[0])) <= min(F(one[1]), F(two[1]))) for one, two in pairs)
+    return all((one is None) == (two is None)
+               and (one is None or max(F(one[0]), F(two[0])) <= min(F(one[1]), F(two[1]))) for one,
+               two in pairs)
 
 
 def forge_all(claims, seed, count, paths=None):
@@ -358,7 +401,8 @@ def forge_all(claims, seed, count, paths=None):
             if known == "true" and not any(changed.get(part) for part in ("equilibria", "motion")):
                 known = "open"  # nothing is claimed any more
             fine = status in ALLOWED[known]
-            if fine and known == "open" and status == "proved" and path[0] not in ("program", "uncertified", "schema"):
+            if fine and known == "open" and status == "proved" and path[0] not in ("program", "uncertified",
+                                                                                   "schema"):
                 fine = says_what_is_true(changed)
             if not fine:
                 wrong.append((known, status, path, ascii(to)[:200]))
@@ -369,7 +413,9 @@ OF_A_KIND = ("off-axis-one", "thruster-negative-minor-axis")  # of the files: ot
 
 
 @pytest.mark.one_in(3)
-@pytest.mark.parametrize("name", [*KINDS, *(pytest.param(name, marks=pytest.mark.slow if name in OF_A_KIND else ()) for name in FILES)])
+@pytest.mark.parametrize("name",
+                         [*KINDS, *(pytest.param(name, marks=pytest.mark.slow if name in OF_A_KIND else ())
+                                    for name in FILES)])
 @pytest.mark.parametrize("paths", [2, pytest.param(4, marks=pytest.mark.slow)])
 def test_what_a_machine_forges_is_never_proved(name, paths):
     claims = case_proved(name) if name in FILES else proved(*KINDS[name])
@@ -377,12 +423,15 @@ def test_what_a_machine_forges_is_never_proved(name, paths):
     assert made > 75 * paths and not wrong, wrong[:3]
 
 
-OF_EACH_SORT = ("two points", "an oblique line that is left slowly", "spin-up after turning", "free, steady rate", "on a decaying plane", "past a fold",
+OF_EACH_SORT = ("two points", "an oblique line that is left slowly", "spin-up after turning",
+                "free, steady rate", "on a decaying plane", "past a fold",
                 "on a parabola")
 
 
 @pytest.mark.one_in(3)
-@pytest.mark.parametrize("name", [pytest.param(name, marks=() if name in OF_EACH_SORT else pytest.mark.slow) for name in (*KINDS, *FILES)])
+@pytest.mark.parametrize("name",
+                         [pytest.param(name, marks=() if name in OF_EACH_SORT else pytest.mark.slow)
+                          for name in (*KINDS, *FILES)])
 def test_every_bracket_holds_the_value_that_the_equations_give_in_fifty_digits(name):
     claims = case_proved(name) if name in FILES else proved(*KINDS[name])
     values = TrueValues(claims)
@@ -394,7 +443,8 @@ def test_every_bracket_holds_the_value_that_the_equations_give_in_fifty_digits(n
 
 def test_a_narrowed_bracket_is_true_where_it_holds_the_value_and_false_where_it_does_not():
     claims = proved(*MOTIONS["spin-up after turning"])
-    path, values = ("motion", "extremes", 0, 1), TrueValues(claims)  # sqrt 2, the circle's radius (a = b = 0: x1^2 + x2^2 = 2)
+    # sqrt 2, the circle's radius (a = b = 0: x1^2 + x2^2 = 2)
+    path, values = ("motion", "extremes", 0, 1), TrueValues(claims)
     low, high = map(F, claims["motion"]["extremes"][0][1])
     for n, below in ((1, True), (2, False)):  # 1e-3 of the bracket's width beside sqrt 2, in integers
         end = F(math.isqrt(2 * 10**80), 10**40) + (-1)**n * (high - low) / 1000
@@ -403,10 +453,13 @@ def test_a_narrowed_bracket_is_true_where_it_holds_the_value_and_false_where_it_
         assert status_of(forge.forged(claims, path, narrowed)) == ("refuted" if below else "proved")
 
 
-@pytest.mark.parametrize("path", [("motion", "spin_up", "orders"), ("motion", "spin_up", "orders", 1)], ids=["both", "one"])
+@pytest.mark.parametrize("path", [("motion", "spin_up", "orders"), ("motion", "spin_up", "orders", 1)],
+                         ids=["both", "one"])
 def test_orders_are_refused_unless_they_are_two_whole_numbers_in_range(path):
-    # other orders than the written ones are no junk: (0, 5) proves what (0, 2) does, wherever its inequality holds as well
-    orders = {"axis": 1, "sense": 1, "orders": [0, 2], "t": "1", "cone": "1", "least": "1", "gain": "1", "way": []}
+    # other orders than the written ones are no junk: (0, 5) proves what (0, 2) does, wherever its inequality
+    # holds as well
+    orders = {"axis": 1, "sense": 1, "orders": [0, 2], "t": "1", "cone": "1", "least": "1", "gain": "1",
+              "way": []}
     seen, rng = {"open": [], "junk": []}, random.Random(5)
     for known, to in forge.changes({"motion": {"spin_up": orders}}, path, rng, 400):
         if to is forge.GONE or to is None:
@@ -424,10 +477,13 @@ def test_orders_are_refused_unless_they_are_two_whole_numbers_in_range(path):
 
 def test_other_orders_are_proved_only_where_the_run_shows_what_they_claim():
     claims = proved(*MOTIONS["torque in no axis"]) | {"equilibria": None, "uncertified": []}
-    status = {orders: status_of(forge.forged(claims, ("motion", "spin_up", "orders"), list(orders))) for orders in ((0, 5), (3, 2), (0, 0))}
+    status = {orders: status_of(forge.forged(claims, ("motion", "spin_up", "orders"), list(orders)))
+              for orders in ((0, 5), (3, 2), (0, 0))}
     assert status == {(0, 5): "proved", (3, 2): "refuted", (0, 0): "partly"} and says_what_happens(claims)
-    weaker = forge.forged(claims, ("motion", "spin_up", "cone"), str(F(claims["motion"]["spin_up"]["cone"]) / 9))
-    assert status_of(forge.forged(weaker, ("motion", "spin_up", "orders"), [0, 5])) != "proved" and not says_what_happens(weaker)
+    weaker = forge.forged(claims, ("motion", "spin_up", "cone"),
+                          str(F(claims["motion"]["spin_up"]["cone"]) / 9))
+    assert status_of(forge.forged(weaker, ("motion", "spin_up", "orders"),
+                                  [0, 5])) != "proved" and not says_what_happens(weaker)
 
 
 @pytest.mark.slow
@@ -442,7 +498,8 @@ def test_every_claim_on_a_spin_up_is_forged_in_many_ways(name):
 @pytest.mark.long  # some twenty minutes in all; a sample of each kind is in the default suite
 @pytest.mark.parametrize("name", [*KINDS, *FILES])
 def test_three_hundred_forgeries_of_every_claim_are_never_proved(name, monkeypatch):
-    # The true ways take 17 to 108 steps. A forged time lies thousands of turns later as well, where the checker would follow the motion for minutes, each time
+    # The true ways take 17 to 108 steps. A forged time lies thousands of turns later as well, where the
+    # checker would follow the motion for minutes, each time
     monkeypatch.setattr(spin_up_claims, "MOST_STEPS", 400)
     monkeypatch.setattr(spin_up_claims, "Way", keeping())
     claims = case_proved(name) if name in FILES else proved(*KINDS[name])
@@ -453,12 +510,14 @@ def test_three_hundred_forgeries_of_every_claim_are_never_proved(name, monkeypat
 @pytest.mark.parametrize("count", [40, pytest.param(468, marks=pytest.mark.slow)])
 def test_parts_of_two_certificates_exchanged_are_never_proved(count):
     made = {name: case_proved(name) for name in FILES}
-    swaps = [(one, two, part) for one, two in itertools.permutations(made, 2) for part in ("scene", "equilibria", "motion")]
+    swaps = [(one, two, part) for one,
+             two in itertools.permutations(made, 2) for part in ("scene", "equilibria", "motion")]
     for one, two, part in random.Random(1).sample(swaps, count):
         if made[one][part] and made[two][part] and made[one][part] != made[two][part]:
             mixed = part_of(made[one] | {part: made[two][part]}, (part, ""))
             status = status_of(mixed)
-            assert status in ("refuted", "partly") or (status == "proved" and says_what_is_true(mixed)), (one, two, part)
+            assert status in ("refuted",
+                              "partly") or (status == "proved" and says_what_is_true(mixed)), (one, two, part)
 
 
 @pytest.mark.parametrize("spoil, words", [
@@ -468,7 +527,8 @@ def test_parts_of_two_certificates_exchanged_are_never_proved(count):
     (lambda text: text.replace('"axis": 0', '"axis": NaN'), "NaN"),
     (lambda text: text.replace('"axis": 0', '"axis": ' + "1" * 5000), "JSON|axis"),
     (lambda text: text + " " * 5_000_000, "bytes"), (lambda text: text[:-3], "JSON"),
-    (lambda text: text.replace('"fate": "', '"fate": "\ud800'), "JSON"), (lambda text: "\ufeff" + text, "JSON"),
+    (lambda text: text.replace('"fate": "', '"fate": "\ud800'), "JSON"),
+    (lambda text: "\ufeff" + text, "JSON"),
     (lambda text: text.replace('"axis": 0', '"axis": 1e400'), "axis"),
     (lambda text: text.replace('"period": [', '"period": [' + "[" * 600 + "]" * 600 + ","), "period")])
 def test_a_file_that_is_spoilt_as_text_is_refused(spoil, words, tmp_path):
@@ -495,7 +555,8 @@ def test_a_dropped_part_is_named_as_not_claimed():
 
 def test_work_on_one_orbit_is_bounded():
     # 10^100 zeros of the force on the way: the count of cells ends the search, not the clock
-    claims = {"schema": "stabilab.certificate/1", "scene": {"variables": "scaled", "a": "-720124e193", "b": "0", "mu": ["0", "0", "1"]},
+    claims = {"schema": "stabilab.certificate/1",
+              "scene": {"variables": "scaled", "a": "-720124e193", "b": "0", "mu": ["0", "0", "1"]},
               "motion": {"state": ["1", "1", "-3"], "fate": "spin-up", "axis": 3, "sense": 1}}
     purses = []
 
@@ -512,7 +573,8 @@ def test_work_on_one_orbit_is_bounded():
 def test_forgeries_are_refuted_without_asserts_too(tmp_path):
     # python -O leaves asserts out
     rng, lines, expected = random.Random(8), [], []
-    for name in ("two points", "a triple zero eigenvalue", "a plane", "a free gyrostat", "at rest", "spin-up"):
+    for name in ("two points", "a triple zero eigenvalue", "a plane", "a free gyrostat", "at rest",
+                 "spin-up"):
         claims = proved(*KINDS[name])
         for path in rng.sample(list(forge.claims_of(claims)), 8):
             for _, to in rng.sample(forge.changes(claims, path, rng, 3), 4):
@@ -530,13 +592,16 @@ for line in open(sys.argv[1], encoding="utf-8"):
     except Malformed:
         print("refused")
 """
-    child = subprocess.run([sys.executable, "-O", "-c", program, str(tmp_path / "forged")], capture_output=True, text=True, check=True)
+    child = subprocess.run([sys.executable, "-O", "-c", program, str(tmp_path / "forged")],
+                           capture_output=True, text=True, check=True)
     assert child.stdout.split() == expected and {"refuted", "refused"} <= set(expected)
 
-OBLIQUE = Scene(Body((3, 2, "1.5")), ConstantTorque(("0.1", "0.2", "0.1")))  # two equilibria (cases/off-axis-two.toml)
+# two equilibria (cases/off-axis-two.toml)
+OBLIQUE = Scene(Body((3, 2, "1.5")), ConstantTorque(("0.1", "0.2", "0.1")))
 
 
-@pytest.mark.parametrize("scene", [Scene(Body((3, 2, 1)), Gyrostat((1, 2, 3))), ScaledGyrostat(0.2, 0.4, (0, 0, 0))], ids=["physical", "scaled"])
+@pytest.mark.parametrize("scene", [Scene(Body((3, 2, 1)), Gyrostat((1, 2, 3))),
+                                   ScaledGyrostat(0.2, 0.4, (0, 0, 0))], ids=["physical", "scaled"])
 @pytest.mark.parametrize("kind", ["none", "all", "points"])
 def test_curves_without_a_torque_are_not_proved_under_another_name(scene, kind):
     claimed = written(scene)
@@ -550,7 +615,9 @@ def test_curves_without_a_torque_are_not_proved_under_another_name(scene, kind):
 def test_a_box_beside_the_equilibrium_is_not_proved():
     claimed = written(OBLIQUE)
     assert verify(claimed).status == "proved"
-    for point in claimed["equilibria"]["points"]:  # from just beside the zero (known to 2^-160) to 2^-110 away
+    # from just beside the zero (known to 2^-160) to 2^-110 away
+    for point in claimed["equilibria"]["points"]:
         middles = [(Fraction(low) + Fraction(high)) / 2 for low, high in point["box"]]
-        point["box"] = [[str(m + Fraction(1, 10**12 * 2**110)), str(m + Fraction(1, 2**110))] for m in middles]
+        point["box"] = [[str(m + Fraction(1, 10**12 * 2**110)), str(m + Fraction(1, 2**110))]
+                        for m in middles]
     assert verify(claimed).status != "proved"

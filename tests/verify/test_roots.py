@@ -1,4 +1,5 @@
-"""Zeros that the checker tells apart: however close two irrational ones lie, up to the bits it is willing to take. Oracle: squares of integers."""
+"""Zeros that the checker tells apart: however close two irrational ones lie, up to the bits it is willing to
+take. Oracle: squares of integers."""
 from __future__ import annotations
 
 from fractions import Fraction
@@ -24,11 +25,13 @@ def test_zeros_of_two_factors_come_rising_and_apart_however_close_they_lie(apart
     near, far = Fraction(2), 2 + apart
     zeros = real_zeros(squares(far, near))
     assert len(zeros) == 4 and all(a.high < b.low for a, b in zip(zeros, zeros[1:]))
-    for zero, value in zip(zeros, (far, near, near, far)):  # sqrt of the value lies in the bracket: its ends' squares lie on both sides
+    # sqrt of the value lies in the bracket: its ends' squares lie on both sides
+    for zero, value in zip(zeros, (far, near, near, far)):
         ends = sorted(end * end for end in (zero.low, zero.high))
         assert ends[0] <= value <= ends[1] and zero.order == 1
     assert all(a.before(b) and not b.before(a) for a, b in ((zeros[0], zeros[1]), (zeros[2], zeros[3])))
-    lesser, larger = real_zeros(squares(near))[1], real_zeros(squares(far))[1]  # enclosed apart from each other, so that their brackets may overlap
+    # enclosed apart from each other, so that their brackets may overlap
+    lesser, larger = real_zeros(squares(near))[1], real_zeros(squares(far))[1]
     assert lesser.before(larger) and not larger.before(lesser)
 
 
@@ -38,14 +41,23 @@ def test_an_irrational_zero_is_within_two_fractions_only_if_their_squares_say_so
     step = Fraction(1, 1 << bits)
     assert below**2 < 2 < (below + step) ** 2
     negative, zero = real_zeros(squares(2))
-    assert zero.within(below, below + step) and zero.within(Fraction(1), Fraction(2)) and negative.within(-below - step, -below)
-    assert not zero.within(below - step, below) and not zero.within(below + step, Fraction(2)) and not negative.within(below, below + step)
+    assert zero.within(below,
+                       below + step) and zero.within(Fraction(1),
+                                                     Fraction(2)) and negative.within(-below - step, -below)
+    assert not zero.within(below - step,
+                           below) and not zero.within(below + step,
+                                                      Fraction(2)) and not negative.within(below,
+                                                                                           below + step)
 
 
 def test_a_rational_zero_is_exact_and_lies_within_its_own_bounds():
     (zero,) = real_zeros(flint.fmpq_poly([-1, 3]))
     third = Fraction(1, 3)
-    assert (zero.low, zero.high) == (third, third) and zero.within(third, third) and not zero.within(third + Fraction(1, 10**40), Fraction(1))
+    assert (zero.low, zero.high) == (third,
+                                     third) and zero.within(third,
+                                                            third) and not zero.within(third
+                                                                                       + Fraction(1, 10**40),
+                                                                                       Fraction(1))
 
 
 def test_what_the_most_bits_do_not_tell_apart_is_refused_with_the_reason():

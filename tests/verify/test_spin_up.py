@@ -1,4 +1,5 @@
-"""The checker's own way, normal form and inequality, each against another code; certificates of spin-up that it proves and leaves open."""
+"""The checker's own way, normal form and inequality, each against another code; certificates of spin-up that
+it proves and leaves open."""
 import json
 import random
 from fractions import Fraction as F
@@ -32,12 +33,14 @@ STATE = (F(1, 10), F(1), F(2))
 def rates_of(scene):
     if scene.variables == "scaled":
         return Rates.of_scaled(*scene.exact_ab, list(scene.exact_mu))
-    return Rates.of_body(*map(list, (scene.body.exact, scene.vector("gyrostat"), scene.vector("constant_torque"))))
+    return Rates.of_body(*map(list,
+                              (scene.body.exact, scene.vector("gyrostat"), scene.vector("constant_torque"))))
 
 
 def drawn(rng):
     """A random scene, scaled or not, and its rates."""
-    scene = ScaledGyrostat(F(rng.uniform(-1, 1)), F(rng.uniform(-1, 1)), tuple(map(F, sphere(rng)))) if rng.random() < .3 else random_scene(rng)
+    scene = (ScaledGyrostat(F(rng.uniform(-1, 1)), F(rng.uniform(-1, 1)), tuple(map(F, sphere(rng))))
+             if rng.random() < .3 else random_scene(rng))
     return scene, rates_of(scene)
 
 
@@ -63,7 +66,8 @@ def test_the_way_holds_the_motion(n):
 def test_a_way_with_kept_steps_is_the_way_whatever_was_asked_before():
     """To the bit, with times between those that were asked first, and with fewer steps allowed."""
     rates, kept = rates_of(EXAMPLE), keeping()
-    sets = lambda made, times, allowed: [[(str(v.mid()), str(v.rad())) for v in way.to(F(t))] for way in [made(rates, STATE, 96, allowed)] for t in times]
+    sets = lambda made, times, allowed: [[(str(v.mid()), str(v.rad())) for v in way.to(F(t))]
+                                         for way in [made(rates, STATE, 96, allowed)] for t in times]
     for times in (("1", "5/2"), ("1", "5/2"), ("1/3", "1", "5/2"), ("1", "3/2")):
         assert sets(kept, times, 400) == sets(Way, times, 400)
     for made in (kept, Way):
@@ -95,8 +99,10 @@ def test_the_normal_form_says_what_the_rates_say(n):
                 X0, zeta0 = form.place([ball(0)] * 3)
                 star = type(zeta)(zeta.real, -zeta.imag)
                 i = type(zeta)(0, 1)
-                assert (X1 - X0).overlaps(ball(form.M) + form.g * (zeta * zeta).imag + (type(zeta)(form.kap.real, -form.kap.imag) * zeta).real)
-                assert abs(zeta1 - zeta0 - (i * form.om * X * zeta + i * form.h * star + form.mu)) < 1e-50  # from the rates themselves
+                assert (X1 - X0).overlaps(ball(form.M) + form.g * (zeta * zeta).imag
+                                          + (type(zeta)(form.kap.real, -form.kap.imag) * zeta).real)
+                # from the rates themselves
+                assert abs(zeta1 - zeta0 - (i * form.om * X * zeta + i * form.h * star + form.mu)) < 1e-50
     assert seen >= 2
 
 
@@ -108,13 +114,16 @@ def test_corrected_energy_and_amplitude_change_at_the_rates_that_are_written_dow
     with working(200):
         made = Inequality(form_about(rates, 0, 1), orders)
         states = [start, *run(rows(rates), start, [h, 2 * h])]
-        states = [[ball(v) if isinstance(v, F) else ball(F(*mpmath.libmp.to_rational(v._mpf_))) for v in state] for state in states]
+        states = [[ball(v) if isinstance(v, F) else ball(F(*mpmath.libmp.to_rational(v._mpf_)))
+                   for v in state] for state in states]
         def values(state):
             X, zeta = made.form.place(state)
             star = type(zeta)(zeta.real, -zeta.imag)
-            total = lambda terms: sum((c * zeta**j * star**k / X**n for (j, k, n), c in terms.items()), zeta * 0).real
+            total = lambda terms: sum((c * zeta**j * star**k / X**n for (j, k, n), c in terms.items()),
+                                      zeta * 0).real
             size = (zeta * star).real
-            return (X * X / 2 + total(made.energy.added), size * (1 + made.m / (made.M * X)) + total(made.amplitude.added),
+            return (X * X / 2 + total(made.energy.added),
+                    size * (1 + made.m / (made.M * X)) + total(made.amplitude.added),
                     made.M * X + made.m + total(made.energy.left), total(made.amplitude.left))
         before, middle, after = map(values, states)
         for n in (0, 1):
@@ -122,12 +131,16 @@ def test_corrected_energy_and_amplitude_change_at_the_rates_that_are_written_dow
 
 
 def test_the_worked_example_holds_with_its_printed_constants():
-    """off-axis torque D = (1.4, 1, 0.6), M = (0.5, 0.6, 0.62), l = (0.2, 0.1, -0.3): A = 1.193, z = 6.276 and a gain of 0.468/1.4 were worked out by hand."""
+    """off-axis torque D = (1.4, 1, 0.6), M = (0.5, 0.6, 0.62), l = (0.2, 0.1, -0.3): A = 1.193, z = 6.276 and
+    a gain of 0.468/1.4 were worked out by hand."""
     rates = rates_of(EXAMPLE)
     with working(128):
-        faults, gain = Inequality(form_about(rates, 0, 1), (0, 2)).faults([ball(F(v)) for v in (6, 1, -1)], F("1.193") / F(0.4**.5), F("6.276"))
+        faults, gain = Inequality(form_about(rates, 0, 1),
+                                  (0, 2)).faults([ball(F(v)) for v in (6, 1, -1)], F("1.193") / F(0.4**.5),
+                                                 F("6.276"))
         assert not faults and gain > ball(F(468, 1400))
-        for state, A, z in (((6, 1, -1), F(1), F("6.276")), ((6, 1, -1), F("1.9"), F("6.4")), ((-6, 1, -1), F("1.9"), F(6)), ((2, 1, -1), F("1.9"), F("1.5"))):
+        for state, A, z in (((6, 1, -1), F(1), F("6.276")), ((6, 1, -1), F("1.9"), F("6.4")),
+                            ((-6, 1, -1), F("1.9"), F(6)), ((2, 1, -1), F("1.9"), F("1.5"))):
             faults, _ = Inequality(form_about(rates, 0, 1), (0, 2)).faults([ball(F(v)) for v in state], A, z)
             assert faults and any(surely for _, surely in faults)
 
@@ -153,24 +166,28 @@ def test_spin_up_of_random_motions_is_certified_and_checked():
 
 def test_a_start_that_is_trapped_needs_no_way():
     made, found = certified(EXAMPLE, (F(6), F(1), F(-1)))
-    assert found.status == "proved" and made["motion"]["spin_up"]["t"] == "0" and made["motion"]["spin_up"]["way"] == []
+    assert found.status == "proved" and made["motion"]["spin_up"]["t"] == "0" and made["motion"]["spin_up"][
+        "way"] == []
 
 
 def test_a_motion_that_is_not_decided_has_no_certificate_and_says_why():
-    made, found = certified(Scene(Body((3, 2, 1)), ConstantTorque((0, 1, F(1, 10**9)))), (0, -1, 0))  # it lies near the middle axis for long
+    # it lies near the middle axis for long
+    made, found = certified(Scene(Body((3, 2, 1)), ConstantTorque((0, 1, F(1, 10**9)))), (0, -1, 0))
     assert made["motion"] is None and "undecided" in made["uncertified"][0] and found.status == "proved"
 
 
 @pytest.mark.parametrize("name", ["geostationary-22n", "upper-stage"])
 def test_a_spacecraft_in_a_frame_that_is_not_principal_is_certified_and_checked(name):
-    """Its numbers along principal axes are irrational: the certificate is of their 240 bits, which it states."""
+    """Its numbers along principal axes are irrational: the certificate is of their 240 bits, which it states.
+    """
     case = load(Path(__file__).parents[2] / "cases" / f"{name}.toml")
     made, found = certified(case.scene, case.exact_state)
     assert found.status == "proved" and made["motion"]["fate"] == "spin-up"
 
 
 def changed(made, **to):
-    return made | {"equilibria": None, "uncertified": [], "motion": made["motion"] | {"spin_up": made["motion"]["spin_up"] | to}}
+    return (made | {"equilibria": None, "uncertified": [],
+                    "motion": made["motion"] | {"spin_up": made["motion"]["spin_up"] | to}})
 
 
 def test_brackets_narrower_than_is_known_and_constants_out_of_reach_stay_unproved():
@@ -184,7 +201,8 @@ def test_brackets_narrower_than_is_known_and_constants_out_of_reach_stay_unprove
     assert verify(changed(made, cone=str(F(said["cone"]) / 2))).status == "refuted"
     assert verify(changed(made, least=str(F(said["least"]) * 2))).status == "refuted"
     assert verify(changed(made, t="1/1000", way=[])).status == "refuted"
-    assert verify(changed(made, axis=1)).status == "refuted" and verify(changed(made, axis=2)).status == "refuted"
+    assert verify(changed(made,
+                          axis=1)).status == "refuted" and verify(changed(made, axis=2)).status == "refuted"
     assert verify(changed(made, sense=-1)).status == "refuted"
 
 
@@ -208,7 +226,8 @@ def test_what_is_no_spin_up_is_malformed(bad):
 @pytest.mark.one_in(2)
 @pytest.mark.parametrize("orders", [(4, 6), (12, 14), (16, 18)])
 def test_what_the_test_in_doubles_finds_holds_in_balls(orders):
-    """Constants found by the analysis' test, whose rounding is bounded beforehand, put into the checker's inequality, in balls."""
+    """Constants found by the analysis' test, whose rounding is bounded beforehand, put into the checker's
+    inequality, in balls."""
     rng, seen = random.Random(50), 0
     while seen < 6:
         scene = random_scene(rng, rng.choice((0, .1, 1)))
@@ -222,21 +241,26 @@ def test_what_the_test_in_doubles_finds_holds_in_balls(orders):
             with working(128):
                 made = Inequality(form_about(rates_of(scene), form.axis, form.sense), orders)
                 cone, least, gain = map(F, found[:3])
-                faults, true = made.faults([ball(F(v)) for v in state.tolist()], cone / abs(F(form.scale[0])), least)
+                faults, true = made.faults([ball(F(v)) for v in state.tolist()], cone / abs(F(form.scale[0])),
+                                           least)
                 assert not faults and true >= ball(gain / F(form.D1) * (1 - F(1, 10**12)))
 
 
-EDGES = (("cone", 0), ("cone", 100), ("least", 100), ("gain", 10), ("t", 0))  # the number, and how many times it is surely too much or too little
+# the number, and how many times it is surely too much or too little
+EDGES = (("cone", 0), ("cone", 100), ("least", 100), ("gain", 10), ("t", 0))
 EDGED = {"trapped from the start": (EXAMPLE, (F(6), F(1), F(-1))), "trapped on the way": (EXAMPLE, STATE),
-         "in the other sense": (Scene(Body((3, 2, 1)), Gyrostat((0, 0, "0.1")), ConstantTorque(("-0.5", "0.2", -1))), (F(-1, 3), F(1), F(-5, 2))),
+         "in the other sense": (Scene(Body((3, 2, 1)), Gyrostat((0, 0, "0.1")),
+                                      ConstantTorque(("-0.5", "0.2", -1))), (F(-1, 3), F(1), F(-5, 2))),
          "no wheel": (Scene(Body((3, 2, 1)), ConstantTorque(("0.5", "0.2", -1))), (F(1, 3), F(-1), F(1, 2))),
          "scaled": (ScaledGyrostat("0.2", "0.4", (-1, "0.5", "0.75")), (F(-2), F(1), F(1, 2)))}
 
 
-@pytest.mark.parametrize("name", ["trapped from the start", *(pytest.param(n, marks=pytest.mark.slow) for n in list(EDGED)[1:])])
+@pytest.mark.parametrize("name", ["trapped from the start",
+                                  *(pytest.param(n, marks=pytest.mark.slow) for n in list(EDGED)[1:])])
 def test_what_is_accepted_ends_where_the_inequality_does(name):
-    """Each number of the claim on its own, halved in to the edge of what is proved: on the one side of it the inequality holds, on the other it fails,
-    by 60 digits of another code (`inequality_in_digits`) at the state of a run in 55 digits (`true_values`)."""
+    """Each number of the claim on its own, halved in to the edge of what is proved: on the one side of it the
+    inequality holds, on the other it fails, by 60 digits of another code (`inequality_in_digits`) at the
+    state of a run in 55 digits (`true_values`)."""
     made, _ = certified(*EDGED[name])
     said = made["motion"]["spin_up"]
     for key, factor in EDGES:
@@ -249,5 +273,6 @@ def test_what_is_accepted_ends_where_the_inequality_does(name):
             middle = (good + bad) / 2
             good, bad = (middle, bad) if verify(claim(middle)).status == "proved" else (good, middle)
         with mpmath.workdps(DIGITS):
-            there = [holds(claim(value), state_at(made, number(value if key == "t" else said["t"]))) for value in (good, bad)]
+            there = [holds(claim(value), state_at(made, number(value if key == "t" else said["t"])))
+                     for value in (good, bad)]
         assert there == [True, False], key

@@ -32,8 +32,10 @@ def motion_certificate(D, lam, M, state):
     scene = Scene(Body(D), Gyrostat(lam), ConstantTorque(M))
     found, ends, time = fate(scene, state), extremes(scene, state), float(period(scene, state))
     return {"schema": "stabilab.certificate/1",
-            "scene": {"variables": "physical", "inertia": list(map(text, D)), "momentum": list(map(text, lam)), "torque": list(map(text, M))},
-            "motion": {"state": list(map(text, state)), "fate": ["bounded", "spin-up", "separatrix", "equilibrium"][int(found.labels)],
+            "scene": {"variables": "physical", "inertia": list(map(text, D)),
+                      "momentum": list(map(text, lam)), "torque": list(map(text, M))},
+            "motion": {"state": list(map(text, state)),
+                       "fate": ["bounded", "spin-up", "separatrix", "equilibrium"][int(found.labels)],
                        "axis": int(found.axis), "sense": int(found.sense),
                        "extremes": [[around(v) if np.isfinite(v) else None for v in pair] for pair in ends],
                        "period": around(time) if 0 < time < np.inf else None}}
@@ -52,23 +54,28 @@ def random_motions(count, seed):
 @pytest.mark.one_in(2)
 @pytest.mark.parametrize("seed", range(4))
 def test_fast_answers_are_proved_by_separate_code(seed):
-    # the checker shares nothing with fate, extremes and period: other variables, other potential, other quadrature
+    # the checker shares nothing with fate, extremes and period: other variables, other potential, other
+    # quadrature
     for arguments in random_motions(8, seed):
         found = verify(motion_certificate(*arguments))
         assert found.status == "proved", [f for f in found.findings if f.status != "proved"]
 
 
-BOUNDED = {"schema": "stabilab.certificate/1", "scene": {"variables": "scaled", "a": "0.2", "b": "0.4", "mu": ["0", "0", "1"]},
+BOUNDED = {"schema": "stabilab.certificate/1",
+           "scene": {"variables": "scaled", "a": "0.2", "b": "0.4", "mu": ["0", "0", "1"]},
            "motion": {"state": ["3", "-1.5", "0.3"], "fate": "bounded", "axis": 0, "sense": 0,
                       "extremes": [[["-9", "9"], ["-9", "9"]]] * 3, "period": ["1", "30"]}}
 
 
 @pytest.mark.parametrize("scene, state", [
     (Scene(Body((1.5, 2, 1))), (-2, -3, 0)),  # no force at the start, nor a whole turn on
-    (Scene(Body((3, 4, 2)), ConstantTorque((0, 0, 1))), (-1, -1, 0.5)),  # the same, with a torque that the start holds in balance: (3 - 4)(-1)(-1) = -1
-    (ScaledGyrostat(-2, -1, (0, 2, 0)), (0, 0, 0)), (ScaledGyrostat(0, 1, (0, 0, 0)), (0, 0.5, 0)),  # another rate turns where the motion turns
+    # the same, with a torque that the start holds in balance: (3 - 4)(-1)(-1) = -1
+    (Scene(Body((3, 4, 2)), ConstantTorque((0, 0, 1))), (-1, -1, 0.5)),
+    # another rate turns where the motion turns
+    (ScaledGyrostat(-2, -1, (0, 2, 0)), (0, 0, 0)), (ScaledGyrostat(0, 1, (0, 0, 0)), (0, 0.5, 0)),
     (Scene(Body((5, 3, 4)), Gyrostat((0, 2, 1.5)), ConstantTorque((-3, 0, 0))), (0, 1, -4)),
-    (Scene(Body((3, 2, 2)), Gyrostat((2, 0, 0)), ConstantTorque((0, 0, 0.5))), (-3, -3, -4))])  # the force vanishes a whole number of units on
+    # the force vanishes a whole number of units on
+    (Scene(Body((3, 2, 2)), Gyrostat((2, 0, 0)), ConstantTorque((0, 0, 0.5))), (-3, -3, -4))])
 def test_a_motion_of_small_numbers_is_proved_where_signs_vanish_at_the_ends_of_a_search(scene, state):
     found = verify(json.loads(json.dumps(certificate(scene, state))))
     assert found.status == "proved", [f for f in found.findings if f.status != "proved"]
@@ -87,15 +94,18 @@ def test_a_wrong_claim_on_the_motion_is_refuted(change):
     assert verify(wrong).status == "refuted"
 
 
-# theory: minor axis, equilibria x3 = 0, x2 (x1 + b) = -1; with a = b = 0 the hyperbola x1 = -1/t, x2 = t, m = 1/t^2 - t^2
-HYPERBOLA = {"schema": "stabilab.certificate/1", "scene": {"variables": "scaled", "a": "0", "b": "0", "mu": ["0", "0", "1"]},
+# theory: minor axis, equilibria x3 = 0, x2 (x1 + b) = -1; with a = b = 0 the hyperbola x1 = -1/t, x2 = t, m =
+# 1/t^2 - t^2
+HYPERBOLA = {"schema": "stabilab.certificate/1",
+             "scene": {"variables": "scaled", "a": "0", "b": "0", "mu": ["0", "0", "1"]},
              "equilibria": {"kind": "curves", "points": [], "curves": [{
                  "numerators": [["-1"], ["0", "0", "1"], []], "denominator": ["0", "1"],
                  "segments": [{"t": [None, ["-1", "-1"]], "linear": "unstable", "verdict": "unstable"},
                               {"t": [["-1", "-1"], ["0", "0"]], "linear": "stable", "verdict": "stable"},
                               {"t": [["0", "0"], ["1", "1"]], "linear": "stable", "verdict": "stable"},
                               {"t": [["1", "1"], None], "linear": "unstable", "verdict": "unstable"}],
-                 "folds": [{"t": [n, n], "linear": "degenerate", "verdict": "unstable"} for n in ("-1", "1")]}]}}
+                 "folds": [{"t": [n, n], "linear": "degenerate", "verdict": "unstable"}
+                           for n in ("-1", "1")]}]}}
 
 
 def test_the_equilibrium_hyperbola_is_proved():
@@ -104,24 +114,31 @@ def test_the_equilibrium_hyperbola_is_proved():
 
 
 @pytest.mark.parametrize("spoil", [
-    lambda e: e.update(kind="none", curves=[]), lambda e: e["curves"][0]["segments"][1].update(verdict="unstable"),
+    lambda e: e.update(kind="none", curves=[]),
+    lambda e: e["curves"][0]["segments"][1].update(verdict="unstable"),
     lambda e: e["curves"][0]["segments"][0].update(linear="stable"), lambda e: e["curves"][0]["folds"].pop(),
     lambda e: e["curves"][0].update(numerators=[["1"], ["0", "0", "1"], []]),
-    lambda e: e["curves"][0]["folds"][0].update(t=["-2", "-1.5"]), lambda e: e["curves"][0]["folds"][1].update(verdict="stable"),
+    lambda e: e["curves"][0]["folds"][0].update(t=["-2", "-1.5"]),
+    lambda e: e["curves"][0]["folds"][1].update(verdict="stable"),
     lambda e: e["curves"].append(e["curves"][0]),
     # t -> t^2 runs over one branch only, twice
-    lambda e: e["curves"][0].update(numerators=[["-1"], ["0", "0", "0", "0", "1"], []], denominator=["0", "0", "1"])])
+    lambda e: e["curves"][0].update(numerators=[["-1"], ["0", "0", "0", "0", "1"], []],
+                                    denominator=["0", "0", "1"])])
 def test_a_wrong_claim_on_the_curve_is_refuted(spoil):
     wrong = copy.deepcopy(HYPERBOLA)
     spoil(wrong["equilibria"])
     assert verify(wrong).status == "refuted"
 
 
-# (x1 + a)(x1 + b) = mu2 mu3/mu1, x2 = -mu3/(x1 + b), x3 = mu2/(x1 + a) (theory.md, section 1); a = b = 0, mu = (1, 1, 1): x = +-(1, -1, 1)
-POINTS = {"schema": "stabilab.certificate/1", "scene": {"variables": "scaled", "a": "0", "b": "0", "mu": ["1", "1", "1"]},
+# (x1 + a)(x1 + b) = mu2 mu3/mu1, x2 = -mu3/(x1 + b), x3 = mu2/(x1 + a) (theory.md, section 1); a = b = 0, mu
+# = (1, 1, 1): x = +-(1, -1, 1)
+POINTS = {"schema": "stabilab.certificate/1",
+          "scene": {"variables": "scaled", "a": "0", "b": "0", "mu": ["1", "1", "1"]},
           "equilibria": {"kind": "points", "curves": [], "points": [
-              {"box": [["0.99", "1.01"], ["-1.01", "-0.99"], ["0.99", "1.01"]], "linear": "unstable", "verdict": "unstable"},
-              {"box": [["-1.01", "-0.99"], ["0.99", "1.01"], ["-1.01", "-0.99"]], "linear": "unstable", "verdict": "unstable"}]}}
+              {"box": [["0.99", "1.01"], ["-1.01", "-0.99"], ["0.99", "1.01"]], "linear": "unstable",
+               "verdict": "unstable"},
+              {"box": [["-1.01", "-0.99"], ["0.99", "1.01"], ["-1.01", "-0.99"]], "linear": "unstable",
+               "verdict": "unstable"}]}}
 
 
 def test_two_isolated_equilibria_are_proved_in_their_boxes():
@@ -129,7 +146,8 @@ def test_two_isolated_equilibria_are_proved_in_their_boxes():
 
 
 @pytest.mark.parametrize("spoil", [
-    lambda e: e["points"].pop(), lambda e: e["points"][0].update(verdict="stable"), lambda e: e["points"][1].update(linear="stable"),
+    lambda e: e["points"].pop(), lambda e: e["points"][0].update(verdict="stable"),
+    lambda e: e["points"][1].update(linear="stable"),
     lambda e: e["points"].append(copy.deepcopy(e["points"][0])), lambda e: e.update(kind="none")])
 def test_a_wrong_claim_on_the_points_is_refuted(spoil):
     wrong = copy.deepcopy(POINTS)
@@ -146,7 +164,8 @@ def test_a_box_without_an_equilibrium_is_not_proved():
 @pytest.mark.parametrize("spoil, word", [
     (lambda c: c.update(schema="other"), "schema"), (lambda c: c["scene"].update(a="1e999999999"), "scene.a"),
     (lambda c: c["scene"].update(mu=["0", "0"]), "scene.mu"), (lambda c: c["scene"].update(a=0.2), "scene.a"),
-    (lambda c: c["motion"].update(state=["x", "0", "0"]), "motion.state"), (lambda c: c["motion"].update(period=["3", "1"]), "motion.period")])
+    (lambda c: c["motion"].update(state=["x", "0", "0"]), "motion.state"),
+    (lambda c: c["motion"].update(period=["3", "1"]), "motion.period")])
 def test_a_malformed_certificate_is_refused_with_its_key(spoil, word):
     wrong = copy.deepcopy(BOUNDED)
     spoil(wrong)
@@ -167,7 +186,10 @@ def test_the_checker_shares_only_flint():
     for path in FOLDER.rglob("*.py"):
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
             if isinstance(node, ast.ImportFrom):
-                assert node.level or node.module.partition(".")[0] in {"flint", *sys.stdlib_module_names}, (path, node.module)
-                assert node.level <= len(path.relative_to(FOLDER).parts), (path, node.module)  # its own modules
+                assert node.level or node.module.partition(".")[0] in {"flint",
+                                                                       *sys.stdlib_module_names}, (path,
+                                                                                                   node.module)
+                # its own modules
+                assert node.level <= len(path.relative_to(FOLDER).parts), (path, node.module)
             elif isinstance(node, ast.Import):
                 assert all(alias.name in {"flint", *sys.stdlib_module_names} for alias in node.names), path

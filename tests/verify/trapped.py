@@ -1,4 +1,5 @@
-"""What a certificate says of a spin-up, against a long run by SciPy: the formulas of the forms written out for a body, and for the scaled gyrostat."""
+"""What a certificate says of a spin-up, against a long run by SciPy: the formulas of the forms written out
+for a body, and for the scaled gyrostat."""
 import math
 from fractions import Fraction as F
 from functools import lru_cache
@@ -10,18 +11,21 @@ LATER = 40  # natural units of time after the trap
 
 
 def rates_of(scene, number=lambda text: float(F(text))):
-    """(kappa, rho, sigma, m), three numbers each, floats or of the kind that `number` makes, from the numbers of a certificate's scene."""
+    """(kappa, rho, sigma, m), three numbers each, floats or of the kind that `number` makes, from the numbers
+    of a certificate's scene."""
     if scene["variables"] == "scaled":
         a, b, mu = number(scene["a"]), number(scene["b"]), [number(v) for v in scene["mu"]]
         return [1, -1, 1], [0, 0, b], [0, -a, 0], mu
     D, l, M = ([number(v) for v in scene[key]] for key in ("inertia", "momentum", "torque"))
     turn = [((i + 1) % 3, (i + 2) % 3) for i in range(3)]
-    return ([(D[j] - D[k]) / D[i] for i, (j, k) in enumerate(turn)], [l[j] / D[i] for i, (j, k) in enumerate(turn)],
+    return ([(D[j] - D[k]) / D[i] for i, (j, k) in enumerate(turn)],
+            [l[j] / D[i] for i, (j, k) in enumerate(turn)],
             [-l[k] / D[i] for i, (j, k) in enumerate(turn)], [M[i] / D[i] for i in range(3)])
 
 
 def rates_at(kappa, rho, sigma, m):
-    return lambda _, x: [kappa[i] * x[(i + 1) % 3] * x[(i + 2) % 3] + rho[i] * x[(i + 2) % 3] + sigma[i] * x[(i + 1) % 3] + m[i] for i in range(3)]
+    return lambda _, x: [kappa[i] * x[(i + 1) % 3] * x[(i + 2) % 3] + rho[i] * x[(i + 2) % 3]
+                         + sigma[i] * x[(i + 1) % 3] + m[i] for i in range(3)]
 
 
 @lru_cache(64)  # many forgeries leave the motion as it is
@@ -31,7 +35,8 @@ def run_of(rates, state, end):
 
 def says_what_happens(claims) -> bool:
     """Whether no claim of motion.spin_up is against the run, with room for the run's own error."""
-    said, scene, state = claims["motion"]["spin_up"], claims["scene"], [float(F(v)) for v in claims["motion"]["state"]]
+    said, scene, state = claims["motion"]["spin_up"], claims["scene"], [float(F(v))
+                                                                        for v in claims["motion"]["state"]]
     kappa, rho, sigma, m = rates_of(scene)
     f = rates_at(*map(tuple, (kappa, rho, sigma, m)))
     t = float(F(said["t"]))
@@ -39,7 +44,8 @@ def says_what_happens(claims) -> bool:
     run = run_of(tuple(map(tuple, (kappa, rho, sigma, m))), tuple(state), end)
     for entry in said.get("way") or ():
         x = run.sol(float(F(entry["t"]))) if F(entry["t"]) else state
-        if any(not float(F(low)) - 1e-6 <= v <= float(F(high)) + 1e-6 for v, (low, high) in zip(x, entry["box"])):
+        if any(not float(F(low)) - 1e-6 <= v <= float(F(high)) + 1e-6 for v,
+               (low, high) in zip(x, entry["box"])):
             return False
     times = np.linspace(t, end, 4000)
     states, about = run.sol(times), said.get("about", "fixed centre")
@@ -53,9 +59,11 @@ def says_what_happens(claims) -> bool:
 
 
 def placed(x, rates, i, sense):
-    """(X, |zeta|) of states (3, n): X = x_i + shift along the sense, zeta = U + i q V, U and V the rates about the two other axes from their centres."""
+    """(X, |zeta|) of states (3, n): X = x_i + shift along the sense, zeta = U + i q V, U and V the rates
+    about the two other axes from their centres."""
     (kappa, rho, sigma), j, k = rates, (i + 1) % 3, (i + 2) % 3
-    U, V = x[j] + sigma[k] / kappa[k], x[k] + rho[j] / kappa[j]  # the coefficients of x_i in their rates vanish there, and so they do turned by half a turn
+    # the coefficients of x_i in their rates vanish there, and so they do turned by half a turn
+    U, V = x[j] + sigma[k] / kappa[k], x[k] + rho[j] / kappa[j]
     square = -kappa[j] / kappa[k]
     q = math.sqrt(square) * (1 if kappa[j] < 0 else -1)
     shift = sense * (q * rho[k] - sigma[j] / q) / (2 * math.sqrt(-kappa[j] * kappa[k]))
@@ -63,7 +71,8 @@ def placed(x, rates, i, sense):
 
 
 def axes_from(i, sense):
-    """The rotation that calls axis i the first, turned by half a turn about the second where the sense is -1."""
+    """The rotation that calls axis i the first, turned by half a turn about the second where the sense is -1.
+    """
     frame = np.zeros((3, 3))
     for row, (n, sign) in enumerate(zip((i, (i + 1) % 3, (i + 2) % 3), (sense, 1, sense))):
         frame[row, n] = sign
@@ -71,7 +80,8 @@ def axes_from(i, sense):
 
 
 def equator(scene):
-    """The rotation whose first axis is -sgn(D1 - D2) l/|l|, l the wheel's momentum across the axis 1 of symmetry, and whose third is that axis."""
+    """The rotation whose first axis is -sgn(D1 - D2) l/|l|, l the wheel's momentum across the axis 1 of
+    symmetry, and whose third is that axis."""
     D, l = ([float(F(v)) for v in scene[key]] for key in ("inertia", "momentum"))
     i = next(i for i in range(3) if D[(i + 1) % 3] == D[(i + 2) % 3])
     along = np.eye(3)[i]
@@ -81,7 +91,8 @@ def equator(scene):
 
 
 def beside_the_centre(x, rate):
-    """(x1, |zeta|) of states (3, n) in a frame: at each x1 the other two rates are linear in the other two components, x2' = P v, x3' = Q u."""
+    """(x1, |zeta|) of states (3, n) in a frame: at each x1 the other two rates are linear in the other two
+    components, x2' = P v, x3' = Q u."""
     at = lambda second, third: np.array(rate(np.array([x[0], second, third])))
     zero, one = np.zeros_like(x[0]), np.ones_like(x[0])
     rest, by2, by3 = at(zero, zero), at(one, zero), at(zero, one)

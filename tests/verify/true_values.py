@@ -1,8 +1,10 @@
-"""The value that a bracket of a certificate should hold, from the equations alone, in 50 digits: nothing of the package, nothing of `verify`.
+"""The value that a bracket of a certificate should hold, from the equations alone, in 50 digits: nothing of
+the package, nothing of `verify`.
 
-A motion is a Taylor series in mpmath, by the recursion of the coefficients of x_i' = kappa_i x_j x_k + rho_i x_k + sigma_i x_j + m_i, step by step. Its
-extremes are zeros of a rate, its period is the return to the start. An isolated equilibrium is a zero of the rates by Newton's method. A
-fold is a zero of m in the characteristic polynomial z^3 + m z + n of the Jacobian matrix, along the curve that the certificate names.
+A motion is a Taylor series in mpmath, by the recursion of the coefficients of x_i' = kappa_i x_j x_k + rho_i
+x_k + sigma_i x_j + m_i, step by step. Its extremes are zeros of a rate, its period is the return to the
+start. An isolated equilibrium is a zero of the rates by Newton's method. A fold is a zero of m in the
+characteristic polynomial z^3 + m z + n of the Jacobian matrix, along the curve that the certificate names.
 """
 from __future__ import annotations
 
@@ -12,10 +14,15 @@ import mpmath as mp
 
 from tests.verify.trapped import rates_of
 
-DIGITS, MORE = 55, 115  # the latter beside a plane that is left as exp(angle): what is lost there grows by exp(DECAYED) = 1e48
-LOST, ROUNDED = F(1, 10**46), F(1, 10**51)  # relative errors of a run, and of a zero by Newton's method: in 20 more digits both differ by 2e-5 of these at most
+# the latter beside a plane that is left as exp(angle): what is lost there grows by exp(DECAYED) = 1e48
+DIGITS, MORE = 55, 115
+# relative errors of a run, and of a zero by Newton's method: in 20 more digits both differ by 2e-5 of these
+# at most
+LOST, ROUNDED = F(1, 10**46), F(1, 10**51)
 SAMPLES = 12  # of each rate in a step, between which one sign change is looked for
-ROUND, DECAYED = 7, 110  # angles of a spin-up: more than a turn, and one at which a transverse part that decays as exp(-angle) is 1e-48
+# angles of a spin-up: more than a turn, and one at which a transverse part that decays as exp(-angle) is
+# 1e-48
+ROUND, DECAYED = 7, 110
 
 
 def number(value):
@@ -30,7 +37,8 @@ class TrueValues:
         self.claims, self._run, self._known = claims, None, {}
 
     def holds(self, path, low, high):
-        """Whether [low, high] holds the value at a path: True, False, or None where it is not known from here, or as near to an end as its error."""
+        """Whether [low, high] holds the value at a path: True, False, or None where it is not known from
+        here, or as near to an end as its error."""
         if path not in self._known:
             with mp.workdps(DIGITS):
                 self._known[path] = self._value(path)
@@ -69,11 +77,13 @@ class TrueValues:
 
     def _equilibrium(self, n):
         rates = rates_of(self.claims["scene"], number)
-        start = [(number(low) + number(high)) / 2 for low, high in self.claims["equilibria"]["points"][n]["box"]]
+        start = [(number(low) + number(high)) / 2 for low,
+                 high in self.claims["equilibria"]["points"][n]["box"]]
         return list(mp.findroot(lambda *x: rate(rates, x), start, tol=mp.mpf(10)**(20 - 2 * mp.mp.dps)))
 
     def _fold(self, path):
-        """The parameter of a zero of m next to the bracket's middle; None for a bracket that is a single number (poles, crossings)."""
+        """The parameter of a zero of m next to the bracket's middle; None for a bracket that is a single
+        number (poles, crossings)."""
         curve, ends = self.claims["equilibria"]["curves"][path[2]], self.claims["equilibria"]
         for key in path[1:]:
             ends = ends[key]
@@ -81,7 +91,8 @@ class TrueValues:
         if low == high:
             return None
         rates = rates_of(self.claims["scene"], number)
-        return mp.findroot(lambda t: second_coefficient(rates, on_curve(curve, t)), (low, high), tol=mp.mpf(10)**(20 - 2 * mp.mp.dps))
+        return mp.findroot(lambda t: second_coefficient(rates, on_curve(curve, t)), (low, high),
+                           tol=mp.mpf(10)**(20 - 2 * mp.mp.dps))
 
 
 def fraction(value):
@@ -95,7 +106,8 @@ def on_curve(curve, t):
 
 
 def rate(rates, x):
-    return [k * x[(i + 1) % 3] * x[(i + 2) % 3] + r * x[(i + 2) % 3] + s * x[(i + 1) % 3] + m for i, (k, r, s, m) in enumerate(zip(*rates))]
+    return [k * x[(i + 1) % 3] * x[(i + 2) % 3] + r * x[(i + 2) % 3] + s * x[(i + 1) % 3] + m for i,
+            (k, r, s, m) in enumerate(zip(*rates))]
 
 
 def second_coefficient(rates, x):
@@ -107,14 +119,16 @@ def second_coefficient(rates, x):
 
 
 def series(rates, x):
-    """The first coefficients of the Taylor series of three components, and a step within which the rest is below a unit of the last digit but two."""
+    """The first coefficients of the Taylor series of three components, and a step within which the rest is
+    below a unit of the last digit but two."""
     out = [[v] for v in x]
     order = mp.mp.dps + 5
     for n in range(order):
         new = []
         for i, (k, r, s, m) in enumerate(zip(*rates)):
             one, two = out[(i + 1) % 3], out[(i + 2) % 3]
-            new.append((k * mp.fdot(zip(one, reversed(two))) + r * two[n] + s * one[n] + (m if n == 0 else 0)) / (n + 1))
+            new.append((k * mp.fdot(zip(one, reversed(two))) + r * two[n] + s * one[n] + (m if n == 0 else 0))
+                       / (n + 1))
         for row, v in zip(out, new):
             row.append(v)
     size = max(map(abs, x)) + mp.mpf(10)**-300
@@ -137,7 +151,8 @@ def state_at(claims, end):
 
 
 class Run:
-    """A motion from its state on: over one period where it returns, else until it has spun so far that nothing new comes."""
+    """A motion from its state on: over one period where it returns, else until it has spun so far that
+    nothing new comes."""
 
     def __init__(self, claims):
         motion = claims["motion"]
@@ -151,8 +166,10 @@ class Run:
 
     @property
     def extremes(self):
-        """Least and greatest of each component. One that falls below 10^-45 for ever without a change of sign has zero as its limit."""
-        return [[mp.mpf(0) if abs(v) < mp.mpf(10)**-45 * self.size else v for v in pair] for pair in self.seen]
+        """Least and greatest of each component. One that falls below 10^-45 for ever without a change of sign
+        has zero as its limit."""
+        return [[mp.mpf(0) if abs(v) < mp.mpf(10)**-45 * self.size else v for v in pair]
+                for pair in self.seen]
 
     def _follow(self, spinning, sense):
         x, t, angle, least = self.start, mp.mpf(0), mp.mpf(0), mp.mpf(0)
@@ -170,11 +187,13 @@ class Run:
             self.size = max(self.size, max(map(abs, x)))
 
     def _saddle(self, i):
-        """kappa_j kappa_k: positive where the transverse part grows and decays with the spin instead of turning."""
+        """kappa_j kappa_k: positive where the transverse part grows and decays with the spin instead of
+        turning."""
         return self.rates[0][(i + 1) % 3] * self.rates[0][(i + 2) % 3]
 
     def _enough(self, i):
-        """The integral of the spin over time after which a transverse part has gone round, or decayed: it turns at sqrt(-kappa_j kappa_k) times the spin."""
+        """The integral of the spin over time after which a transverse part has gone round, or decayed: it
+        turns at sqrt(-kappa_j kappa_k) times the spin."""
         product = self._saddle(i)
         return (DECAYED if product > 0 else ROUND) / mp.sqrt(abs(product) or 1)
 
@@ -187,7 +206,8 @@ class Run:
 
     def _return(self, rows, first, step):
         """The time within a step at which the state is the first one again, or None."""
-        apart = [mp.fdot(first, [row[n] - (v if n == 0 else 0) for row, v in zip(rows, self.start)]) for n in range(len(rows[0]))]
+        apart = [mp.fdot(first, [row[n] - (v if n == 0 else 0) for row, v in zip(rows, self.start)])
+                 for n in range(len(rows[0]))]
         for s in zeros(apart, step):
             if max(abs(at(row, s) - v) for row, v in zip(rows, self.start)) < mp.mpf(10)**-30 * self.size:
                 return s
@@ -201,7 +221,8 @@ def zeros(row, step):
     out = []
     for a, b, u, v in zip(marks, marks[1:], values, values[1:]):
         if u * v < 0:
-            out.append(mp.findroot(lambda s: at(row, s), (a, b), solver="anderson", tol=mp.mpf(10)**(30 - 2 * mp.mp.dps), verify=False))
+            out.append(mp.findroot(lambda s: at(row, s), (a, b), solver="anderson",
+                                   tol=mp.mpf(10)**(30 - 2 * mp.mp.dps), verify=False))
         elif v == 0:
             out.append(b)
     return out

@@ -1,9 +1,11 @@
-"""Fate, extremes and period to as many digits as are asked for: the cheapest way that reaches them, checked afterwards.
+"""Fate, extremes and period to as many digits as are asked for: the cheapest way that reaches them, checked
+afterwards.
 
-A motion with a reduction: formulas in doubles, checked in ball arithmetic, whose answer takes over where they fall short or
-where more digits are asked for. A motion that repeats without one: its return in a run, checked by a Taylor series in many
-digits run at two precisions. Any other: a run over the span, checked by a run at another tolerance from a start moved in its
-last place, and done again in many digits where that is not enough.
+A motion with a reduction: formulas in doubles, checked in ball arithmetic, whose answer takes over where they
+fall short or where more digits are asked for. A motion that repeats without one: its return in a run, checked
+by a Taylor series in many digits run at two precisions. Any other: a run over the span, checked by a run at
+another tolerance from a start moved in its last place, and done again in many digits where that is not
+enough.
 """
 from __future__ import annotations
 
@@ -42,29 +44,34 @@ LAW_BITS = 200  # of the numbers of a law that holds for all time: more than MOS
 SEARCH = 20  # evaluations of a rate's series that the search for its roots takes in a step
 
 
-def ask(question: str, scene: AnyScene, state: Any, digits: int, span: Any = None, known: Motion | None = None, exact: Exact3 | None = None,
+def ask(question: str, scene: AnyScene, state: Any, digits: int, span: Any = None,
+        known: Motion | None = None, exact: Exact3 | None = None,
         aim: bool = False) -> Told:
-    """The extremes, the period, or the margin of the "fate" of one state, to `digits` decimal digits (1 to 50).
+    """The extremes, the period, or the margin of the "fate" of one state, to `digits` decimal digits (1 to
+    50).
 
-    state, span, exact: as of `motion`; known: what `motion` found, where that is at hand. Digits of extremes are relative to the
-    size of their component. aim: nobody asked for the digits, so a run that misses them by `NEAR` is not done again. Told.digits may
-    be below what was asked: see Told.required.
+    state, span, exact: as of `motion`; known: what `motion` found, where that is at hand. Digits of extremes
+    are relative to the size of their component. aim: nobody asked for the digits, so a run that misses them
+    by `NEAR` is not done again. Told.digits may be below what was asked: see Told.required.
     """
     digits = checked_digits(digits, MOST_DECIMALS)
     if known is None:
         known = motion(scene, state, span, exact=exact)
     twin, land = _reduced(scene)
     if question != "extremes" and _number(question, known) is None:
-        return nothing(question, digits, no_period(known.fate) if question == "period" else "there is no margin in energy to be judged")
+        return nothing(question, digits, no_period(known.fate) if question == "period"
+                       else "there is no margin in energy to be judged")
     if question == "fate" and is_free(twin):
         return _margin_without_reduction(twin, known, digits, exact or known.at[:3])
     if land is not None:
         return _by_formula(question, twin, land, known, digits, exact or known.at[:3])
     if known.fate == Fate.EQUILIBRIUM:
-        return Told(question, _number(question, known), digits, math.inf, "exact", "the state is an equilibrium")
+        return Told(question, _number(question, known), digits, math.inf, "exact",
+                    "the state is an equilibrium")
     if question == "fate":
         return _margin_without_reduction(twin, known, digits, exact or known.at[:3])
-    if question == "extremes" and (balls := law_extremes(twin, exact or known.at[:3], known.evidence.get("certificate"), LAW_BITS)):
+    if question == "extremes" and (balls := law_extremes(twin, exact or known.at[:3],
+                                                         known.evidence.get("certificate"), LAW_BITS)):
         return _judged(question, known.extremes, [list(pair) for pair in balls], digits)
     if known.period:
         return _by_return(question, twin, known, digits, exact or known.at[:3])
@@ -72,8 +79,8 @@ def ask(question: str, scene: AnyScene, state: Any, digits: int, span: Any = Non
 
 
 def ask_all(question: str, scene: AnyScene, states: Any, digits: int, values: Any, span: Any = None) -> Told:
-    """The same for an array of states (..., 3); values (..., 3, 2) or (...,): what the formulas say of them; span: a time. Of many
-    states a sample is checked."""
+    """The same for an array of states (..., 3); values (..., 3, 2) or (...,): what the formulas say of them;
+    span: a time. Of many states a sample is checked."""
     array = checked_states(states)
     rows = array.reshape(-1, 3)
     picked = np.unique(np.linspace(0, len(rows) - 1, min(SAMPLE, len(rows))).astype(int))
@@ -83,13 +90,17 @@ def ask_all(question: str, scene: AnyScene, states: Any, digits: int, values: An
         told = [ask(question, scene, row, digits, whole) for row in rows]
     values = np.reshape(values, (len(rows), *np.shape(values)[array.ndim - 1:]))
     if len(told) == len(rows):
-        values = np.array([old if t.values is None else t.values for old, t in zip(values, told)]).reshape(values.shape)
+        values = np.array([old if t.values is None else t.values for old,
+                           t in zip(values, told)]).reshape(values.shape)
     judged = [t for t in told if t.digits is not None]
     worst = min(judged, key=lambda t: t.digits or 0.0) if judged else told[0]
     sampled = f"; {len(told)} of {len(rows)} states checked" if len(told) < len(rows) else ""
     shape = array.shape[:-1]
-    texts = None if worst.decimals is None else np.array([t.decimals for t in told], dtype=object).reshape((*shape, *np.shape(worst.decimals)))
-    return replace(worst, values=values.reshape((*shape, *values.shape[1:])), because=worst.because + sampled, decimals=texts)
+    texts = (None if worst.decimals is None
+             else np.array([t.decimals for t in told],
+                           dtype=object).reshape((*shape, *np.shape(worst.decimals))))
+    return replace(worst, values=values.reshape((*shape, *values.shape[1:])), because=worst.because + sampled,
+                   decimals=texts)
 
 
 def _reduced(scene: AnyScene) -> tuple[AnyScene, Landscape | None]:
@@ -102,10 +113,12 @@ def _number(question: str, known: Motion) -> Any:
     return {"extremes": known.extremes, "period": known.period, "fate": known.margin_energy}[question]
 
 
-# -- motions with a reduction ------------------------------------------------------------------------------------------
+# -- motions with a reduction
+# ------------------------------------------------------------------------------------------
 
 
-def _by_formula(question: str, scene: AnyScene, land: Landscape, known: Motion, digits: int, state: Any) -> Told:
+def _by_formula(question: str, scene: AnyScene, land: Landscape, known: Motion, digits: int,
+                state: Any) -> Told:
     values, label = _number(question, known), known.fate
     balls = _balls(question, Orbit(land.reduction, state), label, max(digits, MOST) + 1)
     if balls is None:  # on the separatrix
@@ -118,16 +131,19 @@ def _tie(question: str, digits: int) -> Told:
 
 
 def _judged(question: str, values: Any, balls: Any, digits: int) -> Told:
-    """The formulas' values where the balls (to max(digits, MOST) + 1 digits) confirm so many digits, else the balls'."""
+    """The formulas' values where the balls (to max(digits, MOST) + 1 digits) confirm so many digits, else the
+    balls'."""
     wanted = max(digits, MOST) + 1
     with working(DOUBLE_BITS):
         error = _gap(values, balls)
     if digits <= FORMULA_DIGITS and error <= 10.0**-digits:
-        return Told(question, values, digits, digits_of(error), "formulas", f"formulas in doubles, {error:.1e} from ball arithmetic")
+        return Told(question, values, digits, digits_of(error), "formulas",
+                    f"formulas in doubles, {error:.1e} from ball arithmetic")
     width = max(_width(balls), 10.0**-wanted)  # the balls of a period are narrower than its two rules agree
     held = digits_of(width, wanted)
     return Told(question, _floats(balls), digits, held if digits > MOST else min(held, MOST + 0.95), "balls",
-                f"ball arithmetic: the number is within {width:.0e}", _decimals(balls, digits) if digits > MOST else None)
+                f"ball arithmetic: the number is within {width:.0e}",
+                _decimals(balls, digits) if digits > MOST else None)
 
 
 def _balls(question: str, orbit: Orbit, label: Fate, digits: int) -> Any:
@@ -143,7 +159,8 @@ def _each(values: Any) -> list[tuple[Any, Any]]:
     """(value, size of its component) of a number or of pairs."""
     if not isinstance(values, (list, tuple, np.ndarray)):
         return [(values, values)]
-    return [(v, max((u for u in pair if math.isfinite(float(u))), key=lambda u: abs(float(u)), default=1)) for pair in values for v in pair]
+    return [(v, max((u for u in pair if math.isfinite(float(u))), key=lambda u: abs(float(u)), default=1))
+            for pair in values for v in pair]
 
 
 def _gap(values: Any, balls: Any) -> float:
@@ -160,7 +177,8 @@ def _gap(values: Any, balls: Any) -> float:
 
 def _width(balls: Any) -> float:
     from flint import arb
-    return max(float(arb(v).rad()) / abs(float(size)) if float(size) else float(arb(v).rad()) for v, size in _each(balls) if math.isfinite(float(v)))
+    return max(float(arb(v).rad()) / abs(float(size)) if float(size) else float(arb(v).rad()) for v,
+               size in _each(balls) if math.isfinite(float(v)))
 
 
 def _floats(balls: Any) -> Any:
@@ -179,7 +197,8 @@ def _decimals(balls: Any, digits: int) -> Any:
     return "0" if 0 in arb(balls) else arb(balls).mid().str(digits + 1, radius=False)
 
 
-# -- motions without one -----------------------------------------------------------------------------------------------
+# -- motions without one
+# -----------------------------------------------------------------------------------------------
 
 
 def _margin_without_reduction(scene: AnyScene, known: Motion, digits: int, state: Any) -> Told:
@@ -201,60 +220,79 @@ def _by_return(question: str, scene: AnyScene, known: Any, digits: int, state: A
         return _by_small_loop(question, scene.quadratic(), values, digits, state)
     exact: Any = reference(scene, state, [0.5 * known.period], orbit=True)
     if exact.period is None:
-        return Told(question, values, digits, 0.0, "run", "no return was found in many digits within the work allowed")
+        return Told(question, values, digits, 0.0, "run",
+                    "no return was found in many digits within the work allowed")
     with working(400) as numbers:
         add = lambda pair: numbers.ball(float(pair[0])) + numbers.ball(float(pair[1]))
-        found = add(exact.period) if question == "period" else [[add(v) for v in pair] for pair in exact.extremes]
-        own = max(exact.period[2] if question == "period" else exact.extremes_error, 1e-31)  # two doubles hold 32 digits
+        found = (add(exact.period) if question == "period"
+                 else [[add(v) for v in pair] for pair in exact.extremes])
+        # two doubles hold 32 digits
+        own = max(exact.period[2] if question == "period" else exact.extremes_error, 1e-31)
         error = max(_gap(values, found), own)
         pair = f"{exact.digits[0]} and {exact.digits[1]} digits"
         if digits <= MOST and error <= 10.0**-digits:
             because = f"the return of a run in doubles, {error:.1e} from that of a Taylor series in {pair}"
             return Told(question, values, digits, digits_of(error), "run", because)
         best = digits_of(own, 31.0)
-        return Told(question, _floats(found), digits, best if digits > MOST else min(best, MOST + 0.95), "many digits",
-                    f"the return of a Taylor series in {pair}, {own:.0e} apart", _decimals(found, digits) if digits > MOST else None)
+        return Told(question, _floats(found), digits, best if digits > MOST else min(best, MOST + 0.95),
+                    "many digits",
+                    f"the return of a Taylor series in {pair}, {own:.0e} apart",
+                    _decimals(found, digits) if digits > MOST else None)
 
 
 def _by_small_loop(question: str, form: QuadraticForm, values: Any, digits: int, state: Any) -> Told:
-    """A closed motion that starts next to an equilibrium: two runs of its series from the start, the second with more digits."""
+    """A closed motion that starts next to an equilibrium: two runs of its series from the start, the second
+    with more digits."""
     more = max(digits, MOST) + 8
     with working(2 * int(3.33 * more) + 400):
-        found = [loop and loop[question != "period"] for loop in (small_loop(form, state, n) for n in (more, more + 8))]
+        found = [loop and loop[question != "period"]
+                 for loop in (small_loop(form, state, n) for n in (more, more + 8))]
         if None in found:
-            return Told(question, values, digits, 0.0, "run", "no return was found in many digits within the work allowed")
+            return Told(question, values, digits, 0.0, "run",
+                        "no return was found in many digits within the work allowed")
         pairs = zip(_each(found[0]), _each(found[1]))
-        error = max(max(float(abs(a - b) / abs(size)) if size != 0 else 0.0 for (a, _), (b, size) in pairs), 10.0**-more)
+        error = max(max(float(abs(a - b) / abs(size)) if size != 0 else 0.0 for (a, _), (b, size) in pairs),
+                    10.0**-more)
         if digits <= MOST and (gap := max(_gap(values, found[1]), error)) <= 10.0**-digits:
-            return Told(question, values, digits, digits_of(gap), "run", f"its series from the start in many digits, {gap:.1e} apart")
+            return Told(question, values, digits, digits_of(gap), "run",
+                        f"its series from the start in many digits, {gap:.1e} apart")
         held = digits_of(error, more)
-        return Told(question, _floats(found[1]), digits, held if digits > MOST else min(held, MOST + 0.95), "many digits",
-                    f"two runs of its series from the start, {error:.0e} apart", _decimals(found[1], digits) if digits > MOST else None)
+        return Told(question, _floats(found[1]), digits, held if digits > MOST else min(held, MOST + 0.95),
+                    "many digits",
+                    f"two runs of its series from the start, {error:.0e} apart",
+                    _decimals(found[1], digits) if digits > MOST else None)
 
 
-def _over_span(scene: AnyScene, state: Any, span: Any, known: Motion, digits: int, exact: Exact3 | None, slack: float) -> Told:
+def _over_span(scene: AnyScene, state: Any, span: Any, known: Motion, digits: int, exact: Exact3 | None,
+               slack: float) -> Told:
     if known.extremes is None or span is None and known.bounds:
         return nothing("extremes", digits, known.extremes_over)
     if scene.variables != "scaled":  # a force at the centre of mass does not turn the body
         scene = Scene(scene.body, *(e for e in scene.effects if e.name != "body_force"))
     length = reach_of(span) or 0.0
     equations, start = equations_and_start(scene, known.at)
-    length = max(length, known.evidence.get("span", length))  # a spin-up may have been run on to where its least rate is certain
+    # a spin-up may have been run on to where its least rate is certain
+    length = max(length, known.evidence.get("span", length))
     values = np.array(known.extremes)
     other = roots_of_rates(scene, moved_row(start), length, 8 * TAYLOR_TOLERANCE)
     error = CAUTION * _apart(values, other.extremes()) if not other.reason else math.inf
-    because = f"a run over the span; one at rtol {8 * TAYLOR_TOLERANCE:.1e} from a start moved in its last place differs by {error / CAUTION:.1e}"
+    because = (
+        f"a run over the span; one at rtol {8 * TAYLOR_TOLERANCE:.1e} from a start moved in its last place "
+        f"differs by {error / CAUTION:.1e}")
     if digits <= MOST and error <= 10.0 ** (slack - digits):
         return Told("extremes", values, digits, digits_of(error), "run", because)
     found = _many_digits(equations, [*(exact or start[:3]), *start[3:]], length, digits)
-    return _unbounded_again(found, values) if found else Told("extremes", values, digits, digits_of(error), "run", other.reason or because)
+    return (_unbounded_again(found, values) if found
+            else Told("extremes", values, digits, digits_of(error), "run", other.reason or because))
 
 
 def _apart(values: Any, other: Any) -> float:
-    """Largest distance of what is finite among the values from the other's, relative to the size of its component."""
+    """Largest distance of what is finite among the values from the other's, relative to the size of its
+    component."""
     finite = np.isfinite(values)
     size = np.where(finite, np.abs(values), 0.0).max(axis=-1, keepdims=True)
-    return float((np.where(finite, np.abs(np.where(finite, values, 0.0) - other), 0.0) / np.where(size > 0, size, 1.0)).max())
+    return float((np.where(finite, np.abs(np.where(finite, values, 0.0) - other),
+                           0.0) / np.where(size > 0, size, 1.0)).max())
 
 
 def _unbounded_again(told: Told, values: Any) -> Told:
@@ -262,12 +300,14 @@ def _unbounded_again(told: Told, values: Any) -> Told:
     known = values.tolist()
 
     def put(found: Any, kind: Callable[[Any], Any]) -> tuple[tuple[Any, ...], ...]:
-        return tuple(tuple(kind(old) if math.isinf(old) else new for new, old in zip(*both)) for both in zip(found, known))
+        return tuple(tuple(kind(old) if math.isinf(old) else new for new, old in zip(*both))
+                     for both in zip(found, known))
     return replace(told, values=put(told.values, float), decimals=told.decimals and put(told.decimals, str))
 
 
 def _many_digits(equations: Equations, start: Sequence[Number], length: float, digits: int) -> Told | None:
-    """Extremes over the span by a Taylor series, each precision checked by the one before; None where the work allowed is not enough."""
+    """Extremes over the span by a Taylor series, each precision checked by the one before; None where the
+    work allowed is not enough."""
     recursion, before = Recursion(equations), None
     for n in DIGITS:
         budget = [WORK // 12 if before is None else WORK // 4]  # the second run costs twice the first
@@ -279,8 +319,10 @@ def _many_digits(equations: Equations, start: Sequence[Number], length: float, d
             error = max(_balls_apart(now, before), 10.0**-n) if before else 1.0
             if before and error <= 10.0**-digits:
                 held = digits_of(error, n)
-                return Told("extremes", _floats(now), digits, held if digits > MOST else min(held, MOST + 0.95), "many digits",
-                            f"Taylor series over the span in two precisions, {error:.0e} apart", _decimals(now, digits) if digits > MOST else None)
+                return Told("extremes", _floats(now), digits,
+                            held if digits > MOST else min(held, MOST + 0.95), "many digits",
+                            f"Taylor series over the span in two precisions, {error:.0e} apart",
+                            _decimals(now, digits) if digits > MOST else None)
             before = now
     return None
 
@@ -294,7 +336,8 @@ def _balls_apart(now: Any, before: Any) -> float:
     return worst
 
 
-def _series_extremes(recursion: Recursion, start: Sequence[Number], length: float, digits: int, budget: list[int], numbers: Digits) -> list[list[Any]]:
+def _series_extremes(recursion: Recursion, start: Sequence[Number], length: float, digits: int,
+                     budget: list[int], numbers: Digits) -> list[list[Any]]:
     pairs, left = [[numbers.ball(v)] * 2 for v in start[:3]], numbers.ball(length)
     for step in steps(recursion, start, digits, budget, numbers):
         budget[0] -= SEARCH * len(pairs) * len(step.rows[0])

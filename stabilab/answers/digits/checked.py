@@ -17,9 +17,9 @@ CAUTION = 4  # differences between runs are samples of the error, not bounds: se
 
 @dataclass(frozen=True)
 class Told:
-    """One answer. values: floats, as the question's own function gives them; decimals: the same, written out, where more digits
-    were asked for than doubles hold; digits: what the check showed, None where there is no number to judge (no period, no
-    barrier); because: how they were checked, or why there are none."""
+    """One answer. values: floats, as the question's own function gives them; decimals: the same, written out,
+    where more digits were asked for than doubles hold; digits: what the check showed, None where there is no
+    number to judge (no period, no barrier); because: how they were checked, or why there are none."""
 
     question: str
     values: Any
@@ -60,8 +60,8 @@ def digits_of(error: float, most: float = MOST + 0.95) -> float:
 
 
 def by_bound(question: str, motion: Motion, asked: int = DEFAULT) -> Told | None:
-    """What the formulas of the reduced motion say of themselves: they bound their rounding as they go, and hand over to ball
-    arithmetic where the bound is too large. None where no formula answered."""
+    """What the formulas of the reduced motion say of themselves: they bound their rounding as they go, and
+    hand over to ball arithmetic where the bound is too large. None where no formula answered."""
     if motion.tolerance is None:
         return None
     values = {"extremes": motion.extremes, "period": motion.period, "fate": motion.margin_energy}[question]
@@ -70,7 +70,8 @@ def by_bound(question: str, motion: Motion, asked: int = DEFAULT) -> Told | None
     if values is None:
         return nothing(question, asked, no_period(motion.fate))
     tolerance = motion.tolerance * (10 if question == "period" else 1)
-    return Told(question, values, asked, digits_of(tolerance), "formulas", f"formulas that bound their own rounding by {tolerance:.0e}, balls beyond")
+    return Told(question, values, asked, digits_of(tolerance), "formulas",
+                f"formulas that bound their own rounding by {tolerance:.0e}, balls beyond")
 
 
 def nothing(question: str, asked: int, why: str) -> Told:

@@ -17,8 +17,8 @@ SAFETY = 1.0  # digits that a setting must have had to spare when it was measure
 
 @dataclass(frozen=True)
 class FrontPoint:
-    """A setting that no other beats: digits of the states over the span, cost in seconds. rtol: the setting's value
-    (nodes for "reduced", order for an expansion)."""
+    """A setting that no other beats: digits of the states over the span, cost in seconds. rtol: the setting's
+    value (nodes for "reduced", order for an expansion)."""
 
     method: str
     rtol: float
@@ -27,20 +27,21 @@ class FrontPoint:
 
 
 def front(case: Any) -> tuple[FrontPoint, ...]:
-    """The measured front of a case on this machine with this version, cheapest first; empty where none was measured
-    (`stabilab precision CASE` measures it)."""
+    """The measured front of a case on this machine with this version, cheapest first; empty where none was
+    measured (`stabilab precision CASE` measures it)."""
     try:
         data = json.loads(_file(case).read_text(encoding="utf-8"))
         if data["schema"] != CACHE_SCHEMA or data["machine"] != machine() | versions():
             return ()
-        return tuple(FrontPoint(str(p["method"]), float(p["rtol"]), float(p["digits"]), float(p["cost"])) for p in data["front"])
+        return tuple(FrontPoint(str(p["method"]), float(p["rtol"]), float(p["digits"]), float(p["cost"]))
+                     for p in data["front"])
     except (OSError, ValueError, KeyError, TypeError):
         return ()
 
 
 def keep(measured: Any) -> Path | None:
-    """Keep the front of a measurement over the whole span, a quick one only where there is none yet; the file, or None
-    where a part of the span was not judged or the folder cannot be written."""
+    """Keep the front of a measurement over the whole span, a quick one only where there is none yet; the
+    file, or None where a part of the span was not judged or the folder cannot be written."""
     if measured.reference.status != "agrees":
         return None
     try:
@@ -49,8 +50,10 @@ def keep(measured: Any) -> Path | None:
         return None
     if measured.quick and front(measured.case):
         return path
-    points = [asdict(FrontPoint(p.method, p.value, round(p.digits, 3), p.seconds)) for p in measured.front("span")]
-    text = json.dumps({"schema": CACHE_SCHEMA, "case": measured.case.name, "machine": machine() | versions(), "front": points},
+    points = [asdict(FrontPoint(p.method, p.value, round(p.digits, 3), p.seconds))
+              for p in measured.front("span")]
+    text = json.dumps({"schema": CACHE_SCHEMA, "case": measured.case.name, "machine": machine() | versions(),
+                       "front": points},
                       indent=1, allow_nan=False)
     waiting = path.with_name(f".{path.name}.{os.getpid()}")
     try:
@@ -63,7 +66,8 @@ def keep(measured: Any) -> Path | None:
 
 
 def _file(case: Any) -> Path:
-    """One file per motion: the scene's numbers, the start and the span, whatever the case file is called. OSError where nothing is to be kept."""
+    """One file per motion: the scene's numbers, the start and the span, whatever the case file is called.
+    OSError where nothing is to be kept."""
     folder = cache_folder()
     if folder is None:
         raise FileNotFoundError("STABILAB_CACHE is off")

@@ -13,15 +13,16 @@ POINTS = (2, 4, 6, 8, 12, 16)  # of Gauss's rule on each panel of a spin-up
 
 
 class Reduced:
-    """The motion with at(times) -> states (n, 3), its period, and `counts`: evaluations of the integrand in its preparation."""
+    """The motion with at(times) -> states (n, 3), its period, and `counts`: evaluations of the integrand in
+    its preparation."""
 
     def __init__(self, motion: Any) -> None:
         self.at, self.period, self.counts = motion.states, motion.period, motion.evaluations
 
 
 def reduced(scene: AnyScene, state: Any, nodes: int) -> Reduced:
-    """At a resolution of `nodes` samples a turn (motions that repeat) or points a panel (spin-up). Raises InputError where the
-    motion has no reduced form."""
+    """At a resolution of `nodes` samples a turn (motions that repeat) or points a panel (spin-up). Raises
+    InputError where the motion has no reduced form."""
     return Reduced(reduced_motion(scene, state, nodes))
 
 

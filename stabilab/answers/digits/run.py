@@ -1,8 +1,9 @@
-"""A motion to as many digits as are asked for: the cheapest setting that was measured to reach them, checked afterwards.
+"""A motion to as many digits as are asked for: the cheapest setting that was measured to reach them, checked
+afterwards.
 
-The check needs no reference: the same motion at another tolerance, its start moved by a unit in its last place, shows the
-error of the first run and what doubles can hold, for the price of one run more. What falls short is done again with the next
-setting, at last in many digits, rounded once.
+The check needs no reference: the same motion at another tolerance, its start moved by a unit in its last
+place, shows the error of the first run and what doubles can hold, for the price of one run more. What falls
+short is done again with the next setting, at last in many digits, rounded once.
 """
 from __future__ import annotations
 
@@ -19,7 +20,16 @@ from ...integrate.trajectory import FALLBACK_RTOL, SCIPY_METHODS
 from ...physics.coefficients import limits_of
 from ...physics.equations import derive
 from ...physics.scene import AnyScene
-from ...physics.states import angles, as_quaternion, beyond, body_momentum, equations_and_start, moved_row, start_of, to_space
+from ...physics.states import (
+    angles,
+    as_quaternion,
+    beyond,
+    body_momentum,
+    equations_and_start,
+    moved_row,
+    start_of,
+    to_space,
+)
 from ...physics.to_numpy import to_numpy
 from ..simulate import STIFF_METHOD, Simulation, errors_of, in_quaternions, simulate
 from .checked import CAUTION, DEFAULT, MOST, NEAR, checked_digits, digits_of
@@ -30,12 +40,16 @@ if TYPE_CHECKING:
     from ...physics.law_limits import Validity
 
 MANY, REDUCED_FORM = "many digits", "reduced form"
-OWN = ("as simulate chooses", 0.0)  # the finest Taylor series, which costs little more than a coarse one; Radau where the scene is stiff
+# the finest Taylor series, which costs little more than a coarse one; Radau where the scene is stiff
+OWN = ("as simulate chooses", 0.0)
 STIFF_FINE = (STIFF_METHOD, 1e-12)
 FAR = 1e4  # radians or so from which the reduced form, whose cost does not grow, is cheaper than a run
-FARTHEST = 1e5  # radians beyond which a run in many digits takes more than the work allowed (`precision_reference.WORK`)
+# radians beyond which a run in many digits takes more than the work allowed (`precision_reference.WORK`)
+FARTHEST = 1e5
 NODES = (-4, -1)  # which of the reduced form's resolutions are tried: one that mostly does, and the finest
-SHIFT, STRAIGHT = 2.0**12, 0.01  # last places by which a start is moved to see what one does; the answer's share up to which it grows in proportion
+# last places by which a start is moved to see what one does; the answer's share up to which it grows in
+# proportion
+SHIFT, STRAIGHT = 2.0**12, 0.01
 COUNTED = 1.0  # rad: angles this near to those of a run in doubles have the same number of turns
 
 
@@ -54,8 +68,8 @@ class Reached:
 
 
 def simulate_to(case: Any, times: np.ndarray, digits: int = DEFAULT) -> Reached:
-    """The exact motion of a case at the times (as of `simulate`) to `digits` decimal digits: relative to the largest size of
-    each part of the state over the times.
+    """The exact motion of a case at the times (as of `simulate`) to `digits` decimal digits: relative to the
+    largest size of each part of the state over the times.
 
     Raises InputError for digits outside 1 to 15, and ToleranceNotMet where no setting reaches them.
     """
@@ -69,13 +83,17 @@ def missed(case: Any, found: Any) -> str:
     """Why digits were not reached, in words."""
     if found.run.status != "reached":
         return f"{case.place}: {found.run.reason}"
-    return f"{case.place}: {found.asked} digits asked for, {found.digits:.1f} reached ({found.because}); ask for fewer or for a shorter span"
+    return (
+        f"{case.place}: {found.asked} digits asked for, {found.digits:.1f} reached ({found.because}); ask "
+        f"for fewer or for a shorter span")
 
 
-def best_reached(case: Any, times: np.ndarray, digits: int = DEFAULT, measured: bool = True, aim: bool = False) -> Reached:
-    """As `simulate_to`, but where no setting reaches the digits the motion that comes nearest. Where stepping stops early, so would finer
-    steps: then only the reduced form is left. measured: choose by the times that were measured on this machine; without them the answer is
-    always the same. aim: nobody asked for the digits: the last `NEAR` of them may be missing, and many digits go no farther than FAR."""
+def best_reached(case: Any, times: np.ndarray, digits: int = DEFAULT, measured: bool = True,
+                 aim: bool = False) -> Reached:
+    """As `simulate_to`, but where no setting reaches the digits the motion that comes nearest. Where stepping
+    stops early, so would finer steps: then only the reduced form is left. measured: choose by the times that
+    were measured on this machine; without them the answer is always the same. aim: nobody asked for the
+    digits: the last `NEAR` of them may be missing, and many digits go no farther than FAR."""
     checked_digits(digits, MOST)
     times = np.atleast_1d(np.asarray(times, float))
     best: Any = None  # `simulate`'s own way always has an answer
@@ -89,24 +107,28 @@ def best_reached(case: Any, times: np.ndarray, digits: int = DEFAULT, measured: 
             continue
         if found.run.status == "reached" and found.digits >= digits - NEAR * aim:
             return found
-        best = found if best is None or (found.run.status == "reached", found.digits) > (best.run.status == "reached", best.digits) else best
+        best = (found if best is None
+                or (found.run.status == "reached", found.digits) > (best.run.status == "reached", best.digits)
+                else best)
     return best
 
 
 def _hopeless(method: str, best: Reached, far: bool) -> bool:
-    """Whether a way is not worth trying after what was found: steps where steps stopped or where the reduced form, which makes none, has
-    answered first; many digits where the way is far."""
+    """Whether a way is not worth trying after what was found: steps where steps stopped or where the reduced
+    form, which makes none, has answered first; many digits where the way is far."""
     if method == "reduced":
         return False
     return best.run.status != "reached" or (far if method == MANY else best.run.method == REDUCED_FORM)
 
 
 def candidates(case: Any, times: np.ndarray, digits: int) -> list[tuple[str, float]]:
-    """(method, setting) to try, in order: what was measured to reach the digits with one to spare, cheapest first; then,
-    whatever was measured, what `simulate` chooses itself, and many digits, with the reduced form before the one that costs more."""
+    """(method, setting) to try, in order: what was measured to reach the digits with one to spare, cheapest
+    first; then, whatever was measured, what `simulate` chooses itself, and many digits, with the reduced form
+    before the one that costs more."""
     end = max(case.span, key=abs) if case.span else 0.0
     inside = np.all((times * np.sign(end) >= 0) & (np.abs(times) <= abs(end)))
-    measured = [(p.method, p.rtol) for p in front(case) if inside and p.digits >= digits + SAFETY and p.method in RUNS]
+    measured = [(p.method, p.rtol) for p in front(case) if inside and p.digits >= digits + SAFETY
+                and p.method in RUNS]
     return list(dict.fromkeys([*measured, *_unmeasured(case, times)]))
 
 
@@ -116,9 +138,11 @@ def _unmeasured(case: Any, times: np.ndarray) -> list[tuple[str, float]]:
 
 
 def _turned(case: Any, times: np.ndarray) -> float:
-    """Radians or so that a motion goes through: its rates, or the roots of their rates where these are larger, times the longest time."""
+    """Radians or so that a motion goes through: its rates, or the roots of their rates where these are
+    larger, times the longest time."""
     scene = case.scene
-    row = np.array([*case.state, *(v for name in scene.blocks[1:] for v in case.blocks.get(name, (0.0,) * 3))])
+    row = np.array([*case.state,
+                    *(v for name in scene.blocks[1:] for v in case.blocks.get(name, (0.0,) * 3))])
     if scene.blocks != ("omega",):
         return math.hypot(*row[:3]) * float(np.abs(times).max())
     with np.errstate(all="ignore"):
@@ -158,7 +182,9 @@ def _checked(case: Any, times: np.ndarray, method: str, value: Any, asked: int) 
     if other.status != "reached":
         return Reached(run, asked, 0.0, f"the check of {method} stopped early")
     gap = _distance(run, other)
-    return _told(run, asked, CAUTION * gap, f"{method} with rtol {other_value:.2g} from a start moved in its last place differs by {gap:.1e}")
+    return _told(run, asked, CAUTION * gap,
+                 f"{method} with rtol {other_value:.2g} from a start moved in its last place differs by "
+                 f"{gap:.1e}")
 
 
 def _told(run: Simulation, asked: int, error: float, because: str) -> Reached:
@@ -168,21 +194,26 @@ def _told(run: Simulation, asked: int, error: float, because: str) -> Reached:
     return Reached(known, asked, digits, because)
 
 
-def _checked_reduced(case: Any, times: np.ndarray, run: Simulation, nodes: float, asked: int) -> Reached | None:
-    """By twice the nodes, and from a start moved by so many last places that the period, rounded, moves with it: what a period is off by grows
-    with the number of periods, and two runs that round it alike would not show that."""
+def _checked_reduced(case: Any, times: np.ndarray, run: Simulation, nodes: float,
+                     asked: int) -> Reached | None:
+    """By twice the nodes, and from a start moved by so many last places that the period, rounded, moves with
+    it: what a period is off by grows with the number of periods, and two runs that round it alike would not
+    show that."""
     try:
         finer, moved = (_reduced(one, times, "reduced", 2 * nodes) for one in (case, _moved(case, SHIFT)))
     except InputError:
         return None
     own, far = _distance(run, finer), _distance(finer, moved)
     gap = max(own, far / SHIFT) if far < STRAIGHT else 1.0
-    return _told(run, asked, CAUTION * gap, f"reduced with {2 * nodes:g} nodes differs by {own:.1e}, and a start moved in its last "
-                 f"place by {far / SHIFT:.1e}" if far < STRAIGHT else "the motion goes too far for its start in doubles")
+    return _told(run, asked, CAUTION * gap,
+                 f"reduced with {2 * nodes:g} nodes differs by {own:.1e}, and a start moved in its last "
+                 f"place by {far / SHIFT:.1e}" if far < STRAIGHT
+                 else "the motion goes too far for its start in doubles")
 
 
 def _other(method: str, value: float) -> float:
-    """A setting fine enough to judge by, or, where there is none, a coarser one: the difference is then too large."""
+    """A setting fine enough to judge by, or, where there is none, a coarser one: the difference is then too
+    large."""
     finest = TAYLOR_TOLERANCE if method == "taylor" else FALLBACK_RTOL
     return max(value / 1000, finest) if value > 4 * finest and method != STIFF_METHOD else value * 8
 
@@ -190,7 +221,8 @@ def _other(method: str, value: float) -> float:
 def _moved(case: Any, places: float = 1.0) -> Any:
     """The case with its start moved; what is zero throughout (rest at the origin) stays."""
     return replace(case, state=tuple(map(float, moved_row(case.state, places))),
-                   blocks={name: tuple(map(float, moved_row(row, places))) for name, row in case.blocks.items()})
+                   blocks={name: tuple(map(float, moved_row(row, places))) for name,
+                           row in case.blocks.items()})
 
 
 def _distance(one: Any, two: Any) -> float:
@@ -203,18 +235,21 @@ def _distance(one: Any, two: Any) -> float:
 
 def _integrated(case: Any, times: np.ndarray, method: str, rtol: float | None) -> Simulation:
     own = (method, rtol) == OWN
-    return simulate(case.scene, case.state, times, case.blocks, None if own else method, None if own else rtol)
+    return simulate(case.scene, case.state, times, case.blocks, None if own else method,
+                    None if own else rtol)
 
 
 def _reduced(case: Any, times: np.ndarray, method: str, nodes: float) -> Simulation:
     if case.blocks or case.scene.blocks != ("omega",) or (times < 0).any():
         raise InputError("the reduced form gives the rate alone, from time 0 on")
     orbit = reduced(case.scene, case.state, int(nodes))
-    return Simulation(times, {_first(case): orbit.at(times)}, "exact", REDUCED_FORM, None, counters={"evaluations": int(orbit.counts)},
+    return Simulation(times, {_first(case): orbit.at(times)}, "exact", REDUCED_FORM, None,
+                      counters={"evaluations": int(orbit.counts)},
                       reason=f"time as an integral over the reduced coordinate, {int(nodes)} nodes")
 
 
-RUNS = {"taylor": _integrated, OWN[0]: _integrated, **dict.fromkeys(SCIPY_METHODS, _integrated), "reduced": _reduced}
+RUNS = {"taylor": _integrated, OWN[0]: _integrated, **dict.fromkeys(SCIPY_METHODS, _integrated),
+        "reduced": _reduced}
 
 
 def _first(case: Any) -> str:
@@ -224,7 +259,8 @@ def _first(case: Any) -> str:
 def _many_digits(case: Any, times: np.ndarray, asked: int) -> Reached | None:
     """The reference itself, rounded once; at times of one sign."""
     scaled = case.scene.variables == "scaled"
-    equations, start = equations_and_start(case.scene, case.state if scaled else start_of(case.scene, case.state, case.blocks))
+    equations, start = equations_and_start(case.scene, case.state if scaled
+                                           else start_of(case.scene, case.state, case.blocks))
     if times.min() < 0 < times.max():
         return None
     written = [*(case.exact_state or start[:3]), *start[3:]]  # the decimals
@@ -235,7 +271,8 @@ def _many_digits(case: Any, times: np.ndarray, asked: int) -> Reached | None:
     states = np.empty_like(found.states)
     states[order] = found.states
     validity = _validity(case.scene, {name: states[:, part] for name, part in found.slices.items()})
-    parts: Any = {_first(case) if name == "omega" else name: states[:, part] for name, part in found.slices.items()}
+    parts: Any = {_first(case) if name == "omega" else name: states[:, part] for name,
+                  part in found.slices.items()}
     error = float(found.error.max()) + 2.0**-53
     if as_quaternion(case.blocks.get("attitude", ())):
         parts = in_quaternions(case.scene, parts)
@@ -243,9 +280,13 @@ def _many_digits(case: Any, times: np.ndarray, asked: int) -> Reached | None:
         parts = _with_angles(case, times, parts)
         if parts is None:
             return None
-        error += 2.0**-51 / np.abs(np.cos(parts["angles"][:, 0])).min()  # phi and theta magnify the rounding of the quaternion
-    because = f"Taylor series in {found.digits[0]} and {found.digits[1]} digits differ by {found.error.max():.0e}; rounded once"
-    run = Simulation(times, parts, "exact", MANY, None, counters={"multiplications": found.work}, reason=because, validity=validity)
+        # phi and theta magnify the rounding of the quaternion
+        error += 2.0**-51 / np.abs(np.cos(parts["angles"][:, 0])).min()
+    because = (
+        f"Taylor series in {found.digits[0]} and {found.digits[1]} digits differ by {found.error.max():.0e}; "
+        f"rounded once")
+    run = Simulation(times, parts, "exact", MANY, None, counters={"multiplications": found.work},
+                     reason=because, validity=validity)
     return _told(run, asked, error, because)
 
 
@@ -256,14 +297,17 @@ def _validity(scene: AnyScene, blocks: Any) -> Validity | None:
 
 
 def _with_angles(case: Any, times: np.ndarray, parts: dict[str, np.ndarray]) -> dict[str, np.ndarray] | None:
-    """Angles and momentum in place of the quaternion: turns counted by a run in doubles; None where it is too far off to count."""
+    """Angles and momentum in place of the quaternion: turns counted by a run in doubles; None where it is too
+    far off to count."""
     near, q = _integrated(case, times, *OWN), parts.pop("attitude")
     if near.status != "reached":
         return None
-    ways = [found + 2 * np.pi * np.round((near.state["angles"] - found) / (2 * np.pi)) for found in (angles(q), beyond(angles(q)))]
+    ways = [found + 2 * np.pi * np.round((near.state["angles"] - found) / (2 * np.pi))
+            for found in (angles(q), beyond(angles(q)))]
     gaps = [np.abs(way - near.state["angles"]).max(axis=1, keepdims=True) for way in ways]
     if np.minimum(*gaps).max() > COUNTED:
         return None
     found = np.where(gaps[0] <= gaps[1], *ways)
     first = {name: parts.pop(name) for name in ("omega", "gamma") if name in parts}
-    return first | {"angles": found, "momentum": to_space(q, body_momentum(case.scene, first["omega"]))} | parts
+    return (first | {"angles": found, "momentum": to_space(q, body_momentum(case.scene, first["omega"]))}
+            | parts)

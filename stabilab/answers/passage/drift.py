@@ -1,19 +1,24 @@
-"""How long a motion bounded by a torque on an axis surely stays below a rate when the torque is a little off that axis.
+"""How long a motion bounded by a torque on an axis surely stays below a rate when the torque is a little off
+that axis.
 
-Axis i carries the torque, j, k follow it cyclically, and the wheel has no momentum along i. Let a_j = D_j - D_i, a_k = D_k - D_i be of one
-sign (the major or the minor axis), c_j = -l_j/a_j, c_k = -l_k/a_k, and
+Axis i carries the torque, j, k follow it cyclically, and the wheel has no momentum along i. Let a_j = D_j -
+D_i, a_k = D_k - D_i be of one sign (the major or the minor axis), c_j = -l_j/a_j, c_k = -l_k/a_k, and
 
-    p = (D_j |a_j|)^(1/2) (omega_j - c_j),  q = (D_k |a_k|)^(1/2) (omega_k - c_k),  p + i q = rho exp(-i theta),
+    p = (D_j |a_j|)^(1/2) (omega_j - c_j),  q = (D_k |a_k|)^(1/2) (omega_k - c_k),  p + i q = rho exp(-i
+    theta),
     n = sgn(a) (a_j a_k / (D_j D_k))^(1/2).
 
-With the torque (M_i, s_j, s_k) Euler's equations give (p + i q)' = -i n omega_i (p + i q) + mu, mu = (|a_j|/D_j)^(1/2) s_j + i (|a_k|/D_k)^(1/2) s_k. So
+With the torque (M_i, s_j, s_k) Euler's equations give (p + i q)' = -i n omega_i (p + i q) + mu, mu =
+(|a_j|/D_j)^(1/2) s_j + i (|a_k|/D_k)^(1/2) s_k. So
 
     |rho'| <= |mu|,    |theta' - n omega_i| <= |mu|/rho,    T' = M_i omega_i + s_j omega_j + s_k omega_k
 
-for the kinetic energy T, and E = T - (M_i/n)(theta - theta(0)) drifts by no more than |s||omega_perp| + |M_i/n||mu|/rho. On the axis (s = 0) rho
-and E are the integrals of the motion. As D_i omega_i^2/2 = E - V, V = T_perp(rho, theta) - (M_i/n)(theta - theta(0)), the phase cannot pass a
-place theta_b while E < V there. Given a time t: rho lies within |mu| t of its start, E within its drift; if at some theta_a behind and
-theta_b ahead the least V over these rho exceeds the most E, the phase stays between them until t, and |omega| stays below its most there.
+for the kinetic energy T, and E = T - (M_i/n)(theta - theta(0)) drifts by no more than |s||omega_perp| +
+|M_i/n||mu|/rho. On the axis (s = 0) rho and E are the integrals of the motion. As D_i omega_i^2/2 = E - V, V
+= T_perp(rho, theta) - (M_i/n)(theta - theta(0)), the phase cannot pass a place theta_b while E < V there.
+Given a time t: rho lies within |mu| t of its start, E within its drift; if at some theta_a behind and theta_b
+ahead the least V over these rho exceeds the most E, the phase stays between them until t, and |omega| stays
+below its most there.
 """
 from __future__ import annotations
 
@@ -30,9 +35,11 @@ BEHIND = 4  # turns that are looked at against the torque
 HALVINGS = 50
 
 
-def stays_below(scene: Scene, state: Float3, rate: float, sideways: float, along: tuple[float, float]) -> float:
-    """A time before which |omega| < `rate`, for every torque whose component along its axis is within `along` (N m) and whose part across it is at most
-    `sideways`; constant, but otherwise any. scene: with the torque on an axis; state: three floats, rad/s. 0 where nothing is proved."""
+def stays_below(scene: Scene, state: Float3, rate: float, sideways: float,
+                along: tuple[float, float]) -> float:
+    """A time before which |omega| < `rate`, for every torque whose component along its axis is within `along`
+    (N m) and whose part across it is at most `sideways`; constant, but otherwise any. scene: with the torque
+    on an axis; state: three floats, rad/s. 0 where nothing is proved."""
     crude = _by_energy(scene, state, rate, math.hypot(sideways, max(map(abs, along))))
     D, l = (np.array([float(v) for v in row]) for row in (scene.body.exact, scene.vector("gyrostat")))
     i = next(n for n, m in enumerate(scene.vector("constant_torque")) if m)
@@ -56,11 +63,13 @@ def _by_energy(scene: Scene, state: Float3, rate: float, torque: float) -> float
     """T = W^2/2: |W'| <= |D^(-1/2) M| bounds |omega| <= W/min(D)^(1/2)."""
     D = [float(v) for v in scene.body.exact]
     least = math.sqrt(min(D))
-    return max(0.0, rate * least - math.sqrt(sum(d * w * w for d, w in zip(D, state)))) * least / torque * (1 - ROUNDING)
+    return (max(0.0, rate * least - math.sqrt(sum(d * w * w for d, w in zip(D, state)))) * least / torque
+            * (1 - ROUNDING))
 
 
 class _Well:
-    def __init__(self, D: np.ndarray, l: np.ndarray, a: np.ndarray, omega: np.ndarray, rate: float, sideways: float, along: tuple[float, float]) -> None:
+    def __init__(self, D: np.ndarray, l: np.ndarray, a: np.ndarray, omega: np.ndarray, rate: float,
+                 sideways: float, along: tuple[float, float]) -> None:
         self.D, self.rate, self.sideways, self.along = D, rate, sideways, along
         self.centre, self.scale = -l / a, np.sqrt(D[1:] * np.abs(a))
         self.n = math.copysign(math.sqrt(a[0] * a[1] / (D[1] * D[2])), a[0])
@@ -70,7 +79,8 @@ class _Well:
         self.pull = sideways * math.sqrt(max(abs(a) / D[1:]))  # of |mu|
         ahead = math.copysign(1.0, along[0] * self.n)
         self.step = 2 * math.pi / POINTS
-        self.behind, self.ahead = (sense * np.arange(turns * POINTS + 1) * self.step for sense, turns in ((-ahead, BEHIND), (ahead, 1)))
+        self.behind, self.ahead = (sense * np.arange(turns * POINTS + 1) * self.step for sense,
+                                   turns in ((-ahead, BEHIND), (ahead, 1)))
 
     def holds(self, t: float) -> bool:
         """Whether |omega| is surely below the rate up to t."""
@@ -98,16 +108,21 @@ class _Well:
         weights = 1 - self.D[1:] / self.D[0]
         value = 2 * energy / self.D[0] + self._greatest(way, rhos, weights, 2 / self.D[0])
         fastest = np.abs(self.centre) + rhos[1] / self.scale
-        slope = (2 * np.abs(weights) * fastest * rhos[1] / self.scale).sum() + 2 / self.D[0] * max(map(abs, self.along)) / abs(self.n)
+        slope = (2 * np.abs(weights) * fastest * rhos[1]
+                 / self.scale).sum() + 2 / self.D[0] * max(map(abs, self.along)) / abs(self.n)
         return float(value.max()) + slope * self.step / 2
 
-    def _greatest(self, way: np.ndarray, rhos: tuple[float, float], weights: np.ndarray, factor: float) -> np.ndarray:
-        """Greatest of weights . omega_perp^2 + factor (M_i/n)(theta - theta(0)) over the radii and the torque along the axis, at each place."""
+    def _greatest(self, way: np.ndarray, rhos: tuple[float, float], weights: np.ndarray,
+                  factor: float) -> np.ndarray:
+        """Greatest of weights . omega_perp^2 + factor (M_i/n)(theta - theta(0)) over the radii and the torque
+        along the axis, at each place."""
         theta = self.theta + way
         across = np.stack([np.cos(theta), -np.sin(theta)], axis=-1) / self.scale
-        square, linear, constant = across**2 @ weights, 2 * across @ (weights * self.centre), float(self.centre**2 @ weights)
+        square, linear, constant = across**2 @ weights, 2 * across @ (weights * self.centre), float(
+            self.centre**2 @ weights)
         ends = np.maximum(*(square * r * r + linear * r for r in rhos))
         with np.errstate(all="ignore"):
             top = -linear / (2 * square)
-            ends = np.where((square < 0) & (rhos[0] < top) & (top < rhos[1]), np.maximum(ends, -linear**2 / (4 * square)), ends)
+            ends = np.where((square < 0) & (rhos[0] < top) & (top < rhos[1]),
+                            np.maximum(ends, -linear**2 / (4 * square)), ends)
         return ends + constant + factor * np.maximum(*(m / self.n * way for m in self.along))

@@ -22,15 +22,17 @@ FIRST_BITS, MOST_BITS = 112, 720
 KEPT = 58  # bits that the enclosure of the state is to keep
 MARGIN = KEPT + 18  # beyond the growth of the error, for the rounding of a longer series
 WORK = 30_000_000  # multiplications; two to four seconds
-TRIED, HOPELESS = 16, 8  # after this part of the work a way that would take so many times what is left is given up
+# after this part of the work a way that would take so many times what is left is given up
+TRIED, HOPELESS = 16, 8
 STEADY = 1.125  # steps that grow faster than this are those of the first search for a length
 STEPS = 60_000  # validated ones; some two seconds
 
 
 @dataclass(frozen=True)
 class Enclosed:
-    """low, high: of the first crossing, in the scene's time, exact; high None: not found before `until`, and low is None or a place where the
-    limit is touched. until: the last time that was looked at; done: whether that is the time asked for; spent: multiplications."""
+    """low, high: of the first crossing, in the scene's time, exact; high None: not found before `until`, and
+    low is None or a place where the limit is touched. until: the last time that was looked at; done: whether
+    that is the time asked for; spent: multiplications."""
 
     low: Fraction | None
     high: Fraction | None
@@ -39,19 +41,22 @@ class Enclosed:
     spent: int
 
 
-def enclosed(scene: AnyScene, start: Sequence[Number], limit: Limit, t_max: Fraction | None = None, work: int = WORK,
+def enclosed(scene: AnyScene, start: Sequence[Number], limit: Limit, t_max: Fraction | None = None,
+             work: int = WORK,
              earliest: Fraction = Fraction(0)) -> Enclosed:
-    """The first crossing of the motion of a plain scene from three rationals, proved; or until when there is none.
+    """The first crossing of the motion of a plain scene from three rationals, proved; or until when there is
+    none.
 
-    t_max: None where only the work is to end the search. earliest: a time before which it is known not to happen: a way that would not
-    come so far with the work is given up soon. A first attempt, at few bits, is carried on beyond what its bits can prove, to learn
-    how many it takes.
+    t_max: None where only the work is to end the search. earliest: a time before which it is known not to
+    happen: a way that would not come so far with the work is given up soon. A first attempt, at few bits, is
+    carried on beyond what its bits can prove, to learn how many it takes.
     """
     form, unit = scene.quadratic(), own_unit(scene, start)
     weights = (Fraction(1), Fraction(2), Fraction(1)) if scene.variables == "scaled" else scene.body.exact
     bits, best, spent = FIRST_BITS, Enclosed(None, None, Fraction(0), False, 0), 0
     while True:
-        attempt = _Attempt(IntegerFlow(form, weights, start, bits, unit, limit.direction), limit, unit, t_max, earliest)
+        attempt = _Attempt(IntegerFlow(form, weights, start, bits, unit, limit.direction), limit, unit, t_max,
+                           earliest)
         found = attempt.run(work - spent)
         spent += attempt.flow.work
         best = found if found.high is not None or found.until > best.until or found.done else best
@@ -64,15 +69,18 @@ def enclosed(scene: AnyScene, start: Sequence[Number], limit: Limit, t_max: Frac
 def own_unit(scene: AnyScene, start: Sequence[Number]) -> Fraction:
     """A power of two near the largest rate, or near the root of its rate of change."""
     form = scene.quadratic()
-    change = sqrt_fraction(max(map(abs, form.rate([Fraction(v) for v in start]))))  # its square may be beyond doubles
+    # its square may be beyond doubles
+    change = sqrt_fraction(max(map(abs, form.rate([Fraction(v) for v in start]))))
     size = max(float(max(map(abs, start))), float(change))
     return Fraction(2) ** math.frexp(size)[1] if size else Fraction(1)
 
 
 class _Attempt:
-    """One run at a number of bits. needs: the bits that a proof would have taken, where these were too few; None otherwise."""
+    """One run at a number of bits. needs: the bits that a proof would have taken, where these were too few;
+    None otherwise."""
 
-    def __init__(self, flow: IntegerFlow, limit: Limit, unit: Fraction, t_max: Fraction | None, earliest: Fraction) -> None:
+    def __init__(self, flow: IntegerFlow, limit: Limit, unit: Fraction, t_max: Fraction | None,
+                 earliest: Fraction) -> None:
         self.flow, self.unit = flow, unit
         self.needs: int | None = None
         self.end = None if t_max is None else t_max * unit
@@ -97,7 +105,8 @@ class _Attempt:
                 return self._answer(until, False)
             hit = [search.take(piece) for search in searches]
             now, shorter, length = flow.now, length, float(piece.length)
-            if flow.work * TRIED > work and length < STEADY * shorter and self._hopeless(piece, flow.work - before, work - flow.work):
+            if flow.work * TRIED > work and length < STEADY * shorter and self._hopeless(
+                piece, flow.work - before, work - flow.work):
                 return self._answer(until, False)
             if proving:
                 until = now
@@ -112,7 +121,8 @@ class _Attempt:
                 return self._answer(until, False)
 
     def _hopeless(self, piece: Piece, work: int, left: int) -> bool:
-        """Whether steps like this one would take much more than the work that is left to come to where the limit may first be reached."""
+        """Whether steps like this one would take much more than the work that is left to come to where the
+        limit may first be reached."""
         return (self.earliest - piece.start) * work > HOPELESS * left * piece.length
 
     def _answer(self, until: Fraction, done: bool) -> Enclosed:
@@ -121,15 +131,19 @@ class _Attempt:
         if self.end is not None and low is not None and low > self.end:
             low = high = None
         scale = lambda t: None if t is None else t / self.unit
-        return Enclosed(scale(low), scale(high), (min(until, self.end) if done and self.end is not None else until) / self.unit, done, 0)
+        return Enclosed(scale(low), scale(high),
+                        (min(until, self.end) if done and self.end is not None else until) / self.unit, done,
+                        0)
 
 
-def banded(scene: AnyScene, start: Sequence[Number], limit: Limit, t_max: float, steps: int = STEPS) -> Crossing | None:
-    """low and high of the first crossing (high inf where none is found before low) of the motion from three rationals; None where numba is not there
-    to compile the steps, or the limit is of another kind."""
+def banded(scene: AnyScene, start: Sequence[Number], limit: Limit, t_max: float,
+           steps: int = STEPS) -> Crossing | None:
+    """low and high of the first crossing (high inf where none is found before low) of the motion from three
+    rationals; None where numba is not there to compile the steps, or the limit is of another kind."""
     if limit.kind == "tilt" or not installed() or any(not _weights(terms) for terms, _ in limit.parts):
         return None
-    found = [first_crossing(scene, start, math.sqrt(most), _weights(terms), t_max=t_max, steps=steps) for terms, most in limit.parts]
+    found = [first_crossing(scene, start, math.sqrt(most), _weights(terms), t_max=t_max, steps=steps)
+             for terms, most in limit.parts]
     first = min(found, key=lambda one: one.low)
     return Crossing(first.low, min(one.high for one in found), first.because, sum(one.steps for one in found))
 

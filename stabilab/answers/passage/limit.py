@@ -1,4 +1,5 @@
-"""A limit as it is asked for: of the rate, of a component, of the kinetic energy, of the angle by which a body axis has turned."""
+"""A limit as it is asked for: of the rate, of a component, of the kinetic energy, of the angle by which a
+body axis has turned."""
 from __future__ import annotations
 
 import math
@@ -20,8 +21,9 @@ SIGN = " (it is a size: give it without a sign)"
 
 @dataclass(frozen=True)
 class Limit:
-    """kind: "rate", "component", "energy" or "tilt". parts: ((weights and vectors, limit), ...): sum c (a . omega)^2 reaches the limit's
-    value `most`, the first of the parts counts; for a tilt vector and angle, rad. words: for the reader, in SI."""
+    """kind: "rate", "component", "energy" or "tilt". parts: ((weights and vectors, limit), ...): sum c (a .
+    omega)^2 reaches the limit's value `most`, the first of the parts counts; for a tilt vector and angle,
+    rad. words: for the reader, in SI."""
 
     kind: str
     parts: tuple[Any, ...]
@@ -45,35 +47,43 @@ class Limit:
         return self.kind != "tilt" and any(part.passed(state) for part in self.thresholds(Fraction(1)))
 
     def beyond(self, extremes: Iterable[Iterable[float]], slack: float) -> bool:
-        """Whether rates within their extremes, ((least, greatest),) * 3, each wider by the share `slack`, stay below it."""
+        """Whether rates within their extremes, ((least, greatest),) * 3, each wider by the share `slack`,
+        stay below it."""
         if self.kind == "tilt":
             return False
         sizes = [max(abs(low), abs(high)) * (1 + slack) for low, high in extremes]
-        return all(_below(terms, [size if any(vector[n] for _, vector in terms) else 0.0 for n, size in enumerate(sizes)], most)
+        return all(_below(terms, [size if any(vector[n] for _, vector in terms) else 0.0 for n,
+                                  size in enumerate(sizes)], most)
                    for terms, most in self.parts)
 
     def least_rate(self) -> float:
         """The largest |omega| below which it is surely not reached."""
-        return min(float(sqrt_fraction(Fraction(most) / max(c for c, _ in terms))) for terms, most in self.parts)
+        return min(float(sqrt_fraction(Fraction(most) / max(c for c, _ in terms))) for terms,
+                   most in self.parts)
 
     def beyond_rate(self, rate: float) -> bool:
         """Whether |omega| <= rate keeps the quantity below the limit."""
-        return self.kind != "tilt" and math.isfinite(rate) and all(max(c for c, _ in terms) * Fraction(rate) ** 2 < most for terms, most in self.parts)
+        return (self.kind != "tilt" and math.isfinite(rate)
+                and all(max(c for c, _ in terms) * Fraction(rate) ** 2 < most for terms, most in self.parts))
 
 
 def _below(terms: Iterable[Any], sizes: list[float], most: Fraction) -> bool:
-    """Whether sum c (a . omega)^2 stays below a value for rates of these sizes: in exact numbers, as squares of doubles may be none."""
+    """Whether sum c (a . omega)^2 stays below a value for rates of these sizes: in exact numbers, as squares
+    of doubles may be none."""
     if not all(map(math.isfinite, sizes)):
         return False
     exactly = list(map(Fraction, sizes))
     return sum(c * sum(abs(a) * size for a, size in zip(vector, exactly)) ** 2 for c, vector in terms) < most
 
 
-def asked(scene: AnyScene, rate: Any = None, component: Any = None, energy: Any = None, tilt: Any = None) -> Limit:
+def asked(scene: AnyScene, rate: Any = None, component: Any = None, energy: Any = None,
+          tilt: Any = None) -> Limit:
     """The one limit that is given; InputError for none, several, and for numbers that are none."""
-    given = {name: value for name, value in (("rate", rate), ("component", component), ("energy", energy), ("tilt", tilt)) if value is not None}
+    given = {name: value for name, value in (("rate", rate), ("component", component), ("energy", energy),
+                                             ("tilt", tilt)) if value is not None}
     if len(given) != 1:
-        raise InputError(f"time_to: expected one of rate, component, energy and tilt, got {', '.join(given) or 'none'}")
+        raise InputError(
+            f"time_to: expected one of rate, component, energy and tilt, got {', '.join(given) or 'none'}")
     (name, value), = given.items()
     return {"rate": _rate, "component": _component, "energy": _energy, "tilt": _tilt}[name](scene, value)
 
@@ -82,11 +92,14 @@ def _rate(scene: AnyScene, value: Any) -> Limit:
     unit = _unit(scene)
     if hasattr(value, "__len__") and not isinstance(value, str):
         limits = exact_vector(value, "rate")
-        parts = tuple((((Fraction(1), axis),), _positive(most, "rate") ** 2) for axis, most in zip(AXES, limits))
-        return Limit("component", parts, "|components| " + ", ".join(f"{float(v):.10g}" for v in limits) + f" {unit}")
+        parts = tuple((((Fraction(1), axis),), _positive(most, "rate") ** 2) for axis,
+                      most in zip(AXES, limits))
+        return Limit("component", parts,
+                     "|components| " + ", ".join(f"{float(v):.10g}" for v in limits) + f" {unit}")
     most = _positive(value, "rate")
     letter = "x" if scene.variables == "scaled" else "omega"
-    return Limit("rate", ((tuple((Fraction(1), axis) for axis in AXES), most**2),), f"|{letter}| = {float(most):.10g} {unit}".rstrip())
+    return Limit("rate", ((tuple((Fraction(1), axis) for axis in AXES), most**2),),
+                 f"|{letter}| = {float(most):.10g} {unit}".rstrip())
 
 
 def _component(scene: AnyScene, value: Any) -> Limit:
@@ -104,7 +117,8 @@ def _energy(scene: AnyScene, value: Any) -> Limit:
     if scene.variables == "scaled":
         raise InputError("energy: scaled variables know no kinetic energy: give a body")
     most = _positive(value, "energy")
-    return Limit("energy", ((tuple((d / 2, axis) for d, axis in zip(scene.body.exact, AXES)), most),), f"kinetic energy = {float(most):.10g} J")
+    return Limit("energy", ((tuple((d / 2, axis) for d, axis in zip(scene.body.exact, AXES)), most),),
+                 f"kinetic energy = {float(most):.10g} J")
 
 
 def _tilt(scene: AnyScene, value: Any) -> Limit:
@@ -126,7 +140,9 @@ def _pair(value: Any, name: str) -> tuple[Any, Any]:
     try:
         axis, most = value
     except (TypeError, ValueError):
-        raise InputError(f"{name}: expected (axis, limit), the axis 1, 2, 3 or three numbers along it, got {value!r:.80}") from None
+        raise InputError(
+            f"{name}: expected (axis, limit), the axis 1, 2, 3 or three numbers along it, got "
+            f"{value!r:.80}") from None
     return axis, most
 
 
@@ -140,7 +156,8 @@ def _direction(axis: Any, name: str) -> tuple[Exact3, str]:
     length = sqrt_fraction(dot(vector, vector))
     if not length:
         raise InputError(f"{name}: expected a direction, got zero: give a vector of any length but that")
-    return tuple(v / length for v in vector), "(" + ", ".join(f"{float(v / length):.6g}" for v in vector) + ")"
+    return tuple(v / length
+                 for v in vector), "(" + ", ".join(f"{float(v / length):.6g}" for v in vector) + ")"
 
 
 def _positive(value: Any, name: str) -> Fraction:
@@ -149,5 +166,6 @@ def _positive(value: Any, name: str) -> Fraction:
     except InputError as error:
         raise InputError(f"{name}: {error}") from None
     if number <= 0:
-        raise InputError(f"{name}: expected a positive limit, got {float(number):.10g}{SIGN if number < 0 else ''}")
+        raise InputError(
+            f"{name}: expected a positive limit, got {float(number):.10g}{SIGN if number < 0 else ''}")
     return number

@@ -1,14 +1,16 @@
-"""Limits that are never reached: a motion that rests, extremes or a bound over all time below the limit, or one whole period below it.
+"""Limits that are never reached: a motion that rests, extremes or a bound over all time below the limit, or
+one whole period below it.
 
-A time before which no motion can reach a limit, whatever it does on the way: the torque feeds energy at a bounded rate.
+A time before which no motion can reach a limit, whatever it does on the way: the torque feeds energy at a
+bounded rate.
 
-Let W = (omega . D omega)^(1/2), the root of twice the kinetic energy. The torque alone does work, so that W W' = M . omega, and with
-M . omega <= |D^(-1/2) M| W
+Let W = (omega . D omega)^(1/2), the root of twice the kinetic energy. The torque alone does work, so that W
+W' = M . omega, and with M . omega <= |D^(-1/2) M| W
 
     W(t) <= W(0) + |D^(-1/2) M| t.
 
-A quantity sum c (a . omega)^2 is at most q W^2, q the sum of the c a . D^(-1) a, or the greatest of them where the a are different principal axes. It
-reaches its limit no earlier than q W^2 does.
+A quantity sum c (a . omega)^2 is at most q W^2, q the sum of the c a . D^(-1) a, or the greatest of them
+where the a are different principal axes. It reaches its limit no earlier than q W^2 does.
 """
 from __future__ import annotations
 
@@ -36,7 +38,8 @@ LESS = 1 - Fraction(1, 1 << 60)  # the roots are known to 2^-240
 
 
 def never(scene: AnyScene, state: Float3, exact: Exact3, limit: Limit) -> tuple[Found | None, float | None]:
-    """(the answer where extremes over all time stay below the limit, a time by which it is reached if ever or None). exact: three rationals."""
+    """(the answer where extremes over all time stay below the limit, a time by which it is reached if ever or
+    None). exact: three rationals."""
     if limit.kind == "tilt":
         return None, None
     if rests(scene.quadratic(), exact):
@@ -48,7 +51,8 @@ def never(scene: AnyScene, state: Float3, exact: Exact3, limit: Limit) -> tuple[
     if kind == "aligned" and not _repeats(scene, row):
         return None, None  # its extremes over all time are not known
     if limit.beyond(extremes(scene, row).tolist(), SLACK):
-        return Found(math.inf, math.inf, "exact", f"{limit.words}: never, the extremes over all time stay below it"), None
+        return Found(math.inf, math.inf, "exact",
+                     f"{limit.words}: never, the extremes over all time stay below it"), None
     if fate(scene, row).labels != Fate.BOUNDED:
         return None, None
     repeats = float(period(scene, row)) if kind == "orbit" else math.inf
@@ -61,23 +65,28 @@ def _repeats(scene: AnyScene, row: np.ndarray) -> bool:
 
 def after_a_period(limit: Limit) -> Found:
     """The answer where a whole period, enclosed, stays below the limit."""
-    return Found(math.inf, math.inf, "proved", f"{limit.words}: never, the motion repeats and a whole period stays below it")
+    return Found(math.inf, math.inf, "proved",
+                 f"{limit.words}: never, the motion repeats and a whole period stays below it")
 
 
 def never_bounded(scene: AnyScene, state: Any, limit: Limit) -> Found | None:
-    """The answer for a scene of other effects, where energy or momentum bound the rate below the limit; None where they do not."""
+    """The answer for a scene of other effects, where energy or momentum bound the rate below the limit; None
+    where they do not."""
     if limit.kind == "tilt":
         return None
     found = motion(scene, state, brief=True)
     bound = found.invariants.get("rate_bound", math.inf)
-    if found.fate == Fate.EQUILIBRIUM or (found.fate == Fate.BOUNDED and limit.beyond_rate(bound * (1 + SLACK))):
-        why = "the state is an equilibrium" if found.fate == Fate.EQUILIBRIUM else f"|omega| <= {bound:.6g} rad/s always"
+    if found.fate == Fate.EQUILIBRIUM or (found.fate == Fate.BOUNDED
+                                          and limit.beyond_rate(bound * (1 + SLACK))):
+        why = ("the state is an equilibrium" if found.fate == Fate.EQUILIBRIUM
+               else f"|omega| <= {bound:.6g} rad/s always")
         return Found(math.inf, math.inf, "exact", f"{limit.words}: never, {why}")
     return None
 
 
 def earliest(scene: AnyScene, start: Sequence[Number], limit: Limit) -> Fraction:
-    """The time in the scene's unit, exact; 0 where nothing is known (scaled variables, tilts). scene: wheel and torque; start: three exact rates."""
+    """The time in the scene's unit, exact; 0 where nothing is known (scaled variables, tilts). scene: wheel
+    and torque; start: three exact rates."""
     if scene.variables == "scaled" or limit.kind == "tilt":
         return Fraction(0)
     D = scene.body.exact

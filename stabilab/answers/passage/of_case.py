@@ -1,4 +1,5 @@
-"""When the motion of a case reaches a limit, with what limits the answer: a limit of its own that comes first, and a tilt of the torque."""
+"""When the motion of a case reaches a limit, with what limits the answer: a limit of its own that comes
+first, and a tilt of the torque."""
 from __future__ import annotations
 
 import math
@@ -20,22 +21,27 @@ FASTEST = 1e150  # rad/s: beyond it squares come near the end of doubles, and no
 
 
 def limited_time(case: Any, ask: dict[str, Any], t_max: float | Fraction | None = None) -> TimeTo:
-    """As `time_of_case`; where it is never, with what a tilt of the torque does, by what the case states as misalignment, else by one degree."""
+    """As `time_of_case`; where it is never, with what a tilt of the torque does, by what the case states as
+    misalignment, else by one degree."""
     found = time_of_case(case, ask, t_max)
     never = math.isinf(found.low)
-    return replace(found, caveats=caveats_of(case.scene, never, of_tilt(case, None, ask, never), file=case.caveats))
+    return replace(found,
+                   caveats=caveats_of(case.scene, never, of_tilt(case, None, ask, never), file=case.caveats))
 
 
 def with_first(case: Any, motion: Motion, work: int = WORK) -> Motion:
-    """The motion with the time at which it reaches the limit of its case, where that states one. work: as of `time_to`."""
+    """The motion with the time at which it reaches the limit of its case, where that states one. work: as of
+    `time_to`."""
     ask = limit_of(case)
     if ask is None or motion.first is not None:
         return motion
-    return limited(replace(motion, first=(stated(case.limits), time_of_case(case, ask, work=work))), case.scene, case)
+    return limited(replace(motion, first=(stated(case.limits), time_of_case(case, ask, work=work))),
+                   case.scene, case)
 
 
 def with_tilt(case: Any, motion: Motion, angle: float | None = None) -> Motion:
-    """The motion of a case with what a tilt of its torque does to it. angle: rad; None: what its stuck thrusters state, else one degree."""
+    """The motion of a case with what a tilt of its torque does to it. angle: rad; None: what its stuck
+    thrusters state, else one degree."""
     found = of_tilt(case, angle, limit_of(case), motion.fate in STEADY)
     return limited(replace(motion, tilt=found), case.scene, case)
 
@@ -49,15 +55,17 @@ def limit_of(case: Any) -> dict[str, Any] | None:
 
 
 def of_tilt(case: Any, angle: float | None, ask: dict[str, Any] | None, steady: bool) -> Tilt | Spread | None:
-    """What the torques of the cone do: to a steady motion under one on an axis always, else where a tilt is asked for or stated; why not, where it is
-    not looked at."""
+    """What the torques of the cone do: to a steady motion under one on an axis always, else where a tilt is
+    asked for or stated; why not, where it is not looked at."""
     loose, on_axis = angle is not None or bool(misaligned(case)), steady and _on_axis(case.scene)
     if not loose and not on_axis:
         return None
     plain = case.variables != "scaled" and case.scene.plain
-    why = ("in scaled variables" if case.variables == "scaled" else "with other effects than wheel and torque" if not plain else
+    why = ("in scaled variables" if case.variables == "scaled"
+           else "with other effects than wheel and torque" if not plain else
            "with rates whose squares are no doubles" if _too_fast(case, ask) else "" if on_axis else
-           "for the angle of an axis" if ask and "tilt" in ask else "" if any(case.scene.vector("constant_torque")) else "without a torque")
+           "for the angle of an axis" if ask and "tilt" in ask
+           else "" if any(case.scene.vector("constant_torque")) else "without a torque")
     if why:
         return Spread(angle or 0.0, "the torque", 0, because=why) if loose else None
     if on_axis:

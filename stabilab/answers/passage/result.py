@@ -18,11 +18,13 @@ if TYPE_CHECKING:  # a scene of exact laws does not load it
 
 @dataclass(frozen=True, repr=False, eq=False)
 class TimeTo(Shown, Compared):
-    """The first times (...,) at which states (..., 3) reach a limit, in the scene's time: each is between low and high.
+    """The first times (...,) at which states (..., 3) reach a limit, in the scene's time: each is between low
+    and high.
 
-    Both inf: never. high NaN: not known; then the limit is not reached before low. level (...,), texts: "exact" (a law, or all extremes), "proved"
-    (the motion enclosed by a proof), "certified" (the theorem of spin-up, applied to a run of machine precision), "run" (roots along a run of
-    machine precision, wider by what a second run shows), "undecided". words (...,): how it is known. quantity: what was asked, in words.
+    Both inf: never. high NaN: not known; then the limit is not reached before low. level (...,), texts:
+    "exact" (a law, or all extremes), "proved" (the motion enclosed by a proof), "certified" (the theorem of
+    spin-up, applied to a run of machine precision), "run" (roots along a run of machine precision, wider by
+    what a second run shows), "undecided". words (...,): how it is known. quantity: what was asked, in words.
     caveats: what limits the answers (`answers.caveats`).
     """
 
@@ -37,7 +39,8 @@ class TimeTo(Shown, Compared):
 
     @cached_property
     def validity(self) -> Validity | None:
-        """Of an approximate law (`stabilab.physics.law_limits`) at the start; None where all laws are exact."""
+        """Of an approximate law (`stabilab.physics.law_limits`) at the start; None where all laws are exact.
+        """
         limits = limits_of(self.scene)
         return limits.validity(self.scene, self.states) if limits else None
 

@@ -1,4 +1,5 @@
-"""The first crossing by roots along a run of machine precision; a second run from a start moved in its last place says how well it is known."""
+"""The first crossing by roots along a run of machine precision; a second run from a start moved in its last
+place says how well it is known."""
 from __future__ import annotations
 
 import math
@@ -31,11 +32,13 @@ PRODUCTS = tuple(combinations_with_replacement(range(3), 2))  # of two rates
 
 
 def by_run(scene: AnyScene, start: Any, limit: Limit, t_max: float = math.inf, steps: int = STEPS) -> Found:
-    """The first crossing of the motion of any scene. start: numbers or blocks, as `trajectory` takes them; t_max: the scene's time."""
+    """The first crossing of the motion of any scene. start: numbers or blocks, as `trajectory` takes them;
+    t_max: the scene's time."""
     return by_run_of(scene, start, limit, t_max, steps)[0]
 
 
-def by_run_of(scene: AnyScene, start: Any, limit: Limit, t_max: float = math.inf, steps: int = STEPS) -> tuple[Found, int]:
+def by_run_of(scene: AnyScene, start: Any, limit: Limit, t_max: float = math.inf,
+              steps: int = STEPS) -> tuple[Found, int]:
     """The same, and the steps that the first run took."""
     equations, state, unit, expressions = _asked(scene, start, limit)
     end = t_max * unit if math.isfinite(t_max) else 1e300
@@ -44,33 +47,43 @@ def by_run_of(scene: AnyScene, start: Any, limit: Limit, t_max: float = math.inf
     if one.t is None:
         far = "t_max" if one.ended else f"{steps} steps"
         low = one.until * (1 - ROUNDING) / unit
-        return Found(low, math.nan, "run", f"{words}: not reached by t = {one.until / unit:.6g} {scene.time_unit} ({far})"), one.steps
+        return Found(low, math.nan, "run",
+                     f"{words}: not reached by t = {one.until / unit:.6g} {scene.time_unit} ({far})"), one.steps
     two = first_root(equations, moved_row(state, MOVED), expressions, end, 2 * steps, 4 * TAYLOR_TOLERANCE)
     if two.t is None:
-        return Found(0.0, math.nan, "undecided", f"{words} find it at {one.t / unit:.6g} {scene.time_unit}, a second run from a start moved in its "
-                                                 "last place does not: more than a run in doubles can tell"), one.steps
+        return Found(0.0, math.nan, "undecided",
+                     f"{words} find it at {one.t / unit:.6g} {scene.time_unit}, a second run from a start "
+                     f"moved in its "
+                                                 "last place does not: more than a run in doubles "
+                                                 "can tell"), one.steps
     blur = WIDER * abs(one.t - two.t) + ROUNDING * one.t
-    return Found(max(0.0, one.t - blur) / unit, (one.t + blur) / unit, "run", f"{words}, the error from a second one"), one.steps
+    return Found(max(0.0, one.t - blur) / unit, (one.t + blur) / unit, "run",
+                 f"{words}, the error from a second one"), one.steps
 
 
-def run_once(scene: AnyScene, state: Sequence[float], limit: Limit, t_max: float = math.inf, steps: int = STEPS) -> tuple[float, float]:
-    """(time of the first crossing by one run, inf where none was found; the time until which none was): no word on their error.
+def run_once(scene: AnyScene, state: Sequence[float], limit: Limit, t_max: float = math.inf,
+             steps: int = STEPS) -> tuple[float, float]:
+    """(time of the first crossing by one run, inf where none was found; the time until which none was): no
+    word on their error.
 
     scene: wheel and torque; state: three floats; t_max: the scene's time.
     """
     if limit.kind == "tilt":
         equations, start, unit, expressions = _asked(scene, state, limit)
-        found = first_root(equations, start, expressions, t_max * unit if math.isfinite(t_max) else 1e300, steps)
+        found = first_root(equations, start, expressions, t_max * unit if math.isfinite(t_max) else 1e300,
+                           steps)
     else:
         own, unit, start = _in_own_unit(scene, state)
         forms, rate = _quadratic(own, limit.parts, Fraction(unit) ** 2), own.quadratic().rate
-        found = root_of(forms, rate, start, rate(start.tolist()), t_max * unit if math.isfinite(t_max) else 1e300, steps)
+        found = root_of(forms, rate, start, rate(start.tolist()),
+                        t_max * unit if math.isfinite(t_max) else 1e300, steps)
     until = t_max if found.t is None and found.ended and math.isfinite(t_max) else found.until / unit
     return (math.inf, until) if found.t is None else (found.t / unit, math.inf)
 
 
 def largest_rate(scene: AnyScene, state: Sequence[float], until: float, budget: int) -> tuple[float, float]:
-    """(largest |omega| from 0 to `until`, rad/s; the time that the run reached, s): at its ends and where it is stationary."""
+    """(largest |omega| from 0 to `until`, rad/s; the time that the run reached, s): at its ends and where it
+    is stationary."""
     own, unit, start = _in_own_unit(scene, state)
     sizes, reached = (_turning if heyoka_available() else _sampled)(own, start, until * unit, budget)
     return max(v for v in sizes if math.isfinite(v)) * unit, reached / unit
@@ -90,7 +103,8 @@ def _turning(scene: AnyScene, start: np.ndarray, end: float, budget: int) -> tup
 
 def _sampled(scene: AnyScene, start: np.ndarray, end: float, budget: int) -> tuple[list[float], float]:
     """The same where heyoka is not installed: at sixteen places of every step."""
-    solver, sizes = stand_in(scene.quadratic().rate, start, end, rtol=3e-14, atol=1e-16), [float(np.linalg.norm(start))]
+    solver, sizes = stand_in(scene.quadratic().rate, start, end, rtol=3e-14,
+                             atol=1e-16), [float(np.linalg.norm(start))]
     for _ in range(budget):
         if solver.status != "running":
             break
@@ -116,27 +130,33 @@ def _quadratic(scene: AnyScene, parts: Sequence[Any] = (), square: Fraction = Fr
     state, symbols, expressions = _structure(len(parts))
     numbers = [*sum(zip(*scene.quadratic().coefficients), ())]
     for terms, most in parts:
-        numbers += [float(sum(c * a[i] * a[j] * (1 + (i != j)) for c, a in terms)) for i, j in PRODUCTS] + [float(most / square)]
+        numbers += ([float(sum(c * a[i] * a[j] * (1 + (i != j)) for c, a in terms)) for i, j in PRODUCTS]
+                    + [float(most / square)])
     return Form(state, expressions, symbols, tuple(numbers))
 
 
 @lru_cache(maxsize=4)
 def _structure(parts: int) -> Any:
-    """(state, coefficients, rates followed by events): where so many quadratic forms are at their limits; without any, where |omega| is stationary. All
-    scenes have the same coefficients, so that it is compiled once."""
+    """(state, coefficients, rates followed by events): where so many quadratic forms are at their limits;
+    without any, where |omega| is stationary. All scenes have the same coefficients, so that it is compiled
+    once."""
     from sympy import symbols
     extra: Any = symbols(f"e0:{7 * parts}", real=True) if parts else ()
     x, c = symbols("x1:4", real=True), symbols("c0:12", real=True)
-    rates = [c[4 * i] * x[j] * x[k] + c[4 * i + 1] * x[k] + c[4 * i + 2] * x[j] + c[4 * i + 3] for i, (j, k) in enumerate(CYCLE)]
-    events = [sum(e * x[i] * x[j] for e, (i, j) in zip(extra[7 * n:], PRODUCTS)) - extra[7 * n + 6] for n in range(parts)]
+    rates = [c[4 * i] * x[j] * x[k] + c[4 * i + 1] * x[k] + c[4 * i + 2] * x[j] + c[4 * i + 3] for i,
+             (j, k) in enumerate(CYCLE)]
+    events = [sum(e * x[i] * x[j] for e, (i, j) in zip(extra[7 * n:], PRODUCTS)) - extra[7 * n + 6]
+              for n in range(parts)]
     return x, (*c, *extra), (*rates, *(events or [sum(v * rate for v, rate in zip(x, rates))]))
 
 
 def _asked(scene: AnyScene, start: Any, limit: Limit) -> tuple[Equations, np.ndarray, float, list[Any]]:
-    """(equations, state, unit, expressions that vanish at the limit), in units near the motion's own where these are known."""
+    """(equations, state, unit, expressions that vanish at the limit), in units near the motion's own where
+    these are known."""
     tilted = limit.kind == "tilt"
     if tilted and not isinstance(start, dict):
-        start = {"omega": tuple(start)[:3]} | ({"gamma": tuple(start)[3:6]} if "gamma" in scene.blocks else {})
+        start = ({"omega": tuple(start)[:3]}
+                 | ({"gamma": tuple(start)[3:6]} if "gamma" in scene.blocks else {}))
     if tilted:
         start = {"attitude": (1.0, 0.0, 0.0, 0.0), **start}
     equations, state = equations_and_start(scene, start)
@@ -152,18 +172,21 @@ def _asked(scene: AnyScene, start: Any, limit: Limit) -> tuple[Equations, np.nda
     return equations, state, unit, _expressions(limit, equations, state, unit)
 
 
-def _expressions(limit: Limit, equations: Equations, state: Sequence[float] | np.ndarray, unit: float) -> list[Any]:
+def _expressions(limit: Limit, equations: Equations, state: Sequence[float] | np.ndarray,
+                 unit: float) -> list[Any]:
     from sympy import Float, Rational, cos
     rational = lambda v: Rational(v.numerator, v.denominator)
     if limit.kind != "tilt":
         omega = equations.state[:3]
         power = rational(Fraction(unit)) ** 2
-        return [sum(rational(c) * sum(rational(a) * w for a, w in zip(vector, omega) if a) ** 2 for c, vector in terms) - rational(most) / power
+        return [sum(rational(c) * sum(rational(a) * w for a, w in zip(vector, omega) if a) ** 2 for c,
+                    vector in terms) - rational(most) / power
                 for terms, most in limit.parts]
     at = 3 + (3 if "gamma" in equations.blocks else 0)
     q = equations.state[at:at + 4]
     direction = limit.direction or ()
     first = to_space(state[at:at + 4], [float(v) for v in direction])
     rows = rotation(q)
-    turned = sum(Rational(float(f)) * rational(a) * entry for f, row in zip(first, rows) for a, entry in zip(direction, row) if a)
+    turned = sum(Rational(float(f)) * rational(a) * entry for f, row in zip(first, rows) for a,
+                 entry in zip(direction, row) if a)
     return [turned - Rational(float(cos(Float(rational(limit.parts[0][1]), 30))))]

@@ -1,4 +1,5 @@
-"""Fate of one motion under one torque, the time to its limit, and the largest rate before: whatever the torque's direction."""
+"""Fate of one motion under one torque, the time to its limit, and the largest rate before: whatever the
+torque's direction."""
 from __future__ import annotations
 
 import math
@@ -19,9 +20,12 @@ from ..passage.run import largest_rate, run_once
 from ..time_to import of_one
 from .scenario import Scenario
 
-BUDGET, SEARCHED = 100_000, 20_000  # steps of a run that looks for the largest rate, and of each of many that are compared
+# steps of a run that looks for the largest rate, and of each of many that are compared
+BUDGET, SEARCHED = 100_000, 20_000
 LITTLE, FEW = 2_000_000, 3_000  # multiplications and compiled steps: some tenths of a second
-PLAIN = 32  # validated steps without the compiler, fifteen milliseconds each: as long as loading what is compiled takes; compiling it takes ten seconds
+# validated steps without the compiler, fifteen milliseconds each: as long as loading what is compiled takes;
+# compiling it takes ten seconds
+PLAIN = 32
 PATIENCE = 100  # times the time without a change: a limit that is not reached by then counts as never
 TURN = 1.001  # of a period: a motion that repeats is followed for so long
 EXACT = ("axis", "law")  # certificates of growth that are closed solutions
@@ -29,11 +33,13 @@ EXACT = ("axis", "law")  # certificates of growth that are closed solutions
 
 @dataclass(frozen=True)
 class Found:
-    """fate, level, axis (1, 2, 3 of the scene or 0), sense, direction (scene's axes) and because as in `SpinUp`.
+    """fate, level, axis (1, 2, 3 of the scene or 0), sense, direction (scene's axes) and because as in
+    `SpinUp`.
 
-    motion: of a scene with an orbit or a law, None elsewhere; kind: of the scene; time: (low, high) of the limit, None where it is never
-    within what is known, and time_level how it is known; never: it is known never to be reached; largest: |omega| up to then, or for
-    ever, rad/s, None where unbounded or unknown; followed: s, up to where the limit is known not to be reached.
+    motion: of a scene with an orbit or a law, None elsewhere; kind: of the scene; time: (low, high) of the
+    limit, None where it is never within what is known, and time_level how it is known; never: it is known
+    never to be reached; largest: |omega| up to then, or for ever, rad/s, None where unbounded or unknown;
+    followed: s, up to where the limit is known not to be reached.
     """
 
     fate: Fate
@@ -52,7 +58,8 @@ class Found:
 
 
 def found(scenario: Scenario, torque: Sequence[Fraction], wheel: Sequence[Fraction] | None = None) -> Found:
-    """What becomes of the scenario's motion under a torque, with another wheel momentum where one is given."""
+    """What becomes of the scenario's motion under a torque, with another wheel momentum where one is given.
+    """
     scene = scenario.scene(torque, wheel)
     kind = kind_of(scene)
     if rests(scene.quadratic(), scenario.state):
@@ -60,9 +67,11 @@ def found(scenario: Scenario, torque: Sequence[Fraction], wheel: Sequence[Fracti
     return _off_axis(scenario, scene) if kind == "off axis" else _by_law(scenario, scene, kind)
 
 
-def time_under(scenario: Scenario, torque: Sequence[Fraction], wheel: Sequence[Fraction]) -> tuple[float, float] | None:
-    """The bracket of the time to the limit under a torque and a wheel momentum, s; None where it is never within what is known. A motion that a wheel holds
-    up goes on for long: it is enclosed where little work does that, else followed by a run."""
+def time_under(scenario: Scenario, torque: Sequence[Fraction],
+               wheel: Sequence[Fraction]) -> tuple[float, float] | None:
+    """The bracket of the time to the limit under a torque and a wheel momentum, s; None where it is never
+    within what is known. A motion that a wheel holds up goes on for long: it is enclosed where little work
+    does that, else followed by a run."""
     return _when(scenario, scenario.scene(torque, wheel), None, LITTLE, FEW).time
 
 
@@ -73,9 +82,10 @@ def limit_in(scenario: Scenario) -> Limit:
     return replace(found, words="components in the frame of the file") if found.kind == "component" else found
 
 
-def first_time(scenario: Scenario, limit: Limit, torque: Sequence[Fraction], wheel: Sequence[Fraction] | None, t_max: float) -> float:
-    """The time at which a plain run comes to the limit, s, for searches; inf where not until t_max, and where its steps end before that, the time it got
-    to."""
+def first_time(scenario: Scenario, limit: Limit, torque: Sequence[Fraction], wheel: Sequence[Fraction] | None,
+               t_max: float) -> float:
+    """The time at which a plain run comes to the limit, s, for searches; inf where not until t_max, and where
+    its steps end before that, the time it got to."""
     if limit.reached_by(scenario.state):
         return 0.0
     t, until = run_once(scenario.scene(torque, wheel), scenario.start, limit, t_max, SEARCHED)
@@ -84,7 +94,8 @@ def first_time(scenario: Scenario, limit: Limit, torque: Sequence[Fraction], whe
 
 def _at_rest(scenario: Scenario, kind: str) -> Found:
     size = math.hypot(*scenario.start)
-    return Found(Fate.EQUILIBRIUM, "exact", 0, 0, None, "every rate vanishes at the state, exactly", kind, None, None, "exact", True, size, math.inf)
+    return Found(Fate.EQUILIBRIUM, "exact", 0, 0, None, "every rate vanishes at the state, exactly", kind,
+                 None, None, "exact", True, size, math.inf)
 
 
 def _off_axis(scenario: Scenario, scene: Scene) -> Found:
@@ -94,7 +105,8 @@ def _off_axis(scenario: Scenario, scene: Scene) -> Found:
     about = (seen.axis, seen.sense, seen.direction) if spins else (0, 0, None)
     when = _when(scenario, scene, None if spins or seen.fate == Fate.BOUNDED else seen.t, spun=certified)
     largest = _largest(scenario, scene, when, None if spins else seen.t)
-    return Found(seen.fate, "run" if seen.level == "undecided" else seen.level, *about, f"{seen.cause}{when.unsure}", "off axis", None, when.time, when.level,
+    return Found(seen.fate, "run" if seen.level == "undecided" else seen.level, *about,
+                 f"{seen.cause}{when.unsure}", "off axis", None, when.time, when.level,
                  when.never, largest, when.followed)
 
 
@@ -106,8 +118,10 @@ def _by_law(scenario: Scenario, scene: Scene, kind: str) -> Found:
     largest = _largest(scenario, scene, when, repeats)
     if largest is None and not spins and math.isfinite(bound := _bound(motion)):
         largest = bound
-    return Found(motion.fate, _level(kind, motion), motion.axis, motion.sense, _direction(scene, motion) if spins else None, f"{motion.because}{when.unsure}",
-                 kind, motion, when.time, when.level, when.never, largest, math.inf if repeats else when.followed)
+    return Found(motion.fate, _level(kind, motion), motion.axis, motion.sense,
+                 _direction(scene, motion) if spins else None, f"{motion.because}{when.unsure}",
+                 kind, motion, when.time, when.level, when.never, largest,
+                 math.inf if repeats else when.followed)
 
 
 @dataclass(frozen=True)
@@ -120,11 +134,13 @@ class _When:
 
 
 def _when(scenario: Scenario, scene: Scene, t_max: float | None, *work: Any, spun: Any = None) -> _When:
-    """When the limit is reached, by `time_to`; t_max: how far an undecided motion was followed, s; work, spun: as of `time_to.of_one`."""
+    """When the limit is reached, by `time_to`; t_max: how far an undecided motion was followed, s; work,
+    spun: as of `time_to.of_one`."""
     if scenario.limit is None:
         return _When(None, "run", False, 0.0 if t_max is None else t_max)
     end = None if t_max is None else Fraction(t_max)
-    seen = of_one(scene, scenario.start, scenario.state, limit_in(scenario), end, *work, spun=spun)  # type: ignore[misc]  # work is no more than two
+    # work is no more than two
+    seen = of_one(scene, scenario.start, scenario.state, limit_in(scenario), end, *work, spun=spun)  # type: ignore[misc]
     if math.isinf(seen.low):
         return _When(None, seen.level, True, math.inf)
     if math.isfinite(seen.high):

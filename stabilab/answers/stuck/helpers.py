@@ -1,8 +1,10 @@
-"""Other thrusters, alone or in pairs, that fired together with the stuck ones keep the motion bounded, or delay its limit.
+"""Other thrusters, alone or in pairs, that fired together with the stuck ones keep the motion bounded, or
+delay its limit.
 
-What leaves less torque need not come to the limit later: what is left may lie nearer to an axis about which the body
-spins up. So times are compared with the time without help, and what brings the limit sooner is said not to help. A
-thruster that fires for a share of the time is taken as its mean torque: that is right where its pulses are short beside the motion.
+What leaves less torque need not come to the limit later: what is left may lie nearer to an axis about which
+the body spins up. So times are compared with the time without help, and what brings the limit sooner is said
+not to help. A thruster that fires for a share of the time is taken as its mean torque: that is right where
+its pulses are short beside the motion.
 """
 from __future__ import annotations
 
@@ -28,8 +30,10 @@ TRIED = 6  # thrusters, and pairs, whose times are compared: those that leave th
 SHARES = (Fraction(1), Fraction(3, 4), Fraction(1, 2), Fraction(1, 4))  # of the duty that leaves the least
 
 
-def helpers(scenario: Scenario, torque: Sequence[Fraction], others: Sequence[Any], seen: Found) -> tuple[Helper, ...]:
-    """The helpers among `others` (thrusters that do not fire) against a torque (exact, scene's axes), the best first.
+def helpers(scenario: Scenario, torque: Sequence[Fraction], others: Sequence[Any],
+            seen: Found) -> tuple[Helper, ...]:
+    """The helpers among `others` (thrusters that do not fire) against a torque (exact, scene's axes), the
+    best first.
 
     seen: what becomes of the motion without them.
     """
@@ -71,14 +75,16 @@ def _timed(scenario: Scenario, helper: Helper, left: Exact3, seen: Found) -> Hel
     return replace(helper, time_to_limit=time, effect=helper.effect if _later(time, seen) else "none")
 
 
-def _stops(scenario: Scenario, torque: Sequence[Fraction], names: tuple[str, ...], arms: Sequence[Sequence[Fraction]]
+def _stops(scenario: Scenario, torque: Sequence[Fraction], names: tuple[str, ...],
+           arms: Sequence[Sequence[Fraction]]
            ) -> tuple[Helper, Exact3] | None:
     """The helper that these make, and the torque, where they leave none or a bounded motion."""
     duty = _least_squares(torque, arms)
     if _possible(duty):
         left = _left(torque, arms, duty)
         if dot(left, left) <= NOTHING**2 * dot(torque, torque):
-            helper = Helper(names, tuple(map(float, duty)), "zero", math.sqrt(float(dot(left, left))), "bounded", None)
+            helper = Helper(names, tuple(map(float, duty)), "zero", math.sqrt(float(dot(left, left))),
+                            "bounded", None)
             return helper, (Fraction(0),) * 3
     best, axis = None, 0
     for i in range(3):
@@ -129,7 +135,8 @@ def _onto_axis(torque: Sequence[Fraction], arms: Sequence[Sequence[Fraction]], i
 def _solved(p: Fraction, q: Fraction, r: Fraction, s: Fraction, x: Fraction, y: Fraction) -> Duty | None:
     """(u, v) with p u + q v = x and r u + s v = y; None where the rows are alike."""
     det = p * s - q * r
-    return None if det * det <= NOTHING**2 * (p * p + q * q) * (r * r + s * s) else ((x * s - q * y) / det, (p * y - r * x) / det)
+    return (None if det * det <= NOTHING**2 * (p * p + q * q) * (r * r + s * s)
+            else ((x * s - q * y) / det, (p * y - r * x) / det))
 
 
 def _slowest(scenario: Scenario, torque: Sequence[Fraction], sets: Any, seen: Found) -> list[Helper]:
@@ -148,8 +155,10 @@ def _slowest(scenario: Scenario, torque: Sequence[Fraction], sets: Any, seen: Fo
             best = math.sqrt(float(square)), chosen, duty
             better = not out or best[0] < WORTH * out[0][0]
         else:
-            best = max(((_run(scenario, torque, chosen, scaled, seen), chosen, scaled) for _, chosen, duty in tried
-                        for share in SHARES for scaled in [tuple(share * u for u in duty)]), key=lambda one: one[0])
+            best = max(((_run(scenario, torque, chosen, scaled, seen), chosen, scaled) for _, chosen,
+                        duty in tried
+                        for share in SHARES for scaled in [tuple(share * u for u in duty)]),
+                       key=lambda one: one[0])
             better = not out or out[0][0] < WORTH * best[0]
         if better:
             out.append((best[0], _slower(scenario, torque, seen, *best)))
@@ -179,11 +188,13 @@ def _in_the_box(torque: Sequence[Fraction], arms: Sequence[Sequence[Fraction]]) 
     return out
 
 
-def _slower(scenario: Scenario, torque: Sequence[Fraction], seen: Found, run: float, chosen: Any, duty: Duty) -> Helper:
+def _slower(scenario: Scenario, torque: Sequence[Fraction], seen: Found, run: float, chosen: Any,
+            duty: Duty) -> Helper:
     """run: the time of the limit by a plain run, which counts where none is enclosed."""
     left, effect, time = _left(torque, [arm for _, arm in chosen], duty), "slower", None
     if scenario.limit is not None:
         time = time_under(scenario, left, scenario.wheel)
         effect = "slower" if _later(time or (run, run), seen) else "none"
     fate = found(replace(scenario, limit=None), left).fate.word
-    return Helper(tuple(name for name, _ in chosen), tuple(map(float, duty)), effect, math.sqrt(float(dot(left, left))), fate, time)
+    return Helper(tuple(name for name, _ in chosen), tuple(map(float, duty)), effect,
+                  math.sqrt(float(dot(left, left))), fate, time)

@@ -1,25 +1,30 @@
-"""Along a line of starts or of wheel momenta, told by s: every s at which the fate may change, by roots, and those at which it does.
+"""Along a line of starts or of wheel momenta, told by s: every s at which the fate may change, by roots, and
+those at which it does.
 
-On a circle (torque on the major or minor axis, `orbit.reduction`) the motion is bounded exactly if the potential somewhere within one turn ahead
-rises over the start by more than its energy, R(y, s) > E(s). The fate can change only where the highest barrier is as high as the energy:
+On a circle (torque on the major or minor axis, `orbit.reduction`) the motion is bounded exactly if the
+potential somewhere within one turn ahead rises over the start by more than its energy, R(y, s) > E(s). The
+fate can change only where the highest barrier is as high as the energy:
 
-    R(y, s) = E(s)  and  dR/dy = -F(y, s) = 0   for a y in (0, 2 pi],   or, where E = 0, where the start itself is an equilibrium, F(0, s) = 0.
+    R(y, s) = E(s)  and  dR/dy = -F(y, s) = 0   for a y in (0, 2 pi],   or, where E = 0, where the start
+    itself is an equilibrium, F(0, s) = 0.
 
-Along a line the place x, z of the start, its speed v about the torque's axis, E = v^2/2, and c and d of the reduction are linear in s, so both are
-quadratics in s whose coefficients are functions of y. Their resultant in s is a function of y alone; its zeros are isolated by balls of it and of
-its derivative: a cell of y is left out where they exclude a zero, holds one where the derivative has a sign and Newton's step contracts, and is
-halved otherwise. With h = y/2, S = sin h, K = cos h, and at the start w = z K - x S, u = x K + z S,
+Along a line the place x, z of the start, its speed v about the torque's axis, E = v^2/2, and c and d of the
+reduction are linear in s, so both are quadratics in s whose coefficients are functions of y. Their resultant
+in s is a function of y alone; its zeros are isolated by balls of it and of its derivative: a cell of y is
+left out where they exclude a zero, holds one where the derivative has a sign and Newton's step contracts, and
+is halved otherwise. With h = y/2, S = sin h, K = cos h, and at the start w = z K - x S, u = x K + z S,
 
     R = -mu y - 2 S [w (G (x + S w) + c) + d u].
 
-As the wheel changes the terms in s^2 of R and of F vanish at S = 0 like S^2 and S, because the rate at the start is linear in s. So sigma = S s is
-the unknown: both quadratics are regular on the whole turn, and no zero stands for an infinite s.
+As the wheel changes the terms in s^2 of R and of F vanish at S = 0 like S^2 and S, because the rate at the
+start is linear in s. So sigma = S s is the unknown: both quadratics are regular on the whole turn, and no
+zero stands for an infinite s.
 
 A zero may be double. From rest, or from a spin about the torque's axis alone, R and F are even in s and share
-two roots at once, s and -s; along a change of that spin alone F does not depend on s. A cell with such a zero is
-halved until it is `NARROW`, and every real root of f there is a candidate: one too many changes no fate. Without
-energy (no rate about the torque's axis) y = 0 is a zero for every s. There, and as near to it as `NARROW`, only
-an equilibrium at the start itself changes the fate.
+two roots at once, s and -s; along a change of that spin alone F does not depend on s. A cell with such a zero
+is halved until it is `NARROW`, and every real root of f there is a candidate: one too many changes no fate.
+Without energy (no rate about the torque's axis) y = 0 is a zero for every s. There, and as near to it as
+`NARROW`, only an equilibrium at the start itself changes the fate.
 """
 from __future__ import annotations
 
@@ -49,15 +54,17 @@ INF = math.inf
 FINE = Fraction(1, 1 << 51)  # of an end, or of the size of the whole: an end is known to this
 NEAR = Fraction(1, 10**9)  # of the unit: how near to a candidate its change of fate is looked for first
 TRIES = 400  # halvings or doublings at most: doubles have 2,098 binary orders, these bodies a few
-Pair: TypeAlias = Callable[[Any], tuple[Triple, Triple]]  # half a turn h -> the two quadratics, highest coefficient first
+# half a turn h -> the two quadratics, highest coefficient first
+Pair: TypeAlias = Callable[[Any], tuple[Triple, Triple]]
 Intervals: TypeAlias = tuple[tuple[float, float], ...]
 EVERY = ((-INF, INF),)
 
 
 @dataclass(frozen=True)
 class Family:
-    """A torque along principal axis `axis` (0-based) of a body, and a start; exact, along the axes of the body or, where the torque lies between
-    two equal moments, of the body turned so that it does. back(vector): along the scene's own axes; turned(vector): from them."""
+    """A torque along principal axis `axis` (0-based) of a body, and a start; exact, along the axes of the
+    body or, where the torque lies between two equal moments, of the body turned so that it does.
+    back(vector): along the scene's own axes; turned(vector): from them."""
 
     body: Body
     axis: int
@@ -69,10 +76,12 @@ class Family:
     def scene(self, wheel: Sequence[Fraction] | None = None, torque: Fraction | None = None) -> Scene:
         """With this wheel momentum, and this torque about the axis."""
         size = self.torque if torque is None else torque
-        return Scene(self.body, Gyrostat(tuple(self.wheel if wheel is None else wheel)), ConstantTorque(tuple(size * (n == self.axis) for n in range(3))))
+        return Scene(self.body, Gyrostat(tuple(self.wheel if wheel is None else wheel)),
+                     ConstantTorque(tuple(size * (n == self.axis) for n in range(3))))
 
     def fate(self, wheel: Sequence[Fraction] | None = None, torque: Fraction | None = None) -> Fate:
-        """The fate of the start, decided exactly; SPIN_UP where a wheel along the torque lets no motion be bounded."""
+        """The fate of the start, decided exactly; SPIN_UP where a wheel along the torque lets no motion be
+        bounded."""
         return self._decided(wheel, torque)[0]
 
     def _decided(self, wheel: Sequence[Fraction] | None, torque: Fraction | None) -> tuple[Fate, float]:
@@ -84,12 +93,15 @@ class Family:
         found = fate_of(scene, Orbit(reduction, self.state))
         return found.label, found.margin
 
-    def clearly(self, wanted: bool = True, wheel: Sequence[Fraction] | None = None, torque: Fraction | None = None) -> tuple[bool, float]:
-        """(whether the start stays bounded, or with wanted=False does not; how clearly: the margin in energy, positive where so, NaN where it tells not)."""
+    def clearly(self, wanted: bool = True, wheel: Sequence[Fraction] | None = None,
+                torque: Fraction | None = None) -> tuple[bool, float]:
+        """(whether the start stays bounded, or with wanted=False does not; how clearly: the margin in energy,
+        positive where so, NaN where it tells not)."""
         label, margin = self._decided(wheel, torque)
         steady = label in STEADY
         holds, sign = steady == wanted, 1 if wanted else -1
-        return holds, sign * margin if math.isfinite(margin) and (sign * margin > 0) == holds and label != Fate.EQUILIBRIUM else math.nan
+        return holds, sign * margin if math.isfinite(margin) and (sign * margin
+                                                                  > 0) == holds and label != Fate.EQUILIBRIUM else math.nan
 
     def steady(self, wheel: Sequence[Fraction] | None = None, torque: Fraction | None = None) -> bool:
         """Whether the start stays bounded."""
@@ -110,7 +122,8 @@ class Family:
 
     @property
     def momentum_unit(self) -> float:
-        """A size that wheel momenta of this motion are measured by: that of the body's own, and of what its torque makes of it."""
+        """A size that wheel momenta of this motion are measured by: that of the body's own, and of what its
+        torque makes of it."""
         weight = max(self.body.inertia)
         return weight * max(math.hypot(*map(float, self.state)), math.sqrt(abs(float(self.torque)) / weight))
 
@@ -122,7 +135,8 @@ class Family:
         """The inverse of `turned`."""
         if self.turn is None:
             return tuple(vector)
-        return tuple(sum((self.turn.rotation[i][j] * Fraction(vector[i]) for i in range(3)), Fraction(0)) for j in range(3))
+        return tuple(sum((self.turn.rotation[i][j] * Fraction(vector[i]) for i in range(3)), Fraction(0))
+                     for j in range(3))
 
 
 def family_of(scene: Scene, state: Sequence[Fraction]) -> Family | None:
@@ -137,13 +151,16 @@ def family_of(scene: Scene, state: Sequence[Fraction]) -> Family | None:
     acting = [n for n in range(3) if torque[n]]
     if len(acting) != 1:
         return None
-    return Family(scene.body, acting[0], torque[acting[0]], scene.vector("gyrostat"), tuple(map(Fraction, state)), turn)
+    return Family(scene.body, acting[0], torque[acting[0]], scene.vector("gyrostat"),
+                  tuple(map(Fraction, state)), turn)
 
 
 class Line:
-    """The reductions at s = 0 and s = 1, one and the same where the wheel stays, and the exact starts there."""
+    """The reductions at s = 0 and s = 1, one and the same where the wheel stays, and the exact starts there.
+    """
 
-    def __init__(self, at_0: Reduction, at_1: Reduction, start: Sequence[Fraction], end: Sequence[Fraction]) -> None:
+    def __init__(self, at_0: Reduction, at_1: Reduction, start: Sequence[Fraction],
+                 end: Sequence[Fraction]) -> None:
         self.wheel = at_0 is not at_1
         (x0, z0, c0, d0, v0), (x1, z1, c1, d1, v1) = _place(at_0, start), _place(at_1, end)
         g, dv = at_0.exact_constants, Fraction(0) if self.wheel else v1 - v0
@@ -166,7 +183,8 @@ class Line:
         return math.sin(h) if self.wheel else 1.0
 
     def others(self) -> list[float]:
-        """The s at which the start may be an equilibrium: no energy, or the torque is balanced, F(0, s) = 0."""
+        """The s at which the start may be an equilibrium: no energy, or the torque is balanced, F(0, s) = 0.
+        """
         (G, mu, *_), (x0, z0, c0, d0), (x1, z1, c1, d1) = self.fixed, self.at, self.change
         level = mu + G * x0 * z0 + c0 * z0 + d0 * x0
         slope = G * (x0 * z1 + x1 * z0) + c0 * z1 + c1 * z0 + d0 * x1 + d1 * x0
@@ -179,16 +197,19 @@ class Line:
 def _place(reduction: Reduction, state: Sequence[Fraction]) -> tuple[Fraction, ...]:
     """x, z, c, d, and the speed about the torque's axis."""
     g = reduction.exact_constants
-    return (g["flip"] * (state[reduction.j] + g["sj"]) / g["rx"], (state[reduction.k] + g["sk"]) / g["rz"], g["c"], g["d"],
+    return (g["flip"] * (state[reduction.j] + g["sj"]) / g["rx"], (state[reduction.k] + g["sk"]) / g["rz"],
+            g["c"], g["d"],
             g["n"] * (state[reduction.axis] + reduction.s))
 
 
 def rise(fixed: Any, at: Any, change: Any, h: Number, S: Number, K: Number, wheel: bool) -> Triple:
-    """(f2, f1, f0) of f = R - E at half the turn h, of sine S and cosine K: in s, or in sigma where the wheel changes."""
+    """(f2, f1, f0) of f = R - E at half the turn h, of sine S and cosine K: in s, or in sigma where the wheel
+    changes."""
     (G, mu, e2, e1, e0), (x0, z0, c0, d0), (x1, z1, c1, d1) = fixed, at, change
     w0, w1, u0, u1 = z0 * K - x0 * S, z1 * K - x1 * S, x0 * K + z0 * S, x1 * K + z1 * S
     i0, i1 = G * (x0 + S * w0) + c0, G * (x1 + S * w1) + c1
-    first, level = -2 * (w0 * i1 + w1 * i0 + d0 * u1 + d1 * u0), -2 * S * (w0 * i0 + d0 * u0) - 2 * mu * h - e0
+    first, level = -2 * (w0 * i1 + w1 * i0 + d0 * u1
+                         + d1 * u0), -2 * S * (w0 * i0 + d0 * u0) - 2 * mu * h - e0
     if wheel:
         return 2 * _bend(G, change, w1), first, level
     return -2 * S * (w1 * i1 + d1 * u1) - e2, S * first - e1, level
@@ -198,7 +219,8 @@ def force(fixed: Any, at: Any, change: Any, S: Number, K: Number, wheel: bool) -
     """(F2, F1, F0) likewise; where the wheel changes of S F in sigma."""
     (G, mu, *_), (x0, z0, c0, d0), (x1, z1, c1, d1) = fixed, at, change
     sine, cosine = 2 * S * K, 1 - 2 * S * S
-    X0, X1, Z0, Z1 = x0 * cosine + z0 * sine, x1 * cosine + z1 * sine, z0 * cosine - x0 * sine, z1 * cosine - x1 * sine
+    X0, X1, Z0, Z1 = (x0 * cosine + z0 * sine, x1 * cosine + z1 * sine, z0 * cosine - x0 * sine,
+                      z1 * cosine - x1 * sine)
     F0 = mu + G * X0 * Z0 + c0 * Z0 + d0 * X0
     F1 = G * (X0 * Z1 + X1 * Z0) + c0 * Z1 + c1 * Z0 + d0 * X1 + d1 * X0
     if wheel:
@@ -221,7 +243,8 @@ def resultant(f: Sequence[Number], g: Sequence[Number]) -> Number:
 
 
 def candidates(line: Line) -> list[float] | None:
-    """Every s at which the start may lie on a separatrix, ascending, in doubles; None where `MOST` cells do not tell."""
+    """Every s at which the start may lie on a separatrix, ascending, in doubles; None where `MOST` cells do
+    not tell."""
     with working(BITS, ORDER + 1) as numbers:
         pair = line.pair(numbers.ball)
         kept = _isolated(pair)
@@ -252,8 +275,9 @@ def _isolated(pair: Pair) -> list[float] | None:
 
 
 def expansion(pair: Pair, middle: Number, half: Number) -> list[Number]:
-    """Coefficients of the resultant in the distance from the middle of a cell of h: Taylor's at the middle, and in front of the power `ORDER` a ball that holds
-    the rest over the whole cell. The balls of a whole cell alone do not see what cancels, which is nearly all where two moments are nearly equal."""
+    """Coefficients of the resultant in the distance from the middle of a cell of h: Taylor's at the middle,
+    and in front of the power `ORDER` a ball that holds the rest over the whole cell. The balls of a whole
+    cell alone do not see what cancels, which is nearly all where two moments are nearly equal."""
     from flint import arb, arb_series
     rest = resultant(*pair(arb_series([arb(middle, half), 1], ORDER + 1)))
     here = resultant(*pair(arb_series([arb(middle), 1], ORDER)))
@@ -272,13 +296,15 @@ def _narrowed(pair: Pair, low: Number, high: Number) -> tuple[Number, Number] | 
     if 0 in slope:
         return low, high
     step = value / slope  # Newton's: the zero is within middle - step
-    least, most = middle - float((step.mid() + step.rad()).upper()), middle - float((step.mid() - step.rad()).lower())
+    least, most = middle - float((step.mid()
+                                  + step.rad()).upper()), middle - float((step.mid() - step.rad()).lower())
     low, high = max(low, least - 1e-15), min(high, most + 1e-15)
     return (low, high) if low <= high else None
 
 
 def _roots_at(pair: Pair, h: float, unit: float) -> list[float]:
-    """The s at which the start may lie on a separatrix with a zero at h: real roots of f, one or both shared by g."""
+    """The s at which the start may lie on a separatrix with a zero at h: real roots of f, one or both shared
+    by g."""
     from flint import arb
     if h < NARROW or not unit:
         return []
@@ -292,8 +318,10 @@ def real_roots(quadratic: Sequence[float]) -> list[float]:
     return [s for top, bottom in ((q, a), (c, q)) if bottom for s in [top / bottom] if math.isfinite(s)]
 
 
-def pieces(clearly: Callable[[Fraction], tuple[bool, float]], unit: Fraction, cuts: Sequence[float]) -> Intervals:
-    """The intervals of s in which a motion stays bounded, among the cuts: the fate is one and the same between two of them.
+def pieces(clearly: Callable[[Fraction], tuple[bool, float]], unit: Fraction,
+           cuts: Sequence[float]) -> Intervals:
+    """The intervals of s in which a motion stays bounded, among the cuts: the fate is one and the same
+    between two of them.
 
     clearly(s): whether it does, and how clearly (`Family.clearly`); unit: a size of s.
     """
@@ -310,7 +338,8 @@ def pieces(clearly: Callable[[Fraction], tuple[bool, float]], unit: Fraction, cu
         if steady[n] == steady[n + 1]:
             continue
         inside, outside = (samples[n], samples[n + 1]) if steady[n] else (samples[n + 1], samples[n])
-        near = cut + (1 if inside > cut else -1) * NEAR * unit, cut - (1 if inside > cut else -1) * NEAR * unit
+        near = cut + (1 if inside > cut
+                      else -1) * NEAR * unit, cut - (1 if inside > cut else -1) * NEAR * unit
         if holds(near[0]) and not holds(near[1]):
             inside, outside = near
         end = float(change_between(clearly, inside, outside, unit)[0])
@@ -323,21 +352,26 @@ def pieces(clearly: Callable[[Fraction], tuple[bool, float]], unit: Fraction, cu
 
 
 def nearest_change(kept: Intervals, steady: bool) -> tuple[float, float]:
-    """(the least s > 0 at which the fate changes, the next one, from which on it is again what it was; inf where there is none).
+    """(the least s > 0 at which the fate changes, the next one, from which on it is again what it was; inf
+    where there is none).
 
     kept: the intervals of s in which the motion is bounded; steady: whether it is at s = 0.
     """
-    ends = [(end, side) for pair in kept for side, end in zip((False, True), pair) if 0 < end < INF]  # True: bounded up to there
+    # True: bounded up to there
+    ends = [(end, side) for pair in kept for side, end in zip((False, True), pair) if 0 < end < INF]
     first = min((end for end, side in ends if side == steady), default=INF)
     return first, min((end for end, side in ends if side != steady and end > first), default=INF)
 
 
-def change_between(answer: Callable[[Fraction], tuple[bool, float]], inside: Fraction, outside: Fraction, scale: Fraction) -> tuple[Fraction, Fraction]:
-    """(last number known to hold, first known not to) between one that holds and one that does not, as near as `FINE` of their size or of scale.
+def change_between(answer: Callable[[Fraction], tuple[bool, float]], inside: Fraction, outside: Fraction,
+                   scale: Fraction) -> tuple[Fraction, Fraction]:
+    """(last number known to hold, first known not to) between one that holds and one that does not, as near
+    as `FINE` of their size or of scale.
 
-    answer(number): (whether it holds, a margin that is positive exactly where it does, or NaN). Where both ends have margins the next number is
-    where the line through them vanishes, at least the resolution away from either end, the margin of an end that stays halved (the Illinois rule);
-    every fourth time it is the middle.
+    answer(number): (whether it holds, a margin that is positive exactly where it does, or NaN). Where both
+    ends have margins the next number is where the line through them vanishes, at least the resolution away
+    from either end, the margin of an end that stays halved (the Illinois rule); every fourth time it is the
+    middle.
     """
     margins, last = [answer(end)[1] for end in (inside, outside)], None
     for n in range(TRIES):
@@ -351,7 +385,8 @@ def change_between(answer: Callable[[Fraction], tuple[bool, float]], inside: Fra
                 break
         holds, margin = answer(middle)
         inside, outside = (middle, outside) if holds else (inside, middle)
-        margins = [margin, margins[1] / (2 if last is True else 1)] if holds else [margins[0] / (2 if last is False else 1), margin]
+        margins = ([margin, margins[1] / (2 if last is True else 1)] if holds
+                   else [margins[0] / (2 if last is False else 1), margin])
         last = holds
     return inside, outside
 

@@ -1,4 +1,5 @@
-"""How little must change for the fate to change: rate, wheel momentum, torque, each with its direction, where a separatrix is there."""
+"""How little must change for the fate to change: rate, wheel momentum, torque, each with its direction, where
+a separatrix is there."""
 from __future__ import annotations
 
 import math
@@ -24,19 +25,24 @@ from .wheel import across, loose
 
 TURN = 2000  # places on the turn at which the rise of the potential is looked at, to find a direction
 MOST = 1000  # of the body's own momentum: changes of the wheel as great are not told
-BESIDE = 2 * math.pi * np.geomspace(1e-4, 1e-2, 5)  # of a turn: directions beside that of a circle that is a point
+# of a turn: directions beside that of a circle that is a point
+BESIDE = 2 * math.pi * np.geomspace(1e-4, 1e-2, 5)
 FEW = 5  # nearest places that are looked at in exact numbers
-DIRECTIONS, CLOSER = 180, 26  # of a change of wheel momentum, at first; steps nearer and nearer to the best of them
-TURNS = (0.0, 1e-5, -1e-5, 1e-4, -1e-4, 1e-3, -1e-3)  # rad: the nearest place may be the tip where two separatrices meet, with nothing straight behind it
+# of a change of wheel momentum, at first; steps nearer and nearer to the best of them
+DIRECTIONS, CLOSER = 180, 26
+# rad: the nearest place may be the tip where two separatrices meet, with nothing straight behind it
+TURNS = (0.0, 1e-5, -1e-5, 1e-4, -1e-4, 1e-3, -1e-3)
 FREE = "the motion spins up on a set of measure zero: nearly every change, however small, makes it bounded"
 ALONE = "to the separatrix, where alone the fate is another: beyond it the motion is bounded again"
-CLOSE = 1e-6  # of a change: how near the exact one is to that of doubles; changes back so soon are no use to anybody
+# of a change: how near the exact one is to that of doubles; changes back so soon are no use to anybody
+CLOSE = 1e-6
 
 
 def margins(scenario: Scenario, scene: Scene, seen: Found) -> dict[str, Margin]:
     """The margins of one answer (`fate.Found`), by name: "rate" (rad/s), "wheel" (N m s), "torque" (N m)."""
     if seen.fate == Fate.SEPARATRIX:
-        return {name: Margin(0.0, None, "the motion is on the separatrix") for name in ("rate", "wheel", "torque")}
+        return {name: Margin(0.0, None, "the motion is on the separatrix")
+                for name in ("rate", "wheel", "torque")}
     family = family_of(scene, scenario.state)
     if seen.motion is None or (family is None and any(scene.vector("constant_torque"))):
         why = "the torque is off the principal axes: no separatrix is known"
@@ -53,17 +59,21 @@ def _rate(scenario: Scenario, motion: Motion, family: Family | None) -> Margin:
     change = [b - a for a, b in zip(scenario.start, motion.velocity_witness)]
     direction, because = _unit(scenario.in_file(change)) if any(change) else None, motion.velocity_because
     if _walled(family):
-        return Margin(motion.margin_velocity, direction, f"{because}; {ALONE}".removeprefix("; "), motion.margin_velocity)
+        return Margin(motion.margin_velocity, direction, f"{because}; {ALONE}".removeprefix("; "),
+                      motion.margin_velocity)
     if family is None or not any(change):
         return Margin(motion.margin_velocity, direction, because)
     until = _rate_again(family, change, Fraction(motion.margin_velocity))
     if until is not None and until < math.inf:
-        because = f"{because}; from {until:.6g} rad/s along the same line on it {_again(family.fate() in STEADY)}".removeprefix("; ")
+        because = (
+            f"{because}; from {until:.6g} rad/s along the same line on it "
+            f"{_again(family.fate() in STEADY)}".removeprefix("; "))
     return Margin(motion.margin_velocity, direction, because, until)
 
 
 def _rate_again(family: Family, change: Sequence[Number], size: Fraction) -> float | None:
-    """The greater change of rate along a direction from which on the fate is again what it was; None where balls or the place of the first do not tell."""
+    """The greater change of rate along a direction from which on the fate is again what it was; None where
+    balls or the place of the first do not tell."""
     reduction = family.reduction(family.wheel)
     if reduction is None:
         return None
@@ -105,7 +115,8 @@ def _no_barrier(family: Family | None) -> str:
     reduction = family.reduction(family.wheel)
     if reduction is None:
         return "the wheel has momentum along the torque: no motion is bounded, and no separatrix divides them"
-    return "" if not _walled(family) else "every motion is bounded but for a set of measure zero: the fate does not change"
+    return ("" if not _walled(family)
+            else "every motion is bounded but for a set of measure zero: the fate does not change")
 
 
 def _on_plane(family: Family) -> bool:
@@ -115,8 +126,8 @@ def _on_plane(family: Family) -> bool:
 
 
 def _torque(scenario: Scenario, family: Family, steady: bool) -> Margin:
-    """Along the torque's axis: the more torque one way the lower every barrier ahead, so one size each way divides
-    the fates."""
+    """Along the torque's axis: the more torque one way the lower every barrier ahead, so one size each way
+    divides the fates."""
     size = abs(family.torque)
     now = 1 if family.torque > 0 else -1
     if steady:
@@ -130,7 +141,8 @@ def _torque(scenario: Scenario, family: Family, steady: bool) -> Margin:
     change = min(changes, key=abs, default=None)
     if change is None:
         return Margin(because="no torque along this axis changes the fate")
-    words = "of a torque that stays on its axis" if family.torque + change else "to no torque at all: along this axis any torque spins it up"
+    words = ("of a torque that stays on its axis" if family.torque + change
+             else "to no torque at all: along this axis any torque spins it up")
     if abs(change) < until < math.inf:
         words += f"; from {until:.6g} N m along the same line on it {_again(steady)}"
     direction = _direction(scenario, family, {family.axis: 1 if change > 0 else -1})
@@ -148,9 +160,11 @@ def _least_torque(family: Family, sign: int, size: Fraction) -> Fraction | None:
 
 
 def _wheel(scenario: Scenario, family: Family, steady: bool) -> Margin:
-    """Of a momentum across the torque: the nearest in the plane of the two other axes. Doubles show the way, exact fates give the number."""
+    """Of a momentum across the torque: the nearest in the plane of the two other axes. Doubles show the way,
+    exact fates give the number."""
     j, k = family.across
-    heights, best = _Rise(family), (math.inf, math.inf, [Fraction(0)] * 3)  # size, from where on it is back, direction
+    # size, from where on it is back, direction
+    heights, best = _Rise(family), (math.inf, math.inf, [Fraction(0)] * 3)
     if steady and (straight := _to_pure_spin(family)):
         best = min(best, (*_along(family, straight, steady), straight))
     for angle, near in _nearest(heights, steady):
@@ -163,7 +177,9 @@ def _wheel(scenario: Scenario, family: Family, steady: bool) -> Margin:
                 break
     size, until, step = best
     if size == math.inf:
-        return Margin(because="no wheel momentum across the torque is known to change the fate, up to a thousand times the body's own")
+        return Margin(
+            because="no wheel momentum across the torque is known to change the fate, up to a thousand times "
+                    "the body's own")
     words = "of a wheel momentum that stays across the torque, the least found over its directions"
     if until < math.inf:
         words += f"; from {until:.6g} N m s along the same line on it {_again(steady)}"
@@ -171,12 +187,14 @@ def _wheel(scenario: Scenario, family: Family, steady: bool) -> Margin:
 
 
 def _along(family: Family, step: Sequence[Fraction], steady: bool) -> tuple[float, float]:
-    """(the least change along a unit vector at which the fate changes, the greater one from which on it is again what it was), inf where there is none."""
+    """(the least change along a unit vector at which the fate changes, the greater one from which on it is
+    again what it was), inf where there is none."""
     return nearest_change(across(family, family.wheel, step)[0], steady)
 
 
 def _to_pure_spin(family: Family) -> list[Fraction] | None:
-    """The unit vector towards the momentum at which the orbit's circle is a point and nothing stands in the way of a spin-up."""
+    """The unit vector towards the momentum at which the orbit's circle is a point and nothing stands in the
+    way of a spin-up."""
     step = [_pure_spin(family, n) - family.wheel[n] if n in family.across else Fraction(0) for n in range(3)]
     whole = sqrt_fraction(sum((v * v for v in step), Fraction(0)))
     return [v / whole for v in step] if whole else None
@@ -189,33 +207,44 @@ def _pure_spin(family: Family, n: int) -> Fraction:
 
 
 def _nearest(heights: _Rise, steady: bool) -> list[tuple[float, float]]:
-    """(angle, size) of the least changes of momentum in the plane across the torque, each nearest among its neighbours, seen in doubles."""
-    centre = heights.centre + np.concatenate([-BESIDE[::-1], [0.0], BESIDE])  # a circle that is a point has no barrier: a small island of spin-up
-    angles = np.sort(np.concatenate([np.linspace(0, 2 * math.pi, DIRECTIONS, endpoint=False), centre % (2 * math.pi)]))
+    """(angle, size) of the least changes of momentum in the plane across the torque, each nearest among its
+    neighbours, seen in doubles."""
+    # a circle that is a point has no barrier: a small island of spin-up
+    centre = heights.centre + np.concatenate([-BESIDE[::-1], [0.0], BESIDE])
+    angles = np.sort(np.concatenate([np.linspace(0, 2 * math.pi, DIRECTIONS, endpoint=False),
+                                     centre % (2 * math.pi)]))
     sizes = np.array([heights.first_change(a, steady) for a in angles])
-    least = [n for n in range(len(angles)) if sizes[n] <= min(sizes[n - 1], sizes[(n + 1) % len(angles)]) and math.isfinite(sizes[n])]
+    least = [n for n in range(len(angles)) if sizes[n] <= min(sizes[n - 1], sizes[(n + 1) % len(angles)])
+             and math.isfinite(sizes[n])]
     least = sorted(least, key=lambda n: sizes[n])[:FEW]
     found = []
     for n in least:
-        low, high = angles[n - 1] - 2 * math.pi * (n == 0), angles[(n + 1) % len(angles)] + 2 * math.pi * (n + 1 == len(angles))
+        low, high = angles[n - 1] - 2 * math.pi * (n
+                                                   == 0), angles[(n + 1) % len(angles)] + 2 * math.pi * (
+                                                       n + 1 == len(angles))
         closer = golden_section(lambda a: heights.first_change(a, steady), low, high, CLOSER)
         found.append(min(*closer, (angles[n], sizes[n]), key=lambda one: one[1]))
     return found
 
 
 class _Rise:
-    """How far the potential rises over the start, less its energy, at many places of one turn, as a quadratic of a change of the wheel: doubles."""
+    """How far the potential rises over the start, less its energy, at many places of one turn, as a quadratic
+    of a change of the wheel: doubles."""
 
     def __init__(self, family: Family) -> None:
         j, k = family.across
         self.unit = family.momentum_unit
         wheels = [[w + Fraction(self.unit) * (m == n) for m, w in enumerate(family.wheel)] for n in (j, k)]
-        here, *there = (cast(Reduction, family.reduction(wheel)) for wheel in (family.wheel, *wheels))  # none has a part along the torque
+        # none has a part along the torque
+        here, *there = (cast(Reduction, family.reduction(wheel)) for wheel in (family.wheel, *wheels))
         lines = [Line(here, one, family.state, family.state) for one in there]
         floats: Any = lambda numbers: np.array([float(v) for v in numbers])
-        self.fixed, self.at, self.changes = floats(lines[0].fixed), floats(lines[0].at), [floats(line.change) for line in lines]
-        self.centre = math.atan2(float(_pure_spin(family, k) - family.wheel[k]), float(_pure_spin(family, j) - family.wheel[j]))
-        ends = 2 * math.pi * np.geomspace(1e-7, 1 / TURN, TURN // 4)  # a great momentum raises the potential close to the start, before or behind it
+        self.fixed, self.at, self.changes = floats(lines[0].fixed), floats(lines[0].at), [
+            floats(line.change) for line in lines]
+        self.centre = math.atan2(float(_pure_spin(family, k) - family.wheel[k]),
+                                 float(_pure_spin(family, j) - family.wheel[j]))
+        # a great momentum raises the potential close to the start, before or behind it
+        ends = 2 * math.pi * np.geomspace(1e-7, 1 / TURN, TURN // 4)
         self.half = np.concatenate([ends, np.linspace(0, 2 * math.pi, TURN + 1)[1:], 2 * math.pi - ends]) / 2
         self.sine, self.cosine = np.sin(self.half), np.cos(self.half)
 
@@ -226,7 +255,8 @@ class _Rise:
         with np.errstate(all="ignore"):
             root = np.sqrt(np.maximum(B * B - 4 * A * C, 0))
             q = -0.5 * (B + np.where(B >= 0, 1, -1) * root)
-            low, high = np.sort(np.stack([np.where(C != 0, q / C, np.nan), np.where(q != 0, A / q, np.nan)]) / self.sine, axis=0)
+            low, high = np.sort(np.stack([np.where(C != 0, q / C, np.nan), np.where(q != 0, A / q, np.nan)])
+                                / self.sine, axis=0)
         real = B * B - 4 * A * C > 0
         s = _end_of(C, real, low, high) if steady else _begin_of(C, real, low, high)
         return s * self.unit
@@ -234,7 +264,8 @@ class _Rise:
 
 def _begin_of(C: np.ndarray, real: Any, low: Number, high: Number) -> float:
     """The least s > 0 at which one of the quadratics A + B s + C s^2 becomes positive."""
-    at = np.where(C > 0, np.where(low > 0, np.inf, high), low)  # outside the roots where it opens upwards, between them where downwards
+    # outside the roots where it opens upwards, between them where downwards
+    at = np.where(C > 0, np.where(low > 0, np.inf, high), low)
     at = np.where(real & np.isfinite(at) & (at > 0), at, np.where((C > 0) & real & (high > 0), high, np.inf))
     return float(np.min(at, initial=np.inf))
 

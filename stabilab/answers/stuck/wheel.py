@@ -1,4 +1,5 @@
-"""Which momenta of a wheel keep a motion bounded under a torque that lasts: all intervals, by roots; else the momentum that delays the limit most."""
+"""Which momenta of a wheel keep a motion bounded under a torque that lasts: all intervals, by roots; else the
+momentum that delays the limit most."""
 from __future__ import annotations
 
 import math
@@ -28,8 +29,9 @@ SAME = 1e-6  # relative: a run that ends so much sooner than the limit has not c
 def intervals(scene: Scene, state: Sequence[Fraction], axis: Exact3) -> Answer:
     """(((least, greatest) momentum along a wheel's axis that keeps the motion bounded, N m s), ...), because.
 
-    scene: with the momentum of every other wheel in it, but not of this one; state: exact; axis: exact unit vector, scene's axes. An end is
-    a number that keeps it bounded, to the last places of a double; -inf, inf where there is none.
+    scene: with the momentum of every other wheel in it, but not of this one; state: exact; axis: exact unit
+    vector, scene's axes. An end is a number that keeps it bounded, to the last places of a double; -inf, inf
+    where there is none.
     """
     torque, wheel, D = scene.vector("constant_torque"), scene.vector("gyrostat"), scene.body.exact
     if not any(torque):
@@ -58,17 +60,21 @@ def _sphere(torque: Sequence[Fraction], wheel: Exact3, axis: Exact3) -> Answer:
         return (((float(s),) * 2,) if any(w + s * a for w, a in zip(wheel, axis)) else ()), words
     if level:
         return (), words
-    s = next(-w / a for w, a in zip(wheel, axis) if a)  # with this, if with any, the wheels have none together
+    # with this, if with any, the wheels have none together
+    s = next(-w / a for w, a in zip(wheel, axis) if a)
     return EVERY if any(w + s * a for w, a in zip(wheel, axis)) else without([s]), words
 
 
 def _off_axis(scene: Scene, state: Sequence[Fraction], axis: Exact3) -> Answer:
-    """Off the axes only an equilibrium is known to be bounded: M - omega x (D omega + l) = s omega x a has one s or none."""
+    """Off the axes only an equilibrium is known to be bounded: M - omega x (D omega + l) = s omega x a has
+    one s or none."""
     form = scene.quadratic()
     words = "the torque is off the principal axes, and no bounded motion is known there but equilibria"
     rate = form.rate(list(state))
     D = scene.body.exact
-    pull = [state[2] * axis[1] - state[1] * axis[2], state[0] * axis[2] - state[2] * axis[0], state[1] * axis[0] - state[0] * axis[1]]  # -(omega x a)
+    # -(omega x a)
+    pull = [state[2] * axis[1] - state[1] * axis[2], state[0] * axis[2] - state[2] * axis[0],
+            state[1] * axis[0] - state[0] * axis[1]]
     which = next((n for n in range(3) if pull[n]), None)
     if which is None:
         return (EVERY if rests(form, state) else ()), words
@@ -81,7 +87,8 @@ def _one_momentum(family: Family, start: Sequence[Fraction], step: Sequence[Frac
     """A wheel that is not across the torque: at one momentum alone it leaves none along it."""
     wheel = list(family.along(start, step, s))
     wheel[family.axis] = Fraction(0)
-    words = "with any momentum left along the torque |H|^2/2 - D T grows for ever; at one momentum none is left"
+    words = (
+        "with any momentum left along the torque |H|^2/2 - D T grows for ever; at one momentum none is left")
     return (((float(s),) * 2,) if family.fate(wheel) in STEADY else ()), words
 
 
@@ -96,16 +103,19 @@ def across(family: Family, start: Sequence[Fraction], step: Sequence[Fraction]) 
     if found is None:
         return (), "not known: the balls did not isolate the momenta at which the start lies on a separatrix"
     clearly = lambda s: family.clearly(wheel=family.along(start, step, s))
-    return pieces(clearly, Fraction(family.momentum_unit), sorted(set(found))), ("the ends are momenta at which the start lies on a separatrix: "
-                                                             f"of {len(found)} candidates, isolated as roots, those where the exact fate changes")
+    return pieces(clearly, Fraction(family.momentum_unit),
+                  sorted(set(found))), ("the ends are momenta at which the start lies on a separatrix: "
+                                                             f"of {len(found)} candidates, isolated as "
+                                                             f"roots, those where the exact fate changes")
 
 
 def _between_walls(family: Family, start: Sequence[Fraction], step: Sequence[Fraction]) -> Answer:
-    """Every momentum but those at which the start lies in the set of measure zero that no wall holds: exact roots
-    of a quadratic in s. A root that is not rational is no momentum that a number can give."""
+    """Every momentum but those at which the start lies in the set of measure zero that no wall holds: exact
+    roots of a quadratic in s. A root that is not rational is no momentum that a number can give."""
     wheels = [family.along(start, step, Fraction(s)) for s in (-1, 0, 1)]
     reductions: Any = [family.reduction(wheel) for wheel in wheels]  # none has a part along the torque
-    words = (f"the torque is on {reductions[0].geometry.where}: the potential has walls on both sides, so every motion "
+    words = (f"the torque is on {reductions[0].geometry.where}: the potential has walls on both sides, so "
+             f"every motion "
              "is bounded but for a set of measure zero")
     for before, at, after in zip(*(loose(reduction, family.state) for reduction in reductions)):
         a, b, c = (before + after) / 2 - at, (after - before) / 2, at
@@ -144,10 +154,11 @@ def without(momenta: Sequence[Fraction]) -> Intervals:
 
 def delayed(scenario: Scenario, torque: Sequence[Fraction], axis: Exact3, now: Fraction, time: Bracket | None
             ) -> tuple[float, Bracket | None, float | None, Bracket, bool] | None:
-    """(best momentum, N m s, bracket of its time or None, gain in s or None, the range searched, whether its run came to the limit), or None where
-    there is nothing to search, or nothing better was found.
+    """(best momentum, N m s, bracket of its time or None, gain in s or None, the range searched, whether its
+    run came to the limit), or None where there is nothing to search, or nothing better was found.
 
-    axis: exact unit vector of the wheel, scene's axes; now: its momentum; time: bracket of the limit as things are.
+    axis: exact unit vector of the wheel, scene's axes; now: its momentum; time: bracket of the limit as
+    things are.
     """
     if scenario.limit is None or time is None or time[0] <= 0:
         return None
@@ -164,7 +175,8 @@ def delayed(scenario: Scenario, torque: Sequence[Fraction], axis: Exact3, now: F
     best = int(np.argmax(times))
     s, longest = float(places[best]), times[best]
     if math.isfinite(times[best]):
-        closer = golden_section(lambda s: -until(s), places[max(best - 1, 0)], places[min(best + 1, PLACES - 1)], CLOSER)
+        closer = golden_section(lambda s: -until(s), places[max(best - 1, 0)],
+                                places[min(best + 1, PLACES - 1)], CLOSER)
         s, longest = min((s, -longest), *closer, key=lambda one: one[1])
         s, longest = float(s), -longest
     told = time_under(scenario, torque, [w + Fraction(s) * a for w, a in zip(others, axis)])

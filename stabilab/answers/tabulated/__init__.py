@@ -1,1 +1,2 @@
-"""A motion with guaranteed digits, for others to test their integrators against: states, events, period, extremes."""
+"""A motion with guaranteed digits, for others to test their integrators against: states, events, period,
+extremes."""

@@ -1,9 +1,11 @@
-"""States and events of a motion to so many digits: enclosed where a wheel and a torque are all there is, else by Taylor series in two precisions.
+"""States and events of a motion to so many digits: enclosed where a wheel and a torque are all there is, else
+by Taylor series in two precisions.
 
 Zeros and extremes of the rates along an enclosed motion, each proved to be one and none passed over.
 
-On an interval where a function's enclosure leaves out zero it has none; where its derivative's does, it has one at most, and the signs at the ends tell.
-Any other interval is divided. The rates' own equations give the derivatives, so that no error is differentiated.
+On an interval where a function's enclosure leaves out zero it has none; where its derivative's does, it has
+one at most, and the signs at the ends tell. Any other interval is divided. The rates' own equations give the
+derivatives, so that no error is differentiated.
 """
 from __future__ import annotations
 
@@ -25,15 +27,19 @@ from .result import PROVED, TWICE, Event, Tabulated
 
 MOST_BOXES = 500  # of a piece and a function
 UNEVEN = Fraction(4871, 10000)  # where intervals are divided, lest a symmetric motion's root be met
-NOTHING = 25  # digits below the motion's own size: a rate, or its derivative, that stays so small over a piece counts as zero there
+# digits below the motion's own size: a rate, or its derivative, that stays so small over a piece counts as
+# zero there
+NOTHING = 25
 ROUNDS = 60  # of Newton's method
-SPARE, MOST_BITS = 12, 900  # bits beyond the digits; most of a run, for its bound of the error is formed in doubles
+# bits beyond the digits; most of a run, for its bound of the error is formed in doubles
+SPARE, MOST_BITS = 12, 900
 WORK = 40_000_000  # multiplications of a run
 MORE_DIGITS = 14  # of the second run of two
 
 
 def events_of(scene: AnyScene, pieces: Sequence[Any], until: Fraction) -> tuple[tuple[Event, ...], str]:
-    """(events after the start in order of time, words on how they were found). To be called with more than enough bits at work."""
+    """(events after the start in order of time, words on how they were found). To be called with more than
+    enough bits at work."""
     found, open_at, form = [], [], scene.quadratic()
     names = scene.components
     for number, piece in enumerate(pieces):
@@ -42,10 +48,13 @@ def events_of(scene: AnyScene, pieces: Sequence[Any], until: Fraction) -> tuple[
             for kind, order in (("zero", 0), ("extreme", 1)):
                 roots, clear = _roots(curve, i, order, number == 0)
                 if not clear:
-                    open_at.append(f"{names[i]}, {'zero' if order == 0 else 'extreme'}, about {float(piece.start):.4g}")
+                    open_at.append(
+                        f"{names[i]}, {'zero' if order == 0 else 'extreme'}, about {float(piece.start):.4g}")
                 found += [_event(curve, i, kind, s) for s in roots]
     found = [one for one in found if one.t <= _ball(until)]
-    words = f"zeros and extremes of each rate after the start, by roots along the enclosed motion: none is passed over (below 1e-{NOTHING} counts as zero)"
+    words = (
+        f"zeros and extremes of each rate after the start, by roots along the enclosed motion: none is "
+        f"passed over (below 1e-{NOTHING} counts as zero)")
     if open_at:
         words += f", but where the digits leave open whether there is one ({'; '.join(open_at[:3])}{' and so on' * (len(open_at) > 3)})"
     return tuple(sorted(found, key=lambda one: one.t.mid())), words
@@ -56,7 +65,8 @@ def _event(curve: _Curve, i: int, kind: str, s: Any) -> Event:
     value, bend = curve.derivative(i, 0, s), curve.derivative(i, 2, s)
     if kind == "extreme":
         kind = "least" if bend > 0 else "greatest" if bend < 0 else "extreme"
-    return Event(kind, i, _ball(curve.piece.start) + s * _ball(curve.piece.length), arb(0) if kind == "zero" else value)
+    return Event(kind, i, _ball(curve.piece.start) + s * _ball(curve.piece.length),
+                 arb(0) if kind == "zero" else value)
 
 
 def _ball(value: Any) -> Any:
@@ -65,26 +75,31 @@ def _ball(value: Any) -> Any:
 
 
 class _Curve:
-    """Rates over a piece and their derivatives in time, from the equations x_i' = kappa x_j x_k + rho x_k + sigma x_j + m."""
+    """Rates over a piece and their derivatives in time, from the equations x_i' = kappa x_j x_k + rho x_k +
+    sigma x_j + m."""
 
     def __init__(self, piece: Any, form: QuadraticForm) -> None:
         self.piece, self.size = piece, _ball(Fraction(piece.unit))
-        self.kappa, self.rho, self.sigma, self.m = ([_ball(Fraction(v)) for v in row] for row in (form.kappa, form.rho, form.sigma, form.m))
+        self.kappa, self.rho, self.sigma, self.m = ([_ball(Fraction(v)) for v in row]
+                                                    for row in (form.kappa, form.rho, form.sigma, form.m))
 
     def derivative(self, i: int, order: int, s: Any) -> Any:
         """The `order`-th derivative (0 to 2) of component i at s, a ball."""
         x = self.piece.at(s)
         if order == 0:
             return x[i]
-        rate = [self.kappa[n] * x[j] * x[k] + self.rho[n] * x[k] + self.sigma[n] * x[j] + self.m[n] for n, (j, k) in enumerate(CYCLE)]
+        rate = [self.kappa[n] * x[j] * x[k] + self.rho[n] * x[k] + self.sigma[n] * x[j] + self.m[n] for n,
+                (j, k) in enumerate(CYCLE)]
         if order == 1:
             return rate[i]
         j, k = CYCLE[i]
-        return self.kappa[i] * (rate[j] * x[k] + x[j] * rate[k]) + self.rho[i] * rate[k] + self.sigma[i] * rate[j]
+        return (self.kappa[i] * (rate[j] * x[k] + x[j] * rate[k]) + self.rho[i] * rate[k]
+                + self.sigma[i] * rate[j])
 
 
 def _roots(curve: _Curve, i: int, order: int, first: bool) -> tuple[list[Any], bool]:
-    """(balls of s, whether all of the piece is clear) of the zeros of a derivative. first: the piece begins at the start, whose own zero does not count."""
+    """(balls of s, whether all of the piece is clear) of the zeros of a derivative. first: the piece begins
+    at the start, whose own zero does not count."""
     from flint import arb
     whole = lambda n: curve.derivative(i, n, arb(0.5, 0.5))
     if whole(order).abs_upper() < curve.size ** (order + 1) * arb(10) ** -NOTHING:
@@ -129,10 +144,11 @@ def _closer(curve: _Curve, i: int, order: int, box: Any) -> Any:
     return box
 
 
-def tabulated(scene: Any, start: Sequence[Any], exact: Sequence[Fraction], times: Sequence[Fraction], digits: int = 30,
+def tabulated(scene: Any, start: Sequence[Any], exact: Sequence[Fraction], times: Sequence[Fraction],
+              digits: int = 30,
               work: int | None = None, events: bool = True) -> Tabulated:
-    """The motion at increasing times from 0 on. start: all of the state; exact: its first three components, as they are meant; work: multiplications of
-    a run at most; events: look for them."""
+    """The motion at increasing times from 0 on. start: all of the state; exact: its first three components,
+    as they are meant; work: multiplications of a run at most; events: look for them."""
     work = work or WORK
     checked_digits(digits, MOST_DECIMALS)
     if not times or times[0] < 0:
@@ -143,7 +159,8 @@ def tabulated(scene: Any, start: Sequence[Any], exact: Sequence[Fraction], times
     return _twice(scene, start, exact, times, digits, work)
 
 
-def _enclosed(scene: AnyScene, start: Any, times: Sequence[Fraction], digits: int, work: int, asked: bool) -> Tabulated:
+def _enclosed(scene: AnyScene, start: Any, times: Sequence[Fraction], digits: int, work: int,
+              asked: bool) -> Tabulated:
     need = int(digits * 3.33) + SPARE
     bits, best = need + 40, None
     while True:
@@ -155,15 +172,20 @@ def _enclosed(scene: AnyScene, start: Any, times: Sequence[Fraction], digits: in
     count, states, pieces, why, _ = best
     reached = count == len(times)
     with working(MOST_BITS):
-        events, words = events_of(scene, pieces, times[count - 1] if count else Fraction(0)) if asked else ((), "not asked for")
+        events, words = (events_of(scene, pieces, times[count - 1] if count else Fraction(0)) if asked
+                         else ((), "not asked for"))
     because = "Taylor series in integers with a proved bound of their error" if reached else (
         f"proved up to {float(times[count - 1]) if count else 0:.6g} {scene.time_unit}: "
-        + ("the work allowed goes no further" if why == "work" else f"beyond, the motion is too sensitive for {MOST_BITS} bits"))
-    return Tabulated(tuple(times[:count]), tuple(states[:count]), tuple(scene.components), digits, PROVED, because, reached, events, words)
+        + ("the work allowed goes no further" if why == "work"
+           else f"beyond, the motion is too sensitive for {MOST_BITS} bits"))
+    return Tabulated(tuple(times[:count]), tuple(states[:count]), tuple(scene.components), digits, PROVED,
+                     because, reached, events, words)
 
 
-def _attempt(scene: AnyScene, start: Any, times: Sequence[Fraction], digits: int, bits: int, work: int) -> Any:
-    """(how many times were reached to the digits, states, pieces with their unit, why it ended, bits that the error grew by)."""
+def _attempt(scene: AnyScene, start: Any, times: Sequence[Fraction], digits: int, bits: int,
+             work: int) -> Any:
+    """(how many times were reached to the digits, states, pieces with their unit, why it ended, bits that the
+    error grew by)."""
     from flint import arb
     unit = own_unit(scene, start)
     weights = (Fraction(1), Fraction(2), Fraction(1)) if scene.variables == "scaled" else scene.body.exact
@@ -179,17 +201,19 @@ def _attempt(scene: AnyScene, start: Any, times: Sequence[Fraction], digits: int
             pieces.append(row)
             while len(states) < len(times) and times[len(states)] * unit <= flow.now:
                 values = row.at(numbers.ball((times[len(states)] * unit - piece.start) / piece.length))
-                if any(numbers.ball(0) + v.rad() > small * max(map(abs, values), key=lambda v: v.mid()) for v in values):
+                if any(numbers.ball(0) + v.rad() > small * max(map(abs, values), key=lambda v: v.mid())
+                       for v in values):
                     why = "bits"
                     break
                 states.append(tuple(values))
-            why = why or ("work" if flow.work > work else "bits" if flow.error.bit_length() > bits - 8 else "")
+            why = (why or ("work" if flow.work > work else "bits" if flow.error.bit_length() > bits - 8
+                           else ""))
     return len(states), states, pieces, why, flow.error.bit_length()
 
 
 class Polynomials:
-    """A piece as polynomials in s from 0 to 1, in the scene's own variables: start and length in the scene's time, exact; rows with
-    their radii; unit: the size of the motion's rates."""
+    """A piece as polynomials in s from 0 to 1, in the scene's own variables: start and length in the scene's
+    time, exact; rows with their radii; unit: the size of the motion's rates."""
 
     def __init__(self, piece: Any, unit: Fraction, numbers: Any) -> None:
         from flint import arb, arb_poly
@@ -203,11 +227,13 @@ class Polynomials:
         return [row(s) + radius for row, radius in zip(self.rows, self.radii)]
 
 
-def _twice(scene: AnyScene, start: Any, exact: Any, times: Sequence[Fraction], digits: int, work: int) -> Tabulated:
+def _twice(scene: AnyScene, start: Any, exact: Any, times: Sequence[Fraction], digits: int,
+           work: int) -> Tabulated:
     equations, row = equations_and_start(scene, start)
     begin = [*exact, *map(float, row[3:])]
     recursion, budget = Recursion(equations), [work]
-    runs = [one_run(recursion, begin, times, digits + more, budget)[0] for more in (GUARD, GUARD + MORE_DIGITS)]
+    runs = [one_run(recursion, begin, times, digits + more, budget)[0]
+            for more in (GUARD, GUARD + MORE_DIGITS)]
     components = tuple(map(str, equations.state))
     with working(int((digits + GUARD + MORE_DIGITS) * 3.33)) as numbers:
         states: list[tuple[Any, ...]] = []
@@ -218,8 +244,12 @@ def _twice(scene: AnyScene, start: Any, exact: Any, times: Sequence[Fraction], d
                 break
             states.append(tuple(numbers.around(v, gap) for v in high))
     reached = len(states) == len(times)
-    because = f"Taylor series in {digits + GUARD} and {digits + GUARD + MORE_DIGITS} digits agree; no bound is proved"
+    because = (
+        f"Taylor series in {digits + GUARD} and {digits + GUARD + MORE_DIGITS} digits agree; no bound is "
+        f"proved")
     if not reached:
         because += f"; only up to {float(times[len(states) - 1]) if states else 0:.6g} {scene.time_unit}"
-    return Tabulated(tuple(times[:len(states)]), tuple(states), components, digits, TWICE, because, reached, (),
-                     "events are found where a wheel and a constant torque are all that acts, as their enclosure needs")
+    return Tabulated(tuple(times[:len(states)]), tuple(states), components, digits, TWICE, because, reached,
+                     (),
+                     "events are found where a wheel and a constant torque are all that acts, as their "
+                     "enclosure needs")

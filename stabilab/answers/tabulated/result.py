@@ -10,7 +10,8 @@ PROVED, TWICE = "proved", "two precisions agree"
 
 @dataclass(frozen=True)
 class Event:
-    """A zero, a least or a greatest value of a rate: kind "zero", "least" or "greatest", of which component (0 to 2), time and value as balls."""
+    """A zero, a least or a greatest value of a rate: kind "zero", "least" or "greatest", of which component
+    (0 to 2), time and value as balls."""
 
     kind: str
     component: int
@@ -20,10 +21,12 @@ class Event:
 
 @dataclass(frozen=True)
 class Tabulated:
-    """States (balls) at times, each within 10^-digits of the largest rate (or of the largest number of its kind), as `level` says: PROVED or TWICE.
+    """States (balls) at times, each within 10^-digits of the largest rate (or of the largest number of its
+    kind), as `level` says: PROVED or TWICE.
 
-    t: the times that were reached, of all that were asked for where `reached`; because: how, or why the run ended. events: in order of time, those after
-    the start; events_because: how they were found, or what is left out.
+    t: the times that were reached, of all that were asked for where `reached`; because: how, or why the run
+    ended. events: in order of time, those after the start; events_because: how they were found, or what is
+    left out.
     """
 
     t: tuple[Fraction, ...]

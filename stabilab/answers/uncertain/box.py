@@ -1,8 +1,9 @@
-"""A body whose inertia, gyrostatic moment, torque or state are known only within bounds: the box of all it may be.
+"""A body whose inertia, gyrostatic moment, torque or state are known only within bounds: the box of all it
+may be.
 
-A point of the box is a tuple of numbers in [-1, 1], one for each uncertain number (times a reach that stretches the whole
-box). `Box.at` gives the exact scene and state there, `Box.numbers` the same numbers over many sub-boxes at once, and `rates`
-the equations of motion from either.
+A point of the box is a tuple of numbers in [-1, 1], one for each uncertain number (times a reach that
+stretches the whole box). `Box.at` gives the exact scene and state there, `Box.numbers` the same numbers over
+many sub-boxes at once, and `rates` the equations of motion from either.
 """
 from __future__ import annotations
 
@@ -31,10 +32,11 @@ Numbers: TypeAlias = dict[str, tuple[Number, ...]]  # "inertia", "momentum", "to
 
 @dataclass(frozen=True)
 class Box:
-    """middle: name -> exact numbers, of "inertia", "momentum", "torque" or "mu" (a body), or "a", "b", "mu" (a scaled
-    system), and "state" (three, or absent); half: name -> their half-widths, zero where certain. variables: those of scene
-    and state, "physical" or "scaled" (a body may be asked in scaled variables). frame: None where all numbers are along the principal axes; else the
-    principal axes of the middle, and all numbers are in the frame of the file, with "products", the xy, xz and yz entries of the tensor."""
+    """middle: name -> exact numbers, of "inertia", "momentum", "torque" or "mu" (a body), or "a", "b", "mu"
+    (a scaled system), and "state" (three, or absent); half: name -> their half-widths, zero where certain.
+    variables: those of scene and state, "physical" or "scaled" (a body may be asked in scaled variables).
+    frame: None where all numbers are along the principal axes; else the principal axes of the middle, and all
+    numbers are in the frame of the file, with "products", the xy, xz and yz entries of the tensor."""
 
     middle: Numbers
     half: Numbers
@@ -53,13 +55,14 @@ class Box:
 
     # -- one point, exactly
     def values(self, point: Point, reach: float = 1) -> Numbers:
-        """The numbers at a point (one number in [-1, 1] for each place), exact: rounded toward the middle to what a case file
-        can state, decimals of a double's digits (a state to the double itself)."""
+        """The numbers at a point (one number in [-1, 1] for each place), exact: rounded toward the middle to
+        what a case file can state, decimals of a double's digits (a state to the double itself)."""
         out = {name: list(numbers) for name, numbers in self.middle.items()}
         for (name, i), e in zip(self.places, point):
             middle = out[name][i]
             value = middle + Fraction(reach) * Fraction(e) * self.half[name][i]
-            out[name][i] = middle if value == middle else _toward(value, middle, Fraction if name == "state" else _decimal)
+            out[name][i] = (middle if value == middle
+                            else _toward(value, middle, Fraction if name == "state" else _decimal))
         return {name: tuple(numbers) for name, numbers in out.items()}
 
     def at(self, point: Point, reach: float = 1) -> tuple[AnyScene, Float3 | None]:
@@ -67,7 +70,8 @@ class Box:
         return self.scene_of(self.values(point, reach))
 
     def scene_of(self, values: Numbers) -> tuple[AnyScene, Float3 | None]:
-        """(scene, state or None) of exact numbers. Raises InputError where there is no such body or no such scaling."""
+        """(scene, state or None) of exact numbers. Raises InputError where there is no such body or no such
+        scaling."""
         state = tuple(map(float, values["state"])) if "state" in values else None
         if not self.bodily:
             return ScaledGyrostat(values["a"][0], values["b"][0], values["mu"]), state
@@ -75,14 +79,17 @@ class Box:
             return _turned(values)
         body, mu = Body(values["inertia"]), values.get("mu")
         torque = values["torque"] if mu is None else torque_from_mu(body, mu)
-        scene = Scene(body, effect_class("gyrostat")(values["momentum"]), effect_class("constant_torque")(torque))
+        scene = Scene(body, effect_class("gyrostat")(values["momentum"]),
+                      effect_class("constant_torque")(torque))
         return (to_scaled(scene, mu)[0] if self.variables == "scaled" else scene), state
 
     # -- many boxes at once
-    def numbers(self, centres: np.ndarray, widths: np.ndarray, reach: float = 1.0, cells: Any = None) -> Numbers:
+    def numbers(self, centres: np.ndarray, widths: np.ndarray, reach: float = 1.0,
+                cells: Any = None) -> Numbers:
         """Every number over n sub-boxes: `Affine`, or the exact number where it is certain.
 
-        centres, widths: (n, places), within [-1, 1], times reach. cells: one more column of g, left free for another variable.
+        centres, widths: (n, places), within [-1, 1], times reach. cells: one more column of g, left free for
+        another variable.
         """
         n, extra = len(centres), 0 if cells is None else 1
         out = {name: list(numbers) for name, numbers in self.middle.items()}
@@ -90,12 +97,13 @@ class Box:
             middle, half = float(self.middle[name][i]), float(self.half[name][i]) * reach
             c, g = middle + half * centres[:, k], np.zeros((n, len(self.places) + extra))
             g[:, k] = half * widths[:, k]
-            out[name][i] = Affine(c, g, 8 * EPS * (abs(middle) + np.abs(half * centres[:, k]) + g[:, k]) + LEAST)
+            out[name][i] = Affine(c, g,
+                                  8 * EPS * (abs(middle) + np.abs(half * centres[:, k]) + g[:, k]) + LEAST)
         return {name: tuple(numbers) for name, numbers in out.items()}
 
     def impossible(self, numbers: Numbers) -> np.ndarray | np.bool_:
-        """True for each sub-box that surely holds no body: a moment of inertia not positive (for a body in scaled
-        variables: moments not in falling order)."""
+        """True for each sub-box that surely holds no body: a moment of inertia not positive (for a body in
+        scaled variables: moments not in falling order)."""
         if not self.bodily:
             return np.bool_(False)
         D = numbers["inertia"]
@@ -119,7 +127,8 @@ class Box:
 def box_of(case: Any) -> Box:
     """The box of a Case. Raises InputError for scenes beyond a gyrostat under a constant torque."""
     if not case.scene.plain:
-        raise InputError("what uncertain numbers do to the verdicts is known for a gyrostat under a constant torque alone; "
+        raise InputError("what uncertain numbers do to the verdicts is known for a gyrostat under a constant "
+                         "torque alone; "
                          "this scene has other effects")
     middle = {}
     oblique = case.frame if case.frame is not None and not case.frame.as_given else None
@@ -128,7 +137,8 @@ def box_of(case: Any) -> Box:
     elif case.physical is not None:
         middle["inertia"] = case.physical.body.exact
         middle["momentum"] = case.physical.vector("gyrostat")
-        middle.update({"torque": case.physical.vector("constant_torque")} if case.mu is None else {"mu": case.mu})
+        middle.update({"torque": case.physical.vector("constant_torque")} if case.mu is None
+                      else {"mu": case.mu})
     else:
         a, b = case.scene.exact_ab
         middle.update({"a": (a,), "b": (b,), "mu": case.scene.exact_mu})
@@ -144,15 +154,20 @@ def box_of(case: Any) -> Box:
 
 def _in_the_file(case: Any, frame: PrincipalAxes) -> Numbers:
     """The numbers of a case along principal axes, turned back to the frame of its file."""
-    tensor = [[sum(m * axis[i] * axis[j] for m, axis in zip(frame.moments, frame.axes)) for j in range(3)] for i in range(3)]
-    found = {"inertia": tuple(tensor[i][i] for i in range(3)), "products": (tensor[0][1], tensor[0][2], tensor[1][2]),
-             "momentum": frame.back(case.physical.vector("gyrostat")), "torque": frame.back(case.physical.vector("constant_torque"))}
+    tensor = [[sum(m * axis[i] * axis[j] for m, axis in zip(frame.moments, frame.axes)) for j in range(3)]
+              for i in range(3)]
+    found = {"inertia": tuple(tensor[i][i] for i in range(3)),
+             "products": (tensor[0][1], tensor[0][2], tensor[1][2]),
+             "momentum": frame.back(case.physical.vector("gyrostat")),
+             "torque": frame.back(case.physical.vector("constant_torque"))}
     found |= {"state": frame.back(case.exact_state)} if case.state is not None else {}
-    return {name: tuple(_as_written(v, max(map(abs, values))) for v in values) for name, values in found.items()}
+    return {name: tuple(_as_written(v, max(map(abs, values))) for v in values) for name,
+            values in found.items()}
 
 
 def _as_written(value: Fraction, size: Fraction) -> Fraction:
-    """The decimal that a number good to 240 bits denotes, where there is one, or zero; size: of the largest number beside it."""
+    """The decimal that a number good to 240 bits denotes, where there is one, or zero; size: of the largest
+    number beside it."""
     near, slack = Fraction(repr(float(value))) if value else value, size * TRACE
     return Fraction(0) if abs(value) <= slack else near if abs(near - value) <= slack else value
 
@@ -163,20 +178,24 @@ def _turned(values: Numbers) -> tuple[AnyScene, Float3 | None]:
     frame = principal_axes(((x, xy, xz), (xy, y, yz), (xz, yz, z)))
     wheel, torque = (frame.turned(values[name]) for name in ("momentum", "torque"))
     wheel = without_trace(wheel, torque) if any(torque) else wheel
-    scene = Scene(Body(frame.moments), effect_class("gyrostat")(wheel), effect_class("constant_torque")(torque))
+    scene = Scene(Body(frame.moments), effect_class("gyrostat")(wheel),
+                  effect_class("constant_torque")(torque))
     return scene, floats(frame.turned(values["state"])) if "state" in values else None
 
 
 def _scalable(box: Box) -> None:
-    """Scaled variables, and mu, need three moments in falling order and the gyrostatic moment along axis 1."""
+    """Scaled variables, and mu, need three moments in falling order and the gyrostatic moment along axis 1.
+    """
     if not box.bodily or box.frame is not None or (box.variables == "physical" and "mu" not in box.middle):
         return
     D, h = box.middle["inertia"], box.half["inertia"]
     if not all(D[i] - h[i] > D[i + 1] + h[i + 1] for i in (0, 1)):
-        raise InputError("within the uncertainties the moments are not surely in falling order, as the scaled variables and mu "
+        raise InputError("within the uncertainties the moments are not surely in falling order, as the "
+                         "scaled variables and mu "
                          "need: give the torque in N m and the motion as angular_velocity")
     if box.variables == "scaled" and any(box.half["momentum"][1:]):
-        raise InputError("the scaled variables need the gyrostatic moment along axis 1, without uncertainty across it: use "
+        raise InputError("the scaled variables need the gyrostatic moment along axis 1, without uncertainty "
+                         "across it: use "
                          "physical variables")
 
 

@@ -1,18 +1,21 @@
 """Proofs that every motion of a box of bodies is bounded, or that every one spins up: branch and bound.
 
-A part of the box is settled where one angle ahead stands above the energy all over it (bounded), or where no angle of one
-turn does (spin-up; cells of angles, each settled on its own). What is not settled is halved across the number that matters
-most to first order, until a middle contradicts the claim or the parts run out. Bounds are those of `affine`, so a part's
-surplus is quadratic in its width.
+A part of the box is settled where one angle ahead stands above the energy all over it (bounded), or where no
+angle of one turn does (spin-up; cells of angles, each settled on its own). What is not settled is halved
+across the number that matters most to first order, until a middle contradicts the claim or the parts run out.
+Bounds are those of `affine`, so a part's surplus is quadratic in its width.
 
-The reduced motion of many bodies, or of many boxes of bodies, at once: height of the potential over the energy ahead.
+The reduced motion of many bodies, or of many boxes of bodies, at once: height of the potential over the
+energy ahead.
 
-Circles only (elliptic reduction). In the canonical variables of `reduction`, at the angle y ahead in the torque's direction,
+Circles only (elliptic reduction). In the canonical variables of `reduction`, at the angle y ahead in the
+torque's direction,
 
     excess(y) = V(theta_0 + y) - E = -mu y - dX (G (X + dX/2) + c) + d dZ - W^2/2,
 
-with dX, dZ what X, Z change by. A motion is bounded iff excess > 0 somewhere ahead, and surely spins up where excess < 0 all
-over one turn ahead, as the next turn is lower by 2 pi mu. Formulas serve floats, arrays and `Affine` numbers.
+with dX, dZ what X, Z change by. A motion is bounded iff excess > 0 somewhere ahead, and surely spins up where
+excess < 0 all over one turn ahead, as the next turn is lower by 2 pi mu. Formulas serve floats, arrays and
+`Affine` numbers.
 """
 from __future__ import annotations
 
@@ -27,7 +30,8 @@ from ...orbit.reduction import Reduction, reduction_about
 from .box import Box, Point
 
 TURN = 2 * np.pi
-GRID = 96  # angles a turn on which the highest place ahead is looked for: the potential has two maxima a turn at most
+# angles a turn on which the highest place ahead is looked for: the potential has two maxima a turn at most
+GRID = 96
 POLISH = 7  # Newton steps from there
 BATCH = 2048
 CELLS = 32
@@ -98,7 +102,8 @@ def _place(o: Orbit, y: Number) -> tuple[Number, Number]:
 
 
 def highest_ahead(o: Orbit) -> tuple[np.ndarray, np.ndarray]:
-    """(angle, excess) of the highest place within one turn ahead, (n,) each, for an orbit of floats (n, 1)."""
+    """(angle, excess) of the highest place within one turn ahead, (n,) each, for an orbit of floats (n, 1).
+    """
     grid = np.arange(1, GRID + 1) * (TURN / GRID)
     heights = excess(o, grid[None])
     best = heights.argmax(1)[:, None]
@@ -114,8 +119,8 @@ def highest_ahead(o: Orbit) -> tuple[np.ndarray, np.ndarray]:
 
 
 class Proof(NamedTuple):
-    """holds: True (proved), False (`point` contradicts it) or None (not settled within the parts allowed). parts: how many
-    were looked at. point: in the box's coordinates."""
+    """holds: True (proved), False (`point` contradicts it) or None (not settled within the parts allowed).
+    parts: how many were looked at. point: in the box's coordinates."""
 
     holds: bool | None
     parts: int
@@ -137,7 +142,8 @@ class Parts(NamedTuple):
         return Parts(*(np.concatenate(pair) for pair in zip(self, other)))
 
 
-Judge: TypeAlias = Callable[[Parts], tuple[np.ndarray, np.ndarray, np.ndarray]]  # (settled, contradicted, how much each number matters)
+# (settled, contradicted, how much each number matters)
+Judge: TypeAlias = Callable[[Parts], tuple[np.ndarray, np.ndarray, np.ndarray]]
 
 
 class Family:
@@ -146,7 +152,8 @@ class Family:
     def __init__(self, box: Box, axis: int, signs: Any) -> None:
         self.box, self.axis, self.signs = box, axis, signs
 
-    def orbit(self, centres: np.ndarray, widths: np.ndarray, stretch: float = 1.0, cells: Any = None) -> tuple[Orbit, np.ndarray]:
+    def orbit(self, centres: np.ndarray, widths: np.ndarray, stretch: float = 1.0,
+              cells: Any = None) -> tuple[Orbit, np.ndarray]:
         """(the orbit over each part, True for each part that holds no body)."""
         with np.errstate(all="ignore"):
             numbers = self.box.numbers(centres, widths, stretch, cells)
@@ -155,19 +162,22 @@ class Family:
                     np.broadcast_to(self.box.impossible(numbers), len(centres)))
 
     def margins(self, points: np.ndarray, stretch: float = 1.0) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """(margin, sense, possible) of each point (n, places), in floats: highest excess ahead; the torque's sign."""
+        """(margin, sense, possible) of each point (n, places), in floats: highest excess ahead; the torque's
+        sign."""
         orbit, none = self.orbit(points, np.zeros_like(points), stretch)
         flat = Orbit(*(np.broadcast_to(v, (len(points), 1)) for v in orbit.middle()))
         sense = np.where(flat.mu[:, 0] < 0, -1, 1)
         towards = sense[:, None]
-        ahead = Orbit(flat.x * towards, flat.z, flat.w * towards, flat.G, flat.c * towards, flat.d, flat.mu * towards)
+        ahead = Orbit(flat.x * towards, flat.z, flat.w * towards, flat.G, flat.c * towards, flat.d,
+                      flat.mu * towards)
         with np.errstate(all="ignore"):
             margin = highest_ahead(ahead)[1]
         return margin, sense, ~none & np.isfinite(margin)
 
 
 def prove(family: Family, claim: str, senses: Any, stretch: float = 1.0, most: int = 20_000) -> Proof:
-    """Whether "bounded" or "spin-up" holds all over the box stretched by `stretch`, for torques of these senses."""
+    """Whether "bounded" or "spin-up" holds all over the box stretched by `stretch`, for torques of these
+    senses."""
     looked = 0
     for sense in senses:
         found = (_bounded if claim == "bounded" else _spin_up)(family, sense, stretch, most - looked)
@@ -181,11 +191,13 @@ def whole(box: Box, cells: Any = 1) -> Parts:
     """The whole box, and one turn ahead in so many cells."""
     n = len(box.places)
     half = (TURN * (1 + 1e-9)) / (2 * cells)
-    return Parts(np.zeros((cells, n)), np.ones((cells, n)), half * (2 * np.arange(cells) + 1), np.full(cells, half))
+    return Parts(np.zeros((cells, n)), np.ones((cells, n)), half * (2 * np.arange(cells) + 1),
+                 np.full(cells, half))
 
 
 def branch_and_bound(start: Parts, judge: Judge, most: int) -> Proof:
-    """Branch and bound: judge(parts) -> (settled, contradicted, across): how much each number, and last the angle, matters."""
+    """Branch and bound: judge(parts) -> (settled, contradicted, across): how much each number, and last the
+    angle, matters."""
     waiting, looked = start, 0
     while len(waiting.angle):
         batch, waiting = waiting.some(slice(-BATCH, None)), waiting.some(slice(None, -BATCH))
@@ -208,13 +220,14 @@ def _halved(parts: Parts, weights: np.ndarray) -> Parts:
     step, turn = np.zeros_like(parts.widths), np.where(side == n, parts.reach / 2, 0.0)
     numbers = rows[side < n]
     step[numbers, side[numbers]] = parts.widths[numbers, side[numbers]] / 2
-    halves = [Parts(parts.centres + s * step, parts.widths - step, parts.angle + s * turn, parts.reach - turn) for s in (-1, 1)]
+    halves = [Parts(parts.centres + s * step, parts.widths - step, parts.angle + s * turn, parts.reach - turn)
+              for s in (-1, 1)]
     return halves[0].joined(halves[1])
 
 
 def importance(slopes: np.ndarray, rest: np.ndarray, widths: np.ndarray) -> np.ndarray:
-    """How much each number matters (n, places): its first-order share, and a like share of what is of higher order; where
-    the bound is undefined, the width alone."""
+    """How much each number matters (n, places): its first-order share, and a like share of what is of higher
+    order; where the bound is undefined, the width alone."""
     share = np.abs(slopes) + widths * (rest / widths.shape[1])[:, None]
     return np.where(np.isfinite(share).all(1, keepdims=True), share, widths)
 
@@ -239,13 +252,15 @@ def _bounded(family: Family, sense: int, stretch: float, most: int) -> Proof:
         room = np.minimum(LEAN, angle / 4)[:, None] / np.maximum(np.abs(lean).sum(1, keepdims=True), 1e-300)
         place = Affine(angle, np.nan_to_num(lean * np.minimum(1.0, room)), np.zeros(1))
         best = lifted(excess(orbit, place))
-        level = lifted(excess(orbit, flat))  # a lean of first order may cost more than it gives where the top is flat
+        # a lean of first order may cost more than it gives where the top is flat
+        level = lifted(excess(orbit, flat))
         better = level.low > best.low
         settled = (np.maximum(best.low, level.low) > 0) | none
         against = ~none & (top < -_slack(m, angle)) & (m.mu[:, 0] > 0)
         slopes: np.ndarray = np.where(better[:, None], level.g, best.g)
         rest: Any = np.where(better, level.e, best.e)
-        return settled, against, np.hstack([importance(slopes, rest, parts.widths), np.full((len(angle), 1), -1.0)])
+        return settled, against, np.hstack([importance(slopes, rest, parts.widths),
+                                            np.full((len(angle), 1), -1.0)])
     return branch_and_bound(whole(family.box, 1), judge, most)
 
 
@@ -270,6 +285,7 @@ def _spin_up(family: Family, sense: int, stretch: float, most: int) -> Proof:
         weights[:, -1] = np.where(by_angle >= np.abs(height.g[:, :-1]).sum(1), 1e300, -1.0)
         unsure = (torque == 0) & (height.high < 0)  # only the torque's sign is open
         if unsure.any():
-            weights[unsure] = np.hstack([np.abs(lifted(orbit.mu).g)[unsure][:, :-1], np.full((int(unsure.sum()), 1), -1.0)])
+            weights[unsure] = np.hstack([np.abs(lifted(orbit.mu).g)[unsure][:, :-1],
+                                         np.full((int(unsure.sum()), 1), -1.0)])
         return settled, against, weights
     return branch_and_bound(whole(family.box, CELLS), judge, most)

@@ -1,15 +1,17 @@
 """Number, kind and stability of the equilibria of a body that is known only within bounds.
 
-What the number, kind and stability of equilibria hang on: quantities that keep their sign as long as these stay the same.
+What the number, kind and stability of equilibria hang on: quantities that keep their sign as long as these
+stay the same.
 
-Off the axes: M.y = 0 and M.(D y + lambda) = 0 meet in a line along v = M x D M, on which one quadratic is left
-(`isolated_equilibria`); simple roots have n != 0, so they are unstable. On axis i with lambda_i = 0: with s t = K the conic's
-two coordinates from its centre, times a positive factor
+Off the axes: M.y = 0 and M.(D y + lambda) = 0 meet in a line along v = M x D M, on which one quadratic is
+left (`isolated_equilibria`); simple roots have n != 0, so they are unstable. On axis i with lambda_i = 0:
+with s t = K the conic's two coordinates from its centre, times a positive factor
 
     -(t^2/kappa) m = p t^4 + P t^3 + Q K t + q K^2,   P = p0 - p sigma/kappa,   Q = q0 - q rho/kappa,
 
-so folds neither meet, nor pass the poles t = 0 and infinity, nor change in number while p, q, K and the discriminant keep
-their signs. Numbers are of any kind; one that vanishes for every body of the box is exactly 0 and makes its own case.
+so folds neither meet, nor pass the poles t = 0 and infinity, nor change in number while p, q, K and the
+discriminant keep their signs. Numbers are of any kind; one that vanishes for every body of the box is exactly
+0 and makes its own case.
 """
 from __future__ import annotations
 
@@ -33,8 +35,8 @@ from .result import FEWER, UNKNOWN, Answer, Over, bracketed, by_sample, by_trial
 
 
 class Condition(NamedTuple):
-    """value: keeps its sign where nothing changes; what: what happens where it vanishes. passes: True where the answer is the
-    same on both sides of that surface, and only on the surface itself another."""
+    """value: keeps its sign where nothing changes; what: what happens where it vanishes. passes: True where
+    the answer is the same on both sides of that surface, and only on the surface itself another."""
 
     value: Number
     what: str
@@ -70,7 +72,8 @@ def known(found: list[Condition]) -> list[Condition]:
 def _balance(box: Box, numbers: Numbers, form: QuadraticForm) -> tuple[Triple, Triple, Triple]:
     """(D, lambda, M) of (D y + lambda) x y + M = 0 (`pencil`)."""
     if box.variables == "physical":
-        return numbers["inertia"], numbers["momentum"], tuple(d * m for d, m in zip(numbers["inertia"], form.m))
+        return numbers["inertia"], numbers["momentum"], tuple(d * m for d,
+                                                              m in zip(numbers["inertia"], form.m))
     b, a = form.rho[2], -form.sigma[1]
     zero, half = Fraction(0), Fraction(1, 2)
     return (half, zero, Fraction(1)), ((b - a) * half, zero, zero), form.m
@@ -78,7 +81,8 @@ def _balance(box: Box, numbers: Numbers, form: QuadraticForm) -> tuple[Triple, T
 
 def _free(D: Sequence[Number], lam: Sequence[Number]) -> list[Condition]:
     if any(map(present, lam)):
-        raise Unknown("without a torque, and with a gyrostatic moment, the stability along the curve of equilibria is not "
+        raise Unknown("without a torque, and with a gyrostatic moment, the stability along the curve of "
+                      "equilibria is not "
                       "followed over a box")
     pairs = [(i, j) for i, j in ((0, 1), (1, 2), (2, 0)) if present(D[i] - D[j])]
     return [Condition(D[i] - D[j], f"moments {i + 1} and {j + 1} are equal") for i, j in pairs]
@@ -88,16 +92,19 @@ def _dot(u: Sequence[Number], v: Sequence[Number]) -> Number:
     return sum((a * b for a, b in zip(u, v)), Fraction(0))
 
 
-def _off_axis(D: Sequence[Number], lam: Sequence[Number], M: Sequence[Number], acting: Sequence[int]) -> list[Condition]:
+def _off_axis(D: Sequence[Number], lam: Sequence[Number], M: Sequence[Number],
+              acting: Sequence[int]) -> list[Condition]:
     if not any(present(D[i] - D[acting[0]]) for i in acting[1:]):
         raise Unknown("the torque lies across the axes in the plane of two equal moments")
     gaps = [D[j] - D[k] for j, k in CYCLE]
     v = [-(M[j] * M[k] * gaps[i]) for i, (j, k) in enumerate(CYCLE)]
     area = sum((squared(c) for c in v), Fraction(0))
     DM, load = [d * m for d, m in zip(D, M)], _dot(lam, M)
-    foot = [load * (_dot(M, DM) * m - _dot(M, M) * dm) / area if present(load) else load for m, dm in zip(M, DM)]
+    foot = [load * (_dot(M, DM) * m - _dot(M, M) * dm) / area if present(load) else load for m,
+            dm in zip(M, DM)]
     pair = lambda x, y: sum((M[i] * gaps[i] * x[j] * y[k] for i, (j, k) in enumerate(CYCLE)), Fraction(0))
-    turn = lambda x: sum((M[i] * (lam[j] * x[k] - lam[k] * x[j]) for i, (j, k) in enumerate(CYCLE)), Fraction(0))
+    turn = lambda x: sum((M[i] * (lam[j] * x[k] - lam[k] * x[j]) for i, (j, k) in enumerate(CYCLE)),
+                         Fraction(0))
     q2, q1 = pair(v, v), pair(v, foot) + pair(foot, v) + turn(v)
     q0 = pair(foot, foot) + turn(foot) + sum((squared(m) for m in M), Fraction(0))
     plane = Condition(area, "the torque comes to lie along a principal axis")
@@ -122,7 +129,8 @@ def _conic(r: Reduction) -> list[Condition]:
     found = [Condition(k, "the two moments across the torque are equal"),
              Condition(N, "the hyperbola of equilibria falls apart into two lines")]
     for lead, low in ((p, P), (q, Q)):
-        found += [Condition(value, "a fold passes through infinity" if value is low else "two moments are equal")
+        found += [Condition(value, "a fold passes through infinity" if value is low
+                            else "two moments are equal")
                   for value in (lead if present(lead) else low,) if present(value)]
     return found + ([Condition(disc, "two folds meet and vanish")] if present(disc) else [])
 
@@ -147,7 +155,8 @@ def equilibria_over(box: Box) -> Over:
     if not box.places:
         return Over("holds", here, "no uncertain number has a part in the equilibria", proved=np.inf)
     if box.frame is not None:
-        return by_sample(box, here, lambda point: (answer(point), np.nan), "within the uncertainties the principal axes turn with the tensor, and no "
+        return by_sample(box, here, lambda point: (answer(point), np.nan),
+                         "within the uncertainties the principal axes turn with the tensor, and no "
                                                                            "proof follows that turn")
     try:
         return _by_conditions(box, here, answer)
@@ -161,7 +170,8 @@ def _without_state(box: Box) -> Box:
 
 
 def signature_at(box: Box, point: Point) -> str | None:
-    """Kind, number and verdicts of the equilibria at a point, by the ordinary exact code; None where there is no such body."""
+    """Kind, number and verdicts of the equilibria at a point, by the ordinary exact code; None where there is
+    no such body."""
     try:
         return signature(equilibria(box.at(point)[0]))
     except InputError:
@@ -185,8 +195,10 @@ def _by_conditions(box: Box, here: Any, answer: Answer) -> Over:
     def codes(points: np.ndarray) -> np.ndarray:
         with np.errstate(all="ignore"):
             numbers = box.numbers(points, np.zeros_like(points))
-            values = [np.broadcast_to(lifted(c.value).c, len(points)) for c in known(conditions(box, numbers))]
-            odd = np.broadcast_to(box.impossible(numbers), len(points)) | ~np.all([np.isfinite(v) for v in values], axis=0)
+            values = [np.broadcast_to(lifted(c.value).c, len(points))
+                      for c in known(conditions(box, numbers))]
+            odd = (np.broadcast_to(box.impossible(numbers), len(points))
+                   | ~np.all([np.isfinite(v) for v in values], axis=0))
         signs = [np.sign(np.nan_to_num(v)).astype(int) for v, c in zip(values, first) if not c.passes]
         return np.where(odd, UNKNOWN, sum(3**k * (sign + 1) for k, sign in enumerate(signs)))
 
@@ -210,13 +222,16 @@ def _conditions(box: Box, centres: np.ndarray, widths: np.ndarray, stretch: floa
         return known(conditions(box, box.numbers(centres, widths, stretch)))
 
 
-def _proof(all_of: Callable[..., list[Condition]], box: Box, first: Any, signs: Any, stretch: float, most: int, passes: bool = False) -> Proof:
-    """Whether every condition keeps its sign over the stretched box; passes: but those that may pass through zero."""
+def _proof(all_of: Callable[..., list[Condition]], box: Box, first: Any, signs: Any, stretch: float,
+           most: int, passes: bool = False) -> Proof:
+    """Whether every condition keeps its sign over the stretched box; passes: but those that may pass through
+    zero."""
     kept = [(k, sign) for k, sign in enumerate(signs) if not (passes and first[k].passes)]
 
     def judge(parts: Parts) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         values = all_of(parts.centres, parts.widths, stretch)
-        none = np.broadcast_to(box.impossible(box.numbers(parts.centres, parts.widths, stretch)), len(parts.angle))
+        none = np.broadcast_to(box.impossible(box.numbers(parts.centres, parts.widths, stretch)),
+                               len(parts.angle))
         settled = np.ones(len(none), bool)
         worst, weights = np.full(len(none), np.inf), np.zeros((len(none), len(box.places) + 1)) - 1.0
         for k, sign in kept:
@@ -224,7 +239,9 @@ def _proof(all_of: Callable[..., list[Condition]], box: Box, first: Any, signs: 
             settled &= value.sign == sign
             clear = np.nan_to_num(value.c * sign / value.reach, nan=-np.inf)
             lower = clear < worst
-            share = importance(np.broadcast_to(value.g, parts.widths.shape), np.broadcast_to(value.e, len(none)), parts.widths)
-            worst, weights[:, :-1] = np.where(lower, clear, worst), np.where(lower[:, None], share, weights[:, :-1])
+            share = importance(np.broadcast_to(value.g, parts.widths.shape),
+                               np.broadcast_to(value.e, len(none)), parts.widths)
+            worst, weights[:, :-1] = np.where(lower, clear,
+                                              worst), np.where(lower[:, None], share, weights[:, :-1])
         return settled | none, np.zeros(len(none), bool), weights  # contrary cases are the search's to find
     return branch_and_bound(whole(box), judge, most)

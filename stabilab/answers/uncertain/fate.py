@@ -1,4 +1,5 @@
-"""The fate of a motion whose body, torque or start is known only within bounds: proved, or with a witness on each side."""
+"""The fate of a motion whose body, torque or start is known only within bounds: proved, or with a witness on
+each side."""
 from __future__ import annotations
 
 from collections.abc import Sequence
@@ -32,7 +33,9 @@ def fate_over(box: Box) -> Over | None:
         return None
     answer, look = partial(verdict_at, box), partial(verdict_and_margin, box)
     if box.frame is not None:
-        return by_sample(box, answer(np.zeros(len(box.places))), look, "within the uncertainties the principal axes turn with the tensor, and no proof follows "
+        return by_sample(box, answer(np.zeros(len(box.places))), look,
+                         "within the uncertainties the principal axes turn with the tensor, and no proof "
+                         "follows "
                                                                        "that turn")
     numbers = _root(box)
     form = box.rates(numbers)
@@ -42,15 +45,20 @@ def fate_over(box: Box) -> Over | None:
         return Over("holds", here, REASONS[Reason.TORQUE_FREE], proved=np.inf)
     if len(acting) > 1:
         axes = " and ".join(str(i + 1) for i in acting)
-        return by_sample(box, here, look, f"the torque may act about axes {axes} together, off the principal axes, where motions are "
-                                            "followed one by one: the middle's answer is no proof for the box")
+        return by_sample(box, here, look,
+                         f"the torque may act about axes {axes} together, off the principal axes, where "
+                         f"motions are "
+                                            "followed one by one: the middle's answer is no proof for "
+                                            "the box")
     reduction = reduction_about(form, acting[0])
     if reduction is None:
         return _under_law(box, here, answer, numbers, form, acting[0])
     signs = _signs(reduction)
     if signs is None:
-        return by_trial(box, here, answer, "two of the moments of inertia may be equal within the box, where the geometry of "
-                                           "the motion changes from circles to hyperbolas: no proof is at hand", look)
+        return by_trial(box, here, answer,
+                        "two of the moments of inertia may be equal within the box, where the geometry of "
+                                           "the motion changes from circles to hyperbolas: no proof is "
+                                           "at hand", look)
     if signs[0] * signs[1] >= 0:
         return _between_walls(box, here, answer, reduction, numbers, signs)
     return _on_circles(box, here, answer, Family(box, acting[0], signs))
@@ -68,12 +76,14 @@ def verdict_at(box: Box, point: Point) -> str | None:
     if reduction is None:
         one = fate(scene, np.array(state))
         return words(Fate(int(one.labels)), int(one.axis), int(one.sense))
-    found = fate_of(scene, Orbit(reduction, state))  # type: ignore[arg-type]  # asked of boxes that have a state
+    # asked of boxes that have a state
+    found = fate_of(scene, Orbit(reduction, state))  # type: ignore[arg-type]
     return words(found.label, found.axis, found.sense)
 
 
 def verdict_and_margin(box: Box, point: Point) -> tuple[str | None, float]:
-    """(fate at a point of the box as of `verdict_at`, barrier minus energy, NaN where the motion has none)."""
+    """(fate at a point of the box as of `verdict_at`, barrier minus energy, NaN where the motion has none).
+    """
     try:
         scene, state = box.at(point)
     except InputError:
@@ -146,7 +156,8 @@ def _tie(box: Box, here: Any, answer: Answer, corners: Sequence[np.ndarray]) -> 
 
 
 def _senses(box: Box, family: Family, stretch: float) -> tuple[int, ...] | None:
-    """Signs the torque may have over the box, (1,), (-1,) or (1, -1); None where the geometry itself may change."""
+    """Signs the torque may have over the box, (1,), (-1,) or (1, -1); None where the geometry itself may
+    change."""
     with np.errstate(all="ignore"):
         numbers = _root(box, stretch)
         r = reduction_about(box.rates(numbers), family.axis)
@@ -175,18 +186,22 @@ def _between_walls(box: Box, here: Any, answer: Answer, r: Reduction, numbers: N
         flat = not signs[0] * signs[1] and _flat(r, state) or _spins(r, state)
         if flat and here.startswith("spin-up") and int(np.ravel(sign_over(r.m))[0]):
             return Over("holds", here, REASONS[Reason.PURE_SPIN], proved=1.0)
-        return by_trial(box, here, answer, "the middle lies on a set of measure zero, and no proof covers what is around it",
+        return by_trial(box, here, answer,
+                        "the middle lies on a set of measure zero, and no proof covers what is around it",
                         partial(verdict_and_margin, box))
     if not signs[0] * signs[1]:
         return Over("holds", here, REASONS[Reason.WALLS], proved=1.0,
                     but="where the force is the same all along the parabola, nothing holds the spin back")
     if _certain_plane(r, state):
-        return by_sample(box, here, partial(verdict_and_margin, box), "every motion of the box lies on an invariant plane Q = 0, where a "
+        return by_sample(box, here, partial(verdict_and_margin, box),
+                         "every motion of the box lies on an invariant plane Q = 0, where a "
                          "barrier decides, and the plane's motions are not followed over a box")
     with np.errstate(all="ignore"):
         orbit = orbit_of(r, state, signs)
-        clear = all(int(np.ravel(sign_over(lifted(side)))[0]) for side in (orbit.x + orbit.z, orbit.x - orbit.z))
-    but = "" if clear else "the box meets an invariant plane Q = 0, where a motion may spin up or tend to a saddle"
+        clear = all(int(np.ravel(sign_over(lifted(side)))[0])
+                    for side in (orbit.x + orbit.z, orbit.x - orbit.z))
+    but = ("" if clear
+           else "the box meets an invariant plane Q = 0, where a motion may spin up or tend to a saddle")
     return Over("holds", here, REASONS[Reason.WALLS], proved=1.0, but=but)
 
 
@@ -219,9 +234,11 @@ def _under_law(box: Box, here: Any, answer: Answer, numbers: Numbers, form: Quad
     """A gyrostatic moment along the torque: |H|^2/2 - D_i T grows at the rate lambda_i M_i."""
     along = numbers["momentum"][axis] if box.variables == "physical" else -form.sigma[1] - form.rho[2]
     if int(np.ravel(sign_over(along * form.m[axis]))[0]):
-        return Over("holds", UNBOUNDED, f"{REASONS[Reason.UNBOUNDED_LAW]}; the axis it ends about is not followed over the box",
+        return Over("holds", UNBOUNDED,
+                    f"{REASONS[Reason.UNBOUNDED_LAW]}; the axis it ends about is not followed over the box",
                     proved=1.0)
     whether = lambda point: (found := answer(point)) and (UNBOUNDED if found.startswith("spin-up") else found)
     return by_trial(box, whether(np.zeros(len(box.places))), whether,
-                    f"the gyrostatic moment along axis {axis + 1}, the torque's, may vanish or not: where it does not, there is "
+                    f"the gyrostatic moment along axis {axis + 1}, the torque's, may vanish or not: where it "
+                    f"does not, there is "
                     "no reduction to one degree of freedom, and no motion is bounded")

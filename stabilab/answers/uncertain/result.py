@@ -2,9 +2,10 @@
 
 How far a box must be stretched until an answer changes: a search along rays from its middle.
 
-The rays go to corners, along single numbers, against the gradient where there is one; the nearest change is then drawn nearer
-by moving one number at a time. What it finds is a change that is really there, so the stretch is an upper bound of the least
-one; nothing found is no proof. Seeded: the same box gives the same answer.
+The rays go to corners, along single numbers, against the gradient where there is one; the nearest change is
+then drawn nearer by moving one number at a time. What it finds is a change that is really there, so the
+stretch is an upper bound of the least one; nothing found is no proof. Seeded: the same box gives the same
+answer.
 """
 from __future__ import annotations
 
@@ -24,20 +25,25 @@ MOST = 100.0          # times the stated uncertainty
 LADDER = np.concatenate([10.0 ** np.arange(-9, -2), 2.0 ** np.arange(-6, 7) * (MOST / 64)])
 CORNERS, CHUNK = 256, 4096
 HALVINGS, ROUNDS, NEAREST = 14, 4, 16
-Codes: TypeAlias = Callable[[np.ndarray], np.ndarray]  # points (m, n) of a box -> what is known there as an int each, (m,)
-Answer: TypeAlias = Callable[[np.ndarray], Any]  # one point of a box -> what the ordinary exact code answers there
+# points (m, n) of a box -> what is known there as an int each, (m,)
+Codes: TypeAlias = Callable[[np.ndarray], np.ndarray]
+# one point of a box -> what the ordinary exact code answers there
+Answer: TypeAlias = Callable[[np.ndarray], Any]
 UNKNOWN = -9          # the code of a point where there is no body, or nothing is known
 PARTS, FEWER = 60_000, 2_500  # of the box: for the question asked, and for each try to prove more
-NEARER = (0.5, 0.75, 0.9, 0.99, 0.999)  # shares of a change that is there, tried as proved stretches until one fails
+# shares of a change that is there, tried as proved stretches until one fails
+NEARER = (0.5, 0.75, 0.9, 0.99, 0.999)
 SMALLER = (0.3, 0.15, 0.05, 0.01, 0.001)  # tried where even the first of these fails
-SAMPLE, TIRED, SEED = 64, 4, 20261122  # points of the box drawn at random where motions can only be followed one by one
+# points of the box drawn at random where motions can only be followed one by one
+SAMPLE, TIRED, SEED = 64, 4, 20261122
 UNDECIDED = "undecided"  # as the signature of equilibria begins and ends where nothing is known of them
 Look: TypeAlias = Callable[[Point], tuple[str | None, float]]
 FARTHER = (2.0, 5.0, 10.0, 30.0, MOST)
 
 
 class Change(NamedTuple):
-    """An answer changes along `direction` (largest entry 1 in size): another at `stretch`, still the same at `before`."""
+    """An answer changes along `direction` (largest entry 1 in size): another at `stretch`, still the same at
+    `before`."""
 
     direction: np.ndarray
     stretch: float
@@ -55,8 +61,10 @@ def rays(n: int, favoured: Iterable[np.ndarray] = ()) -> np.ndarray:
     return np.unique(np.concatenate([*(np.reshape(f, (-1, n)) for f in favoured), single, corners]), axis=0)
 
 
-def nearest_in_box(codes: Codes, here: int, n: int, favoured: Iterable[np.ndarray] = (), most: float = MOST) -> Change | None:
-    """The nearest change found of codes(points (m, n)) -> (m,) ints from `here`; None where none is found up to `most`."""
+def nearest_in_box(codes: Codes, here: int, n: int, favoured: Iterable[np.ndarray] = (),
+                   most: float = MOST) -> Change | None:
+    """The nearest change found of codes(points (m, n)) -> (m,) ints from `here`; None where none is found up
+    to `most`."""
     ladder = LADDER[LADDER <= most * 1.0001]
     directions = rays(n, favoured)
     first = _first_change(codes, here, directions, ladder)
@@ -84,12 +92,14 @@ def nearest_in_box(codes: Codes, here: int, n: int, favoured: Iterable[np.ndarra
 def _first_change(codes: Codes, here: int, directions: np.ndarray, ladder: np.ndarray) -> np.ndarray:
     """The first rung at which each ray has changed, inf where none."""
     points = (directions[:, None, :] * ladder[None, :, None]).reshape(-1, directions.shape[1])
-    found = np.concatenate([codes(points[i:i + CHUNK]) for i in range(0, len(points), CHUNK)]).reshape(len(directions), -1)
+    found = np.concatenate([codes(points[i:i + CHUNK])
+                            for i in range(0, len(points), CHUNK)]).reshape(len(directions), -1)
     changed = (found != here) & (found != UNKNOWN)
     return np.where(changed.any(1), ladder[changed.argmax(1)], np.inf)
 
 
-def _bisected(codes: Codes, here: int, directions: np.ndarray, starts: np.ndarray, ends: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _bisected(codes: Codes, here: int, directions: np.ndarray, starts: np.ndarray,
+              ends: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     for _ in range(HALVINGS):
         middle = np.where(starts > 0, np.sqrt(starts * ends), ends / 2)
         found = codes(directions * middle[:, None])
@@ -101,13 +111,14 @@ def _bisected(codes: Codes, here: int, directions: np.ndarray, starts: np.ndarra
 def _moved(direction: np.ndarray) -> np.ndarray:
     """The ray with one number changed at a time."""
     n = len(direction)
-    out = [np.where(np.arange(n) == k, value, direction) for k in range(n) for value in (-1.0, -0.5, 0.0, 0.5, 1.0)]
+    out = [np.where(np.arange(n) == k, value, direction) for k in range(n)
+           for value in (-1.0, -0.5, 0.0, 0.5, 1.0)]
     return np.unique(np.array([d for d in out if np.abs(d).max() == 1.0]), axis=0)
 
 
 def confirmed(change: Change, answer: Answer, here: Any, halvings: int = 20) -> Change | None:
-    """The change with its stretch settled by answer(point), of any kind, that differs from `here`; None where the answer is
-    still `here` a thousandth farther."""
+    """The change with its stretch settled by answer(point), of any kind, that differs from `here`; None where
+    the answer is still `here` a thousandth farther."""
     end = next((end for end in (change.stretch * (1 + push) for push in (0.0, 1e-9, 1e-6, 1e-4, 1e-3))
                 if answer(change.direction * end) != here), None)
     if end is None:
@@ -125,7 +136,8 @@ def confirmed(change: Change, answer: Answer, here: Any, halvings: int = 20) -> 
 
 @dataclass(frozen=True)
 class Witness:
-    """A point of the box: its verdict by the ordinary exact code, and all numbers there (name -> exact numbers)."""
+    """A point of the box: its verdict by the ordinary exact code, and all numbers there (name -> exact
+    numbers)."""
 
     verdict: str
     values: Numbers = field(repr=False)
@@ -133,8 +145,9 @@ class Witness:
 
 @dataclass(frozen=True)
 class Sampled:
-    """What points of the box, drawn uniformly at random, do. number: of points with an answer; seed: of NumPy's default generator; counts: verdict ->
-    how many, most first; margins: the 5, 50 and 95 % quantiles of barrier minus energy (J; scaled energy), None where a motion has none."""
+    """What points of the box, drawn uniformly at random, do. number: of points with an answer; seed: of
+    NumPy's default generator; counts: verdict -> how many, most first; margins: the 5, 50 and 95 % quantiles
+    of barrier minus energy (J; scaled energy), None where a motion has none."""
 
     number: int
     seed: int
@@ -143,7 +156,8 @@ class Sampled:
 
     @property
     def otherwise(self) -> float:
-        """The share of the box that may do otherwise though all points agree: 95 % confidence, 1 - 0.05^(1/n)."""
+        """The share of the box that may do otherwise though all points agree: 95 % confidence, 1 -
+        0.05^(1/n)."""
         return 1 - float(0.05 ** (1 / self.number))
 
     @property
@@ -151,9 +165,11 @@ class Sampled:
         """The counts, and what they leave open or how the margins spread."""
         agree = len(self.counts) == 1
         told = ", ".join(f"{'all' if agree else count}: {word}" for word, count in self.counts.items())
-        rest = f"; with 95 % confidence at most {100 * self.otherwise:.2g} % of the box does otherwise" if agree else ""
+        rest = (f"; with 95 % confidence at most {100 * self.otherwise:.2g} % of the box does otherwise"
+                if agree else "")
         if self.margins:
-            rest += "; margins in energy: 5, 50 and 95 % quantiles " + ", ".join(f"{v:.4g}" for v in self.margins)
+            rest += ("; margins in energy: 5, 50 and 95 % quantiles "
+                     + ", ".join(f"{v:.4g}" for v in self.margins))
         return f"of {self.number} sampled points (seed {self.seed}) {told}{rest}"
 
 
@@ -161,11 +177,12 @@ class Sampled:
 class Over:
     """A verdict over a box.
 
-    answer: "holds" (proved for the whole box), "depends" (with a witness on each side), "sampled" (no proof is to be had, and all points of `samples`
-    do as the middle does) or "undecided". verdict: the middle's.
-    but: the set of measure zero that "holds" leaves out, if it does. Every change of the numbers by less than `proved` times
-    the stated uncertainties is proved to leave the verdict; `changes_at` times these flips it (an upper bound of the least
-    such factor: found by search and checked; None where none was found up to 100 times). parts: of the box, looked at.
+    answer: "holds" (proved for the whole box), "depends" (with a witness on each side), "sampled" (no proof
+    is to be had, and all points of `samples` do as the middle does) or "undecided". verdict: the middle's.
+    but: the set of measure zero that "holds" leaves out, if it does. Every change of the numbers by less than
+    `proved` times the stated uncertainties is proved to leave the verdict; `changes_at` times these flips it
+    (an upper bound of the least such factor: found by search and checked; None where none was found up to 100
+    times). parts: of the box, looked at.
     """
 
     answer: str
@@ -179,8 +196,10 @@ class Over:
     samples: Sampled | None = None
 
 
-def bracketed(box: Box, here: Any, answer: Answer, change: Change | None, attempt: Callable[[float, int], Proof], because: str) -> Over:
-    """The answer from a change that was found (or None) and attempt(stretch, most) -> Proof, with [proved, changes_at]."""
+def bracketed(box: Box, here: Any, answer: Answer, change: Change | None,
+              attempt: Callable[[float, int], Proof], because: str) -> Over:
+    """The answer from a change that was found (or None) and attempt(stretch, most) -> Proof, with [proved,
+    changes_at]."""
     parts, proved = 0, 0.0
     if change is None or change.stretch > 1:
         proof = attempt(1.0, PARTS)
@@ -191,17 +210,23 @@ def bracketed(box: Box, here: Any, answer: Answer, change: Change | None, attemp
     more, looked = _farthest(change, attempt, proved)
     proved, parts = max(proved, more), parts + looked
     sides = () if change is None else tuple(
-        Witness(answer(p), box.values(p)) for p in (np.zeros(len(box.places)), change.direction * change.stretch))
-    found: dict[str, Any] = {"proved": proved, "changes_at": change and change.stretch, "witnesses": sides, "parts": parts}
+        Witness(answer(p), box.values(p))
+        for p in (np.zeros(len(box.places)), change.direction * change.stretch))
+    found: dict[str, Any] = {"proved": proved, "changes_at": change and change.stretch, "witnesses": sides,
+                             "parts": parts}
     if proved >= 1:
         return Over("holds", here, because, **found)
     if change is not None and change.stretch <= 1:
-        return Over("depends", here, f"{sides[0].verdict} at the middle, {sides[1].verdict} elsewhere in the box", **found)
-    return Over("undecided", here, f"neither a proof in {parts} parts of the box nor a contrary case was found", **found)
+        return Over("depends", here,
+                    f"{sides[0].verdict} at the middle, {sides[1].verdict} elsewhere in the box", **found)
+    return Over("undecided", here,
+                f"neither a proof in {parts} parts of the box nor a contrary case was found", **found)
 
 
-def _farthest(change: Change | None, attempt: Callable[[float, int], Proof], proved: float) -> tuple[float, int]:
-    """(largest stretch proved, parts looked at): rising until a proof fails, and falling where the first one does."""
+def _farthest(change: Change | None, attempt: Callable[[float, int], Proof],
+              proved: float) -> tuple[float, int]:
+    """(largest stretch proved, parts looked at): rising until a proof fails, and falling where the first one
+    does."""
     looked, safe = 0, proved
     share = 1.0 if change is None else change.stretch
     rising = FARTHER if change is None else NEARER
@@ -229,7 +254,8 @@ def _of_point(point: Point, answer: Answer, here: str) -> Change | None:
 
 
 def by_trial(box: Box, here: Any, answer: Answer, because: str, look: Look | None = None) -> Over:
-    """Where no proof is at hand: what single points of the box say, by the ordinary code, and where these agree, samples."""
+    """Where no proof is at hand: what single points of the box say, by the ordinary code, and where these
+    agree, samples."""
     n = len(box.places)
     trial = np.concatenate([np.eye(n), -np.eye(n), np.ones((1, n)), -np.ones((1, n))])
     stretches = (1e-6, 1e-3, 1.0)
@@ -247,8 +273,8 @@ def by_trial(box: Box, here: Any, answer: Answer, because: str, look: Look | Non
 
 
 def by_sample(box: Box, here: Any, look: Look, because: str, seed: int = SEED) -> Over:
-    """Where no proof is at hand: what points of the box drawn at random say, by the ordinary code. look: point -> (verdict or None, margin in energy or
-    NaN)."""
+    """Where no proof is at hand: what points of the box drawn at random say, by the ordinary code. look:
+    point -> (verdict or None, margin in energy or NaN)."""
     counts: dict[str, int] = {}
     places: dict[str, Point] = {}
     margins = []
@@ -267,6 +293,8 @@ def by_sample(box: Box, here: Any, look: Look, because: str, seed: int = SEED) -
     because = f"{because}; {found.words}"
     other = next((word for word in places if word not in (here, Fate.UNDECIDED.word, UNDECIDED)), None)
     if other is None or here in (Fate.UNDECIDED.word, UNDECIDED):
-        return Over("sampled" if set(counts) == {here} and here not in (Fate.UNDECIDED.word, UNDECIDED) else "undecided", here, because, samples=found)
+        return Over("sampled" if set(counts) == {here} and here not in (Fate.UNDECIDED.word, UNDECIDED)
+                    else "undecided", here, because, samples=found)
     sides = (Witness(here, box.values(np.zeros(len(box.places)))), Witness(other, box.values(places[other])))
-    return Over("depends", here, because, changes_at=float(np.abs(places[other]).max()), witnesses=sides, samples=found)
+    return Over("depends", here, because, changes_at=float(np.abs(places[other]).max()), witnesses=sides,
+                samples=found)

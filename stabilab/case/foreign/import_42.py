@@ -1,16 +1,20 @@
 """Spacecraft files of 42 as cases; bodies joined rigidly into one.
 
-Several bodies on joints, as NASA's simulator 42 places them, as one rigid body: the joints locked where they are.
+Several bodies on joints, as NASA's simulator 42 places them, as one rigid body: the joints locked where they
+are.
 
-Of a joint from body i to body o, 42 (InitSpacecraft in 42init.c, MapStateVectorToBodyStates in 42dynamics.c) turns components by
-C_oi = C(Go to Bo) C(angles) C(Bi to Gi), each from angles and a sequence, "312" first about axis 3; the origin of o is at
-(position wrt inner) + C(Bi to Gi)^T (displacements) - C_oi^T (position wrt outer) from that of i. Angles and displacements beyond
-the joint's degrees of freedom count as zero. A body's moments are about its mass centre, or about its origin (REFPT_JOINT).
+Of a joint from body i to body o, 42 (InitSpacecraft in 42init.c, MapStateVectorToBodyStates in 42dynamics.c)
+turns components by C_oi = C(Go to Bo) C(angles) C(Bi to Gi), each from angles and a sequence, "312" first
+about axis 3; the origin of o is at (position wrt inner) + C(Bi to Gi)^T (displacements) - C_oi^T (position
+wrt outer) from that of i. Angles and displacements beyond the joint's degrees of freedom count as zero. A
+body's moments are about its mass centre, or about its origin (REFPT_JOINT).
 
-The spacecraft description file of NASA's simulator 42 (SC_*.txt): a value and its label a line, in titled sections.
+The spacecraft description file of NASA's simulator 42 (SC_*.txt): a value and its label a line, in titled
+sections.
 
-42 states rates in deg/s, products of inertia as positive integrals, and puts thrusters at nodes whose places are in a file of their
-own; a thruster without a place cannot be used and is listed. Several bodies are combined, their joints locked (`joined`).
+42 states rates in deg/s, products of inertia as positive integrals, and puts thrusters at nodes whose places
+are in a file of their own; a thruster without a place cannot be used and is listed. Several bodies are
+combined, their joints locked (`joined`).
 """
 from __future__ import annotations
 
@@ -31,7 +35,8 @@ DIGITS = 12  # of the largest number of a vector or a tensor: products of decima
 
 
 class Part(NamedTuple):
-    """A body in its own frame. mass, kg; tensor about its mass centre, kg m^2; centre, m, from its origin; momentum of its wheels, N m s."""
+    """A body in its own frame. mass, kg; tensor about its mass centre, kg m^2; centre, m, from its origin;
+    momentum of its wheels, N m s."""
 
     mass: Fraction
     tensor: Matrix
@@ -40,7 +45,8 @@ class Part(NamedTuple):
 
 
 class Joint(NamedTuple):
-    """From body `inner` to `outer`. turn: components of the inner frame to those of the outer; origin: of the outer body in the inner frame, m."""
+    """From body `inner` to `outer`. turn: components of the inner frame to those of the outer; origin: of the
+    outer body in the inner frame, m."""
 
     inner: int
     outer: int
@@ -67,7 +73,8 @@ def _cosine(angle: Fraction) -> Fraction:
     """Of an angle in deg, exact at quarters of a turn."""
     quarters = {0: 1, 90: 0, 180: -1, 270: 0}
     angle %= 360
-    return Fraction(quarters[int(angle)]) if angle in quarters else precise("cos", angle * precise("pi") / 180)
+    return (Fraction(quarters[int(angle)]) if angle in quarters
+            else precise("cos", angle * precise("pi") / 180))
 
 
 def product(a: Matrix, b: Matrix) -> Matrix:
@@ -87,7 +94,8 @@ def turned_back(a: Matrix) -> Matrix:
 
 def about(mass: Fraction, arm: Exact3) -> Matrix:
     """mass (|arm|^2 I - arm arm^T): what parallel axes add, kg m^2."""
-    return tuple(tuple(mass * (dot(arm, arm) * (i == j) - arm[i] * arm[j]) for j in range(3)) for i in range(3))
+    return tuple(tuple(mass * (dot(arm, arm) * (i == j) - arm[i] * arm[j]) for j in range(3))
+                 for i in range(3))
 
 
 def added(a: Matrix, b: Matrix, sign: int = 1) -> Matrix:
@@ -96,7 +104,8 @@ def added(a: Matrix, b: Matrix, sign: int = 1) -> Matrix:
 
 
 def places(joints: Sequence[Joint], count: int) -> dict[int, tuple[Matrix, Exact3]]:
-    """Of every body that joints tie to body 0: (what turns components of body 0 to its own, its origin in the frame of body 0)."""
+    """Of every body that joints tie to body 0: (what turns components of body 0 to its own, its origin in the
+    frame of body 0)."""
     found: dict[int, tuple[Matrix, Exact3]] = {0: (ONE, (Fraction(0),) * 3)}
     for _ in range(count):  # 42 wants inner bodies first; a tree in any other order is read too
         for joint in joints:
@@ -108,7 +117,8 @@ def places(joints: Sequence[Joint], count: int) -> dict[int, tuple[Matrix, Exact
 
 
 def joined(parts: Sequence[Part], where: dict[int, tuple[Matrix, Exact3]]) -> Part:
-    """The parts as one body in the frame of body 0, by parallel axes about their common mass centre. Their masses are positive together."""
+    """The parts as one body in the frame of body 0, by parallel axes about their common mass centre. Their
+    masses are positive together."""
     mass, centres = Fraction(sum(part.mass for part in parts)), []
     for index, part in enumerate(parts):
         back, at = turned_back(where[index][0]), where[index][1]
@@ -119,8 +129,10 @@ def joined(parts: Sequence[Part], where: dict[int, tuple[Matrix, Exact3]]) -> Pa
     for index, part in enumerate(parts):
         to_part = where[index][0]
         own = product(product(turned_back(to_part), part.tensor), to_part)
-        tensor = added(tensor, added(own, about(part.mass, tuple(c - o for c, o in zip(centres[index], centre)))))
-        momentum = tuple(Fraction(a + b) for a, b in zip(momentum, times(turned_back(to_part), part.momentum)))
+        tensor = added(tensor,
+                       added(own, about(part.mass, tuple(c - o for c, o in zip(centres[index], centre)))))
+        momentum = tuple(Fraction(a + b) for a,
+                         b in zip(momentum, times(turned_back(to_part), part.momentum)))
     return Part(mass, tensor, centre, momentum)
 
 
@@ -133,9 +145,11 @@ def decimals(numbers: Sequence[Fraction]) -> list[str]:
 
 _TITLE = re.compile(r"\s*([*=<]{3,})\s*(.*?)\s*[*=>]*\s*")
 _NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
-USED = {"mass", "moments of inertia", "products of inertia", "location of mass center", "constant embedded momentum", "initial momentum",
+USED = {"mass", "moments of inertia", "products of inertia", "location of mass center",
+        "constant embedded momentum", "initial momentum",
         "wheel axis", "thrust force", "thrust axis", "ang vel (", "description", "label", "body"}
-PLACED = {"inner, outer", "rotdof, seq", "trndof, seq", "initial angles", "initial displacements", "bi to gi", "go to bo", "position wrt"}
+PLACED = {"inner, outer", "rotdof, seq", "trndof, seq", "initial angles", "initial displacements", "bi to gi",
+          "go to bo", "position wrt"}
 WORDS = {1: "a number", 2: "two numbers", 3: "three numbers", 4: "three angles and a sequence"}
 
 
@@ -153,12 +167,16 @@ def is_one(text: str) -> bool:
 
 
 def spacecraft(text: str, path, body: int | None = None) -> Craft:
-    """What the file says of all its bodies as one, or of one of them alone, in that body's frame. Raises InputError where it says no inertia."""
+    """What the file says of all its bodies as one, or of one of them alone, in that body's frame. Raises
+    InputError where it says no inertia."""
     entries = _used(_entries(text))
     craft = Craft(_value(entries, "", "description") or "spacecraft")
-    bodies = [rows for _, rows in _blocks(entries, "body")] or [[e for e in entries if e.section.startswith("body")]]
+    bodies = ([rows for _, rows in _blocks(entries, "body")]
+              or [[e for e in entries if e.section.startswith("body")]])
     if body is not None and not 0 <= body < len(bodies):
-        raise InputError(f"--body {body}: no such body; the file has {f'bodies 0 to {len(bodies) - 1}' if len(bodies) > 1 else 'body 0 alone'}")
+        raise InputError(
+            f"--body {body}: no such body; the file has "
+            f"{f'bodies 0 to {len(bodies) - 1}' if len(bodies) > 1 else 'body 0 alone'}")
     where = _places(entries, len(bodies), path)
     alone, whole = bodies[body or 0], body is None and len(bodies) > 1
     craft.rate, craft.rate_unit = _numbers(entries, "ang vel (", 3, path), "deg/s"
@@ -167,7 +185,9 @@ def spacecraft(text: str, path, body: int | None = None) -> Craft:
     if whole:
         parts = [_part(rows, _at_joint(entries), path) for rows in bodies]
         if sum(part.mass for part in parts) <= 0:
-            raise InputError(f"{path}: {len(parts)} bodies without a mass have no common mass centre; --body N takes one alone")
+            raise InputError(
+                f"{path}: {len(parts)} bodies without a mass have no common mass centre; --body N takes "
+                f"one alone")
         _together(craft, joined(parts, where), len(bodies))
     else:
         _alone(craft, alone, _at_joint(entries), path)
@@ -184,7 +204,8 @@ def spacecraft(text: str, path, body: int | None = None) -> Craft:
 def _alone(craft: Craft, rows, at_joint: bool, path):
     """One body as the file writes it."""
     craft.mass = (_numbers(rows, "mass", 1, path) or [None])[0]
-    craft.inertia, craft.products = _moments(rows, path), _acting(_numbers(rows, "products of inertia", 3, path))
+    craft.inertia, craft.products = _moments(rows,
+                                             path), _acting(_numbers(rows, "products of inertia", 3, path))
     craft.centre = _numbers(rows, "location of mass center", 3, path)
     craft.momentum = _acting(_numbers(rows, "constant embedded momentum", 3, path))
     if at_joint and _acting(craft.centre):
@@ -196,7 +217,8 @@ def _together(craft: Craft, whole: Part, count: int):
     """Several bodies as one."""
     craft.mass, craft.inertia = decimals([whole.mass])[0], _rows(whole)
     craft.centre, craft.momentum = decimals(whole.centre), _acting(decimals(whole.momentum))
-    craft.said.append(f"{count} bodies are combined into one rigid body about their common mass centre, in the frame of body 0, the joints "
+    craft.said.append(f"{count} bodies are combined into one rigid body about their common mass centre, in "
+                      f"the frame of body 0, the joints "
                       "locked as the file places them (--body N takes one alone)")
 
 
@@ -209,7 +231,9 @@ def _rows(part: Part) -> list:
 def _moments(rows, path) -> list[str]:
     found = _numbers(rows, "moments of inertia", 3, path)
     if found is None:
-        raise InputError(f"{path}: expected a line with three numbers and the label Moments of Inertia in the section Body Parameters")
+        raise InputError(
+            f"{path}: expected a line with three numbers and the label Moments of Inertia in the section "
+            f"Body Parameters")
     return found
 
 
@@ -219,7 +243,8 @@ def _part(rows, at_joint: bool, path) -> Part:
     x, y, z = (Fraction(v) for v in _moments(rows, path))
     xy, xz, yz = (-v for v in _exact(rows, "products of inertia", 3, path))
     tensor, centre = ((x, xy, xz), (xy, y, yz), (xz, yz, z)), _exact(rows, "location of mass center", 3, path)
-    return Part(mass, added(tensor, about(mass, centre), -1) if at_joint else tensor, centre, _exact(rows, "constant embedded momentum", 3, path))
+    return Part(mass, added(tensor, about(mass, centre), -1) if at_joint else tensor, centre,
+                _exact(rows, "constant embedded momentum", 3, path))
 
 
 def _exact(rows, label: str, count: int, path) -> Exact3:
@@ -232,17 +257,22 @@ def _at_joint(entries) -> bool:
 
 
 def _places(entries, count: int, path):
-    """Of every body, what turns components of body 0 to its own, and its origin. Raises InputError where no joint leads to it."""
-    found = places([_joint(rows, path) for _, rows in _blocks(entries, "joint")], count) if count > 1 else places((), 1)
+    """Of every body, what turns components of body 0 to its own, and its origin. Raises InputError where no
+    joint leads to it."""
+    found = (places([_joint(rows, path) for _, rows in _blocks(entries, "joint")], count) if count > 1
+             else places((), 1))
     missing = [str(n) for n in range(count) if n not in found]
     if missing:
-        raise InputError(f"{path}: no joint of the section Joint Parameters ties body {', '.join(missing)} to body 0; --body N takes one body alone")
+        raise InputError(
+            f"{path}: no joint of the section Joint Parameters ties body {', '.join(missing)} to body 0; "
+            f"--body N takes one body alone")
     return found
 
 
 def _joint(rows, path) -> Joint:
     inner, outer = (int(v) for v in _exact(rows, "inner, outer", 2, path))
-    (free, sequence), (slides, along) = (_exact(rows, label, 2, path) for label in ("rotdof, seq", "trndof, seq"))
+    (free, sequence), (slides, along) = (_exact(rows, label, 2, path)
+                                         for label in ("rotdof, seq", "trndof, seq"))
     angles = _exact(rows, "initial angles", 3, path)[:int(free)]
     before, after = (_static(rows, label, path) for label in ("bi to gi", "go to bo"))
     slid = [Fraction(0)] * 3
@@ -263,7 +293,9 @@ def _on(rows, count: int, path) -> int:
     """The body that a wheel or a thruster stands on."""
     found = int(_exact(rows, "body", 1, path)[0])
     if not 0 <= found < count:
-        raise InputError(f"{path}:{next(e.line for e in rows if e.label.lower().startswith('body'))}: Body: the file has no body {found}")
+        raise InputError(
+            f"{path}:{next(e.line for e in rows if e.label.lower().startswith('body'))}: Body: the file has "
+            f"no body {found}")
     return found
 
 
@@ -276,10 +308,12 @@ def _wheel(craft: Craft, block, rows, where, body, path):
     except InputError as error:
         if float(momentum[0]):
             raise
-        craft.said.append(f"line {str(error).removeprefix(f'{path}:')}; {block} has no momentum and is left out")
+        craft.said.append(
+            f"line {str(error).removeprefix(f'{path}:')}; {block} has no momentum and is left out")
         return
     if axis:
-        craft.wheels.append({"name": block, "axis": axis if not on or body else _turned(where[on], axis), "momentum": momentum[0]})
+        craft.wheels.append({"name": block, "axis": axis if not on or body else _turned(where[on], axis),
+                             "momentum": momentum[0]})
 
 
 def _turned(place, vector) -> list[str]:
@@ -297,7 +331,8 @@ def _thruster(craft, block, rows, where, path):
     if axis and force and place:
         craft.thrusters.append({"name": block, "position": place, "direction": axis, "force": force[0]})
     elif axis and force:
-        craft.omitted.append(f"{block}: {force[0]} N along [{', '.join(axis)}] at node {_value(rows, '', 'node')}, whose place is in a node "
+        craft.omitted.append(f"{block}: {force[0]} N along [{', '.join(axis)}] at node "
+                             f"{_value(rows, '', 'node')}, whose place is in a node "
                              "file: add it as [[thrusters]] with its position")
 
 
@@ -322,17 +357,20 @@ def _used(entries):
     """Without the samples that follow a number of none, and joints of a single body."""
     none = {e.section for e in entries if e.label.lower().startswith("number of") and e.value == "0"}
     one = any(e.label.lower().startswith("number of bodies") and e.value == "1" for e in entries)
-    return [e for e in entries if not (e.block and (e.section in none or (one and e.section.startswith("joint"))))]
+    return [e for e in entries
+            if not (e.block and (e.section in none or (one and e.section.startswith("joint"))))]
 
 
 def _blocks(entries, kind):
     """(title, entries) of every block of the section that begins so."""
     titles = dict.fromkeys(e.block for e in entries if e.section.startswith(kind) and e.block)
-    return [(title, [e for e in entries if e.section.startswith(kind) and e.block == title]) for title in titles]
+    return [(title, [e for e in entries if e.section.startswith(kind) and e.block == title])
+            for title in titles]
 
 
 def _value(entries, section, label):
-    return next((e.value for e in entries if e.section.startswith(section) and e.label.lower().startswith(label)), None)
+    return next((e.value for e in entries if e.section.startswith(section)
+                 and e.label.lower().startswith(label)), None)
 
 
 def _numbers(entries, label, count, path):
@@ -340,8 +378,11 @@ def _numbers(entries, label, count, path):
     if entry is None:
         return None
     words = entry.value.split()
-    if len(words) < count or not all(_NUMBER.fullmatch(word) for word in words[:count]) or (len(words) > count and _NUMBER.fullmatch(words[count])):
-        raise InputError(f"{path}:{entry.line}: {entry.label}: expected {WORDS[count]}, got \"{entry.value[:60]}\"")
+    if len(words) < count or not all(_NUMBER.fullmatch(word)
+                                     for word in words[:count]) or (len(words) > count
+                                                                    and _NUMBER.fullmatch(words[count])):
+        raise InputError(
+            f"{path}:{entry.line}: {entry.label}: expected {WORDS[count]}, got \"{entry.value[:60]}\"")
     return [_written(word) for word in words[:count]]
 
 
@@ -361,7 +402,9 @@ def _warnings(entries) -> list[str]:
     notes = []
     frame = _value(entries, "", "ang vel wrt")
     if frame and not frame.upper().startswith("N"):
-        notes.append("the angular velocity is relative to the orbit frame (Ang Vel wrt L): it is taken as relative to inertial space")
+        notes.append(
+            "the angular velocity is relative to the orbit frame (Ang Vel wrt L): it is taken as relative to "
+            "inertial space")
     return notes
 
 
@@ -369,6 +412,7 @@ def _left(entries) -> list[str]:
     """What was not used, a line a section."""
     sections: dict[str, Any] = {}
     for e in entries:
-        if not e.label.lower().startswith((*USED, *PLACED, "mass props", "number of")) and e.value not in ("0", "NONE"):
+        if not e.label.lower().startswith((*USED, *PLACED, "mass props",
+                                           "number of")) and e.value not in ("0", "NONE"):
             sections.setdefault(e.section or "head", []).append(e.label.split("(")[0].split(",")[0].strip())
     return [f"{section}: {', '.join(dict.fromkeys(labels))}" for section, labels in sections.items()]

@@ -1,6 +1,7 @@
 """A spacecraft in Basilisk's names, as JSON or as a dictionary in Python: hub, thrusters, reaction wheels.
 
-Numbers are SI; a direction is that of the force on the body; Omega is relative to the body, rad/s. A Python file is read, not run.
+Numbers are SI; a direction is that of the force on the body; Omega is relative to the body, rad/s. A Python
+file is read, not run.
 """
 from __future__ import annotations
 
@@ -11,9 +12,12 @@ from decimal import Decimal
 from ...errors import InputError
 from .imported import Craft
 
-HUB = {"mass": ("mHub", "mass"), "centre": ("r_BcB_B",), "inertia": ("IHubPntBc_B", "inertia"), "rate": ("omega_BN_BInit", "omega_BN_B")}
-THRUSTERS, WHEELS = ("thrusters", "thruster", "thrs"), ("reactionWheels", "reaction_wheels", "wheels", "RWs", "rws", "RW")
-THRUSTER = {"name": ("label", "name"), "position": ("thrLoc_B", "location"), "direction": ("thrDir_B", "direction"), "force": ("MaxThrust", "maxThrust")}
+HUB = {"mass": ("mHub", "mass"), "centre": ("r_BcB_B",), "inertia": ("IHubPntBc_B", "inertia"),
+       "rate": ("omega_BN_BInit", "omega_BN_B")}
+THRUSTERS, WHEELS = ("thrusters", "thruster",
+                     "thrs"), ("reactionWheels", "reaction_wheels", "wheels", "RWs", "rws", "RW")
+THRUSTER = {"name": ("label", "name"), "position": ("thrLoc_B", "location"),
+            "direction": ("thrDir_B", "direction"), "force": ("MaxThrust", "maxThrust")}
 WHEEL = {"name": ("label", "name"), "axis": ("gsHat_B",), "inertia": ("Js",), "speed": ("Omega",)}
 
 
@@ -29,22 +33,27 @@ def from_dictionary(data: dict, path="the dictionary") -> Craft:
     craft, flat = Craft(str(_first(data, ("ModelTag", "name", "title")) or "spacecraft")), _flat(data)
     inertia = _found(flat, HUB["inertia"])
     if inertia is None:
-        raise InputError(f"{path}: expected the inertia of the hub about its mass centre under the name IHubPntBc_B (or a NASA 42 "
+        raise InputError(f"{path}: expected the inertia of the hub about its mass centre under the name "
+                         f"IHubPntBc_B (or a NASA 42 "
                          f"spacecraft file); found {', '.join(list(flat)[:20]) or 'nothing'}")
     craft.inertia = _tensor(inertia[1], path)
     mass, centre, rate = (_found(flat, HUB[key]) for key in ("mass", "centre", "rate"))
     craft.mass = mass and _one(mass[1], mass[0], path)
     craft.centre, craft.rate = (pair and _three(pair[1], pair[0], path) for pair in (centre, rate))
     used = {pair[0] for pair in (inertia, mass, centre, rate) if pair}
-    for kind, names, keys, parts in (("thruster", THRUSTERS, THRUSTER, craft.thrusters), ("wheel", WHEELS, WHEEL, craft.wheels)):
+    for kind, names, keys, parts in (("thruster", THRUSTERS, THRUSTER, craft.thrusters),
+                                     ("wheel", WHEELS, WHEEL, craft.wheels)):
         pair = _found(flat, names)
         if pair:
             used.add(pair[0])
-            named = pair[1].items() if isinstance(pair[1], dict) else ((f"{kind} {i}", item) for i, item in enumerate(pair[1], 1))
+            named = (pair[1].items() if isinstance(pair[1], dict)
+                     else ((f"{kind} {i}", item) for i, item in enumerate(pair[1], 1)))
             for name, item in named:
                 _part(craft, parts, str(name), keys, item, path)
     if craft.wheels:
-        craft.omitted.append("the wheels' own mass and inertia: the tensor is that of the hub alone, so add them to it where they matter")
+        craft.omitted.append(
+            "the wheels' own mass and inertia: the tensor is that of the hub alone, so add them to it where "
+            "they matter")
     craft.omitted += [name for name in flat if name not in used and name not in ("ModelTag", "name", "title")]
     return craft
 
@@ -61,9 +70,11 @@ def _part(craft, parts, otherwise, keys, item, path):
     part = {"name": name}
     for key, pair in pairs.items():
         if key != "name":
-            part[key] = (_three if key in ("position", "direction", "axis") else _one)(pair[1], f"{name}: {pair[0]}", path)
+            part[key] = (_three if key in ("position", "direction", "axis")
+                         else _one)(pair[1], f"{name}: {pair[0]}", path)
     parts.append(part)
-    craft.omitted += [f"{name}: {key}" for key in item if key not in {pair[0] for pair in pairs.values() if pair}]
+    craft.omitted += [f"{name}: {key}" for key in item
+                      if key not in {pair[0] for pair in pairs.values() if pair}]
 
 
 def _dictionary(text: str, path):
@@ -75,16 +86,23 @@ def _dictionary(text: str, path):
         raise InputError(f"{path}: nested too deeply to be read") from None
     try:
         tree = ast.parse(text)
-        literals = (node.value for node in tree.body if isinstance(node, (ast.Assign, ast.AnnAssign, ast.Expr)) and isinstance(node.value, ast.Dict))
+        literals = (node.value for node in tree.body
+                    if isinstance(node, (ast.Assign, ast.AnnAssign, ast.Expr))
+                    and isinstance(node.value, ast.Dict))
         for node in literals:
             return _literal(node)
     except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
-        raise InputError(f"{path}: neither JSON ({json_words}) nor a dictionary of plain numbers in Python ({error})") from None
-    raise InputError(f"{path}: expected a NASA 42 spacecraft file (SC_*.txt), or JSON or a Python dictionary with Basilisk's names; JSON says: {json_words}")
+        raise InputError(
+            f"{path}: neither JSON ({json_words}) nor a dictionary of plain numbers in Python "
+            f"({error})") from None
+    raise InputError(
+        f"{path}: expected a NASA 42 spacecraft file (SC_*.txt), or JSON or a Python dictionary with "
+        f"Basilisk's names; JSON says: {json_words}")
 
 
 def _literal(node):
-    """The value of numbers, texts, lists and dictionaries as they are written; ValueError for anything that would have to be run."""
+    """The value of numbers, texts, lists and dictionaries as they are written; ValueError for anything that
+    would have to be run."""
     if isinstance(node, ast.Constant):
         return node.value
     if isinstance(node, (ast.List, ast.Tuple)):
@@ -128,7 +146,8 @@ def _tensor(value, path):
     if len(numbers) == 3:
         return numbers
     if len(numbers) != 9:
-        raise InputError(f"{path}: IHubPntBc_B: expected nine numbers, or three principal moments, got {len(numbers)}")
+        raise InputError(
+            f"{path}: IHubPntBc_B: expected nine numbers, or three principal moments, got {len(numbers)}")
     return [numbers[i:i + 3] for i in (0, 3, 6)]
 
 

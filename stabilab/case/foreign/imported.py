@@ -13,8 +13,9 @@ from ..read import read_text
 class Craft:
     """What a file says of a spacecraft, every number as it is written there.
 
-    inertia: three texts, or three rows of three; products: texts xy, xz, yz whose integrals are positive, or None; thrusters and
-    wheels: {key of the case: text or three texts}; omitted: what has no counterpart in a case, in words; said: what was done with the rest.
+    inertia: three texts, or three rows of three; products: texts xy, xz, yz whose integrals are positive, or
+    None; thrusters and wheels: {key of the case: text or three texts}; omitted: what has no counterpart in a
+    case, in words; said: what was done with the rest.
     """
 
     title: str
@@ -36,8 +37,11 @@ def case_text(craft: Craft, path, stuck=()) -> str:
     names = [t["name"] for t in craft.thrusters]
     for name in stuck:
         if name not in names:
-            raise InputError(f"--stuck {printable(name)}: no such thruster; the file has {', '.join(map(printable, names)) or 'none that can be used'}")
-    lines = [f"title = {_text(craft.title)}", f"source = {_text('imported from ' + os.path.basename(os.fspath(path)))}", "", "[body]"]
+            raise InputError(
+                f"--stuck {printable(name)}: no such thruster; the file has "
+                f"{', '.join(map(printable, names)) or 'none that can be used'}")
+    lines = [f"title = {_text(craft.title)}",
+             f"source = {_text('imported from ' + os.path.basename(os.fspath(path)))}", "", "[body]"]
     rows = [_list(row) for row in craft.inertia] if isinstance(craft.inertia[0], list) else None
     lines.append(f"inertia = [{', '.join(rows)}]" if rows else f"inertia = {_list(craft.inertia)}")
     if craft.products:
@@ -47,7 +51,8 @@ def case_text(craft: Craft, path, stuck=()) -> str:
     lines += [f"centre_of_mass = {_list(craft.centre)}"] if craft.centre else []
     lines += ["", "[effects.gyrostat]", f"momentum = {_list(craft.momentum)}"] if craft.momentum else []
     for thruster in craft.thrusters:
-        lines += ["", "[[thrusters]]", *_pairs(thruster), *(["stuck = true"] if thruster["name"] in stuck else [])]
+        lines += ["", "[[thrusters]]", *_pairs(thruster),
+                  *(["stuck = true"] if thruster["name"] in stuck else [])]
     for wheel in craft.wheels:
         lines += ["", "[[wheels]]", *_pairs(wheel)]
     if craft.rate:
@@ -66,7 +71,8 @@ def faults_of(text: str, path) -> list[str]:
 
 
 def _pairs(part):
-    return [f"{key} = {_text(value) if key == 'name' else _list(value) if isinstance(value, list) else value}" for key, value in part.items()]
+    return [f"{key} = {_text(value) if key == 'name' else _list(value) if isinstance(value, list) else value}"
+            for key, value in part.items()]
 
 
 def _list(values) -> str:

@@ -15,14 +15,16 @@ from .output import say
 
 
 def load_cases(paths: Iterable[Path], motion: bool = False) -> list[Case]:
-    """All cases, of a file with [sweep] every combination; the faults of all files at once. motion: each must state one."""
+    """All cases, of a file with [sweep] every combination; the faults of all files at once. motion: each must
+    state one."""
     cases, faults = [], []
     for path in paths:
         try:
             cases.extend(load_all(path))
         except InputError as error:
             faults.append(str(error))
-    faults += dict.fromkeys(f"{case.path}: motion: expected x or angular_velocity in [motion]; this command needs a state"
+    faults += dict.fromkeys(f"{case.path}: motion: expected x or angular_velocity in [motion]; this command "
+                            f"needs a state"
                             for case in cases if motion and case.state is None)
     if faults:
         raise InputError("\n".join(faults))
@@ -40,7 +42,8 @@ def units_asked(cases: Iterable[Case], asked: str | None) -> list[Units]:
 
 
 def tell_radians(units: Units, **options: str | None) -> None:
-    """A message on every angle or rate that came without a unit, where answers are told in degrees: whoever types 1 may mean a degree."""
+    """A message on every angle or rate that came without a unit, where answers are told in degrees: whoever
+    types 1 may mean a degree."""
     if units.name != DEG.name:
         return
     for option, text in options.items():
@@ -50,7 +53,8 @@ def tell_radians(units: Units, **options: str | None) -> None:
         unit, degrees = ("rad", "deg") if option == "tilt" else ("rad/s", "deg/s")
         with suppress(InputError):  # of a number that none can be: told where it is used
             taken = number(float(quantity(found[0], NONE)[0]) * DEG.rates[1], DIGITS)
-            say(f'--{option}: {found[0]} alone is in {unit}: {taken} {degrees}; for degrees write "{found[0]} {degrees}"')
+            say(f'--{option}: {found[0]} alone is in {unit}: {taken} {degrees}; for degrees write '
+                f'"{found[0]} {degrees}"')
 
 
 def time_asked(text: str | None, case: Case, option: str = "follow") -> float | None:

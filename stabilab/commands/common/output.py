@@ -1,4 +1,5 @@
-"""What a command writes: data and answers to stdout, messages to stderr, an exit code where an answer falls short."""
+"""What a command writes: data and answers to stdout, messages to stderr, an exit code where an answer falls
+short."""
 from __future__ import annotations
 
 import sys
@@ -36,7 +37,8 @@ def either(json: bool, data, words):
 
 
 def answer(shown, found, json: bool, csv: bool, *more):
-    """What was found as JSON or CSV, or in words: by the functions of these names in `shown`, which take `more` (all but csv) besides."""
+    """What was found as JSON or CSV, or in words: by the functions of these names in `shown`, which take
+    `more` (all but csv) besides."""
     if json or csv:
         write(shown.json(found, *more) if json else shown.csv(found))
     else:
@@ -59,7 +61,8 @@ def write_each(out, writers):
 
 
 def written(out, writers) -> list:
-    """Let write(path) of every (case, write) make its file where `out` is a name: the files, to be named after the answer."""
+    """Let write(path) of every (case, write) make its file where `out` is a name: the files, to be named
+    after the answer."""
     return [writer(labelled(out, case)) for case, writer in writers] if out else []
 
 
@@ -70,8 +73,8 @@ def say_written(files):
 
 
 def say_laws(judged):
-    """How far approximate laws hold, beside a table that has no place for it. judged: (case, validity or None), each; the combinations of a [sweep] that
-    stand the same way to the same limit share a line."""
+    """How far approximate laws hold, beside a table that has no place for it. judged: (case, validity or
+    None), each; the combinations of a [sweep] that stand the same way to the same limit share a line."""
     for line in law.lines_of(judged):
         say(line)
 
@@ -83,7 +86,8 @@ def leave_undecided(strict: bool, open_: bool):
 
 
 def hold_laws(strict: bool, validities, cases=()):
-    """Exit with 3 where strict and an approximate law does not hold, or no rigid body has the tensor of a case."""
+    """Exit with 3 where strict and an approximate law does not hold, or no rigid body has the tensor of a
+    case."""
     leave_undecided(strict, strict and (law.beyond(*validities) or unphysical(cases)))
 
 

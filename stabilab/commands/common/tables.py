@@ -1,4 +1,5 @@
-"""The answers of several cases as text: one after the other, or the combinations of a [sweep] as one table."""
+"""The answers of several cases as text: one after the other, or the combinations of a [sweep] as one table.
+"""
 from __future__ import annotations
 
 from ...show.terminal import page, sweep
@@ -6,8 +7,9 @@ from ...show.text import law
 
 
 def tell_all(cases, texts, laws, boxes, full, between, swept, systems):
-    """Text of every case to stdout; the combinations of a [sweep] as one table, unless all is asked for in full. texts: functions, a case each;
-    swept(indices): (answer in a line, columns, rows) of a table; systems: the units of each."""
+    """Text of every case to stdout; the combinations of a [sweep] as one table, unless all is asked for in
+    full. texts: functions, a case each; swept(indices): (answer in a line, columns, rows) of a table;
+    systems: the units of each."""
     if full or not any(case.variant for case in cases):
         page.tell(between.join(law.first(held, text(), units, _of(case, box)) + box
                                for case, text, held, box, units in zip(cases, texts, laws, boxes, systems)))
@@ -16,7 +18,8 @@ def tell_all(cases, texts, laws, boxes, full, between, swept, systems):
     for of in sweep.groups(cases):
         words = sweep.text([cases[n] for n in of], *swept(of)) if cases[of[0]].variant else texts[of[0]]()
         caveats = dict.fromkeys(one for n in of for one in _of(cases[n], boxes[n]))
-        told.append(law.first(law.worst(*(laws[n] for n in of)), words, systems[of[0]], caveats) + "".join(dict.fromkeys(boxes[n] for n in of)))
+        told.append(law.first(law.worst(*(laws[n] for n in of)), words, systems[of[0]], caveats)
+                    + "".join(dict.fromkeys(boxes[n] for n in of)))
     page.tell("\n\n".join(told))
 
 
@@ -39,5 +42,6 @@ def swept_extremes(cases, motions, systems):
     """How `tell_all` tells the extremes of a sweep."""
     def table(of):
         chosen = [motions[n] for n in of]
-        return sweep.fates(chosen, systems[of[0]]), *sweep.of_extremes(chosen, cases[of[0]].scene.components, systems[of[0]])
+        return sweep.fates(chosen, systems[of[0]]), *sweep.of_extremes(chosen, cases[of[0]].scene.components,
+                                                                       systems[of[0]])
     return table

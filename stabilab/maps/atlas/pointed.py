@@ -1,20 +1,26 @@
 """Directions of a torque as cells of a sphere, refined where neighbours differ.
 
-Cells of equal area on the sphere of directions: triangles of an octahedron, whose corners are the principal axes.
+Cells of equal area on the sphere of directions: triangles of an octahedron, whose corners are the principal
+axes.
 
-The projection is Snyder's (Cartographica 29, 1992), with the octahedron in place of the icosahedron. A face is cut from its middle into six right
-triangles; in each a plane one of angles 60, 90 and 30 degrees stands for the spherical one of 60, 90 and 45. A ray from the middle at the share t of the
-way from the middle of an edge to its end cuts off the area t pi/12, and within a ray the area grows as the square of sin(z/2), z the angle from the middle:
+The projection is Snyder's (Cartographica 29, 1992), with the octahedron in place of the icosahedron. A face
+is cut from its middle into six right triangles; in each a plane one of angles 60, 90 and 30 degrees stands
+for the spherical one of 60, 90 and 45. A ray from the middle at the share t of the way from the middle of an
+edge to its end cuts off the area t pi/12, and within a ray the area grows as the square of sin(z/2), z the
+angle from the middle:
 
-    tan(azimuth) = sin(t pi/12)/(cos(t pi/12) - cos g),   cos g = sqrt(2/3),   sin(z/2) = r sin(q/2),   tan q = tan g/cos(azimuth).
+    tan(azimuth) = sin(t pi/12)/(cos(t pi/12) - cos g),   cos g = sqrt(2/3),   sin(z/2) = r sin(q/2),   tan q
+    = tan g/cos(azimuth).
 
-So areas are kept, and plane triangles of one size are cells of one area at any depth, each cut into four of its own by the middles of its edges. Why not
-HEALPix or a latitude and longitude grid: a body has the symmetries of its three axes, and so have these cells. Reflections in the principal planes
-and exchanges of axes map cells onto cells, the planes are edges, and no middle of a cell lies on a principal axis or plane, where a verdict need
-not be that of its neighbours.
+So areas are kept, and plane triangles of one size are cells of one area at any depth, each cut into four of
+its own by the middles of its edges. Why not HEALPix or a latitude and longitude grid: a body has the
+symmetries of its three axes, and so have these cells. Reflections in the principal planes and exchanges of
+axes map cells onto cells, the planes are edges, and no middle of a cell lies on a principal axis or plane,
+where a verdict need not be that of its neighbours.
 
-A place on the octahedron |x| + |y| + |z| = 1 is told by its three coordinates; a cell by its level and its number, the face and then a digit of base 4 for
-each cut: 0, 1, 2 for the part at that corner, 3 for the one in the middle.
+A place on the octahedron |x| + |y| + |z| = 1 is told by its three coordinates; a cell by its level and its
+number, the face and then a digit of base 4 for each cut: 0, 1, 2 for the part at that corner, 3 for the one
+in the middle.
 """
 from __future__ import annotations
 
@@ -33,7 +39,8 @@ from ...physics.effects import effect_class
 from ...physics.scene import Scene
 
 FACES, DEEPEST = 8, 12
-SIGNS = np.array([[1 - 2 * (n >> axis & 1) for axis in range(3)] for n in range(FACES)])  # of the three coordinates on each face
+# of the three coordinates on each face
+SIGNS = np.array([[1 - 2 * (n >> axis & 1) for axis in range(3)] for n in range(FACES)])
 COS_G, TAN_G, PART = np.sqrt(2 / 3), np.sqrt(1 / 2), np.pi / 12
 WHOLE = 4 * np.pi
 
@@ -82,7 +89,8 @@ def neighbours(level: int, numbers: np.ndarray) -> np.ndarray:
     at = corners(level, numbers)
     whole = at.sum(axis=1, keepdims=True)  # three times the middle
     ends = whole - at  # of the edge opposite to each corner: the sum of its two
-    seam = (ends == 0) & (at != 0)  # (n, edge, coordinate): the edge lies in a principal plane, and the cell beyond is the mirror image
+    # (n, edge, coordinate): the edge lies in a principal plane, and the cell beyond is the mirror image
+    seam = (ends == 0) & (at != 0)
     place = np.where(seam.any(axis=2, keepdims=True), np.where(seam, -1, 1) * whole, 2 * ends - at)
     return cell_at(level, place.reshape(-1, 3) / (3.0 * 2**level)).reshape(-1, 3)
 
@@ -96,19 +104,23 @@ def directions(place: np.ndarray) -> np.ndarray:
     i, j = (k + 1) % 3, (k + 2) % 3
     least, a, b = size[rows, k], size[rows, i], size[rows, j]
     r = 1 - 3 * least
-    along = np.divide(a - b, r, out=np.zeros_like(r), where=r > 0) * PART  # of [-1, 1] from one end of the edge to the other
+    # of [-1, 1] from one end of the edge to the other
+    along = np.divide(a - b, r, out=np.zeros_like(r), where=r > 0) * PART
     across, ahead = np.sin(along), np.cos(along) - COS_G
     far = np.hypot(across, ahead)
     azimuth_sin, azimuth_cos = across / far, ahead / far
     q = np.arctan2(TAN_G, azimuth_cos)
     half = np.arcsin(np.minimum(r * np.sin(q / 2), 1.0))
     up, out = np.cos(2 * half), np.sin(2 * half)
-    # components: along (1,1,1)/sqrt 3; towards the middle of the edge, (1,1,-2)/sqrt 6; along the edge, (1,-1,0)/sqrt 2
+    # components: along (1,1,1)/sqrt 3; towards the middle of the edge, (1,1,-2)/sqrt 6; along the edge,
+    # (1,-1,0)/sqrt 2
     middle, side = up / np.sqrt(3.0), out * azimuth_cos / np.sqrt(6.0)
     edge = out * azimuth_sin / np.sqrt(2.0)
     found = np.empty_like(size)
-    found[rows, i], found[rows, j], found[rows, k] = middle + side + edge, middle + side - edge, middle - 2 * side
-    found = np.where(size == 0, 0.0, np.maximum(found, 0.0))  # principal planes and axes without a trace across them
+    found[rows, i], found[rows, j], found[rows,
+                                          k] = middle + side + edge, middle + side - edge, middle - 2 * side
+    # principal planes and axes without a trace across them
+    found = np.where(size == 0, 0.0, np.maximum(found, 0.0))
     return np.where(place < 0, -found, found)
 
 
@@ -154,8 +166,8 @@ AXIS_POINTS = 6
 
 
 class Point(NamedTuple):
-    """A direction beside a wheel. wheel: which momentum; level, number: of the cell whose middle it is; or AXES and twice the axis, one more where it is
-    against it; or THRUSTERS and which; or OWN, 0."""
+    """A direction beside a wheel. wheel: which momentum; level, number: of the cell whose middle it is; or
+    AXES and twice the axis, one more where it is against it; or THRUSTERS and which; or OWN, 0."""
 
     wheel: int
     level: int
@@ -164,8 +176,8 @@ class Point(NamedTuple):
 
 @dataclass(frozen=True)
 class Pointed:
-    """torque: its size, N m; wheels: momenta along the principal axes, N m s; all exact. certify: whether fates and times are to be proved, whatever that
-    takes."""
+    """torque: its size, N m; wheels: momenta along the principal axes, N m s; all exact. certify: whether
+    fates and times are to be proved, whatever that takes."""
 
     torque: Fraction
     wheels: tuple[Exact3, ...]
@@ -174,18 +186,21 @@ class Pointed:
 
     def told(self) -> dict[str, Any]:
         """For JSON."""
-        return {"torque": str(self.torque), "wheels": [list(map(str, wheel)) for wheel in self.wheels], "points": self.points, "certify": self.certify}
+        return {"torque": str(self.torque), "wheels": [list(map(str, wheel)) for wheel in self.wheels],
+                "points": self.points, "certify": self.certify}
 
     def case(self, case: Case, number: int) -> Case:
         """The case with the torque and the wheel of a point."""
         point = self.points[number]
         torque = tuple(self.torque * part for part in self._direction(case, number))
         wheel = without_trace(self.wheels[point.wheel], torque)
-        return replace(case, scene=Scene(case.scene.body, effect_class("gyrostat")(wheel), effect_class("constant_torque")(torque)))  # type: ignore[union-attr]  # of a body
+        body = case.scene.body  # type: ignore[union-attr]
+        return replace(case, scene=Scene(body, effect_class("gyrostat")(wheel), effect_class("constant_torque")(torque)))
 
     def _direction(self, case: Case, number: int) -> Exact3:
         point = self.points[number]
-        return tuple(map(Fraction, self._middles[number])) if point.level >= 0 else named_direction(case, point.level, point.number)
+        return (tuple(map(Fraction, self._middles[number])) if point.level >= 0
+                else named_direction(case, point.level, point.number))
 
     @cached_property
     def _middles(self) -> dict[int, list[float]]:
@@ -200,14 +215,16 @@ class Pointed:
 def pointed_from(told: dict[str, Any]) -> Pointed:
     """The points that `told` wrote down."""
     wheels = tuple(tuple(map(Fraction, wheel)) for wheel in told["wheels"])
-    return Pointed(Fraction(told["torque"]), wheels, tuple(Point(*one) for one in told["points"]), told["certify"])
+    return Pointed(Fraction(told["torque"]), wheels, tuple(Point(*one) for one in told["points"]),
+                   told["certify"])
 
 
 def named_direction(case: Case, kind: int, number: int) -> Exact3:
     """A unit vector along the principal axes: exact for an axis, to 240 bits else."""
     if kind == AXES:
         return tuple(Fraction((1 - 2 * (number % 2)) * (axis == number // 2)) for axis in range(3))
-    turned = case.scene.vector("constant_torque") if kind == OWN else along_axes(case, case.thrusters[number].torque)  # type: ignore[union-attr]
+    turned = (case.scene.vector("constant_torque") if kind == OWN  # type: ignore[union-attr]
+              else along_axes(case, case.thrusters[number].torque))
     return unit(turned)
 
 
@@ -219,14 +236,16 @@ def along_axes(case: Case, vector: Exact3) -> Exact3:
 def unit(vector: Exact3) -> Exact3:
     """The vector in length 1: exactly along an axis where it is along one."""
     size = sqrt_fraction(dot(vector, vector))
-    return tuple(v / size for v in vector) if sum(v != 0 for v in vector) > 1 else tuple(Fraction((v > 0) - (v < 0)) for v in vector)
+    return (tuple(v / size for v in vector) if sum(v != 0 for v in vector) > 1
+            else tuple(Fraction((v > 0) - (v < 0)) for v in vector))
 
 
 # --- The cells of an atlas at their depths: which lies beside which, and which are to be cut because the
 # answer changes across an edge
 @dataclass(frozen=True)
 class Leaves:
-    """wheel, level, number: (n,) of each cell, together the whole sphere once for every wheel; in order along it."""
+    """wheel, level, number: (n,) of each cell, together the whole sphere once for every wheel; in order along
+    it."""
 
     wheel: np.ndarray
     level: np.ndarray
@@ -246,14 +265,16 @@ class Leaves:
         return Leaves(self.wheel[rows], self.level[rows], self.number[rows])
 
     def holding(self, wheel: int, places: np.ndarray) -> np.ndarray:
-        """(n,): rows of the cells that hold places (n, 3) on the octahedron, beside one wheel; cells in order."""
+        """(n,): rows of the cells that hold places (n, 3) on the octahedron, beside one wheel; cells in
+        order."""
         own = np.flatnonzero(self.wheel == wheel)
         deepest = int(self.level[own].max())
         at = cell_at(deepest, places) << 2 * (DEEPEST - deepest)
         return own[np.searchsorted(self.begin[own], at, side="right") - 1]
 
     def beside(self) -> np.ndarray:
-        """(pairs, 2): rows of cells that share an edge, or a part of one: each cell with those of its neighbours that are as large as it is, or larger."""
+        """(pairs, 2): rows of cells that share an edge, or a part of one: each cell with those of its
+        neighbours that are as large as it is, or larger."""
         begin, pairs = self.begin, []
         for wheel in np.unique(self.wheel):
             own = np.flatnonzero(self.wheel == wheel)
@@ -261,7 +282,8 @@ class Leaves:
             for level in np.unique(self.level[own]):
                 rows = own[self.level[own] == level]
                 near = neighbours(int(level), self.number[rows]) << 2 * (DEEPEST - level)
-                holder = own[np.searchsorted(starts, near, side="right") - 1]  # the cell that holds the first part of the neighbour
+                # the cell that holds the first part of the neighbour
+                holder = own[np.searchsorted(starts, near, side="right") - 1]
                 kept = self.level[holder] <= level  # a neighbour that is cut finds this one from its own side
                 pairs.append(np.stack([np.repeat(rows, 3)[kept.ravel()], holder[kept]], axis=1))
         return np.concatenate(pairs)
@@ -275,4 +297,5 @@ class Leaves:
     def children(self, rows: np.ndarray) -> Leaves:
         """The four parts of each of these cells."""
         four = np.repeat(rows, 4)
-        return Leaves(self.wheel[four], self.level[four] + 1, 4 * self.number[four] + np.tile(np.arange(4), len(rows)))
+        return Leaves(self.wheel[four], self.level[four] + 1,
+                      4 * self.number[four] + np.tile(np.arange(4), len(rows)))

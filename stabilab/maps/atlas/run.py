@@ -23,7 +23,22 @@ from ...orbit.result import Fate
 from ..axes import Key, axis_of
 from ..plan import Plan, place_and_text
 from ..run import run
-from .pointed import AXES, AXIS_POINTS, DEEPEST, OWN, THRUSTERS, Leaves, Point, Pointed, along_axes, area, count, middles, named_direction, unit
+from .pointed import (
+    AXES,
+    AXIS_POINTS,
+    DEEPEST,
+    OWN,
+    THRUSTERS,
+    Leaves,
+    Point,
+    Pointed,
+    along_axes,
+    area,
+    count,
+    middles,
+    named_direction,
+    unit,
+)
 
 # --- What an atlas is asked: body, start, size of the torque, wheel momenta, how fine the cells are; each
 # part checked
@@ -35,10 +50,11 @@ PRINCIPAL = "123"
 
 @dataclass(frozen=True)
 class Asked:
-    """path, text: of the case. torque: size, N m, exact. wheels: momenta along the principal axes, exact, N m s; momenta: their sizes in `unit`, as asked, or
-    () where the case's own alone counts. level: of the first cells; refine: how often they are cut in four along boundaries. limit: options
-    of the time to a limit, by name; certify: whether to prove what can be; follow: how long motions are followed that only a run decides, as
-    written; timed: whether the time to a limit is asked."""
+    """path, text: of the case. torque: size, N m, exact. wheels: momenta along the principal axes, exact, N m
+    s; momenta: their sizes in `unit`, as asked, or () where the case's own alone counts. level: of the first
+    cells; refine: how often they are cut in four along boundaries. limit: options of the time to a limit, by
+    name; certify: whether to prove what can be; follow: how long motions are followed that only a run
+    decides, as written; timed: whether the time to a limit is asked."""
 
     path: str
     text: str = field(repr=False)
@@ -61,7 +77,8 @@ class Asked:
 
     @cached_property
     def stated_limit(self) -> StatedLimit | None:
-        """The limit whose time is asked: of an option, or of the case; None where there is neither, or no time is asked."""
+        """The limit whose time is asked: of an option, or of the case; None where there is neither, or no
+        time is asked."""
         if not self.timed:
             return None
         return stated_limit(self.case, **dict(self.limit)) if self.limit or self.case.limits else None
@@ -73,7 +90,8 @@ class Asked:
 
     @property
     def named(self) -> tuple[Point, ...]:
-        """The directions with names, beside every wheel: both senses of the principal axes, the thrusters, the torque of the case itself."""
+        """The directions with names, beside every wheel: both senses of the principal axes, the thrusters,
+        the torque of the case itself."""
         case = self.case
         firing = [(THRUSTERS, n) for n, thruster in enumerate(case.thrusters) if any(thruster.torque)]
         own = _own_torque(case)
@@ -83,23 +101,28 @@ class Asked:
     @property
     def first(self) -> tuple[Point, ...]:
         """The cells of the first round."""
-        return tuple(Point(wheel, self.level, number) for wheel in range(len(self.wheels)) for number in range(count(self.level)))
+        return tuple(Point(wheel, self.level, number) for wheel in range(len(self.wheels))
+                     for number in range(count(self.level)))
 
     def plan(self, points: tuple[Point, ...]) -> Plan:
         """A round of the sweep's machinery over points."""
         pointed = Pointed(self.torque, self.wheels, points, self.certify)
-        return Plan(self.path, self.text, (), None, 1, self.answers, self.limit, follow=self.follow, pointed=pointed)
+        return Plan(self.path, self.text, (), None, 1, self.answers, self.limit, follow=self.follow,
+                    pointed=pointed)
 
     @property
     def command(self) -> str:
         """A command that asks the same."""
         import shlex
-        words = ["stabilab", "atlas", os.path.basename(self.path), *(f"--{name}={value}" for name, value in self.options)]
-        words += [f"--level={self.level}", f"--refine={self.refine}", *(["--certify"] if self.certify else []), *([] if self.timed else ["--no-time"])]
+        words = ["stabilab", "atlas", os.path.basename(self.path),
+                 *(f"--{name}={value}" for name, value in self.options)]
+        words += [f"--level={self.level}", f"--refine={self.refine}",
+                  *(["--certify"] if self.certify else []), *([] if self.timed else ["--no-time"])]
         return shlex.join([*words, *(f"--{name}={text}" for name, text in self.limit)])
 
 
-def asked(case: Case | str | os.PathLike[str], torque: Any = None, wheel: str | None = None, level: int = LEVEL, refine: int = REFINE,
+def asked(case: Case | str | os.PathLike[str], torque: Any = None, wheel: str | None = None,
+          level: int = LEVEL, refine: int = REFINE,
           certify: bool = False, follow: str | None = None, timed: bool = True, **limit: str | None) -> Asked:
     """An atlas whose every part is checked. Raises InputError with what is wrong and what to do."""
     path, text = place_and_text("atlas", case)
@@ -107,13 +130,15 @@ def asked(case: Case | str | os.PathLike[str], torque: Any = None, wheel: str | 
     _judge(one)
     size, (wheels, momenta, of) = _size(one, torque), _wheels(one, wheel)
     _judge_cells(level, refine, len(wheels))
-    options = tuple((name, str(value)) for name, value in (("torque", torque), ("wheel", wheel)) if value is not None)
+    options = tuple((name, str(value)) for name,
+                    value in (("torque", torque), ("wheel", wheel)) if value is not None)
     stated = tuple((name, value) for name, value in limit.items() if value is not None)
     if stated and not timed:
         raise InputError(f"--no-time and --{stated[0][0]} contradict each other: give one of them")
     if stated:
         stated_limit(one, **dict(stated))
-    found = Asked(path, text, size, wheels, momenta, of, level, refine, certify, stated, options, follow, timed)
+    found = Asked(path, text, size, wheels, momenta, of, level, refine, certify, stated, options, follow,
+                  timed)
     if found.plan(()).longest is not None:  # which says what is wrong with it
         found = replace(found, options=(*options, ("follow", str(follow))))
     return found
@@ -129,10 +154,13 @@ def _own_torque(case: Case) -> bool:
 
 def _judge(case: Case) -> None:
     if case.variables == "scaled" or case.physical is None:
-        raise InputError(f"{case.place}: is in scaled variables, whose torque has no direction in space: an atlas is asked of a body in kg m^2 with "
+        raise InputError(f"{case.place}: is in scaled variables, whose torque has no direction in space: an "
+                         f"atlas is asked of a body in kg m^2 with "
                          "angular_velocity in rad/s")
     if case.state is None:
-        raise InputError(f"{case.place}: motion: expected angular_velocity in [motion]; an atlas tells what becomes of a motion")
+        raise InputError(
+            f"{case.place}: motion: expected angular_velocity in [motion]; an atlas tells what becomes of a "
+            f"motion")
     with blamed_on(case):
         case.scene.quadratic()  # says which effect is not covered
 
@@ -142,8 +170,11 @@ def _size(case: Case, torque: Any) -> Fraction:
     if torque is None:
         own = case.scene.vector("constant_torque")  # type: ignore[union-attr]
         if not any(own):
-            raise InputError(f'{case.place}: no torque acts, so its size is not known: give --torque "1 N m", or mark a thruster of the case as stuck')
-        return abs(next(v for v in own if v)) if sum(v != 0 for v in own) == 1 else sqrt_fraction(dot(own, own))
+            raise InputError(
+                f'{case.place}: no torque acts, so its size is not known: give --torque "1 N m", or mark a '
+                f'thruster of the case as stuck')
+        return (abs(next(v for v in own if v)) if sum(v != 0 for v in own) == 1
+                else sqrt_fraction(dot(own, own)))
     try:
         size, _ = quantity(str(torque), TORQUE)
     except InputError as error:
@@ -164,19 +195,22 @@ def _wheels(case: Case, text: str | None) -> tuple[tuple[Exact3, ...], tuple[flo
         direction = _along(case, axis.strip().lower()) if equals else _own_direction(case, own)
     except InputError as error:
         raise InputError(f'wheel: {str(error).removeprefix("vary wheel: ")}') from None
-    return tuple(tuple(Fraction(size) * part for part in direction) for size in along.si), along.values, along.shown_unit
+    return tuple(tuple(Fraction(size) * part for part in direction)
+                 for size in along.si), along.values, along.shown_unit
 
 
 def _own_direction(case: Case, own: Exact3) -> Exact3:
     if not any(own):
-        raise InputError('the case has no wheel that turns: say along which axis, as in --wheel "z=-2:2:5" (x, y, z of the file, or 1, 2, 3, the '
+        raise InputError('the case has no wheel that turns: say along which axis, as in --wheel "z=-2:2:5" '
+                         '(x, y, z of the file, or 1, 2, 3, the '
                          "principal axes)")
     return unit(own)
 
 
 def _along(case: Case, axis: str) -> Exact3:
     if len(axis) != 1 or axis not in FILE_AXES + PRINCIPAL:
-        raise InputError(f'expected a range such as "0:2:5 N m s", or an axis with one, as in "z=0:2:5" (x, y, z of the file, or 1, 2, 3, the principal '
+        raise InputError(f'expected a range such as "0:2:5 N m s", or an axis with one, as in "z=0:2:5" (x, '
+                         f'y, z of the file, or 1, 2, 3, the principal '
                          f'axes), got the axis "{printable(axis)[:40]}"')
     if axis in PRINCIPAL:
         return tuple(Fraction(n == int(axis) - 1) for n in range(3))
@@ -188,17 +222,22 @@ def _judge_cells(level: Any, refine: Any, wheels: int) -> None:
         if isinstance(value, bool) or not isinstance(value, int) or value < 0:
             raise InputError(f"{name}: expected a whole number that is not negative, got {value!r:.40}")
     if level + refine > DEEPEST:
-        raise InputError(f"level {level} with {refine} refinements: at most {DEEPEST} in all, whose cells are a fiftieth of a degree wide")
+        raise InputError(
+            f"level {level} with {refine} refinements: at most {DEEPEST} in all, whose cells are a fiftieth "
+            f"of a degree wide")
     if count(level) * wheels > MOST:
-        raise InputError(f"level {level} has {count(level):,} cells, with {wheels} wheel momenta {count(level) * wheels:,}; at most {MOST:,} are asked")
+        raise InputError(
+            f"level {level} has {count(level):,} cells, with {wheels} wheel momenta "
+            f"{count(level) * wheels:,}; at most {MOST:,} are asked")
 
 
 # --- Running an atlas: a round of the sweep's machinery over all cells, then one for the parts of those
 # that lie along a boundary, and so on
 @dataclass(frozen=True)
 class Atlas:
-    """leaves: the cells; records: (n,) of `columns.record`, what becomes of the motion under a torque to the middle of each. named: directions with a name,
-    as they are; named_records: theirs. resumed: points that an earlier run had finished; asked_points: all that were computed."""
+    """leaves: the cells; records: (n,) of `columns.record`, what becomes of the motion under a torque to the
+    middle of each. named: directions with a name, as they are; named_records: theirs. resumed: points that an
+    earlier run had finished; asked_points: all that were computed."""
 
     asked: Asked
     leaves: Leaves
@@ -220,7 +259,8 @@ class Atlas:
     @cached_property
     def named_directions(self) -> np.ndarray:
         """(m, 3): unit vectors along the principal axes."""
-        return np.array([[float(v) for v in named_direction(self.asked.case, point.level, point.number)] for point in self.named]).reshape(-1, 3)
+        return np.array([[float(v) for v in named_direction(self.asked.case, point.level, point.number)]
+                         for point in self.named]).reshape(-1, 3)
 
     @cached_property
     def share(self) -> np.ndarray:
@@ -241,15 +281,18 @@ class Atlas:
 
 
 def kinds_of(records: np.ndarray) -> np.ndarray:
-    """(n,): a number for each fate with its axis and sense, for an island that is seen, and for each number of equilibria: boundaries run where it changes."""
+    """(n,): a number for each fate with its axis and sense, for an island that is seen, and for each number
+    of equilibria: boundaries run where it changes."""
     island = (records["island"] == 2) & (records["fate"] == Fate.UNDECIDED)
-    return ((records["fate"].astype(int) * 8 + records["spin_axis"] + 3) * 2 + island) * 16 + np.clip(records["equilibria"], -8, 7) + 8
+    return ((records["fate"].astype(int) * 8 + records["spin_axis"] + 3) * 2
+            + island) * 16 + np.clip(records["equilibria"], -8, 7) + 8
 
 
 @contextmanager
-def drawn(asked: Asked, out: Path | None = None, workers: int | None = None, scheduler: str | None = None) -> Iterator[Atlas]:
-    """The finished atlas as a context; what it left beside `out` for a run that is killed is removed when its block ends well. workers, scheduler: as of
-    `maps.run.run`."""
+def drawn(asked: Asked, out: Path | None = None, workers: int | None = None,
+          scheduler: str | None = None) -> Iterator[Atlas]:
+    """The finished atlas as a context; what it left beside `out` for a run that is killed is removed when its
+    block ends well. workers, scheduler: as of `maps.run.run`."""
     with ExitStack() as rounds:
         named, done, resumed = asked.named, 0, 0
 
@@ -267,15 +310,19 @@ def drawn(asked: Asked, out: Path | None = None, workers: int | None = None, sch
         while len(rows := leaves.to_cut(kinds_of(records), asked.level + asked.refine)):
             number += 1
             parts = leaves.children(rows)
-            found = told(tuple(Point(*one) for one in zip(parts.wheel.tolist(), parts.level.tolist(), parts.number.tolist())))
+            found = told(tuple(Point(*one)
+                               for one in zip(parts.wheel.tolist(), parts.level.tolist(),
+                                              parts.number.tolist())))
             leaves, records = _replaced(leaves, records, rows, parts, found)
         yield Atlas(asked, leaves, records, named, named_records, done, resumed)
 
 
-def _replaced(leaves: Leaves, records: np.ndarray, rows: np.ndarray, parts: Leaves, found: np.ndarray) -> tuple[Leaves, np.ndarray]:
+def _replaced(leaves: Leaves, records: np.ndarray, rows: np.ndarray, parts: Leaves,
+              found: np.ndarray) -> tuple[Leaves, np.ndarray]:
     """The cells with these rows given up for their parts, in order."""
     kept = np.setdiff1d(np.arange(len(records)), rows)
     stay = leaves.taken(kept)
-    joined = Leaves(*(np.concatenate([getattr(stay, name), getattr(parts, name)]) for name in ("wheel", "level", "number")))
+    joined = Leaves(*(np.concatenate([getattr(stay, name), getattr(parts, name)])
+                      for name in ("wheel", "level", "number")))
     order = joined.order()
     return joined.taken(order), np.concatenate([records[kept], found])[order]

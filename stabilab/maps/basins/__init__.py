@@ -1,1 +1,2 @@
-"""Basins: which fate the motions from a plane of initial states have, with cells that get smaller towards the boundary."""
+"""Basins: which fate the motions from a plane of initial states have, with cells that get smaller towards the
+boundary."""

@@ -1,15 +1,19 @@
 """Planes of states: smaller cells along the boundary between fates, and its dimension.
 
-The box dimension of a boundary, by counting the cells of every depth that hold a piece of it, and how well such a count knows it.
+The box dimension of a boundary, by counting the cells of every depth that hold a piece of it, and how well
+such a count knows it.
 
-A line that has a length is met by a number of cells that doubles from depth to depth: dimension 1. Where the count grows as 2^(D depth), with D above 1,
-the boundary is rough at all these sizes: a fate near it is less predictable than the state is known.
+A line that has a length is met by a number of cells that doubles from depth to depth: dimension 1. Where the
+count grows as 2^(D depth), with D above 1, the boundary is rough at all these sizes: a fate near it is less
+predictable than the state is known.
 
-Cells of a plane that are split where the labels of their corners differ, again and again: the boundary between labels, followed to small cells.
+Cells of a plane that are split where the labels of their corners differ, again and again: the boundary
+between labels, followed to small cells.
 
-Places are whole numbers on the finest grid: cells of depth k are 2^(depth - k) of its steps wide. A cell is split where two of its corners have
-different labels, and where the boundary leaves it unseen: a smaller neighbour has two such corners on the side that they share. So a piece of the
-boundary that is found anywhere is followed to its end; a piece that no side of a coarse cell shows remains unseen, as with any grid.
+Places are whole numbers on the finest grid: cells of depth k are 2^(depth - k) of its steps wide. A cell is
+split where two of its corners have different labels, and where the boundary leaves it unseen: a smaller
+neighbour has two such corners on the side that they share. So a piece of the boundary that is found anywhere
+is followed to its end; a piece that no side of a coarse cell shows remains unseen, as with any grid.
 """
 from __future__ import annotations
 
@@ -40,8 +44,8 @@ SHARE = 2      # standard errors
 
 @dataclass(frozen=True)
 class Dimension:
-    """value, uncertainty: nan where there is too little to fit; depths, counts: cells that hold a piece of the boundary, per depth; used: the depths of the
-    fit; reason: how it is known, or why it is not."""
+    """value, uncertainty: nan where there is too little to fit; depths, counts: cells that hold a piece of
+    the boundary, per depth; used: the depths of the fit; reason: how it is known, or why it is not."""
 
     value: float
     uncertainty: float
@@ -58,24 +62,29 @@ def counted(row: np.ndarray, column: np.ndarray, depth: int) -> tuple[int, ...]:
 
 
 def dimension(counts: tuple[int, ...]) -> Dimension:
-    """The slope of the binary logarithm of the counts over the depths, by least squares over the depths at which COARSEST cells at least hold a piece.
+    """The slope of the binary logarithm of the counts over the depths, by least squares over the depths at
+    which COARSEST cells at least hold a piece.
 
-    The uncertainty is twice the standard error of the slope; besides, as what bends the line is no chance, the farthest that the slope moves where
-    the fit leaves out the coarsest or the finest of its depths; and what a cell more or less at every depth would do (a line may or may not touch one
-    more where it turns).
+    The uncertainty is twice the standard error of the slope; besides, as what bends the line is no chance,
+    the farthest that the slope moves where the fit leaves out the coarsest or the finest of its depths; and
+    what a cell more or less at every depth would do (a line may or may not touch one more where it turns).
     """
     depths = tuple(range(len(counts)))
     used = tuple(n for n in depths if counts[n] >= COARSEST)
     if len(used) < FEWEST:
-        few = f"only {len(used)} depths have {COARSEST} cells on the boundary or more; {FEWEST} are needed: go deeper"
+        few = (
+            f"only {len(used)} depths have {COARSEST} cells on the boundary or more; {FEWEST} are needed: go "
+            f"deeper")
         why = few if counts[-1] else "there is no boundary"
         return Dimension(math.nan, math.nan, depths, counts, used, why)
     heights = [math.log2(counts[n]) for n in used]
     slope, error = _line(used, heights)
-    parts = [_line(used[low:high], heights[low:high])[0] for low, high in ((1, len(used)), (0, len(used) - 1))] if len(used) > FEWEST else \
+    parts = [_line(used[low:high], heights[low:high])[0] for low,
+             high in ((1, len(used)), (0, len(used) - 1))] if len(used) > FEWEST else \
             [b - a for a, b in zip(heights, heights[1:])]
     moved = max(abs(part - slope) for part in parts)
-    words = (f"slope of log2(cells) over depths {used[0]} to {used[-1]}; twice its standard error, how far it moves without the coarsest or finest depth, and "
+    words = (f"slope of log2(cells) over depths {used[0]} to {used[-1]}; twice its standard error, how far "
+             f"it moves without the coarsest or finest depth, and "
              "what one cell at every depth makes of it")
     return Dimension(slope, SHARE * error + moved + _of_one_cell(used, counts), depths, counts, used, words)
 
@@ -102,8 +111,9 @@ MOST = 4_000_000  # places asked for
 
 @dataclass
 class Mesh:
-    """cells: of the coarse grid along both axes; depth: how often a cell may be split. keys, labels: of all places asked for, rising; leaves: per
-    depth the numbers of the cells that are not split, rising; split: of those that are. full: whether refinement stopped for MOST."""
+    """cells: of the coarse grid along both axes; depth: how often a cell may be split. keys, labels: of all
+    places asked for, rising; leaves: per depth the numbers of the cells that are not split, rising; split: of
+    those that are. full: whether refinement stopped for MOST."""
 
     cells: tuple[int, int]
     depth: int
@@ -135,7 +145,8 @@ class Mesh:
         """(n, 4): keys of the corners of cells, (0, 0), (0, 1), (1, 0), (1, 1)."""
         row, column = self.at(depth, cells)
         step = 1 << self.depth - depth
-        return np.stack([(row + i) * step * self.width + (column + j) * step for i in (0, 1) for j in (0, 1)], axis=1)
+        return np.stack([(row + i) * step * self.width + (column + j) * step for i in (0, 1) for j in (0, 1)],
+                        axis=1)
 
     def labels_of(self, keys: np.ndarray) -> np.ndarray:
         """The labels of places asked for."""
@@ -161,7 +172,8 @@ def refined(cells: tuple[int, int], depth: int, ask: Ask) -> Mesh:
     mesh.split = [nothing] * (depth + 1)
     _ask(mesh, mesh.corners(0, mesh.leaves[0]), ask)
     while any(map(len, found := _to_split(mesh))):
-        wanted = np.unique(np.concatenate([mesh.corners(n + 1, _children(mesh, n, chosen)).ravel() for n, chosen in enumerate(found)]))
+        wanted = np.unique(np.concatenate([mesh.corners(n + 1, _children(mesh, n, chosen)).ravel() for n,
+                                           chosen in enumerate(found)]))
         if len(mesh.keys) + len(wanted) > MOST:
             return _ended(mesh)
         for n, chosen in enumerate(found):
@@ -171,10 +183,12 @@ def refined(cells: tuple[int, int], depth: int, ask: Ask) -> Mesh:
 
 
 def _ended(mesh: Mesh) -> Mesh:
-    """The mesh on the grid of the finest cells that there are, where more places would be needed than are asked for."""
+    """The mesh on the grid of the finest cells that there are, where more places would be needed than are
+    asked for."""
     depth = max(n for n, cells in enumerate(mesh.leaves) if len(cells))
     row, column = (place >> mesh.depth - depth for place in mesh.places(mesh.keys))
-    return Mesh(mesh.cells, depth, row * ((mesh.cells[1] << depth) + 1) + column, mesh.labels, mesh.leaves[:depth + 1], mesh.split[:depth + 1], True)
+    return Mesh(mesh.cells, depth, row * ((mesh.cells[1] << depth) + 1) + column, mesh.labels,
+                mesh.leaves[:depth + 1], mesh.split[:depth + 1], True)
 
 
 def _ask(mesh: Mesh, wanted: np.ndarray, ask: Ask) -> None:
@@ -187,7 +201,8 @@ def _ask(mesh: Mesh, wanted: np.ndarray, ask: Ask) -> None:
 
 def _children(mesh: Mesh, depth: int, cells: np.ndarray) -> np.ndarray:
     row, column = mesh.at(depth, cells)
-    return np.sort(np.concatenate([mesh.number(depth + 1, 2 * row + i, 2 * column + j) for i in (0, 1) for j in (0, 1)]))
+    return np.sort(np.concatenate([mesh.number(depth + 1, 2 * row + i, 2 * column + j) for i in (0, 1)
+                                   for j in (0, 1)]))
 
 
 def _split(mesh: Mesh, depth: int, chosen: np.ndarray) -> None:
@@ -197,7 +212,8 @@ def _split(mesh: Mesh, depth: int, chosen: np.ndarray) -> None:
 
 
 def _to_split(mesh: Mesh) -> list[np.ndarray]:
-    """Per depth but the last the leaves that are to be split: mixed ones, and those on which a smaller neighbour's mixed side lies."""
+    """Per depth but the last the leaves that are to be split: mixed ones, and those on which a smaller
+    neighbour's mixed side lies."""
     found = [cells[mesh.mixed(n, cells)] for n, cells in enumerate(mesh.leaves[:-1])]
     missing = np.empty(0, np.int64)  # cells of depth n + 1 across a mixed side that are not there
     for n in range(mesh.depth - 1, -1, -1):
@@ -222,12 +238,19 @@ def _across(mesh: Mesh, depth: int) -> np.ndarray:
     out = []
     for (one, other), (down, right) in SIDES.items():
         beside_row, beside_column = row + down, column + right
-        crossed = (labels[:, one] != labels[:, other]) & (0 <= beside_row) & (beside_row < rows) & (0 <= beside_column) & (beside_column < columns)
+        crossed = (labels[:, one] != labels[:,
+                                            other]) & (0
+                                                       <= beside_row) & (beside_row
+                                                                         < rows) & (0
+                                                                                    <= beside_column) & (
+                                                                                        beside_column
+                                                                                        < columns)
         out.append(mesh.number(depth, beside_row[crossed], beside_column[crossed]))
     return np.unique(np.concatenate(out))
 
 
-SIDES = {(0, 1): (-1, 0), (2, 3): (1, 0), (0, 2): (0, -1), (1, 3): (0, 1)}  # corners of a side -> the way to the cell beyond it
+# corners of a side -> the way to the cell beyond it
+SIDES = {(0, 1): (-1, 0), (2, 3): (1, 0), (0, 2): (0, -1), (1, 3): (0, 1)}
 
 
 def leaves(mesh: Mesh) -> Iterator[tuple[int, np.ndarray]]:
@@ -240,14 +263,16 @@ def leaves(mesh: Mesh) -> Iterator[tuple[int, np.ndarray]]:
 DEPTH, DEEPEST = 5, 14
 CELLS = 16  # along an axis that is given without a number of points
 ANSWERS = ("fate", "level")
-HALVINGS, FEWEST_HALVINGS = 18, 6  # of a coarse cell's side to a place on the separatrix: a millionth of it; nearer, a fate would take balls
+# of a coarse cell's side to a place on the separatrix: a millionth of it; nearer, a fate would take balls
+HALVINGS, FEWEST_HALVINGS = 18, 6
 BOUNDED, UNDECIDED, NO_AXIS = 0, 10, 7  # labels besides -3 ... 3 of a spin-up about an axis
 
 
 @dataclass(frozen=True, eq=False)
 class Basins:
-    """plan: the plane, each axis with the places of the finest grid; mesh: cells and labels (`label_of`); records: fate, axis and level of every place
-    asked, in the order of mesh.keys; asked: depth that was asked for; resumed: places that an earlier run had found."""
+    """plan: the plane, each axis with the places of the finest grid; mesh: cells and labels (`label_of`);
+    records: fate, axis and level of every place asked, in the order of mesh.keys; asked: depth that was asked
+    for; resumed: places that an earlier run had found."""
 
     plan: Plan
     mesh: Mesh
@@ -257,7 +282,8 @@ class Basins:
 
     @property
     def exact(self) -> bool:
-        """Whether the boundary is known exactly: the scene reduces to one degree of freedom, so that its fates are those of a potential."""
+        """Whether the boundary is known exactly: the scene reduces to one degree of freedom, so that its
+        fates are those of a potential."""
         return known_exactly(self.plan, 0, 1) and bool((self.records["level"] == 2).all())
 
     @cached_property
@@ -281,18 +307,21 @@ class Basins:
 
     @cached_property
     def shares(self) -> dict[int, float]:
-        """label -> its share of the plane; a cell on the boundary counts for the labels of its corners alike."""
+        """label -> its share of the plane; a cell on the boundary counts for the labels of its corners alike.
+        """
         found: dict[int, float] = {}
         total = self.mesh.cells[0] * self.mesh.cells[1]
         for depth, cells in leaves(self.mesh):
-            values, counts = np.unique(self.mesh.labels_of(self.mesh.corners(depth, cells)), return_counts=True)
+            values, counts = np.unique(self.mesh.labels_of(self.mesh.corners(depth, cells)),
+                                       return_counts=True)
             for value, count in zip(values.tolist(), counts.tolist()):
                 found[value] = found.get(value, 0.0) + count / 4 / 4**depth / total
         return dict(sorted(found.items(), key=lambda pair: -pair[1]))
 
     @property
     def blur(self) -> float:
-        """The share of the plane that cells with differing corners cover: by so much the shares may be wrong."""
+        """The share of the plane that cells with differing corners cover: by so much the shares may be wrong.
+        """
         return len(self.mesh.boundary) / 4**self.mesh.depth / (self.mesh.cells[0] * self.mesh.cells[1])
 
     @property
@@ -302,25 +331,30 @@ class Basins:
         return first, second
 
     def separatrix(self) -> np.ndarray:
-        """(n, 2, 2): pieces of the exact boundary in the units of the axes, one or two in each finest cell on it, between places on the cell's sides
-        found by halving; none where the boundary is not known exactly."""
+        """(n, 2, 2): pieces of the exact boundary in the units of the axes, one or two in each finest cell on
+        it, between places on the cell's sides found by halving; none where the boundary is not known
+        exactly."""
         if not self.exact or not len(self.boundary):
             return np.empty((0, 2, 2))
         corners = self.mesh.corners(self.mesh.depth, self.boundary)
-        ends, which = np.unique(np.stack([corners[:, [one, other]] for one, other in SIDES], axis=1).reshape(-1, 2), axis=0, return_inverse=True)
+        ends, which = np.unique(np.stack([corners[:, [one, other]] for one, other in SIDES],
+                                         axis=1).reshape(-1, 2), axis=0, return_inverse=True)
         per_cell = self._crossed(ends)[which.ravel()].reshape(len(corners), len(SIDES), 2)
         order = np.argsort(np.isnan(per_cell[..., 0]), axis=1, kind="stable")
         pairs = np.take_along_axis(per_cell, order[..., None], axis=1).reshape(-1, 2, 2)
         return pairs[~np.isnan(pairs).any(axis=(1, 2))]
 
     def _crossed(self, ends: np.ndarray) -> np.ndarray:
-        """(n, 2): where the boundary crosses sides of finest cells, given by the keys of their ends (n, 2); nan where it does not."""
+        """(n, 2): where the boundary crosses sides of finest cells, given by the keys of their ends (n, 2);
+        nan where it does not."""
         place, values = np.full((len(ends), 2), np.nan), [np.array(axis.values) for axis in self.plan.axes]
         spun = self._spun(ends[:, 0])
         for along in (0, 1):
-            chosen = np.flatnonzero(((ends[:, 1] - ends[:, 0] == 1) == bool(along)) & (spun != self._spun(ends[:, 1])))
+            chosen = np.flatnonzero(((ends[:, 1] - ends[:, 0] == 1) == bool(along))
+                                    & (spun != self._spun(ends[:, 1])))
             rows = np.stack(self.mesh.places(ends[chosen, 0]), axis=1)
-            share = changes(self.plan, (0, 0), along, rows, spun[chosen], max(FEWEST_HALVINGS, HALVINGS - self.mesh.depth))
+            share = changes(self.plan, (0, 0), along, rows, spun[chosen],
+                            max(FEWEST_HALVINGS, HALVINGS - self.mesh.depth))
             for n in (0, 1):
                 here = values[n][rows[:, n]]
                 place[chosen, n] = here + (values[n][rows[:, n] + 1] - here) * share if n == along else here
@@ -331,29 +365,34 @@ class Basins:
 
 
 def label_of(records: np.ndarray) -> np.ndarray:
-    """Which basin each record belongs to: 1, 2, 3 with the sense as a sign of the axis of a spin-up, NO_AXIS, BOUNDED (the separatrix and rest are
-    bounded as well), UNDECIDED."""
+    """Which basin each record belongs to: 1, 2, 3 with the sense as a sign of the axis of a spin-up, NO_AXIS,
+    BOUNDED (the separatrix and rest are bounded as well), UNDECIDED."""
     fate, axis = records["fate"], records["spin_axis"].astype(np.int64)
     about = np.where(axis == 0, NO_AXIS, axis)
     return np.where(fate == Fate.SPIN_UP, about, np.where(fate == Fate.UNDECIDED, UNDECIDED, BOUNDED))
 
 
 @contextmanager
-def basins(case: Case | str | os.PathLike[str], vary: Any, depth: int = DEPTH, out: Path | None = None, workers: int | None = None,
+def basins(case: Case | str | os.PathLike[str], vary: Any, depth: int = DEPTH, out: Path | None = None,
+           workers: int | None = None,
            scheduler: str | None = None, follow: str | None = None) -> Iterator[Basins]:
-    """The basins of a plane as a context; what is finished for `out` is removed when its block ends well, and stays otherwise.
+    """The basins of a plane as a context; what is finished for `out` is removed when its block ends well, and
+    stays otherwise.
 
-    vary: two rates of the initial state with their ranges, "-60:60:17 deg/s" for 17 places along the coarse grid, or "-60:60 deg/s"; depth: how often a
-    cell on the boundary is halved. workers, scheduler, follow: as of a sweep. Raises InputError for what is no plane of states.
+    vary: two rates of the initial state with their ranges, "-60:60:17 deg/s" for 17 places along the coarse
+    grid, or "-60:60 deg/s"; depth: how often a cell on the boundary is halved. workers, scheduler, follow: as
+    of a sweep. Raises InputError for what is no plane of states.
     """
     coarse = _planned(case, vary, depth, follow)
     fine = _fine(coarse, depth)
-    found: dict[str, Any] = {"rows": np.empty(0, record(fine.answers)), "keys": np.empty(0, np.int64), "resumed": 0}
+    found: dict[str, Any] = {"rows": np.empty(0, record(fine.answers)), "keys": np.empty(0, np.int64),
+                             "resumed": 0}
     with ExitStack() as rounds:
         def ask(keys: np.ndarray) -> np.ndarray:
             number = found["rounds"] = found.get("rounds", -1) + 1
             beside = None if out is None else out.with_name(f"{out.name}.{number}") if number else out
-            swept = rounds.enter_context(run(replace(fine, listed=packed(keys)), beside, workers, scheduler, _command(coarse, depth)))
+            swept = rounds.enter_context(run(replace(fine, listed=packed(keys)), beside, workers, scheduler,
+                                             _command(coarse, depth)))
             order = np.argsort(every := np.concatenate([found["keys"], keys]), kind="stable")
             found["keys"], found["rows"] = every[order], np.concatenate([found["rows"], swept.records])[order]
             found["resumed"] += swept.resumed
@@ -367,30 +406,35 @@ def _planned(case, vary, depth, follow) -> Plan:
         raise InputError(f"depth: expected a whole number from 0 to {DEEPEST}, got {depth!r:.40}")
     rows = list(vary.items() if hasattr(vary, "items") else vary)
     if len(rows) != 2:
-        raise InputError(f'a plane takes two rates of the initial state, such as "angular_velocity[1]=-60:60 deg/s" and "angular_velocity[3]=-60:60 deg/s"; '
+        raise InputError(f'a plane takes two rates of the initial state, such as "angular_velocity[1]=-60:60 '
+                         f'deg/s" and "angular_velocity[3]=-60:60 deg/s"; '
                          f"got {len(rows)}")
     plan = planned(case, [(name, _range(name, text)) for name, text in rows], answer=ANSWERS, follow=follow)
     if plan.inner != (0, 1):
         other = next(axis.key.name for n, axis in enumerate(plan.axes) if n not in plan.inner)
-        raise InputError(f"vary {printable(other)}: is no rate of the initial state: a plane of states has two of [motion] x or angular_velocity; "
+        raise InputError(f"vary {printable(other)}: is no rate of the initial state: a plane of states has "
+                         f"two of [motion] x or angular_velocity; "
                          "stabilab sweep maps other numbers")
     if min(plan.shape) < 2:
         raise InputError("a plane needs two points at least along each axis")
     if plan.points > MOST:
-        raise InputError(f"{' x '.join(map(str, plan.shape))} are {plan.points:,} points before any is refined; at most {MOST:,} are asked: take fewer, "
+        raise InputError(f"{' x '.join(map(str, plan.shape))} are {plan.points:,} points before any is "
+                         f"refined; at most {MOST:,} are asked: take fewer, "
                          "and a depth")
     return plan
 
 
 def _command(coarse: Plan, depth: int) -> str:
-    words = [*(f"--vary={name}={text}" for name, text in coarse.vary), f"--depth={depth}", *([f"--follow={coarse.follow}"] if coarse.follow else [])]
+    words = [*(f"--vary={name}={text}" for name, text in coarse.vary), f"--depth={depth}",
+             *([f"--follow={coarse.follow}"] if coarse.follow else [])]
     return shlex.join(["stabilab", "basin", os.path.basename(coarse.path), *words])
 
 
 def _range(name: str, text: Any) -> str:
     """START:STOP:COUNT of what is given, with CELLS + 1 points where no count is."""
     if not isinstance(text, str) or ":" not in text:
-        raise InputError(f'vary {printable(str(name))[:80]}: expected a range such as "-60:60 deg/s" or "-60:60:17 deg/s", got {text!r:.60}: cells '
+        raise InputError(f'vary {printable(str(name))[:80]}: expected a range such as "-60:60 deg/s" or '
+                         f'"-60:60:17 deg/s", got {text!r:.60}: cells '
                          "between its points are halved")
     start, _, rest = text.partition(":")
     if ":" in rest:

@@ -1,1 +1,2 @@
-"""Diagrams of equilibria over one or two numbers of a case: exact, by elimination, with no step along the way."""
+"""Diagrams of equilibria over one or two numbers of a case: exact, by elimination, with no step along the
+way."""

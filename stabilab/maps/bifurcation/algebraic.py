@@ -1,4 +1,5 @@
-"""Real algebraic numbers, polynomials over the field of one, and critical values: real roots in order, none twice.
+"""Real algebraic numbers, polynomials over the field of one, and critical values: real roots in order, none
+twice.
 
 An element of Q(alpha) is one of flint's rational polynomials, reduced by the irreducible polynomial of alpha;
 a polynomial over the field is a list of them, lowest power first.
@@ -31,7 +32,8 @@ FIRST = 1 << 61  # they are below
 
 
 def field_gcd(number: fmpq_poly, f: FieldPoly, g: FieldPoly) -> FieldPoly:
-    """The monic one. number: an irreducible polynomial of the algebraic number; f, g: not zero, reduced by it."""
+    """The monic one. number: an irreducible polynomial of the algebraic number; f, g: not zero, reduced by
+    it."""
     whole = [int(c) for c in number.numer().coeffs()]
     size, product, found, tried = 0, 1, [[0]], 1
     for prime in _primes():
@@ -67,7 +69,8 @@ def _image(whole: list[int], prime: int, f: list[fmpq_poly], g: list[fmpq_poly])
         return None
     if any(int(c.denom()) % prime == 0 for h in (f, g) for c in h):
         return None
-    one, two = ([nmod_poly([int(n) for n in c.numer().coeffs()], prime) * pow(int(c.denom()), -1, prime) % modulus for c in h] for h in (f, g))
+    one, two = ([nmod_poly([int(n) for n in c.numer().coeffs()],
+                           prime) * pow(int(c.denom()), -1, prime) % modulus for c in h] for h in (f, g))
     if all(_inverse(h[-1], modulus) is None for h in (one, two)):
         return None
     while two:
@@ -85,7 +88,8 @@ def _inverse(element: nmod_poly, modulus: nmod_poly) -> nmod_poly | None:
 
 
 def _rational(rows: list[list[int]], product: int) -> list[fmpq_poly] | None:
-    """Fractions with these residues, of numerators and denominators below the root of half the product; None where there are none."""
+    """Fractions with these residues, of numerators and denominators below the root of half the product; None
+    where there are none."""
     bound = isqrt(product // 2)
     out = []
     for row in rows:
@@ -120,7 +124,8 @@ def _trimmed(f: list[Element]) -> list[Element]:
 
 @dataclass(frozen=True)
 class Algebraic:
-    """The real root number `index`, in rising order, of an irreducible polynomial with rational coefficients."""
+    """The real root number `index`, in rising order, of an irreducible polynomial with rational coefficients.
+    """
 
     polynomial: fmpq_poly
     index: int
@@ -171,7 +176,8 @@ class Algebraic:
         return field_gcd(self.polynomial, f, g) if f and g else self.monic(f or g)
 
     def powers(self, f: FieldPoly) -> Powers:
-        """(square-free factor, how often it counts) of a polynomial that is not zero; constants are left out."""
+        """(square-free factor, how often it counts) of a polynomial that is not zero; constants are left out.
+        """
         if len(f) < 2:
             return []
         rest = self.gcd(f, [c * n for n, c in enumerate(f)][1:])
@@ -185,7 +191,8 @@ class Algebraic:
         return out
 
     def real_roots(self, powers: Powers, bits: int) -> list[tuple[arb, int]]:
-        """(ball, how often it counts) of the distinct real roots of a polynomial, given its `powers`, rising. Unclear where the bits do not isolate them."""
+        """(ball, how often it counts) of the distinct real roots of a polynomial, given its `powers`, rising.
+        Unclear where the bits do not isolate them."""
         at, found = self.ball(bits), []
         for factor, times in powers:
             found += [(root, times) for root in real_balls(arb_poly([arb_poly(c)(at) for c in factor]))]
@@ -193,7 +200,8 @@ class Algebraic:
 
 
 def real_balls(f: arb_poly) -> list[arb]:
-    """Balls about the real roots of a polynomial without double ones. Unclear where its balls do not isolate them."""
+    """Balls about the real roots of a polynomial without double ones. Unclear where its balls do not isolate
+    them."""
     try:
         roots = acb_poly(f).roots()
     except ValueError:
@@ -203,7 +211,8 @@ def real_balls(f: arb_poly) -> list[arb]:
 
 
 def _sharpened(f: arb_poly, root: arb) -> arb:
-    """A narrower ball about a simple root, by Newton's method over balls (the part of the step that the ball does not hold has no root)."""
+    """A narrower ball about a simple root, by Newton's method over balls (the part of the step that the ball
+    does not hold has no root)."""
     slope = f.derivative()
     for _ in range(60):
         middle = root.mid()
@@ -231,7 +240,8 @@ class Cut:
 
 def cuts(polynomials: Iterable[fmpq_poly], low: Fraction, high: Fraction) -> list[Cut]:
     """The real roots in [low, high] of irreducible polynomials, rising."""
-    unique = {str(monic): monic for f in polynomials if f.degree() > 0 for monic in [f / f.leading_coefficient()]}
+    unique = {str(monic): monic for f in polynomials if f.degree() > 0
+              for monic in [f / f.leading_coefficient()]}
     return settled(lambda digits: _ordered(list(unique.values()), low, high))
 
 
@@ -246,7 +256,8 @@ def _ordered(polynomials, low, high) -> list[Cut]:
     for (first, _), (second, _) in zip(found, found[1:]):
         if not first < second:
             raise Unclear
-    return [Cut(number, fraction(ball.lower().fmpq()), fraction(ball.upper().fmpq())) for ball, number in found]
+    return [Cut(number, fraction(ball.lower().fmpq()), fraction(ball.upper().fmpq())) for ball,
+            number in found]
 
 
 def _inside(number: Algebraic, ball: arb, low: Fraction, high: Fraction) -> bool:

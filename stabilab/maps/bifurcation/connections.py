@@ -1,12 +1,15 @@
-"""Where two saddles of a motion's circle come to one height: the separatrix of each then ends at the other, and its type changes.
+"""Where two saddles of a motion's circle come to one height: the separatrix of each then ends at the other,
+and its type changes.
 
-On a circle about its centre, X' = p Y and Y' = q X with p q < 0 per angle alpha of the turn, the force is k X Y + c Y + d X + F0, so the potential is
+On a circle about its centre, X' = p Y and Y' = q X with p q < 0 per angle alpha of the turn, the force is k X
+Y + c Y + d X + F0, so the potential is
 
     U = -k X^2/(2 p) - c X/p - d Y/q - F0 alpha,   alpha = atan2(-p Y/n, X)/n,   n = sqrt(-p q).
 
-Between two critical values there are two saddles at the most (four equilibria). Both ways round, the rise of U from one to the next is a function of the number
-that varies, enclosed with its slope over whole intervals; an interval is dropped where the rise keeps away from zero, settled where the slope does, and
-halved otherwise. Hyperbolas and parabolas have one saddle a branch.
+Between two critical values there are two saddles at the most (four equilibria). Both ways round, the rise of
+U from one to the next is a function of the number that varies, enclosed with its slope over whole intervals;
+an interval is dropped where the rise keeps away from zero, settled where the slope does, and halved
+otherwise. Hyperbolas and parabolas have one saddle a branch.
 """
 from __future__ import annotations
 
@@ -35,7 +38,8 @@ WORDS = "two saddles are at one height: the separatrix of each ends at the other
 
 
 class Spent(Exception):
-    """The enclosures that one diagram may take are used up: no bisection may go on, whatever it makes of an open sign."""
+    """The enclosures that one diagram may take are used up: no bisection may go on, whatever it makes of an
+    open sign."""
 
 
 def with_connections(found: Diagram) -> Diagram:
@@ -46,7 +50,10 @@ def with_connections(found: Diagram) -> Diagram:
     try:
         return replace(found, connections=tuple(connections(found.family, system, found.pieces)))
     except (Unclear, Spent):
-        return replace(found, notes=(*found.notes, "undecided: whether two saddles come to one height somewhere; enclosures did not settle it"))
+        return replace(found,
+                       notes=(*found.notes,
+                              "undecided: whether two saddles come to one height somewhere; enclosures did "
+                              "not settle it"))
 
 
 def connections(family: Family, system: Any, pieces: tuple[Piece, ...]) -> list[Event]:
@@ -60,10 +67,13 @@ def connections(family: Family, system: Any, pieces: tuple[Piece, ...]) -> list[
     return _once(sorted(found, key=lambda event: event.value))
 
 
-def _of_piece(family: Family, eliminated: Eliminated, axis: int, piece: Piece, budget: list[int]) -> list[Event]:
-    """Those of a piece: inside each part of it where the motion keeps to a circle, and at each seam between two such parts."""
+def _of_piece(family: Family, eliminated: Eliminated, axis: int, piece: Piece,
+              budget: list[int]) -> list[Event]:
+    """Those of a piece: inside each part of it where the motion keeps to a circle, and at each seam between
+    two such parts."""
     width = Fraction(piece.high) - Fraction(piece.low)
-    off = max(NEAR * width, max(abs(Fraction(piece.low)), abs(Fraction(piece.high))) / (1 << 50))  # the ends are rounded to doubles
+    # the ends are rounded to doubles
+    off = max(NEAR * width, max(abs(Fraction(piece.low)), abs(Fraction(piece.high))) / (1 << 50))
     found, before = [], None
     for part in parts(family, LEAF, eliminated, piece):
         low, high = Fraction(part.low) + off, Fraction(part.high) - off
@@ -78,9 +88,12 @@ def _of_piece(family: Family, eliminated: Eliminated, axis: int, piece: Piece, b
             found += [_event(family, eliminated, piece, value) for value in _zeros(rise, low, high)]
         if piece.seams and before is not None:
             kept = followed(before[1], _places(family, eliminated, saddles, low))
-            if any(rise.sign(low) != before[0][way] for rise, way in zip(rises, kept)):  # where both have changed places each goes the other's way
+            # where both have changed places each goes the other's way
+            if any(rise.sign(low) != before[0][way] for rise, way in zip(rises, kept)):
                 found.append(_event(family, eliminated, piece, Fraction(part.low)))
-        before = ([rise.sign(high) for rise in rises], _places(family, eliminated, saddles, high)) if piece.seams and part.high < piece.high else None
+        before = ([rise.sign(high) for rise in rises],
+                  _places(family, eliminated, saddles,
+                          high)) if piece.seams and part.high < piece.high else None
     return found
 
 
@@ -91,13 +104,15 @@ def _places(family: Family, eliminated: Eliminated, saddles: list[int], value: F
 
 
 def _once(events: list[Event]) -> list[Event]:
-    """Each value once: where the torque about the centre vanishes both ways round come to one height together."""
+    """Each value once: where the torque about the centre vanishes both ways round come to one height
+    together."""
     return [event for n, event in enumerate(events) if not n or event.value != events[n - 1].value]
 
 
 def _event(family: Family, eliminated: Eliminated, piece: Piece, value: Fraction) -> Event:
     value = Fraction(float(value))
-    return Event(float(value), None, (), 0, ("connection",), piece.count, _states_at(family, eliminated, piece, value), WORDS)
+    return Event(float(value), None, (), 0, ("connection",), piece.count,
+                 _states_at(family, eliminated, piece, value), WORDS)
 
 
 def _states_at(family: Family, eliminated: Eliminated, piece: Piece, value: Fraction) -> tuple[State, ...]:
@@ -122,16 +137,19 @@ def _on_a_circle(family: Family, axis: int, value: Fraction) -> bool:
 class _Rise:
     """The rise of U from one saddle to the next, and its slope, over an interval of the number that varies.
 
-    A saddle's angle may be held while the number varies: U is stationary in it. budget: how many enclosures are left, a list of one count, which all
-    rises of a diagram share; Spent where it is used up.
+    A saddle's angle may be held while the number varies: U is stationary in it. budget: how many enclosures
+    are left, a list of one count, which all rises of a diagram share; Spent where it is used up.
     """
 
-    def __init__(self, family: Family, eliminated: Eliminated, saddles: list[int], way: int, budget: list[int]) -> None:
-        self.family, self.eliminated, self.saddles, self.way, self.budget = family, eliminated, saddles, way, budget
+    def __init__(self, family: Family, eliminated: Eliminated, saddles: list[int], way: int,
+                 budget: list[int]) -> None:
+        self.family, self.eliminated, self.saddles, self.way, self.budget = (family, eliminated, saddles, way,
+                                                                             budget)
         self.known: dict[Fraction, arb] = {}
         f = eliminated.main.f
         self.top, self.bottom = coefficients(f, 1, 2)[:2]  # y = -top/bottom, with its slopes' numerators
-        self.slopes = [self.top * self.bottom.derivative(name) - self.top.derivative(name) * self.bottom for name in ("x", "p")]
+        self.slopes = [self.top * self.bottom.derivative(name) - self.top.derivative(name) * self.bottom
+                       for name in ("x", "p")]
 
     def sign(self, value: Fraction) -> int:
         """At one value; Unclear where so many bits leave it open."""
@@ -141,7 +159,8 @@ class _Rise:
         raise Unclear
 
     def over(self, low: Fraction, high: Fraction) -> tuple[arb, arb]:
-        """(rise, slope) as balls that hold those of every value of the interval; the rise by the slope from its middle on."""
+        """(rise, slope) as balls that hold those of every value of the interval; the rise by the slope from
+        its middle on."""
         middle = (low + high) / 2
         rise, slope = self._of(low, high)
         with working(BITS):
@@ -169,7 +188,8 @@ class _Rise:
             return self._rise(arb_series([p, 1]), ends[:: -1 if self.way else 1])
 
     def _saddle(self, x: arb, middle: Fraction, off: arb, p: arb) -> tuple[arb, arb]:
-        """(x, y) of a saddle. R is moved to its place at the middle of the interval first, where small balls stay small."""
+        """(x, y) of a saddle. R is moved to its place at the middle of the interval first, where small balls
+        stay small."""
         R, ring = self.eliminated.reduced, self.family.ring
         first, second, third, fourth = ring.gens()
         at = rational(Fraction(float(x.mid())))  # near its middle
@@ -210,7 +230,8 @@ class _Rise:
             Z = -head(p) * Y / head(n)
             angles.append(Digits.angle(Z, X))
             X, Y = size * (X / head(size)), size * (Z / head(size)) * -n / p
-            # On a circle q X^2 - p Y^2 is constant: of the two squares the one that stays small where the circle becomes a parabola.
+            # On a circle q X^2 - p Y^2 is constant: of the two squares the one that stays small where the
+            # circle becomes a parabola.
             square = X * X / p if abs(head(p).mid()) <= abs(head(q).mid()) else Y * Y / q
             heights.append(-kappa * square / 2 - c * X / p - d * Y / q)
         rise = heights[1] - heights[0] - force * _once_round(angles[1] - angles[0]) / n
@@ -237,7 +258,8 @@ def _once_round(turn: arb) -> arb:
 
 
 def _enclosed(coefficients: list[arb], middle: arb) -> arb:
-    """A ball that holds the one root near `middle` for all coefficients in their balls: Newton's step over it falls inside."""
+    """A ball that holds the one root near `middle` for all coefficients in their balls: Newton's step over it
+    falls inside."""
     f = arb_poly(coefficients)
     slope, at_middle, ball = f.derivative(), f(middle), middle
     for _ in range(8):
@@ -286,8 +308,8 @@ def _zeros(rise: _Rise, low: Fraction, high: Fraction) -> list[Fraction]:
 
 
 def _divided(rise: _Rise, low: Fraction, high: Fraction) -> Fraction:
-    """A value near the middle at which the rise has a sign: no interval ends at a zero, which it would never be rid of. A scene with a mirror
-    has its zero in the very middle."""
+    """A value near the middle at which the rise has a sign: no interval ends at a zero, which it would never
+    be rid of. A scene with a mirror has its zero in the very middle."""
     for part in PARTS:
         value = low + (high - low) * part
         try:
@@ -299,7 +321,8 @@ def _divided(rise: _Rise, low: Fraction, high: Fraction) -> Fraction:
 
 
 def _bisected(sign: Callable[[Fraction], int], low: Fraction, high: Fraction, first: int) -> Fraction:
-    """The zero between two values, to the last bit of a double; a short number that cannot be told from it is taken for it."""
+    """The zero between two values, to the last bit of a double; a short number that cannot be told from it is
+    taken for it."""
     for _ in range(60):
         middle = Fraction(float((low + high) / 2))
         if not low < middle < high:

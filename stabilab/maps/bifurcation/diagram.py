@@ -1,4 +1,5 @@
-"""The diagram over one number: critical values by elimination, the equilibria at each and at one value between neighbours.
+"""The diagram over one number: critical values by elimination, the equilibria at each and at one value
+between neighbours.
 
 The stability of an equilibrium comes from the signs of m and n in balls and the reasons of the room
 `equilibrium`.
@@ -42,13 +43,15 @@ CROSSES = ("undecided", "the curve that the motion keeps to crosses itself here"
 def ball_form(family: Family, values: list) -> tuple[QuadraticForm, list[arb]]:
     """(the rates with balls for coefficients, u) at values of what varies."""
     unknowns = [arb(0)] * 2
-    numbers: dict[str, Any] = {name: [evaluated(c, [*unknowns, *values]) for c in row] for name, row in family.numbers.items()}
+    numbers: dict[str, Any] = {name: [evaluated(c, [*unknowns, *values]) for c in row] for name,
+                               row in family.numbers.items()}
     if not family.scaled:
         return euler_form(tuple(numbers["D"]), tuple(numbers["lam"]), tuple(numbers["M"])), numbers["u"]
     half, l1 = numbers["u"][0] / 2, numbers["lam"][0]
     one: Any = arb(1)
     zero: Any = arb(0)
-    return QuadraticForm((one, -one, one), (zero, zero, half + l1), (zero, l1 - half, zero), tuple(numbers["M"]), "x"), numbers["u"]
+    return QuadraticForm((one, -one, one), (zero, zero, half + l1), (zero, l1 - half, zero),
+                         tuple(numbers["M"]), "x"), numbers["u"]
 
 
 def state_of(family: Family, y: tuple[arb, ...], u: list[arb]) -> tuple[arb, ...]:
@@ -63,9 +66,11 @@ def doubles(x: tuple[arb, ...]) -> tuple[float, ...]:
     return tuple(0.0 if v.contains(0) else float(v.mid()) for v in x)
 
 
-def judged_state(family: Family, kind: str, values: list, root: Root, after: int = 0, flat: bool = False) -> State:
-    """An equilibrium with its verdict. after: where branches meet in it on a motion's curve, the sign of m on the branch that goes on; flat: m is known to
-    be zero there, which no ball tells. Unclear where the balls leave a sign open."""
+def judged_state(family: Family, kind: str, values: list, root: Root, after: int = 0,
+                 flat: bool = False) -> State:
+    """An equilibrium with its verdict. after: where branches meet in it on a motion's curve, the sign of m on
+    the branch that goes on; flat: m is known to be zero there, which no ball tells. Unclear where the balls
+    leave a sign open."""
     form, u = ball_form(family, values)
     x = state_of(family, root.y, u)
     at = doubles(x)
@@ -79,13 +84,17 @@ def judged_state(family: Family, kind: str, values: list, root: Root, after: int
     if root.times == 1:
         m_sign = sign(m)
         return State(at, 1, linear_word(m_sign, 0), *(WELL.positive if m_sign > 0 else POSITIVE_EIGENVALUE))
-    verdict = WELL.odd if root.times % 2 == 0 else WELL.minimum if after > 0 else WELL.maximum if after < 0 else CROSSES
+    verdict = (WELL.odd if root.times % 2 == 0 else WELL.minimum if after > 0 else WELL.maximum if after < 0
+               else CROSSES)
     return State(at, root.times, "degenerate", *verdict)
 
 
-def general_states(family: Family, kind: str, eliminated: Eliminated, value: Fraction, digits: Any, view: Leant | None = None) -> tuple[State, ...]:
-    """The equilibria at a value where no branches meet, with their verdicts; asked by `settled`. view: another one than the main view."""
-    return tuple(judged_state(family, kind, [rational(value)], root) for root in eliminated.at_general((value,), view))
+def general_states(family: Family, kind: str, eliminated: Eliminated, value: Fraction, digits: Any,
+                   view: Leant | None = None) -> tuple[State, ...]:
+    """The equilibria at a value where no branches meet, with their verdicts; asked by `settled`. view:
+    another one than the main view."""
+    return tuple(judged_state(family, kind, [rational(value)], root)
+                 for root in eliminated.at_general((value,), view))
 
 
 class Told(NamedTuple):
@@ -122,7 +131,8 @@ def _words_at(family: Family, value: Fraction) -> Told:
         return Told(ENDLESS, "every state is an equilibrium")
     if found.kind == "none":
         return Told(0, "")
-    return Told(ENDLESS if found.curves else len(found.points), ", ".join(curve.name for curve in found.curves))
+    return Told(ENDLESS if found.curves else len(found.points),
+                ", ".join(curve.name for curve in found.curves))
 
 
 def _change_in_words(family: Family, cut: Cut, named: list[tuple[fmpq_mpoly, str]]) -> Event:
@@ -134,21 +144,25 @@ def _change_in_words(family: Family, cut: Cut, named: list[tuple[fmpq_mpoly, str
 
 
 def _named(family: Family) -> Iterator[tuple[fmpq_mpoly, str]]:
-    """(polynomial, what is so where it vanishes) of all that may change the curves; those that vanish all over the range are left out."""
+    """(polynomial, what is so where it vanishes) of all that may change the curves; those that vanish all
+    over the range are left out."""
     n = family.numbers
     D, lam, M = n["D"], n["lam"], n["M"]
     load = dot(lam, M)
-    rows = [(D[i] - D[j], f"moments of inertia {i + 1} and {j + 1} are equal") for i in range(3) for j in range(i)]
+    rows = [(D[i] - D[j], f"moments of inertia {i + 1} and {j + 1} are equal") for i in range(3)
+            for j in range(i)]
     rows += [(lam[i], f"the wheel's part along axis {i + 1} vanishes") for i in range(3)]
     rows += [(M[i], f"the torque's part along axis {i + 1} vanishes") for i in range(3)]
     rows += [(load, "the wheel is across the torque")]
     for c in range(3):
         i, j = (c + 1) % 3, (c + 2) % 3
-        rows.append(((D[i] - D[c]) * dot(M, M) + lam[c] * (lam[j] * M[i] - lam[i] * M[j]), "the conic falls apart into lines"))
+        rows.append(((D[i] - D[c]) * dot(M, M) + lam[c] * (lam[j] * M[i] - lam[i] * M[j]),
+                     "the conic falls apart into lines"))
     return ((f, words) for f, words in rows if not f.is_zero())
 
 
-WORDS = {"fold": "two {} meet and vanish", "pitchfork": "three {} meet in one", "crossing": "two branches of {} cross",
+WORDS = {"fold": "two {} meet and vanish", "pitchfork": "three {} meet in one",
+         "crossing": "two branches of {} cross",
          "touch": "two {} that are there at this value alone", "infinity": "{} go to infinity"}
 
 
@@ -169,7 +183,8 @@ def diagram(family: Family, borders: bool = False) -> Diagram:
     return Diagram(family, kind, what, *_joined(kept, events, found), notes=notes)
 
 
-def _event(family: Family, kind: str, eliminated: Eliminated, cut: Cut, sides: Sequence[Piece | None]) -> Event | None:
+def _event(family: Family, kind: str, eliminated: Eliminated, cut: Cut,
+           sides: Sequence[Piece | None]) -> Event | None:
     """What happens at a cut; None where nothing does."""
     system, number = eliminated.system, cut.number
     make = partial(Event, float(number), number.rational, number.whole, number.index)
@@ -186,7 +201,8 @@ def _event(family: Family, kind: str, eliminated: Eliminated, cut: Cut, sides: S
     return make(kinds, len(roots), states, "; ".join(WORDS[word].format(things) for word in kinds))
 
 
-def _kinds(eliminated: Eliminated, cut: Cut, roots: Sequence[Root], sides: Sequence[Piece | None]) -> tuple[str, ...]:
+def _kinds(eliminated: Eliminated, cut: Cut, roots: Sequence[Root],
+           sides: Sequence[Piece | None]) -> tuple[str, ...]:
     counts = [piece.count for piece in sides if piece is not None]
     many = max((root.times for root in roots), default=1)
     kinds = []
@@ -202,15 +218,18 @@ def _kinds(eliminated: Eliminated, cut: Cut, roots: Sequence[Root], sides: Seque
     return tuple(kinds)
 
 
-def _states_at(family: Family, kind: str, eliminated: Eliminated, cut: Cut, bits: int, sides: Sequence[Piece | None]) -> tuple[State, ...]:
+def _states_at(family: Family, kind: str, eliminated: Eliminated, cut: Cut, bits: int,
+               sides: Sequence[Piece | None]) -> tuple[State, ...]:
     values = [cut.number.ball(bits)]
     roots = eliminated.at_algebraic(cut.number, bits) or []
     flat = kind == ISOLATED and any(root.times > 1 for root in roots) and eliminated.flat(cut.number)
-    return tuple(judged_state(family, kind, values, root, _going_on(root, sides) if kind == LEAF else 0, flat) for root in roots)
+    return tuple(judged_state(family, kind, values, root, _going_on(root, sides) if kind == LEAF else 0, flat)
+                 for root in roots)
 
 
 def _going_on(root: Root, sides: Sequence[Piece | None]) -> int:
-    """The sign of m on a branch that goes on through a meeting of an odd number: that of the side where one branch alone arrives."""
+    """The sign of m on a branch that goes on through a meeting of an odd number: that of the side where one
+    branch alone arrives."""
     alone = [piece for piece in sides if piece is not None and piece.count == 1]
     return 0 if not alone or root.times % 2 == 0 else 1 if alone[0].states[0].linear == "stable" else -1
 
@@ -224,12 +243,16 @@ def _on_an_axis(family: Family, system: OnLine | Conics, cut: Cut) -> tuple[int,
             (0, (), "the torque falls on a principal axis that carries a wheel: no equilibrium")
     found = gyrostat_equilibria(effective(family.at((value,)).scene))
     states = tuple(State(point.at, 1, point.linear, point.verdict, point.because) for point in found.points)
-    told = "no equilibrium" if found.kind == "none" else f"{', '.join(curve.name for curve in found.curves)}" if found.curves else ""
-    return ENDLESS if found.curves or found.kind == "all" else len(states), states, f"{told}: {found.reason}" if told else found.reason
+    told = ("no equilibrium" if found.kind == "none"
+            else f"{', '.join(curve.name for curve in found.curves)}" if found.curves else "")
+    return ENDLESS if found.curves or found.kind == "all" else len(
+        states), states, f"{told}: {found.reason}" if told else found.reason
 
 
-def _joined(pieces: list[Piece], events: list[Event | None], found: Sequence[Cut]) -> tuple[tuple[Piece, ...], tuple[Event, ...]]:
-    """Pieces without the cuts at which nothing happens but that branches may change their order: their seams."""
+def _joined(pieces: list[Piece], events: list[Event | None],
+            found: Sequence[Cut]) -> tuple[tuple[Piece, ...], tuple[Event, ...]]:
+    """Pieces without the cuts at which nothing happens but that branches may change their order: their seams.
+    """
     gone = {float(cut.number) for cut, event in zip(found, events) if event is None}
     out: list[Piece] = []
     for piece in pieces:
@@ -242,7 +265,8 @@ def _joined(pieces: list[Piece], events: list[Event | None], found: Sequence[Cut
 
 @dataclass(frozen=True)
 class Part:
-    """low, high: its ends, an end of the piece or a seam; states: the equilibria at a value inside, in the order of this part."""
+    """low, high: its ends, an end of the piece or a seam; states: the equilibria at a value inside, in the
+    order of this part."""
 
     low: float
     high: float
@@ -255,14 +279,17 @@ def parts(family: Family, kind: str, eliminated: Eliminated, piece: Piece) -> li
     out = []
     for low, high in zip(ends, ends[1:]):
         inside = low < piece.sample < high
-        states = piece.states if inside else settled(partial(general_states, family, kind, eliminated, between(Fraction(low), Fraction(high))))
+        states = (piece.states if inside
+                  else settled(partial(general_states, family, kind, eliminated,
+                                       between(Fraction(low), Fraction(high)))))
         out.append(Part(low, high, states))
     return out
 
 
 def followed(before: Sequence[Float3], after: Sequence[Float3]) -> list[int]:
     """For each state after a seam the place of the one before it that it goes on from: the nearest."""
-    apart = sorted((sum((u - v) ** 2 for u, v in zip(a, b)), n, k) for n, a in enumerate(after) for k, b in enumerate(before))
+    apart = sorted((sum((u - v) ** 2 for u, v in zip(a, b)), n, k) for n, a in enumerate(after) for k,
+                   b in enumerate(before))
     found: dict[int, int] = {}
     for _, n, k in apart:
         if n not in found and k not in found.values():
@@ -275,8 +302,8 @@ POINTS = 64  # of a branch, closer towards both ends as a fold's parabola needs 
 
 @dataclass(frozen=True)
 class Branch:
-    """A branch of one piece, or of a part of it between seams: rows (value, state in the case's variables), the verdict that all of it has, and which
-    branch of which piece it is."""
+    """A branch of one piece, or of a part of it between seams: rows (value, state in the case's variables),
+    the verdict that all of it has, and which branch of which piece it is."""
 
     piece: int
     number: int
@@ -291,10 +318,12 @@ def branches(diagram: Diagram, points: int = POINTS) -> list[Branch]:
     if system is None:
         return []
     eliminated = Eliminated(diagram.family, system)
-    return [branch for n, piece in enumerate(diagram.pieces) if piece.count for branch in _of_piece(diagram, eliminated, n, piece, points)]
+    return [branch for n, piece in enumerate(diagram.pieces) if piece.count
+            for branch in _of_piece(diagram, eliminated, n, piece, points)]
 
 
-def _of_piece(diagram: Diagram, eliminated: Eliminated, n: int, piece: Piece, points: int) -> Iterator[Branch]:
+def _of_piece(diagram: Diagram, eliminated: Eliminated, n: int, piece: Piece,
+              points: int) -> Iterator[Branch]:
     """The branches of a piece, each part of it by itself; a branch keeps its number across a seam."""
     numbers, last = list(range(piece.count)), None
     for part in parts(diagram.family, diagram.kind, eliminated, piece):
@@ -304,7 +333,8 @@ def _of_piece(diagram: Diagram, eliminated: Eliminated, n: int, piece: Piece, po
         if rows and last is not None:
             numbers = [numbers[k] for k in followed(last, rows[0][1])]
         for place, number in enumerate(numbers):
-            yield Branch(n, number, part.states[place].verdict, tuple(value for value, _ in rows), tuple(states[place] for _, states in rows))
+            yield Branch(n, number, part.states[place].verdict, tuple(value for value, _ in rows),
+                         tuple(states[place] for _, states in rows))
         last = rows[-1][1] if rows else last
 
 
@@ -316,7 +346,8 @@ def spread(low: Fraction, high: Fraction, points: int, near: int) -> list[Fracti
 
 def _solved(diagram: Diagram, eliminated: Eliminated, value: Fraction, count: int) -> list[Float3] | None:
     try:
-        states = settled(lambda digits: [_state(diagram, root.y, value) for root in eliminated.at_general((value,))], most=1024)
+        states = settled(lambda digits: [_state(diagram, root.y, value)
+                                         for root in eliminated.at_general((value,))], most=1024)
     except Unclear:
         return None
     return states if len(states) == count else None

@@ -1,8 +1,10 @@
-"""A diagram's equations in one unknown: R(x; p, q) = 0, the values at which its number of real roots may change, and its roots.
+"""A diagram's equations in one unknown: R(x; p, q) = 0, the values at which its number of real roots may
+change, and its roots.
 
-What is known at a point of the range is known exactly: p and q are rational there, or p is an algebraic number and R is split into powers over
-the field of it. Two points one above another (equal x) would be taken for one, so a point where anything may happen is looked at along several
-directions x - lean y: two points are in line for one lean at the most, so the greatest number of roots is the number of points.
+What is known at a point of the range is known exactly: p and q are rational there, or p is an algebraic
+number and R is split into powers over the field of it. Two points one above another (equal x) would be taken
+for one, so a point where anything may happen is looked at along several directions x - lean y: two points are
+in line for one lean at the most, so the greatest number of roots is the number of points.
 """
 from __future__ import annotations
 
@@ -33,7 +35,8 @@ class Root(NamedTuple):
 
 @dataclass(frozen=True)
 class Leant:
-    """R in x - lean y. guard: the constant coefficients of y^2 (of y, for lines); where both vanish points may be invented."""
+    """R in x - lean y. guard: the constant coefficients of y^2 (of y, for lines); where both vanish points
+    may be invented."""
 
     lean: Fraction
     f: fmpq_mpoly
@@ -54,7 +57,8 @@ class Eliminated:
         """R along several directions; of a line there is one."""
         if isinstance(self.system, OnLine):
             x, c = self.family.ring.gens()[0], self.system.coefficients
-            return (Leant(Fraction(0), c[0], c[0], c[0] + x * c[1] + x * x * c[2], (self.family.ring.constant(1),)),)
+            return (Leant(Fraction(0), c[0], c[0], c[0] + x * c[1] + x * x * c[2],
+                          (self.family.ring.constant(1),)),)
         return tuple(made for lean in LEANS if (made := self._leant(lean)) is not None)
 
     @cached_property
@@ -70,7 +74,8 @@ class Eliminated:
 
     @cached_property
     def critical(self) -> tuple[fmpq_mpoly, ...]:
-        """Irreducible polynomials in the numbers that vary, one of which is zero wherever the number of real roots changes."""
+        """Irreducible polynomials in the numbers that vary, one of which is zero wherever the number of real
+        roots changes."""
         R = self.reduced
         parts = [coefficients(R, 0)[-1], common_divisor(self.main.guard)]
         if R.degrees()[0] > 1:
@@ -103,12 +108,15 @@ class Eliminated:
         return out
 
     def at_general(self, values: tuple[Fraction, ...], view: Leant | None = None) -> list[Root]:
-        """The same at a point where nothing happens, by one view, else the main one: rising in x, so that branches keep their numbers."""
+        """The same at a point where nothing happens, by one view, else the main one: rising in x, so that
+        branches keep their numbers."""
         view = view or self.main
-        return self._with_states(view, real_roots_of(univariate(at_rational(view.R, values))), [rational(v) for v in values])
+        return self._with_states(view, real_roots_of(univariate(at_rational(view.R, values))),
+                                 [rational(v) for v in values])
 
     def at_algebraic(self, number: Algebraic, bits: int) -> list[Root] | None:
-        """The equilibria at an algebraic p (a family of one number), None where they are not isolated. Unclear where so many bits do not tell."""
+        """The equilibria at an algebraic p (a family of one number), None where they are not isolated.
+        Unclear where so many bits do not tell."""
         split = self._split(number)
         if split is None:
             return None
@@ -116,16 +124,20 @@ class Eliminated:
         return self._with_states(view, number.real_roots(powers, bits), [number.ball(bits)])
 
     def _split(self, number: Algebraic) -> tuple[Leant, Powers] | None:
-        """(view, R there in square-free factors with their powers), of the view with most roots; once for each number."""
+        """(view, R there in square-free factors with their powers), of the view with most roots; once for
+        each number."""
         key = (str(number.polynomial), number.index)
         if key not in self._known:
-            made = [(view, number.powers(f)) for view in self._needed(number) if not all(_zero_at(c, number) for c in view.guard)
+            made = [(view, number.powers(f)) for view in self._needed(number)
+                    if not all(_zero_at(c, number) for c in view.guard)
                     if (f := number.trimmed(over_field(view.R)))]
-            self._known[key] = max(made, key=lambda one: sum(len(factor) - 1 for factor, _ in one[1])) if made else self._of_lines(number)
+            self._known[key] = (max(made, key=lambda one: sum(len(factor) - 1 for factor, _ in one[1]))
+                                if made else self._of_lines(number))
         return self._known[key]
 
     def _of_lines(self, number: Algebraic) -> tuple[Leant, Powers] | None:
-        """The same where both conics become lines there: these meet in one point, in none, or are one line (None)."""
+        """The same where both conics become lines there: these meet in one point, in none, or are one line
+        (None)."""
         view = self.main
         zero = number.polynomial * 0
         rows = []
@@ -135,7 +147,8 @@ class Eliminated:
                 return None
             rows.append((at[0][0], at[1][0], at[0][1] if len(at[0]) > 1 else zero))
         (f0, f1, f2), (g0, g1, g2) = rows
-        across, constant, other = (number.reduced(c) for c in (f1 * g2 - g1 * f2, f0 * g2 - g0 * f2, f0 * g1 - g0 * f1))
+        across, constant, other = (number.reduced(c)
+                                   for c in (f1 * g2 - g1 * f2, f0 * g2 - g0 * f2, f0 * g1 - g0 * f1))
         if across != zero:
             return view, [([constant, across], 1)]
         empty = any(row[0] != zero and row[1] == zero and row[2] == zero for row in rows)
@@ -148,12 +161,14 @@ class Eliminated:
     def _needed(self, number: Algebraic) -> Sequence[Leant]:
         """The main view alone where it has no two points in line, else as many as tell."""
         apart = self.apart
-        one = apart is not None and not _zero_at(apart, number) and not all(_zero_at(c, number) for c in self.main.guard)
+        one = (apart is not None and not _zero_at(apart, number)
+               and not all(_zero_at(c, number) for c in self.main.guard))
         return (self.main,) if one else self.views[:SPARE + 1]
 
     @cached_property
     def apart(self) -> fmpq_mpoly | None:
-        """A polynomial: where it is not zero the main view has one point at the most above each x, because f = a(x) + b(x) y and a, b share no root."""
+        """A polynomial: where it is not zero the main view has one point at the most above each x, because f
+        = a(x) + b(x) y and a, b share no root."""
         f = self.main.f
         if isinstance(self.system, OnLine):
             return self.family.ring.constant(1)
@@ -163,7 +178,8 @@ class Eliminated:
         return b if b.degrees()[0] < 1 else a if a.degrees()[0] < 1 else a.resultant(b, "x")
 
     def flat(self, number: Algebraic) -> bool:
-        """Whether m vanishes too at the double root x = -c1/(2 c2) of a line, exactly: all three eigenvalues are zero there."""
+        """Whether m vanishes too at the double root x = -c1/(2 c2) of a line, exactly: all three eigenvalues
+        are zero there."""
         line = self.system
         if not isinstance(line, OnLine):
             return False
@@ -177,7 +193,8 @@ class Eliminated:
         return [Root(x, times, self.state(view, x, values)) for x, times in roots]
 
     def state(self, view: Leant, x: arb, values: list) -> tuple[arb, ...]:
-        of = lambda polynomial, *unknowns: evaluated(polynomial, [*unknowns, *([arb(0)] * (2 - len(unknowns))), *values])
+        of = lambda polynomial, *unknowns: evaluated(polynomial,
+                                                     [*unknowns, *([arb(0)] * (2 - len(unknowns))), *values])
         if isinstance(self.system, OnLine):
             below = of(self.system.below)
             return tuple((of(s) + x * of(a)) / below for s, a in zip(self.system.start, self.system.along))
@@ -195,7 +212,8 @@ def _distinct(f: fmpq_poly) -> int:
 
 
 def _common(rows: list[list[arb]]) -> arb:
-    """The y that solves two quadratics a0 + a1 y + a2 y^2 at once: by the linear combination without y^2, else the one root that serves both."""
+    """The y that solves two quadratics a0 + a1 y + a2 y^2 at once: by the linear combination without y^2,
+    else the one root that serves both."""
     (a0, a1, a2), (b0, b1, b2) = rows
     rate = b2 * a1 - a2 * b1
     if not rate.contains(0):

@@ -1,4 +1,5 @@
-"""Which equilibria a diagram counts, as equations in one or two unknowns with polynomial coefficients in the numbers that vary.
+"""Which equilibria a diagram counts, as equations in one or two unknowns with polynomial coefficients in the
+numbers that vary.
 
 Off the principal axes they are isolated: on the line where the two linear conditions meet, y = (P + x v)/w,
 one quadratic remains (`equilibrium.gyrostat`). A torque on principal axis i, with no wheel along it, has a
@@ -20,12 +21,15 @@ from ...numbers.vectors import CYCLE, cross, dot
 from .family import CURVES, Family
 
 ISOLATED, LEAF, BORDERS = "isolated", "motion", "borders"
-LEANS = tuple(Fraction(*parts) for parts in ((0, 1), (1, 1), (-1, 1), (2, 1), (1, 2), (-3, 1), (1, 3), (3, 1), (-2, 1), (5, 2)))  # X = x - lean y
+# X = x - lean y
+LEANS = tuple(Fraction(*parts) for parts in ((0, 1), (1, 1), (-1, 1), (2, 1), (1, 2), (-3, 1), (1, 3), (3, 1),
+                                             (-2, 1), (5, 2)))
 
 
 @dataclass(frozen=True)
 class OnLine:
-    """One quadratic c[0] + c[1] x + c[2] x^2 = 0 on the line y = (start + x along)/below. special: zero where the torque falls on a principal axis."""
+    """One quadratic c[0] + c[1] x + c[2] x^2 = 0 on the line y = (start + x along)/below. special: zero where
+    the torque falls on a principal axis."""
 
     coefficients: tuple[fmpq_mpoly, ...]
     start: tuple[fmpq_mpoly, ...]
@@ -36,17 +40,22 @@ class OnLine:
     kind: str = ISOLATED
 
     def m(self, family: Family) -> fmpq_mpoly:
-        """m of z^3 + m z + n along the line, times below^2 and the positive moments: a quadratic polynomial of y, made homogeneous."""
+        """m of z^3 + m z + n along the line, times below^2 and the positive moments: a quadratic polynomial
+        of y, made homogeneous."""
         x, zero = family.ring.gens()[0], family.ring.constant(0)
         y = [s + x * a for s, a in zip(self.start, self.along)]
-        there, mirrored, middle = _linear_m(family, y), _linear_m(family, [-c for c in y]), _linear_m(family, [zero] * 3)
-        return (there + mirrored) / 2 - middle + (there - mirrored) / 2 * self.below + middle * self.below * self.below
+        there, mirrored, middle = _linear_m(family,
+                                            y), _linear_m(family,
+                                                          [-c for c in y]), _linear_m(family, [zero] * 3)
+        return (there + mirrored) / 2 - middle + (there
+                                                  - mirrored) / 2 * self.below + middle * self.below * self.below
 
 
 @dataclass(frozen=True)
 class Conics:
-    """Two conics f = g = 0 in the components x = y_j and y = y_k of the state, the third being zero; axis: i of the torque. special: zero where
-    the equations do not hold all equilibria of the kind (along a curve of them: where the torque vanishes)."""
+    """Two conics f = g = 0 in the components x = y_j and y = y_k of the state, the third being zero; axis: i
+    of the torque. special: zero where the equations do not hold all equilibria of the kind (along a curve of
+    them: where the torque vanishes)."""
 
     f: fmpq_mpoly
     g: fmpq_mpoly
@@ -73,7 +82,8 @@ def fixed_axis(family: Family) -> int | None:
 
 
 def on_line(family: Family) -> OnLine:
-    """The isolated equilibria of a torque off the principal axes; `special` is zero where none of the range has one."""
+    """The isolated equilibria of a torque off the principal axes; `special` is zero where none of the range
+    has one."""
     n = family.numbers
     D, lam, M = n["D"], n["lam"], n["M"]
     turned = lambda v: tuple(d * c for d, c in zip(D, v))
@@ -95,7 +105,8 @@ def on_line(family: Family) -> OnLine:
 
 
 def across(family: Family, axis: int, kind: str) -> Conics:
-    """The equilibria on the curve that the motion keeps to (LEAF), or where stability changes along the conic (BORDERS)."""
+    """The equilibria on the curve that the motion keeps to (LEAF), or where stability changes along the conic
+    (BORDERS)."""
     n = family.numbers
     j, k = CYCLE[axis]
     x, y = family.ring.gens()[:2]
@@ -113,11 +124,13 @@ def across(family: Family, axis: int, kind: str) -> Conics:
 
 
 def _kept(family: Family, axis: int):
-    """W(y_j, y_k), which every motion keeps: |H|^2 - 2 D_i T across the torque, or the scaled system's own."""
+    """W(y_j, y_k), which every motion keeps: |H|^2 - 2 D_i T across the torque, or the scaled system's own.
+    """
     n = family.numbers
     (j, k), D, lam = CYCLE[axis], n["D"], n["lam"]
     if not family.scaled:
-        return lambda x, y: ((D[j] * x + lam[j]) * (D[j] * x + lam[j]) + (D[k] * y + lam[k]) * (D[k] * y + lam[k])
+        return lambda x, y: ((D[j] * x + lam[j]) * (D[j] * x + lam[j])
+                             + (D[k] * y + lam[k]) * (D[k] * y + lam[k])
                              - D[axis] * (D[j] * x * x + D[k] * y * y))
     half = lambda y1: y1 * family.ring.constant(1) / 2  # x1 + a = y1/2 - lam1, x1 + b = y1/2 + lam1
     if axis == 2:
@@ -137,13 +150,15 @@ def _linear_m(family: Family, y: Sequence[fmpq_mpoly]) -> fmpq_mpoly:
         u1, l1 = n["u"][0], n["lam"][0]
         a, b = u1 / 2 - l1, u1 / 2 + l1
         x = ((y[0] - u1) / 2, y[1], -y[2])
-        weights, kappa, rho, sigma = (one,) * 3, (one, -one, one), (0 * one, 0 * one, b), (0 * one, -a, 0 * one)
+        weights, kappa, rho, sigma = (one,) * 3, (one, -one,
+                                                  one), (0 * one, 0 * one, b), (0 * one, -a, 0 * one)
     else:
         D, lam = n["D"], n["lam"]
         x, weights, kappa = (y[0], y[1], y[2]), (D[0], D[1], D[2]), tuple(D[j] - D[k] for j, k in CYCLE)
         rho, sigma = tuple(lam[j] for j, _ in CYCLE), tuple(-lam[k] for _, k in CYCLE)
     total = 0 * one
-    for i, (j, k) in enumerate(CYCLE):  # the pair (j, k): entries row j, column k and row k, column j of the Jacobian
+    # the pair (j, k): entries row j, column k and row k, column j of the Jacobian
+    for i, (j, k) in enumerate(CYCLE):
         row_j = kappa[j] * x[i] + sigma[j]
         row_k = kappa[k] * x[i] + rho[k]
         total -= row_j * row_k * weights[i]
@@ -171,19 +186,25 @@ def chosen(family: Family, borders: bool) -> tuple[str, str, OnLine | Conics | N
     if axis is None:
         line = on_line(family)
         if line.special.is_zero():
-            return CURVES, f"the torque lies along equal moments of inertia, where equilibria form curves; {MORE}", None, ()
+            return (CURVES,
+                    f"the torque lies along equal moments of inertia, where equilibria form curves; {MORE}",
+                    None, ())
         return ISOLATED, WHAT[ISOLATED], line, ()
     if not n["lam"][axis].is_zero():
         one, zero = family.ring.constant(1), family.ring.constant(0)
         load = n["lam"][axis] * n["M"][axis]
-        note = f"the torque lies on principal axis {axis + 1} and a wheel carries momentum along it: no equilibrium wherever neither is zero"
-        return ISOLATED, WHAT[ISOLATED], OnLine((one, zero, zero), (zero,) * 3, (zero,) * 3, one, load, load), (note,)
+        note = (
+            f"the torque lies on principal axis {axis + 1} and a wheel carries momentum along it: no "
+            f"equilibrium wherever neither is zero")
+        return ISOLATED, WHAT[ISOLATED], OnLine((one, zero, zero), (zero,) * 3, (zero,) * 3, one, load,
+                                                load), (note,)
     D = n["D"]
     if borders or "y" not in n:
         return _solvable(BORDERS, WHAT[BORDERS], across(family, axis, BORDERS))
     others = [i for i in range(3) if i != axis]
     if all((D[i] - D[axis]).is_zero() and n["lam"][i].is_zero() for i in others):
-        return CURVES, f"three equal moments of inertia and no wheel: nothing balances a torque; {MORE}", None, ()
+        return (CURVES, f"three equal moments of inertia and no wheel: nothing balances a torque; {MORE}",
+                None, ())
     return _solvable(LEAF, f"{WHAT[LEAF]} (torque on principal axis {axis + 1})", across(family, axis, LEAF))
 
 
@@ -191,5 +212,6 @@ def _solvable(kind: str, what: str, conics: Conics) -> tuple[str, str, Conics | 
     """The same, or words where the two conics share a curve."""
     common = conics.f.gcd(conics.g) if not (conics.f.is_zero() or conics.g.is_zero()) else None
     if common is None or max(common.degrees()[:2]) > 0:
-        return CURVES, f"whole curves of equilibria solve what a diagram would count, {what}; {MORE}", None, ()
+        return (CURVES, f"whole curves of equilibria solve what a diagram would count, {what}; {MORE}", None,
+                ())
     return kind, what, conics, ()

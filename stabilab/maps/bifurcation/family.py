@@ -1,8 +1,9 @@
 """The scenes over a range as polynomials, and what is found over it: a diagram as data.
 
 Moments, wheel, torque and start are polynomials with exact coefficients in the numbers that vary.
-The case is read at rational values of its numbers; polynomials through these that hold at further values as well are the law by which the
-numbers enter. Torques, momenta, moments, forces, arms and speeds enter so; a direction or a product of inertia turns axes, by roots, and is refused.
+The case is read at rational values of its numbers; polynomials through these that hold at further values as
+well are the law by which the numbers enter. Torques, momenta, moments, forces, arms and speeds enter so; a
+direction or a product of inertia turns axes, by roots, and is refused.
 """
 from __future__ import annotations
 
@@ -54,8 +55,10 @@ class Family:
 
     @cached_property
     def numbers(self) -> dict[str, tuple[fmpq_mpoly, ...]]:
-        """D, lam, M, u (of `Pencil`) and y, the start in its variables (absent without a motion), as polynomials."""
-        grids = [[span.low + (span.high - span.low) * Fraction(n, DEGREE) for n in range(DEGREE + 1)] for span in self.spans]
+        """D, lam, M, u (of `Pencil`) and y, the start in its variables (absent without a motion), as
+        polynomials."""
+        grids = [[span.low + (span.high - span.low) * Fraction(n, DEGREE) for n in range(DEGREE + 1)]
+                 for span in self.spans]
         table = {values: _numbers_of(self._read(values)) for values in product(*grids)}
         rows, exponents = list(table.values()), list(product(range(DEGREE + 1), repeat=len(self.spans)))
         places = [(name, n) for name in rows[0] for n in range(3)]
@@ -68,7 +71,8 @@ class Family:
         laws = [law(column) for column in columns]
         found = {name: tuple(laws[n:n + 3]) for n, (name, place) in enumerate(places) if not place}
         for number in range(1, CHECKS + 1):
-            values = tuple(span.low + (span.high - span.low) * Fraction(2 * number - 1 + k, 7 + 4 * k) for k, span in enumerate(self.spans))
+            values = tuple(span.low + (span.high - span.low) * Fraction(2 * number - 1 + k, 7 + 4 * k) for k,
+                           span in enumerate(self.spans))
             self._hold(found, values)
         return found
 
@@ -82,7 +86,8 @@ class Family:
             return self.at(values)
         except InputError as error:
             told = ", ".join(f"{span.label} = {float(value):.6g}" for span, value in zip(self.spans, values))
-            raise InputError(f"vary: the range leaves what a case may be: at {told}: {str(error).splitlines()[0]}") from None
+            raise InputError(
+                f"vary: the range leaves what a case may be: at {told}: {str(error).splitlines()[0]}") from None
 
     def _hold(self, found, values) -> None:
         case = self._read(values)
@@ -91,9 +96,12 @@ class Family:
             for polynomial, value in zip(found[name], row):
                 if polynomial.subs(put_in) != rational(value):
                     keys = " and ".join(printable(span.key.name) for span in self.spans)
-                    what = {"D": "principal moments", "lam": "wheel", "M": "torque", "u": "wheel", "y": "start"}[name]
-                    raise InputError(f"vary {keys}: the {what} of the case (along principal axes, in its variables) is no polynomial of it of degree "
-                                     f"{DEGREE}, so nothing can be eliminated exactly: vary a moment of inertia, a torque, a force or a wheel instead, or "
+                    what = {"D": "principal moments", "lam": "wheel", "M": "torque", "u": "wheel",
+                            "y": "start"}[name]
+                    raise InputError(f"vary {keys}: the {what} of the case (along principal axes, in its "
+                                     f"variables) is no polynomial of it of degree "
+                                     f"{DEGREE}, so nothing can be eliminated exactly: vary a moment of "
+                                     f"inertia, a torque, a force or a wheel instead, or "
                                      "use stabilab sweep")
 
 
@@ -110,8 +118,8 @@ ENDLESS = -1  # in the place of a count: equilibria without number, curves of th
 
 @dataclass(frozen=True)
 class State:
-    """An equilibrium: at in the case's variables along the principal axes; times: how many branches meet in it; linear, verdict, because: as those of
-    `equilibrium.result.EquilibriumPoint`."""
+    """An equilibrium: at in the case's variables along the principal axes; times: how many branches meet in
+    it; linear, verdict, because: as those of `equilibrium.result.EquilibriumPoint`."""
 
     at: Float3
     times: int
@@ -122,10 +130,11 @@ class State:
 
 @dataclass(frozen=True)
 class Event:
-    """A value at which something happens. value: a double, in the unit of the range; exact: the number itself where it is rational; polynomial:
-    whole coefficients, lowest power first, of which it is the real root number `index` (in rising order, from 0); kinds: "fold", "pitchfork",
-    "crossing", "touch", "infinity", "axis", "curve" or "connection", as `words` tells; count: equilibria there, ENDLESS for curves of them; states: those
-    there."""
+    """A value at which something happens. value: a double, in the unit of the range; exact: the number itself
+    where it is rational; polynomial: whole coefficients, lowest power first, of which it is the real root
+    number `index` (in rising order, from 0); kinds: "fold", "pitchfork", "crossing", "touch", "infinity",
+    "axis", "curve" or "connection", as `words` tells; count: equilibria there, ENDLESS for curves of them;
+    states: those there."""
 
     value: float
     exact: Fraction | None
@@ -139,9 +148,10 @@ class Event:
 
 @dataclass(frozen=True)
 class Piece:
-    """An open piece of the range with one number of equilibria. low, high: doubles; sample: a value inside, exact; states: the equilibria there, in the
-    order in which their branches are numbered; seams: values inside at which two of them may change places in the component that orders them; words: which
-    curves there are, where equilibria form these."""
+    """An open piece of the range with one number of equilibria. low, high: doubles; sample: a value inside,
+    exact; states: the equilibria there, in the order in which their branches are numbered; seams: values
+    inside at which two of them may change places in the component that orders them; words: which curves there
+    are, where equilibria form these."""
 
     low: float
     high: float
@@ -154,8 +164,9 @@ class Piece:
 
 @dataclass(frozen=True, repr=False)
 class Diagram(Shown):
-    """All equilibria over one number. kind: which are counted ("isolated", "motion", "borders" or "curves"); what: the same in words; pieces and
-    events in rising order: event n lies between pieces; an event at an end of the range has a piece on one side only."""
+    """All equilibria over one number. kind: which are counted ("isolated", "motion", "borders" or "curves");
+    what: the same in words; pieces and events in rising order: event n lies between pieces; an event at an
+    end of the range has a piece on one side only."""
 
     family: Family = field(repr=False)
     kind: str

@@ -1,4 +1,5 @@
-"""The diagram over two numbers: curves in their plane at which equilibria change, the number between them, and cusps.
+"""The diagram over two numbers: curves in their plane at which equilibria change, the number between them,
+and cusps.
 
 Cusps of fold curves: places where three equilibria meet, from the conditions for a triple root of R(x; p, q),
 exactly.
@@ -37,8 +38,8 @@ MOST_BITS = 2048  # beyond which a state is taken to have no number
 
 
 class Cusp(NamedTuple):
-    """A place where three equilibria meet. at: (p, q); state: in the case's variables, empty where a component is left open; polynomial, root: of p, as
-    those of an event."""
+    """A place where three equilibria meet. at: (p, q); state: in the case's variables, empty where a
+    component is left open; polynomial, root: of p, as those of an event."""
 
     at: tuple[float, float]
     state: tuple[float, ...]
@@ -72,10 +73,12 @@ def _conditions(R: fmpq_mpoly) -> tuple[fmpq_mpoly, fmpq_mpoly]:
 
 def _others(eliminated: Eliminated) -> list[fmpq_mpoly]:
     """R along one more direction: points that the main view has in line by chance are apart there."""
-    return [eliminated.once(view.R) for view in eliminated.views[:2] if view is not eliminated.main and not view.R.is_zero()][:1]
+    return [eliminated.once(view.R) for view in eliminated.views[:2] if view is not eliminated.main
+            and not view.R.is_zero()][:1]
 
 
-def _on_curve(family: Family, R: fmpq_mpoly, eliminated: Eliminated, F: fmpq_mpoly, others: Sequence[fmpq_mpoly],
+def _on_curve(family: Family, R: fmpq_mpoly, eliminated: Eliminated, F: fmpq_mpoly,
+              others: Sequence[fmpq_mpoly],
               lead: fmpq_mpoly, more: Callable[[], Sequence[fmpq_mpoly]]) -> list[Cusp]:
     shadow = common_divisor(F.resultant(c, "q") for c in others)
     if shadow.is_constant():
@@ -87,7 +90,8 @@ def _on_curve(family: Family, R: fmpq_mpoly, eliminated: Eliminated, F: fmpq_mpo
         common = number.trimmed(over_field(F, 3))
         for c in others:
             common = number.gcd(common, number.trimmed(over_field(c, 3))) if common else []
-        far = number.trimmed(over_field(lead, 3))  # where R loses its highest power nothing is known of its other roots
+        # where R loses its highest power nothing is known of its other roots
+        far = number.trimmed(over_field(lead, 3))
         common = number.divided(common, number.gcd(common, far)) if common and far else []
         common = _truly(number, common, eliminated, more)
         if len(common) > 1:
@@ -97,18 +101,22 @@ def _on_curve(family: Family, R: fmpq_mpoly, eliminated: Eliminated, F: fmpq_mpo
     return out
 
 
-def _truly(number: Algebraic, common: Any, eliminated: Eliminated, more: Callable[[], Sequence[fmpq_mpoly]]) -> Any:
-    """Of common roots q those where three points meet, and are not in line by chance: where that may be, another direction is asked."""
+def _truly(number: Algebraic, common: Any, eliminated: Eliminated,
+           more: Callable[[], Sequence[fmpq_mpoly]]) -> Any:
+    """Of common roots q those where three points meet, and are not in line by chance: where that may be,
+    another direction is asked."""
     apart = eliminated.apart
     if len(common) < 2:
         return common
-    line = common if apart is None else number.gcd(common, f) if (f := number.trimmed(over_field(apart, 3))) else common
+    line = (common if apart is None else number.gcd(common, f) if (f := number.trimmed(over_field(apart, 3)))
+            else common)
     if len(line) < 2:
         return common
     sure = number.divided(common, line)
     for c in more():
         line = number.gcd(line, number.trimmed(over_field(c, 3))) if len(line) > 1 else line
-    product = number.trimmed([sum((sure[i] * line[n - i] for i in range(len(sure)) if 0 <= n - i < len(line)), line[0] * 0)
+    product = number.trimmed([sum((sure[i] * line[n - i] for i in range(len(sure)) if 0 <= n - i < len(line)),
+                                  line[0] * 0)
                               for n in range(len(sure) + len(line) - 1)])
     return product
 
@@ -123,7 +131,8 @@ def _places(family: Family, R: fmpq_mpoly, eliminated: Eliminated, number: Algeb
 
 
 def _state(family: Family, eliminated: Eliminated, x: arb, p: arb, q: arb, bits: int) -> tuple[float, ...]:
-    """The state there; none where the other component has no number of its own (a whole line lies above x)."""
+    """The state there; none where the other component has no number of its own (a whole line lies above x).
+    """
     try:
         y = eliminated.state(eliminated.main, x, [p, q])
         return doubles(state_of(family, y, ball_form(family, [p, q])[1]))
@@ -134,7 +143,8 @@ def _state(family: Family, eliminated: Eliminated, x: arb, p: arb, q: arb, bits:
 
 
 def _triple_root(R: fmpq_mpoly, p: arb, q: arb) -> arb:
-    """A simple root of the second derivative, or of the third where four roots meet, at which what stands before is zero within its balls."""
+    """A simple root of the second derivative, or of the third where four roots meet, at which what stands
+    before is zero within its balls."""
     zero = arb(0)
     rows = [arb_poly([evaluated(c, [zero, zero, p, q]) for c in coefficients(R, 0)])]
     while rows[-1].degree() > 1:
@@ -146,7 +156,8 @@ def _triple_root(R: fmpq_mpoly, p: arb, q: arb) -> arb:
             continue
         fitting = [x for x in real if all(f(x).contains(0) for f in rows[:n])]
         if fitting:
-            nearest = [(float(abs(arb_poly.evaluate(rows[1], [x])[0]).mid()), k) for k, x in enumerate(fitting)]
+            nearest = [(float(abs(arb_poly.evaluate(rows[1], [x])[0]).mid()), k) for k,
+                       x in enumerate(fitting)]
             return fitting[min(nearest)[1]]
     raise Unclear
 
@@ -156,7 +167,8 @@ MOST = 200  # strips
 
 @dataclass(frozen=True)
 class Arc:
-    """A curve inside a strip. kinds: of its events; curve: which polynomial of `Plane.curves` it is on; root: which of the real roots in q."""
+    """A curve inside a strip. kinds: of its events; curve: which polynomial of `Plane.curves` it is on; root:
+    which of the real roots in q."""
 
     kinds: tuple[str, ...]
     curve: int
@@ -165,8 +177,8 @@ class Arc:
 
 @dataclass(frozen=True)
 class Strip:
-    """Values low < p < high between which all curves run side by side. line: the diagram over the second number at `sample`; arcs: one for each event of
-    it, rising."""
+    """Values low < p < high between which all curves run side by side. line: the diagram over the second
+    number at `sample`; arcs: one for each event of it, rising."""
 
     low: float
     high: float
@@ -177,7 +189,8 @@ class Strip:
 
 @dataclass(frozen=True)
 class Wall:
-    """A line p = value across the strips at which the number of equilibria changes, from q = low to q = high."""
+    """A line p = value across the strips at which the number of equilibria changes, from q = low to q = high.
+    """
 
     value: float
     low: float
@@ -187,8 +200,9 @@ class Wall:
 
 @dataclass(frozen=True, repr=False)
 class Plane(Shown):
-    """All equilibria over two numbers. kind, what: as those of `Diagram`; curves: irreducible polynomials in p and q; strips: rising in p, without gaps;
-    walls: lines of one p; cusps: where fold curves end in one another."""
+    """All equilibria over two numbers. kind, what: as those of `Diagram`; curves: irreducible polynomials in
+    p and q; strips: rising in p, without gaps; walls: lines of one p; cusps: where fold curves end in one
+    another."""
 
     family: Family = field(repr=False)
     kind: str
@@ -204,19 +218,25 @@ def plane(family: Family, borders: bool = False) -> Plane:
     """All equilibria over the two ranges of a family."""
     kind, what, system, notes = chosen(family, borders)
     if system is None:
-        raise InputError(f"{family.case.place}: {what}: vary one number, and the curves are told in words; over two there is nothing to draw")
+        raise InputError(
+            f"{family.case.place}: {what}: vary one number, and the curves are told in words; over two there "
+            f"is nothing to draw")
     eliminated = Eliminated(family, system)
     curves = eliminated.critical
     found = cuts(_projected(family, curves), family.spans[0].low, family.spans[0].high)
     if len(found) > MOST:
-        raise InputError(f"the curves of these ranges turn and meet at {len(found)} values; at most {MOST} are followed: narrow the ranges")
+        raise InputError(
+            f"the curves of these ranges turn and meet at {len(found)} values; at most {MOST} are followed: "
+            f"narrow the ranges")
     strips = _strips(family, borders, curves, found)
     walls = [wall for cut in found for wall in _walls(family, borders, cut, curves, strips)]
-    return Plane(family, kind, what, curves, tuple(strips), tuple(walls), tuple(cusps(family, eliminated, curves)), notes)
+    return Plane(family, kind, what, curves, tuple(strips), tuple(walls),
+                 tuple(cusps(family, eliminated, curves)), notes)
 
 
 def _projected(family: Family, curves: Sequence[fmpq_mpoly]):
-    """Polynomials in p that are zero wherever curves turn back, meet, go to infinity, or cross an end of the second range."""
+    """Polynomials in p that are zero wherever curves turn back, meet, go to infinity, or cross an end of the
+    second range."""
     second = family.spans[1]
     parts = []
     for n, F in enumerate(curves):
@@ -228,7 +248,8 @@ def _projected(family: Family, curves: Sequence[fmpq_mpoly]):
         if F.degrees()[3] > 1:
             parts.append(F.resultant(F.derivative("q"), "q"))
         parts += [F.resultant(G, "q") for G in curves[:n] if G.degrees()[3] > 0]
-    return [univariate(f, 2) for part in parts if not part.is_zero() and not part.is_constant() for f, _ in part.factor()[1]]
+    return [univariate(f, 2) for part in parts if not part.is_zero() and not part.is_constant() for f,
+            _ in part.factor()[1]]
 
 
 def fixed(family: Family, which: int, value: Fraction) -> Family:
@@ -236,7 +257,8 @@ def fixed(family: Family, which: int, value: Fraction) -> Family:
     data, span = copy.deepcopy(family.data), family.spans[which]
     for path in span.key.paths:
         put(data, path, span.written(value))
-    return Family(family.at(tuple(value if n == which else other.low for n, other in enumerate(family.spans))), data, (family.spans[1 - which],))
+    return Family(family.at(tuple(value if n == which else other.low for n,
+                                  other in enumerate(family.spans))), data, (family.spans[1 - which],))
 
 
 def _strips(family: Family, borders: bool, curves: Sequence[fmpq_mpoly], found: Sequence[Cut]) -> list[Strip]:
@@ -268,8 +290,10 @@ def _rank(there, own, index: int, digits: Any) -> int:
     return near[0]
 
 
-def _walls(family: Family, borders: bool, cut: Cut, curves: Sequence[fmpq_mpoly], strips: Sequence[Strip]) -> list[Wall]:
-    """The pieces of the line of one p, a factor without q, at which something happens: asked across it, between the arcs of a strip beside it."""
+def _walls(family: Family, borders: bool, cut: Cut, curves: Sequence[fmpq_mpoly],
+           strips: Sequence[Strip]) -> list[Wall]:
+    """The pieces of the line of one p, a factor without q, at which something happens: asked across it,
+    between the arcs of a strip beside it."""
     alone = [F for F in curves if F.degrees()[3] < 1 and cut.number.reduced(univariate(F, 2)) == 0]
     beside = next((s for s in strips if float(cut.number) in (s.low, s.high)), None)
     if not alone or beside is None:
@@ -283,7 +307,8 @@ def _walls(family: Family, borders: bool, cut: Cut, curves: Sequence[fmpq_mpoly]
 
 
 def rows(found: Plane, strip: Strip, points: int = 40) -> tuple[list[float], list[list[float]]]:
-    """(values of p, q along each arc at these) inside a strip: closer towards its ends, where curves turn back. Each q is a certified root."""
+    """(values of p, q along each arc at these) inside a strip: closer towards its ends, where curves turn
+    back. Each q is a certified root."""
     values: list[float] = []
     arcs: list[list[float]] = [[] for _ in strip.arcs]
     for p in spread(Fraction(strip.low), Fraction(strip.high), points, 10**7):
@@ -298,7 +323,8 @@ def rows(found: Plane, strip: Strip, points: int = 40) -> tuple[list[float], lis
 
 
 def count_at(found: Plane, p: Fraction, q: Fraction) -> int:
-    """How many equilibria there are at a place off every curve, by the curves below it alone. Raises InputError where no strip holds p."""
+    """How many equilibria there are at a place off every curve, by the curves below it alone. Raises
+    InputError where no strip holds p."""
     strip = next((s for s in found.strips if s.low < p < s.high), None)
     if strip is None:
         raise InputError(f"p = {float(p)!r} lies outside the range, or at the end of a strip")

@@ -1,4 +1,5 @@
-"""Extremes and periods of rows that no two turning points hold: at rest, round a circle without torque, spinning up; by NumPy.
+"""Extremes and periods of rows that no two turning points hold: at rest, round a circle without torque,
+spinning up; by NumPy.
 
 What doubles would lose, next to a separatrix or far from the centre of the orbits, is left open for balls.
 """
@@ -10,12 +11,17 @@ from ...numbers.constants import TURN
 from ..landscape import Landscape, spots_along
 from ..result import Fate
 
-EXTREMES_SHARE = 1e-7  # closer to the separatrix than this share of the energy terms, rounding costs extremes 1e-12
-SPIN_UP_SHARE = 1e-4  # the same for the least rate of a motion that just passes a barrier: the root of a difference
+# closer to the separatrix than this share of the energy terms, rounding costs extremes 1e-12
+EXTREMES_SHARE = 1e-7
+# the same for the least rate of a motion that just passes a barrier: the root of a difference
+SPIN_UP_SHARE = 1e-4
 PERIOD_SHARE = 1e-5  # the same for a period, 1e-11
 ON_TOP = 1e-13  # of the terms of the force, some hundreds of roundings
-SHIFT_LIMIT = 1e4  # canonical variables lose this factor of accuracy to the shift before the precise path takes over
-AGREE = 1e-12  # relative, of the sums over so many nodes and twice as many: the error left is its square; rounding leaves some 1e-13
+# canonical variables lose this factor of accuracy to the shift before the precise path takes over
+SHIFT_LIMIT = 1e4
+# relative, of the sums over so many nodes and twice as many: the error left is its square; rounding leaves
+# some 1e-13
+AGREE = 1e-12
 MOST_NODES = 1 << 15  # more than the peaks of the integrand ask for at `PERIOD_SHARE`
 
 
@@ -26,8 +32,8 @@ def trapped_rows(land, decided):
 
 
 def needs_digits(land: Landscape, states):
-    """(n,) True where the canonical shift is so large that doubles would lose digits (nearly equal moments, or a wheel on the
-    axis of symmetry of a body that hardly turns about it)."""
+    """(n,) True where the canonical shift is so large that doubles would lose digits (nearly equal moments,
+    or a wheel on the axis of symmetry of a body that hardly turns about it)."""
     r = land.reduction
     shift, along = r.parabolic_shift_size, abs(float(r.s))
     lost = np.zeros(len(states), bool)
@@ -37,13 +43,15 @@ def needs_digits(land: Landscape, states):
 
 
 def on_top(land: Landscape, place):
-    """(n,) True where the state is at the place of a barrier to rounding: before it or behind, doubles do not tell."""
+    """(n,) True where the state is at the place of a barrier to rounding: before it or behind, doubles do not
+    tell."""
     pot = land.potential
     return (np.abs(pot.force(place)) <= ON_TOP * pot.terms(place)) & (pot.slope(place) > 0)
 
 
 def near_separatrix(land, place, w, margins, share):
-    """(n,) True where the margin is below `share` of the energy's terms: turning points and periods magnify its rounding there."""
+    """(n,) True where the margin is below `share` of the energy's terms: turning points and periods magnify
+    its rounding there."""
     return np.abs(margins) <= share * land.reduction.energy_unit * land.energy_terms(place, w)
 
 
@@ -56,7 +64,8 @@ def open_extremes(land: Landscape, states, labels, margins):
     states, labels, margins = states[moving], labels[moving], margins[moving]
     place, w, _ = land.start(states)
     share = np.where(labels == Fate.SPIN_UP, SPIN_UP_SHARE, EXTREMES_SHARE)
-    doubtful = needs_digits(land, states) | land.beside_centre(place) | near_separatrix(land, place, w, margins, share)
+    doubtful = (needs_digits(land, states) | land.beside_centre(place)
+                | near_separatrix(land, place, w, margins, share))
     doubtful |= on_top(land, place)
     values = np.full((len(states), 3, 2), np.nan)
     for label, extremes in ((Fate.BOUNDED, _rotating), (Fate.SPIN_UP, SPINNING[land.e])):
@@ -68,13 +77,15 @@ def open_extremes(land: Landscape, states, labels, margins):
 
 
 def rotation_periods(land: Landscape, states, margins):
-    """Periods (n,) of motions without torque over all barriers of a circle; NaN where these are left to balls."""
+    """Periods (n,) of motions without torque over all barriers of a circle; NaN where these are left to
+    balls."""
     place, w, _ = land.start(states)
     values = np.full(len(states), np.nan)
     doubtful = needs_digits(land, states) | near_separatrix(land, place, w, margins, PERIOD_SHARE)
     live, before, nodes = np.nonzero(~doubtful)[0], np.full(np.count_nonzero(~doubtful), np.nan), 16
     force = land.potential.force(place)
-    while live.size and nodes <= MOST_NODES:  # the integrand is periodic: the plain sum converges geometrically
+    # the integrand is periodic: the plain sum converges geometrically
+    while live.size and nodes <= MOST_NODES:
         now, one = np.zeros(len(live)), tuple(v[live] for v in place)
         for angle in np.arange(nodes) * (TURN / nodes):
             with np.errstate(all="ignore"):
@@ -108,11 +119,13 @@ def _rotating(land, place, w):
 def _spinning_round(land, place, w):
     """Over the future of a spin-up, W -> +inf, on a circle: all of it, from the slowest rate on."""
     radius = np.hypot(*place)
-    return _components(land, (-radius, -radius), (radius, radius), _slowest_ahead(land, place, w), np.full(len(w), np.inf))
+    return _components(land, (-radius, -radius), (radius, radius), _slowest_ahead(land, place, w),
+                       np.full(len(w), np.inf))
 
 
 def _slowest_ahead(land, place, w):
-    """The least W over the future: over the barriers ahead, or on the way to the turning point behind if W < 0."""
+    """The least W over the future: over the barriers ahead, or on the way to the turning point behind if W <
+    0."""
     spots = spots_along(land, place, w)
     slowest = _over_barriers_ahead(spots, w)
     back = w < 0
@@ -145,11 +158,13 @@ def _fastest_behind(land, place, w):
 
 
 def _spinning_on_plane(land, place, w):
-    """On the decaying plane xi = 0: eta shrinks to 0. Balls tell the excursion back to a turning point behind."""
+    """On the decaying plane xi = 0: eta shrinks to 0. Balls tell the excursion back to a turning point
+    behind."""
     eta, zero = place[1], np.zeros(len(w))
     slowest = _over_barriers_ahead(spots_along(land, place, w), w)
     slowest[(w < 0) & (eta != 0)] = np.nan
-    return _components(land, (zero, np.minimum(eta, 0)), (zero, np.maximum(eta, 0)), slowest, np.full(len(w), np.inf))
+    return _components(land, (zero, np.minimum(eta, 0)), (zero, np.maximum(eta, 0)), slowest,
+                       np.full(len(w), np.inf))
 
 
 def _spinning_purely(land, place, w):

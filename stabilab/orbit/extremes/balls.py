@@ -1,5 +1,5 @@
-"""Extremes of one state in ball arithmetic: next to a separatrix, for minute orbits, for nearly equal moments, and
-wherever else doubles would lose digits. Every digit returned is certain."""
+"""Extremes of one state in ball arithmetic: next to a separatrix, for minute orbits, for nearly equal
+moments, and wherever else doubles would lose digits. Every digit returned is certain."""
 from __future__ import annotations
 
 from ...numbers.balls import FIRST_BITS, START_BITS, Unclear, sign, working
@@ -7,7 +7,8 @@ from ..one_orbit import TIE_BITS, Orbit
 from ..result import Fate
 
 CERTAIN_BITS = 56  # the balls of the extremes are this much narrower than the component is large
-# A root's ball in units of the height's over the slope: y is exact, so its height may be much narrower than its neighbours'.
+# A root's ball in units of the height's over the slope: y is exact, so its height may be much narrower than
+# its neighbours'.
 WIDER = 4, 64, 4096
 STEPS = 128  # of Newton's method, after which a bracket's ends count by their powers of two
 MOST_BITS = 1 << 13  # a component that is still not settled is zero to this precision
@@ -16,12 +17,13 @@ MOST_BITS = 1 << 13  # a component that is still not settled is zero to this pre
 def precise_extremes(orbit: Orbit, label: int):
     """(3, 2) array of one state with the given `Fate` label, in the scene's variables."""
     import numpy as np
-    return np.array([[float(v if isinstance(v, float) else v.mid()) for v in pair] for pair in extreme_balls(orbit, label)])
+    return np.array([[float(v if isinstance(v, float) else v.mid()) for v in pair]
+                     for pair in extreme_balls(orbit, label)])
 
 
 def extreme_balls(orbit: Orbit, label: int, certain: int = CERTAIN_BITS):
-    """[(least, greatest)] of the three components as balls, 2^-certain of the component's size wide at most; floats
-    (infinite) where unbounded."""
+    """[(least, greatest)] of the three components as balls, 2^-certain of the component's size wide at most;
+    floats (infinite) where unbounded."""
     if label == Fate.EQUILIBRIUM:
         with working(START_BITS) as numbers:
             return [(numbers.ball(v), numbers.ball(v)) for v in orbit.state]
@@ -42,7 +44,8 @@ def turning_points(orbit):
 def turning_point(orbit, side, tie=False):
     """Offset of the turning point on one side (-1, +1); None where every barrier of a circle is lower.
 
-    tie: the motion is on the separatrix, so that a barrier that cannot be told from the energy is where it ends.
+    tie: the motion is on the separatrix, so that a barrier that cannot be told from the energy is where it
+    ends.
     """
     zero = orbit.energy * 0
     if orbit.energy.is_zero() and (orbit.force_here > 0) - (orbit.force_here < 0) == -side * orbit.flip:
@@ -66,9 +69,11 @@ def _spots_towards(orbit, side):
 
 
 def solve(orbit, inner, outer):
-    """The offset between inner (potential below the energy) and outer (above) where they are equal, as a ball.
+    """The offset between inner (potential below the energy) and outer (above) where they are equal, as a
+    ball.
 
-    Newton's method held in a bracket on the middles of the balls; the ball that is returned has a change of sign.
+    Newton's method held in a bracket on the middles of the balls; the ball that is returned has a change of
+    sign.
     """
     balls = orbit.numbers
     lo, hi = inner.mid(), outer.mid()
@@ -87,7 +92,8 @@ def solve(orbit, inner, outer):
         far = _between_scales(lo, hi, step - STEPS) if step >= STEPS else None
         if far is not None:
             new = far
-        elif new is None or not (lo < new < hi or hi < new < lo) or (last is not None and 2 * abs(new - y) > last):
+        elif new is None or not (lo < new < hi or hi < new < lo) or (last is not None
+                                                                     and 2 * abs(new - y) > last):
             new = ((lo + hi) / 2).mid()
         last = abs(new - y).mid()
         if new == y:
@@ -102,19 +108,22 @@ def solve(orbit, inner, outer):
     reach = balls.upper(over) / balls.lower(slope)
     for times in WIDER:
         width = balls.upper(times * reach)
-        below, above = orbit.height(y - side * width) - orbit.energy, orbit.height(y + side * width) - orbit.energy
+        below, above = orbit.height(y - side
+                                    * width) - orbit.energy, orbit.height(y + side * width) - orbit.energy
         if below < 0 and above > 0:
             return balls.around(y, width)
     raise Unclear
 
 
 def _between_scales(lo, hi, times):
-    """A point of a bracket that many steps have not narrowed, where the root may be any number of powers of two nearer to zero than an end:
-    next to a double root Newton's method gains one a step, as halving does. None where the ends are of one size."""
+    """A point of a bracket that many steps have not narrowed, where the root may be any number of powers of
+    two nearer to zero than an end: next to a double root Newton's method gains one a step, as halving does.
+    None where the ends are of one size."""
     if lo.is_zero() or hi.is_zero():
         return ((lo + hi) / (1 << (1 << min(times, 9)))).mid()
     within = (abs(lo).sqrt() * abs(hi).sqrt()).mid() * (1 if hi > 0 else -1)
-    return within if 2 * abs(lo) < abs(within) < abs(hi) / 2 or 2 * abs(hi) < abs(within) < abs(lo) / 2 else None
+    return (within if 2 * abs(lo) < abs(within) < abs(hi) / 2 or 2 * abs(hi) < abs(within) < abs(lo) / 2
+            else None)
 
 
 def _bounded(orbit):
@@ -129,8 +138,8 @@ def _between(orbit, left, right):
 
 
 def _asymptotic(orbit):
-    """A motion on the separatrix: it tends to an equilibrium (or, without torque, along an invariant plane to a
-    permanent rotation) straight away, or after one turn."""
+    """A motion on the separatrix: it tends to an equilibrium (or, without torque, along an invariant plane to
+    a permanent rotation) straight away, or after one turn."""
     towards = sign(orbit.w) or (1 if orbit.force_here * orbit.flip > 0 else -1)
     ahead = _asymptote(orbit, towards)
     if ahead is not None:
@@ -150,12 +159,14 @@ def _asymptotic(orbit):
     low, high = sorted((turn, end), key=lambda y: y.mid())
     there = (2 * _fastest(orbit, *sorted((orbit.energy * 0, turn), key=lambda y: y.mid()))).sqrt()
     back = (2 * _fastest(orbit, low, high).max(last)).sqrt()
-    rates = (-back, there) if towards > 0 else (-there, back)  # on the way to the turning point only what lies before it counts
+    # on the way to the turning point only what lies before it counts
+    rates = (-back, there) if towards > 0 else (-there, back)
     return [low, high, *_tops_between(orbit, low, high), orbit.energy * 0], rates
 
 
 def _asymptote(orbit, side):
-    """(offset, W^2/2 there) of the equilibrium or plane's end that the motion would tend to on that side, or None."""
+    """(offset, W^2/2 there) of the equilibrium or plane's end that the motion would tend to on that side, or
+    None."""
     zero = orbit.energy * 0
     for spot in _spots_towards(orbit, side):
         over = orbit.height(spot.y) - orbit.energy

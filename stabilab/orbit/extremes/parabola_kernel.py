@@ -1,10 +1,12 @@
-"""Extremes and periods of many bounded orbits on parabolas (two equal moments), one row at a time, as straight lines of floats that numba compiles.
+"""Extremes and periods of many bounded orbits on parabolas (two equal moments), one row at a time, as
+straight lines of floats that numba compiles.
 
-Along a parabola the force is a cubic and E - V a quartic of the way y from the state, K(y) = w^2/2 + f0 y + f1 y^2/2 + f2 y^3/6 + f3 y^4/24. Where f3 < 0
-walls stand on both sides: the roots of the cubic are one well, or two with a barrier between them, and K falls or rises between them throughout. Of a
-sphere the force is linear, with one well. With
-K = (y - l)(r - y) H the period is sqrt(2) int dphi/sqrt(H) over half a circle, H a quadratic, which tan(phi/2) makes an arithmetic-geometric mean.
-What doubles cannot settle is marked and left to balls. Every function is plain Python too. All in one file: numba's cache on disk watches no other.
+Along a parabola the force is a cubic and E - V a quartic of the way y from the state, K(y) = w^2/2 + f0 y +
+f1 y^2/2 + f2 y^3/6 + f3 y^4/24. Where f3 < 0 walls stand on both sides: the roots of the cubic are one well,
+or two with a barrier between them, and K falls or rises between them throughout. Of a sphere the force is
+linear, with one well. With K = (y - l)(r - y) H the period is sqrt(2) int dphi/sqrt(H) over half a circle, H
+a quadratic, which tan(phi/2) makes an arithmetic-geometric mean. What doubles cannot settle is marked and
+left to balls. Every function is plain Python too. All in one file: numba's cache on disk watches no other.
 """
 from __future__ import annotations
 
@@ -16,11 +18,13 @@ BOX, PERIOD = 1, 2  # bits: wanted, and left open
 DIGITS, PERIOD_DIGITS = 1e-12, 1e-11  # promised, relative
 ROUNDED = 8.0  # roundings of a coefficient, by the size of its terms
 TWOFOLD = 2.0**-96  # roundings of a sum of twofold numbers, by the size of its terms
-CLEAR = 64.0  # times its error: so far a height is from the energy, and a force from zero, where the side is certain
+# times its error: so far a height is from the energy, and a force from zero, where the side is certain
+CLEAR = 64.0
 BESIDE = 1e-8  # of the two terms of the discriminant: nearer to a fold balls say which equilibria there are
 SPLITTER, SIXTH = 134217729.0, (0.16666666666666666, 9.25185853854297e-18)
 POLISH, STEPS, DOUBLINGS = 3, 80, 1100
-# steps of Newton's method at an equilibrium and in twofold numbers; at an end, most of them; doublings of a way towards a wall
+# steps of Newton's method at an equilibrium and in twofold numbers; at an end, most of them; doublings of a
+# way towards a wall
 MEANS = 8  # of the arithmetic-geometric mean, which doubles its digits with each
 
 
@@ -62,14 +66,18 @@ def scaled(a, factor):
 
 def speeds(u, v, fine):
     """(a, b, p b, q a), twofold: at the way y the place is (u + a y + p b y^2/2, v + b y + q a y^2/2)."""
-    p, p0, q, q0 = (fine[0, 0], fine[0, 1]), (fine[1, 0], fine[1, 1]), (fine[2, 0], fine[2, 1]), (fine[3, 0], fine[3, 1])
+    p, p0, q, q0 = (fine[0, 0], fine[0, 1]), (fine[1, 0],
+                                              fine[1, 1]), (fine[2, 0], fine[2, 1]), (fine[3, 0], fine[3, 1])
     a, b = add(scaled(p, v), p0), add(scaled(q, u), q0)
     return a, b, times(p, b), times(q, a)
 
 
 def coefficients(u, v, w, a, b, pb, qa, fine):
-    """Those of K, lowest power first, twofold; u, v: doubles of the place, w: the twofold rate, fine: as of `rows`."""
-    kappa, rho, sigma, m = (fine[4, 0], fine[4, 1]), (fine[5, 0], fine[5, 1]), (fine[6, 0], fine[6, 1]), (fine[7, 0], fine[7, 1])
+    """Those of K, lowest power first, twofold; u, v: doubles of the place, w: the twofold rate, fine: as of
+    `rows`."""
+    kappa, rho, sigma, m = (fine[4, 0],
+                            fine[4, 1]), (fine[5, 0],
+                                          fine[5, 1]), (fine[6, 0], fine[6, 1]), (fine[7, 0], fine[7, 1])
     f0 = add(add(scaled(scaled(kappa, u), v), scaled(rho, v)), add(scaled(sigma, u), m))
     f1 = add(times(kappa, add(scaled(a, v), scaled(b, u))), add(times(rho, b), times(sigma, a)))
     bent = add(scaled(times(a, b), 2.0), add(scaled(pb, v), scaled(qa, u)))
@@ -117,7 +125,8 @@ def bend(y, f1, f2, f3):
 
 
 def equilibria(f0, f1, f2, f3, spots):
-    """(how many, whether that is certain); their ways in ascending order in `spots` (3,): a well, or a well, a barrier and a well."""
+    """(how many, whether that is certain); their ways in ascending order in `spots` (3,): a well, or a well,
+    a barrier and a well."""
     if f3 == 0:
         spots[0] = -f0 / f1
         return 1, True
@@ -131,7 +140,8 @@ def equilibria(f0, f1, f2, f3, spots):
     share = 3 * abs(q) / (abs(p) * size)
     if p < 0 and share < 1:
         angle = acos(share if q < 0 else -share) / 3
-        spots[0], spots[1], spots[2] = size * cos(angle + 2 * pi / 3), size * cos(angle - 2 * pi / 3), size * cos(angle)
+        spots[0], spots[1], spots[2] = size * cos(angle + 2 * pi
+                                                  / 3), size * cos(angle - 2 * pi / 3), size * cos(angle)
         count = 3
     else:
         t = size * (cosh(acosh(share) / 3) if p < 0 else sinh(asinh(share) / 3))
@@ -148,7 +158,8 @@ def equilibria(f0, f1, f2, f3, spots):
 
 
 def crossing(inner, outer, k0, f0, f1, f2, f3):
-    """The way between `inner`, where K is not negative, and `outer`, where it is, at which it vanishes; K falls from the one to the other."""
+    """The way between `inner`, where K is not negative, and `outer`, where it is, at which it vanishes; K
+    falls from the one to the other."""
     slope, at = abs(bend(inner, f1, f2, f3)), quartic(inner, k0, f0, f1, f2, f3)
     guess = sqrt(2 * max(at, 0.0) / slope) if slope > 0 else INFINITY
     y = inner + (guess if outer > inner else -guess)
@@ -170,7 +181,8 @@ def crossing(inner, outer, k0, f0, f1, f2, f3):
 
 
 def end(side, k0, f0, f1, f2, f3, count, spots, overs, hazes):
-    """(turning point on a side, how certain: E - V over a barrier on the way against its error, the least of them)."""
+    """(turning point on a side, how certain: E - V over a barrier on the way against its error, the least of
+    them)."""
     inner, least = 0.0, INFINITY
     for n in range(count):
         spot = n if side > 0 else count - 1 - n
@@ -226,7 +238,8 @@ def mean(x, y):
 
 
 def period_of(left, right, f3, blurs, pulls, forces):
-    """(period, what it is off by, relative), given the errors of both ends, the forces inwards there and their errors."""
+    """(period, what it is off by, relative), given the errors of both ends, the forces inwards there and
+    their errors."""
     rho = 0.5 * (right - left)
     at_left, at_right = pulls
     if not (at_left > 0 and at_right > 0 and rho > 0):
@@ -244,11 +257,11 @@ def period_of(left, right, f3, blurs, pulls, forces):
 
 
 def rows(states, open_rows, axes, fine, spots, overs, hazes, boxes, periods, left_open):
-    """Fill boxes (n, 3, 2) and periods (n,) of the open rows of states (n, 3), as far as their bits in left_open (n,) ask;
-    the bits of what is settled go.
+    """Fill boxes (n, 3, 2) and periods (n,) of the open rows of states (n, 3), as far as their bits in
+    left_open (n,) ask; the bits of what is settled go.
 
-    fine: high and low parts of p, p0, q, q0, kappa, rho, sigma, m of the reduction and of its shift s of the third component; spots, overs, hazes: room for
-    three.
+    fine: high and low parts of p, p0, q, q0, kappa, rho, sigma, m of the reduction and of its shift s of the
+    third component; spots, overs, hazes: room for three.
     """
     j, k, i = axes
     p, p0, q, q0, kappa, rho, sigma, m, shift = fine[:, 0]
@@ -263,9 +276,11 @@ def rows(states, open_rows, axes, fine, spots, overs, hazes, boxes, periods, lef
         a_size, b_size = abs(p * v) + abs(p0), abs(q * u) + abs(q0)
         t0 = abs(kappa * u * v) + abs(rho * v) + abs(sigma * u) + abs(m)
         t1 = abs(kappa) * (a_size * abs(v) + abs(u) * b_size) + abs(rho) * b_size + abs(sigma) * a_size
-        t2 = abs(kappa) * (2 * a_size * b_size + abs(p * v) * b_size + abs(u * q) * a_size) + abs(rho * q) * a_size + abs(sigma * p) * b_size
+        t2 = (abs(kappa) * (2 * a_size * b_size + abs(p * v) * b_size + abs(u * q) * a_size)
+              + abs(rho * q) * a_size + abs(sigma * p) * b_size)
         t3 = 3 * abs(kappa) * (abs(q) * a_size * a_size + abs(p) * b_size * b_size)
-        # at the place of an equilibrium to rounding doubles do not tell on which side of it a state is, nor whether it is at rest
+        # at the place of an equilibrium to rounding doubles do not tell on which side of it a state is, nor
+        # whether it is at rest
         walled = f1 < -CLEAR * ROUNDED * EPS * t1 if t2 == 0 and t3 == 0 else f3 < -CLEAR * ROUNDED * EPS * t3
         if abs(f0) <= CLEAR * ROUNDED * EPS * t0 or not (walled and t3 < INFINITY and k0 < INFINITY):
             continue
@@ -300,7 +315,8 @@ def rows(states, open_rows, axes, fine, spots, overs, hazes, boxes, periods, lef
             low_u, high_u = swept(u, a, pb, left, right)
             low_v, high_v = swept(v, b, qa, left, right)
             low_w, high_w = min(states[row, i], -top - shift), max(states[row, i], top - shift)
-            good = (0.5 * fog / fastest + EPS) * top + EPS * abs(shift) <= DIGITS * max(abs(low_w), abs(high_w))
+            good = (0.5 * fog / fastest
+                    + EPS) * top + EPS * abs(shift) <= DIGITS * max(abs(low_w), abs(high_w))
             for side in range(2):
                 y, blur = (right, blurs[1]) if side else (left, blurs[0])
                 fast_u, fast_v = abs(a[0] + pb[0] * y), abs(b[0] + qa[0] * y)

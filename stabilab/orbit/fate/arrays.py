@@ -1,22 +1,25 @@
 """Fates of many states, NumPy.
 
-The fate of many torque-free motions: the margin of `free_gyrostat` in doubles, and in many digits where these are not enough.
+The fate of many torque-free motions: the margin of `free_gyrostat` in doubles, and in many digits where these
+are not enough.
 
-With the saddle omega* of speed s on the motion's momentum sphere the first-order terms drop out of the difference of their kinetic
-energies, and what is left has neither the large terms of the gyrostatic moment nor, to first order, the error of s:
+With the saddle omega* of speed s on the motion's momentum sphere the first-order terms drop out of the
+difference of their kinetic energies, and what is left has neither the large terms of the gyrostatic moment
+nor, to first order, the error of s:
 
     margin = sum D_i (D_i - s)/(2 s) (omega_i - omega*_i)^2,     omega*_i = lambda_i/(s - D_i).
 
-About a middle axis without a gyrostatic moment s = D_i, and that component drops out. Other saddles lie between the least and
-the greatest moment, on a branch on either side of the middle one, along which |H| runs one way; s is measured from the
-middle moment, so that its distance from the pole there keeps its digits.
+About a middle axis without a gyrostatic moment s = D_i, and that component drops out. Other saddles lie
+between the least and the greatest moment, on a branch on either side of the middle one, along which |H| runs
+one way; s is measured from the middle moment, so that its distance from the pole there keeps its digits.
 
 The fate of a state: bounded, spin-up, on the separatrix, at rest, or undecided; and its margin in energy.
 
-Decided by energy, never by running. On a circle (elliptic reduction) a motion is bounded iff a barrier at least as
-high as its energy stands ahead, in the direction of the torque, within one turn: one turn later the tilted potential
-has fallen. On a hyperbola or parabola the potential grows on both sides, so all motions are bounded but those on one
-of the invariant planes Q = 0. Inputs are taken as exact; what doubles cannot decide is decided in many digits.
+Decided by energy, never by running. On a circle (elliptic reduction) a motion is bounded iff a barrier at
+least as high as its energy stands ahead, in the direction of the torque, within one turn: one turn later the
+tilted potential has fallen. On a hyperbola or parabola the potential grows on both sides, so all motions are
+bounded but those on one of the invariant planes Q = 0. Inputs are taken as exact; what doubles cannot decide
+is decided in many digits.
 """
 from __future__ import annotations
 
@@ -44,13 +47,18 @@ from .table import barrier_table, label_by_table
 from .table_numba import compiled_loops
 
 SURE = 16  # times the estimate of rounding: so far from zero a margin's sign is certain
-OWN = 1e9  # times that estimate a margin exceeds it, or many digits are asked: so it keeps nine of its own, near a saddle too
-FREE_MARGIN_SHARE = 5e-13 / 4  # of both kinetic energies: the estimate counts single roundings, of which a margin may have four times as many
+# times that estimate a margin exceeds it, or many digits are asked: so it keeps nine of its own, near a
+# saddle too
+OWN = 1e9
+# of both kinetic energies: the estimate counts single roundings, of which a margin may have four times as
+# many
+FREE_MARGIN_SHARE = 5e-13 / 4
 LEAST = 1e-290  # smaller terms may have lost digits to underflow
 
 
 class Branch(NamedTuple):
-    """Saddles with s = middle + side r, 0 < r < end; |H| falls from `high` (inf at a pole) to `low` as r grows."""
+    """Saddles with s = middle + side r, 0 < r < end; |H| falls from `high` (inf at a pole) to `low` as r
+    grows."""
 
     side: int
     end: float
@@ -59,8 +67,9 @@ class Branch(NamedTuple):
 
 
 class Saddles(NamedTuple):
-    """The saddles of a scene: moments, gyrostatic moment and |H| over `unit`, the middle moment, its distance from each (3,), the
-    branches, and the least |H| of rotations about a middle axis without a gyrostatic moment (inf where there is no such axis)."""
+    """The saddles of a scene: moments, gyrostatic moment and |H| over `unit`, the middle moment, its distance
+    from each (3,), the branches, and the least |H| of rotations about a middle axis without a gyrostatic
+    moment (inf where there is no such axis)."""
 
     D: np.ndarray
     lam: np.ndarray
@@ -78,7 +87,8 @@ def saddles_of(scene) -> Saddles:
     largest = float(max(map(abs, lam)))
     unit = 2.0 ** min(int(np.frexp(largest)[1]), 1023) if largest else 1.0
     floats = lambda values: np.array([float(v) for v in values])
-    found = Saddles(floats(D), floats(lam) / unit, unit, float(middle), floats(middle - d for d in D), (), np.inf)
+    found = Saddles(floats(D), floats(lam) / unit, unit, float(middle), floats(middle - d for d in D), (),
+                    np.inf)
     with np.errstate(all="ignore"):
         if free_middle(D, lam):
             found = found._replace(least=float(_momentum(found, np.zeros(1))[0]))
@@ -109,7 +119,8 @@ def _branch(saddles, side) -> Branch | None:
     rising = lambda r: side * _fall(saddles, side * np.array([r]))[0] > 0
     if not reach > 0 or not saddles.lam.any() or not (pole or rising(0.0)):
         return None
-    end = reach if (saddles.lam[-side * saddles.gaps == reach] == 0).all() and rising(reach) else _fold(rising, reach)
+    end = (reach if (saddles.lam[-side * saddles.gaps == reach] == 0).all() and rising(reach)
+           else _fold(rising, reach))
     low, high = (float(_momentum(saddles, side * np.array([r]))[0]) for r in (end, 0.0))
     return Branch(side, end, low, np.inf if pole else high)
 
@@ -129,7 +140,8 @@ def _fold(rising, reach) -> float:
 
 
 def label_free(scene, states, out) -> int:
-    """Fill the columns of `out` for states (n, 3), as the labellers of `fate` do; returns how many were decided in many digits."""
+    """Fill the columns of `out` for states (n, 3), as the labellers of `fate` do; returns how many were
+    decided in many digits."""
     margins, doubtful = free_margins(scene, states)
     ties = np.zeros(len(states), bool)
     for index in np.nonzero(doubtful)[0]:
@@ -142,8 +154,9 @@ def label_free(scene, states, out) -> int:
 
 
 def free_margins(scene, states):
-    """(margins (n,) in J, doubtful (n,)) of states (n, 3): inf where the momentum sphere has no saddle; doubtful where rounding
-    may cost the sign, or a margin its twelve digits against the kinetic energies of the motion and of the saddle."""
+    """(margins (n,) in J, doubtful (n,)) of states (n, 3): inf where the momentum sphere has no saddle;
+    doubtful where rounding may cost the sign, or a margin its twelve digits against the kinetic energies of
+    the motion and of the saddle."""
     saddles = saddles_of(scene)
     with np.errstate(all="ignore"):
         omega = (states / saddles.unit).T
@@ -151,15 +164,19 @@ def free_margins(scene, states):
         size = np.sqrt((H * H).sum(axis=0))
         blur = 4 * EPS * (np.abs(saddles.D[:, None] * omega) + np.abs(saddles.lam[:, None])).sum(axis=0)
         energy = 0.5 * (saddles.D[:, None] * omega * omega).sum(axis=0)
-        best, rounding, doubtful = np.full(size.shape, np.inf), np.zeros(size.shape), ~np.isfinite(energy + size * size)
+        best, rounding, doubtful = np.full(size.shape,
+                                           np.inf), np.zeros(size.shape), ~np.isfinite(energy + size * size)
         for there, unsure, margin, error in _candidates(saddles, omega, size, blur):
             doubtful |= unsure | there & ~np.isfinite(margin + error)
-            doubtful |= there & (np.abs(np.abs(margin) - np.abs(best)) <= SURE * (error + rounding)) & (margin * best < 0)
+            doubtful |= (there & (np.abs(np.abs(margin) - np.abs(best)) <= SURE * (error + rounding))
+                         & (margin * best < 0))
             nearer = there & (np.abs(margin) < np.abs(best))
             best, rounding = np.where(nearer, margin, best), np.where(nearer, error, rounding)
-        known = np.isinf(best) | (np.abs(best) > OWN * rounding) & (rounding <= FREE_MARGIN_SHARE * (energy + np.abs(best + energy)))
+        known = (np.isinf(best) | (np.abs(best) > OWN * rounding)
+                 & (rounding <= FREE_MARGIN_SHARE * (energy + np.abs(best + energy))))
         margins = best * saddles.unit * saddles.unit
-        lost = np.isfinite(best) & (best != 0) & ~(np.isfinite(margins) & (margins != 0))  # in J, a margin that is no double
+        # in J, a margin that is no double
+        lost = np.isfinite(best) & (best != 0) & ~(np.isfinite(margins) & (margins != 0))
         return margins, doubtful | ~known | lost
 
 
@@ -171,15 +188,18 @@ def _candidates(saddles, omega, size, blur):
                *_margin(saddles, omega, np.zeros(size.shape), np.zeros(size.shape)))
     for branch in saddles.branches:
         there = (branch.low < size) & (size < branch.high)
-        unsure = np.minimum(np.abs(size - branch.low), np.abs(size - branch.high)) <= SURE * blur + SURE * EPS * size
+        unsure = (np.minimum(np.abs(size - branch.low), np.abs(size - branch.high)) <= SURE * blur
+                  + SURE * EPS * size)
         margin, error = np.full(size.shape, np.nan), np.zeros(size.shape)
         r = _solved(saddles, branch, size[there])
-        margin[there], error[there] = _margin(saddles, omega[:, there], branch.side * r, size[there] * (blur + EPS * size)[there])
+        margin[there], error[there] = _margin(saddles, omega[:, there], branch.side * r,
+                                              size[there] * (blur + EPS * size)[there])
         yield there, unsure, margin, error
 
 
 def _solved(saddles, branch, size):
-    """r (n,) on a branch where |H| is `size`: Newton's method in 1/|H|, which is nearly linear in r next to the pole."""
+    """r (n,) on a branch where |H| is `size`: Newton's method in 1/|H|, which is nearly linear in r next to
+    the pole."""
     pole = float(np.hypot.reduce(saddles.lam[saddles.gaps == 0])) if np.isinf(branch.high) else 0.0
     least = (saddles.middle - branch.end if branch.side < 0 else saddles.middle) * pole / size
 
@@ -188,7 +208,8 @@ def _solved(saddles, branch, size):
         here = _momentum(saddles, t)
         return 1 / here - 1 / size, branch.side * (saddles.middle + t) * _fall(saddles, t) / here**3
     low = np.minimum(0.99 * least, branch.end)
-    start = np.minimum(saddles.middle * pole / size, 0.5 * branch.end) if pole else np.full(size.shape, 0.5 * branch.end)
+    start = (np.minimum(saddles.middle * pole / size, 0.5 * branch.end) if pole
+             else np.full(size.shape, 0.5 * branch.end))
     return bracketed_newton(fun, low, np.full(size.shape, branch.end), np.maximum(start, low), (size,))
 
 
@@ -198,19 +219,23 @@ def _margin(saddles, omega, t, residue):
     s = saddles.middle + t
     share, way = saddles.D[:, None] * np.abs(gap) / (2 * s), omega - star
     loss = np.where(gap == 0, 0.0, (np.abs(t) + np.abs(saddles.gaps[:, None])) / np.abs(gap))
-    rounding = EPS * (share * np.abs(way) * ((2 + loss) * np.abs(way) + 2 * np.abs(omega) + (2 + 2 * loss) * np.abs(star))).sum(axis=0)
+    rounding = (EPS * (share * np.abs(way) * ((2 + loss) * np.abs(way) + 2 * np.abs(omega)
+                                              + (2 + 2 * loss) * np.abs(star))).sum(axis=0))
     bend = np.where(residue == 0, 0.0, residue**2 / (s**3 * np.abs(_fall(saddles, t))))
     return -(np.sign(gap) * share * way * way).sum(axis=0), rounding + bend + LEAST
 
 
-TABLE_FROM = 5000  # a table costs some ten milliseconds to build, as much as the general formula needs for these
+# a table costs some ten milliseconds to build, as much as the general formula needs for these
+TABLE_FROM = 5000
 
 
 def fates(scene, states, fast=None) -> FateResult:
-    """Fates and margins of states (n, 3) of a scene with an orbit, or of a free body: `answers.fate` for one shape.
+    """Fates and margins of states (n, 3) of a scene with an orbit, or of a free body: `answers.fate` for one
+    shape.
 
-    From `TABLE_FROM` states on the barriers come from the scene's table (`fast`: whether compiled), and what it leaves open
-    from the general formula. States whose squares may leave the range of doubles are decided one at a time, each in its own unit.
+    From `TABLE_FROM` states on the barriers come from the scene's table (`fast`: whether compiled), and what
+    it leaves open from the general formula. States whose squares may leave the range of doubles are decided
+    one at a time, each in its own unit.
     """
     reduction = reduce(scene)
     far = rows_beyond_doubles(scene, states) if reduction is not None else np.zeros(len(states), bool)
@@ -231,8 +256,8 @@ def fates(scene, states, fast=None) -> FateResult:
 def rows_beyond_doubles(scene, states):
     """Return (n,) booleans that mark which of the states (n, 3) have to be answered one at a time.
 
-    Those are states whose squares may leave the range of doubles; where the numbers of the scene's landscape may leave it, all states are. The
-    scene has a reduction.
+    Those are states whose squares may leave the range of doubles; where the numbers of the scene's landscape
+    may leave it, all states are. The scene has a reduction.
     """
     far = far_rows(scene, states)
     return far if far.all() or in_doubles(scene) else np.ones(len(states), bool)
@@ -251,7 +276,8 @@ def _ordinary(scene, states, fast) -> FateResult:
 
 
 def labeller(scene):
-    """Return the function that labels a chunk of states (n, 3). It fills the columns of `out` and returns how many states needed many digits."""
+    """Return the function that labels a chunk of states (n, 3). It fills the columns of `out` and returns how
+    many states needed many digits."""
     if is_free(scene):
         return _at_rest_too(scene, lambda states, out: label_free(scene, states, out))
     land = landscape(scene)
@@ -268,7 +294,8 @@ def _at_rest_too(scene, label):
 
 
 def at_rest(scene, states, out):
-    """Mark the states at which every rate of change vanishes exactly. Their margins are those of `margin_at_rest`."""
+    """Mark the states at which every rate of change vanishes exactly. Their margins are those of
+    `margin_at_rest`."""
     found = equilibrium_mask(scene, states)
     if found.any():
         out["labels"][found], out["reasons"][found] = Fate.EQUILIBRIUM, Reason.AT_REST
@@ -279,8 +306,8 @@ def at_rest(scene, states, out):
 def fate_on_orbit(scene, land, states) -> FateResult:
     """Return the fates of `fates`, with margins against the barriers of the reduction's own orbit.
 
-    The two margins differ only without a torque: there `fates` compares motions of equal momentum, while the reduction keeps another invariant.
-    The margin is 0 on an invariant plane, where no barrier stands.
+    The two margins differ only without a torque: there `fates` compares motions of equal momentum, while the
+    reduction keeps another invariant. The margin is 0 on an invariant plane, where no barrier stands.
     """
     found = fates(scene, states)
     if land.sense or not len(states):
@@ -290,7 +317,8 @@ def fate_on_orbit(scene, land, states) -> FateResult:
 
 
 def _settled_circle(land, states, place, w, size):
-    """Return the margins (n,) in canonical units, their signs (n,), and how many of the signs took many digits to decide."""
+    """Return the margins (n,) in canonical units, their signs (n,), and how many of the signs took many
+    digits to decide."""
     margins, doubtful = circle_margins(land, place, w, size)
     doubtful = np.nonzero(doubtful)[0]
     signs = np.sign(margins)
@@ -343,18 +371,23 @@ def circle_margins(land: Landscape, place, w, size):
             margin = height - energy
             # rounding of the angle adds less: where a barrier stands mu is below the other terms of the force
             scale = (pot.mu * offset + energy
-                     + (pull + np.abs(pot.G * spot[0] + pot.c)) * (rounding + np.abs(spot[0]) + np.abs(spot[1])))
+                     + (pull + np.abs(pot.G * spot[0] + pot.c))
+                     * (rounding + np.abs(spot[0]) + np.abs(spot[1])))
             there = ~np.isnan(offset)
-            # next to a fold the force hardly changes with the angle, so that its rounding moves the barrier far along the circle
-            angle_error = 32 * EPS * (1 + rounding / radius) * (1 + pot.terms(tuple(spot)) / np.abs(pot.slope(tuple(spot))))
+            # next to a fold the force hardly changes with the angle, so that its rounding moves the barrier
+            # far along the circle
+            angle_error = (32 * EPS * (1 + rounding / radius)
+                           * (1 + pot.terms(tuple(spot)) / np.abs(pot.slope(tuple(spot)))))
             # at a barrier rounding decides whether it stands ahead or behind, and then the next one counts
-            doubtful |= there & ((np.abs(margin) <= ROUNDINGS * EPS * scale) | (np.minimum(offset, TURN - offset) <= angle_error))
+            doubtful |= (there & ((np.abs(margin) <= ROUNDINGS * EPS * scale)
+                                  | (np.minimum(offset, TURN - offset) <= angle_error)))
             best = np.where(there & (margin > best), margin, best)
             vague = there & ~(unsure <= MARGIN_SHARE * (np.abs(height) + energy))
             blurred = np.where(vague & ~(margin + unsure <= blurred), margin + unsure, blurred)
         for edge in land.conic.fold_invariants + land.conic.tangents:
             doubtful |= np.abs(radius**2 - edge) <= ROUNDINGS * EPS * (rounding**2 + edge)
-    doubtful |= ~(blurred < best) & ~np.isneginf(blurred)  # a barrier of less digits than promised may be the highest
+    # a barrier of less digits than promised may be the highest
+    doubtful |= ~(blurred < best) & ~np.isneginf(blurred)
     return best, doubtful & (radius > 0)
 
 
@@ -372,7 +405,8 @@ def _label_hyperbola(land: Landscape, states, out) -> int:
 
 
 def _valley_margins(land, states, place, w, size):
-    """Return the margins to the barrier that is nearest in height, +inf where the orbit has none. Motions on either side of it are bounded."""
+    """Return the margins to the barrier that is nearest in height, +inf where the orbit has none. Motions on
+    either side of it are bounded."""
     n = len(w)
     margins, signs = np.full(n, np.inf), np.ones(n)
     if not land.may_have_barriers():
@@ -392,13 +426,15 @@ def _valley_margins(land, states, place, w, size):
             scale = energy + np.abs(rise) + force * np.abs(offset) + slope * offset**2 + land.roughness(size)
             doubtful |= nearer & (vague | (np.abs(margin) <= ROUNDINGS * EPS * scale))
             # rounding has led to another equilibrium than was sought, or tilts the way to it
-            doubtful |= barrier[:, column] & (~(pot.slope(spot) > 0) | _tilted(pot, spot, offset, -rise - energy, energy))
+            doubtful |= (barrier[:, column]
+                         & (~(pot.slope(spot) > 0) | _tilted(pot, spot, offset, -rise - energy, energy)))
         doubtful |= land.beside_fold(place) | land.beside_centre(place)
     signs = np.sign(margins)
     rows = np.nonzero(doubtful)[0]
     if rows.size:
         found, sure = valley_margins(land, states[rows], (offsets[rows], spots[:, rows], barrier[rows]))
-        margins[rows[sure]], signs[rows[sure]], doubtful[rows[sure]] = found[sure], np.sign(found[sure]), False
+        margins[rows[sure]], signs[rows[sure]], doubtful[rows[sure]] = found[sure], np.sign(
+            found[sure]), False
     for index in np.nonzero(doubtful)[0]:
         tie = decide(Orbit(land.reduction, states[index]))
         signs[index], margins[index] = (tie.sign, tie.margin) if np.isfinite(tie.margin) else (1, np.inf)
@@ -406,8 +442,10 @@ def _valley_margins(land, states, place, w, size):
 
 
 def _tilted(pot, spot, offset, margin, energy):
-    """(n,) True where the force that rounding leaves at an equilibrium costs a margin its twelve digits over the way to it."""
-    return 2 * EPS * pot.terms(tuple(spot)) * np.abs(offset) > MARGIN_SHARE * (np.abs(margin + energy) + energy)
+    """(n,) True where the force that rounding leaves at an equilibrium costs a margin its twelve digits over
+    the way to it."""
+    return (2 * EPS * pot.terms(tuple(spot)) * np.abs(offset) > MARGIN_SHARE
+            * (np.abs(margin + energy) + energy))
 
 
 def _label_plane(land, state, place, out, index):
@@ -449,7 +487,8 @@ def _label_parabola(land: Landscape, states, out) -> int:
 
 
 def flat_mask(land, states, place):
-    """(n,) True where the force does not change along the parabola at all (exactly): nothing holds the spin back."""
+    """(n,) True where the force does not change along the parabola at all (exactly): nothing holds the spin
+    back."""
     small = land.nearly_flat(states, place)
     for index in np.nonzero(small)[0]:
         small[index] = _is_flat(land.reduction, states[index])
@@ -461,13 +500,15 @@ def _is_flat(r, state) -> bool:
 
 
 class _Ways(NamedTuple):
-    """What a geometry has to say here: how a chunk of states is labelled, and what the margins of its orbits are."""
+    """What a geometry has to say here: how a chunk of states is labelled, and what the margins of its orbits
+    are."""
 
     label: Callable
     margins: Callable
 
 
-_WAYS = {-1: _Ways(_label_circle, _settled_circle), 1: _Ways(_label_hyperbola, _plane_margins), 0: _Ways(_label_parabola, _valley_margins)}
+_WAYS = {-1: _Ways(_label_circle, _settled_circle), 1: _Ways(_label_hyperbola, _plane_margins),
+         0: _Ways(_label_parabola, _valley_margins)}
 
 
 def _by_geometry(land) -> _Ways:

@@ -2,31 +2,35 @@
 
 Is a state exactly on the separatrix? Algebra says so where precision never could.
 
-With a torque and a circle or hyperbola the answer is no, but for the equilibrium itself, by Lindemann's theorem (proof:
-docs/mathematics/separatrix.md). Without a torque, and on a parabola, everything is a rational function of one root of a rational polynomial, and
-a greatest common divisor decides.
+With a torque and a circle or hyperbola the answer is no, but for the equilibrium itself, by Lindemann's
+theorem (proof: docs/mathematics/separatrix.md). Without a torque, and on a parabola, everything is a rational
+function of one root of a rational polynomial, and a greatest common divisor decides.
 
-Torque-free motion of a body, with a gyrostatic moment or without: the saddles on its momentum sphere, and the margin in energy.
+Torque-free motion of a body, with a gyrostatic moment or without: the saddles on its momentum sphere, and the
+margin in energy.
 
-H = s omega at a permanent rotation. Where no component of lambda vanishes omega_i = lambda_i/(s - D_i), and on the sphere |H| = h the
-speeds s are the roots of the sextic
+H = s omega at a permanent rotation. Where no component of lambda vanishes omega_i = lambda_i/(s - D_i), and
+on the sphere |H| = h the speeds s are the roots of the sextic
 
     P(s) = (h(s)^2 - h^2) prod (s - D_i)^2,     h(s)^2 = sum s^2 lambda_i^2/(s - D_i)^2;
 
-components that vanish, and the shared factors of equal moments, drop out of both products. A root is a saddle iff
-s P'(s) prod (s - D_i) > 0, at a multiple root with the sign of P beyond it; one of even multiplicity is a fold. Where lambda_i = 0 there
-are the rotations s = D_i as well; they are saddles iff D_i lies strictly between the other moments. A state lies on a separatrix iff its
-energy is a saddle's, which a greatest common divisor decides exactly. Proofs: docs/mathematics/separatrix.md.
+components that vanish, and the shared factors of equal moments, drop out of both products. A root is a saddle
+iff s P'(s) prod (s - D_i) > 0, at a multiple root with the sign of P beyond it; one of even multiplicity is a
+fold. Where lambda_i = 0 there are the rotations s = D_i as well; they are saddles iff D_i lies strictly
+between the other moments. A state lies on a separatrix iff its energy is a saddle's, which a greatest common
+divisor decides exactly. Proofs: docs/mathematics/separatrix.md.
 
-The margin is the nearest saddle's energy minus the motion's, at the same momentum: no choice of axes enters. It is positive where the motion
-has less energy than the saddle (without a wheel: turns about the major axis), and negative where it has more.
+The margin is the nearest saddle's energy minus the motion's, at the same momentum: no choice of axes enters.
+It is positive where the motion has less energy than the saddle (without a wheel: turns about the major axis),
+and negative where it has more.
 
 The fate of one state of a scene with a reduction, without arrays.
 
-The mechanics is that of `ball_orbit` (the orbit, its equilibria, its turning points); it is asked with 64 bits first
-and in many digits where these leave a question open. So a single state needs no NumPy,
-every answer is certain to at least twelve digits, and near a separatrix there is no second formula to disagree with.
-Answers are those of `fate`, `extremes` and `period` for arrays: the same labels and reasons, numbers to rounding.
+The mechanics is that of `ball_orbit` (the orbit, its equilibria, its turning points); it is asked with 64
+bits first and in many digits where these leave a question open. So a single state needs no NumPy,
+every answer is certain to at least twelve digits, and near a separatrix there is no second formula to
+disagree with. Answers are those of `fate`, `extremes` and `period` for arrays: the same labels and reasons,
+numbers to rounding.
 """
 from __future__ import annotations
 
@@ -36,7 +40,18 @@ from fractions import Fraction
 from math import isinf, nan
 from typing import NamedTuple
 
-from ...numbers.balls import DOUBLE_BITS, FIRST_BITS, START_BITS, Unclear, polynomial, rational, settled, shares_root, sign, working
+from ...numbers.balls import (
+    DOUBLE_BITS,
+    FIRST_BITS,
+    START_BITS,
+    Unclear,
+    polynomial,
+    rational,
+    settled,
+    shares_root,
+    sign,
+    working,
+)
 from ...numbers.polynomial import Poly
 from ...numbers.vectors import Number
 from ...physics.scene import rests
@@ -45,10 +60,11 @@ from ..result import Fate
 
 
 def exact_tie(orbit) -> bool:
-    """Whether each barrier that the balls of `orbit` (a BallOrbit) cannot tell from the energy equals it exactly.
+    """Whether each barrier that the balls of `orbit` (a BallOrbit) cannot tell from the energy equals it
+    exactly.
 
-    To be asked at the working precision at which the orbit was made; inputs are exact. False where a torque acts on a
-    circle or a hyperbola. A barrier whose ball is clear of the energy plays no part.
+    To be asked at the working precision at which the orbit was made; inputs are exact. False where a torque
+    acts on a circle or a hyperbola. A barrier whose ball is clear of the energy plays no part.
     """
     close = [s for s in orbit.barriers() if 0 in orbit.height(s.y) - orbit.energy]
     if not close:
@@ -66,8 +82,8 @@ def _ties_on_parabola(orbit, spot) -> bool:
 
 
 def _on_conic(orbit, spot) -> bool:
-    """Without torque V is a polynomial in U = omega_j + s_j and V = omega_k + s_k, and U a rational function of V (or the
-    equilibria lie on two lines); under a torque never."""
+    """Without torque V is a polynomial in U = omega_j + s_j and V = omega_k + s_k, and U a rational function
+    of V (or the equilibria lie on two lines); under a torque never."""
     r = orbit.r
     if r.sense:
         return False
@@ -78,24 +94,31 @@ def _on_conic(orbit, spot) -> bool:
     U, V = at_u + orbit.shift_j, at_v + orbit.shift_k
 
     def excess(u, v, one):
-        """Height minus energy, with u, v polynomials over the polynomial `one`, times its square; in units of w^2/(ap aq)."""
+        """Height minus energy, with u, v polynomials over the polynomial `one`, times its square; in units of
+        w^2/(ap aq)."""
         q = rational
-        rise = q(-sp * aq * r.kappa / 2) * (u * u - q(u0 * u0) * one * one) - q(sp * aq * rho) * (u * one - q(u0) * one * one)
-        return rise - q(Fraction(r.e) * sp * ap * sigma) * (v * one - q(v0) * one * one) - q(ap * aq * speed * speed / 2) * one * one
+        rise = (q(-sp * aq * r.kappa / 2) * (u * u - q(u0 * u0) * one * one)
+                - q(sp * aq * rho) * (u * one - q(u0) * one * one))
+        return (rise - q(Fraction(r.e) * sp * ap * sigma) * (v * one - q(v0) * one * one)
+                - q(ap * aq * speed * speed / 2) * one * one)
 
     x, one = polynomial(0, 1), polynomial(1)
     if r.kappa and r.kappa * m == rho * sigma:
         line_v, line_u = -sigma / r.kappa, -rho / r.kappa
-        if V.contains(rational(line_v)) and shares_root(polynomial(line_v**2 / aq - orbit.Q, 0, Fraction(-r.e) / ap), excess(x, polynomial(line_v), one), U):
+        if V.contains(rational(line_v)) and shares_root(polynomial(line_v**2 / aq - orbit.Q, 0,
+                                                                   Fraction(-r.e) / ap),
+                                                        excess(x, polynomial(line_v), one), U):
             return True
         return U.contains(rational(line_u)) and shares_root(
             polynomial(-orbit.Q - r.e * line_u**2 / ap, 0, 1 / aq), excess(polynomial(line_u), x, one), V)
     if r.kappa or sigma:
         top, bottom = polynomial(m, rho), polynomial(sigma, r.kappa)
-        equation = polynomial(-orbit.Q, 0, 1 / aq) * bottom * bottom - rational(Fraction(r.e) / ap) * top * top
+        equation = (polynomial(-orbit.Q, 0, 1 / aq) * bottom * bottom
+                    - rational(Fraction(r.e) / ap) * top * top)
         return shares_root(equation, excess(-top, x * bottom, bottom), V)
     line_v = -m / rho
-    return shares_root(polynomial(line_v**2 / aq - orbit.Q, 0, Fraction(-r.e) / ap), excess(x, polynomial(line_v), one), U)
+    return shares_root(polynomial(line_v**2 / aq - orbit.Q, 0, Fraction(-r.e) / ap),
+                       excess(x, polynomial(line_v), one), U)
 
 
 # --- The sign of the margin of one state is decided in balls, with as many digits as that takes
@@ -112,7 +135,8 @@ class Tie(NamedTuple):
 
 
 def decide(orbit: Orbit, bits: int = START_BITS) -> Tie:
-    """Sign of the margin of one state, doubling the bits until it is clear; sign -1 with margin -inf: no barrier.
+    """Sign of the margin of one state, doubling the bits until it is clear; sign -1 with margin -inf: no
+    barrier.
 
     bits: at first. The margin comes with at least twelve digits, whatever bits settle its sign.
 
@@ -131,7 +155,8 @@ def decide(orbit: Orbit, bits: int = START_BITS) -> Tie:
 
 
 def _ties(orbit, margin) -> bool:
-    """Whether a margin that cannot be told from zero is zero; where algebra denies it, the most bits settle the matter."""
+    """Whether a margin that cannot be told from zero is zero; where algebra denies it, the most bits settle
+    the matter."""
     if not any(0 in m for m in orbit.margins_to_tie(margin)):
         return False
     if orbit.numbers.bits < EXACT_BITS:
@@ -140,8 +165,8 @@ def _ties(orbit, margin) -> bool:
 
 
 def precise_margin(orbit: Orbit, digits: int):
-    """The margin of one state to `digits` decimal digits, as a ball in the scene's energy; None where there is no barrier,
-    and on the separatrix, where no digit of it is known but that all vanish."""
+    """The margin of one state to `digits` decimal digits, as a ball in the scene's energy; None where there
+    is no barrier, and on the separatrix, where no digit of it is known but that all vanish."""
     unit = orbit.reduction.exact_energy_unit
 
     def question(orbit):
@@ -159,7 +184,8 @@ def precise_margin(orbit: Orbit, digits: int):
 def on_separatrix(orbit) -> bool:
     """Whether the motion rests at a saddle or a fold, or tends to one; False where that is not decided.
 
-    Under a torque along circles and hyperbolas no state in rational numbers tends to a saddle (Lindemann's theorem, docs/mathematics/separatrix.md).
+    Under a torque along circles and hyperbolas no state in rational numbers tends to a saddle (Lindemann's
+    theorem, docs/mathematics/separatrix.md).
     """
     r = orbit.reduction
     u, v, speed = (Fraction(orbit.state[axis]) for axis in (r.j, r.k, r.axis))
@@ -174,19 +200,22 @@ def on_separatrix(orbit) -> bool:
 
 
 def _force(r, u, v):
-    """The rate of omega_i over its factor at components u, v, and its first three derivatives along the orbit, exactly."""
+    """The rate of omega_i over its factor at components u, v, and its first three derivatives along the
+    orbit, exactly."""
     along = [(u, v)]
     for n in range(3):
         a, b = along[-1]
         along.append((r.p * b + (0 if n else r.p0), r.q * a + (0 if n else r.q0)))
     (u, v), (u1, v1), (u2, v2), (u3, v3) = along
-    return (r.kappa * u * v + r.rho * v + r.sigma * u + r.m, r.kappa * (u1 * v + u * v1) + r.rho * v1 + r.sigma * u1,
+    return (r.kappa * u * v + r.rho * v + r.sigma * u + r.m,
+            r.kappa * (u1 * v + u * v1) + r.rho * v1 + r.sigma * u1,
             r.kappa * (u2 * v + 2 * u1 * v1 + u * v2) + r.rho * v2 + r.sigma * u2,
             r.kappa * (u3 * v + 3 * u2 * v1 + 3 * u1 * v2 + u * v3) + r.rho * v3 + r.sigma * u3)
 
 
 def _saddle(first, second, third) -> bool:
-    """Whether a place without force is a maximum of the potential or a fold, where a branch of maxima ends."""
+    """Whether a place without force is a maximum of the potential or a fold, where a branch of maxima ends.
+    """
     return first > 0 or first == 0 and (second != 0 or third > 0)
 
 
@@ -195,19 +224,21 @@ FREE_SHARE = 1e-12  # of the margin: with less certainty 64 bits do not settle i
 
 
 def is_free(scene) -> bool:
-    """Whether a scene is a body with its moments and no torque; scaled variables have no moments, and no sphere."""
+    """Whether a scene is a body with its moments and no torque; scaled variables have no moments, and no
+    sphere."""
     return scene.variables == "physical" and not any(scene.vector("constant_torque"))
 
 
 def free_middle(D, lam) -> Fraction | None:
-    """The moment strictly between the other two, where the gyrostatic moment has no component about it; else None."""
+    """The moment strictly between the other two, where the gyrostatic moment has no component about it; else
+    None."""
     middle = sorted(D)[1]
     return middle if D.count(middle) == 1 and not lam[D.index(middle)] else None
 
 
 class FreeMargin(NamedTuple):
-    """Energy of the saddle nearest in energy on the momentum sphere, minus the state's; of two as near the one above. ball: None
-    where the sphere has no saddle; tie: the two are equal, by algebra."""
+    """Energy of the saddle nearest in energy on the momentum sphere, minus the state's; of two as near the
+    one above. ball: None where the sphere has no saddle; tie: the two are equal, by algebra."""
 
     ball: Number
     tie: bool
@@ -262,7 +293,8 @@ def _nearest(excesses, bits):
 
 
 class _Momenta:
-    """The momentum sphere of one state: moments D, squares w of the gyrostatic moment about each different moment, h^2 and energy."""
+    """The momentum sphere of one state: moments D, squares w of the gyrostatic moment about each different
+    moment, h^2 and energy."""
 
     def __init__(self, scene, state):
         self.D, lam = scene.body.exact, scene.vector("gyrostat")
@@ -277,7 +309,8 @@ class _Momenta:
         self.sphere = self._numerator(self.w, Poly((0, 0, 1)), self.squared)
 
     def _numerator(self, weights, top, value) -> Poly:
-        """sum weights_d top/(s - d)^2 - value, times prod (s - d)^2 over the moments d with a gyrostatic moment."""
+        """sum weights_d top/(s - d)^2 - value, times prod (s - d)^2 over the moments d with a gyrostatic
+        moment."""
         square = {d: Poly((d * d, -2 * d, 1)) for d in self.w}
         whole = Poly((-value,))
         for d in square:
@@ -298,7 +331,8 @@ class _Momenta:
         return found if middle is None else [*found, (numbers.ball(middle), lambda: middle == self.energy)]
 
     def _about_middle(self) -> Fraction | None:
-        """Energy of the rotations s = D_i about a middle axis without a gyrostatic moment; None where the sphere has none."""
+        """Energy of the rotations s = D_i about a middle axis without a gyrostatic moment; None where the
+        sphere has none."""
         middle = self.middle
         if middle is None or not self.squared:
             return None
@@ -360,21 +394,29 @@ class Reason(IntEnum):
 
 
 REASONS = {
-    Reason.BELOW_BARRIER: "the energy is below the barrier of the reduced potential that stands ahead of it in the direction of the torque",
-    Reason.ABOVE_BARRIER: "the energy exceeds every barrier of the reduced potential within one turn ahead, and each later turn is lower still",
-    Reason.NO_BARRIER: "the orbit's circle carries no equilibrium, so the reduced potential falls all the way in the direction of the torque",
+    Reason.BELOW_BARRIER: "the energy is below the barrier of the reduced potential that stands ahead of it "
+                          "in the direction of the torque",
+    Reason.ABOVE_BARRIER: "the energy exceeds every barrier of the reduced potential within one turn ahead, "
+                          "and each later turn is lower still",
+    Reason.NO_BARRIER: "the orbit's circle carries no equilibrium, so the reduced potential falls all the "
+                       "way in the direction of the torque",
     Reason.WALLS: "the reduced potential grows without bound on both sides of the motion",
     Reason.PLANE_CAPTURED: "on the invariant plane Q = 0, below the barrier that stands ahead",
-    Reason.PLANE_ESCAPES: "on the invariant plane Q = 0 that decays in the direction of the torque, above any barrier: a set of measure zero",
-    Reason.PURE_SPIN: "pure spin about the torque's axis: the other two rates stay where the torque does not see them",
+    Reason.PLANE_ESCAPES: "on the invariant plane Q = 0 that decays in the direction of the torque, above "
+                          "any barrier: a set of measure zero",
+    Reason.PURE_SPIN: "pure spin about the torque's axis: the other two rates stay where the torque does not "
+                      "see them",
     Reason.TIE: "the energy equals the barrier's: the motion tends to the saddle equilibrium",
     Reason.AT_REST: "every rate vanishes at the state, exactly",
     Reason.TORQUE_FREE: "no torque: the kinetic energy is constant, and it is positive definite",
     Reason.UNBOUNDED_LAW: "|H|^2/2 - D_i T grows steadily at the rate lambda_i M_i: no motion is bounded",
-    Reason.OFF_AXIS: "the torque is off the principal axes, where no integral of motion is known, and no certificate of spin-up was met",
-    Reason.TURN_ROUNDS: "the energy is within 1e-36 of a barrier's, and the turn that puts the torque on an axis has irrational numbers, "
+    Reason.OFF_AXIS: "the torque is off the principal axes, where no integral of motion is known, and no "
+                     "certificate of spin-up was met",
+    Reason.TURN_ROUNDS: "the energy is within 1e-36 of a barrier's, and the turn that puts the torque on an "
+                        "axis has irrational numbers, "
                         "carried to 240 bits",
-    Reason.CERTIFIED: "the torque is off the principal axes, and the motion meets an inequality that stays true for ever",
+    Reason.CERTIFIED: "the torque is off the principal axes, and the motion meets an inequality that stays "
+                      "true for ever",
     Reason.CLOSED_FORM: "the torque is off the principal axes, and equal moments leave a closed solution",
 }
 
@@ -382,7 +424,8 @@ REASONS = {
 def margin_at_rest(scene, margin: float) -> float:
     """The margin of an equilibrium from the barriers that `margin` knows, those beyond the state itself.
 
-    Where these are lower and a torque acts, its neighbours on one side are released and it is not: it lies on the separatrix.
+    Where these are lower and a torque acts, its neighbours on one side are released and it is not: it lies on
+    the separatrix.
     """
     return max(margin, 0.0) if any(scene.quadratic().m) else margin
 
@@ -414,7 +457,8 @@ def fate_of(scene, orbit: Orbit, near: Orbit | None = None) -> OneFate:
         found = free_fate(scene, state)
     else:
         found = {-1: _on_circle, 1: _on_hyperbola, 0: _on_parabola}[reduction.e](near or orbit)
-        lost = found.margin == 0 and found.label != Fate.SEPARATRIX  # its sign is known, and it is too small for a double
+        # its sign is known, and it is too small for a double
+        lost = found.margin == 0 and found.label != Fate.SEPARATRIX
         found = found._replace(margin=math.nan if lost else found.margin * reduction.energy_unit)
     return at_rest(scene, found) if rests(scene.quadratic(), state) else found
 
@@ -476,7 +520,8 @@ def _on_hyperbola(orbit) -> OneFate:
     if u == 0:
         return _spin_up(r, Reason.PURE_SPIN, -INF)
     if (u > 0) == (v > 0) and r.sense * r.p > 0 or (u > 0) != (v > 0) and r.sense * r.p < 0:
-        return OneFate(Fate.BOUNDED, Reason.WALLS, INF)  # eta = 0: it grows ahead, and the torque's tilt rises behind
+        # eta = 0: it grows ahead, and the torque's tilt rises behind
+        return OneFate(Fate.BOUNDED, Reason.WALLS, INF)
     tie = decide(orbit, FIRST_BITS)
     if tie.sign > 0:
         return OneFate(Fate.BOUNDED, Reason.PLANE_CAPTURED, tie.margin)
@@ -497,7 +542,8 @@ def as_double(value: Fraction) -> float:
 
 
 def scaled_double(value, k: int) -> float:
-    """The double nearest to 2^k times a ball or float; its own double may have underflowed in the other unit."""
+    """The double nearest to 2^k times a ball or float; its own double may have underflowed in the other unit.
+    """
     if not k or isinstance(value, float):
         return float(value)
     middle = float(value)

@@ -2,12 +2,13 @@
 
 Tables of the barriers' heights over the orbit's invariant, on which alone they depend (built once per scene).
 
-A barrier's place and height are analytic in u = sqrt|size - fold|, size the radius A of a circle or the invariant Q of a
-hyperbola, and, where its branch of equilibria runs to infinity, in v = u/(u + width) up to v = 1. Cells of equal length
-in v hold polynomials through Chebyshev points; each cell is checked between its points against the general formula, and
-one that misses by more than `LOSS` units of rounding of the potential's terms is left out: states in it, like all that
-are near a tie, a fold or an equilibrium, are answered by the general formula. On hyperbolas a cell knows the barrier's place
-too, from which twofold numbers answer what its height leaves open.
+A barrier's place and height are analytic in u = sqrt|size - fold|, size the radius A of a circle or the
+invariant Q of a hyperbola, and, where its branch of equilibria runs to infinity, in v = u/(u + width) up to v
+= 1. Cells of equal length in v hold polynomials through Chebyshev points; each cell is checked between its
+points against the general formula, and one that misses by more than `LOSS` units of rounding of the
+potential's terms is left out: states in it, like all that are near a tie, a fold or an equilibrium, are
+answered by the general formula. On hyperbolas a cell knows the barrier's place too, from which twofold
+numbers answer what its height leaves open.
 """
 from __future__ import annotations
 
@@ -26,9 +27,13 @@ from .table_kernel import ANGLE, BEND, BULK, DEGREE, GROWTH, HIGH, LEAD, LOW, OR
 
 CELLS = (512, 2048, 8192)  # tried in turn
 FAR_ASYMPTOTES = 100  # times the fold's radius
-GAPS = 0.01, 0.02, 1.0  # share of cells that may be left out before more are tried: 8192 cost a tenth of a second, a row left out a microsecond
+# share of cells that may be left out before more are tried: 8192 cost a tenth of a second, a row left out a
+# microsecond
+GAPS = 0.01, 0.02, 1.0
 LOSS = 4.0  # units of rounding: polynomial and general formula take two each
-WORTH = 0.5  # of the gaps: where four times as many cells leave more of these, they are rounding, and no more cells are tried
+# of the gaps: where four times as many cells leave more of these, they are rounding, and no more cells are
+# tried
+WORTH = 0.5
 ANGLE_LOSS = 1e-5  # turns; a tenth of the distance at which an angle is trusted
 PLACE_LOSS = 1e-4  # relative, of a place on a hyperbola that two steps of Newton's method follow
 CHECKS = np.array([-0.985, -0.85, -0.55, -0.2, 0.3, 0.7, 0.93])  # none of them a Chebyshev point
@@ -38,11 +43,12 @@ CHECKS = np.array([-0.985, -0.85, -0.55, -0.2, 0.3, 0.7, 0.93])  # none of them 
 class BarrierTable:
     """The barriers of a scene as arrays (see `barrier_heights`).
 
-    e: -1 circles, +1 hyperbolas, 0 parabolas, which have neither ranges nor cells: there `ranges` holds (p, p0, b) of a place's way, u' = p v + p0,
-    v' = b, and form kappa, rho, sigma, m of the force. axes: indices (i, j, k) of the state's columns. frame: shifts, factors and the rounding
-    of the place; form: G, c, d, mu. ranges (B, 11); cells (B, N, 8), NaN where left out. unit: energy of the scene per
-    canonical unit. axis, sense: of a spin-up. gaps: share of the cells that were left out. fine (21,): of hyperbolas, the constants in 32 digits; else
-    empty.
+    e: -1 circles, +1 hyperbolas, 0 parabolas, which have neither ranges nor cells: there `ranges` holds (p,
+    p0, b) of a place's way, u' = p v + p0, v' = b, and form kappa, rho, sigma, m of the force. axes: indices
+    (i, j, k) of the state's columns. frame: shifts, factors and the rounding of the place; form: G, c, d, mu.
+    ranges (B, 11); cells (B, N, 8), NaN where left out. unit: energy of the scene per canonical unit. axis,
+    sense: of a spin-up. gaps: share of the cells that were left out. fine (21,): of hyperbolas, the constants
+    in 32 digits; else empty.
     """
 
     e: int
@@ -65,7 +71,8 @@ class BarrierTable:
 
 @lru_cache(maxsize=16)
 def barrier_table(scene) -> BarrierTable | None:
-    """The table of a scene (cached); None without a torque that has a reduction, and where the equilibria lie on straight lines."""
+    """The table of a scene (cached); None without a torque that has a reduction, and where the equilibria lie
+    on straight lines."""
     land = landscape(scene)
     if land is not None and land.sense and land.conic is None:
         return _without_cells(land)
@@ -79,12 +86,14 @@ def barrier_table(scene) -> BarrierTable | None:
     r, g = land.reduction, land.reduction.constants
     frame = (g["sj"], g["flip"] / g["rx"], g["sk"], 1 / g["rz"], float(r.s), g["flip"] * g["n"],
              abs(g["sj"] / g["rx"]) + abs(g["sk"] / g["rz"]))
-    return BarrierTable(land.e, (r.axis, r.j, r.k), frame, tuple(g[n] for n in ("G", "c", "d", "mu")), ranges, cells,
+    return BarrierTable(land.e, (r.axis, r.j, r.k), frame, tuple(g[n] for n in ("G", "c", "d", "mu")), ranges,
+                        cells,
                         r.energy_unit, r.axis + 1, land.sense, gaps, _curve_of(land).fine(land))
 
 
 def _without_cells(land: Landscape) -> BarrierTable | None:
-    """What parabolas have instead of a table, whose barriers a formula gives; None where the force along them is no cubic."""
+    """What parabolas have instead of a table, whose barriers a formula gives; None where the force along them
+    is no cubic."""
     r = land.reduction
     if not r.kappa or not (r.p and r.q0 or r.q and r.p0):
         return None
@@ -93,12 +102,15 @@ def _without_cells(land: Landscape) -> BarrierTable | None:
         j, k, form, numbers = r.k, r.j, (r.kappa, r.sigma, r.rho, r.m), (r.q, r.q0, r.p0)
     if numbers[0] * r.kappa > 0:
         return None
-    return BarrierTable(land.e, (r.axis, j, k), (0.0, 1.0, 0.0, 1.0, float(r.s), 1.0, 0.0), tuple(map(float, form)),  # type: ignore[arg-type]  # four
-                        np.array([numbers], float), np.empty((1, 0, DEGREE + 3)), r.energy_unit, r.axis + 1, land.sense, 0.0, np.empty(0))
+    return BarrierTable(land.e, (r.axis, j, k), (0.0, 1.0, 0.0, 1.0, float(r.s), 1.0, 0.0),
+                        tuple(map(float, form)),  # type: ignore[arg-type]  # four
+                        np.array([numbers], float), np.empty((1, 0, DEGREE + 3)), r.energy_unit, r.axis + 1,
+                        land.sense, 0.0, np.empty(0))
 
 
 def _spans(land: Landscape):
-    """(piece, low, high, origin, side, bend, width) of every stretch of a barrier branch with one fold at its end."""
+    """(piece, low, high, origin, side, bend, width) of every stretch of a barrier branch with one fold at its
+    end."""
     conic = land.conic
     kind = _curve_of(land)
     sizes = kind.sizes(conic.fold_invariants)
@@ -118,8 +130,8 @@ def _spans(land: Landscape):
 
 
 def _out_from(conic, piece, fold):
-    """The stretches of a branch from its fold out: one, or two where the conic's asymptotes are so far off that cells measured by
-    the fold would all stand before them."""
+    """The stretches of a branch from its fold out: one, or two where the conic's asymptotes are so far off
+    that cells measured by the fold would all stand before them."""
     far = max(abs(conic.c / conic.G), abs(conic.shift))
     if far <= FAR_ASYMPTOTES * fold:
         yield piece, fold, np.inf, fold, 1.0, 1.0, np.sqrt(fold)
@@ -153,18 +165,24 @@ def _stretch(land, span, count):
     height, second, scale = curve.values(size)
     at, between = slice(None, DEGREE + 1), slice(DEGREE + 1, None)
     heights, seconds = _fit(nodes, height[:, at], DEGREE), _fit(nodes, second[:, at], 1)
-    good = np.abs(_value(heights, t[between]) - height[:, between]).max(axis=1) <= LOSS * EPS * scale.min(axis=1)
-    near = (np.abs(_value(seconds, t[between]) - second[:, between]) <= curve.second_loss(second[:, between])).all(axis=1)
+    good = (np.abs(_value(heights, t[between]) - height[:, between]).max(axis=1) <= LOSS * EPS
+            * scale.min(axis=1))
+    near = (np.abs(_value(seconds, t[between])
+                   - second[:, between]) <= curve.second_loss(second[:, between])).all(axis=1)
     good &= near | ~curve.both  # on hyperbolas either serves without the other
     near &= good | ~curve.both
-    cells = np.concatenate([np.where(good[:, None], heights, np.nan), np.where(near[:, None], seconds, np.nan)], axis=1)
+    cells = np.concatenate([np.where(good[:, None], heights, np.nan),
+                            np.where(near[:, None], seconds, np.nan)], axis=1)
     return [low, high, origin, side, bend, width, curve.growth, *curve.lead_sign_steep_bulk], cells
 
 
 def _fit(nodes, values, degree):
-    """(cells, degree + 1) coefficients of least squares at Chebyshev points; of interpolation at the full degree."""
-    middle = values[:, len(nodes) // 2]  # fit what varies in the cell alone: its rounding is what the fit enlarges
-    coefficients = (values - middle[:, None]) @ np.linalg.pinv(np.vander(nodes, degree + 1, increasing=True)).T
+    """(cells, degree + 1) coefficients of least squares at Chebyshev points; of interpolation at the full
+    degree."""
+    # fit what varies in the cell alone: its rounding is what the fit enlarges
+    middle = values[:, len(nodes) // 2]
+    coefficients = (values - middle[:,
+                                    None]) @ np.linalg.pinv(np.vander(nodes, degree + 1, increasing=True)).T
     coefficients[:, 0] += middle
     return coefficients
 
@@ -214,7 +232,8 @@ class _Circle:
         return np.empty(0)
 
     def _on_line(self, Q):
-        """(X, Z, exists) where the conic is nearly a line, as `Conic.critical_places` finds it: the barrier of its two points."""
+        """(X, Z, exists) where the conic is nearly a line, as `Conic.critical_places` finds it: the barrier
+        of its two points."""
         (x, z, exists), (other_x, other_z, _) = self.land.conic._meet_line(self.land.conic.limit, Q)
         first = self.land.potential.slope((x, z)) > 0
         return np.where(first, x, other_x), np.where(first, z, other_z), exists
@@ -234,7 +253,8 @@ class _Circle:
 
 
 class _Hyperbola:
-    """Height of a barrier branch over the invariant, tilt measured by the logarithm of the coordinate that keeps its sign; and that coordinate."""
+    """Height of a barrier branch over the invariant, tilt measured by the logarithm of the coordinate that
+    keeps its sign; and that coordinate."""
 
     growth = 0.0
     reaches_out = False
@@ -250,7 +270,8 @@ class _Hyperbola:
         start = x + z, x - z
         _, (xi, eta), exists = self.land.located(start, flat, x, z, exists)
         xi, eta = (np.where(exists, v, np.nan) for v in (xi, eta))
-        lead = 1.0 if np.nanmin(np.abs(xi)) / np.nanmax(np.abs(xi)) > np.nanmin(np.abs(eta)) / np.nanmax(np.abs(eta)) else -1.0
+        lead = (1.0 if np.nanmin(np.abs(xi)) / np.nanmax(np.abs(xi)) > np.nanmin(np.abs(eta))
+                / np.nanmax(np.abs(eta)) else -1.0)
         place = xi if lead > 0 else eta
         x, z = 0.5 * (xi + eta), 0.5 * (xi - eta)
         tilt = pot.mu * lead * np.log(np.abs(place))
@@ -271,7 +292,8 @@ class _Hyperbola:
         """The numbers of `table_kernel.fine_margin`."""
         r = land.reduction
         numbers = *land.twofold, twofold_constant(r.exact_constants["n"] ** 2 / 2), twofold_constant(r.s)
-        return np.array([*(part for number in numbers for part in (float(number.high), float(number.low))), land.least_invariant])
+        return np.array([*(part for number in numbers for part in (float(number.high), float(number.low))),
+                         land.least_invariant])
 
 
 def _curve_of(land):
@@ -287,11 +309,13 @@ WALLS = 3  # code of `fate.Reason`
 
 
 def label_by_table(table: BarrierTable, states, out, compiled=None) -> np.ndarray:
-    """Fill the columns of `out` for states (n, 3) and return the indices of those that the general formula has to answer.
+    """Fill the columns of `out` for states (n, 3) and return the indices of those that the general formula
+    has to answer.
 
     compiled: the loops of `fast_fate`, or None for NumPy; both give the same bytes.
     """
-    np.empty(KEPT, np.int8)  # freed at once: glibc then keeps that much free memory instead of returning it after every chunk
+    # freed at once: glibc then keeps that much free memory instead of returning it after every chunk
+    np.empty(KEPT, np.int8)
     unsure = [np.zeros(0, np.intp)]
     for start in range(0, len(states), CHUNK):
         part = slice(start, min(start + CHUNK, len(states)))
@@ -310,13 +334,15 @@ def label_by_table(table: BarrierTable, states, out, compiled=None) -> np.ndarra
 def _compiled(table, states, out, compiled):
     unsure = np.empty(len(states), bool)
     numbers = (table.fine,) if table.fine.size else ()
-    compiled[table.e](states, table.axes, table.frame, table.form, table.ranges, table.cells, table.unit, out["margins"],
+    compiled[table.e](states, table.axes, table.frame, table.form, table.ranges, table.cells, table.unit,
+                      out["margins"],
                       out["labels"], out["reasons"], unsure, *numbers)
     return unsure
 
 
 def _looked_at_again(table, states, rows, margins):
-    """Of rows (m,) on hyperbolas that the table's doubles leave open, fill the margins that twofold numbers settle, and return the others."""
+    """Of rows (m,) on hyperbolas that the table's doubles leave open, fill the margins that twofold numbers
+    settle, and return the others."""
     left = [np.zeros(0, np.intp)]
     for start in range(0, len(rows), CHUNK):
         part = rows[start:start + CHUNK]
@@ -327,7 +353,8 @@ def _looked_at_again(table, states, rows, margins):
 
 
 def _fine_margins(table, states):
-    """(margins (m,) in canonical units, which of them are certain) of states on hyperbolas, against the barrier whose place the table knows."""
+    """(margins (m,) in canonical units, which of them are certain) of states on hyperbolas, against the
+    barrier whose place the table knows."""
     i, j, k = table.axes
     x, z, w = canonical(table, states)
     rounding = np.abs(x) + np.abs(z) + table.frame[6]
@@ -346,7 +373,8 @@ def _fine_margins(table, states):
                 u, v = arithmetic.double_step(u, v, Q[0], table.form)
             u, v, step, slope = arithmetic.fine_step(u, v, Q, fine)
             side, end, grown = arithmetic.ratio_of(X, Z, u, v)
-            found[rows], good = arithmetic.fine_margin(X, Z, kinetic, u, v, step, slope, side, end, grown, *np.frexp(1 + grown[0]), near, fine)
+            found[rows], good = arithmetic.fine_margin(X, Z, kinetic, u, v, step, slope, side, end, grown,
+                                                       *np.frexp(1 + grown[0]), near, fine)
             sure[rows] = good & (np.abs(Q[0]) > fine[20])
     return found, sure
 
@@ -356,7 +384,8 @@ def _off_edges(table, x, z, rounding):
     xi, eta = x + z, x - z
     size, mu = -xi * eta, table.form[3]
     clear = np.minimum(np.abs(xi), np.abs(eta)) > arithmetic.PLANE_BOUND * rounding
-    clear &= np.abs(arithmetic.force(x, z, table.form)) > arithmetic.FORCE_BOUND * (arithmetic.terms(rounding, table.form) + mu)
+    clear &= (np.abs(arithmetic.force(x, z, table.form)) > arithmetic.FORCE_BOUND
+              * (arithmetic.terms(rounding, table.form) + mu))
     for r in table.ranges:
         clear &= arithmetic.fold_is_clear(size, r[ORIGIN], rounding * rounding)
     return size, clear
@@ -390,8 +419,9 @@ def _circles(table, states, out):
 def circle_heights(table, x, z):
     """Return (height, scale, clear), arrays (n,), of places on circles, in canonical units.
 
-    The height is that of the barrier ahead over the place; it is -inf where no barrier stands ahead. The scale is the size of the terms that the
-    height is made of. A place is clear where it is certain which barrier stands ahead.
+    The height is that of the barrier ahead over the place; it is -inf where no barrier stands ahead. The
+    scale is the size of the terms that the height is made of. A place is clear where it is certain which
+    barrier stands ahead.
     """
     form, mu = table.form, table.form[3]
     size, rounding = np.sqrt(x * x + z * z), np.abs(x) + np.abs(z) + table.frame[6]
@@ -432,8 +462,8 @@ def _valleys(table, states, out, heights, bound):
 
 
 def hyperbola_heights(table, x, z):
-    """As `circle_heights` for places on hyperbolas, +inf without a barrier: an orbit has one at most, for two would take
-    three wells between and beside them, and five equilibria."""
+    """As `circle_heights` for places on hyperbolas, +inf without a barrier: an orbit has one at most, for two
+    would take three wells between and beside them, and five equilibria."""
     form, mu = table.form, table.form[3]
     G, c, d, _ = form
     rounding = np.abs(x) + np.abs(z) + table.frame[6]
@@ -447,7 +477,8 @@ def hyperbola_heights(table, x, z):
         tilt = mu * r[LEAD] * arithmetic.logarithm(*np.frexp(np.abs(place)))
         here = arithmetic.height_polynomial(*coefficients[:ANGLE], t) + tilt
         height[inside] = here + ((0.5 * G * u + c) * u + d * v)
-        scale[inside] = arithmetic.hyperbola_scale(scale[inside], tilt, rounding[inside], place, mu, r[STEEP], r[BULK])
+        scale[inside] = arithmetic.hyperbola_scale(scale[inside], tilt, rounding[inside], place, mu, r[STEEP],
+                                                   r[BULK])
     return height, scale, clear
 
 
@@ -457,7 +488,8 @@ def parabola_heights(table, u, v):
 
 
 class _Way(NamedTuple):
-    """Of a geometry: heights over places, how a chunk is labelled, and whether a state above its height spins up."""
+    """Of a geometry: heights over places, how a chunk is labelled, and whether a state above its height spins
+    up."""
 
     heights: Callable
     labelled: Callable
@@ -465,8 +497,12 @@ class _Way(NamedTuple):
 
 
 GEOMETRIES = {-1: _Way(circle_heights, _circles, True),
-              1: _Way(hyperbola_heights, partial(_valleys, heights=hyperbola_heights, bound=arithmetic.CONE_MARGIN_BOUND), False),
-              0: _Way(parabola_heights, partial(_valleys, heights=parabola_heights, bound=arithmetic.PARABOLA_MARGIN_BOUND), False)}
+              1: _Way(hyperbola_heights,
+                      partial(_valleys, heights=hyperbola_heights, bound=arithmetic.CONE_MARGIN_BOUND),
+                      False),
+              0: _Way(parabola_heights,
+                      partial(_valleys, heights=parabola_heights, bound=arithmetic.PARABOLA_MARGIN_BOUND),
+                      False)}
 
 
 def way_of(table: BarrierTable) -> _Way:

@@ -1,4 +1,5 @@
-"""The places of states on circles and hyperbolas to 30 digits: where the centre stands far off, doubles lose what a small motion lives on."""
+"""The places of states on circles and hyperbolas to 30 digits: where the centre stands far off, doubles lose
+what a small motion lives on."""
 from __future__ import annotations
 
 from fractions import Fraction
@@ -34,7 +35,8 @@ def twofold_constants(reduction) -> TwofoldConstants:
 def twofold_constant(value: Fraction) -> Twofold:
     """A rational, or an exact root of many bits, to 32 digits."""
     high = float(value)
-    return Twofold(np.float64(high), np.float64(float(value - Fraction(high))))  # type: ignore[arg-type]  # a double broadcasts as an array does
+    # a double broadcasts as an array does
+    return Twofold(np.float64(high), np.float64(float(value - Fraction(high))))  # type: ignore[arg-type]
 
 
 def twofold_places(constants: TwofoldConstants, j: int, k: int, states) -> tuple[Twofold, Twofold]:

@@ -1,9 +1,11 @@
-"""Extremes and periods of bounded rows on circles and hyperbolas, one row at a time, as straight lines of floats that numba compiles.
+"""Extremes and periods of bounded rows on circles and hyperbolas, one row at a time, as straight lines of
+floats that numba compiles.
 
-Equilibria along a row's orbit by Newton's method in twofold numbers, ends of the motion from the equilibrium that is nearer in height, the period
-T = 2 int_0^pi dphi/sqrt(2 H) with theta = middle - half cos(phi), where H = (E - V)/((theta - l)(r - theta)) is the second divided difference of V at
-(l, r, theta), formed by products. What 32 digits do not settle is marked and left to balls. Every function is plain Python too. All in one file: numba's
-cache on disk watches no other.
+Equilibria along a row's orbit by Newton's method in twofold numbers, ends of the motion from the equilibrium
+that is nearer in height, the period T = 2 int_0^pi dphi/sqrt(2 H) with theta = middle - half cos(phi), where
+H = (E - V)/((theta - l)(r - theta)) is the second divided difference of V at (l, r, theta), formed by
+products. What 32 digits do not settle is marked and left to balls. Every function is plain Python too. All in
+one file: numba's cache on disk watches no other.
 """
 from __future__ import annotations
 
@@ -19,29 +21,42 @@ BOX, PERIOD = 1, 2  # bits: wanted, and left open
 SPLITTER = 134217729.0
 TINY = 1e-300
 ROUNDINGS = 64.0  # units of rounding allowed for beside a fold, as in `landscape`
-STEPS, SETTLED = 6, 1e-15  # of Newton's method at an equilibrium; of a radian, a last step: the next would be its square
-ENOUGH, DRIFT = 1e-12, 1e-3  # of a radian: a last step that serves; farther from the first guess another equilibrium may have been found
+# of Newton's method at an equilibrium; of a radian, a last step: the next would be its square
+STEPS, SETTLED = 6, 1e-15
+# of a radian: a last step that serves; farther from the first guess another equilibrium may have been found
+ENOUGH, DRIFT = 1e-12, 1e-3
 TWOFOLD, SURE = 2.0**-100, 1e-20  # of the terms: rounding of a twofold sum; a sum that is smaller may be zero
-ROUNDED, LAG = 8.0, 0.3  # units of rounding of a height, by the size of its terms; below it y - sinh y is a series
-CLEAR, FAR = 64.0, 1.5  # times its error, so far a height is from the energy where the barrier's side is certain; ends by series no farther
-SCATTERED = 1e-9  # of H, which is known at the ends and over a barrier: what single nodes lose beside these is scattered, and a part of the integral
+# units of rounding of a height, by the size of its terms; below it y - sinh y is a series
+ROUNDED, LAG = 8.0, 0.3
+# times its error, so far a height is from the energy where the barrier's side is certain; ends by series no
+# farther
+CLEAR, FAR = 64.0, 1.5
+# of H, which is known at the ends and over a barrier: what single nodes lose beside these is scattered, and a
+# part of the integral
+SCATTERED = 1e-9
 DIGITS, PERIOD_DIGITS = 1e-12, 1e-11  # promised, relative: rounding that leaves less leaves a row open
-PERIOD_SHARE = 1e-4  # of the energy terms: nearer to a barrier an energy in doubles leaves the period no eleven digits
+# of the energy terms: nearer to a barrier an energy in doubles leaves the period no eleven digits
+PERIOD_SHARE = 1e-4
 ROOT = 1e-9  # relative, the last step to a turning point, which leaves its square
 # relative, of sums over nodes: the last change, the error by estimate, a change that is nothing but rounding
 ALIKE, CONVERGED, FLOOR = 1e-9, 1e-13, 1e-15
 NARROW = 0.5  # half-widths below it take series where closed forms cancel
 TERMS = 30  # of a series about an equilibrium
-LOOKS, CLOSER = 64, 4  # places among which the least H is sought; steps towards it, to the bottom of parabolas through three places
-FINE = 2.0**-92  # of the terms of an energy in twofold numbers: a dozen sums and a series of twenty terms, with room to spare
-PIECE_DIGITS = 3e-12  # relative, of E - V at a stop and half-way between two; the period's promise is `PERIOD_DIGITS`
+# places among which the least H is sought; steps towards it, to the bottom of parabolas through three places
+LOOKS, CLOSER = 64, 4
+# of the terms of an energy in twofold numbers: a dozen sums and a series of twenty terms, with room to spare
+FINE = 2.0**-92
+# relative, of E - V at a stop and half-way between two; the period's promise is `PERIOD_DIGITS`
+PIECE_DIGITS = 3e-12
 NEAR = 1e-6  # of the force at an end: what a step there may change it by, whose square is left
 NEWTON = 3  # steps to an end in twofold numbers
 HALVINGS, SERIES = 6, 12  # of a way, before its sine is summed; terms of the sum: 0.2^24/24! is 1e-41
-# columns of a spot: its offset from the state, E - V there, whether it is a barrier, the place, dF/dtheta, modes (A, B) about it; what its force,
+# columns of a spot: its offset from the state, E - V there, whether it is a barrier, the place, dF/dtheta,
+# modes (A, B) about it; what its force,
 # its slope, the energy and the offset may be off by
 OFFSET, OVER, BARRIER, AT_X, AT_Z, BEND, MODE_A, MODE_B, PULL, TILT, ERROR, ASTRAY = range(12)
-# an end of a motion: offset, force there, error of the offset, error of the energy; E - V at the equilibrium that it is told from; dF/dtheta and modes there
+# an end of a motion: offset, force there, error of the offset, error of the energy; E - V at the equilibrium
+# that it is told from; dF/dtheta and modes there
 END, FORCE, BLUR, HAZE, LEVEL, END_BEND, END_A, END_B = range(8)
 # a stop of a motion, an end or an equilibrium that it passes: offset, E - V, force, dF/dtheta, modes
 STOP, STOP_OVER, STOP_FORCE, STOP_BEND, STOP_A, STOP_B = range(6)
@@ -152,7 +167,8 @@ class Circle:
 
     @staticmethod
     def way_between(u, v, X, Z, Q):
-        """theta from a state (X, Z) to a place (u, v) of its orbit, the short way round; all twofold, Q a double."""
+        """theta from a state (X, Z) to a place (u, v) of its orbit, the short way round; all twofold, Q a
+        double."""
         return np.arctan2(value(less(times(u, Z), times(v, X))) / Q, value(add(times(u, X), times(v, Z))) / Q)
 
     @staticmethod
@@ -173,7 +189,8 @@ class Circle:
         """(sin y, sin(y/2), y less the first without cancellation)."""
         h, t = np.sin(0.5 * y), y * y
         s = 2 * h * np.cos(0.5 * y)
-        return s, h, (y * t / 6 * (1 - t / 20 * (1 - t / 42 * (1 - t / 72 * (1 - t / 110 * (1 - t / 156))))) if abs(y) < 0.7 else y - s)
+        return s, h, (y * t / 6 * (1 - t / 20 * (1 - t / 42 * (1 - t / 72 * (1 - t / 110 * (1 - t / 156)))))
+                      if abs(y) < 0.7 else y - s)
 
     @staticmethod
     def bent(x, z):
@@ -187,7 +204,8 @@ class Circle:
 
     @staticmethod
     def repeated(spots, count, mu):
-        """The last of so many spots a turn earlier or later too, where the tilt has changed the potential by 2 pi mu; how many there are then."""
+        """The last of so many spots a turn earlier or later too, where the tilt has changed the potential by
+        2 pi mu; how many there are then."""
         spot, twin = spots[count - 1], spots[count]
         turn = TURN if spot[OFFSET] <= 0 else -TURN
         twin[:] = spot
@@ -198,14 +216,17 @@ class Circle:
 
     @staticmethod
     def change(x, z, xi, eta, y):
-        """(what X and Z change by on the way y from a state, what rounding of that way's terms leaves of either)."""
+        """(what X and Z change by on the way y from a state, what rounding of that way's terms leaves of
+        either)."""
         s, h = np.sin(y), np.sin(0.5 * y)
         down = 2 * h * h
-        return z * s - x * down, -z * down - x * s, 4 * (abs(z * s) + abs(x) * down), 4 * (abs(z) * down + abs(x * s))
+        return z * s - x * down, -z * down - x * s, 4 * (abs(z * s)
+                                                         + abs(x) * down), 4 * (abs(z) * down + abs(x * s))
 
     @staticmethod
     def stationary(row, x, z, xi, eta, left):
-        """The first offset beyond the left end where X (row 0) or Z (1) is stationary; it is so again half a turn later."""
+        """The first offset beyond the left end where X (row 0) or Z (1) is stationary; it is so again half a
+        turn later."""
         first = np.arctan(z / x if row == 0 else -x / z)
         at = first + PI * np.ceil((left - first) / PI)
         return at if at > left else at + PI
@@ -222,8 +243,12 @@ class Circle:
         c, d, G = conic[0], conic[1], conic[2]
         dx, dz, _, _ = change(x, z, xi, eta, y)
         x, z = x + dx, z + dz
-        data[0], data[1], data[2], data[3] = -c * x + d * z, -c * z - d * x, -0.25 * G * (x - z) * (x + z), -0.5 * G * x * z
-        data[4], data[5], data[6], data[7] = abs(c * x) + abs(d * z), abs(c * z) + abs(d * x), abs(data[2]), abs(data[3])
+        data[0], data[1], data[2], data[3] = -c * x + d * z, -c * z - d * x, -0.25 * G * (x - z) * (
+            x + z), -0.5 * G * x * z
+        data[4], data[5], data[6], data[7] = abs(c
+                                                 * x) + abs(d
+                                                            * z), abs(c * z) + abs(d * x), abs(data[2]), abs(
+                                                                data[3])
 
     @staticmethod
     def whole(rho):
@@ -242,9 +267,12 @@ class Circle:
         fv = sv / v
         even = -0.5 * fu * fv * (p1 + 4 * p2 * cu * cv)
         if rho < NARROW:
-            gu, gv, wu, wv = sinc_minus_cos(u * u), sinc_minus_cos(v * v), sinc_minus_cos(4 * u * u), sinc_minus_cos(4 * v * v)
+            gu, gv, wu, wv = sinc_minus_cos(u
+                                            * u), sinc_minus_cos(v * v), sinc_minus_cos(
+                                                4 * u * u), sinc_minus_cos(4 * v * v)
             return even, (0.5 * q1 * (fu * gv - fv * gu) + q2 * (fu * cu * wv - fv * cv * wu)) / rho
-        return even, (0.5 * q1 * (cu * fv - fu * cv) + q2 * ((cu * cu - su * su) * fv * cv - fu * cu * (cv * cv - sv * sv))) / rho
+        return even, (0.5 * q1 * (cu * fv - fu * cv)
+                      + q2 * ((cu * cu - su * su) * fv * cv - fu * cu * (cv * cv - sv * sv))) / rho
 
     @staticmethod
     def modes_terms(data, first, rho, whole_s, whole_c, left):
@@ -279,7 +307,8 @@ class Hyperbola:
 
     @staticmethod
     def way_between(u, v, X, Z, Q):
-        side = -1.0 if X[0] * Z[0] < 0 else 1.0  # the larger of the growing and the decaying coordinate keeps its digits next to a plane too
+        # the larger of the growing and the decaying coordinate keeps its digits next to a plane too
+        side = -1.0 if X[0] * Z[0] < 0 else 1.0
         start, end = add(X, scaled(Z, side)), add(u, scaled(v, side))
         grown = value(less(end, start)) / value(start)
         return side * (np.log1p(grown) if abs(grown) < 0.5 else np.log(value(end) / value(start)))
@@ -300,7 +329,8 @@ class Hyperbola:
     def swing(y):
         h, t = np.sinh(0.5 * y), y * y
         s = 2 * h * np.sqrt(1 + h * h)
-        return s, h, (-y * t / 6 * (1 + t / 20 * (1 + t / 42 * (1 + t / 72 * (1 + t / 110)))) if abs(y) < LAG else y - s)
+        return s, h, (-y * t / 6 * (1 + t / 20 * (1 + t / 42 * (1 + t / 72 * (1 + t / 110)))) if abs(y) < LAG
+                      else y - s)
 
     @staticmethod
     def bent(x, z):
@@ -336,7 +366,9 @@ class Hyperbola:
     def middle_modes(conic, x, z, xi, eta, y, data):
         c, d, G = conic[0], conic[1], conic[2]
         xi, eta = xi * np.exp(y), eta * np.exp(-y)
-        data[0], data[1], data[2], data[3] = -0.5 * (c + d) * xi, 0.5 * (d - c) * eta, -0.125 * G * xi * xi, -0.125 * G * eta * eta
+        data[0], data[1], data[2], data[3] = -0.5 * (c
+                                                     + d) * xi, 0.5 * (d
+                                                                       - c) * eta, -0.125 * G * xi * xi, -0.125 * G * eta * eta
         for k in range(4):
             data[4 + k] = abs(data[k])
 
@@ -350,12 +382,14 @@ class Hyperbola:
 
     @staticmethod
     def modes_terms(data, first, rho, whole_s, whole_c, left):
-        even, odd = sides_of_exponentials(abs(data[first]), abs(data[first + 1]), abs(data[first + 2]), abs(data[first + 3]), rho, whole_s, min(left, 1 - left))
+        even, odd = sides_of_exponentials(abs(data[first]), abs(data[first + 1]), abs(data[first + 2]),
+                                          abs(data[first + 3]), rho, whole_s, min(left, 1 - left))
         return even + odd if left <= 0.5 else even - odd
 
 
 def guessed(piece, conic, Q, xi, eta, radius):
-    """(whether a piece of the conic meets the orbit, X, Z there by Newton's method in log|h|, held in a bracket)."""
+    """(whether a piece of the conic meets the orbit, X, Z there by Newton's method in log|h|, held in a
+    bracket)."""
     sign, inner, outer, rising, low, high = piece[0], piece[1], piece[2], piece[3] > 0, piece[5], piece[6]
     c, G, K, shift = conic[0], conic[2], conic[4], conic[5]
     if not (low < Q < high):
@@ -395,7 +429,8 @@ def guessed(piece, conic, Q, xi, eta, radius):
 
 
 def on_line(line, Q, xi, eta, radius):
-    """As `guessed`, of one of the two points (x0 + t dx, z0 + t dz) in which a line of equilibria meets the orbit."""
+    """As `guessed`, of one of the two points (x0 + t dx, z0 + t dz) in which a line of equilibria meets the
+    orbit."""
     x0, z0, dx, dz, side = line[0], line[1], line[2], line[3], line[4]
     a, b, rest = dz * dz - E * dx * dx, z0 * dz - E * x0 * dx, z0 * z0 - E * x0 * x0 - Q
     if a == 0:
@@ -412,7 +447,8 @@ def on_line(line, Q, xi, eta, radius):
 
 
 def settled(fine, u0, v0, Q):
-    """(place u, v of the equilibrium next to a guess on the orbit Q, slope of the force there, last step, the way from the guess); u, v and Q twofold."""
+    """(place u, v of the equilibrium next to a guess on the orbit Q, slope of the force there, last step, the
+    way from the guess); u, v and Q twofold."""
     G, c, d, mu = (fine[0], fine[1]), (fine[2], fine[3]), (fine[4], fine[5]), (fine[6], fine[7])
     u, v, step, whole = (u0, 0.0 * u0), (v0, 0.0 * v0), 1.0 + 0.0 * u0, 0.0 * u0
     for _ in range(STEPS):
@@ -425,7 +461,8 @@ def settled(fine, u0, v0, Q):
             return u, v, 0.0 * u0, np.nan * u0, whole
         whole += step
         half = 0.5 * E * step * step
-        u, v = add(add(u, scaled(v, step)), scaled(u, half)), add(add(v, scaled(u, E * step)), scaled(v, half))
+        u, v = add(add(u, scaled(v, step)),
+                   scaled(u, half)), add(add(v, scaled(u, E * step)), scaled(v, half))
         if abs(step) <= SETTLED:
             break
     return u, v, slope_of(G, d, u, v, add(times(G, u), c)), step, whole
@@ -437,7 +474,8 @@ def slope_of(G, d, u, v, across):
 
 
 def rise_and_force(mu, y, slope, a, b):
-    """(V(y) - V(0), F, size of the terms of the first, sin y, sin(y/2)) y away from an equilibrium with this slope and modes a, b."""
+    """(V(y) - V(0), F, size of the terms of the first, sin y, sin(y/2)) y away from an equilibrium with this
+    slope and modes a, b."""
     s, h, behind = swing(y)
     h2 = h * h
     one, two, three, four = -2 * slope * h2, -mu * behind, -E * 2 * a * s * h2, -E * 4 * b * h2 * h2
@@ -446,11 +484,13 @@ def rise_and_force(mu, y, slope, a, b):
 
 
 def end_of_modes(mu, slope, a, b, s, h, end):
-    """dF/dtheta and modes where sin y and sin(y/2) from an equilibrium are s and h: derivatives of what `rise_and_force` says."""
+    """dF/dtheta and modes where sin y and sin(y/2) from an equilibrium are s and h: derivatives of what
+    `rise_and_force` says."""
     h2 = h * h
     q = 1 + 2 * E * h2
     end[END_BEND] = slope * q + E * (0.5 * s * (6 * a - 2 * mu + 4 * b * s) + 4 * b * h2 * q) + 8 * a * h2 * s
-    end[END_A], end[END_B] = a * (q * q + E * s * s) + 2 * b * s * q, b * (q * q + E * s * s) + 2 * E * a * s * q
+    end[END_A], end[END_B] = a * (q * q
+                                  + E * s * s) + 2 * b * s * q, b * (q * q + E * s * s) + 2 * E * a * s * q
 
 
 def rounding_of(y, terms, s, h, pull, tilt):
@@ -474,7 +514,8 @@ def placed(u, v, X, Z, wide, last, conic, way, slope, spot):
 
 
 def spots_of_row(fine, conic, pieces, lines, straight, folds, X, Z, w, wide, spots):
-    """(how many equilibria stand along the orbit of a row, in ascending order in `spots`; whether all were placed).
+    """(how many equilibria stand along the orbit of a row, in ascending order in `spots`; whether all were
+    placed).
 
     straight: the invariant up to which lines say where they are about, and no pieces of the conic."""
     Q = add(times(Z, Z), scaled(times(X, X), -E))
@@ -488,7 +529,8 @@ def spots_of_row(fine, conic, pieces, lines, straight, folds, X, Z, w, wide, spo
     force = conic[3] + conic[2] * x * z + conic[0] * z + conic[1] * x
     by_lines = q <= straight
     for p in range(len(lines) if by_lines else len(pieces)):
-        there, u0, v0 = on_line(lines[p], q, xi, eta, radius) if by_lines else guessed(pieces[p], conic, q, xi, eta, radius)
+        there, u0, v0 = (on_line(lines[p], q, xi, eta, radius) if by_lines
+                         else guessed(pieces[p], conic, q, xi, eta, radius))
         if not there:
             continue
         u, v, slope, last, drift = settled(fine, u0, v0, Q)
@@ -500,7 +542,8 @@ def spots_of_row(fine, conic, pieces, lines, straight, folds, X, Z, w, wide, spo
         placed(u, v, X, Z, wide, last, conic, way, slope, spot)
         rise, _, terms, s, h = rise_and_force(mu, -way, slope, spot[MODE_A], spot[MODE_B])
         spot[OVER], spot[BARRIER] = kinetic + rise, 1.0 if slope > 0 else 0.0
-        spot[ERROR] = rounding_of(way, terms, s, h, spot[PULL], spot[TILT]) + ROUNDED * EPS * kinetic + abs(force) * spot[ASTRAY]
+        spot[ERROR] = (rounding_of(way, terms, s, h, spot[PULL], spot[TILT]) + ROUNDED * EPS * kinetic
+                       + abs(force) * spot[ASTRAY])
         count = repeated(spots, count + 1, mu)
     for i in range(1, count):
         for k in range(i, 0, -1):
@@ -510,14 +553,17 @@ def spots_of_row(fine, conic, pieces, lines, straight, folds, X, Z, w, wide, spo
                 spots[k - 1, column], spots[k, column] = spots[k, column], spots[k - 1, column]
     sure = True
     for i in range(count):
-        sure = sure and abs(spots[i, OVER]) < INFINITY and spots[i, ERROR] < INFINITY and spots[i, ASTRAY] < INFINITY
+        sure = (sure and abs(spots[i, OVER]) < INFINITY and spots[i, ERROR] < INFINITY
+                and spots[i, ASTRAY] < INFINITY)
         if i:  # wells and barriers take turns
-            sure = sure and spots[i, OFFSET] > spots[i - 1, OFFSET] and spots[i, BARRIER] != spots[i - 1, BARRIER]
+            sure = (sure and spots[i, OFFSET] > spots[i - 1, OFFSET]
+                    and spots[i, BARRIER] != spots[i - 1, BARRIER])
     return count, sure
 
 
 def sharpened(fine, conic, X, Z, turn, wide, count, spots):
-    """E - V at the equilibria along a row's orbit anew, as sums of twofold numbers: next to a separatrix doubles leave little of it.
+    """E - V at the equilibria along a row's orbit anew, as sums of twofold numbers: next to a separatrix
+    doubles leave little of it.
 
     turn: the rate about the axis, less its shift, twofold."""
     G, c, d, mu = (fine[0], fine[1]), (fine[2], fine[3]), (fine[4], fine[5]), (fine[6], fine[7])
@@ -528,7 +574,8 @@ def sharpened(fine, conic, X, Z, turn, wide, count, spots):
         u, v, slope, last, _ = settled(fine, spot[AT_X], spot[AT_Z], Q)
         way = whole_way(u, v, X, Z, value(Q), spot[OFFSET])
         half = times(G, scaled(add(u, X), 0.5))
-        over = add(add(kinetic, times(mu, way)), add(times(less(u, X), add(half, c)), scaled(times(d, less(v, Z)), E)))
+        over = add(add(kinetic, times(mu, way)),
+                   add(times(less(u, X), add(half, c)), scaled(times(d, less(v, Z)), E)))
         far = abs(u[0]) + abs(v[0]) + wide
         terms = kinetic[0] + mu[0] * (1 + abs(way[0])) + (abs(G[0]) * far + abs(c[0]) + abs(d[0])) * far
         if abs(last) <= ENOUGH:
@@ -536,8 +583,8 @@ def sharpened(fine, conic, X, Z, turn, wide, count, spots):
 
 
 def sharpened_ends(fine, X, Z, turn, wide, ends, turns):
-    """Fill turns with the ends after steps of Newton's method, E - V there a sum of twofold numbers and the force
-    that of the place: where the force is small or the equilibrium far, doubles leave few digits.
+    """Fill turns with the ends after steps of Newton's method, E - V there a sum of twofold numbers and the
+    force that of the place: where the force is small or the equilibrium far, doubles leave few digits.
 
     They are told from the state. Next to a barrier the period needs the ends that are told from it."""
     G, c, d, mu = (fine[0], fine[1]), (fine[2], fine[3]), (fine[4], fine[5]), (fine[6], fine[7])
@@ -567,8 +614,9 @@ def sharpened_ends(fine, X, Z, turn, wide, ends, turns):
 
 
 def way_of_cosine(psi, near, far):
-    """First guess of a turning point between a barrier and a well, as a share of the way: there V is nearly a cosine,
-    and in its angle psi (0 to 1) the way is a cubic with the slopes near, far that the curvatures at both ends give."""
+    """First guess of a turning point between a barrier and a well, as a share of the way: there V is nearly a
+    cosine, and in its angle psi (0 to 1) the way is a cubic with the slopes near, far that the curvatures at
+    both ends give."""
     return psi * (near * (1 - psi) * (1 - psi) + psi * (3 - 2 * psi) - far * psi * (1 - psi))
 
 
@@ -601,7 +649,8 @@ def turned(mu, count, spots, side, end):
         other = spots[well] if at_barrier else spots[b]
         whole = spots[well, OVER] - spots[b, OVER]
         psi = 2 / PI * np.arcsin(np.sqrt(min(abs(level) / whole, 1.0)))
-        guess = reach * way_of_cosine(psi, PI * np.sqrt(0.5 * whole / abs(slope)) / reach, PI * np.sqrt(0.5 * whole / abs(other[BEND])) / reach)
+        guess = (reach * way_of_cosine(psi, PI * np.sqrt(0.5 * whole / abs(slope)) / reach,
+                                       PI * np.sqrt(0.5 * whole / abs(other[BEND])) / reach))
         t = guess if 0 < guess < reach else 0.5 * reach
     low, high, found, before = 0.0, reach, level == 0, INFINITY
     if found:
@@ -632,7 +681,8 @@ def turned(mu, count, spots, side, end):
 
 
 def spanned(mu, w, count, spots, ends):
-    """(whether the motion's two ends are known, fastest W^2/2, its error, nearest barrier's distance in energy)."""
+    """(whether the motion's two ends are known, fastest W^2/2, its error, nearest barrier's distance in
+    energy)."""
     if count == 0 or not (turned(mu, count, spots, -1, ends[0]) and turned(mu, count, spots, 1, ends[1])):
         return False, 0.0, 0.0, 0.0
     ends[0, END], ends[1, END] = min(ends[0, END], 0.0), max(ends[1, END], 0.0)
@@ -655,12 +705,14 @@ def spanned(mu, w, count, spots, ends):
             off, astray = max(off, spots[i, ERROR]), max(astray, spots[i, ASTRAY])
     for k in range(2):
         ends[k, BLUR] += off / abs(ends[k, FORCE]) + astray
-        clear = clear and ends[k, BLUR] < INFINITY and ends[k, HAZE] < INFINITY  # no number is not: the largest of some would pass over it
+        # no number is not: the largest of some would pass over it
+        clear = clear and ends[k, BLUR] < INFINITY and ends[k, HAZE] < INFINITY
     return clear and (barred or WALLED), fastest, off + EPS * fastest, closest
 
 
 def boxed(form, axes, state, x, z, xi, eta, ends, fastest, haze, box):
-    """Fill the box (3, 2) of a row; whether it has its digits. form: factors of X and Z, flip/n and the shift of the third."""
+    """Fill the box (3, 2) of a row; whether it has its digits. form: factors of X and Z, flip/n and the shift
+    of the third."""
     j, k, i = axes
     low_x, high_x, low_z, high_z, off_x, off_z = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     left, right = ends[0, END], ends[1, END]
@@ -680,10 +732,12 @@ def boxed(form, axes, state, x, z, xi, eta, ends, fastest, haze, box):
             at += 0.5 * ROUND
     a, b = form[0] * low_x, form[0] * high_x
     box[j, 0], box[j, 1] = state[j] + min(a, b), state[j] + max(a, b)
-    good = abs(form[0]) * off_x + 4 * EPS * (abs(state[j]) + max(abs(a), abs(b))) <= DIGITS * max(abs(box[j, 0]), abs(box[j, 1]))
+    good = (abs(form[0]) * off_x + 4 * EPS * (abs(state[j]) + max(abs(a), abs(b))) <= DIGITS
+            * max(abs(box[j, 0]), abs(box[j, 1])))
     a, b = form[1] * low_z, form[1] * high_z
     box[k, 0], box[k, 1] = state[k] + min(a, b), state[k] + max(a, b)
-    good = good and abs(form[1]) * off_z + 4 * EPS * (abs(state[k]) + max(abs(a), abs(b))) <= DIGITS * max(abs(box[k, 0]), abs(box[k, 1]))
+    good = (good and abs(form[1]) * off_z
+            + 4 * EPS * (abs(state[k]) + max(abs(a), abs(b))) <= DIGITS * max(abs(box[k, 0]), abs(box[k, 1])))
     top = np.sqrt(2 * fastest)
     a, b = form[2] * top - form[3], -form[2] * top - form[3]
     box[i, 0], box[i, 1] = min(a, b, state[i]), max(a, b, state[i])
@@ -694,8 +748,9 @@ def boxed(form, axes, state, x, z, xi, eta, ends, fastest, haze, box):
 
 
 def series_modes(mu, spot, left, right, data, work):
-    """Modes of an interval about an equilibrium: fills data with the coefficients of the second divided difference as a polynomial in the distance
-    from it, then with the sizes of these; returns how many there are. As `modes.TaylorModes`."""
+    """Modes of an interval about an equilibrium: fills data with the coefficients of the second divided
+    difference as a polynomial in the distance from it, then with the sizes of these; returns how many there
+    are. As `modes.TaylorModes`."""
     a, b, slope, size = spot[MODE_A], spot[MODE_B], spot[BEND], max(abs(left), abs(right))
     count, reach = TERMS, 1.0
     for n in range(2, TERMS):
@@ -735,9 +790,11 @@ def sinc_cos(u):
     """sin(u)/u and cos u for 0 <= u <= pi/2."""
     t = u * u
     s = 1 - t * (1 / 6) * (1 - t * (1 / 20) * (1 - t * (1 / 42) * (1 - t * (1 / 72) * (1 - t * (1 / 110) * (
-        1 - t * (1 / 156) * (1 - t * (1 / 210) * (1 - t * (1 / 272) * (1 - t * (1 / 342) * (1 - t * (1 / 420))))))))))
+        1 - t * (1 / 156)
+        * (1 - t * (1 / 210) * (1 - t * (1 / 272) * (1 - t * (1 / 342) * (1 - t * (1 / 420))))))))))
     k = 1 - t * 0.5 * (1 - t * (1 / 12) * (1 - t * (1 / 30) * (1 - t * (1 / 56) * (1 - t * (1 / 90) * (
-        1 - t * (1 / 132) * (1 - t * (1 / 182) * (1 - t * (1 / 240) * (1 - t * (1 / 306) * (1 - t * (1 / 380) * (
+        1 - t * (1 / 132)
+        * (1 - t * (1 / 182) * (1 - t * (1 / 240) * (1 - t * (1 / 306) * (1 - t * (1 / 380) * (
             1 - t * (1 / 462)))))))))))
     return s, k
 
@@ -750,9 +807,14 @@ def sinc_minus_cos(t):
 
 def sinhc_and_rest(t):
     """sinh(u)/u and cosh u less it, of t = u^2 <= 1."""
-    f = 1 + t * (1 / 6) * (1 + t * (1 / 20) * (1 + t * (1 / 42) * (1 + t * (1 / 72) * (1 + t * (1 / 110) * (1 + t * (1 / 156) * (
+    f = 1 + t * (1 / 6) * (1
+                           + t * (1 / 20) * (1 + t * (1 / 42)
+                                             * (1 + t * (1 / 72) * (1 + t * (1 / 110) * (1 + t * (1 / 156) * (
         1 + t * (1 / 210) * (1 + t * (1 / 272))))))))
-    g = 1 + t * (1 / 10) * (1 + t * (1 / 28) * (1 + t * (1 / 54) * (1 + t * (1 / 88) * (1 + t * (1 / 130) * (1 + t * (1 / 180) * (
+    g = 1 + t * (1 / 10) * (1
+                            + t * (1 / 28)
+                            * (1 + t * (1 / 54)
+                               * (1 + t * (1 / 88) * (1 + t * (1 / 130) * (1 + t * (1 / 180) * (
         1 + t * (1 / 238) * (1 + t * (1 / 304))))))))
     return f, t * (1 / 3) * g
 
@@ -774,16 +836,19 @@ def sides_of_exponentials(p1, q1, p2, q2, rho, grown, share):
         cv, sv = 0.5 * (grown / eu + eu / grown), 0.5 * (grown / eu - eu / grown)
         fu, fv = su / u if share > 0 else 1.0, sv / v
         odd1, odd2 = cu * fv - fu * cv, (1 + 2 * su * su) * fv * cv - fu * cu * (1 + 2 * sv * sv)
-    return fu * fv * (0.5 * (p1 + q1) + 2 * (p2 + q2) * cu * cv), (0.5 * (p1 - q1) * odd1 + (p2 - q2) * odd2) / rho
+    return fu * fv * (0.5 * (p1 + q1)
+                      + 2 * (p2 + q2) * cu * cv), (0.5 * (p1 - q1) * odd1 + (p2 - q2) * odd2) / rho
 
 
 def pair(series, count, data, rho, whole_s, whole_c, share):
-    """(even, odd): the second divided difference of V is their sum at theta - l = 2 rho share, share <= 1/2, and their difference at its mirror image.
+    """(even, odd): the second divided difference of V is their sum at theta - l = 2 rho share, share <= 1/2,
+    and their difference at its mirror image.
 
     series: whether the modes are those about an equilibrium."""
     if series:
         t = data[2 * TERMS]
-        low, high = horner(data, 0, count, t + 2 * rho * share), horner(data, 0, count, t + 2 * rho - 2 * rho * share)
+        low, high = horner(data, 0, count,
+                           t + 2 * rho * share), horner(data, 0, count, t + 2 * rho - 2 * rho * share)
         return 0.5 * (low + high), 0.5 * (low - high)
     return modes_pair(data, rho, whole_s, whole_c, share)
 
@@ -791,7 +856,8 @@ def pair(series, count, data, rho, whole_s, whole_c, share):
 def difference(series, count, data, held, rho, whole_s, whole_c, left, right):
     """H at theta - l = 2 rho left, r - theta = 2 rho right."""
     even, odd = pair(series, count, data, rho, whole_s, whole_c, min(left, right))
-    return (even + odd if left <= right else even - odd) + (held[0] * right + held[2] * left + held[1] * left * right)
+    return (even + odd if left <= right
+            else even - odd) + (held[0] * right + held[2] * left + held[1] * left * right)
 
 
 def terms_at(series, count, data, sizes, rho, whole_s, whole_c, left):
@@ -802,21 +868,25 @@ def terms_at(series, count, data, sizes, rho, whole_s, whole_c, left):
 
 
 def converged(now, last, middle, first):
-    """Whether a sum over nodes is its integral, given what it changed by as its nodes were doubled: the last, the middle and the first of three
-    such changes; any numbers.
+    """Whether a sum over nodes is its integral, given what it changed by as its nodes were doubled: the last,
+    the middle and the first of three such changes; any numbers.
 
-    Doubling squares the error of the trapezoidal rule, C r^n for n nodes, and of the double-exponential one, so a last change of `ALIKE` leaves nothing. But
-    the sign of an error goes round, and it may be next to nothing by chance. So the rate r^n is told by either ratio of changes too, and a size by its own
-    change or by the one before; the larger counts each time, and what these leave must be `CONVERGED`: four products, asked without a division.
+    Doubling squares the error of the trapezoidal rule, C r^n for n nodes, and of the double-exponential one,
+    so a last change of `ALIKE` leaves nothing. But the sign of an error goes round, and it may be next to
+    nothing by chance. So the rate r^n is told by either ratio of changes too, and a size by its own change or
+    by the one before; the larger counts each time, and what these leave must be `CONVERGED`: four products,
+    asked without a division.
     """
     c, b, a = last / now, middle / now + FLOOR, first / now + FLOOR
     a2, b2 = a * a, b * b
-    return (c <= ALIKE) & (c * c * c <= CONVERGED * b2) & (c * b2 * b2 <= CONVERGED * a2 * a2) & (b * c * c <= CONVERGED * a2) & (
+    return (c <= ALIKE) & (c * c * c <= CONVERGED
+                           * b2) & (c * b2 * b2 <= CONVERGED * a2 * a2) & (b * c * c <= CONVERGED * a2) & (
         b2 * b2 * b2 * b <= CONVERGED * a2 * a2 * a2)
 
 
 def summed(series, count, data, held, rho, whole_s, whole_c, nodes, near, weights, levels):
-    """The period by the trapezoidal rule over mirrored pairs of nodes; by the double-exponential one where that does not settle; NaN where none does."""
+    """The period by the trapezoidal rule over mirrored pairs of nodes; by the double-exponential one where
+    that does not settle; NaN where none does."""
     total, coarse, half, before, change, earlier, size, first = 0.0, 0.0, 0.0, np.nan, np.nan, np.nan, 8, 0
     while first < len(nodes):
         last = first + size // 2 if first else 5
@@ -857,7 +927,9 @@ def peaked(series, count, data, held, rho, whole_s, whole_c, near, weights, leve
                 small, large = np.sin(0.5 * angle), np.cos(0.5 * angle)
                 small, large = small * small, large * large
                 left, right = (large, small) if side else (small, large)
-                total += weights[n] / np.sqrt(2 * difference(series, count, data, held, rho, whole_s, whole_c, left, right))
+                total += (weights[n]
+                          / np.sqrt(2 * difference(series, count, data, held, rho, whole_s, whole_c, left,
+                                                   right)))
             now = length * total * 2.0**-level
             new = abs(now - before)
             if converged(now, new, change, earlier):
@@ -895,11 +967,12 @@ def least(series, count, data, held, rho, whole_s, whole_c):
     return middle if 0 < middle < PI else 0.5 * PI
 
 
-def timed(conic, x, z, xi, eta, w, count, spots, ends, closest, nodes, near, weights, levels, data, work, held):
+def timed(conic, x, z, xi, eta, w, count, spots, ends, closest, nodes, near, weights, levels, data, work,
+          held):
     """(period, whether it has its digits) of a motion between two ends.
 
-    By modes about the middle; where these cancel, by a series about an equilibrium, or made to give at both ends the force
-    that is known there, and at the lowest barrier passed the energy over it."""
+    By modes about the middle; where these cancel, by a series about an equilibrium, or made to give at both
+    ends the force that is known there, and at the lowest barrier passed the energy over it."""
     mu, left, right = conic[3], ends[0, END], ends[1, END]
     rho, series, many = 0.5 * (right - left), False, 0
     if not 0 < rho < 0.5 * ROUND:
@@ -925,9 +998,12 @@ def timed(conic, x, z, xi, eta, w, count, spots, ends, closest, nodes, near, wei
         # on a long hyperbola H over a barrier may be far less than at both ends and in the middle
         sharp = EPS * terms_at(series, many, data, True, rho, whole_s, whole_c, share) <= PERIOD_DIGITS * dip
         for sizes in range(2):
-            sharp = (sharp and EPS * terms_at(series, many, data, sizes > 0, rho, whole_s, whole_c, 0.0) <= PERIOD_DIGITS * first
-                     and EPS * terms_at(series, many, data, sizes > 0, rho, whole_s, whole_c, 0.5) <= PERIOD_DIGITS * inner
-                     and EPS * terms_at(series, many, data, sizes > 0, rho, whole_s, whole_c, 1.0) <= PERIOD_DIGITS * last)
+            sharp = (sharp and EPS * terms_at(series, many, data, sizes > 0, rho, whole_s, whole_c,
+                                              0.0) <= PERIOD_DIGITS * first
+                     and EPS * terms_at(series, many, data, sizes > 0, rho, whole_s, whole_c,
+                                        0.5) <= PERIOD_DIGITS * inner
+                     and EPS * terms_at(series, many, data, sizes > 0, rho, whole_s, whole_c,
+                                        1.0) <= PERIOD_DIGITS * last)
         most, lowest = max(first, inner, last), min(first, inner, last)
         if sharp and blur * (most - lowest) <= PERIOD_DIGITS * rho * lowest:
             period = summed(series, many, data, held, rho, whole_s, whole_c, nodes, near, weights, levels)
@@ -938,8 +1014,10 @@ def timed(conic, x, z, xi, eta, w, count, spots, ends, closest, nodes, near, wei
     from_left, from_right = left - spots[anchor, OFFSET], right - spots[anchor, OFFSET]
     if max(abs(from_left), abs(from_right)) <= FAR and from_right > from_left:
         series, many = True, series_modes(mu, spots[anchor], from_left, from_right, data, work)
-    held_0 = ends[0, FORCE] / (2 * rho) - difference(series, many, data, held, rho, whole_s, whole_c, 0.0, 1.0)
-    held_2 = -ends[1, FORCE] / (2 * rho) - difference(series, many, data, held, rho, whole_s, whole_c, 1.0, 0.0)
+    held_0 = (ends[0, FORCE] / (2 * rho)
+              - difference(series, many, data, held, rho, whole_s, whole_c, 0.0, 1.0))
+    held_2 = (-ends[1, FORCE] / (2 * rho)
+              - difference(series, many, data, held, rho, whole_s, whole_c, 1.0, 0.0))
     inside = 0.5 * (held_0 + held_2)
     if barrier >= 0:
         inside = dip - difference(series, many, data, held, rho, whole_s, whole_c, share, 1 - share)
@@ -949,10 +1027,13 @@ def timed(conic, x, z, xi, eta, w, count, spots, ends, closest, nodes, near, wei
                           difference(series, many, data, held, rho, whole_s, whole_c, 0.5, 0.5),
                           difference(series, many, data, held, rho, whole_s, whole_c, 1.0, 0.0))
     half = 8 * EPS * terms_at(series, many, data, True, rho, whole_s, whole_c, 0.5)
-    good = (blur * (max(first, inner, last) - min(first, inner, last)) <= PERIOD_DIGITS * rho * min(first, last)
+    good = (blur * (max(first, inner, last) - min(first, inner, last)) <= PERIOD_DIGITS * rho
+            * min(first, last)
             and 8 * EPS * terms_at(series, many, data, True, rho, whole_s, whole_c, 0.0) <= SCATTERED * first
-            and half <= SCATTERED * inner and 8 * EPS * terms_at(series, many, data, True, rho, whole_s, whole_c, 1.0) <= SCATTERED * last
-            and half <= SCATTERED * dip and spots[anchor, PULL] + spots[anchor, TILT] <= PERIOD_DIGITS * min(first, inner, last))
+            and half <= SCATTERED * inner
+            and 8 * EPS * terms_at(series, many, data, True, rho, whole_s, whole_c, 1.0) <= SCATTERED * last
+            and half <= SCATTERED * dip
+            and spots[anchor, PULL] + spots[anchor, TILT] <= PERIOD_DIGITS * min(first, inner, last))
     if not good:
         return np.nan, False
     period = summed(series, many, data, held, rho, whole_s, whole_c, nodes, near, weights, levels)
@@ -963,11 +1044,13 @@ def kinetic_near(mu, stop, y):
     """W^2/2 = E - V at the way y from a stop."""
     s, h, behind = swing(y)
     h2 = h * h
-    return stop[STOP_OVER] + stop[STOP_FORCE] * s + 2 * stop[STOP_BEND] * h2 + mu * behind + 2 * E * h2 * (stop[STOP_A] * s + 2 * stop[STOP_B] * h2)
+    return (stop[STOP_OVER] + stop[STOP_FORCE] * s + 2 * stop[STOP_BEND] * h2 + mu * behind
+            + 2 * E * h2 * (stop[STOP_A] * s + 2 * stop[STOP_B] * h2))
 
 
 def stops_of(count, spots, ends, stops):
-    """Fill the stops of a motion in their order; how many there are, 0 where E - V is not known well at one of them."""
+    """Fill the stops of a motion in their order; how many there are, 0 where E - V is not known well at one
+    of them."""
     many, sure = 1, True
     for i in range(count):
         spot = spots[i]
@@ -975,7 +1058,8 @@ def stops_of(count, spots, ends, stops):
             stop = stops[many]
             stop[STOP], stop[STOP_OVER], stop[STOP_FORCE] = spot[OFFSET], spot[OVER], 0.0
             stop[STOP_BEND], stop[STOP_A], stop[STOP_B] = spot[BEND], spot[MODE_A], spot[MODE_B]
-            sure = sure and spot[ERROR] <= PIECE_DIGITS * spot[OVER] and spot[TILT] <= PIECE_DIGITS * abs(spot[BEND])
+            sure = (sure and spot[ERROR] <= PIECE_DIGITS * spot[OVER]
+                    and spot[TILT] <= PIECE_DIGITS * abs(spot[BEND]))
             many += 1
     for k in range(2):
         stop, end = stops[k * many], ends[k]
@@ -986,7 +1070,8 @@ def stops_of(count, spots, ends, stops):
 
 
 def in_pieces(mu, count, spots, ends, near, weights, levels, stops):
-    """(period, whether it has its digits): dtheta/W by the double-exponential rule from stop to stop, E - V told from the nearer one."""
+    """(period, whether it has its digits): dtheta/W by the double-exponential rule from stop to stop, E - V
+    told from the nearer one."""
     many, period = stops_of(count, spots, ends, stops), 0.0
     if many < 3:
         return np.nan, False
@@ -1000,11 +1085,15 @@ def in_pieces(mu, count, spots, ends, near, weights, levels, stops):
             for n in range(levels[level], levels[level + 1]):
                 share, far = abs(near[n]), near[n] < 0  # from the stop at the far end
                 scale = 1.0
-                if i == 0 or i == many - 2:  # the way from a turning point is L u^2, which takes its root away
+                # the way from a turning point is L u^2, which takes its root away
+                if i == 0 or i == many - 2:
                     at_turn = far == (i > 0)
-                    share, scale = (share * share, 2 * share) if at_turn else (share * (2 - share), 2 * (1 - share))
+                    share, scale = (share * share,
+                                    2 * share) if at_turn else (share * (2 - share), 2 * (1 - share))
                 y = length * share
-                total += weights[n] * scale / np.sqrt(2 * (kinetic_near(mu, stops[i + 1], -y) if far else kinetic_near(mu, stops[i], y)))
+                total += (weights[n] * scale
+                          / np.sqrt(2 * (kinetic_near(mu, stops[i + 1], -y) if far
+                                         else kinetic_near(mu, stops[i], y))))
             now = length * total * 2.0**-level
             new = abs(now - before)
             if converged(now, new, change, earlier):
@@ -1017,11 +1106,12 @@ def in_pieces(mu, count, spots, ends, near, weights, levels, stops):
 
 
 def rows(states, open_rows, fine, form, axes, conic, pieces, lines, folds, rules, boxes, periods, left_open):
-    """Fill boxes (n, 3, 2) and periods (n,) of the open rows of states (n, 3), as far as their bits in left_open (n,) ask;
-    the bits of what is settled go.
+    """Fill boxes (n, 3, 2) and periods (n,) of the open rows of states (n, 3), as far as their bits in
+    left_open (n,) ask; the bits of what is settled go.
 
-    fine: high and low parts of G, c, d, mu, sj, sk, flip/rx, 1/rz, (flip n)^2/2; form: factors of X and Z, flip/n, shift s of the third component and what its
-    double leaves, the invariant up to which the lines serve; conic: c, d, G, mu, K, shift, and how near a hyperbola's centre no row is settled.
+    fine: high and low parts of G, c, d, mu, sj, sk, flip/rx, 1/rz, (flip n)^2/2; form: factors of X and Z,
+    flip/n, shift s of the third component and what its double leaves, the invariant up to which the lines
+    serve; conic: c, d, G, mu, K, shift, and how near a hyperbola's centre no row is settled.
     """
     nodes, near, weights, levels = rules
     j, k, i = axes
@@ -1044,7 +1134,8 @@ def rows(states, open_rows, fine, form, axes, conic, pieces, lines, folds, rules
         # whether a state is at rest is decided exactly, elsewhere
         terms = conic[3] + abs(conic[2] * x * z) + abs(conic[0] * z) + abs(conic[1] * x)
         still = abs(turn) <= ROUNDINGS * EPS * (abs(state[i]) + abs(form[3]))
-        if still and abs(conic[3] + conic[2] * x * z + conic[0] * z + conic[1] * x) <= ROUNDINGS * EPS * terms * (1 + wide / (abs(x) + abs(z))):
+        if still and abs(conic[3] + conic[2] * x * z + conic[0] * z
+                         + conic[1] * x) <= ROUNDINGS * EPS * terms * (1 + wide / (abs(x) + abs(z))):
             continue
         count, sure = spots_of_row(fine, conic, pieces, lines, form[5], folds, X, Z, w, wide, spots)
         if not sure:
@@ -1057,7 +1148,8 @@ def rows(states, open_rows, fine, form, axes, conic, pieces, lines, folds, rules
                 continue
             if sharp:
                 sharpened_ends(fine, X, Z, exact_sum(turn, rest + form[4]), wide, ends, turns)
-            if asked & BOX and boxed(form, axes, state, x, z, xi, eta, turns if sharp else ends, fastest, haze, box):
+            if asked & BOX and boxed(form, axes, state, x, z, xi, eta, turns if sharp else ends, fastest,
+                                     haze, box):
                 boxes[row] = box
                 asked -= BOX
             if asked & PERIOD:
@@ -1081,6 +1173,8 @@ def functions_of(geometry):
 GEOMETRIES = {"circle": Circle, "hyperbola": Hyperbola}
 E, ROUND, WALLED = Circle.E, Circle.ROUND, Circle.WALLED
 invariant, lost, onto, way_between, whole_way, moved, swing, bent, sizes_of_ways = (
-    Circle.invariant, Circle.lost, Circle.onto, Circle.way_between, Circle.whole_way, Circle.moved, Circle.swing, Circle.bent, Circle.sizes_of_ways)
+    Circle.invariant, Circle.lost, Circle.onto, Circle.way_between, Circle.whole_way, Circle.moved,
+    Circle.swing, Circle.bent, Circle.sizes_of_ways)
 repeated, change, stationary, size_of_terms, middle_modes, whole, modes_pair, modes_terms = (
-    Circle.repeated, Circle.change, Circle.stationary, Circle.size_of_terms, Circle.middle_modes, Circle.whole, Circle.modes_pair, Circle.modes_terms)
+    Circle.repeated, Circle.change, Circle.stationary, Circle.size_of_terms, Circle.middle_modes,
+    Circle.whole, Circle.modes_pair, Circle.modes_terms)

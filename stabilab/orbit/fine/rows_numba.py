@@ -1,4 +1,5 @@
-"""Extremes and periods of librations, one row at a time: the door of numba. What the kernels leave open is left to balls."""
+"""Extremes and periods of librations, one row at a time: the door of numba. What the kernels leave open is
+left to balls."""
 from __future__ import annotations
 
 from fractions import Fraction
@@ -13,10 +14,13 @@ from . import rows_kernel
 from .places import twofold_constant
 
 # Functions without which loops call instead of adding
-INLINED = {"exact_sum", "exact_product", "add", "times", "scaled", "less", "value", "swing", "lag", "sinc_cos", "sinc_minus_cos", "sinhc_and_rest",
+INLINED = {"exact_sum", "exact_product", "add", "times", "scaled", "less", "value", "swing", "lag",
+           "sinc_cos", "sinc_minus_cos", "sinhc_and_rest",
            "way_of_cosine", "converged", "horner", "rounding_of"}
-INLINED_ON_PARABOLAS = {"exact_sum", "exact_product", "add", "times", "scaled", "quartic", "cubic", "bend", "terms_of", "blur_of_force", "place_at"}
-# Loading the code from disk costs some 0.3 s of a processor, compiling it once per machine some ten for each geometry;
+INLINED_ON_PARABOLAS = {"exact_sum", "exact_product", "add", "times", "scaled", "quartic", "cubic", "bend",
+                        "terms_of", "blur_of_force", "place_at"}
+# Loading the code from disk costs some 0.3 s of a processor, compiling it once per machine some ten for each
+# geometry;
 # a row of plain Python costs two milliseconds.
 COLD, WARM = 1000, 20
 STRAIGHT = 1e-6  # of the slopes, as in `conic`: a circle so small hardly sees the bend of its equilibria
@@ -27,10 +31,11 @@ HALVED = 8, 16, 32, 64  # intervals whose midpoints are added to the trapezoidal
 
 
 def settle_rows(land: Landscape, states, boxes, periods, left_open, by_numba: bool | None = None):
-    """Fill boxes (n, 3, 2) and periods (n,), each unless it is empty, of the librations of states (n, 3) that are open.
+    """Fill boxes (n, 3, 2) and periods (n,), each unless it is empty, of the librations of states (n, 3) that
+    are open.
 
-    left_open: (n,) bits, `BOX` and `PERIOD`, of which those that are settled are cleared. by_numba: whether compiled
-    code serves, where numba is installed; None: where so many rows repay loading it.
+    left_open: (n,) bits, `BOX` and `PERIOD`, of which those that are settled are cleared. by_numba: whether
+    compiled code serves, where numba is installed; None: where so many rows repay loading it.
     """
     rows = np.nonzero(left_open)[0]
     if not rows.size:
@@ -50,7 +55,8 @@ def plain(base: str):
 
 
 def _module(base: str):
-    """(module with the kernel of a geometry, its functions to inline, the names that are the geometry's own)."""
+    """(module with the kernel of a geometry, its functions to inline, the names that are the geometry's own).
+    """
     if base == "parabola":
         return parabola_kernel, INLINED_ON_PARABOLAS, {}
     return rows_kernel, INLINED, rows_kernel.functions_of(rows_kernel.GEOMETRIES[base])
@@ -61,7 +67,8 @@ def _compiled(base: str):
     return compiled(module, inlined, base, **names)["rows"]
 
 
-COMPILED = {base: lru_cache(maxsize=1)(partial(_compiled, base)) for base in ("circle", "hyperbola", "parabola")}
+COMPILED = {base: lru_cache(maxsize=1)(partial(_compiled, base))
+            for base in ("circle", "hyperbola", "parabola")}
 
 
 @lru_cache(maxsize=64)
@@ -74,7 +81,8 @@ def kernel_input(land: Landscape):
     if land.conic is None:
         return axes, _parts([twofold_constant(getattr(r, name)) for name in PARABOLA]), *np.empty((3, 3))
     conic, g = land.conic, r.constants
-    fine = *land.twofold, twofold_constant(r.exact_constants["n"] ** 2 / 2)  # type: ignore[attr-defined]  # of conics
+    # of conics
+    fine = *land.twofold, twofold_constant(r.exact_constants["n"] ** 2 / 2)  # type: ignore[attr-defined]
     lines, straight, beside = conic.lines, np.inf, 0.0
     if conic.pieces:
         centre = CENTRE * (abs(conic.c) + abs(conic.d)) / abs(conic.G)
@@ -84,10 +92,12 @@ def kernel_input(land: Landscape):
             lines, straight = (conic.limit,), float(STRAIGHT * np.hypot(conic.c, conic.d) / conic.G) ** 2
     form = g["flip"] * g["rx"], g["rz"], g["flip"] / g["n"], shift, rest, straight
     numbers = tuple(map(float, (conic.c, conic.d, conic.G, conic.mu, conic.K, conic.shift, beside)))
-    pieces = np.array([(p.sign, p.inner, p.outer, p.rising, p.barrier, *_between(conic, p)) for p in conic.pieces], float)
+    pieces = np.array([(p.sign, p.inner, p.outer, p.rising, p.barrier, *_between(conic, p))
+                       for p in conic.pieces], float)
     points = np.array([(*line, side) for line in lines for side in (-1, 1)], float)
     folds = np.array(conic.fold_invariants + conic.tangents, float)
-    return _parts(fine).ravel(), form, axes, numbers, pieces.reshape(-1, 7), points.reshape(-1, 5), folds, rules()
+    return _parts(fine).ravel(), form, axes, numbers, pieces.reshape(-1,
+                                                                     7), points.reshape(-1, 5), folds, rules()
 
 
 def _parts(numbers):
@@ -98,16 +108,18 @@ def _parts(numbers):
 def _between(conic, piece):
     """The invariants between which a piece meets an orbit."""
     at = lambda size: float(conic.invariant(piece.sign * size))
-    ends = at(piece.inner) if piece.inner else -conic.e * np.inf, at(piece.outer) if np.isfinite(piece.outer) else np.inf
+    ends = at(piece.inner) if piece.inner else -conic.e * np.inf, at(piece.outer) if np.isfinite(
+        piece.outer) else np.inf
     return ends if piece.rising else ends[::-1]
 
 
 @lru_cache(maxsize=1)
 def rules():
-    """(shares sin(phi/2)^2 <= 1/2 of the trapezoidal nodes of eight intervals, then of the midpoints of these and of
-    twice as many; distances of the double-exponential nodes from the nearer end, negative where that is the inner one,
-    their weights, and where levels begin)."""
-    phi = np.concatenate([np.arange(5) * (np.pi / 8)] + [(np.arange(n // 2) + 0.5) * (np.pi / n) for n in HALVED])
+    """(shares sin(phi/2)^2 <= 1/2 of the trapezoidal nodes of eight intervals, then of the midpoints of these
+    and of twice as many; distances of the double-exponential nodes from the nearer end, negative where that
+    is the inner one, their weights, and where levels begin)."""
+    phi = np.concatenate([np.arange(5) * (np.pi / 8)]
+                         + [(np.arange(n // 2) + 0.5) * (np.pi / n) for n in HALVED])
     levels = [double_exponential_nodes(level) for level in range(LAST_LEVEL + 1)]
     near, weights = (np.concatenate(parts) for parts in zip(*levels))
     return np.sin(0.5 * phi) ** 2, near, weights, np.cumsum([0] + [len(way) for way, _ in levels])

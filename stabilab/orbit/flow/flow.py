@@ -1,19 +1,22 @@
 """The reduced motion of a state at any time.
 
-An ordinary motion in plain doubles: one well inside its well, or well above every barrier, on a circle or a hyperbola.
+An ordinary motion in plain doubles: one well inside its well, or well above every barrier, on a circle or a
+hyperbola.
 
-About the state itself, with y = theta - theta_0 and places (X, Z) on the conic, what the force does from a to a + d is
+About the state itself, with y = theta - theta_0 and places (X, Z) on the conic, what the force does from a to
+a + d is
 
     V(a) - V(a + d) = d [mu + (G X Z cos(d/2) + c Z + d_ X) sin(d/2)/(d/2)],   X, Z at a + d/2,
 
-(cosh, sinh on a hyperbola): no energies are subtracted. The orbit is searched for its turning points by steps that no zero
-of the kinetic energy W^2/2 can hide in, as |V''| is bounded. Where rounding could cost digits (`LOST`) or the way there
-takes too many steps, `ordinary` gives None, and balls take over (`relief`).
+(cosh, sinh on a hyperbola): no energies are subtracted. The orbit is searched for its turning points by steps
+that no zero of the kinetic energy W^2/2 can hide in, as |V''| is bounded. Where rounding could cost digits
+(`LOST`) or the way there takes too many steps, `ordinary` gives None, and balls take over (`relief`).
 
 The state of a motion with one degree of freedom at any time, at a cost that does not grow with the time.
 
-A torque along a principal axis (or none) leaves a particle in a potential: what repeats is folded by its period
-(`repeating_motion`), what spins up is summed over its turns in closed form (`spin_up_motion`). Nothing is stepped.
+A torque along a principal axis (or none) leaves a particle in a potential: what repeats is folded by its
+period (`repeating_motion`), what spins up is summed over its turns in closed form (`spin_up_motion`). Nothing
+is stepped.
 """
 from __future__ import annotations
 
@@ -50,7 +53,8 @@ from .periodic import (
 from .profile import TURN, Relief, relief
 from .spin_up import POINTS, Panels, Passing, SpinUp, Turn, Turning, turning_offset
 
-LOST = 24.0  # terms of the force or the energy against what is left of them: roundings that count in the answer
+# terms of the force or the energy against what is left of them: roundings that count in the answer
+LOST = 24.0
 STEPS = 40  # of the search to one side
 REACH = 0.5  # longest step on a hyperbola, over which its speed grows less than twofold
 KANTOROVICH = 0.5  # of 1, below which Newton's method surely converges (Kantorovich's theorem)
@@ -79,7 +83,8 @@ def constants(scene):
 
 
 class Here:
-    """The state's own place as the spot that its motion is told from: at, kinetic, share, energy, state as of `relief.Spot`."""
+    """The state's own place as the spot that its motion is told from: at, kinetic, share, energy, state as of
+    `relief.Spot`."""
 
     at, kind = 0.0, 0
     __slots__ = "k", "x", "z", "w", "kinetic", "base", "size"
@@ -120,7 +125,8 @@ class Here:
 
     # --- the way to the turning points
     def _look(self, y):
-        """(kinetic energy, force, its slope, bound of that within `REACH`, size of the energy's terms) at offset y."""
+        """(kinetic energy, force, its slope, bound of that within `REACH`, size of the energy's terms) at
+        offset y."""
         k, x0, z0 = self.k, self.x, self.z
         x, z, span, steep, bound, slope = self._bent(y)
         value = self.kinetic + k.mu * y + (x - x0) * (0.5 * k.G * (x + x0) + k.c) + k.e * k.d * (z - z0)
@@ -128,13 +134,14 @@ class Here:
         return value, k.mu + (k.G * x + k.c) * z + k.d * x, slope, bound, terms
 
     def _bent(self, y):
-        """(X, Z, their size, steepness of the potential, bound of the force's slope within `REACH`, that slope) at offset y."""
+        """(X, Z, their size, steepness of the potential, bound of the force's slope within `REACH`, that
+        slope) at offset y."""
         raise NotImplementedError
 
     def turning(self, sense, reach=math.inf):
-        """(offset of the first turning point on the side `sense`, slope of the kinetic energy there), or (`reach`, least
-        kinetic energy seen on the way) where none comes before it, and the energy's terms; None where doubles may lose
-        digits."""
+        """(offset of the first turning point on the side `sense`, slope of the kinetic energy there), or
+        (`reach`, least kinetic energy seen on the way) where none comes before it, and the energy's terms;
+        None where doubles may lose digits."""
         y, longest, least = 0.0, self.longest, math.inf
         for _ in range(STEPS):
             value, force, slope, bound, terms = self._look(sense * y)
@@ -149,7 +156,8 @@ class Here:
         return None
 
     def _polished(self, sense, y, value, force, slope, terms):
-        """`turning` from a place so near that Halley's method (Newton's with the second derivative) converges."""
+        """`turning` from a place so near that Halley's method (Newton's with the second derivative)
+        converges."""
         for _ in range(STEPS):
             step = 2 * value * force / (2 * force * force - value * slope)
             y -= step
@@ -239,7 +247,8 @@ def _round(here, ahead, nodes, backwards):
     if here.k.mu and here.w > 0 and not backwards:
         return SpinUp.from_here(here, here.w, TURN * here.k.mu, nodes or POINTS)
     if not here.k.mu:
-        return by_samples(Rotation, Around(here, math.copysign(1.0, here.w)), here.w, nodes, ROTATION_SAMPLES[:2])
+        return by_samples(Rotation, Around(here, math.copysign(1.0, here.w)), here.w, nodes,
+                          ROTATION_SAMPLES[:2])
     return None
 
 
@@ -251,15 +260,17 @@ DIGITS = 1e-11  # rounding of the potential about an equilibrium beyond which do
 def reduced_motion(scene, state, nodes: int | None = None, backwards: bool = False):
     """The motion from `state` (three numbers), a `repeating_motion.Motion`.
 
-    nodes: samples a turn of the phase (repeating) or points a panel (spin-up); None: as many as it takes. backwards: times
-    before 0 are wanted too. Raises InputError where the scene has no reduction, on a separatrix, for spin-up other than round
-    a circle, and where doubles do not hold the answer.
+    nodes: samples a turn of the phase (repeating) or points a panel (spin-up); None: as many as it takes.
+    backwards: times before 0 are wanted too. Raises InputError where the scene has no reduction, on a
+    separatrix, for spin-up other than round a circle, and where doubles do not hold the answer.
     """
-    if not (type(state) is tuple and len(state) == 3 and all(type(v) is float and math.isfinite(v) for v in state)):
+    if not (type(state) is tuple and len(state) == 3
+            and all(type(v) is float and math.isfinite(v) for v in state)):
         state = checked_states(state).reshape(3).tolist()
     reduction, plain = constants(scene)
     if reduction is None:
-        raise InputError("the scene has no reduction to one degree of freedom: its torque is off the principal axes, or the "
+        raise InputError("the scene has no reduction to one degree of freedom: its torque is off the "
+                         "principal axes, or the "
                          "gyrostatic moment has a component along it; take method taylor")
     k = exponent(scene, state)
     motion = ordinary(plain, state, nodes, backwards) if plain and k is None else None
@@ -272,7 +283,8 @@ def reduced_motion(scene, state, nodes: int | None = None, backwards: bool = Fal
             raise InputError(TOO_FINE)
         if nodes is None and isinstance(motion, ByPanels) and not motion.sense:
             _refuse_another_period(motion, orbit)
-        if isinstance(motion, Resting) and orbit.settled(lambda one: one.force_here) != 0:  # its swing is below the doubles, its period is not
+        # its swing is below the doubles, its period is not
+        if isinstance(motion, Resting) and orbit.settled(lambda one: one.force_here) != 0:
             motion.period = period_of(orbit, Fate.BOUNDED)
         motion = motion if k is None else InOwnUnit(motion, k)
     motion.axis, motion.spin = reduction.axis, plain.spin if plain else (1.0, float(reduction.s))
@@ -280,7 +292,8 @@ def reduced_motion(scene, state, nodes: int | None = None, backwards: bool = Fal
 
 
 def _refuse_another_period(motion, orbit):
-    """InputError where the panels of a libration do not add up to its period, which is known by other means."""
+    """InputError where the panels of a libration do not add up to its period, which is known by other means.
+    """
     expected = period_of(orbit, Fate.BOUNDED)
     if not abs(motion.period - expected) <= PERIODS_AGREE * expected:
         raise InputError(TOO_FINE)
@@ -301,14 +314,17 @@ def _motion(ground: Relief, state, nodes, backwards):
 def _refuse_ties(ground, spots):
     """InputError where the energy is a hill's, or the relief is flatter than doubles tell."""
     if any(s.kind > 0 and s.kinetic == 0 for s in spots):
-        raise InputError("the motion is on a separatrix: it tends to an equilibrium, and its reduced form takes for ever; take "
+        raise InputError("the motion is on a separatrix: it tends to an equilibrium, and its reduced form "
+                         "takes for ever; take "
                          "method taylor")
     if any(s.blur > DIGITS for s in spots):
-        raise InputError("about an equilibrium the reduced potential is flatter than doubles tell; take method taylor")
+        raise InputError(
+            "about an equilibrium the reduced potential is flatter than doubles tell; take method taylor")
 
 
 def axis_way(motion, times):
-    """(states (n, 3), integral of the rate about the torque's axis since time 0 (n,), that axis) at times of any sign."""
+    """(states (n, 3), integral of the rate about the torque's axis since time 0 (n,), that axis) at times of
+    any sign."""
     times = np.asarray(times, float)
     motion = tabulated(motion) if len(times) >= MANY else motion
     states, way = motion.follow(times)
@@ -322,7 +338,8 @@ def _libration(ground: Relief, nodes):
     right = min((n for n, s in enumerate(spots) if s.kind > 0 and s.kinetic <= 0 and s.at > 0), default=None)
     inner = spots[0 if left is None else left + 1:right]
     if not inner or inner[0].kind > 0 or inner[-1].kind > 0:
-        raise InputError("the motion does not repeat: no well holds it (spin-up on an invariant plane, or about the axis "
+        raise InputError("the motion does not repeat: no well holds it (spin-up on an invariant plane, or "
+                         "about the axis "
                          "itself); take method taylor")
     left, right = (None if n is None else spots[n] for n in (left, right))
     _refuse_ties(ground, [s for s in (left, *inner, right) if s])
@@ -341,12 +358,14 @@ def _libration(ground: Relief, nodes):
 
 
 def _turn(hill, well, sense):
-    """(spot, offset) of the turning point beyond a well on one side, told from whichever equilibrium is nearer in height."""
+    """(spot, offset) of the turning point beyond a well on one side, told from whichever equilibrium is
+    nearer in height."""
     reach = None if hill is None else abs(hill.at - well.at)
     near = hill if hill is not None and -hill.kinetic < well.kinetic else well
     offset = turning_offset(near, sense if near is well else -sense, reach)
     if offset is None:
-        raise InputError("the motion does not turn back: it spins up on an invariant plane; take method taylor")
+        raise InputError(
+            "the motion does not turn back: it spins up on an invariant plane; take method taylor")
     return near, offset
 
 
@@ -360,7 +379,8 @@ def _rotation(ground: Relief, nodes):
             return motion
     turn = Turn(ground)
     number, y = turn.where()
-    return _by_panels([turn.passing(n) for n in range(len(turn.hills))], number % len(turn.hills), y, ground.w, sense)
+    return _by_panels([turn.passing(n) for n in range(len(turn.hills))], number % len(turn.hills), y,
+                      ground.w, sense)
 
 
 def _by_panels(chain, number, y, w, sense):

@@ -2,10 +2,11 @@
 
 A motion that repeats, at any time: librations between two turning points, rotations without torque.
 
-Well away from a separatrix the time is a short Fourier series of the phase phi (offset = middle - half cos phi, or the angle
-itself): one time is inverted by Newton's method. For many, phi less the mean phase psi = 2 pi t/T is a series in psi with
-the coefficients d_k = <exp(-i k psi(phi))>/(i k), means over phi (as Bessel's for Kepler's equation), so nothing is
-inverted. Next to a separatrix, where the series are long, the panels of `passages` take over.
+Well away from a separatrix the time is a short Fourier series of the phase phi (offset = middle - half cos
+phi, or the angle itself): one time is inverted by Newton's method. For many, phi less the mean phase psi = 2
+pi t/T is a series in psi with the coefficients d_k = <exp(-i k psi(phi))>/(i k), means over phi (as Bessel's
+for Kepler's equation), so nothing is inverted. Next to a separatrix, where the series are long, the panels of
+`passages` take over.
 """
 from __future__ import annotations
 
@@ -38,13 +39,14 @@ class Between:
         self.half = 0.5 * (right.at - left.at + (b - a))
 
     def samples(self, rule):
-        """dt/dphi at the angles of a `Rule`, from the turning point of each half: K = way * share, and half sin phi =
-        sqrt(way (2 half - way))."""
+        """dt/dphi at the angles of a `Rule`, from the turning point of each half: K = way * share, and half
+        sin phi = sqrt(way (2 half - way))."""
         way, part = rule.way * (2 * self.half), len(rule.angles) // 2 + 1
         if self.left is self.right:
             share = self.left.share(self.a * rule.low + self.b * rule.high, way, Arrays)
         else:
-            share = np.concatenate([self.left.share(self.a, way[:part], Arrays), self.right.share(self.b, way[part:], Arrays)])
+            share = np.concatenate([self.left.share(self.a, way[:part], Arrays),
+                                    self.right.share(self.b, way[part:], Arrays)])
         return np.sqrt(rule.near * self.half / share)
 
     def phase(self, w):
@@ -72,7 +74,8 @@ class Between:
         """(states (n, 3), offsets from the state (n,)) at phases."""
         out, offsets = np.empty((len(phi), 3)), np.empty(len(phi))
         low = np.cos(phi) >= 0
-        for mine, spot, a, sense, root in ((low, self.left, self.a, 1, np.sin), (~low, self.right, self.b, -1, np.cos)):
+        for mine, spot, a, sense, root in ((low, self.left, self.a, 1, np.sin),
+                                           (~low, self.right, self.b, -1, np.cos)):
             angle = phi[mine]
             way = sense * 2 * self.half * root(0.5 * angle) ** 2
             w = np.copysign(np.sqrt(2 * way * spot.share(a, way, Arrays)), np.sin(angle))
@@ -102,8 +105,8 @@ class Around:
 
 
 class Motion:
-    """at(t): (omega_1, omega_2, omega_3) at one time; follow(times): (states (n, 3), way of the coordinate since time 0 (n,));
-    period: inf where it does not repeat; evaluations: of the integrand, in all."""
+    """at(t): (omega_1, omega_2, omega_3) at one time; follow(times): (states (n, 3), way of the coordinate
+    since time 0 (n,)); period: inf where it does not repeat; evaluations: of the integrand, in all."""
 
     evaluations = 0
     period: float
@@ -115,7 +118,8 @@ class Motion:
 
 
 class BySeries(Motion):
-    """A libration `between` turning points whose time is a series of its phase, from n samples over a turn."""
+    """A libration `between` turning points whose time is a series of its phase, from n samples over a turn.
+    """
 
     sense = 0.0
 
@@ -220,7 +224,8 @@ class Rotation(Motion):
 
 
 def by_samples(kind, path, w, nodes, counts):
-    """The motion of a `kind` with as many samples as it takes (None: more than `counts` has), or with `nodes`."""
+    """The motion of a `kind` with as many samples as it takes (None: more than `counts` has), or with
+    `nodes`."""
     evaluations = 0
     for n in (nodes,) if nodes else counts:
         motion = kind(path, w, n)
@@ -277,7 +282,8 @@ class Resting(Motion):
 # --- A motion whose squares leave the range of doubles, followed in its own unit of rate: rates change by a
 # power of two, time by its inverse
 def exponent(scene, state) -> int | None:
-    """The exponent k of the own unit 2^k of the motion from three floats, as of `far_exponent`; None where its size is ordinary."""
+    """The exponent k of the own unit 2^k of the motion from three floats, as of `far_exponent`; None where
+    its size is ordinary."""
     found = [math.frexp(v)[1] for v in state if v]
     if (own := _of_scene(scene)) is not None:
         found.append(own)
@@ -294,7 +300,8 @@ class InOwnUnit(Motion):
     """A motion in the scene's unit, from the same one in the unit 2^k."""
 
     def __init__(self, motion: Motion, k: int):
-        self.motion, self.k, self.evaluations, self.sense = motion, k, motion.evaluations, getattr(motion, "sense", 0.0)
+        self.motion, self.k, self.evaluations, self.sense = motion, k, motion.evaluations, getattr(
+            motion, "sense", 0.0)
         self.period = powered(motion.period, -k)
         if math.isnan(self.period):
             raise InputError(f"the period of this motion is {BEYOND}: choose another unit of time")
@@ -311,7 +318,9 @@ class InOwnUnit(Motion):
         try:
             return math.ldexp(t, self.k)
         except OverflowError:
-            raise InputError(f"at t = {t:.3g} the motion has gone further than doubles can count: ask for earlier times") from None
+            raise InputError(
+                f"at t = {t:.3g} the motion has gone further than doubles can count: ask for "
+                f"earlier times") from None
 
 
 # --- A motion that repeats, as polynomials in time over equal parts of its period: a state for some thirty
@@ -323,7 +332,8 @@ TABLE_CHUNK = 1024
 
 
 def tabulated(motion: Motion) -> Motion:
-    """The motion from a table; itself where it does not repeat or turns too sharply for one (next to a separatrix)."""
+    """The motion from a table; itself where it does not repeat or turns too sharply for one (next to a
+    separatrix)."""
     if not 0 < motion.period < math.inf:
         return motion
     nodes, fit, powers = _rule()
@@ -338,7 +348,8 @@ def tabulated(motion: Motion) -> Motion:
 
 @lru_cache(maxsize=1)
 def _rule():
-    """(nodes in (-1, 1), matrix from values there to Chebyshev's coefficients, matrix from those to powers)."""
+    """(nodes in (-1, 1), matrix from values there to Chebyshev's coefficients, matrix from those to powers).
+    """
     cheb = np.polynomial.chebyshev
     nodes, powers = cheb.chebpts1(DEGREE + 1), np.zeros((DEGREE + 1, DEGREE + 1))
     for k in range(DEGREE + 1):
@@ -362,7 +373,11 @@ class Tabulated(Motion):
             place += self.parts
         n = int(place)
         x = 2 * (place - n) - 1
-        return [a + x * (b + x * (c + x * (d + x * (e + x * (f + x * (g + x * (h + x * (i + x * (j + x * (k + x * m))))))))))
+        return [a + x
+                * (b + x * (c
+                            + x * (d + x
+                                   * (e + x * (f
+                                               + x * (g + x * (h + x * (i + x * (j + x * (k + x * m))))))))))
                 for a, b, c, d, e, f, g, h, i, j, k, m in self._cells[n if n < self.parts else 0]]
 
     def states(self, times):

@@ -1,11 +1,13 @@
 """One orbit between its equilibria, as Fourier series.
 
-The relief that one orbit runs over: its hills and wells, each with the kinetic energy above it, from exact inputs.
+The relief that one orbit runs over: its hills and wells, each with the kinetic energy above it, from exact
+inputs.
 
-About an equilibrium the potential is V(0) - V(y) = R(y), and only divided differences (R(a + d) - R(a))/d are ever
-formed, from closed expressions that keep their digits however small a and d are: the kinetic energy is K + y R[0, y]
-where the motion passes the equilibrium with K, and d R[a, a + d] where it turns at a. Energies are never subtracted.
-Offsets and heights come from ball arithmetic and are rounded once, so a state next to a separatrix costs no digits.
+About an equilibrium the potential is V(0) - V(y) = R(y), and only divided differences (R(a + d) - R(a))/d are
+ever formed, from closed expressions that keep their digits however small a and d are: the kinetic energy is K
++ y R[0, y] where the motion passes the equilibrium with K, and d R[a, a + d] where it turns at a. Energies
+are never subtracted. Offsets and heights come from ball arithmetic and are rounded once, so a state next to a
+separatrix costs no digits.
 """
 from __future__ import annotations
 
@@ -91,9 +93,10 @@ def _growth_series(t):
 class Spot:
     """An equilibrium (or, on a circle without any, the state itself) and what surrounds it along the orbit.
 
-    at: its offset from the state; kinetic: W^2/2 of the motion there (negative: the motion does not get there); kind: +1 hill,
-    -1 well, 0 neither; force: of the potential there, 0 at an equilibrium; base: omega_j, omega_k there; shape and
-    curve: coefficients of R and of the components, by geometry; spin: omega_i = spin W - shift.
+    at: its offset from the state; kinetic: W^2/2 of the motion there (negative: the motion does not get
+    there); kind: +1 hill,
+    -1 well, 0 neither; force: of the potential there, 0 at an equilibrium; base: omega_j, omega_k there;
+    shape and curve: coefficients of R and of the components, by geometry; spin: omega_i = spin W - shift.
     """
 
     at: float
@@ -128,7 +131,8 @@ class Spot:
 
 
 class OnCircle(Spot):
-    """R = force sin y + mu (y - sin y) + B u - P u^2 + Q u sin y with u = 1 - cos y; shape (mu, B, P, Q), B = R''."""
+    """R = force sin y + mu (y - sin y) + B u - P u^2 + Q u sin y with u = 1 - cos y; shape (mu, B, P, Q), B =
+    R''."""
 
     @property
     def bend(self):
@@ -144,7 +148,8 @@ class OnCircle(Spot):
         half, low, left, right = f.sin(0.5 * d), f.sin(0.5 * middle), f.sin(0.5 * a), f.sin(0.5 * b)
         sinc = f.over(half, 0.5 * d)
         u_a, u_b, u_middle = 2 * left * left, 2 * right * right, 2 * low * low
-        bent = f.sin(middle) * sinc * (bend - p * (u_a + u_b) + q * f.sin(b)) + q * u_a * (1 - u_middle) * sinc
+        bent = (f.sin(middle) * sinc * (bend - p * (u_a + u_b) + q * f.sin(b))
+                + q * u_a * (1 - u_middle) * sinc)
         if mu:
             bent = bent + mu * (f.rest(0.5 * d) + u_middle * sinc)
         return bent + self.force * (1 - u_middle) * sinc if self.force else bent
@@ -194,7 +199,8 @@ class OnParabola(Spot):
     def share(self, a, d, f):
         f1, f2, f3 = self.shape
         b = a + d
-        return self.force + f1 / 2 * (a + b) + f2 / 3 * (a * a + a * b + b * b) + f3 / 4 * (a + b) * (a * a + b * b)
+        return (self.force + f1 / 2 * (a + b) + f2 / 3 * (a * a + a * b + b * b)
+                + f3 / 4 * (a + b) * (a * a + b * b))
 
     def components(self, y, f):
         ju, jb, kv, ka = self.curve
@@ -203,9 +209,10 @@ class OnParabola(Spot):
 
 @dataclass(frozen=True)
 class Relief:
-    """spots in ascending order, on a circle those of one turn behind and of one ahead; w: rate of the state; closed:
-    whether the orbit is a circle; turn: what the potential falls by over a turn of a circle, behind: by how many whole turns each spot of the turn ahead lies
-    above the place where the motion came from rest."""
+    """spots in ascending order, on a circle those of one turn behind and of one ahead; w: rate of the state;
+    closed: whether the orbit is a circle; turn: what the potential falls by over a turn of a circle, behind:
+    by how many whole turns each spot of the turn ahead lies above the place where the motion came from
+    rest."""
 
     spots: tuple
     w: float
@@ -226,7 +233,8 @@ def _relief(orbit) -> Relief:
     turn = orbit.fall()
     spots = [_spot(orbit, s.y, s.kind, value, bits) for s, value in zip(orbit.spots, kinetic)]
     drops = ()
-    here = _spot(orbit, zero, 0, orbit.energy, bits, force=orbit.numbers.ball(orbit.force_here) * orbit.n * orbit.flip)
+    here = _spot(orbit, zero, 0, orbit.energy, bits,
+                 force=orbit.numbers.ball(orbit.force_here) * orbit.n * orbit.flip)
     if orbit.closed:
         behind = [replace(spot, at=_offset(one.y), kinetic=_rounded(value - turn, bits))
                   for spot, value, one in zip(spots, kinetic, orbit.all_spots)]
@@ -238,8 +246,8 @@ def _relief(orbit) -> Relief:
 
 
 def _drop(spot, kinetic, turn, bits):
-    """(spot, m, kinetic energy m turns behind it): over an equilibrium the first m with a negative one, else the last with
-    none."""
+    """(spot, m, kinetic energy m turns behind it): over an equilibrium the first m with a negative one, else
+    the last with none."""
     share = kinetic / turn
     whole = share.floor().unique_fmpz()
     if whole is None:
@@ -285,7 +293,8 @@ def _spot(orbit, y, kind, kinetic, bits, force=None) -> Spot:
     base = tuple(float(part.mid()) for part in orbit.components(y))
     spot, told = SPOTS[r.e]
     shape, curve = told(orbit, y)
-    return spot(_offset(y), _rounded(kinetic, bits), kind, value, base, shape, curve, (r.axis, r.j, r.k), spin)
+    return spot(_offset(y), _rounded(kinetic, bits), kind, value, base, shape, curve, (r.axis, r.j, r.k),
+                spin)
 
 
 def _circle(orbit, y):
@@ -303,7 +312,8 @@ def _hyperbola(orbit, y):
     quarter = -orbit.G / 8
     shape = (_sum([-up * xi]), _sum([down * eta]), _sum([quarter * xi * xi]), _sum([quarter * eta * eta]))
     half_x, half_e = xi / 2, eta / 2
-    return shape, tuple(float(v.mid()) for v in (orbit.rx * half_x, orbit.rx * half_e, orbit.rz * half_x, orbit.rz * half_e))
+    return shape, tuple(float(v.mid())
+                        for v in (orbit.rx * half_x, orbit.rx * half_e, orbit.rz * half_x, orbit.rz * half_e))
 
 
 def _parabola(orbit, y):
@@ -326,9 +336,10 @@ TINY = 1e-290  # no way at all, but not 0/0
 class Rule:
     """Even functions of phi from their values at phi_m = m 2 pi/n, m = 0 ... n/2.
 
-    matrix: to their n/2 + 1 coefficients (of cos k phi), to those of the integral less its mean (of sin k phi), and to the
-    integral at the nodes. low, high: 1 where the phase is told from the turning point on the left, or the right; way: from
-    there in units of 2 half, signed; near: cos^2 (phi/2) seen from there, signed.
+    matrix: to their n/2 + 1 coefficients (of cos k phi), to those of the integral less its mean (of sin k
+    phi), and to the integral at the nodes. low, high: 1 where the phase is told from the turning point on the
+    left, or the right; way: from there in units of 2 half, signed; near: cos^2 (phi/2) seen from there,
+    signed.
     """
 
     def __init__(self, n):
@@ -344,12 +355,14 @@ class Rule:
         self.low = (k < part).astype(float)
         self.high = 1 - self.low
         back = np.pi - phi
-        self.way = np.where(k < part, np.maximum(np.sin(0.5 * phi) ** 2, TINY), -np.maximum(np.sin(0.5 * back) ** 2, TINY))
+        self.way = np.where(k < part, np.maximum(np.sin(0.5 * phi) ** 2, TINY),
+                            -np.maximum(np.sin(0.5 * back) ** 2, TINY))
         self.near = np.where(k < part, np.cos(0.5 * phi) ** 2, -np.cos(0.5 * back) ** 2)
 
 
 class EvenPhase:
-    """phi(psi) - psi as a sine series, from phi - psi at the samples of a `Rule`; settled: it is as long as doubles need."""
+    """phi(psi) - psi as a sine series, from phi - psi at the samples of a `Rule`; settled: it is as long as
+    doubles need."""
 
     def __init__(self, rule, slow, mean):
         psi = rule.phi + rule.sines @ slow / mean
@@ -363,7 +376,8 @@ class EvenPhase:
 
 
 class Phase:
-    """phi(psi) - psi as a Fourier series from samples of dt/dphi over a turn of phi; settled: it is as long as doubles need."""
+    """phi(psi) - psi as a Fourier series from samples of dt/dphi over a turn of phi; settled: it is as long
+    as doubles need."""
 
     def __init__(self, rate):
         n = len(rate)

@@ -1,20 +1,25 @@
 """Motions that spin up, at any time.
 
-Time along a motion in one degree of freedom: passages over hills and away from turning points, panel by panel.
+Time along a motion in one degree of freedom: passages over hills and away from turning points, panel by
+panel.
 
-A motion is a chain of passages, each in a coordinate in which dt/dx is smooth: the offset from a hill that it passes, or
-the root of the way from the point where it turns. A passage is cut into panels until Gauss's rule sees the end of its own
-series on each; next to a separatrix the panels shrink towards the hill, some forty of them for a distance of 1e-12.
+A motion is a chain of passages, each in a coordinate in which dt/dx is smooth: the offset from a hill that it
+passes, or the root of the way from the point where it turns. A passage is cut into panels until Gauss's rule
+sees the end of its own series on each; next to a separatrix the panels shrink towards the hill, some forty of
+them for a distance of 1e-12.
 
 A motion that spins up about the axis of a torque, at any time: its turns are summed in closed form.
 
-Each turn of the circle adds the same work, so at one place the kinetic energies of successive turns are C (a + n) with
-C = 2 pi mu, and the time n turns take is an integral over one turn of sums of (a + n)^(-1/2). By Euler and Maclaurin
+Each turn of the circle adds the same work, so at one place the kinetic energies of successive turns are C (a
++ n) with C = 2 pi mu, and the time n turns take is an integral over one turn of sums of (a + n)^(-1/2). By
+Euler and Maclaurin
 
-    sum of (a + n)^(-1/2), n = 0 ... N - 1,  = Z(a + N) - Z(a),   Z(a) = 2 sqrt(a) - a^(-1/2)/2 - a^(-3/2)/24 + ...,
+    sum of (a + n)^(-1/2), n = 0 ... N - 1,  = Z(a + N) - Z(a),   Z(a) = 2 sqrt(a) - a^(-1/2)/2 - a^(-3/2)/24
+    + ...,
 
-to the last digit once a >= 12, whatever the height of the hills; the dozen turns before that are summed one by one. The turn in
-which the motion comes from rest, or the state lies, is cut into panels of its own (`passages`).
+to the last digit once a >= 12, whatever the height of the hills; the dozen turns before that are summed one
+by one. The turn in which the motion comes from rest, or the state lies, is cut into panels of its own
+(`passages`).
 """
 from __future__ import annotations
 
@@ -36,7 +41,9 @@ SETTLED = 4e-15  # last coefficients against the first: some ten times what roun
 DEEPEST = 80  # halvings of a passage; 1e-12 from a separatrix takes 20
 CROWD = 200  # panels of one size that are still cut: then it is rounding that keeps them from settling
 NEWTON = 12
-EARLY = -0.9  # of -1 to 1: nearer to the beginning of the first panel its series loses more than a digit of the way from there
+# of -1 to 1: nearer to the beginning of the first panel its series loses more than a digit of the way from
+# there
+EARLY = -0.9
 
 
 class Passing:
@@ -45,7 +52,8 @@ class Passing:
 
     def __init__(self, spot, kinetic, lo, hi, at=None):
         self.spot, self.kinetic, self.at_zero = spot, kinetic, spot.at if at is None else at
-        self.cuts = (lo, 0.0, hi) if lo < 0 < hi else (lo, hi)  # about the spot panels shrink, and keep their digits
+        # about the spot panels shrink, and keep their digits
+        self.cuts = (lo, 0.0, hi) if lo < 0 < hi else (lo, hi)
 
     def energy(self, x, f):
         return self.kinetic + x * self.spot.share(0.0, x, f)
@@ -66,8 +74,8 @@ class Passing:
 
 
 class Turning:
-    """From (sense 1) or to (sense -1) the turning point at offset a of a spot: offset a + sense x^2, to `far`; at: as
-    of `Passing`."""
+    """From (sense 1) or to (sense -1) the turning point at offset a of a spot: offset a + sense x^2, to
+    `far`; at: as of `Passing`."""
 
     def __init__(self, spot, a, sense, far, at=None):
         self.spot, self.a, self.sense, self.at_zero = spot, a, sense, spot.at if at is None else at
@@ -90,8 +98,9 @@ class Turning:
 
 
 class Turn:
-    """The passages of one turn of a circle, each over a hill from well to well (on a circle without hills, one from the state
-    round to itself). Passage m * hills + h is over hill h of turn m, the turn ahead of the state being 0."""
+    """The passages of one turn of a circle, each over a hill from well to well (on a circle without hills,
+    one from the state round to itself). Passage m * hills + h is over hill h of turn m, the turn ahead of the
+    state being 0."""
 
     def __init__(self, relief):
         self.relief, half = relief, len(relief.spots) // 2
@@ -99,7 +108,8 @@ class Turn:
         self.behind = [s.at for s in relief.spots[:half] if s.kind > 0] or [-TURN]
         wells = [s.at for s in relief.spots[half:] if s.kind < 0]
         wells = [w + n * TURN for n in (-1, 0, 1) for w in wells]
-        self.sides = [(hill.at - max(w for w in wells if w < hill.at), min(w for w in wells if w > hill.at) - hill.at)
+        self.sides = [(hill.at - max(w for w in wells if w < hill.at),
+                       min(w for w in wells if w > hill.at) - hill.at)
                       if wells else (0.0, TURN) for hill in self.hills]
 
     def where(self):
@@ -114,12 +124,14 @@ class Turn:
         """Passage `number`, from offset lo on or from its beginning."""
         turn, h = divmod(number, len(self.hills))
         behind, ahead = self.sides[h]
-        return Passing(self.hills[h], self.hills[h].kinetic + turn * self.relief.turn, -behind if lo is None else lo, ahead,
+        return Passing(self.hills[h], self.hills[h].kinetic + turn * self.relief.turn,
+                       -behind if lo is None else lo, ahead,
                        self.hills[h].at + turn * TURN)
 
 
 def turning_offset(spot, sense, reach=None) -> float | None:
-    """Offset from the spot, on the side `sense`, at which W = 0; reach: no further than that (None: search outwards).
+    """Offset from the spot, on the side `sense`, at which W = 0; reach: no further than that (None: search
+    outwards).
 
     The spot is a well with kinetic energy, or a hill without enough. None where the motion does not turn.
     """
@@ -156,7 +168,8 @@ def turning_offset(spot, sense, reach=None) -> float | None:
 
 @lru_cache(maxsize=32)
 def rule(points):
-    """(nodes and weights of Gauss, matrix to the Chebyshev coefficients of the integrand, matrix to those of its integral from
+    """(nodes and weights of Gauss, matrix to the Chebyshev coefficients of the integrand, matrix to those of
+    its integral from
     -1); both matrices act on rows from the right."""
     cheb = np.polynomial.chebyshev
     nodes, weights = np.polynomial.legendre.leggauss(points)
@@ -194,10 +207,12 @@ def inverted(integral, rate, half, wanted, f):
 
 
 class Panels:
-    """Time from the start of a chain of passages; with fewer than `POINTS` points a panel none is cut further.
+    """Time from the start of a chain of passages; with fewer than `POINTS` points a panel none is cut
+    further.
 
-    evaluations: of dt/dx; starts: times at the panels' beginnings; owner: the passage of each; low, half: their ends and half
-    lengths; values (n, points): dt/dx at the nodes; rates, integrals: Chebyshev coefficients of dt/dx and of t."""
+    evaluations: of dt/dx; starts: times at the panels' beginnings; owner: the passage of each; low, half:
+    their ends and half lengths; values (n, points): dt/dx at the nodes; rates, integrals: Chebyshev
+    coefficients of dt/dx and of t."""
 
     def __init__(self, chain, points=POINTS):
         self.chain, self.points, self.evaluations = chain, points, 0
@@ -212,7 +227,8 @@ class Panels:
         self._starts = self.starts.tolist()
 
     def _cut(self, passage, adaptive):
-        """(low ends, half lengths, dt/dx (n, points), its coefficients (n, points)) of a passage's panels, in order."""
+        """(low ends, half lengths, dt/dx (n, points), its coefficients (n, points)) of a passage's panels, in
+        order."""
         nodes, _, forward, _ = rule(self.points)
         edges = _edges(passage.cuts)
         low, high, done = edges[:-1], edges[1:], []
@@ -225,7 +241,8 @@ class Panels:
             if not np.isfinite(values).all():
                 raise InputError("the reduced form of this motion takes more digits than doubles have")
             rate = values @ forward
-            good = np.abs(rate[:, -2:]).max(axis=1) <= SETTLED * np.abs(rate[:, 0]) if adaptive else np.ones(len(low), bool)
+            good = (np.abs(rate[:, -2:]).max(axis=1) <= SETTLED * np.abs(rate[:, 0]) if adaptive
+                    else np.ones(len(low), bool))
             if good.all():
                 done.append((low, half, values, rate))
                 break
@@ -252,10 +269,12 @@ class Panels:
         nodes, weights, *_ = rule(self.points)
         half = 0.5 * (x - low)
         self.evaluations += x.size * len(nodes)
-        return half * (passage.rate((low + half[:, None] * (1 + nodes)).ravel()).reshape(len(x), -1) @ weights)
+        return (half
+                * (passage.rate((low + half[:, None] * (1 + nodes)).ravel()).reshape(len(x), -1) @ weights))
 
     def _sharpened(self, x, time):
-        """Coordinates x (n,) of the first panel, rounded with the panel's own size, as times (n,) since its beginning demand."""
+        """Coordinates x (n,) of the first panel, rounded with the panel's own size, as times (n,) since its
+        beginning demand."""
         passage, low = self.chain[0], self.low[0]
         return np.maximum(x + (time - self._integral(passage, low, x)) / passage.rate(x), low)
 
@@ -292,7 +311,8 @@ TERMS = 9
 FROM_REST = 64  # turns behind a state that moves ahead, up to which its motion is told from its rest
 MOST_TURNS = 2.0**50
 CHUNK = 256
-FLAT, FEW = 4.0, 20  # kinetic energies of a turn that differ by less than 2 FLAT turns' work: FEW points are right to 1e-17
+# kinetic energies of a turn that differ by less than 2 FLAT turns' work: FEW points are right to 1e-17
+FLAT, FEW = 4.0, 20
 BEFORE = "this motion is told from its state on: ask reduced_motion for it with backwards=True"
 
 
@@ -325,7 +345,8 @@ def _needed(least) -> int:
 
 
 class SpinUp(Motion):
-    """States of a spin-up. from_rest: told from where it came from rest (any time), else from the state (none before)."""
+    """States of a spin-up. from_rest: told from where it came from rest (any time), else from the state (none
+    before)."""
 
     period = math.inf
 
@@ -334,10 +355,12 @@ class SpinUp(Motion):
         number, y = self.round.where()
         rest = max(relief.drops, key=lambda drop: drop[0].at - TURN * drop[1])
         self.from_rest = relief.w < 0 or backwards or rest[1] <= FROM_REST
-        first, self.first = self._rest_passage(*rest) if self.from_rest else (self.round.passing(number, y), number)
+        first, self.first = (self._rest_passage(*rest) if self.from_rest
+                             else (self.round.passing(number, y), number))
         count = len(self.round.hills)
         self.turn = self.first // count + 1
-        self.early = Panels([first, *map(self.round.passing, range(self.first + 1, self.turn * count))], points)
+        self.early = Panels([first, *map(self.round.passing, range(self.first + 1, self.turn * count))],
+                            points)
         self.run_up = self.early.total
         self._whole_turn([self.round.passing(self.turn * count + h) for h in range(count)], points)
         self.start = self._time_of(number, y) if self.from_rest else 0.0
@@ -354,7 +377,8 @@ class SpinUp(Motion):
             a = turning_offset(below, -1, TURN) if kinetic > 0 else 0.0
         else:
             a = turning_offset(below, 1, self.round.sides[h][1])
-        return Turning(below, a, 1, self.round.sides[h][1], spot.at - drop * TURN), h - drop * len(self.round.hills)
+        return Turning(below, a, 1, self.round.sides[h][1],
+                       spot.at - drop * TURN), h - drop * len(self.round.hills)
 
     def _whole_turn(self, chain, points):
         """Panels of the first whole turn: they serve all that follow, which are smoother."""
@@ -384,7 +408,8 @@ class SpinUp(Motion):
 
     @classmethod
     def from_here(cls, spot, w, work, points=POINTS):
-        """The spin-up of a state with rate w > 0 that no hill slows down much, told from the state on, its `spot`."""
+        """The spin-up of a state with rate w > 0 that no hill slows down much, told from the state on, its
+        `spot`."""
         motion = cls.__new__(cls)
         motion.w, motion.work, motion.from_rest, motion.sense = w, work, False, 1.0
         motion.early, motion.run_up, motion.start = None, 0.0, 0.0
@@ -410,7 +435,8 @@ class SpinUp(Motion):
         return max(math.floor(root * root + 0.5 - self.level), self.steep)
 
     def _since(self, turns, left):
-        """(time since so many turns were done, dt/dx at the nodes of the turn after, times at its panels' ends)."""
+        """(time since so many turns were done, dt/dx at the nodes of the turn after, times at its panels'
+        ends)."""
         rates = self._rates(turns)
         ends = np.cumsum(rates.ravel() * self.weights)[self.late.points - 1::self.late.points].tolist()
         return left - self._turns_take(turns) if turns else left, rates, ends
@@ -477,15 +503,16 @@ class SpinUp(Motion):
         return out, way
 
     def _whole_turns(self, left):
-        """(turns done at each time, dt/dx at the nodes of the turn after, times at its panels' ends, time within it)."""
+        """(turns done at each time, dt/dx at the nodes of the turn after, times at its panels' ends, time
+        within it)."""
         turns = self._settled(left, np.array([self._turns(t) for t in left.tolist()], float))
         rates = self.unit / np.sqrt(self.a + turns[:, None])
         ends = np.cumsum((rates * self.weights).reshape(len(left), -1, self.late.points).sum(axis=2), axis=1)
         return turns, rates, ends, np.clip(left - self._many_turns_take(turns), 0.0, ends[:, -1])
 
     def _settled(self, left, turns):
-        """The turns done at times (n,), from about so many: by steps that double, then by halves. Where a turn's work is small
-        against the hills the guess may be far off."""
+        """The turns done at times (n,), from about so many: by steps that double, then by halves. Where a
+        turn's work is small against the hills the guess may be far off."""
         low, high, step, rows = turns, turns + 1, 1.0, np.arange(len(left))
         while len(rows := rows[(left[rows] < self._many_turns_take(low[rows])) & (low[rows] > 0)]):
             high[rows], low[rows], step = low[rows], np.maximum(low[rows] - step, 0.0), 2 * step
@@ -493,9 +520,11 @@ class SpinUp(Motion):
         while len(rows := rows[left[rows] >= self._many_turns_take(high[rows])]):
             low[rows], high[rows], step = high[rows], high[rows] + step, 2 * step
         middle = np.floor(0.5 * (low + high))
-        while len(rows := np.nonzero((low < middle) & (middle < high))[0]):  # beyond 2^53 turns neighbours are not told apart
+        # beyond 2^53 turns neighbours are not told apart
+        while len(rows := np.nonzero((low < middle) & (middle < high))[0]):
             past = left[rows] >= self._many_turns_take(middle[rows])
-            low[rows], high[rows] = np.where(past, middle[rows], low[rows]), np.where(past, high[rows], middle[rows])
+            low[rows], high[rows] = np.where(past, middle[rows],
+                                             low[rows]), np.where(past, high[rows], middle[rows])
             middle = np.floor(0.5 * (low + high))
         return low
 
@@ -510,12 +539,15 @@ class SpinUp(Motion):
 
     @cached_property
     def _few(self):
-        """(nodes, weights) of the mean over a turn, as few as functions take that are analytic from a = -`SMOOTH` on."""
+        """(nodes, weights) of the mean over a turn, as few as functions take that are analytic from a =
+        -`SMOOTH` on."""
         middle, reach = 0.5 * (self.a.max() + self.a.min()), 0.5 * (self.a.max() - self.a.min())
         if not 0 < reach < FLAT:
             return self.a, self.weights
         cheb = np.polynomial.chebyshev
         nodes = cheb.chebpts1(FEW)
         moments = self.weights @ cheb.chebvander((self.a - middle) / reach, FEW - 1)
-        weights = moments @ (cheb.chebvander(nodes, FEW - 1).T * np.where(np.arange(FEW), 2 / FEW, 1 / FEW)[:, None])
-        return middle + reach * nodes, weights * (math.fsum(self.weights) / math.fsum(weights))  # their sum to the last digit
+        weights = (moments @ (cheb.chebvander(nodes, FEW - 1).T
+                              * np.where(np.arange(FEW), 2 / FEW, 1 / FEW)[:, None]))
+        # their sum to the last digit
+        return middle + reach * nodes, weights * (math.fsum(self.weights) / math.fsum(weights))

@@ -1,5 +1,5 @@
-"""The period of one state in ball arithmetic: the integral of dtheta/W by the double-exponential rule, cut at every
-equilibrium that the motion passes, where the rate is least or largest."""
+"""The period of one state in ball arithmetic: the integral of dtheta/W by the double-exponential rule, cut at
+every equilibrium that the motion passes, where the rate is least or largest."""
 from __future__ import annotations
 
 import math
@@ -10,21 +10,27 @@ from ..extremes.balls import turning_points
 from ..one_orbit import Orbit
 from ..result import Fate, without_return
 
-DIGITS = 14  # two steps agree to so many; the rule doubles its digits with every halving, so the second is exact to a double
+# two steps agree to so many; the rule doubles its digits with every halving, so the second is exact to a
+# double
+DIGITS = 14
 SPARE = 8  # digits beyond those: terms that are smaller are left out
 AGREED = 9  # the same for a double alone: the next step, twice as many digits, is not taken to see it
-LEFT = 5  # digits that the last step must have beyond those in which it agrees with the one before, by the rate at which the steps draw together
+# digits that the last step must have beyond those in which it agrees with the one before, by the rate at
+# which the steps draw together
+LEFT = 5
 WEIGHT = 1.7  # log(pi cosh t)/pi, which the weights of the last nodes have beside an exponential
 FINEST = 9  # halvings of the step; the seventh serves a double
 
 
 def precise_period(orbit: Orbit, label: int) -> float:
-    """Period of one state with the given `Fate` label: inf where the motion does not repeat, 0 at an equilibrium, NaN where it is undecided."""
+    """Period of one state with the given `Fate` label: inf where the motion does not repeat, 0 at an
+    equilibrium, NaN where it is undecided."""
     return without_return(label) if label != Fate.BOUNDED else float(period_ball(orbit, AGREED).mid())
 
 
 def period_ball(orbit: Orbit, digits: int = DIGITS):
-    """Period of a bounded motion as a ball that is at most 10^-digits of it wide: two steps of the rule agree to `digits`."""
+    """Period of a bounded motion as a ball that is at most 10^-digits of it wide: two steps of the rule agree
+    to `digits`."""
     def question(orbit):
         ends = turning_points(orbit)
         found = _rotation(orbit, digits) if ends is None else _libration(orbit, *ends, digits)
@@ -35,15 +41,17 @@ def period_ball(orbit: Orbit, digits: int = DIGITS):
 
 
 def _bits(digits: int) -> int:
-    """Bits for so many digits: of the first two rows of nodes, whole steps from 0 and from a half, the last stands up to a step beyond where terms vanish,
-    and so near a turning point E - V, which goes with the square of the distance, must keep its digits."""
+    """Bits for so many digits: of the first two rows of nodes, whole steps from 0 and from a half, the last
+    stands up to a step beyond where terms vanish, and so near a turning point E - V, which goes with the
+    square of the distance, must keep its digits."""
     vanishing = math.asinh((digits + SPARE) * math.log(10) / math.pi + WEIGHT)
     last = max(math.ceil(vanishing), math.ceil(vanishing - 0.5) + 0.5)
     return int(2 * math.pi * math.sinh(last) / math.log(2) + 3.33 * (digits + 2 * SPARE))
 
 
 def _libration(orbit, left, right, digits):
-    """Twice the time between the turning points; y = middle - half cos(phi) removes the roots at both ends."""
+    """Twice the time between the turning points; y = middle - half cos(phi) removes the roots at both ends.
+    """
     from flint import arb
     half, middle = (right - left) / 2, (right + left) / 2
     inside = [s.y for s in orbit.all_spots if s.y > left and s.y < right]
@@ -77,7 +85,8 @@ def _sum_over(integrand, knots, digits):
 
 
 def _tanh_sinh(integrand, a, b, digits):
-    """Integral over (a, b); the step is halved until two results agree, each row goes on until its terms vanish."""
+    """Integral over (a, b); the step is halved until two results agree, each row goes on until its terms
+    vanish."""
     from flint import arb
     length, rows, before, changes = (b - a).mid(), arb(0), None, []
     least, agree = arb(10) ** -(digits + SPARE), arb(10) ** -digits
@@ -93,7 +102,8 @@ def _tanh_sinh(integrand, a, b, digits):
         now = rows * arb(2) ** -level
         if before is not None:
             change = abs(now - before)
-            changes.append(_power_of_ten((change / now).mid(), 1 - digits - SPARE))  # less than ten times what the rows leave out says nothing
+            # less than ten times what the rows leave out says nothing
+            changes.append(_power_of_ten((change / now).mid(), 1 - digits - SPARE))
             if level > 2 and change <= agree * now and power_of_error(*changes[-3:]) <= -digits - LEFT:
                 return now * length
         before = now
@@ -105,10 +115,12 @@ def _power_of_ten(value, least) -> float:
 
 
 def power_of_error(first, middle, last) -> float:
-    """Power of ten of the error of a sum over nodes, given the powers of ten of its last three changes as its nodes were doubled.
+    """Power of ten of the error of a sum over nodes, given the powers of ten of its last three changes as its
+    nodes were doubled.
 
-    The error is C r^n for n nodes, but its sign goes round, and two sums may agree by chance. So the rate is told by either ratio of changes, the size by
-    its own change or by the one before, and the largest error counts; as `converged` in `fine.rows_kernel`, which needs NumPy.
+    The error is C r^n for n nodes, but its sign goes round, and two sums may agree by chance. So the rate is
+    told by either ratio of changes, the size by its own change or by the one before, and the largest error
+    counts; as `converged` in `fine.rows_kernel`, which needs NumPy.
     """
     a, b, c = first, middle, last
     return max(3 * c - 2 * b, c + 4 * (b - a), b + 2 * (c - a), 7 * b - 6 * a)
@@ -116,7 +128,8 @@ def power_of_error(first, middle, last) -> float:
 
 @lru_cache(maxsize=64)
 def _nodes(level, side, digits):
-    """Nodes as (distance from the nearer end / length, signed by the end; weight), outward from the middle."""
+    """Nodes as (distance from the nearer end / length, signed by the end; weight), outward from the middle.
+    """
     from flint import arb
     step, nodes = arb(2) ** -level, []
     with working(int(3.33 * 2 * (digits + 2 * SPARE)) + 128):

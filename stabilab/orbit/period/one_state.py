@@ -1,9 +1,10 @@
-"""The period of one state in doubles: the integral of dtheta/W, with the energy's differences formed as products.
+"""The period of one state in doubles: the integral of dtheta/W, with the energy's differences formed as
+products.
 
-A libration goes from y = l to y = r; with y = middle - half cos(phi) the roots at both ends cancel, the integrand is
-analytic and periodic in phi, and the midpoint rule converges geometrically. E - V is the rise of the potential from the
-nearer turning point, so it keeps its digits there. Where doubles cannot be sure (next to a separatrix, minute orbits) or
-the rule is slow, `precise_period` answers in many digits.
+A libration goes from y = l to y = r; with y = middle - half cos(phi) the roots at both ends cancel, the
+integrand is analytic and periodic in phi, and the midpoint rule converges geometrically. E - V is the rise of
+the potential from the nearer turning point, so it keeps its digits there. Where doubles cannot be sure (next
+to a separatrix, minute orbits) or the rule is slow, `precise_period` answers in many digits.
 """
 from __future__ import annotations
 
@@ -19,13 +20,18 @@ from .balls import power_of_error, precise_period
 
 NODES = (4, 8, 16, 32, 64, 128, 256, 512)
 AGREE = 1e-11  # two rules agree to this: the error of a geometric rule is squared by doubling its nodes
-LEFT, FLOOR = -13.0, 4e-15  # power of ten of the error by the rate of three changes, for two rules may agree by chance; a change that is but rounding
-ENDS = 1e-11  # change of the force over the rounding of an end, as far as it tells on the period: next to a barrier it is the energy's
+# power of ten of the error by the rate of three changes, for two rules may agree by chance; a change that is
+# but rounding
+LEFT, FLOOR = -13.0, 4e-15
+# change of the force over the rounding of an end, as far as it tells on the period: next to a barrier it is
+# the energy's
+ENDS = 1e-11
 SHARP = 1e-11  # relative error that rounding may leave in E - V, as for the periods of arrays
 
 
 def period_of(orbit: Orbit, label: Fate) -> float:
-    """Period of one state with this label, in the scene's time: inf where the motion does not repeat, 0 at rest, NaN where it is undecided."""
+    """Period of one state with this label, in the scene's time: inf where the motion does not repeat, 0 at
+    rest, NaN where it is undecided."""
     if label != Fate.BOUNDED:
         return without_return(label)
 
@@ -59,7 +65,8 @@ def _libration(orbit, left, right) -> float:
     if abs(one - other) > SHARP * one:
         raise Unclear
     for end, place, force in zip((left, right), ends, forces):
-        bent = min(1.0, abs(2 * one / (abs(force) * half) - 1))  # 0 in a parabolic well, whose period does not hang on its ends
+        # 0 in a parabolic well, whose period does not hang on its ends
+        bent = min(1.0, abs(2 * one / (abs(force) * half) - 1))
         if bent * float(end.rad()) * abs(pot.slope(place)) > ENDS * abs(force):
             raise Unclear
 

@@ -8,10 +8,14 @@ from math import acos, atan, atan2, copysign, cos, pi, sin, sqrt
 
 EPS = 2.220446049250313e-16
 TURN = 2 * pi
-NONE, ENDS, SHARED = 0, 1, 2  # what a loop does: it is none, it ends at a turning point, or at a saddle as high
+# what a loop does: it is none, it ends at a turning point, or at a saddle as high
+NONE, ENDS, SHARED = 0, 1, 2
 OWN = 1e-9                    # offsets below this are the saddle itself
-LEVEL = 64 * EPS              # barriers that differ less from the saddle's height, relative to the energy's terms, are as high
-SPREAD = 1e-3                 # of the largest root of a cubic: smaller ones the closed form, a difference of numbers of its size, loses digits of
+# barriers that differ less from the saddle's height, relative to the energy's terms, are as high
+LEVEL = 64 * EPS
+# of the largest root of a cubic: smaller ones the closed form, a difference of numbers of its size, loses
+# digits of
+SPREAD = 1e-3
 LOST = 1e-4                   # of a cubic's terms: a discriminant that is less may have the other sign
 SHARPEST = 1e3                # bends tighter than the loop's length over this are not resolved
 
@@ -35,7 +39,8 @@ def y_minus_sin(y):
     """y - sin y without cancellation."""
     t = y * y
     if t < 0.49:
-        return y * t * (1 / 6) * (1 - t * (1 / 20) * (1 - t * (1 / 42) * (1 - t * (1 / 72) * (1 - t * (1 / 110) * (
+        return y * t * (1 / 6) * (1 - t * (1 / 20)
+                                  * (1 - t * (1 / 42) * (1 - t * (1 / 72) * (1 - t * (1 / 110) * (
             1 - t * (1 / 156))))))
     return y - sin(y)
 
@@ -64,8 +69,8 @@ def settled(g, x, z):
 def others(g, x, z, side):
     """Distances to the other equilibria within one turn on one side, ascending, inf where there is none.
 
-    Along the orbit F(y) = 2 sin(y/2) (a0 C^3 + a1 C^2 S + a2 C S^2 + a3 S^3) with C = cos(y/2), S = sin(y/2): a cubic for the
-    tangent, or for the cotangent where the tangent may be infinite.
+    Along the orbit F(y) = 2 sin(y/2) (a0 C^3 + a1 C^2 S + a2 C S^2 + a3 S^3) with C = cos(y/2), S = sin(y/2):
+    a cubic for the tangent, or for the cotangent where the tangent may be infinite.
     """
     along, across = g[0] * (z - x) * (z + x), g[2] * z - g[1] * x
     a0, a3 = along + across, -(g[1] * z + g[2] * x)
@@ -88,8 +93,8 @@ def ahead(y):
 
 
 def real_cubic(a, b, c, d):
-    """Real roots of a t^3 + b t^2 + c t + d, nan in place of those that are not, each with a step of Newton's method for
-    what the closed form lost."""
+    """Real roots of a t^3 + b t^2 + c t + d, nan in place of those that are not, each with a step of Newton's
+    method for what the closed form lost."""
     nan = float("nan")
     if a == 0:
         if b == 0:
@@ -106,20 +111,24 @@ def real_cubic(a, b, c, d):
     if rest < 0:
         size = sqrt(square)
         angle = acos(max(-1.0, min(1.0, half / (size * size * size)))) / 3
-        first, second, last = (better(p, q, r, -2 * size * cos(angle) - third), better(p, q, r, -2 * size * cos(angle + TURN / 3) - third),
+        first, second, last = (better(p, q, r, -2 * size * cos(angle) - third),
+                               better(p, q, r, -2 * size * cos(angle + TURN / 3) - third),
                                better(p, q, r, -2 * size * cos(angle - TURN / 3) - third))
-        most = first if abs(first) >= max(abs(second), abs(last)) else second if abs(second) >= abs(last) else last
+        most = (first if abs(first) >= max(abs(second), abs(last)) else second if abs(second) >= abs(last)
+                else last)
         if min(abs(first), abs(second), abs(last)) < SPREAD * abs(most):
             return beside_largest(p, q, r, most)
         return first, second, last
     single = -copysign((abs(half) + sqrt(rest)) ** (1 / 3), half)
     only = better(p, q, r, single + (square / single if single != 0 else 0.0) - third)
-    return beside_largest(p, q, r, only) if rest <= LOST * half * half and only * only * abs(only) * SPREAD > abs(r) else (only, nan, nan)
+    return (beside_largest(p, q, r, only) if rest <= LOST * half * half
+            and only * only * abs(only) * SPREAD > abs(r) else (only, nan, nan))
 
 
 def beside_largest(p, q, r, t):
-    """The largest root t of t^3 + p t^2 + q t + r with the two much smaller ones, of which the closed form keeps no digit: those of the quadratic that is left,
-    from its low powers up. nan where they are not real."""
+    """The largest root t of t^3 + p t^2 + q t + r with the two much smaller ones, of which the closed form
+    keeps no digit: those of the quadratic that is left, from its low powers up. nan where they are not
+    real."""
     nan = float("nan")
     product = -r / t
     total = (q - product) / t
@@ -138,12 +147,12 @@ def better(p, q, r, t):
 
 
 def loop_end(g, sense, x, z, side):
-    """(distance along the circle from a saddle to the far end of its loop on one side (-1, +1), distance to the deepest well
-    inside, NONE or ENDS or SHARED).
+    """(distance along the circle from a saddle to the far end of its loop on one side (-1, +1), distance to
+    the deepest well inside, NONE or ENDS or SHARED).
 
-    The loop ends where the potential beyond its wells is back at the saddle's height. sense: 0 without torque, where it may
-    end at a barrier as high (SHARED), or at the saddle itself, one turn on; with torque the saddle then stands higher, or
-    lower, by 2 pi mu.
+    The loop ends where the potential beyond its wells is back at the saddle's height. sense: 0 without
+    torque, where it may end at a barrier as high (SHARED), or at the saddle itself, one turn on; with torque
+    the saddle then stands higher, or lower, by 2 pi mu.
     """
     low, high, deep, centre = 0.0, TURN, float("inf"), 0.0
     for t in others(g, x, z, side):
@@ -175,9 +184,11 @@ def loop_end(g, sense, x, z, side):
 
 
 def crossing(g, x, z, side, low, high):
-    """Where the potential rises through the saddle's height between a well at `low` and `high`: Newton's method in a bracket.
+    """Where the potential rises through the saddle's height between a well at `low` and `high`: Newton's
+    method in a bracket.
 
-    The first guess is exact for the cubic potential next to a fold, whose loop is half as long again as the way to the well.
+    The first guess is exact for the cubic potential next to a fold, whose loop is half as long again as the
+    way to the well.
     """
     t = min(1.5 * low, 0.5 * (low + high))
     for _ in range(200):

@@ -1,6 +1,7 @@
 """Where the loops of many saddles end: `circle.loop_end` on arrays, a row a saddle.
 
-The same equilibria, the same order of decisions, the same Newton's method in a bracket; rows that have converged are left out.
+The same equilibria, the same order of decisions, the same Newton's method in a bracket; rows that have
+converged are left out.
 """
 from __future__ import annotations
 
@@ -17,7 +18,8 @@ SMALL = 0.7        # below, y - sin y is its series
 
 
 def ends_on_circles(pot, sense, saddle, side):
-    """(distances (n,) to the far ends of loops, distances to their deepest wells, NONE or ENDS or SHARED) of saddles (2, n) on sides (n,)."""
+    """(distances (n,) to the far ends of loops, distances to their deepest wells, NONE or ENDS or SHARED) of
+    saddles (2, n) on sides (n,)."""
     x, z = saddle
     n, curved = len(x), pot.G * x * x + pot.c * x - pot.d * z
     low, high, deep, centre = np.zeros(n), np.full(n, TURN), np.full(n, np.inf), np.zeros(n)
@@ -55,7 +57,8 @@ def ends_on_circles(pot, sense, saddle, side):
 
 
 def _risen(pot, x, z, curved, y):
-    """(height y away from saddles over theirs, the place there): `Circle.rise` and `Circle.move` with one sine and one cosine."""
+    """(height y away from saddles over theirs, the place there): `Circle.rise` and `Circle.move` with one
+    sine and one cosine."""
     half = 0.5 * y
     sine = np.sin(half)
     s, b = 2 * sine * np.cos(half), -2 * sine * sine
@@ -68,7 +71,8 @@ def _risen(pot, x, z, curved, y):
 
 
 def _crossings(pot, x, z, curved, side, low, high):
-    """Where the potential rises through the saddles' heights between wells at `low` and `high`; rows that take long are left to `crossing`."""
+    """Where the potential rises through the saddles' heights between wells at `low` and `high`; rows that
+    take long are left to `crossing`."""
     rows, out = np.arange(len(low)), np.empty(len(low))
     t = np.minimum(1.5 * low, 0.5 * (low + high))
     for _ in range(MOST_STEPS):
@@ -83,7 +87,8 @@ def _crossings(pot, x, z, curved, side, low, high):
         if done.any():
             out[rows[done]] = t[done]
             left = ~done
-            rows, x, z, curved, side, low, high, t = (v[left] for v in (rows, x, z, curved, side, low, high, t))
+            rows, x, z, curved, side, low, high, t = (v[left]
+                                                      for v in (rows, x, z, curved, side, low, high, t))
         if len(rows) < FEW:
             break
     g = float(pot.G), float(pot.c), float(pot.d), float(pot.mu)
@@ -93,7 +98,8 @@ def _crossings(pot, x, z, curved, side, low, high):
 
 
 def _others(pot, x, z, side):
-    """(3, n) distances to the other equilibria within one turn on one side, ascending, inf where there is none (`circle.others`)."""
+    """(3, n) distances to the other equilibria within one turn on one side, ascending, inf where there is
+    none (`circle.others`)."""
     along, across = pot.G * (z - x) * (z + x), pot.d * z - pot.c * x
     a0, a3 = along + across, -(pot.c * z + pot.d * x)
     a1, a2 = a3 - 4 * pot.G * x * z, across - along
@@ -106,7 +112,8 @@ def _others(pot, x, z, side):
 
 
 def real_cubics(a, b, c, d):
-    """(3, n) real roots of a t^3 + b t^2 + c t + d, nan in place of those that are not (`circle.real_cubic`)."""
+    """(3, n) real roots of a t^3 + b t^2 + c t + d, nan in place of those that are not (`circle.real_cubic`).
+    """
     with np.errstate(all="ignore"):
         p, q, r = b / a, c / a, d / a
         third = p / 3
@@ -122,7 +129,9 @@ def real_cubics(a, b, c, d):
         step = (((roots + p) * roots + q) * roots + r) / ((3 * roots + 2 * p) * roots + q)
         roots = np.where(np.abs(step) < 1e-4 * np.abs(roots), roots - step, roots)
         least, most = np.fmin.reduce(np.abs(roots)), np.fmax.reduce(np.abs(roots))
-        for row in np.flatnonzero((a != 0) & ((least < SPREAD * most) | one & (rest <= LOST * half * half))).tolist():  # few
+        # few
+        for row in np.flatnonzero((a != 0)
+                                  & ((least < SPREAD * most) | one & (rest <= LOST * half * half))).tolist():
             roots[:, row] = real_cubic(*(float(v[row]) for v in (a, b, c, d)))
         flat = a == 0
         if flat.any():

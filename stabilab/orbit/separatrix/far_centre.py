@@ -1,12 +1,17 @@
-"""Loops whose orbits are centred far away, those of nearly equal moments: told from their saddles in the components themselves.
+"""Loops whose orbits are centred far away, those of nearly equal moments: told from their saddles in the
+components themselves.
 
-Canonical places are told from the centre, and would keep no digit of a loop that is a million times smaller than the way there. With
-t = p q alpha^2 and S = sum t^k alpha^(2k+1)/(2k+1)!, C its integral, L that of C (sin, 1 - cos, alpha - sin of an orbit, or hyperbolic ones), a loop is
+Canonical places are told from the centre, and would keep no digit of a loop that is a million times smaller
+than the way there. With t = p q alpha^2 and S = sum t^k alpha^(2k+1)/(2k+1)!, C its integral, L that of C
+(sin, 1 - cos, alpha - sin of an orbit, or hyperbolic ones), a loop is
 
-    omega_j = u + a S + p b C,   omega_k = v + b S + q a C,   a = p v + p0, b = q u + q0,   (omega_i + s)^2 = 2 alpha^2 R(alpha),
-    R = F' c + (F1 l + kappa a b (S c/alpha - l)) alpha + kappa (q a^2 + p b^2)/2 c^2 alpha^2,   c = C/alpha^2, l = L/alpha^3,
+    omega_j = u + a S + p b C,   omega_k = v + b S + q a C,   a = p v + p0, b = q u + q0,   (omega_i + s)^2 =
+    2 alpha^2 R(alpha),
+    R = F' c + (F1 l + kappa a b (S c/alpha - l)) alpha + kappa (q a^2 + p b^2)/2 c^2 alpha^2,   c =
+    C/alpha^2, l = L/alpha^3,
 
-F' and F1 = F'' - 2 kappa a b at the saddle (u, v). Nothing here is a difference of large numbers, and R is nearly a parabola, whose roots begin the search.
+F' and F1 = F'' - 2 kappa a b at the saddle (u, v). Nothing here is a difference of large numbers, and R is
+nearly a parabola, whose roots begin the search.
 """
 from __future__ import annotations
 
@@ -23,8 +28,9 @@ TINY = np.finfo(float).tiny
 
 
 class Orbits:
-    """Orbits through saddles, in alpha from them. u, v: (r,) the ways there from the asymptotes of the hyperbola of equilibria, omega_j = -rho/kappa and
-    omega_k = -sigma/kappa, whose digits the slopes need; side: (r,) the sign of alpha on the loop."""
+    """Orbits through saddles, in alpha from them. u, v: (r,) the ways there from the asymptotes of the
+    hyperbola of equilibria, omega_j = -rho/kappa and omega_k = -sigma/kappa, whose digits the slopes need;
+    side: (r,) the sign of alpha on the loop."""
 
     def __init__(self, reduction, u, v, side):
         self.r, self.side = r, _ = Parabola(reduction), side
@@ -37,13 +43,15 @@ class Orbits:
     def moved(self, alpha):
         """(omega_j, omega_k) at alpha (r, ...)."""
         S, C, _ = (v * alpha**n for n, v in enumerate(self._series(alpha), 1))
-        a, b, u, v = (one.reshape(one.shape + (1,) * (alpha.ndim - 1)) for one in (self.a, self.b, self.u, self.v))
+        a, b, u, v = (one.reshape(one.shape + (1,) * (alpha.ndim - 1))
+                      for one in (self.a, self.b, self.u, self.v))
         return u + (a * S + self.r.p * b * C), v + (b * S + self.r.q * a * C)
 
     def fall(self, alpha):
         """R(alpha): how far the potential lies below the saddle's height, over alpha^2."""
         s, c, third = self._series(alpha)
-        steep, bent, both, curl = (v.reshape(v.shape + (1,) * (alpha.ndim - 1)) for v in (self.steep, self.bent, self.both, self.curl))
+        steep, bent, both, curl = (v.reshape(v.shape + (1,) * (alpha.ndim - 1))
+                                   for v in (self.steep, self.bent, self.both, self.curl))
         return steep * c + (bent * third + both * (s * c - third)) * alpha + curl * c * c * alpha * alpha
 
     def ends(self):
@@ -59,13 +67,15 @@ class Orbits:
         return self._root(self.steep, self.bent / 2 + self.both, self.curl, force)
 
     def wells(self, alpha):
-        """(omega_j, omega_k) of the wells at alpha (r,), which lie on the hyperbola of equilibria too: it tells the component that is nearer to its asymptote,
-        of which the way there from the saddle may keep no digit."""
+        """(omega_j, omega_k) of the wells at alpha (r,), which lie on the hyperbola of equilibria too: it
+        tells the component that is nearer to its asymptote, of which the way there from the saddle may keep
+        no digit."""
         r, (u, v) = self.r, self.moved(alpha)
         first, second = u + r.rho / r.kappa, v + r.sigma / r.kappa
         long = np.abs(second) > np.abs(first)
         with np.errstate(all="ignore"):
-            return np.where(long, self.product / second - r.rho / r.kappa, u), np.where(long, v, self.product / first - r.sigma / r.kappa)
+            return np.where(long, self.product / second - r.rho / r.kappa,
+                            u), np.where(long, v, self.product / first - r.sigma / r.kappa)
 
     def sharpness(self, end):
         """(r,) the way to the far end times the bend of the potential over its slope there."""
@@ -75,11 +85,13 @@ class Orbits:
 
     def _series(self, alpha):
         t = self.r.p * self.r.q * alpha * alpha
-        return (1 + t / 6 * (1 + t / 20 * (1 + t / 42 * (1 + t / 72))), 0.5 * (1 + t / 12 * (1 + t / 30 * (1 + t / 56 * (1 + t / 90)))),
+        return (1 + t / 6 * (1 + t / 20 * (1 + t / 42 * (1 + t / 72))),
+                0.5 * (1 + t / 12 * (1 + t / 30 * (1 + t / 56 * (1 + t / 90)))),
                 (1 + t / 20 * (1 + t / 42 * (1 + t / 72 * (1 + t / 110)))) / 6)
 
     def _root(self, first, second, third, function):
-        """The root on the loop's side of what is nearly first + second x + third x^2, with first > 0 > third."""
+        """The root on the loop's side of what is nearly first + second x + third x^2, with first > 0 > third.
+        """
         with np.errstate(all="ignore"):
             half = -0.5 * (second + np.copysign(np.sqrt(second * second - 4 * first * third), second))
             one, other = half / third, first / half
@@ -92,7 +104,8 @@ class Orbits:
 
 @lru_cache(maxsize=64)
 def asymptotes(land):
-    """(omega_j, omega_k) of the hyperbola of equilibria far out, and the product of the ways from them; None without one, or with an asymptote that is far."""
+    """(omega_j, omega_k) of the hyperbola of equilibria far out, and the product of the ways from them; None
+    without one, or with an asymptote that is far."""
     r, conic, g = land.reduction, land.conic, land.reduction.constants
     if not conic.pieces or r.parabolic_shift_size == 0:
         return None
@@ -100,7 +113,8 @@ def asymptotes(land):
 
 
 def saddles_of(land, branch, s):
-    """((u, v) of the saddles of a branch at s (n,) as of `Orbits`, (n,) whether they are much nearer than the centre)."""
+    """((u, v) of the saddles of a branch at s (n,) as of `Orbits`, (n,) whether they are much nearer than the
+    centre)."""
     found = asymptotes(land)
     if found is None or branch.line is not None:
         return (np.zeros(len(s)), np.zeros(len(s))), np.zeros(len(s), bool)
@@ -121,8 +135,8 @@ def shrinks_far(land, branch, side) -> bool | None:
 
 
 def replaced(land, strips, s, u, made, shares_of):
-    """The fields of `Loops` of strips at rows s (k, n) and columns u (k, m), those of rows with a far centre in the components; shares_of(sharpness (r,),
-    u (r, m), numbers of strips (r,)): where columns stand."""
+    """The fields of `Loops` of strips at rows s (k, n) and columns u (k, m), those of rows with a far centre
+    in the components; shares_of(sharpness (r,), u (r, m), numbers of strips (r,)): where columns stand."""
     r, g = land.reduction, land.reduction.constants
     told = [saddles_of(land, strip[0], row) for strip, row in zip(strips, s)]
     far = np.array([one[1] for one in told])
@@ -143,8 +157,10 @@ def replaced(land, strips, s, u, made, shares_of):
     w[:, 0] = w[:, -1] = 0.0
     points = _states(r, *orbits.moved(alpha), side[:, None] * w)
     still = np.zeros(len(end))
-    new = {"end": end * g["n"] * g["flip"], "offset": alpha * g["n"] * g["flip"], "w": w * g["n"], "points": points, "found": good | fold,
-           "shared": np.zeros(len(end), bool), "ways": ways, "saddle_state": _states(r, orbits.u, orbits.v, still),
+    new = {"end": end * g["n"] * g["flip"], "offset": alpha * g["n"] * g["flip"], "w": w * g["n"],
+           "points": points, "found": good | fold,
+           "shared": np.zeros(len(end), bool), "ways": ways,
+           "saddle_state": _states(r, orbits.u, orbits.v, still),
            "centre_state": _states(r, *orbits.wells(deep), still)}
     out = dict(vars(made))
     for name, values in new.items():
@@ -160,8 +176,9 @@ def _states(r, u, v, w):
 
 
 def residual_far(land, loops):
-    """(r, m) residuals of the rows of loops that are `far`, from their points: energy above the saddle's over the size of its terms at the nearest place of
-    the orbit, or how far that is from the point, relative to its size."""
+    """(r, m) residuals of the rows of loops that are `far`, from their points: energy above the saddle's over
+    the size of its terms at the nearest place of the orbit, or how far that is from the point, relative to
+    its size."""
     r, far = land.reduction, loops.far
     points, alpha = loops.points[far], loops.offset[far] * land.unit
     orbits = Orbits(r, *loops.ways[far].T, np.sign(alpha[:, -1]))

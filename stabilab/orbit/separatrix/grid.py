@@ -3,17 +3,19 @@
 Rows and columns of a sheet, graded so that its flat facets stray from the surface about equally everywhere.
 
 A facet's edge with steps (du, ds) of the parameters strays from a surface r(u, s) with unit normal n by
-|L du^2 + 2 M du ds + N ds^2|/8, where L = r_uu.n, M = r_us.n, N = r_ss.n. Differences on a small trial grid give them:
-columns stand uniformly in the integral of sqrt|L|, rows in that of sqrt|N|, each for the worst of the others; as for a picture, columns
-follow the outline too. The finished grid is measured in the same way. Grids within an asked-for distance are those of `within`, which begin
-with the same trial rows.
+|L du^2 + 2 M du ds + N ds^2|/8, where L = r_uu.n, M = r_us.n, N = r_ss.n. Differences on a small trial grid
+give them: columns stand uniformly in the integral of sqrt|L|, rows in that of sqrt|N|, each for the worst of
+the others; as for a picture, columns follow the outline too. The finished grid is measured in the same way.
+Grids within an asked-for distance are those of `within`, which begin with the same trial rows.
 
-Grids of sheets whose flat facets stay within an asked-for distance of the surface, each with rows and columns of its own.
+Grids of sheets whose flat facets stay within an asked-for distance of the surface, each with rows and columns
+of its own.
 
-An edge of length l strays from a surface of normal curvature c along it by c l^2/8 where that hardly changes. Where the surface bends within one cell
-it strays by up to four times as much; how far the bend is gathered there is told by the curvatures next to it (`_gathered`). A grid that is too coarse
-is graded anew by what it shows, until one is fine enough: where bends are narrow a coarse grid tells little of their width, so none has more than `GROW`
-times the cells of the one before.
+An edge of length l strays from a surface of normal curvature c along it by c l^2/8 where that hardly changes.
+Where the surface bends within one cell it strays by up to four times as much; how far the bend is gathered
+there is told by the curvatures next to it (`_gathered`). A grid that is too coarse is graded anew by what it
+shows, until one is fine enough: where bends are narrow a coarse grid tells little of their width, so none has
+more than `GROW` times the cells of the one before.
 """
 from __future__ import annotations
 
@@ -39,8 +41,8 @@ MOST = 1025             # rows and columns, at most, of a grid within an accurac
 
 @dataclass(frozen=True)
 class Grid:
-    """The graded loops of k parts of strips; cut: +1 where quads of the first half are cut from (row, column) to (row + 1, column + 1), -1
-    the other way; error: (k,) largest distance of facets from the surface."""
+    """The graded loops of k parts of strips; cut: +1 where quads of the first half are cut from (row, column)
+    to (row + 1, column + 1), -1 the other way; error: (k,) largest distance of facets from the surface."""
 
     loops: Loops
     cut: int
@@ -50,10 +52,12 @@ class Grid:
 
 def grid(land, strips, shape) -> Grid:
     """The graded loops of strips, pairs (branch, side), in the shape (rows, columns of a half)."""
-    parts, rows = [Part(*strip) for strip in strips], np.array([_trial_rows(land, *strip) for strip in strips])
+    parts, rows = [Part(*strip)
+                   for strip in strips], np.array([_trial_rows(land, *strip) for strip in strips])
     columns = np.broadcast_to(np.linspace(0, 1, TRIAL), rows.shape)
     made, edge = measured_loops(land, parts, rows, columns)
-    grading = _grading(made, _second_forms(land, made), _outline(land, made, np.full(len(parts), -1)), edge[1], rows, columns)
+    grading = _grading(made, _second_forms(land, made), _outline(land, made, np.full(len(parts), -1)),
+                       edge[1], rows, columns)
     rows, columns = (even_steps(length, at, number) for (length, at), number in zip(grading, shape))
     made, edge = measured_loops(land, parts, rows, columns)
     strays = np.maximum(_stray(*_second_forms(land, made), np.array([1, -1])[:, None, None, None]), edge[1])  # type: ignore[call-arg]
@@ -63,16 +67,18 @@ def grid(land, strips, shape) -> Grid:
 
 @lru_cache(maxsize=64)
 def trial_parts(land, strips):
-    """(parts of strips, cut at their seams, trial rows of each). They are kept, for the next surface of the same scene."""
-    parts, rows = [Part(*strip) for strip in strips], np.array([_trial_rows(land, *strip) for strip in strips])
+    """(parts of strips, cut at their seams, trial rows of each). They are kept, for the next surface of the
+    same scene."""
+    parts, rows = [Part(*strip)
+                   for strip in strips], np.array([_trial_rows(land, *strip) for strip in strips])
     if len(cut := parted(land, strips, rows[:, 0])) > len(parts):
         parts, rows = cut, np.array([_trial_rows_of(land, part) for part in cut])
     return parts, rows
 
 
 def _grading(made, forms, bends, edge, rows, columns):
-    """(lengths of rows and their parameters, those of columns), from the second forms of a grid at parameters rows (k, n) and columns (k, m), and
-    from the bends of the outline."""
+    """(lengths of rows and their parameters, those of columns), from the second forms of a grid at parameters
+    rows (k, n) and columns (k, m), and from the bends of the outline."""
     across, _, down = forms
     straight = STRAIGHT * np.abs(made.points).max() * (TRIAL / max(rows.shape[1], columns.shape[1])) ** 2
     long_columns = _density(np.concatenate([across, bends[:, None]], axis=1), 1, ((0, 0), (1, 0)), straight)
@@ -80,9 +86,11 @@ def _grading(made, forms, bends, edge, rows, columns):
 
 
 def measured_loops(land, parts, s, u):
-    """(loops at rows s, how far the chords between the first two rows, and between the last two, stray from the sheet (2, k)): inner rows do not tell how
-    much it bends beyond them, towards a plane Q = 0 without bound, so rows in between are measured."""
-    more = np.concatenate([s[:, :1], 0.5 * (s[:, :1] + s[:, 1:2]), s[:, 1:-1], 0.5 * (s[:, -2:-1] + s[:, -1:]), s[:, -1:]], axis=1)
+    """(loops at rows s, how far the chords between the first two rows, and between the last two, stray from
+    the sheet (2, k)): inner rows do not tell how much it bends beyond them, towards a plane Q = 0 without
+    bound, so rows in between are measured."""
+    more = np.concatenate([s[:, :1], 0.5 * (s[:, :1] + s[:, 1:2]), s[:, 1:-1],
+                           0.5 * (s[:, -2:-1] + s[:, -1:]), s[:, -1:]], axis=1)
     all_ = loops(land, parts, np.array([part.rows(row) for part, row in zip(parts, more)]), u)
     kept = np.delete(np.arange(more.shape[1]), (1, -2))
     return all_.at_rows(kept), np.array([_sag(all_, 0, 1, 2), _sag(all_, -1, -2, -3)])
@@ -95,14 +103,15 @@ def _sag(loops, first, between, last):
     normal = np.cross(chord, middle[:, 2:] - middle[:, :-2])
     size = np.maximum(np.linalg.norm(normal, axis=-1), np.finfo(float).tiny)
     part = np.sum(way * chord, axis=-1) / np.maximum(np.sum(chord * chord, axis=-1), np.finfo(float).tiny)
-    part = np.clip(part, 0.1, 0.9)  # of the chord, where the row in between passes; the sag is largest at a half
+    # of the chord, where the row in between passes; the sag is largest at a half
+    part = np.clip(part, 0.1, 0.9)
     sag = np.abs(np.sum(way * normal, axis=-1)) / size / (4 * part * (1 - part))
     return np.where(loops.found[:, (first, between, last)].all(axis=1), sag.max(axis=1), 0.0)
 
 
 def _second_forms(land, loops):
-    """(L, M, N), each (k, n - 2, m - 1), per step of the grid, at inner rows and all columns but the first: beyond the
-    far end the loop comes back as its mirror image. 0 beside rows without a loop."""
+    """(L, M, N), each (k, n - 2, m - 1), per step of the grid, at inner rows and all columns but the first:
+    beyond the far end the loop comes back as its mirror image. 0 beside rows without a loop."""
     r = past_far_end(land, loops.points)
     dot = lambda a, b: np.einsum("cknm,cknm->knm", a, b)
     here, round_ = r[:, :, 1:-1, 1:-1], r[..., 2:] - r[..., :-2]
@@ -132,12 +141,14 @@ def _outline(land, loops, edge):
     strips = np.arange(len(edge))
     r = np.moveaxis(past_far_end(land, loops.points[strips, edge]), 0, -1)
     bend, way = r[:, 2:] - 2 * r[:, 1:-1] + r[:, :-2], r[:, 2:] - r[:, :-2]
-    across = np.linalg.norm(np.cross(bend, way), axis=-1) / np.maximum(np.linalg.norm(way, axis=-1), np.finfo(float).tiny)
+    across = (np.linalg.norm(np.cross(bend, way),
+                             axis=-1) / np.maximum(np.linalg.norm(way, axis=-1), np.finfo(float).tiny))
     return np.where(loops.found[strips, edge][:, None], across, 0.0)
 
 
 def _stray(across, twist, down, cut):
-    """Return the largest distance (..., k) from the surface of the mid-points of edges and of the centres of a quad's facets."""
+    """Return the largest distance (..., k) from the surface of the mid-points of edges and of the centres of
+    a quad's facets."""
     diagonal = across + down + 2 * cut * twist
     edges = np.maximum(np.abs(diagonal), np.maximum(np.abs(across), np.abs(down)))
     return np.maximum(edges / 8, np.abs(across + down + diagonal) / 18).max(axis=(-1, -2))
@@ -145,7 +156,8 @@ def _stray(across, twist, down, cut):
 
 def _density(form, other, edges, straight, last=0.0):
     """(k, j) the integral from the first on of densities of rows or columns, from the form at inner ones and
-    the worst over the other axis; at the edges as beside them, at the last one at least as the form `last` (k,) asks."""
+    the worst over the other axis; at the edges as beside them, at the last one at least as the form `last`
+    (k,) asks."""
     inner = np.sqrt(np.abs(form).max(axis=other))
     density = np.pad(inner, edges, mode="edge")
     density[:, -1] = np.maximum(density[:, -1], np.sqrt(last))
@@ -156,15 +168,17 @@ def _density(form, other, edges, straight, last=0.0):
 
 
 def even_steps(length, at, number):
-    """Return parameters (k, number) between those of `at` (k, j), spaced so that `length` (k, j) grows by equal steps from each to the next."""
+    """Return parameters (k, number) between those of `at` (k, j), spaced so that `length` (k, j) grows by
+    equal steps from each to the next."""
     out = np.array([np.interp(np.linspace(0, way[-1], number), way, x) for way, x in zip(length, at)])
     out[:, -1] = at[:, -1]
     return out
 
 
 def shrinks(land, branch, side) -> bool:
-    """Whether the loop on one side of a saddle shrinks to a point at the fold: it does around the well that the saddle meets
-    there, on the side where the force's slope falls. The loop on the other side, of a figure eight, keeps its size."""
+    """Whether the loop on one side of a saddle shrinks to a point at the fold: it does around the well that
+    the saddle meets there, on the side where the force's slope falls. The loop on the other side, of a figure
+    eight, keeps its size."""
     if (told := shrinks_far(land, branch, side)) is not None:
         return told
     pot, fold = land.potential, branch.place(0.0)
@@ -173,31 +187,36 @@ def shrinks(land, branch, side) -> bool:
 
 
 def _trial_rows(land, branch, side):
-    """(TRIAL,) parameters s of rows: the saddle moves on by equal steps near the fold and by equal factors far out, where
-    the sheet only grows and hardly bends."""
+    """(TRIAL,) parameters s of rows: the saddle moves on by equal steps near the fold and by equal factors
+    far out, where the sheet only grows and hardly bends."""
     stretched, s = _stretched(land, branch)
     s = np.interp(np.linspace(0, stretched[-1], TRIAL), stretched, s)
     s[0], s[-1] = 0.0 if shrinks(land, branch, side) else NEAR, 1.0
-    if branch.far == PLANE:  # there a loop need not close; on the way it grows like the root of log 1/(1 - s), without bound
-        inner = np.interp(np.linspace(0, 1, TRIAL - len(TAIL)), np.linspace(0, 1, TRIAL), s * (1 - 10 * TAIL[0]))
+    # there a loop need not close; on the way it grows like the root of log 1/(1 - s), without bound
+    if branch.far == PLANE:
+        inner = np.interp(np.linspace(0, 1, TRIAL - len(TAIL)), np.linspace(0, 1, TRIAL),
+                          s * (1 - 10 * TAIL[0]))
         s = np.concatenate([inner, 1 - TAIL])
     return s
 
 
 def _trial_rows_of(land, part):
-    """(TRIAL,) parameters of a part's rows (`Part.rows`): those of the strip between its ends, closer by squares towards a seam."""
+    """(TRIAL,) parameters of a part's rows (`Part.rows`): those of the strip between its ends, closer by
+    squares towards a seam."""
     if not part.seam:
         return _trial_rows(land, part.branch, part.side)
     stretched, s = _stretched(land, part.branch)
     low, high = np.interp((part.low, part.high), s, stretched)
     even = np.linspace(0, 1, TRIAL)
-    t = part.parameters(np.interp(low + (high - low) * (even**2 if part.seam < 0 else 1 - (1 - even) ** 2), stretched, s))
+    t = part.parameters(np.interp(low + (high - low) * (even**2 if part.seam < 0 else 1 - (1 - even) ** 2),
+                                  stretched, s))
     t[0], t[-1] = 0.0, 1.0
     return t
 
 
 def _stretched(land, branch, dense=DENSE):
-    """(lengths, parameters s) along a branch: a length grows with the way near the fold, and with its logarithm far out."""
+    """(lengths, parameters s) along a branch: a length grows with the way near the fold, and with its
+    logarithm far out."""
     s = 0.5 - 0.5 * np.cos(np.linspace(0, np.pi, dense))
     place = np.broadcast_arrays(*branch.place(s))
     way = np.zeros(dense)
@@ -209,18 +228,21 @@ def _stretched(land, branch, dense=DENSE):
 
 CELL_FLOOR = 0.1        # of the mean density: no gap where a sheet happens to be straight
 MIXTURES = np.array([0.7, 1.0, 1.5, 2.0])  # columns against rows, relative to where both alone stray equally
-SAFETY = 1.05      # rows and columns grow by that much more than asked, by its square at the next attempt, and so on
+# rows and columns grow by that much more than asked, by its square at the next attempt, and so on
+SAFETY = 1.05
 GROW = 6.0         # cells, at most, against those of the grid before
 ROUNDS = 14
 SHARE = 4000       # points: strips of unequal shapes are computed as one array where no more are wasted
 RIM = 0.1          # of how far its outline strays counts where `reach` cuts a sheet off
-BENT = 0.25        # where a sheet bends within a cell, edges stray like their length and not its square: by that power denser than the root of how far tells
+# where a sheet bends within a cell, edges stray like their length and not its square: by that power denser
+# than the root of how far tells
+BENT = 0.25
 TINY, SMALL = np.finfo(float).tiny, 1e-200
 
 
 def grids_within(land, strips, accuracy) -> list[Grid]:
-    """A grid for each strip, a pair (branch, side), or for each part of one that is cut at a seam, with as few rows and columns as keep facets
-    within `accuracy` of the sheets."""
+    """A grid for each strip, a pair (branch, side), or for each part of one that is cut at a seam, with as
+    few rows and columns as keep facets within `accuracy` of the sheets."""
     parts, rows = trial_parts(land, tuple(strips))
     todo, found = {n: (row, np.linspace(0, 1, TRIAL)) for n, row in enumerate(rows)}, {}
     for attempt in range(ROUNDS):
@@ -232,7 +254,8 @@ def grids_within(land, strips, accuracy) -> list[Grid]:
             strays = np.array([forms.strays(1), forms.strays(-1)])
             for k, n in enumerate(group):
                 best = int(strays[:, k].argmin())
-                if attempt and (strays[best, k] <= accuracy or min(s.shape[1], u.shape[1]) == MOST or attempt == ROUNDS - 1):
+                if attempt and (strays[best, k] <= accuracy or min(s.shape[1], u.shape[1]) == MOST
+                                or attempt == ROUNDS - 1):
                     found[n] = Grid(made.of(k), (1, -1)[best], strays[best, k:k + 1], [parts[n]])
                 else:
                     following[n] = forms.graded(k, s[k], u[k], accuracy, attempt)
@@ -241,7 +264,8 @@ def grids_within(land, strips, accuracy) -> list[Grid]:
 
 
 def _groups(todo):
-    """Numbers of strips that are computed together, on rows and columns of one shape; these are raised where that wastes little."""
+    """Numbers of strips that are computed together, on rows and columns of one shape; these are raised where
+    that wastes little."""
     groups: list[list[int]] = []
     for n in sorted(todo, key=lambda n: -len(todo[n][0]) * len(todo[n][1])):
         if groups and _waste(todo, groups[-1], n) <= SHARE:
@@ -258,7 +282,8 @@ def _groups(todo):
 def _waste(todo, group, n):
     """Points that are computed in vain where the strip n joins a group."""
     rows, columns = (max(len(todo[one][axis]) for one in (*group, n)) for axis in (0, 1))
-    return (len(group) + 1) * rows * columns - sum(len(todo[one][0]) * len(todo[one][1]) for one in (*group, n))
+    return (len(group) + 1) * rows * columns - sum(len(todo[one][0]) * len(todo[one][1])
+                                                   for one in (*group, n))
 
 
 def _refined(at, number):
@@ -269,39 +294,48 @@ def _refined(at, number):
 
 
 def _gathered(c, axis):
-    """How many times more than an even bend an edge strays, from curvatures c at its ends and beyond, of which there is one more at either end along
-    the axis: bends of a bell's shape stray by 1.2, 1.6, 2.6 and at most 4 times as much where those beyond are 0.4, 0.09, 0.013 and 0 of these."""
+    """How many times more than an even bend an edge strays, from curvatures c at its ends and beyond, of
+    which there is one more at either end along the axis: bends of a bell's shape stray by 1.2, 1.6, 2.6 and
+    at most 4 times as much where those beyond are 0.4, 0.09, 0.013 and 0 of these."""
     c = np.moveaxis(c, axis, -1)
     share = np.minimum((c[..., :-3] + c[..., 3:]) / np.maximum(c[..., 1:-2] + c[..., 2:-1], SMALL), 1.0)
     return np.moveaxis(1 + 3 * (1 - share * share) / (1 + 35 * share), -1, axis)
 
 
 def _rims(made, r, parts):
-    """(k, m - 1) how far edges stray from the outline of a sheet, in the sheet too, where it ends, from grids r (k, n, m + 1, 3): in the first row, a point or
-    a rim, and in the last one; only a share `RIM` of that where `reach` cuts off a sheet that goes on."""
-    first, last = (_along(r[:, row], np.ones((len(r), r.shape[2]), bool) & made.found[:, row, None])[:, :-1] for row in (0, -1))
+    """(k, m - 1) how far edges stray from the outline of a sheet, in the sheet too, where it ends, from grids
+    r (k, n, m + 1, 3): in the first row, a point or a rim, and in the last one; only a share `RIM` of that
+    where `reach` cuts off a sheet that goes on."""
+    first, last = (_along(r[:, row], np.ones((len(r), r.shape[2]), bool) & made.found[:, row, None])[:, :-1]
+                   for row in (0, -1))
     last[[part.seam <= 0 and part.branch.far == OPEN for part in parts]] *= RIM
     for strays, seam in ((first, -1), (last, 1)):
-        strays[[part.seam == seam and not part.over for part in parts], -1] = 0  # the second saddle, a corner and no bend
+        # the second saddle, a corner and no bend
+        strays[[part.seam == seam and not part.over for part in parts], -1] = 0
     strays = np.maximum(first, last)
-    strays[made.shared.any(axis=1)] = 0  # without torque: the edges of loops from saddle to saddle follow no outline
+    # without torque: the edges of loops from saddle to saddle follow no outline
+    strays[made.shared.any(axis=1)] = 0
     return strays
 
 
 def _along(r, found):
-    """(k, n - 1) how far the edges between points r (k, n, 3) of curves stray from them, by curvatures and lengths of edges."""
+    """(k, n - 1) how far the edges between points r (k, n, 3) of curves stray from them, by curvatures and
+    lengths of edges."""
     step = np.diff(r, axis=1)
     size = np.maximum(np.linalg.norm(step, axis=-1), TINY)
     whole = found[:, 2:] & found[:, 1:-1] & found[:, :-2]
     way = step / size[..., None]
-    bend = np.where(whole, 2 * np.linalg.norm(np.cross(way[:, 1:], way[:, :-1]), axis=-1) / (size[:, 1:] + size[:, :-1]), 0.0)
-    bend = np.concatenate([np.abs(_before(bend[:, 0], bend[:, 1 if bend.shape[1] > 1 else 0]))[:, None], bend, bend[:, -1:]], axis=1)
+    bend = np.where(whole, 2 * np.linalg.norm(np.cross(way[:, 1:], way[:, :-1]),
+                                              axis=-1) / (size[:, 1:] + size[:, :-1]), 0.0)
+    bend = np.concatenate([np.abs(_before(bend[:, 0], bend[:, 1 if bend.shape[1] > 1 else 0]))[:, None], bend,
+                           bend[:, -1:]], axis=1)
     beyond = np.concatenate([bend[:, :1], bend, bend[:, -1:]], axis=1)
     return (bend[:, 1:] + bend[:, :-1]) * size * size / 16 * _gathered(beyond, 1)
 
 
 class _Forms:
-    """How edges of grids bend, (k, n, m - 1) along rows and (k, n - 1, m) along columns, what follows for their facets, and better rows and columns."""
+    """How edges of grids bend, (k, n, m - 1) along rows and (k, n - 1, m) along columns, what follows for
+    their facets, and better rows and columns."""
 
     def __init__(self, land, made, parts, edge):
         self.first = edge[0]
@@ -309,41 +343,52 @@ class _Forms:
         down, across = np.diff(r[..., :-1], axis=2), np.diff(r, axis=3)
         normal = _normals(made, down, across)
         wide, long = _dot(across, across), _dot(down, down)
-        # curvatures at vertices, by the lengths h, k of the edges, whose steps need not be even: normals stand on the chord from neighbour to neighbour,
+        # curvatures at vertices, by the lengths h, k of the edges, whose steps need not be even: normals
+        # stand on the chord from neighbour to neighbour,
         # and along these a bend c shows as c h k; at the saddles and at the first and last row as beside them
-        u = _dot(np.diff(across, axis=3), normal[..., 1:]) / np.maximum(np.sqrt(wide[..., 1:] * wide[..., :-1]), TINY)
-        s = _dot(np.diff(down, axis=2), normal[:, :, 1:-1]) / np.maximum(np.sqrt(long[:, 1:] * long[:, :-1]), TINY)
+        u = (_dot(np.diff(across, axis=3),
+                  normal[..., 1:]) / np.maximum(np.sqrt(wide[..., 1:] * wide[..., :-1]), TINY))
+        s = (_dot(np.diff(down, axis=2),
+                  normal[:, :, 1:-1]) / np.maximum(np.sqrt(long[:, 1:] * long[:, :-1]), TINY))
         u = np.concatenate([_before(u[..., 0], u[..., 1])[..., None], u], axis=-1)
         s = np.concatenate([s[:, :1], s, s[:, -1:]], axis=1)
         wide, self.size = wide[..., :-1], np.abs(made.points).max()
-        even_u, even_s = (np.abs(u[..., 1:]) + np.abs(u[..., :-1])) * wide / 16, (np.abs(s[:, 1:]) + np.abs(s[:, :-1])) * long / 16
-        beyond_u = np.abs(np.concatenate([u[..., :1], u, u[..., -2:-1]], axis=-1))  # beyond the far end the loop comes back
+        even_u, even_s = (np.abs(u[..., 1:])
+                          + np.abs(u[..., :-1])) * wide / 16, (np.abs(s[:, 1:])
+                                                               + np.abs(s[:, :-1])) * long / 16
+        # beyond the far end the loop comes back
+        beyond_u = np.abs(np.concatenate([u[..., :1], u, u[..., -2:-1]], axis=-1))
         beyond_s = np.abs(np.concatenate([s[:, :1], s, s[:, -1:]], axis=1))
         self.edge_u, self.edge_s = even_u * _gathered(beyond_u, 2), even_s * _gathered(beyond_s, 1)
         self.edge_s[:, [0, -1]] = edge.T[:, :, None]  # measured: the rows beside do not tell it
         crease = made.shared.any(axis=1)
         for column in (0, -1):
             along = _along(made.points[:, :, column], made.found)
-            self.edge_s[:, :, column] = np.maximum(self.edge_s[:, :, column], along if column == 0 else np.where(crease[:, None], along, 0.0))
+            self.edge_s[:, :, column] = np.maximum(self.edge_s[:, :, column], along if column == 0
+                                                   else np.where(crease[:, None], along, 0.0))
         self.outline = _rims(made, np.moveaxis(r, 0, -1), parts)
         # of quads: eight times how their edges stray, signed, the twist, and what narrow bends add
         even_u, even_s = 0.5 * (u[..., 1:] + u[..., :-1]) * wide, 0.5 * (s[:, 1:] + s[:, :-1]) * long
         even_s[:, [0, -1]] = np.clip(even_s[:, [0, -1]], -8 * edge.T[:, :, None], 8 * edge.T[:, :, None])
-        self.quad_u, self.quad_s = 0.5 * (even_u[:, 1:] + even_u[:, :-1]), 0.5 * (even_s[..., 1:] + even_s[..., :-1])
+        self.quad_u, self.quad_s = 0.5 * (even_u[:, 1:]
+                                          + even_u[:, :-1]), 0.5 * (even_s[..., 1:] + even_s[..., :-1])
         both = normal[:, :, 1:] + normal[:, :, :-1]
         self.twist = 0.25 * _dot(np.diff(across[..., :-1], axis=2), both[..., 1:] + both[..., :-1])
         more_u, more_s = self.edge_u - np.abs(even_u) / 8, self.edge_s - np.abs(even_s) / 8
         more_s[:, [0, -1]] = 0.0
-        self.more_u, self.more_s = np.maximum(more_u[:, 1:], more_u[:, :-1]), np.maximum(more_s[..., 1:], more_s[..., :-1])
+        self.more_u, self.more_s = np.maximum(more_u[:, 1:],
+                                              more_u[:, :-1]), np.maximum(more_s[..., 1:], more_s[..., :-1])
 
     def strays(self, cut):
         """(k,) how far edges and facets stray at most."""
-        edges = np.maximum(np.maximum(self.edge_u.max(axis=(1, 2)), self.edge_s.max(axis=(1, 2))), self.outline.max(axis=1))
-        return np.maximum(edges, _facets(self.quad_u, self.quad_s, self.twist, self.more_u + self.more_s, cut).max(axis=(1, 2)))
+        edges = np.maximum(np.maximum(self.edge_u.max(axis=(1, 2)), self.edge_s.max(axis=(1, 2))),
+                           self.outline.max(axis=1))
+        return np.maximum(edges, _facets(self.quad_u, self.quad_s, self.twist, self.more_u + self.more_s,
+                                         cut).max(axis=(1, 2)))
 
     def graded(self, k, s, u, accuracy, attempt):
-        """(rows, columns) that `accuracy` needs of the part k, as far as its grid at rows s and columns u tells: of the mixtures and cuts the one with the
-        fewest cells."""
+        """(rows, columns) that `accuracy` needs of the part k, as far as its grid at rows s and columns u
+        tells: of the mixtures and cuts the one with the fewest cells."""
         straight = np.sqrt(8 * STRAIGHT * self.size) * TRIAL / max(len(s), len(u))
         across, along = np.maximum(self.edge_u[k].max(axis=0), self.outline[k]), self.edge_s[k].max(axis=1)
         c, r = _steps_wanted(across, straight), _steps_wanted(along, straight)
@@ -354,7 +399,8 @@ class _Forms:
         for mix in MIXTURES:
             p, t = mix * c, r[:, None]
             least = max((across / p**2).max(), (along / r**2).max())
-            quads = self.quad_u[k] / p**2, self.quad_s[k] / t**2, self.twist[k] / (p * t), self.more_u[k] / p**2 + self.more_s[k] / t**2
+            quads = self.quad_u[k] / p**2, self.quad_s[k] / t**2, self.twist[k] / (p * t), self.more_u[
+                k] / p**2 + self.more_s[k] / t**2
             for cut in (1, -1):
                 size = safety * np.sqrt(max(least, _facets(*quads, cut).max()) / accuracy)
                 shapes.append((size * r.sum() + 1, size * p.sum() + 1))
@@ -364,7 +410,8 @@ class _Forms:
 
 
 def _normals(made, down, across):
-    """(3, k, n, m) unit normals of grids at their vertices; 0 where neighbouring rows have no loop, and at a far end that is a saddle, a corner and no bend."""
+    """(3, k, n, m) unit normals of grids at their vertices; 0 where neighbouring rows have no loop, and at a
+    far end that is a saddle, a corner and no bend."""
     a = np.concatenate([2 * down[:, :, :1], down[:, :, 1:] + down[:, :, :-1], 2 * down[:, :, -1:]], axis=2)
     b = np.concatenate([2 * across[..., :1], across[..., 1:] + across[..., :-1]], axis=3)
     normal = np.stack([a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]])
@@ -388,13 +435,15 @@ def _placed(density, at, number):
 
 
 def _before(first, second):
-    """The curvature before the first one, as the change from the second goes on, but no less than the first."""
+    """The curvature before the first one, as the change from the second goes on, but no less than the first.
+    """
     on = 2 * first - second
     return np.where(np.abs(on) > np.abs(first), on, first)
 
 
 def _facets(u, s, t, more, cut):
-    """(..., n, m) how far diagonals and facets' centres of quads stray, from their signed forms and what narrow bends add."""
+    """(..., n, m) how far diagonals and facets' centres of quads stray, from their signed forms and what
+    narrow bends add."""
     diagonal = u + s + 2 * cut * t
     return np.maximum(np.abs(diagonal) / 8, np.abs(u + s + diagonal) / 18) + more
 

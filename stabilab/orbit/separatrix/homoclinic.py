@@ -1,7 +1,8 @@
-"""One homoclinic loop in floats: the equilibria on a saddle's orbit and where the motion that leaves the saddle turns back.
+"""One homoclinic loop in floats: the equilibria on a saddle's orbit and where the motion that leaves the
+saddle turns back.
 
-The saddle is one equilibrium of its orbit; divided out, a cubic is left for the others: in tan(y/2) on a circle
-(`circle_loops`), in exp(y) on a hyperbola. `loops` asks here too, row by row.
+The saddle is one equilibrium of its orbit; divided out, a cubic is left for the others: in tan(y/2) on a
+circle (`circle_loops`), in exp(y) on a hyperbola. `loops` asks here too, row by row.
 """
 from __future__ import annotations
 
@@ -14,10 +15,12 @@ FAR = 700.0       # beside an open plane there is no wall as near as this
 
 
 def loop_end(pot, sense, saddle, side):
-    """(distance along the orbit from the saddle to the far end of its loop on one side (-1, +1), distance to the deepest well
-    inside, ENDS or SHARED); None where no loop closes. SHARED: the far end is a saddle as high.
+    """(distance along the orbit from the saddle to the far end of its loop on one side (-1, +1), distance to
+    the deepest well inside, ENDS or SHARED); None where no loop closes. SHARED: the far end is a saddle as
+    high.
 
-    sense: 0 without torque, where on a circle a loop may end at a barrier as high, or at the saddle itself, one turn on.
+    sense: 0 without torque, where on a circle a loop may end at a barrier as high, or at the saddle itself,
+    one turn on.
     """
     return GEOMETRIES[pot.e](pot, sense, saddle, side)
 
@@ -57,7 +60,8 @@ def _others(pot, saddle, side):
 
 
 def _wall(pot, saddle, low, side):
-    """A distance at which the wall beyond the last well is higher than the saddle; None beside an open plane."""
+    """A distance at which the wall beyond the last well is higher than the saddle; None beside an open plane.
+    """
     step = 1.0
     while step < FAR:
         if pot.rise(side * (low + step), saddle) > 0:
@@ -67,9 +71,11 @@ def _wall(pot, saddle, low, side):
 
 
 def _crossing(pot, saddle, side, low, high):
-    """Where the potential rises through the saddle's height between a well at `low` and `high`: Newton's method in a bracket.
+    """Where the potential rises through the saddle's height between a well at `low` and `high`: Newton's
+    method in a bracket.
 
-    The first guess is exact for the cubic potential next to a fold, whose loop is half as long again as the way to the well.
+    The first guess is exact for the cubic potential next to a fold, whose loop is half as long again as the
+    way to the well.
     """
     t = min(1.5 * low, 0.5 * (low + high))
     for _ in range(200):

@@ -1,7 +1,7 @@
 """Homoclinic loops: where the motion that leaves a saddle turns back, and the points of the loop in between.
 
-Along a loop W = +-sqrt(2 (V_saddle - V(theta))), the difference formed without cancellation, so points lie on the
-separatrix to rounding.
+Along a loop W = +-sqrt(2 (V_saddle - V(theta))), the difference formed without cancellation, so points lie on
+the separatrix to rounding.
 """
 from __future__ import annotations
 
@@ -19,14 +19,16 @@ MANY = 48  # saddles, from which on arrays find the ends of loops on circles soo
 
 
 def polished(land, saddle, s):
-    """Return the points of the conic after each was moved along its orbit to where the force vanishes. The fold itself stays where it is."""
+    """Return the points of the conic after each was moved along its orbit to where the force vanishes. The
+    fold itself stays where it is."""
     moved = land.polished(saddle)
     return tuple(np.where(s > 0, m, v) for m, v in zip(moved, saddle))
 
 
 def loop_ends(land, saddle, side):
-    """(offset of the far end of the loop (n,), centre place (2, n), found (n,), shared (n,)) for saddles (2, n), each on its side, or all on one;
-    shared: it ends at a saddle there, for which this is the loop on the other side."""
+    """(offset of the far end of the loop (n,), centre place (2, n), found (n,), shared (n,)) for saddles (2,
+    n), each on its side, or all on one; shared: it ends at a saddle there, for which this is the loop on the
+    other side."""
     pot, n = land.potential, len(saddle[0])
     side = np.broadcast_to(np.asarray(side, float), n)
     if n >= MANY and land.turn < np.inf:  # orbits that close, on circles
@@ -37,17 +39,18 @@ def loop_ends(land, saddle, side):
             found = loop_end(pot, land.sense, (x, z), toward)
             if found:
                 ends[row], centres[row], kind[row] = found
-    return side * ends, np.array(land.polished(pot.move(saddle, side * centres))), kind != NONE, kind == SHARED
+    return side * ends, np.array(land.polished(pot.move(saddle,
+                                                        side * centres))), kind != NONE, kind == SHARED
 
 
 @dataclass(frozen=True)
 class Loops:
     """First halves of loops, from the saddle to the far end, in k strips of n rows and m columns.
 
-    saddle, centre: places (2, k, n); end: (k, n) offsets of the far ends; found: (k, n) whether there is a loop;
-    shared: (k, n) whether the far end is a saddle too; offset, w: (k, n, m) offsets and W; points: (k, n, m, 3).
-    saddle_state, centre_state: (k, n, 3) the same as states; ways: (k, n, 2) those of `far_centre.Orbits` where states
-    and points are told from them, and not from places; else nan.
+    saddle, centre: places (2, k, n); end: (k, n) offsets of the far ends; found: (k, n) whether there is a
+    loop; shared: (k, n) whether the far end is a saddle too; offset, w: (k, n, m) offsets and W; points: (k,
+    n, m, 3). saddle_state, centre_state: (k, n, 3) the same as states; ways: (k, n, 2) those of
+    `far_centre.Orbits` where states and points are told from them, and not from places; else nan.
     """
 
     saddle: np.ndarray
@@ -69,24 +72,30 @@ class Loops:
 
     def at_rows(self, rows) -> Loops:
         """The loops of some rows only."""
-        return Loops(*(v[:, :, rows] if name in ("saddle", "centre") else v[:, rows] for name, v in vars(self).items()))
+        return Loops(*(v[:, :, rows] if name in ("saddle", "centre") else v[:, rows] for name,
+                       v in vars(self).items()))
 
     def of(self, strip) -> Loops:
         """The loops of one strip only."""
-        return Loops(*(v[:, strip:strip + 1] if name in ("saddle", "centre") else v[strip:strip + 1] for name, v in vars(self).items()))
+        return Loops(*(v[:, strip:strip + 1] if name in ("saddle", "centre") else v[strip:strip + 1] for name,
+                       v in vars(self).items()))
 
 
 def loops(land, strips, s, u) -> Loops:
-    """The loops of strips (`seams.Part`, or pairs of branch and side) at parameters s (k, n) along them and u (k, m) round them.
+    """The loops of strips (`seams.Part`, or pairs of branch and side) at parameters s (k, n) along them and u
+    (k, m) round them.
 
-    A loop shared with the saddle at its far end is found from the left one only; at s = 0, the fold, it is a point.
+    A loop shared with the saddle at its far end is found from the left one only; at s = 0, the fold, it is a
+    point.
     """
     k, n = s.shape
     place = np.array([np.broadcast_arrays(*strip[0].place(row)) for strip, row in zip(strips, s)], float)
     saddle = np.array(polished(land, (place[:, 0].ravel(), place[:, 1].ravel()), s.ravel())).reshape(2, k, n)
     sides = np.array([strip[1] for strip in strips])
     end, centre, found, shared = loop_ends(land, tuple(saddle.reshape(2, -1)), np.repeat(sides, n))
-    end, centre, found, shared = end.reshape(k, n), centre.reshape(2, k, n), found.reshape(k, n), shared.reshape(k, n)
+    end, centre, found, shared = end.reshape(k,
+                                             n), centre.reshape(2, k,
+                                                                n), found.reshape(k, n), shared.reshape(k, n)
     found &= ~(shared & (sides[:, None] > 0))
     fold = s == 0
     found |= fold
@@ -111,9 +120,9 @@ def loops(land, strips, s, u) -> Loops:
 def _shares(land, saddle, end, shared, u, sharpest):
     """(k, n, m) shares of the way to the far end at which columns u (k, 1, m), 0 to 1, stand.
 
-    At the far end, distance t away, W^2 = 2 F t + K t^2 + ...: F the force there, K its slope. That is a hyperbola with
-    t = (F/K)(cosh q - 1), and equal steps of q turn the loop's direction evenly, however sharp the bend; columns then
-    run along the bend from row to row. No bend tighter than the way over
+    At the far end, distance t away, W^2 = 2 F t + K t^2 + ...: F the force there, K its slope. That is a
+    hyperbola with t = (F/K)(cosh q - 1), and equal steps of q turn the loop's direction evenly, however sharp
+    the bend; columns then run along the bend from row to row. No bend tighter than the way over
     sharpest (k,) is followed. Where the far end is a saddle itself, columns crowd at both ends alike.
     """
     if shared.any():
@@ -132,10 +141,11 @@ def _by_turning(sharp, u, sharpest):
 
 
 def residual(land, loops):
-    """(k, n, m) energy of the rounded points above their saddle's, relative to the size of the energy's terms; their
-    offsets from the saddle tell the turn that the angle of a rounded point belongs to. On a hyperbola the larger of xi, eta
-    tells the place: next to an open plane the smaller one is all rounding. How far the other lies from the saddle's
-    hyperbola, relative to the size of the point, is the residual where that is more.
+    """(k, n, m) energy of the rounded points above their saddle's, relative to the size of the energy's
+    terms; their offsets from the saddle tell the turn that the angle of a rounded point belongs to. On a
+    hyperbola the larger of xi, eta tells the place: next to an open plane the smaller one is all rounding.
+    How far the other lies from the saddle's hyperbola, relative to the size of the point, is the residual
+    where that is more.
     """
     place, w, size = land.start(loops.points)
     spot = tuple(v[:, :, None] for v in loops.saddle)
@@ -143,7 +153,8 @@ def residual(land, loops):
     with np.errstate(all="ignore"):
         departure = np.abs(0.5 * w * w + pot.rise(land.way(spot, place, loops.offset), spot))
         shaken, beside = land.blurred(spot, place, size)
-        scale = 0.5 * w * w + np.abs(pot.G) * (size[0] ** 2 + size[1] ** 2) + pot.slopes * (size[0] + size[1]) + pot.mu + shaken
+        scale = (0.5 * w * w + np.abs(pot.G) * (size[0] ** 2 + size[1] ** 2)
+                 + pot.slopes * (size[0] + size[1]) + pot.mu + shaken)
         found = np.fmax(np.where(departure > 0, departure / scale, 0.0), beside)
     if loops.far.any():
         found[loops.far] = residual_far(land, loops)

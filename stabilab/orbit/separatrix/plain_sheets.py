@@ -1,7 +1,7 @@
 """The sheets of a separatrix in plain floats: coarse, for a hand that moves, and for a browser without NumPy.
 
-Saddles, loops and heights are those of `sheets`, which grades its rows and columns by the bend; here rows are dense towards the fold and columns
-towards both ends of a loop.
+Saddles, loops and heights are those of `sheets`, which grades its rows and columns by the bend; here rows are
+dense towards the fold and columns towards both ends of a loop.
 """
 from __future__ import annotations
 
@@ -24,7 +24,8 @@ POLISH = 3   # Newton steps of a saddle along its orbit
 
 @dataclass(frozen=True)
 class PlainSheet:
-    """points: rows x columns places, row by row from the fold outward, each once round a loop from the saddle back to it."""
+    """points: rows x columns places, row by row from the fold outward, each once round a loop from the saddle
+    back to it."""
 
     name: str
     rows: int
@@ -32,8 +33,10 @@ class PlainSheet:
     points: list[tuple[float, ...]]
 
 
-def plain_separatrix(scene: AnyScene, reach: float = REACH, rows: int = 20, half: int = 21) -> tuple[tuple[PlainSheet, ...], str]:
-    """(sheets, what they part or why there are none) of a scene; reach: as of `separatrix`; half: columns from the saddle to the far end of a loop."""
+def plain_separatrix(scene: AnyScene, reach: float = REACH, rows: int = 20,
+                     half: int = 21) -> tuple[tuple[PlainSheet, ...], str]:
+    """(sheets, what they part or why there are none) of a scene; reach: as of `separatrix`; half: columns
+    from the saddle to the far end of a loop."""
     r = reduce(effective(scene))
     if r is None:
         return (), NO_REDUCTION
@@ -46,8 +49,10 @@ def plain_separatrix(scene: AnyScene, reach: float = REACH, rows: int = 20, half
         return (), "the numbers of this scene are beyond what doubles hold of its surface"
     found = []
     for number, branch in enumerate(branches, 1):
-        strips = [(word, points) for side, word in conic.sides(r.sense) if len(points := _strip(r, pot, branch, side, rows, half)) > 1]
-        found += [PlainSheet(f"sheet {number}{word if len(strips) > 1 else ''}", len(points), 2 * half - 1, sum(points, [])) for word, points in strips]
+        strips = [(word, points) for side,
+                  word in conic.sides(r.sense) if len(points := _strip(r, pot, branch, side, rows, half)) > 1]
+        found += [PlainSheet(f"sheet {number}{word if len(strips) > 1 else ''}", len(points), 2 * half - 1,
+                             sum(points, [])) for word, points in strips]
     return tuple(found), what_it_parts(pot, r.sense) if found else why_none(conic, r.sense)
 
 
@@ -89,5 +94,6 @@ def _loop(r, pot, saddle, end, half):
 def _state(r, pot, place, w):
     x, z = pot.xz(place)
     state = [0.0] * 3
-    state[r.j], state[r.k], state[r.axis] = float(r.component_j(x)), float(r.component_k(z)), float(r.component_i(w))
+    state[r.j], state[r.k], state[r.axis] = float(r.component_j(x)), float(r.component_k(z)), float(
+        r.component_i(w))
     return tuple(state)

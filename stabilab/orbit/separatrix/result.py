@@ -17,13 +17,13 @@ AGREE = 1e-9  # relative: nearer than that, lower bound and witness are one numb
 class Sheet(Compared):
     """One sheet of the separatrix as a parametric grid.
 
-    points: (n, m, 3) array; row r is the homoclinic curve at one value of the invariant, rows run from the fold
-    outward, columns run once around the loop from the saddle (column 0) back to the saddle (column -1).
-    residual: (n, m) distance from the surface in energy, relative to what the size of the point, rounded, moves in it.
-    saddle: (n, 3) the saddle equilibria at the rows; centre: (n, 3) the enclosed centres. error: estimate, from the
-    grid's second differences, of the largest distance of flat facets from the surface, in the unit of the points; cut: +1
-    where facets of the first half of the columns are cut from (r, c) to (r + 1, c + 1), -1 the other way; the second half
-    mirrors it.
+    points: (n, m, 3) array; row r is the homoclinic curve at one value of the invariant, rows run from the
+    fold outward, columns run once around the loop from the saddle (column 0) back to the saddle (column -1).
+    residual: (n, m) distance from the surface in energy, relative to what the size of the point, rounded,
+    moves in it. saddle: (n, 3) the saddle equilibria at the rows; centre: (n, 3) the enclosed centres. error:
+    estimate, from the grid's second differences, of the largest distance of flat facets from the surface, in
+    the unit of the points; cut: +1 where facets of the first half of the columns are cut from (r, c) to (r +
+    1, c + 1), -1 the other way; the second half mirrors it.
     """
 
     name: str
@@ -38,16 +38,19 @@ class Sheet(Compared):
 
 @record
 class Separatrix(Shown):
-    """Every sheet of the separatrix inside the asked-for range; reason says why there is none or what bounds it."""
+    """Every sheet of the separatrix inside the asked-for range; reason says why there is none or what bounds
+    it."""
 
     sheets: tuple[Sheet, ...]
     reason: str
 
 
 class Apart(NamedTuple):
-    """The distance of a state from the separatrix lies in [lower, upper]; witness: a point of it (three rates) at `upper`.
+    """The distance of a state from the separatrix lies in [lower, upper]; witness: a point of it (three
+    rates) at `upper`.
 
-    inf, inf, None where the scene has no separatrix. because: why the two are apart by more than AGREE, else empty.
+    inf, inf, None where the scene has no separatrix. because: why the two are apart by more than AGREE, else
+    empty.
     """
 
     lower: float
@@ -58,7 +61,8 @@ class Apart(NamedTuple):
 
     @property
     def value(self) -> float:
-        """The distance where it is known to AGREE, else what it certainly is not below; NaN where nothing is known of it."""
+        """The distance where it is known to AGREE, else what it certainly is not below; NaN where nothing is
+        known of it."""
         return self.upper if self.settled else self.lower if self.upper < math.inf else math.nan
 
     @property
@@ -67,5 +71,7 @@ class Apart(NamedTuple):
 
 
 NO_SEPARATRIX = Apart(math.inf, math.inf, None)
-UNKNOWN = Apart(0.0, math.inf, None, "the numbers of this scene are beyond what the search for the nearest point of the separatrix holds")
+UNKNOWN = Apart(0.0, math.inf, None,
+                "the numbers of this scene are beyond what the search for the nearest point of the "
+                "separatrix holds")
 ENDED = "the search ended before its proved lower bound met the nearest point found"

@@ -17,8 +17,9 @@ OPEN, FOLD, PLANE = "open", "fold", "plane"
 
 
 class Branch(NamedTuple):
-    """Saddles for s in [0, 1], s = 0 at the fold (on a line at its inner end), in h along a piece of the hyperbola or in t
-    along a line. far: what the branch ends in at s = 1, the limit (OPEN), another FOLD or an invariant PLANE Q = 0."""
+    """Saddles for s in [0, 1], s = 0 at the fold (on a line at its inner end), in h along a piece of the
+    hyperbola or in t along a line. far: what the branch ends in at s = 1, the limit (OPEN), another FOLD or
+    an invariant PLANE Q = 0."""
 
     conic: Any
     line: Any  # None on the hyperbola
@@ -37,7 +38,8 @@ class Branch(NamedTuple):
 
 
 def limit_of(conic, reach) -> float:
-    """The size of the invariant at `reach` times the radius sqrt|Q| of the outermost fold, or of the lines' feet."""
+    """The size of the invariant at `reach` times the radius sqrt|Q| of the outermost fold, or of the lines'
+    feet."""
     base = [abs(q) for q in conic.fold_invariants]
     for line in conic.lines:
         x, z = on_line(line, foot(conic, line))
@@ -47,7 +49,8 @@ def limit_of(conic, reach) -> float:
 
 @lru_cache(maxsize=64)
 def saddle_branches(conic, pot, limit) -> tuple[Branch, ...]:
-    """Return every branch of saddles of a conic of equilibria, as far out as |Q| = limit. They are kept, for the next surface of the same scene."""
+    """Return every branch of saddles of a conic of equilibria, as far out as |Q| = limit. They are kept, for
+    the next surface of the same scene."""
     found = [branch for piece in conic.pieces if piece.barrier for branch in _on_piece(conic, piece, limit)]
     for line in conic.lines:
         found += [Branch(conic, line, start, end, OPEN) for start, end in _on_line(conic, pot, line, limit)]
@@ -75,7 +78,8 @@ def _on_piece(conic, piece, limit):
     folds = {piece.inner, piece.outer}
     for low, high in zip(cuts, cuts[1:]):
         start, end = (high, low) if high == piece.outer else (low, high)
-        on_plane = conic.planes and abs(conic.invariant(piece.sign * end)) < ON_PLANE * abs(conic.invariant(piece.sign * start))
+        on_plane = (conic.planes and abs(conic.invariant(piece.sign * end)) < ON_PLANE
+                    * abs(conic.invariant(piece.sign * start)))
         yield Branch(conic, None, piece.sign * start, piece.sign * end,
                      PLANE if on_plane else FOLD if end in folds else OPEN)
 
@@ -93,7 +97,8 @@ def _on_line(conic, pot, line, limit):
     knots = [foot(conic, line)]
     if conic.G:  # where the two lines cross
         knots.append(-conic.d / conic.G - line.z0 if line.dz else -conic.c / conic.G - line.x0)
-    far = (2 * math.sqrt(limit) + abs(line.x0) + abs(line.z0)) / math.hypot(line.dx, line.dz) + max(map(abs, knots))
+    far = (2 * math.sqrt(limit) + abs(line.x0)
+           + abs(line.z0)) / math.hypot(line.dx, line.dz) + max(map(abs, knots))
     knots = sorted({-far, *knots, far})
     for low, high in zip(knots, knots[1:]):
         if pot.slope(conic.place(*on_line(line, 0.5 * (low + high)))) > 0:
@@ -101,15 +106,19 @@ def _on_line(conic, pot, line, limit):
 
 
 # --- What a separatrix parts, or why there is none, in words
-NO_REDUCTION = "without a reduction to one degree of freedom the separatrix of this scene is not known in closed form"
+NO_REDUCTION = (
+    "without a reduction to one degree of freedom the separatrix of this scene is not known in closed form")
 
 
 def what_it_parts(potential, sense: int) -> str:
     """Of a scene with sheets."""
     if potential.walled:
-        return "both sides of each sheet are bounded: it parts oscillations about one centre from those around two"
+        return (
+            "both sides of each sheet are bounded: it parts oscillations about one centre from those "
+            "around two")
     if sense == 0:
-        return ("both sides of each sheet are bounded: inside motions oscillate about a centre, outside about more of "
+        return ("both sides of each sheet are bounded: inside motions oscillate about a centre, outside "
+                "about more of "
                 "them or right round the axis")
     return "each sheet bounds the motions that oscillate about the centres inside it"
 
@@ -117,10 +126,13 @@ def what_it_parts(potential, sense: int) -> str:
 def why_none(conic, sense: int) -> str:
     """Of a scene on circles or hyperbolas without sheets."""
     if conic.pieces or conic.lines:
-        return ("no equilibrium is a saddle of the reduced potential, each orbit has a single well, and there is no "
+        return ("no equilibrium is a saddle of the reduced potential, each orbit has a single well, and "
+                "there is no "
                 "separatrix surface")
     if sense == 0:
-        return "no force acts along any orbit: the rate about the axis of symmetry is constant, and there is no saddle and no separatrix surface"
+        return (
+            "no force acts along any orbit: the rate about the axis of symmetry is constant, and there is no "
+            "saddle and no separatrix surface")
     return "there is no equilibrium, so there is no saddle and no separatrix surface"
 
 

@@ -1,8 +1,11 @@
-"""Seams of a sheet: where the loop of a saddle reaches a second saddle as high, behind which it opens a second well.
+"""Seams of a sheet: where the loop of a saddle reaches a second saddle as high, behind which it opens a
+second well.
 
-At the seam the far end of the loop jumps: on one side the loop turns back before the second saddle, on the other it passes over it. The sheet is smooth on
-both sides, W^2 = 2 (V_saddle - V) being a saddle surface itself next to the second saddle, but rows of a grid are level curves of it: they must crowd
-towards the seam like squares, and columns towards the second saddle, where loops are pinched. So a strip is cut there, and each part graded by itself.
+At the seam the far end of the loop jumps: on one side the loop turns back before the second saddle, on the
+other it passes over it. The sheet is smooth on both sides, W^2 = 2 (V_saddle - V) being a saddle surface
+itself next to the second saddle, but rows of a grid are level curves of it: they must crowd towards the seam
+like squares, and columns towards the second saddle, where loops are pinched. So a strip is cut there, and
+each part graded by itself.
 """
 from __future__ import annotations
 
@@ -13,16 +16,23 @@ import numpy as np
 
 from .circle import loop_end, others, settled
 
-JUMP = 1e-3    # of its length, by which a loop grows at least where a seam is; so near to it a smooth far end moves by less than a millionth
-LOOK = 24      # halvings, after which a smooth far end, which begins like a root of s, moves by a quarter of JUMP at most between the ends
+# of its length, by which a loop grows at least where a seam is; so near to it a smooth far end moves by less
+# than a millionth
+JUMP = 1e-3
+# halvings, after which a smooth far end, which begins like a root of s, moves by a quarter of JUMP at most
+# between the ends
+LOOK = 24
 BEGIN = 1e-9   # s next to the fold
-BESIDE = 1e-12  # of s: so far from the seam the second saddle's height is known beside the first one's, and the parts' edges lie within a millionth of the loop
+# of s: so far from the seam the second saddle's height is known beside the first one's, and the parts' edges
+# lie within a millionth of the loop
+BESIDE = 1e-12
 PINCH = 0.02      # of a lobe's length: no bend at the second saddle is resolved below
 
 
 class Part(NamedTuple):
-    """The rows low <= s <= high of a branch's loops on one side; seam: -1 where `low` is one, +1 where `high` is, 0 without; over: whether the loops
-    pass over a second saddle. number: of the part among those of its strip, 0 for a whole one."""
+    """The rows low <= s <= high of a branch's loops on one side; seam: -1 where `low` is one, +1 where `high`
+    is, 0 without; over: whether the loops pass over a second saddle. number: of the part among those of its
+    strip, 0 for a whole one."""
 
     branch: Any
     side: int
@@ -33,10 +43,12 @@ class Part(NamedTuple):
     number: int = 0
 
     def rows(self, t):
-        """s at parameters t in [0, 1], of which the distance from the seam is the square; without a seam they are s itself."""
+        """s at parameters t in [0, 1], of which the distance from the seam is the square; without a seam they
+        are s itself."""
         if not self.seam:
             return t
-        return self.low + (self.high - self.low) * t * t if self.seam < 0 else self.high - (self.high - self.low) * (1 - t) ** 2
+        return (self.low + (self.high - self.low) * t * t if self.seam < 0
+                else self.high - (self.high - self.low) * (1 - t) ** 2)
 
     def parameters(self, s):
         """t at rows s: the inverse of `rows`."""
@@ -55,14 +67,17 @@ def parted(land, strips, first) -> list[Part]:
             found.append(Part(branch, side))
             continue
         before, behind, over = seam
-        found += [Part(branch, side, float(start), before, 1, over < 0, 1), Part(branch, side, behind, 1.0, -1, over > 0, 2)]
+        found += [Part(branch, side, float(start), before, 1, over < 0, 1),
+                  Part(branch, side, behind, 1.0, -1, over > 0, 2)]
     return found
 
 
 def seam_of(land, branch, side) -> tuple[float, float, int] | None:
-    """(s just before the seam of a strip, s just behind it, +1 where loops pass over the second saddle behind it, -1 where before), or None.
+    """(s just before the seam of a strip, s just behind it, +1 where loops pass over the second saddle behind
+    it, -1 where before), or None.
 
-    Circles with a torque alone have seams. Where the second saddle appears below the first one's height, no far end jumps, and there is none.
+    Circles with a torque alone have seams. Where the second saddle appears below the first one's height, no
+    far end jumps, and there is none.
     """
     if len(land.conic.sides(land.sense)) > 1:
         return None
@@ -100,12 +115,14 @@ def _passes(pot, branch, side, s) -> bool:
 
 
 def pinched_shares(pot, saddle, end, side, u):
-    """(n, m) shares of the way to the far ends (n,) at which columns u (m,), 0 to 1, stand: half of them before the second saddle and half behind it,
-    crowded towards it as hyperbolas W^2 = K (e^2 + t^2) at distance t bend, with e the half width of the pinch; towards the far end as a parabola bends.
+    """(n, m) shares of the way to the far ends (n,) at which columns u (m,), 0 to 1, stand: half of them
+    before the second saddle and half behind it, crowded towards it as hyperbolas W^2 = K (e^2 + t^2) at
+    distance t bend, with e the half width of the pinch; towards the far end as a parabola bends.
 
     saddle: (2, n).
     """
-    rows = [_second(pot, place, side, abs(far)) for place, far in zip(zip(*(v.tolist() for v in saddle)), end.tolist())]
+    rows = [_second(pot, place, side, abs(far)) for place,
+            far in zip(zip(*(v.tolist() for v in saddle)), end.tolist())]
     at, width = np.array(rows).T[:, :, None]
     whole, v = np.abs(end)[:, None], np.clip(2 * u, 0, 1)
     behind, v2 = whole - at, np.clip(2 * u - 1, 0, 1)
@@ -123,7 +140,8 @@ def _crowded(x, width):
 
 
 def _second(pot, saddle, side, end):
-    """(distance of the second saddle, half width of the pinch there); without one the middle of the loop, and no pinch."""
+    """(distance of the second saddle, half width of the pinch there); without one the middle of the loop, and
+    no pinch."""
     t = _barrier(pot, saddle, side)
     if t is None or not t < end:
         return 0.5 * end, end

@@ -1,13 +1,15 @@
-"""The separatrix as surfaces: for each value of the invariant the homoclinic loop of each saddle, an exact curve.
+"""The separatrix as surfaces: for each value of the invariant the homoclinic loop of each saddle, an exact
+curve.
 
-A sheet sweeps one branch of saddles outward from its fold, where the loop shrinks to a point. On a circle the loop runs
-from its saddle against the torque and back; on a hyperbola (and without torque) each saddle has a loop on either side: a
-figure eight. The lower of two saddles on a circle may have a second loop there too, towards the torque, where the higher
-one turns it back: that parts a well from one twice as wide, no fate changes at it, and it is not drawn.
+A sheet sweeps one branch of saddles outward from its fold, where the loop shrinks to a point. On a circle the
+loop runs from its saddle against the torque and back; on a hyperbola (and without torque) each saddle has a
+loop on either side: a figure eight. The lower of two saddles on a circle may have a second loop there too,
+towards the torque, where the higher one turns it back: that parts a well from one twice as wide, no fate
+changes at it, and it is not drawn.
 
-Without torque the potential is periodic, so a saddle may see another one at its own height ahead (or itself, one turn
-on). The loop then runs from saddle to saddle and back, and the saddle at its far end sees the same closed curve on its
-other side. Such a loop is taken from one end only, its left one.
+Without torque the potential is periodic, so a saddle may see another one at its own height ahead (or itself,
+one turn on). The loop then runs from saddle to saddle and back, and the saddle at its far end sees the same
+closed curve on its other side. Such a loop is taken from one end only, its left one.
 """
 from __future__ import annotations
 
@@ -30,15 +32,16 @@ def separatrix(scene: AnyScene, reach: float | None = None, shape: tuple[int, in
                accuracy: float | None = None, fast: bool = False) -> Separatrix:
     """Every sheet of the separatrix of a scene with an elliptic or hyperbolic reduction.
 
-    reach: how far out the sheets go, as a multiple of the radius sqrt|Q| of the outermost fold (default 4; where there
-    is no fold, of the smallest saddle's); must exceed 1. shape: (rows, columns) of each grid, at least (3, 5), an even
-    number of columns becomes the next odd one (default (96, 129)). accuracy: in place of a shape, the largest distance
-    allowed between the sheets and the flat facets of their meshes, in the unit of the points: each grid gets as few rows
-    and columns as that needs (in a sheet, its rim where `reach` cuts it off may stray by ten times as much), a sheet whose
-    loops reach a second saddle as high comes in two parts that meet there, and every sheet tells as `error` what its
-    facets were found to reach (more than asked for only where the largest grids, of 1025 rows, still bend as much).
-    fast: accepted for one version more, without effect. Points are in the scene's variables. A scene without saddles gives
-    no sheets and the reason. Raises InputError for a shape, reach or accuracy out of range.
+    reach: how far out the sheets go, as a multiple of the radius sqrt|Q| of the outermost fold (default 4;
+    where there is no fold, of the smallest saddle's); must exceed 1. shape: (rows, columns) of each grid, at
+    least (3, 5), an even number of columns becomes the next odd one (default (96, 129)). accuracy: in place
+    of a shape, the largest distance allowed between the sheets and the flat facets of their meshes, in the
+    unit of the points: each grid gets as few rows and columns as that needs (in a sheet, its rim where
+    `reach` cuts it off may stray by ten times as much), a sheet whose loops reach a second saddle as high
+    comes in two parts that meet there, and every sheet tells as `error` what its facets were found to reach
+    (more than asked for only where the largest grids, of 1025 rows, still bend as much). fast: accepted for
+    one version more, without effect. Points are in the scene's variables. A scene without saddles gives no
+    sheets and the reason. Raises InputError for a shape, reach or accuracy out of range.
     """
     _check(reach, shape, accuracy)
     scene = effective(scene)
@@ -64,19 +67,26 @@ def _separatrix(scene, reach, shape, accuracy) -> Separatrix:
 
 def _check(reach, shape, accuracy):
     if shape is not None and accuracy is not None:
-        raise InputError("separatrix: got both a shape and an accuracy; expected one of them, as an accuracy chooses the shape")
-    if shape is not None and not (isinstance(shape, (tuple, list)) and len(shape) == 2 and all(isinstance(n, (int, np.integer)) for n in shape)
+        raise InputError(
+            "separatrix: got both a shape and an accuracy; expected one of them, as an accuracy chooses "
+            "the shape")
+    if shape is not None and not (isinstance(shape, (tuple, list)) and len(shape) == 2
+                                  and all(isinstance(n, (int, np.integer)) for n in shape)
                                   and shape[0] >= 3 and shape[1] >= 5):
         raise InputError(f"shape: expected (rows, columns), at least (3, 5), got {shape!r:.80}")
-    if reach is not None and not (isinstance(reach, (int, float, np.integer, np.floating)) and 1 < reach < np.inf):
+    if reach is not None and not (isinstance(reach, (int, float, np.integer, np.floating))
+                                  and 1 < reach < np.inf):
         raise InputError(f"reach: expected a multiple of the fold's radius above 1, got {reach!r:.80}")
-    if accuracy is not None and not (isinstance(accuracy, (int, float, np.integer, np.floating)) and 0 < accuracy < np.inf):
-        raise InputError(f"accuracy: expected a distance above 0 in the unit of the sheet's points, got {accuracy!r:.80}")
+    if accuracy is not None and not (isinstance(accuracy, (int, float, np.integer, np.floating))
+                                     and 0 < accuracy < np.inf):
+        raise InputError(
+            f"accuracy: expected a distance above 0 in the unit of the sheet's points, got {accuracy!r:.80}")
 
 
 def _by_arrays(land, strips, shape, accuracy):
-    """[(part, points (n, m, 3), residual (n, m), saddles and centres (n, 3), invariants (n,), found (n,), cut, error)] of every strip or part of one: the
-    second half of a loop mirrors the first, with W of the other sign."""
+    """[(part, points (n, m, 3), residual (n, m), saddles and centres (n, 3), invariants (n,), found (n,),
+    cut, error)] of every strip or part of one: the second half of a loop mirrors the first, with W of the
+    other sign."""
     out = []
     for made in grids_within(land, strips, accuracy) if accuracy else [grid(land, strips, shape)]:
         loops, mirror, axis = made.loops, slice(-2, None, -1), land.reduction.axis
@@ -86,7 +96,8 @@ def _by_arrays(land, strips, shape, accuracy):
         back += 2 * land.reduction.component_i(0.0)
         off = residual(land, loops)
         off = np.concatenate([off, off[:, :, mirror]], axis=2)
-        out += [(part, points[k], off[k], loops.saddle_state[k], loops.centre_state[k], land.invariant(loops.saddle[:, k]), loops.found[k], made.cut,
+        out += [(part, points[k], off[k], loops.saddle_state[k], loops.centre_state[k],
+                 land.invariant(loops.saddle[:, k]), loops.found[k], made.cut,
                  made.error[k]) for k, part in enumerate(made.parts)]
     return out
 
@@ -99,5 +110,7 @@ def _sheets(land, made):
         several = len({one[0].side for one in kept}) > 1
         for part, points, off, saddle, centre, invariant, found, cut, error in kept:
             rows = found if not found.all() else slice(None)
-            name = f"sheet {number}{words[part.side] if several else ''}{f', part {part.number}' if part.number else ''}"
-            yield Sheet(name, points[rows], off[rows], saddle[rows], centre[rows], invariant[rows], float(error), cut)
+            name = (
+                f"sheet {number}{words[part.side] if several else ''}{f', part {part.number}' if part.number else ''}")
+            yield Sheet(name, points[rows], off[rows], saddle[rows], centre[rows], invariant[rows],
+                        float(error), cut)

@@ -1,6 +1,8 @@
-"""What the papers print, held against the equations of motion: every numbered equation and numeric claim with its verdict.
+"""What the papers print, held against the equations of motion: every numbered equation and numeric claim with
+its verdict.
 
-Published claims are data (`theories/printed/papers/*.toml`, format in docs/audit.md); `findings` is the machine that tries them.
+Published claims are data (`theories/printed/papers/*.toml`, format in docs/audit.md); `findings` is the
+machine that tries them.
 """
 
 from __future__ import annotations
@@ -17,14 +19,16 @@ from .findings import Finding, audit, key
 Tell = Callable[[int, int, str], None]  # done, count, words: told before each step
 
 
-def audited(name: str | None = None, equation: str | None = None, tell: Tell | None = None) -> tuple[tuple[Paper, tuple[Finding, ...]], ...]:
-    """(paper, findings, rows in order) of one paper, or of all on record by a process a paper. tell: of each row of one paper, of each paper of all.
-    InputError for an unknown paper or equation."""
+def audited(name: str | None = None, equation: str | None = None,
+            tell: Tell | None = None) -> tuple[tuple[Paper, tuple[Finding, ...]], ...]:
+    """(paper, findings, rows in order) of one paper, or of all on record by a process a paper. tell: of each
+    row of one paper, of each paper of all. InputError for an unknown paper or equation."""
     if name is None and equation is not None:
         raise InputError(f"equation {equation}: name its paper as well: {', '.join(papers())}")
     if name is not None:
         return (findings_of(name, equation, tell),)
-    with ProcessPoolExecutor(min(len(papers()), os.cpu_count() or 1), multiprocessing.get_context("spawn")) as pool:
+    with ProcessPoolExecutor(min(len(papers()), os.cpu_count() or 1),
+                             multiprocessing.get_context("spawn")) as pool:
         found = []
         for done, made in enumerate(pool.map(findings_of, papers())):
             found.append(made)
@@ -33,7 +37,8 @@ def audited(name: str | None = None, equation: str | None = None, tell: Tell | N
         return tuple(found)
 
 
-def findings_of(name: str, equation: str | None = None, tell: Tell | None = None) -> tuple[Paper, tuple[Finding, ...]]:
+def findings_of(name: str, equation: str | None = None,
+                tell: Tell | None = None) -> tuple[Paper, tuple[Finding, ...]]:
     """(paper, its findings, rows in order), in this process."""
     one = paper(name)
     return one, tuple(sorted(audit(one, equation, tell=tell), key=lambda f: key(f.row.equation)))

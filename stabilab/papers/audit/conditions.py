@@ -21,11 +21,13 @@ def candidates(paper: Paper, row: Row) -> list[tuple[str, dict]]:
 
 
 def condition_of(paper: Paper, row: Row, pairs, bound, system, domain) -> tuple[str, str]:
-    """(condition, method) under which the pairs agree; ("", "") where none of the candidates helps. Singles are tried before pairs."""
+    """(condition, method) under which the pairs agree; ("", "") where none of the candidates helps. Singles
+    are tried before pairs."""
     import mpmath
 
     single = singles(paper, row, pairs, bound, system, domain)
-    double = [(f"{a} and {b}", first | second) for (a, first), (b, second) in combinations(single, 2) if first.keys() != second.keys()]
+    double = [(f"{a} and {b}", first | second) for (a, first),
+              (b, second) in combinations(single, 2) if first.keys() != second.keys()]
     for words, fixed in [*single, *((words, fixed) for words, fixed in double if _plain(fixed))]:
         if not _quick(mpmath.fp, pairs, bound, system, words, domain, fixed):
             continue
@@ -38,7 +40,8 @@ def condition_of(paper: Paper, row: Row, pairs, bound, system, domain) -> tuple[
 def singles(paper: Paper, row: Row, pairs, bound, system, domain) -> list[tuple[str, dict]]:
     """(words, {name: expression}) of the single conditions that speak of symbols of the pairs."""
     standing = {s.name for s in free(pairs, domain, bound, system)}
-    return [(words, fixed) for words, fixed in candidates(paper, row) if fixed.keys() <= standing and _plain(fixed)]
+    return [(words, fixed) for words,
+            fixed in candidates(paper, row) if fixed.keys() <= standing and _plain(fixed)]
 
 
 def _plain(fixed):

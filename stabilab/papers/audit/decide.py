@@ -1,4 +1,5 @@
-"""Whether two expressions are one: by symbols where SymPy can, else by their values at random points with 50 and 80 digits."""
+"""Whether two expressions are one: by symbols where SymPy can, else by their values at random points with 50
+and 80 digits."""
 
 from __future__ import annotations
 
@@ -16,7 +17,8 @@ SYMBOLIC_SIZE = 250  # operations up to which symbols are tried
 
 @dataclass(frozen=True)
 class Decision:
-    """holds: True, False, or None where it could not be told; residual: largest relative difference seen; method: words."""
+    """holds: True, False, or None where it could not be told; residual: largest relative difference seen;
+    method: words."""
 
     holds: bool | None
     residual: float
@@ -24,14 +26,16 @@ class Decision:
 
 
 def decide(pairs, bound: dict, system, seed: str, domain=(), fixed=None, symbolic=True) -> Decision:
-    """Whether left equals right in every pair, for all values of the free symbols at which `domain` is positive. fixed: name -> expression (a condition)."""
+    """Whether left equals right in every pair, for all values of the free symbols at which `domain` is
+    positive. fixed: name -> expression (a condition)."""
 
     chosen, none = (), ""
     try:
         chosen = points(free(pairs, domain, bound, system, fixed), seed, POINTS, domain, bound, system, fixed)
     except InputError as error:
         none = str(error)
-    if symbolic and not fixed and all(_same_in_symbols(left, right, bound, system, chosen[:1]) for left, right in pairs):
+    if symbolic and not fixed and all(_same_in_symbols(left, right, bound, system, chosen[:1]) for left,
+                                      right in pairs):
         return Decision(True, 0.0, "symbols")
     if none:
         return Decision(None, float("nan"), none)
@@ -47,7 +51,8 @@ def decide(pairs, bound: dict, system, seed: str, domain=(), fixed=None, symboli
         return Decision(None, float("nan"), "the formula has no value at any of the random points")
     if worst[DIGITS[1]] > 10.0 ** -(DIGITS[1] - SLACK):
         return Decision(None, float(worst[DIGITS[1]]), "the residual does not shrink with the digits")
-    return Decision(True, float(worst[DIGITS[1]]), f"residuals at {seen} random points, {DIGITS[0]} and {DIGITS[1]} digits")
+    return Decision(True, float(worst[DIGITS[1]]),
+                    f"residuals at {seen} random points, {DIGITS[0]} and {DIGITS[1]} digits")
 
 
 def residual(pairs, numbers, point, bound, system, fixed=None):
@@ -105,7 +110,8 @@ def _apart(left, right, bound, system, chosen):
 
 
 def _same_in_symbols(left, right, bound, system, chosen=()):
-    """Whether symbols show it; chosen: points at which expressions that differ plainly are told apart before their terms are multiplied out."""
+    """Whether symbols show it; chosen: points at which expressions that differ plainly are told apart before
+    their terms are multiplied out."""
     import sympy as sp
 
     plain = Evaluator(None, {}, bound, system).plain
@@ -115,7 +121,8 @@ def _same_in_symbols(left, right, bound, system, chosen=()):
         return False
     if difference == 0:
         return True
-    if difference.has(sp.Function("mean"), sp.Function("integral"), sp.Function("diff"), sp.Function("at")) or sp.count_ops(difference) > SYMBOLIC_SIZE:
+    if difference.has(sp.Function("mean"), sp.Function("integral"), sp.Function("diff"),
+                      sp.Function("at")) or sp.count_ops(difference) > SYMBOLIC_SIZE:
         return False
     try:
         if _apart(left, right, bound, system, chosen):

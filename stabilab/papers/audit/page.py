@@ -1,4 +1,5 @@
-"""The audit as HTML pages: a table a paper, each row with its formulas typeset, residual, correction and how it was checked."""
+"""The audit as HTML pages: a table a paper, each row with its formulas typeset, residual, correction and how
+it was checked."""
 
 from __future__ import annotations
 
@@ -15,16 +16,20 @@ from .checks import raw
 from .findings import VERDICTS
 from .words import counted, figures_changed
 
-SHORT = {"al": "alpha", "th": "theta", "ps": "psi", "ph": "phi", "gam": "gamma", "Gam": "Gamma", "om": "omega", "Om": "Omega", "lam": "lambda",
+SHORT = {"al": "alpha", "th": "theta", "ps": "psi", "ph": "phi", "gam": "gamma", "Gam": "Gamma",
+         "om": "omega", "Om": "Omega", "lam": "lambda",
          "Lam": "Lambda", "ep": "eps"}
 
 
 def page(findings, path, **around) -> Path:
     """The page of (paper, findings) pairs as a file; around: of the pages beside it (`html.render`)."""
     papers = [
-        {"name": paper.name, "title": paper.title, "count": count(group), "rows": [_row(paper, finding) for finding in group]} for paper, group in findings
+        {"name": paper.name, "title": paper.title, "count": count(group),
+         "rows": [_row(paper, finding) for finding in group]} for paper, group in findings
     ]
-    return html.write(Path(path), "audit.html", title="Published formulas, held against the equations of motion", papers=papers, counted=counted, **around)
+    return html.write(Path(path), "audit.html",
+                      title="Published formulas, held against the equations of motion", papers=papers,
+                      counted=counted, **around)
 
 
 def count(group) -> list[tuple[str, int]]:
@@ -41,7 +46,8 @@ def _row(paper, finding):
         "condition": _in_full(finding.condition),
         "says": row.says,
         "printed": typeset(paper, row.printed, squares(row)),
-        "correction": typeset(paper, row.corrected, squares(row)) if row.corrected else [finding.correction] if finding.correction else [],
+        "correction": typeset(paper, row.corrected, squares(row)) if row.corrected
+        else [finding.correction] if finding.correction else [],
         "where": _texts(row.where),
         "corrected_where": _texts(row.corrected_where),
         "repairs": finding.repairs,
@@ -63,12 +69,14 @@ def _texts(table):
 
 
 def squares(row) -> tuple[str, ...]:
-    """The names of a row that stand for the square of their letter: those of the top's (10), which tells the squares of two frequencies."""
+    """The names of a row that stand for the square of their letter: those of the top's (10), which tells the
+    squares of two frequencies."""
     return ("Om", "om") if {"Om", "om"} <= row.where.keys() else ()
 
 
 def typeset(paper, formulas, squares=()) -> list:
-    """Each formula as MathML where it can be read as one, else as its text. squares: names that stand for the square of their letter."""
+    """Each formula as MathML where it can be read as one, else as its text. squares: names that stand for the
+    square of their letter."""
     out = []
     for text in formulas:
         try:
@@ -85,21 +93,26 @@ def mathml(left, right, squares=()):
     from markupsafe import Markup
     from sympy.printing.mathml import mathml as printed
 
-    names = {s: sp.Symbol(_name(s.name)) ** (2 if s.name in squares else 1) for s in left.free_symbols | right.free_symbols}
+    names = {s: sp.Symbol(_name(s.name)) ** (2 if s.name in squares else 1)
+             for s in left.free_symbols | right.free_symbols}
     equation = sp.Eq(_readable(left.xreplace(names)), _readable(right.xreplace(names)), evaluate=False)
-    return Markup(f'<math xmlns="http://www.w3.org/1998/Math/MathML">{numbered(printed(equation, printer="presentation"))}</math>')
+    return Markup(
+        f'<math xmlns="http://www.w3.org/1998/Math/MathML">{numbered(printed(equation, printer="presentation"))}</math>')
 
 
 def _readable(expression):
-    """rate(f) as the operator d_t on f, a function, for a factor would cancel where two rates are divided; the other operators stand by their names."""
+    """rate(f) as the operator d_t on f, a function, for a factor would cancel where two rates are divided;
+    the other operators stand by their names."""
     import sympy as sp
 
     rate = sp.Function("d\u209c")  # with t as its index
-    return expression.replace(sp.Function("rate"), lambda f, n=1: reduce(lambda of, _: rate(of), range(int(n)), f))
+    return expression.replace(sp.Function("rate"), lambda f,
+                              n=1: reduce(lambda of, _: rate(of), range(int(n)), f))
 
 
 def _name(name):
-    """The name that SymPy typesets: a Greek letter, whole or abbreviated, with its number; else a stem with the letter or number that is its index."""
+    """The name that SymPy typesets: a Greek letter, whole or abbreviated, with its number; else a stem with
+    the letter or number that is its index."""
     letter = re.fullmatch(r"([A-Za-z]+?)_?(\d*)", name)
     stem, index = letter.groups() if letter else (name, "")
     stem = SHORT.get(stem, stem)

@@ -1,7 +1,8 @@
 """The smallest change that makes a wrong formula right: single edits of its tree, tried one after another.
 
-Edits: a sign, an index (another symbol of the same stem), another symbol of the formula, a missing or an extra factor from the
-formula's own symbols and 2, sine for cosine, i for -i, a power raised, lowered, halved or doubled, a term left out.
+Edits: a sign, an index (another symbol of the same stem), another symbol of the formula, a missing or an
+extra factor from the formula's own symbols and 2, sine for cosine, i for -i, a power raised, lowered, halved
+or doubled, a term left out.
 """
 
 from __future__ import annotations
@@ -35,7 +36,8 @@ TWINS = {
 
 
 def repairs(paper: Paper, row: Row, printed, system, bound, domain, fixed=None) -> tuple[str, ...]:
-    """Formulas "left = right", one edit away from the printed ones, that pass the row's check (under the condition `fixed`); at most KEEP."""
+    """Formulas "left = right", one edit away from the printed ones, that pass the row's check (under the
+    condition `fixed`); at most KEEP."""
     found: list[str] = []
     try:
         trial = _Trial(paper, row, printed, system, bound, domain, fixed)
@@ -46,7 +48,9 @@ def repairs(paper: Paper, row: Row, printed, system, bound, domain, fixed=None) 
         if alone and trial.agrees([(left, right)]):
             continue
         for edited in islice(_edits_of_sides(paper, row, left, right, fixed), MOST_EDITS):
-            if edited not in printed and trial.agrees([edited] if alone else [*printed[:number], edited, *printed[number + 1 :]]):
+            if edited not in printed and trial.agrees([edited] if alone
+                                                      else [*printed[:number], edited,
+                                                            *printed[number + 1 :]]):
                 found.append(f"{edited[0]} = {edited[1]}")
             if len(found) == KEEP:
                 return tuple(found)
@@ -57,7 +61,8 @@ class _Trial:
     """Whether formulas pass a row's check: at two points in doubles, then with all digits."""
 
     def __init__(self, paper, row, printed, system, bound, domain, fixed):
-        self.paper, self.row, self.system, self.bound, self.domain, self.fixed = paper, row, system, bound, domain, fixed
+        self.paper, self.row, self.system, self.bound, self.domain, self.fixed = (paper, row, system, bound,
+                                                                                  domain, fixed)
         every = [s for name, s in paper.symbols.items() if name not in bound and name not in (fixed or {})]
         self.points = points(every, row.equation, 2, domain, bound, system, fixed)
         self.values = None  # an evaluator a point: an edit shares most of its parts with the one before
@@ -71,12 +76,14 @@ class _Trial:
             pairs = pairs_of(self.paper, self.row, printed, self.system, self.bound)
             if all(left == right for left, right in pairs):
                 return False  # an edit that leaves nothing to be said
-            found = [residual(pairs, mpmath.fp, point, self.bound, self.system, self.fixed) for point in self.points]
+            found = [residual(pairs, mpmath.fp, point, self.bound, self.system, self.fixed)
+                     for point in self.points]
         except (InputError, TypeError, AttributeError, KeyError):
             return False
         if any(r is None or r > 1e-7 for r in found):
             return False
-        return decide(pairs, self.bound, self.system, self.row.equation, self.domain, self.fixed, symbolic=False).holds is True
+        return (decide(pairs, self.bound, self.system, self.row.equation, self.domain, self.fixed,
+                       symbolic=False).holds is True)
 
     def _near(self, printed):
         """Whether doubles leave it open that the formulas hold, without any work on symbols."""
@@ -84,7 +91,8 @@ class _Trial:
 
         if self.values is None:
             ready = [settled(mpmath.fp, point, self.fixed, self.bound, self.system) for point in self.points]
-            self.values = [Evaluator(mpmath.fp, one, self.bound, self.system, in_numbers=True) for one in ready]
+            self.values = [Evaluator(mpmath.fp, one, self.bound, self.system, in_numbers=True)
+                           for one in ready]
         try:
             for value in self.values:
                 for left, right in printed:
@@ -100,7 +108,8 @@ def _edits_of_sides(paper, row, left, right, fixed):
     import sympy as sp
 
     seen = {(left, right)}
-    own = [s for s in sorted(left.free_symbols | right.free_symbols, key=lambda s: s.name) if s.name not in (fixed or {})]
+    own = [s for s in sorted(left.free_symbols | right.free_symbols, key=lambda s: s.name)
+           if s.name not in (fixed or {})]
     targets = [] if left.func.__name__ == "diff" else [(right, lambda e: (left, e))]
     if row.kind not in ("solves", "equilibrium") and (right.is_Number or left.has(sp.Function)):
         targets.append((left, lambda e: (e, right)))
@@ -114,11 +123,13 @@ def _edits_of_sides(paper, row, left, right, fixed):
 
 
 def edits(tree, own, declared, factors):
-    """Every tree one edit away. own: symbols of the formula; declared: by name, for indices; factors: those with a factor more or less, else the others."""
+    """Every tree one edit away. own: symbols of the formula; declared: by name, for indices; factors: those
+    with a factor more or less, else the others."""
     if not factors:
         yield -tree
     for place, node in _nodes(tree):
-        for other in _with_factors(node, own, place == ()) if factors else _others(node, own, declared, place == ()):
+        for other in _with_factors(node, own,
+                                   place == ()) if factors else _others(node, own, declared, place == ()):
             yield _replaced(tree, place, other)
 
 
@@ -170,7 +181,8 @@ def _with_factors(node, own, top):
     if node.is_Add:
         for n, term in enumerate(node.args):
             rest = node.args[:n] + node.args[n + 1 :]
-            yield from (sp.Add(*rest, changed) for factor in factors for changed in (term * factor, term / factor))
+            yield from (sp.Add(*rest, changed) for factor in factors
+                        for changed in (term * factor, term / factor))
     if top or node.is_Mul:
         yield from (changed for factor in factors for changed in (node * factor, node / factor))
 
@@ -178,4 +190,5 @@ def _with_factors(node, own, top):
 def _siblings(symbol, declared):
     """Declared symbols of the same stem: D2, D3 for D1."""
     stem = re.sub(r"\d+$", "", symbol.name)
-    return [s for name, s in declared.items() if s != symbol and name != stem and re.sub(r"\d+$", "", name) == stem]
+    return [s for name, s in declared.items() if s != symbol and name != stem
+            and re.sub(r"\d+$", "", name) == stem]

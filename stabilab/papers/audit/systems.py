@@ -1,8 +1,9 @@
-"""The true motion that a claim is held against: the program's own equations of motion, in the paper's letters.
+"""The true motion that a claim is held against: the program's own equations of motion, in the paper's
+letters.
 
-A system is either derived (`effects`: the equations that the program integrates, renamed by `names`), or stated by its rates in other variables
-(`follows`, `meaning`, `pace`) and then proved to follow from its parent before anything is held against it, or a parent with some
-symbols set (`set`).
+A system is either derived (`effects`: the equations that the program integrates, renamed by `names`), or
+stated by its rates in other variables (`follows`, `meaning`, `pace`) and then proved to follow from its
+parent before anything is held against it, or a parent with some symbols set (`set`).
 """
 
 from __future__ import annotations
@@ -30,7 +31,8 @@ EFFECTS = {
 
 @dataclass(frozen=True)
 class System:
-    """state: SymPy symbols; rates: their rates by the system's own time; set: symbols with a value in it; time: unit of that time, words."""
+    """state: SymPy symbols; rates: their rates by the system's own time; set: symbols with a value in it;
+    time: unit of that time, words."""
 
     name: str
     state: tuple
@@ -44,13 +46,17 @@ class System:
 
 
 def system_of(paper: Paper, name: str | None, place: str = "") -> System | None:
-    """The system of a name; None for None. InputError where it is not described or does not follow from its parent."""
+    """The system of a name; None for None. InputError where it is not described or does not follow from its
+    parent."""
     if name is None:
         return None
     if name not in paper.systems:
-        raise InputError(f"{place or paper.name}: unknown system {name!r}; described are {', '.join(paper.systems) or 'none'}")
+        raise InputError(
+            f"{place or paper.name}: unknown system {name!r}; described are "
+            f"{', '.join(paper.systems) or 'none'}")
     data, place = paper.systems[name], f"{paper.name}, systems.{name}"
-    unknown = set(data) - {"effects", "names", "blocks", "state", "rates", "follows", "meaning", "pace", "set", "time", "scene"}
+    unknown = (set(data) - {"effects", "names", "blocks", "state", "rates", "follows", "meaning", "pace",
+                            "set", "time", "scene"})
     if unknown:
         raise InputError(f"{place}: unknown keys {', '.join(sorted(unknown))}")
     values = {symbol: _read(paper, place, text) for symbol, text in data.get("set", {}).items()}
@@ -58,15 +64,18 @@ def system_of(paper: Paper, name: str | None, place: str = "") -> System | None:
         return _derived(paper, name, data, values, place)
     if "rates" in data:
         state = tuple(_symbol(paper, place, s) for s in data["state"])
-        return System(name, state, tuple(_put(_read(paper, place, r), values) for r in data["rates"]), values, data.get("time", "s"))
+        return System(name, state, tuple(_put(_read(paper, place, r), values) for r in data["rates"]), values,
+                      data.get("time", "s"))
     if "follows" not in data:
         raise InputError(f"{place}: give effects (derived), rates (stated) or follows with set")
     parent = system_of(paper, data["follows"], place)
-    return System(name, parent.state, tuple(_put(r, values) for r in parent.rates), parent.set | values, parent.time)
+    return System(name, parent.state, tuple(_put(r, values) for r in parent.rates), parent.set | values,
+                  parent.time)
 
 
 def stated(paper: Paper):
-    """(system's name, parent, pairs that vanish if its stated rates follow from the parent's) for every system stated by rates."""
+    """(system's name, parent, pairs that vanish if its stated rates follow from the parent's) for every
+    system stated by rates."""
     for name, data in paper.systems.items():
         if "rates" not in data or "follows" not in data:
             continue
@@ -74,7 +83,8 @@ def stated(paper: Paper):
         parent, own = system_of(paper, data["follows"], place), system_of(paper, name)
         meaning = {_symbol(paper, place, s): _read(paper, place, text) for s, text in data["meaning"].items()}
         pace = _read(paper, place, data.get("pace", "1"))
-        yield name, parent, [(parent.rate(meaning[x]) / pace, rate.xreplace(meaning)) for x, rate in zip(own.state, own.rates)]
+        yield name, parent, [(parent.rate(meaning[x]) / pace, rate.xreplace(meaning)) for x,
+                             rate in zip(own.state, own.rates)]
 
 
 def _derived(paper, name, data, values, place):
@@ -89,7 +99,8 @@ def _derived(paper, name, data, values, place):
     state = tuple(renamed[s] for s in equations.state)
     if not all(s.is_Symbol for s in state):
         raise InputError(f"{place}: names of the state are to be plain symbols")
-    return System(name, state, tuple(_put(r.xreplace(renamed), values) for r in equations.rhs), values, data.get("time", "s"))
+    return System(name, state, tuple(_put(r.xreplace(renamed), values) for r in equations.rhs), values,
+                  data.get("time", "s"))
 
 
 def _scene(data, place):
@@ -107,7 +118,8 @@ def _scene(data, place):
 
 
 def _put(expression, values):
-    return expression.subs({s: v for s, v in expression_symbols(expression, values)}) if values else expression
+    return (expression.subs({s: v for s, v in expression_symbols(expression, values)}) if values
+            else expression)
 
 
 def expression_symbols(expression, values):

@@ -33,7 +33,9 @@ def dimension(words: str) -> dict:
         for word in part.split():
             found = re.fullmatch(r"([A-Za-z]+|1)(?:\^(-?[\d/]+))?", word)
             if not found or found[1] not in BASE:
-                raise InputError(f"unknown unit {word!r} in {words!r}: known are {', '.join(BASE)} with exponents as in m^2 or s^-1")
+                raise InputError(
+                    f"unknown unit {word!r} in {words!r}: known are {', '.join(BASE)} with exponents as in "
+                    f"m^2 or s^-1")
             total = times(total, BASE[found[1]], sign * Fraction(found[2] or 1))
     return total
 
@@ -46,11 +48,13 @@ def times(first: dict, second: dict, power=1) -> dict:
 
 
 def told(unit: dict) -> str:
-    return " ".join(name if power == 1 else f"{name}^{power}" for name, power in sorted(unit.items())) or "no unit"
+    return (" ".join(name if power == 1 else f"{name}^{power}" for name, power in sorted(unit.items()))
+            or "no unit")
 
 
 def unit_of(expression, units: dict, time: dict):
-    """Dimension of a raw formula; units: symbol name -> dimension; time: dimension of the motion's time. None for a zero. Raises UnitFault."""
+    """Dimension of a raw formula; units: symbol name -> dimension; time: dimension of the motion's time. None
+    for a zero. Raises UnitFault."""
     import sympy as sp
 
     def visit(e):

@@ -17,7 +17,8 @@ EPS = float(np.finfo(float).eps)
 
 @dataclass(frozen=True)
 class Drift:
-    """Of one motion after so many turns and steps of the method: relative departure of an integral from its first value."""
+    """Of one motion after so many turns and steps of the method: relative departure of an integral from its
+    first value."""
 
     integral: str
     motion: int
@@ -35,8 +36,8 @@ def starts(motions: int) -> np.ndarray:
 def integrals(states) -> dict[str, np.ndarray]:
     """A^2 and the energy of states (n, 3), in extended precision, so that only the states' own errors show.
 
-    With X = x1 + a = A sin t, x2 = A cos t: t' = x3 and t'' = 1 + x2 (X + b - a), whence U = -t - X (X + 2 (b - a))/2; these
-    motions stay on the side X > 0 of their circle, where t = pi/2 - atan(x2/X) has no jump.
+    With X = x1 + a = A sin t, x2 = A cos t: t' = x3 and t'' = 1 + x2 (X + b - a), whence U = -t - X (X + 2 (b
+    - a))/2; these motions stay on the side X > 0 of their circle, where t = pi/2 - atan(x2/X) has no jump.
     """
     x1, x2, x3 = np.asarray(states, np.longdouble).T
     a, c = np.longdouble(1) / 5, np.longdouble(1) / 5
@@ -45,8 +46,8 @@ def integrals(states) -> dict[str, np.ndarray]:
 
 
 def drifts(state, turns: float, motion: int = 0, a_decade: int = 8) -> list[Drift]:
-    """Drift of both integrals along one motion at `a_decade` times a decade, up to so many turns; never relative to less than
-    the terms that the integral is made of."""
+    """Drift of both integrals along one motion at `a_decade` times a decade, up to so many turns; never
+    relative to less than the terms that the integral is made of."""
     length = float(period(SCENE, np.array(state)))
     marks = 10.0 ** (np.arange(1 + int(a_decade * np.log10(turns) + 1e-9)) / a_decade)
     now, done, steps, found = np.array(state, float), 0.0, 0, []
@@ -59,15 +60,16 @@ def drifts(state, turns: float, motion: int = 0, a_decade: int = 8) -> list[Drif
         run = trajectory(SCENE, now, (at - done) * length, laws=False)
         before, steps = steps, steps + run.counters["steps"]
         for name, values in integrals(run.states[:len(part)]).items() if len(part) else ():
-            found += [Drift(name, motion, float(t), int(before + (steps - before) * (t - done) / (end - done)),
+            found += [Drift(name, motion, float(t),
+                            int(before + (steps - before) * (t - done) / (end - done)),
                             float(v - first[name]) / sizes[name]) for t, v in zip(part, values)]
         now, done = run.states[-1], end
     return found
 
 
 def growth(rows, integral: str) -> float:
-    """Exponent with which the drift grows with turns: slope of the root mean square over motions, in logarithms; 1/2 for
-    independent errors, 1 for a bias."""
+    """Exponent with which the drift grows with turns: slope of the root mean square over motions, in
+    logarithms; 1/2 for independent errors, 1 for a bias."""
     turns, rms = spread(rows, integral)
     keep = (turns >= FIT_FROM) & (rms > 0)
     return float(np.polyfit(np.log(turns[keep]), np.log(rms[keep]), 1)[0])

@@ -1,6 +1,8 @@
-"""What each effect of a scene costs: states, symbols, operations and the time of a rate, as effects are added one at a time.
+"""What each effect of a scene costs: states, symbols, operations and the time of a rate, as effects are added
+one at a time.
 
-The counts are of the equations that run: the compiled form of the rates, with common subexpressions formed once.
+The counts are of the equations that run: the compiled form of the rates, with common subexpressions formed
+once.
 """
 from __future__ import annotations
 
@@ -21,7 +23,8 @@ from ...physics.scene import Body, Scene
 from ...physics.to_numpy import Form, form, to_numpy
 
 BODY = Body((3, 2, "1.5"), 10)  # kg m^2, kg: three different moments, so that no term vanishes
-# effect -> (arguments of a generic one, arguments of one of zero strength), in the order in which `ladder` adds them:
+# effect -> (arguments of a generic one, arguments of one of zero strength), in the order in which `ladder`
+# adds them:
 # those that leave the state alone first
 EXAMPLES = {
     "constant_torque": ((("0.1", "0.2", "0.1"),), ((0, 0, 0),)),
@@ -33,7 +36,8 @@ EXAMPLES = {
     "gravity": (("9.81", ("0.01", "0.02", "0.05")), (0, ("0.01", "0.02", "0.05"))),
     "body_force": (((1, 2, 3),), ((0, 0, 0),))}
 NOTHING = "body alone"
-MANY, STEPS, REPEATS = 1000, 200, 15  # states of a batch; Taylor steps, or rates of one state, in a round; rounds
+# states of a batch; Taylor steps, or rates of one state, in a round; rounds
+MANY, STEPS, REPEATS = 1000, 200, 15
 
 
 @dataclass(frozen=True)
@@ -41,8 +45,8 @@ class Cost:
     """What the equations of a scene consist of.
 
     added: the effect that came last; states: components of the state, in `blocks`; parameters: their symbols;
-    coefficients: the numbers they make in the compiled rates; operations: additions, multiplications and powers there,
-    common subexpressions once; branches: cases that the rates distinguish.
+    coefficients: the numbers they make in the compiled rates; operations: additions, multiplications and
+    powers there, common subexpressions once; branches: cases that the rates distinguish.
     """
 
     added: str
@@ -56,8 +60,8 @@ class Cost:
 
 @dataclass(frozen=True)
 class Seconds:
-    """Least processor times, s: of the rates of one state given as floats, of one among MANY states in an array, and of a Taylor
-    step (None without heyoka)."""
+    """Least processor times, s: of the rates of one state given as floats, of one among MANY states in an
+    array, and of a Taylor step (None without heyoka)."""
 
     one: float
     among_many: float
@@ -85,13 +89,14 @@ def counted(added: str, scene) -> Cost:
     from sympy import Piecewise
     equations = derive(scene)
     rates = form(equations, equations.rhs)
-    return Cost(added, equations.blocks, len(equations.state), tuple(equations.parameters), len(rates.symbols), operations(rates),
+    return Cost(added, equations.blocks, len(equations.state), tuple(equations.parameters),
+                len(rates.symbols), operations(rates),
                 sum(len(rate.atoms(Piecewise)) for rate in rates.expressions))
 
 
 def operations(rates: Form) -> int:
-    """Additions, multiplications and powers of compiled expressions, common subexpressions formed once. A factor -1 of a
-    term counts as the subtraction that it is."""
+    """Additions, multiplications and powers of compiled expressions, common subexpressions formed once. A
+    factor -1 of a term counts as the subtraction that it is."""
     from sympy import count_ops, cse
     shared, rest = cse(rates.expressions)
     return int(sum(count_ops(e) for e in (*(e for _, e in shared), *rest)))
@@ -106,7 +111,8 @@ def timed(scene) -> Seconds:
     if heyoka_available():
         with borrowed_taylor(form(equations, equations.rhs)) as integrator:
             step = _least(lambda: _stepped(integrator, state), STEPS)
-    return Seconds(_least(lambda: [system.rate(one) for _ in range(STEPS)], STEPS), _least(lambda: system(many), MANY), step)
+    return Seconds(_least(lambda: [system.rate(one) for _ in range(STEPS)], STEPS),
+                   _least(lambda: system(many), MANY), step)
 
 
 def _stepped(integrator, state):
@@ -126,24 +132,28 @@ def _least(call, items) -> float:
 
 
 def imported(*names: str) -> tuple[str, ...]:
-    """Modules of effects that a fresh interpreter has loaded after it built the scene of these effects and its equations."""
+    """Modules of effects that a fresh interpreter has loaded after it built the scene of these effects and
+    its equations."""
     unknown = set(names) - set(REGISTRY)
     if unknown:
         raise KeyError(*unknown)
     code = ("import sys\nfrom stabilab.papers.cost.effects import BODY, derive, example, Scene\n"
             "derive(Scene(BODY, *map(example, sys.argv[1:])))\n"
-            "print(*sorted(m.rsplit('.')[-1] for m in sys.modules if m.startswith('stabilab.physics.effects.')))\n")
+            "print(*sorted(m.rsplit('.')[-1] for m in sys.modules if "
+            "m.startswith('stabilab.physics.effects.')))\n")
     run = subprocess.run([sys.executable, "-c", code, *names], capture_output=True, text=True, check=True)
     return tuple(name for name in run.stdout.split() if name != "base")
 
 
-# -- an effect of zero strength ----------------------------------------------------------------------------------------
+# -- an effect of zero strength
+# ----------------------------------------------------------------------------------------
 
 STATE, TIMES = (0.3, 0.2, -0.4), (-2.0, 1.0, 5.0, 10.0)
 
 
 def without(name: str) -> Scene:
-    """The scene to which an effect of zero strength is added: a wheel along axis 1 and a torque about axis 3, less `name`."""
+    """The scene to which an effect of zero strength is added: a wheel along axis 1 and a torque about axis 3,
+    less `name`."""
     kept = {"gyrostat": ("0.4", 0, 0), "constant_torque": (0, 0, "0.2")}
     return Scene(BODY, *(effect_class(other)(vector) for other, vector in kept.items() if other != name))
 
@@ -151,14 +161,17 @@ def without(name: str) -> Scene:
 def answers(scene) -> dict[str, object]:
     """Question -> the answer to its last bit, as something that compares equal only to the same bits."""
     runs = {method: trajectory(scene, STATE, TIMES, method) for method in ("taylor", "DOP853")}
-    return {"equations": tuple(map(str, (*derive(scene).state, *derive(scene).parameters, *derive(scene).rhs))),
-            **{f"states, {method}": (run.states.tobytes(), tuple(run.invariant_drift.items()), tuple(run.counters.items()))
+    return {"equations": tuple(map(str,
+                                   (*derive(scene).state, *derive(scene).parameters, *derive(scene).rhs))),
+            **{f"states, {method}": (run.states.tobytes(), tuple(run.invariant_drift.items()),
+                                     tuple(run.counters.items()))
                for method, run in runs.items()},
             "equilibria": repr(equilibria(scene)), "fate, extremes, period": repr(motion(scene, STATE))}
 
 
 def zero_is_absent(name: str) -> dict[str, bool]:
-    """Question -> whether a scene with this effect at zero strength answers as the scene without it, bit for bit."""
+    """Question -> whether a scene with this effect at zero strength answers as the scene without it, bit for
+    bit."""
     base = without(name)
     plain, named = answers(base), answers(Scene(BODY, *base.effects, example(name, zero=True)))
     return {question: plain[question] == named[question] for question in plain}

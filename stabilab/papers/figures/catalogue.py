@@ -1,4 +1,5 @@
-"""The figures of the papers, one row each: number, title, caption with what the paper printed, and how to draw it."""
+"""The figures of the papers, one row each: number, title, caption with what the paper printed, and how to
+draw it."""
 from __future__ import annotations
 
 from functools import partial
@@ -18,7 +19,8 @@ from .difference import words
 from .figure import Figure
 
 _LEVEL = "curves: level sets of the exact potential, in doubles"
-_LAW = ("x2² + x3² − 2(b−a)x1 falls by exactly 2(b−a)τ, so no motion is bounded and there is no equilibrium, stable or "
+_LAW = ("x2² + x3² − 2(b−a)x1 falls by exactly 2(b−a)τ, so no motion is bounded and there is no equilibrium, "
+        "stable or "
         "not; the paper prints an equilibrium hyperbola X2 X3 = −1")
 
 
@@ -34,52 +36,78 @@ _STARTED, _CAPTURED = (partial(major.exactness, start) for start in (paper.START
 
 
 FIGURES = (
-    Figure(2, "Trajectories for a torque on the minor axis", lambda: "Level curves of x²/2 + A² cos α − 4A(b−a) sin(α/2) − 2α on the "
-           f"true circle (x1+a)² + x2² = A² with A = {minor.circle():.4f}. The paper draws F = 4.72 from x1² + x2² = F², which is not "
+    Figure(2, "Trajectories for a torque on the minor axis",
+           lambda: "Level curves of x²/2 + A² cos α − 4A(b−a) sin(α/2) − 2α on the "
+           f"true circle (x1+a)² + x2² = A² with A = {minor.circle():.4f}. The paper draws F = 4.72 from x1² "
+           f"+ x2² = F², which is not "
            "constant, and −4Fb in place of −4A(b−a).", minor.trajectories,
            f"{_LEVEL}; grey lines: traced on a 700 x 500 grid"),
-    Figure(3, "Left and right separatrices", "Each saddle has one loop; triangles mark where a loop crosses the axis "
-           "upright. Outside the loops every motion comes from the right, turns back and spins up to the right.",
+    Figure(3, "Left and right separatrices",
+           "Each saddle has one loop; triangles mark where a loop crosses the axis "
+           "upright. Outside the loops every motion comes from the right, turns back and spins up to the "
+           "right.",
            minor.left_right, _LEVEL),
-    Figure(4, "Effect of the momentum wheel on the separatrices", lambda: "True saddles and centres against the positions printed "
-           f"in the text (upright strokes). With growing λ1 the left saddle moves left (α = {minor.left_saddles()}), not right.",
+    Figure(4, "Effect of the momentum wheel on the separatrices",
+           lambda: "True saddles and centres against the positions printed "
+           f"in the text (upright strokes). With growing λ1 the left saddle moves left (α = "
+           f"{minor.left_saddles()}), not right.",
            minor.wheel_effect, _LEVEL),
-    Figure(5, "Separatrix surfaces, minor axis", "Inside each of the two surfaces every motion is periodic about its "
-           "centre; outside it spins up about axis 3. The surfaces open out of a fold, each at its own radius; the paper's "
+    Figure(5, "Separatrix surfaces, minor axis",
+           "Inside each of the two surfaces every motion is periodic about its "
+           "centre; outside it spins up about axis 3. The surfaces open out of a fold, each at its own "
+           "radius; the paper's "
            "equation (31) holds for λ1 = 0 only.", minor.surfaces, minor.exactness),
-    Figure(6, "Contour map of the separatrix surfaces", "The folds lie on two circles of different radius about (−a, 0), "
-           "one on either side of the printed √2 about the origin; the curve (x1+a)(x1+b) = x2² parts stable from unstable "
+    Figure(6, "Contour map of the separatrix surfaces",
+           "The folds lie on two circles of different radius about (−a, 0), "
+           "one on either side of the printed √2 about the origin; the curve (x1+a)(x1+b) = x2² parts stable "
+           "from unstable "
            "equilibria, not the line x1 + x2 = 0.", minor_map.contour_map, minor_map.exactness),
-    Figure(7, "Typical stable motions, minor axis", "Periodic motions on arcs of circles about (−a, 0), 0.6 of the way up "
-           "to the separatrix, and the paper's own start. The paper says that a motion on the separatrix settles on the equilibrium of the fold; it "
+    Figure(7, "Typical stable motions, minor axis",
+           "Periodic motions on arcs of circles about (−a, 0), 0.6 of the way up "
+           "to the separatrix, and the paper's own start. The paper says that a motion on the separatrix "
+           "settles on the equilibrium of the fold; it "
            "settles on the saddle of its own circle.", minor.stable_motions, minor.runs_exactness),
-    Figure(8, "Major axis from (4.5, 1.8, 3.4)", lambda: f"Spin-up about axis 1. {_LAW}. The paper's τ is not in seconds: "
+    Figure(8, "Major axis from (4.5, 1.8, 3.4)",
+           lambda: f"Spin-up about axis 1. {_LAW}. The paper's τ is not in seconds: "
            f"t = {major.second():.4g} τ s.", _run(paper.START_MAJOR), _STARTED),
-    Figure(9, "Major axis from (4.5, 1.8, 3.4): x1, x3", lambda: f"The amplitudes of x3 are {major.amplitudes(paper.START_MAJOR, 2)}; "
+    Figure(9, "Major axis from (4.5, 1.8, 3.4): x1, x3",
+           lambda: f"The amplitudes of x3 are {major.amplitudes(paper.START_MAJOR, 2)}; "
            "the paper says that they grow to 6 at λ1 = 500.", _run(paper.START_MAJOR, "13"), _STARTED),
-    Figure(10, "Major axis from (4.5, 1.8, 3.4): x2, x3", lambda: "The ring hardly changes with λ1: |x2| stays within "
-           f"{major.amplitudes(paper.START_MAJOR, 1)}; the paper says [−4, 4], [−4.2, 4], [−4.5, 4].", _run(paper.START_MAJOR, "23"),
+    Figure(10, "Major axis from (4.5, 1.8, 3.4): x2, x3",
+           lambda: "The ring hardly changes with λ1: |x2| stays within "
+           f"{major.amplitudes(paper.START_MAJOR, 1)}; the paper says [−4, 4], [−4.2, 4], [−4.5, 4].",
+           _run(paper.START_MAJOR, "23"),
            _STARTED),
-    Figure(11, "Major axis from (4.5, 1.8, 3.4): x1, x2", "The caption in print names x2 and x3 again; x1 and x2 are meant.",
+    Figure(11, "Major axis from (4.5, 1.8, 3.4): x1, x2",
+           "The caption in print names x2 and x3 again; x1 and x2 are meant.",
            _run(paper.START_MAJOR, "12"), _STARTED),
-    Figure(12, "Major axis from (0, −1, 5)", lambda: "A long capture about axis 3, then spin-up about axis 1. "
-           f"{_released()} The paper calls λ1 = 100 stable because its run ends at 15.", _run(paper.START_CAPTURED), _CAPTURED),
+    Figure(12, "Major axis from (0, −1, 5)",
+           lambda: "A long capture about axis 3, then spin-up about axis 1. "
+           f"{_released()} The paper calls λ1 = 100 stable because its run ends at 15.",
+           _run(paper.START_CAPTURED), _CAPTURED),
     Figure(13, "Major axis from (0, −1, 5): x1, x3", _released, _run(paper.START_CAPTURED, "13"), _CAPTURED),
     Figure(14, "Major axis from (0, −1, 5): x2, x3", _released, _run(paper.START_CAPTURED, "23"), _CAPTURED),
     Figure(15, "Major axis from (0, −1, 5): x1, x2", _released, _run(paper.START_CAPTURED, "12"), _CAPTURED),
-    Figure(16, "Middle axis: no separatrix for the paper's data", f"For |b−a| < {middle.CUSP:.4f} there is no saddle: every motion is "
-           "periodic but those on the plane x1 + b = −x3, which spin up. The paper draws separatrices and three regions. At "
-           f"λ1 = {middle.LAMBDA_BEYOND} a figure-eight separatrix does exist (right): every saddle has two loops, and all of them "
+    Figure(16, "Middle axis: no separatrix for the paper's data",
+           f"For |b−a| < {middle.CUSP:.4f} there is no saddle: every motion is "
+           "periodic but those on the plane x1 + b = −x3, which spin up. The paper draws separatrices and "
+           "three regions. At "
+           f"λ1 = {middle.LAMBDA_BEYOND} a figure-eight separatrix does exist (right): every saddle has two "
+           f"loops, and all of them "
            "together are the surfaces.", middle.surfaces, middle.exactness),
-    Figure(17, "Middle axis: projection on (x1, x3)", "All equilibria are stable for the paper's data, on both sides of the "
-           f"printed line x1 = x3; that line is no invariant plane, x1 + b = x3 is. At λ1 = {middle.LAMBDA_BEYOND} the stretch between the two "
-           "folds is unstable.", middle.projections, "closed forms; motions: level sets of the exact potential"),
+    Figure(17, "Middle axis: projection on (x1, x3)",
+           "All equilibria are stable for the paper's data, on both sides of the "
+           f"printed line x1 = x3; that line is no invariant plane, x1 + b = x3 is. At λ1 = "
+           f"{middle.LAMBDA_BEYOND} the stretch between the two "
+           "folds is unstable.", middle.projections,
+           "closed forms; motions: level sets of the exact potential"),
 )
 NUMBERS = tuple(f.number for f in FIGURES)
 
 
 FIRST = "constant-torque"  # the paper that numbers without a name belong to
-PAPERS = {FIRST: paper.PAPER, "charged": figures_charged.PAPER, "cavity": figures_cavity.PAPER, "top": figures_top.PAPER}
+PAPERS = {FIRST: paper.PAPER, "charged": figures_charged.PAPER, "cavity": figures_cavity.PAPER,
+          "top": figures_top.PAPER}
 
 
 def of_paper(name: str) -> tuple[Figure, ...]:
@@ -108,9 +136,9 @@ def chosen(numbers=None, paper_name: str | None = None) -> list[Figure]:
 
 
 def write(numbers=None, out="figures", progress=None, paper_name: str | None = None) -> list[Path]:
-    """Draw figures into the folder `out`: figure-NN.png (charged-NN.png, ... for the other papers) and, beside it, a text
-    with the caption, command, version and tolerance; which: see `chosen`. progress(words) is called before each. Returns
-    the pictures' paths."""
+    """Draw figures into the folder `out`: figure-NN.png (charged-NN.png, ... for the other papers) and,
+    beside it, a text with the caption, command, version and tolerance; which: see `chosen`. progress(words)
+    is called before each. Returns the pictures' paths."""
     return [_write(row, Path(out), progress) for row in chosen(numbers, paper_name)]
 
 
@@ -119,8 +147,11 @@ def _write(row, out, progress):
         progress(f"figure {row.number}{f' ({row.paper})' if row.paper else ''}")
     with style.drawing() as plt:
         path = style.save(row.draw(plt), out / row.file)
-    apart = [f"printed curve against exact motion, largest difference at equal times: {line}" for line in words(row)]
+    apart = [f"printed curve against exact motion, largest difference at equal times: {line}"
+             for line in words(row)]
     with style.whole_file(path.with_suffix(".txt")) as waiting:
-        waiting.write_text("\n".join([f"Figure {row.number} of {PAPERS[row.paper or FIRST]}: {row.title}\n\n{row.caption}\n", f"made by: {row.command}",
-                                      f"stabilab {__version__}", f"tolerance: {row.tolerance}", *apart, ""]), encoding="utf-8")
+        waiting.write_text("\n".join([f"Figure {row.number} of {PAPERS[row.paper or FIRST]}: "
+                                      f"{row.title}\n\n{row.caption}\n", f"made by: {row.command}",
+                                      f"stabilab {__version__}", f"tolerance: {row.tolerance}", *apart, ""]),
+                           encoding="utf-8")
     return path

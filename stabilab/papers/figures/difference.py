@@ -1,4 +1,5 @@
-"""How far the printed curves of a figure are from the exact motion: the size of what its wrong formulas change."""
+"""How far the printed curves of a figure are from the exact motion: the size of what its wrong formulas
+change."""
 from __future__ import annotations
 
 import re
@@ -13,9 +14,10 @@ from .figure import Figure
 
 @dataclass(frozen=True)
 class Difference:
-    """One panel of a figure. quantity: what is drawn upwards, with its unit; column: the panel's heading; largest: distance of the
-    printed curve from the exact motion at equal times, the largest over the time that both have, in the quantity's unit; reach: range
-    of the exact motion (of a plane its diagonal), in the same unit; at: s; status: "compared", or "no curve" with the reason in words."""
+    """One panel of a figure. quantity: what is drawn upwards, with its unit; column: the panel's heading;
+    largest: distance of the printed curve from the exact motion at equal times, the largest over the time
+    that both have, in the quantity's unit; reach: range of the exact motion (of a plane its diagonal), in the
+    same unit; at: s; status: "compared", or "no curve" with the reason in words."""
 
     quantity: str
     column: str
@@ -35,7 +37,8 @@ def differences(figure: Figure) -> tuple[Difference, ...]:
     """A difference for every panel with a printed curve, row by row; none for a figure without."""
     if figure.lines is None:
         return ()
-    return tuple(_difference(row, column) for row, columns in figure.lines() for column in columns if "printed" in column.runs)
+    return tuple(_difference(row, column) for row,
+                 columns in figure.lines() for column in columns if "printed" in column.runs)
 
 
 def _difference(row: panels.Row, column: panels.Column) -> Difference:
@@ -43,7 +46,8 @@ def _difference(row: panels.Row, column: panels.Column) -> Difference:
     curves = [row.pick(run) for run in (exact, printed)]
     names = row.ylabel, column.heading
     if curves[0] is None or curves[1] is None:
-        return Difference(*names, None, None, None, "no curve", "the printed formulas do not give this quantity")
+        return Difference(*names, None, None, None, "no curve",
+                          "the printed formulas do not give this quantity")
     (tx, true), (px, wrong) = ([np.asarray(v, float) for v in curve] for curve in curves)
     n = min(len(true), len(wrong))  # a run that stops early has fewer of the same times
     apart = np.abs(wrong[:n] - true[:n]) if row.over_time else np.hypot(wrong[:n] - true[:n], px[:n] - tx[:n])
@@ -55,7 +59,8 @@ def _difference(row: panels.Row, column: panels.Column) -> Difference:
     return Difference(*names, float(apart[at]), float(np.hypot.reduce(spans)), float(times[at]), "compared")
 
 
-LETTERS = {r"\\lambda": "λ", r"\\zeta": "ζ", r"\\psi": "ψ", r"\\phi": "φ", r"\\varphi": "φ", r"\\theta": "θ", r"\\omega": "ω", r"\\eta": "η", r"\\gamma": "γ",
+LETTERS = {r"\\lambda": "λ", r"\\zeta": "ζ", r"\\psi": "ψ", r"\\phi": "φ", r"\\varphi": "φ", r"\\theta": "θ",
+           r"\\omega": "ω", r"\\eta": "η", r"\\gamma": "γ",
            r"\\ell": "l", r"\^\{-1\}": "⁻¹", r"\^2": "²", r"\\,": ""}
 
 
@@ -75,8 +80,8 @@ def _words(d: Difference) -> str:
 
 
 def plain(label: str) -> str:
-    """A label of Matplotlib as text: its letters in Unicode, without dollars and braces; a dot over a letter as d/dt, as primes belong to names; a hyphen
-    as a minus."""
+    """A label of Matplotlib as text: its letters in Unicode, without dollars and braces; a dot over a letter
+    as d/dt, as primes belong to names; a hyphen as a minus."""
     label = re.sub(r"\\dot\{(.*?)\}('*)", r"d\1\2/dt", label)
     for pattern, letter in LETTERS.items():
         label = re.sub(pattern, letter, label)

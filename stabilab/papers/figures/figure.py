@@ -9,10 +9,11 @@ from ...show.terminal.letters import written
 
 @dataclass(frozen=True)
 class Figure:
-    """One figure: draw(plt) -> matplotlib figure; words: the caption, exact: how exact the curves are, each a text or a
-    function that forms it from what is drawn; paper: the short name under which the command knows it, "" for the
-    constant-torque paper; lines: a function that gives the figure's lines (panels.Row, columns) where it sets printed curves
-    beside the exact motion, of which `difference` tells how far they part."""
+    """One figure: draw(plt) -> matplotlib figure; words: the caption, exact: how exact the curves are, each a
+    text or a function that forms it from what is drawn; paper: the short name under which the command knows
+    it, "" for the constant-torque paper; lines: a function that gives the figure's lines (panels.Row,
+    columns) where it sets printed curves beside the exact motion, of which `difference` tells how far they
+    part."""
 
     number: int
     title: str

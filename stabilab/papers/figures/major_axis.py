@@ -1,4 +1,5 @@
-"""Figures 8-15 of Amer et al. 2024: torque on the major axis, along the momentum wheel; no motion is bounded."""
+"""Figures 8-15 of Amer et al. 2024: torque on the major axis, along the momentum wheel; no motion is bounded.
+"""
 from __future__ import annotations
 
 from functools import lru_cache
@@ -21,11 +22,13 @@ PRINTED, LATER = {"color": style.BLUE, "linewidth": 0.7}, {"color": style.GREY, 
 @lru_cache
 def _trajectories(start, released=False):
     """lambda1 -> trajectory over the paper's span, or to a while after the release."""
-    return {lam: trajectory(paper.scene("major", lam), start, _times(lam, start, released)) for lam in paper.LAMBDAS}
+    return {lam: trajectory(paper.scene("major", lam), start, _times(lam, start, released))
+            for lam in paper.LAMBDAS}
 
 
 def _times(lam, start, released):
-    """400 times a unit of tau: over the paper's span, or to `AFTER` beyond the release or the paper's span, whichever comes later."""
+    """400 times a unit of tau: over the paper's span, or to `AFTER` beyond the release or the paper's span,
+    whichever comes later."""
     end = max(paper.SPAN[1], _release(lam, start) + AFTER) if released else paper.SPAN[1]
     return np.arange(int(400 * end) + 1) / 400
 
@@ -45,7 +48,9 @@ def exactness(start) -> str:
     """How exact the runs of a start are: by their laws."""
     runs = [*_trajectories(start).values(), *(_trajectories(start, True).values() if captured(start) else ())]
     drift = max(d for run in runs for d in run.invariant_drift.values())
-    return f"Taylor integration, relative tolerance 1.1e-16, 400 points a unit of τ; the laws of the motion drift by {drift:.1e} at most"
+    return (
+        f"Taylor integration, relative tolerance 1.1e-16, 400 points a unit of τ; the laws of the motion "
+        f"drift by {drift:.1e} at most")
 
 
 def captured(start) -> bool:
@@ -61,8 +66,10 @@ def amplitudes(start, component) -> str:
 def releases(start) -> str:
     """When each run of a start is released from its capture."""
     times = [_release(lam, start) for lam in paper.LAMBDAS]
-    return (f"This start is released at τ = {listed(times, '{:.1f}')} for λ1 = {listed(paper.LAMBDAS, '{}')}: released means that the turn "
-            f"about axis 1 reverses for the last time, and the body spins up for ever. Upper row: τ from 0 to 15, as in print; lower row: the "
+    return (f"This start is released at τ = {listed(times, '{:.1f}')} for λ1 = "
+            f"{listed(paper.LAMBDAS, '{}')}: released means that the turn "
+            f"about axis 1 reverses for the last time, and the body spins up for ever. Upper row: τ from 0 "
+            f"to 15, as in print; lower row: the "
             f"same motions to τ = {AFTER:g} after their release.")
 
 
@@ -72,7 +79,8 @@ def second() -> float:
 
 
 def _rows(start):
-    """[(words, lambda1 -> (states, number of them in print, place of the release or None))] a row of panels each."""
+    """[(words, lambda1 -> (states, number of them in print, place of the release or None))] a row of panels
+    each."""
     found = [(r"$\tau\in[0,15]$", {lam: (states, len(states), None) for lam, states in _runs(start).items()})]
     if captured(start):
         longer = {}
@@ -84,7 +92,8 @@ def _rows(start):
 
 
 def _title(figure, start):
-    figure.suptitle(f"Torque on the major axis from x(0) = ({', '.join(f'{v:g}' for v in start).replace('-', '−')})")
+    figure.suptitle(
+        f"Torque on the major axis from x(0) = ({', '.join(f'{v:g}' for v in start).replace('-', '−')})")
 
 
 def _legend(figure, start, extra=()):
@@ -101,7 +110,8 @@ def space(start):
         for i, (words, runs) in enumerate(rows):
             shared = i > 0 or not captured(start)
             limits = _limits([states for states, *_ in runs.values()]) if shared else None
-            panels = [figure.add_subplot(len(rows), 3, 3 * i + j + 1, projection="3d") for j in range(len(runs))]
+            panels = [figure.add_subplot(len(rows), 3, 3 * i + j + 1, projection="3d")
+                      for j in range(len(runs))]
             end = max(len(states) for states, *_ in runs.values()) / 400
             for ax, (lam, (states, _, release)) in zip(panels, runs.items()):
                 pieces = _coloured(ax, states, end, limits or _limits([states]))
@@ -148,7 +158,8 @@ def projection(start, plane):
     def picture(plt):
         rows = _rows(start)
         width = 8.2 if plane == "23" and len(rows) > 1 else 11.4  # a tall plane of one scale
-        figure, lines = plt.subplots(len(rows), 3, figsize=(width, 0.7 + 3.5 * len(rows)), sharex="row", sharey="row", layout="constrained", squeeze=False)
+        figure, lines = plt.subplots(len(rows), 3, figsize=(width, 0.7 + 3.5 * len(rows)), sharex="row",
+                                     sharey="row", layout="constrained", squeeze=False)
         for axes, (words, runs) in zip(lines, rows):
             for ax, (lam, (states, printed, release)) in zip(axes, runs.items()):
                 ax.plot(states[printed - 1:, i], states[printed - 1:, j], **LATER)

@@ -11,7 +11,8 @@ from .minor_axis import sheets
 
 LAMBDA_BEYOND = 1250  # c = b - a = 2.5, beyond the cusp 1.7548: there a figure-eight separatrix does exist
 CUSP = 4 * 3**-0.75
-EIGHT = {"lambda1": LAMBDA_BEYOND, "reach": None, "shape": (60, 121), "axis": "middle"}  # the sheets of Fig. 16
+# the sheets of Fig. 16
+EIGHT = {"lambda1": LAMBDA_BEYOND, "reach": None, "shape": (60, 121), "axis": "middle"}
 
 
 def exactness() -> str:
@@ -40,20 +41,26 @@ def surfaces(plt):
     left = figure.add_subplot(1, 2, 1, projection="3d")
     scene = paper.scene("middle", 100)
     _nested(left, scene)
-    left.set_title(rf"$\lambda_1=100$, $c={scene.b - scene.a:g}$: nested closed motions, no separatrix", fontsize=9.5)
+    left.set_title(rf"$\lambda_1=100$, $c={scene.b - scene.a:g}$: nested closed motions, no separatrix",
+                   fontsize=9.5)
     right = figure.add_subplot(1, 2, 2, projection="3d")
     names = _figure_eight(right)
-    right.set_title(rf"$\lambda_1={LAMBDA_BEYOND}$, $c=2.5>{CUSP:.4f}$: figure-eight separatrix", fontsize=9.5)
-    style.legend(figure, [("centres (stable)", style.MEANING["stable"]), ("saddles (unstable)", style.MEANING["unstable"]),
+    right.set_title(rf"$\lambda_1={LAMBDA_BEYOND}$, $c=2.5>{CUSP:.4f}$: figure-eight separatrix",
+                    fontsize=9.5)
+    style.legend(figure, [("centres (stable)", style.MEANING["stable"]),
+                          ("saddles (unstable)", style.MEANING["unstable"]),
                      ("motion of Table 3", style.MEANING["this motion"]), ("start", style.MARKER["start"]),
-                     ("periodic motions", {"color": style.SKY, "linewidth": 1.0}), ("one figure-eight", EIGHT_LINE),
-                     *((f"separatrix, {name}", {"color": colour, "linewidth": 8, "solid_capstyle": "butt"}) for name, colour in zip(names, LOOPS))], columns=4)
+                     ("periodic motions", {"color": style.SKY, "linewidth": 1.0}),
+                          ("one figure-eight", EIGHT_LINE),
+                     *((f"separatrix, {name}", {"color": colour, "linewidth": 8, "solid_capstyle": "butt"})
+                       for name, colour in zip(names, LOOPS))], columns=4)
     return figure
 
 
 EIGHT_LINE = {"color": style.BLACK, "linewidth": 2.2}  # of the two loops of one saddle
 LOOPS = (style.SKY, style.YELLOW, style.GREY, style.PURPLE)  # colours of the parts of the figure-eight
-OPAQUE, THIN = (1.0, 0.6, 0.45, 0.6), (0.1, 0.3, 0.1, 0.3)  # of each part, and the width of its mesh: the small loop of sheet 1 stands within that of sheet 2
+# of each part, and the width of its mesh: the small loop of sheet 1 stands within that of sheet 2
+OPAQUE, THIN = (1.0, 0.6, 0.45, 0.6), (0.1, 0.3, 0.1, 0.3)
 
 
 FROM_BEHIND = (1.4, 1.2, 1.3, 1.1)  # of each part, seen from the side from which both loops are
@@ -86,7 +93,8 @@ def _figure_eight(ax):
     found = sheets(**EIGHT)
     ax.computed_zorder = False  # short lines of equilibria over the sheets that would hide them
     for sheet, colour, opaque, thin, order in zip(found.sheets, LOOPS, OPAQUE, THIN, FROM_BEHIND):
-        ax.plot_surface(*_upright(sheet.points), color=colour, alpha=opaque, rstride=4, cstride=6, linewidth=thin, edgecolor="#333333", shade=False,
+        ax.plot_surface(*_upright(sheet.points), color=colour, alpha=opaque, rstride=4, cstride=6,
+                        linewidth=thin, edgecolor="#333333", shade=False,
                         zorder=order)
         ax.plot(*_upright(sheet.saddle), zorder=6, **style.MEANING["unstable"])
         ax.plot(*_upright(sheet.centre), zorder=6, **style.MEANING["stable"])
@@ -112,7 +120,8 @@ def projections(plt):
         _projection(ax, scene, draw_motion=lam != LAMBDA_BEYOND)
         ax.set_title(rf"$\lambda_1={lam}$, $c={scene.b - scene.a:g}$")
     axes[0].set_ylabel("$x_3$")
-    style.legend(figure, [("stable equilibria", style.MEANING["stable"]), ("unstable equilibria", style.MEANING["unstable"]),
+    style.legend(figure, [("stable equilibria", style.MEANING["stable"]),
+                          ("unstable equilibria", style.MEANING["unstable"]),
                      (r"plane $x_1+b=x_3$ (periodic)", style.MEANING["dividing"]),
                      (r"plane $x_1+b=-x_3$ (spin-up)", style.MEANING["spin-up"]),
                      ("motion of Table 3", style.MEANING["this motion"]), ("start", style.MARKER["start"]),

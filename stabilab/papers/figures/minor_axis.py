@@ -13,8 +13,10 @@ from ...show.plot.phase_plane import draw
 from . import paper
 from .figure import listed
 
-WINDOW = (-7.0, 8.4)  # alpha = 2 theta: both wells and their saddles, no equilibrium at an edge; the plane repeats every 4 pi
-PRINTED_FIG4 = {100: ((0.0, 6.2), (-3.0, 3.3)), 300: ((0.19, 6.15), (-3.1, 3.29)), 500: ((0.32, 5.8), (-3.13, 3.28))}
+# alpha = 2 theta: both wells and their saddles, no equilibrium at an edge; the plane repeats every 4 pi
+WINDOW = (-7.0, 8.4)
+PRINTED_FIG4 = {100: ((0.0, 6.2), (-3.0, 3.3)), 300: ((0.19, 6.15), (-3.1, 3.29)),
+                500: ((0.32, 5.8), (-3.13, 3.28))}
 REACH = 5.0           # largest circle drawn in Fig. 5, in radii of the outer fold circle
 LEFT, RIGHT = style.MEANING["separatrix 2"], style.MEANING["separatrix"]
 COPY = RIGHT | {"linestyle": (0, (5, 2)), "linewidth": 1.1}
@@ -43,13 +45,15 @@ def trajectories(plt):
     _label(ax)
     radius = np.sqrt(plane.Q)
     ax.set_title(rf"Torque on the minor axis, $\lambda_1=100$: the circle $A={radius:.4f}$ of the start")
-    style.legend(figure, [("this motion", style.MEANING["this motion"]), ("start", style.MARKER["start"]), *LOOPS,
+    style.legend(figure,
+                 [("this motion", style.MEANING["this motion"]), ("start", style.MARKER["start"]), *LOOPS,
                      ("other energies", style.MEANING["level"]), *POINTS], columns=3)
     return figure
 
 
 def _separatrices(ax, plane, start, span):
-    """The separatrix through every saddle: that of the left saddle (alpha near 0), of the right one, and of this one a turn earlier."""
+    """The separatrix through every saddle: that of the left saddle (alpha near 0), of the right one, and of
+    this one a turn earlier."""
     saddles = plane.repeated(plane.saddles, *span)
     left = _left(saddles, start)
     for saddle in saddles:
@@ -96,7 +100,8 @@ def left_right(plt):
     ax.set_ylim(-14, 14)
     _label(ax)
     ax.set_title(rf"Left and right separatrices, $\lambda_1=100$, $A={np.sqrt(plane.Q):.4f}$")
-    style.legend(figure, [*LOOPS, ("periodic motions", style.MEANING["bounded"]), ("spin-up", style.MEANING["spin-up"]),
+    style.legend(figure, [*LOOPS, ("periodic motions", style.MEANING["bounded"]),
+                          ("spin-up", style.MEANING["spin-up"]),
                      ("upright crossing", style.MARKER["turning"]), *POINTS], columns=3)
     return figure
 
@@ -104,18 +109,22 @@ def left_right(plt):
 def wheel_effect(plt):
     """Fig. 4."""
     figure, axes = plt.subplots(3, 1, figsize=(7.2, 9.2), sharex=True, layout="constrained")
-    printed = {"marker": "|", "color": style.ORANGE, "markersize": 30, "markeredgewidth": 2.2, "linestyle": "none"}
+    printed = {"marker": "|", "color": style.ORANGE, "markersize": 30, "markeredgewidth": 2.2,
+               "linestyle": "none"}
     for ax, letter, (lambda1, (saddles, centres)) in zip(axes, "abc", PRINTED_FIG4.items()):
         plane, start, span = _plane(lambda1)
         _loops(ax, plane, start, span)
-        ax.plot(saddles + centres, [0] * 4, zorder=3, **printed)  # taller than the true points, and behind them
+        # taller than the true points, and behind them
+        ax.plot(saddles + centres, [0] * 4, zorder=3, **printed)
         ax.set_xlim(*WINDOW)
         ax.set_ylim(-15, 15)
         _label(ax)
         ax.set_xlabel("")
-        ax.set_title(rf"({letter}) $\lambda_1={lambda1}$: $c=b-a={lambda1 / 500:g}$, $A={np.sqrt(plane.Q):.4f}$")
+        ax.set_title(
+            rf"({letter}) $\lambda_1={lambda1}$: $c=b-a={lambda1 / 500:g}$, $A={np.sqrt(plane.Q):.4f}$")
     axes[-1].set_xlabel(r"$\alpha = 2\,\mathrm{atan2}(x_1+a,\ x_2)$")
-    style.legend(figure, [*LOOPS, *POINTS, ("upright crossing", style.MARKER["turning"]), ("printed position", printed | {"markersize": 14})], columns=3)
+    style.legend(figure, [*LOOPS, *POINTS, ("upright crossing", style.MARKER["turning"]),
+                          ("printed position", printed | {"markersize": 14})], columns=3)
     return figure
 
 
@@ -160,8 +169,10 @@ def surfaces(plt):
         ax.view_init(elevation, azimuth)
         style.name_space(ax, 1.05)
     figure.suptitle(r"Separatrix surfaces, torque on the minor axis, $\lambda_1=100$, from two sides")
-    sides = [(f"{side} separatrix surface", {"color": colour, "linewidth": 8, "solid_capstyle": "butt"}) for side, colour in SIDES.items()]
-    style.legend(figure, [*sides, ("centres (stable)", style.MEANING["stable"]), ("saddles (unstable)", style.MEANING["unstable"])])
+    sides = [(f"{side} separatrix surface", {"color": colour, "linewidth": 8, "solid_capstyle": "butt"})
+             for side, colour in SIDES.items()]
+    style.legend(figure, [*sides, ("centres (stable)", style.MEANING["stable"]),
+                          ("saddles (unstable)", style.MEANING["unstable"])])
     return figure
 
 
@@ -169,32 +180,40 @@ SIDES = {"left": style.SKY, "right": style.YELLOW}
 
 
 def _side(sheet) -> str:
-    """The paper's name of a surface: the left loop of the phase plane has alpha in (-2 pi, 0), where x1 + a < 0 about its centre."""
+    """The paper's name of a surface: the left loop of the phase plane has alpha in (-2 pi, 0), where x1 + a <
+    0 about its centre."""
     return "left" if float(np.asarray(sheet.centre)[-1, 0]) < 0 else "right"
 
 
-RADII = (2.0, 3.0, 4.0, 4.825971404805462, 5.5)  # of the circles of Fig. 7; the fourth is that of the paper's start
-SHADES = ("#D9D9D9", "#B8B8B8", "#969696", "#6E6E6E", "#303030")  # lighter inside: blue, red and orange have meanings
+# of the circles of Fig. 7; the fourth is that of the paper's start
+RADII = (2.0, 3.0, 4.0, 4.825971404805462, 5.5)
+# lighter inside: blue, red and orange have meanings
+SHADES = ("#D9D9D9", "#B8B8B8", "#969696", "#6E6E6E", "#303030")
 
 
 @lru_cache
 def _stable_runs():
-    """(radius, trajectory) of a periodic motion on each side of each circle, and (None, that of the paper's start)."""
+    """(radius, trajectory) of a periodic motion on each side of each circle, and (None, that of the paper's
+    start)."""
     scene = paper.scene("minor", 100)
-    return [(radius, trajectory(scene, state, np.linspace(0.0, 15.0, 3001))) for radius, state in [*_bounded_starts(scene), (None, paper.START_MINOR)]]
+    return [(radius, trajectory(scene, state, np.linspace(0.0, 15.0, 3001))) for radius,
+            state in [*_bounded_starts(scene), (None, paper.START_MINOR)]]
 
 
 def runs_exactness() -> str:
     """How exact the periodic motions of Fig. 7 are: by their laws."""
     drift = max(d for _, run in _stable_runs() for d in run.invariant_drift.values())
-    return f"Taylor integration, relative tolerance 1.1e-16; the laws of the motion drift by {drift:.1e} at most"
+    return (
+        f"Taylor integration, relative tolerance 1.1e-16; the laws of the motion drift by {drift:.1e} "
+        f"at most")
 
 
 def stable_motions(plt):
     """Fig. 7."""
     figure = plt.figure(figsize=(8.4, 6.6), layout="constrained")
     ax = figure.add_subplot(projection="3d")
-    scene, looks = paper.scene("minor", 100), {radius: {"color": shade, "linewidth": 1.3} for radius, shade in zip(RADII, SHADES)}
+    scene, looks = paper.scene("minor", 100), {radius: {"color": shade, "linewidth": 1.3} for radius,
+                                               shade in zip(RADII, SHADES)}
     for radius, run in _stable_runs():
         ax.plot(*np.asarray(run.states).T, **looks[radius] if radius else style.MEANING["this motion"])
     ax.plot(*np.array([paper.START_MINOR]).T, **style.MARKER["start"])
@@ -207,14 +226,17 @@ def stable_motions(plt):
     ax.view_init(28, -58)
     style.name_space(ax, 1.15)
     ax.set_title(r"Periodic motions on their circles of radius $A$ about $(-a, 0)$, $\lambda_1=100$")
-    style.legend(figure, [("centres (stable)", style.MEANING["stable"]), ("saddles (unstable)", style.MEANING["unstable"]),
-                     ("motion from x(0) = (2.5, 4, 0.1)", style.MEANING["this motion"]), ("start", style.MARKER["start"]),
+    style.legend(figure, [("centres (stable)", style.MEANING["stable"]),
+                          ("saddles (unstable)", style.MEANING["unstable"]),
+                     ("motion from x(0) = (2.5, 4, 0.1)", style.MEANING["this motion"]),
+                          ("start", style.MARKER["start"]),
                      *((f"circle $A={radius:.4g}$", look) for radius, look in looks.items())], columns=3)
     return figure
 
 
 def _bounded_starts(scene):
-    """(radius, state) of a motion a loop, on circles of growing radius: 0.6 of the way up from the centre to the separatrix in energy."""
+    """(radius, state) of a motion a loop, on circles of growing radius: 0.6 of the way up from the centre to
+    the separatrix in energy."""
     starts = []
     for radius in RADII:
         plane = phase_plane(scene, (radius - scene.a, 0.0, 0.0))
@@ -222,5 +244,6 @@ def _bounded_starts(scene):
             loop = plane.loop(saddle, -12.0, 12.0)
             for centre in plane.repeated(plane.centres, *loop) if loop else ():
                 depth = float(plane.height(saddle, centre))
-                starts.append((radius, plane.states(np.float64(centre), np.float64(np.sqrt(2 * 0.6 * depth)))))
+                starts.append((radius,
+                               plane.states(np.float64(centre), np.float64(np.sqrt(2 * 0.6 * depth)))))
     return starts

@@ -1,4 +1,5 @@
-"""Figure 6 of Amer et al. 2024: the separatrix surfaces of the minor axis from above, with the equilibria and what parts these."""
+"""Figure 6 of Amer et al. 2024: the separatrix surfaces of the minor axis from above, with the equilibria and
+what parts these."""
 from __future__ import annotations
 
 import numpy as np
@@ -22,12 +23,16 @@ def contour_map(plt):
         heights = _map(ax, scene, found, size)
     axes[0].set_title(r"Height $x_3>0$ of the separatrix surfaces, $\lambda_1=100$")
     axes[1].set_title("the middle, enlarged")
-    box = axes[0].add_patch(plt.Rectangle((-NEAR, -NEAR), 2 * NEAR, 2 * NEAR, fill=False, linewidth=0.9, edgecolor=style.BLACK))
+    box = axes[0].add_patch(plt.Rectangle((-NEAR, -NEAR), 2 * NEAR, 2 * NEAR, fill=False, linewidth=0.9,
+                                          edgecolor=style.BLACK))
     box.set_zorder(6)
     figure.colorbar(heights, ax=axes, label="$x_3$ on the surface", shrink=0.7, pad=0.02)
-    style.legend(figure, [("stable equilibria", style.MEANING["stable"]), ("unstable equilibria", style.MEANING["unstable"]),
-                     ("fold circles", style.MEANING["fold"]), (r"$(x_1+a)(x_1+b)=x_2^2$", style.MEANING["dividing"]),
-                     ("edge of the stable regions", EDGE), (r"printed: $x_1+x_2=0$, radius $\sqrt{2}$", style.MEANING["printed"])], columns=3)
+    style.legend(figure, [("stable equilibria", style.MEANING["stable"]),
+                          ("unstable equilibria", style.MEANING["unstable"]),
+                     ("fold circles", style.MEANING["fold"]),
+                          (r"$(x_1+a)(x_1+b)=x_2^2$", style.MEANING["dividing"]),
+                     ("edge of the stable regions", EDGE),
+                          (r"printed: $x_1+x_2=0$, radius $\sqrt{2}$", style.MEANING["printed"])], columns=3)
     return figure
 
 
@@ -48,7 +53,8 @@ def _map(ax, scene, found, size):
     a, b = scene.a, scene.b
     for sheet in found.sheets:
         upper, triangles = _upper(np.asarray(sheet.points))
-        filled = ax.tricontourf(upper[:, 0], upper[:, 1], triangles, upper[:, 2], levels=LEVELS, cmap="Greys", antialiased=True, extend="max")
+        filled = ax.tricontourf(upper[:, 0], upper[:, 1], triangles, upper[:, 2], levels=LEVELS, cmap="Greys",
+                                antialiased=True, extend="max")
         ax.plot(*np.asarray(_outline(np.asarray(sheet.points)))[:, :2].T, **EDGE)
     _hyperbola(ax, a, b)
     _dividing(ax, a, b)
@@ -72,11 +78,13 @@ def _upper(points):
     flat, triangles = part.reshape(-1, 3), np.concatenate([lower, upper])
     corner = flat[triangles][..., :2]
     (u1, u2), (v1, v2) = (corner[:, 1] - corner[:, 0]).T, (corner[:, 2] - corner[:, 0]).T
-    return flat, triangles[np.abs(u1 * v2 - u2 * v1) > 1e-12]  # folded flat in the projection: nothing to shade
+    # folded flat in the projection: nothing to shade
+    return flat, triangles[np.abs(u1 * v2 - u2 * v1) > 1e-12]
 
 
 def _outline(points):
-    """The line of saddles inward, then the far ends of the loops outward: where a sheet meets the plane x3 = 0."""
+    """The line of saddles inward, then the far ends of the loops outward: where a sheet meets the plane x3 =
+    0."""
     return np.concatenate([points[::-1, 0], points[:, points.shape[1] // 2]])
 
 

@@ -1,8 +1,9 @@
-"""Histories and planes of several motions in one picture: a row per quantity, a column per value of a parameter.
+"""Histories and planes of several motions in one picture: a row per quantity, a column per value of a
+parameter.
 
-In every panel the exact motion and the models of it. Limits come from the exact motion: a model that runs out of them is
-drawn to where it leaves the panel, which says how far it goes. Where a printed curve leaves a panel, a first column shows
-the printed curves alone and whole, as the paper's figure does.
+In every panel the exact motion and the models of it. Limits come from the exact motion: a model that runs out
+of them is drawn to where it leaves the panel, which says how far it goes. Where a printed curve leaves a
+panel, a first column shows the printed curves alone and whole, as the paper's figure does.
 """
 from __future__ import annotations
 
@@ -21,37 +22,49 @@ from ...theories.comparison import side_by_side
 from ..table import cases_folder
 
 TIME = "$t$ (s)"
-# How each model is drawn: the pale ones are broad and lie under the exact motion, the others over it, so that two that agree are both seen.
+# How each model is drawn: the pale ones are broad and lie under the exact motion, the others over it, so that
+# two that agree are both seen.
 LOOKS: dict[str, dict] = {
-    "linear": {"color": "#A9D6F0", "linewidth": 4.6, "zorder": 1.6}, "corrected": {"color": "#E3B5D0", "linewidth": 2.8, "zorder": 1.7},
-    "lindstedt": {"color": style.SKY, "linewidth": 0.6, "antialiased": False, "zorder": 1.6}, "exact": {"color": style.BLACK, "linewidth": 2.0, "zorder": 2.0},
+    "linear": {"color": "#A9D6F0", "linewidth": 4.6, "zorder": 1.6},
+    "corrected": {"color": "#E3B5D0", "linewidth": 2.8, "zorder": 1.7},
+    "lindstedt": {"color": style.SKY, "linewidth": 0.6, "antialiased": False, "zorder": 1.6},
+    "exact": {"color": style.BLACK, "linewidth": 2.0, "zorder": 2.0},
     "averaged1": {"color": style.GREEN, "linewidth": 1.4, "linestyle": "-.", "zorder": 2.1},
     "averaged2": {"color": style.SKY, "linewidth": 1.4, "linestyle": "--", "zorder": 2.2},
     "printed": {"color": style.ORANGE, "linewidth": 1.6, "linestyle": ":", "zorder": 2.3}}
 # Of words: darker, to be read
-INK = {name: look["color"] for name, look in LOOKS.items()} | {"linear": style.BLUE, "lindstedt": style.BLUE, "corrected": "#9C4A7B", "printed": "#946300"}
+INK = ({name: look["color"] for name, look in LOOKS.items()}
+       | {"linear": style.BLUE, "lindstedt": style.BLUE, "corrected": "#9C4A7B", "printed": "#946300"})
 END = {"marker": "X", "markersize": 7, "linestyle": "none", "zorder": 5}
 WIDE = 3.0  # a model may stretch the axis to this many times the exact motion's range; beyond that it is cut
 TALL = 1.45  # a plane of one scale, against a history
 MARGIN = 0.06
-NARROW, SHRUNK = 0.95, 0.85  # width of the column of printed curves alone, against the others; of all columns then
-# Of the values of a parameter in the column of printed curves alone: shades of the hue that stands for the model beside it, so that no colour means two
+# width of the column of printed curves alone, against the others; of all columns then
+NARROW, SHRUNK = 0.95, 0.85
+# Of the values of a parameter in the column of printed curves alone: shades of the hue that stands for the
+# model beside it, so that no colour means two
 # things in a picture, and a dash each, the sparser over the fuller, so that curves that agree are all seen.
 DASHES = ((":", 2.3), ("--", 2.2), ("-", 2.1))
-ALONE = tuple({"color": c, "linewidth": 1.6, "linestyle": s, "zorder": z} for c, (s, z) in zip((style.ORANGE, "#9A5B00", "#4A2C00"), DASHES))
-BESIDE = tuple({"color": c, "linewidth": 0.8, "linestyle": s, "zorder": z - 0.5} for c, (s, z) in zip((style.PURPLE, "#9C4A7B", "#4F2440"), DASHES))
-CORNERS = ((1.0, "right"), (0.0, "left"), (0.5, "center"))  # of the words on cuts, where they have room side by side
-LETTER, BESIDE_PANEL, SMALL = 0.062, 0.75, 0.88  # inches of a letter of these words, of what stands beside a panel; letters where room is short
+ALONE = tuple({"color": c, "linewidth": 1.6, "linestyle": s, "zorder": z} for c,
+              (s, z) in zip((style.ORANGE, "#9A5B00", "#4A2C00"), DASHES))
+BESIDE = tuple({"color": c, "linewidth": 0.8, "linestyle": s, "zorder": z - 0.5} for c,
+               (s, z) in zip((style.PURPLE, "#9C4A7B", "#4F2440"), DASHES))
+# of the words on cuts, where they have room side by side
+CORNERS = ((1.0, "right"), (0.0, "left"), (0.5, "center"))
+# inches of a letter of these words, of what stands beside a panel; letters where room is short
+LETTER, BESIDE_PANEL, SMALL = 0.062, 0.75, 0.88
 LINE = 13  # points from a line of such words to the next
-ENDS = "above a panel: from where to where a curve goes that is cut"  # in the legend where the words of a panel leave it out for want of room
-ORDER = ("printed", "corrected", "averaged1", "linear", "averaged2", "lindstedt")  # in the legend, after the exact motion
+# in the legend where the words of a panel leave it out for want of room
+ENDS = "above a panel: from where to where a curve goes that is cut"
+# in the legend, after the exact motion
+ORDER = ("printed", "corrected", "averaged1", "linear", "averaged2", "lindstedt")
 WORDS = comparison.WORDS | {"corrected": "corrected integrals, frequency (8)"}
 
 
 @dataclass(frozen=True)
 class Row:
-    """One quantity: pick(run) -> (x, y) arrays, or None where a model does not have it; equal: both axes to one scale;
-    limits: ((x low, x high), (y low, y high)) where the motion itself runs off to infinity."""
+    """One quantity: pick(run) -> (x, y) arrays, or None where a model does not have it; equal: both axes to
+    one scale; limits: ((x low, x high), (y low, y high)) where the motion itself runs off to infinity."""
 
     xlabel: str
     ylabel: str
@@ -66,8 +79,8 @@ class Row:
 
 @dataclass(frozen=True)
 class Column:
-    """One value of the parameter: heading; runs: model -> run; mark: a time to draw a vertical line at, or None; refused: model -> why
-    it has no curve."""
+    """One value of the parameter: heading; runs: model -> run; mark: a time to draw a vertical line at, or
+    None; refused: model -> why it has no curve."""
 
     heading: str
     runs: dict = field(repr=False)
@@ -81,13 +94,15 @@ def sweep(name: str) -> dict:
     return {case.variant: case for case in load_all(cases_folder() / f"{name}.toml")}
 
 
-def motions(name: str, variant: str, end: float, count: int, order: int | None = None, crowd: int = 1) -> dict:
-    """model -> Simulation of a case of the repository at `count` times from 0 to `end`, crowd > 1: closer at the start;
-    models that refuse are left out."""
+def motions(name: str, variant: str, end: float, count: int, order: int | None = None,
+            crowd: int = 1) -> dict:
+    """model -> Simulation of a case of the repository at `count` times from 0 to `end`, crowd > 1: closer at
+    the start; models that refuse are left out."""
     return _both(name, variant, end, count, order, crowd)[0]
 
 
-def refusals(name: str, variant: str, end: float, count: int, order: int | None = None, crowd: int = 1) -> dict:
+def refusals(name: str, variant: str, end: float, count: int, order: int | None = None,
+             crowd: int = 1) -> dict:
     """model -> why it refuses; arguments as of `motions`."""
     return _both(name, variant, end, count, order, crowd)[1]
 
@@ -100,19 +115,23 @@ def _both(name, variant, end, count, order, crowd):
 def exactness(runs) -> str:
     """How exact the exact motions among `runs` (model -> Simulation each) are: by their laws."""
     drift = max((d for each in runs for d in each["exact"].invariant_drift.values()), default=0.0)
-    return f"exact motion: Taylor integration, relative tolerance 1.1e-16; its laws drift by {drift:.1e} at most"
+    return (
+        f"exact motion: Taylor integration, relative tolerance 1.1e-16; its laws drift by {drift:.1e} "
+        f"at most")
 
 
 def draw_lines(plt, title, lines, width=3.5, height=2.05, words=None, mark_words="", own=False):
-    """The figure of lines (Row, [Column, ...]). A line shares its limits, unless each panel has its own; then no column of
-    printed curves is made, whose limits are shared."""
+    """The figure of lines (Row, [Column, ...]). A line shares its limits, unless each panel has its own; then
+    no column of printed curves is made, whose limits are shared."""
     words, count = WORDS | (words or {}), len(lines[0][1])
     heights = [height * (TALL if row.equal and len(lines) > 1 else 1) for row, _ in lines]
     alone = not own and any(_leaves(row, columns) for row, columns in lines)
     room = (width * (SHRUNK if alone else 1) - BESIDE_PANEL) / LETTER
-    told = [[_words(row, _cuts(row, c, _window(row, [c] if own else columns)), room) for c in columns] for row, columns in lines]
+    told = [[_words(row, _cuts(row, c, _window(row, [c] if own else columns)), room) for c in columns]
+            for row, columns in lines]
     stacked = [max(_height(words) for words in line) - 1 for line in told]
-    size = (width * (count + NARROW * alone) * (SHRUNK if alone else 1), 1 + sum(heights) + sum(stacked) * LINE / 72)
+    size = (width * (count + NARROW * alone) * (SHRUNK if alone else 1),
+            1 + sum(heights) + sum(stacked) * LINE / 72)
     figure, axes = plt.subplots(len(lines), count + alone, figsize=size, layout="constrained", squeeze=False,
                                 height_ratios=heights)
     for i, ((row, columns), line, more, above) in enumerate(zip(lines, axes, stacked, told)):
@@ -124,7 +143,9 @@ def draw_lines(plt, title, lines, width=3.5, height=2.05, words=None, mark_words
             _panel(ax, row, column, _window(row, [column]) if own else shared)
             _tell_cuts(ax, cuts)
             if headed:
-                ax.set_title(column.heading + _refused(column, words), pad=14 + LINE * more, fontsize=8 if column.refused else None)  # above the words on cuts
+                # above the words on cuts
+                ax.set_title(column.heading + _refused(column, words), pad=14 + LINE * more,
+                             fontsize=8 if column.refused else None)
             if not i:
                 _ending(ax, column)
             ax.tick_params(labelleft=own or column is columns[0])
@@ -133,11 +154,14 @@ def draw_lines(plt, title, lines, width=3.5, height=2.05, words=None, mark_words
                 ax.set_xlabel(row.xlabel)
         for ax in line[:1 + alone]:
             ax.set_ylabel(row.ylabel)
-    figure.get_layout_engine().set(w_pad=0.09, h_pad=0.04 if _headings(lines) < 2 else 0.12)  # numbers at the ends of axes, headings below labels
+    # numbers at the ends of axes, headings below labels
+    figure.get_layout_engine().set(w_pad=0.09, h_pad=0.04 if _headings(lines) < 2 else 0.12)
     figure.suptitle(title, fontsize=11)
     everything = [column for _, columns in lines for column in columns]
-    entries = [(words[name], LOOKS[name]) for name in ("exact", *ORDER) if any(name in c.runs for c in everything)]
-    if mark_words and any(column.mark is not None for column in everything) and any(row.over_time for row, _ in lines):
+    entries = [(words[name], LOOKS[name]) for name in ("exact", *ORDER)
+               if any(name in c.runs for c in everything)]
+    if mark_words and any(column.mark is not None
+                          for column in everything) and any(row.over_time for row, _ in lines):
         entries.append((mark_words, style.MEANING["crossing"]))
     if alone:
         entries += [(f"alone: {c.heading}", look) for c, look in zip(lines[0][1], ALONE)]
@@ -155,17 +179,21 @@ def _headings(lines) -> int:
 
 def _refused(column, words) -> str:
     """Which models have no curve in a column, and why, as lines of its heading."""
-    why = {reason.split(": ")[0]: [words[m] for m, other in column.refused.items() if other == reason] for reason in column.refused.values()}
-    return "".join("\n" + fill(f"{', '.join(f'no “{model}”' for model in models)}: {reason}", 48) for reason, models in why.items())
+    why = {reason.split(": ")[0]: [words[m] for m, other in column.refused.items() if other == reason]
+           for reason in column.refused.values()}
+    return "".join("\n" + fill(f"{', '.join(f'no “{model}”' for model in models)}: {reason}", 48) for reason,
+                   models in why.items())
 
 
 def _ending(ax, column):
     """In the panel, where curves leave room: which model ends early, and why."""
     from matplotlib.lines import Line2D
-    rows = [(f"ends at {run.t[-1]:.3g} s: {run.reason.split(' at t = ')[0]}", END | {"color": LOOKS[name]["color"]})
+    rows = [(f"ends at {run.t[-1]:.3g} s: {run.reason.split(' at t = ')[0]}",
+             END | {"color": LOOKS[name]["color"]})
             for name, run in column.runs.items() if _stops(run)]
     if rows:
-        ax.legend([Line2D([], [], **look) for _, look in rows], [fill(text, 34) for text, _ in rows], fontsize=7.5, loc="best")
+        ax.legend([Line2D([], [], **look) for _, look in rows], [fill(text, 34) for text, _ in rows],
+                  fontsize=7.5, loc="best")
 
 
 def _stops(run) -> bool:
@@ -176,17 +204,20 @@ def _stops(run) -> bool:
 def _picked(row, columns, model) -> list:
     """(heading, x, y) of every column's curve of a model."""
     picked = ((c.heading, row.pick(c.runs[model])) for c in columns if model in c.runs)
-    return [(heading, *(np.asarray(v, float) for v in xy)) for heading, xy in picked if xy is not None and len(xy[0])]
+    return [(heading, *(np.asarray(v, float) for v in xy)) for heading,
+            xy in picked if xy is not None and len(xy[0])]
 
 
 def _leaves(row, columns) -> bool:
     """Whether a printed curve leaves the limits that the columns share."""
     limits = _window(row, columns)
-    return any(np.nanmin(v) < low or np.nanmax(v) > high for _, *xy in _picked(row, columns, "printed") for v, (low, high) in zip(xy, limits))
+    return any(np.nanmin(v) < low or np.nanmax(v) > high for _, *xy in _picked(row, columns, "printed") for v,
+               (low, high) in zip(xy, limits))
 
 
 def _printed_alone(ax, row, columns, headed, words):
-    """The printed curves of all columns in one panel, whole, in limits of their own: what a reader of the paper knows."""
+    """The printed curves of all columns in one panel, whole, in limits of their own: what a reader of the
+    paper knows."""
     for model, looks in (("printed", ALONE), ("corrected", BESIDE)):
         for (_, x, y), look in zip(_picked(row, columns, model), looks):
             ax.plot(x, y, **look)
@@ -224,7 +255,8 @@ def _curve(row, column, name):
 
 
 def _cuts(row, column, limits) -> list:
-    """(model, parts of the words how far) of every curve of a panel that leaves its limits, upwards, downwards or sideways: a part each quantity."""
+    """(model, parts of the words how far) of every curve of a panel that leaves its limits, upwards,
+    downwards or sideways: a part each quantity."""
     found = []
     for name in ("exact", *reversed(ORDER)):
         picked = _curve(row, column, name)
@@ -240,15 +272,20 @@ def _cuts(row, column, limits) -> list:
 
 
 def _beyond(values, low, high) -> str:
-    """How far values go beyond one end, or from where to where beyond both; empty where they stay between them."""
-    ends = [plain(end) for end, out in ((np.nanmin(values), np.nanmin(values) < low), (np.nanmax(values), np.nanmax(values) > high)) if out]
+    """How far values go beyond one end, or from where to where beyond both; empty where they stay between
+    them."""
+    ends = [plain(end) for end, out in ((np.nanmin(values), np.nanmin(values) < low),
+                                        (np.nanmax(values), np.nanmax(values) > high)) if out]
     return " to ".join(ends)
 
 
 def _words(row, cuts, room) -> tuple:
-    """((model, its words) of every cut, whether these leave out that they tell of one, whether they stand side by side), as so many letters have room."""
+    """((model, its words) of every cut, whether these leave out that they tell of one, whether they stand
+    side by side), as so many letters have room."""
     def written(both, between):
-        return [between.join(" ".join([*label, both + span if " to " in span else ("to " if label else "reaches ") + span]) for *label, span in parts)
+        return [between.join(" ".join([*label,
+                                       both + span if " to " in span else ("to " if label else "reaches ")
+                                       + span]) for *label, span in parts)
                 for _, parts in cuts]
 
     def fits(words, share=1.0):
@@ -277,7 +314,8 @@ def _tell_cuts(ax, words):
     cuts, short, beside = words
     for n, (name, text) in enumerate(cuts):
         x, side = CORNERS[n if beside else 0]
-        ax.annotate(text, (x, 1.01), (0, 0 if beside else LINE * n), xycoords="axes fraction", textcoords="offset points", color=INK[name], ha=side,
+        ax.annotate(text, (x, 1.01), (0, 0 if beside else LINE * n), xycoords="axes fraction",
+                    textcoords="offset points", color=INK[name], ha=side,
                     va="bottom", ma=side, linespacing=1.25, fontsize=8.6 * (SMALL if short else 1))
 
 
@@ -292,7 +330,8 @@ def _bare(label) -> str:
 
 
 def _clipped(x, y, limits):
-    """The curve with what lies far outside of the limits brought near them: long lines off the page cost ink and bytes."""
+    """The curve with what lies far outside of the limits brought near them: long lines off the page cost ink
+    and bytes."""
     reach = [(high - low) * 4 for low, high in limits]
     return [np.clip(v, low - r, high + r) for v, (low, high), r in zip((x, y), limits, reach)]
 
@@ -346,7 +385,8 @@ def phase(part, component, label, unit):
     letter = label.strip("$")
     name = letter.rstrip("'")
     dot = rf"$\dot{{{name}}}{letter[len(name):]}$"  # over the letter, not over its primes
-    return Row(f"{label} ({unit})" if unit else label, f"{dot} ({unit + '/s' if unit else '1/s'})".replace("rad/s/s", r"rad/s$^2$"), pick)
+    return Row(f"{label} ({unit})" if unit else label,
+               f"{dot} ({unit + '/s' if unit else '1/s'})".replace("rad/s/s", r"rad/s$^2$"), pick)
 
 
 def plane(part, first, second, labels, unit, equal=True):

@@ -1,4 +1,5 @@
-"""The data of the tables and figures of Amer et al. 2024 (Sci. Rep.): its body, momentum wheels, torques and starts."""
+"""The data of the tables and figures of Amer et al. 2024 (Sci. Rep.): its body, momentum wheels, torques and
+starts."""
 from __future__ import annotations
 
 from ...physics.coefficients import to_scaled, torque_from_mu

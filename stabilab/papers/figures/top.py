@@ -1,4 +1,5 @@
-"""Figures 2-7 of Amer et al. 2023, fast top in a Newtonian field: families in l_x and l_z, each beside the exact motion."""
+"""Figures 2-7 of Amer et al. 2023, fast top in a Newtonian field: families in l_x and l_z, each beside the
+exact motion."""
 from __future__ import annotations
 
 from dataclasses import replace
@@ -16,11 +17,13 @@ PAPER = "Amer, Amer, Galal 2023, rigid body in a Newtonian field with a gyrostat
 SPAN, POINTS, ORDER = 1.3, 2601, 2
 REFERENCE = 15.0  # kg m^2: A0 of Table 1
 FAMILIES = {"lx": [(30, 30), (60, 30), (90, 30)], "lz": [(30, 30), (30, 60), (30, 90)]}
-SIX = [("omega", 0, "$p$", "rad/s"), ("omega", 1, "$q$", "rad/s"), ("omega", 2, "$r$", "rad/s"), ("gamma", 0, r"$\gamma$", ""),
+SIX = [("omega", 0, "$p$", "rad/s"), ("omega", 1, "$q$", "rad/s"), ("omega", 2, "$r$", "rad/s"),
+       ("gamma", 0, r"$\gamma$", ""),
        ("gamma", 1, r"$\gamma\,'$", ""), ("gamma", 2, r"$\gamma\,''$", "")]
 HISTORIES = tuple(panels.history(*row) for row in SIX)
 PLANES = tuple(panels.phase(*row) for row in SIX)
-ANGLES = tuple(panels.history("euler", i, name, "rad") for i, name in enumerate((r"$\theta$", r"$\varphi$", r"$\psi$")))
+ANGLES = tuple(panels.history("euler", i, name, "rad") for i,
+               name in enumerate((r"$\theta$", r"$\varphi$", r"$\psi$")))
 
 
 def _columns(family, angles=False):
@@ -52,7 +55,8 @@ def _lines(family, rows):
 
 def _family(plt, family, rows, title):
     other = r"$\ell_z=30$" if family == "lx" else r"$\ell_x=30$"
-    return panels.draw_lines(plt, f"{title}, {other} kg m$^2$/s", _lines(family, rows), width=3.1, height=1.38,
+    return panels.draw_lines(plt, f"{title}, {other} kg m$^2$/s", _lines(family, rows), width=3.1,
+                             height=1.38,
                              words={"lindstedt": "corrected expansion, order 2"})
 
 
@@ -66,28 +70,39 @@ def _fast(family, more=""):
     top = fast_top(case.scene, {"omega": case.state, "gamma": case.blocks["gamma"]})
     run, A = _runs(family)[0]["exact"], float(case.scene.body.inertia[0])
     r = np.asarray(run.state["omega"])[:, 2]
-    return (f"Table 1 is no fast top: M g L/(C r0^2) = {np.hypot.reduce([float(f) for f in top.force]):.2g} and eps delta1 = "
-            f"{A / REFERENCE - 1:.2g} where both should be small, so r goes from {r[0]:.3g} to {np.interp(0.1, run.t, r):.2g} rad/s in "
-            f"0.1 s, and no expansion in 1/r0 follows, corrected or not (its terms grow). {more}Models are drawn to where they leave "
+    return (f"Table 1 is no fast top: M g L/(C r0^2) = {np.hypot.reduce([float(f) for f in top.force]):.2g} "
+            f"and eps delta1 = "
+            f"{A / REFERENCE - 1:.2g} where both should be small, so r goes from {r[0]:.3g} to "
+            f"{np.interp(0.1, run.t, r):.2g} rad/s in "
+            f"0.1 s, and no expansion in 1/r0 follows, corrected or not (its terms grow). {more}Models are "
+            f"drawn to where they leave "
             "the exact motion's range; the first column has the printed curves alone.")
 
 
 def _unit(family, more=""):
     printed = [runs["printed"].state for runs in _runs(family)]
-    length, r = max(np.linalg.norm(s["gamma"], axis=1).max() for s in printed), min(s["omega"][:, 2].min() for s in printed)
-    return _fast(family, f"The printed |gamma|, which is 1, reaches {length:.3g}; the printed r reaches {r:.3g} rad/s. {more}")
+    length, r = max(np.linalg.norm(s["gamma"], axis=1).max()
+                    for s in printed), min(s["omega"][:, 2].min() for s in printed)
+    return _fast(family,
+                 f"The printed |gamma|, which is 1, reaches {length:.3g}; the printed r reaches {r:.3g} "
+                 f"rad/s. {more}")
 
 
 def _free(family):
-    return _fast(family, "The text calls the closed printed curves stable and free of chaos; the true curves do not close. ")
+    return _fast(family,
+                 "The text calls the closed printed curves stable and free of chaos; the true curves do not "
+                 "close. ")
 
 
 def _nutation(family):
     runs = [_with_angles(f"top-lx{lx}-lz{lz}") for lx, lz in FAMILIES[family]]
     swing = max(np.ptp(run["exact"].state["euler"][:, 1]) for run in runs)
     r0 = _runs(family)[0]["exact"].state["omega"][0, 2]
-    return _fast(family, f"The printed nutation swings far with the period 2 pi/r0 = {2 * np.pi / r0:.3g} s, the true one little and "
-                 f"irregularly; phi swings to and fro within {swing:.2g} rad, it does not turn with r0 t. The printed psi has csc(eps theta0), "
+    return _fast(family,
+                 f"The printed nutation swings far with the period 2 pi/r0 = {2 * np.pi / r0:.3g} s, the "
+                 f"true one little and "
+                 f"irregularly; phi swings to and fro within {swing:.2g} rad, it does not turn with r0 t. "
+                 f"The printed psi has csc(eps theta0), "
                  "where csc theta0 is meant. ")
 
 
@@ -97,13 +112,16 @@ def _exactness(family, more=""):
 
 def _figures():
     for n, family, rows, title, words in (
-            (2, "lx", HISTORIES, "Histories", partial(_unit, more="The text sees l_x change q and gamma'' only; in truth it changes all "
+            (2, "lx", HISTORIES, "Histories",
+             partial(_unit, more="The text sees l_x change q and gamma'' only; in truth it changes all "
                                                       "six. ")),
-            (3, "lz", HISTORIES, "Histories", _unit), (4, "lx", PLANES, "Phase planes", _free), (5, "lz", PLANES, "Phase planes", _free),
+            (3, "lz", HISTORIES, "Histories", _unit), (4, "lx", PLANES, "Phase planes", _free),
+            (5, "lz", PLANES, "Phase planes", _free),
             (6, "lx", ANGLES, "Euler angles", _nutation), (7, "lz", ANGLES, "Euler angles", _nutation)):
         name = f"{family} = 30, 60, 90 kg m²/s"
         more = "; rates by central differences" if rows is PLANES else ""
-        yield Figure(n, f"{title}: {name}", partial(words, family), partial(_family, family=family, rows=rows, title=title),
+        yield Figure(n, f"{title}: {name}", partial(words, family),
+                     partial(_family, family=family, rows=rows, title=title),
                      partial(_exactness, family, more), "top", partial(_lines, family, rows))
 
 

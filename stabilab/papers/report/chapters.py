@@ -1,7 +1,8 @@
-"""A chapter of the report per paper: its data, what its text claims, what is true, and a variant that makes sense.
+"""A chapter of the report per paper: its data, what its text claims, what is true, and a variant that makes
+sense.
 
-Every number in a chapter is computed while the report is written: claims are set against the exact motion of the paper's
-own cases, and the times of the first 1 % and 10 % error come from `analysis.comparison`.
+Every number in a chapter is computed while the report is written: claims are set against the exact motion of
+the paper's own cases, and the times of the first 1 % and 10 % error come from `analysis.comparison`.
 """
 from __future__ import annotations
 
@@ -29,10 +30,11 @@ from . import claims
 
 @dataclass(frozen=True)
 class Chapter:
-    """paper: short name as of `figures`; about: what the paper does and where it stands; compared: (case file, variant) of the
-    motions whose errors are listed; end: s; claims() -> rows (the text says, it is so, True where the text is right);
-    sensible: case file of the variant; sensible_end: s; why: what makes it sensible; parts: of the state to draw, over
-    `window`, s; short: name in the navigation; weight: s of one core."""
+    """paper: short name as of `figures`; about: what the paper does and where it stands; compared: (case
+    file, variant) of the motions whose errors are listed; end: s; claims() -> rows (the text says, it is so,
+    True where the text is right); sensible: case file of the variant; sensible_end: s; why: what makes it
+    sensible; parts: of the state to draw, over `window`, s; short: name in the navigation; weight: s of one
+    core."""
 
     paper: str
     title: str
@@ -53,49 +55,68 @@ POINTS = 401  # times at which models are set beside the exact motion
 _SWEEP = "charged-sweep"
 CHAPTERS = (
     Chapter("charged", "A charged, nearly axisymmetric body",
-            "A spinning body with a gyrostatic moment, a charge in a magnetic field, and a torque and a thrust fixed in it: "
-            "angular velocity, 3-1-2 angles, angular momentum, velocity and displacement in closed form, for small angles "
+            "A spinning body with a gyrostatic moment, a charge in a magnetic field, and a torque and a "
+            "thrust fixed in it: "
+            "angular velocity, 3-1-2 angles, angular momentum, velocity and displacement in closed form, for "
+            "small angles "
             "psi and phi. Euler's "
-            "equations give two different rates a and b; equation (8) keeps one. The corrected closed form keeps both.",
+            "equations give two different rates a and b; equation (8) keeps one. The corrected closed form "
+            "keeps both.",
             tuple((_SWEEP, v) for v in ("-1-2-1", "-3-2-1", "-1-3-1", "-1-2-3")), 50.0, claims.charged,
-            "charged-body-small-torque", 50.0, "the torque is so small that the tilt stays small for ever", ("omega", "angles", "position"), 50.0,
+            "charged-body-small-torque", 50.0, "the torque is so small that the tilt stays small for ever",
+            ("omega", "angles", "position"), 50.0,
             "Charged body", 25.0),
     Chapter("cavity", "A body with a cavity of viscous liquid",
-            "A nearly spherical body with a gyrostatic moment, a charge, a resisting medium, a constant torque and a liquid "
-            "so viscous that it follows the body at once. The paper averages over the turn about axis 3 and takes the first "
+            "A nearly spherical body with a gyrostatic moment, a charge, a resisting medium, a constant "
+            "torque and a liquid "
+            "so viscous that it follows the body at once. The paper averages over the turn about axis 3 and "
+            "takes the first "
             "terms of a Taylor "
-            "series of the averaged equations. No figure states all of its data; what is missing is completed as the titles "
+            "series of the averaged equations. No figure states all of its data; what is missing is "
+            "completed as the titles "
             "of the figures "
-            "say. They give zeta and M3 as the paper does, whose equations hold them times eps^2 = 0.01: 2 1/s stands for 0.02 1/s, "
+            "say. They give zeta and M3 as the paper does, whose equations hold them times eps^2 = 0.01: 2 "
+            "1/s stands for 0.02 1/s, "
             "-6 N m for -0.06 N m.",
-            tuple((f"liquid-{name}", "") for name in ("base", "lambda3-0_2", "lambda3-15", "lambda3-25", "zeta-2_5", "torque-9",
+            tuple((f"liquid-{name}", "")
+                  for name in ("base", "lambda3-0_2", "lambda3-15", "lambda3-25", "zeta-2_5", "torque-9",
                                                       "charge-1e3", "charge-1e4")), 20.0, claims.cavity,
-            "liquid-sensible", 20000.0, "the cavity fits into the body, and the liquid is slow and viscous enough for its "
+            "liquid-sensible", 20000.0,
+            "the cavity fits into the body, and the liquid is slow and viscous enough for its "
             "law", ("omega",), 3000.0, "Liquid cavity", 14.0),
     Chapter("top", "A fast top in a Newtonian field",
-            "A body about a fixed point, nearly Lagrange's top, under its weight, the gradient of a Newtonian field and a "
-            "gyrostatic moment (l_x, 0, l_z), expanded in 1/r0 for a fast spin. The corrected expansion keeps C* = C + "
+            "A body about a fixed point, nearly Lagrange's top, under its weight, the gradient of a "
+            "Newtonian field and a "
+            "gyrostatic moment (l_x, 0, l_z), expanded in 1/r0 for a fast spin. The corrected expansion "
+            "keeps C* = C + "
             "l_z/r0, the permanent "
             "tilt by l_x and the frequency.",
             tuple((f"top-lx{a}-lz{b}", "") for a, b in ((30, 30), (90, 30), (30, 90))), 1.3, claims.top,
-            "top-fast", 2.0, "it spins fast, delta1 and delta2 are of order one, and gamma0'' is not near 0", ("omega", "gamma"), 0.15, "Fast top", 11.0),
+            "top-fast", 2.0, "it spins fast, delta1 and delta2 are of order one, and gamma0'' is not near 0",
+            ("omega", "gamma"), 0.15, "Fast top", 11.0),
 )
 
 
 def section(name: str, folder: Path, tell=lambda words: None) -> dict:
-    """The chapter on a paper: plain data, its figures drawn into `folder`/figures. tell(words) is called before each step."""
+    """The chapter on a paper: plain data, its figures drawn into `folder`/figures. tell(words) is called
+    before each step."""
     chapter = next(chapter for chapter in CHAPTERS if chapter.paper == name)
     rows = figures.of_paper(chapter.paper)
     drawn = figures.write(None, folder / "figures", tell, chapter.paper)
-    made = {"id": chapter.paper, "title": chapter.title, "paper": figures.PAPERS[chapter.paper], "about": written(chapter.about), "problem": "",
+    made = {"id": chapter.paper, "title": chapter.title, "paper": figures.PAPERS[chapter.paper],
+            "about": written(chapter.about), "problem": "",
                "claims": [], "compared": [], "sensible": None, "parameters": "", "end": chapter.end,
-               "figures": [{"number": row.number, "title": row.title, "caption": row.caption, "tolerance": row.tolerance, "differences": words(row),
-                            "command": row.command, "file": f"figures/{path.name}", "size": size(path)} for row, path in zip(rows, drawn)]}
+               "figures": [{"number": row.number, "title": row.title, "caption": row.caption,
+                            "tolerance": row.tolerance, "differences": words(row),
+                            "command": row.command, "file": f"figures/{path.name}", "size": size(path)}
+                           for row, path in zip(rows, drawn)]}
     try:
         tell(f"chapter {chapter.paper}: comparisons")
         made["parameters"] = _parameters(panels.sweep(chapter.compared[0][0])[chapter.compared[0][1]])
-        made["claims"] = [row | {"says": written(row["says"]), "is": written(row["is"])} for row in chapter.claims()]
-        made["compared"] = [row for name, variant in chapter.compared for row in _errors(panels.sweep(name)[variant], chapter.end)]
+        made["claims"] = [row | {"says": written(row["says"]), "is": written(row["is"])}
+                          for row in chapter.claims()]
+        made["compared"] = [row for name, variant in chapter.compared
+                            for row in _errors(panels.sweep(name)[variant], chapter.end)]
         made["sensible"] = _sensible(chapter, folder)
     except StabilabError as error:  # a case that is not there yet, or a motion that cannot be run: the chapter says so
         made["problem"] = str(error)
@@ -114,9 +135,11 @@ def _parameters(case):
 def _errors(case, end, found=None):
     """A row per model and part of the state: first times of 1 % and 10 %, and the largest error."""
     found = found or compare(case, np.linspace(0.0, end, POINTS))
-    rows = [{"case": case.name, "model": panels.WORDS[d.model], "part": written(d.part), "one": _time(d.first[0.01]), "ten": _time(d.first[0.1]),
+    rows = [{"case": case.name, "model": panels.WORDS[d.model], "part": written(d.part),
+             "one": _time(d.first[0.01]), "ten": _time(d.first[0.1]),
              "largest": so_many(d.largest / d.scale if d.scale else d.largest, 2)} for d in found.departures]
-    return rows + [{"case": case.name, "model": panels.WORDS[name], "part": "", "one": "no answer", "ten": written(why), "largest": ""}
+    return rows + [{"case": case.name, "model": panels.WORDS[name], "part": "", "one": "no answer",
+                    "ten": written(why), "largest": ""}
                    for name, why in found.refused.items()]
 
 
@@ -130,9 +153,12 @@ def _sensible(chapter, folder):
     found = compare(case, np.linspace(0.0, chapter.sensible_end, POINTS))
     runs, _ = side_by_side(case, np.linspace(0.0, chapter.window, 1001))
     with style.drawing() as plt:
-        path = style.save(comparison.picture(plt, case, runs, chapter.parts, units=SI), folder / "figures" / f"{chapter.paper}-sensible.png")
-    return {"case": case.name, "title": written(case.title), "why": written(chapter.why), "end": chapter.sensible_end, "rows": _errors(case, None, found),
-            "parameters": _parameters(case), "file": f"figures/{path.name}", "size": size(path), "path": f"cases/{case.name}.toml"}
+        path = style.save(comparison.picture(plt, case, runs, chapter.parts, units=SI),
+                          folder / "figures" / f"{chapter.paper}-sensible.png")
+    return {"case": case.name, "title": written(case.title), "why": written(chapter.why),
+            "end": chapter.sensible_end, "rows": _errors(case, None, found),
+            "parameters": _parameters(case), "file": f"figures/{path.name}", "size": size(path),
+            "path": f"cases/{case.name}.toml"}
 
 
 def size(path) -> list[int]:

@@ -1,4 +1,5 @@
-"""The report: one folder of pages, read from disk without a network: on cases of one's own, or on everything."""
+"""The report: one folder of pages, read from disk without a network: on cases of one's own, or on everything.
+"""
 from __future__ import annotations
 
 import os
@@ -18,29 +19,38 @@ from .. import table
 from . import whole
 
 PACKAGES = ("numpy", "scipy", "sympy", "heyoka", "matplotlib", "vtk", "pyvista", "python-flint")
-TOLERANCES = {"verdicts, fates, periods": "exact structure of the equations, to rounding", "extremes": "roots, to rounding",
+TOLERANCES = {"verdicts, fates, periods": "exact structure of the equations, to rounding",
+              "extremes": "roots, to rounding",
               "trajectories": 1.1e-16}  # relative, of the Taylor series
 SHOW_CURSOR = b"\x1b[?25h"  # the progress line hides it
 DEEP = 4  # pages up to which each also tells what takes seconds
 
 
-def write(cases=None, out="report", progress=None, arguments=None, papers=False, precision=False, certify=False, workers=None,
+def write(cases=None, out="report", progress=None, arguments=None, papers=False, precision=False,
+          certify=False, workers=None,
           beyond: list | None = None, undecided: list | None = None) -> Path:
-    """Write a report into the folder `out`: on `cases` (paths or Case), or, where there are none, on everything the package brings.
+    """Write a report into the folder `out`: on `cases` (paths or Case), or, where there are none, on
+    everything the package brings.
 
-    papers: the papers' tables and figures, the audit and other tools' numbers as well; precision: what accuracy costs; certify: a certificate of each
-    case, checked. workers: processes that share the work (None: one a core); the pages are the same for any number. Everything is made
-    in a temporary folder inside `out` and renamed into place, index.html and manifest.json last; no renderer is needed. progress(words) is
-    called before every step; by default a line on stderr where that is a terminal. arguments: of the command line, for the manifest. beyond: a list,
-    which gets a line for every approximate law that a motion leaves; undecided: one that gets the stem of every file with an undecided fate. Returns the
-    path of index.html; raises CaseError for a case file with faults, before anything is written.
+    papers: the papers' tables and figures, the audit and other tools' numbers as well; precision: what
+    accuracy costs; certify: a certificate of each case, checked. workers: processes that share the work
+    (None: one a core); the pages are the same for any number. Everything is made in a temporary folder inside
+    `out` and renamed into place, index.html and manifest.json last; no renderer is needed. progress(words) is
+    called before every step; by default a line on stderr where that is a terminal. arguments: of the command
+    line, for the manifest. beyond: a list, which gets a line for every approximate law that a motion leaves;
+    undecided: one that gets the stem of every file with an undecided fate. Returns the path of index.html;
+    raises CaseError for a case file with faults, before anything is written.
     """
     out = Path(out)
-    demand("jinja2", *style.PACKAGES, "scipy", "sympy", "flint")  # what a report cannot do without, before its minutes of work
+    # what a report cannot do without, before its minutes of work
+    demand("jinja2", *style.PACKAGES, "scipy", "sympy", "flint")
     loaded, everything = of_all(cases), not cases
-    wanted = own.Wanted(papers or everything, precision or everything, certify, len(own.entries(loaded)) <= DEEP)
-    inputs = dict.fromkeys([*(case.path for case in loaded), *(table.case_files() if wanted.papers else ())])  # the papers' figures read their cases
-    around = {"command": command(loaded if cases else (), papers, precision, certify), "versions": versions(), "extra": ()}
+    wanted = own.Wanted(papers or everything, precision or everything, certify,
+                        len(own.entries(loaded)) <= DEEP)
+    # the papers' figures read their cases
+    inputs = dict.fromkeys([*(case.path for case in loaded), *(table.case_files() if wanted.papers else ())])
+    around = {"command": command(loaded if cases else (), papers, precision, certify), "versions": versions(),
+              "extra": ()}
     with _progress(progress) as tell, manifest.written(out, arguments, inputs, TOLERANCES) as folder:
         if wanted.papers:
             left = whole.pages(loaded, folder, tell, wanted, workers, **around)
@@ -67,13 +77,15 @@ def _natural(name):
 
 def command(cases, papers, precision, certify) -> str:
     """What was typed, but for the folder."""
-    options = [name for name, given in (("--papers", papers), ("--precision", precision), ("--certify", certify)) if given]
+    options = [name for name,
+               given in (("--papers", papers), ("--precision", precision), ("--certify", certify)) if given]
     return " ".join(["stabilab report", *dict.fromkeys(case.path for case in cases), *options])
 
 
 def _precision(cases, folder, tell):
     path = precision_page.page([members[0] for _, members in own.entries(cases)], folder, tell)
-    return [{"title": "What accuracy costs", "words": "every way to follow the motion, error against time", "file": path.name}]
+    return [{"title": "What accuracy costs", "words": "every way to follow the motion, error against time",
+             "file": path.name}]
 
 
 @contextmanager
@@ -92,7 +104,8 @@ def versions():
     import platform
     from importlib.metadata import PackageNotFoundError, version
 
-    rows = [("stabilab", __version__), ("Python", platform.python_version()), ("system", f"{platform.system()} {platform.machine()}")]
+    rows = [("stabilab", __version__), ("Python", platform.python_version()),
+            ("system", f"{platform.system()} {platform.machine()}")]
     for name in PACKAGES:
         try:
             rows.append((name, version(name)))

@@ -1,4 +1,5 @@
-"""The whole: a start page with a map of what is inside, the papers, all cases in groups, the audit, other tools' numbers, what answers cost."""
+"""The whole: a start page with a map of what is inside, the papers, all cases in groups, the audit, other
+tools' numbers, what answers cost."""
 from __future__ import annotations
 
 from pathlib import Path
@@ -23,10 +24,13 @@ from . import chapters
 TITLE = "Bounded motion and spin-up of a gyrostat under constant torque"
 FINEST = 5                   # number of the figure on the start page
 GROWING = "minor-axis-100"   # the case about which the growth of cost is measured
-AUDIT_TAKES = {"constant-torque-gyrostat": 15.0, "charged-axisymmetric-short": 13.0, "charged-axisymmetric": 12.0, "liquid-cavity": 10.0}  # s
+# s
+AUDIT_TAKES = {"constant-torque-gyrostat": 15.0, "charged-axisymmetric-short": 13.0,
+               "charged-axisymmetric": 12.0, "liquid-cavity": 10.0}
 
 
-# -- what is drawn and computed, by whichever process is free ----------------------------------------------------------------
+# -- what is drawn and computed, by whichever process is free
+# ----------------------------------------------------------------
 
 
 def tables(folder: Path) -> list[dict]:
@@ -39,7 +43,8 @@ def tables(folder: Path) -> list[dict]:
             path = folder / "tables" / f"{one.stem}.{kind}"
             path.write_text(make(one), encoding="utf-8")
             names.append(f"tables/{path.name}")
-        rows.append({"number": one.number, "title": one.title, "wide": one.wide, "rows": one.rows, "files": names, "html": table.html_fragment(one)})
+        rows.append({"number": one.number, "title": one.title, "wide": one.wide, "rows": one.rows,
+                     "files": names, "html": table.html_fragment(one)})
     return rows
 
 
@@ -47,7 +52,8 @@ def figure(number: int, folder: Path) -> dict:
     """A figure of the constant-torque paper, and what the page says of it."""
     (path,) = figures.write([number], folder / "figures")
     row = figures.figure(number)
-    return {"number": row.number, "title": row.title, "caption": row.caption, "tolerance": row.tolerance, "command": row.command,
+    return {"number": row.number, "title": row.title, "caption": row.caption, "tolerance": row.tolerance,
+            "command": row.command,
             "file": f"figures/{path.name}", "size": chapters.size(path)}
 
 
@@ -66,7 +72,8 @@ def others() -> tuple:
     return validated()
 
 
-# -- the pages ---------------------------------------------------------------------------------------------------------------
+# -- the pages
+# ---------------------------------------------------------------------------------------------------------------
 
 
 def pages(cases, folder: Path, tell, wanted: own.Wanted, workers=None, **around) -> list[tuple[str, bool]]:

@@ -1,6 +1,8 @@
-"""Numbers that no one here wrote: what other tools print of a body's rotation, held against ours, which know their error.
+"""Numbers that no one here wrote: what other tools print of a body's rotation, held against ours, which know
+their error.
 
-Printed values are data (`numbers/*.toml`: figures, with source, commit and licence); `findings` is the machine that judges them.
+Printed values are data (`numbers/*.toml`: figures, with source, commit and licence); `findings` is the
+machine that judges them.
 """
 from __future__ import annotations
 
@@ -10,11 +12,14 @@ from .findings import Finding, findings
 from .record import Source, source, sources
 
 
-def validated(name: str | None = None, tell: Callable[[int, int, str], None] | None = None) -> tuple[tuple[Source, tuple[Finding, ...]], ...]:
-    """(source, findings) of one source or of all on record. tell(done, count, words): before each value. InputError for an unknown source."""
+def validated(name: str | None = None, tell: Callable[[int, int, str], None]
+              | None = None) -> tuple[tuple[Source, tuple[Finding, ...]], ...]:
+    """(source, findings) of one source or of all on record. tell(done, count, words): before each value.
+    InputError for an unknown source."""
     chosen = [source(one) for one in ([name] if name else sources())]
     count, done, found = sum(len(printed.values) for one in chosen for printed in one.printed), 0, []
     for one in chosen:
-        found.append((one, findings(one, tell and (lambda n, words, before=done: tell(before + n, count, words)))))
+        found.append((one,
+                      findings(one, tell and (lambda n, words, before=done: tell(before + n, count, words)))))
         done += sum(len(printed.values) for printed in one.printed)
     return tuple(found)

@@ -1,4 +1,5 @@
-"""Rates and attitude of a recorded motion, enclosed in balls: by the Taylor series in integers of `integrate.integer_flow`."""
+"""Rates and attitude of a recorded motion, enclosed in balls: by the Taylor series in integers of
+`integrate.integer_flow`."""
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -9,15 +10,16 @@ from ...integrate.integer_flow import IntegerFlow
 from ...numbers.balls import working
 from .wheels import wheels_at
 
-FIRST_BITS, KEPT, SPARE = 112, 60, 48  # bits at first; that the enclosure is to keep; beyond what the error grew by
+# bits at first; that the enclosure is to keep; beyond what the error grew by
+FIRST_BITS, KEPT, SPARE = 112, 60, 48
 BALL_BITS = 400  # of what is formed from an enclosure
 UNITS = ((1, 0, 0), (0, 1, 0))  # directions at rest in space, body frame; the third by their cross product
 
 
 @dataclass(frozen=True)
 class At:
-    """The motion at a time: rates in rad/s (3 balls), and how space has turned, body frame: rows (3, 3) of balls, the columns being what the body's
-    axes of the start have become."""
+    """The motion at a time: rates in rad/s (3 balls), and how space has turned, body frame: rows (3, 3) of
+    balls, the columns being what the body's axes of the start have become."""
 
     omega: tuple
     turned: tuple
@@ -55,10 +57,12 @@ def _run(motion, times, axis):
 def _attempt(motion, times, axis, bits):
     scene = motion.scene
     unit = own_unit(scene, motion.omega)
-    flow = IntegerFlow(scene.quadratic(), list(scene.body.exact), motion.omega, bits, unit, tuple(map(Fraction, axis)))
+    flow = IntegerFlow(scene.quadratic(), list(scene.body.exact), motion.omega, bits, unit,
+                       tuple(map(Fraction, axis)))
     found, lost = [], 0
     with working(BALL_BITS) as numbers:
-        rate = numbers.pi() / 180 if motion.unit == "deg/s" else numbers.ball(1)  # of a unit of omega; a free motion runs so much faster
+        # of a unit of omega; a free motion runs so much faster
+        rate = numbers.pi() / 180 if motion.unit == "deg/s" else numbers.ball(1)
         waiting = [(numbers.ball(t) - numbers.ball(motion.begins)) * numbers.ball(unit) * rate for t in times]
         while len(found) < len(waiting):
             piece = flow.step()
@@ -72,9 +76,11 @@ def _attempt(motion, times, axis, bits):
 
 
 def values_of(piece, now, numbers) -> list:
-    """The components of a piece at a time of the motion's own, a ball; balls, while `numbers` is the working kind."""
+    """The components of a piece at a time of the motion's own, a ball; balls, while `numbers` is the working
+    kind."""
     from flint import arb
-    s, scale, found = (now - numbers.ball(piece.start)) / numbers.ball(piece.length), arb(2) ** -piece.bits, []
+    s, scale, found = (now
+                       - numbers.ball(piece.start)) / numbers.ball(piece.length), arb(2) ** -piece.bits, []
     for row, radius in zip(piece.rows, piece.radii):
         total = arb(0)
         for c in reversed(row):

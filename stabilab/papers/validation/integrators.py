@@ -1,4 +1,5 @@
-"""Integrators with a fixed step, in doubles as the tools run them: to show what of a printed number is its integrator's error."""
+"""Integrators with a fixed step, in doubles as the tools run them: to show what of a printed number is its
+integrator's error."""
 from __future__ import annotations
 
 import math
@@ -8,16 +9,19 @@ from .enclose import cross
 
 
 def reproduced(printed, time: float, rates=None) -> list[float]:
-    """The quantity (omega or sigma) at a time as the method and step of `printed.cause` leave it. rates: the exact ones there, for the leapfrog rule."""
+    """The quantity (omega or sigma) at a time as the method and step of `printed.cause` leave it. rates: the
+    exact ones there, for the leapfrog rule."""
     motion, step = printed.motion, float(printed.cause["step"])
     degrees = 180 / math.pi if motion.unit == "deg/s" else 1.0
     if printed.cause["method"] == "leapfrog":
         return [w * degrees for w in _half_a_step_later(_rates(motion), [w / degrees for w in rates], step)]
     start = [float(w) / degrees for w in motion.omega]
     if printed.quantity == "sigma":
-        state = run(_rates_and_attitude(motion), [*map(float, motion.sigma), *start], step, round(time / step), rk4, shortest)
+        state = run(_rates_and_attitude(motion), [*map(float, motion.sigma), *start], step,
+                    round(time / step), rk4, shortest)
         return state[:3]
-    return [w * degrees for w in run(_rates(motion), start, step, round(time / step), RULES[printed.cause["method"]])]
+    return [w * degrees for w in run(_rates(motion), start, step, round(time / step),
+                                     RULES[printed.cause["method"]])]
 
 
 def run(rates, state, step, count, rule, after=None) -> list[float]:
@@ -47,12 +51,15 @@ def ab2(rates, x, h, before=None):
 
 
 RULES = {"rk4": rk4, "ab2": ab2}
-WORDS = {"rk4": "the classical Runge-Kutta rule of order 4 at {step} s", "ab2": "the Adams-Bashforth rule of order 2, begun by Euler's, at {step} s",
-         "leapfrog": "rates at the middle of the next step of {step} s, as a leapfrog rule leaves them (- h^2/24 omega'')"}
+WORDS = {"rk4": "the classical Runge-Kutta rule of order 4 at {step} s",
+         "ab2": "the Adams-Bashforth rule of order 2, begun by Euler's, at {step} s",
+         "leapfrog": "rates at the middle of the next step of {step} s, as a leapfrog rule leaves them (- "
+                     "h^2/24 omega'')"}
 
 
 def _half_a_step_later(rates, omega, step):
-    """The exact rates half a step later less step^2 omega''/24: what differences over whole steps, centred, make of them."""
+    """The exact rates half a step later less step^2 omega''/24: what differences over whole steps, centred,
+    make of them."""
     (later, _), tiny = rk4(rates, omega, step / 2), step / 8
     ahead, behind = (rates(rk4(rates, later, s)[0]) for s in (tiny, -tiny))
     return [w - step * step / 24 * (a - b) / (2 * tiny) for w, a, b in zip(later, ahead, behind)]
@@ -60,7 +67,8 @@ def _half_a_step_later(rates, omega, step):
 
 def _rates(motion):
     moments, torque = [float(v) for v in motion.inertia], [float(v) for v in motion.torque]
-    return lambda w: [((moments[j] - moments[k]) * w[j] * w[k] + torque[i]) / moments[i] for i, (j, k) in enumerate(CYCLE)]
+    return lambda w: [((moments[j] - moments[k]) * w[j] * w[k] + torque[i]) / moments[i] for i,
+                      (j, k) in enumerate(CYCLE)]
 
 
 def _rates_and_attitude(motion):
@@ -69,7 +77,8 @@ def _rates_and_attitude(motion):
     def rates(x):
         s, w = x[:3], x[3:]
         square, along = sum(v * v for v in s), sum(a * b for a, b in zip(s, w))
-        return [*(0.25 * ((1 - square) * a + 2 * b + 2 * along * c) for a, b, c in zip(w, cross(s, w), s)), *spin(w)]
+        return [*(0.25 * ((1 - square) * a + 2 * b + 2 * along * c) for a, b, c in zip(w, cross(s, w), s)),
+                *spin(w)]
     return rates
 
 

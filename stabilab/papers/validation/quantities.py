@@ -1,4 +1,5 @@
-"""What is printed of a motion, from its enclosure: rates, modified Rodrigues parameters, angles. Balls in, balls out."""
+"""What is printed of a motion, from its enclosure: rates, modified Rodrigues parameters, angles. Balls in,
+balls out."""
 from __future__ import annotations
 
 from .enclose import At, cross
@@ -30,7 +31,8 @@ def _start(motion, numbers):
         e = [numbers.ball(int(i == k)) for i in range(3)]
         once = cross(s, e)
         twice = cross(s, once)
-        columns.append([a + (8 * c - 4 * (1 - square) * b) / (1 + square) ** 2 for a, b, c in zip(e, once, twice)])
+        columns.append([a + (8 * c - 4 * (1 - square) * b) / (1 + square) ** 2 for a, b,
+                        c in zip(e, once, twice)])
     return [[column[i] for column in columns] for i in range(3)]
 
 
@@ -52,7 +54,8 @@ def rate3(motion, at: At, numbers) -> list:
 
 
 def angle3(motion, at: At, numbers) -> list:
-    """The angle about axis 3, turned at a constant rate until the motion begins, and by less than half a turn from then on."""
+    """The angle about axis 3, turned at a constant rate until the motion begins, and by less than half a turn
+    from then on."""
     return [numbers.ball(motion.omega[2] * motion.begins) + numbers.angle(-at.turned[1][0], at.turned[0][0])]
 
 
@@ -64,15 +67,18 @@ def off_linear(motion, at: At, numbers, time) -> list:
     trace = numbers.ball(0)
     for k in range(3):
         e = [numbers.ball(int(i == k)) for i in range(3)]
-        linear = [a * turn.cos() + b * turn.sin() + n * axis[k] * (1 - turn.cos()) for a, b, n in zip(e, cross(axis, e), axis)]
+        linear = [a * turn.cos() + b * turn.sin() + n * axis[k] * (1 - turn.cos()) for a, b,
+                  n in zip(e, cross(axis, e), axis)]
         trace += sum(a * row[k] for a, row in zip(linear, at.turned))
     return [2 * ((3 - trace) / 4).sqrt().asin()]
 
 
 def momentum_turn(motion, at: At, numbers) -> list:
-    """The angle between the angular momentum in space and that of the start; zero by theory, and here at most the width of the enclosure."""
+    """The angle between the angular momentum in space and that of the start; zero by theory, and here at most
+    the width of the enclosure."""
     start = [numbers.ball(m * w) for m, w in zip(motion.inertia, motion.omega)]
     body = [numbers.ball(m) * w for m, w in zip(motion.inertia, at.omega)]
     space = [sum(at.turned[i][k] * body[i] for i in range(3)) for k in range(3)]
     across = sum(v * v for v in cross(start, space))
-    return [numbers.around(numbers.ball(0), (numbers.upper(across).sqrt() / sum(v * v for v in start)).asin())]
+    return [numbers.around(numbers.ball(0),
+                           (numbers.upper(across).sqrt() / sum(v * v for v in start)).asin())]

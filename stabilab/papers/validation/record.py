@@ -15,7 +15,8 @@ REPOSITORY = "https://github.com/"
 
 @dataclass(frozen=True)
 class Wheels:
-    """Balanced wheels along the axes: momentum (N m s) at 6000 rpm, speeds (rpm) relative to the body at the start, motor torques (N m) until a time (s)."""
+    """Balanced wheels along the axes: momentum (N m s) at 6000 rpm, speeds (rpm) relative to the body at the
+    start, motor torques (N m) until a time (s)."""
 
     momentum: Fraction
     speed: tuple[Fraction, ...]
@@ -25,8 +26,9 @@ class Wheels:
 
 @dataclass(frozen=True)
 class Motion:
-    """A motion that was run by others. inertia (any unit where no torque acts), torque (3,), rates omega in `unit` at the time `begins` (s), attitude by
-    modified Rodrigues parameters sigma, or by the angular momentum (against_momentum)."""
+    """A motion that was run by others. inertia (any unit where no torque acts), torque (3,), rates omega in
+    `unit` at the time `begins` (s), attitude by modified Rodrigues parameters sigma, or by the angular
+    momentum (against_momentum)."""
 
     id: str
     file: str
@@ -47,7 +49,8 @@ class Motion:
 
 @dataclass(frozen=True)
 class Printed:
-    """Values that a tool prints of a quantity of a motion: rows (time, components) as they are printed. cause: method and step that the tool seems to use."""
+    """Values that a tool prints of a quantity of a motion: rows (time, components) as they are printed.
+    cause: method and step that the tool seems to use."""
 
     motion: Motion
     quantity: str
@@ -90,16 +93,20 @@ def source(name: str) -> Source:
     data = tomllib.loads((FOLDER / f"{name}.toml").read_text(encoding="utf-8"))
     motions = {row["id"]: _motion(row) for row in data.get("motion", ())}
     printed = tuple(_printed(row, motions[row["motion"]]) for row in data.get("set", ()))
-    return Source(name, *(data[key] for key in ("title", "repository", "commit", "licence", "about")), printed)
+    return Source(name, *(data[key] for key in ("title", "repository", "commit", "licence", "about")),
+                  printed)
 
 
 def _motion(row):
     wheels = row.get("wheels")
     if wheels:
-        wheels = Wheels(Fraction(wheels["momentum"]), _vector(wheels["speed"]), _vector(wheels["motor"]), Fraction(wheels["until"]))
+        wheels = Wheels(Fraction(wheels["momentum"]), _vector(wheels["speed"]), _vector(wheels["motor"]),
+                        Fraction(wheels["until"]))
     zero = ("0", "0", "0")
-    return Motion(row["id"], row["file"], _vector(row["inertia"]), _vector(row["omega"]), row.get("unit", "rad/s"), _vector(row.get("torque", zero)),
-                  _vector(row.get("sigma", zero)), Fraction(row.get("begins", "0")), row.get("against_momentum", False), wheels)
+    return Motion(row["id"], row["file"], _vector(row["inertia"]), _vector(row["omega"]),
+                  row.get("unit", "rad/s"), _vector(row.get("torque", zero)),
+                  _vector(row.get("sigma", zero)), Fraction(row.get("begins", "0")),
+                  row.get("against_momentum", False), wheels)
 
 
 def _vector(texts):
@@ -107,5 +114,6 @@ def _vector(texts):
 
 
 def _printed(row, motion):
-    return Printed(motion, row["quantity"], row["tool"], row.get("file", motion.file), Fraction(row["tolerance"]), row.get("relative", False),
+    return Printed(motion, row["quantity"], row["tool"], row.get("file", motion.file),
+                   Fraction(row["tolerance"]), row.get("relative", False),
                    row["tolerance_is"], row.get("cause", {}), tuple(map(tuple, row["values"])))

@@ -1,4 +1,5 @@
-"""The registry of effects: table name in a case file -> (module, class). A module is imported when a scene names it."""
+"""The registry of effects: table name in a case file -> (module, class). A module is imported when a scene
+names it."""
 from __future__ import annotations
 
 from importlib import import_module

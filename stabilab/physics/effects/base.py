@@ -1,7 +1,8 @@
 """What an effect is: a part of the physics that contributes nothing unless it says so.
 
-A sixth effect is one new file with a subclass, one row in `effects/__init__.py`, one law in the law test, one case.
-The formulas use arithmetic only, so the same lines serve SymPy symbols, floats, arrays and exact fractions.
+A sixth effect is one new file with a subclass, one row in `effects/__init__.py`, one law in the law test, one
+case. The formulas use arithmetic only, so the same lines serve SymPy symbols, floats, arrays and exact
+fractions.
 """
 from __future__ import annotations
 
@@ -24,8 +25,9 @@ def effect_words(name: str) -> str:
 class Limit:
     """Up to where an approximate law may be used: a dimensionless number that must not exceed `limit`.
 
-    number: its name and formula; value: {block of the state: its components} -> the number, for components of any shape alike, None
-    where the state has no block that it asks for; follows: what follows beyond the limit, in words; source: of law and limit; needs: of the state, in words.
+    number: its name and formula; value: {block of the state: its components} -> the number, for components of
+    any shape alike, None where the state has no block that it asks for; follows: what follows beyond the
+    limit, in words; source: of law and limit; needs: of the state, in words.
     """
 
     number: str
@@ -45,15 +47,18 @@ class Effect(metaclass=Asked):
     works: ClassVar[bool] = True  # False promises that the effect does no work; the law test holds it to that
     small: ClassVar[bool] = False  # True: left out of the undisturbed motion along which a liquid is carried
     keeps_volume: ClassVar[bool] = True  # False: the flow may shrink volumes
-    needs: ClassVar[tuple[str, ...]] = ()  # the state blocks it cannot do without, of `stabilab.physics.scene.ORDER`
-    approximate: ClassVar[bool] = False  # True: its law holds up to its `limits`; an exact law is never asked for any
+    # the state blocks it cannot do without, of `stabilab.physics.scene.ORDER`
+    needs: ClassVar[tuple[str, ...]] = ()
+    # True: its law holds up to its `limits`; an exact law is never asked for any
+    approximate: ClassVar[bool] = False
 
     @classmethod
     def from_case(cls, table: Any, context: Any) -> Effect | None:
-        """The effect that its table in a case file states; None where the table is faulty (it keeps the faults).
+        """The effect that its table in a case file states; None where the table is faulty (it keeps the
+        faults).
 
-        table: reads values by key (`vector`, `number`, `one_of`, `fault`); context: what the rest of the case knows
-        (`body`, `torque_from_mu`). As it stands: three numbers under the only key.
+        table: reads values by key (`vector`, `number`, `one_of`, `fault`); context: what the rest of the case
+        knows (`body`, `torque_from_mu`). As it stands: three numbers under the only key.
         """
         vector = table.vector(cls.keys[0]) if table.required(*cls.keys) else None
         made: Any = cls  # an effect of other keys reads them itself
@@ -73,8 +78,8 @@ class Effect(metaclass=Asked):
         return ()
 
     def turned(self, frame: PrincipalAxes) -> Effect | None:
-        """The same effect along the principal axes of `frame` (numbers.principal), from the frame that a case gives it in; None
-        where it cannot be turned. An effect that is alike in every frame is itself."""
+        """The same effect along the principal axes of `frame` (numbers.principal), from the frame that a case
+        gives it in; None where it cannot be turned. An effect that is alike in every frame is itself."""
         return None
 
     def momentum(self, p: Mapping[str, Number]) -> Triple | None:
@@ -86,9 +91,9 @@ class Effect(metaclass=Asked):
         return None
 
     def torque_along(self, motion: Any, p: Mapping[str, Number]) -> Triple | None:
-        """The torque where it depends on more than omega; `motion` has the blocks of the state by name (`omega`,
-        `gamma`), the principal moments `D`, and `undisturbed()`, the first and second rate of omega along the motion
-        without the small effects."""
+        """The torque where it depends on more than omega; `motion` has the blocks of the state by name
+        (`omega`, `gamma`), the principal moments `D`, and `undisturbed()`, the first and second rate of omega
+        along the motion without the small effects."""
         return self.torque(motion.omega, p)
 
     def potential(self, motion: Any, p: Mapping[str, Number]) -> Number | None:
@@ -96,7 +101,8 @@ class Effect(metaclass=Asked):
         return None
 
     def area(self, motion: Any, p: Mapping[str, Number]) -> Number | None:
-        """A function of the state whose rate is torque . gamma, N m; None where there is none in closed form."""
+        """A function of the state whose rate is torque . gamma, N m; None where there is none in closed form.
+        """
         return None
 
     def force(self, motion: Any, p: Mapping[str, Number]) -> Triple | None:

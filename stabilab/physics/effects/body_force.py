@@ -14,7 +14,8 @@ from .base import Effect
 
 @record
 class BodyForce(Effect):
-    """Force f, N, body frame, through the centre of mass (Galal et al., charged body: eq. (38)). The body needs a mass."""
+    """Force f, N, body frame, through the centre of mass (Galal et al., charged body: eq. (38)). The body
+    needs a mass."""
 
     name: ClassVar[str] = "body_force"
     keys: ClassVar[tuple[str, ...]] = ("force",)

@@ -19,9 +19,9 @@ SHARE = 0.1  # of the torque, by which a constant angle may be wrong
 class Charge(Effect):
     """Torque k omega x e3 with k = e H l^2 cos sigma, N m s (Galal et al., charged body: eq. (3) ff.).
 
-    charge e, C; field H, T; arm l, m; angle sigma between axis 3 and the field, rad, or "attitude": cos sigma is then
-    gamma3, taken from the motion. It acts like a gyrostatic moment -k along axis 3 in Euler's equations, yet it is no
-    part of the angular momentum. It does no work.
+    charge e, C; field H, T; arm l, m; angle sigma between axis 3 and the field, rad, or "attitude": cos sigma
+    is then gamma3, taken from the motion. It acts like a gyrostatic moment -k along axis 3 in Euler's
+    equations, yet it is no part of the angular momentum. It does no work.
     """
 
     name: ClassVar[str] = "charge"
@@ -36,7 +36,8 @@ class Charge(Effect):
     strength: float = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
-        scale = exact(self.charge, "charge") * exact(self.field_strength, "field") * exact(self.arm, "arm") ** 2
+        scale = (exact(self.charge, "charge") * exact(self.field_strength, "field")
+                 * exact(self.arm, "arm") ** 2)
         if not self.follows_attitude:
             scale *= precise("cos", exact(self.angle, "angle"))
         object.__setattr__(self, "exact", scale)
@@ -65,13 +66,14 @@ class Charge(Effect):
         return isinstance(self.angle, str) and self.angle == "attitude"
 
     @property
-    def approximate(self) -> bool:  # type: ignore[override]  # a constant of the other effects, here told by the values
+    # a constant of the other effects, here told by the values
+    def approximate(self) -> bool:  # type: ignore[override]
         """A constant angle is an assumption about the motion."""
         return not self.follows_attitude
 
     def limits(self, scene: Any) -> tuple[Limit, ...]:
-        """How far cos sigma of the motion, e3 . (axis 3 of space, the field's), is from the constant one; told where the attitude is known, or gamma,
-        which is axis 3 of space in the body."""
+        """How far cos sigma of the motion, e3 . (axis 3 of space, the field's), is from the constant one;
+        told where the attitude is known, or gamma, which is axis 3 of space in the body."""
         if self.follows_attitude:
             return ()
         constant = float(precise("cos", exact(self.angle)))
@@ -82,11 +84,13 @@ class Charge(Effect):
                 return abs((a * a - b * b - c * c + d * d) / constant - 1)
             return abs(state["gamma"][2] / constant - 1) if "gamma" in state else None
         return (Limit("change of cos sigma, held constant, with the attitude", SHARE, departure,
-                      "axis 3 turns away from the field, and the charge's torque with it: angle = \"attitude\" follows that",
+                      "axis 3 turns away from the field, and the charge's torque with it: angle = "
+                      "\"attitude\" follows that",
                       "Galal et al., charged body: eq. (3) ff.", "the attitude"),)
 
     @property
-    def needs(self) -> tuple[str, ...]:  # type: ignore[override]  # a constant of the other effects, here told by the values
+    # a constant of the other effects, here told by the values
+    def needs(self) -> tuple[str, ...]:  # type: ignore[override]
         return ("gamma",) if self.follows_attitude else ()
 
     def parameters(self) -> dict[str, Fraction]:

@@ -15,8 +15,8 @@ from .base import Effect
 
 @record
 class Gravity(Effect):
-    """Torque M g c x gamma, N m: weight M g, N, at the centre of mass c, m, body frame; gamma is the direction of the
-    weight (Amer et al. 2023, fast top: eq. (2)). Potential energy -M g c . gamma."""
+    """Torque M g c x gamma, N m: weight M g, N, at the centre of mass c, m, body frame; gamma is the
+    direction of the weight (Amer et al. 2023, fast top: eq. (2)). Potential energy -M g c . gamma."""
 
     name: ClassVar[str] = "gravity"
     keys: ClassVar[tuple[str, ...]] = ("weight", "centre_of_mass")

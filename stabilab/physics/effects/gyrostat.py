@@ -15,10 +15,11 @@ from .base import Effect
 
 @record
 class Gyrostat(Effect):
-    """Gyrostatic moment lambda, body frame, kg m^2/s, any direction (paper: Amer et al. 2024, eq. (1), along axis 1).
+    """Gyrostatic moment lambda, body frame, kg m^2/s, any direction (paper: Amer et al. 2024, eq. (1), along
+    axis 1).
 
-    moment: three numbers or exact strings. It adds lambda to the angular momentum H = D omega + lambda; its torque lambda x omega does no work.
-    Raises InputError for what is no vector of numbers.
+    moment: three numbers or exact strings. It adds lambda to the angular momentum H = D omega + lambda; its
+    torque lambda x omega does no work. Raises InputError for what is no vector of numbers.
     """
 
     name: ClassVar[str] = "gyrostat"

@@ -18,11 +18,13 @@ from .base import Effect, Limit
 
 # --- How fast a scene's motion goes: the rate by which the series behind an approximate law is judged
 def pace(scene: Any, state: Mapping[str, Sequence[Number]], without: Effect) -> Number:
-    """The fastest rate of the motion at a state, 1/s, for any shape of its components; `without`: the effect that asks.
+    """The fastest rate of the motion at a state, 1/s, for any shape of its components; `without`: the effect
+    that asks.
 
-    |omega| + |A| + sqrt(|tau|/D): A is the derivative of omega' by omega along the motion without that effect (Frobenius norm: wheel,
-    charge, resistance, the body's own turning), tau the torque at omega = 0 of effects that are not small, D the least moment. So
-    |omega'' + omega x omega'| is at most pace times |omega'| where nothing but omega sets the torque.
+    |omega| + |A| + sqrt(|tau|/D): A is the derivative of omega' by omega along the motion without that effect
+    (Frobenius norm: wheel, charge, resistance, the body's own turning), tau the torque at omega = 0 of
+    effects that are not small, D the least moment. So |omega'' + omega x omega'| is at most pace times
+    |omega'| where nothing but omega sets the torque.
     """
     D = tuple(map(float, scene.body.inertia))
     omega = state["omega"]
@@ -48,7 +50,8 @@ def pace(scene: Any, state: Mapping[str, Sequence[Number]], without: Effect) -> 
     return dot(omega, omega) ** 0.5 + squares ** 0.5 + (dot(still, still) ** 0.5 / min(D)) ** 0.5
 
 
-def _torque(effect: Effect, D: Sequence[float], state: Mapping[str, Sequence[Number]], omega: Sequence[Number], p: Mapping[str, Number]) -> Triple:
+def _torque(effect: Effect, D: Sequence[float], state: Mapping[str, Sequence[Number]],
+            omega: Sequence[Number], p: Mapping[str, Number]) -> Triple:
     """The torque of an effect that is linear in omega, in numbers."""
     return effect.torque_along(SimpleNamespace(**{**state, "omega": omega}, D=D), p) or (0.0,) * 3
 
@@ -56,18 +59,20 @@ def _torque(effect: Effect, D: Sequence[float], state: Mapping[str, Sequence[Num
 # --- A cavity filled with a very viscous liquid: the torque of the liquid carried along the undisturbed
 # motion
 TORQUES = ("consistent", "printed")
-NEXT_TERM = 2 / 45  # of the Reynolds number: the next term of the series over the one that is kept, for a sphere
+# of the Reynolds number: the next term of the series over the one that is kept, for a sphere
+NEXT_TERM = 2 / 45
 SOURCE = "Chernousko's expansion for small Reynolds numbers; Galal et al., liquid cavity: sections 1 and 2"
 
 
 @record
 class LiquidCavity(Effect):
-    """Torque kappa (omega'' + omega x omega'), kappa = density P0/viscosity, N m s^3: the rates of omega taken along
-    the motion without the small effects, as Chernousko's derivation for small Reynolds numbers demands.
+    """Torque kappa (omega'' + omega x omega'), kappa = density P0/viscosity, N m s^3: the rates of omega
+    taken along the motion without the small effects, as Chernousko's derivation for small Reynolds numbers
+    demands.
 
-    density, kg/m^3; viscosity, kinematic, m^2/s; P0, m^7 (8 pi h^7/525 for a sphere of radius h). torque: "consistent",
-    or "printed" (Galal et al., liquid cavity: eq. (3)), which holds for a body without rotor and charge only: its
-    undisturbed motion is the free one, whatever else acts.
+    density, kg/m^3; viscosity, kinematic, m^2/s; P0, m^7 (8 pi h^7/525 for a sphere of radius h). torque:
+    "consistent", or "printed" (Galal et al., liquid cavity: eq. (3)), which holds for a body without rotor
+    and charge only: its undisturbed motion is the free one, whatever else acts.
     """
 
     name: ClassVar[str] = "liquid_cavity"
@@ -83,7 +88,8 @@ class LiquidCavity(Effect):
     exact: Fraction = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
-        density, viscosity, P0 = exact(self.density, "density"), exact(self.viscosity, "viscosity"), exact(self.P0, "P0")
+        density, viscosity, P0 = exact(self.density,
+                                       "density"), exact(self.viscosity, "viscosity"), exact(self.P0, "P0")
         for name, value in (("density", density), ("viscosity", viscosity), ("P0", P0)):
             if value < 0 or (value == 0 and name == "viscosity"):
                 raise InputError(f"{name}: expected a positive number, got {float(value):g}")
@@ -94,7 +100,8 @@ class LiquidCavity(Effect):
             object.__setattr__(self, name, float(value))
 
     @classmethod
-    def of_sphere(cls, density: float, viscosity: float, radius: float, law: str = "consistent") -> LiquidCavity:
+    def of_sphere(cls, density: float, viscosity: float, radius: float,
+                  law: str = "consistent") -> LiquidCavity:
         """The cavity as a sphere of this radius, m."""
         length = exact(radius, "radius")
         if length < 0:
@@ -106,11 +113,14 @@ class LiquidCavity(Effect):
         complete, shape = table.required("density", "viscosity"), table.one_of("P0", "radius")
         if shape is None and not ("P0" in table or "radius" in table):
             table.fault("expected P0 (m^7) or the radius of a spherical cavity (m)")
-        values = {key: table.positive(key, zero=key != "viscosity") for key in ("density", "viscosity", "P0", "radius")}
+        values = {key: table.positive(key, zero=key != "viscosity")
+                  for key in ("density", "viscosity", "P0", "radius")}
         law = table.text("torque", "consistent")
         if law not in TORQUES:
             table.fault(f'expected "consistent" or "printed", got "{law}"', "torque")
-        if not complete or shape is None or law not in TORQUES or None in (values["density"], values["viscosity"], values[shape]):
+        if not complete or shape is None or law not in TORQUES or None in (values["density"],
+                                                                           values["viscosity"],
+                                                                           values[shape]):
             return None
         make = cls if shape == "P0" else cls.of_sphere
         return make(values["density"], values["viscosity"], values[shape], law)
@@ -138,18 +148,23 @@ class LiquidCavity(Effect):
     def limits(self, scene: Any) -> tuple[Limit, ...]:
         """Three numbers, with n the pace of the motion (`pace`), h the radius, D the least moment.
 
-        Seen from space the liquid's angular momentum is a series in h^2 d/dt/nu: with z^2 = h^2 s/nu, a sphere that turns as exp(s t)
-        gives its liquid the share 5 i2(z)/(z i1(z)) = 1 - z^2/35 + 2 z^4/1575 - ... of rigid rotation (i1, i2 modified spherical
-        Bessel functions). The second term is the law, kappa = moment h^2/(35 nu); the third over it 2/45 of h^2 s/nu.
-        The rates in it are those of the body without liquid, so its torque must be small beside the body's own; and the liquid,
-        frozen, is part of the body.
+        Seen from space the liquid's angular momentum is a series in h^2 d/dt/nu: with z^2 = h^2 s/nu, a
+        sphere that turns as exp(s t) gives its liquid the share 5 i2(z)/(z i1(z)) = 1 - z^2/35 + 2 z^4/1575 -
+        ... of rigid rotation (i1, i2 modified spherical Bessel functions). The second term is the law, kappa
+        = moment h^2/(35 nu); the third over it 2/45 of h^2 s/nu. The rates in it are those of the body
+        without liquid, so its torque must be small beside the body's own; and the liquid, frozen, is part of
+        the body.
         """
         least, square, kappa = min(scene.body.inertia), self.radius**2 / self.viscosity, float(self.exact)
         return (
-            Limit("Reynolds number n h^2/nu of the liquid", 1.0, lambda state: square * pace(scene, state, self),
-                  f"the liquid's torque is the first term of a series in this number (the next is {NEXT_TERM:.2g} of it times as large), so a "
+            Limit("Reynolds number n h^2/nu of the liquid", 1.0,
+                  lambda state: square * pace(scene, state, self),
+                  f"the liquid's torque is the first term of a series in this number (the next is "
+                  f"{NEXT_TERM:.2g} of it times as large), so a "
                   "liquid this thin does not move as computed", SOURCE),
-            Limit("torque of the liquid over the body's own, kappa n/D", 1.0, lambda state: kappa / least * pace(scene, state, self),
-                  "the liquid's torque is taken along the body's motion without liquid, which it would outweigh", SOURCE),
+            Limit("torque of the liquid over the body's own, kappa n/D", 1.0,
+                  lambda state: kappa / least * pace(scene, state, self),
+                  "the liquid's torque is taken along the body's motion without liquid, which it would "
+                  "outweigh", SOURCE),
             Limit("moment of the liquid over the least of the body", 1.0, lambda state: self.moment / least,
                   "no body has these moments and holds this liquid", SOURCE))

@@ -13,14 +13,16 @@ from ...numbers.vectors import Given, Number, Triple, cross
 from ...record import record
 from .base import Effect, Limit
 
-SMALL = 0.1  # size over distance at which the next term of the field's torque is a tenth or so of the one that is kept
+# size over distance at which the next term of the field's torque is a tenth or so of the one that is kept
+SMALL = 0.1
 
 
 @record
 class NewtonianField(Effect):
-    """Torque N gamma x D gamma, N m, with N = 3 lambda/R^3 in 1/s^2; gamma along the line to the centre (Amer et al.
-    2023, fast top: eq. (2); its eq. (1) has the opposite sign). Potential energy N gamma . D gamma/2. distance: R, m, where
-    it is known: only with it can the law say how far it holds."""
+    """Torque N gamma x D gamma, N m, with N = 3 lambda/R^3 in 1/s^2; gamma along the line to the centre (Amer
+    et al.
+    2023, fast top: eq. (2); its eq. (1) has the opposite sign). Potential energy N gamma . D gamma/2.
+    distance: R, m, where it is known: only with it can the law say how far it holds."""
 
     name: ClassVar[str] = "newtonian_field"
     keys: ClassVar[tuple[str, ...]] = ("strength", "lambda", "R")
@@ -56,13 +58,14 @@ class NewtonianField(Effect):
         return None if value is None else cls(value, distance)
 
     @property
-    def approximate(self) -> bool:  # type: ignore[override]  # a constant of the other effects, here told by the values
+    # a constant of the other effects, here told by the values
+    def approximate(self) -> bool:  # type: ignore[override]
         """Whether its distance is known."""
         return self.distance is not None
 
     def limits(self, scene: Any) -> tuple[Limit, ...]:
-        """Size over distance; the size is sqrt(largest moment/mass). The mass is the body's, or that which the weight tells: g = N R/3
-        where the same centre pulls. None without either."""
+        """Size over distance; the size is sqrt(largest moment/mass). The mass is the body's, or that which
+        the weight tells: g = N R/3 where the same centre pulls. None without either."""
         mass, gravity = scene.body.mass, scene.effect("gravity")
         if mass is None and gravity is not None:
             mass = gravity.weight / abs(self.strength * self.distance / 3)
@@ -70,7 +73,8 @@ class NewtonianField(Effect):
             return ()
         share = (max(scene.body.inertia) / abs(mass)) ** 0.5 / self.distance
         return (Limit("size of the body over the distance of the centre", SMALL, lambda state: share,
-                      "the field's torque is the first term of a series in this number, so near a centre the body does not move as computed",
+                      "the field's torque is the first term of a series in this number, so near a centre the "
+                      "body does not move as computed",
                       "Amer et al. 2023, fast top: eq. (2)"),)
 
     def turned(self, frame: PrincipalAxes) -> NewtonianField:

@@ -16,7 +16,8 @@ from .base import Effect
 
 @record
 class Resistance(Effect):
-    """Torque -c D omega, N m, with c > 0 in 1/s (Galal et al., liquid cavity: eq. (2), where c is eps^2 zeta)."""
+    """Torque -c D omega, N m, with c > 0 in 1/s (Galal et al., liquid cavity: eq. (2), where c is eps^2
+    zeta)."""
 
     name: ClassVar[str] = "resistance"
     keys: ClassVar[tuple[str, ...]] = ("coefficient",)

@@ -1,13 +1,17 @@
 """Motions of the explorer for scenes without a reduction.
 
-What a page shows of a body on which more acts than wheels and a torque: the motion, followed in time, and why there is no separatrix and no phase plane.
+What a page shows of a body on which more acts than wheels and a torque: the motion, followed in time, and why
+there is no separatrix and no phase plane.
 
-A charge that only adds to the wheel has the rates of a gyrostat, and is no such body. A liquid, a medium, weight and a field take the law away from
-which separatrix and phase plane come; what is left are the verdict, the equilibria, and the motion with its rates.
+A charge that only adds to the wheel has the rates of a gyrostat, and is no such body. A liquid, a medium,
+weight and a field take the law away from which separatrix and phase plane come; what is left are the verdict,
+the equilibria, and the motion with its rates.
 
-The motion as a page draws it: in plain floats where these are sure of it, else in as many digits as it takes once the hand rests.
+The motion as a page draws it: in plain floats where these are sure of it, else in as many digits as it takes
+once the hand rests.
 
-On an unstable plane, and on the separatrix itself, whatever a step in floats leaves grows until the line is another motion's.
+On an unstable plane, and on the separatrix itself, whatever a step in floats leaves grows until the line is
+another motion's.
 """
 from __future__ import annotations
 
@@ -34,12 +38,14 @@ def needed(scene: AnyScene) -> bool:
 
 
 def check(case: Case) -> None:
-    """Raise InputError where a page cannot show a case: its sliders count along principal axes, and so must the effects of its file."""
+    """Raise InputError where a page cannot show a case: its sliders count along principal axes, and so must
+    the effects of its file."""
     if not needed(case.scene):
         return
     demand("numpy", "scipy")
     if case.frame is not None and not case.frame.as_given:
-        raise InputError(f"{case.place}: explore turns wheels and torque into the principal axes, but not {_names(case.scene)}: state the case along its "
+        raise InputError(f"{case.place}: explore turns wheels and torque into the principal axes, but not "
+                         f"{_names(case.scene)}: state the case along its "
                          "principal axes (stabilab show tells them), or ask stabilab classify or report")
 
 
@@ -48,15 +54,20 @@ def why(scene: AnyScene) -> str:
     names = [effect.name for effect in scene.effects]
     taking = [TAKES[name] for name in names if name in TAKES]
     turning = [TURNS[name] for name in names if name in TURNS]
-    if isinstance(scene, Scene) and (charge := scene.effect("charge")) is not None and charge.follows_attitude:
+    if isinstance(scene,
+                  Scene) and (charge := scene.effect("charge")) is not None and charge.follows_attitude:
         turning.append("the charge")
-    reasons = [f"{' and '.join(some)} {word}{'s' * (len(some) == 1)} {how}" for some, word, how in ((taking, "take", "energy away"),
+    reasons = [f"{' and '.join(some)} {word}{'s' * (len(some) == 1)} {how}" for some, word,
+               how in ((taking, "take", "energy away"),
                                                                                                  (turning, "act", "by the attitude")) if some]
-    return f"No separatrix and no phase plane: {' and '.join(reasons)}, so no law keeps the rates on a curve that is known; what is drawn is the motion itself"
+    return (
+        f"No separatrix and no phase plane: {' and '.join(reasons)}, so no law keeps the rates on a curve "
+        f"that is known; what is drawn is the motion itself")
 
 
 def _names(scene: AnyScene) -> str:
-    return " and ".join(effect_words(effect.name) for effect in scene.effects if effect.name not in ("gyrostat", "constant_torque"))
+    return " and ".join(effect_words(effect.name) for effect in scene.effects
+                        if effect.name not in ("gyrostat", "constant_torque"))
 
 
 def path(case: Case, until: float) -> Path:
@@ -78,8 +89,8 @@ def at_rest(scene: AnyScene) -> Equilibria | None:
 
 
 def line(case: Case, form: QuadraticForm | None, until: float, moving: bool) -> Path:
-    """(times, rates) of the motion from t = 0 on. form: its rates, where they are quadratic. moving: a hand that does not wait is shown the part of which
-    floats are sure; so is a page without NumPy."""
+    """(times, rates) of the motion from t = 0 on. form: its rates, where they are quadratic. moving: a hand
+    that does not wait is shown the part of which floats are sure; so is a page without NumPy."""
     if form is None:
         return other.path(case, until)
     times, states = followed(form, case.state, until)

@@ -2,8 +2,9 @@
 
 A case with what the sliders changed: as the text of a case file, and as the case that this text states.
 
-What the page shows is always the answer for that very text, so a case that is saved is the one that was seen. Numbers that no hand touched stay as
-the file has them. Sliders count along principal axes; where the file's tensor is not diagonal, the new text stands along these.
+What the page shows is always the answer for that very text, so a case that is saved is the one that was seen.
+Numbers that no hand touched stay as the file has them. Sliders count along principal axes; where the file's
+tensor is not diagonal, the new text stands along these.
 """
 from __future__ import annotations
 
@@ -42,18 +43,23 @@ class Control:
 
 
 def groups(case: Case, units: Units) -> list[dict[str, Any]]:
-    """The groups of sliders as a page takes them: {title, axis of the torque where it is of that, controls}."""
+    """The groups of sliders as a page takes them: {title, axis of the torque where it is of that, controls}.
+    """
     axis, size, tilt, azimuth = direction(vector(case, "torque"))
-    strength = Control("size", f"about {units.axes.short(axis)}", units.plain("N m")[0], size, *_around(abs(size) or _usual_torque(case)))
-    torque = [strength, Control("tilt", "tilt off the axis", "deg", tilt, 0.0, nice(max(TILTED, ROOM * tilt))),
+    strength = Control("size", f"about {units.axes.short(axis)}", units.plain("N m")[0], size,
+                       *_around(abs(size) or _usual_torque(case)))
+    torque = [strength,
+              Control("tilt", "tilt off the axis", "deg", tilt, 0.0, nice(max(TILTED, ROOM * tilt))),
               Control("azimuth", "towards", "deg", azimuth, -180.0, 180.0)]
     return [{"title": "Torque", "axis": axis, "controls": _plain(torque)},
-            {"title": "Wheel momentum" if not units.scaled else "Wheel and moments", "axis": None, "controls": _plain(_wheel(case, units))},
+            {"title": "Wheel momentum" if not units.scaled else "Wheel and moments", "axis": None,
+             "controls": _plain(_wheel(case, units))},
             {"title": "Start", "axis": None, "controls": _plain(_start(case, units))}]
 
 
 def vector(case: Case, name: str) -> tuple[float, ...]:
-    """The torque, the wheel momentum or the start, principal axes, SI or scaled; a and b stand for the wheel of a scaled case."""
+    """The torque, the wheel momentum or the start, principal axes, SI or scaled; a and b stand for the wheel
+    of a scaled case."""
     scene = case.scene
     if name == "start":
         return tuple(case.state or (0.0, 0.0, 0.0))
@@ -63,7 +69,8 @@ def vector(case: Case, name: str) -> tuple[float, ...]:
 
 
 def direction(torque: tuple[float, ...]) -> tuple[int, float, float, float]:
-    """(axis 1 to 3 that it is nearest to, its size signed by its sense along that, tilt off it and azimuth of the tilt in deg)."""
+    """(axis 1 to 3 that it is nearest to, its size signed by its sense along that, tilt off it and azimuth of
+    the tilt in deg)."""
     if not any(torque):
         return 3, 0.0, 0.0, 0.0
     i = max(range(3), key=lambda n: abs(torque[n]))
@@ -94,9 +101,12 @@ def _wheel(case: Case, units: Units) -> list[Control]:
     values = vector(case, "wheel")
     if not isinstance(case.scene, Scene):
         high = nice(ROOM * max(1.0, *map(abs, values)))
-        return [Control(f"wheel{n}", name, "", value, -high, high) for n, (name, value) in enumerate(zip("ab", values))]
-    size = max(max(map(abs, values)), max(case.scene.body.inertia) * (math.hypot(*vector(case, "start")) or STILL) / ROOM)
-    return [Control(f"wheel{n}", f"about {units.axes.short(n + 1)}", "N m s", value, *_around(size)) for n, value in enumerate(values)]
+        return [Control(f"wheel{n}", name, "", value, -high, high) for n,
+                (name, value) in enumerate(zip("ab", values))]
+    size = max(max(map(abs, values)),
+               max(case.scene.body.inertia) * (math.hypot(*vector(case, "start")) or STILL) / ROOM)
+    return [Control(f"wheel{n}", f"about {units.axes.short(n + 1)}", "N m s", value, *_around(size)) for n,
+            value in enumerate(values)]
 
 
 def _start(case: Case, units: Units) -> list[Control]:
@@ -104,11 +114,13 @@ def _start(case: Case, units: Units) -> list[Control]:
     name, one = units.rates
     size = max(map(abs, values)) * one or (1.0 if units.scaled else STILL * one)
     words = [component.replace("omega", "ω") for component in case.scene.components]
-    return [Control(f"start{n}", words[n], name, value * one, *_around(size)) for n, value in enumerate(values)]
+    return [Control(f"start{n}", words[n], name, value * one, *_around(size)) for n,
+            value in enumerate(values)]
 
 
 def _usual_torque(case: Case) -> float:
-    """A torque for a case that has none: it changes the rates of the start within some radians of turn, and is no larger than that of the weight."""
+    """A torque for a case that has none: it changes the rates of the start within some radians of turn, and
+    is no larger than that of the weight."""
     if not isinstance(case.scene, Scene):
         return 1.0
     rate = math.hypot(*vector(case, "start")) or STILL
@@ -134,7 +146,8 @@ def _plain(controls: list[Control]) -> list[dict[str, Any]]:
 
 # --- A case as TOML text again, from its data: numbers as they were written
 DECIMALS = 20  # an exact decimal of so many digits is written as one, any other number as a ratio
-RATIO, DIGITS = 120, 36  # a ratio with more letters is one of 240 bits, of axes that are irrational: it is rounded to so many digits
+# a ratio with more letters is one of 240 bits, of axes that are irrational: it is rounded to so many digits
+RATIO, DIGITS = 120, 36
 
 
 class Written(str):
@@ -147,7 +160,8 @@ def data_of(text: str) -> dict[str, Any]:
 
 
 def exact_text(value: Fraction) -> Written | str:
-    """A rational as a case takes it: a decimal, or a ratio in quotes; numbers that were enclosed, not given, are rounded."""
+    """A rational as a case takes it: a decimal, or a ratio in quotes; numbers that were enclosed, not given,
+    are rounded."""
     places, rest = 0, value.denominator
     for prime in (2, 5):
         power = 0
@@ -189,7 +203,8 @@ def _table(lines: list[str], path: tuple[str, ...], table: dict[str, Any], brack
 
 
 def _is_table(value: Any) -> bool:
-    return isinstance(value, dict) or isinstance(value, list) and bool(value) and all(isinstance(one, dict) for one in value)
+    return (isinstance(value, dict) or isinstance(value, list) and bool(value)
+            and all(isinstance(one, dict) for one in value))
 
 
 def _key(key: str) -> str:
@@ -219,10 +234,12 @@ LARGEST = 1e8  # beyond it doubles that are drawn run into overflows and lost di
 
 
 def changed(case: Case, asked: dict[str, Any], units: Units) -> tuple[Case, str]:
-    """(the case with the changes of a request, words on what was left out). asked: {"torque": None or {axis, size, tilt, azimuth}, "wheel" and "start": a
-    number in text, or None for the case's own, for each slider}. Raises InputError for what is no such request."""
+    """(the case with the changes of a request, words on what was left out). asked: {"torque": None or {axis,
+    size, tilt, azimuth}, "wheel" and "start": a number in text, or None for the case's own, for each slider}.
+    Raises InputError for what is no such request."""
     scaled = case.scene.variables == "scaled"
-    torque, wheel, start = asked.get("torque"), _numbers(asked, "wheel", 2 if scaled else 3), _numbers(asked, "start", 3)
+    torque, wheel, start = asked.get("torque"), _numbers(asked, "wheel",
+                                                         2 if scaled else 3), _numbers(asked, "start", 3)
     if torque is None and wheel is None and start is None and case.state is not None:
         return case, ""
     base = _base(case)
@@ -239,16 +256,24 @@ def changed(case: Case, asked: dict[str, Any], units: Units) -> tuple[Case, str]
         if not all(problem.key.startswith("limits") for problem in error.problems):
             raise
     base.pop("limits")
-    return read_text(case.path, text_of(base, head)), f"The start is beyond the limit of the case, which is left out here. {left}".rstrip()
+    return read_text(case.path,
+                     text_of(base,
+                             head)), f"The start is beyond the limit of the case, which is left out here. {left}".rstrip()
 
 
 def _left_out(case: Case, fires: bool) -> str:
-    """What of a file whose tensor is not diagonal cannot be stated along the principal axes; fires: whether its thrusters still give the torque."""
+    """What of a file whose tensor is not diagonal cannot be stated along the principal axes; fires: whether
+    its thrusters still give the torque."""
     if case.frame is None or case.frame.as_given:
         return ""
-    found = [words for words, there in (("limits about the axes of the file", case.limits is not None and case.limits.rates is not None),
-                                        ("the misalignment of thrusters", fires and any(one.stuck and one.misalignment for one in case.thrusters))) if there]
-    return f"Left out of a changed case, which stands along the principal axes: {' and '.join(found)}." if found else ""
+    found = [words for words,
+             there in (("limits about the axes of the file",
+                        case.limits is not None and case.limits.rates is not None),
+                                        ("the misalignment of thrusters",
+                                         fires and any(one.stuck and one.misalignment
+                                                       for one in case.thrusters))) if there]
+    return (f"Left out of a changed case, which stands along the principal axes: {' and '.join(found)}."
+            if found else "")
 
 
 def _base(case: Case) -> dict[str, Any]:
@@ -257,16 +282,21 @@ def _base(case: Case) -> dict[str, Any]:
     scene = case.scene
     if scene.variables == "scaled":
         motion = {key: value for key, value in data.get("motion", {}).items() if key in ("x", "tau")}
-        own = {"a": exact_text(scene.exact_ab[0]), "b": exact_text(scene.exact_ab[1]), "mu": [exact_text(v) for v in scene.exact_mu]}
-        return _kept(data, "title", "source") | {"scaled": own, **_kept(data, "output"), **({"motion": motion} if motion else {})}
+        own = {"a": exact_text(scene.exact_ab[0]), "b": exact_text(scene.exact_ab[1]),
+               "mu": [exact_text(v) for v in scene.exact_mu]}
+        return (_kept(data, "title", "source")
+                | {"scaled": own, **_kept(data, "output"), **({"motion": motion} if motion else {})})
     if case.frame is None or case.frame.as_given:
         return data
     body = {"inertia": [exact_text(v) for v in scene.body.exact]} | _kept(data["body"], "mass")
-    vectors: Any = {effect.name: (type(effect).keys[0], scene.vector(effect.name)) for effect in scene.effects}
+    vectors: Any = {effect.name: (type(effect).keys[0], scene.vector(effect.name))
+                    for effect in scene.effects}
     effects = {name: {key: [exact_text(v) for v in vector]} for name, (key, vector) in vectors.items()}
-    motion = {"angular_velocity": [exact_text(v) for v in case.exact_state or ()]} | _kept(data.get("motion", {}), "span")
+    motion = ({"angular_velocity": [exact_text(v) for v in case.exact_state or ()]}
+              | _kept(data.get("motion", {}), "span"))
     limits = {} if case.limits is None or case.limits.rate is None else _kept(data, "limits")
-    return _kept(data, "title", "source") | {"body": body, "effects": effects, **limits, **_kept(data, "output"), "motion": motion}
+    return (_kept(data, "title", "source") | {"body": body, "effects": effects, **limits,
+                                              **_kept(data, "output"), "motion": motion})
 
 
 def _kept(data: dict[str, Any], *keys: str) -> dict[str, Any]:
@@ -290,7 +320,9 @@ def _set_wheel(base: dict[str, Any], case: Case, values: list[Any], scaled: bool
     scene: Any = case.scene
     own = scene.vector("gyrostat")
     base.pop("wheels", None)
-    base.setdefault("effects", {})["gyrostat"] = {"momentum": [exact_text(v) if new is None else Written(new) for v, new in zip(own, values)]}
+    base.setdefault("effects",
+                    {})["gyrostat"] = {"momentum": [exact_text(v) if new is None else Written(new) for v,
+                                                    new in zip(own, values)]}
 
 
 def _set_start(base: dict[str, Any], case: Case, values: list[Any], scaled: bool, units: Units) -> None:
@@ -298,7 +330,8 @@ def _set_start(base: dict[str, Any], case: Case, values: list[Any], scaled: bool
     key = "x" if scaled else "angular_velocity"
     own = motion.get(key) or [exact_text(Fraction(v)) for v in case.exact_state or (0, 0, 0)]
     unit = units.rates[0]
-    motion[key] = [old if new is None else Written(new) if scaled or unit == "rad/s" else f"{new} {unit}" for old, new in zip(own, values)]
+    motion[key] = [old if new is None else Written(new) if scaled or unit == "rad/s" else f"{new} {unit}"
+                   for old, new in zip(own, values)]
 
 
 def _numbers(asked: dict[str, Any], name: str, count: int) -> list[Any] | None:
@@ -320,7 +353,9 @@ def number(value: Any, name: str) -> str:
     if not math.isfinite(found):
         raise InputError(f"{name}: expected a number, got {shown(value)}")
     if found and not SMALLEST <= abs(found) <= LARGEST:
-        raise InputError(f"{name}: expected 0 or a number of {SMALLEST:g} to {LARGEST:g}, which can still be drawn, got {value}")
+        raise InputError(
+            f"{name}: expected 0 or a number of {SMALLEST:g} to {LARGEST:g}, which can still be drawn, got "
+            f"{value}")
     return f"{found:.12g}"
 
 

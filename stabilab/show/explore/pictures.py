@@ -1,18 +1,24 @@
-"""What the explorer draws: the plane of the reduced motion, rates over time, the space of rates; numbers packed for the browser.
+"""What the explorer draws: the plane of the reduced motion, rates over time, the space of rates; numbers
+packed for the browser.
 
 An answer as bytes for a page: a header in JSON, and behind it the numbers of all curves and surfaces.
 
     4 bytes: length of the header, little-endian | header | zeros up to a multiple of 4 | numbers
 
-In the header a row of numbers is {"type": "int16" or "float32", "from": byte in the numbers, "count": how many}.
+In the header a row of numbers is {"type": "int16" or "float32", "from": byte in the numbers, "count": how
+many}.
 
-The phase plane of the motion from one state, in plain floats: heights of the reduced potential from which a page draws every level curve.
+The phase plane of the motion from one state, in plain floats: heights of the reduced potential from which a
+page draws every level curve.
 
-`orbit.phase_plane` has the same plane in arrays, to the last digit; this one serves a hand that moves, and a browser without NumPy.
+`orbit.phase_plane` has the same plane in arrays, to the last digit; this one serves a hand that moves, and a
+browser without NumPy.
 
-The space of the rates as a page draws it: separatrix, equilibria, motion and marks in a box that stays while a hand moves.
+The space of the rates as a page draws it: separatrix, equilibria, motion and marks in a box that stays while
+a hand moves.
 
-Places are whole numbers of 16 bits along each axis, 4095 for half of the box, as on a page of the report. All of it does without NumPy.
+Places are whole numbers of 16 bits along each axis, 4095 for half of the box, as on a page of the report. All
+of it does without NumPy.
 """
 from __future__ import annotations
 
@@ -48,7 +54,8 @@ class Bag:
         self._length = 0
 
     def add(self, kind: str, values: Iterable[float] | bytes) -> dict[str, Any]:
-        """Keep a row; what the header says of it. values: numbers, or bytes that are numbers of this kind, little-endian."""
+        """Keep a row; what the header says of it. values: numbers, or bytes that are numbers of this kind,
+        little-endian."""
         raw = values if isinstance(values, bytes) else _packed(kind, values)
         row = {"type": kind, "from": self._length, "count": len(raw) // array(TYPES[kind]).itemsize}
         padded = raw + b"\0" * (-len(raw) % 4)
@@ -86,15 +93,17 @@ def finite(value: Any) -> Any:
 
 POINTS = 361  # of the potential across the picture
 CIRCLE = 1.35 * math.pi  # half of what is shown of a circle
-LIFT, CELLAR, FARTHEST = 2.5, 6.0, 12.0  # of walls: heights above and below the motion's that are worth drawing, and how far to look for them
+# of walls: heights above and below the motion's that are worth drawing, and how far to look for them
+LIFT, CELLAR, FARTHEST = 2.5, 6.0, 12.0
 HALVINGS = 48
 NEAREST, GROWTH = 1e-4, 1.1  # of the steps outward
 
 
 @dataclass(frozen=True)
 class Plane:
-    """turn: of the body about the axis of the torque since the start (rad, or scaled), at `low` to `high` of the canonical angle in even steps;
-    heights: V there, 0 at the start; W0: the canonical rate at the start. unit: turn per canonical angle."""
+    """turn: of the body about the axis of the torque since the start (rad, or scaled), at `low` to `high` of
+    the canonical angle in even steps; heights: V there, 0 at the start; W0: the canonical rate at the start.
+    unit: turn per canonical angle."""
 
     reduction: Reduction
     potential: Any
@@ -114,7 +123,8 @@ class Plane:
     def canonical(self, rate: float) -> float:
         """W of omega_i."""
         w = rate + float(self.reduction.s)
-        return w * self.reduction.constants["flip"] * self.reduction.constants["n"] if self.reduction.geometry.centred else w
+        return (w * self.reduction.constants["flip"] * self.reduction.constants["n"]
+                if self.reduction.geometry.centred else w)
 
     def state(self, turn: float, rate: float) -> tuple[float, ...]:
         """The three rates of a point of the plane."""
@@ -159,7 +169,8 @@ def _round(pot, place):
 
 
 def _rests(pot, place, y):
-    """Where the force vanishes: between places of opposite signs, halved; nothing where it vanishes everywhere."""
+    """Where the force vanishes: between places of opposite signs, halved; nothing where it vanishes
+    everywhere."""
     force = lambda v: pot.force(pot.move(place, v))
     values = [force(v) for v in y]
     for n in range(len(y) - 1 if any(values) else 0):
@@ -178,7 +189,8 @@ def _walls(pot, place, height, W0):
     heights = [height(y) for y in marks]
     least = min(heights)
     lift = max(W0 * W0 / 2 - least, max(heights) - least) or 1.0
-    return tuple(_side(height, edge, sense, least + LIFT * lift, least - CELLAR * lift) for edge, sense in ((min(marks), -1), (max(marks), 1)))
+    return tuple(_side(height, edge, sense, least + LIFT * lift, least - CELLAR * lift) for edge,
+                 sense in ((min(marks), -1), (max(marks), 1)))
 
 
 def _side(height, edge, sense, ceiling, cellar):
@@ -193,7 +205,8 @@ DIGITS = 9  # of a start that was clicked
 
 
 def drawn_planes(bag: Bag, scene: AnyScene, state: tuple[float, ...], units: Units) -> dict[str, Any] | None:
-    """What the page needs of the phase plane: it draws each level curve W^2/2 + V = E itself. None where the motion has none."""
+    """What the page needs of the phase plane: it draws each level curve W^2/2 + V = E itself. None where the
+    motion has none."""
     plane = plane_of(scene, state)
     if plane is None:
         return None
@@ -203,10 +216,13 @@ def drawn_planes(bag: Bag, scene: AnyScene, state: tuple[float, ...], units: Uni
     axis = plane.reduction.axis + 1
     name = "x" if units.scaled else "ω"
     rests = [{"at": across * y, "height": v, "saddle": saddle} for y, v, saddle in plane.rests]
-    return {"turns": bag.add("float32", [across * y for y in plane.y]), "heights": bag.add("float32", plane.heights),
-            "rate": [zero, plane.rate(1.0) * rate[1] - zero], "start": plane.W0, "energy": plane.W0**2 / 2, "rests": rests,
+    return {"turns": bag.add("float32", [across * y for y in plane.y]),
+            "heights": bag.add("float32", plane.heights),
+            "rate": [zero, plane.rate(1.0) * rate[1] - zero], "start": plane.W0, "energy": plane.W0**2 / 2,
+            "rests": rests,
             "rotates": plane.reduction.sense == 0 and not plane.reduction.geometry.walled,
-            "x": labelled(f"turn about {units.axes.short(axis)}", angle[0]), "y": labelled(f"{name}{axis}", rate[0])}
+            "x": labelled(f"turn about {units.axes.short(axis)}", angle[0]),
+            "y": labelled(f"{name}{axis}", rate[0])}
 
 
 def labelled(words: str, unit: str) -> str:
@@ -215,7 +231,8 @@ def labelled(words: str, unit: str) -> str:
 
 
 def clicked(scene: AnyScene, state: tuple[float, ...], at: Any, units: Units) -> list[str]:
-    """The start, in the unit of the sliders, of the motion through a point {turn, rate} of the phase plane of a state, in the units of the page."""
+    """The start, in the unit of the sliders, of the motion through a point {turn, rate} of the phase plane of
+    a state, in the units of the page."""
     plane = plane_of(scene, state)
     try:
         turn, rate = float(at["turn"]), float(at["rate"])
@@ -228,16 +245,21 @@ def clicked(scene: AnyScene, state: tuple[float, ...], at: Any, units: Units) ->
     return [f"{v * one + 0.0:.{DIGITS}g}" for v in plane.state(turn / angle, rate / one)]
 
 
-def over_time(bag: Bag, case: Case, motion: Motion | None, times: list[float], path: list[tuple[float, ...]], units: Units) -> dict[str, Any]:
+def over_time(bag: Bag, case: Case, motion: Motion | None, times: list[float], path: list[tuple[float, ...]],
+              units: Units) -> dict[str, Any]:
     """Rates over time with the least and greatest of each component over all time, where these are known."""
     name, one = units.times(times[-1])
     label, rate = units.rates
     symbol = "x" if units.scaled else "ω"
     known = motion is not None and motion.extremes is not None and motion.extremes_over == "all time"
-    extremes = [[v * rate for v in pair] for pair in motion.extremes] if known and motion is not None and motion.extremes is not None else None
-    return {"times": bag.add("float32", [t * one for t in times]), "rates": [bag.add("float32", [x[n] * rate for x in path]) for n in range(3)],
-            "extremes": extremes, "period": None if motion is None or motion.period is None else motion.period * one,
-            "x": "time τ" if units.scaled else labelled("time", name), "y": labelled("x" if units.scaled else "rate", label),
+    extremes = ([[v * rate for v in pair] for pair in motion.extremes] if known and motion is not None
+                and motion.extremes is not None else None)
+    return {"times": bag.add("float32", [t * one for t in times]),
+            "rates": [bag.add("float32", [x[n] * rate for x in path]) for n in range(3)],
+            "extremes": extremes, "period": None if motion is None or motion.period is None
+            else motion.period * one,
+            "x": "time τ" if units.scaled else labelled("time", name),
+            "y": labelled("x" if units.scaled else "rate", label),
             "names": [f"{symbol}{n}" for n in (1, 2, 3)]}
 
 
@@ -272,19 +294,21 @@ class Box:
 
 
 def near_part(path: list[tuple[float, ...]], motion: Motion | None) -> list[tuple[float, ...]]:
-    """A motion that spins up as long as it is near where it began; all of it of any other, also where that goes far and comes back."""
+    """A motion that spins up as long as it is near where it began; all of it of any other, also where that
+    goes far and comes back."""
     if motion is not None and motion.fate is not Fate.SPIN_UP:
         return path
     size = max(math.hypot(*x) for x in path[:max(2, len(path) // 20)])
     if motion is not None and motion.margin_velocity is not None and math.isfinite(motion.margin_velocity):
         size = max(size, motion.margin_velocity)
-    late = next((n for n, x in enumerate(path) if math.hypot(*x) > LATEST * size), len(path)) if size else len(path)
+    late = (next((n for n, x in enumerate(path) if math.hypot(*x) > LATEST * size), len(path)) if size
+            else len(path))
     return path[:late + 1] if late > 20 else path
 
 
 def box_of(asked: Any, points: list[Point], kept: bool) -> Box:
-    """The box that was asked for (middle and half), as long as the points are inside and, unless it is kept, fill a part of it; else a new one about
-    them."""
+    """The box that was asked for (middle and half), as long as the points are inside and, unless it is kept,
+    fill a part of it; else a new one about them."""
     low, high = ([pick(p[n] for p in points) for n in range(3)] for pick in (min, max))
     extent = max(b - a for a, b in zip(low, high)) / 2
     if asked is not None:
@@ -309,7 +333,8 @@ def packed(points: Iterable[Point], box: Box) -> list[int]:
     """The places as whole numbers."""
     (a, b, c), per = box.middle, HALF / box.half
     far = int(BEYOND * HALF)
-    return [min(max(round(v), -far), far) for x, y, z in points for v in ((x - a) * per, (y - b) * per, (z - c) * per)]
+    return [min(max(round(v), -far), far) for x, y,
+            z in points for v in ((x - a) * per, (y - b) * per, (z - c) * per)]
 
 
 def seen(sheet: PlainSheet, box: Box) -> bool:
@@ -317,19 +342,27 @@ def seen(sheet: PlainSheet, box: Box) -> bool:
     return any(box.holds(p) for p in sheet.points)
 
 
-def drawn_space(bag: Bag, box: Box, names: list[str], one: float, sheets: Sequence[tuple[int, PlainSheet]], rests: list[tuple[str, list[Point]]],
+def drawn_space(bag: Bag, box: Box, names: list[str], one: float, sheets: Sequence[tuple[int, PlainSheet]],
+                rests: list[tuple[str, list[Point]]],
           path: list[tuple[float, ...]], marks: list[dict[str, Any]], ghost: bool) -> dict[str, Any]:
-    """What the view takes. one: how many of the unit of the labels make one of the scene's; sheets: each with its number among all that there are, which
-    tells its colour; ghost: they are those of the torque without its tilt; rests: of `lines`."""
-    curves: list[dict[str, Any]] = [{"kind": style.EQUILIBRIA[kind], "colour": style.colour_of(kind), "at": bag.add("int16", packed(places, box))}
+    """What the view takes. one: how many of the unit of the labels make one of the scene's; sheets: each with
+    its number among all that there are, which tells its colour; ghost: they are those of the torque without
+    its tilt; rests: of `lines`."""
+    curves: list[dict[str, Any]] = [{"kind": style.EQUILIBRIA[kind], "colour": style.colour_of(kind),
+                                     "at": bag.add("int16", packed(places, box))}
                                     for kind, places in rests]
     if path:
-        curves.append({"kind": "this motion", "colour": style.MEANING["this motion"]["color"], "at": bag.add("int16", packed(path, box))})
-    surfaces = [{"name": _sheet_name(sheet, ghost), "colour": style.BESIDE[n % len(style.BESIDE)], "rows": sheet.rows, "columns": sheet.columns,
+        curves.append({"kind": "this motion", "colour": style.MEANING["this motion"]["color"],
+                       "at": bag.add("int16", packed(path, box))})
+    surfaces = [{"name": _sheet_name(sheet, ghost), "colour": style.BESIDE[n % len(style.BESIDE)],
+                 "rows": sheet.rows, "columns": sheet.columns,
                  "at": bag.add("int16", packed(sheet.points, box))} for n, sheet in sheets]
-    points = [mark | {"at": [round(v, 5) for v in box.share(mark["at"])]} for mark in marks if box.holds(mark["at"])]
-    legend: dict[str, str] = {row.get("name") or row["kind"]: row["colour"] for row in (*surfaces, *curves, *points)}
-    return {"names": names, "middle": [v * one for v in box.middle], "half": box.half * one, "sheets": surfaces, "curves": curves, "points": points,
+    points = [mark | {"at": [round(v, 5) for v in box.share(mark["at"])]} for mark in marks
+              if box.holds(mark["at"])]
+    legend: dict[str, str] = {row.get("name") or row["kind"]: row["colour"]
+                              for row in (*surfaces, *curves, *points)}
+    return {"names": names, "middle": [v * one for v in box.middle], "half": box.half * one,
+            "sheets": surfaces, "curves": curves, "points": points,
             "legend": list(legend.items())}
 
 
@@ -341,16 +374,18 @@ def marks_of(start: Point, motion: Motion | None, found: Equilibria | None) -> l
     """Start, nearest point of the separatrix, isolated equilibria."""
     marks = [{"kind": "start", "colour": style.BLACK, "at": list(start)}]
     if motion is not None and motion.velocity_witness is not None:
-        marks.append({"kind": "nearest point of the separatrix", "colour": style.YELLOW, "at": list(motion.velocity_witness)})
+        marks.append({"kind": "nearest point of the separatrix", "colour": style.YELLOW,
+                      "at": list(motion.velocity_witness)})
     for point in found.points if found is not None else ():
         kind = style.kind_of(point)
-        marks.append({"kind": style.EQUILIBRIA[kind], "colour": style.colour_of(kind), "at": list(point.at[:3])})
+        marks.append({"kind": style.EQUILIBRIA[kind], "colour": style.colour_of(kind),
+                      "at": list(point.at[:3])})
     return marks
 
 
 def lines(found: Equilibria | None, box: Box, coarse: int, fine: int) -> list[tuple[str, list[Point]]]:
-    """[(kind, places)] of the pieces of the curves of equilibria that come into the box, looked for at `coarse` places of each piece and drawn through
-    `fine`."""
+    """[(kind, places)] of the pieces of the curves of equilibria that come into the box, looked for at
+    `coarse` places of each piece and drawn through `fine`."""
     out: list[tuple[str, list[Point]]] = []
     for curve in found.curves if found is not None else ():
         for segment in curve.segments:
@@ -362,7 +397,8 @@ def lines(found: Equilibria | None, box: Box, coarse: int, fine: int) -> list[tu
 
 
 def _place(curve: Any, t: float) -> Point | None:
-    """The rates at a place of a curve (a field adds the vertical behind them); None at an end that belongs to it no more."""
+    """The rates at a place of a curve (a field adds the vertical behind them); None at an end that belongs to
+    it no more."""
     try:
         return curve.point(t)[:3]
     except InputError:
@@ -385,9 +421,11 @@ def _inside(curve: Any, ts: list[float], box: Box) -> list[tuple[float, float]]:
 
 
 def _spread(low: float, high: float, number: int) -> list[float]:
-    """Parameters inside (low, high), dense at both ends, geometric towards infinite ones; `show.sampling` does so in arrays."""
+    """Parameters inside (low, high), dense at both ends, geometric towards infinite ones; `show.sampling`
+    does so in arrays."""
     if math.isfinite(low) and math.isfinite(high):
-        return [low + (high - low) * (1 - math.cos(1e-3 + (math.pi - 2e-3) * n / (number - 1))) / 2 for n in range(number)]
+        return [low + (high - low) * (1 - math.cos(1e-3 + (math.pi - 2e-3) * n / (number - 1))) / 2
+                for n in range(number)]
     away = [10 ** (-4 + 8 * n / (number - 1)) for n in range(number)]
     if math.isfinite(low):
         return [low + v * max(1.0, abs(low)) for v in away]

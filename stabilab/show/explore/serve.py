@@ -2,8 +2,9 @@
 
 The page and its answers on the loopback address, by the standard library alone.
 
-Who may ask: a page that knows the random token in the address, from this machine, under the address that was printed. A name that some other server lets
-point here is refused by the header Host, a page of another origin by the header Origin.
+Who may ask: a page that knows the random token in the address, from this machine, under the address that was
+printed. A name that some other server lets point here is refused by the header Host, a page of another origin
+by the header Origin.
 """
 from __future__ import annotations
 
@@ -26,16 +27,20 @@ WAITING = "The first answer is on its way ..."
 
 
 def page(about: dict[str, Any], backend: str, how: str, policy: str = "", **more: Any) -> str:
-    """The HTML. about: of `Session.about`; backend: the template that defines how a question is asked; how: words on it; policy: what the page may load."""
-    return render("explore.html", setup=about | more, backend=backend, how=how, policy=policy, waiting=WAITING)
+    """The HTML. about: of `Session.about`; backend: the template that defines how a question is asked; how:
+    words on it; policy: what the page may load."""
+    return render("explore.html", setup=about | more, backend=backend, how=how, policy=policy,
+                  waiting=WAITING)
 
 
 HOST = "127.0.0.1"
 LONGEST = 1 << 23  # bytes of a question: a certificate has at most half
 PATIENCE = 60.0  # s without a word from a page that keeps its line open
-POLICY = ("default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:; connect-src 'self'; base-uri 'none'; form-action 'none'; "
+POLICY = ("default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:; "
+          "connect-src 'self'; base-uri 'none'; form-action 'none'; "
           "frame-ancestors 'none'")
-HEADERS = {"Cache-Control": "no-store", "Referrer-Policy": "no-referrer", "X-Content-Type-Options": "nosniff", "Content-Security-Policy": POLICY,
+HEADERS = {"Cache-Control": "no-store", "Referrer-Policy": "no-referrer", "X-Content-Type-Options": "nosniff",
+           "Content-Security-Policy": POLICY,
            "Cross-Origin-Resource-Policy": "same-origin"}
 HOW = "The program that opened this page answers it; nothing leaves this machine."
 
@@ -46,12 +51,15 @@ class Explorer(ThreadingHTTPServer):
     daemon_threads = True
 
     def __init__(self, case: Case, port: int = 0) -> None:
-        self.session, self.token, self.newest, self._numbers = Session(case), secrets.token_urlsafe(24), 0, itertools.count(1)
+        self.session, self.token, self.newest, self._numbers = Session(case), secrets.token_urlsafe(
+            24), 0, itertools.count(1)
         self.html = page(self.session.about(), "explore-server.js", HOW).encode()
         try:
             super().__init__((HOST, port), _Handler)
         except (OSError, OverflowError) as error:
-            raise InputError(f"--port: {port} cannot be had: {getattr(error, 'strerror', None) or error}; leave it out, and a free one is taken") from None
+            raise InputError(
+                f"--port: {port} cannot be had: {getattr(error, 'strerror', None) or error}; leave it out, "
+                f"and a free one is taken") from None
 
     @property
     def hosts(self) -> tuple[str, str]:
@@ -95,7 +103,8 @@ class _Handler(BaseHTTPRequestHandler):
 
     def do_POST(self) -> None:
         """A question."""
-        answers: dict[str, Callable[[dict[str, Any]], bytes | None]] = {"answer": self.server.answer, "verify": checked}
+        answers: dict[str, Callable[[dict[str, Any]],
+                                    bytes | None]] = {"answer": self.server.answer, "verify": checked}
         if not self._allowed():
             return
         way = answers.get(self._path() or "")
@@ -168,7 +177,8 @@ class _Handler(BaseHTTPRequestHandler):
 def serve(case: Case, port: int = 0, browser: bool = True, tell: Callable[[str], None] = print) -> None:
     """Serve a case until the program is interrupted. tell: is given the address once it can be opened."""
     with Explorer(case, port) as server:
-        threading.Thread(target=server.session.answer, args=({},), daemon=True).start()  # loads what the first answer needs
+        # loads what the first answer needs
+        threading.Thread(target=server.session.answer, args=({},), daemon=True).start()
         tell(server.address)
         if browser:
             import webbrowser

@@ -1,9 +1,11 @@
 """One explorer session: a case, a change, and what the page shows then.
 
-What a page asks of a case and what it is answered: the verdict of the changed case, and everything that the page draws.
+What a page asks of a case and what it is answered: the verdict of the changed case, and everything that the
+page draws.
 
-An answer for a moving hand is brief (no search for the nearest point of the separatrix, no run of a motion off the axes, a coarser surface); one for a
-resting hand is whole. All of it does without NumPy (then the surfaces are coarser, and no motion is followed off the axes), so that it also runs in a browser.
+An answer for a moving hand is brief (no search for the nearest point of the separatrix, no run of a motion
+off the axes, a coarser surface); one for a resting hand is whole. All of it does without NumPy (then the
+surfaces are coarser, and no motion is followed off the axes), so that it also runs in a browser.
 """
 from __future__ import annotations
 
@@ -53,7 +55,8 @@ def rows(case: Case, motion: Motion, units: Units) -> list[list[str]]:
     found = [["start", units.vector(motion.at[:3], units.rates)],
              *([name, greek(words)] for name, words in margins(motion, units))]
     if motion.extremes is not None and not any(map(math.isnan, sum(map(list, motion.extremes), []))):
-        for component, pair in zip(case.scene.components, but_for_rounding(motion.extremes, motion.tolerance)):
+        for component, pair in zip(case.scene.components,
+                                   but_for_rounding(motion.extremes, motion.tolerance)):
             found.append([component.replace("omega", "ω"), _range(*pair, units)])
     return [*found, ["why", lettered(units.words(motion.because))]]
 
@@ -62,12 +65,14 @@ def _range(low: float, high: float, units: Units) -> str:
     """Least and greatest rate."""
     least, greatest = (units.told(value, units.rates) for value in (low, high))
     if math.isinf(low) or math.isinf(high):
-        return "without end both ways" if low == -high else f"from {least} up, without end" if math.isinf(high) else f"from {greatest} down, without end"
+        return ("without end both ways" if low == -high else f"from {least} up, without end"
+                if math.isinf(high) else f"from {greatest} down, without end")
     return f"{least} to {greatest}"
 
 
 def equilibrium_rows(found: Equilibria, units: Units) -> dict[str, Any]:
-    """{reason, rows of (where, verdict)}: of a curve a state on each of its pieces, as `classify` tells them."""
+    """{reason, rows of (where, verdict)}: of a curve a state on each of its pieces, as `classify` tells them.
+    """
     told = [[units.vector(point.at[:3], units.rates), point.verdict] for point in found.points]
     for curve in found.curves:
         for verdict, samples in groupby(curve.samples, lambda sample: sample.verdict):
@@ -75,18 +80,23 @@ def equilibrium_rows(found: Equilibria, units: Units) -> dict[str, Any]:
             where = f"{units.axes.sentence(curve.name)}, such as {units.vector(slowest.at[:3], units.rates)}"
             told.append([lettered(where), verdict])
     more = len(told) - MOST
-    return {"reason": lettered(units.words(found.reason)), "rows": told[:MOST] + ([[f"and {more} more", ""]] if more > 0 else [])}
+    return {"reason": lettered(units.words(found.reason)),
+            "rows": told[:MOST] + ([[f"and {more} more", ""]] if more > 0 else [])}
 
 
-PLAIN = {True: (18, 17), False: (40, 33)}  # rows of a sheet, and columns of half of it: while the hand moves, and when it rests
+# rows of a sheet, and columns of half of it: while the hand moves, and when it rests
+PLAIN = {True: (18, 17), False: (40, 33)}
 GRADED = (48, 97)
 FARTHEST = 1e4  # times the fold's radius: how far a sheet is followed for a large box
-POINTS = {True: (16, 40), False: (40, 90)}  # of a piece of a curve of equilibria: to find what is in the box, and to draw it
+# of a piece of a curve of equilibria: to find what is in the box, and to draw it
+POINTS = {True: (16, 40), False: (40, 90)}
 TURNS = 60.0  # rad of turn at most that are drawn
 FOLLOWED = "the torque is off the principal axes: keep still, and the motion is followed"
 WORKED_OUT = "keep still, and this motion is worked out"
 NO_ARRAYS = "this motion has to be followed, which needs NumPy, and that is not here"
-SWEPT = "The file has a [sweep]: the page is about the numbers in its body; stabilab fate and report answer every combination."
+SWEPT = (
+    "The file has a [sweep]: the page is about the numbers in its body; stabilab fate and report answer "
+    "every combination.")
 QUICK = 2_000_000  # multiplications for the proof of a time at a limit: some tenths of a second
 PATIENCE = 0.12  # s: a motion whose kind took longer the last time waits until the hand rests
 
@@ -109,13 +119,16 @@ class Session:
 
     def about(self) -> dict[str, Any]:
         """What a page must know before its first question."""
-        return {"name": self.case.name, "title": written(self.case.heading), "groups": controls.groups(self.case, self.units),
-                "axes": [self.units.axes.short(n) for n in (1, 2, 3)], "rates": self.units.rates[0], "scaled": self.units.scaled}
+        return {"name": self.case.name, "title": written(self.case.heading),
+                "groups": controls.groups(self.case, self.units),
+                "axes": [self.units.axes.short(n) for n in (1, 2, 3)], "rates": self.units.rates[0],
+                "scaled": self.units.scaled}
 
     def answer(self, asked: dict[str, Any], stopped: Callable[[], bool] = lambda: False) -> bytes:
-        """The answer to a request as a framed message (`bag`). asked: as of `changed`, with moving (whether a hand still moves), box (that of the
-        last answer, or None) and click (turn and rate of a point of the phase plane to start from, or None). stopped: asked on the way; Stopped is raised
-        once it holds. What cannot be answered is told under "error"."""
+        """The answer to a request as a framed message (`bag`). asked: as of `changed`, with moving (whether a
+        hand still moves), box (that of the last answer, or None) and click (turn and rate of a point of the
+        phase plane to start from, or None). stopped: asked on the way; Stopped is raised once it holds. What
+        cannot be answered is told under "error"."""
         bag = Bag()
         try:
             return bag.framed(self._answer(asked, bag, stopped))
@@ -143,30 +156,36 @@ class Session:
         twin = self._twin(case)
         at_rest = self._at_rest(case, twin, moving)
         form = None if twin is None else twin.quadratic()
-        times, path = self._once("line", (case.scene, case.state, case.span, moving), lambda: line(case, form, _length(case, form), moving))
+        times, path = self._once("line", (case.scene, case.state, case.span, moving),
+                                 lambda: line(case, form, _length(case, form), moving))
         picture = self._space(bag, case, twin, found, at_rest, path, asked.get("box"), moving)
-        made = {"headline": greek(words), "fate": "undecided" if found is None else found.fate.word, "moving": moving, "start": clicked,
+        made = {"headline": greek(words), "fate": "undecided" if found is None else found.fate.word,
+                "moving": moving, "start": clicked,
                 "note": " ".join(filter(None, (note, self._swept, _law(found, self.units),
                                                    *limiting.beside(case.caveats, self.units)))),
-                "toml": case.text, "rows": self._axes + ([] if found is None else tables.rows(case, found, self.units)), "space": picture,
+                "toml": case.text, "rows": self._axes
+                + ([] if found is None else tables.rows(case, found, self.units)), "space": picture,
                 "plane": None if twin is None else planes.drawn_planes(bag, twin, case.state, self.units),
                 "time": planes.over_time(bag, case, found, times, path, self.units)}
         made["equilibria"] = tables.equilibrium_rows(at_rest, self.units) if at_rest else other.NOT_YET
         return made | {"analysis": 1e3 * (settled - began), "work": 1e3 * (time.process_time() - began)}
 
     def _motion(self, case: Case, moving: bool, stopped) -> tuple[Motion | None, str]:
-        """(what is known of the motion, the verdict in a line); None where a run would keep a moving hand waiting, or NumPy is needed and not here."""
+        """(what is known of the motion, the verdict in a line); None where a run would keep a moving hand
+        waiting, or NumPy is needed and not here."""
         kind = kind_of(self._twin(case) or case.scene)
         runs = KINDS[kind].follows
         if moving and (runs or self._cost.get(kind, 0.0) > PATIENCE):
-            return None, f"UNDECIDED so far: {FOLLOWED if runs else WORKED_OUT}" if present("numpy") else f"UNDECIDED: {NO_ARRAYS}"
+            return None, f"UNDECIDED so far: {FOLLOWED if runs else WORKED_OUT}" if present(
+                "numpy") else f"UNDECIDED: {NO_ARRAYS}"
 
         def tell(*_):
             if stopped():
                 raise Stopped
         began = time.process_time()
         try:
-            found = motion(case.scene, case.start, brief=moving, exact=case.exact_state, tell=tell if runs else None)
+            found = motion(case.scene, case.start, brief=moving, exact=case.exact_state,
+                           tell=tell if runs else None)
         except ModuleNotFoundError as error:
             if error.name != "numpy":
                 raise
@@ -175,19 +194,24 @@ class Session:
         return found, ""
 
     def _first(self, case: Case, found: Motion) -> Motion:
-        """The motion with the time at which it reaches the limit of its case, by work that a hand waits for."""
+        """The motion with the time at which it reaches the limit of its case, by work that a hand waits for.
+        """
         from ...answers.passage.of_case import with_first
         return with_first(case, found, QUICK)
 
     def _twin(self, case: Case) -> AnyScene | None:
         """The scene of wheel and torque alone with the same rates; None where there is none."""
-        return None if other.needed(case.scene) else case.scene if case.scene.plain else gyrostat_scene(content(case.scene))
+        return (None if other.needed(case.scene) else case.scene if case.scene.plain
+                else gyrostat_scene(content(case.scene)))
 
     def _at_rest(self, case: Case, twin: AnyScene | None, moving: bool) -> Equilibria | None:
-        """The equilibria; None where they take so long that they wait until the hand rests, or are not known."""
+        """The equilibria; None where they take so long that they wait until the hand rests, or are not known.
+        """
         if twin is not None:
             return self._once("equilibria", twin, lambda: equilibria(twin))
-        if moving and self._cost.get("equilibria", math.inf) > PATIENCE and self._kept.get("equilibria", (None,))[0] != case.scene:
+        if moving and self._cost.get("equilibria",
+                                     math.inf) > PATIENCE and self._kept.get("equilibria",
+                                                                             (None,))[0] != case.scene:
             return None
         began = time.process_time()
         found = self._once("equilibria", case.scene, lambda: other.at_rest(case.scene))
@@ -195,16 +219,22 @@ class Session:
         return found
 
     def _space(self, bag, case, twin, found, at_rest, path, asked, moving):
-        near, (bare, ghost) = space.near_part(path, found), (None, False) if twin is None else _without_tilt(twin)
+        near, (bare, ghost) = space.near_part(path,
+                                              found), (None, False) if twin is None else _without_tilt(twin)
         marks = space.marks_of(case.state, found, at_rest)
-        box = space.box_of(asked, [*near, *(m["at"] for m in marks if m["kind"].startswith(("start", "nearest")))], moving or ghost)
+        box = space.box_of(asked,
+                           [*near, *(m["at"] for m in marks if m["kind"].startswith(("start", "nearest")))],
+                           moving or ghost)
         sheets, words = ((), other.why(case.scene)) if bare is None else self._sheets(bare, box, moving)
         shown = [(number, sheet) for number, sheet in enumerate(sheets) if space.seen(sheet, box)]
         if ghost:
-            words = "No separatrix is known for a torque off the axes" + (": the surface drawn is that of the torque without its tilt" if shown else "")
-        names = [planes.labelled(component.replace("omega", "ω"), self.units.rates[0]) for component in case.scene.components]
+            words = ("No separatrix is known for a torque off the axes"
+                     + (": the surface drawn is that of the torque without its tilt" if shown else ""))
+        names = [planes.labelled(component.replace("omega", "ω"), self.units.rates[0])
+                 for component in case.scene.components]
         number = POINTS[moving]
-        rests = self._once("lines", (case.scene, box, number, at_rest is None), lambda: space.lines(at_rest, box, *number))
+        rests = self._once("lines", (case.scene, box, number, at_rest is None),
+                           lambda: space.lines(at_rest, box, *number))
         made = space.drawn_space(bag, box, names, self.units.rates[1], shown, rests, near, marks, ghost)
         return made | {"words": words, "box": {"middle": box.middle, "half": box.half}}
 
@@ -236,17 +266,21 @@ class Session:
 
 
 def _surface(scene: AnyScene, reach: float, moving: bool) -> tuple[Sequence[PlainSheet], str]:
-    """The separatrix: coarse in plain floats for a moving hand, graded by NumPy, where that is here, for one that rests."""
+    """The separatrix: coarse in plain floats for a moving hand, graded by NumPy, where that is here, for one
+    that rests."""
     if moving or not present("numpy"):
         return plain_separatrix(scene, reach, *PLAIN[moving])
     from ...orbit.separatrix.sheets import separatrix
     found = separatrix(scene, reach=reach, shape=GRADED)
-    return [PlainSheet(sheet.name, *sheet.points.shape[:2], sheet.points.reshape(-1, 3).tolist()) for sheet in found.sheets], found.reason
+    return [PlainSheet(sheet.name, *sheet.points.shape[:2], sheet.points.reshape(-1, 3).tolist())
+            for sheet in found.sheets], found.reason
 
 
 def _law(found: Motion | None, units: Units) -> str:
-    """What an approximate law of the scene says of itself along the motion: that it holds, that it does not, or that it was not judged."""
-    return "" if found is None or found.validity is None else _capital(lettered(units.words(found.validity.words)))
+    """What an approximate law of the scene says of itself along the motion: that it holds, that it does not,
+    or that it was not judged."""
+    return ("" if found is None or found.validity is None
+            else _capital(lettered(units.words(found.validity.words))))
 
 
 def _capital(words: str) -> str:
@@ -254,7 +288,8 @@ def _capital(words: str) -> str:
 
 
 def _length(case: Case, form: QuadraticForm | None = None) -> float:
-    """How far a motion is drawn: over the span of the case, so many radians of turn at most. form: its rates, where they are quadratic."""
+    """How far a motion is drawn: over the span of the case, so many radians of turn at most. form: its rates,
+    where they are quadratic."""
     rate, torque = math.hypot(*case.state), math.hypot(*form.coefficients[3]) if form is not None else 0.0
     natural = TURNS / max(rate, math.sqrt(torque)) if rate or torque else 1.0
     span = None if case.span is None else max(case.span[1], -case.span[0])
@@ -270,13 +305,15 @@ def _without_tilt(scene: AnyScene) -> tuple[AnyScene, bool]:
     main = max(acting, key=lambda n: abs(torque[n]))
     kept = tuple(v if n == main else 0 for n, v in enumerate(torque))
     if scene.variables == "scaled":
-        return ScaledGyrostat(*scene.exact_ab, tuple(v if n == main else 0 for n, v in enumerate(scene.exact_mu))), True
+        return ScaledGyrostat(*scene.exact_ab,
+                              tuple(v if n == main else 0 for n, v in enumerate(scene.exact_mu))), True
     others = [effect for effect in scene.effects if effect.name != "constant_torque"]
     return Scene(scene.body, *others, effect_class("constant_torque")(kept)), True
 
 
 def checked(asked: dict[str, Any]) -> bytes:
-    """The findings on asked["text"], as a framed message: status, about and a row a claim; "error" where it is no certificate."""
+    """The findings on asked["text"], as a framed message: status, about and a row a claim; "error" where it
+    is no certificate."""
     text = asked.get("text")
     try:
         claims = parsed(text.encode() if isinstance(text, str) else b"")
@@ -285,4 +322,5 @@ def checked(asked: dict[str, Any]) -> bytes:
         return Bag().framed({"error": f"This is no certificate of stabilab classify --certify: {error}"})
     silent = f"; nothing is claimed of: {', '.join(found.silent)}" if found.silent else ""
     return Bag().framed({"status": found.status, "about": about_line(about(claims)) + silent,
-                         "findings": [{"claim": one.claim, "status": one.status, "reason": one.reason} for one in found.findings]})
+                         "findings": [{"claim": one.claim, "status": one.status, "reason": one.reason}
+                                      for one in found.findings]})

@@ -6,8 +6,10 @@ from pathlib import Path
 from ...errors import InputError
 
 PICTURES = (".png", ".svg", ".pdf")
-OF_FILES = (*PICTURES, ".jpg", ".jpeg", ".gif", ".csv", ".json", ".nc", ".txt", ".md", ".tex", ".html", ".htm", ".toml",
-            ".vtp", ".vtk", ".vtu", ".glb", ".gltf", ".stl", ".obj", ".ply", ".zip")  # no one names a folder so
+OF_FILES = (*PICTURES, ".jpg", ".jpeg", ".gif", ".csv", ".json", ".nc", ".txt", ".md", ".tex", ".html",
+            ".htm", ".toml",
+            # no one names a folder so
+            ".vtp", ".vtk", ".vtu", ".glb", ".gltf", ".stl", ".obj", ".ply", ".zip")
 
 
 def file(path, known) -> Path:
@@ -26,7 +28,9 @@ def folder(path) -> Path:
     """The path of a folder that is to be filled; InputError where it is named as a file is."""
     path = Path(path)
     if ending(path) in OF_FILES and not path.is_dir():
-        raise InputError(f"{path}: expected the name of a folder, for several files are written; got one that ends in {path.suffix}")
+        raise InputError(
+            f"{path}: expected the name of a folder, for several files are written; got one that ends in "
+            f"{path.suffix}")
     return path
 
 
@@ -36,7 +40,7 @@ def ending(path) -> str:
 
 
 def labelled(path, case) -> Path:
-    """Where the output of one case goes: the path itself, or, for a combination of [sweep], with its label before the ending
-    ("run.csv" becomes "run-2-1.csv")."""
+    """Where the output of one case goes: the path itself, or, for a combination of [sweep], with its label
+    before the ending ("run.csv" becomes "run-2-1.csv")."""
     path = Path(path)
     return path.with_name(f"{path.stem}{case.variant}{path.suffix}")

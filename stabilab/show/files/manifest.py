@@ -1,6 +1,8 @@
-"""What an output folder was made from: manifest.json with inputs, versions, command, processor, and the hash of every file.
+"""What an output folder was made from: manifest.json with inputs, versions, command, processor, and the hash
+of every file.
 
-It is written last and describes every command whose files are in the folder; a command that is not in it did not end.
+It is written last and describes every command whose files are in the folder; a command that is not in it did
+not end.
 """
 from __future__ import annotations
 
@@ -18,7 +20,8 @@ from . import endings
 SCHEMA, NAME = "stabilab.manifest/1", "manifest.json"
 TIMED = ("precision.html", "precision/", "growth.html", "growth.csv", "growth/", "effects.html",
          "effects.png")  # pages and pictures that show measured times: no two runs give the same bytes
-PACKAGES = ("numpy", "scipy", "sympy", "mpmath", "python-flint", "heyoka", "numba", "matplotlib", "pillow", "vtk", "pyvista",
+PACKAGES = ("numpy", "scipy", "sympy", "mpmath", "python-flint", "heyoka", "numba", "matplotlib", "pillow",
+            "vtk", "pyvista",
             "jinja2", "xarray", "typer")  # whatever can change a byte of an output
 # the only random numbers: signs of a change in the last place of a start; states whose answers are timed
 SEEDS = {"analysis.precision": 1, "analysis.precision_digits": 1, "analysis.cost_growth": 4}
@@ -26,10 +29,12 @@ SEEDS = {"analysis.precision": 1, "analysis.precision_digits": 1, "analysis.cost
 
 @contextmanager
 def written(out, arguments=None, inputs=(), tolerances=None):
-    """A folder for the files of one command. When the block ends well they are put into `out` and manifest.json is written.
+    """A folder for the files of one command. When the block ends well they are put into `out` and
+    manifest.json is written.
 
-    arguments: of the command line, None for a call from Python, which cannot be repeated; inputs: paths of what the command
-    reads, hashed now; tolerances: what -> how exact. Raises InputError where an input or `out` is of no use.
+    arguments: of the command line, None for a call from Python, which cannot be repeated; inputs: paths of
+    what the command reads, hashed now; tolerances: what -> how exact. Raises InputError where an input or
+    `out` is of no use.
     """
     out = endings.folder(out)
     run = _run(out, arguments, [_described(path) for path in inputs])
@@ -59,7 +64,8 @@ def read(path) -> list[dict]:
     except OSError as error:
         raise InputError(f"{path}: cannot be read: {error.strerror or error}") from None
     except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
-        raise InputError(f"{path}: expected a manifest.json with schema {SCHEMA}, as stabilab writes into its output "
+        raise InputError(f"{path}: expected a manifest.json with schema {SCHEMA}, as stabilab writes into "
+                         f"its output "
                          "folders") from None
     return runs
 
@@ -93,7 +99,8 @@ def environment() -> dict:
             found[name] = None
     return {"program": {"name": "stabilab", "version": __version__, "sha256": _sources()},
             "versions": {"python": platform.python_version(), **found},
-            "machine": {"system": platform.system(), "architecture": platform.machine(), "cpu_features": cpu_features()}}
+            "machine": {"system": platform.system(), "architecture": platform.machine(),
+                        "cpu_features": cpu_features()}}
 
 
 def cpu_features() -> list[str]:
@@ -111,9 +118,12 @@ def _sources() -> str:
 
 
 def _run(out, arguments, inputs) -> dict:
-    here = os.path.relpath(Path.cwd(), out.resolve())  # tells from where paths are meant, and is the same on every machine
-    return {"schema": SCHEMA, "command": None if arguments is None else " ".join(["stabilab", *map(_quoted, arguments)]),
-            "arguments": None if arguments is None else [str(word) for word in arguments], "started_in": Path(here).as_posix(),
+    # tells from where paths are meant, and is the same on every machine
+    here = os.path.relpath(Path.cwd(), out.resolve())
+    return {"schema": SCHEMA, "command": None if arguments is None
+            else " ".join(["stabilab", *map(_quoted, arguments)]),
+            "arguments": None if arguments is None else [str(word) for word in arguments],
+            "started_in": Path(here).as_posix(),
             "inputs": inputs, **environment(), "seeds": SEEDS}
 
 
@@ -136,7 +146,8 @@ def _output(file, folder) -> dict:
 
 
 def _kept(out, replaced) -> list[dict]:
-    """The earlier commands that still have files of their own here, each with those; none where the manifest is of no use."""
+    """The earlier commands that still have files of their own here, each with those; none where the manifest
+    is of no use."""
     try:
         runs = read(out / NAME)
     except InputError:

@@ -18,9 +18,9 @@ ENDED = (OK, NO_RENDERING)  # without a renderer everything but the pictures is 
 
 
 def rerun(path, out=None) -> list[str]:
-    """Repeat every command of the manifest (or folder) `path`, into the folder `out` or one that vanishes; the answer in a line, then
-    then what became of each file, those that differ first. Raises InputError where inputs are missing or changed, ToleranceNotMet (with the lines) where
-    files differ."""
+    """Repeat every command of the manifest (or folder) `path`, into the folder `out` or one that vanishes;
+    the answer in a line, then then what became of each file, those that differ first. Raises InputError where
+    inputs are missing or changed, ToleranceNotMet (with the lines) where files differ."""
     path = Path(path)
     runs = manifest.read(path)
     folder = (path if path.is_dir() else path.parent).resolve()
@@ -29,7 +29,8 @@ def rerun(path, out=None) -> list[str]:
             raise InputError(f"{path}: made by a call from Python, not by a command: it cannot be repeated")
         if run["arguments"][:1] not in COMMANDS:
             known = ", ".join(name for name, in COMMANDS)
-            raise InputError(f"{path}: expected a command that fills a folder ({known}), got {run['command']!r}")
+            raise InputError(
+                f"{path}: expected a command that fills a folder ({known}), got {run['command']!r}")
     starts = [_start(run, folder) for run in runs]
     lines: list[str] = []
     words: list[tuple[bool, str]] = []
@@ -42,10 +43,12 @@ def rerun(path, out=None) -> list[str]:
             word = _compared(row, made)
             words.append((word in ("identical", TIMED), f"  {row['path']}: {word}"))
         paths = {row["path"] for run in runs for row in run["outputs"]}
-        lines += [line for _, line in sorted(words, key=lambda one: one[0])] + [f"  {new}: new" for new in made if new not in paths]
+        lines += ([line for _, line in sorted(words, key=lambda one: one[0])]
+                  + [f"  {new}: new" for new in made if new not in paths])
     differ, count = sum(not same for same, _ in words), len(words)
     if differ:
-        raise ToleranceNotMet("\n".join([f"{differ} of {count} files {'differs' if differ == 1 else 'differ'}", *lines]))
+        raise ToleranceNotMet(
+            "\n".join([f"{differ} of {count} files {'differs' if differ == 1 else 'differ'}", *lines]))
     return [f"all {count} files are accounted for: none differs", *lines]
 
 
@@ -61,11 +64,12 @@ def _compared(row, made) -> str:
 
 
 def _start(run, folder) -> Path:
-    """The folder from which the command's paths lead to its inputs: where it was started, or else here. InputError names
-    what changed."""
+    """The folder from which the command's paths lead to its inputs: where it was started, or else here.
+    InputError names what changed."""
     faults = {}
     for start in ((folder / run["started_in"]).resolve(), Path.cwd()):
-        faults[start] = [f"{row['path']}: {word}" for row in run["inputs"] if (word := _judged(start / row["path"], row))]
+        faults[start] = [f"{row['path']}: {word}" for row in run["inputs"]
+                         if (word := _judged(start / row["path"], row))]
         if start.is_dir() and not faults[start]:
             return start
     fewest = min(faults.values(), key=len) or ["the folder in which it was started is not there"]
@@ -103,14 +107,17 @@ def _target(out):
         Path(out).mkdir(parents=True, exist_ok=True)
         yield Path(out).resolve()
     else:
-        with tempfile.TemporaryDirectory(prefix="stabilab-rerun-") as folder, undoing(partial(shutil.rmtree, folder, True)):
+        with tempfile.TemporaryDirectory(prefix="stabilab-rerun-") as folder, undoing(
+            partial(shutil.rmtree, folder, True)):
             yield Path(folder).resolve()
 
 
 def _repeat(arguments, start, target):
     """Run the command once more, its files going into `target`."""
-    child = subprocess.Popen([sys.executable, "-m", "stabilab", *_redirected(arguments), "--out", str(target)], cwd=start,
-                             stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+    child = subprocess.Popen([sys.executable, "-m", "stabilab", *_redirected(arguments), "--out",
+                              str(target)], cwd=start,
+                             stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
+                             text=True)
     with undoing(child.kill):
         words = child.communicate()[1].strip()
     if child.returncode not in ENDED:

@@ -29,16 +29,20 @@ def write(case, run, path) -> Path:
 
 def _csv(case, run, path):
     names, rows = columns(run)
-    path.write_text(comma.lines([(case.scene.time_unit, *names), *((float(t), *row) for t, row in zip(run.t, rows))]), encoding="utf-8", newline="")
+    path.write_text(comma.lines([(case.scene.time_unit, *names),
+                                 *((float(t), *row) for t, row in zip(run.t, rows))]), encoding="utf-8",
+                    newline="")
 
 
 def _netcdf(case, run, path):
     import xarray
     time = "t" if case.variables == "physical" else "tau"
     data = xarray.Dataset(
-        of_parts(run.state, time, run.error), {time: ((time,), run.t, {"units": "s" if case.variables == "physical" else "1"}), "axis": [1, 2, 3]},
+        of_parts(run.state, time, run.error),
+        {time: ((time,), run.t, {"units": "s" if case.variables == "physical" else "1"}), "axis": [1, 2, 3]},
         {"title": case.title, "source": case.source, "case": case.text, "program": f"stabilab {__version__}",
-         "model": run.model, "method": run.method, **({"rtol": run.rtol} if run.rtol else {}), "status": run.status,
+         "model": run.model, "method": run.method, **({"rtol": run.rtol} if run.rtol else {}),
+         "status": run.status,
          **{f"departure_from_{name}": value for name, value in run.invariant_drift.items()}})
     data.to_netcdf(path, engine="scipy")  # NetCDF 3: every reader knows it, and no HDF5 library is needed
 

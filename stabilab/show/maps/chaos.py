@@ -33,7 +33,8 @@ TOP = 4.0          # of MEGNO's colours
 
 
 def write(case: Any, found: Chaos, out: str | Path) -> Path:
-    """Draw the motion of a case and write the picture; the same case gives the same bytes. Raises InputError for another ending."""
+    """Draw the motion of a case and write the picture; the same case gives the same bytes. Raises InputError
+    for another ending."""
     demand(*style.PACKAGES)
     target, one = endings.file(out, endings.PICTURES), subject(case)
     with style.drawing() as plt:
@@ -80,7 +81,8 @@ def _map(figure: Any, ax: Any, beside: Any, one: Subject, until: float) -> None:
     figure.colorbar(shown, ax=ax, label="MEGNO (2 on tori, grows where chaotic)", extend="both")
     at = one.state
     if abs(at[plane.axis] - plane.level) < 1e-9 * max(map(abs, at)):
-        ax.plot([at[plane.across[0]] * scale.rate[1]], [at[plane.across[1]] * scale.rate[1]], **style.MARKER["start"])
+        ax.plot([at[plane.across[0]] * scale.rate[1]], [at[plane.across[1]] * scale.rate[1]],
+                **style.MARKER["start"])
     ax.set_xlabel(beside.get_xlabel())
     ax.set_ylabel(beside.get_ylabel())
     ax.set_title(f"motions from this plane, each followed for {number(until)} {one.scene.time_unit}")
@@ -95,7 +97,8 @@ def _map(figure: Any, ax: Any, beside: Any, one: Subject, until: float) -> None:
 # --- Whether a motion is regular or chaotic, in words, JSON and CSV: the label, how it is known, MEGNO over
 # time
 SCHEMA = "stabilab.chaos/1"
-FIRST = {Order.REGULAR: "REGULAR as far as it was followed", Order.CHAOTIC: "CHAOTIC", Order.SPIN_UP: "SPIN-UP", Order.UNDECIDED: "UNDECIDED"}
+FIRST = {Order.REGULAR: "REGULAR as far as it was followed", Order.CHAOTIC: "CHAOTIC",
+         Order.SPIN_UP: "SPIN-UP", Order.UNDECIDED: "UNDECIDED"}
 
 
 def text(rows: list[tuple[Any, Chaos]]) -> str:
@@ -110,20 +113,25 @@ def _of_one(case: Any, found: Chaos) -> str:
     lines = [f"{printable(case.name)}: {'REGULAR' if resting else FIRST[label]}: {found.because}"]
     if label == Order.CHAOTIC:
         rate, error = float(found.lyapunov), float(found.lyapunov_error)
-        lines.append(f"  neighbours part at {rate:.3g} ± {error:.1g} 1/{unit}: a small change doubles in {math.log(2) / rate:.3g} {unit}")
+        lines.append(
+            f"  neighbours part at {rate:.3g} ± {error:.1g} 1/{unit}: a small change doubles in "
+            f"{math.log(2) / rate:.3g} {unit}")
     if label != Order.SPIN_UP:
         lines.append("  an indicator of a finite time, no proof; time and MEGNO:")
-        lines += [f"  {time:12.6g} {unit}  {0.0 if abs(value) < 5e-5 else value:9.4f}" for time, value in zip(found.times.tolist(), found.history.tolist())]
+        lines += [f"  {time:12.6g} {unit}  {0.0 if abs(value) < 5e-5 else value:9.4f}" for time,
+                  value in zip(found.times.tolist(), found.history.tolist())]
     return "\n".join(lines)
 
 
 def swept(rows: list[tuple[Any, Chaos]]) -> tuple[str, list[tuple[str, str]], list[list[str]]]:
-    """(the answer in a line, columns, rows) of a sweep: how many motions are what, and of each MEGNO at the last time; where one
-    is chaotic, also how soon neighbours part."""
+    """(the answer in a line, columns, rows) of a sweep: how many motions are what, and of each MEGNO at the
+    last time; where one is chaotic, also how soon neighbours part."""
     labels = [Order(int(found.labels)) for _, found in rows]
     told = ", ".join(f"{labels.count(one)} {FIRST[one]}" for one in Order if one in labels)
-    cells = [[FIRST[label].split()[0], f"{found.times[-1] / found.turn:,.0f}", _number(float(found.megno), ".4f"),
-              _number(math.log(2) / float(found.lyapunov) if label == Order.CHAOTIC else math.nan, ".3g")] for label, (_, found) in zip(labels, rows)]
+    cells = [[FIRST[label].split()[0], f"{found.times[-1] / found.turn:,.0f}",
+              _number(float(found.megno), ".4f"),
+              _number(math.log(2) / float(found.lyapunov) if label == Order.CHAOTIC else math.nan, ".3g")]
+             for label, (_, found) in zip(labels, rows)]
     columns = [("motion", ""), ("turns", ""), ("MEGNO", ""), ("doubles in", _unit(rows[0][0]))]
     shown = len(columns) if Order.CHAOTIC in labels else -1
     return told, columns[:shown], [row[:shown] for row in cells]
@@ -140,20 +148,26 @@ def _unit(case: Any) -> str:
 
 def as_dict(case: Any, found: Chaos) -> dict[str, Any]:
     """One object of `stabilab chaos --json`."""
-    return {"schema": SCHEMA, "case": case.name, "variables": case.variables, "answer": Order(int(found.labels)).word, "because": found.because,
-            "megno": float(found.megno), "lyapunov": float(found.lyapunov), "lyapunov_uncertainty": float(found.lyapunov_error),
+    return {"schema": SCHEMA, "case": case.name, "variables": case.variables,
+            "answer": Order(int(found.labels)).word, "because": found.because,
+            "megno": float(found.megno), "lyapunov": float(found.lyapunov),
+            "lyapunov_uncertainty": float(found.lyapunov_error),
             "turn": found.turn, "times": found.times.tolist(), "history": found.history.tolist()}
 
 
 def json(rows: list[tuple[Any, Chaos]], laws: Sequence[Any]) -> str:
-    """One object a case, a list of them for several. laws: how far the approximate laws of each hold, or None."""
+    """One object a case, a list of them for several. laws: how far the approximate laws of each hold, or
+    None."""
     told = [as_dict(*row) | law.key(held, row[0]) for row, held in zip(rows, laws)]
     return as_json(told if len(told) > 1 else told[0])
 
 
 def csv(rows: list[tuple[Any, Chaos]], laws: Sequence[Any]) -> str:
     """A line for each case and time. laws: as of `json`."""
-    told = [cell(case, caveats_of(case.scene, validity=held, file=case.caveats)) for (case, _), held in zip(rows, laws)]
+    told = [cell(case, caveats_of(case.scene, validity=held, file=case.caveats)) for (case, _),
+            held in zip(rows, laws)]
     return comma.lines([["case", "answer", "time", "megno", "caveats"],
-                        *([case.name, Order(int(found.labels)).word, time, None if math.isnan(value) else value, caveats]
-                          for (case, found), caveats in zip(rows, told) for time, value in zip(found.times.tolist(), found.history.tolist()))])
+                        *([case.name, Order(int(found.labels)).word, time,
+                           None if math.isnan(value) else value, caveats]
+                          for (case, found), caveats in zip(rows, told) for time,
+                          value in zip(found.times.tolist(), found.history.tolist()))])

@@ -20,7 +20,20 @@ from ..plot.to_file import check_size
 from ..terminal.letters import written
 from ..units import Units, units_of
 from .basins import dataset as basin_data
-from .shades import FATES, FLAGS, SAMPLE, dimensions, flag_legend, label, light, looks, own_value, scale_axes, short_label, spoken_key
+from .shades import (
+    FATES,
+    FLAGS,
+    SAMPLE,
+    dimensions,
+    flag_legend,
+    label,
+    light,
+    looks,
+    own_value,
+    scale_axes,
+    short_label,
+    spoken_key,
+)
 
 if TYPE_CHECKING:
     import xarray
@@ -28,14 +41,18 @@ if TYPE_CHECKING:
 
 # --- A sweep along one axis: a curve for every number, the fate (or how it is known) as the colour behind
 # it
-TOGETHER = (("margin",), ("distance",), ("least", "greatest"), ("period",), ("when_low", "when_high"), ("equilibria", "stable", "unstable", "open"))
+TOGETHER = (("margin",), ("distance",), ("least", "greatest"), ("period",), ("when_low", "when_high"),
+            ("equilibria", "stable", "unstable", "open"))
 
 
 def curves(data: Any, plan: Any, kind: str, along: str, size: Any, plt: Any) -> Any:
-    """The figure: a panel for each question; of a column other than the fate, the panel that it is in alone."""
+    """The figure: a panel for each question; of a column other than the fate, the panel that it is in alone.
+    """
     panels = [[name for name in names if name in data] for names in TOGETHER if kind in (*FLAGS, *names)]
-    panels = [names for names in panels if names and np.isfinite(np.asarray(data[names[0]], float)).any()] or [[]]
-    figure, axes = plt.subplots(len(panels), 1, sharex=True, squeeze=False, layout="constrained", figsize=size or (8, 1.4 + 2.2 * len(panels)))
+    panels = ([names for names in panels if names and np.isfinite(np.asarray(data[names[0]], float)).any()]
+              or [[]])
+    figure, axes = plt.subplots(len(panels), 1, sharex=True, squeeze=False, layout="constrained",
+                                figsize=size or (8, 1.4 + 2.2 * len(panels)))
     x, behind = np.asarray(data[along]), kind if kind in FLAGS else "fate"
     order = np.argsort(x)
     for ax, names in zip(axes[:, 0], panels):
@@ -46,7 +63,9 @@ def curves(data: Any, plan: Any, kind: str, along: str, size: Any, plt: Any) -> 
         scale_axes(ax, x)
     axes[-1, 0].set_xlabel(label(data, along))
     axes[0, 0].set_title(style.literal(data.attrs.get("title", "")), loc="left", wrap=True)
-    own = own_value(plan, next(n for n, axis in enumerate(plan.axes) if axis.key.name == data[along].attrs["long_name"]))
+    own = own_value(plan,
+                    next(n for n, axis in enumerate(plan.axes)
+                         if axis.key.name == data[along].attrs["long_name"]))
     if own is not None and x.min() <= own <= x.max():
         for ax in axes[:, 0]:
             ax.axvline(own, color=style.BLACK, linewidth=0.8, linestyle=":", label="the case itself")
@@ -59,7 +78,8 @@ def _bands(ax, x, flags, look):
     edges = np.concatenate([[x[0]], 0.5 * (x[1:] + x[:-1]), [x[-1]]])
     cuts = [0, *(np.flatnonzero(np.diff(flags)) + 1), len(flags)]
     for first, last in zip(cuts, cuts[1:]):
-        ax.axvspan(edges[first], edges[last], facecolor=light(look[int(flags[first])][1], 0.22), linewidth=0, zorder=0)
+        ax.axvspan(edges[first], edges[last], facecolor=light(look[int(flags[first])][1], 0.22), linewidth=0,
+                   zorder=0)
 
 
 def _lines(ax, data, x, order, names):
@@ -69,16 +89,21 @@ def _lines(ax, data, x, order, names):
         if name != "margin":
             values = _broken(data, order, values)
         if name in ("equilibria", "stable", "unstable", "open"):
-            ax.step(x[order], np.where(values < 0, np.nan, values), where="mid", color=style.SERIES[n], linestyle=("-", "--", ":", "-.")[n], label=name)
+            ax.step(x[order], np.where(values < 0, np.nan, values), where="mid", color=style.SERIES[n],
+                    linestyle=("-", "--", ":", "-.")[n], label=name)
             ax.yaxis.get_major_locator().set_params(integer=True)
         elif values.ndim == 1:
-            ax.plot(x[order], values, color=style.SERIES[n], linestyle=(0, (6, 6)) if n else "-", label=short_label(data, name))  # two may be one line
+            # two may be one line
+            ax.plot(x[order], values, color=style.SERIES[n], linestyle=(0, (6, 6)) if n else "-",
+                    label=short_label(data, name))
         else:
             for i, axis in enumerate(data["axis"].attrs.get("names", "axis 1; axis 2; axis 3").split("; ")):
-                ax.plot(x[order], values[:, i], color=style.SERIES[i], linestyle="--" if n else "-", label=f"{name}, {axis}")
+                ax.plot(x[order], values[:, i], color=style.SERIES[i], linestyle="--" if n else "-",
+                        label=f"{name}, {axis}")
     if names:
         of = data[names[0]].attrs.get("units", "1")
-        told = {"least": "extremes", "when_low": "time to the limit", "equilibria": "number"}.get(names[0], names[0])
+        told = {"least": "extremes", "when_low": "time to the limit",
+                "equilibria": "number"}.get(names[0], names[0])
         ax.set_ylabel(told if of == "1" else f"{told} ({of})")
     else:
         ax.set_yticks([])
@@ -99,8 +124,10 @@ def _legend(figure, rows, axes):
         handles, words = ax.get_legend_handles_labels()
         if len(words) > 1 + ("the case itself" in words):
             kept = [(h, w) for h, w in zip(handles, words) if w != "the case itself"]
-            ax.legend(*zip(*kept), loc="center left", bbox_to_anchor=(1.0, 0.5))  # beside the panel, whose curves it would cover
-        rows += [(h, w) for h, w in zip(handles, words) if w == "the case itself" and w not in [w for _, w in rows]]
+            # beside the panel, whose curves it would cover
+            ax.legend(*zip(*kept), loc="center left", bbox_to_anchor=(1.0, 0.5))
+        rows += [(h, w) for h, w in zip(handles, words) if w == "the case itself"
+                 and w not in [w for _, w in rows]]
     if rows:
         figure.legend(*zip(*rows), loc="outside lower center", ncols=min(5, len(rows)))
 
@@ -108,16 +135,21 @@ def _legend(figure, rows, axes):
 # --- A sweep along two axes: a map of the fate with the boundary and lines of equal margin, or of any
 # number; several side by side
 COUNTS = ("equilibria", "stable", "unstable", "open")
-ENDS = {"period": "never repeats", "least": "unbounded", "greatest": "unbounded", "when_low": "never", "when_high": "never"}  # what an infinite value means
+# what an infinite value means
+ENDS = {"period": "never repeats", "least": "unbounded", "greatest": "unbounded", "when_low": "never",
+        "when_high": "never"}
 WITHOUT = {ENDLESS: "curves", OPEN: "open", NONE: "no case"}
 
 
-def fields(data: Any, plan: Any, kind: str, moving: list[str], panels: list[dict[str, int]], size: Any, plt: Any) -> Any:
+def fields(data: Any, plan: Any, kind: str, moving: list[str], panels: list[dict[str, int]], size: Any,
+           plt: Any) -> Any:
     """The figure: a map for each panel, the first two of `moving` across and up."""
     across = min(4, math.isqrt(len(panels) - 1) + 1)
     down = -(-len(panels) // across)
     figure, axes = plt.subplots(down, across, squeeze=False, sharex=True, sharey=True, layout="constrained",
-                                figsize=size or ((7.2, 6.0) if len(panels) == 1 else (3.0 * across + 0.8, 2.8 * down + 1.2)))
+                                figsize=size
+                                or ((7.2, 6.0) if len(panels) == 1
+                                    else (3.0 * across + 0.8, 2.8 * down + 1.2)))
     rows: dict[str, Any] = {}
     shown = None
     limits = _limits(data, kind)
@@ -131,7 +163,10 @@ def fields(data: Any, plan: Any, kind: str, moving: list[str], panels: list[dict
         scale_axes(ax, np.asarray(here[moving[0]]), np.asarray(here[moving[1]]))
         rows |= _own(ax, here, plan, moving) if not place else {}
         if place:
-            ax.set_title(",\n".join(f"{spoken_key(data, name)} = {float(data[name][n]):.4g} {_unit(data, name)}".strip() for name, n in place.items()))
+            ax.set_title(
+                ",\n".join(
+                    f"{spoken_key(data, name)} = {float(data[name][n]):.4g} {_unit(data, name)}".strip()
+                    for name, n in place.items()))
     for ax in axes.flat[len(panels):]:
         ax.set_visible(False)
     for ax in (axes.flat[n] for n in range(len(panels)) if n + across >= len(panels)):
@@ -139,13 +174,16 @@ def fields(data: Any, plan: Any, kind: str, moving: list[str], panels: list[dict
         ax.xaxis.set_tick_params(labelbottom=True)
     for ax in axes[:, 0]:
         ax.set_ylabel(label(data, moving[1]))
-    figure.suptitle(style.literal(str(data.attrs.get("title", ""))) + _of_all(data, panels), fontsize=10.5, wrap=True)
+    figure.suptitle(style.literal(str(data.attrs.get("title", ""))) + _of_all(data, panels), fontsize=10.5,
+                    wrap=True)
     if kind not in FLAGS:
         rows |= _blank(data, kind)
-        of_axes = f", {'least' if kind == 'least' else 'greatest'} of the three axes" if "axis" in data[kind].dims else ""
+        of_axes = (f", {'least' if kind == 'least' else 'greatest'} of the three axes"
+                   if "axis" in data[kind].dims else "")
         bar = figure.colorbar(shown, ax=axes, label=label(data, kind) + of_axes)
         if kind in COUNTS:
-            numbers = [n for n in range(int(limits[0]), int(limits[1]) + 1) if n >= 0 or (np.asarray(data[kind]) == n).any()]
+            numbers = [n for n in range(int(limits[0]), int(limits[1]) + 1) if n >= 0
+                       or (np.asarray(data[kind]) == n).any()]
             bar.set_ticks(numbers, labels=[WITHOUT.get(n, str(n)) for n in numbers])
             bar.ax.tick_params(length=0)
     handles = [*(flag_legend(data, kind) if kind in FLAGS else []), *((h, w) for w, h in rows.items())]
@@ -183,7 +221,8 @@ def _blank(data, kind) -> dict[str, Any]:
     """What the cells mean that are left white."""
     from matplotlib.patches import Patch
     values = values_of(data, kind)
-    told = [words for words, there in ((ENDS.get(kind, "without end"), np.isinf(values)), ("not known", np.isnan(values))) if there.any()]
+    told = [words for words, there in ((ENDS.get(kind, "without end"), np.isinf(values)),
+                                       ("not known", np.isnan(values))) if there.any()]
     return {f"white: {' or '.join(told)}": Patch(facecolor="white", edgecolor=style.GREY)} if told else {}
 
 
@@ -214,12 +253,15 @@ def _map(ax, data, whole, kind, moving, limits) -> Any:
     options: dict[str, Any] = {"shading": "nearest", "rasterized": True}
     if kind in FLAGS:
         look = looks(whole, kind)
-        options |= {"cmap": ListedColormap([light(colour) for _, colour in look.values()]), "vmin": -0.5, "vmax": len(look) - 0.5}
+        options |= {"cmap": ListedColormap([light(colour) for _, colour in look.values()]), "vmin": -0.5,
+                    "vmax": len(look) - 0.5}
         values = np.searchsorted(list(look), values)
     elif kind in COUNTS:
         levels = np.arange(limits[0], limits[1] + 2) - 0.5
-        colours = ListedColormap([light(colour, 0.6) for colour in (style.GREY, *style.SHEETS)][:max(2, len(levels) - 1)])
-        options |= {"cmap": colours, "norm": BoundaryNorm(levels if len(levels) > 2 else [*levels, levels[-1] + 1], colours.N)}
+        colours = ListedColormap([light(colour, 0.6)
+                                  for colour in (style.GREY, *style.SHEETS)][:max(2, len(levels) - 1)])
+        options |= {"cmap": colours,
+                    "norm": BoundaryNorm(levels if len(levels) > 2 else [*levels, levels[-1] + 1], colours.N)}
     else:
         options |= {"cmap": "cividis", "vmin": limits[0], "vmax": limits[1]}
         values = np.where(np.isfinite(values), values, np.nan)
@@ -231,12 +273,16 @@ def _levels(ax, data, moving) -> dict[str, Any]:
     """Lines of equal margin within what stays bounded, at round numbers."""
     from matplotlib.ticker import MaxNLocator
     x, y = (np.asarray(data[name]) for name in moving[:2])
-    margin = np.where((np.asarray(data["fate"]) == Fate.BOUNDED) & np.isfinite(np.asarray(data["margin"])), np.asarray(data["margin"]), np.nan)
+    margin = np.where((np.asarray(data["fate"]) == Fate.BOUNDED) & np.isfinite(np.asarray(data["margin"])),
+                      np.asarray(data["margin"]), np.nan)
     if np.isfinite(margin).sum() < 9 or min(margin.shape) < 5 or not np.nanmax(margin) > 0:
         return {}
     round_ones = MaxNLocator(6, steps=(1, 2, 2.5, 5, 10)).tick_values(0, np.nanmax(margin))
-    drawn = ax.contour(x, y, margin.T, levels=[level for level in round_ones if 0 < level < np.nanmax(margin)], colors=style.GREY, linewidths=0.6)
-    if not any(len(line) for level in drawn.allsegs for line in level):  # finite margins here and there make no line
+    drawn = ax.contour(x, y, margin.T,
+                       levels=[level for level in round_ones if 0 < level < np.nanmax(margin)],
+                       colors=style.GREY, linewidths=0.6)
+    # finite margins here and there make no line
+    if not any(len(line) for level in drawn.allsegs for line in level):
         return {}
     ax.clabel(drawn, fontsize=7, fmt="%.3g")
     unit = _unit(data, "margin")
@@ -252,13 +298,15 @@ def _line(meaning: str, width: float) -> Any:
 
 def _boundary(ax, data, plan, moving, index) -> dict[str, Any]:
     from matplotlib.collections import LineCollection
-    dims = [next(n for n, axis in enumerate(plan.axes) if axis.key.name == data[name].attrs["long_name"]) for name in moving[:2]]
+    dims = [next(n for n, axis in enumerate(plan.axes) if axis.key.name == data[name].attrs["long_name"])
+            for name in moving[:2]]
     exact = known_exactly(plan, *dims)
     fates = np.asarray(data["fate"].transpose(*moving[:2]))
     margin = np.asarray(data["margin"].transpose(*moving[:2])) if "margin" in data else None
     if not exact and margin is None:
         return {}
-    way = (lambda at, along: _exact(plan, index, dims, at, along, fates)) if exact else (lambda at, along: _zero(margin, at, along))
+    way = (lambda at, along: _exact(plan, index, dims, at, along,
+                                    fates)) if exact else (lambda at, along: _zero(margin, at, along))
     x, y = (np.asarray(data[name]) for name in moving[:2])
     segments = segments_of(fates, x, y, way)
     ax.add_collection(LineCollection(list(segments), color=style.BLACK, linewidth=1.4))
@@ -281,8 +329,9 @@ def _zero(margin, at, along):
 
 
 def segments_of(fates: np.ndarray, x: np.ndarray, y: np.ndarray, way: Any) -> np.ndarray:
-    """(n, 2, 2): pieces of the line between what spins up and what does not, one or two in each cell of the map that it crosses. way(at, along): the
-    share of the way from points (n, 2) to their neighbours along an axis at which the fate changes."""
+    """(n, 2, 2): pieces of the line between what spins up and what does not, one or two in each cell of the
+    map that it crosses. way(at, along): the share of the way from points (n, 2) to their neighbours along an
+    axis at which the fate changes."""
     spun, known = fates == Fate.SPIN_UP, fates < Fate.UNDECIDED
     crossing = []
     for along, values in enumerate((x, y)):
@@ -298,9 +347,11 @@ def segments_of(fates: np.ndarray, x: np.ndarray, y: np.ndarray, way: Any) -> np
             points[at[:, 0], at[:, 1]] = np.stack([moved, other] if along == 0 else [other, moved], axis=1)
         crossing.append(points)
     level, upright = crossing  # between neighbours along x, along y
-    sides = np.stack([level[:, :-1], upright[1:], level[:, 1:], upright[:-1]], axis=2)  # below, right, above, left of each cell
+    # below, right, above, left of each cell
+    sides = np.stack([level[:, :-1], upright[1:], level[:, 1:], upright[:-1]], axis=2)
     met = np.isfinite(sides[..., 0])
-    pairs = [sides[cell][met[cell]].reshape(-1, 2, 2) for cell in map(tuple, np.argwhere(met.sum(-1) >= 2)) if met[cell].sum() in (2, 4)]
+    pairs = [sides[cell][met[cell]].reshape(-1, 2, 2) for cell in map(tuple, np.argwhere(met.sum(-1) >= 2))
+             if met[cell].sum() in (2, 4)]
     return np.concatenate(pairs) if pairs else np.empty((0, 2, 2))
 
 
@@ -310,7 +361,8 @@ BINS = 60
 
 
 def spread(data: Any, plan: Any, kind: str, moving: list[str], size: Any, plt: Any) -> Any:
-    """The figure: histograms of samples alone, shares of fates along one axis, the share that spins up along two."""
+    """The figure: histograms of samples alone, shares of fates along one axis, the share that spins up along
+    two."""
     if not moving:
         return _histograms(data, plan, kind, size, plt)
     if "fate" not in data:
@@ -319,11 +371,15 @@ def spread(data: Any, plan: Any, kind: str, moving: list[str], size: Any, plt: A
 
 
 def _histograms(data, plan, kind, size, plt):
-    names = [name for name in ("margin", "distance", "period", "when_low") if name in data and np.isfinite(data[name]).any()]
+    names = [name for name in ("margin", "distance", "period", "when_low") if name in data
+             and np.isfinite(data[name]).any()]
     names = [kind] if kind in names else names
     if not names:
-        raise InputError("plot: these samples have no finite number to draw: ask for --answer margin, distance, period or when")
-    figure, axes = plt.subplots(len(names), 1, squeeze=False, layout="constrained", figsize=size or (8, 1.2 + 2.6 * len(names)))
+        raise InputError(
+            "plot: these samples have no finite number to draw: ask for --answer margin, distance, period "
+            "or when")
+    figure, axes = plt.subplots(len(names), 1, squeeze=False, layout="constrained",
+                                figsize=size or (8, 1.2 + 2.6 * len(names)))
     for ax, name in zip(axes[:, 0], names):
         values = np.asarray(data[name])
         finite = np.isfinite(values)
@@ -332,14 +388,16 @@ def _histograms(data, plan, kind, size, plt):
             of = finite & (np.asarray(data["fate"]) == fate) if "fate" in data else finite
             if of.any():
                 told = f"{words}: {of.sum():,}" if "fate" in data else None
-                ax.hist(values[of], edges, facecolor=light(colour), edgecolor=colour, linewidth=0.6, label=told)
+                ax.hist(values[of], edges, facecolor=light(colour), edgecolor=colour, linewidth=0.6,
+                        label=told)
             if "fate" not in data:
                 break
         ax.set_xlabel(short_label(data, name))
         ax.set_ylabel("samples")
         if "fate" in data:
             ax.legend(loc="best")
-    axes[0, 0].set_title(f"{style.literal(data.attrs.get('title', ''))}: {data.sizes[SAMPLE]:,} samples", loc="left", wrap=True)
+    axes[0, 0].set_title(f"{style.literal(data.attrs.get('title', ''))}: {data.sizes[SAMPLE]:,} samples",
+                         loc="left", wrap=True)
     return figure
 
 
@@ -350,7 +408,8 @@ def _shares(data, moving, size, plt):
     for fate, (words, colour) in FATES.items():
         share = 100 * (fates == fate).mean(axis=1)
         if share.any():
-            ax.fill_between(x, base, base + share, facecolor=light(colour), edgecolor=colour, linewidth=0.6, label=words)
+            ax.fill_between(x, base, base + share, facecolor=light(colour), edgecolor=colour, linewidth=0.6,
+                            label=words)
             base = base + share
     ax.set_xlim(x.min(), x.max())
     ax.set_ylim(0, 100)
@@ -364,14 +423,19 @@ def _shares(data, moving, size, plt):
 
 def _share_map(data, moving, size, plt):
     if len(moving) > 2:
-        raise InputError("plot: samples beside three axes have no picture; choose a place along one in Python: xarray.open_dataset(...).isel(...)")
+        raise InputError(
+            "plot: samples beside three axes have no picture; choose a place along one in Python: "
+            "xarray.open_dataset(...).isel(...)")
     figure, ax = plt.subplots(layout="constrained", figsize=size or (7.2, 6.0))
     x, y = (np.asarray(data[name]) for name in moving)
     share = 100 * (np.asarray(data["fate"].transpose(*moving, SAMPLE)) == Fate.SPIN_UP).mean(axis=-1)
     drawn = ax.pcolormesh(x, y, share.T, shading="nearest", cmap="cividis", vmin=0, vmax=100, rasterized=True)
     ax.grid(False)
-    ax.contour(x, y, share.T, levels=[5, 50, 95], colors=style.BLACK, linewidths=(0.6, 1.2, 0.6)) if min(share.shape) > 1 else None
-    figure.colorbar(drawn, label=f"share of {data.sizes[SAMPLE]:,} samples that spins up (%); lines at 5, 50 and 95 %")
+    ax.contour(x, y, share.T, levels=[5, 50, 95], colors=style.BLACK,
+               linewidths=(0.6, 1.2, 0.6)) if min(share.shape) > 1 else None
+    figure.colorbar(drawn,
+                    label=f"share of {data.sizes[SAMPLE]:,} samples that spins up (%); lines at 5, 50 "
+                          f"and 95 %")
     scale_axes(ax, x, y)
     ax.set_xlabel(label(data, moving[0]))
     ax.set_ylabel(label(data, moving[1]))
@@ -382,14 +446,17 @@ def _share_map(data, moving, size, plt):
 # --- A sweep's file as a picture: curves along one axis, a map along two, small maps side by side along
 # more
 PANELS = 12  # small maps of a picture
-NUMBERS = ("margin", "distance", "least", "greatest", "period", "when_low", "when_high", "equilibria", "stable", "unstable", "open", "megno", "lyapunov")
+NUMBERS = ("margin", "distance", "least", "greatest", "period", "when_low", "when_high", "equilibria",
+           "stable", "unstable", "open", "megno", "lyapunov")
 
 
-def write(path: str | Path, out: str | Path, kind: str | None = None, size: tuple[float, float] | None = None, dpi: float | None = None,
+def write(path: str | Path, out: str | Path, kind: str | None = None, size: tuple[float, float] | None = None,
+          dpi: float | None = None,
           units: str | None = None) -> Path:
-    """Draw a file of `stabilab sweep` and write the picture; returns its path. kind: the name of a column; None: the fate, with the margin, or the
-    first number that there is. units: of rates and times that were answered, "deg" or "si"; None for those of the case; an axis keeps the unit in which it was
-    varied. Raises InputError for a file that is none, and for a column that it has not."""
+    """Draw a file of `stabilab sweep` and write the picture; returns its path. kind: the name of a column;
+    None: the fate, with the margin, or the first number that there is. units: of rates and times that were
+    answered, "deg" or "si"; None for those of the case; an axis keeps the unit in which it was varied. Raises
+    InputError for a file that is none, and for a column that it has not."""
     demand("xarray", "scipy", *style.PACKAGES)
     target = endings.file(out, endings.PICTURES)
     check_size(size, dpi)
@@ -408,25 +475,31 @@ def in_units(data: xarray.Dataset, units: Units) -> xarray.Dataset:
     of = {name: str(data[name].attrs.get("units", "1")) for name in map(str, data.data_vars)}
     told = {name: units.of(unit) for name, unit in of.items()}
     for names in (("period",), ("when_low", "when_high")):
-        known = [np.abs(values[np.isfinite(values)]).max(initial=0.0) for values in (np.asarray(data[name]) for name in names if name in of)]
+        known = [np.abs(values[np.isfinite(values)]).max(initial=0.0)
+                 for values in (np.asarray(data[name]) for name in names if name in of)]
         told |= {name: units.times(max(known)) for name in names if name in of}
-    return data.assign({name: (data[name] * one).assign_attrs(data[name].attrs | {"units": written(unit)}) for name, (unit, one) in told.items()
+    return data.assign({name: (data[name] * one).assign_attrs(data[name].attrs | {"units": written(unit)})
+                        for name, (unit, one) in told.items()
                         if unit != of[name]})
 
 
 def _basin(data, path, target, kind, size, dpi) -> Path:
     """The same of a file of `stabilab basin`."""
     if kind is not None:
-        raise InputError(f"plot {printable(kind)[:40]}: a file of stabilab basin has one picture: leave --kind away")
+        raise InputError(
+            f"plot {printable(kind)[:40]}: a file of stabilab basin has one picture: leave --kind away")
     try:
         found = basin_data.opened(data)
     except Exception:  # of any kind: what stands there is not of this program, or of another version
-        raise InputError(f"{printable(str(path))}: what it says of its basins cannot be read: was it changed, or made by another version?") from None
+        raise InputError(
+            f"{printable(str(path))}: what it says of its basins cannot be read: was it changed, or made by "
+            f"another version?") from None
     return basin_picture.write(found, target, size, dpi)
 
 
 def opened(path: Path) -> tuple[xarray.Dataset, Plan]:
-    """The data set of a file and the sweep that it is of. Raises InputError for what is no such file, is cut off, or was changed since."""
+    """The data set of a file and the sweep that it is of. Raises InputError for what is no such file, is cut
+    off, or was changed since."""
     data = loaded(path)
     return data, _plan(data, path)
 
@@ -454,9 +527,12 @@ def _plan(data: xarray.Dataset, path: Path) -> Plan:
         plan = from_json(data.attrs["sweep"])
         off = differing(data, plan)
     except Exception:  # of any kind: what stands there is no plan, or of another version
-        raise InputError(f"{words}: what it says of its sweep cannot be read: was it changed, or made by another version?") from None
+        raise InputError(
+            f"{words}: what it says of its sweep cannot be read: was it changed, or made by another "
+            f"version?") from None
     if off:
-        raise InputError(f"{words}: its {off} is not that of the sweep that it says it is of: was it changed since?")
+        raise InputError(
+            f"{words}: its {off} is not that of the sweep that it says it is of: was it changed since?")
     return plan
 
 
@@ -479,21 +555,25 @@ def read(path: Path, words: str) -> xarray.Dataset:
 
 
 def differing(data: xarray.Dataset, plan: Plan) -> str:
-    """What of a data set is not as the sweep made it, "" where all is: a part of a sweep would have its boundary drawn elsewhere."""
+    """What of a data set is not as the sweep made it, "" where all is: a part of a sweep would have its
+    boundary drawn elsewhere."""
     dims = dimensions(plan)
     for name, axis in zip(dims, plan.axes):
-        same = name in data.coords and data[name].attrs.get("long_name") == axis.key.name and np.array_equal(data[name].values, np.array(axis.values))
+        same = (name in data.coords and data[name].attrs.get("long_name") == axis.key.name
+                and np.array_equal(data[name].values, np.array(axis.values)))
         if not same:
             return f"axis {name}"
     for column in columns_of(plan.answers)[1:]:
         expected = (*dims, *(["axis"] if column.shape else []))
-        if column.name not in data or data[column.name].dims != expected or data[column.name].shape != (*plan.shape, *column.shape):
+        if column.name not in data or data[column.name].dims != expected or data[column.name].shape != (
+            *plan.shape, *column.shape):
             return f"column {column.name}"
     return ""
 
 
 def chosen(data: xarray.Dataset, kind: str | None) -> str:
-    """The column that is drawn. Raises InputError where the file lacks it, or no number of it could be drawn."""
+    """The column that is drawn. Raises InputError where the file lacks it, or no number of it could be drawn.
+    """
     have = [name for name in ("fate", *NUMBERS, "chaos", "level", "reason") if name in data]
     if kind is not None and kind not in have:
         raise InputError(f"plot {printable(kind)[:40]}: this file has {', '.join(have)}")
@@ -520,17 +600,22 @@ def drawn(data: xarray.Dataset, plan: Plan, kind: str, size: tuple[float, float]
         if not moving:
             raise InputError("a sweep of one point has no picture: stabilab plot draws its case")
         return curves(data, plan, kind, moving[0], size, plt)
-    if not np.isfinite(values_of(data, kind)).any():  # of three axes one may be finite where the greatest is not
+    # of three axes one may be finite where the greatest is not
+    if not np.isfinite(values_of(data, kind)).any():
         raise InputError(f"plot: nothing to draw: no point has a finite value of {kind}")
     panels = _panels(data, moving)
     return fields(data, plan, kind, moving, panels, size, plt)
 
 
 def _panels(data, moving: list[str]) -> list[dict[str, int]]:
-    """Places along the dimensions beyond the two that have most points, spread over each, as many as a picture takes."""
+    """Places along the dimensions beyond the two that have most points, spread over each, as many as a
+    picture takes."""
     rest = moving[2:]
     most = PANELS if len(rest) == 1 else 3
-    choices = [np.unique(np.linspace(0, data.sizes[name] - 1, min(most, data.sizes[name])).round().astype(int)).tolist() for name in rest]
+    choices = [np.unique(np.linspace(0, data.sizes[name] - 1,
+                                     min(most, data.sizes[name])).round().astype(int)).tolist()
+               for name in rest]
     if not rest:
         return [{}]
-    return [dict(zip(rest, pick)) for pick in np.array(np.meshgrid(*choices, indexing="ij")).reshape(len(rest), -1).T.tolist()]
+    return [dict(zip(rest, pick))
+            for pick in np.array(np.meshgrid(*choices, indexing="ij")).reshape(len(rest), -1).T.tolist()]

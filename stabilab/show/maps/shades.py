@@ -25,7 +25,8 @@ LETTERS = {"angular_velocity": "ω", "mu": "μ"}  # of keys that have one
 
 
 def names(keys: Sequence[str]) -> list[str]:
-    """A short name for each key, in letters, digits and underscores: its last word, or as many of its words as tell it from the others."""
+    """A short name for each key, in letters, digits and underscores: its last word, or as many of its words
+    as tell it from the others."""
     parts = [re.split(r"\.", key) for key in keys]
     for words in range(1, max(map(len, parts), default=0) + 1):
         found = [_plain("_".join(part[-words:])) for part in parts]
@@ -35,8 +36,11 @@ def names(keys: Sequence[str]) -> list[str]:
 
 
 def said(keys: Sequence[str]) -> list[str]:
-    """The keys as people read them beside each other: torque[3], ω[1]; as few of their last words as tell each from the others."""
-    parts = [[LETTERS.get(stem, stem) + index for stem, index in (re.match(r"([^\[]*)(.*)", word, re.S).groups() for word in key.split("."))] for key in keys]
+    """The keys as people read them beside each other: torque[3], ω[1]; as few of their last words as tell
+    each from the others."""
+    parts = [[LETTERS.get(stem, stem) + index for stem,
+              index in (re.match(r"([^\[]*)(.*)", word, re.S).groups() for word in key.split("."))]
+             for key in keys]
     for words in range(1, max(map(len, parts), default=0) + 1):
         found = [".".join(part[-words:]) for part in parts]
         if len(set(found)) == len(found):
@@ -45,7 +49,8 @@ def said(keys: Sequence[str]) -> list[str]:
 
 
 def drawn(name: str) -> str:
-    """The same on an axis of a picture: a letter with its index set as in formulas, ω[1] as ω with 1 below it; other keys as they are."""
+    """The same on an axis of a picture: a letter with its index set as in formulas, ω[1] as ω with 1 below
+    it; other keys as they are."""
     return re.sub(r"^([ωμx])\[([123])\]$", r"$\1_\2$", name)
 
 
@@ -61,7 +66,8 @@ def dimensions(plan: Plan) -> list[str]:
 
 def unit(plan: Plan, column: Column) -> str:
     """The unit of a column; "1" where it has none."""
-    return {RATE: "rad/s", ENERGY: "J", TIME: "s", PACE: "1/s"}.get(column.unit, "1") if plan.case.variables == "physical" else "1"
+    return ({RATE: "rad/s", ENERGY: "J", TIME: "s", PACE: "1/s"}.get(column.unit, "1")
+            if plan.case.variables == "physical" else "1")
 
 
 def meanings(column: Column) -> str:
@@ -70,13 +76,18 @@ def meanings(column: Column) -> str:
 
 
 def limiting(case: Any, records: Any) -> list[Caveat]:
-    """What limits the answers of a map: what the file says itself, on what its points rest, a limit that was not looked at."""
-    found, numbers = [*case.caveats, *unseen(case)], records["caveats"].ravel().tolist() if "caveats" in records.dtype.names else []
+    """What limits the answers of a map: what the file says itself, on what its points rest, a limit that was
+    not looked at."""
+    found, numbers = [*case.caveats,
+                      *unseen(case)], records[
+                          "caveats"].ravel().tolist() if "caveats" in records.dtype.names else []
     told = Counter(number % len(HOLDS) for number in numbers)
     parts = [("tilt", HOLDS[n], count) for n, count in sorted(told.items()) if n]
     if all(one.kind != "unphysical" for one in found):
         parts += [("unphysical", UNPHYSICAL, sum(number >= len(HOLDS) for number in numbers))]
-    found += [Caveat(kind, words if count == len(numbers) else f"{words} ({count:,} of {len(numbers):,} points)") for kind, words, count in parts if count]
+    found += [Caveat(kind, words if count == len(numbers)
+                     else f"{words} ({count:,} of {len(numbers):,} points)") for kind, words,
+              count in parts if count]
     if case.limits is not None and "when_low" not in records.dtype.names:
         found.append(Caveat("limit", f"the limit of the file, {stated(case.limits)}, is not looked at here"))
     return found
@@ -85,8 +96,10 @@ def limiting(case: Any, records: Any) -> list[Caveat]:
 # --- How fates and axes of a sweep look: colours by meaning, labels with units, straight or logarithmic
 # scales
 # fate -> (its name in a legend, its colour)
-FATES = {Fate.BOUNDED: ("bounded", style.BLUE), Fate.SPIN_UP: ("spins up", style.VERMILION), Fate.SEPARATRIX: ("on the separatrix", style.BLACK),
-         Fate.EQUILIBRIUM: ("equilibrium", style.GREEN), Fate.UNDECIDED: ("undecided", style.YELLOW), 5: ("no case", style.GREY)}
+FATES = {Fate.BOUNDED: ("bounded", style.BLUE), Fate.SPIN_UP: ("spins up", style.VERMILION),
+         Fate.SEPARATRIX: ("on the separatrix", style.BLACK),
+         Fate.EQUILIBRIUM: ("equilibrium", style.GREEN), Fate.UNDECIDED: ("undecided", style.YELLOW),
+         5: ("no case", style.GREY)}
 FLAGS = ("fate", "level", "reason", "chaos")  # columns of words
 LIGHT = 0.45  # of a colour that fills an area
 
@@ -98,15 +111,19 @@ def light(colour: str, share: float = LIGHT) -> tuple[float, float, float]:
 
 
 def label(data: Any, name: str) -> str:
-    """The name of a dimension or column with its unit; of a dimension as few of its last words as tell it from the others of the sweep."""
+    """The name of a dimension or column with its unit; of a dimension as few of its last words as tell it
+    from the others of the sweep."""
     attrs = data[name].attrs
-    words, unit = drawn(spoken_key(data, name)) if name in data.dims else str(attrs.get("long_name", name)), attrs.get("units", "1")
+    words, unit = drawn(spoken_key(data,
+                                   name)) if name in data.dims else str(
+                                       attrs.get("long_name", name)), attrs.get("units", "1")
     return words if unit == "1" else f"{words} ({unit})"
 
 
 def spoken_key(data: Any, name: str) -> str:
     """The key of a dimension, as short as the other keys of the sweep allow."""
-    keys = {one: str(data[one].attrs["long_name"]) for one in data.coords if one != SAMPLE and "long_name" in data[one].attrs}
+    keys = {one: str(data[one].attrs["long_name"]) for one in data.coords if one != SAMPLE
+            and "long_name" in data[one].attrs}
     return dict(zip(keys, said(list(keys.values())))).get(name, name)
 
 
@@ -142,13 +159,15 @@ def own_value(plan: Plan, dimension: int) -> float | None:
 
 
 def looks(data: Any, kind: str) -> dict[int, tuple[str, str]]:
-    """value -> (its word, its colour) of a column of flags: fates have colours of their own, others those of a series, as they occur."""
+    """value -> (its word, its colour) of a column of flags: fates have colours of their own, others those of
+    a series, as they occur."""
     if kind == "fate":
         return {int(value): FATES[value] for value in sorted(FATES)}
     words = str(data[kind].attrs["flag_meanings"]).split()
     present = np.unique(np.asarray(data[kind])).tolist()
     colours = [*style.SERIES, *style.SHEETS]
-    return {value: (words[value].replace("_", " ") if value >= 0 else "not told", style.GREY if value < 0 else colours[n % len(colours)])
+    return {value: (words[value].replace("_", " ") if value >= 0 else "not told",
+                    style.GREY if value < 0 else colours[n % len(colours)])
             for n, value in enumerate(present)}
 
 
@@ -156,4 +175,5 @@ def flag_legend(data: Any, kind: str) -> list[tuple[Any, str]]:
     """(patch, words) of every flag of a column that occurs."""
     from matplotlib.patches import Patch
     values = np.asarray(data[kind])
-    return [(Patch(facecolor=light(colour), edgecolor=colour), words) for value, (words, colour) in looks(data, kind).items() if (values == value).any()]
+    return [(Patch(facecolor=light(colour), edgecolor=colour), words) for value,
+            (words, colour) in looks(data, kind).items() if (values == value).any()]

@@ -1,4 +1,5 @@
-"""A sweep in words: the answer in a line, what is behind it, a table where it is short; CSV and JSON of every point."""
+"""A sweep in words: the answer in a line, what is behind it, a table where it is short; CSV and JSON of every
+point."""
 from __future__ import annotations
 
 import math
@@ -28,12 +29,15 @@ ROWS = 40  # points of a table
 FEW = 100  # points that are counted; of more their share is told
 # what points do, what one point does
 DOES = {Fate.BOUNDED: ("stay bounded", "stays bounded"), Fate.SPIN_UP: ("spin up", "spins up"),
-        Fate.SEPARATRIX: ("lie on the separatrix", "lies on the separatrix"), Fate.EQUILIBRIUM: ("are equilibria", "is an equilibrium"),
+        Fate.SEPARATRIX: ("lie on the separatrix", "lies on the separatrix"),
+        Fate.EQUILIBRIUM: ("are equilibria", "is an equilibrium"),
         Fate.UNDECIDED: ("are undecided", "is undecided"), NO_CASE: ("are no case", "is no case")}
 SHORT = {"spin_axis": "axis", "greatest": "most"}  # names of columns in a table
 # what numbers without end mean, the negative first: in a sentence, and in a cell where that is shorter
-INFINITE = {"margin": (("no barrier ahead", "no barrier"), ("no end to the barrier", "endless")), "distance": (("no separatrix",), ("no separatrix",)),
-            "least": (("unbounded",), ("unbounded",)), "greatest": (("unbounded",), ("unbounded",)), "period": (("no period", "none"), ("no period", "none")),
+INFINITE = {"margin": (("no barrier ahead", "no barrier"), ("no end to the barrier", "endless")),
+            "distance": (("no separatrix",), ("no separatrix",)),
+            "least": (("unbounded",), ("unbounded",)), "greatest": (("unbounded",), ("unbounded",)),
+            "period": (("no period", "none"), ("no period", "none")),
             "when_low": (("never",), ("never",)), "when_high": (("never",), ("never",))}
 CELLS = {ENDLESS: "curves", OPEN: "not known", NONE: "no case"}
 COUNTS = {ENDLESS: "curves of equilibria", OPEN: "equilibria not all known", NONE: "no case"}
@@ -45,7 +49,8 @@ def text(found: Swept) -> str:
     lines = [f"{plan.case.name}: {_answer(found)}", *_details(found)]
     lines += limiting.lines(caveats_of(plan.case, found.records), units_of(plan.case)) + law.beside(plan.case)
     if found.broken:
-        told = f"{found.broken:,} points are no case; the first" if found.broken > 1 else "one point is no case"
+        told = (f"{found.broken:,} points are no case; the first" if found.broken > 1
+                else "one point is no case")
         lines.append(f"  {told}: {printable(found.why)}")
     if found.records.size <= ROWS:
         lines += _table(found)
@@ -57,23 +62,28 @@ def _answer(found: Swept) -> str:
     if "fate" in names:
         return _shares(found.records["fate"], lambda value: DOES[value])
     if "equilibria" in names:
-        return _shares(found.records["equilibria"], lambda value: (f"have {_number(value)}", f"has {_number(value)}"))
+        return _shares(found.records["equilibria"],
+                       lambda value: (f"have {_number(value)}", f"has {_number(value)}"))
     return f"{found.records.size:,} points"
 
 
 def _number(value: int) -> str:
-    return COUNTS.get(value) or ("no equilibrium" if not value else f"{value} equilibri{'um' if value == 1 else 'a'}")
+    return (COUNTS.get(value)
+            or ("no equilibrium" if not value else f"{value} equilibri{'um' if value == 1 else 'a'}"))
 
 
 def _shares(values: np.ndarray, words: Any) -> str:
     """"62 % of 10,201 points stay bounded, 38 % spin up"."""
     kinds, counts = np.unique(values, return_counts=True)
     order = np.argsort(-counts, kind="stable")
-    parts = [(_share(int(counts[n]), values.size), words(int(kinds[n]))[int(counts[n]) == 1 and values.size <= FEW]) for n in order]
+    parts = [(_share(int(counts[n]), values.size),
+              words(int(kinds[n]))[int(counts[n]) == 1 and values.size <= FEW]) for n in order]
     if len(parts) == 1:
-        return f"all {values.size:,} points {parts[0][1]}" if values.size > 1 else f"the one point {parts[0][1]}"
+        return (f"all {values.size:,} points {parts[0][1]}" if values.size > 1
+                else f"the one point {parts[0][1]}")
     head, *rest = parts
-    return f"{head[0]} of {values.size:,} points {head[1]}" + "".join(f", {share} {what}" for share, what in rest)
+    return (f"{head[0]} of {values.size:,} points {head[1]}"
+            + "".join(f", {share} {what}" for share, what in rest))
 
 
 def _share(count: int, of: int) -> str:
@@ -81,7 +91,8 @@ def _share(count: int, of: int) -> str:
     if of <= FEW:
         return str(count)
     percent = 100 * count / of
-    told = f"{percent:.0f}" if 1 <= percent <= 99 else f"{percent:.2g}" if percent < 1 else f"{min(percent, 99.99):.2f}"
+    told = (f"{percent:.0f}" if 1 <= percent <= 99 else f"{percent:.2g}" if percent < 1
+            else f"{min(percent, 99.99):.2f}")
     return f"{told} %"
 
 
@@ -91,7 +102,8 @@ def _details(found: Swept) -> list[str]:
     if "spin_axis" in names and (found.records["fate"] == Fate.SPIN_UP).any():
         about = found.records["spin_axis"][found.records["fate"] == Fate.SPIN_UP]
         signed = axes_of(found.plan.case).signed
-        lines.append("  spin-up about " + _listed(about, lambda axis: signed(abs(axis), axis) if axis else "an axis between equal moments"))
+        lines.append("  spin-up about " + _listed(about, lambda axis: signed(abs(axis), axis) if axis
+                                                  else "an axis between equal moments"))
     if "level" in names:
         flags = next(c.flags for c in columns_of(found.plan.answers) if c.name == "level")
         lines.append("  the fate is known as " + _listed(cases["level"], lambda level: flags[level]))
@@ -99,13 +111,15 @@ def _details(found: Swept) -> list[str]:
         if column.kind == "f8":
             lines.append(_range(cases[column.name], column, *_unit(found.plan, column)))
         elif column.kind == "i4":
-            lines.append(f"  {column.words}: " + _listed(cases[column.name], lambda value: COUNTS.get(value, str(value))))
+            lines.append(f"  {column.words}: " + _listed(cases[column.name],
+                                                         lambda value: COUNTS.get(value, str(value))))
     return lines
 
 
 def _listed(values: np.ndarray, words: Any) -> str:
     kinds, counts = np.unique(values, return_counts=True)
-    return ", ".join(f"{words(int(kind))} ({count:,})" for kind, count in sorted(zip(kinds.tolist(), counts.tolist()), key=lambda pair: -pair[1]))
+    return ", ".join(f"{words(int(kind))} ({count:,})" for kind,
+                     count in sorted(zip(kinds.tolist(), counts.tolist()), key=lambda pair: -pair[1]))
 
 
 def _unit(plan: Plan, column: Column) -> Unit:
@@ -119,9 +133,11 @@ def _unit(plan: Plan, column: Column) -> Unit:
 def _range(values: np.ndarray, column: Column, of: str, one: float) -> str:
     finite, name = values[np.isfinite(values)], column.name.replace("_", " ")
     (below, *_), (above, *_) = INFINITE.get(column.name, (("-∞",), ("∞",)))
-    rest = [f"{words} at {count:,}" for words, count in ((below, np.isneginf(values).sum()), (above, np.isposinf(values).sum()),
+    rest = [f"{words} at {count:,}" for words,
+            count in ((below, np.isneginf(values).sum()), (above, np.isposinf(values).sum()),
                                                          ("not known", np.isnan(values).sum())) if count]
-    ends = list(dict.fromkeys(f"{end * one + 0.0:.6g}" for end in (finite.min(), finite.max()))) if finite.size else []
+    ends = (list(dict.fromkeys(f"{end * one + 0.0:.6g}" for end in (finite.min(), finite.max())))
+            if finite.size else [])
     told = " to ".join(ends) + (f" {of}" if of else "") if ends else "no finite value"
     return f"  {name}: {told}" + (f" ({', '.join(rest)})" if rest else "")
 
@@ -136,9 +152,11 @@ def heads(found: Swept) -> list[str]:
     plan = found.plan
     told = lambda name, of: name if of == "1" else f"{name} ({of})"
     keys = [told(axis.key.name, axis.shown_unit) for axis in plan.axes]
-    keys += [SAMPLE, *(told(key.name, plan.sampled.unit(n)) for n, key in enumerate(plan.sampled.keys))] if plan.sampled else []
+    keys += ([SAMPLE, *(told(key.name, plan.sampled.unit(n)) for n, key in enumerate(plan.sampled.keys))]
+             if plan.sampled else [])
     for column in columns_of(plan.answers)[1:]:
-        keys += [told(f"{column.name}{n}", unit(plan, column)) for n in (("1", "2", "3") if column.shape else ("",))]
+        keys += [told(f"{column.name}{n}", unit(plan, column))
+                 for n in (("1", "2", "3") if column.shape else ("",))]
     return keys
 
 
@@ -152,7 +170,8 @@ def rows(found: Swept) -> Iterator[list[Any]]:
         row += [index[-1], *sampled[index[-1]]] if plan.sampled else []
         for column in columns:
             value = found.records[column.name][index].tolist()
-            row += value if column.shape else [column.flags[value] if column.flags and value >= 0 else "" if column.flags else value]
+            row += (value if column.shape else [column.flags[value] if column.flags and value >= 0
+                                                else "" if column.flags else value])
         yield row
 
 
@@ -164,21 +183,27 @@ def csv(found: Swept) -> str:
 def json(found: Swept) -> str:
     """Every point: axes with their values, then each column in one list, the last axis fastest."""
     plan = found.plan
-    axes = [{"key": axis.key.name, "unit": axis.shown_unit, "values": list(axis.values)} for axis in plan.axes]
-    columns = {column.name: {"unit": unit(plan, column), "long_name": column.words} | ({"flags": list(column.flags)} if column.flags else {})
+    axes = [{"key": axis.key.name, "unit": axis.shown_unit, "values": list(axis.values)}
+            for axis in plan.axes]
+    columns = {column.name: {"unit": unit(plan, column), "long_name": column.words}
+               | ({"flags": list(column.flags)} if column.flags else {})
                | {"values": _plain(found.records[column.name])} for column in columns_of(plan.answers)[1:]}
-    told: dict[str, Any] = {"schema": SCHEMA, "case": plan.case.name, "variables": plan.case.variables, "command": plan.command,
+    told: dict[str, Any] = {"schema": SCHEMA, "case": plan.case.name, "variables": plan.case.variables,
+                            "command": plan.command,
                             "shape": list(plan.shape), "axes": axes}
     if plan.sampled:
-        told["samples"] = {"count": plan.sampled.count, "seed": plan.sampled.seed, "keys": [key.name for key in plan.sampled.keys],
+        told["samples"] = {"count": plan.sampled.count, "seed": plan.sampled.seed,
+                           "keys": [key.name for key in plan.sampled.keys],
                            "values": plan.sampled.values(0, plan.sampled.count).tolist()}
     told |= limiting.key(plan.case, caveats_of(plan.case, found.records))
     return as_json(told | {"no_case": {"points": found.broken, "because": found.why}, "columns": columns})
 
 
 def _plain(values: np.ndarray) -> list[Any]:
-    """In one list; of three numbers a point, these beside each other. What is infinite is told as such, where null stands for what is not known."""
-    return [Endless(value) if isinstance(value, float) and math.isinf(value) else value for value in values.ravel().tolist()]
+    """In one list; of three numbers a point, these beside each other. What is infinite is told as such, where
+    null stands for what is not known."""
+    return [Endless(value) if isinstance(value, float) and math.isinf(value) else value
+            for value in values.ravel().tolist()]
 
 
 def _table(found: Swept) -> list[str]:
@@ -189,20 +214,25 @@ def _table(found: Swept) -> list[str]:
     else:
         told = list(rows(found))
     keys = [(axis.key.name, axis.shown_unit) for axis in plan.axes]
-    sampled = [(key.name, plan.sampled.unit(n)) for n, key in enumerate(plan.sampled.keys)] if plan.sampled else []
+    sampled = ([(key.name, plan.sampled.unit(n)) for n, key in enumerate(plan.sampled.keys)] if plan.sampled
+               else [])
     names = said([key for key, _ in keys + sampled])
     titles = names[:len(keys)] + ([SAMPLE, *names[len(keys):]] if sampled else [])
     units = [of for _, of in keys] + (["1", *(of for _, of in sampled)] if sampled else [])
-    units, factors, kinds = ["" if of == "1" else greek(of) for of in units], [1.0] * len(units), [""] * len(units)
+    units, factors, kinds = ["" if of == "1" else greek(of)
+                             for of in units], [1.0] * len(units), [""] * len(units)
     for column in columns:
         (of, one), name = _unit(plan, column), SHORT.get(column.name, column.name.replace("_", " "))
-        titles += [f"{greek(component)} {name}" for component in plan.case.scene.components] if column.shape else [name]
+        titles += ([f"{greek(component)} {name}" for component in plan.case.scene.components] if column.shape
+                   else [name])
         places = math.prod(column.shape)
-        units, factors, kinds = units + [of] * places, factors + [one] * places, kinds + [column.name] * places
+        units, factors, kinds = units + [of] * places, factors + [one] * places, kinds + [
+            column.name] * places
     axes = axes_of(plan.case)
     cells = [[_cell(value, one, kind, axes) for value, one, kind in zip(row, factors, kinds)] for row in told]
     said_of = [n for n in range(len(titles)) if any(row[n] for row in cells)]
-    return page.table([[row[n] for n in said_of] for row in (titles, units, *cells)], len(keys + sampled), page.width())
+    return page.table([[row[n] for n in said_of] for row in (titles, units, *cells)], len(keys + sampled),
+                      page.width())
 
 
 def _cell(value: Any, one: float, kind: str, axes: Axes) -> str:

@@ -11,4 +11,5 @@ from .surfaces import sphere as sphere
 from .to_file import write as write
 from .turning import attitude as attitude
 
-__all__ = ["attitude", "basin", "budget", "equilibria", "phase", "section", "space", "sphere", "state", "time", "write"]
+__all__ = ["attitude", "basin", "budget", "equilibria", "phase", "section", "space", "sphere", "state",
+           "time", "write"]

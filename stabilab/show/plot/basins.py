@@ -1,4 +1,5 @@
-"""Basins as a picture: a colour for each, and the boundary, drawn from the exact separatrix where there is one."""
+"""Basins as a picture: a colour for each, and the boundary, drawn from the exact separatrix where there is
+one."""
 from __future__ import annotations
 
 import math
@@ -18,31 +19,38 @@ from . import subject as canvas
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-COLOURS = {BOUNDED: style.BLUE, UNDECIDED: style.YELLOW, 1: style.VERMILION, 2: style.ORANGE, 3: style.PURPLE, -1: style.GREEN, -2: style.SKY, -3: "#8A6A3A",
+COLOURS = {BOUNDED: style.BLUE, UNDECIDED: style.YELLOW, 1: style.VERMILION, 2: style.ORANGE, 3: style.PURPLE,
+           -1: style.GREEN, -2: style.SKY, -3: "#8A6A3A",
            NO_AXIS: style.GREY}
 DOTS = 1200     # of the picture's own grid along an axis, at most
 
 
-def basin(found: Basins, ax: Axes | None = None, size: tuple[float, float] | None = None, legend: bool = True) -> Axes:
-    """Draw basins onto Matplotlib axes, or a figure of its own, and return the axes: a colour for each basin, the case's own state, and the boundary.
-    The boundary is a line where the scene reduces (found by halving between states of different fate), else the finest cells are black."""
+def basin(found: Basins, ax: Axes | None = None, size: tuple[float, float] | None = None,
+          legend: bool = True) -> Axes:
+    """Draw basins onto Matplotlib axes, or a figure of its own, and return the axes: a colour for each basin,
+    the case's own state, and the boundary. The boundary is a line where the scene reduces (found by halving
+    between states of different fate), else the finest cells are black."""
     demand(*style.PACKAGES)
     with canvas.on(ax, size or canvas.SQUARE) as target:
         rows = _areas(target, found) + _line(target, found) + _own(target, found)
         target.grid(False)
-        for setter, axis, name in zip((target.set_xlabel, target.set_ylabel), found.plan.axes, said([axis.key.name for axis in found.plan.axes])):
+        for setter, axis, name in zip((target.set_xlabel, target.set_ylabel), found.plan.axes,
+                                      said([axis.key.name for axis in found.plan.axes])):
             setter(drawn(name) + ("" if axis.shown_unit == "1" else f" ({axis.shown_unit})"))
-        for setter, axis, (_, text) in zip((target.set_xscale, target.set_yscale), found.plan.axes, found.plan.vary):
+        for setter, axis, (_, text) in zip((target.set_xscale, target.set_yscale), found.plan.axes,
+                                           found.plan.vary):
             setter("log" if text.count(":") == 3 and axis.values[0] > 0 else "linear")
         rough = found.dimension
-        told = "" if math.isnan(rough.value) else f"boundary: box dimension {rough.value:.3f} ± {rough.uncertainty:.3f}"
+        told = ("" if math.isnan(rough.value)
+                else f"boundary: box dimension {rough.value:.3f} ± {rough.uncertainty:.3f}")
         canvas.title(target, found.plan.case.title or found.plan.case.name, told)
         if legend:
             canvas.legend(target, rows, ax is None)
     return target
 
 
-def write(found: Basins, out: str | Path, size: tuple[float, float] | None = None, dpi: float | None = None) -> Path:
+def write(found: Basins, out: str | Path, size: tuple[float, float] | None = None,
+          dpi: float | None = None) -> Path:
     """Draw basins and write the picture, whole or not at all; the same basins give the same bytes."""
     demand(*style.PACKAGES)
     target = endings.file(out, endings.PICTURES)
@@ -62,9 +70,12 @@ def _areas(ax: Any, found: Basins) -> list[tuple[str, dict[str, Any]]]:
         ranks = np.where(_on_boundary(found, shown.shape), len(labels), ranks)
         colours.append((0.0, 0.0, 0.0))
     x, y = (_edges(axis.values, n) for axis, n in zip(found.plan.axes, shown.shape))
-    ax.pcolormesh(x, y, ranks.T, cmap=ListedColormap(colours), vmin=-0.5, vmax=len(colours) - 0.5, shading="flat", rasterized=True)
-    rows = [(basin_name(found, label), {"facecolor": light(COLOURS[label]), "edgecolor": COLOURS[label]}) for label in labels]
-    return rows + ([("finest cells on the boundary", {"facecolor": "black", "edgecolor": "black"})] if black else [])
+    ax.pcolormesh(x, y, ranks.T, cmap=ListedColormap(colours), vmin=-0.5, vmax=len(colours) - 0.5,
+                  shading="flat", rasterized=True)
+    rows = [(basin_name(found, label), {"facecolor": light(COLOURS[label]), "edgecolor": COLOURS[label]})
+            for label in labels]
+    return (rows + ([("finest cells on the boundary", {"facecolor": "black", "edgecolor": "black"})] if black
+                    else []))
 
 
 def raster(found: Basins) -> np.ndarray:
@@ -107,14 +118,16 @@ def _line(ax: Any, found: Basins) -> list[tuple[str, dict[str, Any]]]:
     if not len(pieces):
         return []
     look: dict[str, Any] = style.MEANING["separatrix"] | {"linewidth": 1.2}
-    ax.add_collection(LineCollection(list(pieces), color=look["color"], linewidth=look["linewidth"], capstyle="round"))
+    ax.add_collection(LineCollection(list(pieces), color=look["color"], linewidth=look["linewidth"],
+                                     capstyle="round"))
     return [("separatrix (exact)", look)]
 
 
 def _own(ax: Any, found: Basins) -> list[tuple[str, dict[str, Any]]]:
     """The case's own state, where it is in the picture."""
     at = [own_value(found.plan, n) for n in range(len(dimensions(found.plan)))]
-    if any(value is None or not min(axis.values) <= value <= max(axis.values) for value, axis in zip(at, found.plan.axes)):
+    if any(value is None or not min(axis.values) <= value <= max(axis.values) for value,
+           axis in zip(at, found.plan.axes)):
         return []
     look: dict[str, Any] = style.MARKER["start"] | {"markeredgecolor": "white"}
     ax.plot(*[[value] for value in at], **look)

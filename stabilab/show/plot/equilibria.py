@@ -22,13 +22,15 @@ FLAT = 1e-9  # of the picture: equilibria nearer than this to a plane across an 
 BEYOND = 2.4  # times the farthest fold, or the nearest point of a curve without one: how far a curve is shown
 
 
-def equilibria(case: Any, state: Any = None, ax: Axes | None = None, units: str | None = None, size: tuple[float, float] | None = None,
+def equilibria(case: Any, state: Any = None, ax: Axes | None = None, units: str | None = None,
+               size: tuple[float, float] | None = None,
                legend: bool = True) -> Axes:
     """Draw all equilibria of a scene, and return the axes.
 
-    Stable ones are full lines and dots, unstable ones dashed lines and circles, undecided ones dotted lines and diamonds; green diamonds mark
-    where a curve changes its stability. Where all lie in a plane across an axis (a torque on an axis) that plane is drawn, else the space of
-    rates; axes that are given decide it themselves. A state, given or of the case, is marked. Of scenes with a direction of space (top) the rates
+    Stable ones are full lines and dots, unstable ones dashed lines and circles, undecided ones dotted lines
+    and diamonds; green diamonds mark where a curve changes its stability. Where all lie in a plane across an
+    axis (a torque on an axis) that plane is drawn, else the space of rates; axes that are given decide it
+    themselves. A state, given or of the case, is marked. Of scenes with a direction of space (top) the rates
     of the permanent rotations are drawn. Raises InputError where there is none.
     """
     one = subject(case, state)
@@ -48,8 +50,11 @@ def equilibria(case: Any, state: Any = None, ax: Axes | None = None, units: str 
         if one.state is not None:
             kept = [n for n in range(3) if n != flat]
             target.plot(*[[one.state[n] * scale.rate[1]] for n in kept], zorder=6, **style.MARKER["start"])
-            rows.append(("start of the motion" if flat is None else "start of the motion, seen along the axis", style.MARKER["start"]))
-        plane = "" if flat is None else f"all have {scale.plain(flat)} = {_constant(rest, flat) * scale.rate[1] + 0.0:.4g} {scale.rate[0]}".rstrip()
+            rows.append(("start of the motion" if flat is None
+                         else "start of the motion, seen along the axis", style.MARKER["start"]))
+        plane = ("" if flat is None
+                 else f"all have {scale.plain(flat)} = {_constant(rest, flat) * scale.rate[1] + 0.0:.4g} "
+                      f"{scale.rate[0]}".rstrip())
         canvas.title(target, one.heading, plane)
         if legend:
             canvas.legend(target, rows, ax is None)
@@ -58,7 +63,8 @@ def equilibria(case: Any, state: Any = None, ax: Axes | None = None, units: str 
 
 def _box(rest: Rest, one: Subject) -> in_space.Box:
     """What to show: all points and folds, the start, and of curves as much again."""
-    marks = [np.zeros(3), *(at for _, at in rest.points), *rest.folds, *([np.array(one.state)] if one.state is not None else [])]
+    marks = [np.zeros(3), *(at for _, at in rest.points), *rest.folds,
+             *([np.array(one.state)] if one.state is not None else [])]
     near = [np.linalg.norm(points, axis=1).min() for _, points in rest.curves if len(points)]
     size = max([*(float(np.abs(mark).max()) for mark in marks), *near], default=0.0) or 1.0
     reach = size * (BEYOND if rest.curves or rest.planes else 1.1)
@@ -69,7 +75,8 @@ def _flat_axis(rest: Rest, box) -> int | None:
     """The axis across which all equilibria lie in one plane; None where they do not, or lie on one line."""
     if rest.planes:
         return None
-    places = np.concatenate([*(points[box.holds(points)] for _, points in rest.curves), *(at[None] for _, at in rest.points)])
+    places = np.concatenate([*(points[box.holds(points)] for _, points in rest.curves),
+                             *(at[None] for _, at in rest.points)])
     if len(places) < 3:
         return None
     flat = [axis for axis in range(3) if np.ptp(places[:, axis]) < FLAT * box.half]
@@ -106,6 +113,7 @@ def _in_plane(ax, rest, box, per_rate, labels, flat):
     ax.plot(rest.folds[:, first] * per_rate, rest.folds[:, second] * per_rate, zorder=5, **FOLD)
     ax.axhline(0, color=style.GREY, linewidth=0.6, zorder=1)
     ax.axvline(0, color=style.GREY, linewidth=0.6, zorder=1)
-    ax.set(xlabel=labels[first], ylabel=labels[second], xlim=(box.low[first] * per_rate, box.high[first] * per_rate),
+    ax.set(xlabel=labels[first], ylabel=labels[second],
+           xlim=(box.low[first] * per_rate, box.high[first] * per_rate),
            ylim=(box.low[second] * per_rate, box.high[second] * per_rate))
     ax.set_aspect("equal", adjustable="box")

@@ -31,7 +31,9 @@ PALE = 0.75  # share of its colour that a surface has
 LIGHT = np.array([0.35, -0.55, 0.76])
 DARKEST = 0.62  # share of its colour that a facet keeps which the light only grazes
 ROOMY = 3.8  # inches: axes that are smaller have fewer ticks
-TICKS, SEEN = 5, 0.45  # of an axis that is seen in at least this share of the longest side; of a shorter one fewer, lest they lie on each other
+# of an axis that is seen in at least this share of the longest side; of a shorter one fewer, lest they lie on
+# each other
+TICKS, SEEN = 5, 0.45
 FLATTEST = 0.75  # of the longest side of a box whose sides are in different scales
 MARGIN = 1.08  # of a box about the things in it
 
@@ -84,7 +86,8 @@ def _cut(triangles, height):
     kept = np.stack([corner, left, right], axis=1)
     lost, left, right = _crossings(*two)
     b, c = two[0][:, 1], two[0][:, 2]
-    return np.concatenate([triangles[number == 3], kept, np.stack([left, b, c], axis=1), np.stack([left, c, right], axis=1)])
+    return np.concatenate([triangles[number == 3], kept, np.stack([left, b, c], axis=1),
+                           np.stack([left, c, right], axis=1)])
 
 
 def _turned(triangles, height, chosen, first):
@@ -109,14 +112,16 @@ def pale(colour: str, share: float = PALE) -> tuple[float, ...]:
 
 
 def facets(ax: Any, surfaces: list[tuple[np.ndarray, str]], pale_by: float = PALE) -> None:
-    """Surfaces, each of triangles (n, 3, 3) in one colour, lit from above, nearer ones before farther ones; pixels even in a vector picture,
-    which would hold ten thousands of them."""
+    """Surfaces, each of triangles (n, 3, 3) in one colour, lit from above, nearer ones before farther ones;
+    pixels even in a vector picture, which would hold ten thousands of them."""
     from mpl_toolkits.mplot3d.art3d import Poly3DCollection
-    lit = [(triangles, _lit(triangles, pale(colour, pale_by))) for triangles, colour in surfaces if len(triangles)]
+    lit = [(triangles, _lit(triangles, pale(colour, pale_by))) for triangles,
+           colour in surfaces if len(triangles)]
     if not lit:
         return
     triangles, colours = (np.concatenate(parts) for parts in zip(*lit))
-    ax.add_collection3d(Poly3DCollection(triangles, facecolors=colours, edgecolors="none", linewidths=0, antialiaseds=False, rasterized=True, zorder=0))
+    ax.add_collection3d(Poly3DCollection(triangles, facecolors=colours, edgecolors="none", linewidths=0,
+                                         antialiaseds=False, rasterized=True, zorder=0))
 
 
 def _lit(triangles, colour):
@@ -136,7 +141,8 @@ def polygon(ax: Any, rim: np.ndarray, colour: str, alpha: float) -> None:
 def _seen(view: tuple[float, float]) -> np.ndarray:
     """(3,) what is seen of the length of each axis from this side: 1 of one across the line of sight."""
     height, turn = map(math.radians, view)
-    return np.array([math.hypot(math.sin(turn), math.sin(height) * math.cos(turn)), math.hypot(math.cos(turn), math.sin(height) * math.sin(turn)),
+    return np.array([math.hypot(math.sin(turn), math.sin(height) * math.cos(turn)),
+                     math.hypot(math.cos(turn), math.sin(height) * math.sin(turn)),
                      math.cos(height)])
 
 
@@ -148,22 +154,26 @@ def furnish(ax: Any, box: Box, labels: tuple[str, ...], view: tuple[float, float
     for letter, low, high in zip("xyz", box.low, box.high):
         getattr(ax, f"set_{letter}lim")(low, high)
     for setter, words, near in zip((ax.set_xlabel, ax.set_ylabel, ax.set_zlabel), labels, (25, 25, 12)):
-        setter(words, labelpad=6 - near * (1 - small))  # near the ticks where the figure is small, else below its edge
+        # near the ticks where the figure is small, else below its edge
+        setter(words, labelpad=6 - near * (1 - small))
     for axis, words in zip((ax.xaxis, ax.yaxis, ax.zaxis), labels):
-        if " " not in words:  # a letter alone stands upright from every side; with its unit it goes along the axis
+        # a letter alone stands upright from every side; with its unit it goes along the axis
+        if " " not in words:
             axis.set_rotate_label(False)
             axis.label.set_rotation(0)
         elif axis is ax.zaxis:  # upwards on either side of the box
             axis.set_rotate_label(False)
             axis.label.set_rotation(90)
     ax.tick_params(labelsize=8 * small, pad=3.5 * small)
-    roomy = min(small, min(ax.bbox.width, ax.bbox.height) / ax.figure.dpi / ROOMY)  # letters have a least size, their number has none
+    # letters have a least size, their number has none
+    roomy = min(small, min(ax.bbox.width, ax.bbox.height) / ax.figure.dpi / ROOMY)
     lengths = box.high - box.low
     sides = np.maximum(lengths / lengths.max(), FLATTEST)
     for axis, seen in zip((ax.xaxis, ax.yaxis, ax.zaxis), sides / sides.max() * _seen(view)):
         axis.set_major_locator(MaxNLocator(max(2, min(TICKS, round(TICKS * roomy * seen / SEEN)))))
         axis.set_pane_color((1, 1, 1, 1))
-    ax.set_box_aspect(sides, zoom=ZOOM * (1 - (1 - small) / 3) * float(np.linalg.norm(sides)) / math.sqrt(3))  # the longest side as of a cube
+    # the longest side as of a cube
+    ax.set_box_aspect(sides, zoom=ZOOM * (1 - (1 - small) / 3) * float(np.linalg.norm(sides)) / math.sqrt(3))
     ax.view_init(*view)
 
 
@@ -182,8 +192,8 @@ Look = dict[str, Any]
 
 @dataclass
 class SurfaceLines:
-    """surface: triangles (n, 3, 3); box, view, labels: of the axes; words: for the title; lines: (points (n, 3), look, whether in front); marks:
-    (points, look); rows: of the legend. All in the units of the axes."""
+    """surface: triangles (n, 3, 3); box, view, labels: of the axes; words: for the title; lines: (points (n,
+    3), look, whether in front); marks: (points, look); rows: of the legend. All in the units of the axes."""
 
     surface: np.ndarray
     box: Box
@@ -195,7 +205,8 @@ class SurfaceLines:
     rows: list[tuple[str, Look]] = field(default_factory=list)
 
     def add(self, points: np.ndarray, look: Look, outward: np.ndarray) -> None:
-        """A line, in parts that lie in front of the surface and behind it; outward (n, 3): normals of the surface, zero where it hides nothing."""
+        """A line, in parts that lie in front of the surface and behind it; outward (n, 3): normals of the
+        surface, zero where it hides nothing."""
         front = outward @ sight(self.view) >= 0
         for side in (True, False):
             near = front == side
@@ -214,13 +225,15 @@ def facing(direction: np.ndarray, aside: float = 25.0) -> tuple[float, float]:
     """A view in which a direction points to the eye, somewhat aside."""
     size = float(np.linalg.norm(direction)) or 1.0
     up = float(np.degrees(np.arcsin(np.clip(direction[2] / size, -1, 1))))
-    return float(np.clip(up + 12, -STEEP, STEEP)), float(np.degrees(np.arctan2(direction[1], direction[0])) + aside)
+    return float(np.clip(up + 12, -STEEP,
+                         STEEP)), float(np.degrees(np.arctan2(direction[1], direction[0])) + aside)
 
 
 def grid_triangles(points: np.ndarray) -> np.ndarray:
     """Triangles (n, 3, 3) of a grid of points (r, c, 3)."""
     a, b, c, d = points[:-1, :-1], points[1:, :-1], points[:-1, 1:], points[1:, 1:]
-    return np.concatenate([np.stack([a, b, d], 2).reshape(-1, 3, 3), np.stack([a, d, c], 2).reshape(-1, 3, 3)])
+    return np.concatenate([np.stack([a, b, d], 2).reshape(-1, 3, 3),
+                           np.stack([a, d, c], 2).reshape(-1, 3, 3)])
 
 
 def levels(x: np.ndarray, y: np.ndarray, height: np.ndarray, values: Any) -> list[np.ndarray]:
@@ -232,21 +245,25 @@ def levels(x: np.ndarray, y: np.ndarray, height: np.ndarray, values: Any) -> lis
 
 # --- Equilibria as curves and points to draw, and how each verdict looks
 CURVES: dict[str, dict[str, Any]] = {
-    "stable": {"color": style.BLUE, "linestyle": "-", "linewidth": 2.0}, "unstable": {"color": style.VERMILION, "linestyle": "--", "linewidth": 1.8},
+    "stable": {"color": style.BLUE, "linestyle": "-", "linewidth": 2.0},
+    "unstable": {"color": style.VERMILION, "linestyle": "--", "linewidth": 1.8},
     "undecided": {"color": style.GREY, "linestyle": ":", "linewidth": 2.0}}
 POINTS: dict[str, dict[str, Any]] = {
     "stable": {"marker": "o", "color": style.BLUE, "markersize": 7, "linestyle": "none"},
-    "unstable": {"marker": "o", "markerfacecolor": "white", "markeredgecolor": style.VERMILION, "markeredgewidth": 1.8, "markersize": 7.5,
+    "unstable": {"marker": "o", "markerfacecolor": "white", "markeredgecolor": style.VERMILION,
+                 "markeredgewidth": 1.8, "markersize": 7.5,
                  "linestyle": "none"},
-    "undecided": {"marker": "D", "markerfacecolor": "white", "markeredgecolor": style.GREY, "markeredgewidth": 1.8, "markersize": 6.5,
+    "undecided": {"marker": "D", "markerfacecolor": "white", "markeredgecolor": style.GREY,
+                  "markeredgewidth": 1.8, "markersize": 6.5,
                   "linestyle": "none"}}
 FOLD: dict[str, Any] = {"marker": "D", "color": style.GREEN, "markersize": 6, "linestyle": "none"}
 TURN = np.linspace(0, 2 * np.pi, 73)
 
 
 class Rest(NamedTuple):
-    """curves: (verdict, points (n, 3)); planes: (verdict, two unit vectors that span it (2, 3)) through the origin; points: (verdict, place
-    (3,)); folds: (n, 3), where curves change their verdict. Rates in the scene's variables."""
+    """curves: (verdict, points (n, 3)); planes: (verdict, two unit vectors that span it (2, 3)) through the
+    origin; points: (verdict, place (3,)); folds: (n, 3), where curves change their verdict. Rates in the
+    scene's variables."""
 
     curves: list[tuple[str, np.ndarray]]
     planes: list[tuple[str, np.ndarray]]
@@ -266,7 +283,8 @@ def rest_states(found: Equilibria, number: int = 600) -> Rest:
         for segment in curve.segments:
             points = np.array([curve.point(float(t))[:3] for t in spread(*segment.t, number)], float)
             curves.append((simple(segment.verdict), points[np.isfinite(points).all(axis=1)]))
-    return Rest(curves, planes, [(simple(p.verdict), np.array(p.at[:3], float)) for p in found.points], np.array(folds, float).reshape(-1, 3))
+    return Rest(curves, planes, [(simple(p.verdict), np.array(p.at[:3], float)) for p in found.points],
+                np.array(folds, float).reshape(-1, 3))
 
 
 def simple(verdict: str) -> str:
@@ -276,7 +294,8 @@ def simple(verdict: str) -> str:
 
 def plane_of(curve: EquilibriumCurve) -> np.ndarray:
     """Two unit vectors that span a plane of equilibria."""
-    return np.linalg.svd(np.array([sample.at[:3] for sample in curve.samples], float), full_matrices=False)[2][:2]
+    return np.linalg.svd(np.array([sample.at[:3] for sample in curve.samples], float),
+                         full_matrices=False)[2][:2]
 
 
 def disc(spanning: np.ndarray, radius: float) -> np.ndarray:
@@ -286,9 +305,12 @@ def disc(spanning: np.ndarray, radius: float) -> np.ndarray:
 
 def meanings(rest: Rest, words: str = "equilibria") -> list[tuple[str, dict[str, Any]]]:
     """Rows of a legend for what there is."""
-    rows = [(f"{kind} {words}", CURVES[kind]) for kind in CURVES if any(kind == one for one, *_ in rest.curves)]
-    rows += [(f"plane of {kind} {words}", {"facecolor": CURVES[kind]["color"], "alpha": 0.35}) for kind in CURVES if any(kind == p for p, _ in rest.planes)]
-    rows += [(f"{kind} equilibrium", POINTS[kind]) for kind in POINTS if any(kind == p for p, _ in rest.points)]
+    rows = [(f"{kind} {words}", CURVES[kind]) for kind in CURVES
+            if any(kind == one for one, *_ in rest.curves)]
+    rows += [(f"plane of {kind} {words}", {"facecolor": CURVES[kind]["color"], "alpha": 0.35})
+             for kind in CURVES if any(kind == p for p, _ in rest.planes)]
+    rows += [(f"{kind} equilibrium", POINTS[kind]) for kind in POINTS
+             if any(kind == p for p, _ in rest.points)]
     return rows + ([("change of stability", FOLD)] if len(rest.folds) else [])
 
 
@@ -296,20 +318,24 @@ def meanings(rest: Rest, words: str = "equilibria") -> list[tuple[str, dict[str,
 NEAR = 3.0  # times the motion's own size: a separatrix so near is in the picture
 AWAY = 2.5  # times the largest rate beside the separatrix: a spin-up is followed so far
 TURNS = 60  # of a component: more would fill the picture
-REACH, FARTHEST, BEYOND = 4.0, 400.0, 2.5  # of the sheets, as of `separatrix`; beyond the box, so that none ends inside
-COARSE, FINEST, FACETS = (40, 57), 10.0, 12_000  # the first shape, how much finer the second may be, triangles to aim at
+# of the sheets, as of `separatrix`; beyond the box, so that none ends inside
+REACH, FARTHEST, BEYOND = 4.0, 400.0, 2.5
+# the first shape, how much finer the second may be, triangles to aim at
+COARSE, FINEST, FACETS = (40, 57), 10.0, 12_000
 COLOURS = (style.SKY, style.GREEN, style.PURPLE, style.YELLOW)  # of sheets; orange is the motion's
 ROUND = 0.06  # of the motion's size, about a motion that is a point
 
 
-def space(case: Any, state: Any = None, ax: Axes | None = None, span: Any = None, units: str | None = None, size: tuple[float, float] | None = None,
+def space(case: Any, state: Any = None, ax: Axes | None = None, span: Any = None, units: str | None = None,
+          size: tuple[float, float] | None = None,
           legend: bool = True) -> Axes:
     """Draw a motion in the space of rates, and return the (three-dimensional) axes.
 
-    The box is that of the motion, widened to the nearest point of the separatrix where that is no farther than some times the motion's own size;
-    otherwise the title says how far away it is. Sheets of the separatrix and curves of equilibria are drawn as far as they lie in the box; a
-    spin-up is followed until it has left the separatrix behind. Scenes without a separatrix show the motion and the equilibria. span: as of
-    `time`.
+    The box is that of the motion, widened to the nearest point of the separatrix where that is no farther
+    than some times the motion's own size; otherwise the title says how far away it is. Sheets of the
+    separatrix and curves of equilibria are drawn as far as they lie in the box; a spin-up is followed until
+    it has left the separatrix behind. Scenes without a separatrix show the motion and the equilibria. span:
+    as of `time`.
     """
     one = subject(case, state, span)
     which.check("space", one)
@@ -319,9 +345,11 @@ def space(case: Any, state: Any = None, ax: Axes | None = None, span: Any = None
     sheets = _sheets(one, box)
     in_units = Box(np.stack([box.low, box.high]) * scale.rate[1], 1.0)
     with canvas.on(ax, size, space=True) as target:
-        rows: list[tuple[str, dict]] = [("this motion", style.MEANING["this motion"]), ("start", style.MARKER["start"])]
+        rows: list[tuple[str, dict]] = [("this motion", style.MEANING["this motion"]),
+                                        ("start", style.MARKER["start"])]
         colours = [COLOURS[number % len(COLOURS)] for number in range(len(sheets))]
-        facets(target, [(triangles * scale.rate[1], colour) for (_, triangles), colour in zip(sheets, colours)])
+        facets(target,
+               [(triangles * scale.rate[1], colour) for (_, triangles), colour in zip(sheets, colours)])
         rows += [(f"separatrix, {name}" if len(sheets) > 1 else "separatrix", {"facecolor": pale(colour)})
                  for (name, _), colour in zip(sheets, colours)]
         rows += _rest(target, rest, box, scale.rate[1])
@@ -335,9 +363,11 @@ def space(case: Any, state: Any = None, ax: Axes | None = None, span: Any = None
 
 
 def _path(one: Subject) -> np.ndarray:
-    """The motion (n, 3): one period, or the span as far as a picture can show it; a spin-up until it has left the separatrix behind."""
+    """The motion (n, 3): one period, or the span as far as a picture can show it; a spin-up until it has left
+    the separatrix behind."""
     period = one.motion.period
-    low, high = (0.0, period) if period and one.case is None and one.span is None else one.span or DEFAULT_SPAN
+    low, high = (0.0,
+                 period) if period and one.case is None and one.span is None else one.span or DEFAULT_SPAN
     if period:
         high = min(high, low + period) if high > low else low + period
     _, omega = path(one, low, high)
@@ -359,19 +389,23 @@ def _turns(values) -> np.ndarray:
 def _box(one: Subject, omega: np.ndarray, scale: Measures) -> tuple[Box, str]:
     """The box of the picture, and where the separatrix is if it is not in it."""
     size = float(np.ptp(omega, axis=0).max()) or ROUND * float(np.abs(omega).max()) or 1.0
-    own = Box(np.concatenate([omega, omega[:1] + size / 2, omega[:1] - size / 2]) if np.ptp(omega) == 0 else omega)
+    own = Box(np.concatenate([omega, omega[:1] + size / 2, omega[:1] - size / 2]) if np.ptp(omega) == 0
+              else omega)
     witness = one.motion.velocity_witness
     if witness is None or one.motion.margin_velocity is None:
         return own, ""
     away = float(np.abs(np.array(witness) - own.centre).max())
     if away > NEAR * own.half:
-        return own, f"the separatrix is {one.motion.margin_velocity * scale.rate[1]:.4g} {scale.rate[0]} away, outside of this picture".replace("  ", " ")
+        return (own,
+                f"the separatrix is {one.motion.margin_velocity * scale.rate[1]:.4g} {scale.rate[0]} away, "
+                f"outside of this picture".replace("  ", " "))
     around = np.array(witness) + np.array([[-0.5], [0.5]]) * own.half
     return Box(np.concatenate([omega, around])), ""
 
 
 def _sheets(one: Subject, box: Box) -> list[tuple[str, np.ndarray]]:
-    """(name, triangles (n, 3, 3)) of the sheets of the separatrix inside the box; as fine as the box asks for."""
+    """(name, triangles (n, 3, 3)) of the sheets of the separatrix inside the box; as fine as the box asks
+    for."""
     if not one.twin.plain or reduce(one.twin) is None:
         return []
     first = separatrix(one.twin, reach=REACH, shape=COARSE)
@@ -386,7 +420,8 @@ def _sheets(one: Subject, box: Box) -> list[tuple[str, np.ndarray]]:
 
 
 def _inside(one, box, reach, shape):
-    meshes = [(sheet.name, triangulate(sheet)) for sheet in separatrix(one.twin, reach=reach, shape=shape).sheets]
+    meshes = [(sheet.name, triangulate(sheet))
+              for sheet in separatrix(one.twin, reach=reach, shape=shape).sheets]
     pieces = [(name, box.clipped(mesh.points[mesh.triangles])) for name, mesh in meshes]
     return [(name, triangles) for name, triangles in pieces if len(triangles)]
 

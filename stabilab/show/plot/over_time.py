@@ -23,7 +23,8 @@ if TYPE_CHECKING:
 
 
 # --- The rates of a motion over time: components and size, with limits, extremes and period marked
-COMPONENTS = ({"color": style.BLUE, "linewidth": 1.3}, {"color": style.ORANGE, "linewidth": 1.3}, {"color": style.GREEN, "linewidth": 1.3})
+COMPONENTS = ({"color": style.BLUE, "linewidth": 1.3}, {"color": style.ORANGE, "linewidth": 1.3},
+              {"color": style.GREEN, "linewidth": 1.3})
 SIZE_LOOK = {"color": style.BLACK, "linewidth": 2.2}
 EXTREME = {"linestyle": (0, (1, 2)), "linewidth": 1.1}
 LIMIT = {"color": style.VERMILION, "linestyle": "--", "linewidth": 1.5}
@@ -31,20 +32,24 @@ REACHED = {"marker": "o", "color": style.VERMILION, "markersize": 6.5, "linestyl
 PERIOD = {"color": style.GREY, "linestyle": "-", "linewidth": 0.8}
 ALIKE = 0.004  # of the height of all curves: no more than the width of a line
 THIN = 0.02  # of the height of all curves: as high as a few lines
-BROKEN = ((0, (6, 6)), (0, (3, 9)))  # dashes of a curve over one or two others: each leaves some of those below
+# dashes of a curve over one or two others: each leaves some of those below
+BROKEN = ((0, (6, 6)), (0, (3, 9)))
 PERIODS = 10  # a motion that repeats is shown for so many at most, unless a span is asked for
 BEYOND = 1.25  # of the time to the limit: how far the picture goes at least
 
 
-def time(case: Any, state: Any = None, ax: Axes | None = None, span: Any = None, units: str | None = None, size: tuple[float, float] | None = None,
+def time(case: Any, state: Any = None, ax: Axes | None = None, span: Any = None, units: str | None = None,
+         size: tuple[float, float] | None = None,
          legend: bool = True) -> Axes:
     """Draw the rates of a motion over time, and return the axes.
 
-    case: a Case, or a scene with `state`, three rates (or a dict of blocks). The three components along the principal axes and |omega| in deg/s,
-    over seconds, minutes or hours (units="si": rad/s and s; scaled scenes have x and tau), under the answer in one line where there is a case.
-    Dotted: least and greatest value of each component over all time, where they are known. Grey: the ends of the periods. Dashed: the limits of
-    the case, and a point where one is reached first. Of limits about axes of a file that are not the principal ones, the components along those
-    axes are drawn instead. span: (from, to) or the end; None: the case's own, at most ten periods, and past the time at which a limit is reached.
+    case: a Case, or a scene with `state`, three rates (or a dict of blocks). The three components along the
+    principal axes and |omega| in deg/s, over seconds, minutes or hours (units="si": rad/s and s; scaled
+    scenes have x and tau), under the answer in one line where there is a case. Dotted: least and greatest
+    value of each component over all time, where they are known. Grey: the ends of the periods. Dashed: the
+    limits of the case, and a point where one is reached first. Of limits about axes of a file that are not
+    the principal ones, the components along those axes are drawn instead. span: (from, to) or the end; None:
+    the case's own, at most ten periods, and past the time at which a limit is reached.
     """
     one = subject(case, state, span)
     which.check("time", one)
@@ -56,7 +61,8 @@ def time(case: Any, state: Any = None, ax: Axes | None = None, span: Any = None,
     (time_unit, per_time), (rate_unit, per_rate) = scale.time(_measured(one, low, high)), scale.rate
     names = scale.names if turned is None else tuple(rf"$\omega_{axis}$" for axis in "xyz")
     with canvas.on(ax, size) as target:
-        height = (max(omega.max(), np.linalg.norm(omega, axis=1).max() if scale.size else -math.inf) - omega.min()) * per_rate
+        height = (max(omega.max(), np.linalg.norm(omega, axis=1).max() if scale.size else -math.inf)
+                  - omega.min()) * per_rate
         looks = told_apart(COMPONENTS, list(omega.T))
         rows = list(zip(names, looks))
         if scale.size:
@@ -70,7 +76,8 @@ def time(case: Any, state: Any = None, ax: Axes | None = None, span: Any = None,
         target.set_xlim(t[0] * per_time, t[-1] * per_time)
         target.margins(y=0.06)
         target.set_xlabel(scale.label("time", time_unit) if scale.size else time_unit)
-        target.set_ylabel(scale.label("rate" + (", axes of the file" if turned is not None else ""), rate_unit) if scale.size else "$x$")
+        target.set_ylabel(scale.label("rate" + (", axes of the file" if turned is not None else ""),
+                                      rate_unit) if scale.size else "$x$")
         canvas.title(target, one.heading, "" if one.case is None else _answer(one, scale))
         if legend:
             canvas.legend(target, rows, ax is None)
@@ -78,13 +85,15 @@ def time(case: Any, state: Any = None, ax: Axes | None = None, span: Any = None,
 
 
 def _answer(one, scale):
-    """The answer in one line, and before it that an approximate law does not hold; of uncertain numbers only their middles are drawn."""
+    """The answer in one line, and before it that an approximate law does not hold; of uncertain numbers only
+    their middles are drawn."""
     told = law.warned(one.motion.validity, headline(one.case, one.motion, scale.system))
     return told + ("; for the middles of the uncertain numbers" if one.case.uncertain else "")
 
 
 def told_apart(looks: Sequence[dict[str, Any]], curves: Sequence[np.ndarray]) -> list[dict[str, Any]]:
-    """The looks of curves (n,) in the order in which they are drawn: one that lies on an earlier one is broken, so that both are seen."""
+    """The looks of curves (n,) in the order in which they are drawn: one that lies on an earlier one is
+    broken, so that both are seen."""
     near = ALIKE * (max(values.max() for values in curves) - min(values.min() for values in curves))
     told = []
     for n, (look, values) in enumerate(zip(looks, curves)):
@@ -94,7 +103,8 @@ def told_apart(looks: Sequence[dict[str, Any]], curves: Sequence[np.ndarray]) ->
 
 
 def _curve(ax, t, values, look, height):
-    """A rate over time; one that turns more often than a picture has columns as the band that it fills. height: of all curves."""
+    """A rate over time; one that turns more often than a picture has columns as the band that it fills.
+    height: of all curves."""
     if turning(values) <= SOLID:
         ax.plot(t, values, **look)
         return
@@ -123,20 +133,23 @@ def _extremes(ax, one, per_rate):
     found = one.motion.extremes
     if found is None or one.motion.extremes_over != "all time":
         return []
-    drawn = [(value, look) for pair, look in zip(found, COMPONENTS) for value in set(pair) if value is not None and math.isfinite(value)]
+    drawn = [(value, look) for pair, look in zip(found, COMPONENTS) for value in set(pair)
+             if value is not None and math.isfinite(value)]
     for value, look in drawn:
         ax.axhline(value * per_rate, color=look["color"], zorder=1.5, **EXTREME)
     return [("least and greatest for ever", {"color": style.GREY, **EXTREME})] if drawn else []
 
 
 def _marked(one, low, high) -> bool:
-    """Whether the ends of the periods are drawn: there are some, and not so many that they would be a grey ground."""
+    """Whether the ends of the periods are drawn: there are some, and not so many that they would be a grey
+    ground."""
     period = one.motion.period
     return bool(period) and period <= high - low <= 3 * PERIODS * period
 
 
 def _measured(one, low, high):
-    """The time whose unit is that of the axis: of the period where its ends are marked, else of the picture."""
+    """The time whose unit is that of the axis: of the period where its ends are marked, else of the picture.
+    """
     return one.motion.period if _marked(one, low, high) else high - low
 
 
@@ -162,7 +175,8 @@ def _reached(one: Subject):
 
 
 def file_axes(one: Subject):
-    """Rows that turn rates to the axes of the file, where limits are about those and they are not the principal ones."""
+    """Rows that turn rates to the axes of the file, where limits are about those and they are not the
+    principal ones."""
     case = one.case
     if case is None or case.limits is None or case.limits.rate is not None or case.frame is None or case.frame.as_given:
         return None
@@ -197,11 +211,13 @@ POINTS = 801
 CROWDED = 24  # turns of a rate: more of them are shown over the first so many, unless a span is asked for
 
 
-def state(case: Any, start: Any = None, span: Any = None, size: tuple[float, float] | None = None, units: str | None = None) -> Any:
-    """Draw every part of the state over time, a row a part and a column a component, and return the figure: rates, direction of the vertical,
-    attitude, momentum, velocity, place, as far as the scene has them; the analytic models that apply are beside the exact motion. Of a case whose
-    rates turn very often over its span the first turns are shown. size: (width, height) in inches; None: as many as the rows need. units: "deg" or
-    "si", None for those of the case."""
+def state(case: Any, start: Any = None, span: Any = None, size: tuple[float, float] | None = None,
+          units: str | None = None) -> Any:
+    """Draw every part of the state over time, a row a part and a column a component, and return the figure:
+    rates, direction of the vertical, attitude, momentum, velocity, place, as far as the scene has them; the
+    analytic models that apply are beside the exact motion. Of a case whose rates turn very often over its
+    span the first turns are shown. size: (width, height) in inches; None: as many as the rows need. units:
+    "deg" or "si", None for those of the case."""
     import matplotlib
     from matplotlib import pyplot as plt
     one = subject(case, start, span)
@@ -216,7 +232,8 @@ def state(case: Any, start: Any = None, span: Any = None, size: tuple[float, flo
     with matplotlib.rc_context(style.RC | style.letters(size)):
         figure = comparison.picture(plt, one, runs, parts, size, scale.system)
         if law is not None and not law.held:
-            figure.suptitle(style.literal(f"{one.heading}\n{law.short}"), fontsize=10 * style.share(), wrap=True)
+            figure.suptitle(style.literal(f"{one.heading}\n{law.short}"), fontsize=10 * style.share(),
+                            wrap=True)
     return figure
 
 

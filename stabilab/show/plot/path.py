@@ -28,13 +28,15 @@ EVEN = 2001  # times at least
 INSIDE = 16  # times inside a step: a Taylor step to the last digit turns the body by up to three radians
 MOST = 60_000
 SEEN = 1e-3  # of the largest rate: what an eye tells apart
-APART = (1, 2, 3)  # last places by which a start is moved: it leaves every plane through two of its components
+# last places by which a start is moved: it leaves every plane through two of its components
+APART = (1, 2, 3)
 DIGITS = 4  # of a run in doubles' place, where these are lost; more than one of them is needed for a line
 BINS, SOLID = 700, 500  # a curve with more turning points than this is drawn as a band of so many pieces
 
 
 def path(one: Subject, start: float, end: float) -> tuple[np.ndarray, np.ndarray]:
-    """(times (n,), rates (n, 3)) of the motion from `start` to `end`; fewer where the run stops. InputError where it does not begin."""
+    """(times (n,), rates (n, 3)) of the motion from `start` to `end`; fewer where the run stops. InputError
+    where it does not begin."""
     even = np.linspace(start, end, EVEN)
     t, states = along(one, _beside(even, _steps(one, even)), even)
     if len(t) < 2:
@@ -42,14 +44,17 @@ def path(one: Subject, start: float, end: float) -> tuple[np.ndarray, np.ndarray
     return t, states
 
 
-def along(one: Subject, times: np.ndarray, fewer: np.ndarray | None = None, drawn: Callable[[np.ndarray], int] = len) -> tuple[np.ndarray, np.ndarray]:
-    """(times (n,), rates (n, 3)) of the motion at the times, or as many as a run reaches. fewer: times enough for a line where doubles are not and each time
-    costs many digits; drawn: of rates, how many of the first are drawn, where a picture ends before the motion does."""
+def along(one: Subject, times: np.ndarray, fewer: np.ndarray | None = None,
+          drawn: Callable[[np.ndarray], int] = len) -> tuple[np.ndarray, np.ndarray]:
+    """(times (n,), rates (n, 3)) of the motion at the times, or as many as a run reaches. fewer: times enough
+    for a line where doubles are not and each time costs many digits; drawn: of rates, how many of the first
+    are drawn, where a picture ends before the motion does."""
     scene, start = (one.twin, one.state) if one.twin.plain else (one.scene, one.start)
     if scene.plain:
         t, states = _run(scene, start, times)
         if not _sure(scene, start, t[:drawn(states)], states[:drawn(states)]):
-            t, states = _in_digits(replace(one, scene=scene, blocks={}), times if fewer is None else fewer) or (t, states)
+            t, states = (_in_digits(replace(one, scene=scene, blocks={}), times if fewer is None else fewer)
+                         or (t, states))
     else:
         found = simulate(one.scene, one.state, times, one.blocks)
         t, states = np.asarray(found.t), np.asarray(found.state["omega"])
@@ -62,19 +67,24 @@ def _run(scene, start, times):
 
 
 def _sure(scene, start, t, states) -> bool:
-    """Whether a start moved in its last places leaves the line where it is: on an unstable plane rounding throws a run in doubles off."""
+    """Whether a start moved in its last places leaves the line where it is: on an unstable plane rounding
+    throws a run in doubles off."""
     later, moved = _run(scene, np.asarray(start, float) + APART * np.spacing(start), t)
-    return len(later) == len(t) and bool((np.abs(moved - states) <= SEEN * np.abs(states).max(initial=0.0)).all())
+    return (len(later) == len(t)
+            and bool((np.abs(moved - states) <= SEEN * np.abs(states).max(initial=0.0)).all()))
 
 
 def _in_digits(one, times):
     """(times, rates) by the cheapest way that is sure of them; None where none is known."""
     found = best_reached(one, times, DIGITS, measured=False)
-    return (found.run.t, found.run.state["x" if one.scene.variables == "scaled" else "omega"]) if found.run.status == "reached" and found.digits > 1 else None
+    return (found.run.t,
+            found.run.state["x" if one.scene.variables == "scaled"
+                            else "omega"]) if found.run.status == "reached" and found.digits > 1 else None
 
 
 def _steps(one, even):
-    """The ends of the steps of a run; none of a longer state, which may need a method whose steps are another's."""
+    """The ends of the steps of a run; none of a longer state, which may need a method whose steps are
+    another's."""
     steps: list[float] = []
     if one.scene.plain:
         trajectory(one.scene, one.start, even[[0, -1]] if even[0] else even[-1:], steps=steps, laws=False)
@@ -99,22 +109,27 @@ def turning(values: np.ndarray) -> int:
 
 
 def band(t: np.ndarray, values: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """(times, least, greatest) in pieces of the curve, for one that turns more often than a picture has columns."""
+    """(times, least, greatest) in pieces of the curve, for one that turns more often than a picture has
+    columns."""
     edges = np.linspace(t[0], t[-1], BINS + 1)
     first = np.clip(np.searchsorted(t, edges[:-1]), 0, len(t) - 1)
-    return 0.5 * (edges[:-1] + edges[1:]), np.minimum.reduceat(values, first), np.maximum.reduceat(values, first)
+    return 0.5 * (edges[:-1] + edges[1:]), np.minimum.reduceat(values,
+                                                               first), np.maximum.reduceat(values, first)
 
 
 def angular(points: np.ndarray, near: float) -> bool:
-    """Whether a line through points (n, d) shows corners: it bends by more than a tenth of a right angle in a place whose both sides are longer than `near`."""
+    """Whether a line through points (n, d) shows corners: it bends by more than a tenth of a right angle in a
+    place whose both sides are longer than `near`."""
     way = np.diff(points, axis=0)
     size = np.linalg.norm(way, axis=1)
     long = (size[1:] > near) & (size[:-1] > near)
-    return bool((long & ((way[1:] * way[:-1]).sum(axis=1) < math.cos(0.05 * math.pi) * size[1:] * size[:-1])).any())
+    return bool((long & ((way[1:] * way[:-1]).sum(axis=1) < math.cos(0.05 * math.pi) * size[1:]
+                         * size[:-1])).any())
 
 
 def thinned(points: np.ndarray, near: float) -> np.ndarray:
-    """Of the points (n, d) of a line those without which it would be farther than `near` from some: of each stretch the farthest, until all are near."""
+    """Of the points (n, d) of a line those without which it would be farther than `near` from some: of each
+    stretch the farthest, until all are near."""
     kept = np.zeros(len(points), bool)
     kept[[0, -1]] = True
     stretches = [(0, len(points) - 1)]
@@ -137,17 +152,21 @@ EFFORTS = ("full", "quick", "brief", "glance")
 SIZE = (7.6, 6.2)
 
 
-def budget(case: Any, state: Any = None, ax: Axes | None = None, span: Any = None, question: str = "span", effort: str = "quick",
+def budget(case: Any, state: Any = None, ax: Axes | None = None, span: Any = None, question: str = "span",
+           effort: str = "quick",
            size: tuple[float, float] | None = None, legend: bool = True) -> Axes:
     """Measure what the digits of a motion cost, draw time against error, and return the axes.
 
-    A line a method; the grey band is the front: no method is both faster and more accurate. question: "span" (states along the span), "end"
-    (the state at its end), "period" or "extremes", where the motion has them. effort: "full" (a minute), "quick", "brief" or "glance" (a
-    second). The times are measured, so two runs differ; everything else in the picture does not.
+    A line a method; the grey band is the front: no method is both faster and more accurate. question: "span"
+    (states along the span), "end" (the state at its end), "period" or "extremes", where the motion has them.
+    effort: "full" (a minute), "quick", "brief" or "glance" (a second). The times are measured, so two runs
+    differ; everything else in the picture does not.
     """
     found = measured(case, state, span, effort)
     if question not in found.questions:
-        raise InputError(f"question: expected one of {', '.join(found.questions) or 'none: ' + found.reference.reason}, got {question!r:.40}")
+        raise InputError(
+            f"question: expected one of {', '.join(found.questions) or 'none: ' + found.reference.reason}, "
+            f"got {question!r:.40}")
     with canvas.on(ax, size or SIZE) as target:
         panel(target, found, question)
         if legend:
@@ -165,7 +184,8 @@ def measured(case: Any, state: Any = None, span: Any = None, effort: str = "quic
 
 
 def whole(case: Any, plt: Any, size: tuple[float, float] | None = None) -> Any:
-    """The figure with a panel for every question that the motion has, or for as many as a figure of this size has room for."""
+    """The figure with a panel for every question that the motion has, or for as many as a figure of this size
+    has room for."""
     import matplotlib
     with matplotlib.rc_context(style.RC | style.letters(size)):
         return picture(plt, measured(case), size)

@@ -24,13 +24,15 @@ if TYPE_CHECKING:
 
 
 # --- The phase plane of a motion that reduces to one degree of freedom
-def phase(case: Any, state: Any = None, ax: Axes | None = None, units: str | None = None, size: tuple[float, float] | None = None,
+def phase(case: Any, state: Any = None, ax: Axes | None = None, units: str | None = None,
+          size: tuple[float, float] | None = None,
           legend: bool = True) -> Axes:
     """Draw the phase plane of a motion, and return the axes.
 
-    case: a Case, or a scene with `state`. Across: the turn about the axis of the torque since the start; up: the rate about it. The reduced
-    potential decides all lines: this motion, the separatrices through the saddles, and the motions of other energies at the same value of the
-    invariant. units: "deg" or "si". Raises InputError where the motion has no such plane; it names the kinds of plot that there are.
+    case: a Case, or a scene with `state`. Across: the turn about the axis of the torque since the start; up:
+    the rate about it. The reduced potential decides all lines: this motion, the separatrices through the
+    saddles, and the motions of other energies at the same value of the invariant. units: "deg" or "si".
+    Raises InputError where the motion has no such plane; it names the kinds of plot that there are.
     """
     one = subject(case, state)
     which.check("phase", one)
@@ -42,24 +44,31 @@ def phase(case: Any, state: Any = None, ax: Axes | None = None, units: str | Non
         draw(target, plane, start=not small, **factors)
         if small:
             _enlarged(target, plane, factors)
-        target.set_xlabel(scale.label(rf"turn $\alpha_{i + 1}$ about {one.axes.short(i + 1)} from the start", scale.angle[0]))
+        target.set_xlabel(scale.label(rf"turn $\alpha_{i + 1}$ about {one.axes.short(i + 1)} from the start",
+                                      scale.angle[0]))
         target.set_ylabel(scale.label(scale.names[i], scale.rate[0]))
         canvas.title(target, one.heading)
         if legend:
-            present = {"separatrix": bool(plane.saddles), "saddle (unstable)": bool(plane.saddles), "centre (stable)": bool(plane.centres)}
+            present = {"separatrix": bool(plane.saddles), "saddle (unstable)": bool(plane.saddles),
+                       "centre (stable)": bool(plane.centres)}
             canvas.legend(target, [row for row in ROWS if present.get(row[0], True)], ax is None)
     return target
 
 
-RESTING = 1e-4  # of the walls: a motion below it would be a line, and the grid may miss the bottom of its well
-SMALL, AROUND = 0.07, 1.6  # of the picture's height: a motion below it is shown enlarged, in a window so much larger than itself
+# of the walls: a motion below it would be a line, and the grid may miss the bottom of its well
+RESTING = 1e-4
+# of the picture's height: a motion below it is shown enlarged, in a window so much larger than itself
+SMALL, AROUND = 0.07, 1.6
 INSET = (0.34, 0.34)  # of the axes: width and height of that window
 NUMBERS = (0.065, 0.06)  # of the axes: the room of its numbers, left and below
-CLOSED = 1e-3  # of the largest W: more of it at its ends has a motion that leaves the picture; at a turning point rounding of the place leaves some 1e-6
+# of the largest W: more of it at its ends has a motion that leaves the picture; at a turning point rounding
+# of the place leaves some 1e-6
+CLOSED = 1e-3
 
 
 def _small(plane) -> bool:
-    """Whether a motion that turns back is too small to be seen beside its separatrix: the mark of its start would hide it."""
+    """Whether a motion that turns back is too small to be seen beside its separatrix: the mark of its start
+    would hide it."""
     span = window(plane)
     _, Ws = motion_curve(plane, *span)
     return 0 < Ws.max() < SMALL * highest(plane, *span) and bool(Ws[[0, -1]].max() <= CLOSED * Ws.max())
@@ -72,34 +81,42 @@ def _enlarged(ax, plane, factors):
     right = plane.unit * (ys[0] + ys[-1]) < plane.unit * sum(window(plane))  # the emptier side
     (wide, tall), (left, below) = INSET, NUMBERS
     at = (0.64 if right else 0.01 + left, 0.62)
-    ax.add_patch(Rectangle((at[0] - left, at[1] - below), wide + left + 0.01, tall + below + 0.02, transform=ax.transAxes,
+    ax.add_patch(Rectangle((at[0] - left, at[1] - below), wide + left + 0.01, tall + below + 0.02,
+                           transform=ax.transAxes,
                            facecolor="white", edgecolor=style.GREY, linewidth=0.8, zorder=4.5))
     inset = ax.inset_axes((*at, *INSET))
     middle, half = (ys[0] + ys[-1]) / 2, AROUND * (ys[-1] - ys[0]) / 2
-    draw(inset, plane, span=(middle - half, middle + half), levels=14, top=AROUND * float(Ws.max()), **factors)
+    draw(inset, plane, span=(middle - half, middle + half), levels=14, top=AROUND * float(Ws.max()),
+         **factors)
     inset.tick_params(labelsize=7)
-    for label in (*inset.get_xticklabels(), *inset.get_yticklabels()):  # they stand on the lines of the picture
+    # they stand on the lines of the picture
+    for label in (*inset.get_xticklabels(), *inset.get_yticklabels()):
         label.set_bbox({"facecolor": "white", "edgecolor": "none", "pad": 0.8})
     inset.set_in_layout(False)  # it lies inside; the layout would keep room for it below
     ax.indicate_inset_zoom(inset, edgecolor=style.BLACK)
 
 
 ROWS: list[tuple[str, dict]] = [
-    ("this motion", style.MEANING["this motion"]), ("start", style.MARKER["start"]), ("separatrix", style.MEANING["separatrix"]),
-    ("other energies", style.MEANING["level"]), ("centre (stable)", style.MARKER["centre"]), ("saddle (unstable)", style.MARKER["saddle"])]
+    ("this motion", style.MEANING["this motion"]), ("start", style.MARKER["start"]),
+    ("separatrix", style.MEANING["separatrix"]),
+    ("other energies", style.MEANING["level"]), ("centre (stable)", style.MARKER["centre"]),
+    ("saddle (unstable)", style.MARKER["saddle"])]
 
 
-def draw(ax, plane: PhasePlane, scale=1.0, offset=0.0, rate_scale=1.0, span=None, levels=22, motion=True, separatrices=True, start=True,
+def draw(ax, plane: PhasePlane, scale=1.0, offset=0.0, rate_scale=1.0, span=None, levels=22, motion=True,
+         separatrices=True, start=True,
          top=None):
-    """Draw level curves, separatrices, equilibria and the motion on `ax`; x axis: offset + scale*y. separatrices: False where the caller
-    draws them himself, each in a look of its own. start: mark where the motion begins. top: the largest W, None for what is worth drawing."""
+    """Draw level curves, separatrices, equilibria and the motion on `ax`; x axis: offset + scale*y.
+    separatrices: False where the caller draws them himself, each in a look of its own. start: mark where the
+    motion begins. top: the largest W, None for what is worth drawing."""
     low, high = span or window(plane)
     y = np.linspace(low, high, 700)
     heights, top = plane.height(y), highest(plane, low, high) if top is None else top
     W = np.linspace(-top, top, 500)
     energy = W[:, None] ** 2 / 2 + heights[None, :]
     limits = np.linspace(energy.min(), np.quantile(energy, 0.93), levels + 1)[1:]
-    ax.contour(offset + scale * y, rate_scale * plane.rate(W), energy, levels=limits, colors=style.MEANING["level"]["color"],
+    ax.contour(offset + scale * y, rate_scale * plane.rate(W), energy, levels=limits,
+               colors=style.MEANING["level"]["color"],
                linewidths=0.5, linestyles="solid")
     for saddle in plane.repeated(plane.saddles, low, high) if separatrices else ():
         ys, Ws = plane.separatrix(saddle, low, high)
@@ -113,16 +130,19 @@ def draw(ax, plane: PhasePlane, scale=1.0, offset=0.0, rate_scale=1.0, span=None
             ax.plot([offset], [rate_scale * plane.rate(plane.W0)], zorder=5, **style.MARKER["start"])
     for kind, places in (("centre", plane.centres), ("saddle", plane.saddles)):
         shown = np.array(plane.repeated(places, low, high))
-        if len(shown):  # an empty line that is not clipped lies at the corner of the picture for a layout, which keeps room for it
-            ax.plot(offset + scale * shown, rate_scale * plane.rate(np.zeros(shown.shape)), zorder=5, clip_on=False, **style.MARKER[kind])
+        # an empty line that is not clipped lies at the corner of the picture for a layout, which keeps room
+        # for it
+        if len(shown):
+            ax.plot(offset + scale * shown, rate_scale * plane.rate(np.zeros(shown.shape)), zorder=5,
+                    clip_on=False, **style.MARKER[kind])
     ax.set_xlim(*sorted((offset + scale * low, offset + scale * high)))
     ends = rate_scale * plane.rate(np.array([-top, top]))
     ax.set_ylim(min(ends), max(ends))
 
 
 def highest(plane: PhasePlane, low: float, high: float) -> float:
-    """The largest W worth drawing between two places: above this motion and all separatrices; about a motion that all but rests in a single well,
-    a third of the way up its walls."""
+    """The largest W worth drawing between two places: above this motion and all separatrices; about a motion
+    that all but rests in a single well, a third of the way up its walls."""
     tops = [float(plane.height(s)) for s in plane.repeated(plane.saddles, low, high)]
     heights = plane.height(np.linspace(low, high, 700))
     lift, walls = max(plane.W0**2 / 2, *(tops or [0.0])) - float(np.min(heights)), float(np.ptp(heights))
@@ -144,20 +164,24 @@ FAN = 500       # neighbours at most
 BESIDE = 150    # passages of each neighbour, if it does not leave
 ROUND = 1000    # passages, at most, for the sake of going round
 GONE = 3        # times the farthest of this motion's passages: a neighbour that far has left
-MARGIN, CLOSE = 0.08, 0.01  # of the picture around its points; half its side at least, of the size of the rates
+# of the picture around its points; half its side at least, of the size of the rates
+MARGIN, CLOSE = 0.08, 0.01
 
 
-def section(case: Any, states: Any = None, ax: Axes | None = None, units: str | None = None, size: tuple[float, float] | None = None,
+def section(case: Any, states: Any = None, ax: Axes | None = None, units: str | None = None,
+            size: tuple[float, float] | None = None,
             legend: bool = True, neighbours: int = 0, passages: int | None = None) -> Axes:
     """Draw the Poincaré section of a motion, and return the axes.
 
-    case: a Case, or a scene with `states`: three rates, or (n, 3) of several motions, the first of which is this one. The plane is that on which one rate
-    has its mean value over the motion, and grows; the axes are the two other rates, in deg/s (units="si": rad/s; scaled scenes have x). Each passage
-    is a root of a Taylor series. A periodic motion is one point, one on a torus fills closed curves, one that leaves scatters. passages: how
-    many of this motion (None: 300, or about an elliptic periodic motion as many as go round it); of one that spins up, those before that is
-    certain. neighbours: how many motions beside it, from the middle to twice as far. Where it stays in an island about an elliptic periodic motion,
-    that is marked. Raises InputError for a body with a liquid, in a medium or in a field, a motion at rest, and one that spins up before it has passed
-    any plane often enough.
+    case: a Case, or a scene with `states`: three rates, or (n, 3) of several motions, the first of which is
+    this one. The plane is that on which one rate has its mean value over the motion, and grows; the axes are
+    the two other rates, in deg/s (units="si": rad/s; scaled scenes have x). Each passage is a root of a
+    Taylor series. A periodic motion is one point, one on a torus fills closed curves, one that leaves
+    scatters. passages: how many of this motion (None: 300, or about an elliptic periodic motion as many as go
+    round it); of one that spins up, those before that is certain. neighbours: how many motions beside it,
+    from the middle to twice as far. Where it stays in an island about an elliptic periodic motion, that is
+    marked. Raises InputError for a body with a liquid, in a medium or in a field, a motion at rest, and one
+    that spins up before it has passed any plane often enough.
     """
     one, rest = _motions(case, states)
     which.check("section", one)
@@ -169,12 +193,15 @@ def section(case: Any, states: Any = None, ax: Axes | None = None, units: str | 
     count, followed = passages or _round(PASSAGES, orbit), _round(BESIDE, orbit)
     times, places = returns(one.twin, one.state, plane, count, until)
     sets = [(THIS, "this motion", places)]
-    sets += [(OTHER, "the other states", found) for found in [_together([returns(one.twin, row, plane, count)[1] for row in rest])] if len(found)]
+    sets += [(OTHER, "the other states", found)
+             for found in [_together([returns(one.twin, row, plane, count)[1] for row in rest])]
+             if len(found)]
     stay, leave = _fan(one.twin, orbit, plane, places, min(followed, len(places)), fan)
     sets += [(STAYS, "neighbours", stay)] * bool(len(stay))
     with canvas.on(ax, size or canvas.SQUARE) as target:
         rows = _draw(target, sets, leave, orbit, plane, scale)
-        canvas.title(target, one.heading, _plane_words(plane, scale), *_passed(one, times, places, until, scale, orbit))
+        canvas.title(target, one.heading, _plane_words(plane, scale),
+                     *_passed(one, times, places, until, scale, orbit))
         if legend:
             canvas.legend(target, rows, ax is None)
     return target
@@ -196,7 +223,8 @@ def _check(name: str, value: Any, least: int, most: int) -> None:
 
 
 def _may_have_an_island(one: Subject) -> bool:
-    """Whether no integral of motion is known, and the motion is not known to leave: where there is one, periodic motions are never isolated."""
+    """Whether no integral of motion is known, and the motion is not known to leave: where there is one,
+    periodic motions are never isolated."""
     return one.motion.fate == Fate.UNDECIDED and reduce(one.twin) is None and not which.free(one)
 
 
@@ -217,12 +245,15 @@ def _together(sets: list[np.ndarray]) -> np.ndarray:
 
 
 def _round(count: int, orbit: Periodic | None) -> int:
-    """So many passages, and more where they go round an elliptic periodic motion slowly (away from it up to twice as slowly), ROUND at most."""
+    """So many passages, and more where they go round an elliptic periodic motion slowly (away from it up to
+    twice as slowly), ROUND at most."""
     return count if orbit is None else max(count, min(ROUND, math.ceil(2 * 2 * math.pi / orbit.angle)))
 
 
-def _fan(scene: Any, orbit: Periodic | None, plane: Section, places: np.ndarray, count: int, number_of: int) -> tuple[np.ndarray, np.ndarray]:
-    """Passages (n, 3) of the neighbours that stay as long as they are followed, and of those that leave, or pass no more within the steps of a search."""
+def _fan(scene: Any, orbit: Periodic | None, plane: Section, places: np.ndarray, count: int,
+         number_of: int) -> tuple[np.ndarray, np.ndarray]:
+    """Passages (n, 3) of the neighbours that stay as long as they are followed, and of those that leave, or
+    pass no more within the steps of a search."""
     kept: dict[bool, list[np.ndarray]] = {True: [], False: []}
     if number_of:
         middle = np.array(orbit.state) if orbit is not None else places.mean(axis=0)
@@ -233,7 +264,8 @@ def _fan(scene: Any, orbit: Periodic | None, plane: Section, places: np.ndarray,
     return _together(kept[True]), _together(kept[False])
 
 
-def _draw(ax: Any, sets: list, leave: np.ndarray, orbit: Periodic | None, plane: Section, scale: Measures) -> list:
+def _draw(ax: Any, sets: list, leave: np.ndarray, orbit: Periodic | None, plane: Section,
+          scale: Measures) -> list:
     """Draw the sets of passages, the nearer ones above; the rows of the legend."""
     j, k = plane.across
     per_rate, rows = scale.rate[1], []
@@ -249,7 +281,8 @@ def _draw(ax: Any, sets: list, leave: np.ndarray, orbit: Periodic | None, plane:
     if orbit is not None:
         ax.plot([orbit.state[j] * per_rate], [orbit.state[k] * per_rate], zorder=6, **MIDDLE)
         rows.append(("periodic motion in the middle (elliptic)", MIDDLE))
-    every = np.concatenate([places for _, _, places in sets] + ([np.array([orbit.state])] if orbit is not None else []))
+    every = np.concatenate([places for _, _, places in sets]
+                           + ([np.array([orbit.state])] if orbit is not None else []))
     least = CLOSE * float(np.abs(every).max())
     for axis, setter, labels in ((j, ax.set_xlim, ax.set_xlabel), (k, ax.set_ylim, ax.set_ylabel)):
         low, high = float(every[:, axis].min()), float(every[:, axis].max())
@@ -261,14 +294,19 @@ def _draw(ax: Any, sets: list, leave: np.ndarray, orbit: Periodic | None, plane:
 
 def _plane_words(plane: Section, scale: Measures) -> str:
     unit, per_rate = scale.rate
-    return f"where {scale.plain(plane.axis)} = {number(plane.level * per_rate)} {unit}".rstrip() + " and grows"
+    return (f"where {scale.plain(plane.axis)} = {number(plane.level * per_rate)} {unit}".rstrip()
+            + " and grows")
 
 
-def _passed(one: Subject, times: np.ndarray, places: np.ndarray, until: float, scale: Measures, orbit: Periodic | None) -> list[str]:
+def _passed(one: Subject, times: np.ndarray, places: np.ndarray, until: float, scale: Measures,
+            orbit: Periodic | None) -> list[str]:
     """Lines on the passages, and on what they go round."""
-    turn = "" if orbit is None else f"neighbours turn about it by {number(math.degrees(orbit.angle))} deg a passage"
+    turn = ("" if orbit is None
+            else f"neighbours turn about it by {number(math.degrees(orbit.angle))} deg a passage")
     if len(places) > 1 and one_place(places):
-        return [f"all {len(places)} passages at one place: periodic, {_time(float(times[1] - times[0]), scale)}", turn]
+        return [
+            f"all {len(places)} passages at one place: periodic, {_time(float(times[1] - times[0]), scale)}",
+            turn]
     passed = f"{len(places)} passages in {_time(float(times[-1]), scale)}"
     if math.isfinite(until):
         passed += f", until spin-up about {one.axes.short(one.motion.axis)} is certain"

@@ -1,4 +1,5 @@
-"""What a picture is of: case or scene and state, which kinds of picture it has, their units, and the axes to draw on."""
+"""What a picture is of: case or scene and state, which kinds of picture it has, their units, and the axes to
+draw on."""
 from __future__ import annotations
 
 import math
@@ -33,9 +34,10 @@ DEFAULT_SPAN = (0.0, 15.0)  # in the scene's time, where nothing else says how f
 
 @dataclass(frozen=True)
 class Subject:
-    """scene: as it was given; state: the three rates at t = 0 in the scene's variables (rad/s, or x), None without a motion; blocks: the rest
-    of the state by name; span: (from, to) or None; heading: for titles, may be empty; case: where all this stands, or None;
-    neighbours: how many motions a section shows beside it."""
+    """scene: as it was given; state: the three rates at t = 0 in the scene's variables (rad/s, or x), None
+    without a motion; blocks: the rest of the state by name; span: (from, to) or None; heading: for titles,
+    may be empty; case: where all this stands, or None; neighbours: how many motions a section shows beside
+    it."""
 
     scene: AnyScene
     state: tuple[float, ...] | None
@@ -72,7 +74,8 @@ class Subject:
 
     @cached_property
     def twin(self) -> AnyScene:
-        """The scene of a wheel and a torque with the same rates, where there is one; else the scene itself."""
+        """The scene of a wheel and a torque with the same rates, where there is one; else the scene itself.
+        """
         return effective(self.scene)
 
     @cached_property
@@ -96,8 +99,9 @@ class Subject:
 
 
 def subject(given: Any, state: Any = None, span: Any = None) -> Subject:
-    """The subject of a Case or of a scene with a state: three rates, or a dict of blocks {"omega": ..., "gamma": ...}. A state or span given beside
-    a case takes the place of the case's own. span: (from, to), or the end alone. Raises InputError for anything else."""
+    """The subject of a Case or of a scene with a state: three rates, or a dict of blocks {"omega": ...,
+    "gamma": ...}. A state or span given beside a case takes the place of the case's own. span: (from, to), or
+    the end alone. Raises InputError for anything else."""
     ends = checked_span(span)
     if isinstance(given, Subject):
         return given
@@ -117,7 +121,8 @@ def _blocks_of(scene: AnyScene, state: Any) -> dict[str, Any]:
         raise InputError(f"state: expected three rates, or a dict with the block omega, got {state!r:.80}")
     row = checked_states(omega)
     if row.shape != (3,):
-        raise InputError(f"state: a plot is of one motion: expected three rates, got an array of shape {row.shape}")
+        raise InputError(
+            f"state: a plot is of one motion: expected three rates, got an array of shape {row.shape}")
     if isinstance(scene, Scene):
         start_of(scene, row.tolist(), blocks)  # says what is wrong with the rest
     return {"state": tuple(row.tolist()), "blocks": blocks}
@@ -130,13 +135,16 @@ KINDS = {
     "phase": "the plane of the reduced motion: turn about the torque's axis and its rate",
     "sphere": "the surface on which the motion stays, with the other motions on it",
     "space": "the motion in the space of rates, beside the separatrix",
-    "section": "the Poincaré section: passages of a plane, with neighbours and the periodic motion in the middle of an island",
+    "section": "the Poincaré section: passages of a plane, with neighbours and the periodic motion in the "
+               "middle of an island",
     "equilibria": "all equilibria, stable and unstable",
     "budget": "what accuracy costs in time",
     "state": "every part of the state over time, the analytic models beside the exact motion",
     "attitude": "the body as it turns, as an animation",
 }
-FAR = "rates, torque or wheel are so large or so small that their squares leave the range of doubles: choose other units"
+FAR = (
+    "rates, torque or wheel are so large or so small that their squares leave the range of doubles: choose "
+    "other units")
 
 
 def why_not(kind: str, one: Subject) -> str:
@@ -146,7 +154,8 @@ def why_not(kind: str, one: Subject) -> str:
     if kind == "equilibria":
         return _equilibria(one)
     if one.state is None:
-        return "it needs a motion: add [motion] with angular_velocity or x" if one.case is not None else "it needs a state: three rates at t = 0"
+        return ("it needs a motion: add [motion] with angular_velocity or x" if one.case is not None
+                else "it needs a state: three rates at t = 0")
     return _REASONS.get(kind, lambda one: "")(one)
 
 
@@ -166,13 +175,16 @@ def offered(one: Subject) -> tuple[str, ...]:
 
 
 def default(one: Subject) -> str:
-    """The kind that says most of a subject: its plane where it reduces, all parts of a longer state, else the rates over time."""
+    """The kind that says most of a subject: its plane where it reduces, all parts of a longer state, else the
+    rates over time."""
     return next(kind for kind in ("phase", "state", "time", "equilibria") if not why_not(kind, one))
 
 
 def _equilibria(one: Subject) -> str:
-    found = equilibria(one.scene) if one.twin.plain else None  # there always are some with other effects, and they take longer
-    return f"there is none: {found.reason}" if found is not None and not found.points and not found.curves else ""
+    # there always are some with other effects, and they take longer
+    found = equilibria(one.scene) if one.twin.plain else None
+    return (f"there is none: {found.reason}" if found is not None and not found.points and not found.curves
+            else "")
 
 
 def _far(one: Subject) -> str:
@@ -183,7 +195,9 @@ def _phase(one: Subject) -> str:
     if not one.twin.plain:
         return f"with {_beyond(one)} the motion does not reduce to one degree of freedom"
     if reduce(one.twin) is None:
-        return "the motion does not reduce to one degree of freedom (torque off the principal axes, or a wheel along it)"
+        return (
+            "the motion does not reduce to one degree of freedom (torque off the principal axes, or a wheel "
+            "along it)")
     return _far(one)
 
 
@@ -192,11 +206,14 @@ def _sphere(one: Subject) -> str:
         return f"with {_beyond(one)} no surface is known on which the motion stays"
     if free(one) and one.physical:
         return _far(one)
-    return "no surface is known on which the motion stays (torque off the principal axes, or a wheel along it)" if reduce(one.twin) is None else _far(one)
+    return (
+        "no surface is known on which the motion stays (torque off the principal axes, or a wheel along it)"
+        if reduce(one.twin) is None else _far(one))
 
 
 def certain_from(one: Subject) -> float:
-    """The time (scene's time) from which on spin-up is certain; inf of a motion that is not known to spin up."""
+    """The time (scene's time) from which on spin-up is certain; inf of a motion that is not known to spin up.
+    """
     found = one.motion
     return float(found.evidence.get("t_certificate") or 0.0) if found.fate == Fate.SPIN_UP else math.inf
 
@@ -214,11 +231,15 @@ def _section(one: Subject) -> str:
     if math.isinf(until):
         return f"the motion does not come back: it passes no plane {LEAST} times"
     when = "from its start on" if not until else f"from {until:.4g} {one.scene.time_unit} on"
-    return f"spin-up about {one.axes.short(one.motion.axis)} is certain {when}, before the motion has passed any plane {LEAST} times"
+    return (
+        f"spin-up about {one.axes.short(one.motion.axis)} is certain {when}, before the motion has passed "
+        f"any plane {LEAST} times")
 
 
 def _state(one: Subject) -> str:
-    return "no approximate theory comes with a wheel and a constant torque: the rates over time are the exact motion" if one.scene.plain else ""
+    return (
+        "no approximate theory comes with a wheel and a constant torque: the rates over time are the exact "
+        "motion" if one.scene.plain else "")
 
 
 def _budget(one: Subject) -> str:
@@ -240,14 +261,16 @@ def _beyond(one: Subject) -> str:
     return f"{', '.join(others)} and {last}" if others else last
 
 
-_REASONS = {"phase": _phase, "sphere": _sphere, "state": _state, "attitude": _attitude, "budget": _budget, "time": _far, "space": _far, "section": _section}
+_REASONS = {"phase": _phase, "sphere": _sphere, "state": _state, "attitude": _attitude, "budget": _budget,
+            "time": _far, "space": _far, "section": _section}
 
 
 # --- The units of the axes of a plot: name and factor of rates, times and angles, and the names of
 # components
 @dataclass(frozen=True)
 class Measures:
-    """rate, angle: (name, how many make one of the scene's); names: of the three components, in TeX; size: of |omega|, empty when scaled."""
+    """rate, angle: (name, how many make one of the scene's); names: of the three components, in TeX; size: of
+    |omega|, empty when scaled."""
 
     rate: tuple[str, float]
     angle: tuple[str, float]
@@ -269,14 +292,15 @@ class Measures:
 
 
 def measures(one: Subject, units: str | None = None) -> Measures:
-    """Those of a subject: units "deg" (deg/s, deg; seconds, minutes or hours) or "si" (rad/s, rad, s), None for those of the case, else "deg"; scaled
-    scenes have none."""
+    """Those of a subject: units "deg" (deg/s, deg; seconds, minutes or hours) or "si" (rad/s, rad, s), None
+    for those of the case, else "deg"; scaled scenes have none."""
     if units is not None and units not in SYSTEMS:
         raise InputError(f"units: expected one of {', '.join(SYSTEMS)}, got {units!r:.40}")
     if not one.physical:
         return Measures(("", 1.0), ("", 1.0), ("$x_1$", "$x_2$", "$x_3$"), "", None)
     found = SYSTEMS[units or (one.case is not None and one.case.units) or "deg"]
-    return Measures(found.rates, found.angles, (r"$\omega_1$", r"$\omega_2$", r"$\omega_3$"), r"$|\omega|$", found)
+    return Measures(found.rates, found.angles, (r"$\omega_1$", r"$\omega_2$", r"$\omega_3$"), r"$|\omega|$",
+                    found)
 
 
 # --- Where a plot goes: onto axes that the caller gives, or into a figure of its own in the style of the
@@ -287,7 +311,8 @@ SQUARE = (7.0, 6.4)
 
 @contextmanager
 def on(ax: Any, size: tuple[float, float] | None = None, space: bool = False) -> Iterator[Any]:
-    """The axes to draw on: `ax` itself, checked, or those of a new figure of so many inches. space: three-dimensional ones."""
+    """The axes to draw on: `ax` itself, checked, or those of a new figure of so many inches. space:
+    three-dimensional ones."""
     demand(*style.PACKAGES)
     if ax is not None:
         yield _checked(ax, space)
@@ -303,7 +328,8 @@ def _checked(ax: Any, space: bool) -> Any:
     if not hasattr(ax, "plot") or not hasattr(ax, "figure"):
         raise InputError(f"ax: expected Matplotlib axes, got {ax!r:.80}")
     if space != (getattr(ax, "name", "") == "3d"):
-        wanted = 'three-dimensional axes: plt.subplots(subplot_kw={"projection": "3d"})' if space else "plane axes: plt.subplots()"
+        wanted = ('three-dimensional axes: plt.subplots(subplot_kw={"projection": "3d"})' if space
+                  else "plane axes: plt.subplots()")
         raise InputError(f"ax: expected {wanted}")
     return ax
 
@@ -319,11 +345,13 @@ def legend(ax: Any, rows: list[tuple[str, dict[str, Any]]], own: bool) -> None:
     if not own:
         ax.legend(handles, names, loc="best", fontsize="small")
         return
-    ax.figure.legend(handles, names, loc="outside lower center", ncols=style.fitting(names, ax.figure.get_figwidth()))
+    ax.figure.legend(handles, names, loc="outside lower center",
+                     ncols=style.fitting(names, ax.figure.get_figwidth()))
 
 
 def title(ax: Any, *lines: str) -> None:
     """The lines that are not empty, above the axes; the first is the title of the case."""
-    width = ax.get_position().width if len(ax.figure.axes) > 1 else 1.0  # beside others it has its own share alone
+    # beside others it has its own share alone
+    width = ax.get_position().width if len(ax.figure.axes) > 1 else 1.0
     told = (style.clauses(line, ax.figure.get_figwidth() * width) for line in lines if line)
     ax.set_title("\n".join(map(style.literal, told)), wrap=True)

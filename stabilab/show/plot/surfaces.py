@@ -12,7 +12,19 @@ from ..sampling import spread
 from . import in_space
 from . import subject as canvas
 from . import subject as which
-from .in_space import CURVES, POINTS, Box, SurfaceLines, disc, facing, grid_triangles, levels, plane_of, sight, simple
+from .in_space import (
+    CURVES,
+    POINTS,
+    Box,
+    SurfaceLines,
+    disc,
+    facing,
+    grid_triangles,
+    levels,
+    plane_of,
+    sight,
+    simple,
+)
 from .path import path
 from .phase_plane import SMALL, highest, ways
 from .subject import Subject, measures, subject
@@ -41,10 +53,12 @@ def cylinder(one: Subject, units: str | None) -> SurfaceLines:
     axis = plane.reduction.axis
     view = facing(_broadside(plane, (low + high) / 2, axis) + 0.35 * np.eye(3)[axis])
     spread = np.ptp(surface.reshape(-1, 3), axis=0)
-    pad = 0.04 * spread.max() if spread.min() > 0.04 * spread.max() else np.maximum(0.04 * spread, 0.1 * spread.max())
+    pad = (0.04 * spread.max() if spread.min() > 0.04 * spread.max()
+           else np.maximum(0.04 * spread, 0.1 * spread.max()))
     box = Box.of(surface.min(axis=(0, 1)) - pad, surface.max(axis=(0, 1)) + pad)
     words = f"the rates across {one.axes.short(axis + 1)} stay on a {plane.land.base}"
-    found = SurfaceLines(grid_triangles(surface), box, view, tuple(scale.label(name, scale.rate[0]) for name in scale.names), words)
+    found = SurfaceLines(grid_triangles(surface), box, view,
+                         tuple(scale.label(name, scale.rate[0]) for name in scale.names), words)
     _wrap(found, plane, at, axis, low, high, top)
     for sign in ways(plane, Ws):
         inside = (np.abs(Ws) <= top) & (ys >= low - 1e-9) & (ys <= high + 1e-9) | np.isfinite(plane.land.turn)
@@ -56,18 +70,22 @@ def cylinder(one: Subject, units: str | None) -> SurfaceLines:
             found.marks.append((at([place], [0.0]), style.MARKER[kind] | ({} if front else {"alpha": 0.35})))
     found.marks.append((at([0.0], [plane.W0]), style.MARKER["start"]))
     found.rows = [("this motion", style.MEANING["this motion"]), ("start", style.MARKER["start"]),
-                  *([("separatrix", style.MEANING["separatrix"])] if plane.repeated(plane.saddles, low, high) else []),
+                  *([("separatrix", style.MEANING["separatrix"])] if plane.repeated(plane.saddles, low, high)
+                    else []),
                   ("other energies", style.MEANING["level"]),
-                  *((name, style.MARKER[kind]) for name, kind, places in (("centre (stable)", "centre", plane.centres),
+                  *((name, style.MARKER[kind]) for name, kind,
+                    places in (("centre (stable)", "centre", plane.centres),
                     ("saddle (unstable)", "saddle", plane.saddles)) if plane.repeated(places, low, high))]
     return found
 
 
 def _range(plane: PhasePlane, ys, Ws):
-    """(from, to, largest W): one turn of a circle about the motion, the window of another base; of a small motion its surroundings."""
+    """(from, to, largest W): one turn of a circle about the motion, the window of another base; of a small
+    motion its surroundings."""
     low, high = window(plane)
     closed = Ws[[0, -1]].max() < 1e-6 * Ws.max()
-    middle, half, top = (ys[0] + ys[-1]) / 2 if closed else 0.0, (ys[-1] - ys[0]) / 2, highest(plane, low, high)
+    middle, half, top = (ys[0]
+                         + ys[-1]) / 2 if closed else 0.0, (ys[-1] - ys[0]) / 2, highest(plane, low, high)
     if 0 < Ws.max() < SMALL * top and closed:
         return middle - AROUND * half, middle + AROUND * half, AROUND * float(Ws.max())
     if np.isfinite(plane.land.turn):
@@ -122,7 +140,8 @@ SAME = 1e-9  # of the energies: those of one saddle, found twice
 
 
 def momentum_sphere(one: Subject) -> SurfaceLines:
-    """All that a plot shows, in kg m^2/s; H = D omega + wheel, |H| constant, and the energy sum((H - wheel)^2 / 2 D) tells the polhodes apart."""
+    """All that a plot shows, in kg m^2/s; H = D omega + wheel, |H| constant, and the energy sum((H - wheel)^2
+    / 2 D) tells the polhodes apart."""
     scene: Any = one.twin  # physical: `which` refuses the others
     D = np.array([float(v) for v in scene.body.exact])
     wheel = np.array([float(v) for v in scene.vector("gyrostat")])
@@ -131,28 +150,36 @@ def momentum_sphere(one: Subject) -> SurfaceLines:
     way = omega * D + wheel
     size = float(np.linalg.norm(way[0]))
     energy = lambda H: (((H - wheel) ** 2) / (2 * D)).sum(axis=-1)
-    up, round_ = np.linspace(-np.pi / 2, np.pi / 2, SPHERE_GRID[0]), np.linspace(-np.pi, np.pi, SPHERE_GRID[1])
-    at = lambda round_, up: size * np.stack([np.cos(up) * np.cos(round_), np.cos(up) * np.sin(round_), np.sin(up)], axis=-1)
+    up, round_ = np.linspace(-np.pi / 2, np.pi / 2,
+                             SPHERE_GRID[0]), np.linspace(-np.pi, np.pi, SPHERE_GRID[1])
+    at = lambda round_, up: size * np.stack([np.cos(up) * np.cos(round_), np.cos(up) * np.sin(round_),
+                                             np.sin(up)], axis=-1)
     ball = at(*np.meshgrid(round_, up))
     height = energy(ball)
     rest, circles = _rest(one, D, wheel, size)
     view = facing(way.mean(axis=0) if np.linalg.norm(way.mean(axis=0)) > 0.05 * size else way[0])
     found = SurfaceLines(grid_triangles(ball[::6, ::8]), Box(np.array([[-size] * 3, [size] * 3])), view,
-                         tuple(rf"$H_{n}$ (kg m$^2$/s)" for n in (1, 2, 3)), f"sphere of the angular momentum, |H| = {size:.5g} kg m²/s")
+                         tuple(rf"$H_{n}$ (kg m$^2$/s)" for n in (1, 2, 3)),
+                         f"sphere of the angular momentum, |H| = {size:.5g} kg m²/s")
     flat = float(np.ptp(height)) <= SAME * float(np.abs(height).max())
     saddles = [] if flat else _saddles(height, [float(energy(H)) for kind, H in rest if kind == "unstable"])
-    for values, look in ((_others(height, saddles), style.MEANING["level"]), (saddles, style.MEANING["separatrix"])):
+    for values, look in ((_others(height, saddles), style.MEANING["level"]),
+                         (saddles, style.MEANING["separatrix"])):
         for line in levels(round_, up, height, values):
             points = at(*line.T)
             found.add(LIFT * points, look, points)
     for kind, points in circles:
         found.add(LIFT * points, CURVES[kind], points)
     found.add(LIFT * way, style.MEANING["this motion"], way)
-    found.marks = [(LIFT * H[None], POINTS[kind]) for kind, H in rest if H @ sight(view) >= 0] + [(LIFT * way[:1], style.MARKER["start"])]
+    found.marks = ([(LIFT * H[None], POINTS[kind]) for kind, H in rest if H @ sight(view) >= 0]
+                   + [(LIFT * way[:1], style.MARKER["start"])])
     found.rows = [("this motion", style.MEANING["this motion"]), ("start", style.MARKER["start"]),
-                  *([("separatrix", style.MEANING["separatrix"])] if saddles else []), *([] if flat else [("other energies", style.MEANING["level"])]),
-                  *((f"{kind} equilibrium", POINTS[kind]) for kind in POINTS if any(kind == k for k, _ in rest)),
-                  *((f"{kind} equilibria", CURVES[kind]) for kind in CURVES if any(kind == k for k, _ in circles))]
+                  *([("separatrix", style.MEANING["separatrix"])] if saddles else []),
+                  *([] if flat else [("other energies", style.MEANING["level"])]),
+                  *((f"{kind} equilibrium", POINTS[kind]) for kind in POINTS
+                    if any(kind == k for k, _ in rest)),
+                  *((f"{kind} equilibria", CURVES[kind]) for kind in CURVES
+                    if any(kind == k for k, _ in circles))]
     return found
 
 
@@ -169,22 +196,26 @@ def _others(height, saddles):
     area = np.cos(np.linspace(-np.pi / 2, np.pi / 2, height.shape[0]))[:, None] * np.ones(height.shape)
     order = np.argsort(height.ravel())
     shares = np.cumsum(area.ravel()[order])
-    values = height.ravel()[order][np.searchsorted(shares, shares[-1] * (np.arange(POLHODES) + 0.5) / POLHODES)]
+    values = height.ravel()[order][np.searchsorted(shares,
+                                                   shares[-1] * (np.arange(POLHODES) + 0.5) / POLHODES)]
     apart = 0.02 * float(np.ptp(height))
     return [value for value in values if all(abs(value - s) > apart for s in saddles)]
 
 
 def _rest(one, D, wheel, size):
-    """([(verdict, H)] of the single equilibria whose momentum is of this size, [(verdict, points (n, 3))] of circles of them)."""
+    """([(verdict, H)] of the single equilibria whose momentum is of this size, [(verdict, points (n, 3))] of
+    circles of them)."""
     found, circles = [], []
-    excess = lambda curve: lambda t: float(np.linalg.norm(np.array(curve.point(float(t)), float) * D + wheel)) - size
+    excess = lambda curve: lambda t: float(np.linalg.norm(np.array(curve.point(float(t)), float) * D
+                                                          + wheel)) - size
     for curve in equilibria(one.twin).curves:
         if curve.name.startswith("plane"):
             if not wheel.any():
                 circles.append((simple(curve.segments[0].verdict), disc(plane_of(curve), size)))
             continue
         for segment in curve.segments:
-            found += [(simple(segment.verdict), np.array(curve.point(t), float) * D + wheel) for t in _roots(excess(curve), *segment.t)]
+            found += [(simple(segment.verdict), np.array(curve.point(t), float) * D + wheel)
+                      for t in _roots(excess(curve), *segment.t)]
     return found, circles
 
 
@@ -193,21 +224,26 @@ def _roots(function, low, high):
     t = spread(low, high, 4001)
     values = np.array([function(v) for v in t])
     with np.errstate(all="ignore"):
-        change = np.nonzero(np.isfinite(values[:-1]) & np.isfinite(values[1:]) & (values[:-1] * values[1:] <= 0) & (values[:-1] != 0))[0]
+        change = np.nonzero(np.isfinite(values[:-1]) & np.isfinite(values[1:])
+                            & (values[:-1] * values[1:] <= 0) & (values[:-1] != 0))[0]
     return [brentq(function, t[n], t[n + 1], xtol=1e-15, rtol=1e-14) for n in change]
 
 
 # --- The surface on which a motion stays: the sphere of its momentum, or the cylinder of a torque on an
 # axis
-def sphere(case: Any, state: Any = None, ax: Axes | None = None, units: str | None = None, size: tuple[float, float] | None = None,
+def sphere(case: Any, state: Any = None, ax: Axes | None = None, units: str | None = None,
+           size: tuple[float, float] | None = None,
            legend: bool = True) -> Axes:
-    """Draw the surface on which a motion stays, with the other motions on it, and return the (three-dimensional) axes.
+    """Draw the surface on which a motion stays, with the other motions on it, and return the
+    (three-dimensional) axes.
 
-    Without a torque: the sphere of the angular momentum H, wheels included, whose size is constant; its components are those in the body. The lines
-    are polhodes, the motions of other energies; the separatrices run through the saddles. Under a torque on a principal axis (or of scaled
-    variables, which know no momentum): the cylinder whose base is the curve that the two rates across that axis cannot leave (circle, hyperbola
-    or parabola); the height is the rate about the axis, and the phase plane is wrapped round it. Lines behind the surface are pale. Raises
-    InputError where no such surface is known; it names the kinds of plot that there are.
+    Without a torque: the sphere of the angular momentum H, wheels included, whose size is constant; its
+    components are those in the body. The lines are polhodes, the motions of other energies; the separatrices
+    run through the saddles. Under a torque on a principal axis (or of scaled variables, which know no
+    momentum): the cylinder whose base is the curve that the two rates across that axis cannot leave (circle,
+    hyperbola or parabola); the height is the rate about the axis, and the phase plane is wrapped round it.
+    Lines behind the surface are pale. Raises InputError where no such surface is known; it names the kinds of
+    plot that there are.
     """
     one = subject(case, state)
     which.check("sphere", one)

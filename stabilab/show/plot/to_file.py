@@ -36,14 +36,16 @@ DRAWN: dict[str, Callable[..., Any]] = {
 }
 
 
-def write(case: Any, path: str | Path, kind: str | None = None, size: tuple[float, float] | None = None, dpi: float | None = None, units: str | None = None,
+def write(case: Any, path: str | Path, kind: str | None = None, size: tuple[float, float] | None = None,
+          dpi: float | None = None, units: str | None = None,
           span: Any = None, neighbours: int = 0) -> Path:
-    """Draw a case (or a Subject) and write the picture to `path` (.png, .svg, .pdf; of an attitude .html, .gif, .mp4), whole or not at all; returns the
-    path.
+    """Draw a case (or a Subject) and write the picture to `path` (.png, .svg, .pdf; of an attitude .html,
+    .gif, .mp4), whole or not at all; returns the path.
 
-    kind: one of `which.KINDS`; None: the one that says most of the case. size: (width, height) in inches; dpi: dots an inch of a .png.
-    units: "deg" or "si", None for those of the case. span: in place of the case's own. neighbours: of a section, how many motions are shown
-    beside it. The same input gives the same bytes (but for "budget", whose times are measured). Raises InputError for another ending, and where the
+    kind: one of `which.KINDS`; None: the one that says most of the case. size: (width, height) in inches;
+    dpi: dots an inch of a .png. units: "deg" or "si", None for those of the case. span: in place of the
+    case's own. neighbours: of a section, how many motions are shown beside it. The same input gives the same
+    bytes (but for "budget", whose times are measured). Raises InputError for another ending, and where the
     case has no such plot: it names those that there are.
     """
     one = replace(subject(case, span=span), neighbours=neighbours)
@@ -74,7 +76,9 @@ def check_size(size: tuple[float, float] | None, dpi: float | None) -> None:
     """Raise InputError for inches or dots of which no picture can be made, with what is possible."""
     if size is not None and not (len(size) == 2 and all(LEAST <= side <= MOST for side in size)):
         got = " x ".join(f"{side:g}" if isinstance(side, (int, float)) else f"{side!r:.40}" for side in size)
-        raise InputError(f"size: expected a width and a height of {LEAST:g} to {MOST:g} inches, got {got}; dpi makes a picture finer")
+        raise InputError(
+            f"size: expected a width and a height of {LEAST:g} to {MOST:g} inches, got {got}; dpi makes a "
+            f"picture finer")
     if dpi is not None and not 10 <= dpi <= SHARP:
         raise InputError(f"dpi: expected 10 to {SHARP} dots an inch, got {dpi!r:.40}")
     if dpi is not None and max(size or (0,)) * dpi > PIXELS:
@@ -88,7 +92,8 @@ def inches(text: str | None) -> tuple[float, float] | None:
     try:
         width, height = (float(side) for side in text.lower().split("x"))
     except ValueError:
-        raise InputError(f'--size: expected a width and a height in inches, as in "8x5", got "{text[:40]}"') from None
+        raise InputError(
+            f'--size: expected a width and a height in inches, as in "8x5", got "{text[:40]}"') from None
     return width, height
 
 

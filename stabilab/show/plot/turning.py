@@ -31,17 +31,21 @@ if TYPE_CHECKING:
 
 # --- The attitude of a body at the times of the pictures of a film, and the box that stands for the body
 FRAMES = 150
-STEP = np.radians(15)  # a body turns by no more from one picture to the next: the eye would see it turn backwards
-ROUNDED, NEAR, TRIES = 1.02, 1.1, 20  # of a step's width; of the length of a film, to which its longest is found, in so many runs
+# a body turns by no more from one picture to the next: the eye would see it turn backwards
+STEP = np.radians(15)
+# of a step's width; of the length of a film, to which its longest is found, in so many runs
+ROUNDED, NEAR, TRIES = 1.02, 1.1, 20
 THINNEST = 0.06  # of the longest edge
 CORNERS = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], float)
-FACES = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))  # across axes 1, 1, 2, 2, 3, 3
+# across axes 1, 1, 2, 2, 3, 3
+FACES = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
 
 
 @dataclass(frozen=True)
 class Turn:
-    """t: (n,) s; rotations: (n, 3, 3) from body to space; omega: (n, 3) rad/s; edges: (3,) half edges of the box, the longest 1;
-    whole: whether the span that was asked for is shown to its end; asked: its length, s."""
+    """t: (n,) s; rotations: (n, 3, 3) from body to space; omega: (n, 3) rad/s; edges: (3,) half edges of the
+    box, the longest 1; whole: whether the span that was asked for is shown to its end; asked: its length,
+    s."""
 
     t: np.ndarray
     rotations: np.ndarray
@@ -52,11 +56,14 @@ class Turn:
 
     def part(self, units: Units) -> str:
         """What is said of a film that ends before its span."""
-        return "" if self.whole else f"The first {units.time(float(abs(self.t[-1] - self.t[0])), SHORT)} of {units.time(self.asked, SHORT)} are shown."
+        return ("" if self.whole
+                else f"The first {units.time(float(abs(self.t[-1] - self.t[0])), SHORT)} of "
+                     f"{units.time(self.asked, SHORT)} are shown.")
 
 
 def turn(one: Subject, frames: int = FRAMES) -> Turn:
-    """The motion in so many pictures, from the start of its span on: as far as it goes, or as the pictures reach at `STEP`."""
+    """The motion in so many pictures, from the start of its span on: as far as it goes, or as the pictures
+    reach at `STEP`."""
     if not 2 <= frames <= 5000:
         raise InputError(f"frames: expected 2 to 5000, got {frames!r:.40}")
     low, high = one.span or DEFAULT_SPAN
@@ -66,8 +73,9 @@ def turn(one: Subject, frames: int = FRAMES) -> Turn:
 
 
 def _reached(one, low, high, frames):
-    """(the motion at the times of the pictures, whether they reach the end of the span). The greatest rate up to an end grows with it, so the ends at which
-    no step is too wide are those up to one; it is enclosed between one that is short enough and one that is too long."""
+    """(the motion at the times of the pictures, whether they reach the end of the span). The greatest rate up
+    to an end grows with it, so the ends at which no step is too wide are those up to one; it is enclosed
+    between one that is short enough and one that is too long."""
     length, direction, short, long, kept = abs(high - low), float(np.sign(high - low)), 0.0, math.inf, None
     for _ in range(TRIES):
         found = _at(one, low + direction * np.linspace(0.0, length, frames))
@@ -103,7 +111,8 @@ def _at(one, times):
 
 
 def edges(inertia) -> np.ndarray:
-    """(3,) half edges of the even box with these moments, the longest 1; a thin one where two moments make the third."""
+    """(3,) half edges of the even box with these moments, the longest 1; a thin one where two moments make
+    the third."""
     D = np.array([float(d) for d in inertia])
     found = np.sqrt(np.maximum(D.sum() - 2 * D, 0.0))  # m a_i^2 / 6 = D_j + D_k - D_i for edges a
     return np.maximum(found / found.max(), THINNEST)
@@ -118,12 +127,17 @@ def page(one, found: Turn, scale, path) -> Path:
     unit, per = scale.time(float(np.abs(found.t).max()))
     data = {"t": [float(f"{v * per:.6g}") for v in found.t], "unit": unit, "rate": scale.rate[0],
             "size": [float(f"{v:.5g}") for v in np.linalg.norm(found.omega, axis=1) * scale.rate[1]],
-            "rotations": [[round(float(v), 5) + 0.0 for v in rotation.ravel()] for rotation in found.rotations],
-            "corners": (CORNERS * found.edges).round(5).tolist(), "edges": found.edges.round(5).tolist(), "faces": FACES,
+            "rotations": [[round(float(v), 5) + 0.0 for v in rotation.ravel()]
+                          for rotation in found.rotations],
+            "corners": (CORNERS * found.edges).round(5).tolist(), "edges": found.edges.round(5).tolist(),
+            "faces": FACES,
             "colours": [style.VERMILION, style.GREEN, style.BLUE],
-            "names": [one.axes.label(n) for n in (1, 2, 3)], "tip": int(np.argmax(np.abs(found.omega[0]))), "real": float(abs(found.t[-1] - found.t[0]))}
-    text = json.dumps(data, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")  # nothing of it ends the script
-    return html.write(path, "attitude.html", title=printable(one.heading or "Attitude"), data=text, part=found.part(scale.system))
+            "names": [one.axes.label(n) for n in (1, 2, 3)], "tip": int(np.argmax(np.abs(found.omega[0]))),
+            "real": float(abs(found.t[-1] - found.t[0]))}
+    # nothing of it ends the script
+    text = json.dumps(data, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
+    return html.write(path, "attitude.html", title=printable(one.heading or "Attitude"), data=text,
+                      part=found.part(scale.system))
 
 
 # --- The body's box as it turns, as an animation of Matplotlib
@@ -134,17 +148,20 @@ DPI = 80
 COLOURS = (style.VERMILION, style.GREEN, style.BLUE)  # faces across axes 1, 2, 3, and these axes
 FAR = 1.75  # half the picture, in half edges
 OUT = 1.5  # length of the body's axes
-DISTANCE = 10 * 2 * FAR / (1.1 * 25 / 18)  # of the eye, in half edges: ten units of Matplotlib, in which the box of the axes is zoom * 25/18 wide
+# of the eye, in half edges: ten units of Matplotlib, in which the box of the axes is zoom * 25/18 wide
+DISTANCE = 10 * 2 * FAR / (1.1 * 25 / 18)
 BEHIND, BEFORE = 1, 3  # the box
 
 
-def attitude(case: Any, state: Any = None, ax: Any = None, span: Any = None, frames: int = FRAMES, units: str | None = None,
+def attitude(case: Any, state: Any = None, ax: Any = None, span: Any = None, frames: int = FRAMES,
+             units: str | None = None,
              size: tuple[float, float] | None = None) -> FuncAnimation:
     """The body turning in space, as an animation of Matplotlib (keep it, or nothing moves).
 
-    The box is the even one with the body's moments of inertia; its faces and axes have the colours of the principal axes, and the line
-    is the way of the tip of the axis about which the body turns most at the start. The start has the attitude of the case, else one that holds
-    its vertical upright, else body and space are aligned. Where the span would need more pictures than `frames` at 15 degrees each, its first
+    The box is the even one with the body's moments of inertia; its faces and axes have the colours of the
+    principal axes, and the line is the way of the tip of the axis about which the body turns most at the
+    start. The start has the attitude of the case, else one that holds its vertical upright, else body and
+    space are aligned. Where the span would need more pictures than `frames` at 15 degrees each, its first
     part is shown. Raises InputError for scaled variables.
     """
     from matplotlib.animation import FuncAnimation
@@ -159,17 +176,23 @@ def attitude(case: Any, state: Any = None, ax: Any = None, span: Any = None, fra
         return FuncAnimation(target.figure, draw, frames=len(found.t), interval=1000 / PER_SECOND, blit=False)
 
 
-def film(one: Any, path: Path, units: str | None = None, size: tuple[float, float] | None = None, dpi: float | None = None) -> Path:
-    """The animation as a file: .html, a page that needs nothing else; .gif; .mp4, where ffmpeg is installed."""
+def film(one: Any, path: Path, units: str | None = None, size: tuple[float, float] | None = None,
+         dpi: float | None = None) -> Path:
+    """The animation as a file: .html, a page that needs nothing else; .gif; .mp4, where ffmpeg is installed.
+    """
     import matplotlib.animation
     kind = endings.ending(endings.file(path, ENDINGS))
     if kind == ".html":
         return page(one, turn(one, SMOOTH), measures(one, units), path)
     if kind == ".mp4" and not matplotlib.animation.writers.is_available("ffmpeg"):
-        raise RenderingUnavailable("no .mp4 can be written: ffmpeg is not installed: apt install ffmpeg; .gif and .html need nothing more")
+        raise RenderingUnavailable(
+            "no .mp4 can be written: ffmpeg is not installed: apt install ffmpeg; .gif and .html need "
+            "nothing more")
     moving = attitude(one, frames=PICTURES, units=units, size=size)
-    writer = (matplotlib.animation.PillowWriter(fps=PER_SECOND) if kind == ".gif" else matplotlib.animation.FFMpegWriter(
-        fps=PER_SECOND, extra_args=["-fflags", "+bitexact", "-flags:v", "+bitexact", "-map_metadata", "-1", "-pix_fmt", "yuv420p", "-f", "mp4"]))
+    writer = (matplotlib.animation.PillowWriter(fps=PER_SECOND) if kind == ".gif"
+              else matplotlib.animation.FFMpegWriter(
+        fps=PER_SECOND, extra_args=["-fflags", "+bitexact", "-flags:v", "+bitexact", "-map_metadata", "-1",
+                                    "-pix_fmt", "yuv420p", "-f", "mp4"]))
     with whole_file(path) as waiting:
         beside = waiting.with_name(f"{waiting.name}{kind}")  # the writers know formats by their endings
         try:
@@ -184,17 +207,21 @@ def _stage(ax, found: Turn, one, scale):
     """The scene of the animation; draw(frame) moves it."""
     from matplotlib.patheffects import withStroke
     from mpl_toolkits.mplot3d.art3d import Poly3DCollection
-    box = Poly3DCollection(_faces(found, 0), facecolors=[in_space.pale(COLOURS[n // 2]) for n in range(6)], edgecolors=style.BLACK, linewidths=0.8,
+    box = Poly3DCollection(_faces(found, 0), facecolors=[in_space.pale(COLOURS[n // 2]) for n in range(6)],
+                           edgecolors=style.BLACK, linewidths=0.8,
                            zorder=(BEHIND + BEFORE) / 2)
     ax.add_collection3d(box)
-    ax.computed_zorder = False  # it sorts whole artists by their middles, and drew axes that leave by a hidden face before the box
+    # it sorts whole artists by their middles, and drew axes that leave by a hidden face before the box
+    ax.computed_zorder = False
     axes = [ax.plot([], [], [], color=colour, linewidth=2.2)[0] for colour in COLOURS]
     halo = [withStroke(linewidth=3, foreground="white")]  # a name is to be read on a face of its colour
-    names = [ax.text(0, 0, 0, one.axes.label(n), color=colour, fontsize=11, weight="bold", path_effects=halo) for n, colour in enumerate(COLOURS, 1)]
+    names = [ax.text(0, 0, 0, one.axes.label(n), color=colour, fontsize=11, weight="bold", path_effects=halo)
+             for n, colour in enumerate(COLOURS, 1)]
     now = ax.text2D(0.5, 0.97, "", transform=ax.transAxes, ha="center")
     canvas.title(ax, one.heading)
     ax.text2D(0.5, -0.02, found.part(scale.system), transform=ax.transAxes, ha="center", fontsize="small")
-    ways = [ax.plot([], [], [], color=style.GREY, linewidth=0.9, zorder=order)[0] for order in (BEHIND, BEFORE)]
+    ways = [ax.plot([], [], [], color=style.GREY, linewidth=0.9, zorder=order)[0]
+            for order in (BEHIND, BEFORE)]
     tips = found.rotations[:, :, int(np.argmax(np.abs(found.omega[0])))] * OUT
     for setter in (ax.set_xlim, ax.set_ylim, ax.set_zlim):
         setter(-FAR, FAR)

@@ -1,4 +1,5 @@
-"""Pages of the report from their templates: what comes from case files is escaped, what a template lacks is an error."""
+"""Pages of the report from their templates: what comes from case files is escaped, what a template lacks is
+an error."""
 from __future__ import annotations
 
 import re
@@ -16,33 +17,45 @@ ALONE = {"nav": (), "here": "", "below": "", "up": "", "title": ""}  # of a page
 def _environment():
     from jinja2 import Environment, FileSystemLoader, StrictUndefined
     environment = Environment(loader=FileSystemLoader(TEMPLATES), autoescape=True, undefined=StrictUndefined)
-    environment.filters |= {"written": written, "sentence": sentence, "typed": typed, "formula": formula, "book": book, "signed": signed, "together": together}
+    environment.filters |= {"written": written, "sentence": sentence, "typed": typed, "formula": formula,
+                            "book": book, "signed": signed, "together": together}
     return environment
 
 
-MINUS = re.compile(r"(?<![\w)])-(?=\d)|(?<=\de)-(?=\d)|(?<=[(\[])-(?=\s?\w)|(?<=[(,=] )-(?=\w)"  # -5, 1e-5, (-h, = -a
-                   r"|(?<=\b[a-z])-(?=[a-z]\))|(?:(?<=\b\w )|(?<=\b\w\d ))-(?= \w\d?\b)")  # (b-a), b - a, r0 - W
+# -5, 1e-5, (-h, = -a
+MINUS = re.compile(r"(?<![\w)])-(?=\d)|(?<=\de)-(?=\d)|(?<=[(\[])-(?=\s?\w)|(?<=[(,=] )-(?=\w)"
+                   # (b-a), b - a, r0 - W
+                   r"|(?<=\b[a-z])-(?=[a-z]\))|(?:(?<=\b\w )|(?<=\b\w\d ))-(?= \w\d?\b)")
 EXPONENT = re.compile(r"(?<=\de)([-−])0+(?=\d)")  # 1e-08, as Python prints it
 MEASURED = re.compile(r"(?<=\d) (?=(?:deg/s|rad/s|deg|rad|days?|min|h|s|J|τ|N m)\b)")
 COMPOUND = re.compile(r"(?<=\d\u00a0)N m(?: s)?\b")
 INDEXED = re.compile(r"(?<![\w/.])([A-Za-zΑ-Ωα-ω]|" + "|".join(ALPHABET) + r")_(\w+)")  # I_omega, x_j, mu_j
-SUBTRACTED = re.compile(r"(?<=[\w)²³*;]) - (?=[\w(])|(?:(?<=[(=,\[] )|(?<=[(\[=])|^)-(?=[\w(])")  # b - a, (-M2, x = -y
+# b - a, (-M2, x = -y
+SUBTRACTED = re.compile(r"(?<=[\w)²³*;]) - (?=[\w(])|(?:(?<=[(=,\[] )|(?<=[(\[=])|^)-(?=[\w(])")
 RAISED = re.compile(r"\^(?:\(([^()]*)\)|([-−]?\w+))")
 
 
 def book(text: str):
-    """Words with names and powers as a book sets them: I_omega becomes I with the index ω below it, e^(i r0 t) has its exponent raised."""
+    """Words with names and powers as a book sets them: I_omega becomes I with the index ω below it, e^(i r0
+    t) has its exponent raised."""
     from markupsafe import Markup, escape
-    below = INDEXED.sub(lambda found: f"{ALPHABET.get(found[1], found[1])}<sub>{ALPHABET.get(found[2], found[2])}</sub>", str(escape(text)))
-    below = SUBTRACTED.sub(lambda found: found[0].replace("-", "−"), below.replace("&gt;=", "≥").replace("&lt;=", "≤"))
-    return Markup(RAISED.sub(lambda found: f"<sup>{(found[1] or found[2]).replace('-', '−')}</sup>", written(below)))  # escaped above
+    below = INDEXED.sub(
+        lambda found: f"{ALPHABET.get(found[1], found[1])}<sub>{ALPHABET.get(found[2], found[2])}</sub>",
+        str(escape(text)))
+    below = SUBTRACTED.sub(lambda found: found[0].replace("-", "−"),
+                           below.replace("&gt;=", "≥").replace("&lt;=", "≤"))
+    # escaped above
+    return Markup(RAISED.sub(lambda found: f"<sup>{(found[1] or found[2]).replace('-', '−')}</sup>",
+                             written(below)))
 
 
 def signed(text: str) -> str:
-    """The text with the minus of a book: before numbers and in their exponents, which begin with no zero, before a name and between two. Commands stay as
-    they are typed."""
+    """The text with the minus of a book: before numbers and in their exponents, which begin with no zero,
+    before a name and between two. Commands stay as they are typed."""
     parts = re.split(r"(<code>.*?</code>)", text)
-    return type(text)("".join(part if part.startswith("<code>") else MINUS.sub("−", EXPONENT.sub(r"\1", part)) for part in parts))  # what is escaped stays so
+    # what is escaped stays so
+    return type(text)("".join(part if part.startswith("<code>") else MINUS.sub("−", EXPONENT.sub(r"\1", part))
+                              for part in parts))
 
 
 def together(text: str) -> str:
@@ -59,16 +72,19 @@ def formula(text):
 def sentence(text: str):
     """Words for a page: with a capital at their head, and what stands between backquotes as code."""
     from markupsafe import Markup, escape
-    text = text[:1].upper() + text[1:] if re.match("[a-z]+( |$)", text) else text  # no formula, no name of a file
+    # no formula, no name of a file
+    text = text[:1].upper() + text[1:] if re.match("[a-z]+( |$)", text) else text
     parts = text.split("`")
-    found = [escape(part) if n % 2 == 0 or n == len(parts) - 1 else typed(part) for n, part in enumerate(parts)]
+    found = [escape(part) if n % 2 == 0 or n == len(parts) - 1 else typed(part) for n,
+             part in enumerate(parts)]
     return Markup("").join(found).replace("|ω|", Markup('<span class="nowrap">|ω|</span>'))
 
 
 def typed(command: str):
     """A command as code; no line ends within the dashes of an option."""
     from markupsafe import Markup
-    words = [Markup('<span class="nowrap">{}</span>').format(word) if word.startswith("--") else word for word in command.split(" ")]
+    words = [Markup('<span class="nowrap">{}</span>').format(word) if word.startswith("--") else word
+             for word in command.split(" ")]
     return Markup("<code>{}</code>").format(Markup(" ").join(words))
 
 
@@ -78,8 +94,8 @@ def css(fate: str) -> str:
 
 
 def render(template: str, **values) -> str:
-    """The HTML of a template. nav: rows {file, title} of the pages beside it, here: its own file, below: that of the page
-    among them that it belongs to, up: how it reaches their folder."""
+    """The HTML of a template. nav: rows {file, title} of the pages beside it, here: its own file, below: that
+    of the page among them that it belongs to, up: how it reaches their folder."""
     return _environment().get_template(template).render(**{**ALONE, **values})
 
 

@@ -1,4 +1,5 @@
-"""The report on cases of one's own: a page a case, a page a sweep, and, where there are several, a first page that lists them."""
+"""The report on cases of one's own: a page a case, a page a sweep, and, where there are several, a first page
+that lists them."""
 from __future__ import annotations
 
 import re
@@ -19,7 +20,8 @@ FOLDER = "cases"  # inside that of the report: pages of many cases, pictures and
 
 @dataclass(frozen=True)
 class Wanted:
-    """What a report holds besides the cases: the papers, what accuracy costs, certificates; deep: what takes seconds a case."""
+    """What a report holds besides the cases: the papers, what accuracy costs, certificates; deep: what takes
+    seconds a case."""
 
     papers: bool = False
     precision: bool = False
@@ -28,7 +30,8 @@ class Wanted:
 
 
 def entries(cases) -> list[tuple[str, list]]:
-    """(stem of its files, its cases) of every case and every file with [sweep]; stems differ even where names do not."""
+    """(stem of its files, its cases) of every case and every file with [sweep]; stems differ even where names
+    do not."""
     grouped: dict = {}
     for number, case in enumerate(cases):
         grouped.setdefault(case.path if case.variant else number, []).append(case)
@@ -42,10 +45,12 @@ def entries(cases) -> list[tuple[str, list]]:
 
 
 def section(stem, cases, folder, wanted) -> dict:
-    """Everything that a page says of one entry, its pictures and meshes written; done by whichever process is free."""
+    """Everything that a page says of one entry, its pictures and meshes written; done by whichever process is
+    free."""
     if cases[0].variant:
         found = sweep.sections(cases, folder, stem)
-        return {"sweep": found, "surface": None, "beyond": law.of_cases(cases), "open": any(row["fate"] == "undecided" for row in found["rows"])}
+        return {"sweep": found, "surface": None, "beyond": law.of_cases(cases),
+                "open": any(row["fate"] == "undecided" for row in found["rows"])}
     (case,) = cases
     made = page.sections(case, folder, stem, wanted.deep, wanted.certify)
     return {"case": made, "surface": surface_of(case, stem, folder), "beyond": law.of_cases([case]),
@@ -72,14 +77,17 @@ def tasks(cases, folder: Path, wanted: Wanted) -> list[Task]:
     """A task an entry."""
     place = folder / FOLDER
     place.mkdir()
-    return [Task(f"case {stem}", "show.report.own:section", (stem, group, place, wanted), 3.0 + 0.3 * len(group)) for stem, group in entries(cases)]
+    return [Task(f"case {stem}", "show.report.own:section", (stem, group, place, wanted),
+                 3.0 + 0.3 * len(group)) for stem, group in entries(cases)]
 
 
 def write(made, place: Path, prefix: str, **around) -> Path:
-    """The page of one entry. prefix: how the page reaches its pictures; around: what every page says of the folder it is in."""
+    """The page of one entry. prefix: how the page reaches its pictures; around: what every page says of the
+    folder it is in."""
     if "sweep" in made:
         return html.write(place, "sweep.html", sweep=made["sweep"], pictures=prefix, **around)
-    meshes = made["surface"] and made["surface"] | {"files": [prefix + name for name in made["surface"]["files"]]}
+    meshes = (made["surface"]
+              and made["surface"] | {"files": [prefix + name for name in made["surface"]["files"]]})
     return html.write(place, "case.html", case=made["case"], surface=meshes, pictures=prefix, **around)
 
 
@@ -91,15 +99,16 @@ def of_one(made, around) -> dict:
 def listed(stem, made) -> dict:
     """The row of an entry in a list of pages."""
     found = made.get("sweep") or made["case"]
-    beyond = re.match(r"BEYOND THE LAW: .*?, limit [\d.]+", found["law"])  # by how much; why that matters stands on the page
+    # by how much; why that matters stands on the page
+    beyond = re.match(r"BEYOND THE LAW: .*?, limit [\d.]+", found["law"])
     return {"file": f"{stem}.html", "name": stem, "title": found["title"], "headline": found["headline"],
             "css": html.css(found.get("fate", "")),
             "beyond": " ".join(filter(None, [beyond and beyond[0], *found["caveats"]]))}
 
 
 def pages(cases, folder: Path, tell, wanted: Wanted, workers=None, **around) -> list[tuple[str, bool]]:
-    """All pages of a report on these cases alone; index.html is the page of the one case, or the list of several. Of each entry a line for each law left,
-    and whether a fate is undecided."""
+    """All pages of a report on these cases alone; index.html is the page of the one case, or the list of
+    several. Of each entry a line for each law left, and whether a fate is undecided."""
     rows = entries(cases)
     found = done(tasks(cases, folder, wanted), folder, tell, workers)
     if len(rows) == 1:
@@ -107,7 +116,10 @@ def pages(cases, folder: Path, tell, wanted: Wanted, workers=None, **around) -> 
         return [(found[0]["beyond"], found[0]["open"])]
     nav = [{"file": "index.html", "title": "All cases"}]
     for (stem, _), made in zip(rows, found):
-        write(made, folder / FOLDER / f"{stem}.html", "", nav=nav, up="../", below="index.html", **of_one(made, around))
-    listing = [row | {"file": f"{FOLDER}/{row['file']}"} for (stem, _), made in zip(rows, found) for row in [listed(stem, made)]]
-    html.write(folder / "index.html", "list.html", title=f"{len(rows)} cases", groups=[{"title": "", "rows": listing}], **around)
+        write(made, folder / FOLDER / f"{stem}.html", "", nav=nav, up="../", below="index.html",
+              **of_one(made, around))
+    listing = [row | {"file": f"{FOLDER}/{row['file']}"} for (stem, _),
+               made in zip(rows, found) for row in [listed(stem, made)]]
+    html.write(folder / "index.html", "list.html", title=f"{len(rows)} cases",
+               groups=[{"title": "", "rows": listing}], **around)
     return [(made["beyond"], made["open"]) for made in found]

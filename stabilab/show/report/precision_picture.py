@@ -11,11 +11,15 @@ from ..terminal.letters import RAISED
 from ..text.cost.words import FORMULAS, caption, methods, price, title
 
 LOOKS = {  # method -> how its line is drawn; the same in every picture
-    "taylor": {"color": style.BLUE, "marker": "o"}, "taylor-batch": {"color": style.SKY, "marker": "o", "linestyle": "--"},
-    "RK45": {"color": style.ORANGE, "marker": "s"}, "RK23": {"color": style.ORANGE, "marker": "v", "linestyle": "--"},
+    "taylor": {"color": style.BLUE, "marker": "o"},
+    "taylor-batch": {"color": style.SKY, "marker": "o", "linestyle": "--"},
+    "RK45": {"color": style.ORANGE, "marker": "s"},
+    "RK23": {"color": style.ORANGE, "marker": "v", "linestyle": "--"},
     "DOP853": {"color": style.VERMILION, "marker": "D"}, "Radau": {"color": style.PURPLE, "marker": "^"},
-    "BDF": {"color": style.PURPLE, "marker": "<", "linestyle": "--"}, "LSODA": {"color": style.GREY, "marker": ">"},
-    "reduced": {"color": style.GREEN, "marker": "P"}, "balls": {"color": style.BLACK, "marker": "X", "linestyle": "none"},
+    "BDF": {"color": style.PURPLE, "marker": "<", "linestyle": "--"},
+    "LSODA": {"color": style.GREY, "marker": ">"},
+    "reduced": {"color": style.GREEN, "marker": "P"},
+    "balls": {"color": style.BLACK, "marker": "X", "linestyle": "none"},
     "linear": {"color": style.BLACK, "marker": "1", "linestyle": "none"},
     "corrected": {"color": style.PURPLE, "marker": "x", "linestyle": "none"},
     "printed": {"color": style.ORANGE, "marker": "*", "linestyle": "none"},
@@ -28,8 +32,9 @@ NOTED = 1.5  # digits: stretches of the front at least so long have their price 
 
 
 def picture(plt, found, size=None):
-    """Time against error, both logarithmic: a panel per question, a line per method, the front as a grey band. size: (width, height) in inches; a
-    figure of that size has as many of the questions, in their order, as have room."""
+    """Time against error, both logarithmic: a panel per question, a line per method, the front as a grey
+    band. size: (width, height) in inches; a figure of that size has as many of the questions, in their order,
+    as have room."""
     questions = found.questions
     if not questions:
         raise InputError(f"{found.case.name}: nothing to draw: {found.reference.reason}")
@@ -45,25 +50,31 @@ def picture(plt, found, size=None):
     for ax in axes.flat[len(questions):]:
         ax.set_visible(False)
     looks = meanings(found, questions, size is None or size[0] >= usual[0])
-    style.legend(figure, looks, columns=(4 if columns == 2 else 2) if size is None else style.fitting([name for name, _ in looks], size[0]))
+    style.legend(figure, looks, columns=(4 if columns == 2 else 2) if size is None
+                 else style.fitting([name for name, _ in looks], size[0]))
     figure.suptitle(f"{found.case.name}: what accuracy costs", fontsize=11 * style.share(), parse_math=False)
     if size is not None and style.share() < 1:
         return figure  # without the note, which a small figure has no room for
-    formulas = "Dotted: the error of a formula, at whatever time. " if any(p.method in FORMULAS for p in found.points) else ""
+    formulas = ("Dotted: the error of a formula, at whatever time. "
+                if any(p.method in FORMULAS for p in found.points) else "")
     power = math.ceil(math.log10(found.reference.error.max() or LEAST))
     ten = f"10{'⁻' * (power < 0)}{str(abs(power)).translate(RAISED)}"
-    note = f"Thin lines reach up to the slowest of several runs. {formulas}Error of the reference at most {ten}. {caption()}"
+    note = (
+        f"Thin lines reach up to the slowest of several runs. {formulas}Error of the reference at most "
+        f"{ten}. {caption()}")
     width = int((150 if columns == 2 else 84) * figure.get_figwidth() / usual[0])
     figure.legends[0].set_title("\n".join(textwrap.wrap(note, width)), prop={"size": 7.5})
     figure.legends[0].get_title().set(color=style.GREY, parse_math=False)
     return figure
 
 
-FRONT = {"color": "#CDD5DA", "linewidth": 7, "marker": "o", "markersize": 11, "markeredgewidth": 0, "solid_joinstyle": "round"}
+FRONT = {"color": "#CDD5DA", "linewidth": 7, "marker": "o", "markersize": 11, "markeredgewidth": 0,
+         "solid_joinstyle": "round"}
 
 
 def meanings(found, questions=None, prices=True) -> list[tuple[str, dict]]:
-    """Rows (name, look) of the legend: the methods that were measured, of some questions or of all, with the price of a digit or alone, and the front."""
+    """Rows (name, look) of the legend: the methods that were measured, of some questions or of all, with the
+    price of a digit or alone, and the front."""
     asked = [p.method for p in found.points if questions is None or p.question in questions]
     methods_drawn = [(_legend(found, m) if prices else m, LOOKS[m]) for m in LOOKS if m in asked]
     return [*methods_drawn, ("front: no single run beats it" if prices else "front", FRONT)]
@@ -71,32 +82,37 @@ def meanings(found, questions=None, prices=True) -> list[tuple[str, dict]]:
 
 def _legend(found, method) -> str:
     factor = next((f for q in found.questions if (f := digit_price(found.of(q, method))) is not None), None)
-    name = f"{method} (a motion of {found.of('span', method)[0].lanes})" if method == "taylor-batch" else method
+    name = (f"{method} (a motion of {found.of('span', method)[0].lanes})" if method == "taylor-batch"
+            else method)
     return name if factor is None else f"{name}: {price(factor)} a digit"
 
 
 def panel(ax, found, question):
     """One question of a measurement on given axes: a line a method, the front as a grey band."""
-    ax.set(xscale="log", yscale="log", xlabel="largest relative error", ylabel="time (s)", title=title(found, question))
+    ax.set(xscale="log", yscale="log", xlabel="largest relative error", ylabel="time (s)",
+           title=title(found, question))
     front = found.front(question)
     ax.plot([_clipped(p.error) for p in front], [p.seconds for p in front], zorder=1, **FRONT)
     for method in methods(found, question):
         points = [p for p in found.of(question, method) if not math.isinf(p.error)]
         x, y = [_clipped(p.error) for p in points], [p.seconds for p in points]
-        ax.vlines(x, y, [p.slowest for p in points], color=LOOKS[method]["color"], linewidth=0.6, alpha=0.3, zorder=2)
+        ax.vlines(x, y, [p.slowest for p in points], color=LOOKS[method]["color"], linewidth=0.6, alpha=0.3,
+                  zorder=2)
         ax.plot(x, y, markersize=5, linewidth=1.3, zorder=3, **LOOKS[method])
         if method in FORMULAS and points:
             ax.axvline(min(x), color=LOOKS[method]["color"], linewidth=0.8, linestyle=":", zorder=1)
     if question in ("span", "end") and found.sensitivity is not None:
         ax.axvline(_clipped(found.sensitivity * EPS), color=style.GREY, linestyle="--", linewidth=0.9)
-        ax.annotate("last place of the start", (_clipped(found.sensitivity * EPS), 0.98), xycoords=("data", "axes fraction"),
+        ax.annotate("last place of the start", (_clipped(found.sensitivity * EPS), 0.98),
+                    xycoords=("data", "axes fraction"),
                     rotation=90, va="top", ha="right", fontsize=7 * style.share(), color=style.GREY)
     ax.invert_xaxis()  # better to the right
     for one, two in zip(front, front[1:]):
         if two.digits - one.digits >= NOTED:
             factor = (two.seconds / one.seconds) ** (1 / (two.digits - one.digits))
             ax.annotate(f"{price(factor)} a digit", (math.sqrt(_clipped(one.error) * _clipped(two.error)),
-                        math.sqrt(one.seconds * two.seconds)), xytext=(0, 9), textcoords="offset points", ha="center", fontsize=7.5 * style.share())
+                        math.sqrt(one.seconds * two.seconds)), xytext=(0, 9), textcoords="offset points",
+                        ha="center", fontsize=7.5 * style.share())
 
 
 def _clipped(error) -> float:

@@ -7,12 +7,15 @@ from functools import lru_cache
 from ...physics.equations import Equations
 from ..text.notation import PRODUCTS, right_side
 
-LINE = 46  # symbols and digits or so of a sum that fit beside each other on a page; a longer one goes on in the next line
+# symbols and digits or so of a sum that fit beside each other on a page; a longer one goes on in the next
+# line
+LINE = 46
 LONG = 40  # operations: a law of more is told in words alone
 
 
 def equations_of_motion(equations: Equations) -> list:
-    """An equation a component of the state, its rate with a dot: what multiplies it on the left, the sum on the right."""
+    """An equation a component of the state, its rate with a dot: what multiplies it on the left, the sum on
+    the right."""
     rows = []
     for number, (moment, part) in enumerate(zip(equations.inertia, equations.state)):
         left = ("" if moment == 1 else inner(moment)) + _dotted(inner(part))
@@ -22,7 +25,8 @@ def equations_of_motion(equations: Equations) -> list:
 
 def _dotted(mathml: str) -> str:
     """A symbol with a dot above its letter, not above the middle of letter and index."""
-    return re.sub(r"<mi>[^<]*</mi>", lambda letter: f"<mover>{letter[0]}<mo>&#x2D9;</mo></mover>", mathml, count=1)
+    return re.sub(r"<mi>[^<]*</mi>", lambda letter: f"<mover>{letter[0]}<mo>&#x2D9;</mo></mover>", mathml,
+                  count=1)
 
 
 def display(content: str):
@@ -49,12 +53,14 @@ def _symbol(name):
 
 
 def law(balance) -> str:
-    """The quantity that a law speaks of, and its rate where that is not zero; empty where the formula is too long to be read."""
+    """The quantity that a law speaks of, and its rate where that is not zero; empty where the formula is too
+    long to be read."""
     from sympy import Integer, count_ops
     quantity, rate = rounded(balance.quantity), rounded(Integer(0) + balance.rate)
     if count_ops(quantity) + count_ops(rate) > LONG:
         return ""
-    changes = "<mtext>&#x2009;constant</mtext>" if rate == 0 else f"<mo>)</mo><mo>&#x2D9;</mo><mo>=</mo>{inner(rate)}"
+    changes = ("<mtext>&#x2009;constant</mtext>" if rate == 0
+               else f"<mo>)</mo><mo>&#x2D9;</mo><mo>=</mo>{inner(rate)}")
     return display(f"{'' if rate == 0 else '<mo>(</mo>'}{in_lines(quantity)}{changes}")
 
 
@@ -62,7 +68,8 @@ def rounded(expression):
     """The expression with numbers of many digits rounded to six."""
     from sympy import Float, Integer, Rational
     expression = Integer(0) + expression
-    return expression.xreplace({number: Float(number, 6) for number in expression.atoms(Rational) if len(str(number)) > 8})
+    return expression.xreplace({number: Float(number, 6) for number in expression.atoms(Rational)
+                                if len(str(number)) > 8})
 
 
 def in_lines(expression) -> str:
@@ -76,7 +83,8 @@ def in_lines(expression) -> str:
         if lines[-1] and sum(map(_width, lines[-1])) + _width(term) > LINE:
             lines.append([])
         lines[-1].append(term)
-    rows = "".join(f'<mtr><mtd style="text-align: left">{_continued(line, n)}</mtd></mtr>' for n, line in enumerate(lines))
+    rows = "".join(f'<mtr><mtd style="text-align: left">{_continued(line, n)}</mtd></mtr>' for n,
+                   line in enumerate(lines))
     return f'<mtable displaystyle="true">{rows}</mtable>'
 
 
@@ -88,9 +96,11 @@ def _continued(terms, number) -> str:
 
 
 def _width(term) -> float:
-    """How many symbols and digits stand beside each other in a term: a fraction is as wide as its wider part."""
+    """How many symbols and digits stand beside each other in a term: a fraction is as wide as its wider part.
+    """
     from sympy import fraction
-    return max(sum(len(word) if word[0].isdigit() else 1.3 for word in re.findall(r"[A-Za-z]\w*|[\d.]+|[-+(]", str(part))) for part in fraction(term))
+    return max(sum(len(word) if word[0].isdigit() else 1.3
+                   for word in re.findall(r"[A-Za-z]\w*|[\d.]+|[-+(]", str(part))) for part in fraction(term))
 
 
 def inner(expression) -> str:
@@ -98,9 +108,12 @@ def inner(expression) -> str:
     from sympy import Integer
     from sympy.printing.mathml import mathml
     text = numbered(mathml(Integer(0) + expression, printer="presentation"))
-    text = re.sub(r"<msub><mi>(\w+)</mi><mi>(\d)</mi></msub>", lambda found: _product(found[1] + found[2]) or found[0], text)  # eHl2: SymPy sees an index
+    # eHl2: SymPy sees an index
+    text = re.sub(r"<msub><mi>(\w+)</mi><mi>(\d)</mi></msub>",
+                  lambda found: _product(found[1] + found[2]) or found[0], text)
     text = re.sub(r"<mi>(\w+)</mi>", lambda found: _product(found[1]) or found[0], text)
-    return re.sub(r"<msup>(<mrow>.*?</mrow>)", lambda found: f"<msup>{_fenced(found[1])}" if found[1] in map(_product, PRODUCTS) else found[0], text)
+    return re.sub(r"<msup>(<mrow>.*?</mrow>)", lambda found: f"<msup>{_fenced(found[1])}"
+                  if found[1] in map(_product, PRODUCTS) else found[0], text)
 
 
 def _fenced(row) -> str:
@@ -109,16 +122,18 @@ def _fenced(row) -> str:
 
 
 def numbered(mathml: str) -> str:
-    """MathML of SymPy with the minus, the i and the e of a book, which SymPy has struck twice, with bars that browsers draw over conjugates, and whole
-    numbers of six digits without a zero behind their point."""
+    """MathML of SymPy with the minus, the i and the e of a book, which SymPy has struck twice, with bars that
+    browsers draw over conjugates, and whole numbers of six digits without a zero behind their point."""
     mathml = mathml.replace("&ImaginaryI;", "i").replace("&ExponentialE;", "e")
     mathml = mathml.replace("<mo>-</mo>", "<mo>&#x2212;</mo>").replace("<mn>-", "<mn>&#x2212;")
-    mathml = re.sub(r'<menclose notation="top">(.*?)</menclose>', r'<mover accent="true"><mrow>\1</mrow><mo>&#xAF;</mo></mover>', mathml)
+    mathml = re.sub(r'<menclose notation="top">(.*?)</menclose>',
+                    r'<mover accent="true"><mrow>\1</mrow><mo>&#xAF;</mo></mover>', mathml)
     return re.sub(r"<mn>([^<>]*\d)\.0</mn>", r"<mn>\1</mn>", mathml)
 
 
 def _product(name) -> str:
-    """What a name stands for as a product of letters, those with an index or a power included; empty where it stands for itself."""
+    """What a name stands for as a product of letters, those with an index or a power included; empty where it
+    stands for itself."""
     made = (re.split("([_^])", word) for word in PRODUCTS.get(name, "").split())
     letters = "".join(f"<m{'sub' if part[1] == '_' else 'sup'}><mi>{part[0]}</mi><mi>{part[2]}</mi></m{'sub' if part[1] == '_' else 'sup'}>"
                       if len(part) > 1 else f"<mi>{part[0]}</mi>" for part in made)

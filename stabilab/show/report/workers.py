@@ -1,7 +1,9 @@
-"""Tasks that share nothing, done by this process and by others like it, the dearest first: each writes its own files, so that it is all one who does it.
+"""Tasks that share nothing, done by this process and by others like it, the dearest first: each writes its
+own files, so that it is all one who does it.
 
-A task is a function of a module and its arguments. All of them stand in one file; whoever is free takes the next one by making a file of its
-number, which only one can. What a helper could not do is done again here, so that its error comes to light as any other.
+A task is a function of a module and its arguments. All of them stand in one file; whoever is free takes the
+next one by making a file of its number, which only one can. What a helper could not do is done again here, so
+that its error comes to light as any other.
 """
 from __future__ import annotations
 
@@ -23,7 +25,8 @@ MOST = 4          # helpers need memory too: some 400 MB each
 
 @dataclass(frozen=True)
 class Task:
-    """words: what it does, for the one who waits; home: "module:function" below `stabilab`, called with `arguments`; weight: s it takes, roughly."""
+    """words: what it does, for the one who waits; home: "module:function" below `stabilab`, called with
+    `arguments`; weight: s it takes, roughly."""
 
     words: str
     home: str
@@ -41,7 +44,8 @@ def done(tasks, folder: Path, tell, workers: int | None = None) -> list:
     order = sorted(range(len(tasks)), key=lambda n: -tasks[n].weight)
     (place / "tasks").write_bytes(pickle.dumps(tasks))
     found: dict = {}
-    with helpers(__name__, place, number - 1, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as others:  # they do tasks until none is left
+    # they do tasks until none is left
+    with helpers(__name__, place, number - 1, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as others:
         for n in order:
             if _taken(place, n):
                 found[n] = _told(tasks[n], tell)

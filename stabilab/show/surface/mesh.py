@@ -1,4 +1,5 @@
-"""Triangles of the separatrix: from parametric grids to watertight meshes, and to .glb and .stl without any GL."""
+"""Triangles of the separatrix: from parametric grids to watertight meshes, and to .glb and .stl without any
+GL."""
 from __future__ import annotations
 
 import json
@@ -11,7 +12,8 @@ import numpy as np
 
 @dataclass(frozen=True)
 class Mesh:
-    """Triangles of one sheet: points (n, 3) doubles, triangles (t, 3) indices, residual (n,) at the points."""
+    """Triangles of one sheet: points (n, 3) doubles, triangles (t, 3) indices, residual (n,) at the points.
+    """
 
     name: str
     points: np.ndarray
@@ -20,8 +22,8 @@ class Mesh:
 
 
 def triangulate(sheet) -> Mesh:
-    """The mesh of a sheet. Points of the grid that coincide (a row shrunk to the fold; columns 0 and -1 at the
-    saddle) become one vertex, and triangles that lost a corner or their area are dropped."""
+    """The mesh of a sheet. Points of the grid that coincide (a row shrunk to the fold; columns 0 and -1 at
+    the saddle) become one vertex, and triangles that lost a corner or their area are dropped."""
     points, residual = np.asarray(sheet.points, float), np.abs(np.asarray(sheet.residual, float))
     tip, closed = bool((points[0] == points[0, 0]).all()), bool((points[:, 0] == points[:, -1]).all())
     kept = np.s_[int(tip):, :points.shape[1] - int(closed)]
@@ -30,7 +32,8 @@ def triangulate(sheet) -> Mesh:
     if closed:
         np.maximum(residual[:, 0], residual[:, -1], out=residual[:, 0])
     rest = points[kept]
-    vertices, values = np.empty((tip + rest.shape[0] * rest.shape[1], 3)), np.empty(tip + rest.shape[0] * rest.shape[1])
+    vertices, values = np.empty((tip + rest.shape[0] * rest.shape[1],
+                                 3)), np.empty(tip + rest.shape[0] * rest.shape[1])
     np.add(rest, 0.0, out=vertices[int(tip):].reshape(rest.shape))
     values[int(tip):].reshape(rest.shape[:2])[:] = residual[kept]
     if tip:
@@ -39,7 +42,8 @@ def triangulate(sheet) -> Mesh:
 
 
 def _coincide(points, kept) -> bool:
-    """Whether neighbours of a grid, or a point and its mirror image, coincide elsewhere than at a tip and at saddles."""
+    """Whether neighbours of a grid, or a point and its mirror image, coincide elsewhere than at a tip and at
+    saddles."""
     rest = points[kept]
     half = points.shape[1] // 2
     there = points[kept[0]]
@@ -48,12 +52,15 @@ def _coincide(points, kept) -> bool:
 
 
 def _same(a, b) -> bool:
-    """Whether any point of a (n, m, 3) is that of b in its place; the component that is most likely to tell them apart is asked first."""
+    """Whether any point of a (n, m, 3) is that of b in its place; the component that is most likely to tell
+    them apart is asked first."""
     if not a.size:
         return False
     first = int(np.abs(a[-1, a.shape[1] // 2] - b[-1, a.shape[1] // 2]).argmax())
     equal = a[..., first] == b[..., first]
-    return bool(equal.any() and (equal & (a[..., first - 1] == b[..., first - 1]) & (a[..., first - 2] == b[..., first - 2])).any())
+    return bool(equal.any()
+                and (equal & (a[..., first - 1] == b[..., first - 1])
+                     & (a[..., first - 2] == b[..., first - 2])).any())
 
 
 def _merged(sheet, points, residual) -> Mesh:
@@ -69,7 +76,8 @@ def _merged(sheet, points, residual) -> Mesh:
 
 @lru_cache(maxsize=32)
 def _plain_triangles(rows, columns, tip, closed, cut):
-    """Triangles of a grid whose points are distinct but for a tip (row 0) and the saddles (columns 0 and -1)."""
+    """Triangles of a grid whose points are distinct but for a tip (row 0) and the saddles (columns 0 and -1).
+    """
     where = np.arange((rows - tip) * (columns - closed)).reshape(rows - tip, columns - closed) + int(tip)
     if closed:
         where = np.concatenate([where, where[:, :1]], axis=1)
@@ -81,7 +89,8 @@ def _plain_triangles(rows, columns, tip, closed, cut):
 
 
 def _triangles(where, cut):
-    """(t, 3) triangles of a grid of vertex numbers (n, m), cut as the sheet says, without those that lost a corner."""
+    """(t, 3) triangles of a grid of vertex numbers (n, m), cut as the sheet says, without those that lost a
+    corner."""
     a, b, c, d = where[:-1, :-1], where[1:, :-1], where[:-1, 1:], where[1:, 1:]
     along = np.stack([np.stack([a, b, d], -1), np.stack([a, d, c], -1)], axis=2)
     against = np.stack([np.stack([a, b, c], -1), np.stack([c, b, d], -1)], axis=2)
@@ -115,7 +124,8 @@ def stl(meshes) -> bytes:
 
 def glb(meshes, colours) -> bytes:
     """glTF 2.0 binary: one node a sheet, with normals and a two-sided material (single precision)."""
-    document: dict = {"asset": {"version": "2.0", "generator": "stabilab"}, "scene": 0, "scenes": [{"name": "separatrix"}]}
+    document: dict = {"asset": {"version": "2.0", "generator": "stabilab"}, "scene": 0,
+                      "scenes": [{"name": "separatrix"}]}
     binary = bytearray()
 
     def accessor(array, kind, component, target):
@@ -123,7 +133,8 @@ def glb(meshes, colours) -> bytes:
         binary.extend(array.tobytes())
         binary.extend(b"\0" * (-len(binary) % 4))
         document.setdefault("bufferViews", []).append(view)
-        entry = {"bufferView": len(document["bufferViews"]) - 1, "componentType": component, "count": len(array), "type": kind}
+        entry = {"bufferView": len(document["bufferViews"]) - 1, "componentType": component,
+                 "count": len(array), "type": kind}
         if kind == "VEC3":
             entry |= {"min": array.min(0).tolist(), "max": array.max(0).tolist()}
         else:
@@ -139,7 +150,8 @@ def glb(meshes, colours) -> bytes:
         document.setdefault("nodes", []).append({"name": mesh.name, "mesh": number})
         document.setdefault("materials", []).append({
             "name": mesh.name, "doubleSided": True,
-            "pbrMetallicRoughness": {"baseColorFactor": _linear(colours[number % len(colours)]), "metallicFactor": 0.0,
+            "pbrMetallicRoughness": {"baseColorFactor": _linear(colours[number % len(colours)]),
+                                     "metallicFactor": 0.0,
                                      "roughnessFactor": 0.6}})
     if "nodes" in document:
         document["scenes"][0]["nodes"] = list(range(len(document["nodes"])))

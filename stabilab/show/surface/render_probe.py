@@ -1,4 +1,5 @@
-"""Can this machine draw 3-D pictures? Asked in a child process: without GL libraries VTK does not raise, it crashes."""
+"""Can this machine draw 3-D pictures? Asked in a child process: without GL libraries VTK does not raise, it
+crashes."""
 from __future__ import annotations
 
 import os
@@ -9,7 +10,8 @@ from functools import lru_cache
 
 from ...packages import INSTALLED_AS, cure, present
 
-NEEDED = ("vtkmodules", "pyvista", "matplotlib", "PIL")  # the scene, its plotter, and the letters of the legend
+# the scene, its plotter, and the letters of the legend
+NEEDED = ("vtkmodules", "pyvista", "matplotlib", "PIL")
 CURE = "apt install libegl1 libgl1-mesa-dri"
 SECONDS = 90  # a first start of the software renderer on a slow machine takes about 5 s
 
@@ -50,11 +52,13 @@ def probe() -> Renderer:
         if not present(module):
             return Renderer(False, f"{INSTALLED_AS.get(module, module)} is not installed", cure(module))
     try:
-        child = subprocess.run([sys.executable, "-c", _CHILD], env=environment(), capture_output=True, text=True,
+        child = subprocess.run([sys.executable, "-c", _CHILD], env=environment(), capture_output=True,
+                               text=True,
                                timeout=SECONDS, stdin=subprocess.DEVNULL)
     except (OSError, subprocess.TimeoutExpired) as error:
         return Renderer(False, f"the test picture did not come: {error.__class__.__name__}")
-    found = [line.removeprefix("RENDERER ") for line in child.stdout.splitlines() if line.startswith("RENDERER ")]
+    found = [line.removeprefix("RENDERER ") for line in child.stdout.splitlines()
+             if line.startswith("RENDERER ")]
     if child.returncode == 0 and found:
         return Renderer(True, found[0])
     if child.returncode < 0 or child.returncode == 139:
@@ -64,5 +68,6 @@ def probe() -> Renderer:
 
 
 def use() -> None:
-    """Set the environment of this process for off-screen rendering; call after a probe that said yes, before pyvista."""
+    """Set the environment of this process for off-screen rendering; call after a probe that said yes, before
+    pyvista."""
     os.environ.update({k: v for k, v in environment().items() if k == "VTK_DEFAULT_OPENGL_WINDOW"})

@@ -1,1 +1,2 @@
-"""What a person at a terminal sees: its width, colours and letters, groups of commands, completion, progress."""
+"""What a person at a terminal sees: its width, colours and letters, groups of commands, completion, progress.
+"""

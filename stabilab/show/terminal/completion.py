@@ -22,7 +22,8 @@ def _paths(begun: str, endings) -> list[str]:
     except OSError:
         return []
     return [os.path.join(folder, one) + ("/" if is_folder else "") for one, is_folder in rows
-            if one.startswith(name) and (name.startswith(".") or not one.startswith(".")) and (is_folder or one.endswith(endings))]
+            if one.startswith(name) and (name.startswith(".") or not one.startswith("."))
+            and (is_folder or one.endswith(endings))]
 
 
 def _among(*words: str):
@@ -46,6 +47,7 @@ def kinds(incomplete: str) -> list[str]:
 
 def audited(incomplete: str) -> list[str]:
     """Papers on record, and files of claims."""
-    folder = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "theories", "printed", "papers")
+    folder = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "theories", "printed",
+                          "papers")
     names = sorted(name.removesuffix(".toml") for name in os.listdir(folder) if name.endswith(".toml"))
     return [name for name in names if name.startswith(incomplete)] + _paths(incomplete, (".toml",))

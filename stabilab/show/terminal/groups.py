@@ -7,7 +7,8 @@ from typer.core import TyperGroup
 
 # title of a group in the help -> the file of `cli` that declares its commands, and their names
 GROUPS = {
-    "Answers about a motion": ("motions", ("classify", "fate", "extremes", "period", "when", "stuck", "chaos")),
+    "Answers about a motion": ("motions",
+                               ("classify", "fate", "extremes", "period", "when", "stuck", "chaos")),
     "Runs and pictures": ("runs", ("simulate", "plot", "surface", "report", "explore")),
     "Into a case": ("one_case", ("show", "compare", "precision", "import")),
     "Many cases at once": ("many_cases", ("sweep", "atlas", "basin", "bifurcation")),
@@ -22,11 +23,13 @@ class Grouped(TyperGroup):
 
     def format_commands(self, ctx: Any, formatter: Any) -> None:
         commands = {name: self.get_command(ctx, name) for name in self.list_commands(ctx)}
-        seen = {name: command for name, command in commands.items() if command is not None and not command.hidden}
+        seen = {name: command for name,
+                command in commands.items() if command is not None and not command.hidden}
         limit = formatter.width - 6 - max(map(len, seen))
         wide = max(map(len, seen))
         for title, (_, names) in GROUPS.items():
-            rows = [(f"{name:<{wide}}", seen[name].get_short_help_str(limit)) for name in names if name in seen]
+            rows = [(f"{name:<{wide}}", seen[name].get_short_help_str(limit)) for name in names
+                    if name in seen]
             if rows:
                 with formatter.section(title):
                     formatter.write_dl(rows)

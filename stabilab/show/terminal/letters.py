@@ -1,23 +1,31 @@
-"""One vocabulary: names such as omega1 and lambda3 as people write them, and back where an encoding has no such letters."""
+"""One vocabulary: names such as omega1 and lambda3 as people write them, and back where an encoding has no
+such letters."""
 from __future__ import annotations
 
 import re
 
-GREEK = {"omega": "ω", "lambda": "λ", "Lambda": "Λ", "mu": "μ", "gamma": "γ", "alpha": "α", "sigma": "σ", "zeta": "ζ", "tau": "τ"}
-# What papers write in captions and formulas, where no key, path or option can stand: every Greek letter, with or without its number, and powers.
-ALPHABET = GREEK | {"beta": "β", "delta": "δ", "eps": "ε", "eta": "η", "theta": "θ", "kappa": "κ", "nu": "ν", "Pi": "Π", "pi": "π", "phi": "φ",
+GREEK = {"omega": "ω", "lambda": "λ", "Lambda": "Λ", "mu": "μ", "gamma": "γ", "alpha": "α", "sigma": "σ",
+         "zeta": "ζ", "tau": "τ"}
+# What papers write in captions and formulas, where no key, path or option can stand: every Greek letter, with
+# or without its number, and powers.
+ALPHABET = GREEK | {"beta": "β", "delta": "δ", "eps": "ε", "eta": "η", "theta": "θ", "kappa": "κ", "nu": "ν",
+                    "Pi": "Π", "pi": "π", "phi": "φ",
                     "psi": "ψ", "rho": "ρ", "Gamma": "Γ", "Delta": "Δ", "Omega": "Ω"}
 PLAIN = {letter: name for name, letter in ALPHABET.items()} | {
     "ᵢ": "_i", "ⱼ": "_j", "ₖ": "_k", "∞": "inf",
-    "²": "^2", "³": "^3", "⁴": "^4", "±": "+-", "∓": "-+", "−": "-", "–": "-", "≤": "<=", "≥": ">=", "≠": "!=", "√": "sqrt", "×": "x",
+    "²": "^2", "³": "^3", "⁴": "^4", "±": "+-", "∓": "-+", "−": "-", "–": "-", "≤": "<=", "≥": ">=",
+    "≠": "!=", "√": "sqrt", "×": "x",
     "·": ".", "µ": "u", "°": " deg", "…": "..."}
 # A name with its number, between bars, or the time of a scaled case; not part of a path, a key or an option.
 NAMES = re.compile(r"(?<![\w./\\])(?<![\w-]-)(omega|lambda|Lambda|mu|gamma|alpha|sigma|zeta)(?=(?:[123]|_[ijk])\b(?!\\|/[A-Za-z]|\.\w))"
-                   r"|(?<=\|)(?:omega|gamma)(?= ?[xyz]?\|)|\bomega(?= \. \()|\bgamma(?= = \()|(?<=[\d )=] )tau\b|(?<=\bin )tau\b(?! \[)|(?<=\bof )tau\b")
-LETTER = re.compile(r"(?<![A-Za-z_])(" + "|".join(sorted(ALPHABET, key=len, reverse=True)) + r")(?:_?(?=\d)|(?=_[ijk]\b)|(?![\w-]))|(?<![A-Za-z])l_(?=[xyz]\b)")
+                   r"|(?<=\|)(?:omega|gamma)(?= ?[xyz]?\|)|\bomega(?= \. \()|\bgamma(?= = \()|(?<=[\d )=] "
+                   r")tau\b|(?<=\bin )tau\b(?! \[)|(?<=\bof )tau\b")
+LETTER = re.compile(r"(?<![A-Za-z_])(" + "|".join(sorted(ALPHABET, key=len, reverse=True))
+                    + r")(?:_?(?=\d)|(?=_[ijk]\b)|(?![\w-]))|(?<![A-Za-z])l_(?=[xyz]\b)")
 MINUS = re.compile(r"(?<![\w)\]./-])-(?=\d)")
 LONG = re.compile(r"(?<![\w.])\d+\.\d{6,}(?:e[+-]?\d+)?")
-UNIT = re.compile(r"(?<![\w\\^])(kg m|rad/s|deg/s|m/s|1/s|N m s|s|m|\((?:deg/s|rad/s|N m s)\))\^([2-9])(?!\w)")
+UNIT = re.compile(
+    r"(?<![\w\\^])(kg m|rad/s|deg/s|m/s|1/s|N m s|s|m|\((?:deg/s|rad/s|N m s)\))\^([2-9])(?!\w)")
 INDEX = re.compile(r"(?<=[^\W\d_])_([ijk])\b")
 INDICES = {"i": "ᵢ", "j": "ⱼ", "k": "ₖ"}
 POWER = re.compile(r"\^(\d)(?!\d)|sqrt(?=\()")
@@ -31,12 +39,14 @@ RAISED = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 def written(text: str) -> str:
-    """A caption or a claim as a paper sets it: lambda3 becomes λ3, r0^2 becomes r0², sqrt(x) becomes √(x), l_x becomes lx, +- becomes ±."""
+    """A caption or a claim as a paper sets it: lambda3 becomes λ3, r0^2 becomes r0², sqrt(x) becomes √(x),
+    l_x becomes lx, +- becomes ±."""
     return _in_letters(MINUS.sub("−", text.replace("+-", "±").replace("-+", "∓")))
 
 
 def lettered(text: str) -> str:
-    """Words of the analysis for a reader at a terminal: letters as `written`, six digits, and the minus of the numbers in the lines about them."""
+    """Words of the analysis for a reader at a terminal: letters as `written`, six digits, and the minus of
+    the numbers in the lines about them."""
     return _in_letters(LONG.sub(lambda found: f"{float(found[0]):.6g}", text))
 
 
@@ -57,7 +67,8 @@ def _printed(text):
 def _in_letters(text):
     for plain, sign in SIGNS.items():
         text = text.replace(plain, sign)
-    text = INDEX.sub(lambda found: INDICES[found[1]], LETTER.sub(lambda found: ALPHABET.get(found[1], "l"), text))
+    text = INDEX.sub(lambda found: INDICES[found[1]],
+                     LETTER.sub(lambda found: ALPHABET.get(found[1], "l"), text))
     return POWER.sub(lambda found: found[1].translate(RAISED) if found[1] else "√", text)
 
 
@@ -67,8 +78,10 @@ def some(count: int, noun: str) -> str:
 
 
 def greek(text: str) -> str:
-    """The text with the names of angular velocities, momenta and torques as letters, omega1 becomes ω1, and with powers of units raised."""
-    return UNIT.sub(lambda found: found[1] + found[2].translate(RAISED), NAMES.sub(lambda found: GREEK[found[0]], text))
+    """The text with the names of angular velocities, momenta and torques as letters, omega1 becomes ω1, and
+    with powers of units raised."""
+    return UNIT.sub(lambda found: found[1] + found[2].translate(RAISED),
+                    NAMES.sub(lambda found: GREEK[found[0]], text))
 
 
 def plain(text: str) -> str:

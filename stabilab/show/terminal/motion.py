@@ -1,4 +1,5 @@
-"""A motion in words: where it starts, how far its rates go, its margins and period, and why; every number with its unit."""
+"""A motion in words: where it starts, how far its rates go, its margins and period, and why; every number
+with its unit."""
 from __future__ import annotations
 
 import math
@@ -62,7 +63,8 @@ def state(at, units: Units) -> str:
 
 
 def energy_margin(value, tell) -> str:
-    """The energy that is missing to the barrier, or by how much it is above. tell: of a size, with its unit."""
+    """The energy that is missing to the barrier, or by how much it is above. tell: of a size, with its unit.
+    """
     return f"{tell(-value)} above the barrier" if value < 0 else tell(value)
 
 
@@ -92,7 +94,8 @@ def shown(value, one: float = 1.0, digits: int = DIGITS) -> str:
     """A number of a column; a word where it is unbounded or unknown."""
     if value is None:
         return "unknown"
-    return "unbounded" if math.isinf(value) else number(value * one, digits)  # its column says downwards or upwards
+    # its column says downwards or upwards
+    return "unbounded" if math.isinf(value) else number(value * one, digits)
 
 
 def bound_lines(case, motion, units: Units) -> list[str]:
@@ -103,10 +106,12 @@ def bound_lines(case, motion, units: Units) -> list[str]:
 
 
 def why(case, motion, units: Units, proofs: bool) -> list[str]:
-    """The reason; with `proofs` also what is not known of the margin, the invariants, and what a run showed."""
+    """The reason; with `proofs` also what is not known of the margin, the invariants, and what a run showed.
+    """
     lines = [f"why: {reason(motion.because, units)}"]
     if proofs and motion.velocity_because:
-        lines.append(f"  {'' if motion.velocity_bounds else 'margin, rate unknown: '}{reason(motion.velocity_because, units)}")
+        lines.append(
+            f"  {'' if motion.velocity_bounds else 'margin, rate unknown: '}{reason(motion.velocity_because, units)}")
     if proofs:
         lines += [row(*fact) for fact in constants(motion, units)]
     return lines
@@ -124,7 +129,8 @@ def constants(motion, units: Units) -> list[tuple[str, str]]:
 
 
 def reason(words: str, units: Units) -> str:
-    """What the analysis says of a motion: names as letters, rates and times in the units of the lines about it."""
+    """What the analysis says of a motion: names as letters, rates and times in the units of the lines about
+    it."""
     return lettered(units.words(words))
 
 
@@ -149,17 +155,23 @@ def tilt_lines(case, motion, units: Units, proofs: bool = False) -> list[str]:
     if found is None or found.ranges:
         asked = found is None and not units.scaled and limiting.condition(motion.caveats, units)
         return [row("off that axis", TILTED)] if asked else []
-    limit = f"|omega| = {units.rate(found.limit)}{'' if found.stated else ', twice the largest of this motion (no limit is stated)'}"
+    limit = (
+        f"|omega| = {units.rate(found.limit)}{'' if found.stated else ', twice the largest of this motion (no limit is stated)'}")
     lines = [f"  tilted by {_angle(found.angle)}: {found.of}, to {limit}"]
     if found.ends:
         lines.append(f"    shortest time found   {clock((found.low, found.high), units)} ({found.level})")
         if proofs:
-            lines.append(f"    at azimuth            {_angle(found.azimuth)}, torque {units.vector(found.torque, units.plain('N m'))}")
+            lines.append(
+                f"    at azimuth            {_angle(found.azimuth)}, torque "
+                f"{units.vector(found.torque, units.plain('N m'))}")
     else:
         many, far = len(found.times), units.time(found.followed)
-        told = f"{many} azimuths were followed for {far} or more" if many > 1 else f"one azimuth was followed for {far}, which is before it can be reached"
+        told = (f"{many} azimuths were followed for {far} or more" if many > 1
+                else f"one azimuth was followed for {far}, which is before it can be reached")
         lines.append(f"    shortest time found   none: {told}")
-    return [*lines, f"    not before            {units.time(found.not_before)}, whatever the azimuth and for any smaller tilt (proved)"]
+    return [*lines,
+            f"    not before            {units.time(found.not_before)}, whatever the azimuth and for any "
+            f"smaller tilt (proved)"]
 
 
 def clock(ends, units: Units) -> str:

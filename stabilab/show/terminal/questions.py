@@ -1,4 +1,5 @@
-"""What `fate`, `extremes` and `period` print: the answer, its numbers, why, and how many digits were checked."""
+"""What `fate`, `extremes` and `period` print: the answer, its numbers, why, and how many digits were checked.
+"""
 from __future__ import annotations
 
 import math
@@ -18,9 +19,12 @@ SHOWN = 12  # digits of a number that is not written out, where more than a tabl
 def fate(case, motion, told, units: Units, all_digits: bool, say: bool, proofs: bool = False) -> str:
     """The fate, margins, bounds for all times, what a tilt does, and why."""
     margin = "" if told.values is None else _energy(told, units, all_digits)
-    rows = [row(name, words) for name, words in (("margin, rate", rate_margin(motion, units, DIGITS)), ("margin, energy", margin)) if words]
+    rows = [row(name, words) for name,
+            words in (("margin, rate", rate_margin(motion, units, DIGITS)), ("margin, energy", margin))
+            if words]
     bounds = bound_lines(case, replace(motion, extremes=None), units)
-    return "\n".join([f"{case.name}: {headline(case, motion, units)}", *rows, *bounds, *tilt_lines(case, motion, units, proofs),
+    return "\n".join([f"{case.name}: {headline(case, motion, units)}", *rows, *bounds,
+                      *tilt_lines(case, motion, units, proofs),
                       *why(case, motion, units, proofs), *frame.note(case), *([_said(told, units)] * (say))])
 
 
@@ -28,19 +32,23 @@ def _energy(told, units, all_digits):
     if not all_digits:
         return energy_margin(told.values, units.energy)
     decimals = told.decimals or number(told.values, max(SHOWN, told.asked))
-    return energy_margin(told.values, lambda _: f"{decimals.removeprefix('-')} {units.plain('J')[0]}".rstrip())
+    return energy_margin(told.values,
+                         lambda _: f"{decimals.removeprefix('-')} {units.plain('J')[0]}".rstrip())
 
 
 def extremes(case, motion, told, units: Units, all_digits: bool, say: bool, proofs: bool = False) -> str:
     """The largest rate and the fate, a line a component, and bounds for all times."""
-    shown = motion if told.values is None else replace(motion, extremes=tuple(tuple(map(float, pair)) for pair in told.values))
+    shown = (motion if told.values is None
+             else replace(motion, extremes=tuple(tuple(map(float, pair)) for pair in told.values)))
     parts = [fate_words(shown, units), cause(shown, units)]
-    parts = [*parts, largest(shown, units)] if motion.fate.word == "spin-up" else [largest(shown, units), *parts]
+    parts = ([*parts, largest(shown, units)] if motion.fate.word == "spin-up"
+             else [largest(shown, units), *parts])
     parts = [limiting.reached(motion.caveats, units), *parts, limiting.tilted(motion.caveats, units)]
     rows = [f"  extremes: {shown.extremes_over}"]
     if shown.extremes is not None:
         rows = _all_digits(case, shown, told) if all_digits else extreme_lines(case, shown, units)
-    return "\n".join([f"{case.name}: {'; '.join(filter(None, parts))}", *rows, *bound_lines(case, motion, units),
+    return "\n".join([f"{case.name}: {'; '.join(filter(None, parts))}", *rows,
+                      *bound_lines(case, motion, units),
                       *(why(case, motion, units, proofs) if proofs else ()), *frame.note(case),
                       *([_said(told, units)] * (say and told.because != shown.extremes_over))])
 
@@ -50,8 +58,11 @@ def _all_digits(case, motion, told):
     unit = "" if case.variables == "scaled" else "rad/s"
     pairs = told.decimals or [[number(v, max(SHOWN, told.asked)) for v in pair] for pair in motion.extremes]
     wide = max(24, told.asked + 8)
-    return [f"  over {motion.extremes_over}, least and greatest:", *(f"  {greek(name):<8}{_word(low):>{wide}}{_word(high):>{wide}}  {unit}".rstrip()
-                                                           for name, (low, high) in zip(case.scene.components, pairs))]
+    return [f"  over {motion.extremes_over}, least and greatest:",
+            *(f"  {greek(name):<8}{_word(low):>{wide}}{_word(high):>{wide}}  {unit}".rstrip()
+                                                           for name, (low,
+                                                                      high) in zip(case.scene.components,
+                                                                                   pairs))]
 
 
 def _word(decimal) -> str:
@@ -70,13 +81,17 @@ def _said(told, units) -> str:
 def period(case, motion, told, units: Units, all_digits: bool, say: bool, proofs: bool = False) -> str:
     """The period with its unit."""
     if told.values is None:
-        value = no_period(motion.fate) + (f" ({motion.fate.word})" if motion.fate in (Fate.SPIN_UP, Fate.SEPARATRIX, Fate.BOUNDED) else "")
+        value = (no_period(motion.fate)
+                 + (f" ({motion.fate.word})" if motion.fate in (Fate.SPIN_UP, Fate.SEPARATRIX, Fate.BOUNDED)
+                    else ""))
     elif all_digits:
-        value = f"period {told.decimals or number(told.values, max(SHOWN, told.asked))} {case.scene.time_unit}"
+        value = (
+            f"period {told.decimals or number(told.values, max(SHOWN, told.asked))} {case.scene.time_unit}")
     else:
         value = f"period {units.time(told.values)}"
     holds = limiting.condition(motion.caveats, units)
     parts = [limiting.reached(motion.caveats, units), value + (holds and f",{holds}"),
              limiting.tilted(motion.caveats, units)]
-    lines = [f"{case.name}: {'; '.join(filter(None, parts))}", *(why(case, motion, units, proofs) if proofs else ())]
+    lines = [f"{case.name}: {'; '.join(filter(None, parts))}",
+             *(why(case, motion, units, proofs) if proofs else ())]
     return "\n".join([*lines, *([_said(told, units)] * (say and told.values is not None))])

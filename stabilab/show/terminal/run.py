@@ -1,4 +1,5 @@
-"""A run in time, as `simulate` prints it: how far it went, times and states in columns with units, departures from the laws."""
+"""A run in time, as `simulate` prints it: how far it went, times and states in columns with units, departures
+from the laws."""
 from __future__ import annotations
 
 import math
@@ -16,8 +17,8 @@ GAP = 2
 
 
 def text(case, run, units: Units, known: int | None = None, width: int | None = None) -> str:
-    """The lines for one run. known: digits that a check vouches for, where more than a table's were asked for; width: of a terminal, where the
-    columns are told part by part if they do not fit."""
+    """The lines for one run. known: digits that a check vouches for, where more than a table's were asked
+    for; width: of a terminal, where the columns are told part by part if they do not fit."""
     digits = DIGITS if known is None else min(ALL, known)
     names, rows = answers.columns(run)
     factors = _factors(run, units)
@@ -27,11 +28,15 @@ def text(case, run, units: Units, known: int | None = None, width: int | None = 
     errors = [0.0, *answers.errors(run)]
     cells = [[zero_within(error * one) if answers.lost(t, value, error) else f"{value * one + 0.0:.{digits}g}"
               for value, one, error in zip((t, *row), scale, errors)] for t, row in zip(run.t, rows)]
-    laws = [f"# {lettered(name)}: largest relative departure {value:.3g}" for name, value in run.invariant_drift.items()]
+    laws = [f"# {lettered(name)}: largest relative departure {value:.3g}" for name,
+            value in run.invariant_drift.items()]
     how = f"# {run.method}, rtol {run.rtol:.3g}" if run.rtol else f"# {run.model}: {lettered(run.method)}"
-    notes = [f"# {lettered(units.words(run.reason))}"] if run.reason and run.reason != "all times reached" else []
-    notes += [f"# {', '.join(PARTS[name].components)}: {PARTS[name].words}" for name in run.state if name == "quaternion"]
-    return "\n".join([f"{case.name}: {headline(case, run, units)}", *_columns(head, cells, width, 13 if known is None else ALL + 7), how, *laws, *notes,
+    notes = ([f"# {lettered(units.words(run.reason))}"] if run.reason and run.reason != "all times reached"
+             else [])
+    notes += [f"# {', '.join(PARTS[name].components)}: {PARTS[name].words}" for name in run.state
+              if name == "quaternion"]
+    return "\n".join([f"{case.name}: {headline(case, run, units)}",
+                      *_columns(head, cells, width, 13 if known is None else ALL + 7), how, *laws, *notes,
                       *(f"# {line.strip()}" for line in frame.note(case))])
 
 
@@ -56,14 +61,16 @@ def _sizes(run, units):
     if part is None:
         return ""
     error = max((float(v) for v in np.ravel(run.error.get(part, 0.0))), default=0.0)
-    first, last = (_size(float(run.t[n]), math.hypot(*map(float, run.state[part][n])), error, units) for n in (0, -1))
+    first, last = (_size(float(run.t[n]), math.hypot(*map(float, run.state[part][n])), error, units)
+                   for n in (0, -1))
     name = "|x|" if units.scaled else "|ω|"
     return f"; {name} = {last} there" if len(run.t) == 1 else f"; {name} = {first} first, {last} last"
 
 
 def _size(t, size, error, units):
     unit, one = units.rates
-    return f"{zero_within(error * one)} {unit}".rstrip() if answers.lost(t, size, error) else units.rate(size, SHORT)
+    return (f"{zero_within(error * one)} {unit}".rstrip() if answers.lost(t, size, error)
+            else units.rate(size, SHORT))
 
 
 def _factors(run, units) -> list[tuple[str, float]]:
@@ -75,8 +82,10 @@ def _factors(run, units) -> list[tuple[str, float]]:
 
 
 def _columns(head, cells, width, wide):
-    """Lines of right-aligned columns, the time first; in several tables where they are wider than a terminal."""
-    sizes = [max(wide, len(name) + GAP, 1 + max((len(row[i]) for row in cells), default=0)) for i, name in enumerate(head)]
+    """Lines of right-aligned columns, the time first; in several tables where they are wider than a terminal.
+    """
+    sizes = [max(wide, len(name) + GAP, 1 + max((len(row[i]) for row in cells), default=0)) for i,
+             name in enumerate(head)]
     fit = len(head) - 1 if width is None else max(1, (width - sizes[0]) // max(sizes[1:], default=1))
     lines = []
     for start in range(1, len(head), fit):

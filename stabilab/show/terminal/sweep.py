@@ -1,4 +1,5 @@
-"""All combinations of a [sweep] as one table: a column for each key that varies, then the answer's numbers."""
+"""All combinations of a [sweep] as one table: a column for each key that varies, then the answer's numbers.
+"""
 from __future__ import annotations
 
 import math
@@ -30,8 +31,10 @@ def groups(cases: Sequence) -> list[list[int]]:
     return found
 
 
-def text(cases: Sequence, answer: str, columns: Sequence[tuple[str, str]], rows: Sequence[Sequence[str]]) -> str:
-    """The answer in a line, then the table. columns: (head, unit) of what follows the swept keys; rows: its cells, one for each case."""
+def text(cases: Sequence, answer: str, columns: Sequence[tuple[str, str]],
+         rows: Sequence[Sequence[str]]) -> str:
+    """The answer in a line, then the table. columns: (head, unit) of what follows the swept keys; rows: its
+    cells, one for each case."""
     keys = swept_columns(cases)
     heads = [name for name, *_ in keys] + [head for head, _ in columns]
     units = [unit for _, unit, _ in keys] + [unit for _, unit in columns]
@@ -42,19 +45,23 @@ def text(cases: Sequence, answer: str, columns: Sequence[tuple[str, str]], rows:
 
 
 def swept_columns(cases: Sequence) -> list[tuple[str, str, list[str]]]:
-    """(head, unit, a cell a case) of every swept key; of a vector the components that vary. A value with a unit of its own is told as written."""
+    """(head, unit, a cell a case) of every swept key; of a vector the components that vary. A value with a
+    unit of its own is told as written."""
     return [column for place in range(len(cases[0].swept)) for column in key_columns(cases, place)]
 
 
 def key_columns(cases: Sequence, place: int) -> list[tuple[str, str, list[str]]]:
     """(head, unit, a cell a case) of one swept key, the number of which is `place`."""
     key, values = cases[0].swept[place][0], [case.swept[place][1] for case in cases]
-    label = ".".join(LETTERS.get(word, word) for word in key.split(".")[-1 if _alone(key, cases[0].swept) else -2:])
-    if any(isinstance(v, list) and any(isinstance(one, list) for one in v) for v in values):  # a matrix: which of those in the file
+    label = ".".join(LETTERS.get(word, word)
+                     for word in key.split(".")[-1 if _alone(key, cases[0].swept) else -2:])
+    # a matrix: which of those in the file
+    if any(isinstance(v, list) and any(isinstance(one, list) for one in v) for v in values):
         return [(label, "", [f"no. {case.variant.split('-')[1 + place]}" for case in cases])]
     if all(isinstance(v, list) and len(v) == len(values[0]) for v in values):
         moving = [i for i in range(len(values[0])) if len({repr(v[i]) for v in values}) > 1] or [0]
-        return [(f"{label}[{i + 1}]", _unit(key, [v[i] for v in values]), [str(v[i]) for v in values]) for i in moving]
+        return [(f"{label}[{i + 1}]", _unit(key, [v[i] for v in values]), [str(v[i]) for v in values])
+                for i in moving]
     return [(label, _unit(key, values), [str(v) for v in values])]
 
 
@@ -74,9 +81,12 @@ def _alone(key, swept) -> bool:
 def fates(motions: Sequence, units: Units) -> str:
     """How many motions have which fate, and the range of their largest rates."""
     counts = Counter(motion.fate.word for motion in motions)
-    while_ = {fate: limiting.shared([motion.caveats for motion in motions if motion.fate.word == fate], units) for fate in counts}
-    told = {fate: f"{WORDS[fate].removesuffix(' for ever') if where else WORDS[fate]}{where}" for fate, where in while_.items()}
-    words = ", ".join(f"{told[fate]}: {count}" if len(counts) > 1 else f"each {told[fate]}" for fate, count in counts.most_common())
+    while_ = {fate: limiting.shared([motion.caveats for motion in motions if motion.fate.word == fate], units)
+              for fate in counts}
+    told = {fate: f"{WORDS[fate].removesuffix(' for ever') if where else WORDS[fate]}{where}" for fate,
+            where in while_.items()}
+    words = ", ".join(f"{told[fate]}: {count}" if len(counts) > 1 else f"each {told[fate]}" for fate,
+                      count in counts.most_common())
     sizes = [size for size in map(_largest, motions) if size is not None]
     if not sizes:
         return words
@@ -94,27 +104,33 @@ def _largest(motion):
 
 
 def of_motions(motions: Sequence, units: Units) -> tuple[list[tuple[str, str]], list[list[str]]]:
-    """Columns and rows of fate, axis, largest rate, margins and period; a column that says nothing is left out."""
+    """Columns and rows of fate, axis, largest rate, margins and period; a column that says nothing is left
+    out."""
     name, one = units.rates
     longest = max((m.period for m in motions if m.period is not None), default=0.0)
     time, per_time = units.times(longest)
-    columns = [("limit", "", lambda m: limiting.reached(m.caveats, units)), ("fate", "", lambda m: m.fate.word + known_as(m)),
+    columns = [("limit", "", lambda m: limiting.reached(m.caveats, units)),
+               ("fate", "", lambda m: m.fate.word + known_as(m)),
              ("axis", "", lambda m: units.axes.signed(m.axis, m.sense)),
              ("largest rate", name, lambda m: "" if _largest(m) is None else number(_largest(m) * one, 6)),
-             ("margin", name, lambda m: rate_margin(m, units, 6).removesuffix(f" {name}") if name else rate_margin(m, units, 6)),
-             ("to barrier", units.plain("J")[0], lambda m: "" if m.margin_energy is None else shown(m.margin_energy)),
+             ("margin", name, lambda m: rate_margin(m, units, 6).removesuffix(f" {name}") if name
+              else rate_margin(m, units, 6)),
+             ("to barrier", units.plain("J")[0],
+              lambda m: "" if m.margin_energy is None else shown(m.margin_energy)),
              ("period", time, lambda m: "" if m.period is None else number(m.period * per_time, 6))]
     return filled(columns, motions)
 
 
-def of_extremes(motions: Sequence, names: Sequence[str], units: Units) -> tuple[list[tuple[str, str]], list[list[str]]]:
+def of_extremes(motions: Sequence, names: Sequence[str],
+                units: Units) -> tuple[list[tuple[str, str]], list[list[str]]]:
     """Columns and rows of the fate, and of least and greatest of every component."""
     name, one = units.rates
     motions = [replace(m, extremes=but_for_rounding(m.extremes, m.tolerance)) for m in motions]
     columns: list[Column] = [("fate", "", lambda m: m.fate.word + known_as(m))]
     for i, component in enumerate(names):
         for end, word in enumerate(("least", "most")):
-            columns.append((f"{greek(component)} {word}", name, lambda m, i=i, end=end: "" if m.extremes is None else shown(m.extremes[i][end], one)))
+            columns.append((f"{greek(component)} {word}", name, lambda m, i=i,
+                            end=end: "" if m.extremes is None else shown(m.extremes[i][end], one)))
     return filled(columns, motions)
 
 

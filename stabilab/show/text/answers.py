@@ -10,16 +10,19 @@ from ..axes import axes_of
 from ..files import comma
 from . import frame, when
 
-ENDLESS = {math.inf: "1e999", -math.inf: "-1e999"}  # numbers by JSON's grammar, beyond all doubles: Python, JavaScript and MATLAB read them as infinite
+# numbers by JSON's grammar, beyond all doubles: Python, JavaScript and MATLAB read them as infinite
+ENDLESS = {math.inf: "1e999", -math.inf: "-1e999"}
 MARK = "\0 endless "  # before such a number in the text until its quotes are taken off
 
 
 class Endless(float):
-    """The end of an interval that may have none: infinite, it is told as such, where null would stand for what is not known."""
+    """The end of an interval that may have none: infinite, it is told as such, where null would stand for
+    what is not known."""
 
 
 def as_json(value) -> str:
-    """JSON with every digit of a double; what does not exist (and infinity, unless it is an end that is told as `Endless`) is null."""
+    """JSON with every digit of a double; what does not exist (and infinity, unless it is an end that is told
+    as `Endless`) is null."""
     import json
     text = json.dumps(plain(value), allow_nan=False, ensure_ascii=False, indent=1)
     for told in ENDLESS.values():
@@ -62,26 +65,30 @@ def _input(case, at) -> dict:
 
 
 def _point(p) -> dict:
-    return {"at": p.at, "eigenvalues": p.eigenvalues, "linear": p.linear, "verdict": p.verdict, "because": p.because}
+    return {"at": p.at, "eigenvalues": p.eigenvalues, "linear": p.linear, "verdict": p.verdict,
+            "because": p.because}
 
 
 def _curve(c) -> dict:
     return {"name": c.name, "equation": c.equation, "parametrisation": c.parametrisation,
             "samples": [_point(p) for p in c.samples], "folds": c.folds,
-            "segments": [{"t": s.t, "linear": s.linear, "verdict": s.verdict, "because": s.because} for s in c.segments]}
+            "segments": [{"t": s.t, "linear": s.linear, "verdict": s.verdict, "because": s.because}
+                         for s in c.segments]}
 
 
 def _motion(case, m) -> dict:
     return {"at": m.at, "fate": m.fate.word, **axes_of(case).key(m.axis), "because": m.because,
-            "margin": {"energy": m.margin_energy, "angular_velocity": m.margin_velocity, "bounds": m.velocity_bounds,
+            "margin": {"energy": m.margin_energy, "angular_velocity": m.margin_velocity,
+                       "bounds": m.velocity_bounds,
                        "witness": m.velocity_witness, "because": m.velocity_because or None},
             "period": m.period, "extremes": m.extremes, "invariants": m.invariants,
-            "sense": m.sense or None, "extremes_over": m.extremes_over, "evidence": m.evidence, "tilt": when.tilt_dict(m.tilt)} | followed(m)
+            "sense": m.sense or None, "extremes_over": m.extremes_over, "evidence": m.evidence,
+            "tilt": when.tilt_dict(m.tilt)} | followed(m)
 
 
 def followed(m) -> dict:
-    """How well a fate is known; of a motion that was followed also when its certificate held (null: it did not), what was seen on the way,
-    and the bounds of the rates for all times (null in them: unbounded)."""
+    """How well a fate is known; of a motion that was followed also when its certificate held (null: it did
+    not), what was seen on the way, and the bounds of the rates for all times (null in them: unbounded)."""
     known = {"level": m.level}
     if m.cause:
         known |= {"t": m.evidence.get("t_certificate"), "cause": m.cause, "bounds": m.bounds}
@@ -107,7 +114,8 @@ def extremes(case, motion, told) -> dict:
     motion = _with(motion, told)
     return {"schema": "stabilab.extremes/1", "case": case.name, "variables": case.variables, "at": motion.at,
             "fate": motion.fate.word, "components": case.scene.components, "extremes": motion.extremes,
-            "over": motion.extremes_over} | followed(motion) | _around(case, motion) | {"digits": digits(told)}
+            "over": motion.extremes_over} | followed(motion) | _around(case,
+                                                                       motion) | {"digits": digits(told)}
 
 
 def _around(case, motion) -> dict:
@@ -116,27 +124,36 @@ def _around(case, motion) -> dict:
 
 
 def _with(motion, told):
-    return motion if told.values is None else replace(motion, extremes=tuple(tuple(map(float, pair)) for pair in told.values))
+    return (motion if told.values is None
+            else replace(motion, extremes=tuple(tuple(map(float, pair)) for pair in told.values)))
 
 
 def fate(case, motion, told) -> dict:
     """One object of `stabilab fate --json`; margin: barrier minus energy, null where none stands ahead."""
     margin = motion.margin_energy if told.values is None else told.values
-    return {"schema": "stabilab.fate/1", "case": case.name, "variables": case.variables, "at": motion.at, "fate": motion.fate.word,
-            **axes_of(case).key(motion.axis), "sense": motion.sense or None, "because": motion.because, "margin": margin,
-            "digits": digits(told), "tilt": when.tilt_dict(motion.tilt)} | followed(motion) | _around(case, motion)
+    return {"schema": "stabilab.fate/1", "case": case.name, "variables": case.variables, "at": motion.at,
+            "fate": motion.fate.word,
+            **axes_of(case).key(motion.axis), "sense": motion.sense or None, "because": motion.because,
+            "margin": margin,
+            "digits": digits(told),
+            "tilt": when.tilt_dict(motion.tilt)} | followed(motion) | _around(case, motion)
 
 
 def period(case, motion, told) -> dict:
-    """One object of `stabilab period --json`; null where the motion does not repeat, or is undecided (see fate, digits.because)."""
-    return {"schema": "stabilab.period/1", "case": case.name, "variables": case.variables, "at": motion.at, "fate": motion.fate.word,
-            "period": told.values, "time": case.scene.time_unit, "digits": digits(told)} | _around(case, motion)
+    """One object of `stabilab period --json`; null where the motion does not repeat, or is undecided (see
+    fate, digits.because)."""
+    return {"schema": "stabilab.period/1", "case": case.name, "variables": case.variables, "at": motion.at,
+            "fate": motion.fate.word,
+            "period": told.values, "time": case.scene.time_unit,
+            "digits": digits(told)} | _around(case, motion)
 
 
 def simulation(case, run) -> dict:
     """The object of `stabilab simulate --json`."""
-    return {"schema": "stabilab.simulate/1", "case": case.name, "model": run.model, "time": case.scene.time_unit,
-            "t": run.t, "state": run.state, "error": run.error, "invariant_drift": run.invariant_drift, "counters": run.counters,
+    return {"schema": "stabilab.simulate/1", "case": case.name, "model": run.model,
+            "time": case.scene.time_unit,
+            "t": run.t, "state": run.state, "error": run.error, "invariant_drift": run.invariant_drift,
+            "counters": run.counters,
             "method": run.method, "rtol": run.rtol, "status": run.status, "reason": run.reason,
             **({"quaternion": PARTS["quaternion"].words} if "quaternion" in run.state else {})
             } | frame.rows(case, run) | frame.key(case)
@@ -157,7 +174,8 @@ def columns(run) -> tuple[list[str], list[list[float]]]:
 def errors(run) -> list[float]:
     """The error of each of the columns, 0 where none is known."""
     import numpy as np
-    return [float(v) for name, values in run.state.items() for v in np.broadcast_to(run.error.get(name, 0.0), np.shape(values)[1:]).ravel()]
+    return [float(v) for name, values in run.state.items()
+            for v in np.broadcast_to(run.error.get(name, 0.0), np.shape(values)[1:]).ravel()]
 
 
 def lost(t: float, value: float, error: float) -> bool:

@@ -22,7 +22,8 @@ def write(certificate: dict, path) -> Path:
     import json
     path = checked(path)
     with whole_file(path) as waiting:
-        waiting.write_text(json.dumps(certificate, indent=1, ensure_ascii=False, allow_nan=False) + "\n", encoding="utf-8")
+        waiting.write_text(json.dumps(certificate, indent=1, ensure_ascii=False, allow_nan=False) + "\n",
+                           encoding="utf-8")
     return path
 
 
@@ -32,7 +33,8 @@ def summary(certificate: dict) -> str:
     if certificate["equilibria"]:
         found = certificate["equilibria"]
         planes = f", {some(len(found['planes']), 'plane')}" if found.get("planes") else ""
-        count = f"{len(found['points'])} isolated, {some(len(found['curves']), 'curve')}{planes}" if found["kind"] in ("points", "curves") else found["kind"]
+        count = (f"{len(found['points'])} isolated, {some(len(found['curves']), 'curve')}{planes}"
+                 if found["kind"] in ("points", "curves") else found["kind"])
         parts.append(f"equilibria ({count})")
     if certificate["motion"]:
         motion = certificate["motion"]
@@ -43,8 +45,8 @@ def summary(certificate: dict) -> str:
 
 
 def text(found, first: str, other: str = "", physical: bool = False) -> str:
-    """The verdict on the whole, what it is about, then one line a claim. other: the case that it should be of and is not. physical: the checker's x1 is a
-    rate in rad/s, which all other commands call ω1."""
+    """The verdict on the whole, what it is about, then one line a claim. other: the case that it should be of
+    and is not. physical: the checker's x1 is a rate in rad/s, which all other commands call ω1."""
     lines = [*(f"{f.status:<12} {f.claim}{f': {f.reason}' if f.reason else ''}" for f in found.findings)]
     if physical:
         lines = [re.sub(r"\bx(?=[123]\b)", "ω", line) for line in lines]
@@ -54,7 +56,8 @@ def text(found, first: str, other: str = "", physical: bool = False) -> str:
 
 
 def _count(found) -> str:
-    numbers = {word: sum(f.status == word for f in found.findings) for word in ("proved", "not checked", "refuted")}
+    numbers = {word: sum(f.status == word for f in found.findings)
+               for word in ("proved", "not checked", "refuted")}
     return ", ".join(f"{n} {word}" for word, n in numbers.items() if n) or "no claims"
 
 

@@ -13,26 +13,34 @@ from ..files import comma, endings
 from ..terminal.letters import lettered, written
 from ..units import SHORT, Units, number, units_of
 
-LOOKS = {"exact": {"color": style.BLACK, "linewidth": 2.2}, "linear": {"color": style.BLUE, "linewidth": 1.4, "linestyle": "--"},
+LOOKS = {"exact": {"color": style.BLACK, "linewidth": 2.2},
+         "linear": {"color": style.BLUE, "linewidth": 1.4, "linestyle": "--"},
          "corrected": {"color": style.PURPLE, "linewidth": 1.5, "linestyle": "-."},
          "printed": {"color": style.ORANGE, "linewidth": 1.6, "linestyle": ":"},
          "averaged1": {"color": style.GREEN, "linewidth": 1.4, "linestyle": "-."},
          "averaged2": {"color": style.BLUE, "linewidth": 1.4, "linestyle": "--"},
          "lindstedt": {"color": style.SKY, "linewidth": 1.2, "linestyle": (0, (5, 2))}}
-BURIED = {"linestyle": "-", "linewidth": 0.6, "antialiased": False, "alpha": 0.35, "zorder": 1.9}  # of a model that would bury the others: a ground below them
+# of a model that would bury the others: a ground below them
+BURIED = {"linestyle": "-", "linewidth": 0.6, "antialiased": False, "alpha": 0.35, "zorder": 1.9}
 DARK = {"printed": "#946300", "corrected": "#9C4A7B", "lindstedt": style.BLUE}  # of words, to be read
-END = {"marker": "X", "markersize": 6, "linestyle": "none", "zorder": 5}  # where a model ends before the motion does
+# where a model ends before the motion does
+END = {"marker": "X", "markersize": 6, "linestyle": "none", "zorder": 5}
 FLAT = 1e-4  # of its values, a range below which an axis counts from one of them
 DENSE = 100  # turns of a model in a panel from which on it would
-NAMES = {"omega": (r"$\omega_1$", r"$\omega_2$", r"$\omega_3$"), "gamma": (r"$\gamma_1$", r"$\gamma_2$", r"$\gamma_3$"),
+NAMES = {"omega": (r"$\omega_1$", r"$\omega_2$", r"$\omega_3$"),
+         "gamma": (r"$\gamma_1$", r"$\gamma_2$", r"$\gamma_3$"),
          "angles": (r"$\psi$", r"$\phi$", r"$\theta$"), "momentum": (r"$H_1$", r"$H_2$", r"$H_3$"),
          "velocity": (r"$v_1$", r"$v_2$", r"$v_3$"), "position": (r"$x_1$", r"$x_2$", r"$x_3$")}
-WORDS = {"exact": "exact motion", "printed": "as printed", "linear": "linear model, both rates", "corrected": "corrected integrals",
-         "averaged1": "averaged, first order", "averaged2": "averaged, second order", "lindstedt": "corrected expansion"}
+WORDS = {"exact": "exact motion", "printed": "as printed", "linear": "linear model, both rates",
+         "corrected": "corrected integrals",
+         "averaged1": "averaged, first order", "averaged2": "averaged, second order",
+         "lindstedt": "corrected expansion"}
 TIMES = 10  # the share of a motion's size from which on an error is told as so many times that size
-BRIEF = 8.0  # inches of a figure of letters of full size, below which there is no room for numbers on each panel
+# inches of a figure of letters of full size, below which there is no room for numbers on each panel
+BRIEF = 8.0
 ROUNDING = 1e-12  # of the largest component, a range of a panel that is rounding
-REACH = 1.6  # a model that leaves the exact motion's range by more than this factor is cut off, and the panel says so
+# a model that leaves the exact motion's range by more than this factor is cut off, and the panel says so
+REACH = 1.6
 
 
 def as_dict(case, found) -> dict:
@@ -40,26 +48,33 @@ def as_dict(case, found) -> dict:
     return {"schema": "stabilab.compare/1", "case": case.name, "time": case.scene.time_unit, "t": found.t,
             "models": {name: {"status": run.status, "reason": run.reason} for name, run in found.runs.items()}
             | {name: {"status": "refused", "reason": why} for name, why in found.refused.items()},
-            "departures": [{"model": d.model, "part": d.part, "error": d.error, "scale": d.scale, "largest": d.largest,
-                            "first": {f"{level:g}": time for level, time in d.first.items()}} for d in found.departures],
+            "departures": [{"model": d.model, "part": d.part, "error": d.error, "scale": d.scale,
+                            "largest": d.largest,
+                            "first": {f"{level:g}": time for level, time in d.first.items()}}
+                           for d in found.departures],
             "theory": list(found.theory)}
 
 
 def text(case, found, units: Units) -> str:
     """The closest model, a line per model and part of the state, then what each model says of itself."""
-    lines = [f"{case.name}: {_closest(found)}; {', '.join(list(found.runs)[1:]) or 'no model'} against the exact motion, "
+    lines = [f"{case.name}: {_closest(found)}; {', '.join(list(found.runs)[1:]) or 'no model'} against the "
+             f"exact motion, "
              f"{units.span(case.scene.time_unit, found.t[0], found.t[-1])}",
-             f"  {'model':<10}{'part':<9}{'largest error':>13}{'of':>10}  {'':<8}{'1 % from':>12}{'10 % from':>12}"]
+             f"  {'model':<10}{'part':<9}{'largest error':>13}{'of':>10}  "
+             f"{'':<8}{'1 % from':>12}{'10 % from':>12}"]
     for d in found.departures:
         unit, one = units.of(PARTS[d.part].unit)
         first = ["never" if time is None else units.time(time, SHORT) for time in d.first.values()]
-        row = f"  {d.model:<10}{written(d.part):<9}{number(d.largest * one):>13}{number(d.scale * one):>10}  {written(unit):<8}{first[0]:>12}{first[1]:>12}"
+        row = (
+            f"  {d.model:<10}{written(d.part):<9}{number(d.largest * one):>13}{number(d.scale * one):>10}  "
+            f"{written(unit):<8}{first[0]:>12}{first[1]:>12}")
         lines.append(row)
     return "\n".join([*lines, *(f"  {note}" for note in _notes(found, units))])
 
 
 def _notes(found, units) -> list[str]:
-    """What the models say of themselves, once where several say the same, then what the theory says beyond that."""
+    """What the models say of themselves, once where several say the same, then what the theory says beyond
+    that."""
     by_words: dict[str, list[str]] = {}
     for name, run in found.runs.items():
         if run.reason and run.reason != "all times reached":
@@ -92,19 +107,24 @@ def write(case, found, path) -> Path:
     path = checked(path)
     head = [case.scene.time_unit, *(f"{d.model} {d.part}" for d in found.departures)]
     with style.whole_file(path) as waiting:
-        waiting.write_text(comma.lines([head, *(map(float, row) for row in zip(found.t, *(d.error for d in found.departures)))]), encoding="utf-8")
+        waiting.write_text(comma.lines([head,
+                                        *(map(float, row)
+                                          for row in zip(found.t, *(d.error for d in found.departures)))]),
+                           encoding="utf-8")
     return path
 
 
 def picture(plt, case, runs, parts=("omega",), size=None, units: Units | None = None):
-    """A figure: one row per part of the state, one column per component, every model of `runs` over the exact motion. units: None is those of the
-    case."""
+    """A figure: one row per part of the state, one column per component, every model of `runs` over the exact
+    motion. units: None is those of the case."""
     units = units or units_of(case)
     clock, second = units.times(runs["exact"].t[-1])
     parts = [p for p in parts if p in runs["exact"].state]
-    figure, axes = plt.subplots(len(parts), 3, figsize=size or (10.5, 0.9 + 2.3 * len(parts)), layout="constrained", squeeze=False,
+    figure, axes = plt.subplots(len(parts), 3, figsize=size or (10.5, 0.9 + 2.3 * len(parts)),
+                                layout="constrained", squeeze=False,
                                 sharex=True)
-    looks = {name: LOOKS[name] | (BURIED if name != "exact" and _dense(run, parts) else {}) for name, run in runs.items()}
+    looks = {name: LOOKS[name] | (BURIED if name != "exact" and _dense(run, parts) else {}) for name,
+             run in runs.items()}
     for row, part in zip(axes, parts):
         for column, ax in enumerate(row):
             unit, one = units.of(PARTS[part].unit)
@@ -113,12 +133,14 @@ def picture(plt, case, runs, parts=("omega",), size=None, units: Units | None = 
             _no_rounding(ax, float(np.abs(runs["exact"].state[part]).max(initial=0.0)) * one)
             for name, run in runs.items():
                 if _ends(run) and part in run.state and len(run.t):
-                    ax.plot(run.t[-1] * second, run.state[part][-1][column] * one, color=LOOKS[name]["color"], scalex=False, scaley=False, **END)
+                    ax.plot(run.t[-1] * second, run.state[part][-1][column] * one, color=LOOKS[name]["color"],
+                            scalex=False, scaley=False, **END)
             ax.set_ylabel(_labelled(ax, NAMES[part][column], written(unit)))
     for ax in axes[-1]:
         ax.set_xlabel(f"$t$ ({written(clock)})")
     figure.suptitle(style.literal(case.heading), fontsize=10 * style.share(), wrap=True)
-    rows = [(WORDS[name] + (f", ends at {run.t[-1] * second:.3g} {written(clock)}" if _ends(run) and len(run.t) else ""), _in_legend(looks[name]))
+    rows = [(WORDS[name] + (f", ends at {run.t[-1] * second:.3g} {written(clock)}" if _ends(run)
+                            and len(run.t) else ""), _in_legend(looks[name]))
             for name, run in runs.items()]
     style.legend(figure, rows, columns=style.fitting([words for words, _ in rows], figure.get_figwidth()))
     return figure
@@ -135,15 +157,17 @@ def _in_legend(look) -> dict:
 
 
 def _labelled(ax, name, unit) -> str:
-    """The label of a panel's axis. One whose range is a small part of its values counts from one of them, which the label names: an offset above the panel,
-    a power of ten plus a number, would have to be added in the head."""
+    """The label of a panel's axis. One whose range is a small part of its values counts from one of them,
+    which the label names: an offset above the panel, a power of ten plus a number, would have to be added in
+    the head."""
     low, high = ax.get_ylim()
     if high - low > FLAT * max(abs(low), abs(high)):
         return f"{name} ({unit})" if unit else name
     from matplotlib.ticker import FuncFormatter
     power = math.floor(math.log10((high - low) / 2))
     whole = math.floor(low / 10.0 ** (power + 1) + 0.5) * 10.0 ** (power + 1)
-    ax.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{round((value - whole) / 10.0**power, 4) + 0.0:.6g}".replace("-", "−")))
+    ax.yaxis.set_major_formatter(FuncFormatter(lambda value,
+                                               _: f"{round((value - whole) / 10.0**power, 4) + 0.0:.6g}".replace("-", "−")))
     ten = rf"$10^{{{power}}}$" + (f" {unit}" if unit else "")
     return f"{name} {'−' if whole >= 0 else '+'} {abs(whole):.12g} ({ten})"
 
@@ -153,7 +177,8 @@ def _dense(run, parts) -> bool:
     def turns(values):
         up = np.sign(np.diff(values))
         return int((up[1:] * up[:-1] < 0).sum())
-    return any(turns(row) > DENSE for part in parts if part in run.state for row in np.asarray(run.state[part]).T)
+    return any(turns(row) > DENSE for part in parts if part in run.state
+               for row in np.asarray(run.state[part]).T)
 
 
 def _curves(ax, runs, looks):
@@ -166,7 +191,8 @@ def _curves(ax, runs, looks):
     wide = half * REACH or 1e-9 * max(abs(middle), 1)
     if half and (high - low) > 6 * half:  # a model far off must not flatten the motion itself
         ax.set_ylim(middle - 2 * wide, middle + 2 * wide)
-        _tell_cut(ax, [(name, values) for name, (_, values) in runs.items() if _leaves(values, ax.get_ylim())])
+        _tell_cut(ax,
+                  [(name, values) for name, (_, values) in runs.items() if _leaves(values, ax.get_ylim())])
 
 
 def _no_rounding(ax, size):
@@ -177,13 +203,16 @@ def _no_rounding(ax, size):
 
 
 def _tell_cut(ax, models):
-    """Above a panel how far the curves go that leave it, each in its colour: a third of the width for each, which is not much."""
+    """Above a panel how far the curves go that leave it, each in its colour: a third of the width for each,
+    which is not much."""
     low, high = ax.get_ylim()
     brief = ax.figure.get_figwidth() < BRIEF * style.share()
     for (name, values), (x, side) in zip(models, ((0.0, "left"), (1.0, "right"), (0.5, "center"))):
-        ends = [_short(end) for end, out in ((values.min(), values.min() < low), (values.max(), values.max() > high)) if out]
+        ends = [_short(end) for end,
+                out in ((values.min(), values.min() < low), (values.max(), values.max() > high)) if out]
         told = f"to {ends[0]}" if len(ends) == 1 else " to ".join(ends)
-        ax.text(x, 1.01, "cut" if brief else f"cut: {told}", color=DARK.get(name, LOOKS[name]["color"]), ha=side, va="bottom",
+        ax.text(x, 1.01, "cut" if brief else f"cut: {told}", color=DARK.get(name, LOOKS[name]["color"]),
+                ha=side, va="bottom",
                 fontsize=(7.5 if len(models) < 3 else 6.8) * style.share(), transform=ax.transAxes)
 
 

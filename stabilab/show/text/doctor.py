@@ -11,10 +11,13 @@ from ..surface.render_probe import probe
 
 
 def text() -> str:
-    """Whether something is missing, then versions of the program's packages, the renderer's state with its cure, the processor."""
+    """Whether something is missing, then versions of the program's packages, the renderer's state with its
+    cure, the processor."""
     found = probe()
-    rows = [_answer(found), f"stabilab      {_version('stabilab')}", f"python        {platform.python_version()} ({platform.platform()})"]
-    rows += [f"{name:<14}{_version(name)}{f' (extra {EXTRAS[name]})' if name in EXTRAS else ''}" for name in _needed()]
+    rows = [_answer(found), f"stabilab      {_version('stabilab')}",
+            f"python        {platform.python_version()} ({platform.platform()})"]
+    rows += [f"{name:<14}{_version(name)}{f' (extra {EXTRAS[name]})' if name in EXTRAS else ''}"
+             for name in _needed()]
     return "\n".join(rows + [f"{'rendering':<14}{_rendering(found)}", f"{'processor':<14}{_processor()}"])
 
 
@@ -49,14 +52,16 @@ def _version(name: str) -> str:
 def _answer(found) -> str:
     """In a line: what is missing, and whether surfaces can be drawn; all other pictures need no renderer."""
     missing = {name: EXTRAS.get(name) for name in _needed() if _version(name) == "not installed"}
-    broken, extras = [name for name, extra in missing.items() if not extra], list(dict.fromkeys(extra for extra in missing.values() if extra))
+    broken, extras = [name for name, extra in missing.items()
+                      if not extra], list(dict.fromkeys(extra for extra in missing.values() if extra))
     parts = [f"NOT INSTALLED: {', '.join(broken)}"] if broken else ["all that stabilab needs is installed"]
     parts += [f"not the extra{'s' * (len(extras) > 1)} {', '.join(extras)}"] if extras else []
     return f"{', but '.join(parts)}; pictures of surfaces {'can' if found.available else 'CANNOT'} be drawn"
 
 
 def _rendering(found) -> str:
-    return f"works ({found.words})" if found.available else f"does not work: {found.words}; cure: {found.cure}"
+    return (f"works ({found.words})" if found.available
+            else f"does not work: {found.words}; cure: {found.cure}")
 
 
 def _processor() -> str:

@@ -8,19 +8,21 @@ from ..axes import IN_FILE, axes_of
 
 
 def key(case) -> dict:
-    """The key "frame" of a JSON answer: moments (kg m^2) and axes (rows, in the frame of the file), how well they are known; nothing
-    where the two frames are one."""
+    """The key "frame" of a JSON answer: moments (kg m^2) and axes (rows, in the frame of the file), how well
+    they are known; nothing where the two frames are one."""
     frame = _turned(case)
     if frame is None:
         return {}
-    return {"frame": {"moments": [float(m) for m in frame.moments], "axes": [[float(v) for v in axis] for axis in frame.axes],
+    return {"frame": {"moments": [float(m) for m in frame.moments],
+                      "axes": [[float(v) for v in axis] for axis in frame.axes],
                       "exact": frame.exact, "error": float(frame.error)}}
 
 
 def back(case, vector) -> list | None:
     """A vector of an answer in the frame of the file; None where the two frames are one."""
     frame = _turned(case)
-    return None if frame is None or vector is None else [float(v) for v in frame.back([_exact(v) for v in vector])]
+    return (None if frame is None or vector is None
+            else [float(v) for v in frame.back([_exact(v) for v in vector])])
 
 
 def rows(case, run) -> dict:
@@ -38,24 +40,30 @@ def lines(case) -> list[str]:
     if not found:
         return []
     known = "exact" if case.frame.exact else f"known to {float(case.frame.error) or 1e-300:.1g}"
-    return [f"frame: principal axes 1, 2, 3 ({known}), along which every vector here is; in the frame of the file, x y z, they are",
+    return [f"frame: principal axes 1, 2, 3 ({known}), along which every vector here is; in the frame of the "
+            f"file, x y z, they are",
             *(f"  {name:<16}{words}" for name, words in found)]
 
 
 def rows_of_axes(case) -> list[tuple[str, str]]:
-    """(its name, where it is in the frame of the file) of each principal axis; nothing where the two frames are one."""
+    """(its name, where it is in the frame of the file) of each principal axis; nothing where the two frames
+    are one."""
     frame = _turned(case)
     names, found = axes_of(case), []
     for number, (moment, axis) in enumerate(zip(frame.moments, frame.axes) if frame else (), 1):
         nearest = max(range(3), key=lambda j: abs(axis[j]))
-        angle = math.degrees(math.atan2(math.sqrt(sum(float(v) ** 2 for j, v in enumerate(axis) if j != nearest)), abs(float(axis[nearest]))))
-        found.append((f"{number}, {names.name(number)}", f"({', '.join(f'{float(v):.6g}' for v in axis)}), {angle:.6g} deg from "
-                      f"{'+' if axis[nearest] > 0 else '-'}{'xyz'[nearest]}, moment {float(moment):.6g} kg m^2"))
+        angle = math.degrees(math.atan2(math.sqrt(sum(float(v) ** 2 for j, v in enumerate(axis)
+                                                      if j != nearest)), abs(float(axis[nearest]))))
+        found.append((f"{number}, {names.name(number)}",
+                      f"({', '.join(f'{float(v):.6g}' for v in axis)}), {angle:.6g} deg from "
+                      f"{'+' if axis[nearest] > 0 else '-'}{'xyz'[nearest]}, moment {float(moment):.6g} "
+                      f"kg m^2"))
     return found
 
 
 def components(case) -> str:
-    """About which axes the components of a rate are, where these are not the axes of the file; else nothing."""
+    """About which axes the components of a rate are, where these are not the axes of the file; else nothing.
+    """
     if _turned(case) is None:
         return ""
     names = axes_of(case)
@@ -63,7 +71,8 @@ def components(case) -> str:
 
 
 def note(case) -> list[str]:
-    """A line that says which axes 1, 2, 3 are, where they are not those of the file, and one where a case has thrusters that do nothing."""
+    """A line that says which axes 1, 2, 3 are, where they are not those of the file, and one where a case has
+    thrusters that do nothing."""
     told = components(case)
     return [*([f"  {told}"] if told else []), *silent(case)]
 
@@ -73,7 +82,9 @@ def silent(case) -> list[str]:
     thrusters = getattr(case, "thrusters", ())
     if not thrusters or any(one.stuck for one in thrusters):
         return []
-    return [f"  no thruster fires: stuck = true in a table [[thrusters]] makes one act for ever ({', '.join(printable(one.name) for one in thrusters)})"]
+    return [
+        f"  no thruster fires: stuck = true in a table [[thrusters]] makes one act for ever "
+        f"({', '.join(printable(one.name) for one in thrusters)})"]
 
 
 def _turned(case):

@@ -1,4 +1,5 @@
-"""The answer in one line: what becomes of a motion, how large its rates grow, how far it is from another fate, and its period."""
+"""The answer in one line: what becomes of a motion, how large its rates grow, how far it is from another
+fate, and its period."""
 from __future__ import annotations
 
 import math
@@ -16,16 +17,21 @@ if TYPE_CHECKING:
     from ...case.read import Case
     from ...orbit.result import Motion
 
-REST, STEADY = "AT REST", "STEADY ROTATION (relative equilibrium)"  # of an equilibrium: without a rate, and with one
-WORDS = {"bounded": "BOUNDED for ever", "spin-up": "SPINS UP", "separatrix": "ON THE SEPARATRIX", "equilibrium": STEADY, "undecided": "UNDECIDED"}
+# of an equilibrium: without a rate, and with one
+REST, STEADY = "AT REST", "STEADY ROTATION (relative equilibrium)"
+WORDS = {"bounded": "BOUNDED for ever", "spin-up": "SPINS UP", "separatrix": "ON THE SEPARATRIX",
+         "equilibrium": STEADY, "undecided": "UNDECIDED"}
 LEVELS = {"run": "by a run alone"}
 CLAUSE = 110  # letters of a cause that the line has room for
 
 
 def headline(case: Case, motion: Motion, units: Units | None = None) -> str:
-    """One line, without the name of the case. units: of the case where None; their names of axes, where they have any, go before those of the case."""
-    units = units_of(case) if units is None else replace(units, axes=axes_of(case)) if units.axes == PLAIN else units
-    parts = [limiting.reached(motion.caveats, units), fate_words(motion, units), limiting.tilted(motion.caveats, units), cause(motion, units),
+    """One line, without the name of the case. units: of the case where None; their names of axes, where they
+    have any, go before those of the case."""
+    units = (units_of(case) if units is None else replace(units, axes=axes_of(case)) if units.axes == PLAIN
+             else units)
+    parts = [limiting.reached(motion.caveats, units), fate_words(motion, units),
+             limiting.tilted(motion.caveats, units), cause(motion, units),
              largest(motion, units), margin(motion, units), period(motion, units)]
     return "; ".join(part for part in parts if part)
 
@@ -38,13 +44,15 @@ def fate_words(motion: Motion, units: Units) -> str:
         words = words.removesuffix(" for ever")
     if fate == "equilibrium" and not any(motion.at[:3]):
         words = REST
-    about = f" about {units.axes.whole(motion.axis)}, {'positive' if motion.sense > 0 else 'negative'} sense" if motion.axis else ""
+    about = (f" about {units.axes.whole(motion.axis)}, {'positive' if motion.sense > 0 else 'negative'} sense"
+             if motion.axis else "")
     return f"{words}{about}{known_as(motion)}{where}"
 
 
 def known_as(motion: Motion) -> str:
     """How well a fate is known, where that is not a matter of course."""
-    return "" if motion.level == "exact" or motion.fate.word == "undecided" else f" ({LEVELS.get(motion.level, motion.level)})"
+    return ("" if motion.level == "exact" or motion.fate.word == "undecided"
+            else f" ({LEVELS.get(motion.level, motion.level)})")
 
 
 def cause(motion: Motion, units: Units) -> str:
@@ -52,10 +60,12 @@ def cause(motion: Motion, units: Units) -> str:
     fate = motion.fate.word
     if fate == "undecided":
         words = motion.because.removeprefix("undecided: ")
-        words = re.split(r"; |: ", motion.cause.removeprefix("undecided: "))[0] if motion.cause and len(words) > CLAUSE else words.split("; ")[0]
+        words = (re.split(r"; |: ", motion.cause.removeprefix("undecided: "))[0] if motion.cause
+                 and len(words) > CLAUSE else words.split("; ")[0])
         words = lettered(units.words(words))
         return words if len(words) <= CLAUSE else words[:CLAUSE].rsplit(" ", 1)[0] + " ..."
-    return {"separatrix": "the smallest change decides what becomes of it", "equilibrium": "every rate stays as it is"}.get(fate, "")
+    return {"separatrix": "the smallest change decides what becomes of it",
+            "equilibrium": "every rate stays as it is"}.get(fate, "")
 
 
 def largest(motion: Motion, units: Units) -> str:
@@ -78,15 +88,16 @@ def largest(motion: Motion, units: Units) -> str:
 
 
 def greatest(motion: Motion, units: Units) -> str:
-    """The largest |omega|, or a bound of it, with the largest component and its axis, and over which time where that is not all; empty where a rate has
-    no end or is not known."""
+    """The largest |omega|, or a bound of it, with the largest component and its axis, and over which time
+    where that is not all; empty where a rate has no end or is not known."""
     pairs, over = _pairs(motion, units)
     sizes = {n: max(map(abs, pair)) for n, pair in enumerate(pairs or (), 1) if None not in pair}
     if len(sizes) < 3 or not all(map(math.isfinite, sizes.values())):
         return ""
     axis = max(sizes, key=sizes.__getitem__)
     name, bound = "|x|" if units.scaled else "|omega|", math.hypot(*sizes.values())
-    told = f"{name} = {units.rate(motion.largest, SHORT)}" if motion.largest is not None and not over else f"{name} at most {units.rate(bound, SHORT)}"
+    told = (f"{name} = {units.rate(motion.largest, SHORT)}" if motion.largest is not None and not over
+            else f"{name} at most {units.rate(bound, SHORT)}")
     return f"{told} ({units.rate(sizes[axis], SHORT)} about {units.axes.brief(axis)}){over}"
 
 
@@ -94,7 +105,8 @@ def _pairs(motion, units):
     """(least and greatest of each component, over which time in words; nothing where that is all time)."""
     if motion.bounds is not None and motion.extremes_over != "all time":
         return motion.bounds, ""
-    return motion.extremes, "" if motion.extremes_over == "all time" else f" {span_words(motion.extremes_over, units)}"
+    return (motion.extremes, "" if motion.extremes_over == "all time"
+            else f" {span_words(motion.extremes_over, units)}")
 
 
 def span_words(over: str, units: Units) -> str:
@@ -113,11 +125,13 @@ def margin(motion: Motion, units: Units) -> str:
 
 
 def rate_and_height(motion: Motion, units: Units) -> tuple[str, str]:
-    """The distance to the separatrix and the energy to the barrier, each empty where it is not known or says nothing."""
+    """The distance to the separatrix and the energy to the barrier, each empty where it is not known or says
+    nothing."""
     rate, energy = rate_margin(motion, units, SHORT), motion.margin_energy
     if motion.fate.word in ("separatrix", "equilibrium", "undecided"):
         return "", ""
-    return rate, "" if energy is None else units.energy(abs(energy), SHORT) + (" above the barrier" if energy < 0 else "")
+    return rate, "" if energy is None else units.energy(abs(energy),
+                                                        SHORT) + (" above the barrier" if energy < 0 else "")
 
 
 def with_height(rate: str, height: str) -> str:
@@ -126,7 +140,8 @@ def with_height(rate: str, height: str) -> str:
 
 
 def rate_margin(motion: Motion, units: Units, digits: int) -> str:
-    """The distance from the separatrix: a number where it is one to 1e-9, else its bounds; empty where unknown."""
+    """The distance from the separatrix: a number where it is one to 1e-9, else its bounds; empty where
+    unknown."""
     if motion.velocity_because and motion.velocity_bounds:
         name, one = units.rates
         low, high = motion.velocity_bounds

@@ -1,4 +1,5 @@
-"""How far approximate laws hold: the first line of a text, a key of JSON, a line of a picture, an exit code."""
+"""How far approximate laws hold: the first line of a text, a key of JSON, a line of a picture, an exit code.
+"""
 from __future__ import annotations
 
 import math
@@ -16,8 +17,9 @@ from ..units import SI, Units, units_of
 
 
 def first(validity, text: str, units: Units = SI, caveats=()) -> str:
-    """The text with the caveats of its case, and with what is to be said of its law: behind the answer where the law holds; where it does not, as what
-    follows is then no motion of such a body, that it does not before the answer, and by how much in a line below. units: of times."""
+    """The text with the caveats of its case, and with what is to be said of its law: behind the answer where
+    the law holds; where it does not, as what follows is then no motion of such a body, that it does not
+    before the answer, and by how much in a line below. units: of times."""
     text = limiting.noted(caveats, text, units)
     if validity is None:
         return text
@@ -25,19 +27,22 @@ def first(validity, text: str, units: Units = SI, caveats=()) -> str:
     words = lettered(units.words(printable(validity.words)))
     if validity.held:
         return "\n".join([f"{answer}; {words}", *rest])
-    return "\n".join([warned(validity, answer), f"law: {words.removeprefix(f'{validity.status.upper()}: ')}", *rest])
+    return "\n".join([warned(validity, answer), f"law: {words.removeprefix(f'{validity.status.upper()}: ')}",
+                      *rest])
 
 
 def warned(validity, answer: str) -> str:
-    """The answer, and before it that its law does not hold where it does not: of a line that has no room for more."""
+    """The answer, and before it that its law does not hold where it does not: of a line that has no room for
+    more."""
     return f"{validity.status.upper()}; by that law: {answer}" if beyond(validity) else answer
 
 
 def key(validity, case=None, steady: bool = False) -> dict:
-    """The key "validity" of a JSON object, null where all laws are exact; of a case also its caveats, where the answer is no motion, which has them.
-    steady: as of `caveats_of`."""
+    """The key "validity" of a JSON object, null where all laws are exact; of a case also its caveats, where
+    the answer is no motion, which has them. steady: as of `caveats_of`."""
     told = {"validity": None if validity is None else validity.as_dict()}
-    return told if case is None else told | caveat.key(caveats_of(case.scene, steady, validity=validity, file=case.caveats))
+    return (told if case is None
+            else told | caveat.key(caveats_of(case.scene, steady, validity=validity, file=case.caveats)))
 
 
 def worst(*found):
@@ -51,8 +56,9 @@ def beyond(*found) -> bool:
 
 
 def of_case(case, span=None, brief=False):
-    """Of a case's own motion over a span, its own where None is given (15 units of time without one), at rest where it has none; None where all laws
-    are exact, or, if brief, where more than a few power series were needed."""
+    """Of a case's own motion over a span, its own where None is given (15 units of time without one), at rest
+    where it has none; None where all laws are exact, or, if brief, where more than a few power series were
+    needed."""
     limits = limits_of(case.scene)
     if limits is None:
         return None
@@ -71,8 +77,9 @@ def of_case(case, span=None, brief=False):
 
 
 def judged(case, motion, brief=False):
-    """The motion with its law judged along the case's own run, where that hangs on the attitude and the case gives one, and with the caveats of the
-    case. brief: of `of_case`, and without the time to the limit of the case."""
+    """The motion with its law judged along the case's own run, where that hangs on the attitude and the case
+    gives one, and with the caveats of the case. brief: of `of_case`, and without the time to the limit of the
+    case."""
     if motion is None:
         return motion
     found = of_case(case, brief=brief) if _open(case, motion.validity) else None
@@ -84,8 +91,8 @@ def judged(case, motion, brief=False):
 
 
 def until(case, found, end: float):
-    """The validity `found`, or that along the case's own run up to a time `end` (its span where that is none) where it hangs on the attitude and the
-    case gives one."""
+    """The validity `found`, or that along the case's own run up to a time `end` (its span where that is none)
+    where it hangs on the attitude and the case gives one."""
     return of_case(case, (0.0, end) if 0 < end < math.inf else None) if _open(case, found) else found
 
 
@@ -96,7 +103,10 @@ def _open(case, validity) -> bool:
 def beside(case) -> list[str]:
     """A line beside answers at many points, where a law is not judged; none where all are exact."""
     found = of_case(case)
-    return [] if found is None else [f"  laws are not judged at every point; of the case as it stands: {_told(found, units_of(case))}"]
+    return ([] if found is None
+            else [
+                f"  laws are not judged at every point; of the case as it stands: "
+                f"{_told(found, units_of(case))}"])
 
 
 def of_cases(cases) -> str:
@@ -107,9 +117,11 @@ def of_cases(cases) -> str:
 
 
 def lines_of(judged, units: Units = SI) -> list[str]:
-    """A line for every (case, validity) that has a law to be told, one for all combinations of a file that stand the same way to the same limit, and
-    one for all cases that say the same; without a name where there is one case. units: in which times are told."""
-    groups, cases = _alike([(case, found) for case, found in judged if found is not None]), [case for case, _ in judged]
+    """A line for every (case, validity) that has a law to be told, one for all combinations of a file that
+    stand the same way to the same limit, and one for all cases that say the same; without a name where there
+    is one case. units: in which times are told."""
+    groups, cases = _alike([(case, found) for case,
+                            found in judged if found is not None]), [case for case, _ in judged]
     if len(cases) == 1:
         return [_told(found, units) for group in groups for _, found in group]
     return together([_of_alike(group, cases, units) for group in groups])
@@ -120,10 +132,12 @@ def _told(found, units) -> str:
 
 
 def _alike(judged) -> list:
-    """The (case, validity) in groups: each alone, or all combinations of one file that stand the same way to the same limit."""
+    """The (case, validity) in groups: each alone, or all combinations of one file that stand the same way to
+    the same limit."""
     told: dict = {}
     for n, (case, found) in enumerate(judged):
-        told.setdefault((case.path, found.status, found.effect, found.number) if case.variant else n, []).append((case, found))
+        told.setdefault((case.path, found.status, found.effect, found.number) if case.variant else n,
+                        []).append((case, found))
     return list(told.values())
 
 
@@ -137,7 +151,8 @@ def together(lines) -> list[str]:
 
 
 def _of_alike(group, cases, units: Units = SI) -> str:
-    """A line on a case, or on the combinations of one file that stand the same way to the same limit: the most exceeded of them."""
+    """A line on a case, or on the combinations of one file that stand the same way to the same limit: the
+    most exceeded of them."""
     case, _ = group[0]
     found = worst(*(one for _, one in group))
     words = _told(found, replace(units, axes=axes_of(case)))
@@ -145,4 +160,6 @@ def _of_alike(group, cases, units: Units = SI) -> str:
         return f"{words} ({printable(case.name)})"
     farthest = "" if found.value is None else ", the farthest of them told"
     of = sum(other.path == case.path for other in cases)
-    return f"{words} ({printable(case.name.removesuffix(case.variant))}: {len(group)} of {of} combinations{farthest})"
+    return (
+        f"{words} ({printable(case.name.removesuffix(case.variant))}: {len(group)} of {of} "
+        f"combinations{farthest})")

@@ -3,13 +3,15 @@ from __future__ import annotations
 
 from ...physics.equations import Equations, Symbolic
 
-PRODUCTS = {"Mgx": "M g x_c", "Mgy": "M g y_c", "Mgz": "M g z_c", "eHl2": "e H l^2"}  # parameters whose names are products
+# parameters whose names are products
+PRODUCTS = {"Mgx": "M g x_c", "Mgy": "M g y_c", "Mgz": "M g z_c", "eHl2": "e H l^2"}
 WORDS = ("mass",)  # parameters whose names are words
 
 
 def lines(equations: Equations) -> tuple[str, ...]:
     """The equations of motion as plain text, one line each."""
-    return tuple(f"{_left(d, x)}' = {right_side(equations, i)}" for i, (d, x) in enumerate(zip(equations.inertia, equations.state)))
+    return tuple(f"{_left(d, x)}' = {right_side(equations, i)}" for i,
+                 (d, x) in enumerate(zip(equations.inertia, equations.state)))
 
 
 def _left(d: Symbolic, x: Symbolic) -> str:
@@ -17,7 +19,8 @@ def _left(d: Symbolic, x: Symbolic) -> str:
 
 
 def right_side(equations: Equations, i: int) -> Symbolic:
-    """What the rate of component i equals, times its moment of inertia where it has one: a sum ordered by the powers of the state."""
+    """What the rate of component i equals, times its moment of inertia where it has one: a sum ordered by the
+    powers of the state."""
     from sympy import Poly, PolynomialError, prod
     total = sum(part[i] for part in equations.torques.values()) if i < 3 else equations.rhs[i]
     try:

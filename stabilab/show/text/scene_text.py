@@ -19,12 +19,13 @@ SHORT = 12  # letters of a ratio that is told as such
 
 
 def of_all(cases) -> str:
-    """What `stabilab show` prints of a case, or of all combinations of its [sweep]: those with the same equations and laws together, the first whole, the
-    others by their values."""
+    """What `stabilab show` prints of a case, or of all combinations of its [sweep]: those with the same
+    equations and laws together, the first whole, the others by their values."""
     kinds: dict[tuple, list] = {}
     for case in cases:
         equations, own = derive(case.scene), invariants(case.scene)
-        kinds.setdefault((*lines(equations), *(law.words for law in (*equations.balances, *own))), []).append((case, equations, own))
+        kinds.setdefault((*lines(equations), *(law.words for law in (*equations.balances, *own))),
+                         []).append((case, equations, own))
     parts = []
     for alike in kinds.values():
         parts.append(limiting.noted(alike[0][0].caveats, _whole(*alike[0]), units_of(alike[0][0])))
@@ -32,28 +33,36 @@ def of_all(cases) -> str:
             some_cases = [case for case, _, _ in alike]
             columns = swept_columns(some_cases)
             rows = [["", *(head for head, _, _ in columns)], ["", *(unit for _, unit, _ in columns)],
-                    *([case.name, *(cells[n] for _, _, cells in columns)] for n, case in enumerate(some_cases))]
-            told = f"The same equations and laws hold for {some(len(alike) - 1, 'other combination')}; the numbers in them are those of {some_cases[0].name}."
+                    *([case.name, *(cells[n] for _, _, cells in columns)] for n,
+                      case in enumerate(some_cases))]
+            told = (
+                f"The same equations and laws hold for {some(len(alike) - 1, 'other combination')}; the "
+                f"numbers in them are those of {some_cases[0].name}.")
             parts.append("\n".join([f"{told} Swept keys:", *table(rows, 1, width())]))
     return "\n\n".join(parts)
 
 
 def _whole(case, equations, own) -> str:
-    """Scene, parameters, equations of motion as text and LaTeX, invariants. own: the laws of this very scene."""
+    """Scene, parameters, equations of motion as text and LaTeX, invariants. own: the laws of this very scene.
+    """
     parts = [_head(case), _parameters(equations, case.variables == "physical"), "Equations of motion",
              *(f"  {lettered(_products(line))}" for line in lines(equations)), "",
              "In LaTeX", latex(equations), "", "Laws that hold for every value of the parameters"]
     axes = axes_of(case)
     parts += [f"  {lettered(axes.sentence(law.words))}" for law in equations.balances]
-    effects = " and ".join(", ".join(effect_words(effect.name) for effect in case.scene.effects).rsplit(", ", 1)) or "no effect"
-    answer = f"{case.name}: a {'scaled gyrostat' if case.variables == 'scaled' else 'body with ' + effects}; laws known of this scene: {len(own)}"
+    effects = (" and ".join(", ".join(effect_words(effect.name)
+                                      for effect in case.scene.effects).rsplit(", ", 1)) or "no effect")
+    answer = (
+        f"{case.name}: a {'scaled gyrostat' if case.variables == 'scaled' else 'body with ' + effects}; laws "
+        f"known of this scene: {len(own)}")
     return "\n".join([answer, *parts, "", "Laws of this scene", *(_laws(own, axes) or ["  none is known"])])
 
 
 def _head(case) -> str:
     rows = [written(case.title) or case.name, f"  from {case.place}"]
     rows += [f"  source: {case.source}"] if case.source else []
-    rows += [f"  variables: {case.variables} ({', '.join(case.scene.components)}; time in {case.scene.time_unit})"]
+    rows += [
+        f"  variables: {case.variables} ({', '.join(case.scene.components)}; time in {case.scene.time_unit})"]
     if case.physical:
         rows.append(f"  body with inertia {_triple(case.physical.body.inertia)} kg m^2")
         rows += [f"  {effect_words(effect.name)}: {_values(effect)}" for effect in case.physical.effects]
@@ -75,9 +84,11 @@ def _craft(case) -> list[str]:
     for t in case.thrusters:
         cone = "" if t.misalignment is None else f", within {math.degrees(t.misalignment):.6g} deg"
         off = "" if t.force_tolerance is None else f" ± {float(t.force_tolerance):.6g}"
-        lines.append(f"thruster {t.name}{' (stuck)' if t.stuck else ''}: {_number(t.force)}{off} N along {_triple(t.direction)}{cone} at "
+        lines.append(f"thruster {t.name}{' (stuck)' if t.stuck else ''}: {_number(t.force)}{off} N along "
+                     f"{_triple(t.direction)}{cone} at "
                      f"{_triple(t.position)} m, torque {_triple(t.torque)} N m, all in the frame of the file")
-    lines += [f"wheel {w.name}: {_number(w.momentum)} N m s about {_triple(w.axis)} in the frame of the file" for w in case.wheels]
+    lines += [f"wheel {w.name}: {_number(w.momentum)} N m s about {_triple(w.axis)} in the frame of the file"
+              for w in case.wheels]
     if case.limits:
         words = f"|omega| up to {_degrees(case.limits.rate)}" if case.limits.rate is not None else (
             f"components up to {', '.join(map(_degrees, case.limits.rates))} in the frame of the file")
@@ -100,23 +111,28 @@ def _number(value) -> str:
 
 
 def _values(effect) -> str:
-    return ", ".join(f"{written(name)} = {_number(v)} {parameter_unit(name)}".rstrip() for name, v in effect.parameters().items())
+    return ", ".join(f"{written(name)} = {_number(v)} {parameter_unit(name)}".rstrip() for name,
+                     v in effect.parameters().items())
 
 
 def _parameters(equations, physical) -> str:
     units = {name: parameter_unit(name) if physical else "" for name in equations.parameters}
-    return "Parameters\n" + "\n".join(f"  {written(name)} = {_value(v)} {units[name]}".rstrip() for name, v in equations.parameters.items()) + "\n"
+    return ("Parameters\n" + "\n".join(f"  {written(name)} = {_value(v)} {units[name]}".rstrip() for name,
+                                       v in equations.parameters.items()) + "\n")
 
 
 def _value(v) -> str:
     """Exact where that is short, with its decimal; else the decimal alone."""
     exact = str(v)
-    return exact if "/" not in exact and len(exact) <= SHORT else f"{exact} = {_number(v)}" if len(exact) <= SHORT else _number(v)
+    return (exact if "/" not in exact and len(exact) <= SHORT
+            else f"{exact} = {_number(v)}" if len(exact) <= SHORT else _number(v))
 
 
 def _laws(laws, axes) -> list[str]:
-    return [row for law in laws for row in (f"  {lettered(axes.sentence(law.words))}", f"    {_short(law.quantity)}"
-                                            + ("" if law.rate == 0 else f"   at the rate {_short(law.rate)}"))]
+    return [row for law in laws for row in (f"  {lettered(axes.sentence(law.words))}",
+                                            f"    {_short(law.quantity)}"
+                                            + ("" if law.rate == 0
+                                               else f"   at the rate {_short(law.rate)}"))]
 
 
 def _short(expression) -> str:

@@ -21,30 +21,42 @@ CSV = ("case", "thrusters", "torque_x", "torque_y", "torque_z", "torque_1", "tor
        "level", "axis", "axis_name", "sense", "limit", "time_low", "time_high", "largest_rate", "margin_rate",
        "margin_wheel", "margin_torque", "caveats")
 WORDS = {"rate": "rate", "wheel": "wheel momentum", "torque": "torque"}
-FATES = {"bounded": "STAYS BOUNDED", "spin-up": "SPINS UP", "equilibrium": STEADY, "separatrix": "ON THE SEPARATRIX", "undecided": "UNDECIDED"}
+FATES = {"bounded": "STAYS BOUNDED", "spin-up": "SPINS UP", "equilibrium": STEADY,
+         "separatrix": "ON THE SEPARATRIX", "undecided": "UNDECIDED"}
 PRECISE = Context(prec=40)  # digits in which ends are rounded
 FIRST = 5  # lines of the answer at most
 SOON = 2  # times a margin: the fate is back before a change as great
 
 
 def as_dict(case, found) -> dict:
-    """One object of `stabilab stuck --json`: SI units, rates in rad/s; axes are numbered as in "principal"."""
+    """One object of `stabilab stuck --json`: SI units, rates in rad/s; axes are numbered as in "principal".
+    """
     return {"schema": "stabilab.stuck/2", "case": found.case, "rows": [_row(row, case) for row in found.rows],
-            "principal": {"moments": list(found.principal.moments), "axes": [list(axis) for axis in found.principal.axes]}}
+            "principal": {"moments": list(found.principal.moments),
+                          "axes": [list(axis) for axis in found.principal.axes]}}
 
 
 def _row(row, case) -> dict:
-    return {"thrusters": list(row.thrusters), "torque": row.torque, "torque_principal": row.torque_principal, "fate": row.fate, "level": row.level,
-            **axes_of(case).key(row.axis), "sense": row.sense, "limit": row.limit, "time_to_limit": row.time_to_limit, "largest_rate": row.largest_rate,
+    return {"thrusters": list(row.thrusters), "torque": row.torque, "torque_principal": row.torque_principal,
+            "fate": row.fate, "level": row.level,
+            **axes_of(case).key(row.axis), "sense": row.sense, "limit": row.limit,
+            "time_to_limit": row.time_to_limit, "largest_rate": row.largest_rate,
             "margin": _margin_sizes(row),
-            "wheel_intervals": [{"wheel": w.wheel, "keeps_bounded": [list(map(Endless, pair)) for pair in w.keeps_bounded], "now": w.now, "axis": w.axis,
-                                 "best": w.best, "best_time": w.best_time, "gain": w.gain, "searched": w.searched, "because": w.because} for w in row.wheels],
-            "because": row.because, "tilt": tilt_dict(row.tilt), "direction": row.direction, "never": row.never, "time_level": row.time_level,
+            "wheel_intervals": [{"wheel": w.wheel,
+                                 "keeps_bounded": [list(map(Endless, pair)) for pair in w.keeps_bounded],
+                                 "now": w.now, "axis": w.axis,
+                                 "best": w.best, "best_time": w.best_time, "gain": w.gain,
+                                 "searched": w.searched, "because": w.because} for w in row.wheels],
+            "because": row.because, "tilt": tilt_dict(row.tilt), "direction": row.direction,
+            "never": row.never, "time_level": row.time_level,
             "margin_direction": {name: margin.direction for name, margin in row.margins.items()},
-            "margin_until": {name: margin.until if margin.until is None else Endless(margin.until) for name, margin in row.margins.items()},
+            "margin_until": {name: margin.until if margin.until is None else Endless(margin.until) for name,
+                             margin in row.margins.items()},
             "margin_because": {name: margin.because for name, margin in row.margins.items()},
-            "helpers": [{"thrusters": list(h.thrusters), "duty": h.duty, "effect": h.effect, "torque_left": h.torque_left, "fate": h.fate,
-                         "time_to_limit": h.time_to_limit} for h in row.helpers]} | limiting.key(case, row.caveats)
+            "helpers": [{"thrusters": list(h.thrusters), "duty": h.duty, "effect": h.effect,
+                         "torque_left": h.torque_left, "fate": h.fate,
+                         "time_to_limit": h.time_to_limit}
+                        for h in row.helpers]} | limiting.key(case, row.caveats)
 
 
 def csv(answers) -> str:
@@ -74,28 +86,37 @@ def text(case, found, units: Units) -> str:
 
 
 def swept(answers, units: Units):
-    """(the answer in a line, columns, rows) of a sweep: what becomes of each, about which axis, and when the limit is reached."""
+    """(the answer in a line, columns, rows) of a sweep: what becomes of each, about which axis, and when the
+    limit is reached."""
     rows = [found.rows[0] for found in answers]
     fates = Counter(row.fate for row in rows)
-    told = {fate: FATES[fate] + limiting.shared([row.caveats for row in rows if row.fate == fate], units) for fate in fates}
-    counts = "; ".join(f"{told[fate]}: {n}" if len(fates) > 1 else f"each {told[fate]}" for fate, n in fates.most_common())
+    told = {fate: FATES[fate] + limiting.shared([row.caveats for row in rows if row.fate == fate], units)
+            for fate in fates}
+    counts = "; ".join(f"{told[fate]}: {n}" if len(fates) > 1 else f"each {told[fate]}" for fate,
+                       n in fates.most_common())
     ends = [row.time_to_limit[1] for row in rows if row.time_to_limit]
     name, one = units.times(max(ends, default=0.0))
     cells = [[row.fate, units.axes.signed(row.axis, row.sense),
               _number(row.time_to_limit[1] * one, DIGITS) if row.time_to_limit else ""] for row in rows]
-    return counts + (f"; the first limit is reached in {units.time(min(ends), SHORT)}" if ends else ""), [("fate", ""), ("axis", ""), ("limit in", name)], cells
+    return counts + (f"; the first limit is reached in {units.time(min(ends), SHORT)}" if ends
+                     else ""), [("fate", ""), ("axis", ""), ("limit in", name)], cells
 
 
 def _ranking(found, units):
     """A line a thruster, the worst first; what the first lines have no place for stands in the details."""
     told = [f"{printable(row_name(row))} {answer_line(row, units)}" for row in found.rows]
-    return told if len(told) <= FIRST else [*told[:FIRST - 1], f"and {len(told) - FIRST + 1} more below, none of them sooner"]
+    return (told if len(told) <= FIRST
+            else [*told[:FIRST - 1], f"and {len(told) - FIRST + 1} more below, none of them sooner"])
 
 
 def _first(row, units):
-    wheel = next((w for w in row.wheels if w.keeps_bounded), next((w for w in row.wheels if w.best is not None), None))
-    return [answer_line(row, units), f"  {_torque(row, units)}", *(f"  {line}" for line in (_margins(row, units), wheel and _wheel(wheel, units),
-                                                                                      row.helpers and _helper(row.helpers[0], units)) if line)]
+    wheel = next((w for w in row.wheels if w.keeps_bounded),
+                 next((w for w in row.wheels if w.best is not None), None))
+    return [answer_line(row, units), f"  {_torque(row, units)}",
+            *(f"  {line}" for line in (_margins(row, units), wheel and _wheel(wheel, units),
+                                                                                      row.helpers and _helper(
+                                                                                          row.helpers[0],
+                                                                                          units)) if line)]
 
 
 def row_name(row) -> str:
@@ -147,7 +168,9 @@ def _when(row, units) -> str:
     if high == 0:
         return f"starts at its limit, {_limit(row.limit, units)}"
     a, b = _bracket(low, high)
-    return f"reaches {_limit(row.limit, units)} in {_number((low + high) / 2)} {name} ({row.time_level} {a} to {b})"
+    return (
+        f"reaches {_limit(row.limit, units)} in {_number((low + high) / 2)} {name} ({row.time_level} {a} "
+        f"to {b})")
 
 
 def _limit(limit, units) -> str:
@@ -175,11 +198,14 @@ def _torque(row, units) -> str:
 def _margins(row, units) -> str:
     known = {name: m for name, m in row.margins.items() if m.size is not None}
     if not known:
-        because = next((row.margins[name].because for name in ("wheel", "rate", "torque") if name in row.margins), "")
+        because = next((row.margins[name].because for name in ("wheel", "rate", "torque")
+                        if name in row.margins), "")
         return f"margin: none: {lettered(units.words(because))}" if because else ""
     told = [" or ".join(f"{_span(name, m, units)} of {WORDS[name]}" for name, m in known.items()
                         if (m.beyond or name == "torque") == beyond) for beyond in (True, False)]
-    return "; ".join(words + sizes for words, sizes in zip(("the fate changes with ", "only on a separatrix the fate is another, nearest "), told) if sizes)
+    return "; ".join(words + sizes for words,
+                     sizes in zip(("the fate changes with ",
+                                   "only on a separatrix the fate is another, nearest "), told) if sizes)
 
 
 def _span(name, margin, units) -> str:
@@ -216,11 +242,14 @@ def _wheel(wheel, units) -> str:
         return f"wheel {name}, now {_number(wheel.now)} N m s, keeps it bounded at {momenta}"
     if wheel.best is None:
         return f"wheel {name}: no momentum is known to keep it bounded: {wheel.because}"
-    later = "not reached while followed" if wheel.best_time is None else f"{units.time(wheel.best_time[0], SHORT)}"
+    later = ("not reached while followed" if wheel.best_time is None
+             else f"{units.time(wheel.best_time[0], SHORT)}")
     gain = "" if wheel.gain is None else f", {units.time(wheel.gain, SHORT)} later"
     low, high = wheel.searched
     most = "delays the limit most of all" if wheel.most else "delays the limit, perhaps not most of all,"
-    return f"wheel {name}, now {_number(wheel.now)} N m s: {_number(wheel.best)} N m s {most} within {_number(low)} to {_number(high)}: {later}{gain}"
+    return (
+        f"wheel {name}, now {_number(wheel.now)} N m s: {_number(wheel.best)} N m s {most} within "
+        f"{_number(low)} to {_number(high)}: {later}{gain}")
 
 
 def merged(intervals):
@@ -259,14 +288,19 @@ def _inward(value: float, way: str, digits: int) -> str:
     if not value or math.isinf(value):
         return str(value)
     exact = Decimal(value)
-    return _number(float(exact.quantize(Decimal(1).scaleb(exact.adjusted() + 1 - digits), way, context=PRECISE)), digits)
+    return _number(float(exact.quantize(Decimal(1).scaleb(exact.adjusted() + 1 - digits), way,
+                                        context=PRECISE)), digits)
 
 
 def _helper(helper, units) -> str:
-    fired = " and ".join(f"{printable(name)} for {_number(100 * duty)} % of the time" for name, duty in zip(helper.thrusters, helper.duty))
+    fired = " and ".join(f"{printable(name)} for {_number(100 * duty)} % of the time" for name,
+                         duty in zip(helper.thrusters, helper.duty))
     rest = f"{_number(helper.torque_left)} N m is left"
-    left = {"zero": "no torque is left", "bounded": f"{rest}, and the motion stays bounded while that is exactly on its axis"}.get(helper.effect, rest)
-    then = "" if helper.time_to_limit is None else f", and the limit comes in {units.time(helper.time_to_limit[0], SHORT)}"
+    left = {"zero": "no torque is left",
+            "bounded": f"{rest}, and the motion stays bounded while that is exactly on its axis"}.get(
+                helper.effect, rest)
+    then = ("" if helper.time_to_limit is None
+            else f", and the limit comes in {units.time(helper.time_to_limit[0], SHORT)}")
     return f"with {fired}, in the mean, {left}{then}{': does not help' if helper.effect == 'none' else ''}"
 
 
@@ -289,7 +323,8 @@ def _details(row, units) -> list[str]:
         lines += [f"  {'margin, ' + name:<24} {told}" for name, told in margins.items()]
     if row.tilt is not None and not row.tilt.ranges:
         early = f"{units.time(row.tilt.not_before)}"
-        lines.append(f"  {'tilted, not before':<24} {early}, whatever the azimuth and for any smaller tilt (proved)")
+        lines.append(
+            f"  {'tilted, not before':<24} {early}, whatever the azimuth and for any smaller tilt (proved)")
     return lines + [f"  {line}" for line in means(row, units)]
 
 

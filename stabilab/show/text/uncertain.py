@@ -12,29 +12,35 @@ from ..units import number as told
 
 SUBJECTS = {"equilibria": ("hold", "depend"), "fate": ("holds", "depends")}
 LONG = 8  # letters of a number in a line
-UNITS = {"inertia": "kg m^2", "products": "kg m^2", "momentum": "N m s", "torque": "N m"}  # of the numbers of a witness
+# of the numbers of a witness
+UNITS = {"inertia": "kg m^2", "products": "kg m^2", "momentum": "N m s", "torque": "N m"}
 
 
 def as_dict(found) -> dict:
-    """{"uncertain": ...} to be joined to a command's object; nothing where no number is uncertain. Numbers of witnesses are
-    texts, to be written into a case file as they stand."""
+    """{"uncertain": ...} to be joined to a command's object; nothing where no number is uncertain. Numbers of
+    witnesses are texts, to be written into a case file as they stand."""
     if found is None:
         return {}
-    numbers = [{"key": key(u), "middle": number(u.middle), "half_width": number(u.half)} for u in found.numbers]
-    return {"uncertain": {"numbers": numbers, "equilibria": _over(found.equilibria), "fate": _over(found.fate)}}
+    numbers = [{"key": key(u), "middle": number(u.middle), "half_width": number(u.half)}
+               for u in found.numbers]
+    return {"uncertain": {"numbers": numbers, "equilibria": _over(found.equilibria),
+                          "fate": _over(found.fate)}}
 
 
 def _over(over) -> dict | None:
     if over is None:
         return None
-    return {"answer": over.answer, "verdict": over.verdict, "because": over.because, "except": over.but or None,
-            "proved_up_to": over.proved, "changes_at": over.changes_at, "parts": over.parts, "samples": _samples(over.samples),
+    return {"answer": over.answer, "verdict": over.verdict, "because": over.because,
+            "except": over.but or None,
+            "proved_up_to": over.proved, "changes_at": over.changes_at, "parts": over.parts,
+            "samples": _samples(over.samples),
             "witnesses": [{"verdict": w.verdict, **_numbers(w)}
                           for w in over.witnesses]}
 
 
 def _samples(samples) -> dict | None:
-    return samples and {"number": samples.number, "seed": samples.seed, "counts": samples.counts, "margin_quantiles": samples.margins}
+    return (samples and {"number": samples.number, "seed": samples.seed, "counts": samples.counts,
+                         "margin_quantiles": samples.margins})
 
 
 def key(uncertain) -> str:
@@ -82,42 +88,52 @@ def text(found, units: Units) -> str:
 def _measured(uncertain, units):
     """The middle and half the width of a number with its unit."""
     name, one = units.of(unit_of_key(uncertain.path))
-    middle, half = (rounded(v) if one == 1.0 else told(float(v) * one, DIGITS) for v in (uncertain.middle, uncertain.half))
+    middle, half = (rounded(v) if one == 1.0 else told(float(v) * one, DIGITS)
+                    for v in (uncertain.middle, uncertain.half))
     return f"{middle} ± {half} {name}".rstrip()
 
 
 def first(found, told: str, units: Units) -> str:
-    """The text with what the box does to its answer at the end of the first line: whoever reads no further knows whether it holds."""
+    """The text with what the box does to its answer at the end of the first line: whoever reads no further
+    knows whether it holds."""
     words = what_changes(found, units)
     answer, *rest = told.split("\n")
     return "\n".join([f"{answer}; {words}", *rest]) if words else told
 
 
 def what_changes(found, units: Units) -> str:
-    """Whether the answer holds for all that the uncertain numbers may be, as a clause; nothing where all are certain."""
+    """Whether the answer holds for all that the uncertain numbers may be, as a clause; nothing where all are
+    certain."""
     over = found and (found.fate or found.equilibria)
     if not over:
         return ""
-    others = list(dict.fromkeys(w.verdict for w in over.witnesses[1:] if w.verdict != over.witnesses[0].verdict)) if over is found.fate else []
+    others = (list(dict.fromkeys(w.verdict for w in over.witnesses[1:]
+                                 if w.verdict != over.witnesses[0].verdict)) if over is found.fate else [])
     subject = "the fate is" if over is found.fate else "they are"
-    return {"holds": f"{subject} the same for all that the uncertain numbers may be" + (", but for a set of measure zero" if over.but else ""),
-             "depends": f"BUT within the uncertainties also {' or '.join(map(units.axes.sentence, others)) or 'another answer'}",
-             "sampled": f"{subject} the same at {over.samples and over.samples.number} sampled points within the uncertainties, without a proof",
+    return {"holds": f"{subject} the same for all that the uncertain numbers may be"
+            + (", but for a set of measure zero" if over.but else ""),
+             "depends": f"BUT within the uncertainties also "
+                        f"{' or '.join(map(units.axes.sentence, others)) or 'another answer'}",
+             "sampled": f"{subject} the same at {over.samples and over.samples.number} sampled points within "
+                        f"the uncertainties, without a proof",
              "undecided": f"{subject} undecided within the uncertainties"}[over.answer]
 
 
 def _lines(subject, over, units) -> list[str]:
     holds, depends = SUBJECTS[subject]
-    lead = {"holds": f"{holds} all over the box", "depends": f"{depends} on them", "sampled": "the same at all sampled points of the box, without a proof",
+    lead = {"holds": f"{holds} all over the box", "depends": f"{depends} on them",
+            "sampled": "the same at all sampled points of the box, without a proof",
             "undecided": "undecided over the box"}
-    lines = [f"  {subject}: {lead[over.answer]}" + (f": {units.axes.sentence(over.verdict)}" if over.answer in ("holds", "sampled") else ""),
+    lines = [f"  {subject}: {lead[over.answer]}"
+             + (f": {units.axes.sentence(over.verdict)}" if over.answer in ("holds", "sampled") else ""),
              f"    {lettered(units.words(over.because))}"]
     if over.but:
         lines.append(f"    but for a set of measure zero: {units.words(over.but)}")
     if over.proved and math.isfinite(over.proved):
         lines.append(f"    proved to stay for every change below {over.proved:.6g} times the uncertainties")
     if over.changes_at is not None:
-        lines.append(f"    flips at {over.changes_at:.6g} times the uncertainties (found by search, checked exactly)")
+        lines.append(
+            f"    flips at {over.changes_at:.6g} times the uncertainties (found by search, checked exactly)")
     elif over.answer == "holds" and over.proved < math.inf:
         lines.append("    no change was found up to 100 times the uncertainties")
     return lines + [line for w in over.witnesses for line in _witness(w, units)]
@@ -127,7 +143,8 @@ def _witness(w, units) -> list[str]:
     """A place of the box, to six digits: JSON has them all."""
     known = UNITS | ({"state": "rad/s"} if "torque" in w.values else {})
     measures = {name: units.of(known.get(name, "")) for name in w.values}
-    numbers = "; ".join(f"{name} = {', '.join(told(float(v) * measures[name][1], DIGITS) for v in values)} {measures[name][0]}".rstrip()
+    numbers = "; ".join(f"{name} = {', '.join(told(float(v) * measures[name][1], DIGITS) for v in values)} "
+                        f"{measures[name][0]}".rstrip()
                         for name, values in w.values.items())
     return [f"    {units.axes.sentence(w.verdict)} at {numbers}"]
 
@@ -139,4 +156,5 @@ def open_fate(found) -> bool:
 
 def undecided(found) -> bool:
     """Whether a verdict stays without a proof over the box."""
-    return found is not None and any(over is not None and over.answer in ("undecided", "sampled") for over in (found.equilibria, found.fate))
+    return (found is not None and any(over is not None and over.answer in ("undecided", "sampled")
+                                      for over in (found.equilibria, found.fate)))

@@ -1,4 +1,5 @@
-"""When a limit is reached, in words, JSON and CSV: the answer first, in the units of engineers; what a tilt of the torque does to a bounded motion."""
+"""When a limit is reached, in words, JSON and CSV: the answer first, in the units of engineers; what a tilt
+of the torque does to a bounded motion."""
 from __future__ import annotations
 
 import math
@@ -16,32 +17,40 @@ CSV = ("case", "quantity", "limit", "time_low", "time_high", "level", "caveats")
 
 
 def as_dict(case, limit, found) -> dict:
-    """One object of `stabilab when --json`: SI units. time: [low, high], null where it is never reached or not known; reached: "yes", "never" or
-    "unknown"; not_before: the limit is not reached before, null where it never is."""
+    """One object of `stabilab when --json`: SI units. time: [low, high], null where it is never reached or
+    not known; reached: "yes", "never" or "unknown"; not_before: the limit is not reached before, null where
+    it never is."""
     low, high = float(found.low), float(found.high)
     known = math.isfinite(high)
-    return {"schema": "stabilab.when/1", "case": case.name, "variables": case.variables, "kind": limit.kind, "quantities": list(limit.names),
-            "limits": list(limit.limits), "reached": _reached(low, high), "time": [low, high] if known else None,
-            "not_before": low if math.isfinite(low) else None, "level": str(found.level), "because": str(found.words)
+    return {"schema": "stabilab.when/1", "case": case.name, "variables": case.variables, "kind": limit.kind,
+            "quantities": list(limit.names),
+            "limits": list(limit.limits), "reached": _reached(low, high),
+            "time": [low, high] if known else None,
+            "not_before": low if math.isfinite(low) else None, "level": str(found.level),
+            "because": str(found.words)
             } | limiting.key(case, found.caveats) | frame.key(case)
 
 
 def csv(answers) -> str:
-    """A line a case, SI units: inf where the limit is never reached, an empty upper end where it is not known."""
-    rows = [(case.name, "/".join(limit.names), "/".join(map(repr, limit.limits)), *(None if math.isnan(v) else float(v) for v in (found.low, found.high)),
+    """A line a case, SI units: inf where the limit is never reached, an empty upper end where it is not
+    known."""
+    rows = [(case.name, "/".join(limit.names), "/".join(map(repr, limit.limits)),
+             *(None if math.isnan(v) else float(v) for v in (found.low, found.high)),
              str(found.level), limiting.cell(case, found.caveats)) for case, limit, found in answers]
     return comma.lines([CSV, *rows])[:-1]
 
 
 def text(case, limit, found, units: Units) -> str:
-    """The answer in one line with its two ends, how far these are apart, and the reason; `as_dict` has all digits of the ends."""
+    """The answer in one line with its two ends, how far these are apart, and the reason; `as_dict` has all
+    digits of the ends."""
     low, high = float(found.low), float(found.high)
     parts = [_answer(limit, found, low, high, units), limiting.tilted(found.caveats, units)]
     lines = [f"{printable(case.name)}: {'; '.join(filter(None, parts))}"]
     if math.isfinite(high) and high > 0:
         apart = f"{units.time(high - low, 2)} apart" if high > low else "the same number"
         lines.append(f"  its two ends are {apart}; --json tells all digits")
-    reason = re.sub(r"^[^:]* = [^:]*: ", "", str(found.words))  # the limit stands above, in the units asked for
+    # the limit stands above, in the units asked for
+    reason = re.sub(r"^[^:]* = [^:]*: ", "", str(found.words))
     return "\n".join([*lines, f"  {lettered(units.words(reason))}"])
 
 
@@ -49,11 +58,14 @@ def swept(answers, units: Units):
     """(the answer in a line, columns, rows) of a sweep: whether, when and how well known."""
     kinds = [_reached(float(found.low), float(found.high)) for *_, found in answers]
     counts = "; ".join(f"{words} {kinds.count(kind)}" for kind, words in WORDS.items() if kind in kinds)
-    counts += limiting.shared([found.caveats for kind, (*_, found) in zip(kinds, answers) if kind == "never"], units)
+    counts += limiting.shared([found.caveats for kind, (*_, found) in zip(kinds, answers) if kind == "never"],
+                              units)
     ends = [float(found.high) for *_, found in answers if math.isfinite(found.high)]
     name, one = units.times(max(ends, default=0.0))
-    told = f"{asked(answers[0][1], units)}: {counts}" + (f"; first in {units.time(min(ends), 4)}" if ends else "")
-    rows = [[kind, number(float(found.high) * one, DIGITS) if kind == "yes" else "", str(found.level)] for kind, (*_, found) in zip(kinds, answers)]
+    told = (f"{asked(answers[0][1], units)}: {counts}"
+            + (f"; first in {units.time(min(ends), 4)}" if ends else ""))
+    rows = [[kind, number(float(found.high) * one, DIGITS) if kind == "yes" else "", str(found.level)]
+            for kind, (*_, found) in zip(kinds, answers)]
     return told, [("reached", ""), ("time", name), ("level", "")], rows
 
 
@@ -69,7 +81,9 @@ def _reached(low, high):
 def _answer(limit, found, low, high, units):
     aim = asked(limit, units)
     if math.isinf(low):
-        return f"NEVER reaches {aim} ({found.level}){',' * bool(holds := limiting.condition(found.caveats, units))}{holds}"
+        return (
+            f"NEVER reaches {aim} "
+            f"({found.level}){',' * bool(holds := limiting.condition(found.caveats, units))}{holds}")
     if math.isnan(high):
         return f"NOT KNOWN when it reaches {aim}: not before {units.time(low)} ({found.level})"
     if high == 0:
@@ -82,7 +96,8 @@ def _answer(limit, found, low, high, units):
 def asked(limit, units):
     """A limit in words: "|omega| = 60 deg/s", of several "|ωx| or |ωy| = 5 deg/s" where it is one number."""
     unit = {"energy": units.plain("J"), "tilt": units.angles}.get(limit.kind, units.rates)
-    names, told = [units.axes.sentence(_named(name)) for name in limit.names], [units.told(most, unit, DIGITS) for most in limit.limits]
+    names, told = [units.axes.sentence(_named(name))
+                   for name in limit.names], [units.told(most, unit, DIGITS) for most in limit.limits]
     if len(set(told)) == 1:
         return f"{any_of(names)} = {told[0]}"
     return " or ".join(f"{name} = {most}" for name, most in zip(names, told))
@@ -103,9 +118,13 @@ def tilt_dict(found) -> dict | None:
     if found is None:
         return None
     if found.ranges:
-        return {"angle": found.angle, "of": found.of, "directions": found.directions, "limit": found.limit, "earliest": found.earliest,
+        return {"angle": found.angle, "of": found.of, "directions": found.directions, "limit": found.limit,
+                "earliest": found.earliest,
                 "latest": found.latest, "level": found.level, "fates": dict(found.fates),
                 "because": found.because}
-    return {"angle": found.angle, "of": found.of, "limit": found.limit, "limit_stated": found.stated, "not_before": found.not_before,
-            "time": [found.low, found.high] if found.ends else None, "level": found.level if found.ends else None, "azimuth": found.azimuth,
-            "torque": found.torque, "azimuths": found.azimuths, "times": found.times, "untilted": found.untilted}
+    return {"angle": found.angle, "of": found.of, "limit": found.limit, "limit_stated": found.stated,
+            "not_before": found.not_before,
+            "time": [found.low, found.high] if found.ends else None,
+            "level": found.level if found.ends else None, "azimuth": found.azimuth,
+            "torque": found.torque, "azimuths": found.azimuths, "times": found.times,
+            "untilted": found.untilted}

@@ -1,9 +1,10 @@
 """Where a body with a liquid ends: steady states of the averaged equations, who attracts, and how fast.
 
-A' = A alpha(r), r' = rho0(r) + A^2 rho1(r): the means of first and second order, derived in `averaging_form`, of the body
-with D1 and D2 both at their mean and M1 = M2 = 0 (the harmonics of either leave such a state in first order). The second
-order matters as soon as |Gamma| > J0 |r|: it holds the decay kappa Gamma^2/J0^3 of the turn in the liquid. A steady state with A = 0 is
-a spin about axis 3; one with A > 0 is a regular precession, the angular velocity going round axis 3 in the body.
+A' = A alpha(r), r' = rho0(r) + A^2 rho1(r): the means of first and second order, derived in `averaging_form`,
+of the body with D1 and D2 both at their mean and M1 = M2 = 0 (the harmonics of either leave such a state in
+first order). The second order matters as soon as |Gamma| > J0 |r|: it holds the decay kappa Gamma^2/J0^3 of
+the turn in the liquid. A steady state with A = 0 is a spin about axis 3; one with A > 0 is a regular
+precession, the angular velocity going round axis 3 in the body.
 """
 from __future__ import annotations
 
@@ -14,9 +15,9 @@ from .normal_form import NAMES, constants, normal_form
 
 @dataclass(frozen=True)
 class SteadyState:
-    """A steady state of the averaged motion: amplitude A and spin r (rad/s), kind "attracting", "repelling", "saddle" or
-    "neutral"; rates: the two eigenvalues of the linearised averaged equations, 1/s (negative real part: decays);
-    because: in words."""
+    """A steady state of the averaged motion: amplitude A and spin r (rad/s), kind "attracting", "repelling",
+    "saddle" or "neutral"; rates: the two eigenvalues of the linearised averaged equations, 1/s (negative real
+    part: decays); because: in words."""
 
     amplitude: float
     spin: float
@@ -27,7 +28,8 @@ class SteadyState:
 
 @dataclass(frozen=True)
 class Attractors:
-    """All isolated steady states; families: curves of them, in words with their rates; reason: why these and no others."""
+    """All isolated steady states; families: curves of them, in words with their rates; reason: why these and
+    no others."""
 
     points: tuple[SteadyState, ...]
     families: tuple[str, ...]
@@ -40,8 +42,8 @@ class Attractors:
 
 
 def attractors(scene) -> Attractors:
-    """Steady states of the averaged equations of the scene, first and second order together. Raises InputError where the
-    scene is not of the kind (`averaging_form.check`)."""
+    """Steady states of the averaged equations of the scene, first and second order together. Raises
+    InputError where the scene is not of the kind (`averaging_form.check`)."""
     from sympy import Poly, Rational, Symbol, expand, re
     form, numbers = normal_form(scene), constants(scene)
     put = {s: Rational(numbers[n].numerator, numbers[n].denominator) for s, n in zip(form.symbols, NAMES)}
@@ -104,23 +106,30 @@ def _families(alpha, rho0, rho1):
     for r in _roots(alpha) if not alpha.is_zero else ():
         if rho1.eval(r) == 0 and rho0.eval(r) == 0:
             rate = float(rho1.diff().eval(r))
-            yield (f"the angular velocities with r = {float(r):.10g} and any A: the turn stands still there; a neighbour comes "
+            yield (f"the angular velocities with r = {float(r):.10g} and any A: the turn stands still there; "
+                   f"a neighbour comes "
                    f"back at the rate {-rate:.10g} A^2 1/s (A in rad/s)" if rate < 0 else
-                   f"the angular velocities with r = {float(r):.10g} and any A: the turn stands still there; a neighbour leaves "
+                   f"the angular velocities with r = {float(r):.10g} and any A: the turn stands still there; "
+                   f"a neighbour leaves "
                    f"at the rate {rate:.10g} A^2 1/s (A in rad/s)")
 
 
 def _words(polynomial):
-    terms = [f"{float(c):.10g}" + (" r" if n == 1 else f" r^{n}" if n else "") for (n,), c in polynomial.terms()]
+    terms = [f"{float(c):.10g}" + (" r" if n == 1 else f" r^{n}" if n else "") for (n,),
+             c in polynomial.terms()]
     return " + ".join(terms).replace("+ -", "- ") + " 1/s"
 
 
 def _reason(numbers, points, families):
-    parts = ["averaged equations A' = A alpha(r), r' = rho0(r) + A^2 rho1(r) of the body with D1 = D2: all their steady states"]
+    parts = [
+        "averaged equations A' = A alpha(r), r' = rho0(r) + A^2 rho1(r) of the body with D1 = D2: all their "
+        "steady states"]
     if not points and not families:
-        parts.append("there is none: the torque M3 has no resistance to balance it" if numbers["M3"] else "there is none")
+        parts.append("there is none: the torque M3 has no resistance to balance it" if numbers["M3"]
+                     else "there is none")
     if numbers["M1"] or numbers["M2"]:
-        parts.append("the torques M1, M2 average out: the true motion keeps a small oscillation of the size M/(J0 nu), and is "
+        parts.append("the torques M1, M2 average out: the true motion keeps a small oscillation of the size "
+                     "M/(J0 nu), and is "
                      "not covered near nu = 0")
     if numbers["h"]:
         parts.append("D1 - D2 averages out as long as nu is much larger than |D1 - D2| |omega|/(2 J0)")

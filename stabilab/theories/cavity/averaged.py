@@ -1,9 +1,10 @@
-"""Averaged motion of a nearly spherical body with a liquid: slow amplitude, spin and phase instead of every turn.
+"""Averaged motion of a nearly spherical body with a liquid: slow amplitude, spin and phase instead of every
+turn.
 
-p = A cos phi, q = -A sin phi, r: A and r change slowly while phi turns at about nu = (d r - Gamma)/J0. The equations
-come from `averaging_form`; they are integrated in W = A exp(i (phi - psi)), r, psi, which is regular at A = 0, at
-r < 0 and through nu = 0. Without a torque across axis 3 no amplitude reaches 0, and log W is followed, which keeps an
-amplitude and its phase far below the rounding of r.
+p = A cos phi, q = -A sin phi, r: A and r change slowly while phi turns at about nu = (d r - Gamma)/J0. The
+equations come from `averaging_form`; they are integrated in W = A exp(i (phi - psi)), r, psi, which is
+regular at A = 0, at r < 0 and through nu = 0. Without a torque across axis 3 no amplitude reaches 0, and log
+W is followed, which keeps an amplitude and its phase far below the rounding of r.
 """
 from __future__ import annotations
 
@@ -20,25 +21,30 @@ from ...physics.to_numpy import lambdified
 from .normal_form import NAMES, check, constants, normal_form
 
 RTOL = 1e-10  # the equations themselves are true to eps^2 at best
-# Width of the band of slow turn in which phases are kept, as a share of (|d| |omega| + |Gamma|)/J0: in powers of e it
-# is of order one, as the second order needs; at twice the width from nu = 0 the kept part is exp(-16), at 2.5 times 1e-17.
+# Width of the band of slow turn in which phases are kept, as a share of (|d| |omega| + |Gamma|)/J0: in powers
+# of e it
+# is of order one, as the second order needs; at twice the width from nu = 0 the kept part is exp(-16), at 2.5
+# times 1e-17.
 SHARE = 0.4
-# A removed harmonic leaves about (its rate)/nu of the state: within this many times the rate of nu = 0 it is kept.
+# A removed harmonic leaves about (its rate)/nu of the state: within this many times the rate of nu = 0 it is
+# kept.
 GUARD = 4.0
 SAMPLES = 400  # between asked-for times, to follow the angle of W
 INVERSIONS = 100
-LEAST = -230.0  # log A below which relative rates are those at A = 1e-100, which leaves out a share of A of them
+# log A below which relative rates are those at A = 1e-100, which leaves out a share of A of them
+LEAST = -230.0
 
 
 @dataclass(frozen=True)
 class AveragedMotion:
     """What the averaged equations say at the asked-for times.
 
-    t: (n,) s; amplitude A, rad/s, spin r, rad/s, phase phi, rad, unwrapped: (n,), the averaged variables; omega: (n, 3)
-    rad/s, body frame, rebuilt from them (second order: with the near-identity change of variables, so omega at t = 0 is
-    the given state). At A = 0 the phase is that of the turn alone. order: 1 or 2; eps: the small parameter. floor: absolute
-    tolerance of the spin, and of p and q where a torque lies across axis 3, rad/s; else these are as well known as their size. status:
-    "reached", or "stopped" with t up to where the run came; reason: why; horizon: in words, how far to trust it.
+    t: (n,) s; amplitude A, rad/s, spin r, rad/s, phase phi, rad, unwrapped: (n,), the averaged variables;
+    omega: (n, 3) rad/s, body frame, rebuilt from them (second order: with the near-identity change of
+    variables, so omega at t = 0 is the given state). At A = 0 the phase is that of the turn alone. order: 1
+    or 2; eps: the small parameter. floor: absolute tolerance of the spin, and of p and q where a torque lies
+    across axis 3, rad/s; else these are as well known as their size. status: "reached", or "stopped" with t
+    up to where the run came; reason: why; horizon: in words, how far to trust it.
     """
 
     t: np.ndarray
@@ -55,13 +61,15 @@ class AveragedMotion:
 
 
 def averaged(scene, state, times, order: int = 1, eps: float | None = None) -> AveragedMotion:
-    """Averaged motion from `state` (three numbers, rad/s, or {"omega": ...}) at t = 0; times: (n,) s, any order and sign.
+    """Averaged motion from `state` (three numbers, rad/s, or {"omega": ...}) at t = 0; times: (n,) s, any
+    order and sign.
 
-    D3 is J0; axes 1, 2 have moments near it, the gyrostatic moment lies along axis 3. eps names the small parameter
-    (None: the larger of |D1 - D3|, |D2 - D3| over D3); it counts orders only, the motion does not depend on it.
-    Errors in A and r over t ~ 1/eps^2: eps (first order), eps^2 (second); after a passage through nu = 0 with M1, M2 or
-    D1 != D2, whose jump of size sqrt(eps) depends on the phase there: eps^(1/2) and eps^(3/2). In the phase one order
-    less. Raises InputError where the scene does not fit the assumptions and says which.
+    D3 is J0; axes 1, 2 have moments near it, the gyrostatic moment lies along axis 3. eps names the small
+    parameter (None: the larger of |D1 - D3|, |D2 - D3| over D3); it counts orders only, the motion does not
+    depend on it. Errors in A and r over t ~ 1/eps^2: eps (first order), eps^2 (second); after a passage
+    through nu = 0 with M1, M2 or D1 != D2, whose jump of size sqrt(eps) depends on the phase there: eps^(1/2)
+    and eps^(3/2). In the phase one order less. Raises InputError where the scene does not fit the assumptions
+    and says which.
     """
     if order not in (1, 2):
         raise InputError(f"order: expected 1 or 2, got {order!r}")
@@ -84,7 +92,8 @@ def averaged(scene, state, times, order: int = 1, eps: float | None = None) -> A
     reached = np.array([t for t in times if t in rows])
     W, r, psi, angle = (np.array([rows[t][i] for t in reached]) for i in range(4))
     omega = model.outward(W * np.exp(1j * psi), r.real)
-    return AveragedMotion(reached, np.abs(W), r.real, psi.real + angle.real, omega, order, small.eps, model.floor,
+    return AveragedMotion(reached, np.abs(W), r.real, psi.real + angle.real, omega, order, small.eps,
+                          model.floor,
                           "stopped" if failures else "reached", "; ".join(failures) or "all times reached",
                           small.horizon(order))
 
@@ -112,8 +121,8 @@ def times_row(times):
 
 @dataclass(frozen=True)
 class Smallness:
-    """The numbers whose smallness the averaging assumes; `ratios`: words -> number that must stay below 1; `soft`: those
-    that only make the answer doubtful. eps: small parameter; slow: fastest slow rate, 1/s."""
+    """The numbers whose smallness the averaging assumes; `ratios`: words -> number that must stay below 1;
+    `soft`: those that only make the answer doubtful. eps: small parameter; slow: fastest slow rate, 1/s."""
 
     eps: float
     ratios: dict
@@ -134,20 +143,24 @@ class Smallness:
                   "the splitting D1 - D2 against the turn it disturbs (|D1 + D2 - 2 D3| |omega|/2 + |Gamma|)":
                       abs(h) * size / (J * turn) if turn else (math.inf if h * size else 0.0),
                   "the liquid (kappa (|omega| + |Gamma|/J0)/J0)": kappa * speed / J,
-                  "the torque (|M|/(J0 |omega|^2), with |Gamma|/J0 or the steady spin M3/(zeta J0) where that is larger)":
+                  "the torque (|M|/(J0 |omega|^2), with |Gamma|/J0 or the steady spin M3/(zeta J0) where "
+                  "that is larger)":
                       _over(moment / J, max(speed, abs(M[2]) / (zeta * J) if zeta else 0.0) ** 2)}
         slow = max(zeta, kappa * speed * turn / J, _over(moment, J * speed))
-        # The liquid torque is of second degree in Gamma and the turn by Gamma is in nu: a large one spoils first order only.
+        # The liquid torque is of second degree in Gamma and the turn by Gamma is in nu: a large one spoils
+        # first order only.
         # First order leaves M1, M2 out: their share comes round with the turn, if there is one.
         soft = {"Gamma against J0 |omega|, for first order": _over(abs(g) / J, size) if kappa else 0.0,
-                "the torque across axis 3, left out in first order, against the turn": _over(math.hypot(*M[:2]) / J, turn * speed)}
+                "the torque across axis 3, left out in first order, against the turn": _over(
+                    math.hypot(*M[:2]) / J, turn * speed)}
         return cls(float(eps), ratios, soft, slow)
 
     def refuse(self):
         """InputError for the first ratio that is not below 1."""
         for words, ratio in self.ratios.items():
             if not ratio < 1:
-                raise InputError(f"averaging needs small disturbances: {words} is {ratio:.3g}, expected it below 1 (much "
+                raise InputError(f"averaging needs small disturbances: {words} is {ratio:.3g}, expected it "
+                                 f"below 1 (much "
                                  "below 1 for a close answer); use the exact motion (`trajectory`) here")
 
     def horizon(self, order) -> str:
@@ -156,7 +169,8 @@ class Smallness:
         largest = max(ratios, key=ratios.get)
         worst, reach = ratios[largest], f"t = {1 / self.slow:.3g} s" if self.slow else "all times"
         doubt = f"; doubtful here, for {largest} is {worst:.2g}" if worst > 0.3 else ""
-        return (f"errors of order eps^{order} (eps = {self.eps:.3g}) in amplitude and spin up to about {reach} (the time of "
+        return (f"errors of order eps^{order} (eps = {self.eps:.3g}) in amplitude and spin up to about "
+                f"{reach} (the time of "
                 f"the slow change), in the phase they grow with time{doubt}")
 
 
@@ -178,7 +192,8 @@ class _Model:
         self.logarithmic = not any(self.parameters[6:8]) and bool(omega[0] or omega[1])
         least = RTOL * 1e-2 * max(float(np.abs(omega).max()), self.width, 1e-300)
         self.floor = (0.0, 0.0, least) if self.logarithmic else (least,) * 3
-        self.means, self.kept, self.near = _functions(normal_form(scene), order, frozenset(n for n in NAMES if not numbers[n]))
+        self.means, self.kept, self.near = _functions(normal_form(scene), order,
+                                                      frozenset(n for n in NAMES if not numbers[n]))
 
     def removal(self, nu):
         """m = (1 - K)/nu, its derivative, and K = exp(-(nu/width)^4); without a width everything is kept."""
@@ -212,7 +227,8 @@ class _Model:
         return np.stack([np.real(Z), -np.imag(Z), r], axis=-1)
 
     def inward(self, omega):
-        """Averaged (p, q, r) of an angular velocity: the change of variables undone. Raises InputError if it cannot be."""
+        """Averaged (p, q, r) of an angular velocity: the change of variables undone. Raises InputError if it
+        cannot be."""
         y = omega.copy()
         if self.order == 1:
             return y
@@ -224,11 +240,14 @@ class _Model:
                 return y
         if np.abs(miss).max() < 1e-13 * scale:
             return y
-        raise InputError("averaging to second order needs smaller disturbances: the change of the initial values to averaged "
-                         f"variables does not converge (off by {np.abs(miss).max():.2g} rad/s); use order 1 or the exact motion")
+        raise InputError("averaging to second order needs smaller disturbances: the change of the initial "
+                         "values to averaged "
+                         f"variables does not converge (off by {np.abs(miss).max():.2g} rad/s); use order 1 "
+                         f"or the exact motion")
 
     def rates(self, t, y):
-        """Rates of (Re W, Im W, r, psi), or of (log |W|, arg W, r, psi); none where an amplitude leaves the range of doubles."""
+        """Rates of (Re W, Im W, r, psi), or of (log |W|, arg W, r, psi); none where an amplitude leaves the
+        range of doubles."""
         try:
             return self._rates(y)
         except OverflowError:
@@ -255,13 +274,16 @@ class _Model:
         return [dW.real, dW.imag, complex(spin + kept_r).real, nu + turn.imag]
 
     def run(self, w0, r0, grid, sense):
-        """([(W, r, psi, unwrapped angle of W)] at the times of grid, failure or None); grid > 0, run backward for sense -1."""
+        """([(W, r, psi, unwrapped angle of W)] at the times of grid, failure or None); grid > 0, run backward
+        for sense -1."""
         from scipy.integrate import solve_ivp
         fine = np.union1d(grid, np.linspace(0.0, grid[-1], SAMPLES))
         W = cmath.log(w0) if self.logarithmic else w0
         with np.errstate(all="ignore"):
-            run = solve_ivp(lambda t, y: [sense * v for v in self.rates(t, y)], (0.0, grid[-1]), [W.real, W.imag, r0, 0.0], "DOP853",
-                            t_eval=fine, rtol=RTOL, atol=[RTOL, RTOL, self.floor[2], self.floor[2]] if self.logarithmic else self.floor[2])
+            run = solve_ivp(lambda t, y: [sense * v for v in self.rates(t, y)], (0.0, grid[-1]),
+                            [W.real, W.imag, r0, 0.0], "DOP853",
+                            t_eval=fine, rtol=RTOL, atol=[RTOL, RTOL, self.floor[2], self.floor[2]]
+                            if self.logarithmic else self.floor[2])
         W = run.y[0] + 1j * run.y[1]
         W, angle = (np.exp(W), W.imag) if self.logarithmic else (W, np.unwrap(np.angle(W)))
         wanted = np.isin(run.t, grid)
@@ -271,12 +293,14 @@ class _Model:
 
 @lru_cache(maxsize=32)
 def _functions(form, order, absent):
-    """(means(S, r, m, m1, K, ...), kept(Z, Zc, r, m, m1, K, ...), near(...)) up to an order; absent: names that are 0."""
+    """(means(S, r, m, m1, K, ...), kept(Z, Zc, r, m, m1, K, ...), near(...)) up to an order; absent: names
+    that are 0."""
     from sympy import Symbol, expand
     Z, Zc, r, m, m1, K = form.variables
     gone = {s: 0 for s, n in zip(form.symbols, NAMES) if n in absent}
     means = [sum(part[:order]) for part in (form.turn, form.spin)]
     kept = [sum(parts) for parts in zip(*form.kept)]
     inner = [r, m, m1, K, *form.symbols]
-    return tuple(lambdified([*first, *inner], [expand(e.subs(gone)) for e in expressions], cse=True) for first, expressions
+    return tuple(lambdified([*first, *inner], [expand(e.subs(gone)) for e in expressions], cse=True)
+                 for first, expressions
                  in (([Symbol("S", real=True)], means), ([Z, Zc], kept), ([Z, Zc], form.near)))

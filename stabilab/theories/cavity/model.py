@@ -32,7 +32,10 @@ def follow(model, case, times, order=None) -> Simulation:
         how, reason = "Galal et al. (24)-(26)", run.reason
     else:
         found = run = averaged(case.scene, case.state, times, order=int(model[-1]))
-        error = {"omega": np.array(found.floor), "amplitude": np.array(found.floor[0]), "spin": np.array(found.floor[2])}
-        how, reason = f"averaged equations of order {found.order}, eps = {found.eps:.6g}", f"{found.reason}; {found.horizon}"
+        error = {"omega": np.array(found.floor), "amplitude": np.array(found.floor[0]),
+                 "spin": np.array(found.floor[2])}
+        how, reason = (f"averaged equations of order {found.order}, eps = {found.eps:.6g}",
+                       f"{found.reason}; {found.horizon}")
     state = {"omega": run.omega, "amplitude": run.amplitude, "spin": run.spin, "phase": run.phase}
-    return Simulation(np.asarray(run.t), state, model, how, None, status=run.status, reason=reason, error=error)
+    return Simulation(np.asarray(run.t), state, model, how, None, status=run.status, reason=reason,
+                      error=error)

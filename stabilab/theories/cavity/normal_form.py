@@ -1,14 +1,17 @@
-"""The averaged equations of a nearly spherical body, derived from the scene's equations: a normal form of the slow turn.
+"""The averaged equations of a nearly spherical body, derived from the scene's equations: a normal form of the
+slow turn.
 
-With D1 = J0 + e d + e^2 h, D2 = J0 + e d - e^2 h, D3 = J0, Gamma = e g, kappa = e kappa, resistance e^2 zeta, torque
-e^2 M (e only counts orders: every answer is written in the physical numbers, e = 1) and Z = p - i q = A exp(i phi)
+With D1 = J0 + e d + e^2 h, D2 = J0 + e d - e^2 h, D3 = J0, Gamma = e g, kappa = e kappa, resistance e^2 zeta,
+torque e^2 M (e only counts orders: every answer is written in the physical numbers, e = 1) and Z = p - i q =
+A exp(i phi)
 
     omega' = e X0 + e^2 X1 + e^3 X2 + ...,   X0: Z' = i nu Z, r' = 0,   nu = (d r - Gamma)/J0.
 
-Coordinates y with omega = y + e U(y) are chosen so that y' = e X0 + e^2 Y1 + e^3 Y2 + O(e^4) turns with no other
-dependence on the phase than near nu = 0, where no phase can be averaged away: a term of frequency n nu is split into
-K(nu) and 1 - K(nu), K = exp(-(nu/width)^4); the first part stays in Y, the second is removed by U through the factor
-m(nu) = (1 - K)/nu, which is regular everywhere. Far from nu = 0 this is classical averaging, at nu = 0 the plain equations.
+Coordinates y with omega = y + e U(y) are chosen so that y' = e X0 + e^2 Y1 + e^3 Y2 + O(e^4) turns with no
+other dependence on the phase than near nu = 0, where no phase can be averaged away: a term of frequency n nu
+is split into K(nu) and 1 - K(nu), K = exp(-(nu/width)^4); the first part stays in Y, the second is removed by
+U through the factor m(nu) = (1 - K)/nu, which is regular everywhere. Far from nu = 0 this is classical
+averaging, at nu = 0 the plain equations.
 """
 from __future__ import annotations
 
@@ -27,11 +30,13 @@ NAMES = ("J0", "d", "h", "Gamma", "kappa", "zeta", "M1", "M2", "M3")
 
 @dataclass(frozen=True)
 class NormalForm:
-    """Averaged equations as SymPy expressions of Z, its conjugate Zc, the spin r, m, its derivative m1 in nu, and K.
+    """Averaged equations as SymPy expressions of Z, its conjugate Zc, the spin r, m, its derivative m1 in nu,
+    and K.
 
-    symbols: of NAMES, in their order (physical numbers of a scene: `constants`); frequency: nu. turn: (h1, h2), the mean
-    of Z'/Z beyond i nu at each order, in S = |Z|^2; spin: (g1, g2), the mean of r'; kept: ((Z part, r part), ...) what
-    stays of the other harmonics, each times K already; near: (U_Z, U_r), the near-identity change of the variables.
+    symbols: of NAMES, in their order (physical numbers of a scene: `constants`); frequency: nu. turn: (h1,
+    h2), the mean of Z'/Z beyond i nu at each order, in S = |Z|^2; spin: (g1, g2), the mean of r'; kept: ((Z
+    part, r part), ...) what stays of the other harmonics, each times K already; near: (U_Z, U_r), the
+    near-identity change of the variables.
     """
 
     variables: tuple
@@ -44,7 +49,8 @@ class NormalForm:
 
 
 def constants(scene) -> dict:
-    """Name of NAMES -> exact number of this scene (J0, D1 - J0 halved into mean d and split h, Gamma = lambda3 - k ...)."""
+    """Name of NAMES -> exact number of this scene (J0, D1 - J0 halved into mean d and split h, Gamma =
+    lambda3 - k ...)."""
     D1, D2, D3 = scene.body.exact
     charge, liquid, resistance = (scene.effect(n) for n in ("charge", "liquid_cavity", "resistance"))
     gamma = scene.vector("gyrostat")[2] - (charge.exact if charge else 0)
@@ -55,12 +61,17 @@ def constants(scene) -> dict:
 def check(scene):
     """Raises InputError where the scene is not of the kind that the averaging is about."""
     if scene.variables == "scaled":
-        raise InputError("averaging needs a physical scene (a body with a liquid, resistance, small torques), got a scaled one")
+        raise InputError(
+            "averaging needs a physical scene (a body with a liquid, resistance, small torques), got a "
+            "scaled one")
     other = [e.name for e in scene.effects if e.name not in ALLOWED]
     if other:
-        raise InputError(f"averaging covers {', '.join(map(effect_words, sorted(ALLOWED)))}; the scene also has {', '.join(map(effect_words, other))}")
+        raise InputError(
+            f"averaging covers {', '.join(map(effect_words, sorted(ALLOWED)))}; the scene also has "
+            f"{', '.join(map(effect_words, other))}")
     if len(scene.blocks) > 1:
-        raise InputError('averaging needs a constant angle of the charge (the angular velocity alone as state), got angle = '
+        raise InputError('averaging needs a constant angle of the charge (the angular velocity alone as '
+                         'state), got angle = '
                          '"attitude": give the angle in rad')
     lam = scene.vector("gyrostat")
     if lam[0] or lam[1]:
@@ -68,7 +79,8 @@ def check(scene):
 
 
 def normal_form(scene) -> NormalForm:
-    """The averaged equations of the scene's effects, first and second order, in symbols. Raises InputError (`check`)."""
+    """The averaged equations of the scene's effects, first and second order, in symbols. Raises InputError
+    (`check`)."""
     check(scene)
     equations = derive(scene)
     return _normal_form(equations.state, equations.rhs, tuple(equations.symbols.items()))
@@ -87,7 +99,9 @@ def _normal_form(state, rhs, items) -> NormalForm:
     fields = [tuple(expand(f.subs(into)) for f in (x - I * y, z)) for x, y, z in fields]
     nu = expand(fields[0][0] / (I * Z))  # (d r - Gamma)/J0
     if nu.has(Z, Zc) or fields[0][1] != 0 or nu.diff(r, 2) != 0:
-        raise InputError("averaging needs equations whose first order is a turn about axis 3; the effects of this scene give another")
+        raise InputError(
+            "averaging needs equations whose first order is a turn about axis 3; the effects of this scene "
+            "give another")
     slope = nu.diff(r)
 
     def by_r(f):  # m depends on r through nu
@@ -102,7 +116,8 @@ def _normal_form(state, rhs, items) -> NormalForm:
     rest = [fields[2][i] + along(fields[1][i], U) - along(U[i], Y1) for i in (0, 1)]
     rest[0] += I * slope * U[0] * U[1]  # half the second derivative of X0
     second = _split([expand(f) for f in rest], Z, Zc, slope, m, K)
-    return NormalForm((Z, Zc, r, m, m1, K), tuple(names.values()), nu, (first.turn, second.turn), (first.spin, second.spin),
+    return NormalForm((Z, Zc, r, m, m1, K), tuple(names.values()), nu, (first.turn, second.turn),
+                      (first.spin, second.spin),
                       (first.kept, second.kept), U)
 
 
@@ -119,7 +134,8 @@ def _orders(rhs, given, names):
     swap |= {given[n]: [0, 0, names[n]] for n in ("zeta", "M1", "M2", "M3") if n in given}
     rows = [_series(rate, swap) for rate in rhs]
     if any(row[0] != 0 or any(c.has(*[given["k"]]) for c in row if "k" in given) for row in rows):
-        raise InputError("averaging needs a gyrostatic moment and a charge that act through their difference alone")
+        raise InputError(
+            "averaging needs a gyrostatic moment and a charge that act through their difference alone")
     return [tuple(row[n] for row in rows) for n in range(1, ORDERS + 1)]
 
 
@@ -179,7 +195,8 @@ class _Split:
 
 
 def _split(field, Z, Zc, slope, m, K):
-    """Mean, kept part and remover of one order; Z^a Zc^b has frequency (a - b) nu in r', (a - b - 1) nu in Z'."""
+    """Mean, kept part and remover of one order; Z^a Zc^b has frequency (a - b) nu in r', (a - b - 1) nu in
+    Z'."""
     from sympy import I, Symbol, expand
     S = Symbol("S", real=True)
     spin, kept_r, near_r = _harmonics(field[1], Z, Zc, 0, m, K, S)

@@ -1,7 +1,8 @@
 """Closed-form motion of the charged, nearly axisymmetric body under constant body-fixed torque and force.
 
-The linear model of `axisymmetric_modes`, solved with both of its rates a and b (the paper's equation (8) keeps one of
-them: `axisymmetric_corrected`); the formulas are in `axisymmetric_terms`, how far to believe them in `axisymmetric_limits`.
+The linear model of `axisymmetric_modes`, solved with both of its rates a and b (the paper's equation (8)
+keeps one of them: `axisymmetric_corrected`); the formulas are in `axisymmetric_terms`, how far to believe
+them in `axisymmetric_limits`.
 """
 from __future__ import annotations
 
@@ -20,13 +21,14 @@ WITHIN, BEYOND = "small angles", "beyond small angles"
 
 @dataclass(frozen=True, eq=False)
 class AxisymmetricMotion:
-    """The motion in the linear model at the asked-for times; arrays (..., 3) over the batch of the body and of t.
+    """The motion in the linear model at the asked-for times; arrays (..., 3) over the batch of the body and
+    of t.
 
-    omega: p, q, r, rad/s, body axes. angles: psi, phi, theta of the 3-1-2 sequence, rad, theta unwrapped. momentum: angular
-    momentum (body and rotor, without the charge), kg m^2/s, inertial, first order in the tilt. velocity, position:
-    inertial, m/s and m, None without a mass. tilt: |Gamma|, rad, (...). horizon: s, until when the tilt stays small
-    (`axisymmetric_limits.horizon`). status: "small angles" or "beyond small angles"; reason says from when on and why;
-    resonances: those that the data meet, in words.
+    omega: p, q, r, rad/s, body axes. angles: psi, phi, theta of the 3-1-2 sequence, rad, theta unwrapped.
+    momentum: angular momentum (body and rotor, without the charge), kg m^2/s, inertial, first order in the
+    tilt. velocity, position: inertial, m/s and m, None without a mass. tilt: |Gamma|, rad, (...). horizon: s,
+    until when the tilt stays small (`axisymmetric_limits.horizon`). status: "small angles" or "beyond small
+    angles"; reason says from when on and why; resonances: those that the data meet, in words.
     """
 
     t: np.ndarray
@@ -45,20 +47,21 @@ class AxisymmetricMotion:
 def solution(body: ChargedBody, t, small_angle: float = SMALL_ANGLE) -> AxisymmetricMotion:
     """The motion at times t (s, any shape, broadcast against the batch of the body).
 
-    small_angle: the tilt in rad up to which the model counts as valid; it decides status, reason and horizon, nothing
-    else. Raises InputError where the unstable motion exceeds the largest double.
+    small_angle: the tilt in rad up to which the model counts as valid; it decides status, reason and horizon,
+    nothing else. Raises InputError where the unstable motion exceeds the largest double.
     """
     t = times(t)
     omega, angles, momentum, velocity, position = _parts(body, t)
     tilt = np.hypot(angles[..., 0], angles[..., 1])
     until = horizon(body, small_angle)
     status, reason = verdict(tilt, t, until, small_angle)
-    return AxisymmetricMotion(t, omega, angles, momentum, velocity, position, tilt, until, status, reason, resonances(body))
+    return AxisymmetricMotion(t, omega, angles, momentum, velocity, position, tilt, until, status, reason,
+                              resonances(body))
 
 
 def _parts(body, t):
-    """Rates, angles, momentum, velocity and position: late times as combinations that are formed once per body, the start
-    as it was given, what is left by divided differences at each time."""
+    """Rates, angles, momentum, velocity and position: late times as combinations that are formed once per
+    body, the start as it was given, what is left by divided differences at each time."""
     late = fractions(body)
     far = np.abs(t) >= late.wide if late is not None else np.zeros(t.shape, bool)
     if not far.any():
@@ -88,11 +91,14 @@ def times(t):
 
 def verdict(tilt, t, until, small):
     """Status and reason of a motion with this tilt at the times t."""
-    promise = f"a tilt of {small:g} rad is not reached before t = {np.min(until):.6g} s (estimate from the torque and the start)"
+    promise = (
+        f"a tilt of {small:g} rad is not reached before t = {np.min(until):.6g} s (estimate from the torque "
+        f"and the start)")
     if np.all(np.isinf(until)):
         promise = f"the tilt stays below {small:g} rad for all time"
     if np.all(tilt <= small):
         return WITHIN, promise
     first = np.min(np.abs(np.broadcast_to(t, tilt.shape)[tilt > small]))
-    return BEYOND, (f"the model's tilt reaches {np.max(tilt):.4g} rad and exceeds {small:g} rad at t = {first:.6g} s or before: "
+    return BEYOND, (f"the model's tilt reaches {np.max(tilt):.4g} rad and exceeds {small:g} rad at t = "
+                    f"{first:.6g} s or before: "
                     f"the small-angle equations no longer describe the body; {promise}")

@@ -1,6 +1,7 @@
 """Where the charged axisymmetric body points on average, and how its spin angle runs away from r0 t.
 
-Read off the four rotating parts of the tilt (`axisymmetric_limits.tilt_parts`), for frequencies 0, r0, w that differ.
+Read off the four rotating parts of the tilt (`axisymmetric_limits.tilt_parts`), for frequencies 0, r0, w that
+differ.
 """
 from __future__ import annotations
 
@@ -14,12 +15,13 @@ from .validity import tilt_parts
 
 @dataclass(frozen=True, eq=False)
 class Pointing:
-    """Mean directions, over the batch of the body; status "mean exists" or "no mean" (reason: which resonance).
+    """Mean directions, over the batch of the body; status "mean exists" or "no mean" (reason: which
+    resonance).
 
-    momentum: mean inertial angular momentum across the axis, G1 + i G2, kg m^2/s; momentum_error: the angle in rad
-    between it (with G3) and the inertial axis 3. momentum_radius: radius of the circle that a torque makes it describe,
-    kg m^2/s. velocity_ratio: (v1 + i v2)/v3 as t grows, 0 where nothing pushes along the axis. Elements without a mean
-    hold inf.
+    momentum: mean inertial angular momentum across the axis, G1 + i G2, kg m^2/s; momentum_error: the angle
+    in rad between it (with G3) and the inertial axis 3. momentum_radius: radius of the circle that a torque
+    makes it describe, kg m^2/s. velocity_ratio: (v1 + i v2)/v3 as t grows, 0 where nothing pushes along the
+    axis. Elements without a mean hold inf.
     """
 
     momentum: np.ndarray
@@ -33,9 +35,10 @@ class Pointing:
 def pointing(body: ChargedBody) -> Pointing:
     """Mean pointing of the angular momentum and of the velocity.
 
-    G = e^(i theta0) [L0 - i Gamma0 X + i M/r0 - i k coning] on average. The velocity grows along -i f3 e^(i theta0) coning
-    across the axis and f3 - f1 Im steady + f2 Re steady along it; from rest and without force across the axis the ratio is
-    i M/(r0 (D3 r0 + Lambda)), the paper's (53)-(54) with D3 r0 in place of D3 r0 + Lambda.
+    G = e^(i theta0) [L0 - i Gamma0 X + i M/r0 - i k coning] on average. The velocity grows along -i f3 e^(i
+    theta0) coning across the axis and f3 - f1 Im steady + f2 Re steady along it; from rest and without force
+    across the axis the ratio is i M/(r0 (D3 r0 + Lambda)), the paper's (53)-(54) with D3 r0 in place of D3 r0
+    + Lambda.
     """
     parts, r0 = tilt_parts(body), body.spin
     exists = parts.regular & (r0 != 0)
@@ -50,15 +53,17 @@ def pointing(body: ChargedBody) -> Pointing:
     across, along = -1j * f3 * turn * parts.coning, f3 - f1 * parts.steady.imag + f2 * parts.steady.real
     ratio = np.where(along == 0, 0, across / np.where(along == 0, 1.0, along))
     values = (mean, np.arctan2(np.abs(mean), H3), np.abs(swing), ratio)
-    return Pointing(*(np.where(exists, v, np.inf) for v in values), *_verdict(exists))  # type: ignore[arg-type]  # four
+    # four
+    return Pointing(*(np.where(exists, v, np.inf) for v in values), *_verdict(exists))  # type: ignore[arg-type]
 
 
 @dataclass(frozen=True, eq=False)
 class SpinDrift:
-    """How theta leaves theta0 + r0 t in the second order of the tilt, averaged over the oscillations, over the batch.
+    """How theta leaves theta0 + r0 t in the second order of the tilt, averaged over the oscillations, over
+    the batch.
 
-    rate: rad/s; acceleration: rad/s^2 of the mean spin rate, not zero when M1 M2 (D1 - D2) is not (then rate is its value
-    at t = 0). Elements without a mean hold inf. status "mean exists" or "no mean".
+    rate: rad/s; acceleration: rad/s^2 of the mean spin rate, not zero when M1 M2 (D1 - D2) is not (then rate
+    is its value at t = 0). Elements without a mean hold inf. status "mean exists" or "no mean".
     """
 
     rate: np.ndarray
@@ -68,10 +73,11 @@ class SpinDrift:
 
 
 def spin_drift(body: ChargedBody) -> SpinDrift:
-    """Mean of theta' - r0 = r0 (psi^2 - phi^2)/2 - p phi + r2 with D3 r2' = (D1 - D2) p q, along the linear motion.
+    """Mean of theta' - r0 = r0 (psi^2 - phi^2)/2 - p phi + r2 with D3 r2' = (D1 - D2) p q, along the linear
+    motion.
 
-    Averages pair frequencies that cancel: <Gamma^2> = steady^2 + 2 B C, <Pi Gamma> = rate steady + plus C + minus B,
-    <conj(Pi) Gamma> = conj(rate) steady + conj(plus) B + conj(minus) C.
+    Averages pair frequencies that cancel: <Gamma^2> = steady^2 + 2 B C, <Pi Gamma> = rate steady + plus C +
+    minus B, <conj(Pi) Gamma> = conj(rate) steady + conj(plus) B + conj(minus) C.
     """
     z, r0 = tilt_parts(body), body.spin
     D1, D2, D3 = np.moveaxis(body.inertia, -1, 0)
@@ -84,7 +90,8 @@ def spin_drift(body: ChargedBody) -> SpinDrift:
     # the integral of pq = Im(Pi^2)/2 from 0 swings about a mean of its own
     spun = asymmetry * (2 * z.rate * (z.plus - z.minus) + (z.plus**2 - z.minus**2) / 2).real / (2 * w)
     acceleration = asymmetry * (z.rate**2 + 2 * z.plus * z.minus).imag / 2
-    return SpinDrift(*(np.where(exists, v, np.inf) for v in (tilting - with_rate + spun, acceleration)), *_verdict(exists))  # type: ignore[arg-type]  # two
+    drift, acceleration = (np.where(exists, v, np.inf) for v in (tilting - with_rate + spun, acceleration))
+    return SpinDrift(drift, acceleration, *_verdict(exists))
 
 
 def _verdict(exists):

@@ -1,10 +1,12 @@
-"""A spinning, nearly axisymmetric body with small tilt: its data, its two rates a and b, its frequencies and resonances.
+"""A spinning, nearly axisymmetric body with small tilt: its data, its two rates a and b, its frequencies and
+resonances.
 
 Euler's equations (Galal et al., charged body: eq. (1)) with r = r0 and the small-angle kinematics (15):
 
     p' = M1/D1 - a q,    q' = M2/D2 + b p,    Gamma' + i r0 Gamma = p + i q,    Gamma = psi + i phi
 
-    a = [(D3 - D2) r0 + Lambda] / D1,   b = [(D3 - D1) r0 + Lambda] / D2,   Lambda = lambda3 - k,   k = e H l^2 cos(sigma)
+    a = [(D3 - D2) r0 + Lambda] / D1,   b = [(D3 - D1) r0 + Lambda] / D2,   Lambda = lambda3 - k,   k = e H
+    l^2 cos(sigma)
 
 With X = D3 r0 + Lambda and Y = X - (D1 + D2) r0:   D1 a = X - D2 r0,   D2 b = X - D1 r0,
 r0^2 - ab = -XY/(D1 D2),   (b - a)/2 = (D1 - D2) Y/(2 D1 D2).
@@ -27,13 +29,15 @@ FIELDS = {"inertia": 3, "spin": 0, "gyrostat": 0, "charge_moment": 0, "torque": 
 
 @dataclass(frozen=True, eq=False)
 class ChargedBody:
-    """The body and the start of its motion; every field may carry leading batch axes, which broadcast together.
+    """The body and the start of its motion; every field may carry leading batch axes, which broadcast
+    together.
 
     inertia: D1, D2, D3, kg m^2, (..., 3). spin: r0 = r(0), rad/s. gyrostat: lambda3, kg m^2/s. charge_moment:
-    k = e H l^2 cos(sigma), kg m^2/s (C T m^2). torque: M1, M2, N m, body axes (a torque about the spin axis would change
-    r0: this theory has none). rates: p, q at t = 0, rad/s. attitude: psi, phi, theta at t = 0 (3-1-2 sequence), rad.
-    force: f1, f2, f3, N, body axes. mass: kg, None where no translation is asked for. velocity, position: inertial, m/s, m.
-    Raises InputError for numbers that are not finite, and moments or masses that are not positive.
+    k = e H l^2 cos(sigma), kg m^2/s (C T m^2). torque: M1, M2, N m, body axes (a torque about the spin axis
+    would change r0: this theory has none). rates: p, q at t = 0, rad/s. attitude: psi, phi, theta at t = 0
+    (3-1-2 sequence), rad. force: f1, f2, f3, N, body axes. mass: kg, None where no translation is asked for.
+    velocity, position: inertial, m/s, m. Raises InputError for numbers that are not finite, and moments or
+    masses that are not positive.
     """
 
     inertia: Batch
@@ -65,7 +69,8 @@ class ChargedBody:
     @property
     def shapes(self) -> list:
         """The batch shape of every field."""
-        present = [(getattr(self, name), bool(size)) for name, size in FIELDS.items() if getattr(self, name) is not None]
+        present = [(getattr(self, name), bool(size)) for name,
+                   size in FIELDS.items() if getattr(self, name) is not None]
         return [value.shape[:-1] if vector else value.shape for value, vector in present]
 
 
@@ -75,7 +80,8 @@ def _checked(name, value, components):
     except (TypeError, ValueError):
         raise InputError(f"{name}: expected numbers, got {told(value)}") from None
     if components and value.shape[-1:] != (components,):
-        raise InputError(f"{name}: expected {components} components along the last axis, got the shape {value.shape}")
+        raise InputError(
+            f"{name}: expected {components} components along the last axis, got the shape {value.shape}")
     if not np.all(np.isfinite(value)):
         raise InputError(f"{name}: expected finite numbers, got {value}")
     return value
@@ -85,8 +91,8 @@ def _checked(name, value, components):
 class Modes:
     """What the body's data make of the linear model; twofold where a difference may be small.
 
-    a, b: 1/s. X, Y: kg m^2/s. squared: ab, 1/s^2. root: sgn(a + b) sqrt|ab|, the frequency w where ab >= 0 and the growth
-    rate s (w = i s) where ab < 0, the unstable band.
+    a, b: 1/s. X, Y: kg m^2/s. squared: ab, 1/s^2. root: sgn(a + b) sqrt|ab|, the frequency w where ab >= 0
+    and the growth rate s (w = i s) where ab < 0, the unstable band.
     """
 
     a: Twofold
@@ -120,8 +126,8 @@ def modes(body: ChargedBody) -> Modes:
 def resonances(body: ChargedBody, tolerance: float = 1e-6) -> tuple[str, ...]:
     """The resonances and the unstable band that the data (any member of the batch) meet, in words.
 
-    tolerance: how near counts, relative to the largest rate among r0, a, b; only the words depend on it. Nothing is
-    singular at a resonance: the closed forms pass through it.
+    tolerance: how near counts, relative to the largest rate among r0, a, b; only the words depend on it.
+    Nothing is singular at a resonance: the closed forms pass through it.
     """
     m = modes(body)
     a, b, r0 = m.a.value(), m.b.value(), body.spin
@@ -130,7 +136,8 @@ def resonances(body: ChargedBody, tolerance: float = 1e-6) -> tuple[str, ...]:
     found = {
         "r0 = 0: no spin; a transverse torque tilts the body without bound": np.abs(r0) <= small,
         "omega = 0: a or b vanishes; p or q grows steadily under a torque, or the motion drifts": np.abs(m.root.value()) <= small,
-        "r0 = -omega, D3 r0 + Lambda = 0: no axial momentum is left to hold the axis; the tilt grows steadily":
+        "r0 = -omega, D3 r0 + Lambda = 0: no axial momentum is left to hold the axis; the tilt grows "
+        "steadily":
             np.abs(m.X.value()) <= small * sides,
         "r0 = omega, D3 r0 + Lambda = (D1 + D2) r0: frequencies meet, a = b, nothing grows":
             np.abs(m.Y.value()) <= small * sides,

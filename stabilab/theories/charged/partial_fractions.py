@@ -1,8 +1,10 @@
-"""The charged axisymmetric body long after its start: the divided differences as partial fractions, formed once per body.
+"""The charged axisymmetric body long after its start: the divided differences as partial fractions, formed
+once per body.
 
-Where all frequencies 0, r0, w, r0 + w, r0 - w are far apart (times t), no partial fraction is larger than what it adds
-up to, and every output is a fixed combination of cos and sin of wt, r0 t, (r0 + w) t, (r0 - w) t and of 1, t, t^2: one
-product of matrices. `axisymmetric_terms` has the formulas, and what holds nearer to the start.
+Where all frequencies 0, r0, w, r0 + w, r0 - w are far apart (times t), no partial fraction is larger than
+what it adds up to, and every output is a fixed combination of cos and sin of wt, r0 t, (r0 + w) t, (r0 - w) t
+and of 1, t, t^2: one product of matrices. `axisymmetric_terms` has the formulas, and what holds nearer to the
+start.
 """
 from __future__ import annotations
 
@@ -15,7 +17,8 @@ from ...numbers.error_free import exact_product
 from .modes import ChargedBody, modes
 from .terms import Terms
 
-# |difference of two frequencies| t from which on the fractions are used: from 3 on they lose no more than the rounding of
+# |difference of two frequencies| t from which on the fractions are used: from 3 on they lose no more than the
+# rounding of
 # the data and of t does, at 1 eight times that (measured against balls; tests)
 WIDE = 4.0
 RANGE = 1e40  # rates beyond, or below its inverse, overflow in the products of six
@@ -25,7 +28,8 @@ TURNING = "+fhl"
 
 
 class Coefficients(Terms):
-    """`Terms` whose divided differences are arrays of coefficients of e^(node t) for NODES, then of 1, t, t^2."""
+    """`Terms` whose divided differences are arrays of coefficients of e^(node t) for NODES, then of 1, t,
+    t^2."""
 
     def __init__(self, body: ChargedBody):
         super().__init__(body, np.zeros(()), modes(body))
@@ -39,8 +43,10 @@ class Coefficients(Terms):
         return {c: self._fractions(names, c) for c in counts}
 
     def _fractions(self, names, counts):
-        """Residues of e^(st) / product of (s - node): the node 0, which comes first, may be there up to four times."""
-        zeros, single = (counts[0], [n for n, c in zip(names[1:], counts[1:]) if c]) if names[0] == "0" else (0, names)
+        """Residues of e^(st) / product of (s - node): the node 0, which comes first, may be there up to four
+        times."""
+        zeros, single = (counts[0],
+                         [n for n, c in zip(names[1:], counts[1:]) if c]) if names[0] == "0" else (0, names)
         out = np.zeros(len(NODES) + POWERS, complex)
         for n in single:
             rest = self.gap(n, "0") ** zeros
@@ -66,10 +72,13 @@ class Coefficients(Terms):
         body, J = self.body, self.J(0, 1, 2)
         D = self._tables("0+-", [(0, 1, 0), (0, 0, 1), (0, 1, 1), (1, 1, 1)])
         C, S, S2 = (D[0, 1, 0] + D[0, 0, 1]) / 2, D[0, 1, 1], D[1, 1, 1]
-        Pi = ((self.p0 + 1j * self.q0) * C + (self.m1 - self.a * self.q0 + 1j * (self.m2 + self.b * self.p0)) * S
+        Pi = ((self.p0 + 1j * self.q0) * C
+              + (self.m1 - self.a * self.q0 + 1j * (self.m2 + self.b * self.p0)) * S
               + (1j * self.b * self.m1 - self.a * self.m2) * S2)
         wheel, Z, away = self._tables("0f", [(1, 1), (2, 1)]), self.Z(1, 2), self.Z(0, start=0.0)[0]
-        found = [Pi, J[0], self.turn * (self.power(0, self.still_momentum()) + self.M * wheel[1, 1] - 1j * body.charge_moment * away)]
+        found = [Pi, J[0],
+                 self.turn * (self.power(0, self.still_momentum()) + self.M * wheel[1, 1]
+                              - 1j * body.charge_moment * away)]
         if body.mass is None:
             return found
         f, f3 = body.force[..., 0] + 1j * body.force[..., 1], body.force[..., 2]
@@ -83,8 +92,8 @@ class Coefficients(Terms):
 
 
 class Fractions:
-    """Rates, angles, momentum and, with a mass, velocity and position, (5 or 3, len(t), 3), at times |t| >= wide, s; start:
-    the same at t = 0, (5 or 3, 3)."""
+    """Rates, angles, momentum and, with a mass, velocity and position, (5 or 3, len(t), 3), at times |t| >=
+    wide, s; start: the same at t = 0, (5 or 3, 3)."""
 
     def __init__(self, body: ChargedBody):
         terms = Coefficients(body)
@@ -95,7 +104,8 @@ class Fractions:
         self.angles = [(terms.nodes[n].imag, terms.low[n].imag) for n in "+f"]
         self.columns = np.stack([column for part in self._columns(terms, body) for column in part], axis=1)
         G = terms.turn * terms.still_momentum()
-        start = [(*body.rates, body.spin), body.attitude, (G.real, G.imag, terms.axial_momentum()), body.velocity, body.position]
+        start = [(*body.rates, body.spin), body.attitude, (G.real, G.imag, terms.axial_momentum()),
+                 body.velocity, body.position]
         self.start = np.array([np.array(row, float) for row in start[:self.columns.shape[1] // 3]])
 
     def _columns(self, terms, body):
@@ -108,7 +118,8 @@ class Fractions:
 
     def __call__(self, t):
         (cw, sw), (cr, sr) = (_turned(*angle, t) for angle in self.angles)
-        basis = (cw, sw, cr, sr, cr * cw - sr * sw, sr * cw + cr * sw, cr * cw + sr * sw, sr * cw - cr * sw, np.ones_like(t), t, t * t)
+        basis = (cw, sw, cr, sr, cr * cw - sr * sw, sr * cw + cr * sw, cr * cw + sr * sw, sr * cw - cr * sw,
+                 np.ones_like(t), t, t * t)
         return np.moveaxis((np.stack(basis, axis=1) @ self.columns).reshape(len(t), -1, 3), 1, 0)
 
 

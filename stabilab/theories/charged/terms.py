@@ -1,16 +1,18 @@
 """The sums of divided differences that make up the motion of the charged axisymmetric body.
 
-Every quantity is a sum of divided differences D of the exponential, regular at every resonance. With w^2 = ab,
-nu+- = r0 +- w, mu = M1/D1 + i M2/D2, Pi = p + iq, k0 = (w - a) q0 + i (b - w) p0 and k1 the same of mu (proof: Laplace
-transform of the linear equations, s/(s^2 + w^2) = 1/(s - iw) - iw/(s^2 + w^2)):
+Every quantity is a sum of divided differences D of the exponential, regular at every resonance. With w^2 =
+ab, nu+- = r0 +- w, mu = M1/D1 + i M2/D2, Pi = p + iq, k0 = (w - a) q0 + i (b - w) p0 and k1 the same of mu
+(proof: Laplace transform of the linear equations, s/(s^2 + w^2) = 1/(s - iw) - iw/(s^2 + w^2)):
 
     n-fold integral of Gamma:            J_n = Gamma0 D[0^n,-ir0] + Pi0 D[0^n,-ir0,iw] + mu D[0^(n+1),-ir0,iw]
                                                + k0 D[0^n,-ir0,iw,-iw] + k1 D[0^(n+1),-ir0,iw,-iw]
-    n-fold integral of e^(ir0t) Gamma:   Z_n = Gamma0 D[0^(n+1)] + Pi0 D[0^(n+1),inu+] + mu D[0^(n+1),ir0,inu+]
+    n-fold integral of e^(ir0t) Gamma:   Z_n = Gamma0 D[0^(n+1)] + Pi0 D[0^(n+1),inu+] + mu
+    D[0^(n+1),ir0,inu+]
                                                + k0 D[0^(n+1),inu+,inu-] + k1 D[0^(n+1),ir0,inu+,inu-]
 
-That suits a near b, where k0 and k1 are small. Where one is much larger, or ab < 0, half of Pi0 and mu goes with -iw:
-s/(s^2 + w^2) = [1/(s - iw) + 1/(s + iw)]/2, and k0 = -a q0 + i b p0, k1 = -a m2 + i b m1 with m1 + i m2 = mu.
+That suits a near b, where k0 and k1 are small. Where one is much larger, or ab < 0, half of Pi0 and mu goes
+with -iw: s/(s^2 + w^2) = [1/(s - iw) + 1/(s + iw)]/2, and k0 = -a q0 + i b p0, k1 = -a m2 + i b m1 with m1 +
+i m2 = mu.
 """
 from __future__ import annotations
 
@@ -37,18 +39,21 @@ class Terms:
         a, b = np.abs(self.a), np.abs(self.b)
         even = m.unstable | (a > LOPSIDED * b) | (b > LOPSIDED * a)
         self.share = np.where(even, 0.5, 1.0)
-        self.above, self.below = (-m.a).where(even, m.root - m.a).value(), m.b.where(even, m.b - m.root).value()
+        self.above, self.below = (-m.a).where(even,
+                                              m.root - m.a).value(), m.b.where(even, m.b - m.root).value()
         self.Gamma0 = body.attitude[..., 0] + 1j * body.attitude[..., 1]
         self.turn = np.exp(1j * body.attitude[..., 2])
 
     def _tables(self, names, counts):
-        return divided_differences([self.nodes[n] for n in names], counts, self.t, [self.low[n] for n in names])
+        return divided_differences([self.nodes[n] for n in names], counts, self.t,
+                                   [self.low[n] for n in names])
 
     def vector(self, *components):
         return np.stack([np.broadcast_to(c, self.shape) for c in components], axis=-1)
 
     def angular_velocity(self):
-        """p, q of the real form: cos(wt), sin(wt)/w and (1 - cos(wt))/w^2 are even in w and real in the unstable band too."""
+        """p, q of the real form: cos(wt), sin(wt)/w and (1 - cos(wt))/w^2 are even in w and real in the
+        unstable band too."""
         plus, minus, S, S2 = ((0, 1, 0), (0, 0, 1), (0, 1, 1), (1, 1, 1))
         D = {c: v.real for c, v in self._tables("0+-", [plus, minus, S, S2]).items()}
         C, S, S2 = (D[plus] + D[minus]) / 2, D[S], D[S2]
@@ -57,23 +62,28 @@ class Terms:
         return self.vector(p, q, self.body.spin)
 
     def _sums(self, names, folds, Gamma0):
-        """The divided differences of each fold with the coefficients Gamma0, Pi0, mu, k0, k1 of the module's formulas."""
+        """The divided differences of each fold with the coefficients Gamma0, Pi0, mu, k0, k1 of the module's
+        formulas."""
         D = self._tables(names, {counts for each in folds.values() for counts in each})
         k0 = self.above * self.q0 + 1j * self.below * self.p0
         k1 = self.above * self.m2 + 1j * self.below * self.m1
         Pi0, mu, rest = self.p0 + 1j * self.q0, self.m1 + 1j * self.m2, 1 - self.share
         factors = (Gamma0, self.share * Pi0, rest * Pi0, self.share * mu, rest * mu, k0, k1)
-        return {n: sum(factor * D[counts] for factor, counts in zip(factors, each)) for n, each in folds.items()}
+        return {n: sum(factor * D[counts] for factor, counts in zip(factors, each)) for n,
+                each in folds.items()}
 
     def J(self, *folds):
         """The n-fold integrals of Gamma, for the n in folds."""
-        counts = {n: ((n, 1, 0, 0), (n, 1, 1, 0), (n, 1, 0, 1), (n + 1, 1, 1, 0), (n + 1, 1, 0, 1), (n, 1, 1, 1), (n + 1, 1, 1, 1))
+        counts = {n: ((n, 1, 0, 0), (n, 1, 1, 0), (n, 1, 0, 1), (n + 1, 1, 1, 0), (n + 1, 1, 0, 1),
+                      (n, 1, 1, 1), (n + 1, 1, 1, 1))
                   for n in folds}
         return self._sums("0b+-", counts, self.Gamma0)
 
     def Z(self, *folds, start=None):
-        """The n-fold integrals of e^(i r0 t) Gamma, for the n in folds; start: another tilt in place of Gamma0."""
-        counts = {n: ((n + 1, 0, 0, 0), (n + 1, 0, 1, 0), (n + 1, 0, 0, 1), (n + 1, 1, 1, 0), (n + 1, 1, 0, 1), (n + 1, 0, 1, 1),
+        """The n-fold integrals of e^(i r0 t) Gamma, for the n in folds; start: another tilt in place of
+        Gamma0."""
+        counts = {n: ((n + 1, 0, 0, 0), (n + 1, 0, 1, 0), (n + 1, 0, 0, 1), (n + 1, 1, 1, 0),
+                      (n + 1, 1, 0, 1), (n + 1, 0, 1, 1),
                       (n + 1, 1, 1, 1)) for n in folds}
         return self._sums("0fhl", counts, self.Gamma0 if start is None else start)
 
@@ -83,9 +93,11 @@ class Terms:
         return self.vector(Gamma.real, Gamma.imag, self.body.attitude[..., 2] + self.body.spin * self.t)
 
     def momentum(self):
-        """From the balance (e^(i theta) (L - i Gamma X))' = e^(i theta) M, in which the charge is the -k of X = H3 - k:
+        """From the balance (e^(i theta) (L - i Gamma X))' = e^(i theta) M, in which the charge is the -k of X
+        = H3 - k:
 
-        G = e^(i theta0) [L0 - i Gamma0 H3 + M D[0,ir0] - i k (Z_0 - Gamma0)],   L = D1 p + i D2 q,   H3 = D3 r0 + lambda3.
+        G = e^(i theta0) [L0 - i Gamma0 H3 + M D[0,ir0] - i k (Z_0 - Gamma0)],   L = D1 p + i D2 q,   H3 = D3
+        r0 + lambda3.
         """
         wheel = self._tables("0f", [(1, 1)])[1, 1]
         away = self.Z(0, start=0.0)[0]  # what the tilt adds to Gamma0 in inertial axes
@@ -120,11 +132,13 @@ class Terms:
 
 
 def _nodes(m, spin):
-    """Nodes by letter and what rounding took from them: 0, + and - for +-iw, f and b for +-ir0, h and l for i nu+-."""
+    """Nodes by letter and what rounding took from them: 0, + and - for +-iw, f and b for +-ir0, h and l for i
+    nu+-."""
     r0 = twofold(spin)
     high, low = ((r0 + m.root).where(~m.unstable, r0), (r0 - m.root).where(~m.unstable, r0))
     w, s = m.root.where(~m.unstable, 0.0), m.root.where(m.unstable, 0.0)
-    both = {"0": (0.0, 0.0), "+": (-s, w), "-": (s, -w), "f": (0.0, r0), "b": (0.0, -r0), "h": (-s, high), "l": (s, low)}
+    both = {"0": (0.0, 0.0), "+": (-s, w), "-": (s, -w), "f": (0.0, r0), "b": (0.0, -r0), "h": (-s, high),
+            "l": (s, low)}
     parts = {name: (twofold(re), twofold(im)) for name, (re, im) in both.items()}
     return ({n: re.high + 1j * im.high for n, (re, im) in parts.items()},
             {n: re.low + 1j * im.low for n, (re, im) in parts.items()})

@@ -1,4 +1,5 @@
-"""How long the small-angle motion of the charged axisymmetric body can be believed, and where it points on average.
+"""How long the small-angle motion of the charged axisymmetric body can be believed, and where it points on
+average.
 
 Where r0, X and w = sqrt(ab) differ from zero and ab > 0 the tilt is a sum of four rotating parts,
 Gamma = steady + coning e^(-i r0 t) + B e^(iwt) + C e^(-iwt), and everything below is read off their sizes.
@@ -17,10 +18,12 @@ SMALL_ANGLE = 0.1  # rad: cos differs from 1 by 0.5 %, and so the linear rates f
 
 @lru_cache(maxsize=64)
 def horizon(body: ChargedBody, small_angle: float = SMALL_ANGLE):
-    """Time in s until which the tilt |Gamma| stays below small_angle (rad), over the batch; inf where it does for ever.
+    """Time in s until which the tilt |Gamma| stays below small_angle (rad), over the batch; inf where it does
+    for ever.
 
-    Root of |Gamma0| + |Pi0| t + |mu| t^2/2 = small_angle: for D1 = D2 a lower bound of the true time (rotation does not
-    lengthen vectors), for D1 near D2 its leading order; from rest sqrt(2 small_angle/|mu|).
+    Root of |Gamma0| + |Pi0| t + |mu| t^2/2 = small_angle: for D1 = D2 a lower bound of the true time
+    (rotation does not lengthen vectors), for D1 near D2 its leading order; from rest sqrt(2
+    small_angle/|mu|).
     """
     room = small_angle - np.hypot(body.attitude[..., 0], body.attitude[..., 1])
     rate = np.hypot(body.rates[..., 0], body.rates[..., 1])
@@ -31,9 +34,11 @@ def horizon(body: ChargedBody, small_angle: float = SMALL_ANGLE):
 
 
 def largest_tilt(body: ChargedBody):
-    """The tilt in rad that the motion never exceeds, over the batch: |steady| + |coning| + |B| + |C|, inf where it grows.
+    """The tilt in rad that the motion never exceeds, over the batch: |steady| + |coning| + |B| + |C|, inf
+    where it grows.
 
-    For D1 = D2 and r0/w irrational the motion comes as near to it as one likes. From rest and for D1 = D2 it is
+    For D1 = D2 and r0/w irrational the motion comes as near to it as one likes. From rest and for D1 = D2 it
+    is
     2 |M/D| / (product of the two smallest among |r0|, |w|, |r0 + w|).
     """
     parts = tilt_parts(body)
@@ -43,20 +48,25 @@ def largest_tilt(body: ChargedBody):
 
 
 def spin_words(body: ChargedBody, omega, t) -> str:
-    """How far the spin r, held at r0, is from constant: D3 r' = (D1 - D2) p q, so |r - r0| <= |D1 - D2| max(p^2 + q^2) |t|/(2 D3)
-    along the rates omega (n, 3) at the times t (n,)."""
+    """How far the spin r, held at r0, is from constant: D3 r' = (D1 - D2) p q, so |r - r0| <= |D1 - D2|
+    max(p^2 + q^2) |t|/(2 D3) along the rates omega (n, 3) at the times t (n,)."""
     D1, D2, D3 = body.inertia
     if D1 == D2:
         return "D1 = D2: r is constant and p, q are those of Euler's equations"
-    change = abs(D1 - D2) / (2 * D3) * float((omega[..., 0]**2 + omega[..., 1]**2).max(initial=0.0)) * float(np.abs(t).max(initial=0.0))
-    return f"r is held at r0; with D1 - D2 = {D1 - D2:.6g} kg m^2 it changes by {change:.2g} rad/s at most over these times, by the model's p and q"
+    change = (abs(D1 - D2) / (2 * D3) * float((omega[..., 0]**2 + omega[..., 1]**2).max(initial=0.0))
+              * float(np.abs(t).max(initial=0.0)))
+    return (
+        f"r is held at r0; with D1 - D2 = {D1 - D2:.6g} kg m^2 it changes by {change:.2g} rad/s at most over "
+        f"these times, by the model's p and q")
 
 
 @dataclass(frozen=True, eq=False)
 class TiltParts:
-    """The complex amplitudes of the tilt (rad) and of p + iq = rate + plus e^(iwt) + minus e^(-iwt) (rad/s), over the batch.
+    """The complex amplitudes of the tilt (rad) and of p + iq = rate + plus e^(iwt) + minus e^(-iwt) (rad/s),
+    over the batch.
 
-    regular: where they exist (elsewhere they are 0); undriven: where p, q and M are zero and only the coning is left.
+    regular: where they exist (elsewhere they are 0); undriven: where p, q and M are zero and only the coning
+    is left.
     """
 
     steady: np.ndarray
@@ -86,7 +96,8 @@ def tilt_parts(body: ChargedBody) -> TiltParts:
     lopsided = (beta * away / one(alpha + w) + np.conj(away)) / (2 * w)
     plus, minus = away + beta * lopsided, -beta * lopsided
     high, low = r0 + w, r0 - w
-    meet = np.where(r0 * w > 0, low, high)  # the one of the two that may be small: XY = -D1 D2 (r0 + w)(r0 - w)
+    # the one of the two that may be small: XY = -D1 D2 (r0 + w)(r0 - w)
+    meet = np.where(r0 * w > 0, low, high)
     meet = np.where(r0 * w == 0, meet, -X * Y / (D1 * D2 * one(np.where(r0 * w > 0, high, low))))
     B = plus / (1j * one(np.where(r0 * w > 0, high, meet)))
     C = np.where(r0 * w > 0, (D1 - D2) * high * lopsided / (2j * X * 1.0 + (X == 0)), minus / (1j * one(low)))

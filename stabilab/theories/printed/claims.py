@@ -51,8 +51,10 @@ ROW_KEYS = {
 }
 
 
-KEYS = dict.fromkeys(("name", "title", "source", "figures", "symbols", "formulas", "definitions", "systems", "conditions", "domain", "row"))
-WORDS = {"equation", "kind", "says", "note", "because", "defines", "residual", "test", "system"}  # of a row: no formulas
+KEYS = dict.fromkeys(("name", "title", "source", "figures", "symbols", "formulas", "definitions", "systems",
+                      "conditions", "domain", "row"))
+# of a row: no formulas
+WORDS = {"equation", "kind", "says", "note", "because", "defines", "residual", "test", "system"}
 NAME = re.compile(r"[A-Za-z_]\w*")
 FOLDER = Path(__file__).parent / "papers"
 
@@ -61,9 +63,10 @@ FOLDER = Path(__file__).parent / "papers"
 class Row:
     """One printed equation or claim.
 
-    equation: its number, or `text-...` for a claim of the text; kind: a key of KINDS; printed, corrected: formulas "left = right" in the
-    paper's notation; where: symbols that stand for expressions in this row (corrected_where: in the corrected one); domain: expressions
-    that are positive; options: what the kind needs; place: file and row, for errors.
+    equation: its number, or `text-...` for a claim of the text; kind: a key of KINDS; printed, corrected:
+    formulas "left = right" in the paper's notation; where: symbols that stand for expressions in this row
+    (corrected_where: in the corrected one); domain: expressions that are positive; options: what the kind
+    needs; place: file and row, for errors.
     """
 
     equation: str
@@ -88,7 +91,8 @@ class Paper:
     symbols: dict = field(repr=False)  # name -> SymPy symbol
     units: dict = field(repr=False)  # name -> words
     definitions: dict = field(repr=False)  # name -> text
-    formulas: dict = field(repr=False)  # name -> text as printed, which stands wherever a row names it; `model = "printed"` evaluates it
+    # name -> text as printed, which stands wherever a row names it; `model = "printed"` evaluates it
+    formulas: dict = field(repr=False)
     systems: dict = field(repr=False)
     conditions: tuple[str, ...] = field(repr=False)
     domain: tuple[str, ...] = field(repr=False)  # expressions that are positive wherever their symbols stand
@@ -101,11 +105,14 @@ def read(path: Path) -> Paper:
     """The paper of a file. InputError with file, row and position for what cannot be read."""
     path, data = Path(path), _data(path)
     symbols, units, formulas, definitions = _vocabulary(data, path.name)
-    rows = tuple(_row(_expanded(row, formulas), n, path.name, symbols) for n, row in enumerate(data.get("row", ()), 1))
+    rows = tuple(_row(_expanded(row, formulas), n, path.name, symbols) for n,
+                 row in enumerate(data.get("row", ()), 1))
     seen: dict = {}
     for row in rows:
         if row.equation in seen:
-            raise InputError(f"{row.place}: equation {row.equation} has a row already ({seen[row.equation]}): give each its own name, as 18-a")
+            raise InputError(
+                f"{row.place}: equation {row.equation} has a row already ({seen[row.equation]}): give each "
+                f"its own name, as 18-a")
         seen[row.equation] = row.place
     paper = Paper(
         data.get("name", path.stem),
@@ -134,7 +141,9 @@ def _formulas(table, symbols, file) -> dict:
     out: dict = {}
     for name, text in table.items():
         if not name.isidentifier() or name in symbols:
-            raise InputError(f"{file}, formulas: {name!r} is {'a symbol already' if name in symbols else 'no name (letters, digits, _)'}")
+            raise InputError(
+                f"{file}, formulas: {name!r} is "
+                f"{'a symbol already' if name in symbols else 'no name (letters, digits, _)'}")
         out[name] = _expanded(text, out)
     return out
 
@@ -159,7 +168,8 @@ def _symbol(name, words):
 
 
 def vocabulary(path: Path) -> tuple[dict, dict, dict]:
-    """(name -> symbol, name -> formula, name -> definition), texts, of a paper's file without its rows. Errors as of `read`."""
+    """(name -> symbol, name -> formula, name -> definition), texts, of a paper's file without its rows.
+    Errors as of `read`."""
     symbols, _, formulas, definitions = _vocabulary(_data(path), Path(path).name)
     return symbols, formulas, definitions
 
@@ -173,7 +183,8 @@ def _data(path):
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         raise InputError(f"{path.name}: no TOML: {error}") from None
     if unknown := set(data) - KEYS.keys():
-        raise InputError(f"{path.name}: unknown keys {', '.join(sorted(unknown))}; known are {', '.join(KEYS)}")
+        raise InputError(
+            f"{path.name}: unknown keys {', '.join(sorted(unknown))}; known are {', '.join(KEYS)}")
     return data
 
 
@@ -193,7 +204,9 @@ def _symbols(table, place):
         unit, _, kind = words.partition(",")
         kind = kind.strip()
         if kind not in ("", "positive", "complex"):
-            raise InputError(f'{place}, symbols "{names}": expected "unit", "unit, positive" or "unit, complex", got "{words}"')
+            raise InputError(
+                f'{place}, symbols "{names}": expected "unit", "unit, positive" or "unit, complex", got '
+                f'"{words}"')
         for name in names.split():
             if not name.isidentifier():
                 raise InputError(f'{place}, symbols: "{name}" is no name (letters, digits, _)')
@@ -210,7 +223,8 @@ def _row(data, number, file, symbols) -> Row:
     if missing:
         raise InputError(f"{place}: a row of kind {kind} needs {', '.join(missing)}")
     if unknown := set(data) - ROW_KEYS:
-        raise InputError(f"{place}: unknown keys {', '.join(sorted(unknown))}; known are {', '.join(sorted(ROW_KEYS))}")
+        raise InputError(
+            f"{place}: unknown keys {', '.join(sorted(unknown))}; known are {', '.join(sorted(ROW_KEYS))}")
     printed, corrected = (_tuple(data.get(key, ())) for key in ("printed", "corrected"))
     where, corrected_where = data.get("where", {}), data.get("corrected_where", {})
     for name in (*where, *corrected_where):
@@ -222,7 +236,8 @@ def _row(data, number, file, symbols) -> Row:
             _located(place, sides, text, symbols)
     for text in (*where.values(), *corrected_where.values(), *_tuple(data.get("domain", ()))):
         _located(place, parse, text, symbols)
-    known = {"equation", "kind", "says", "printed", "corrected", "system", "where", "corrected_where", "domain"}
+    known = {"equation", "kind", "says", "printed", "corrected", "system", "where", "corrected_where",
+             "domain"}
     return Row(
         str(data["equation"]),
         kind,
@@ -259,5 +274,7 @@ def paper(name: str) -> Paper:
     if name.endswith(".toml"):
         return read(Path(name))
     if name not in papers():
-        raise InputError(f"unknown paper {name!r}: known are {', '.join(papers())}; a file of claims of your own ends in .toml (docs/audit.md)")
+        raise InputError(
+            f"unknown paper {name!r}: known are {', '.join(papers())}; a file of claims of your own ends in "
+            f".toml (docs/audit.md)")
     return read(FOLDER / f"{name}.toml")

@@ -44,7 +44,9 @@ class DualNumbers:
         function = getattr(numbers, name, getattr(cmath, name, None))
         if name == "atan2":
             return lambda y, x: self._atan2(y, x)
-        return lambda x: Dual(function(x.value), SLOPES[name](numbers, x.value, function(x.value), x.slope)) if isinstance(x, Dual) else function(x)
+        return lambda x: Dual(function(x.value),
+                              SLOPES[name](numbers, x.value, function(x.value),
+                                           x.slope)) if isinstance(x, Dual) else function(x)
 
     def _atan2(self, y, x):
         (a, da), (b, db) = parts(y), parts(x)
@@ -58,11 +60,14 @@ class DualNumbers:
 
 # name -> derivative, from (numbers, x, f(x), slope of x)
 SLOPES = {
-    "sin": lambda m, x, f, s: m.cos(x) * s, "cos": lambda m, x, f, s: -m.sin(x) * s, "tan": lambda m, x, f, s: (1 + f * f) * s,
+    "sin": lambda m, x, f, s: m.cos(x) * s, "cos": lambda m, x, f, s: -m.sin(x) * s, "tan": lambda m, x, f,
+    s: (1 + f * f) * s,
     "cot": lambda m, x, f, s: -(1 + f * f) * s, "sec": lambda m, x, f, s: f * m.tan(x) * s,
-    "sinh": lambda m, x, f, s: m.cosh(x) * s, "cosh": lambda m, x, f, s: m.sinh(x) * s, "tanh": lambda m, x, f, s: (1 - f * f) * s,
+    "sinh": lambda m, x, f, s: m.cosh(x) * s, "cosh": lambda m, x, f, s: m.sinh(x) * s, "tanh": lambda m, x,
+    f, s: (1 - f * f) * s,
     "exp": lambda m, x, f, s: f * s, "ln": lambda m, x, f, s: s / x, "sqrt": lambda m, x, f, s: s / (2 * f),
-    "asin": lambda m, x, f, s: s / m.sqrt(1 - x * x), "acos": lambda m, x, f, s: -s / m.sqrt(1 - x * x), "atan": lambda m, x, f, s: s / (1 + x * x),
+    "asin": lambda m, x, f, s: s / m.sqrt(1 - x * x), "acos": lambda m, x, f, s: -s / m.sqrt(1 - x * x),
+    "atan": lambda m, x, f, s: s / (1 + x * x),
     "asinh": lambda m, x, f, s: s / m.sqrt(1 + x * x), "atanh": lambda m, x, f, s: s / (1 - x * x),
     "conj": lambda m, x, f, s: m.conj(s), "re": lambda m, x, f, s: m.re(s), "im": lambda m, x, f, s: m.im(s),
     "fabs": lambda m, x, f, s: m.re(m.conj(x) * s) / f, "sign": lambda m, x, f, s: 0 * s,

@@ -1,4 +1,5 @@
-"""Printed formulas as functions of NumPy arrays: what `model = "printed"` draws is what the audit holds against the equations of motion."""
+"""Printed formulas as functions of NumPy arrays: what `model = "printed"` draws is what the audit holds
+against the equations of motion."""
 
 from __future__ import annotations
 
@@ -18,7 +19,8 @@ def printed_formulas(paper: str) -> PrintedFormulas:
 
 
 class PrintedFormulas:
-    """The [formulas] of a paper's file, each called by its name with the values of the symbols that stand in it."""
+    """The [formulas] of a paper's file, each called by its name with the values of the symbols that stand in
+    it."""
 
     def __init__(self, path: Path):
         self.symbols, self.formulas, definitions = vocabulary(path)
@@ -27,7 +29,8 @@ class PrintedFormulas:
         self._made: dict = {}
 
     def __call__(self, name: str, values: dict, **more):
-        """The value of a formula; values, more: symbol name -> number or array, of which it takes those that stand in it. KeyError for one that is missing."""
+        """The value of a formula; values, more: symbol name -> number or array, of which it takes those that
+        stand in it. KeyError for one that is missing."""
         if name not in self._made:
             expression = self._plain(parse(self.formulas[name], self.symbols))
             names = sorted(s.name for s in expression.free_symbols)

@@ -1,4 +1,5 @@
-"""Formulas as people type them, read as SymPy trees: names, numbers, + - * / **, a few functions, nothing that runs code."""
+"""Formulas as people type them, read as SymPy trees: names, numbers, + - * / **, a few functions, nothing
+that runs code."""
 
 from __future__ import annotations
 
@@ -31,7 +32,8 @@ FUNCTIONS = (
     "Abs",
     "sign",
 )
-OPERATORS = ("rate", "diff", "mean", "integral", "at")  # rate(f[, n]) along the motion, diff(f, s), mean(f, angle), integral(f, s, a, b), at(f, s, value)
+# rate(f[, n]) along the motion, diff(f, s), mean(f, angle), integral(f, s, a, b), at(f, s, value)
+OPERATORS = ("rate", "diff", "mean", "integral", "at")
 
 
 class FormulaError(InputError):
@@ -39,7 +41,8 @@ class FormulaError(InputError):
 
 
 def parse(text: str, symbols: dict):
-    """The SymPy expression of one side of a formula. symbols: name -> SymPy symbol. FormulaError names position and cure."""
+    """The SymPy expression of one side of a formula. symbols: name -> SymPy symbol. FormulaError names
+    position and cure."""
     try:
         tree = ast.parse(text.strip(), mode="eval").body
     except SyntaxError as error:
@@ -110,4 +113,5 @@ def _near(name, symbols):
     from difflib import get_close_matches
 
     close = get_close_matches(name, symbols, 3, 0.5)
-    return f" (near it: {', '.join(close)}; declare new ones under [symbols])" if close else " (declare it under [symbols])"
+    return (f" (near it: {', '.join(close)}; declare new ones under [symbols])" if close
+            else " (declare it under [symbols])")

@@ -16,7 +16,8 @@ MEAN_POINTS = 48  # equally spaced angles: exact for harmonics below 48
 
 
 def precise(digits: int):
-    """An mpmath context of its own with so many digits: mpmath's common one has its precision for the whole process."""
+    """An mpmath context of its own with so many digits: mpmath's common one has its precision for the whole
+    process."""
     import mpmath
     numbers = mpmath.MPContext()
     numbers.dps = digits
@@ -30,26 +31,31 @@ class Undefined(Exception):
 class Evaluator:
     """Values of raw formulas at one point.
 
-    numbers: an mpmath context (`mpmath.fp`, or `mpmath.mp` whose digits the caller sets); point: symbol name -> value; bound: symbol
-    name -> SymPy expression it stands for (definitions, `where`); system: whose `rate` the operator asks for, or None. in_numbers: `at`, `mean`
-    and `integral` put numbers in place of their symbol, where else SymPy puts in all that stands for another symbol first: quick for many
-    formulas that share most of their parts, but a division by zero is not cancelled.
+    numbers: an mpmath context (`mpmath.fp`, or `mpmath.mp` whose digits the caller sets); point: symbol name
+    -> value; bound: symbol name -> SymPy expression it stands for (definitions, `where`); system: whose
+    `rate` the operator asks for, or None. in_numbers: `at`, `mean` and `integral` put numbers in place of
+    their symbol, where else SymPy puts in all that stands for another symbol first: quick for many formulas
+    that share most of their parts, but a division by zero is not cancelled.
     """
 
     def __init__(self, numbers, point: dict, bound: dict, system, in_numbers: bool = False):
-        self.numbers, self.point, self.bound, self.system, self.in_numbers = numbers, point, bound, system, in_numbers
+        self.numbers, self.point, self.bound, self.system, self.in_numbers = (numbers, point, bound, system,
+                                                                              in_numbers)
         self.known: dict = {}   # expression -> value
         self._beside: dict = {}  # what differs -> evaluator that has the same but for that
 
     def beside(self, key, make):
-        """The evaluator kept under a key, made where there is none: what it has found once serves the next formula."""
+        """The evaluator kept under a key, made where there is none: what it has found once serves the next
+        formula."""
         if key not in self._beside:
             self._beside[key] = make()
         return self._beside[key]
 
     def moved(self, name, value):
         """The same with another value of one symbol."""
-        return self.beside((name, value), lambda: Evaluator(self.numbers, self.point | {name: value}, self.bound, self.system, True))
+        return self.beside((name, value),
+                           lambda: Evaluator(self.numbers, self.point | {name: value}, self.bound,
+                                             self.system, True))
 
     def __call__(self, expression):
         if expression in self.known:
@@ -111,7 +117,8 @@ class Evaluator:
 
     def carried(self, e):
         """The expression with every rate along the motion carried out."""
-        return e.replace(lambda f: f.func.__name__ == "rate", lambda f: _rate_of(self, f)) if operated(e) else e
+        return (e.replace(lambda f: f.func.__name__ == "rate", lambda f: _rate_of(self, f)) if operated(e)
+                else e)
 
 
 def operated(e) -> bool:
@@ -127,8 +134,10 @@ def _operated(e):
 def _rate_of(evaluator, f):
     if evaluator.system is None:
         raise InputError("rate(...) needs a system: name one in the row")
-    own = {name: e for name, e in evaluator.bound.items() if name not in {x.name for x in evaluator.system.state}}
-    expression = Evaluator(None, {}, own, evaluator.system).plain(f.args[0])  # the state moves by the system, whatever stands for it in the row
+    own = {name: e for name, e in evaluator.bound.items()
+           if name not in {x.name for x in evaluator.system.state}}
+    # the state moves by the system, whatever stands for it in the row
+    expression = Evaluator(None, {}, own, evaluator.system).plain(f.args[0])
     for _ in range(int(f.args[1]) if len(f.args) > 1 else 1):
         expression = evaluator.system.rate(expression)
     return expression
@@ -149,14 +158,17 @@ def _along(evaluator):
     state = {x.name: x for x in evaluator.system.state}
     values = {name: evaluator(x) for name, x in state.items()}
     slopes = dict(zip(state, map(evaluator, evaluator.system.rates)))
-    return _with_slopes(evaluator, {name: e for name, e in evaluator.bound.items() if name not in state}, values, slopes)
+    return _with_slopes(evaluator, {name: e for name, e in evaluator.bound.items() if name not in state},
+                        values, slopes)
 
 
 def _diff(evaluator, f, s, n=1):
     if n != 1 or isinstance(evaluator.numbers, DualNumbers) or operated(f):
         return evaluator(evaluator.plain(f).diff(s, int(n)))
     one = evaluator.numbers.mpf(1)
-    return parts(evaluator.beside(("diff", s.name), lambda: _with_slopes(evaluator, evaluator.bound, {s.name: evaluator(s)}, {s.name: one}))(f))[1]
+    return parts(evaluator.beside(("diff", s.name),
+                                  lambda: _with_slopes(evaluator, evaluator.bound, {s.name: evaluator(s)},
+                                                       {s.name: one}))(f))[1]
 
 
 def _with_slopes(evaluator, bound, values, slopes):
@@ -171,7 +183,8 @@ def _at(evaluator, f, s, value):
             return evaluator.moved(s.name, evaluator(value))(f)
         except Undefined:
             pass  # what SymPy cancels, it may have
-    f = evaluator.plain(f).replace(lambda e: e.func.__name__ == "diff", lambda e: evaluator.plain(e.args[0]).diff(*e.args[1:]))
+    f = evaluator.plain(f).replace(lambda e: e.func.__name__ == "diff",
+                                   lambda e: evaluator.plain(e.args[0]).diff(*e.args[1:]))
     return evaluator(f.subs(s, value))
 
 
@@ -200,9 +213,11 @@ OPERATORS = {"rate": _rate, "diff": _diff, "at": _at, "mean": _mean, "integral":
 
 
 def points(symbols, seed_text: str, count: int, domain, bound: dict, system, fixed: dict | None = None):
-    """`count` random rational points: symbol name -> Fraction (pairs for complex symbols), sizes 1/3 to 3, where every expression of `domain` is positive.
+    """`count` random rational points: symbol name -> Fraction (pairs for complex symbols), sizes 1/3 to 3,
+    where every expression of `domain` is positive.
 
-    fixed: symbol name -> expression of the others (a condition). InputError where the domain is not met in many tries.
+    fixed: symbol name -> expression of the others (a condition). InputError where the domain is not met in
+    many tries.
     """
     import mpmath
 

@@ -1,13 +1,15 @@
-"""Classical Euler angles of a top: precession psi, nutation theta, self-rotation phi, followed through whole turns.
+"""Classical Euler angles of a top: precession psi, nutation theta, self-rotation phi, followed through whole
+turns.
 
 gamma = (sin theta sin phi, sin theta cos phi, cos theta); phi' + psi' cos theta = r, and
 
     psi' = (p gamma + q gamma')/(1 - gamma''^2)
 
-(Amer et al. 2023, fast top: eq. (42) prints 1 - gamma'^2). Where theta is 0 or pi, psi and phi have no values of their
-own, but psi + phi has at theta = 0 and psi - phi at theta = pi. What is integrated is therefore psi + phi where
-gamma'' >= 0 and psi - phi where it is negative, with rates that stay regular there, and psi follows by taking off phi.
-At a sample with sin theta < 1e-8 phi keeps its last value; `status` is then "singular" and `reason` says when.
+(Amer et al. 2023, fast top: eq. (42) prints 1 - gamma'^2). Where theta is 0 or pi, psi and phi have no values
+of their own, but psi + phi has at theta = 0 and psi - phi at theta = pi. What is integrated is therefore psi
++ phi where gamma'' >= 0 and psi - phi where it is negative, with rates that stay regular there, and psi
+follows by taking off phi. At a sample with sin theta < 1e-8 phi keeps its last value; `status` is then
+"singular" and `reason` says when.
 """
 from __future__ import annotations
 
@@ -25,9 +27,9 @@ FINEST = 2**16  # samples of one revolution; a path closer to a pole than they r
 
 @dataclass(frozen=True)
 class EulerAngles:
-    """psi, theta, phi (n,), rad, at t (n,), s; theta in [0, pi], psi and phi unwrapped, psi = psi0 at the first time
-    (for a periodic motion: at t = 0). error: estimated error of psi, rad. status: "regular", "singular" (theta reaches 0
-    or pi), "coarse" (the samples are too far apart for psi); reason: in words."""
+    """psi, theta, phi (n,), rad, at t (n,), s; theta in [0, pi], psi and phi unwrapped, psi = psi0 at the
+    first time (for a periodic motion: at t = 0). error: estimated error of psi, rad. status: "regular",
+    "singular" (theta reaches 0 or pi), "coarse" (the samples are too far apart for psi); reason: in words."""
 
     t: np.ndarray
     psi: np.ndarray
@@ -41,19 +43,23 @@ class EulerAngles:
 def euler_angles(t, omega, gamma, psi0: float = 0.0) -> EulerAngles:
     """Angles along samples of any motion.
 
-    t: (n,) strictly increasing, s; omega: (n, 3) rad/s and gamma: (n, 3), body frame. psi is the integral of its rate
-    through a cubic spline of the samples, so they must resolve the motion (some twenty to a revolution; the error is
-    estimated from every other sample). Raises InputError for arrays of other shapes and for times that do not increase.
+    t: (n,) strictly increasing, s; omega: (n, 3) rad/s and gamma: (n, 3), body frame. psi is the integral of
+    its rate through a cubic spline of the samples, so they must resolve the motion (some twenty to a
+    revolution; the error is estimated from every other sample). Raises InputError for arrays of other shapes
+    and for times that do not increase.
     """
     t, omega, gamma = (np.asarray(x, float) for x in (t, omega, gamma))
     if t.ndim != 1 or not t.size or omega.shape != (t.size, 3) or gamma.shape != (t.size, 3):
-        raise InputError(f"expected t (n,), omega (n, 3), gamma (n, 3); got shapes {t.shape}, {omega.shape}, {gamma.shape}")
+        raise InputError(
+            f"expected t (n,), omega (n, 3), gamma (n, 3); got shapes {t.shape}, {omega.shape}, "
+            f"{gamma.shape}")
     if not (np.diff(t) > 0).all():
         raise InputError("t: expected strictly increasing times")
     gamma = _unit(gamma)
     phi, singular = _phi(t, omega, gamma)
     psi = psi0 + _psi(t, omega, gamma, phi)
-    error = float(np.abs(_psi(t[::2], omega[::2], gamma[::2], phi[::2]) - (psi[::2] - psi0)).max()) / 15 if t.size > 4 else 0.0
+    error = (float(np.abs(_psi(t[::2], omega[::2], gamma[::2], phi[::2]) - (psi[::2] - psi0)).max()) / 15
+             if t.size > 4 else 0.0)
     return EulerAngles(t, psi, _theta(gamma), phi, error, *_verdict(t[singular], error))
 
 
@@ -70,7 +76,8 @@ def _theta(gamma):
 
 def _verdict(times, error):
     if times.size:
-        return "singular", (f"theta is 0 or pi at t = {times[0]:.6g} s: there only the sum (or difference) of psi and phi means "
+        return "singular", (f"theta is 0 or pi at t = {times[0]:.6g} s: there only the sum (or difference) "
+                            f"of psi and phi means "
                             "something; phi keeps its last value")
     if error > COARSE:
         return "coarse", f"the samples are too far apart: psi is known to about {error:.2g} rad"
@@ -98,7 +105,8 @@ def _phi(t, omega, gamma):
     expected = np.diff(t) * (rate[1:] + rate[:-1]) / 2
     step = np.diff(phi)
     # Beside a pole the rate says nothing: there the shorter way round is taken.
-    blind = singular[1:] | singular[:-1] | (np.abs(expected - np.diff(t) * (omega[1:, 2] + omega[:-1, 2]) / 2) > np.pi)
+    blind = (singular[1:] | singular[:-1]
+             | (np.abs(expected - np.diff(t) * (omega[1:, 2] + omega[:-1, 2]) / 2) > np.pi))
     turns = np.where(blind, -np.round(step / (2 * np.pi)), np.round((expected - step) / (2 * np.pi)))
     return phi + 2 * np.pi * np.concatenate([[0.0], np.cumsum(turns)]), singular
 
@@ -161,8 +169,9 @@ def _revolution(motion) -> _Revolution:
 
 
 def periodic_angles(motion, times=None, psi0: float = 0.0) -> EulerAngles:
-    """Angles of a `LindstedtMotion` at its times (or others, s, in any order), psi = psi0 at t = 0; psi is integrated
-    term by term of its Fourier series, so it is as good after a million revolutions as in the first."""
+    """Angles of a `LindstedtMotion` at its times (or others, s, in any order), psi = psi0 at t = 0; psi is
+    integrated term by term of its Fourier series, so it is as good after a million revolutions as in the
+    first."""
     times = motion.t if times is None else np.asarray(times, float)
     if motion.order < 0:
         raise InputError(f"there is no periodic motion to take angles of: {motion.reason}")
@@ -177,10 +186,13 @@ def periodic_angles(motion, times=None, psi0: float = 0.0) -> EulerAngles:
 
 
 def mean_precession(motion) -> float:
-    """Mean of psi' over a period of a `LindstedtMotion`, rad/s. Where theta passes through 0 or pi it is the mean of
-    (psi +- phi)' less that of phi' counted at the samples. Raises InputError where the axis stays within 1e-8 of the vertical."""
+    """Mean of psi' over a period of a `LindstedtMotion`, rad/s. Where theta passes through 0 or pi it is the
+    mean of (psi +- phi)' less that of phi' counted at the samples. Raises InputError where the axis stays
+    within 1e-8 of the vertical."""
     turn = _revolution(motion)
     gamma = _unit(motion.at(turn.s / motion.frequency)[1])
     if (np.hypot(gamma[:, 0], gamma[:, 1]) < SINGULAR).mean() > 0.5:
-        raise InputError("the axis stays within 1e-8 rad of the vertical: psi has no rate of its own there; start further off")
+        raise InputError(
+            "the axis stays within 1e-8 rad of the vertical: psi has no rate of its own there; start "
+            "further off")
     return motion.frequency * (turn.mean - turn.sign * turn.winding / (2 * np.pi))

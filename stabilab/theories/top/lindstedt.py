@@ -1,9 +1,10 @@
 """The fast top's periodic motion in a Newtonian field by the Poincare-Lindstedt expansion, to any order.
 
-The expansion has no free wobble in it (source: Amer et al. 2023, fast top; its first order is printed wrongly, see
-`small_parameter_printed`). A start therefore gives r and gamma at t = 0, and the periodic motion through them says what
-p and q must be; `departure` is how far the given p and q are from that. A start elsewhere wobbles about the periodic
-motion at the frequency Omega r0 with an amplitude of that size, which the expansion leaves out.
+The expansion has no free wobble in it (source: Amer et al. 2023, fast top; its first order is printed
+wrongly, see `small_parameter_printed`). A start therefore gives r and gamma at t = 0, and the periodic motion
+through them says what p and q must be; `departure` is how far the given p and q are from that. A start
+elsewhere wobbles about the periodic motion at the frequency Omega r0 with an amplitude of that size, which
+the expansion leaves out.
 """
 from __future__ import annotations
 
@@ -16,7 +17,9 @@ from .scaling import fast_top
 from .series import Expansion, expand
 
 HIGHEST_ORDER = 24  # the cost grows as the fourth power of the order; double precision is used up long before
-FURTHER = 2  # orders beyond the one asked for, by which it is judged: without l_x, l_y odd ones hold p, q alone, even ones the rest
+# orders beyond the one asked for, by which it is judged: without l_x, l_y odd ones hold p, q alone, even ones
+# the rest
+FURTHER = 2
 NEAR = 0.1  # a divisor Omega - m this small makes the coefficients grow tenfold and more, order by order
 SETTLED = 1e-12  # terms below are rounding, and do not fall any more
 ROUNDING = 1e-14  # of the spin: a departure this small is none
@@ -25,8 +28,8 @@ NEAR_SLACK = 1e-9  # so that a distance of 0.1 itself, rounded, is named
 
 @dataclass(frozen=True)
 class Resonance:
-    """A resonance in reach of the orders asked for: harmonic m, its condition in words, |Omega - m| (for m = 0 the
-    relative distance of C* from A or B)."""
+    """A resonance in reach of the orders asked for: harmonic m, its condition in words, |Omega - m| (for m =
+    0 the relative distance of C* from A or B)."""
 
     harmonic: int
     condition: str
@@ -37,17 +40,19 @@ class Resonance:
 class LindstedtMotion:
     """The periodic motion at the times t (s).
 
-    omega: (n, 3) rad/s, body frame; gamma: (n, 3), of length 1 up to the order's error. order: what was reached;
-    epsilon: the paper's sqrt(M g L |gamma0''|/C)/r0; size: what the expansion is in (see `FastTop.size`); frequency:
-    nu r0, rad/s (with the sign of r0); period: s; Omega2: square of the free wobble's frequency over r0; resonances:
-    those in reach, nearest first; terms: size of each order's term relative to the spin, 0 ... order; ahead: those of the
-    next two orders, where they exist; residual: largest residual over one revolution of the scaled equations (see
-    `small_parameter_series`); departure: (2,) given minus periodic p, q at t = 0, rad/s; left_out: what p, q at t = 0 change
-    by in the next two orders, rad/s (by the residual, where these do not exist).
+    omega: (n, 3) rad/s, body frame; gamma: (n, 3), of length 1 up to the order's error. order: what was
+    reached; epsilon: the paper's sqrt(M g L |gamma0''|/C)/r0; size: what the expansion is in (see
+    `FastTop.size`); frequency: nu r0, rad/s (with the sign of r0); period: s; Omega2: square of the free
+    wobble's frequency over r0; resonances: those in reach, nearest first; terms: size of each order's term
+    relative to the spin, 0 ... order; ahead: those of the next two orders, where they exist; residual:
+    largest residual over one revolution of the scaled equations (see `small_parameter_series`); departure:
+    (2,) given minus periodic p, q at t = 0, rad/s; left_out: what p, q at t = 0 change by in the next two
+    orders, rad/s (by the residual, where these do not exist).
 
-    status: "asymptotic", "near resonance", "unstable" (Omega^2 < 0), "diverging" (the terms do not fall, or the equations
-    of motion are missed by more than the last terms), "resonant" (a divisor is 0: the expansion ends below the order asked
-    for; with order -1 there is no motion at all and the arrays are empty); reason: in words.
+    status: "asymptotic", "near resonance", "unstable" (Omega^2 < 0), "diverging" (the terms do not fall, or
+    the equations of motion are missed by more than the last terms), "resonant" (a divisor is 0: the expansion
+    ends below the order asked for; with order -1 there is no motion at all and the arrays are empty); reason:
+    in words.
     """
 
     t: np.ndarray
@@ -78,11 +83,12 @@ class LindstedtMotion:
 def lindstedt(scene, state, times, order: int = 2) -> LindstedtMotion:
     """The periodic motion of a fast top with r and gamma of `state` at t = 0, expanded to `order`.
 
-    scene: a body with any of gravity, Newtonian field, gyrostat (whatever its direction), spinning about axis 3. state:
-    {"omega": (3,) rad/s, "gamma": (3,) unit vector along the weight}, or the six numbers; its p and q are not free (see
-    the module's text). times: (n,), s, of any sign and order. Nothing is expanded in 1/r0: l_z enters through C* = C +
-    l_z/r0, and A, B are the body's own. A weight along axis 3 (no tilt) and one across it (gamma0'' = 0 or negative) are
-    covered. Raises InputError for other effects, a zero third component of omega, and no whole order from 0 to 24.
+    scene: a body with any of gravity, Newtonian field, gyrostat (whatever its direction), spinning about axis
+    3. state: {"omega": (3,) rad/s, "gamma": (3,) unit vector along the weight}, or the six numbers; its p and
+    q are not free (see the module's text). times: (n,), s, of any sign and order. Nothing is expanded in
+    1/r0: l_z enters through C* = C + l_z/r0, and A, B are the body's own. A weight along axis 3 (no tilt) and
+    one across it (gamma0'' = 0 or negative) are covered. Raises InputError for other effects, a zero third
+    component of omega, and no whole order from 0 to 24.
     """
     if isinstance(order, bool) or not isinstance(order, (int, np.integer)) or not 0 <= order <= HIGHEST_ORDER:
         raise InputError(f"order: expected a whole number from 0 to {HIGHEST_ORDER}, got {order!r}")
@@ -93,7 +99,8 @@ def lindstedt(scene, state, times, order: int = 2) -> LindstedtMotion:
     times = times if exists else times[:0]
     omega, gamma = _evaluate(expansion, r0, times)
     nu = expansion.sums()[0] if exists else 1.0
-    start, better = ((_evaluate(e, r0, np.zeros(1))[0][0, :2] if exists else np.zeros(2)) for e in (expansion, further))
+    start, better = ((_evaluate(e, r0, np.zeros(1))[0][0, :2] if exists else np.zeros(2))
+                     for e in (expansion, further))
     departure = np.array([float(x) for x in top.omega[:2]]) - start
     residual = _residual(top, expansion) if exists else float("inf")
     beyond = further.order > expansion.order
@@ -103,8 +110,10 @@ def lindstedt(scene, state, times, order: int = 2) -> LindstedtMotion:
     if exists:
         wobble = departure - (better - start) if beyond else departure
         reason = "; ".join(filter(None, (reason, _how_far(departure, wobble, left_out, abs(r0), status))))
-    return LindstedtMotion(times, omega, gamma, expansion.order, top.epsilon, top.size, nu * r0, 2 * np.pi / abs(nu * r0),
-                           float(top.Omega2), near, expansion.terms, ahead, residual, departure, left_out, status, reason, r0, expansion)
+    return LindstedtMotion(times, omega, gamma, expansion.order, top.epsilon, top.size, nu * r0,
+                           2 * np.pi / abs(nu * r0),
+                           float(top.Omega2), near, expansion.terms, ahead, residual, departure, left_out,
+                           status, reason, r0, expansion)
 
 
 def times_row(times):
@@ -154,13 +163,15 @@ def _residual(top, expansion) -> float:
 
 def _resonances(top, order) -> tuple[Resonance, ...]:
     """Those within NEAR whose harmonic the orders reach; C* = A and C* = B concern every order."""
-    found = [Resonance(0, f"C* = {name}", abs(float(top.spin / moment - 1))) for name, moment in (("A", top.a), ("B", top.b))]
+    found = [Resonance(0, f"C* = {name}", abs(float(top.spin / moment - 1))) for name,
+             moment in (("A", top.a), ("B", top.b))]
     if top.Omega2 > 0:
         Omega = float(top.Omega2) ** 0.5
         for m in range(1, order + 1):
             # (Omega^2 - m^2)/(Omega + m) keeps the digits of a small distance
             found.append(Resonance(m, _condition(top, m), abs(float(top.Omega2 - m * m)) / (Omega + m)))
-    return tuple(sorted((r for r in found if r.distance <= NEAR * (1 + NEAR_SLACK)), key=lambda r: r.distance))
+    return tuple(sorted((r for r in found if r.distance <= NEAR * (1 + NEAR_SLACK)),
+                        key=lambda r: r.distance))
 
 
 def _condition(top, m) -> str:
@@ -174,39 +185,49 @@ def _verdict(top, expansion, near, order, ahead, residual):
     r0, reasons, status = abs(float(top.r0)), [], "asymptotic"
     if near:
         status = "near resonance"
-        reasons += [f"near the resonance {r.condition} (distance {r.distance:.3g}): its small divisor magnifies the terms"
+        reasons += [f"near the resonance {r.condition} (distance {r.distance:.3g}): its small divisor "
+                    f"magnifies the terms"
                     for r in near if r.distance]
     if words := _diverging(expansion.terms, ahead, residual):
         status = "diverging"
-        reasons.append(f"{words}: the top is not fast enough for this expansion (small parameter {expansion.size:.3g})")
+        reasons.append(
+            f"{words}: the top is not fast enough for this expansion (small parameter {expansion.size:.3g})")
     elif expansion.order >= 0:
-        reasons.append(f"the series misses the equations of motion by {residual:.2g} of the spin, so it may be off by "
+        reasons.append(f"the series misses the equations of motion by {residual:.2g} of the spin, so it may "
+                       f"be off by "
                        f"{2 * np.pi * residual:.2g} after a revolution; its last terms are "
                        f"{', '.join(f'{x:.2g}' for x in expansion.terms[-2:])}")
     if top.Omega2 < 0:
         status = "unstable"
-        reasons.append(f"Omega^2 = {float(top.Omega2):.3g} < 0 (C* lies between A and B): the periodic motion is unstable, "
+        reasons.append(f"Omega^2 = {float(top.Omega2):.3g} < 0 (C* lies between A and B): the periodic "
+                       f"motion is unstable, "
                        f"neighbours leave it at {r0 * abs(float(top.Omega2))**0.5:.3g} 1/s")
     if expansion.stopped is not None:
         status = "resonant"
         what = _condition(top, expansion.stopped) if expansion.stopped else "C* = A or C* = B"
-        end = f"the expansion ends at order {expansion.order}" if expansion.order >= 0 else "there is no periodic motion to start from"
+        end = (f"the expansion ends at order {expansion.order}" if expansion.order >= 0
+               else "there is no periodic motion to start from")
         reasons.append(f"exact resonance ({what}) under a forcing: {end}, order {order} does not exist")
     return status, "; ".join(reasons)
 
 
 def _diverging(terms, ahead, residual) -> str:
-    """Why the series up to these terms is no approximation, "" where it is: what is left out must be smaller than the last
-    terms kept, by the terms of the next two orders and by the residual of the equations of motion."""
+    """Why the series up to these terms is no approximation, "" where it is: what is left out must be smaller
+    than the last terms kept, by the terms of the next two orders and by the residual of the equations of
+    motion."""
     if not terms or (kept := max(terms[-2:])) < SETTLED:
         return ""
     # a term is measured against the two before it: one of them may hold nothing
     if len(terms) > 1 and terms[-1] > 0 and terms[-1] >= max(terms[-3:-1]):
         return f"the terms do not fall ({', '.join(f'{x:.3g}' for x in terms[-3:])})"
     if ahead and max(ahead) > 0 and max(ahead) >= kept:
-        return f"the terms do not fall ({', '.join(f'{x:.3g}' for x in terms[-2:])}, then {', '.join(f'{x:.3g}' for x in ahead)})"
+        return (
+            f"the terms do not fall ({', '.join(f'{x:.3g}' for x in terms[-2:])}, then "
+            f"{', '.join(f'{x:.3g}' for x in ahead)})")
     if residual >= kept:
-        return f"the series misses the equations of motion by {residual:.3g} of the spin, no less than its last terms, {kept:.3g}"
+        return (
+            f"the series misses the equations of motion by {residual:.3g} of the spin, no less than its last "
+            f"terms, {kept:.3g}")
     return ""
 
 
@@ -216,5 +237,9 @@ def _how_far(departure, wobble, left_out, r0, status) -> str:
     if status == "diverging":
         return f"the start's {differ} from a series that does not converge there"
     if float(np.hypot(*wobble)) <= left_out + ROUNDING * r0:
-        return f"the start lies on the periodic motion to within what this order leaves out there, {left_out:.2g} rad/s"
-    return (f"the start is not on the periodic motion: {differ}, a free wobble of that size which the expansion leaves out")
+        return (
+            f"the start lies on the periodic motion to within what this order leaves out there, "
+            f"{left_out:.2g} rad/s")
+    return (
+        f"the start is not on the periodic motion: {differ}, a free wobble of that size which the expansion "
+        f"leaves out")

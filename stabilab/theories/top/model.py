@@ -1,4 +1,5 @@
-"""The periodic motion of a fast top as a model of a case: expanded to any order, and the printed first order."""
+"""The periodic motion of a fast top as a model of a case: expanded to any order, and the printed first order.
+"""
 from __future__ import annotations
 
 from ...answers.simulate import Simulation
@@ -11,9 +12,11 @@ COVERED = {"gravity", "newtonian_field", "gyrostat"}
 
 
 def applies(scene) -> bool:
-    """Whether the expansion covers the scene: gravity or a Newtonian field, a gyrostat perhaps, nothing else."""
+    """Whether the expansion covers the scene: gravity or a Newtonian field, a gyrostat perhaps, nothing else.
+    """
     names = {e.name for e in scene.effects}
-    return names <= COVERED and bool(names & {"gravity", "newtonian_field"}) and "attitude" not in scene.blocks
+    return (names <= COVERED and bool(names & {"gravity", "newtonian_field"})
+            and "attitude" not in scene.blocks)
 
 
 def state_of(case) -> dict:
@@ -32,4 +35,5 @@ def follow(model, case, times, order=None) -> Simulation:
         found = run = lindstedt(case.scene, state, times, ORDER if order is None else order)
         how, reason = f"expansion of order {found.order}", f"{found.status}: {found.reason}"
     reached = "reached" if len(run.t) == len(times) else "stopped"
-    return Simulation(run.t, {"omega": run.omega, "gamma": run.gamma}, model, how, None, status=reached, reason=reason)
+    return Simulation(run.t, {"omega": run.omega, "gamma": run.gamma}, model, how, None, status=reached,
+                      reason=reason)

@@ -1,4 +1,5 @@
-"""Classical Euler angles psi, theta, phi of a run, followed through whole turns however far apart its times are."""
+"""Classical Euler angles psi, theta, phi of a run, followed through whole turns however far apart its times
+are."""
 from __future__ import annotations
 
 from dataclasses import replace
@@ -14,13 +15,16 @@ MOST = 400_000
 
 
 def with_euler_angles(case, run, model: str = "exact", order: int | None = None):
-    """The run with a part "euler", (n, 3), rad: precession psi (0 at t = 0), nutation theta, rotation phi of the weight's
-    direction gamma (Amer et al. 2023, fast top: eq. (42), corrected); its reason says where they are singular.
+    """The run with a part "euler", (n, 3), rad: precession psi (0 at t = 0), nutation theta, rotation phi of
+    the weight's direction gamma (Amer et al. 2023, fast top: eq. (42), corrected); its reason says where they
+    are singular.
 
-    The motion is followed again at times close enough for psi. Raises InputError where the state has no gamma.
+    The motion is followed again at times close enough for psi. Raises InputError where the state has no
+    gamma.
     """
     if "gamma" not in run.state:
-        raise InputError("angles: psi, theta, phi of the vertical need gamma in the state: an effect that asks for it (gravity, "
+        raise InputError("angles: psi, theta, phi of the vertical need gamma in the state: an effect that "
+                         "asks for it (gravity, "
                          "newtonian_field, a charge with angle = \"attitude\"), or vertical in [motion]")
     if not len(run.t):
         return replace(run, state=run.state | {"euler": np.empty((0, 3))})
@@ -33,9 +37,11 @@ def with_euler_angles(case, run, model: str = "exact", order: int | None = None)
 
 
 def angles_along(case, times, model: str = "exact", order: int | None = None) -> EulerAngles:
-    """The angles from 0 to the farthest of the times (n,), s, on both sides of 0 where they lie so; at those times, at 0, and close enough for psi."""
+    """The angles from 0 to the farthest of the times (n,), s, on both sides of 0 where they lie so; at those
+    times, at 0, and close enough for psi."""
     times = np.asarray(times, float)
-    reach, row = float(np.abs(times).max()), np.asarray(follow(case, times, model, order=order).state["omega"])
+    reach, row = float(np.abs(times).max()), np.asarray(follow(case, times, model,
+                                                               order=order).state["omega"])
     fastest = float(np.linalg.norm(np.vstack([row, case.state]), axis=1).max())
     count = int(min(MOST, 2 + np.ceil(reach * fastest * TO_A_TURN / (2 * np.pi))))
     sides = [sign * np.linspace(0.0, reach, count) for sign in (1, -1) if (sign * times > 0).any()]

@@ -20,8 +20,8 @@ UNIT_SLACK = 1e-6  # a vertical given to six decimals counts as a unit vector
 class FastTop:
     """A top turning fast about axis 3, in units of its own spin: time tau = r0 t, rates p/r0, q/r0, r/r0.
 
-    a = A/C, b = B/C; force = M g (centre of mass)/(C r0^2); field = N/r0^2; tilt = (l_x, l_y)/(C r0); wheel = l_z/(C r0).
-    omega: rad/s and gamma: unit vector, the start. All exact.
+    a = A/C, b = B/C; force = M g (centre of mass)/(C r0^2); field = N/r0^2; tilt = (l_x, l_y)/(C r0); wheel =
+    l_z/(C r0). omega: rad/s and gamma: unit vector, the start. All exact.
     """
 
     r0: Fraction
@@ -69,22 +69,27 @@ class FastTop:
 def fast_top(scene, state) -> FastTop:
     """The numbers of a scene and a start.
 
-    state: {"omega": (3,) rad/s, "gamma": (3,) unit vector}, body frame, or the six numbers in a row. Raises InputError
-    where the scene has other effects than gravity, Newtonian field and gyrostat, and for a top without spin.
+    state: {"omega": (3,) rad/s, "gamma": (3,) unit vector}, body frame, or the six numbers in a row. Raises
+    InputError where the scene has other effects than gravity, Newtonian field and gyrostat, and for a top
+    without spin.
     """
     other = [e.name for e in scene.effects if e.name not in COVERED]
     if other or scene.variables != "physical":
-        raise InputError("the expansion of the fast top covers gravity, a Newtonian field and a gyrostat; the scene has "
+        raise InputError("the expansion of the fast top covers gravity, a Newtonian field and a gyrostat; "
+                         "the scene has "
                          f"{', '.join(other) or 'scaled variables'}")
     omega, gamma = _start(state)
     r0 = omega[2]
     if r0 == 0:
-        raise InputError("angular_velocity: the third component is 0; the expansion is about a fast rotation around axis 3")
+        raise InputError(
+            "angular_velocity: the third component is 0; the expansion is about a fast rotation around "
+            "axis 3")
     A, B, C = scene.body.exact
     weight, field = scene.effect("gravity"), scene.effect("newtonian_field")
     arm = weight.exact if weight else (Fraction(0),) * 3
     lx, ly, lz = scene.vector("gyrostat")
-    return FastTop(r0, A / C, B / C, tuple(f / (C * r0**2) for f in arm), (field.exact if field else Fraction(0)) / r0**2,
+    return FastTop(r0, A / C, B / C, tuple(f / (C * r0**2) for f in arm),
+                   (field.exact if field else Fraction(0)) / r0**2,
                    (lx / (C * r0), ly / (C * r0)), lz / (C * r0), omega, gamma)
 
 

@@ -1,17 +1,18 @@
 """The periodic motion of a fast top as a power series in the small parameter, each coefficient a Fourier sum.
 
-With e = `size`, p = e r0 u, q = e r0 v, r = r0 w, s = nu r0 t, a dash for d/ds and hats for quantities over their power
-of e, the Euler-Poisson equations (Amer et al. 2023, fast top: eq. (5), there for gamma/gamma0'') are
+With e = `size`, p = e r0 u, q = e r0 v, r = r0 w, s = nu r0 t, a dash for d/ds and hats for quantities over
+their power of e, the Euler-Poisson equations (Amer et al. 2023, fast top: eq. (5), there for gamma/gamma0'')
+are
 
     nu u' = -(A1 w + l_z/(A r0)) v + w y2/a + e [(F2 g3 - F3 g2)/a + k A1 g2 g3]
     nu v' = -(B1 w - l_z/(B r0)) u - w y1/b + e [(F3 g1 - F1 g3)/b + k B1 g1 g3]
     nu w' = e^2 [-C1 u v + y1 v - y2 u + F1 g2 - F2 g1 + k C1 g1 g2]
     nu G' = -i w G + i e (u + i v) g3,  G = g1 + i g2,        nu g3' = e (v g1 - u g2)
 
-A1 = (C-B)/A, B1 = (A-C)/B, C1 = (B-A)/C, y = tilt, F = force, k = field. At order 0 G turns as exp(-is) and u, v are
-at rest; the kernel of the linear part is the size and phase of G and the means of w and g3, four constants that
-the start gamma, r sets. The harmonic exp(-is) of the order n equation of G settles nu_n; the other three conditions
-of solvability hold by the three integrals (`defect` keeps how well).
+A1 = (C-B)/A, B1 = (A-C)/B, C1 = (B-A)/C, y = tilt, F = force, k = field. At order 0 G turns as exp(-is) and
+u, v are at rest; the kernel of the linear part is the size and phase of G and the means of w and g3, four
+constants that the start gamma, r sets. The harmonic exp(-is) of the order n equation of G settles nu_n; the
+other three conditions of solvability hold by the three integrals (`defect` keeps how well).
 """
 from __future__ import annotations
 
@@ -24,8 +25,10 @@ import numpy as np
 from ...numbers.exact import mpmath_alone
 
 ROUNDED = 3  # digits lost to rounding: a forcing whose share of the largest one lies below the others is none
-# Where the weight's tilt sin(theta0) is below what the first orders add to it, the orders of nu are small differences over the
-# tilt: each order loses that ratio, so they are formed in many digits. A top that needs it for more is not fast.
+# Where the weight's tilt sin(theta0) is below what the first orders add to it, the orders of nu are small
+# differences over the
+# tilt: each order loses that ratio, so they are formed in many digits. A top that needs it for more is not
+# fast.
 SMALL_TILT = 0.5
 LEAST_TILT = 1e-18  # stands for a weight along axis 3 exactly; the series is continuous there
 
@@ -34,10 +37,11 @@ LEAST_TILT = 1e-18  # stands for a weight along axis 3 exactly; the series is co
 class Expansion:
     """Coefficients of the periodic motion.
 
-    nu: (n+1,) orders of the frequency over r0; fields: (n+1, 5, 2K+1) Fourier coefficients -K..K of u, v, w, G, g3 by
-    order (G complex, the others real functions); order: the highest that exists, at most the one asked for, -1 where
-    there is not even a generating motion; stopped: the harmonic m whose divisor Omega^2 - m^2 is 0 under a forcing, or
-    None; defect: largest violation of the conditions of solvability, relative; terms: size of each order's term.
+    nu: (n+1,) orders of the frequency over r0; fields: (n+1, 5, 2K+1) Fourier coefficients -K..K of u, v, w,
+    G, g3 by order (G complex, the others real functions); order: the highest that exists, at most the one
+    asked for, -1 where there is not even a generating motion; stopped: the harmonic m whose divisor Omega^2 -
+    m^2 is 0 under a forcing, or None; defect: largest violation of the conditions of solvability, relative;
+    terms: size of each order's term.
     """
 
     size: float
@@ -60,13 +64,15 @@ def expand(top, order: int) -> Expansion:
     if _nearly_upright(top):
         digits = 30 + 20 * (order + 1)
         with mpmath_alone() as mpmath, mpmath.workdps(digits):
-            return _Solver(top, order, lambda x: mpmath.mpf(x.numerator) / x.denominator, mpmath.mpc, digits).run()
+            return _Solver(top, order, lambda x: mpmath.mpf(x.numerator) / x.denominator, mpmath.mpc,
+                           digits).run()
     return _Solver(top, order, float, complex, 16).run()
 
 
 def _nearly_upright(top) -> bool:
     rest = [float(y / d) if d else 0.0 for y, d in zip(top.tilt, (top.b * top.beta, top.a * top.alpha))]
-    return float(np.hypot(float(top.gamma[0]), float(top.gamma[1]))) < min(SMALL_TILT, top.size + abs(rest[0]) + abs(rest[1]))
+    return (float(np.hypot(float(top.gamma[0]),
+                           float(top.gamma[1]))) < min(SMALL_TILT, top.size + abs(rest[0]) + abs(rest[1])))
 
 
 class _Solver:
@@ -76,7 +82,8 @@ class _Solver:
         self.e = top.size or 1.0
         e = Fraction(self.e)
         self.a, self.b = number(top.a), number(top.b)
-        self.A1, self.B1, self.C1 = (number(x) for x in ((1 - top.b) / top.a, (top.a - 1) / top.b, top.b - top.a))
+        self.A1, self.B1, self.C1 = (number(x)
+                                     for x in ((1 - top.b) / top.a, (top.a - 1) / top.b, top.b - top.a))
         self.alpha, self.beta = number(top.alpha), number(top.beta)
         self.F, self.k = tuple(number(f / e**2) for f in top.force), number(top.field / e**2)
         self.y = tuple(number(y / e) for y in top.tilt)
@@ -99,10 +106,12 @@ class _Solver:
         fields = np.stack([self.u, self.v, self.w, self.G, self.g3], 1)[:keep].astype(complex)
         sizes = tuple(float(np.abs(f * np.array([self.e, self.e, 1, 1, 1])[:, None]).sum(1).max()) * self.e**n
                       for n, f in enumerate(fields))
-        return Expansion(self.e, np.array(self.nu[:keep], float), fields, self.reached, self.stopped, self.defect, sizes)
+        return Expansion(self.e, np.array(self.nu[:keep], float), fields, self.reached, self.stopped,
+                         self.defect, sizes)
 
     def generate(self) -> bool:
-        """Order 0: the weight turns round the top, the spin axis rests beside axis 3 by the tilt of l_x, l_y."""
+        """Order 0: the weight turns round the top, the spin axis rests beside axis 3 by the tilt of l_x, l_y.
+        """
         K, (g1, g2, g3) = self.K, self.exact.gamma
         if (self.exact.beta == 0 and self.exact.tilt[0]) or (self.exact.alpha == 0 and self.exact.tilt[1]):
             self.stopped = 0
@@ -126,8 +135,8 @@ class _Solver:
         self.g2[n] = (self.G[n] - mirrored) / self.complex(0, 2)
 
     def product(self, f, g, n, first=0):
-        """Order n of f g, the orders of f running from `first` on. Order j holds harmonics up to j + 1 only (G; the
-        others up to j), by induction over the products below."""
+        """Order n of f g, the orders of f running from `first` on. Order j holds harmonics up to j + 1 only
+        (G; the others up to j), by induction over the products below."""
         K, total = self.K, self.u[0] * 0
         for j in range(first, n + 1):
             low, high = f[j, K - j - 1:K + j + 2], g[n - j, K - n + j - 1:K + n - j + 2]
@@ -200,7 +209,8 @@ class _Solver:
         return bool(exact) or abs(forcing) <= floor
 
     def weight(self, n):
-        """G and nu of order n: G' + iG = R + i nu_n G_0; the harmonic exp(-is) of the right side must vanish."""
+        """G and nu of order n: G' + iG = R + i nu_n G_0; the harmonic exp(-is) of the right side must vanish.
+        """
         K, i = self.K, self.complex(0, 1)
         turned = self.product(self.u, self.g3, n - 1) + i * self.product(self.v, self.g3, n - 1)
         R = i * turned - i * self.product(self.w, self.G, n, 1) - self.drift(self.G, n)

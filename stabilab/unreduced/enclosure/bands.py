@@ -37,8 +37,8 @@ POINTS = 16  # of a step beyond the one in which the limit may first be reached
 
 @dataclass(frozen=True)
 class Crossing:
-    """low, high: between these times, in the scene's unit, the limit is first reached; high is inf where that was not seen, and surely it
-    is not reached before low.
+    """low, high: between these times, in the scene's unit, the limit is first reached; high is inf where that
+    was not seen, and surely it is not reached before low.
 
     because: what ended the search. steps: validated ones.
    
@@ -50,16 +50,19 @@ class Crossing:
     steps: int
 
 
-def first_crossing(scene, state, limit: float, weights=None, component: int | None = None, t_max: float | None = None,
+def first_crossing(scene, state, limit: float, weights=None, component: int | None = None,
+                   t_max: float | None = None,
                    steps: int | None = None) -> Crossing:
-    """The first time at which the root of the sum of weights_i omega_i^2 (None: of ones, so |omega|), or |omega_component| (0, 1, 2), reaches `limit`.
+    """The first time at which the root of the sum of weights_i omega_i^2 (None: of ones, so |omega|), or
+    |omega_component| (0, 1, 2), reaches `limit`.
 
-    scene, state: as of `run.Course`. t_max: how far to look (None: as far as so many steps reach; these None: as many as take some
-    seconds). Raises InputError for a limit that is not above 0.
+    scene, state: as of `run.Course`. t_max: how far to look (None: as far as so many steps reach; these None:
+    as many as take some seconds). Raises InputError for a limit that is not above 0.
     """
     if not (isinstance(limit, (int, float)) and 0 < limit < math.inf):
         raise InputError(f"limit: expected a number above 0, got {limit!r:.80}")
-    chosen = [float(i == component) for i in range(3)] if component is not None else [1.0] * 3 if weights is None else list(weights)
+    chosen = ([float(i == component) for i in range(3)] if component is not None else [1.0] * 3
+              if weights is None else list(weights))
     end = t_max if t_max is not None else FAR / natural(scene)[1]
     course, search = Course(scene, state, end), _Search(float(limit) ** 2, chosen)
     steps = allowed(course.bits) if steps is None else steps
@@ -67,9 +70,11 @@ def first_crossing(scene, state, limit: float, weights=None, component: int | No
         band = course.advance(end, steps - course.steps, band=True)
         if band is not None and search.found_in(band):
             return Crossing(search.low, search.high, "it is reached between these times", course.steps)
-    words = "it stays below" if search.low is None else "it comes nearer than is known, and is not surely reached"
+    words = ("it stays below" if search.low is None
+             else "it comes nearer than is known, and is not surely reached")
     ended = "" if course.status == kernel.DONE else f" ({WHY[course.status]})"
-    return Crossing(course.t if search.low is None else search.low, math.inf, f"{words} up to t = {course.t:.6g}{ended}", course.steps)
+    return Crossing(course.t if search.low is None else search.low, math.inf,
+                    f"{words} up to t = {course.t:.6g}{ended}", course.steps)
 
 
 class _Search:
@@ -93,7 +98,8 @@ class _Search:
                     continue
                 self.low = max(0.0, _at(begin, end, x) * (1 - 2.0**-50))
                 points = np.minimum(x + 2.0 ** np.arange(-HALVINGS, 1.0), 1.0)
-            reached = np.flatnonzero(np.polynomial.polynomial.polyval(points, rows[i]) - radii[i] >= self.above)
+            reached = np.flatnonzero(np.polynomial.polynomial.polyval(points, rows[i])
+                                     - radii[i] >= self.above)
             if reached.size:
                 self.high = _at(begin, end, float(points[reached[0]])) * (1 + 2.0**-50)
                 return True
@@ -107,11 +113,13 @@ def _at(begin, end, x):
 @lru_cache(maxsize=4)
 def _bernstein(degree: int):
     """(degree + 1, degree + 1): from coefficients of powers of x on [0, 1] to those of Bernstein."""
-    return np.array([[math.comb(i, k) / math.comb(degree, k) if k <= i else 0.0 for k in range(degree + 1)] for i in range(degree + 1)])
+    return np.array([[math.comb(i, k) / math.comb(degree, k) if k <= i else 0.0 for k in range(degree + 1)]
+                     for i in range(degree + 1)])
 
 
 def _first_open(values, over, a, b):
-    """Where the first piece of [a, b] begins that is too short to halve and has a coefficient above -over; None where there is none."""
+    """Where the first piece of [a, b] begins that is too short to halve and has a coefficient above -over;
+    None where there is none."""
     if values.max() + over < 0:
         return None
     if b - a <= 2.0**-HALVINGS:
@@ -127,11 +135,13 @@ def _first_open(values, over, a, b):
 
 @lru_cache(maxsize=1)
 def _to_bernstein():
-    """(PIECES (N + 1), N + 1): powers of x on [0, 1] to Bernstein coefficients on each piece; entries are not negative and at most 1."""
+    """(PIECES (N + 1), N + 1): powers of x on [0, 1] to Bernstein coefficients on each piece; entries are not
+    negative and at most 1."""
     n = kernel.ORDER
     bernstein, rows = _bernstein(n), []
     for piece in range(PIECES):
-        shifted = np.array([[math.comb(k, m) * (piece / PIECES) ** (k - m) / PIECES**m if m <= k else 0.0 for k in range(n + 1)] for m in range(n + 1)])
+        shifted = np.array([[math.comb(k, m) * (piece / PIECES) ** (k - m) / PIECES**m if m <= k else 0.0
+                             for k in range(n + 1)] for m in range(n + 1)])
         rows.append(bernstein @ shifted)
     return np.concatenate(rows)
 
@@ -140,11 +150,13 @@ def ranges(band: Band) -> np.ndarray:
     """(3, 2) least and greatest that each rate may have during the steps of a band."""
     values = band.polynomials @ _to_bernstein().T
     blur = (band.radii + 2.0**-44 * np.abs(band.polynomials).sum(axis=2)) * (1 + 2.0**-30)
-    return np.stack([(values.min(axis=2) - blur).min(axis=0), (values.max(axis=2) + blur).max(axis=0)], axis=1)
+    return np.stack([(values.min(axis=2) - blur).min(axis=0), (values.max(axis=2) + blur).max(axis=0)],
+                    axis=1)
 
 
 def ranges_until(scene, state, t: float, steps: int | None = None) -> np.ndarray | None:
-    """(3, 2) bounds of each rate over [0, t]; None where the steps do not reach. Arguments as of `run.enclose`."""
+    """(3, 2) bounds of each rate over [0, t]; None where the steps do not reach. Arguments as of
+    `run.enclose`."""
     course, out = Course(scene, state, t), np.array([[math.inf, -math.inf]] * 3)
     steps = allowed(course.bits) if steps is None else steps
     while course.status == kernel.GOING and course.steps < steps:

@@ -1,9 +1,9 @@
 """The door of `kernel`, compiled where there is a compiler, and its validated steps with a centre of as many
 bits as are asked for, by python-flint: without a compiler, or farther than doubles reach.
 
-Method, proof and bounds are those of the kernel. The centre and its Taylor coefficients are midpoints of flint's balls; in place of FINE
-stands 2^(20 - bits): a coefficient takes fewer than 4 (N + 10) operations, each within 2^-bits of its size. All else is in doubles, as
-there.
+Method, proof and bounds are those of the kernel. The centre and its Taylor coefficients are midpoints of
+flint's balls; in place of FINE stands 2^(20 - bits): a coefficient takes fewer than 4 (N + 10) operations,
+each within 2^-bits of its size. All else is in doubles, as there.
 """
 from __future__ import annotations
 
@@ -60,10 +60,12 @@ def rows_of(own):
 
 
 def energy_of(own):
-    """(4,) roots of the moments, and the greatest rate at which the root of the sum of D omega^2 grows; zeros for scaled variables."""
+    """(4,) roots of the moments, and the greatest rate at which the root of the sum of D omega^2 grows; zeros
+    for scaled variables."""
     if own.variables == "scaled":
         return np.zeros(4)
-    D, M = (np.array([float(v) for v in vector]) for vector in (own.body.exact, own.vector("constant_torque")))
+    D, M = (np.array([float(v) for v in vector])
+            for vector in (own.body.exact, own.vector("constant_torque")))
     return np.append(np.sqrt(D), sqrt(float((M * M / D).sum())))
 
 
@@ -103,7 +105,8 @@ class DigitSteps:
 
     def _step(self, t, t_end, grain, number, polynomials, radii):
         middle = np.array([float(v) for v in self.centre])
-        quadratic, linear, constant = (float(np.abs(self.floats[rows]).max()) for rows in (slice(0, 1), slice(1, 3), slice(3, 4)))
+        quadratic, linear, constant = (float(np.abs(self.floats[rows]).max())
+                                       for rows in (slice(0, 1), slice(1, 3), slice(3, 4)))
         fastest = max(quadratic * float(np.abs(middle).max()), linear, constant**0.5)
         if not kernel.LEAST < fastest < kernel.MOST:
             return LOST, 0.0
@@ -112,7 +115,8 @@ class DigitSteps:
         a = np.array([[float(v) for v in row] for row in rows])
         V = self._variations(unit, a)
         judged, taken_along, turned, end_of_variations, longest = helpers()
-        error, spread, moved, P, E, M = np.zeros(3), np.zeros(3), np.zeros(3), np.zeros(3), np.zeros((3, 3)), np.empty((3, 3))
+        error, spread, moved, P, E, M = np.zeros(3), np.zeros(3), np.zeros(3), np.zeros(3), np.zeros(
+            (3, 3)), np.empty((3, 3))
         h = longest(a, self.fine * 16) * unit
         for _ in range(HALVINGS):
             h = min(h, t_end - t)
@@ -120,7 +124,8 @@ class DigitSteps:
                 h = float(int(h / grain)) * grain
             if not h > 0:
                 return ENDLESS, 0.0
-            if judged(self.floats, self.energy, self.fine, a, V, self.B, self.rad, h, h / unit, error, spread, moved, E, P):
+            if judged(self.floats, self.energy, self.fine, a, V, self.B, self.rad, h, h / unit, error, spread,
+                      moved, E, P):
                 break
             h *= 0.5
         else:
@@ -142,7 +147,8 @@ class DigitSteps:
         kappa, rho, sigma, m = self.numbers
         for n in range(ORDER):
             products = [sum(map(mul, rows[(i + 1) % 3], rows[(i + 2) % 3][n::-1])) for i in range(3)]
-            new = [kappa[i] * products[i] + rho[i] * rows[(i + 2) % 3][n] + sigma[i] * rows[(i + 1) % 3][n] + (0 if n else m[i]) for i in range(3)]
+            new = [kappa[i] * products[i] + rho[i] * rows[(i + 2) % 3][n] + sigma[i] * rows[(i + 1) % 3][n]
+                   + (0 if n else m[i]) for i in range(3)]
             for row, value in zip(rows, new):
                 row.append((value * unit / (n + 1)).mid())
         return rows

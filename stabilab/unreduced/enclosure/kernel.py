@@ -1,37 +1,44 @@
 """Validated steps of a gyrostat under a constant torque, as straight lines of floats that numba compiles.
 
-The motion w' = f(w), f_i = kappa_i w_j w_k + rho_i w_k + sigma_i w_j + m_i (cyclic), from every start of the set c + B r, |r_i| <= rad_i,
-is enclosed one step h further by a set of the same kind: B goes along with the derivative of the motion, and where its columns become too
-nearly parallel it is made orthogonal (Lohner). The centre c is a sum of two doubles.
+The motion w' = f(w), f_i = kappa_i w_j w_k + rho_i w_k + sigma_i w_j + m_i (cyclic), from every start of the
+set c + B r, |r_i| <= rad_i, is enclosed one step h further by a set of the same kind: B goes along with the
+derivative of the motion, and where its columns become too nearly parallel it is made orthogonal (Lohner). The
+centre c is a sum of two doubles.
 
-A step. p = sum of a_n s^n, n <= N, is the Taylor polynomial of the motion w of the centre as it is computed; its residue is d = p' - f(p).
-Below degree N the residue is rounding alone: the computed coefficients obey the recursion but for FINE times the sum of the sizes of what
-is added up. From degree N on it is what the products of coefficients leave over. With alpha_n = |a_n| h^n, P their sum, and the tails of
-these sums, the integral of |d| over the step is at most
+A step. p = sum of a_n s^n, n <= N, is the Taylor polynomial of the motion w of the centre as it is computed;
+its residue is d = p' - f(p). Below degree N the residue is rounding alone: the computed coefficients obey the
+recursion but for FINE times the sum of the sizes of what is added up. From degree N on it is what the
+products of coefficients leave over. With alpha_n = |a_n| h^n, P their sum, and the tails of these sums, the
+integral of |d| over the step is at most
 
-    h [FINE (|kappa| P_j P_k + |rho| P_k + |sigma| P_j + |m|) + (|kappa| sum over m + n >= N of alpha_j,m alpha_k,n + |rho| alpha_k,N +
-    |sigma| alpha_j,N)/(N + 1)].
+    h [FINE (|kappa| P_j P_k + |rho| P_k + |sigma| P_j + |m|) + (|kappa| sum over m + n >= N of alpha_j,m
+    alpha_k,n + |rho| alpha_k,N + |sigma| alpha_j,N)/(N + 1)].
 
-The error e = w - p obeys e' = A(p) e + (kappa e e) - d, A the derivative of f. Let G = exp(h A+), A+ the matrix of the sizes of A's entries
-for rates of at most S+ = S + margin, where S bounds the rates over the step: by P, or by the energy, since |D^(1/2) w| grows at most at the
-rate |D^(-1/2) M|. By Gronwall's inequality for such (cooperative) systems |e| <= G times the integral of |d|, as long as twice the result
-stays below half the margin. No box has to be guessed, and the step is as long as the polynomial allows: whatever turns gently costs no more
-than a plain integrator's step.
+The error e = w - p obeys e' = A(p) e + (kappa e e) - d, A the derivative of f. Let G = exp(h A+), A+ the
+matrix of the sizes of A's entries for rates of at most S+ = S + margin, where S bounds the rates over the
+step: by P, or by the energy, since |D^(1/2) w| grows at most at the rate |D^(-1/2) M|. By Gronwall's
+inequality for such (cooperative) systems |e| <= G times the integral of |d|, as long as twice the result
+stays below half the margin. No box has to be guessed, and the step is as long as the polynomial allows:
+whatever turns gently costs no more than a plain integrator's step.
 
-The difference u = w(c + B r) - w(c) obeys u' = A(w) u + (kappa u u), so |u| <= G |B| rad =: U as long as U is below half the margin, and it
-is the linear part J B r (J' = A(w) J) up to h G (kappa U U). V = J B is computed in doubles as a polynomial; its residue is bounded as
-above with COARSE, and also by |e|, and Gronwall's inequality bounds its error. The radii are of the size 1e-27 where a motion is not
-sensitive, so doubles are enough for all but the centre.
+The difference u = w(c + B r) - w(c) obeys u' = A(w) u + (kappa u u), so |u| <= G |B| rad =: U as long as U is
+below half the margin, and it is the linear part J B r (J' = A(w) J) up to h G (kappa U U). V = J B is
+computed in doubles as a polynomial; its residue is bounded as above with COARSE, and also by |e|, and
+Gronwall's inequality bounds its error. The radii are of the size 1e-27 where a motion is not sensitive, so
+doubles are enough for all but the centre.
 
 Between the times: |w(c + B r) - p| <= |e| + U, all along the step.
 
-Rounding. Doubles to nearest, no operation fused with another or rearranged (numba without fastmath gives LLVM no leave to; a test holds
-it). A sum of at most N + 1 products of twofold numbers, exact products and sums (Dekker, Knuth) with what they leave gathered in one
-double, errs by less than 2^-93 of the sum of sizes: 4 (N + 1) additions to a corrective sum, each within 2^-53 of a sum of at most (N + 4)
-2^-53 of the sizes. FINE = 2^-92 holds the twofold products with coefficients and the division beside it; scenes' numbers are rounded to two
-doubles (2^-105). COARSE = 2^-44 holds N + 1 products in doubles. Bounds are sums and products of numbers that are not negative, fewer than
-2^20 roundings each: WIDER. TINY, far below all that counts, holds what underflow could take. Everything is in the scene's natural unit, and
-the time of a step's polynomials in a power of two, so that nothing comes near the ends of the range; what does is given up.
+Rounding. Doubles to nearest, no operation fused with another or rearranged (numba without fastmath gives LLVM
+no leave to; a test holds it). A sum of at most N + 1 products of twofold numbers, exact products and sums
+(Dekker, Knuth) with what they leave gathered in one double, errs by less than 2^-93 of the sum of sizes: 4 (N
++ 1) additions to a corrective sum, each within 2^-53 of a sum of at most (N + 4)
+2^-53 of the sizes. FINE = 2^-92 holds the twofold products with coefficients and the division beside it;
+scenes' numbers are rounded to two doubles (2^-105). COARSE = 2^-44 holds N + 1 products in doubles. Bounds
+are sums and products of numbers that are not negative, fewer than
+2^20 roundings each: WIDER. TINY, far below all that counts, holds what underflow could take. Everything is in
+the scene's natural unit, and the time of a step's polynomials in a power of two, so that nothing comes near
+the ends of the range; what does is given up.
 
 All in one file: numba's cache on disk watches no other.
 """
@@ -48,7 +55,8 @@ MARGIN = 2.0**-12
 PARALLEL = 2.0**12  # of directions that are kept: sizes in the product of their matrix with its inverse
 LEAST, MOST = 1e-30, 1e30  # sizes of rates in natural units that are followed
 HALVINGS = 12
-DONE, GOING, LOST, ENDLESS = 0, 1, 2, 3  # at its time; out of steps; the set is too wide; steps below the time's grain
+# at its time; out of steps; the set is too wide; steps below the time's grain
+DONE, GOING, LOST, ENDLESS = 0, 1, 2, 3
 
 
 def exact_sum(x, y):
@@ -92,7 +100,8 @@ def divided(xh, xl, n):
 
 
 def series(numbers, low_numbers, unit, a, low):
-    """Taylor coefficients a + low, (3, N + 1) each, of the motion from a[:, 0] + low[:, 0], in time over `unit` (a power of two)."""
+    """Taylor coefficients a + low, (3, N + 1) each, of the motion from a[:, 0] + low[:, 0], in time over
+    `unit` (a power of two)."""
     high, rest = np.empty((3, ORDER + 1)), np.empty((3, ORDER + 1))
     for i in range(3):
         high[i, 0] = high_part(a[i, 0])
@@ -102,15 +111,18 @@ def series(numbers, low_numbers, unit, a, low):
         for m in range(n + 1):
             k = n - m
             p = a[1, m] * a[2, k]
-            e = ((high[1, m] * high[2, k] - p) + high[1, m] * rest[2, k] + rest[1, m] * high[2, k]) + rest[1, m] * rest[2, k]
+            e = ((high[1, m] * high[2, k] - p) + high[1, m] * rest[2, k]
+                 + rest[1, m] * high[2, k]) + rest[1, m] * rest[2, k]
             s0, f = exact_sum(s0, p)
             c0 += f + (e + (a[1, m] * low[2, k] + low[1, m] * a[2, k]))
             p = a[2, m] * a[0, k]
-            e = ((high[2, m] * high[0, k] - p) + high[2, m] * rest[0, k] + rest[2, m] * high[0, k]) + rest[2, m] * rest[0, k]
+            e = ((high[2, m] * high[0, k] - p) + high[2, m] * rest[0, k]
+                 + rest[2, m] * high[0, k]) + rest[2, m] * rest[0, k]
             s1, f = exact_sum(s1, p)
             c1 += f + (e + (a[2, m] * low[0, k] + low[2, m] * a[0, k]))
             p = a[0, m] * a[1, k]
-            e = ((high[0, m] * high[1, k] - p) + high[0, m] * rest[1, k] + rest[0, m] * high[1, k]) + rest[0, m] * rest[1, k]
+            e = ((high[0, m] * high[1, k] - p) + high[0, m] * rest[1, k]
+                 + rest[0, m] * high[1, k]) + rest[0, m] * rest[1, k]
             s2, f = exact_sum(s2, p)
             c2 += f + (e + (a[0, m] * low[1, k] + low[0, m] * a[1, k]))
         sums, corrections = (s0, s1, s2), (c0, c1, c2)
@@ -145,13 +157,17 @@ def variations(numbers, unit, a, B, V):
                 s1 += x * V[m, k, 1] + y * V[m, j, 1]
                 s2 += x * V[m, k, 2] + y * V[m, j, 2]
             over = unit / (n + 1.0)
-            V[n + 1, i, 0] = (numbers[0, i] * s0 + numbers[1, i] * V[n, k, 0] + numbers[2, i] * V[n, j, 0]) * over
-            V[n + 1, i, 1] = (numbers[0, i] * s1 + numbers[1, i] * V[n, k, 1] + numbers[2, i] * V[n, j, 1]) * over
-            V[n + 1, i, 2] = (numbers[0, i] * s2 + numbers[1, i] * V[n, k, 2] + numbers[2, i] * V[n, j, 2]) * over
+            V[n + 1, i, 0] = (numbers[0, i] * s0 + numbers[1, i] * V[n, k, 0]
+                              + numbers[2, i] * V[n, j, 0]) * over
+            V[n + 1, i, 1] = (numbers[0, i] * s1 + numbers[1, i] * V[n, k, 1]
+                              + numbers[2, i] * V[n, j, 1]) * over
+            V[n + 1, i, 2] = (numbers[0, i] * s2 + numbers[1, i] * V[n, k, 2]
+                              + numbers[2, i] * V[n, j, 2]) * over
 
 
 def longest(a, tolerance):
-    """The step, in the unit of the coefficients, that the last two of them allow: the tail is the tolerance of the state's size."""
+    """The step, in the unit of the coefficients, that the last two of them allow: the tail is the tolerance
+    of the state's size."""
     size = max(abs(a[0, 0]), abs(a[1, 0]), abs(a[2, 0]))
     size = max(size, abs(a[0, 1]), abs(a[1, 1]), abs(a[2, 1])) if size == 0.0 else size
     shortest = 16.0
@@ -208,13 +224,15 @@ def bound_of_flow(M, G):
 
 
 def length_of(x, y, z):
-    """The length of a vector. By products: a power of two is one for the compiler, and need not be for the interpreter."""
+    """The length of a vector. By products: a power of two is one for the compiler, and need not be for the
+    interpreter."""
     return sqrt(x * x + y * y + z * z)
 
 
 def judged(numbers, energy, fine, a, V, B, rad, h, x, error, spread, moved, E, P):
-    """Bounds of one step of length h (x in the unit of the coefficients a, V): |w - p| (error), |u| (spread), what it is beside V's part
-    (moved), the error of each column of V (E), the sums P; True where they hold. fine: what the recursion of a errs by."""
+    """Bounds of one step of length h (x in the unit of the coefficients a, V): |w - p| (error), |u| (spread),
+    what it is beside V's part (moved), the error of each column of V (E), the sums P; True where they hold.
+    fine: what the recursion of a errs by."""
     alpha = np.empty((3, ORDER + 1))
     P[0], P[1], P[2] = 0.0, 0.0, 0.0
     v, vsum, tails = np.empty((3, 3, ORDER + 1)), np.zeros((3, 3)), np.zeros(ORDER + 2)
@@ -262,21 +280,24 @@ def judged(numbers, energy, fine, a, V, B, rad, h, x, error, spread, moved, E, P
         for i in range(3):
             j, k = (i + 1) % 3, (i + 2) % 3
             kappa, rho, sigma = abs(numbers[0, i]), abs(numbers[1, i]), abs(numbers[2, i])
-            rounding = COARSE * (kappa * (P[j] * vsum[k, c] + P[k] * vsum[j, c]) + rho * vsum[k, c] + sigma * vsum[j, c])
+            rounding = (COARSE * (kappa * (P[j] * vsum[k, c] + P[k] * vsum[j, c]) + rho * vsum[k, c]
+                                  + sigma * vsum[j, c]))
             moving = kappa * (error[j] * vsum[k, c] + error[k] * vsum[j, c])
-            tail = kappa * (beyond(alpha[j], v[k, c], tails) + beyond(alpha[k], v[j, c], tails)) + rho * v[k, c, ORDER] + sigma * v[j, c, ORDER]
+            tail = (kappa * (beyond(alpha[j], v[k, c], tails) + beyond(alpha[k], v[j, c], tails))
+                    + rho * v[k, c, ORDER] + sigma * v[j, c, ORDER])
             D[i, c] = h * (rounding + moving + tail / (ORDER + 1)) * WIDER
     for i in range(3):
         moved[i] = (G[i, 0] * quadratic[0] + G[i, 1] * quadratic[1] + G[i, 2] * quadratic[2]) * WIDER
         moved[i] += (error[i] + fine * P[i]) * WIDER + TINY
         for c in range(3):
-            E[i, c] = (G[i, 0] * D[0, c] + G[i, 1] * D[1, c] + G[i, 2] * D[2, c] + COARSE * vsum[i, c]) * WIDER
+            E[i, c] = (G[i, 0] * D[0, c] + G[i, 1] * D[1, c] + G[i, 2] * D[2, c]
+                       + COARSE * vsum[i, c]) * WIDER
     return True
 
 
 def taken_along(M, rest, rad, B):
-    """The set {M r + rest}, |r| <= rad, |rest_i| <= rest, with M's own columns, of length 1, as directions B: nothing is wrapped but `rest`. False, and B
-    and rad as they were, where these are too nearly parallel."""
+    """The set {M r + rest}, |r| <= rad, |rest_i| <= rest, with M's own columns, of length 1, as directions B:
+    nothing is wrapped but `rest`. False, and B and rad as they were, where these are too nearly parallel."""
     N, Y, new = np.empty((3, 3)), np.empty((3, 3)), np.empty(3)
     for c in range(3):
         length = length_of(M[0, c], M[1, c], M[2, c]) + TINY
@@ -318,7 +339,8 @@ def taken_along(M, rest, rad, B):
 
 
 def turned(M, rest, rad, B):
-    """New directions B and radii rad of the set {M r + rest}, |r| <= rad, |rest_i| <= rest: orthogonal, the longest edge first (Lohner)."""
+    """New directions B and radii rad of the set {M r + rest}, |r| <= rad, |rest_i| <= rest: orthogonal, the
+    longest edge first (Lohner)."""
     edges = np.empty(3)
     for c in range(3):
         edges[c] = length_of(M[0, c], M[1, c], M[2, c]) * rad[c]
@@ -391,13 +413,16 @@ def on_grain(length, grain):
     return float(int(length / grain)) * grain
 
 
-def advance(numbers, low_numbers, energy, tolerance, t, t_end, grain, steps, centre, low_centre, B, rad, times, polynomials, radii):
-    """Carry the set on by at most so many steps, or to t_end. numbers, low_numbers: (4, 3) kappa, rho, sigma, m as twofold numbers; energy:
-    (4,) roots of the moments and the growth of |D^(1/2) w|, zeros where there is none; grain: every time is a multiple of it. centre,
-    low_centre, B, rad change in place. Where `times` (n,) is not empty the steps' ends, polynomials (n, 3, N + 1) in (t - start)/h from 0
-    to 1 and radii (n, 3) go there. Returns (status, time, steps)."""
+def advance(numbers, low_numbers, energy, tolerance, t, t_end, grain, steps, centre, low_centre, B, rad,
+            times, polynomials, radii):
+    """Carry the set on by at most so many steps, or to t_end. numbers, low_numbers: (4, 3) kappa, rho, sigma,
+    m as twofold numbers; energy: (4,) roots of the moments and the growth of |D^(1/2) w|, zeros where there
+    is none; grain: every time is a multiple of it. centre, low_centre, B, rad change in place. Where `times`
+    (n,) is not empty the steps' ends, polynomials (n, 3, N + 1) in (t - start)/h from 0 to 1 and radii (n, 3)
+    go there. Returns (status, time, steps)."""
     a, low, V = np.zeros((3, ORDER + 1)), np.zeros((3, ORDER + 1)), np.empty((ORDER + 1, 3, 3))
-    error, spread, moved, P, E, M = np.zeros(3), np.zeros(3), np.zeros(3), np.zeros(3), np.zeros((3, 3)), np.empty((3, 3))
+    error, spread, moved, P, E, M = np.zeros(3), np.zeros(3), np.zeros(3), np.zeros(3), np.zeros(
+        (3, 3)), np.empty((3, 3))
     dense = len(times) > 0
     for number in range(steps):
         if t >= t_end:

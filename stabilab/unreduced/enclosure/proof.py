@@ -1,9 +1,11 @@
-"""A certified spin-up proved: the way from an exact start to the inequality enclosed, and the inequality for every state of the set there.
+"""A certified spin-up proved: the way from an exact start to the inequality enclosed, and the inequality for
+every state of the set there.
 
-The theorem's inequality (`spin_up.certificate`) is tested for the ball that holds the enclosure at the time when it fired. Its test is one
-in doubles, whose rounding is bounded beforehand: forms are exact before the one root, each coefficient comes with a bound of its rounding
-(`spin_up.elimination`), the place of the ball is taken at its worse ends, and every comparison leaves room for the rest. So nothing in the
-answer rests on a run that was not enclosed.
+The theorem's inequality (`spin_up.certificate`) is tested for the ball that holds the enclosure at the time
+when it fired. Its test is one in doubles, whose rounding is bounded beforehand: forms are exact before the
+one root, each coefficient comes with a bound of its rounding (`spin_up.elimination`), the place of the ball
+is taken at its worse ends, and every comparison leaves room for the rest. So nothing in the answer rests on a
+run that was not enclosed.
 """
 from __future__ import annotations
 
@@ -23,15 +25,18 @@ from . import kernel
 from .run import Course, allowed
 
 TRIED, HOPELESS = 512, 16  # steps after which a way that would take so many times what is allowed is given up
-LATER = (1.0, 1.0625, 1.25, 1.5, 2.0)  # times, over that of the certified run, at which the inequality is asked again
+# times, over that of the certified run, at which the inequality is asked again
+LATER = (1.0, 1.0625, 1.25, 1.5, 2.0)
 WIDER = 1 + 2.0**-40
 
 
-def proved(scene, state, found: SpinUp, steps: int | None = None, bits: int | None = None, fast: bool = False, plain: int = 0) -> SpinUp:
-    """The answer of `spin_up` for the motion from a state (three exact numbers: floats at their word, Fractions, decimals in strings), with
-    level "proved" where its way can be enclosed in so many validated steps and the inequality holds for the whole set there; else as it was
-    found, its cause told what hindered. bits, plain: as of `enclosure.run.Course`. fast: ask the inequality by compiled loops, for which the first of an
-    installation waits some seconds: where those that found it have loaded them."""
+def proved(scene, state, found: SpinUp, steps: int | None = None, bits: int | None = None, fast: bool = False,
+           plain: int = 0) -> SpinUp:
+    """The answer of `spin_up` for the motion from a state (three exact numbers: floats at their word,
+    Fractions, decimals in strings), with level "proved" where its way can be enclosed in so many validated
+    steps and the inequality holds for the whole set there; else as it was found, its cause told what
+    hindered. bits, plain: as of `enclosure.run.Course`. fast: ask the inequality by compiled loops, for which
+    the first of an installation waits some seconds: where those that found it have loaded them."""
     if found.level != "certified":
         return found
     before: Any = found.trap  # of a motion off the axes of symmetry
@@ -43,16 +48,23 @@ def proved(scene, state, found: SpinUp, steps: int | None = None, bits: int | No
     for later in LATER:
         reached = way.to(found.t * later, steps)
         if reached is None:
-            return replace(found, cause=f"{found.cause}; not proved: after {way.steps} validated steps, at t = {way.t:.6g}, the way is {way.why}")
+            return replace(found,
+                           cause=f"{found.cause}; not proved: after {way.steps} validated steps, at t = "
+                                 f"{way.t:.6g}, the way is {way.why}")
         middle, near = reached
         constants = test.constants(middle / unit, near / unit * WIDER, fast)
         if constants:
-            trap = Trap(before.field, before.form, before.orders, *constants, unit, way.t)  # type: ignore[call-arg]  # six constants
-            words = found.cause.replace("is certified", "is proved") + f"; the way there is enclosed, within {near:.2g}{rates} at t = {way.t:.6g}"
-            return replace(found, level="proved", trap=trap, t=way.t, state=tuple(middle.tolist()), cause=words)
+            # six constants
+            trap = Trap(before.field, before.form, before.orders, *constants, unit, way.t)  # type: ignore[call-arg]
+            words = (found.cause.replace("is certified", "is proved")
+                     + f"; the way there is enclosed, within {near:.2g}{rates} at t = {way.t:.6g}")
+            return replace(found, level="proved", trap=trap, t=way.t, state=tuple(middle.tolist()),
+                           cause=words)
         if not found.t:
             break
-    return replace(found, cause=f"{found.cause}; not proved: the inequality does not hold for the whole set that is known to hold the state")
+    return replace(found,
+                   cause=f"{found.cause}; not proved: the inequality does not hold for the whole set that is "
+                         f"known to hold the state")
 
 
 class _Way:

@@ -1,8 +1,9 @@
-"""One motion under a constant torque of any direction, enclosed from an exact start: a set at each time, a band between them.
+"""One motion under a constant torque of any direction, enclosed from an exact start: a set at each time, a
+band between them.
 
-The steps are those of `kernel` (compiled) or of `digits` (python-flint, as many bits as are asked for, no compiler). Scenes are taken at
-their exact numbers. Those of a frame of principal axes that is irrational have an error of 2^-240 (`numbers.principal`): each step allows
-the coefficients FINE = 2^-92 of themselves.
+The steps are those of `kernel` (compiled) or of `digits` (python-flint, as many bits as are asked for, no
+compiler). Scenes are taken at their exact numbers. Those of a frame of principal axes that is irrational have
+an error of 2^-240 (`numbers.principal`): each step allows the coefficients FINE = 2^-92 of themselves.
 """
 from __future__ import annotations
 
@@ -21,11 +22,13 @@ from ..spin_up.certificate import natural
 from . import kernel
 from .digits import DigitSteps, advance, energy_of, loaded, rows_of, twofold
 
-STEPS, SLOW_STEPS = 200_000, 2_000  # at most, unless others are asked for: compiled some three seconds, else some ten
+# at most, unless others are asked for: compiled some three seconds, else some ten
+STEPS, SLOW_STEPS = 200_000, 2_000
 CHUNK = 512  # steps kept at a time between which the band is asked for
 TOLERANCE = 2.0**-88  # of a step's tail, beside the state: as small as the rounding of its coefficients
 BITS = 104  # of the compiled steps
-WHY = {kernel.DONE: "enclosed", kernel.GOING: "not finished: the steps allowed were used up", kernel.LOST: "lost: the set has grown too wide to follow",
+WHY = {kernel.DONE: "enclosed", kernel.GOING: "not finished: the steps allowed were used up",
+       kernel.LOST: "lost: the set has grown too wide to follow",
        kernel.ENDLESS: "lost: a step would be below the grain of time"}
 
 
@@ -33,8 +36,9 @@ WHY = {kernel.DONE: "enclosed", kernel.GOING: "not finished: the steps allowed w
 class Band:
     """Where the motion surely is during each of n steps.
 
-    times: (n + 1,) ends, exact doubles; polynomials: (n, 3, N + 1) rates as polynomials in x = (t - times[i])/(times[i + 1] - times[i]), lowest first;
-    radii: (n, 3): at every time of step i each rate is within radii[i] of its polynomial, however exactly that is evaluated.
+    times: (n + 1,) ends, exact doubles; polynomials: (n, 3, N + 1) rates as polynomials in x = (t -
+    times[i])/(times[i + 1] - times[i]), lowest first; radii: (n, 3): at every time of step i each rate is
+    within radii[i] of its polynomial, however exactly that is evaluated.
     """
 
     times: np.ndarray
@@ -42,8 +46,8 @@ class Band:
     radii: np.ndarray
 
     def form(self, weights) -> tuple[np.ndarray, np.ndarray]:
-        """((n, 2 N + 1) polynomials, (n,) radii) of the sum of weights_i omega_i^2 (three numbers, not negative) during each step: ones for |omega|^2, halves
-        of the moments for the energy."""
+        """((n, 2 N + 1) polynomials, (n,) radii) of the sum of weights_i omega_i^2 (three numbers, not
+        negative) during each step: ones for |omega|^2, halves of the moments for the energy."""
         weights = [float(w) for w in weights]
         n, _, m = self.polynomials.shape
         out, radius, size = np.zeros((n, 2 * m - 1)), np.zeros(n), np.abs(self.polynomials).sum(axis=2)
@@ -52,7 +56,8 @@ class Band:
             for k in range(m):
                 out[:, k:k + m] += w * row * row[:, k:k + 1]
             r = self.radii[:, i]
-            radius += w * (r * (2 * size[:, i] + r) + 2.0**-44 * size[:, i] ** 2)  # N + 1 products and three sums to a coefficient, and the weight's rounding
+            # N + 1 products and three sums to a coefficient, and the weight's rounding
+            radius += w * (r * (2 * size[:, i] + r) + 2.0**-44 * size[:, i] ** 2)
         return out, radius * (1 + 2.0**-30)
 
     def at(self, t: float) -> tuple[np.ndarray, np.ndarray]:
@@ -66,7 +71,8 @@ class Band:
         value = np.zeros(3)
         for column in rows.T[::-1]:
             value = value * x + column
-        size = np.abs(rows) @ np.arange(1, rows.shape[1] + 1)  # x is off by less than four roundings, of t - begin (t is any double) and of the quotient
+        # x is off by less than four roundings, of t - begin (t is any double) and of the quotient
+        size = np.abs(rows) @ np.arange(1, rows.shape[1] + 1)
         return value, (self.radii[i] + 2.0**-46 * size) * (1 + 2.0**-30)
 
 
@@ -74,9 +80,10 @@ class Band:
 class Enclosed:
     """The set that surely holds the state at one time.
 
-    t: exact, the scene's unit of time; middle: (3,) rates (rad/s, or x when scaled); rest: (3,), to be added to them: the centre is a sum
-    of two doubles; radius: (3,) each true rate is within it of the centre. steps: so many; status: "enclosed" where t is the time asked
-    for, else "stopped", and reason says why; bands: those of the steps where they were asked for, in order. bits: of the centre.
+    t: exact, the scene's unit of time; middle: (3,) rates (rad/s, or x when scaled); rest: (3,), to be added
+    to them: the centre is a sum of two doubles; radius: (3,) each true rate is within it of the centre.
+    steps: so many; status: "enclosed" where t is the time asked for, else "stopped", and reason says why;
+    bands: those of the steps where they were asked for, in order. bits: of the centre.
     """
 
     t: float
@@ -101,11 +108,13 @@ class Enclosed:
 class Course:
     """A motion followed by validated steps: `advance` carries it on, `now` tells where it is.
 
-    scene: gyrostat and constant torque, physical or scaled; state: three rates at t = 0, each an exact number (a double at its word, a Fraction,
-    a decimal in a string). t_end: the end of what will be asked for; its last binary digit is the grain of time, and every step ends at a whole number of
-    grains, so that times are exact. bits: None for the compiled steps
-    (104 bits, `digits` where numba is not installed), else of python-flint's. plain: so many first ones of the compiled steps are taken by the
-    interpreter unless the compiled code is loaded, to the same bits (powers are those of one library): a motion may be at its end before that is.
+    scene: gyrostat and constant torque, physical or scaled; state: three rates at t = 0, each an exact number
+    (a double at its word, a Fraction, a decimal in a string). t_end: the end of what will be asked for; its
+    last binary digit is the grain of time, and every step ends at a whole number of grains, so that times are
+    exact. bits: None for the compiled steps (104 bits, `digits` where numba is not installed), else of
+    python-flint's. plain: so many first ones of the compiled steps are taken by the interpreter unless the
+    compiled code is loaded, to the same bits (powers are those of one library): a motion may be at its end
+    before that is.
     """
 
     def __init__(self, scene, state, t_end: float, bits: int | None = None, plain: int = 0):
@@ -122,27 +131,32 @@ class Course:
                       else DigitSteps(own, start, self.unit, bits or 128))
 
     def advance(self, t: float, steps: int | None = None, band: bool = False) -> Band | None:
-        """Carry the motion on to the time t (taken down to the grain of time), by at most so many steps, at most CHUNK where the band is asked for.
+        """Carry the motion on to the time t (taken down to the grain of time), by at most so many steps, at
+        most CHUNK where the band is asked for.
 
-        steps: None for as many as take some seconds, those made already counted. Returns the band where it is asked for and a step was made."""
+        steps: None for as many as take some seconds, those made already counted. Returns the band where it is
+        asked for and a step was made."""
         t = min(t * self.unit, self._end)
         t = float(int(t / self._grain)) * self._grain
         steps = max(0, allowed(self.bits) - self.steps) if steps is None else steps
         size = min(steps, CHUNK) if band else 0
         times, polynomials, radii = np.empty(size), np.empty((size, 3, kernel.ORDER + 1)), np.empty((size, 3))
         begun = self.t * self.unit
-        self.status, now, made = self._work.advance(begun, t, self._grain, size or steps, times, polynomials, radii)
+        self.status, now, made = self._work.advance(begun, t, self._grain, size or steps, times, polynomials,
+                                                    radii)
         self.t, self.steps = now / self.unit, self.steps + made
         if not (band and made):
             return None
-        return Band(np.append(begun, times[:made]) / self.unit, polynomials[:made] * self.unit, radii[:made] * self.unit)
+        return Band(np.append(begun, times[:made]) / self.unit, polynomials[:made] * self.unit,
+                    radii[:made] * self.unit)
 
     @property
     def now(self) -> Enclosed:
         """Where the motion is."""
         middle, rest, radius = self._work.box()
         status = "enclosed" if self.status == kernel.DONE else "stopped"
-        return Enclosed(self.t, middle * self.unit, rest * self.unit, radius * self.unit, self.steps, status, WHY[self.status], self.bits)
+        return Enclosed(self.t, middle * self.unit, rest * self.unit, radius * self.unit, self.steps, status,
+                        WHY[self.status], self.bits)
 
     @property
     def bits(self) -> int:
@@ -172,19 +186,23 @@ class Doubles:
             first = min(steps, self.plain)
             kept = [v.copy() for v in (self.centre, self.low_centre, self.B, self.rad)]
             try:
-                status, t, made = self._advance(_plainly, t, t_end, grain, first, times[:first], polynomials[:first], radii[:first])
-            except (ArithmeticError, ValueError):  # what is no number has no whole part here; compiled code goes on
+                status, t, made = self._advance(_plainly, t, t_end, grain, first, times[:first],
+                                                polynomials[:first], radii[:first])
+            except (ArithmeticError,
+                    ValueError):  # what is no number has no whole part here; compiled code goes on
                 self.centre, self.low_centre, self.B, self.rad = kept
                 self.plain = 0
             else:
                 self.plain -= made
                 if status != kernel.GOING or made == steps:
                     return status, t, made
-        status, t, more = self._advance(advance(), t, t_end, grain, steps - made, times[made:], polynomials[made:], radii[made:])
+        status, t, more = self._advance(advance(), t, t_end, grain, steps - made, times[made:],
+                                        polynomials[made:], radii[made:])
         return status, t, made + more
 
     def _advance(self, by, t, t_end, grain, steps, times, polynomials, radii):
-        return by(self.numbers, self.low, self.energy, TOLERANCE, t, t_end, grain, steps, self.centre, self.low_centre, self.B, self.rad,
+        return by(self.numbers, self.low, self.energy, TOLERANCE, t, t_end, grain, steps, self.centre,
+                  self.low_centre, self.B, self.rad,
                   times, polynomials, radii)
 
     def box(self):
@@ -197,11 +215,13 @@ def _plainly(*arguments):
         return kernel.advance(*arguments)
 
 
-def enclose(scene, state, t: float, bits: int | None = None, steps: int | None = None, band: bool = False) -> Enclosed:
-    """The motion from a state enclosed at the time t > 0, by at most so many steps (None: as many as take some seconds). Arguments as of
-    `Course`. band: keep what holds it between the times too.
+def enclose(scene, state, t: float, bits: int | None = None, steps: int | None = None,
+            band: bool = False) -> Enclosed:
+    """The motion from a state enclosed at the time t > 0, by at most so many steps (None: as many as take
+    some seconds). Arguments as of `Course`. band: keep what holds it between the times too.
 
-    Raises InputError for scenes with other effects than wheel and constant torque, and for states and times that are none.
+    Raises InputError for scenes with other effects than wheel and constant torque, and for states and times
+    that are none.
    
     """
     course, bands = Course(scene, state, t, bits), []
@@ -209,5 +229,6 @@ def enclose(scene, state, t: float, bits: int | None = None, steps: int | None =
     while course.status == kernel.GOING and course.steps < steps:
         bands.append(course.advance(t, steps - course.steps, band))
     found = course.now
-    return Enclosed(*(getattr(found, name) for name in ("t", "middle", "rest", "radius", "steps", "status", "reason", "bits")),  # type: ignore[call-arg]  # eight
+    return Enclosed(*(getattr(found, name) for name in ("t", "middle", "rest", "radius", "steps", "status",
+                                                        "reason", "bits")),  # type: ignore[call-arg]  # eight
                     tuple(one for one in bands if one is not None))

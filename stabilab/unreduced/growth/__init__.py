@@ -1,1 +1,2 @@
-"""Endless growth by law: a torque along a principal axis that carries a gyrostatic component along it, too."""
+"""Endless growth by law: a torque along a principal axis that carries a gyrostatic component along it, too.
+"""

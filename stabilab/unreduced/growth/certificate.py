@@ -23,9 +23,11 @@ from ...physics.to_numpy import form, to_numpy
 
 # A certificate counts when its inequality holds by this share of the terms in it: 100 times their rounding.
 CLEARANCE = 2e-14
-# Units of rounding by which a step of the run (a Taylor polynomial of 20 terms) may move the motion: generous, for the boundary is met seldom.
+# Units of rounding by which a step of the run (a Taylor polynomial of 20 terms) may move the motion:
+# generous, for the boundary is met seldom.
 STEP_ROUNDINGS = 64
-# Steps of the search: several seconds where the fate hangs on it, one or two where only the time of release does.
+# Steps of the search: several seconds where the fate hangs on it, one or two where only the time of release
+# does.
 STEP_BUDGET, RELEASE_BUDGET = 5_000_000, 2_000_000
 
 
@@ -42,16 +44,19 @@ class StandardForm:
     def to_standard(self, x):
         """State of the scene -> (u, y2, y3); the shift is added before rounding."""
         i, p, q = self.axes
-        return (float(Fraction(float(x[i])) + self.shift) / self.rates[0], x[p] / self.rates[1], x[q] / self.rates[2])
+        return (float(Fraction(float(x[i])) + self.shift) / self.rates[0], x[p] / self.rates[1],
+                x[q] / self.rates[2])
 
 
 def standard_form(scene) -> StandardForm | None:
-    """The change to standard form, or None where there is none (torque on a middle axis, a gyrostatic component across it,
-    equal moments).
+    """The change to standard form, or None where there is none (torque on a middle axis, a gyrostatic
+    component across it, equal moments).
 
-    x_i' = kappa_i x_p x_q + m,  x_p' = kappa_p x_q (x_i + alpha),  x_q' = kappa_q x_p (x_i + beta): with kappa_i kappa_q > 0 >
-    kappa_p kappa_q the rates r_i^2 = |m|/g, r_p^2 = g |m|/(kappa_i kappa_q), r_q^2 = g |m|/|kappa_i kappa_p|, g^2 = |kappa_p kappa_q|, and
-    the time 1/sqrt(g |m|) bring it to standard form; r_i has the sign of m, r_q that of m kappa_i.
+    x_i' = kappa_i x_p x_q + m,  x_p' = kappa_p x_q (x_i + alpha),  x_q' = kappa_q x_p (x_i + beta): with
+    kappa_i kappa_q > 0 >
+    kappa_p kappa_q the rates r_i^2 = |m|/g, r_p^2 = g |m|/(kappa_i kappa_q), r_q^2 = g |m|/|kappa_i kappa_p|,
+    g^2 = |kappa_p kappa_q|, and the time 1/sqrt(g |m|) bring it to standard form; r_i has the sign of m, r_q
+    that of m kappa_i.
     """
     quadratic = scene.quadratic()
     i = _torque_axis(quadratic)
@@ -72,7 +77,8 @@ def standard_form(scene) -> StandardForm | None:
     r = math.sqrt(m / Fraction(g)) * sign
     rates = (r, math.sqrt(Fraction(g) * m / (kappa[i] * kappa[q])),
              math.sqrt(Fraction(g) * m / abs(kappa[i] * kappa[p])) * sign * (1 if kappa[i] > 0 else -1))
-    return StandardForm(float((alpha[q] - alpha[p]) / Fraction(r)), (i, p, q), rates, (alpha[p] + alpha[q]) / 2,
+    return StandardForm(float((alpha[q] - alpha[p]) / Fraction(r)), (i, p, q), rates,
+                        (alpha[p] + alpha[q]) / 2,
                         1 / math.sqrt(Fraction(g) * m))
 
 
@@ -89,7 +95,8 @@ def growth_law(scene):
         if not mu[0] or mu[1] or mu[2] or a == b:
             return None
         c = b - a
-        return 0, lambda x: float(Fraction(x[1])**2 + Fraction(x[2])**2 - 2 * c * Fraction(x[0])), float(-2 * c * mu[0])
+        return 0, lambda x: float(Fraction(x[1])**2 + Fraction(x[2])**2
+                                  - 2 * c * Fraction(x[0])), float(-2 * c * mu[0])
     D, lam, M = scene.body.exact, scene.vector("gyrostat"), scene.vector("constant_torque")
     i = next((n for n in range(3) if M[n]), None)
     if i is None or any(M[n] for n in range(3) if n != i) or not lam[i]:
@@ -102,7 +109,8 @@ def growth_law(scene):
 
 
 def spin_up_margin(c, y) -> tuple[float, float]:
-    """(margin, size of its terms) of the certificate "spin-up" at y = (u, y2, y3): it holds where margin > 0."""
+    """(margin, size of its terms) of the certificate "spin-up" at y = (u, y2, y3): it holds where margin > 0.
+    """
     phi, P, J = angle_of(c, y)
     bend, depth, tail = P * P / 2, J / 2 * math.sin(phi)**2, c * c / 8 * math.sin(2 * phi)**2
     size = bend + abs(depth) + abs(J) + c * c
@@ -110,12 +118,16 @@ def spin_up_margin(c, y) -> tuple[float, float]:
 
 
 def well_margin(c, y) -> tuple[float, float]:
-    """(margin, size of its terms) of the certificate "well" (c < 0) at y, for the best barrier angle found."""
+    """(margin, size of its terms) of the certificate "well" (c < 0) at y, for the best barrier angle found.
+    """
     phi, P, J = angle_of(c, y)
     p = phi % math.pi
 
     def rise(b):  # V(b) - V(p), differences formed term by term
-        return (p - b) - J / 2 * math.sin(b - p) * math.sin(b + p) + c * c / 8 * math.sin(2 * (b - p)) * math.sin(2 * (b + p))
+        return (p - b) - J / 2 * math.sin(b
+                                          - p) * math.sin(b
+                                                          + p) + c * c / 8 * math.sin(2 * (b - p)) * math.sin(
+                                                              2 * (b + p))
     barrier = _highest(rise, max(p, math.pi - p), J, c)
     return rise(barrier) - P * P / 2, P * P / 2 + abs(J) / 2 + c * c / 8 + math.pi
 
@@ -128,10 +140,13 @@ def angle_of(c, y):
 
 def _highest(rise, low, J, c):
     """An angle in [low, pi] where V is about highest (any angle makes a valid certificate)."""
-    places = [low + (math.pi - low) * n / 48 for n in range(49)] + [math.pi - (math.pi - low) * 4.0**-n for n in range(1, 24)]
+    places = ([low + (math.pi - low) * n / 48 for n in range(49)]
+              + [math.pi - (math.pi - low) * 4.0**-n for n in range(1, 24)])
     b = max(places, key=rise)
     for _ in range(6):  # Newton on V' = -1 - (J/2) sin 2b + (c^2/4) sin 4b, kept only where it climbs
-        slope, bend = -1 - J / 2 * math.sin(2 * b) + c * c / 4 * math.sin(4 * b), -J * math.cos(2 * b) + c * c * math.cos(4 * b)
+        slope, bend = -1 - J / 2 * math.sin(2
+                                            * b) + c * c / 4 * math.sin(4 * b), -J * math.cos(
+                                                2 * b) + c * c * math.cos(4 * b)
         if bend >= 0:
             break
         step = min(max(b - slope / bend, low), math.pi)
@@ -142,8 +157,8 @@ def _highest(rise, low, J, c):
 
 
 def release_estimate(c, J):
-    """When a temporary capture (c > 0) is over. Small c: P' > 0 everywhere once J < 2 (about). Any c: P = 0 needs
-    J = R^2 + c^2 cos 2phi >= -c^2."""
+    """When a temporary capture (c > 0) is over. Small c: P' > 0 everywhere once J < 2 (about). Any c: P = 0
+    needs J = R^2 + c^2 cos 2phi >= -c^2."""
     return max(0.0, (J - 2 if c * c < 2 else J + c * c) / (2 * c))
 
 
@@ -160,7 +175,8 @@ def certificate(c, y) -> str | None:
 
 
 def search_certificate(c, y, t_max):
-    """(certificate or "none", its time, state there, last reversal of the turn, steps): run until one holds."""
+    """(certificate or "none", its time, state there, last reversal of the turn, steps): run until one holds.
+    """
     if found := certificate(c, y):
         return found, 0.0, y, 0.0, 0
     if not math.isfinite(sum(v * v for v in y) * (1 + c * c)):
@@ -179,7 +195,8 @@ def search_certificate(c, y, t_max):
 
 
 def nearest_other(c, y, t_max, name, steps):
-    """The relative change of the state within the run's rounding that leads to another end; None where there is none."""
+    """The relative change of the state within the run's rounding that leads to another end; None where there
+    is none."""
     reach = STEP_ROUNDINGS * 2.0**-52 * (steps + 1)
     length = reach * (max(map(abs, y)) + abs(c))
     for i in range(3):

@@ -1,12 +1,15 @@
 """Extremes of a motion that grows for ever by an exact law.
 
-Pure spin about the torque's axis: the two other components stay 0. Equal moments across it, and no gyrostatic component: the spin grows in
-proportion to time, and the two others turn round their circle faster and faster. Three equal moments: D omega' = lambda x omega + M, so
-with n along lambda, Omega = |lambda|/D and c = lambda x M/|lambda|^2 (lambda x c cancels what of M stands across lambda)
+Pure spin about the torque's axis: the two other components stay 0. Equal moments across it, and no gyrostatic
+component: the spin grows in proportion to time, and the two others turn round their circle faster and faster.
+Three equal moments: D omega' = lambda x omega + M, so with n along lambda, Omega = |lambda|/D and c = lambda
+x M/|lambda|^2 (lambda x c cancels what of M stands across lambda)
 
-    omega = n (s + g t) + c + r(t),   s = n . omega(0),   g = n . M/D,   r(t) = r0 cos(Omega t) + n x r0 sin(Omega t).
+    omega = n (s + g t) + c + r(t),   s = n . omega(0),   g = n . M/D,   r(t) = r0 cos(Omega t) + n x r0
+    sin(Omega t).
 
-These hold for all time; so does, of a spin-up that is certified, the growing component. The rest is over the span of a run.
+These hold for all time; so does, of a spin-up that is certified, the growing component. The rest is over the
+span of a run.
 """
 from __future__ import annotations
 
@@ -29,8 +32,9 @@ FOREVER = "all time"
 
 @dataclass(frozen=True)
 class GrowthExtremes:
-    """box: (3, 2) least and greatest of each component, +-inf where it grows; over: in words, what they are known over; span: length of
-    the run that the finite entries come from, None where no run was needed; whole: whether it came to its end."""
+    """box: (3, 2) least and greatest of each component, +-inf where it grows; over: in words, what they are
+    known over; span: length of the run that the finite entries come from, None where no run was needed;
+    whole: whether it came to its end."""
 
     box: np.ndarray
     over: str
@@ -41,9 +45,9 @@ class GrowthExtremes:
 def captured_extremes(scene, state, answer, span: float | None = None, exact=None) -> GrowthExtremes:
     """The extremes over t >= 0 of a motion whose `CapturedFate` is known.
 
-    span: how long to look for the finite ends (the scene's time; None: as long as the certificate took, and twenty units of the motion). A
-    spin-up is run on to where its growing component can fall no lower than it has: P >= sqrt(2L), and for c > 0 2cu >= -J. exact: the
-    state as it was given (Fractions).
+    span: how long to look for the finite ends (the scene's time; None: as long as the certificate took, and
+    twenty units of the motion). A spin-up is run on to where its growing component can fall no lower than it
+    has: P >= sqrt(2L), and for c > 0 2cu >= -J. exact: the state as it was given (Fractions).
     """
     known = law_extremes(scene, exact or state, answer.certificate)
     if known is not None:
@@ -58,17 +62,20 @@ def captured_extremes(scene, state, answer, span: float | None = None, exact=Non
         return GrowthExtremes(box, over, roots.t_reached, whole)
     if answer.certificate in ("spin-up", "bound", "well"):
         box[answer.axis - 1, 1 if answer.sense > 0 else 0] = answer.sense * np.inf
-        over = f"axis {answer.axis} for all time, the others over {over}" if certain else f"finite entries over {over}"
+        over = (f"axis {answer.axis} for all time, the others over {over}" if certain
+                else f"finite entries over {over}")
     return GrowthExtremes(box, over, roots.t_reached, whole)
 
 
 def _run_to_floor(scene, state, change, answer, span):
-    """(roots of the rates over the span, or further where that makes the growing component's finite end certain; whether it is)."""
+    """(roots of the rates over the span, or further where that makes the growing component's finite end
+    certain; whether it is)."""
     roots = longer = roots_of_rates(scene, state, span)
     while answer.certificate in ("spin-up", "bound") and span > 0:
         if _floor_holds(change, longer):
             return longer, True
-        if answer.certificate == "bound" or longer.reason or max(longer.steps, answer.steps) >= EXTREMES_BUDGET:
+        if answer.certificate == "bound" or longer.reason or max(longer.steps,
+                                                                 answer.steps) >= EXTREMES_BUDGET:
             break
         span = max(1.5 * span, answer.t_certificate)
         longer = roots_of_rates(scene, state, span)
@@ -76,9 +83,11 @@ def _run_to_floor(scene, state, change, answer, span):
 
 
 def _floor_holds(change, roots):
-    """Whether u can fall no lower after the run than it did in it: u >= sqrt(2L) - |c|/2, L growing (`growth`), or u >= -J/2c, J falling."""
+    """Whether u can fall no lower after the run than it did in it: u >= sqrt(2L) - |c|/2, L growing
+    (`growth`), or u >= -J/2c, J falling."""
     c, i = change.c, change.axes[0]
-    least = min(change.to_standard(x.tolist())[0] for x in (roots.start, roots.end, *roots.states[roots.component == i]))
+    least = min(change.to_standard(x.tolist())[0]
+                for x in (roots.start, roots.end, *roots.states[roots.component == i]))
     end = change.to_standard(roots.end.tolist())
     margin, _ = spin_up_margin(c, end)
     if margin > 0 and math.sqrt(2 * (margin + c * c / 2)) - abs(c) / 2 >= least:
@@ -90,9 +99,11 @@ def _floor_holds(change, roots):
 
 
 def law_extremes(scene, state, certificate, bits: int | None = None):
-    """((least, greatest),) * 3 over t >= 0 as balls, floats where infinite, of a motion known by the certificate "axis" or "law"; None for others.
+    """((least, greatest),) * 3 over t >= 0 as balls, floats where infinite, of a motion known by the
+    certificate "axis" or "law"; None for others.
 
-    state: three floats or Fractions, taken exactly. bits: how narrow the balls are against each component's size; None: as doubles need.
+    state: three floats or Fractions, taken exactly. bits: how narrow the balls are against each component's
+    size; None: as doubles need.
     """
     if certificate not in ("axis", "law"):
         return None
@@ -101,7 +112,8 @@ def law_extremes(scene, state, certificate, bits: int | None = None):
     across = form.rho[i] or form.sigma[i]  # a gyrostatic component across the torque: three equal moments
 
     def question(numbers):
-        pairs = [_drifting(scene, x, a, numbers) for a in range(3)] if across else _about_axis(form, x, i, numbers)
+        pairs = ([_drifting(scene, x, a, numbers) for a in range(3)] if across
+                 else _about_axis(form, x, i, numbers))
         certain = bits or CERTAIN_BITS
         if not all(_narrow(pair, certain) for pair in pairs):
             raise Unclear
@@ -124,12 +136,14 @@ def _about_axis(form, x, i, numbers):
 
 
 def _growing(least, way):
-    """The pair of a component that grows without bound in one direction, `least` being how far it goes in the other."""
+    """The pair of a component that grows without bound in one direction, `least` being how far it goes in the
+    other."""
     return (least, math.inf) if way > 0 else (-math.inf, least)
 
 
 def _drifting(scene, x, a, numbers):
-    """Component a of a turn about lambda with a drift along it: x + v t + r0 (cos - 1) + q sin, of Omega t (see the module text)."""
+    """Component a of a turn about lambda with a drift along it: x + v t + r0 (cos - 1) + q sin, of Omega t
+    (see the module text)."""
     D, lam, M = scene.body.exact[0], scene.vector("gyrostat"), scene.vector("constant_torque")
     square = sum(v * v for v in lam)
     along, torque = (sum(p * q for p, q in zip(lam, v)) for v in (x, M))
@@ -147,9 +161,11 @@ def _drifting(scene, x, a, numbers):
 
 
 def _least(here, v, r0, turned, pace, swing, square, D, numbers):
-    """The least of here + v t + r0 (cos - 1) + q sin of Omega t over t >= 0, v > 0: at the start, or at the first of its minima after it.
+    """The least of here + v t + r0 (cos - 1) + q sin of Omega t over t >= 0, v > 0: at the start, or at the
+    first of its minima after it.
 
-    r0 cos + q sin = A sin(Omega t + phi); the slope v + Omega A cos vanishes on its way up where sin = -sqrt(1 - (v/Omega A)^2).
+    r0 cos + q sin = A sin(Omega t + phi); the slope v + Omega A cos vanishes on its way up where sin =
+    -sqrt(1 - (v/Omega A)^2).
     """
     falls = square * swing - (v * D) ** 2  # (Omega A)^2 - v^2, times D^2
     if falls <= 0 or (not pace and r0 <= 0):

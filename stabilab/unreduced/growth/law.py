@@ -1,7 +1,7 @@
 """Endless growth: a torque along a principal axis that carries a gyrostatic component along it, too.
 
-Law (any lambda): (|H|^2/2 - D_i T)' = lambda_i M_i, so there is no equilibrium and no bounded motion. What remains to be decided is about
-which axis the body spins up.
+Law (any lambda): (|H|^2/2 - D_i T)' = lambda_i M_i, so there is no equilibrium and no bounded motion. What
+remains to be decided is about which axis the body spins up.
 
 Standard form (torque on the major or minor axis i, no gyrostatic component across it; `standard_form`):
 
@@ -9,15 +9,18 @@ Standard form (torque on the major or minor axis i, no gyrostatic component acro
 
 and with phi = atan2(y3, y2), P = phi' = u + (c/2) cos 2phi:
 
-    P' = -dV/dphi,   V(phi, J) = -phi - (J/2) sin^2 phi + (c^2/8) sin^2 2phi,   E = P^2/2 + V,   E' = c sin^2 phi.
+    P' = -dV/dphi,   V(phi, J) = -phi - (J/2) sin^2 phi + (c^2/8) sin^2 2phi,   E = P^2/2 + V,   E' = c sin^2
+    phi.
 
-y2 = y3 = 0 stays so: spin-up. c > 0: every motion spins up about axis i; only its release from a temporary capture is left to observe.
-Certificate "spin-up" (any c): P > 0 and E + phi + min(J, 0)/2 - c^2/8 > c^2/2; for c > 0 also J < -c^2. Certificate "well" (c < 0):
-phi mod pi inside (pi - phi_b, phi_b) with E < V(phi_b, J) for one phi_b in [pi/2, pi]; the motion then grows about axis 3 of the form, like
-the root of time. Once one holds it holds for ever, so it may be looked for at any later time. Proofs: docs/mathematics/spin-up.md.
+y2 = y3 = 0 stays so: spin-up. c > 0: every motion spins up about axis i; only its release from a temporary
+capture is left to observe. Certificate "spin-up" (any c): P > 0 and E + phi + min(J, 0)/2 - c^2/8 > c^2/2;
+for c > 0 also J < -c^2. Certificate "well" (c < 0): phi mod pi inside (pi - phi_b, phi_b) with E < V(phi_b,
+J) for one phi_b in [pi/2, pi]; the motion then grows about axis 3 of the form, like the root of time. Once
+one holds it holds for ever, so it may be looked for at any later time. Proofs: docs/mathematics/spin-up.md.
 
-For c < 0 the end of the run that led there decides, and its rounding could carry a motion over the boundary between the two; so six
-neighbours, as far away as that rounding could at most have moved it, must end alike, else the answer is "undecided".
+For c < 0 the end of the run that led there decides, and its rounding could carry a motion over the boundary
+between the two; so six neighbours, as far away as that rounding could at most have moved it, must end alike,
+else the answer is "undecided".
 """
 from __future__ import annotations
 
@@ -38,25 +41,34 @@ from ...physics.coefficients import three_floats
 from ...physics.states import three_numbers
 from ..evidence import growth as seen_growth
 from ..evidence import seen_over, span_needed
-from .certificate import angle_of, growth_law, nearest_other, release_estimate, search_certificate, standard_form
+from .certificate import (
+    angle_of,
+    growth_law,
+    nearest_other,
+    release_estimate,
+    search_certificate,
+    standard_form,
+)
 from .extremes import captured_extremes
 
 # How long to look where the caller names no time, in the motion's own unit 1/sqrt(g |m|).
 PATIENCE = 1e6
 # How well the axis is known by each kind of certificate; that the motion is unbounded is exact.
-LEVEL = {"axis": "exact", "law": "exact", "bound": "exact", "spin-up": "certified", "well": "certified", "evidence": "run"}
+LEVEL = {"axis": "exact", "law": "exact", "bound": "exact", "spin-up": "certified", "well": "certified",
+         "evidence": "run"}
 
 
 @dataclass(frozen=True)
 class CapturedFate:
     """What becomes of a motion that no bound holds.
 
-    axis, sense: 1, 2, 3 and +-1 of the spin-up (0 where unclear). J0, J_rate: the law J = J0 + J_rate t at the state, in
-    the scene's variables (|H|^2/2 - D_i T; x2^2 + x3^2 - 2(b-a) x1 when scaled). release_time: last reversal of the
-    turn about axis i, after which it spins up for ever (0: there is none; None: captured for ever, or not run to it);
-    release_estimate: about when the barrier will have vanished at the latest (None where no capture was
-    seen or it lasts for ever). certificate: "bound", "spin-up",
-    "well", "axis", "law", "evidence" or "none"; t_certificate: time at which it was found to hold; times in the scene's unit.
+    axis, sense: 1, 2, 3 and +-1 of the spin-up (0 where unclear). J0, J_rate: the law J = J0 + J_rate t at
+    the state, in the scene's variables (|H|^2/2 - D_i T; x2^2 + x3^2 - 2(b-a) x1 when scaled). release_time:
+    last reversal of the turn about axis i, after which it spins up for ever (0: there is none; None: captured
+    for ever, or not run to it); release_estimate: about when the barrier will have vanished at the latest
+    (None where no capture was seen or it lasts for ever). certificate: "bound", "spin-up",
+    "well", "axis", "law", "evidence" or "none"; t_certificate: time at which it was found to hold; times in
+    the scene's unit.
     """
 
     fate: Fate
@@ -73,39 +85,47 @@ class CapturedFate:
 
 
 def captured_fate(scene, state, t_max: float | None = None, exact=None) -> CapturedFate:
-    """Which axis the motion from `state` (three numbers, the scene's variables) spins up about, and when it is released.
+    """Which axis the motion from `state` (three numbers, the scene's variables) spins up about, and when it
+    is released.
 
-    t_max: how long to look for a certificate, in the scene's time (None: a million of the motion's own units). exact: the state as
-    it was given (Fractions), which decides whether it is a pure spin. Raises InputError for a scene whose torque is not along one
-    principal axis with a gyrostatic component along it.
+    t_max: how long to look for a certificate, in the scene's time (None: a million of the motion's own
+    units). exact: the state as it was given (Fractions), which decides whether it is a pure spin. Raises
+    InputError for a scene whose torque is not along one principal axis with a gyrostatic component along it.
     """
     state = tuple(three_numbers(state).tolist())
     try:
         law = growth_law(scene)
         start = None if law is None else law[1](state)
     except OverflowError:
-        raise InputError("state: the squares of rates this large, or of moments, are beyond the largest double: choose other units") from None
+        raise InputError(
+            "state: the squares of rates this large, or of moments, are beyond the largest double: choose "
+            "other units") from None
     if law is None:
-        raise InputError("capture needs a torque along one principal axis and a gyrostatic component along that axis; "
+        raise InputError("capture needs a torque along one principal axis and a gyrostatic component along "
+                         "that axis; "
                          "this scene is for the reduction or for the torque off the axes")
     axis, _, rate = law
     if _is_pure_spin(scene.quadratic(), axis, exact or state):
         return CapturedFate(J0=start, J_rate=rate, **_pure_spin(scene.quadratic(), axis))
     change = standard_form(scene)
-    answer = _by_certificate(change, change.to_standard(state), t_max) if change else _without_form(scene, state, axis, t_max)
+    answer = (_by_certificate(change, change.to_standard(state), t_max) if change
+              else _without_form(scene, state, axis, t_max))
     return CapturedFate(J0=start, J_rate=rate, **answer)
 
 
 def _is_pure_spin(form, i, x) -> bool:
-    """Whether nothing turns but the torque's axis and, with no gyrostatic component across it, nothing else ever will."""
+    """Whether nothing turns but the torque's axis and, with no gyrostatic component across it, nothing else
+    ever will."""
     j, k = CYCLE[i]
     return not (x[j] or x[k] or form.rho[j] or form.sigma[k])
 
 
 def _pure_spin(form, i):
     """Fields of CapturedFate of a pure spin about the torque's axis."""
-    return dict(fate=Fate.SPIN_UP, axis=i + 1, sense=1 if form.m[i] > 0 else -1, release_time=0.0, release_estimate=None, certificate="axis",
-                t_certificate=0.0, steps=0, because=f"pure spin about axis {i + 1}, which the torque speeds up for ever")
+    return dict(fate=Fate.SPIN_UP, axis=i + 1, sense=1 if form.m[i] > 0 else -1, release_time=0.0,
+                release_estimate=None, certificate="axis",
+                t_certificate=0.0, steps=0,
+                because=f"pure spin about axis {i + 1}, which the torque speeds up for ever")
 
 
 def _by_certificate(change, y, t_max):
@@ -116,48 +136,64 @@ def _by_certificate(change, y, t_max):
     t_max = PATIENCE * unit if t_max is None else t_max
     name, t, end, last, steps = search_certificate(c, y, t_max / unit)
     if c < 0 and steps and name != "none" and (reach := nearest_other(c, y, t_max / unit, name, steps)):
-        return dict(fate=Fate.UNDECIDED, axis=0, sense=0, release_time=None, release_estimate=None, certificate="none", t_certificate=None,
-                    steps=steps, because=f"unbounded, but between spin-up about axis {i + 1} and capture about axis {q + 1}: a change of the "
-                                         f"state by {reach:.0e} of its size, as rounding of the run may make, turns the one into the other")
+        return dict(fate=Fate.UNDECIDED, axis=0, sense=0, release_time=None, release_estimate=None,
+                    certificate="none", t_certificate=None,
+                    steps=steps,
+                    because=f"unbounded, but between spin-up about axis {i + 1} and capture about axis "
+                            f"{q + 1}: a change of the "
+                                         f"state by {reach:.0e} of its size, as rounding of the run may "
+                                         f"make, turns the one into the other")
     estimate = None if name == "spin-up" and not last else vanishing
     when = None if t is None else t * unit
     known = dict(release_estimate=estimate, certificate=name, t_certificate=when, steps=steps)
     if name == "well":
         sense = (1 if change.rates[2] > 0 else -1) * (1 if end[2] > 0 else -1)
         return known | dict(fate=Fate.SPIN_UP, axis=q + 1, sense=sense, release_time=None, because=(
-            f"captured about axis {q + 1} for ever: the barrier ahead grows faster than the energy, and the spin about axis "
+            f"captured about axis {q + 1} for ever: the barrier ahead grows faster than the energy, and the "
+            f"spin about axis "
             f"{q + 1} grows like the square root of time"))
     if name == "spin-up":
         return spin | known | dict(release_time=last * unit, because=(
-            f"spin-up about axis {i + 1}: the turn about it can reverse no more (proved from t = {when:.6g} on)"))
+            f"spin-up about axis {i + 1}: the turn about it can reverse no more (proved from t = "
+            f"{when:.6g} on)"))
     if c > 0:
         return spin | known | dict(certificate="bound", t_certificate=0.0, release_time=None, because=(
-            f"spin-up about axis {i + 1}: its rate is bounded below by a growing line; still captured when the search ended, "
+            f"spin-up about axis {i + 1}: its rate is bounded below by a growing line; still captured when "
+            f"the search ended, "
             f"release expected at about t = {estimate:.6g}"))
     return known | dict(fate=Fate.UNDECIDED, axis=0, sense=0, release_time=None, because=(
-        f"unbounded, but neither spin-up about axis {i + 1} nor capture about axis {q + 1} was certain after {steps} steps "
+        f"unbounded, but neither spin-up about axis {i + 1} nor capture about axis {q + 1} was certain after "
+        f"{steps} steps "
         f"(the search ends at t = {t_max:g})"))
 
 
 def _without_form(scene, state, axis, t_max):
-    """Fields of CapturedFate where the standard form does not exist: exact spin of a symmetric body, else evidence."""
+    """Fields of CapturedFate where the standard form does not exist: exact spin of a symmetric body, else
+    evidence."""
     form = scene.quadratic()
     sense = 1 if form.m[axis] > 0 else -1
     if not (form.kappa[axis] or form.rho[axis] or form.sigma[axis]):
-        return dict(fate=Fate.SPIN_UP, axis=axis + 1, sense=sense, release_time=0.0, release_estimate=None, certificate="law",
-                    t_certificate=0.0, steps=0, because=f"the moments across axis {axis + 1} are equal: its spin grows exactly "
+        return dict(fate=Fate.SPIN_UP, axis=axis + 1, sense=sense, release_time=0.0, release_estimate=None,
+                    certificate="law",
+                    t_certificate=0.0, steps=0,
+                    because=f"the moments across axis {axis + 1} are equal: its spin grows exactly "
                                                         "in proportion to time")
     if not any(form.kappa):
-        return dict(fate=Fate.SPIN_UP, axis=0, sense=0, release_time=0.0, release_estimate=None, certificate="law", t_certificate=0.0,
-                    steps=0, because="three equal moments: the spin along lambda, which is on no axis, grows exactly in "
+        return dict(fate=Fate.SPIN_UP, axis=0, sense=0, release_time=0.0, release_estimate=None,
+                    certificate="law", t_certificate=0.0,
+                    steps=0, because="three equal moments: the spin along lambda, which is on no axis, grows "
+                                     "exactly in "
                                      "proportion to time, the rest of the motion is bounded")
     t_max = PATIENCE / math.sqrt(abs(form.m[axis])) if t_max is None else t_max
     seen = seen_growth(scene, state, t_max)
     clear = seen.axis > 0
-    words = (f"spin-up about axis {seen.axis} by the evidence of a run to t = {seen.span:.6g} ({seen.words})" if clear else
+    words = (f"spin-up about axis {seen.axis} by the evidence of a run to t = {seen.span:.6g} ({seen.words})"
+             if clear else
              f"no axis of spin-up was clear in a run to t = {seen.span:.6g}")
-    return dict(fate=Fate.SPIN_UP if clear else Fate.UNDECIDED, axis=seen.axis, sense=seen.sense, release_time=None,
-                release_estimate=None, certificate="evidence" if clear else "none", t_certificate=None, steps=seen.steps,
+    return dict(fate=Fate.SPIN_UP if clear else Fate.UNDECIDED, axis=seen.axis, sense=seen.sense,
+                release_time=None,
+                release_estimate=None, certificate="evidence" if clear else "none", t_certificate=None,
+                steps=seen.steps,
                 because=f"unbounded, because |H|^2/2 - D{axis + 1} T grows in proportion to time; {words}")
 
 
@@ -165,13 +201,16 @@ def motion(scene, state, span=None, exact=None, brief: bool = False) -> Motion:
     """See `answers.motion`: unbounded by an exact law; what is seen over the span is told beside it."""
     state = three_floats(state)
     found = captured_fate(scene, state, exact=exact)
-    known = {"certificate": found.certificate, "t_certificate": found.t_certificate, "release_time": found.release_time,
+    known = {"certificate": found.certificate, "t_certificate": found.t_certificate,
+             "release_time": found.release_time,
              "release_estimate": found.release_estimate, "steps": found.steps}
-    fields, seen = {**judged(state, unbounded(found)), "because": found.because, "level": LEVEL.get(found.certificate, "undecided")}, {}
+    fields, seen = {**judged(state, unbounded(found)), "because": found.because,
+                    "level": LEVEL.get(found.certificate, "undecided")}, {}
     if span is not None or _for_ever(found):
         grown = captured_extremes(scene, state, found, reach_of(span), exact)
         fields |= {"extremes": pairs(grown.box), "extremes_over": grown.over}
-        seen = {} if span is None else seen_over(scene, state, (0.0, grown.span or reach_of(span)))["evidence"]
+        seen = ({} if span is None
+                else seen_over(scene, state, (0.0, grown.span or reach_of(span)))["evidence"])
     return Motion(**fields, invariants={"J": found.J0, "J_rate": found.J_rate}, evidence={**seen, **known})
 
 
@@ -181,13 +220,14 @@ def _for_ever(found) -> bool:
 
 
 def extremes(scene, states, span=None, fast: bool | None = None):
-    """(n, 3, 2), as of `captured_extremes`, NaN where the run ends before its span does; InputError where they are not known for all
-    time and no span is named."""
+    """(n, 3, 2), as of `captured_extremes`, NaN where the run ends before its span does; InputError where
+    they are not known for all time and no span is named."""
     found = [captured_fate(scene, state) for state in states]
     if span is None and not all(map(_for_ever, found)):
         raise span_needed(scene)
     known = [captured_extremes(scene, *row, span) for row in zip(states, found)]
-    return np.array([one.box if one.whole else np.where(np.isinf(one.box), one.box, np.nan) for one in known]).reshape(-1, 3, 2)
+    return np.array([one.box if one.whole else np.where(np.isinf(one.box), one.box, np.nan)
+                     for one in known]).reshape(-1, 3, 2)
 
 
 def periods(scene, states, fast: bool | None = None):

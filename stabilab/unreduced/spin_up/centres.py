@@ -10,14 +10,18 @@ From D2 u' = -P v - D2 x' dw2*/dx and D3 v' = Q u - D3 x' dw3*/dx, with dw2*/dx 
 dw3*/dx = -n2/P^2, n2 = d3 M2 - l1 l3, exactly
 
     eta' = i Om eta + x' (r eta* + f),   D1 x' = G0 + g Im eta^2 + Re(k* eta),   Om = sqrt(p q/(D2 D3)),
-    r = rho'/rho = s l1 (a2 - a3)/(4 p q),   f = -sqrt(D2) rho n3/q^2 + i s sqrt(D3) n2/(rho p^2),   g = s eps/(2 sqrt(D2 D3)),  eps = d3 - d2,
-    k = (eps M2 - l3 Q)/(P sqrt(D2) rho) + i s rho (l2 P - eps M3)/(Q sqrt(D3)),   G0 = M1 + l2 M2/Q + l3 M3/P - eps M2 M3/(P Q).
+    r = rho'/rho = s l1 (a2 - a3)/(4 p q),   f = -sqrt(D2) rho n3/q^2 + i s sqrt(D3) n2/(rho p^2),   g = s
+    eps/(2 sqrt(D2 D3)),  eps = d3 - d2,
+    k = (eps M2 - l3 Q)/(P sqrt(D2) rho) + i s rho (l2 P - eps M3)/(Q sqrt(D3)),   G0 = M1 + l2 M2/Q + l3 M3/P
+    - eps M2 M3/(P Q).
 
-(U V of the mean motion gives G0: eps w2* w3* + l2 w3* - l3 w2*, and eps x + Q = P.) All coefficients are sums of monomials p^(-a/4) q^(-b/4).
+(U V of the mean motion gives G0: eps w2* w3* + l2 w3* - l3 w2*, and eps x + Q = P.) All coefficients are sums
+of monomials p^(-a/4) q^(-b/4).
 
-Mean drift. The flow keeps volume: the divergence of (x', eta') is dx'/dx + 2 Re of d eta'/d eta = [G0' + ... + Re(k* f)]/D1 + oscillating, so
-Re(k* f) = -G0', exactly (shown by symbols in the tests). The rate of w |eta|^2, w = G0/M1, therefore has no mean term G0 G0' |eta|^2
-+ G0 Re(k* f) |eta|^2, which is left out, and nothing like g Im eta^2 r Re eta^2 but Im eta^4: the products are written down by hand.
+Mean drift. The flow keeps volume: the divergence of (x', eta') is dx'/dx + 2 Re of d eta'/d eta = [G0' + ...
++ Re(k* f)]/D1 + oscillating, so Re(k* f) = -G0', exactly (shown by symbols in the tests). The rate of w
+|eta|^2, w = G0/M1, therefore has no mean term G0 G0' |eta|^2 + G0 Re(k* f) |eta|^2, which is left out, and
+nothing like g Im eta^2 r Re eta^2 but Im eta^4: the products are written down by hand.
 
 Equatorial spin-up (D2 = D3 of the body, cyclic triple (2, 3, 1), the wheel's transverse part along the form's
 axis 1): d2 = 0, q = s l1 is constant, l2 = 0 and n3 = 0; every term of the rate of the amplitude that is left
@@ -46,7 +50,8 @@ class FixedCentre:
 
     def transverse(self, A, z):
         """((low, high), (low, high)) of omega2 and omega3 of the form while |zeta| <= A."""
-        return tuple((c - A / abs(scale), c + A / abs(scale)) for c, scale in zip(self.form.centre, self.form.scale))
+        return tuple((c - A / abs(scale), c + A / abs(scale)) for c,
+                     scale in zip(self.form.centre, self.form.scale))
 
     @property
     def basis(self):
@@ -63,8 +68,8 @@ class MovingCentre:
     name, sharp = "moving centre", False
 
     def __init__(self, D, wheel, torque, basis, s, axis=None, sense=1):
-        """D, wheel, torque: Fractions in the frame of the form, M1 > 0. basis: its three axes in principal axes of the body, rows.
-        axis, sense: of the body where the form's axis 1 is one of its axes."""
+        """D, wheel, torque: Fractions in the frame of the form, M1 > 0. basis: its three axes in principal
+        axes of the body, rows. axis, sense: of the body where the form's axis 1 is one of its axes."""
         (D1, D2, D3), (l1, l2, l3), (M1, M2, M3) = D, wheel, torque
         d2, d3 = D1 - D2, D1 - D3
         self._first: dict[str, Corrected] = {}
@@ -75,28 +80,34 @@ class MovingCentre:
         self.a2, self.a3, self.c = float(s * d2), float(s * d3), float(s * l1)
         self.wheel, self.torque = (float(l2), float(l3)), (float(M2), float(M3))
         self.n2, self.n3, eps = float(d3 * M2 - l1 * l3), float(d2 * M3 + l1 * l2), d3 - d2
-        self.G0 = self._folded({(0, 0, 0, 0): float(M1), (0, 0, 0, 4): float(s * l2 * M2), (0, 0, 4, 0): float(s * l3 * M3),
+        self.G0 = self._folded({(0, 0, 0, 0): float(M1), (0, 0, 0, 4): float(s * l2 * M2),
+                                (0, 0, 4, 0): float(s * l3 * M3),
                                 (0, 0, 4, 4): float(-eps * M2 * M3)})
-        root = lambda value, square: (lambda sign, squared: sign * float(squared) ** 0.5)(*signed_square(value, square))
+        root = lambda value, square: (lambda sign,
+                                      squared: sign * float(squared) ** 0.5)(*signed_square(value, square))
         g = root(s * eps / 2, D2 * D3)
-        k = {(3, 1): root(s * eps * M2, D2), (3, -3): root(-l3, D2), (-3, 3): 1j * root(s * l2, D3), (1, 3): 1j * root(-eps * M3, D3)}
+        k = {(3, 1): root(s * eps * M2, D2), (3, -3): root(-l3, D2), (-3, 3): 1j * root(s * l2, D3),
+             (1, 3): 1j * root(-eps * M3, D3)}
         self.swing = self._folded({(2, 0, 0, 0): -0.5j * g, (0, 2, 0, 0): 0.5j * g})
-        self.pull = self._folded({(1, 0, *key): 0.5 * c.conjugate() for key, c in k.items()} | {(0, 1, *key): 0.5 * c for key, c in k.items()})
+        self.pull = self._folded({(1, 0, *key): 0.5 * c.conjugate() for key, c in k.items()}
+                                 | {(0, 1, *key): 0.5 * c for key, c in k.items()})
         self.k = self._folded({(0, 0, *key): complex(c) for key, c in k.items()})
         self.r = self._folded({(0, 0, 4, 4): float(s * l1 * s * (d2 - d3) / 4)})
-        self.f = self._folded({(0, 0, 1, 7): -root(d2 * M3 + l1 * l2, 1 / D2), (0, 0, 7, 1): 1j * s * root(d3 * M2 - l1 * l3, 1 / D3)})
+        self.f = self._folded({(0, 0, 1, 7): -root(d2 * M3 + l1 * l2, 1 / D2),
+                               (0, 0, 7, 1): 1j * s * root(d3 * M2 - l1 * l3, 1 / D3)})
         self.g = g
         rate = gathered(*map(terms_of, (self.G0, self.swing, self.pull))).times(1 / self.D1)
         carried = terms_of({(0, 1, a, b): c for (_, _, a, b), c in self.r.items()} | self.f)
         om = 1 / (self.roots[0] * self.roots[1])
-        (((_, _, *turn), self.turn_size),) = self._folded({(0, 0, -2, -2): 1.0}).items()  # sqrt(p q): a constant q is part of the number
+        # sqrt(p q): a constant q is part of the number
+        (((_, _, *turn), self.turn_size),) = self._folded({(0, 0, -2, -2): 1.0}).items()
         self.algebra = Algebra(1j / (om * self.turn_size), tuple(turn), (-self.a3 / 4, -self.a2 / 4),
                                rate, carried, (1, 1 if self.a2 else 0))
 
     @property
     def least_fall(self) -> float | None:
-        """S: every factor that falls, a monomial of level 1 or more in p and q, falls at least like 1/(x + S), the slower of 1/p and 1/q; None where
-        q is constant."""
+        """S: every factor that falls, a monomial of level 1 or more in p and q, falls at least like 1/(x +
+        S), the slower of 1/p and 1/q; None where q is constant."""
         return max(self.c / self.a3, self.c / self.a2) if self.a2 else None
 
     def _folded(self, terms):
@@ -112,16 +123,19 @@ class MovingCentre:
     def energy(self, order: int) -> Corrected:
         """D1 int sqrt(p q) dx, corrected; the drive sqrt(p q) G0 is left out of its rate."""
         a, b = self.algebra.turn
-        start = {(j, k, m + a, n + b): c * self.turn_size for (j, k, m, n), c in (self.swing | self.pull).items()}
+        start = {(j, k, m + a, n + b): c * self.turn_size for (j, k, m, n),
+                 c in (self.swing | self.pull).items()}
         return self._corrected("energy", terms_of(start), order)
 
     def amplitude(self, order: int) -> Corrected:
-        """G0/M1 |eta|^2, corrected. D1 M1 times its rate is (D1 x' - G0) G0' |eta|^2 + 2 G0 [...], each bracket's products of oscillating
-        factors written out, without the mean part."""
+        """G0/M1 |eta|^2, corrected. D1 M1 times its rate is (D1 x' - G0) G0' |eta|^2 + 2 G0 [...], each
+        bracket's products of oscillating factors written out, without the mean part."""
         G0, swing, pull, k, r, f = map(terms_of, (self.G0, self.swing, self.pull, self.k, self.r, self.f))
         k, f = (Terms(part.keys, part.c.conjugate(), part.m) for part in (k, f))
-        twist = terms_of({(4, 0, 0, 0): -0.25j * self.g, (0, 4, 0, 0): 0.25j * self.g})  # g Im eta^2 Re eta^2 = (g/2) Im eta^4
-        inner = [product(G0, _real(r, 2)), product(twist, r), product(pull, _real(r, 2)), product(G0, _real(f, 1)),
+        # g Im eta^2 Re eta^2 = (g/2) Im eta^4
+        twist = terms_of({(4, 0, 0, 0): -0.25j * self.g, (0, 4, 0, 0): 0.25j * self.g})
+        inner = [product(G0, _real(r, 2)), product(twist, r), product(pull, _real(r, 2)),
+                 product(G0, _real(f, 1)),
                  product(swing, _real(f, 1)), _real(product(k, f), 2).times(0.5)]
         slope = self.algebra.slope(G0)
         around = product(product(gathered(swing, pull), slope), terms_of({(1, 1, 0, 0): 1.0}))
@@ -140,27 +154,32 @@ class MovingCentre:
         return corrected(self.algebra, first.rate, order, first.added)
 
     def transverse(self, A, z):
-        """((low, high), (low, high)) of omega2 and omega3 of the form for x >= z, |eta| <= A: w* and rho are monotone in x."""
+        """((low, high), (low, high)) of omega2 and omega3 of the form for x >= z, |eta| <= A: w* and rho are
+        monotone in x."""
         p, q = self.a3 * z + self.c, self.a2 * z + self.c
         (l2, l3), (M2, M3), (r2, r3) = self.wheel, self.torque, self.roots
         first, last = (q / p) ** 0.25, (self.a2 / self.a3) ** 0.25
         u = A / (r2 * min(first, last)) if last else np.inf
         v = A * max(first, last) / r3
-        ends = ((self.s * (l2 * z - M3) / q, self.limits[0] if self.a2 else self.s * (l2 * z - M3) / q), (self.s * (l3 * z + M2) / p, self.limits[1]))
+        ends = ((self.s * (l2 * z - M3) / q, self.limits[0] if self.a2 else self.s * (l2 * z - M3) / q),
+                (self.s * (l3 * z + M2) / p, self.limits[1]))
         return tuple((min(end) - size, max(end) + size) for end, size in zip(ends, (u, v)))
 
 
 def _real(terms: Terms, n: int) -> Terms:
     """Re(terms eta^n) of terms without eta."""
     _, _, a, b = terms.powers
-    return gathered(Terms(packed(n, 0, a, b), terms.c / 2, terms.m / 2), Terms(packed(0, n, a, b), terms.c.conjugate() / 2, terms.m / 2))
+    return gathered(Terms(packed(n, 0, a, b), terms.c / 2, terms.m / 2),
+                    Terms(packed(0, n, a, b), terms.c.conjugate() / 2, terms.m / 2))
 
 
 def moving_centre(form, scene) -> MovingCentre | None:
-    """The moving centre about the axis of a normal form of a scene in physical variables; None for scaled ones."""
+    """The moving centre about the axis of a normal form of a scene in physical variables; None for scaled
+    ones."""
     if scene.variables == "scaled":
         return None
-    vectors = [tuple(Fraction(t) * v[n] for t, n in zip(form.turn, form.order)) for v in (scene.vector("gyrostat"), scene.vector("constant_torque"))]
+    vectors = [tuple(Fraction(t) * v[n] for t, n in zip(form.turn, form.order))
+               for v in (scene.vector("gyrostat"), scene.vector("constant_torque"))]
     D = tuple(scene.body.exact[n] for n in form.order)
     basis = [[t * (n == m) for m in range(3)] for t, n in zip(form.turn, form.order)]
     return MovingCentre(D, *vectors, basis, 1 if D[0] > D[1] else -1, form.axis, form.sense)  # type: ignore[call-arg]

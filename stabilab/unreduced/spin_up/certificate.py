@@ -1,21 +1,26 @@
 """A certificate of spin-up: an inequality between numbers of one state that, once true, stays true for ever.
 
-Theorem (proof: docs/mathematics/spin-up.md). Let x be the spin of a form, D1 x' = V(x) + what oscillates, zeta its amplitude, Om(x) > 0
-increasing (the rate of the phase up to a constant), V >= drive from z on, and let, by elimination, for all x >= z and |zeta| <= A
+Theorem (proof: docs/mathematics/spin-up.md). Let x be the spin of a form, D1 x' = V(x) + what oscillates,
+zeta its amplitude, Om(x) > 0 increasing (the rate of the phase up to a constant), V >= drive from z on, and
+let, by elimination, for all x >= z and |zeta| <= A
 
     Y  = D1 int Om dx + (added),             Y' = Om V + (left),       |added| <= e,  |left|/Om <= k,
     B  = w(x) |zeta|^2 + (added),            |added| <= b,             int |B'| dx <= r,    w >= w_ > 0.
 
-(e, k, b: sums of |c| A^(j+k) times the greatest value of the factor of x from z on; r the same with the factor's integral.) If at one time
+(e, k, b: sums of |c| A^(j+k) times the greatest value of the factor of x from z on; r the same with the
+factor's integral.) If at one time
 
-    x > z, |zeta| < A;    D1 int_z^x Om + added > e;    eta = drive - k > 0;    F = [B + b + r D1/eta]/w_ < A^2,
+    x > z, |zeta| < A;    D1 int_z^x Om + added > e;    eta = drive - k > 0;    F = [B + b + r D1/eta]/w_ <
+    A^2,
 
-then at all later times |zeta| < A and x >= z + eta t/D1, x <= z+ + eta+ t/D1 with D1 int_x^(z+) Om = added + e, eta+ = greatest V + k.
+then at all later times |zeta| < A and x >= z + eta t/D1, x <= z+ + eta+ t/D1 with D1 int_x^(z+) Om = added +
+e, eta+ = greatest V + k.
 
-For the fixed centre Om = x, V = M1 + m*/x, and orders (0, 2) without the weight w = 1 + m*/(M1 x) are the classical
-E + Im/X and B + R/(om X) + Psi/(D1 om^2 X^3), with k formed from the sums as they come out. Then also D1 y' >= M1 + (m* - z k)/y and
-D1 y+' <= M1 + (m* + z k)/y+, for k x falls: the sharper clock (`clock`). Since Om is concave, int_z^x Om >= (x - z)(Om(x) + Om(z))/2, which is what is
-tested (equal for the fixed centre), and int_x^(z+) Om >= (z+ - x) Om(x) gives z+.
+For the fixed centre Om = x, V = M1 + m*/x, and orders (0, 2) without the weight w = 1 + m*/(M1 x) are the
+classical E + Im/X and B + R/(om X) + Psi/(D1 om^2 X^3), with k formed from the sums as they come out. Then
+also D1 y' >= M1 + (m* - z k)/y and D1 y+' <= M1 + (m* + z k)/y+, for k x falls: the sharper clock (`clock`).
+Since Om is concave, int_z^x Om >= (x - z)(Om(x) + Om(z))/2, which is what is tested (equal for the fixed
+centre), and int_x^(z+) Om >= (z+ - x) Om(x) gives z+.
 
 Rounding. The place of a state is known within its blur (rounding and, asked for, a ball of states about it):
 x and |zeta| are taken at their worse ends and each term at the start within the change that the blur can make
@@ -76,22 +81,27 @@ class Certifier:
 
 
 class Gathered:
-    """Sums of sizes and of majorants of a quantity by degree (rows) and power, without the outer rows and columns of zeros, in rows of eight.
+    """Sums of sizes and of majorants of a quantity by degree (rows) and power, without the outer rows and
+    columns of zeros, in rows of eight.
 
-    first: index n of the first column; wide: how many times eight columns there are. Row d wide + c of a table holds the columns first + 8 c on of row d.
+    first: index n of the first column; wide: how many times eight columns there are. Row d wide + c of a
+    table holds the columns first + 8 c on of row d.
     """
 
     def __init__(self, sums, most):
         degrees, columns = np.flatnonzero(most.any(axis=1)), np.flatnonzero(most.any(axis=0))
-        rows, self.first, self.end = (degrees[-1] + 1, columns[0], columns[-1] + 1) if columns.size else (1, 0, 1)
+        rows, self.first, self.end = (degrees[-1] + 1, columns[0],
+                                      columns[-1] + 1) if columns.size else (1, 0, 1)
         self.wide = -(-(self.end - self.first) // WIDE)
         self.sums, self.most = self.in_rows(sums[:rows]), self.in_rows(most[:rows])
 
     def tails(self):
-        """The sums for integrals of the factors over all greater x: X^(1 - n) gives z^(2 - n)/(n - 2), and infinity where it does not fall faster than 1/X."""
+        """The sums for integrals of the factors over all greater x: X^(1 - n) gives z^(2 - n)/(n - 2), and
+        infinity where it does not fall faster than 1/X."""
         fall = self.first + np.arange(WIDE * self.wide).reshape(self.wide, -1) - 2.0
         fall = np.tile(fall, (len(self.sums) // self.wide, 1))
-        return np.where(fall > 0, self.sums / np.where(fall > 0, fall, 1.0), np.where(self.sums > 0, np.inf, 0.0))
+        return np.where(fall > 0, self.sums / np.where(fall > 0, fall, 1.0),
+                        np.where(self.sums > 0, np.inf, 0.0))
 
     def in_rows(self, table):
         """The columns of a table as rows of eight."""
@@ -135,7 +145,8 @@ def _gathered(make, c, m) -> Gathered:
 
 
 def _parts(make, c, gathered: Gathered):
-    """(powers of zeta and of its conjugate (2, m), real and imaginary parts) of a quantity's terms in the columns of its sums."""
+    """(powers of zeta and of its conjugate (2, m), real and imaginary parts) of a quantity's terms in the
+    columns of its sums."""
     top, _, powers = c.shape
     m = top * (top + 1) // 2
     made = np.zeros((2, m), np.int64), np.zeros((m, powers)), np.zeros((m, powers))
@@ -204,8 +215,8 @@ def _distinct(a, b):
 
 @lru_cache(maxsize=32)
 def natural(scene):
-    """(scene in natural units, unit of rates): powers of two near the mean moment and near the root of torque over moment. Kept, for
-    a certificate and its proof ask for it in turn."""
+    """(scene in natural units, unit of rates): powers of two near the mean moment and near the root of torque
+    over moment. Kept, for a certificate and its proof ask for it in turn."""
     if scene.variables == "scaled":
         torque, mass = max(map(abs, scene.exact_mu)), 1
     else:
@@ -218,14 +229,16 @@ def natural(scene):
 
 
 def _log2(value):
-    return math.log2(value.numerator) - math.log2(value.denominator) if hasattr(value, "numerator") else math.log2(value)
+    return (math.log2(value.numerator) - math.log2(value.denominator) if hasattr(value, "numerator")
+            else math.log2(value))
 
 
 class Tests:
     """The certificates of a scene (in natural units), each made when it is first asked for.
 
-    often: those of low order; high: with high orders about the fixed centre; all: with the highest, and the moving centre where a wheel takes
-    it elsewhere; last: with those that take long to make. Each is a prefix of the next. asked: those that were.
+    often: those of low order; high: with high orders about the fixed centre; all: with the highest, and the
+    moving centre where a wheel takes it elsewhere; last: with those that take long to make. Each is a prefix
+    of the next. asked: those that were.
     """
 
     def __init__(self, scene):
@@ -245,7 +258,8 @@ class Tests:
 
     @cached_property
     def all(self):
-        wheeled = [field for field in self.moving if field.wheeled]  # the centre moves far where there is a wheel
+        # the centre moves far where there is a wheel
+        wheeled = [field for field in self.moving if field.wheeled]
         return (self.high + [(field, HIGHEST_ORDERS) for field in self.fixed] +
                 [(field, MOVING_ORDERS) for field in wheeled] +
                 [(field, EQUATORIAL_ORDERS[1]) for field in self.equatorial])
@@ -263,7 +277,8 @@ class Tests:
         answer."""
         key = id(field), orders, fast and field.sharp
         if key not in self.made:
-            if (field, orders) not in self.asked:  # before it is made: another thread that finds it made looks for its number
+            # before it is made: another thread that finds it made looks for its number
+            if (field, orders) not in self.asked:
                 self.asked.append((field, orders))
             self.made[key] = (FixedCertifier if field.sharp else MovingCertifier)(field, orders, fast)
         return self.made[key]

@@ -1,16 +1,19 @@
 """Motions carried on over many revolutions at once, where that is less work than step by step: powers of a
 map that is near the identity.
 
-A motion that goes round much faster than it drifts returns to a plane across it near to where it left: x(n + 1) = x(n) + d(x(n)), d small. As
-long as no resonance is felt (what it would make falls faster than any power of d) x(n) lies on a smooth curve, and so does d along it. On a window
-of N revolutions d is taken to be the polynomial in n/N through its values at the `NODES` + 1 Chebyshev points, and x(n) its sum, which the
-formula of Euler and Maclaurin gives exactly for polynomials:
+A motion that goes round much faster than it drifts returns to a plane across it near to where it left: x(n +
+1) = x(n) + d(x(n)), d small. As long as no resonance is felt (what it would make falls faster than any power
+of d) x(n) lies on a smooth curve, and so does d along it. On a window of N revolutions d is taken to be the
+polynomial in n/N through its values at the `NODES` + 1 Chebyshev points, and x(n) its sum, which the formula
+of Euler and Maclaurin gives exactly for polynomials:
 
-    x(n) = x(0) + sum_(i<n) d(i) = x(0) + int_0^n d - [d]/2 + [d']/12 - [d''']/720 + ...   ([f] = f(n) - f(0)),
+    x(n) = x(0) + sum_(i<n) d(i) = x(0) + int_0^n d - [d]/2 + [d']/12 - [d''']/720 + ...   ([f] = f(n) -
+    f(0)),
 
-so that x at the nodes is a matrix times d at the nodes. The two are solved for each other by turns, which contracts like the drift over the window
-over the number of the turn. The time is summed with the place. What the polynomial leaves out of d is held below the rounding of one
-revolution's steps: by its last coefficients, and by d itself at a place between two nodes.
+so that x at the nodes is a matrix times d at the nodes. The two are solved for each other by turns, which
+contracts like the drift over the window over the number of the turn. The time is summed with the place. What
+the polynomial leaves out of d is held below the rounding of one revolution's steps: by its last coefficients,
+and by d itself at a place between two nodes.
 
 The map is the return to a section, the surface on which n . omega' = 0: where the motion is at its farthest
 against the unit vector n. A drift of the whole path in space shifts it by its speed over that of going round
@@ -26,9 +29,12 @@ import numpy as np
 
 from .runs import STEP_ERROR, Runs
 
-FROM = 20_000                      # steps that a motion is followed plainly first: to find out that it would not leap takes half as many
-LEAST, FIRST, MOST = 512.0, 1024.0, 2.0**40  # revolutions of a window: fewer are hardly less work than step by step
-AGAIN = 1.6                        # after how many times its steps a motion that would not leap is asked again
+# steps that a motion is followed plainly first: to find out that it would not leap takes half as many
+FROM = 20_000
+# revolutions of a window: fewer are hardly less work than step by step
+LEAST, FIRST, MOST = 512.0, 1024.0, 2.0**40
+# after how many times its steps a motion that would not leap is asked again
+AGAIN = 1.6
 APART = 2.0**-26                   # of a twin, relative: a window of a million revolutions leaves it near
 
 NODES, TURNS = 16, 16
@@ -40,17 +46,21 @@ MOST_STEPS = 500  # that a return may take
 ENDLESS = 1e300
 NEWTON = 6      # corrections of its time by the Taylor series; the last is a formula
 NEAR = 1e-6     # share of a radian, below which that formula errs by less than a unit of rounding
-CLOSED = 2e-2   # a return is told from other passages of the section: it comes so close to its start, as a share of the way round
+# a return is told from other passages of the section: it comes so close to its start, as a share of the way
+# round
+CLOSED = 2e-2
 
 
 class Returns:
-    """The map of sections to themselves along the motions of `runs`; every row has its own section, all are independent of each other."""
+    """The map of sections to themselves along the motions of `runs`; every row has its own section, all are
+    independent of each other."""
 
     def __init__(self, runs: Runs):
         self.runs = runs
 
     def __call__(self, states, normals, guesses):
-        """(states, times, good): of states (m, 3) on the sections of normals (m, 3), the return that is expected after about guesses (m,)."""
+        """(states, times, good): of states (m, 3) on the sections of normals (m, 3), the return that is
+        expected after about guesses (m,)."""
         good = np.isfinite(guesses) & (guesses > 0) & np.isfinite(states).all(axis=1)
         times, states = np.where(good, guesses, 0.0), np.where(good[:, None], states, 1.0)
         places, reached = self.runs.carried(states, times, MOST_STEPS)
@@ -77,14 +87,16 @@ class Returns:
         return late, np.abs(late) * np.sqrt((bend**2).sum(axis=1) / (rates**2).sum(axis=1))
 
     def normals(self, states):
-        """Unit vectors across the motions at states (m, 3), toward where they bend: these states lie on the sections."""
+        """Unit vectors across the motions at states (m, 3), toward where they bend: these states lie on the
+        sections."""
         rates = self.runs.rates(states)
         bend = self.runs.slopes(states, rates)
         bend -= rates * ((bend * rates).sum(axis=1) / (rates**2).sum(axis=1))[:, None]
         return bend / np.sqrt((bend**2).sum(axis=1))[:, None]
 
     def on_section(self, states, normals):
-        """The nearest places on the sections: what is off them is rounding, which sums over many revolutions would gather."""
+        """The nearest places on the sections: what is off them is rounding, which sums over many revolutions
+        would gather."""
         for _ in range(2):
             off = (self.runs.rates(states) * normals).sum(axis=1)
             up = self.runs.slopes_back(states, normals)
@@ -92,7 +104,8 @@ class Returns:
         return states
 
     def first(self, states):
-        """(times, steps): of states (m, 3) the first return to their sections, and the steps on the way; nan where none is near."""
+        """(times, steps): of states (m, 3) the first return to their sections, and the steps on the way; nan
+        where none is near."""
         normals = self.normals(states)
         times, steps = np.full(len(states), np.nan), np.zeros(len(states), int)
         places, now, far = states.copy(), np.zeros(len(states)), np.zeros(len(states))
@@ -118,7 +131,8 @@ class Returns:
 
 @dataclass(frozen=True)
 class Window:
-    """states (m, 3), times (m,) passed, periods (m,) of the last return; good (m,); turns (m,) that it took."""
+    """states (m, 3), times (m,) passed, periods (m,) of the last return; good (m,); turns (m,) that it took.
+    """
 
     states: np.ndarray
     times: np.ndarray
@@ -129,18 +143,23 @@ class Window:
 
 @lru_cache(maxsize=1)
 def matrices():
-    """(sums, powers, coefficients, between): x(n) - x(0) = sum_k N^powers[k] sums[k] @ d at the nodes; coefficients @ d those of Chebyshev's
-    polynomials; between @ values at the nodes the value at BETWEEN."""
+    """(sums, powers, coefficients, between): x(n) - x(0) = sum_k N^powers[k] sums[k] @ d at the nodes;
+    coefficients @ d those of Chebyshev's polynomials; between @ values at the nodes the value at BETWEEN."""
     from numpy.polynomial import chebyshev
     places = -np.cos(np.pi * np.arange(NODES + 1) / NODES)
-    values, coefficients = chebyshev.chebvander(places, NODES), np.linalg.inv(chebyshev.chebvander(places, NODES))
+    values, coefficients = chebyshev.chebvander(places,
+                                                NODES), np.linalg.inv(chebyshev.chebvander(places, NODES))
     integral, slope = np.zeros((NODES + 2, NODES + 1)), np.zeros((NODES + 1, NODES + 1))
     for k, one in enumerate(np.eye(NODES + 1)):
         up, down = chebyshev.chebint(one, lbnd=-1) / 2, chebyshev.chebder(one) * 2
         integral[:up.size, k], slope[:down.size, k] = up, down
-    sums = [chebyshev.chebvander(places, NODES + 1) @ integral @ coefficients, -0.5 * _from_start(np.eye(NODES + 1))]
-    sums += [b / factorial(k) * _from_start(values @ np.linalg.matrix_power(slope, k - 1) @ coefficients) for k, b in BERNOULLI.items()]
-    return np.array(sums), np.array([1, 0, *(1 - k for k in BERNOULLI)]), coefficients, chebyshev.chebvander(2 * BETWEEN - 1, NODES) @ coefficients
+    sums = [chebyshev.chebvander(places, NODES + 1) @ integral @ coefficients,
+            -0.5 * _from_start(np.eye(NODES + 1))]
+    sums += [b / factorial(k) * _from_start(values @ np.linalg.matrix_power(slope, k - 1) @ coefficients)
+             for k, b in BERNOULLI.items()]
+    return np.array(sums), np.array([1, 0,
+                                     *(1 - k for k in BERNOULLI)]), coefficients, chebyshev.chebvander(
+                                         2 * BETWEEN - 1, NODES) @ coefficients
 
 
 def _from_start(matrix):
@@ -148,8 +167,9 @@ def _from_start(matrix):
 
 
 def window(returns: Returns, states, counts, periods, steps) -> Window:
-    """The motions from states (m, 3) after so many revolutions: counts (m,), whole numbers from 16 on. periods (m,): of the first of them; steps
-    (m,): how many a revolution takes. Each row is computed as if alone."""
+    """The motions from states (m, 3) after so many revolutions: counts (m,), whole numbers from 16 on.
+    periods (m,): of the first of them; steps (m,): how many a revolution takes. Each row is computed as if
+    alone."""
     sums, powers, _, _ = matrices()
     m = len(states)
     normals, size = returns.normals(states), np.sqrt((states**2).sum(axis=1))
@@ -163,14 +183,16 @@ def window(returns: Returns, states, counts, periods, steps) -> Window:
         nodes = slice(turn > 1, None)  # the first node stays where it is
         if turn == 2:  # the faster, the sooner round: good enough to find the return by
             guesses *= size[:, None] / np.sqrt((x[:, :, :3]**2).sum(axis=2))
-        d[open_, nodes], guesses[open_, nodes], fine = _drift(returns, x[open_, nodes, :3], normals[open_], guesses[open_, nodes])
+        d[open_, nodes], guesses[open_, nodes], fine = _drift(returns, x[open_, nodes, :3], normals[open_],
+                                                              guesses[open_, nodes])
         after = x[open_, :1] + matrix[open_] @ d[open_]
         after[:, 1:, :3] = _projected(returns, after[:, 1:, :3], normals[open_])
         change = np.abs(after - x[open_])[:, :, :3].max(axis=(1, 2)) / size[open_]
         x[open_], turns[open_] = after, turn
         settled = fine & (change <= UNIT * (8 + counts[open_]))
         good[open_[settled]] = True
-        left = np.log(change / (UNIT * counts[open_])) / np.log(before[open_] / change)  # turns to come, at the pace of the last
+        # turns to come, at the pace of the last
+        left = np.log(change / (UNIT * counts[open_])) / np.log(before[open_] / change)
         going = fine & ~settled & ((turn < 3) | (change < 0.5 * before[open_]) & (turn + left < TURNS))
         before[open_] = change
         open_ = open_[going]
@@ -185,7 +207,9 @@ def _drift(returns, x, normals, guesses):
     m, nodes = guesses.shape
     flat = x.reshape(-1, 3)
     back, times, fine = returns(flat, np.repeat(normals, nodes, axis=0), guesses.ravel())
-    return np.concatenate([back - flat, times[:, None]], axis=1).reshape(m, nodes, 4), times.reshape(m, nodes), fine.reshape(m, nodes).all(axis=1)
+    return np.concatenate([back - flat, times[:, None]],
+                          axis=1).reshape(m, nodes,
+                                          4), times.reshape(m, nodes), fine.reshape(m, nodes).all(axis=1)
 
 
 def _projected(returns, x, normals):
@@ -207,7 +231,8 @@ def _smooth(returns, x, d, normals, guesses, allowed, good):
 
 
 class Leaps:
-    """The windows of the rows of `runs`: counts (n,) of revolutions of the next, periods (n,), steps (n,) of a revolution."""
+    """The windows of the rows of `runs`: counts (n,) of revolutions of the next, periods (n,), steps (n,) of
+    a revolution."""
 
     def __init__(self, runs: Runs):
         n = len(runs.states)
@@ -216,14 +241,16 @@ class Leaps:
         self.due = np.full(n, FROM)
 
     def advance(self, rows, t_max: float, pause: float = 0.0):
-        """The rows (of indices) that were carried on, each by one window; the others are left as they are, to go on step by step."""
+        """The rows (of indices) that were carried on, each by one window; the others are left as they are, to
+        go on step by step."""
         rows = rows[self.runs.steps[rows] >= self.due[rows]]
         if not rows.size:
             return rows
         with np.errstate(all="ignore"):
             self._find(rows[np.isnan(self.periods[rows])])
             ends = np.where(self.runs.times[rows] < pause, min(pause, t_max), t_max)
-            counts = np.floor(np.fmin(np.fmin(self.counts[rows], MOST), (ends - self.runs.times[rows]) / self.periods[rows] * 0.9))
+            counts = np.floor(np.fmin(np.fmin(self.counts[rows], MOST),
+                                      (ends - self.runs.times[rows]) / self.periods[rows] * 0.9))
             able = counts >= LEAST
             done = np.zeros(len(rows), bool)
             if able.any():
@@ -248,7 +275,8 @@ class Leaps:
         runs, m = self.runs, len(rows)
         states = runs.states[rows]
         twins, apart = runs.twins.start(rows, states, APART)
-        found = window(self.returns, np.concatenate([states, twins]), *(np.tile(v, 2) for v in (counts, self.periods[rows], self.steps[rows])))
+        found = window(self.returns, np.concatenate([states, twins]),
+                       *(np.tile(v, 2) for v in (counts, self.periods[rows], self.steps[rows])))
         good, turns = found.good[:m] & found.good[m:], found.turns[:m]
         runs.steps[rows] += (turns * (NODES * self.steps[rows])).astype(int)
         done, passed, delays = rows[good], found.times[:m][good], (found.times[m:] - found.times[:m])[good]
@@ -258,5 +286,7 @@ class Leaps:
         runs.twins.growth[done[lost]] = np.inf
         runs.twins.blur[done] += STEP_ERROR * runs.rounded[done] * passed
         self.periods[done] = found.periods[:m][good]
-        self.counts[rows] = np.where(good, counts * np.where(turns <= 8, 2.0, np.where(turns <= 11, 1.0, 0.5)), counts / 2)
+        self.counts[rows] = np.where(good,
+                                     counts * np.where(turns <= 8, 2.0, np.where(turns <= 11, 1.0, 0.5)),
+                                     counts / 2)
         return good

@@ -6,15 +6,17 @@ are linear in the spin x. Along the motion, with `Algebra`'s names,
     zeta' = i om p^(-turn_a/4) q^(-turn_b/4) zeta + x' carried,        x' = x_rate,
     d/dt  = i Om (zeta d - zeta* d*) + x' [d/dx + along carried].
 
-An oscillating term c zeta^j zeta*^k f(x) of a rate (j != k) is taken away by adding -c/(i Om (j - k)) zeta^j zeta*^k f(x) to the quantity:
-its rate then holds -c zeta^j zeta*^k f(x) and the price, what the rest of d/dt makes of the added term, smaller by at least one
-power of the spin. What does not oscillate (j = k) stays. Level of a term: four times the power of 1/x with which it falls.
-(About a fixed centre p = X, there is no q, and `fixed_kernel` does the same in loops over dense tables.)
+An oscillating term c zeta^j zeta*^k f(x) of a rate (j != k) is taken away by adding -c/(i Om (j - k)) zeta^j
+zeta*^k f(x) to the quantity: its rate then holds -c zeta^j zeta*^k f(x) and the price, what the rest of d/dt
+makes of the added term, smaller by at least one power of the spin. What does not oscillate (j = k) stays.
+Level of a term: four times the power of 1/x with which it falls. (About a fixed centre p = X, there is no q,
+and `fixed_kernel` does the same in loops over dense tables.)
 
-Rounding. Beside each coefficient goes its majorant, formed by the same operations on sizes, without subtraction: a coefficient is a
-sum of products, its majorant the sum of the same products' sizes. Each product is formed by fewer than 2^14 roundings (orders
-below 40: some ten to a level, and sums of fewer than 300 terms at each), so a coefficient in doubles errs by less than 2^-38 of its
-majorant. `sizes` gives |c| + ROUNDING majorant, ROUNDING = 2^-32, which covers that 64 times over.
+Rounding. Beside each coefficient goes its majorant, formed by the same operations on sizes, without
+subtraction: a coefficient is a sum of products, its majorant the sum of the same products' sizes. Each
+product is formed by fewer than 2^14 roundings (orders below 40: some ten to a level, and sums of fewer than
+300 terms at each), so a coefficient in doubles errs by less than 2^-38 of its majorant. `sizes` gives |c| +
+ROUNDING majorant, ROUNDING = 2^-32, which covers that 64 times over.
 """
 from __future__ import annotations
 
@@ -35,7 +37,8 @@ def packed(j, k, a, b):
 
 @dataclass(frozen=True)
 class Terms:
-    """keys: (n,) integers, no two alike; c: (n,) coefficients; m: (n,) what the sizes of all that was added up in c come to."""
+    """keys: (n,) integers, no two alike; c: (n,) coefficients; m: (n,) what the sizes of all that was added
+    up in c come to."""
 
     keys: np.ndarray
     c: np.ndarray
@@ -109,7 +112,8 @@ def gathered(*parts: Terms) -> Terms:
 
 def product(one: Terms, other: Terms) -> Terms:
     """The product of two sums of terms, like keys not yet added up."""
-    return Terms((one.keys[:, None] + other.keys).ravel(), (one.c[:, None] * other.c).ravel(), (one.m[:, None] * other.m).ravel())
+    return Terms((one.keys[:, None] + other.keys).ravel(), (one.c[:, None] * other.c).ravel(),
+                 (one.m[:, None] * other.m).ravel())
 
 
 def sizes(terms: Terms):
@@ -155,7 +159,8 @@ class Algebra:
         """d/dx of terms at constant zeta."""
         _, _, a, b = terms.powers
         return gathered(*(terms.moved(packed(0, 0, *step)).times(n).times(fall)[n != 0]
-                          for step, fall, n in (((4, 0), self.fall[0], a), ((0, 4), self.fall[1], b)) if fall))
+                          for step, fall,
+                          n in (((4, 0), self.fall[0], a), ((0, 4), self.fall[1], b)) if fall))
 
     def removed(self, terms: Terms) -> Terms:
         """What is added to a quantity to take oscillating terms out of its rate."""

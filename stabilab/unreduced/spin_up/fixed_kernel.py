@@ -1,4 +1,5 @@
-"""The certificate about the fixed centre in straight loops: elimination over dense tables, and the search for A and z of one state.
+"""The certificate about the fixed centre in straight loops: elimination over dense tables, and the search for
+A and z of one state.
 
 The theorem and its inequality are those of `certificate`, elimination and its rounding those of
 `elimination`. c[j, k, n] is the coefficient of zeta^j zeta*^k X^(1 - n), and beside it stands its majorant
@@ -26,7 +27,8 @@ import math
 from .lanes import load, spread, store, times_plus
 
 ROUNDING = 2.0**-32     # of coefficients over their majorants, as `elimination.ROUNDING`
-COEFFICIENT = 2.0**-36  # rounding of the terms' values, of their majorant: four times that of the coefficients alone
+# rounding of the terms' values, of their majorant: four times that of the coefficients alone
+COEFFICIENT = 2.0**-36
 SLACK = 2.0**-30
 GROWTH = 1 + 1e-7       # of A between passes: strict inequalities need room
 PASSES = 25             # of the search for A and z: it is monotone and settles in ten or never
@@ -42,7 +44,8 @@ def put(c, m, j, k, n, value, size):
 def price(c, m, j, k, n, value, size, numbers, rest):
     """Add to the table of a rate what the rest of d/dt makes of a term: all but the turning.
 
-    numbers: (D1, M1, gam, h); rest: (mu, kap), complex. X' = (M1 + gam Im zeta^2 + Re(kap* zeta))/D1, zeta' = i h zeta* + mu.
+    numbers: (D1, M1, gam, h); rest: (mu, kap), complex. X' = (M1 + gam Im zeta^2 + Re(kap* zeta))/D1, zeta' =
+    i h zeta* + mu.
     """
     D1, M1, gam, h = numbers[0], numbers[1], numbers[2], numbers[3]
     mu, kap = rest[0], rest[1]
@@ -63,7 +66,8 @@ def price(c, m, j, k, n, value, size, numbers, rest):
 
 
 def eliminate(c, m, added, most, order, om, numbers, rest):
-    """Take everything oscillating up to X^-order out of the rate (c, m); what is added to the quantity goes to (added, most)."""
+    """Take everything oscillating up to X^-order out of the rate (c, m); what is added to the quantity goes
+    to (added, most)."""
     top = c.shape[0]
     lift = 1j / om
     for n in range(order + 2):
@@ -79,7 +83,8 @@ def eliminate(c, m, added, most, order, om, numbers, rest):
 
 
 def tables(orders, om, drag, numbers, rest, added_e, most_e, rate_e, rise_e, added_b, most_b, rate_b, rise_b):
-    """Corrected energy and amplitude of orders (2,): each is (added terms, their majorants, terms of the rate, theirs), zeros at the start."""
+    """Corrected energy and amplitude of orders (2,): each is (added terms, their majorants, terms of the
+    rate, theirs), zeros at the start."""
     D1, M1, gam, h = numbers[0], numbers[1], numbers[2], numbers[3]
     mu, kap = rest[0], rest[1]
     put(rate_e, rise_e, 2, 0, 0, -0.5j * gam, abs(0.5 * gam))  # X (G - M1)
@@ -88,7 +93,8 @@ def tables(orders, om, drag, numbers, rest, added_e, most_e, rate_e, rise_e, add
     put(rate_e, rise_e, 0, 1, 0, 0.5 * kap, abs(0.5 * kap))
     eliminate(rate_e, rise_e, added_e, most_e, orders[0], om, numbers, rest)
     rate_e[0, 0, 1], rise_e[0, 0, 1] = 0, 0  # m*, the drive's
-    for j, k, value in ((2, 0, 0.5 * h / om + 0j), (0, 2, 0.5 * h / om + 0j), (1, 0, 1j * mu.conjugate() / om), (0, 1, -1j * mu / om)):
+    for j, k, value in ((2, 0, 0.5 * h / om + 0j), (0, 2, 0.5 * h / om + 0j),
+                        (1, 0, 1j * mu.conjugate() / om), (0, 1, -1j * mu / om)):
         size = abs(value)
         put(added_b, most_b, j, k, 2, value, size)  # R/(om X)
         f, s = -value / D1, size / D1               # its rate is -X' R/(om X^2)
@@ -113,7 +119,8 @@ def gather(c, m, by_size, out):
 
 
 def columns(table, wide, A, row):
-    """Sum of table[d, n] A^d over d into row[n], eight n at a time: degree d of a table stands in its rows d wide to d wide + wide - 1."""
+    """Sum of table[d, n] A^d over d into row[n], eight n at a time: degree d of a table stands in its rows d
+    wide to d wide + wide - 1."""
     size, last = spread(A), table.shape[0] - wide
     for c in range(wide):
         result = load(table, last + c)
@@ -129,7 +136,8 @@ def total(table, wide, first, A, over, shift, row):
 
 
 def falling(row, wide, over, first):
-    """Sum of row[n] over^(first + n): eight at once, by pairs, so that no product waits for more than three others."""
+    """Sum of row[n] over^(first + n): eight at once, by pairs, so that no product waits for more than three
+    others."""
     result = 0.0
     second = over * over
     fourth = second * second
@@ -143,7 +151,8 @@ def falling(row, wide, over, first):
 
 
 def value_of(weights, real, imaginary, wide, first, zeta, x, powers, row):
-    """The value of a quantity whose terms come with their conjugates: (real + i imaginary)[m, n - first] of zeta^j zeta*^k, weights (2, m): j, k."""
+    """The value of a quantity whose terms come with their conjugates: (real + i imaginary)[m, n - first] of
+    zeta^j zeta*^k, weights (2, m): j, k."""
     powers[0] = 1
     for j in range(1, powers.size):
         powers[j] = powers[j - 1] * zeta
@@ -167,11 +176,14 @@ def blurred(weights, real, imaginary, sums, majorant, wide, first, zeta, size, x
         for n in range(8):
             row[c, n] *= abs(8 * c + n + first - 1.0)
     moved = falling(row, wide, over, first) * dx
-    return value, (most - inner) + moved * (1 + SLACK) + SLACK * most + COEFFICIENT * total(majorant, wide, first, size, over, 0, row)
+    return value, (most - inner) + moved * (1
+                                            + SLACK) + SLACK * most + COEFFICIENT * total(
+                                                majorant, wide, first, size, over, 0, row)
 
 
 def parts(c, weights, real, imaginary):
-    """The terms with j >= k, doubled for their conjugates, one pair (j, k) that occurs to a row; returns how many."""
+    """The terms with j >= k, doubled for their conjugates, one pair (j, k) that occurs to a row; returns how
+    many."""
     m = 0
     for j in range(c.shape[0]):
         for k in range(j + 1):
@@ -184,7 +196,8 @@ def parts(c, weights, real, imaginary):
     return m
 
 
-def search(x, zeta, dx, dz, D1, M1, drag, weights_e, real_e, imaginary_e, weights_b, real_b, imaginary_b, e_sums, e_most, b_sums,
+def search(x, zeta, dx, dz, D1, M1, drag, weights_e, real_e, imaginary_e, weights_b, real_b, imaginary_b,
+           e_sums, e_most, b_sums,
            b_most, r_tails, k_sums, spans, powers, kept, row, out):
     """Whether the inequality holds at one place, and its constants A, z, eta, z_up, eta_up, k in out (6,):
     see `certificate`. spans (2, 4): of the quantities e, b, r, k the index n of the first column, and how
@@ -198,7 +211,8 @@ def search(x, zeta, dx, dz, D1, M1, drag, weights_e, real_e, imaginary_e, weight
     size = abs(zeta) * (1 + SLACK) + dz
     if not total(k_sums, wide_k, first_k, size, 1 / low, 1, row) < M1 + min(0.0, drag) / low:
         return False  # necessary, for k grows with A and as z falls: nothing else need be looked at
-    value, blur = blurred(weights_e, real_e, imaginary_e, e_sums, e_most, wide_e, first_e, zeta, size, x, low, dx, powers, row)
+    value, blur = blurred(weights_e, real_e, imaginary_e, e_sums, e_most, wide_e, first_e, zeta, size, x, low,
+                          dx, powers, row)
     energy, energy_up = value - blur, value + blur
     A, z, growth, amplitude = size * GROWTH, low / GROWTH, 1e-6, 0.0
     for number in range(PASSES):
@@ -206,7 +220,8 @@ def search(x, zeta, dx, dz, D1, M1, drag, weights_e, real_e, imaginary_e, weight
         growth *= 4
         columns(e_sums, wide_e, A, kept)
         for _ in range(2):  # the equation for z is nearly linear
-            need = max(falling(kept, wide_e, 1 / z, first_e - 1) - energy, 0.0) * (GROWTH + step) + 1e-7 * low * low
+            need = (max(falling(kept, wide_e, 1 / z, first_e - 1) - energy, 0.0) * (GROWTH + step)
+                    + 1e-7 * low * low)
             z = low - 2 * need / (D1 * (low + (z if z > 0 else low)))
             if not z > 0:
                 z = low
@@ -219,11 +234,13 @@ def search(x, zeta, dx, dz, D1, M1, drag, weights_e, real_e, imaginary_e, weight
         if not (eta > 0 and least > 0):
             return False
         if number == 0:  # its value costs most, and half of the searches end before
-            value, blur = blurred(weights_b, real_b, imaginary_b, b_sums, b_most, wide_b, first_b, zeta, size, x, low, dx, powers, row)
+            value, blur = blurred(weights_b, real_b, imaginary_b, b_sums, b_most, wide_b, first_b, zeta, size,
+                                  x, low, dx, powers, row)
             mean = drag / M1
             weight = 1 + mean / x + abs(mean) * (dx / (low * low) + BLUR / x) + BLUR
             amplitude = weight * size * size * (1 + SLACK) + value + blur
-        F = amplitude + total(b_sums, wide_b, first_b, A, over, 0, row) + total(r_tails, wide_r, first_r, A, over, -1, row) * D1 / eta
+        F = (amplitude + total(b_sums, wide_b, first_b, A, over, 0, row)
+             + total(r_tails, wide_r, first_r, A, over, -1, row) * D1 / eta)
         F /= least
         if not F < 1e100:
             return False
@@ -239,7 +256,8 @@ def search(x, zeta, dx, dz, D1, M1, drag, weights_e, real_e, imaginary_e, weight
     return False
 
 
-def decide(rows, states, reach, fired, number, found, order, frame, D1, M1, drag, weights_e, real_e, imaginary_e, weights_b, real_b, imaginary_b, e_sums,
+def decide(rows, states, reach, fired, number, found, order, frame, D1, M1, drag, weights_e, real_e,
+           imaginary_e, weights_b, real_b, imaginary_b, e_sums,
            e_most, b_sums, b_most, r_tails, k_sums, spans, powers, kept, row, constants):
     """Ask for those of rows that no test has fired for: fired (n,) becomes `number`, found (6, n) the
     constants, where the inequality holds for the whole ball of radius reach (n,) about the state. order (3,),
@@ -248,14 +266,20 @@ def decide(rows, states, reach, fired, number, found, order, frame, D1, M1, drag
     for n in rows:
         if fired[n] >= 0:
             continue
-        w1, w2, w3, near = frame[0] * states[n, order[0]], frame[1] * states[n, order[1]], frame[2] * states[n, order[2]], reach[n]
+        w1, w2, w3, near = frame[0] * states[n,
+                                             order[0]], frame[1] * states[n,
+                                                                          order[1]], frame[2] * states[n,
+                                                                                                       order[
+                                                                                                           2]], reach[n]
         x = w1 + frame[3]
         if not x > 0:
             continue
         size = abs(w1) + abs(w2) + abs(w3) + abs(frame[4]) + abs(frame[5])
         zeta = complex(frame[6] * (w2 - frame[4]), frame[7] * (w3 - frame[5]))
-        if search(x, zeta, BLUR * (abs(w1) + abs(frame[3])) + near, most * (BLUR * size + near), D1, M1, drag, weights_e, real_e, imaginary_e, weights_b,
-                  real_b, imaginary_b, e_sums, e_most, b_sums, b_most, r_tails, k_sums, spans, powers, kept, row, constants):
+        if search(x, zeta, BLUR * (abs(w1) + abs(frame[3])) + near, most * (BLUR * size + near), D1, M1, drag,
+                  weights_e, real_e, imaginary_e, weights_b,
+                  real_b, imaginary_b, e_sums, e_most, b_sums, b_most, r_tails, k_sums, spans, powers, kept,
+                  row, constants):
             fired[n] = number
             for i in range(6):
                 found[i, n] = constants[i]

@@ -34,11 +34,14 @@ from .symmetric import exactly
 
 NATURAL_TIMES, BUDGET = 1e9, 600_000
 FARTHEST = 1e150  # natural units: a run in doubles holds no squares of larger rates
-# Steps, states and questions of a process that take as long as loading compiled code; compiling takes so many times as long
+# Steps, states and questions of a process that take as long as loading compiled code; compiling takes so many
+# times as long
 PLAIN, STATES, QUESTIONS, COMPILING = 100, 8, 8, 10
 LEVELS = ("undecided", "certified", "exact", "proved")
-FIRST, EARLY, SHARES, MOST = 4, 600, (0.25, 0.1), 2000  # steps between tests: a share of those before (early, later), at least and at most so many
-# Which tests a stage asks: (every so many stages, from so many steps on, name in `Tests`), the last that applies. What costs more comes later.
+# steps between tests: a share of those before (early, later), at least and at most so many
+FIRST, EARLY, SHARES, MOST = 4, 600, (0.25, 0.1), 2000
+# Which tests a stage asks: (every so many stages, from so many steps on, name in `Tests`), the last that
+# applies. What costs more comes later.
 LAST = 20_000
 PLAN = ((1, 0, "often"), (3, 48, "high"), (4, 3000, "all"), (8, LAST, "last"))
 
@@ -72,7 +75,8 @@ def chase(scene, tests: Tests, starts, t_max: float, budget: int, after: float =
     compiled."""
     n = len(starts)
     runs = Runs(scene, starts)
-    out = Chased(tests, np.full(n, -1), runs.times, runs.steps, np.ones(n), runs.states, np.full((6, n), np.nan), np.zeros((n, 48)), np.full((n, 48), np.inf),
+    out = Chased(tests, np.full(n, -1), runs.times, runs.steps, np.ones(n), runs.states,
+                 np.full((6, n), np.nan), np.zeros((n, 48)), np.full((n, 48), np.inf),
                  runs.rounded, runs.twins.blur, np.zeros(n))
     open_, stage, leaps, leapt = np.arange(n), 0, Leaps(runs), np.arange(0)
     while open_.size:
@@ -80,7 +84,8 @@ def chase(scene, tests: Tests, starts, t_max: float, budget: int, after: float =
         runs.measure(open_, out)
         ready = open_ if after <= 0 else open_[out.t[open_] >= after]
         which = [name for every, since, name in PLAN if stage % every == 0 and runs.steps_done >= since][-1]
-        far = np.intersect1d(ready, leapt) if leapt.size else leapt  # rows that have just leapt: a test costs less than what they passed
+        # rows that have just leapt: a test costs less than what they passed
+        far = np.intersect1d(ready, leapt) if leapt.size else leapt
         for rows, asked in ((np.setdiff1d(ready, far) if far.size else ready, which), (far, "last")):
             if rows.size:
                 _ask(out, rows, getattr(tests, asked), runs.fast)
@@ -95,7 +100,9 @@ def chase(scene, tests: Tests, starts, t_max: float, budget: int, after: float =
             rows = np.setdiff1d(open_, leapt) if leapt.size else open_
             if rows.size:
                 share = SHARES[runs.steps_done >= EARLY]
-                runs.advance(rows, int(min(max(FIRST, runs.steps_done * share), MOST, max(1, budget - runs.steps[rows].min()))), t_max, after)
+                runs.advance(rows,
+                             int(min(max(FIRST, runs.steps_done * share), MOST,
+                                     max(1, budget - runs.steps[rows].min()))), t_max, after)
             if tell:
                 tell(float(out.t[open_].min()), runs.steps_done, open_.size)
         stage += 1
@@ -112,9 +119,11 @@ def _ask(out, rows, which, fast):
         rows = rows[out.fired[rows] < 0]
 
 
-def spin_up(scene: AnyScene, state: Any, t_max: float | None = None, budget: int | None = None, after: float = 0.0, proof: bool = False,
+def spin_up(scene: AnyScene, state: Any, t_max: float | None = None, budget: int | None = None,
+            after: float = 0.0, proof: bool = False,
             tell: Callable[..., Any] | None = None, fast: bool | None = None) -> SpinUp:
-    """Whether and how the motion from a state spins up, decided by a certificate (`certificate`, `symmetric`) or not at all.
+    """Whether and how the motion from a state spins up, decided by a certificate (`certificate`, `symmetric`)
+    or not at all.
 
     scene: gyrostat and constant torque, physical or scaled. state: three rates at t = 0, taken at their word.
     t_max: how long the motion is followed, in the scene's time (None: 1e9 natural units, of the root of mean
@@ -124,9 +133,9 @@ def spin_up(scene: AnyScene, state: Any, t_max: float | None = None, budget: int
     machine precision: level "proved" where that succeeds. A state of Fractions or of decimals in strings is
     then taken exactly. tell(time, steps, motions left): called on the way. fast: True for loops compiled by
     numba, False for the same loops as they are written, None for whichever is sooner: numba is loaded for
-    many states, a long motion, a proof, and where the process has asked before. The motions are the same to the last bit.
-    Raises InputError for scenes with other effects than turn the body as wheel and torque do, and for states
-    that are none.
+    many states, a long motion, a proof, and where the process has asked before. The motions are the same to
+    the last bit. Raises InputError for scenes with other effects than turn the body as wheel and torque do,
+    and for states that are none.
     """
     given, scene, state = state, effective(checked_scene(scene)), three_floats(state)
     scene.quadratic()  # says which effect of the scene is not covered
@@ -137,10 +146,13 @@ def spin_up(scene: AnyScene, state: Any, t_max: float | None = None, budget: int
     if not tests:
         return SpinUp(Fate.UNDECIDED, 0, 0, None, "undecided", None, 0.0, state, 0, seen(scene, state), 1.0)
     if not follows(state, unit):
-        words = f"a rate exceeds {FARTHEST:g} natural units of {unit:.3g} 1/{scene.time_unit}: no run in doubles holds it"
+        words = (
+            f"a rate exceeds {FARTHEST:g} natural units of {unit:.3g} 1/{scene.time_unit}: no run in doubles "
+            f"holds it")
         return SpinUp(Fate.UNDECIDED, 0, 0, None, "undecided", None, 0.0, state, 0, words, 1.0)
     plain = _plain_steps(1, fast, proof)
-    found = chase(own, tests, np.array([state]) / unit, NATURAL_TIMES if t_max is None else t_max * unit, BUDGET if budget is None else budget, after * unit,
+    found = chase(own, tests, np.array([state]) / unit, NATURAL_TIMES if t_max is None else t_max * unit,
+                  BUDGET if budget is None else budget, after * unit,
                   tell and (lambda t, steps, left: tell(t / unit, steps, left)), plain)
     answer = kept_by_law(scene, state, answer_of(scene, unit, found, 0))
     start = given if isinstance(given, (list, tuple)) else state
@@ -148,8 +160,9 @@ def spin_up(scene: AnyScene, state: Any, t_max: float | None = None, budget: int
 
 
 def _plain_steps(n: int, fast: bool | None, proof: bool = False) -> float:
-    """How many steps of n motions are taken by loops as they are written: as long as compiled ones are not to be
-    had sooner, so that an answer takes at most twice the time of the quicker. proof: loads numba anyway."""
+    """How many steps of n motions are taken by loops as they are written: as long as compiled ones are not to
+    be had sooner, so that an answer takes at most twice the time of the quicker. proof: loads numba
+    anyway."""
     patience = 1 if loaded() or stored() else COMPILING
     asked = tests_of.cache_info()
     soon = loaded() or proof or asked.hits + asked.misses > QUESTIONS * patience
@@ -159,13 +172,15 @@ def _plain_steps(n: int, fast: bool | None, proof: bool = False) -> float:
 
 
 def kept_by_law(scene: AnyScene, state: tuple[float, ...], answer: SpinUp) -> SpinUp:
-    """The answer, or, where no inequality came true and the law of a torque along a principal axis keeps the motion bounded, that."""
+    """The answer, or, where no inequality came true and the law of a torque along a principal axis keeps the
+    motion bounded, that."""
     if answer.fate != Fate.UNDECIDED or reduce(scene) is None:
         return answer
     known = law.motion(scene, state, brief=True)
     if known.fate not in (Fate.BOUNDED, Fate.EQUILIBRIUM):
         return answer
-    return replace(answer, fate=Fate.BOUNDED, level="exact", cause=f"bounded by the law of a torque along a principal axis: {known.because}")
+    return replace(answer, fate=Fate.BOUNDED, level="exact",
+                   cause=f"bounded by the law of a torque along a principal axis: {known.because}")
 
 
 def follows(state, unit: float) -> bool:
@@ -178,29 +193,39 @@ def answer_of(scene, unit: float, found: Chased, row: int) -> SpinUp:
     t, state = float(found.t[row]) / unit, tuple((found.states[row] * unit).tolist())
     steps, condition, passed = int(found.steps[row]), float(found.condition[row]), float(found.passed[row])
     if found.fired[row] < 0 and not all(map(math.isfinite, (t, *state))):
-        words = f"a run in doubles broke off after {steps} steps, as its numbers left their range: nothing is seen of the motion"
-        return SpinUp(Fate.UNDECIDED, 0, 0, None, "undecided", None, t, state, steps, words, condition, passed)
+        words = (
+            f"a run in doubles broke off after {steps} steps, as its numbers left their range: nothing is "
+            f"seen of the motion")
+        return SpinUp(Fate.UNDECIDED, 0, 0, None, "undecided", None, t, state, steps, words, condition,
+                      passed)
     if found.fired[row] < 0:
         recurrent = recurs(found.largest[row].tolist(), found.least[row].tolist(), steps)
-        words = (f"{seen(scene, state, island_words(scene, t) if recurrent else '')}; followed for {t:.6g} {scene.time_unit}, {steps} steps, over which a "
+        words = (f"{seen(scene, state, island_words(scene, t) if recurrent else '')}; followed for {t:.6g} "
+                 f"{scene.time_unit}, {steps} steps, over which a "
                  f"small change grew {condition:.3g} times")
         if not condition * (1 + passed) * 2.0**-52 < 1 / 16:
             words += ": more than a run in doubles can tell"
-        return SpinUp(Fate.UNDECIDED, 0, 0, None, "undecided", None, t, state, steps, words, condition, passed)
+        return SpinUp(Fate.UNDECIDED, 0, 0, None, "undecided", None, t, state, steps, words, condition,
+                      passed)
     field, orders = found.tests.asked[found.fired[row]]
-    trap = Trap(field, field.name, orders, *map(float, found.constants[:, row]), unit, t, float(found.blur[row]) / unit)  # type: ignore[call-arg]  # six constants
+    trap = Trap(field, field.name, orders, *map(float, found.constants[:, row]), unit, t,
+                float(found.blur[row]) / unit)  # type: ignore[call-arg]  # six constants
     direction = tuple(field.basis[0].tolist())
     axis, sense = (0, 1) if field.axis is None else (field.axis + 1, field.sense)
     where = "in the equator, across the axis of symmetry" if not axis else f"about axis {axis}"
-    words = f"spin-up {where} is certified about the {field.name} at orders {orders[0]} and {orders[1]}: the inequality holds for ever"
-    return SpinUp(Fate.SPIN_UP, axis, sense, direction, "certified", trap, t, state, steps, words, condition, passed)
+    words = (
+        f"spin-up {where} is certified about the {field.name} at orders {orders[0]} and {orders[1]}: the "
+        f"inequality holds for ever")
+    return SpinUp(Fate.SPIN_UP, axis, sense, direction, "certified", trap, t, state, steps, words, condition,
+                  passed)
 
 
 @dataclass(frozen=True)
 class SpinUps:
     """Columns (n,) of what `spin_up` says of each state.
 
-    fate: int8 of `Fate`; axis: 1, 2, 3 or 0; sense: +1, -1 or 0; level: int8, index into LEVELS; t, steps, condition as of `SpinUp`, states (n, 3) at t;
+    fate: int8 of `Fate`; axis: 1, 2, 3 or 0; sense: +1, -1 or 0; level: int8, index into LEVELS; t, steps,
+    condition as of `SpinUp`, states (n, 3) at t;
     """
 
     fate: np.ndarray
@@ -218,10 +243,12 @@ class SpinUps:
 
     def row(self, number: int) -> SpinUp:
         """All that is known of one state: trap, cause, direction."""
-        return self.exact[number] if self.chased is None else answer_of(self.scene, self.unit, self.chased, number)
+        return (self.exact[number] if self.chased is None
+                else answer_of(self.scene, self.unit, self.chased, number))
 
 
-def spin_up_many(scene, states, t_max: float | None = None, budget: int | None = None, tell=None, fast: bool | None = None,
+def spin_up_many(scene, states, t_max: float | None = None, budget: int | None = None, tell=None,
+                 fast: bool | None = None,
                  proof: bool = False) -> SpinUps:
     """`spin_up` for states (n, 3), in batches; every motion leaves its batch as soon as it is decided. Limits
     as there. proof: enclose the way of each that is certified, one after another."""
@@ -229,37 +256,47 @@ def spin_up_many(scene, states, t_max: float | None = None, budget: int | None =
     covered.quadratic()  # says which effect of the scene is not covered
     own, unit = natural(covered)
     tests = tests_of(own)
-    closed = bool(len(states)) and exactly(covered, states[0].tolist()) is not None  # of all states of the scene or of none
+    # of all states of the scene or of none
+    closed = bool(len(states)) and exactly(covered, states[0].tolist()) is not None
     if closed or not tests or not (np.abs(states) / FARTHEST < unit).all():
         return _one_by_one(scene, states, t_max=t_max, budget=budget, fast=fast, proof=proof)
     plain = _plain_steps(len(states), fast)
-    found = chase(own, tests, states / unit, NATURAL_TIMES if t_max is None else t_max * unit, BUDGET if budget is None else budget,
+    found = chase(own, tests, states / unit, NATURAL_TIMES if t_max is None else t_max * unit,
+                  BUDGET if budget is None else budget,
                   tell=tell and (lambda t, steps, left: tell(t / unit, steps, left)), plain=plain)
     good = found.fired >= 0
     axes = np.array([0 if field.axis is None else field.axis + 1 for field, _ in tests.asked] + [0])
     senses = np.array([field.sense for field, _ in tests.asked] + [0])
-    out = SpinUps(np.where(good, Fate.SPIN_UP, Fate.UNDECIDED).astype(np.int8), axes[found.fired].astype(np.int8), senses[found.fired].astype(np.int8),
-                  good.astype(np.int8), found.t / unit, found.steps, found.condition, found.states * unit, scene, unit, found, ())
+    out = SpinUps(np.where(good, Fate.SPIN_UP, Fate.UNDECIDED).astype(np.int8),
+                  axes[found.fired].astype(np.int8), senses[found.fired].astype(np.int8),
+                  good.astype(np.int8), found.t / unit, found.steps, found.condition, found.states * unit,
+                  scene, unit, found, ())
     if not good.all() and reduce(covered) is not None:
-        return _with_rows(out, tuple(kept_by_law(covered, state, out.row(number)) for number, state in enumerate(states.tolist())))
+        return _with_rows(out, tuple(kept_by_law(covered, state, out.row(number)) for number,
+                                     state in enumerate(states.tolist())))
     return _proved(scene, states, out, not plain) if proof else out
 
 
 def _with_rows(found: SpinUps, rows) -> SpinUps:
     """The answers with these rows in place of what a run found."""
-    return replace(found, fate=np.array([row.fate for row in rows], np.int8), level=np.array([LEVELS.index(row.level) for row in rows], np.int8),
+    return replace(found, fate=np.array([row.fate for row in rows], np.int8),
+                   level=np.array([LEVELS.index(row.level) for row in rows], np.int8),
                    chased=None, exact=rows)
 
 
 def _proved(scene, states, found: SpinUps, fast: bool) -> SpinUps:
-    rows = tuple(proved(scene, state, found.row(number), fast=fast) for number, state in enumerate(states.tolist()))
+    rows = tuple(proved(scene, state, found.row(number), fast=fast) for number,
+                 state in enumerate(states.tolist()))
     columns = {name: np.array([getattr(row, name) for row in rows]) for name in ("t", "state")}
-    return replace(found, level=np.array([LEVELS.index(row.level) for row in rows], np.int8), t=columns["t"], states=columns["state"].reshape(-1, 3),
+    return replace(found, level=np.array([LEVELS.index(row.level) for row in rows], np.int8), t=columns["t"],
+                   states=columns["state"].reshape(-1, 3),
                    chased=None, exact=rows)
 
 
 def _one_by_one(scene, states, **limits):
     rows = tuple(spin_up(scene, state, **limits) for state in states.tolist())
     columns = [np.array([getattr(row, name) for row in rows]) for name in ("fate", "axis", "sense")]
-    return SpinUps(*(column.astype(np.int8) for column in columns), np.array([LEVELS.index(row.level) for row in rows], np.int8),
-                   *(np.array([getattr(row, name) for row in rows]) for name in ("t", "steps", "condition", "state")), scene, 1.0, None, rows)
+    return SpinUps(*(column.astype(np.int8) for column in columns),
+                   np.array([LEVELS.index(row.level) for row in rows], np.int8),
+                   *(np.array([getattr(row, name) for row in rows])
+                     for name in ("t", "steps", "condition", "state")), scene, 1.0, None, rows)

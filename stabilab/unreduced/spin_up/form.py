@@ -1,25 +1,27 @@
-"""A gyrostat under a constant torque of any direction, seen from its major or minor axis: the exact normal form.
+"""A gyrostat under a constant torque of any direction, seen from its major or minor axis: the exact normal
+form.
 
-With the axis under study called 1 (cyclic relabelling), d2 = D1 - D2 and d3 = D1 - D3 of one sign s, a2 = |d2|, a3 = |d3|,
-m2 = M2 - l1 l3/d3, m3 = M3 + l1 l2/d2, U = omega2 - l2/d2 and V = omega3 - l3/d3, Euler's equations are exactly
+With the axis under study called 1 (cyclic relabelling), d2 = D1 - D2 and d3 = D1 - D3 of one sign s, a2 =
+|d2|, a3 = |d3|, m2 = M2 - l1 l3/d3, m3 = M3 + l1 l2/d2, U = omega2 - l2/d2 and V = omega3 - l3/d3, Euler's
+equations are exactly
 
     D2 U' = m2 - (d3 omega1 + l1) V,    D3 V' = m3 + (d2 omega1 + l1) U,
     D1 omega1' = M1 + (d3 - d2) U V - (l3 d2/d3) U + (l2 d3/d2) V        (its constant terms cancel).
 
-With X = omega1 + s l1 (a2 + a3)/(2 a2 a3) and zeta = sqrt(D2 a2) U + i s sqrt(D3 a3) V, so that U V = s Im zeta^2/(2 sqrt(D2 D3 a2 a3)),
-these two lines and the third become
+With X = omega1 + s l1 (a2 + a3)/(2 a2 a3) and zeta = sqrt(D2 a2) U + i s sqrt(D3 a3) V, so that U V = s Im
+zeta^2/(2 sqrt(D2 D3 a2 a3)), these two lines and the third become
 
     zeta' = i om X zeta + i h zeta* + mu,       D1 X' = G = M1 + gam Im zeta^2 + Re(kap* zeta),
 
-om = sqrt(a2 a3/(D2 D3)), gam = (a3 - a2)/(2 sqrt(D2 D3 a2 a3)), h = s l1 gam, mu = sqrt(a2/D2) m2 + i s sqrt(a3/D3) m3,
-kap = -(l3 a2/a3)/sqrt(D2 a2) + i s (l2 a3/a2)/sqrt(D3 a3): for d3 omega1 + l1 and d2 omega1 + l1 are s a3 (X + c) and s a2 (X - c)
-with c = l1 (d2 - d3)/(2 d2 d3), and om c = -h. Zeta turns at the rate om X: what oscillates can be taken away, and what is left
-grows as the torque says. Where the torque's component is negative the body is turned by half a turn about axis 2 first, so that
-M1 > 0 and X grows.
+om = sqrt(a2 a3/(D2 D3)), gam = (a3 - a2)/(2 sqrt(D2 D3 a2 a3)), h = s l1 gam, mu = sqrt(a2/D2) m2 + i s
+sqrt(a3/D3) m3, kap = -(l3 a2/a3)/sqrt(D2 a2) + i s (l2 a3/a2)/sqrt(D3 a3): for d3 omega1 + l1 and d2 omega1 +
+l1 are s a3 (X + c) and s a2 (X - c) with c = l1 (d2 - d3)/(2 d2 d3), and om c = -h. Zeta turns at the rate om
+X: what oscillates can be taken away, and what is left grows as the torque says. Where the torque's component
+is negative the body is turned by half a turn about axis 2 first, so that M1 > 0 and X grows.
 
-The scaled gyrostat x1' = x2 x3 + mu1, x2' = -x3 (x1 + a) + mu2, x3' = x2 (x1 + b) + mu3 has such forms for any a and b, those of
-no body as well: about x1 with zeta = x2 + i x3, X = x1 + (a + b)/2, h = (b - a)/2, kap = 0, and about x3 with
-zeta = x2 + i (x1 + a), X = x3, h = 0, kap = b - a; om = 1 and gam = 1/2 in both.
+The scaled gyrostat x1' = x2 x3 + mu1, x2' = -x3 (x1 + a) + mu2, x3' = x2 (x1 + b) + mu3 has such forms for
+any a and b, those of no body as well: about x1 with zeta = x2 + i x3, X = x1 + (a + b)/2, h = (b - a)/2, kap
+= 0, and about x3 with zeta = x2 + i (x1 + a), X = x3, h = 0, kap = b - a; om = 1 and gam = 1/2 in both.
 """
 from __future__ import annotations
 
@@ -35,7 +37,8 @@ HALF_TURN = (-1, 1, -1)  # about axis 2: a rotation of the body, so every vector
 
 
 class Floats:
-    """The kind of number that forms are made of: doubles, each rounded once from its exact value or its exact square."""
+    """The kind of number that forms are made of: doubles, each rounded once from its exact value or its exact
+    square."""
 
     real, root, pair = float, math.sqrt, complex
     i = 1j
@@ -43,11 +46,13 @@ class Floats:
 
 @dataclass(frozen=True)
 class NormalForm:
-    """The normal form about one body axis (index `axis`), for a torque whose component there has the sign `sense`.
+    """The normal form about one body axis (index `axis`), for a torque whose component there has the sign
+    `sense`.
 
-    order: body axes in the order 1, 2, 3 of the form; shift: X - omega1; centre: what omega2 and omega3 oscillate about;
-    scale: zeta = scale[0] U + i scale[1] V; all in the turned frame. Numbers are of the kind that made them; their relative
-    errors, where they are doubles, are at most 4 units of rounding: rational parts are exact before the one root.
+    order: body axes in the order 1, 2, 3 of the form; shift: X - omega1; centre: what omega2 and omega3
+    oscillate about; scale: zeta = scale[0] U + i scale[1] V; all in the turned frame. Numbers are of the kind
+    that made them; their relative errors, where they are doubles, are at most 4 units of rounding: rational
+    parts are exact before the one root.
     """
 
     axis: int
@@ -79,12 +84,13 @@ class NormalForm:
     def place(self, state):
         """(X, zeta) of a state (three rates in the body's principal axes)."""
         w1, w2, w3 = (turn * state[i] for turn, i in zip(self.turn, self.order))
-        return w1 + self.shift, self.kind.pair(self.scale[0] * (w2 - self.centre[0]), self.scale[1] * (w3 - self.centre[1]))
+        return w1 + self.shift, self.kind.pair(self.scale[0] * (w2 - self.centre[0]),
+                                               self.scale[1] * (w3 - self.centre[1]))
 
 
 def normal_form(D, wheel, torque, axis: int, kind=Floats) -> NormalForm | None:
-    """The normal form about a body axis; None where the torque has no component there, or the axis is neither the major
-    nor the minor one (or shares its moment with another).
+    """The normal form about a body axis; None where the torque has no component there, or the axis is neither
+    the major nor the minor one (or shares its moment with another).
 
     D, wheel, torque: three exact numbers each (floats are taken at their word), in principal axes.
     """
@@ -103,10 +109,13 @@ def normal_form(D, wheel, torque, axis: int, kind=Floats) -> NormalForm | None:
     part = lambda sign, square: sign * root(square)
     m2, m3, gam = M2 - l1 * l3 / d3, M3 + l1 * l2 / d2, signed_square((a3 - a2) / 2, D2 * D3 * a2 * a3)
     return NormalForm(
-        axis, sense, order, real(D1), real(M1), root(a2 * a3 / (D2 * D3)), part(*gam), part(*signed_square(s * l1 * (a3 - a2) / 2, D2 * D3 * a2 * a3)),
+        axis, sense, order, real(D1), real(M1), root(a2 * a3 / (D2 * D3)), part(*gam),
+        part(*signed_square(s * l1 * (a3 - a2) / 2, D2 * D3 * a2 * a3)),
         kind.pair(part(*signed_square(m2, D2 / a2)), part(*signed_square(s * m3, D3 / a3))),
-        kind.pair(part(*signed_square(-l3 * a2 / a3, D2 * a2)), part(*signed_square(s * l2 * a3 / a2, D3 * a3))),
-        real(s * l1 * (a2 + a3) / (2 * a2 * a3)), (real(l2 / d2), real(l3 / d3)), (root(D2 * a2), s * root(D3 * a3)),
+        kind.pair(part(*signed_square(-l3 * a2 / a3, D2 * a2)),
+                  part(*signed_square(s * l2 * a3 / a2, D3 * a3))),
+        real(s * l1 * (a2 + a3) / (2 * a2 * a3)), (real(l2 / d2), real(l3 / d3)),
+        (root(D2 * a2), s * root(D3 * a3)),
         real(l2 * M2 / d2 + l3 * M3 / d3), kind)
 
 
@@ -116,7 +125,8 @@ def signed_square(numerator, square):
 
 
 def scaled_normal_form(a, b, mu, axis: int, kind=Floats) -> NormalForm | None:
-    """The normal form of the scaled gyrostat about x1 or x3 (index 0 or 2); None where mu vanishes there, and about x2."""
+    """The normal form of the scaled gyrostat about x1 or x3 (index 0 or 2); None where mu vanishes there, and
+    about x2."""
     a, b, mu = Fraction(a), Fraction(b), tuple(map(Fraction, mu))
     sense = (mu[axis] > 0) - (mu[axis] < 0)
     if not sense or axis == 1:
@@ -124,17 +134,21 @@ def scaled_normal_form(a, b, mu, axis: int, kind=Floats) -> NormalForm | None:
     real, one, half = kind.real, kind.real(Fraction(1)), kind.real(Fraction(1, 2))
     a, b, m1, m3 = sense * a, sense * b, sense * mu[0], sense * mu[2]
     if axis == 0:
-        return NormalForm(0, sense, (0, 1, 2), one, real(m1), one, half, real((b - a) / 2), kind.pair(real(mu[1]), real(m3)), kind.pair(0 * one, 0 * one),
+        return NormalForm(0, sense, (0, 1, 2), one, real(m1), one, half, real((b - a) / 2),
+                          kind.pair(real(mu[1]), real(m3)), kind.pair(0 * one, 0 * one),
                           real((a + b) / 2), (0 * one, 0 * one), (one, one), 0 * one, kind)
-    return NormalForm(2, sense, (2, 1, 0), one, real(m3), one, half, 0 * one, kind.pair(real(mu[1]), real(m1)), kind.pair(real(b - a), 0 * one),
+    return NormalForm(2, sense, (2, 1, 0), one, real(m3), one, half, 0 * one,
+                      kind.pair(real(mu[1]), real(m1)), kind.pair(real(b - a), 0 * one),
                       0 * one, (0 * one, real(-a)), (one, one), real((a - b) * m1), kind)
 
 
 def forms_of(scene, kind=Floats) -> list[NormalForm]:
-    """The normal forms of a scene (gyrostat and constant torque): one for each extremal axis that bears a torque."""
+    """The normal forms of a scene (gyrostat and constant torque): one for each extremal axis that bears a
+    torque."""
     with in_range("scene"):
         if scene.variables == "scaled":
             forms = [scaled_normal_form(*scene.exact_ab, scene.exact_mu, i, kind) for i in range(3)]  # type: ignore[call-arg]
         else:
-            forms = [normal_form(scene.body.exact, scene.vector("gyrostat"), scene.vector("constant_torque"), i, kind) for i in range(3)]
+            forms = [normal_form(scene.body.exact, scene.vector("gyrostat"), scene.vector("constant_torque"),
+                                 i, kind) for i in range(3)]
     return [form for form in forms if form]

@@ -3,8 +3,8 @@
 A row of an array (n, 8) is loaded, worked on and stored as one value; lanes never meet, so that the numbers
 of a motion depend on no neighbour. Each operation stands here twice: as NumPy has it, on rows of any length,
 and (`vectors`) as instructions on vectors, which numba does not make of loops by itself. The two agree to the
-last bit (x y + z is rounded twice in both), so that an answer does not depend on what the process has compiled.
-numba's cache on disk watches the kernel's file alone: change both together.
+last bit (x y + z is rounded twice in both), so that an answer does not depend on what the process has
+compiled. numba's cache on disk watches the kernel's file alone: change both together.
 """
 from __future__ import annotations
 
@@ -40,7 +40,8 @@ def loaded() -> bool:
 
 
 def stored() -> bool:
-    """Whether an earlier process left compiled steps beside the sources, where numba puts them unless told otherwise."""
+    """Whether an earlier process left compiled steps beside the sources, where numba puts them unless told
+    otherwise."""
     return any(Path(__file__).with_name("__pycache__").glob("steps.advance-*.nbi"))
 
 
@@ -112,8 +113,9 @@ EXPONENT = 0x7FF0000000000000
 
 @lru_cache(maxsize=1)
 def vector_type():
-    """Numba's type of eight doubles, one for the process. Code that is kept on disk names it by this function: a copy of the class, as pickle would
-    make for each process, is no type that numba knows, where some functions are kept and others are compiled anew."""
+    """Numba's type of eight doubles, one for the process. Code that is kept on disk names it by this
+    function: a copy of the class, as pickle would make for each process, is no type that numba knows, where
+    some functions are kept and others are compiled anew."""
     from llvmlite import ir
     from numba.core import types
     from numba.extending import models, register_model
@@ -122,7 +124,8 @@ def vector_type():
         def __reduce__(self):
             return vector_type, ()
 
-    register_model(Lanes)(type("LanesModel", (models.PrimitiveModel,), {"__init__": lambda self, dmm, one: models.PrimitiveModel.__init__(
+    register_model(Lanes)(type("LanesModel", (models.PrimitiveModel,),
+                               {"__init__": lambda self, dmm, one: models.PrimitiveModel.__init__(
         self, dmm, one, ir.VectorType(ir.DoubleType(), WIDE))}))
     return Lanes("lanes")
 
@@ -134,13 +137,16 @@ def vectors() -> dict:
     from numba.core import cgutils, types
     from numba.extending import intrinsic
 
-    lanes, double, whole = vector_type(), ir.VectorType(ir.DoubleType(), WIDE), ir.VectorType(ir.IntType(64), WIDE)
+    lanes, double, whole = vector_type(), ir.VectorType(ir.DoubleType(),
+                                                        WIDE), ir.VectorType(ir.IntType(64), WIDE)
 
     def operation(emit, *arguments, result=lanes):
         def typed(context, *given):
-            return result(*(old if new is None else new for old, new in zip(given, arguments))), lambda *all_: emit(*all_)
+            return result(*(old if new is None else new for old,
+                            new in zip(given, arguments))), lambda *all_: emit(*all_)
         counted = {1: lambda context, x: typed(context, x), 2: lambda context, x, y: typed(context, x, y),
-                   3: lambda context, x, y, z: typed(context, x, y, z)}  # numba counts the arguments by their names
+                   # numba counts the arguments by their names
+                   3: lambda context, x, y, z: typed(context, x, y, z)}
         return intrinsic(counted[len(arguments)])
 
     def place(context, builder, signature, given):
@@ -159,29 +165,34 @@ def vectors() -> dict:
 
     def spread_out(context, builder, signature, given):
         empty, where = ir.Constant(double, ir.Undefined), ir.VectorType(ir.IntType(32), WIDE)
-        return builder.shuffle_vector(builder.insert_element(empty, given[0], ir.IntType(32)(0)), empty, ir.Constant(where, [0] * WIDE))
+        return builder.shuffle_vector(builder.insert_element(empty, given[0], ir.IntType(32)(0)), empty,
+                                      ir.Constant(where, [0] * WIDE))
 
     def called(name, n):
         def emit(context, builder, signature, given):
             kind = ir.FunctionType(double, [double] * n)
-            return builder.call(cgutils.get_or_insert_function(builder.module, kind, f"llvm.{name}.v{WIDE}f64"), given)
+            return builder.call(cgutils.get_or_insert_function(builder.module, kind,
+                                                               f"llvm.{name}.v{WIDE}f64"), given)
         return emit
 
     def product_plus(context, builder, signature, given):
-        return builder.fadd(builder.fmul(given[0], given[1]), given[2])  # not the processor's one instruction, which rounds once
+        # not the processor's one instruction, which rounds once
+        return builder.fadd(builder.fmul(given[0], given[1]), given[2])
 
     def all_of(kind, number):
         return ir.Constant(kind, [number] * WIDE)
 
     def chosen(sign):
-        return lambda context, builder, signature, given: builder.select(builder.fcmp_ordered(sign, *given), *given)
+        return lambda context, builder, signature, given: builder.select(builder.fcmp_ordered(sign, *given),
+                                                                         *given)
 
     def logarithm_of(context, builder, signature, given):
         bits = builder.sitofp(builder.bitcast(given[0], whole), double)
         return builder.fsub(builder.fmul(bits, all_of(double, 2.0**-52)), all_of(double, 1023.0))
 
     def power_below(context, builder, signature, given):
-        return builder.bitcast(builder.and_(builder.bitcast(given[0], whole), all_of(whole, EXPONENT)), double)
+        return builder.bitcast(builder.and_(builder.bitcast(given[0], whole), all_of(whole, EXPONENT)),
+                               double)
 
     def raised(context, builder, signature, given):
         floor = called("floor", 1)(context, builder, signature, given)
@@ -191,9 +202,14 @@ def vectors() -> dict:
         bits = builder.fptosi(builder.fadd(floor, all_of(double, 1023.0)), whole)
         return builder.fmul(builder.bitcast(builder.shl(bits, all_of(whole, 52)), double), share)
 
-    two = {name: operation(lambda c, b, s, g, name=name: getattr(b, name)(*g), lanes, lanes) for name in ("fadd", "fsub", "fmul")}
-    return {"load": operation(loaded, None, types.int64), "store": operation(stored, None, types.int64, lanes, result=types.none),
-            "spread": operation(spread_out, types.float64), "plus": two["fadd"], "minus": two["fsub"], "times": two["fmul"],
-            "times_plus": operation(product_plus, lanes, lanes, lanes), "size": operation(called("fabs", 1), lanes),
+    two = {name: operation(lambda c, b, s, g, name=name: getattr(b, name)(*g), lanes, lanes)
+           for name in ("fadd", "fsub", "fmul")}
+    return {"load": operation(loaded, None, types.int64),
+            "store": operation(stored, None, types.int64, lanes, result=types.none),
+            "spread": operation(spread_out, types.float64), "plus": two["fadd"], "minus": two["fsub"],
+            "times": two["fmul"],
+            "times_plus": operation(product_plus, lanes, lanes, lanes),
+            "size": operation(called("fabs", 1), lanes),
             "greater": operation(chosen(">"), lanes, lanes), "lesser": operation(chosen("<"), lanes, lanes),
-            "logarithm": operation(logarithm_of, lanes), "power_of_two": operation(power_below, lanes), "two_to": operation(raised, lanes)}
+            "logarithm": operation(logarithm_of, lanes), "power_of_two": operation(power_below, lanes),
+            "two_to": operation(raised, lanes)}

@@ -45,7 +45,8 @@ def greatest(a, b, rows, a2):
         return rows[0, MIDDLE + a] * rows[1, MIDDLE + b]
     if a + b < 0:
         return math.inf
-    return rows[2, MIDDLE - b] * rows[0, MIDDLE + a + b] if b < 0 else rows[3, MIDDLE - a] * rows[1, MIDDLE + a + b]
+    return (rows[2, MIDDLE - b] * rows[0, MIDDLE + a + b] if b < 0
+            else rows[3, MIDDLE - a] * rows[1, MIDDLE + a + b])
 
 
 def tail(a, b, rows, a2, a3):
@@ -63,12 +64,14 @@ def tail(a, b, rows, a2, a3):
     if n > 1:
         by_p = rows[3, MIDDLE + b] if b > 0 else rows[2, MIDDLE - b]
         by_q = rows[2, MIDDLE + a] if a > 0 else rows[3, MIDDLE - a]
-        best = min(best, by_p * rows[0, MIDDLE + a + b - 4] / (a3 * (n - 1)), by_q * rows[1, MIDDLE + a + b - 4] / (a2 * (n - 1)))
+        best = min(best, by_p * rows[0, MIDDLE + a + b - 4] / (a3 * (n - 1)),
+                   by_q * rows[1, MIDDLE + a + b - 4] / (a2 * (n - 1)))
     return best
 
 
 def total(table, pairs, A, rows, a2, a3, kind, dx, p, q):
-    """Sum of table[d, pair] A^d times the factor's bound (kind 0), its integral's (1), or its bound times steepness times dx (2)."""
+    """Sum of table[d, pair] A^d times the factor's bound (kind 0), its integral's (1), or its bound times
+    steepness times dx (2)."""
     result = 0.0
     for n in range(table.shape[1]):
         part = 0.0
@@ -84,7 +87,8 @@ def total(table, pairs, A, rows, a2, a3, kind, dx, p, q):
 
 
 def value_of(table, degrees, pairs, zeta, rows, powers):
-    """The value of a quantity whose terms come with their conjugates: table[power, pair] of zeta^j zeta*^k, j >= k."""
+    """The value of a quantity whose terms come with their conjugates: table[power, pair] of zeta^j zeta*^k, j
+    >= k."""
     powers[0] = 1
     for j in range(1, powers.size):
         powers[j] = powers[j - 1] * zeta
@@ -117,11 +121,13 @@ def weight_within(drive, p, q, p_low, q_low, a2, a3, dx, M1):
     for n in range(drive.shape[1]):
         a, b, c = drive[0, n], drive[1, n], drive[2, n]
         steep = (abs(a) * a3 / p_low + abs(b) * a2 / q_low) / 4
-        result += c * p ** (-a / 4) * q ** (-b / 4) + abs(c) * p_low ** (-a / 4) * q_low ** (-b / 4) * (steep * dx + CONDITION)
+        result += (c * p ** (-a / 4) * q ** (-b / 4)
+                   + abs(c) * p_low ** (-a / 4) * q_low ** (-b / 4) * (steep * dx + CONDITION))
     return result / M1
 
 
-def search(x, zeta, dx, dz, D1, M1, a2, a3, c, reach, drive, value_e, degrees_e, value_b, degrees_b, pairs_e, e_sums, e_most, pairs_b,
+def search(x, zeta, dx, dz, D1, M1, a2, a3, c, reach, drive, value_e, degrees_e, value_b, degrees_b, pairs_e,
+           e_sums, e_most, pairs_b,
            b_sums, b_most, pairs_r, r_sums, pairs_k, k_sums, rows, powers, out):
     """Whether the inequality holds at one place, and its constants A, z, eta, z_up, eta_up, k in out (6,)."""
     low, top = x - dx, x + dx
@@ -147,7 +153,8 @@ def search(x, zeta, dx, dz, D1, M1, a2, a3, c, reach, drive, value_e, degrees_e,
         blur = wide - total(sums, pairs, abs(zeta), rows, a2, a3, 0, 0.0, p, q) + SLACK * wide
         blur += total(sums, pairs, size, rows, a2, a3, 2, dx, p_low, q_low) * (1 + SLACK)
         blur += COEFFICIENT * total(most, pairs, size, rows, a2, a3, 0, 0.0, p, q)
-        ends = (value - blur, value + blur, ends[2], ends[3]) if which == 0 else (ends[0], ends[1], value - blur, value + blur)
+        ends = (value - blur, value + blur, ends[2],
+                ends[3]) if which == 0 else (ends[0], ends[1], value - blur, value + blur)
     energy, energy_up = ends[0], ends[1]
     amplitude = weight_within(drive, p, q, p_low, q_low, a2, a3, dx, M1) * size * size * (1 + SLACK) + ends[3]
     A, z, growth = size * GROWTH, low / GROWTH, 1e-6
@@ -159,7 +166,8 @@ def search(x, zeta, dx, dz, D1, M1, a2, a3, c, reach, drive, value_e, degrees_e,
                 z = low
             pz, qz = a3 * z + c, a2 * z + c
             prepare(rows, pz, qz, a2, a3, reach)
-            need = max(total(e_sums, pairs_e, A, rows, a2, a3, 0, 0.0, p, q) - energy, 0.0) * (GROWTH + step) + 1e-7 * low * turning
+            need = (max(total(e_sums, pairs_e, A, rows, a2, a3, 0, 0.0, p, q) - energy, 0.0) * (GROWTH + step)
+                    + 1e-7 * low * turning)
             z = low - 2 * need / (D1 * (turning + math.sqrt(pz * qz)))
             if not valid(z, a2, a3, c):
                 z = low
@@ -172,7 +180,8 @@ def search(x, zeta, dx, dz, D1, M1, a2, a3, c, reach, drive, value_e, degrees_e,
         eta, least = least_drive - k - SLACK * (M1 + k), least_drive / M1 - SLACK
         if not (eta > 0 and least > 0):
             return False
-        b, r = total(b_sums, pairs_b, A, rows, a2, a3, 0, 0.0, p, q), total(r_sums, pairs_r, A, rows, a2, a3, 1, 0.0, p, q)
+        b, r = total(b_sums, pairs_b, A, rows, a2, a3, 0, 0.0, p,
+                     q), total(r_sums, pairs_r, A, rows, a2, a3, 1, 0.0, p, q)
         F = (amplitude + b + r * D1 / eta) / least
         if not F < 1e100:
             return False
@@ -194,8 +203,10 @@ def valid(x, a2, a3, c):
     return p > 0 and q > 0 and p * 256 > a3 * abs(x) + abs(c) and q * 256 > a2 * abs(x) + abs(c) and x > 0
 
 
-def decide(chosen, states, reach, fired, number, found, basis, frame, D1, M1, a2, a3, c, reach_of_powers, drive, value_e, degrees_e, value_b, degrees_b,
-           pairs_e, e_sums, e_most, pairs_b, b_sums, b_most, pairs_r, r_sums, pairs_k, k_sums, rows, powers, constants):
+def decide(chosen, states, reach, fired, number, found, basis, frame, D1, M1, a2, a3, c, reach_of_powers,
+           drive, value_e, degrees_e, value_b, degrees_b,
+           pairs_e, e_sums, e_most, pairs_b, b_sums, b_most, pairs_r, r_sums, pairs_k, k_sums, rows, powers,
+           constants):
     """As `fixed_kernel.decide`; basis (3, 3), frame (9,): s, wheel, torque, roots, n2, n3 of the form."""
     s, l2, l3, M2, M3 = frame[0], frame[1], frame[2], frame[3], frame[4]
     r2, r3, n2, n3 = frame[5], frame[6], frame[7], frame[8]
@@ -204,7 +215,8 @@ def decide(chosen, states, reach, fired, number, found, basis, frame, D1, M1, a2
             continue
         w1, w2, w3 = states[n, 0], states[n, 1], states[n, 2]
         size = abs(w1) + abs(w2) + abs(w3)
-        x, y, z = (basis[0, 0] * w1 + basis[0, 1] * w2 + basis[0, 2] * w3, basis[1, 0] * w1 + basis[1, 1] * w2 + basis[1, 2] * w3,
+        x, y, z = (basis[0, 0] * w1 + basis[0, 1] * w2 + basis[0, 2] * w3,
+                   basis[1, 0] * w1 + basis[1, 1] * w2 + basis[1, 2] * w3,
                    basis[2, 0] * w1 + basis[2, 1] * w2 + basis[2, 2] * w3)
         p, q = a3 * x + c, a2 * x + c
         near = reach[n] + BLUR * size
@@ -216,7 +228,8 @@ def decide(chosen, states, reach, fired, number, found, basis, frame, D1, M1, a2
         moved3 = CONDITION * (size + (abs(l3 * x) + abs(M2)) / p) + near * (1 + abs(n2) / (p * p))
         turned = near * abs(c * (a2 - a3)) / (4 * p * q)
         dz = 1.25 * (r2 * rho * moved2 + r3 / rho * moved3 + (turned + CONDITION) * abs(eta))
-        if search(x, eta, near, dz, D1, M1, a2, a3, c, reach_of_powers, drive, value_e, degrees_e, value_b, degrees_b, pairs_e, e_sums, e_most, pairs_b,
+        if search(x, eta, near, dz, D1, M1, a2, a3, c, reach_of_powers, drive, value_e, degrees_e, value_b,
+                  degrees_b, pairs_e, e_sums, e_most, pairs_b,
                   b_sums, b_most, pairs_r, r_sums, pairs_k, k_sums, rows, powers, constants):
             fired[n] = number
             for i in range(6):

@@ -17,9 +17,10 @@ WIDER = 1e-12  # relative widening of what is told: the rounding of these few li
 class Trap:
     """The constants of the theorem (`certificate`) for one motion.
 
-    field: the form, in the motion's own units; form: its name; orders: of energy and amplitude; A, z, eta, z_up, eta_up, k: of the theorem in
-    these units; unit: one of them in rad/s (or scaled rates; exact, a power of two); t: time of the state that the inequality held for, off by `blur` at
-    most (a certified motion may be that much early or late: the rounding of its run).
+    field: the form, in the motion's own units; form: its name; orders: of energy and amplitude; A, z, eta,
+    z_up, eta_up, k: of the theorem in these units; unit: one of them in rad/s (or scaled rates; exact, a
+    power of two); t: time of the state that the inequality held for, off by `blur` at most (a certified
+    motion may be that much early or late: the rounding of its run).
     """
 
     field: Any
@@ -36,10 +37,11 @@ class Trap:
     blur: float = 0.0
 
     def bounds(self):
-        """((low, high),) * 3 of the rates about the body's principal axes at all times from `t` on; the spin's far end is infinite.
+        """((low, high),) * 3 of the rates about the body's principal axes at all times from `t` on; the
+        spin's far end is infinite.
 
-        For spin-up in the equator, along no principal axis, only the rate about the axis of symmetry is bounded: the transverse
-        rate in the equator may grow like the fourth root of the spin.
+        For spin-up in the equator, along no principal axis, only the rate about the axis of symmetry is
+        bounded: the transverse rate in the equator may grow like the fourth root of the spin.
         """
         low, (second, third) = self.z - self._shift, self.field.transverse(self.A, self.z)
         out = [(-math.inf, math.inf)] * 3
@@ -57,12 +59,15 @@ class Trap:
                 -_down(-(self.z_up - self._shift + self.eta_up * most) * self.unit))
 
     def clock(self, rate: float) -> tuple[float, float]:
-        """(earliest, latest) time at which the spin about its axis, in its sense, first reaches `rate`; t counts from the start.
+        """(earliest, latest) time at which the spin about its axis, in its sense, first reaches `rate`; t
+        counts from the start.
 
-        A rate that the spin may have had before `t` gives (0, ...). From D1 y' = M1 -+ c/y where the form has it, else (in the equator) from the two lines.
+        A rate that the spin may have had before `t` gives (0, ...). From D1 y' = M1 -+ c/y where the form has
+        it, else (in the equator) from the two lines.
         """
         x = rate / self.unit + self._shift
-        early, late = (self._sharp if self.field.sharp else self._straight if self.field.least_fall is None else self._falling)(x)
+        early, late = (self._sharp if self.field.sharp else self._straight if self.field.least_fall is None
+                       else self._falling)(x)
         early = max(0.0, self.t - self.blur + max(0.0, early) / self.unit) if x > self.z_up else 0.0
         late = self.t + self.blur + max(0.0, late) / self.unit
         return early * (1 - WIDER), late * (1 + WIDER)
@@ -72,7 +77,8 @@ class Trap:
         return (x - self.z_up) * D1 / self.eta_up, (x - self.z) * D1 / self.eta
 
     def _falling(self, x):
-        """From D1 y' = M1 -+ c/(y + S): about the moving centre what is beside M1 falls at least like 1/(x + S), S the field's `least_fall`."""
+        """From D1 y' = M1 -+ c/(y + S): about the moving centre what is beside M1 falls at least like 1/(x +
+        S), S the field's `least_fall`."""
         D1, M1, S = self.field.D1, self.field.M1, self.field.least_fall
         less, more = ((1 + 1e-8) * c * (self.z + S) for c in (M1 - self.eta, self.eta_up - M1))
         early, late = x - self.z_up, x - self.z
@@ -96,9 +102,11 @@ class Trap:
 
 @dataclass(frozen=True)
 class SteadyTrap:
-    """The trap of a body of revolution without a transverse wheel: the spin about its axis is linear in time, exactly.
+    """The trap of a body of revolution without a transverse wheel: the spin about its axis is linear in time,
+    exactly.
 
-    start: the spin along `sense` at t = 0; gain: its rate; bounded: ((low, high),) * 3 for ever. unit as in `Trap`.
+    start: the spin along `sense` at t = 0; gain: its rate; bounded: ((low, high),) * 3 for ever. unit as in
+    `Trap`.
     """
 
     axis: int
@@ -122,20 +130,23 @@ class SteadyTrap:
     def clock(self, rate: float) -> tuple[float, float]:
         """(earliest, latest) time at which the spin reaches `rate`."""
         blur = WIDER * (abs(rate) + abs(self.start)) / self.gain
-        return max(0.0, (rate - self.start) / self.gain - blur), max(0.0, (rate - self.start) / self.gain + blur)
+        return max(0.0, (rate - self.start) / self.gain - blur), max(0.0,
+                                                                     (rate - self.start) / self.gain + blur)
 
 
 @dataclass(frozen=True, repr=False)
 class SpinUp(Shown):
     """The fate of one motion as far as spin-up decides it.
 
-    fate: SPIN_UP, BOUNDED (exact cases alone) or UNDECIDED. axis: 1, 2, 3 of the body, 0 where it is none; sense: +1 or -1 about it, 0
-    where undecided; direction: unit vector in principal axes along which the rate grows, None where undecided. level: "exact" (by a closed
-    solution), "certified" (the theorem's inequality holds for the state at time t of a run in machine precision and for a ball about it
-    that holds the run's rounding), "proved" (the way to the inequality is enclosed, `enclosure.proof`; t is exact, state the middle of what
-    holds it) or "undecided". trap: bounds and clocks. t: when it fired, or how long the motion was followed; state there; steps. cause:
-    words. condition: growth of a small change of the start, across the motion, on the way to t. passed: steps that the way to t takes one by one; steps are
-    those computed, fewer where a slow drift is run over many revolutions at once (`drift`).
+    fate: SPIN_UP, BOUNDED (exact cases alone) or UNDECIDED. axis: 1, 2, 3 of the body, 0 where it is none;
+    sense: +1 or -1 about it, 0 where undecided; direction: unit vector in principal axes along which the rate
+    grows, None where undecided. level: "exact" (by a closed solution), "certified" (the theorem's inequality
+    holds for the state at time t of a run in machine precision and for a ball about it that holds the run's
+    rounding), "proved" (the way to the inequality is enclosed, `enclosure.proof`; t is exact, state the
+    middle of what holds it) or "undecided". trap: bounds and clocks. t: when it fired, or how long the motion
+    was followed; state there; steps. cause: words. condition: growth of a small change of the start, across
+    the motion, on the way to t. passed: steps that the way to t takes one by one; steps are those computed,
+    fewer where a slow drift is run over many revolutions at once (`drift`).
     """
 
     fate: Fate
@@ -153,7 +164,8 @@ class SpinUp(Shown):
 
 
 def _delay(c, M1, start, rise):
-    """What c/y in D1 y' = M1 + c/y takes off the rise over M1/D1: (c/M1) ln of how M1 y + c grows. It is positive from the start on: eta of the theorem is."""
+    """What c/y in D1 y' = M1 + c/y takes off the rise over M1/D1: (c/M1) ln of how M1 y + c grows. It is
+    positive from the start on: eta of the theorem is."""
     return c / M1 * math.log1p(rise / (start + c / M1))
 
 

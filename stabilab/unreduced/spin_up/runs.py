@@ -21,7 +21,8 @@ LOST = 2.0**-30  # what lies across a motion is taken to be no less, relative to
 
 
 class Runs:
-    """States (n, 3) and times (n,) of motions that `advance` carries on; rows that cannot go on are not finite any more.
+    """States (n, 3) and times (n,) of motions that `advance` carries on; rows that cannot go on are not
+    finite any more.
 
     The rows advance by steps, not to common times: no step is cut short, and no row depends on another. steps
     (n,): computed; rounded (n,): those that running all the way would have taken, each of which rounds. fast:
@@ -33,7 +34,8 @@ class Runs:
         self.states, self.times, self.fast = np.array(states, float), np.zeros(len(states)), fast
         self.twins = Twins(len(states), self.rates)
         self.steps_done = 0  # of a row that never leapt
-        self.steps, self.rounded = np.zeros(len(states), int), np.zeros(len(states))  # computed, and passed, of each row
+        # computed, and passed, of each row
+        self.steps, self.rounded = np.zeros(len(states), int), np.zeros(len(states))
         self.met = np.repeat([[0.0], [np.inf]], len(states), axis=1)  # sizes since the last look
 
     def _call(self, name, *arguments):
@@ -47,7 +49,8 @@ class Runs:
         return [np.empty((rows, wide)) for rows in (12, 12, count, count, 8)]
 
     def advance(self, rows, steps: int, t_max: float, pause: float = 0.0):
-        """Carry the given rows (indices) on by so many steps, or to t_max; a row that has not passed the time `pause` stops there."""
+        """Carry the given rows (indices) on by so many steps, or to t_max; a row that has not passed the time
+        `pause` stops there."""
         self.steps_done += steps
         twins, work = self.twins, self._work(len(rows))
         changes = twins.growth, twins.most, twins.ahead, twins.blur
@@ -56,7 +59,8 @@ class Runs:
                    self.times, *changes, self.met, self.steps, self.rounded, starts, *work, *np.empty((2, 3)))
 
     def carried(self, states, spans, most: int):
-        """(states, times) of motions from states (m, 3) after spans (m,) of time, forth or back, or after the most steps."""
+        """(states, times) of motions from states (m, 3) after spans (m,) of time, forth or back, or after the
+        most steps."""
         out, times = np.empty_like(states), np.empty_like(spans)
         states, work = np.ascontiguousarray(states), self._work(len(states))
         self._call("carry", self.coefficients, states, spans, most, out, times, *work)
@@ -87,7 +91,9 @@ class Runs:
 
     def slopes(self, states, directions):
         """How the rates change along directions (m, 3)."""
-        y, z, v, w = states[:, [1, 2, 0]], states[:, [2, 0, 1]], directions[:, [1, 2, 0]], directions[:, [2, 0, 1]]
+        y, z, v, w = states[:, [1, 2, 0]], states[:,
+                                                  [2, 0, 1]], directions[:,
+                                                                         [1, 2, 0]], directions[:, [2, 0, 1]]
         c = self.coefficients
         return c[0] * (y * w + v * z) + c[1] * w + c[2] * v
 
@@ -99,15 +105,17 @@ class Runs:
 
 
 class Twins:
-    """growth (n,): of a small change of the start across the motion, along the direction `ahead` that it turned to (largest entry 1); inf where it
-    could not be told any more; most (n,): the most it was. blur (n,): of the time. rates: function of states (m, 3)."""
+    """growth (n,): of a small change of the start across the motion, along the direction `ahead` that it
+    turned to (largest entry 1); inf where it could not be told any more; most (n,): the most it was. blur
+    (n,): of the time. rates: function of states (m, 3)."""
 
     def __init__(self, n: int, rates):
         self.growth, self.most, self.ahead = np.ones(n), np.ones(n), np.tile([1.0, -1.0, 1.0], (n, 1))
         self.blur, self.rates = np.zeros(n), rates
 
     def start(self, rows, states, apart: float):
-        """(twins (m, 3), how far they are (m,)) of rows at their states; apart: relative to these, or to the natural rate."""
+        """(twins (m, 3), how far they are (m,)) of rows at their states; apart: relative to these, or to the
+        natural rate."""
         unit = self._along(states)
         across = self.ahead[rows] - unit * (self.ahead[rows] * unit).sum(axis=1)[:, None]
         none = np.abs(across).max(axis=1) < LOST
@@ -118,19 +126,25 @@ class Twins:
         return states + far[:, None] * across, far
 
     def compare(self, rows, starts, states, twins, delays, apart, error):
-        """Take note of what has become of changes of the size `apart` (m,): states (m, 3), and twins, which passed the same place delays (m,) later.
-        error (m,): of the places, in all, but for the growth. Returns (m,) where they tell nothing: nothing is noted there."""
+        """Take note of what has become of changes of the size `apart` (m,): states (m, 3), and twins, which
+        passed the same place delays (m,) later. error (m,): of the places, in all, but for the growth.
+        Returns (m,) where they tell nothing: nothing is noted there."""
         unit, change, told = self._along(states), twins - states, np.ones(len(rows), bool)
         speed, room = (self.rates(states) * unit).sum(axis=1), FAR * _size(states)
-        for _ in range(2):  # the twin where it was, or will be, beside the motion: to second order in the delay
+        # the twin where it was, or will be, beside the motion: to second order in the delay
+        for _ in range(2):
             more = np.where(speed > 0, -(change * unit).sum(axis=1) / speed, 0.0)
             rate = self.rates(states + change)
-            change, delays = change + more[:, None] * self.rates(states + change + 0.5 * more[:, None] * rate), delays + more
+            change, delays = change + more[:,
+                                           None] * self.rates(states + change
+                                                              + 0.5 * more[:, None] * rate), delays + more
             told &= np.abs(more) * speed < room
         size, first = np.abs(change).max(axis=1), np.sqrt((self.rates(starts)**2).sum(axis=1))
         told &= size < room
         yes = rows[told]
-        self.blur[yes] += (error * self.most[rows] * (np.abs(delays) / apart + np.where(first > STILL * _size(starts), 1 / first, 0.0)))[told]
+        self.blur[yes] += (error * self.most[rows]
+                           * (np.abs(delays) / apart
+                              + np.where(first > STILL * _size(starts), 1 / first, 0.0)))[told]
         self.growth[yes] *= (size / apart)[told]
         self.most[yes] = np.fmax(self.most[yes], self.growth[yes])
         turned = told & (size > 0)

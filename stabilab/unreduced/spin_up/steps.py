@@ -1,12 +1,15 @@
 """Taylor steps of motions side by side, and of a small change of each, in straight loops: eight to a batch
 where numba compiles them, else any number.
 
-w_i' = kappa_i w_j w_k + rho_i w_k + sigma_i w_j + m_i (cyclic). The coefficient of s^n of w_i stands in row 3 n + i of a table, a motion to a lane; s is
-the time over `scale`, a power of two near the fastest rate, so that no coefficient overflows. The change v of a motion obeys the equation made linear. It
-is told to a few per cent, so its series ends at degree SIDE: over a step, a seventh of the radius of convergence, that leaves out 3e-7 of it.
+w_i' = kappa_i w_j w_k + rho_i w_k + sigma_i w_j + m_i (cyclic). The coefficient of s^n of w_i stands in row 3
+n + i of a table, a motion to a lane; s is the time over `scale`, a power of two near the fastest rate, so
+that no coefficient overflows. The change v of a motion obeys the equation made linear. It is told to a few
+per cent, so its series ends at degree SIDE: over a step, a seventh of the radius of convergence, that leaves
+out 3e-7 of it.
 
-Coefficients of a motion that hardly leaves a steady one say nothing of how fast a change there grows: beside a saddle, 1e-45 away, they allow a step over
-which it grows e^100 times. So a step is no longer than the change's own last coefficients allow, nor than a few times what the slopes of the rates allow.
+Coefficients of a motion that hardly leaves a steady one say nothing of how fast a change there grows: beside
+a saddle, 1e-45 away, they allow a step over which it grows e^100 times. So a step is no longer than the
+change's own last coefficients allow, nor than a few times what the slopes of the rates allow.
 
 Compiled, values of eight lanes are of one type, `lanes.vector_type`.
 """
@@ -14,13 +17,32 @@ from __future__ import annotations
 
 import math
 
-from .lanes import greater, lesser, load, logarithm, minus, plus, power_of_two, size, spread, store, times, times_plus, two_to
+from .lanes import (
+    greater,
+    lesser,
+    load,
+    logarithm,
+    minus,
+    plus,
+    power_of_two,
+    size,
+    spread,
+    store,
+    times,
+    times_plus,
+    two_to,
+)
 
 ORDER, SIDE = 20, 8
-TAIL = -56.0          # base 2: what the last coefficients may add to a state, relative to it or to a natural unit: a sixteenth of a unit of rounding
+# base 2: what the last coefficients may add to a state, relative to it or to a natural unit: a sixteenth of a
+# unit of rounding
+TAIL = -56.0
 LONGEST = 64.0        # of a step: even of a motion at rest
-BESIDE = -5.0         # base 2: what the last coefficients of a change may add to it; what is left out is then below a hundredth of it
-STEEP = 3.0           # base 2: of a step times the slopes: beyond, the terms left out of e^x would be greater than the last
+# base 2: what the last coefficients of a change may add to it; what is left out is then below a hundredth of
+# it
+BESIDE = -5.0
+# base 2: of a step times the slopes: beyond, the terms left out of e^x would be greater than the last
+STEEP = 3.0
 STILL, LOST = 2.0**-8, 2.0**-30  # of `runs`: the tests hold them equal
 
 
@@ -36,7 +58,11 @@ def series(numbers, a):
         half = (n + 1) // 2
         for m in range(half):
             p, q = 3 * m, 3 * (n - m)
-            x0, x1, x2, y0, y1, y2 = load(a, p), load(a, p + 1), load(a, p + 2), load(a, q), load(a, q + 1), load(a, q + 2)
+            x0, x1, x2, y0, y1, y2 = load(a,
+                                          p), load(a, p + 1), load(a,
+                                                                   p + 2), load(a,
+                                                                                q), load(a, q
+                                                                                         + 1), load(a, q + 2)
             s0, s1, s2 = times_plus(x1, y2, s0), times_plus(x2, y0, s1), times_plus(x0, y1, s2)
             s0, s1, s2 = times_plus(y1, x2, s0), times_plus(y2, x0, s1), times_plus(y0, x1, s2)
         if n % 2 == 0:
@@ -61,7 +87,11 @@ def series_beside(numbers, a, v):
         s0 = s1 = s2 = spread(0.0)
         for m in range(n + 1):
             p, q = 3 * m, 3 * (n - m)
-            x0, x1, x2, y0, y1, y2 = load(a, p), load(a, p + 1), load(a, p + 2), load(v, q), load(v, q + 1), load(v, q + 2)
+            x0, x1, x2, y0, y1, y2 = load(a,
+                                          p), load(a, p + 1), load(a,
+                                                                   p + 2), load(v,
+                                                                                q), load(v, q
+                                                                                         + 1), load(v, q + 2)
             s0, s1, s2 = times_plus(x1, y2, s0), times_plus(x2, y0, s1), times_plus(x0, y1, s2)
             s0, s1, s2 = times_plus(y1, x2, s0), times_plus(y2, x0, s1), times_plus(y0, x1, s2)
         p, over = 3 * n, spread(1.0 / (n + 1.0))
@@ -84,27 +114,34 @@ def to_scale(given, numbers, a, work):
 def largest_of(table, n, least):
     """The greatest size in the row of degree n of three polynomials, at least `least`."""
     p = 3 * n
-    return greater(greater(size(load(table, p)), size(load(table, p + 1))), greater(size(load(table, p + 2)), spread(least)))
+    return greater(greater(size(load(table, p)), size(load(table, p + 1))),
+                   greater(size(load(table, p + 2)), spread(least)))
 
 
 def allowed(table, order, least, share):
-    """The logarithm of the step over which each of the last two coefficients adds to the state, or to `least`, at most its share (a logarithm)."""
+    """The logarithm of the step over which each of the last two coefficients adds to the state, or to
+    `least`, at most its share (a logarithm)."""
     most = plus(logarithm(largest_of(table, 0, least)), spread(share))
     last, other = logarithm(largest_of(table, order, 1e-290)), logarithm(largest_of(table, order - 1, 1e-290))
-    return lesser(times(minus(most, last), spread(1.0 / order)), times(minus(most, other), spread(1.0 / (order - 1))))
+    return lesser(times(minus(most, last), spread(1.0 / order)),
+                  times(minus(most, other), spread(1.0 / (order - 1))))
 
 
 def steepest(numbers, a):
     """The greatest sum of sizes in a row of the rates' derivative."""
     x, y, z = load(a, 0), load(a, 1), load(a, 2)
-    s0 = plus(size(times_plus(load(numbers, 0), z, load(numbers, 6))), size(times_plus(load(numbers, 0), y, load(numbers, 3))))
-    s1 = plus(size(times_plus(load(numbers, 1), x, load(numbers, 7))), size(times_plus(load(numbers, 1), z, load(numbers, 4))))
-    s2 = plus(size(times_plus(load(numbers, 2), y, load(numbers, 8))), size(times_plus(load(numbers, 2), x, load(numbers, 5))))
+    s0 = plus(size(times_plus(load(numbers, 0), z, load(numbers, 6))),
+              size(times_plus(load(numbers, 0), y, load(numbers, 3))))
+    s1 = plus(size(times_plus(load(numbers, 1), x, load(numbers, 7))),
+              size(times_plus(load(numbers, 1), z, load(numbers, 4))))
+    s2 = plus(size(times_plus(load(numbers, 2), y, load(numbers, 8))),
+              size(times_plus(load(numbers, 2), x, load(numbers, 5))))
     return greater(greater(s0, s1), greater(s2, spread(1e-290)))
 
 
 def length(numbers, a, v, work, beside):
-    """The step that the last two coefficients of each lane allow, over the scale, to work row 3; rows 0 to 2: spans, what of them has passed, senses."""
+    """The step that the last two coefficients of each lane allow, over the scale, to work row 3; rows 0 to 2:
+    spans, what of them has passed, senses."""
     h = lesser(allowed(a, ORDER, 1.0, TAIL), minus(spread(STEEP), logarithm(steepest(numbers, a))))
     if beside:
         h = lesser(h, allowed(v, SIDE, 1e-200, BESIDE))
@@ -124,7 +161,10 @@ def ahead_by(table, order, work):
     s0, s1, s2 = load(table, p), load(table, p + 1), load(table, p + 2)
     for n in range(order - 1, -1, -1):
         p = 3 * n
-        s0, s1, s2 = times_plus(s0, h, load(table, p)), times_plus(s1, h, load(table, p + 1)), times_plus(s2, h, load(table, p + 2))
+        s0, s1, s2 = times_plus(s0, h,
+                                load(table, p)), times_plus(s1, h,
+                                                            load(table, p
+                                                                 + 1)), times_plus(s2, h, load(table, p + 2))
     store(table, 0, s0)
     store(table, 1, s1)
     store(table, 2, s2)
@@ -169,7 +209,8 @@ def spread_numbers(coefficients, given):
 
 
 def carry(coefficients, states, spans, steps, out, reached, given, numbers, a, v, work):
-    """Motions from states (n, 3) over spans (n,) of time, forth or back, in at most so many steps: states to out, times to reached."""
+    """Motions from states (n, 3) over spans (n,) of time, forth or back, in at most so many steps: states to
+    out, times to reached."""
     spread_numbers(coefficients, given)
     n, wide = spans.size, a.shape[1]
     for first in range(0, n, wide):

@@ -1,1 +1,2 @@
-"""A second look at a diagram of equilibria over one number: counting real zeros by trace forms, between and at all values where these degenerate."""
+"""A second look at a diagram of equilibria over one number: counting real zeros by trace forms, between and
+at all values where these degenerate."""

@@ -60,7 +60,8 @@ class Work:
     def value(self, f: Any, at: Any) -> None:
         """The value of a polynomial at a rational number."""
         degree = max(f.degree(), 0)
-        self.spend(OVERHEAD + 4 * (1 + degree) * (height(f) + degree * (at.numerator.bit_length() + at.denominator.bit_length())))
+        self.spend(OVERHEAD + 4 * (1 + degree)
+                   * (height(f) + degree * (at.numerator.bit_length() + at.denominator.bit_length())))
 
     def factors(self, f: Any) -> None:
         """The irreducible factors of a polynomial."""
@@ -83,7 +84,8 @@ def bits(f: Any) -> int:
 
 @dataclass(frozen=True)
 class Ratio:
-    """top/bottom, polynomials in t without a common factor. Whoever divides by one notes its top: there the division fails."""
+    """top/bottom, polynomials in t without a common factor. Whoever divides by one notes its top: there the
+    division fails."""
 
     top: fmpq_poly
     bottom: fmpq_poly
@@ -98,10 +100,12 @@ class Ratio:
         return self.top != 0
 
     def __add__(self, other: Ratio) -> Ratio:
-        return _reduced(self.top * other.bottom + other.top * self.bottom, self.bottom * other.bottom, self.work)
+        return _reduced(self.top * other.bottom + other.top * self.bottom, self.bottom * other.bottom,
+                        self.work)
 
     def __sub__(self, other: Ratio) -> Ratio:
-        return _reduced(self.top * other.bottom - other.top * self.bottom, self.bottom * other.bottom, self.work)
+        return _reduced(self.top * other.bottom - other.top * self.bottom, self.bottom * other.bottom,
+                        self.work)
 
     def __mul__(self, other: Ratio) -> Ratio:
         return _reduced(self.top * other.top, self.bottom * other.bottom, self.work)
@@ -193,8 +197,8 @@ def _divides(one: Powers, other: Powers) -> bool:
 
 
 class Basis:
-    """A Groebner basis of polynomials that are zero together. pivots: the elements that were divided by; wherever none of them is zero the same
-    basis, with what its coefficients are there, is one."""
+    """A Groebner basis of polynomials that are zero together. pivots: the elements that were divided by;
+    wherever none of them is zero the same basis, with what its coefficients are there, is one."""
 
     def __init__(self, given: Iterable[Polynomial]):
         self.pivots: list[Any] = []
@@ -209,14 +213,17 @@ class Basis:
                 scale = f[top].inverse()
                 self.members.append((top, {powers: c * scale for powers, c in f.items()}))
                 last = len(self.members) - 1
-                pairs += [(n, last) for n in range(last) if any(a and b for a, b in zip(self.members[n][0], top))]
+                pairs += [(n, last) for n in range(last)
+                          if any(a and b for a, b in zip(self.members[n][0], top))]
                 pairs.sort(key=lambda pair: sum(map(max, self.members[pair[0]][0], self.members[pair[1]][0])))
 
     def _against(self, n: int, k: int) -> Polynomial:
-        """Two members, each raised to the least monomial that both leading ones divide, the one less the other."""
+        """Two members, each raised to the least monomial that both leading ones divide, the one less the
+        other."""
         (one, f), (two, g) = self.members[n], self.members[k]
         both = tuple(map(max, one, two))
-        raised = lambda h, top: {tuple(p + b - t for p, b, t in zip(powers, both, top)): c for powers, c in h.items()}
+        raised = lambda h, top: {tuple(p + b - t for p, b, t in zip(powers, both, top)): c for powers,
+                                 c in h.items()}
         return added(raised(f, one), raised(g, two), less=True)
 
     def rest(self, f: Polynomial) -> Polynomial:
@@ -228,11 +235,13 @@ class Basis:
             if member is None:
                 out[top] = todo.pop(top)
             else:
-                todo = added(todo, _shifted(member[1], tuple(a - b for a, b in zip(top, member[0])), todo[top]), less=True)
+                todo = added(todo, _shifted(member[1], tuple(a - b for a, b in zip(top, member[0])),
+                                            todo[top]), less=True)
         return out
 
     def monomials(self, unknowns: int) -> Sequence[Powers] | None:
-        """Those that no leading one divides, rising: as many as there are zeros, each counted as often as it counts. None where these are endless."""
+        """Those that no leading one divides, rising: as many as there are zeros, each counted as often as it
+        counts. None where these are endless."""
         tops = [top for top, _ in self.members]
         ends = []
         for n in range(unknowns):
@@ -240,12 +249,14 @@ class Basis:
             if not pure:
                 return None
             ends.append(min(pure))
-        found = [powers for powers in product(*map(range, ends)) if not any(_divides(top, powers) for top in tops)]
+        found = [powers for powers in product(*map(range, ends))
+                 if not any(_divides(top, powers) for top in tops)]
         return sorted(found, key=lambda powers: (sum(powers), powers))
 
 
 def characteristic(basis: Basis, monomials: Sequence[Powers], weight: Polynomial, one: Any) -> list[Any]:
-    """Coefficients of the form's characteristic polynomial after the leading one, by Faddeev's recursion. weight: q, as `basis.rest` leaves it."""
+    """Coefficients of the form's characteristic polynomial after the leading one, by Faddeev's recursion.
+    weight: q, as `basis.rest` leaves it."""
     rows, size, zero = _form(basis, monomials, weight, one), len(monomials), one - one
     found: list[Any] = []
     power, last = [[zero] * size for _ in range(size)], one
@@ -272,7 +283,8 @@ def _form(basis: Basis, monomials: Sequence[Powers], weight: Polynomial, one: An
 
 
 def rank_and_signature(coefficients: Sequence[Any], sign: Callable[[Any], int]) -> tuple[int, int]:
-    """(rank, positive eigenvalues less negative ones), given the signs of the coefficients after the leading one."""
+    """(rank, positive eigenvalues less negative ones), given the signs of the coefficients after the leading
+    one."""
     signs = [1, *(sign(c) if c else 0 for c in coefficients)]
     rank = max(n for n, s in enumerate(signs) if s)
     plus = _changes(signs)

@@ -1,4 +1,5 @@
-"""The claims of a diagram against what trace forms count: at every value where they degenerate, and once between any two of these.
+"""The claims of a diagram against what trace forms count: at every value where they degenerate, and once
+between any two of these.
 
 Real zeros of polynomials in t are isolated by Sturm's sequences.
 """
@@ -44,7 +45,8 @@ def changes(chain: Sequence, at: Fraction, work: Work) -> int:
 
 
 class Root:
-    """A real zero of an irreducible polynomial: the only one in (low, high), or the rational number low = high itself."""
+    """A real zero of an irreducible polynomial: the only one in (low, high), or the rational number low =
+    high itself."""
 
     def __init__(self, polynomial, low: Fraction, high: Fraction, work: Work):
         self.polynomial, self.low, self.high, self.work = polynomial, low, high, work
@@ -74,7 +76,8 @@ class Root:
         self.work.common(f, f)
         chain = sequence(f / f.gcd(f.derivative()), self.work) if f.degree() > 0 else []
         for _ in range(HALVINGS):
-            if not chain or (sign_at(chain[0], self.low, self.work) and changes(chain, self.low, self.work) == changes(chain, self.high, self.work)):
+            if not chain or (sign_at(chain[0], self.low, self.work)
+                             and changes(chain, self.low, self.work) == changes(chain, self.high, self.work)):
                 return sign_at(f, self.high, self.work)
             self.halve()
         raise Malformed(f"a sign that {HALVINGS} halvings do not tell")
@@ -84,24 +87,28 @@ class Root:
         for _ in range(HALVINGS):
             if low <= self.low and self.high <= high:
                 return True
-            if self.high < low or high < self.low or (not self.rational and (self.high == low or high == self.low)):
+            if self.high < low or high < self.low or (not self.rational
+                                                      and (self.high == low or high == self.low)):
                 return False
             self.halve()
         raise Malformed(f"a bracket whose end {HALVINGS} halvings do not tell from a zero")
 
 
 def roots(polynomials: Iterable, low: Fraction, high: Fraction, work: Work) -> list[Root]:
-    """The different real zeros in [low, high] of polynomials that are not zero, rising, their brackets apart from one another and from the ends."""
+    """The different real zeros in [low, high] of polynomials that are not zero, rising, their brackets apart
+    from one another and from the ends."""
     factors = {}
     for p in polynomials:
         if p.degree() > 0:
             work.factors(p)
-            factors |= {str(f / f.leading_coefficient()): f / f.leading_coefficient() for f, _ in p.factor()[1]}
+            factors |= {str(f / f.leading_coefficient()): f / f.leading_coefficient() for f,
+                        _ in p.factor()[1]}
     found = [root for f in factors.values() for root in _of(f, low, high, work)]
     for _ in range(HALVINGS):
         found.sort(key=lambda root: (root.low, root.high))
         near = {n for n, (a, b) in enumerate(zip(found, found[1:])) if a.high >= b.low}
-        near |= {n + 1 for n in near} | {n for n, root in enumerate(found) if not root.rational and (root.low == low or root.high == high)}
+        near |= ({n + 1 for n in near} | {n for n, root in enumerate(found) if not root.rational
+                                          and (root.low == low or root.high == high)})
         if not near:
             return found
         for n in near:
@@ -156,27 +163,33 @@ def check_diagram(claims: Claims, note, work: Work | None = None) -> None:
         _check(claims, note, work or Work())
     except TooLarge:
         parts = f"{len(claims.pieces)} pieces and {len(claims.events)} events"
-        note(parts, "not checked", f"too large: degrees and digits ask for more than {MOST:,} operations on bits, and a file from a stranger is given no more")
+        note(parts, "not checked",
+             f"too large: degrees and digits ask for more than {MOST:,} operations on bits, and a file from "
+             f"a stranger is given no more")
 
 
 def _check(claims: Claims, note, work: Work) -> None:
     equations = Equations.of(claims)
     if claims.variables == "physical":
         whole = all(_positive(D, claims.low, claims.high, work) for D in claims.scene["inertia"])
-        note("the moments of inertia are positive all over the range", "proved" if whole else "refuted", "by Sturm's sequences")
+        note("the moments of inertia are positive all over the range", "proved" if whole else "refuted",
+             "by Sturm's sequences")
         if not whole:
             return
     system = _system(claims, equations, note)
     if system is None:
         return
     places = _places(system, claims.low, claims.high, work)
-    changes = [n for n, place in enumerate(places) if place.root and any(side.count.real != place.count.real for side in _sides(places, n))]
+    changes = [n for n, place in enumerate(places) if place.root
+               and any(side.count.real != place.count.real for side in _sides(places, n))]
     left = set(changes)
     for event in claims.events:
         _check_event(event, places, changes, left, note)
     _check_pieces(claims, places, changes, note)
     missed = sorted(_near(places[n].root) for n in left)
-    between = f"{sum(p.root is not None for p in places)} critical values, {sum(p.root is None for p in places)} counts between them"
+    between = (
+        f"{sum(p.root is not None for p in places)} critical values, {sum(p.root is None for p in places)} "
+        f"counts between them")
     told = f"near {', '.join(missed)} the number changes too" if missed else f"trace forms: {between}"
     note("the events are complete", "refuted" if missed else "proved", told)
 
@@ -203,7 +216,8 @@ def _system(claims: Claims, equations: Equations, note) -> System | None:
     if law is None:
         note("the curve that a motion keeps to", "refuted", "no law of this form is constant")
         return None
-    note("the curve that a motion keeps to", "proved", "the rate of its law along every motion vanishes identically")
+    note("the curve that a motion keeps to", "proved",
+         "the rate of its law along every motion vanishes identically")
     law = equations.rise(law, claims.start)
     return System(2, [one, equations.across(axis, law)], [equations.across(axis, equations.m)])
 
@@ -229,11 +243,13 @@ def _sides(places: list[Place], n: int) -> list[Place]:
 def _check_event(event: Event, places: list[Place], changes: list[int], left: set[int], note) -> None:
     held = [n for n in changes if (root := places[n].root) and root.within(event.low, event.high)]
     if len(held) != 1:
-        note(event.claim, "refuted", f"between these bounds there are {len(held)} values at which the number changes, not one")
+        note(event.claim, "refuted",
+             f"between these bounds there are {len(held)} values at which the number changes, not one")
         return
     left.discard(held[0])
     real = places[held[0]].count.real
-    note(event.claim, "proved" if real == event.count else "refuted", "the signature of the trace form at this value, exactly" if real is not None else
+    note(event.claim, "proved" if real == event.count else "refuted",
+         "the signature of the trace form at this value, exactly" if real is not None else
          "the equations leave endless zeros there")
 
 
@@ -250,18 +266,22 @@ def _check_pieces(claims: Claims, places: list[Place], changes: list[int], note)
         note(f"{len(claims.pieces)} pieces", "refuted", f"there are {len(runs)}")
         return
     for number, (piece, run) in enumerate(zip(claims.pieces, runs), 1):
-        told = "endless equilibria" if piece.count is None else f"{piece.count} counted" + ("" if piece.stable is None else f", {piece.stable} stable")
+        told = ("endless equilibria" if piece.count is None
+                else f"{piece.count} counted" + ("" if piece.stable is None else f", {piece.stable} stable"))
         right = all(place.count.real == piece.count for place in run)
         stable = {_stable(claims, place.count) for place in run if place.root is None}
         if right and piece.stable is not None and None in stable:
-            note(f"piece {number}: {told}", "not checked", "at some value of it the sign that tells stability is open")
+            note(f"piece {number}: {told}", "not checked",
+                 "at some value of it the sign that tells stability is open")
             continue
         right = right and (piece.stable is None or stable == {piece.stable})
-        note(f"piece {number}: {told}", "proved" if right else "refuted", "signatures of trace forms, at one value of each interval between critical values")
+        note(f"piece {number}: {told}", "proved" if right else "refuted",
+             "signatures of trace forms, at one value of each interval between critical values")
 
 
 def _stable(claims: Claims, count: Count) -> int | None:
-    """How many are stable; None where a sign is open. On a motion's curve those with m > 0; of isolated ones none, where n is not zero."""
+    """How many are stable; None where a sign is open. On a motion's curve those with m > 0; of isolated ones
+    none, where n is not zero."""
     if count.real is None or not count.tests:
         return 0
     (signature, nowhere_zero), = count.tests

@@ -1,4 +1,5 @@
-"""What a certificate of a diagram says, read, and what it is about: a scene whose numbers are polynomials in one that varies."""
+"""What a certificate of a diagram says, read, and what it is about: a scene whose numbers are polynomials in
+one that varies."""
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -11,15 +12,19 @@ from ..numbers import MOST, Malformed, bracket, brief, entries, field, number, n
 
 SCHEMA = "stabilab.diagram-certificate/1"
 COUNTED = ("isolated", "motion", "borders")
-DEGREE, LONGEST = 3, 400  # of the law by which a number of the scene depends on the one that varies; letters of a coefficient
-PLACES = {"physical": (("inertia", 3), ("momentum", 3), ("torque", 3)), "scaled": (("a", 1), ("b", 1), ("mu", 3))}
-KEYS = {"schema": None, "program": None, "uncertified": None, "number": None, "counted": None, "axis": None, "start": None, "range": None,
+# of the law by which a number of the scene depends on the one that varies; letters of a coefficient
+DEGREE, LONGEST = 3, 400
+PLACES = {"physical": (("inertia", 3), ("momentum", 3), ("torque", 3)),
+          "scaled": (("a", 1), ("b", 1), ("mu", 3))}
+KEYS = {"schema": None, "program": None, "uncertified": None, "number": None, "counted": None, "axis": None,
+        "start": None, "range": None,
         "pieces": [dict.fromkeys(("equilibria", "stable"))], "events": [dict.fromkeys(("t", "equilibria"))]}
 
 
 @dataclass(frozen=True)
 class Event:
-    """low <= value <= high: where something changes; count: equilibria at the value itself, None for endless ones."""
+    """low <= value <= high: where something changes; count: equilibria at the value itself, None for endless
+    ones."""
 
     low: Fraction
     high: Fraction
@@ -27,13 +32,15 @@ class Event:
 
     @property
     def claim(self) -> str:
-        told = "endless equilibria" if self.count is None else f"{self.count} equilibri{'um' if self.count == 1 else 'a'}"
+        told = ("endless equilibria" if self.count is None
+                else f"{self.count} equilibri{'um' if self.count == 1 else 'a'}")
         return f"event near {brief((self.low + self.high) / 2)}: {told} there"
 
 
 @dataclass(frozen=True)
 class Piece:
-    """count, stable: equilibria for every value of a piece and how many of them are stable; None: endless, and not told."""
+    """count, stable: equilibria for every value of a piece and how many of them are stable; None: endless,
+    and not told."""
 
     count: int | None
     stable: int | None
@@ -41,7 +48,8 @@ class Piece:
 
 @dataclass(frozen=True)
 class Claims:
-    """scene: name -> polynomials in t; start: the state's, or None; axis: of the torque, 0 where all equilibria are counted."""
+    """scene: name -> polynomials in t; start: the state's, or None; axis: of the torque, 0 where all
+    equilibria are counted."""
 
     variables: str
     scene: dict[str, list[Any]]
@@ -58,7 +66,8 @@ def claims_of(table) -> Claims:
     """The claims of a certificate. Raises `Malformed` where it is none."""
     scene = field(table, "scene", "", dict)
     variables = word(scene, "variables", "scene", tuple(PLACES))
-    read = {name: _polynomials(field(scene, name, "scene"), f"scene.{name}", count) for name, count in PLACES[variables]}
+    read = {name: _polynomials(field(scene, name, "scene"), f"scene.{name}", count) for name,
+            count in PLACES[variables]}
     counted, axis = word(table, "counted", "", COUNTED), _whole(table, "axis", "", 3)
     if (counted == "isolated") != (axis == 0):
         raise Malformed("axis: expected 0 where all equilibria are counted, else that of the torque")
@@ -74,7 +83,8 @@ def claims_of(table) -> Claims:
 
 def _polynomials(value, where: str, count: int) -> list[Any]:
     if not isinstance(value, list) or len(value) != count:
-        raise Malformed(f"{where}: expected {count} list{'s' if count > 1 else ''} of coefficients, got {shown(value)}")
+        raise Malformed(
+            f"{where}: expected {count} list{'s' if count > 1 else ''} of coefficients, got {shown(value)}")
     rows = [numbers(row, f"{where}[{i}]") for i, row in enumerate(value)]
     if any(len(row) > DEGREE + 1 or not row for row in rows):
         raise Malformed(f"{where}: expected 1 to {DEGREE + 1} coefficients")
@@ -92,25 +102,31 @@ def _whole(table, key: str, where: str, most: int = MOST) -> int:
 
 def _event(table, where: str) -> Event:
     low, high = bracket(field(table, "t", where), f"{where}.t")
-    return Event(low, high, _whole(table, "equilibria", where) if field(table, "equilibria", where) is not None else None)
+    return Event(low, high, _whole(table, "equilibria", where)
+                 if field(table, "equilibria", where) is not None else None)
 
 
 def _piece(table, where: str, counted: str) -> Piece:
     count = _whole(table, "equilibria", where) if field(table, "equilibria", where) is not None else None
     stable = _whole(table, "stable", where) if field(table, "stable", where) is not None else None
     if (stable is None) != (counted == "borders" or count is None):
-        raise Malformed(f"{where}.stable: expected how many of the equilibria are stable, and none where these are endless or changes of stability")
+        raise Malformed(
+            f"{where}.stable: expected how many of the equilibria are stable, and none where these are "
+            f"endless or changes of stability")
     return Piece(count, stable)
 
 
 def _in_order(events, pieces, low: Fraction, high: Fraction) -> None:
     if low >= high:
         raise Malformed("range: expected its lower end first")
-    if any(one.high >= two.low for one, two in zip(events, events[1:])) or any(e.low < low or e.high > high for e in events):
+    if any(one.high >= two.low for one,
+           two in zip(events, events[1:])) or any(e.low < low or e.high > high for e in events):
         raise Malformed("events: expected them rising, apart from one another and inside the range")
     ends = sum(e.low == e.high == end for e in events for end in (low, high))
     if len(pieces) != len(events) + 1 - ends:
-        raise Malformed(f"pieces: expected {len(events) + 1 - ends}, before, between and after the events, got {len(pieces)}")
+        raise Malformed(
+            f"pieces: expected {len(events) + 1 - ends}, before, between and after the events, got "
+            f"{len(pieces)}")
 
 
 def is_one(certificate: dict) -> bool:
@@ -119,11 +135,13 @@ def is_one(certificate: dict) -> bool:
 
 
 def about(certificate: dict) -> dict[str, Any]:
-    """Its number, range, scene and start, as they stand in it, for one that `verify` has read without complaint."""
+    """Its number, range, scene and start, as they stand in it, for one that `verify` has read without
+    complaint."""
     scene = certificate["scene"]
     rows = {key: scene[key] for key, _ in PLACES[scene["variables"]]}
     name = certificate.get("number")
-    return {"number": name if isinstance(name, str) else "t", "range": certificate["range"], "variables": scene["variables"], **rows,
+    return {"number": name if isinstance(name, str) else "t", "range": certificate["range"],
+            "variables": scene["variables"], **rows,
             **({"state": certificate["start"]} if certificate.get("start") else {})}
 
 
@@ -132,7 +150,9 @@ def line(told: dict) -> str:
     low, high = (brief(number(end, "range")) for end in told["range"])
     keys = [key for key, _ in PLACES[told["variables"]]] + (["state"] if "state" in told else [])
     varying = [key for key in keys if any(len(row) > 1 for row in told[key])]
-    return f"about: {', '.join(varying) or 'nothing'} as {_plain(told['number'])} goes from {low} to {high}; {_fixed(told, keys)}"
+    return (
+        f"about: {', '.join(varying) or 'nothing'} as {_plain(told['number'])} goes from {low} to {high}; "
+        f"{_fixed(told, keys)}")
 
 
 def _plain(name: str) -> str:
@@ -145,16 +165,20 @@ def _fixed(told: dict, keys: list[str]) -> str:
 
 
 def differences(told: dict, case: dict) -> list[str]:
-    """What a certificate is about that a case is not: no value of the number, inside the range or not, makes the scene the case's."""
+    """What a certificate is about that a case is not: no value of the number, inside the range or not, makes
+    the scene the case's."""
     if told["variables"] != case.get("variables"):
-        return [f"variables: the certificate's {told['variables']}, the case's {case.get('variables') or 'none'}"]
+        return [
+            f"variables: the certificate's {told['variables']}, the case's {case.get('variables') or 'none'}"]
     out, common = [], None
     for key in [key for key, _ in PLACES[told["variables"]]] + (["state"] if "state" in told else []):
         values = case.get(key) if isinstance(case.get(key), (list, tuple)) else [case.get(key)]
         for n, (row, value) in enumerate(zip(told[key], values), 1):
             apart = _apart(row, value)
             if apart is None or apart.degree() == 0:
-                out.append(f"{key}[{n}]: the certificate's {' '.join(row):.80}, the case's {value if value is not None else 'none'}")
+                out.append(
+                    f"{key}[{n}]: the certificate's {' '.join(row):.80}, the case's "
+                    f"{value if value is not None else 'none'}")
             elif apart != 0:
                 common = apart if common is None else common.gcd(apart)
     if not out and common is not None and not any(factor.degree() == 1 for factor, _ in common.factor()[1]):

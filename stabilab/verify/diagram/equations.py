@@ -20,8 +20,9 @@ from .claims import Claims
 
 @dataclass(frozen=True)
 class Equations:
-    """weights: w_i; conditions, laws: two of each, a condition being the rate of a law a_i x_i^2/2 + b_i x_i; shift: of a
-    plane of equilibria x_i = -shift_i, the scaled system's a about the first axis and zero else."""
+    """weights: w_i; conditions, laws: two of each, a condition being the rate of a law a_i x_i^2/2 + b_i x_i;
+    shift: of a plane of equilibria x_i = -shift_i, the scaled system's a about the first axis and zero
+    else."""
 
     weights: list[fmpq_mpoly]
     rates: list[fmpq_mpoly]
@@ -51,7 +52,8 @@ class Equations:
             momentum = [d * v + l for d, v, l in zip(D, x, lam)]
             conditions = [both(m, x), both(m, momentum)]
             laws = both(D, squares), both(D, (d * s + l * v for d, s, l, v in zip(D, squares, lam, x)))
-        rates = [kappa[i] * x[j] * x[k] + rho[i] * x[k] + sigma[i] * x[j] + m[i] for i, (j, k) in enumerate(AHEAD)]
+        rates = [kappa[i] * x[j] * x[k] + rho[i] * x[k] + sigma[i] * x[j] + m[i] for i,
+                 (j, k) in enumerate(AHEAD)]
         return cls(weights, rates, conditions, laws, (a, zero, zero), claims.variables == "scaled")
 
     def slope(self, i: int, j: int) -> fmpq_mpoly:
@@ -62,7 +64,8 @@ class Equations:
     def m(self) -> fmpq_mpoly:
         """m of the characteristic polynomial z^3 + m z + n, times all weights."""
         zero = 0 * self.rates[0]
-        return -sum((self.slope(j, k) * self.slope(k, j) * self.weights[i] for i, (j, k) in enumerate(AHEAD)), zero)
+        return -sum((self.slope(j, k) * self.slope(k, j) * self.weights[i] for i, (j, k) in enumerate(AHEAD)),
+                    zero)
 
     @property
     def n(self) -> fmpq_mpoly:
@@ -75,8 +78,9 @@ class Equations:
         return in_unknowns(self.rates[axis].subs({"x1": 0, "x2": 0, "x3": 0}), ()).get((), fmpq_poly([]))
 
     def along(self, axis: int) -> bool:
-        """Whether all over the range the torque lies on principal axis `axis` (0, 1, 2) and no wheel along it keeps
-        equilibria away: the rates and the conditions vanish in the plane across it but for the rate about it."""
+        """Whether all over the range the torque lies on principal axis `axis` (0, 1, 2) and no wheel along it
+        keeps equilibria away: the rates and the conditions vanish in the plane across it but for the rate
+        about it."""
         others = [f for n, f in enumerate(self.rates) if n != axis] + self.conditions
         return not any(self.across(axis, f) for f in others)
 
@@ -87,7 +91,8 @@ class Equations:
         return in_unknowns(f.compose(*places, ctx=f.context()), [n for n in range(3) if n != axis])
 
     def kept(self, axis: int) -> fmpq_mpoly | None:
-        """A sum of both laws that every motion keeps and that leaves the axis out of its squares; None where it is none."""
+        """A sum of both laws that every motion keeps and that leaves the axis out of its squares; None where
+        it is none."""
         first, second = ((1, -1), (0, 1), (1, 0))[axis] if self.scaled else (-self.weights[axis], 1)
         law = first * self.laws[0] + second * self.laws[1]
         return None if self.drift(law) else law
@@ -100,7 +105,8 @@ class Equations:
     def drift(self, law: fmpq_mpoly) -> fmpq_mpoly:
         """The rate of a polynomial along every motion, times all weights."""
         w = self.weights
-        return sum((law.derivative(i + 1) * self.rates[i] * w[j] * w[k] for i, (j, k) in enumerate(AHEAD)), 0 * law)
+        return sum((law.derivative(i + 1) * self.rates[i] * w[j] * w[k] for i, (j, k) in enumerate(AHEAD)),
+                   0 * law)
 
 
 def _of_t(f: Any, ring: Any) -> fmpq_mpoly:
@@ -118,8 +124,9 @@ def in_unknowns(f: fmpq_mpoly, unknowns: Sequence[int] = range(3)) -> Polynomial
 
 @dataclass(frozen=True)
 class System:
-    """Polynomials in the unknowns, with polynomials in t for coefficients. tests: others, whose signs at the zeros are asked. endless: a polynomial in t;
-    where it is zero what is counted lies on more curves than these equations tell."""
+    """Polynomials in the unknowns, with polynomials in t for coefficients. tests: others, whose signs at the
+    zeros are asked. endless: a polynomial in t; where it is zero what is counted lies on more curves than
+    these equations tell."""
 
     unknowns: int
     zero_together: Sequence[Polynomial]
@@ -129,8 +136,9 @@ class System:
 
 @dataclass(frozen=True)
 class Count:
-    """At one value. real: different real zeros, None where zeros are endless; tests: for each, at how many of these it is positive less at how many it is
-    negative, and whether it is zero nowhere, complex zeros counted."""
+    """At one value. real: different real zeros, None where zeros are endless; tests: for each, at how many of
+    these it is positive less at how many it is negative, and whether it is zero nowhere, complex zeros
+    counted."""
 
     real: int | None
     tests: tuple[tuple[int, bool], ...] = ()
@@ -150,11 +158,14 @@ def critical(system: System, work: Work) -> list[Any]:
     if system.endless == 0:
         return []
     _, basis = _counted(system, lambda c: Ratio.of(c, work), lambda element: 1, noted)
-    return [part for element in (*basis.pivots, *noted) for part in (element.top, element.bottom)] + ([] if system.endless is None else [system.endless])
+    return ([part for element in (*basis.pivots, *noted) for part in (element.top, element.bottom)]
+            + ([] if system.endless is None else [system.endless]))
 
 
-def _counted(system: System, lift: Callable[[Any], Any], sign: Callable[[Any], int], noted: list[Any] | None = None) -> tuple[Count, Basis]:
-    """The count, and the basis it is worked out with. noted: collects the products of the eigenvalues that are not zero."""
+def _counted(system: System, lift: Callable[[Any], Any], sign: Callable[[Any], int],
+             noted: list[Any] | None = None) -> tuple[Count, Basis]:
+    """The count, and the basis it is worked out with. noted: collects the products of the eigenvalues that
+    are not zero."""
     lifted = [{powers: e for powers, c in f.items() if (e := lift(c))} for f in system.zero_together]
     basis = Basis(lifted)
     monomials = basis.monomials(system.unknowns)

@@ -36,7 +36,8 @@ def test_an_infinite_extreme_has_every_digit(digits):
     told = ask("extremes", MINOR, (0.5, 0.5, 1.0), digits)  # A^2 < 2: it spins up, x3' = 1 - ... > 0 at once
     x3 = told.values[2]
     assert float(x3[1]) == np.inf and float(x3[0]) == 1.0 and told.digits >= digits
-    assert (told.decimals is None) == (digits < 16) and (told.decimals is None or told.decimals[2][1] == "inf")
+    assert (told.decimals is None) == (digits < 16) and (told.decimals is None
+                                                         or told.decimals[2][1] == "inf")
 
 
 @pytest.mark.slow
@@ -44,7 +45,8 @@ def test_many_states_are_redone_one_by_one_where_the_formulas_cannot_hold_the_di
     rows = np.linspace((2.5, 4.0, 0.1), (2.6, 4.1, 0.2), 17)
     told = ask_all("period", MINOR, rows, 20, stabilab.period(MINOR, rows))
     assert told.decimals.shape == (17,) and all(len(text) > 20 for text in told.decimals)
-    np.testing.assert_allclose([float(text) for text in told.decimals], stabilab.period(MINOR, rows), rtol=1e-11)
+    np.testing.assert_allclose([float(text) for text in told.decimals], stabilab.period(MINOR, rows),
+                               rtol=1e-11)
 
 
 def test_what_has_no_number_is_told_for_states_and_rows_alike():
@@ -52,4 +54,5 @@ def test_what_has_no_number_is_told_for_states_and_rows_alike():
     assert one.values is None and "does not repeat" in one.because
     states = np.array([[0.5, 0.5, 0.0], [2.5, 4.0, 0.1]])
     rows = ask_all("period", SCALED_MINOR, states, 20, stabilab.period(SCALED_MINOR, states))
-    assert rows.values[0] == np.inf and rows.values[1] == pytest.approx(float(stabilab.period(SCALED_MINOR, np.array([2.5, 4.0, 0.1]))), rel=1e-12)
+    assert rows.values[0] == np.inf and rows.values[1] == pytest.approx(
+        float(stabilab.period(SCALED_MINOR, np.array([2.5, 4.0, 0.1]))), rel=1e-12)

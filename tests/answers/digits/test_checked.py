@@ -9,4 +9,5 @@ from stabilab.answers.digits.checked import digits_of
 
 
 def test_digits_of_an_error_are_its_negative_logarithm_within_what_numbers_hold():
-    assert digits_of(1e-7) == pytest.approx(7) and digits_of(0.0) > 15 and digits_of(math.nan) == digits_of(5.0) == 0.0
+    assert digits_of(1e-7) == pytest.approx(7) and digits_of(0.0) > 15 and digits_of(math.nan) == digits_of(
+        5.0) == 0.0

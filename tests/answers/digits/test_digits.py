@@ -1,4 +1,5 @@
-"""Digits asked for: extremes, period, fate and states have them, say how many were shown, and cost more where more are wanted."""
+"""Digits asked for: extremes, period, fate and states have them, say how many were shown, and cost more where
+more are wanted."""
 import json
 from dataclasses import replace
 from fractions import Fraction
@@ -22,7 +23,8 @@ from tests.oracles import energy
 from tests.oracles.model import physical, scaled
 
 CASES = Path(__file__).parents[3] / "cases"
-PAPER = [f"{family}-{lam}" for family in ("minor-axis", "middle-axis", "middle-axis-equal", "middle-axis-plane") for lam in (100, 300, 500)]
+PAPER = [f"{family}-{lam}" for family in ("minor-axis", "middle-axis", "middle-axis-equal",
+                                          "middle-axis-plane") for lam in (100, 300, 500)]
 MAJOR = [f"{family}-{lam}" for family in ("major-axis", "major-axis-spin3") for lam in (100, 300, 500)]
 
 
@@ -33,15 +35,18 @@ def case(name):
 def model(one):
     """The oracle's equations of a case (tests/oracles/model.py, shared with nothing in the package)."""
     s = one.scene
-    return scaled(*s.exact_ab, s.exact_mu) if one.variables == "scaled" else physical(s.body.exact, s.vector("gyrostat"), s.vector("constant_torque"))
+    return (scaled(*s.exact_ab, s.exact_mu) if one.variables == "scaled"
+            else physical(s.body.exact, s.vector("gyrostat"), s.vector("constant_torque")))
 
 
 def apart(told, exact):
-    """Largest distance relative to the component's size; decimals are read in 60 digits where there are some."""
+    """Largest distance relative to the component's size; decimals are read in 60 digits where there are some.
+    """
     with mp.workdps(60):
         rows = told.decimals if told.decimals is not None else told.values
         worst = mp.mpf(0)
-        for row, pair in zip(np.atleast_2d(np.array(rows, dtype=object)), np.atleast_2d(np.array(exact, dtype=object))):
+        for row, pair in zip(np.atleast_2d(np.array(rows, dtype=object)),
+                             np.atleast_2d(np.array(exact, dtype=object))):
             size = max(abs(v) for v in pair if mp.isfinite(v))
             worst = max([worst, *(abs(mp.mpf(v) - e) / size for v, e in zip(row, pair) if mp.isfinite(e))])
         return worst
@@ -53,13 +58,15 @@ def apart(told, exact):
 def test_extremes_period_and_margin_have_the_digits_asked_for(name, digits):
     # the reduced potential in mpmath (tests/oracles/energy.py)
     one = case(name)
-    exact = {"extremes": energy.extremes(model(one), one.state, digits=60), "fate": energy.margin(model(one), one.state, digits=60),
+    exact = {"extremes": energy.extremes(model(one), one.state, digits=60),
+             "fate": energy.margin(model(one), one.state, digits=60),
              "period": energy.period(model(one), one.state, digits=60, nodes=60)}
     for question, value in exact.items():
         told = ask(question, one.scene, one.start, digits)
         assert told.enough and told.digits >= digits, question
         assert apart(told, value) <= mp.mpf(10) ** -digits, question
-        assert (told.decimals is None) == (digits <= 15) and told.method == ("formulas" if digits <= 11 else "balls")
+        assert (told.decimals is None) == (digits
+                                           <= 15) and told.method == ("formulas" if digits <= 11 else "balls")
 
 
 def test_formulas_that_fall_short_leave_the_answer_to_balls(monkeypatch):
@@ -68,13 +75,15 @@ def test_formulas_that_fall_short_leave_the_answer_to_balls(monkeypatch):
     good = ask("period", one.scene, one.start, 10)
     from stabilab.answers.motion import motion
     spoilt = replace(motion(one.scene, one.start), period=good.values * (1 + 3e-9))
-    coarse, fine = ask("period", one.scene, one.start, 6, None, spoilt), ask("period", one.scene, one.start, 10, None, spoilt)
+    coarse, fine = ask("period", one.scene, one.start, 6, None,
+                       spoilt), ask("period", one.scene, one.start, 10, None, spoilt)
     assert coarse.method == "formulas" and 8.4 < coarse.digits < 8.6
     assert fine.method == "balls" and fine.values == pytest.approx(good.values, rel=1e-15)
 
 
 def test_extremes_without_a_reduction_agree_with_many_digits_over_the_span():
-    # off the axes: the same span in the oracle's arithmetic is the run in many digits itself, at another precision
+    # off the axes: the same span in the oracle's arithmetic is the run in many digits itself, at another
+    # precision
     one = case("off-axis-two")
     told, many = (ask("extremes", one.scene, one.start, n, one.span) for n in (10, 20))
     assert told.method == "run" and many.method == "many digits" and many.digits >= 20
@@ -90,13 +99,15 @@ def test_a_closed_motion_without_a_reduction_is_checked_by_its_return_in_many_di
     scene, start = Scene(Body((2, 3, 4)), Gyrostat((0.5, 0.25, 1.0))), (1.0, 0.5, 0.25)
     told = ask("period", scene, start, 20)
     with mp.workdps(40):
-        (back,), gap = integrate_checked(physical((2, 3, 4), (0.5, 0.25, 1.0)), start, [mp.mpf(told.decimals)], 25)
+        (back,), gap = integrate_checked(physical((2, 3, 4), (0.5, 0.25, 1.0)), start,
+                                         [mp.mpf(told.decimals)], 25)
         assert max(abs(a - mp.mpf(b)) for a, b in zip(back, start)) < 1e-18 + gap
     assert ask("period", scene, start, 10).method == "run" and told.method == "many digits"
 
 
 def test_what_has_no_number_needs_no_digits():
-    for question, name in (("period", "wheel-and-thruster"), ("fate", "off-axis-two"), ("period", "major-axis-100")):
+    for question, name in (("period", "wheel-and-thruster"), ("fate", "off-axis-two"),
+                           ("period", "major-axis-100")):
         told = ask(question, case(name).scene, case(name).start, 12, case(name).span)
         assert told.values is None and told.digits is None and told.enough
 
@@ -125,22 +136,30 @@ def test_digits_that_are_not_reached_raise():
             period(case("minor-axis-100").scene, case("minor-axis-100").state, digits=wrong)
 
 
-# -- commands ----------------------------------------------------------------------------------------------------------
+# -- commands
+# ----------------------------------------------------------------------------------------------------------
 
 
 def test_commands_tell_digits_and_write_out_what_doubles_cannot_hold(stabilab):
     path = CASES / "minor-axis-100.toml"
-    exact = energy.period(model(case("minor-axis-100")), case("minor-axis-100").exact_state, digits=60, nodes=60)  # of the decimals as written
+    # of the decimals as written
+    exact = energy.period(model(case("minor-axis-100")), case("minor-axis-100").exact_state, digits=60,
+                          nodes=60)
     answer = json.loads(stabilab("period", path, "--digits", "30", "--json")[1])[0]
     with mp.workdps(60):
-        assert answer["schema"] == "stabilab.period/1" and abs(mp.mpf(answer["digits"]["decimals"]) - exact) < mp.mpf(10) ** -29
+        assert answer["schema"] == "stabilab.period/1" and abs(mp.mpf(answer["digits"]["decimals"])
+                                                               - exact) < mp.mpf(10) ** -29
     code, out, err = stabilab("period", path, "--digits", "30")
     assert code == 0 and answer["digits"]["decimals"] in out and "digits: ball" in out and not err
     answer = json.loads(stabilab("fate", path, "--json")[1])[0]
-    assert answer["schema"] == "stabilab.fate/1" and answer["fate"] == "bounded" and answer["digits"]["reached"] >= 10
+    assert answer["schema"] == "stabilab.fate/1" and answer["fate"] == "bounded" and answer["digits"][
+        "reached"] >= 10
     rows = stabilab("extremes", path, "--digits", "20", "--csv")[1].splitlines()
-    assert len(rows) == 4 and all(len(cell.strip("-").replace(".", "")) >= 19 for row in rows[1:] for cell in row.split(",")[2:4])
-    assert stabilab("period", CASES / "wheel-and-thruster.toml")[1].strip() == "wheel-and-thruster: the motion does not repeat (spin-up)"
+    assert len(rows) == 4 and all(len(cell.strip("-").replace(".", "")) >= 19 for row in rows[1:]
+                                  for cell in row.split(",")[2:4])
+    assert stabilab("period",
+                    CASES / "wheel-and-thruster.toml")[
+                        1].strip() == "wheel-and-thruster: the motion does not repeat (spin-up)"
 
 
 def test_ten_digits_are_the_default_and_cost_nothing_where_formulas_bound_their_error(stabilab, monkeypatch):
@@ -151,22 +170,28 @@ def test_ten_digits_are_the_default_and_cost_nothing_where_formulas_bound_their_
 
 
 def test_too_few_digits_end_with_5_after_the_answer(stabilab, monkeypatch):
-    few = lambda q, scene, state, digits, span, known, exact=None: Told(q, known.period, digits, 4.0, "run", "a check")
+    few = lambda q, scene, state, digits, span, known, exact=None: Told(q, known.period, digits, 4.0, "run",
+                                                                        "a check")
     monkeypatch.setattr(precision_questions, "ask", few)
     code, out, err = stabilab("period", CASES / "minor-axis-100.toml", "--digits", "12")
     assert code == 5 and "1.8043122475" in out and "12 digits asked for, 4.0 reached" in err
 
 
-# -- the paper's cases -------------------------------------------------------------------------------------------------
+# -- the paper's cases
+# -------------------------------------------------------------------------------------------------
 
 
-LATER = [pytest.param(name, marks=pytest.mark.long) for name in (*PAPER[1:], *MAJOR[1:])]  # half a minute each
+# half a minute each
+LATER = [pytest.param(name, marks=pytest.mark.long) for name in (*PAPER[1:], *MAJOR[1:])]
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", [PAPER[0], MAJOR[0], "major-axis-captured", "middle-axis-double-well", *LATER])
-def test_every_ladder_of_digits_is_reached_on_the_papers_cases_and_costs_as_the_picture_says(name, tmp_path, monkeypatch):
-    # states: against the Taylor series in many digits. Cost: of the measured front the cheapest point that has the digits to spare is
+@pytest.mark.parametrize("name",
+                         [PAPER[0], MAJOR[0], "major-axis-captured", "middle-axis-double-well", *LATER])
+def test_every_ladder_of_digits_is_reached_on_the_papers_cases_and_costs_as_the_picture_says(name, tmp_path,
+                                                                                             monkeypatch):
+    # states: against the Taylor series in many digits. Cost: of the measured front the cheapest point that
+    # has the digits to spare is
     # taken, and along Taylor series and formulas of Runge and Kutta more digits take more evaluations.
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     one = replace(case(name), span=(0.0, 6.0))
@@ -184,7 +209,8 @@ def test_every_ladder_of_digits_is_reached_on_the_papers_cases_and_costs_as_the_
         costs.append(min(enough, default=np.inf))
     assert costs == sorted(costs)
     for method in ("taylor", "DOP853"):
-        needed = [min((p.evaluations for p in found.of("span", method) if p.digits >= digits), default=np.inf) for digits in (3, 6, 9, 12)]
+        needed = [min((p.evaluations for p in found.of("span", method) if p.digits >= digits), default=np.inf)
+                  for digits in (3, 6, 9, 12)]
         assert needed == sorted(needed) and needed[0] < needed[-1]
 
 
@@ -193,7 +219,8 @@ def test_every_ladder_of_digits_is_reached_on_the_papers_cases_and_costs_as_the_
 def test_extremes_and_period_of_the_papers_cases_have_3_6_9_and_12_digits(name):
     # the reduced potential in mpmath (tests/oracles/energy.py)
     one = case(name)
-    exact = {"extremes": energy.extremes(model(one), one.state, digits=60), "period": energy.period(model(one), one.state, digits=60, nodes=60)}
+    exact = {"extremes": energy.extremes(model(one), one.state, digits=60),
+             "period": energy.period(model(one), one.state, digits=60, nodes=60)}
     for question, value in exact.items():
         for digits in (3, 6, 9, 12):
             told = ask(question, one.scene, one.start, digits)
@@ -209,7 +236,8 @@ def test_a_front_that_was_measured_decides_the_method_and_a_stopped_run_is_hande
     assert relative_errors(found.run.state["x"], exact.states, exact.rest, exact.slices).max() <= 1e-6
 
 
-# -- far times, and digits that nobody asked for -------------------------------------------------------------------------
+# -- far times, and digits that nobody asked for
+# -------------------------------------------------------------------------
 
 
 def home(one, t):
@@ -220,7 +248,8 @@ def home(one, t):
 
 
 @pytest.mark.one_in(2)
-@pytest.mark.parametrize("name, t, digits", [("minor-axis-100", 1e6, 8), ("minor-axis-100", 1e8, 6), ("middle-axis-double-well", 1e8, 5),
+@pytest.mark.parametrize("name, t, digits", [("minor-axis-100", 1e6, 8), ("minor-axis-100", 1e8, 6),
+                                             ("middle-axis-double-well", 1e8, 5),
                                              ("torque-free-body", 1e9, 6)])
 def test_far_times_are_reached_by_the_reduced_form_and_its_digits_are_true(name, t, digits):
     one = case(name)
@@ -232,7 +261,8 @@ def test_far_times_are_reached_by_the_reduced_form_and_its_digits_are_true(name,
 
 
 def test_a_check_of_the_reduced_form_sees_what_a_rounded_period_costs():
-    # at t = 1e9 a period rounded to doubles, 1e-16 of it, is off by some 1e-7 of the time: no more than nine digits can be true
+    # at t = 1e9 a period rounded to doubles, 1e-16 of it, is off by some 1e-7 of the time: no more than nine
+    # digits can be true
     one = case("torque-free-body")
     assert best_reached(one, [1e9], 6).digits < 9.5 < best_reached(one, [1e5], 6).digits
 

@@ -1,4 +1,5 @@
-"""Where measured fronts are kept, and what a front that is read back must agree with: the rules of each platform by hand."""
+"""Where measured fronts are kept, and what a front that is read back must agree with: the rules of each
+platform by hand."""
 import json
 import platform
 import sys
@@ -14,11 +15,14 @@ from stabilab.answers.digits.front import FrontPoint, cache_folder, front
 CASE = stabilab.load(Path(__file__).parents[3] / "cases" / "torque-free-body.toml")
 
 
-@pytest.mark.parametrize("system, local, wanted", [("darwin", None, ("home", "Library", "Caches", "stabilab")),
-                                                   ("win32", None, ("home", "AppData", "Local", "stabilab", "Cache")),
+@pytest.mark.parametrize("system, local, wanted",
+                         [("darwin", None, ("home", "Library", "Caches", "stabilab")),
+                                                   ("win32", None,
+                                                    ("home", "AppData", "Local", "stabilab", "Cache")),
                                                    ("win32", "local", ("local", "stabilab", "Cache")),
                                                    ("linux", "local", ("home", ".cache", "stabilab"))])
-@pytest.mark.parametrize("given", [None, "", "relative/folder"])  # the XDG rule: relative paths are to be ignored
+@pytest.mark.parametrize("given",
+                         [None, "", "relative/folder"])  # the XDG rule: relative paths are to be ignored
 def test_each_platform_has_its_cache_folder(system, local, wanted, given, tmp_path, monkeypatch):
     monkeypatch.setattr(sys, "platform", system)
     monkeypatch.setattr(Path, "home", lambda: tmp_path / "home")
@@ -37,7 +41,8 @@ def test_a_machine_without_a_list_of_processors_is_called_by_its_platform(monkey
     monkeypatch.setattr(platform, "processor", lambda: "")
     bare = machine.machine()
     assert bare == named | {"processor": platform.machine()}
-    monkeypatch.setattr(Path, "read_text", lambda self, **_: "flags\t: fpu\nmodel name\t: Some CPU: fast\nmodel name\t: other\n")
+    monkeypatch.setattr(Path, "read_text", lambda self,
+                        **_: "flags\t: fpu\nmodel name\t: Some CPU: fast\nmodel name\t: other\n")
     assert machine.machine()["processor"] == "Some CPU: fast"
     monkeypatch.setattr(Path, "read_text", lambda self, **_: "Hardware\t: none of these lines\n")
     assert machine.machine()["processor"] == platform.machine()
@@ -63,13 +68,16 @@ def kept(tmp_path, monkeypatch, **changes):
     path.parent.mkdir(parents=True, exist_ok=True)
     good = {"schema": precision_front.CACHE_SCHEMA, "machine": machine.machine() | machine.versions(),
             "front": [{"method": "taylor", "rtol": 1e-6, "digits": 5.5, "cost": 1e-4}]}
-    path.write_text(json.dumps({name: value for name, value in (good | changes).items() if value is not None}))
+    path.write_text(json.dumps({name: value for name,
+                                value in (good | changes).items() if value is not None}))
     return front(CASE)
 
 
-@pytest.mark.parametrize("changes", [{"schema": "stabilab.front/0"}, {"machine": {}}, {"machine": None}, {"front": None}, {"front": 3},
+@pytest.mark.parametrize("changes", [{"schema": "stabilab.front/0"}, {"machine": {}}, {"machine": None},
+                                     {"front": None}, {"front": 3},
                                      {"front": [{"method": "taylor"}]}, {"front": [["taylor", 1]]},
-                                     {"front": [{"method": "taylor", "rtol": "small", "digits": 5, "cost": 1}]}])
+                                     {"front": [{"method": "taylor", "rtol": "small", "digits": 5,
+                                                 "cost": 1}]}])
 def test_a_kept_front_of_another_form_or_machine_is_none(changes, tmp_path, monkeypatch):
     assert kept(tmp_path, monkeypatch) == (FrontPoint("taylor", 1e-6, 5.5, 1e-4),)
     assert kept(tmp_path, monkeypatch, **changes) == ()

@@ -1,4 +1,5 @@
-"""Limits that a feeble torque reaches late: a time before which it cannot, little work that is lost on the way, and how narrow the clock is."""
+"""Limits that a feeble torque reaches late: a time before which it cannot, little work that is lost on the
+way, and how narrow the clock is."""
 from __future__ import annotations
 
 from fractions import Fraction
@@ -15,10 +16,13 @@ from tests.oracles.first_crossing import first_crossing
 from .test_time_to import FAR, random_question
 
 # A 6U CubeSat of 11 kg with three wheels, along principal axes: a cold-gas thruster of 350 uN is stuck.
-CUBESAT = stabilab.Scene(stabilab.Body(("0.14", "0.12", "0.052")), stabilab.Gyrostat(("-0.0093", "-0.006", "0.0149")),
+CUBESAT = stabilab.Scene(stabilab.Body(("0.14", "0.12", "0.052")),
+                         stabilab.Gyrostat(("-0.0093", "-0.006", "0.0149")),
                          stabilab.ConstantTorque(("4.4e-7", "3.4e-5", "2.2e-5")))
 SLOW = [-5e-4, -4e-4, 9e-4]  # rad/s
-REACHED = 146811.04  # s, 50 rad/s: SciPy's tableau of DOP853 on Euler's equations, 7.5 million steps with 1e-13 (with 1e-12 the same)
+# s, 50 rad/s: SciPy's tableau of DOP853 on Euler's equations, 7.5 million steps with 1e-13 (with 1e-12 the
+# same)
+REACHED = 146811.04
 
 
 def test_a_spin_about_the_minor_axis_reaches_its_limit_exactly_when_energy_allows():
@@ -36,7 +40,8 @@ def test_no_random_motion_reaches_a_limit_before_its_energy_allows():
         found = float(earliest(scene, tuple(map(Fraction, state.tolist())), asked(scene, **question)))
         known += found > 0
         if found:
-            true = first_crossing(scene.body.inertia, np.array(scene.vector("gyrostat"), float), np.array(scene.vector("constant_torque"), float), state,
+            true = first_crossing(scene.body.inertia, np.array(scene.vector("gyrostat"), float),
+                                  np.array(scene.vector("constant_torque"), float), state,
                                   limit, FAR)  # in long doubles, no code shared
             assert true is None or found <= true, (question, found, true)
             held += true is not None

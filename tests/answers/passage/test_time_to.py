@@ -1,4 +1,5 @@
-"""First times against brute force in long doubles (`tests.oracles.first_crossing`), which shares no code with the program."""
+"""First times against brute force in long doubles (`tests.oracles.first_crossing`), which shares no code with
+the program."""
 from __future__ import annotations
 
 import math
@@ -17,7 +18,8 @@ FAR = 60.0  # how far brute force looks, in natural units
 
 
 def random_question(rng):
-    """(scene, state, question, the same for brute force): moments of a mass distribution, torque and wheel of any direction or along an axis."""
+    """(scene, state, question, the same for brute force): moments of a mass distribution, torque and wheel of
+    any direction or along an axis."""
     moments = rng.dirichlet((1.0, 1.0, 1.0)) + 0.02
     D = moments.sum() - moments
     torque = rng.normal(size=3)
@@ -28,7 +30,8 @@ def random_question(rng):
         torque = np.eye(3)[axis] * rng.choice([-1, 1])
         wheel[axis] *= rng.random() < 0.2
     state = rng.normal(size=3) * rng.choice([0.1, 1.0, 3.0])
-    scene = stabilab.Scene(stabilab.Body(tuple(D)), stabilab.Gyrostat(tuple(wheel)), stabilab.ConstantTorque(tuple(torque)))
+    scene = stabilab.Scene(stabilab.Body(tuple(D)), stabilab.Gyrostat(tuple(wheel)),
+                           stabilab.ConstantTorque(tuple(torque)))
     size = np.linalg.norm(state)
     kind, nothing = rng.choice(["rate", "component", "energy", "tilt"]), np.zeros(3)
     if kind == "rate":
@@ -49,11 +52,14 @@ def judged(rng):
     """(relative width or None, level) of one random question, the answer held against brute force."""
     scene, state, question, limit = random_question(rng)
     found = stabilab.time_to(scene, state, **question, t_max=FAR)
-    true = first_crossing(scene.body.inertia, np.array(scene.vector("gyrostat"), float), np.array(scene.vector("constant_torque"), float), state, limit, FAR)
+    true = first_crossing(scene.body.inertia, np.array(scene.vector("gyrostat"), float),
+                          np.array(scene.vector("constant_torque"), float), state, limit, FAR)
     if true is None:
-        assert found.high == math.inf or (math.isnan(found.high) and found.low >= FAR * (1 - 1e-12)), (question, found)
+        assert found.high == math.inf or (math.isnan(found.high)
+                                          and found.low >= FAR * (1 - 1e-12)), (question, found)
         return None, found.level
-    slack = 1e-13 * true  # what brute force in long doubles may be off by: its unit 1e-19 times the growth of an error on the way
+    # what brute force in long doubles may be off by: its unit 1e-19 times the growth of an error on the way
+    slack = 1e-13 * true
     assert found.low - slack <= true <= found.high + slack, (question, found, true)
     return (found.high - found.low) / found.low, found.level
 
@@ -89,7 +95,8 @@ ON_AXIS = stabilab.Scene(BODY, WHEEL, stabilab.ConstantTorque((0, 0, "0.02")))
 def test_the_spin_of_a_symmetric_body_reaches_a_limit_when_the_torque_has_gathered_it():
     scene = stabilab.Scene(stabilab.Body((4, 4, 5)), stabilab.ConstantTorque(("0.1", "-0.2", "0.5")))
     found = stabilab.time_to(scene, [0.5, -1.0, 0.25], component=(3, 2))
-    assert found.low <= 17.5 <= found.high and found.high - found.low < 1e-14  # D3 omega3' = M3: (2 - 1/4) 5/0.5
+    # D3 omega3' = M3: (2 - 1/4) 5/0.5
+    assert found.low <= 17.5 <= found.high and found.high - found.low < 1e-14
     assert found.level == "proved"
 
 
@@ -103,21 +110,25 @@ def test_a_limit_far_beyond_any_run_is_told_by_the_clock_of_the_spin_up():
 def test_the_clock_brackets_what_a_run_finds():
     found = stabilab.time_to(TILTED, [0.1, 0.05, 0.9], rate=2)
     early, late = stabilab.spin_up(TILTED, [0.1, 0.05, 0.9]).trap.clock(2.0)
-    assert early < found.low <= found.high < late  # |omega| passes 2 before the spin alone does, by less than the clock's width
+    # |omega| passes 2 before the spin alone does, by less than the clock's width
+    assert early < found.low <= found.high < late
 
 
 def test_both_sides_of_the_largest_rate_of_a_bounded_motion_are_told_apart():
     state = [0.1, 0.05, 0.02]
     for axis, (low, high) in enumerate(stabilab.extremes(ON_AXIS, state, digits=14), 1):
-        largest = max(abs(low), abs(high))  # by quadrature and roots of the reduced potential, checked to 14 digits
-        below, above = (stabilab.time_to(ON_AXIS, state, component=(axis, largest * (1 + step))) for step in (-1e-10, 1e-10))
+        # by quadrature and roots of the reduced potential, checked to 14 digits
+        largest = max(abs(low), abs(high))
+        below, above = (stabilab.time_to(ON_AXIS, state, component=(axis, largest * (1 + step)))
+                        for step in (-1e-10, 1e-10))
         assert below.high < 33 and below.level == "proved"  # the period is 32.84 s
         assert above.low == above.high == math.inf
 
 
 def test_a_tilt_is_the_angle_that_a_run_of_the_attitude_shows():
     found = stabilab.time_to(TILTED, [0.1, 0.05, 0.9], tilt=((1, 2, 2), "0.75"))
-    run = stabilab.trajectory(TILTED, {"omega": [0.1, 0.05, 0.9], "attitude": [1, 0, 0, 0]}, [found.low / 2, found.low])
+    run = stabilab.trajectory(TILTED, {"omega": [0.1, 0.05, 0.9], "attitude": [1, 0, 0, 0]},
+                              [found.low / 2, found.low])
     axis = np.array([1, 2, 2]) / 3
     w, q = run.block("attitude")[:, :1], run.block("attitude")[:, 1:]
     turned = axis + 2 * np.cross(q, np.cross(q, axis) + w * axis)  # of a unit quaternion
@@ -127,13 +138,15 @@ def test_a_tilt_is_the_angle_that_a_run_of_the_attitude_shows():
 
 def test_of_three_components_the_first_to_reach_its_limit_counts():
     state = [0.1, 0.05, 0.9]
-    each = [stabilab.time_to(TILTED, state, component=(axis, most)).low for axis, most in ((1, "0.2"), (2, "0.2"), (3, 1))]
+    each = [stabilab.time_to(TILTED, state, component=(axis, most)).low for axis,
+            most in ((1, "0.2"), (2, "0.2"), (3, 1))]
     both = stabilab.time_to(TILTED, state, rate=("0.2", "0.2", 1))
     assert both.low == min(each) < sorted(each)[1]
 
 
 def test_scaled_variables_answer_as_their_body_does():
-    scene = stabilab.Scene(stabilab.Body((5, 4, 2)), stabilab.Gyrostat((1, 0, 0)), stabilab.ConstantTorque((0, 0, "0.5")))
+    scene = stabilab.Scene(stabilab.Body((5, 4, 2)), stabilab.Gyrostat((1, 0, 0)),
+                           stabilab.ConstantTorque((0, 0, "0.5")))
     scaled, change = to_scaled(scene)
     state, most = (0.25, 0.5, 2.0), 4
     found = stabilab.time_to(scene, state, component=(3, most))
@@ -154,11 +167,13 @@ def test_an_equilibrium_never_reaches_a_limit():
 
 def test_a_search_that_ends_says_until_when_the_limit_is_not_reached():
     found = stabilab.time_to(TILTED, [0.1, 0.05, 0.9], rate=2, t_max=100)
-    assert found.low == 100 and math.isnan(found.high) and found.level == "proved" and "not reached" in found.words
+    assert found.low == 100 and math.isnan(
+        found.high) and found.level == "proved" and "not reached" in found.words
 
 
 def test_without_work_for_a_proof_a_run_answers_the_same():
-    proved, run = (stabilab.time_to(TILTED, [0.1, 0.05, 0.9], rate="1.5", work=work) for work in (30_000_000, 0))
+    proved, run = (stabilab.time_to(TILTED, [0.1, 0.05, 0.9], rate="1.5", work=work)
+                   for work in (30_000_000, 0))
     assert run.level == "run" and run.low <= proved.low <= proved.high <= run.high < proved.high * (1 + 1e-11)
 
 
@@ -173,7 +188,8 @@ def test_without_heyoka_scipy_finds_the_same_root(monkeypatch):
 
 def test_other_effects_are_answered_by_a_run():
     from scipy.integrate import solve_ivp
-    scene = stabilab.Scene(BODY, WHEEL, stabilab.ConstantTorque(("0.001", 0, "0.02")), stabilab.Resistance("0.001"))
+    scene = stabilab.Scene(BODY, WHEEL, stabilab.ConstantTorque(("0.001", 0, "0.02")),
+                           stabilab.Resistance("0.001"))
     found = stabilab.time_to(scene, [0.1, 0.05, 0.9], rate="0.95")
 
     def rates(_, w):  # Euler's equations with -c D omega, typed in by hand
@@ -183,7 +199,8 @@ def test_other_effects_are_answered_by_a_run():
     def passed(_, w):
         return np.dot(w, w) - 0.95**2
     passed.terminal = True
-    true = solve_ivp(rates, (0, 1000), [0.1, 0.05, 0.9], method="DOP853", rtol=1e-12, atol=1e-14, events=passed).t_events[0][0]
+    true = solve_ivp(rates, (0, 1000), [0.1, 0.05, 0.9], method="DOP853", rtol=1e-12, atol=1e-14,
+                     events=passed).t_events[0][0]
     assert found.level == "run" and abs(found.low - true) < 1e-8 and found.high - found.low < 1e-10
 
 
@@ -213,7 +230,8 @@ def test_limits_that_are_none_are_refused(question, words):
 
 
 def test_a_pure_spin_far_from_its_limit_reaches_it_when_the_torque_has_turned_it():
-    """omega2 = omega2(0) + M2 t/D2 and nothing else: |omega2| = 100 at t = (100 + 1.2) D2/|M2|, by hand. A series of two terms has no end of its own."""
+    """omega2 = omega2(0) + M2 t/D2 and nothing else: |omega2| = 100 at t = (100 + 1.2) D2/|M2|, by hand. A
+    series of two terms has no end of its own."""
     scene = stabilab.Scene(stabilab.Body((5, "14.25", 14)), stabilab.ConstantTorque((0, -1, 0)))
     for work in (0, 10**6):
         found = stabilab.time_to(scene, [0, 1.2, 0], rate=100, work=work)
@@ -222,9 +240,11 @@ def test_a_pure_spin_far_from_its_limit_reaches_it_when_the_torque_has_turned_it
 
 def test_a_torque_between_equal_moments_that_spins_up_is_followed():
     """A wheel along the torque: no extremes over all time, and yet a first time."""
-    scene = stabilab.Scene(stabilab.Body((5, 9, 9)), stabilab.Gyrostat((0, 1, 0)), stabilab.ConstantTorque((0, -1, 1)))
+    scene = stabilab.Scene(stabilab.Body((5, 9, 9)), stabilab.Gyrostat((0, 1, 0)),
+                           stabilab.ConstantTorque((0, -1, 1)))
     found = stabilab.time_to(scene, [0.3, 1.2, 0], rate=2)
-    run = solve_ivp(lambda t, w: euler((5, 9, 9), (0, 1, 0), (0, -1, 1), w), (0, found.high * 1.01), [0.3, 1.2, 0], "DOP853", rtol=1e-12, atol=1e-14,
+    run = solve_ivp(lambda t, w: euler((5, 9, 9), (0, 1, 0), (0, -1, 1), w), (0, found.high * 1.01),
+                    [0.3, 1.2, 0], "DOP853", rtol=1e-12, atol=1e-14,
                     dense_output=True)
     assert found.low < np.inf and np.linalg.norm(run.sol(found.low)) == pytest.approx(2, rel=1e-8)
 
@@ -237,16 +257,19 @@ def euler(D, l, M, w):
 def test_a_way_too_long_for_integers_is_enclosed_by_compiled_steps():
     pytest.importorskip("numba")
     a = math.radians(1)
-    torque = (-0.02 * math.sin(a), 0.0, 0.02 * math.cos(a))  # the satellite of README.md, its thruster tilted by a degree
+    # the satellite of README.md, its thruster tilted by a degree
+    torque = (-0.02 * math.sin(a), 0.0, 0.02 * math.cos(a))
     scene = stabilab.Scene(BODY, WHEEL, stabilab.ConstantTorque(torque))
     found = stabilab.time_to(scene, [0.1, 0.05, 0.02], rate=2, work=1_000_000)
-    true = first_crossing((12, 9, 5), (REAL("0.8"), 0, 0), torque, [0.1, 0.05, 0.02], (np.ones(3), np.zeros(3), REAL(4)), 1e4)
+    true = first_crossing((12, 9, 5), (REAL("0.8"), 0, 0), torque, [0.1, 0.05, 0.02],
+                          (np.ones(3), np.zeros(3), REAL(4)), 1e4)
     assert found.level == "proved" and found.low <= true <= found.high < found.low * (1 + 1e-9)
 
 
 def test_three_components_are_enclosed_by_compiled_steps_too():
     pytest.importorskip("numba")
-    found, far = (stabilab.time_to(TILTED, [0.1, 0.05, 0.9], rate=("0.5", "0.5", most), work=1) for most in ("1.5", 5))
+    found, far = (stabilab.time_to(TILTED, [0.1, 0.05, 0.9], rate=("0.5", "0.5", most), work=1)
+                  for most in ("1.5", 5))
     one = stabilab.time_to(TILTED, [0.1, 0.05, 0.9], component=(3, "1.5"))
     assert found.level == far.level == "proved" and found.low <= one.high and one.low <= found.high
     assert far.low > found.high

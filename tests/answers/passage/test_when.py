@@ -13,25 +13,31 @@ from stabilab.case.limit_options import stated_limit
 from stabilab.errors import InputError
 from tests.shared import CASES
 
-CUBESAT, OFF_AXIS, MAJOR = (CASES / f"{name}.toml" for name in ("cubesat-3u", "off-axis-two", "thruster-stuck-major-axis"))
+CUBESAT, OFF_AXIS, MAJOR = (CASES / f"{name}.toml"
+                            for name in ("cubesat-3u", "off-axis-two", "thruster-stuck-major-axis"))
 
 
 def test_the_first_line_answers_in_seconds_and_degrees(stabilab):
     code, out, err = stabilab("when", CUBESAT)
     assert code == 0 and not err
-    assert out.splitlines()[0].startswith("cubesat-3u: reaches |ω| = 60 deg/s in 16.95 s (proved 16.9477 to 16.9478)")
+    assert out.splitlines()[0].startswith(
+        "cubesat-3u: reaches |ω| = 60 deg/s in 16.95 s (proved 16.9477 to 16.9478)")
     for option in (["--si"], ["--units", "si"]):
         code, out, _ = stabilab("when", CUBESAT, *option)
         assert code == 0 and "|ω| = 1.0472 rad/s in 16.95 s (proved 16.9477 to 16.9478)" in out
 
 
-@pytest.mark.parametrize("arguments", [(CUBESAT,), (OFF_AXIS, "--rate", "1000 deg/s"), (CASES / "top-fast.toml", "--tilt", "z = 10 deg")])
+@pytest.mark.parametrize("arguments", [(CUBESAT,), (OFF_AXIS, "--rate", "1000 deg/s"),
+                                       (CASES / "top-fast.toml", "--tilt", "z = 10 deg")])
 def test_the_text_has_as_many_digits_as_are_read_and_its_bracket_holds_that_of_json(stabilab, arguments):
     """Oracle: the two ends in JSON, in seconds, all digits."""
     ((low, high),) = [row["time"] for row in json.loads(stabilab("when", *arguments, "--json")[1])]
     first, second, *_ = stabilab("when", *arguments)[1].splitlines()
-    a, b, per = re.search(r"in [\d.]+ (?:s|min) \(\w+ ([\d.]+) to ([\d.]+)\)", first).groups() + (60 if " min (" in first else 1,)
-    assert max(len(a), len(b)) <= 8 and float(a) * per <= low <= high <= float(b) * per and float(b) - float(a) < 2e-5 * float(b)
+    a, b, per = (re.search(r"in [\d.]+ (?:s|min) \(\w+ ([\d.]+) to ([\d.]+)\)", first).groups()
+                 + (60 if " min (" in first else 1,))
+    assert max(len(a),
+               len(b)) <= 8 and float(a) * per <= low <= high <= float(b) * per and float(b) - float(
+                   a) < 2e-5 * float(b)
     assert second == f"  its two ends are {high - low:.2g} s apart; --json tells all digits"
 
 
@@ -45,7 +51,8 @@ def test_json_tells_never_unknown_and_the_time(stabilab):
         (CUBESAT,), (MAJOR, "--rate", "5"), (CUBESAT, "--until", "5 s"))]
     assert [row["reached"] for row in rows] == ["yes", "never", "unknown"]
     assert all(row["schema"] == "stabilab.when/1" for row in rows)
-    assert rows[0]["time"][0] <= rows[0]["time"][1] and rows[1]["time"] is None and rows[1]["not_before"] is None
+    assert rows[0]["time"][0] <= rows[0]["time"][1] and rows[1]["time"] is None and rows[1][
+        "not_before"] is None
     assert rows[2]["time"] is None and rows[2]["not_before"] == 5 and rows[2]["level"] == "proved"
 
 
@@ -57,7 +64,8 @@ def test_strict_ends_with_3_where_the_time_is_not_known(stabilab):
 
 def test_a_component_counts_in_the_frame_of_the_file_or_along_principal_axes(stabilab):
     case = package.load(CUBESAT)
-    file, principal = (time_of_case(case, stated_limit(case, component=f"{axis} = 30 deg/s").ask) for axis in "z3")
+    file, principal = (time_of_case(case, stated_limit(case, component=f"{axis} = 30 deg/s").ask)
+                       for axis in "z3")
     run = package.trajectory(case.scene, case.state, [float(file.low), float(principal.low)])
     z = [float(axis[2]) for axis in case.frame.axes]
     first, second = sorted([0, 1], key=lambda n: (file.low, principal.low)[n])
@@ -73,18 +81,21 @@ def test_limits_of_three_components_are_those_of_the_file(tmp_path):
     path.write_text(text)
     case = package.load(path)
     whole = time_of_case(case, stated_limit(case).ask)
-    each = [time_of_case(case, stated_limit(case, component=one).ask).low for one in ("x = 90 deg/s", "y = 40 deg/s", "z = 2 deg/s")]
+    each = [time_of_case(case, stated_limit(case, component=one).ask).low
+            for one in ("x = 90 deg/s", "y = 40 deg/s", "z = 2 deg/s")]
     assert whole.low == min(each)
 
 
 def test_a_sweep_answers_row_by_row(stabilab):
     code, out, _ = stabilab("when", CASES / "charged-sweep.toml", "--rate", "3", "--csv")
-    assert code == 0 and len(out.splitlines()) == 28 and out.splitlines()[1].startswith("charged-sweep-1-1-1,|omega|,3.0,7.25")
+    assert code == 0 and len(out.splitlines()) == 28 and out.splitlines()[1].startswith(
+        "charged-sweep-1-1-1,|omega|,3.0,7.25")
 
 
 def test_an_approximate_law_is_told_first(stabilab):
     code, out, _ = stabilab("when", CASES / "liquid-base.toml", "--rate", "2 rad/s")
-    assert code == 0 and out.startswith("BEYOND THE LAW; by that law: liquid-base: NEVER reaches ") and "\nlaw: liquid cavity: " in out
+    assert code == 0 and out.startswith(
+        "BEYOND THE LAW; by that law: liquid-base: NEVER reaches ") and "\nlaw: liquid cavity: " in out
     assert stabilab("when", CASES / "liquid-base.toml", "--rate", "2 rad/s", "--strict")[0] == 3
 
 

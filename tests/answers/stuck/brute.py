@@ -1,4 +1,5 @@
-"""A stuck thruster by brute force: Euler's equations in the frame of the file, whatever the tensor, by SciPy's DOP853.
+"""A stuck thruster by brute force: Euler's equations in the frame of the file, whatever the tensor, by
+SciPy's DOP853.
 
 J omega' = M - omega x (J omega + l). Nothing of the package is used: no principal axes, no Taylor series.
 """
@@ -8,7 +9,8 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-UNITS = {"N": 1.0, "mN": 1e-3, "lbf": 4.4482216152605, "m": 1.0, "cm": 1e-2, "mm": 1e-3, "deg/s": np.pi / 180, "rpm": np.pi / 30, "rad/s": 1.0, "kg m^2": 1.0,
+UNITS = {"N": 1.0, "mN": 1e-3, "lbf": 4.4482216152605, "m": 1.0, "cm": 1e-2, "mm": 1e-3, "deg/s": np.pi / 180,
+         "rpm": np.pi / 30, "rad/s": 1.0, "kg m^2": 1.0,
          "N m s": 1.0, "kg": 1.0, "min": 60.0}
 
 
@@ -38,12 +40,14 @@ class Craft:
             for name, value in body.get("products", {}).items():
                 if name != "convention":
                     i, j = ("xyz".index(c) for c in name)
-                    self.J[i, j] = self.J[j, i] = (-1 if body["products"]["convention"] == "positive" else 1) * number(value)
+                    self.J[i, j] = self.J[j, i] = (-1 if body["products"]["convention"] == "positive"
+                                                   else 1) * number(value)
         centre = vector(body.get("centre_of_mass", [0, 0, 0]))
         self.torques = {}
         for t in data.get("thrusters", []):
             e = vector(t["direction"])
-            self.torques[t["name"]] = np.cross(vector(t["position"]) - centre, number(t["force"]) * e / np.linalg.norm(e))
+            self.torques[t["name"]] = np.cross(vector(t["position"]) - centre,
+                                               number(t["force"]) * e / np.linalg.norm(e))
         self.stuck = [t["name"] for t in data.get("thrusters", []) if t.get("stuck")]
         self.l = np.zeros(3)
         self.wheels = len(data.get("wheels", []))
@@ -60,7 +64,8 @@ class Craft:
 
     def run(self, t_end, torque=None, l=None, limit=True, rtol=1e-13):
         """(time of the limit or None, last state, largest |omega|)."""
-        M, l, inverse = self.torque() if torque is None else torque, self.l if l is None else l, np.linalg.inv(self.J)
+        M, l, inverse = (self.torque() if torque is None else torque, self.l if l is None else l,
+                         np.linalg.inv(self.J))
 
         def rate(t, w):
             (x, y, z), (a, b, c) = w, self.J @ w + l
@@ -75,14 +80,18 @@ class Craft:
         return t, run.y[:, -1], float(np.linalg.norm(run.y, axis=0).max())
 
     def fate(self, torque=None, l=None, start=None, rtol=1e-11):
-        """"bounded" or "spin-up" by what a run of the motion proves, however slow its growth. The torque is along a principal axis a.
+        """"bounded" or "spin-up" by what a run of the motion proves, however slow its growth. The torque is
+        along a principal axis a.
 
-        With momentum l of the wheels along it |H|^2/2 - D T grows steadily at the rate l.M, H = J omega + l, 2T = omega.J omega: spin-up, whatever the run
-        shows (`law` measures the rate). Else the two rates across a depend on the angle alpha about it alone, alpha' = omega.a, and T on the work M alpha:
-        the way there is the way back. So it is bounded once it has turned back against the torque and then with it again, and it spins up once it has gone
-        one whole turn of the rates across a with the torque: it comes round to the same rates with more energy, for ever.
+        With momentum l of the wheels along it |H|^2/2 - D T grows steadily at the rate l.M, H = J omega + l,
+        2T = omega.J omega: spin-up, whatever the run shows (`law` measures the rate). Else the two rates
+        across a depend on the angle alpha about it alone, alpha' = omega.a, and T on the work M alpha: the
+        way there is the way back. So it is bounded once it has turned back against the torque and then with
+        it again, and it spins up once it has gone one whole turn of the rates across a with the torque: it
+        comes round to the same rates with more energy, for ever.
         """
-        M, l, w = self.torque() if torque is None else torque, self.l if l is None else l, self.start if start is None else start
+        M, l, w = (self.torque() if torque is None else torque, self.l if l is None else l,
+                   self.start if start is None else start)
         a = M / np.linalg.norm(M)
         if abs(l @ a) > 1e-12 * np.linalg.norm(l):
             return "spin-up"
@@ -95,16 +104,19 @@ class Craft:
         back.direction, again.direction, round_.terminal = -1, 1, True
         again.terminal = 2  # one whole swing, whichever way it began
         span = 1e4 * np.sqrt(np.linalg.eigvalsh(self.J)[-1] / np.linalg.norm(M))
-        run = solve_ivp(rate, (0, span), [*w, 0.0], "DOP853", rtol=rtol, atol=1e-3 * rtol, events=[back, again, round_] if np.isfinite(turn) else [back, again])
+        run = solve_ivp(rate, (0, span), [*w, 0.0], "DOP853", rtol=rtol, atol=1e-3 * rtol,
+                        events=[back, again, round_] if np.isfinite(turn) else [back, again])
         if len(run.t_events) > 2 and len(run.t_events[2]):
             return "spin-up"
         assert len(run.t_events[0]) and len(run.t_events[1]), "neither a turn nor a whole swing"
         return "bounded"
 
     def turn(self, a) -> float:
-        """The angle about a principal axis after which the rates across it are the same again; inf where they are not.
+        """The angle about a principal axis after which the rates across it are the same again; inf where they
+        are not.
 
-        With D and P the moments along and across a: P u' = -a x (P u + l - D u) per unit of the angle, trace 0, so u turns at sqrt(det).
+        With D and P the moments along and across a: P u' = -a x (P u + l - D u) per unit of the angle, trace
+        0, so u turns at sqrt(det).
         """
         D, across = a @ self.J @ a, np.linalg.svd(a[None])[2][1:]
         assert self.J @ a == pytest.approx(D * a, abs=1e-12 * D)

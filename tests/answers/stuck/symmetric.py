@@ -6,8 +6,8 @@ w_k' = Q w_j - l_j/D_k, and what the work of the torque leaves to the spin about
 
     S(x) = D_i w_i^2/2 + |M| x - (T(x) - T(0)),   T = (D_j w_j^2 + D_k w_k^2)/2,
 
-x the angle along the torque. The motion is bounded exactly if S < 0 for an x > 0 (on a circle within one turn).
-In numbers of mpmath; nothing of the package is used.
+x the angle along the torque. The motion is bounded exactly if S < 0 for an x > 0 (on a circle within one
+turn). In numbers of mpmath; nothing of the package is used.
 """
 from fractions import Fraction
 

@@ -1,4 +1,5 @@
-"""The momentum of a wheel that delays a limit: where the runs that are compared end before it, the answer does not say 'most of all'."""
+"""The momentum of a wheel that delays a limit: where the runs that are compared end before it, the answer
+does not say 'most of all'."""
 from __future__ import annotations
 
 import pytest
@@ -9,10 +10,12 @@ from tests.shared import craft_file
 
 
 @pytest.mark.parametrize("budget, most", ((20_000, True), (40, False)))
-def test_the_best_of_runs_that_end_before_the_limit_is_not_called_most_of_all(tmp_path, monkeypatch, budget, most):
+def test_the_best_of_runs_that_end_before_the_limit_is_not_called_most_of_all(tmp_path, monkeypatch, budget,
+                                                                              most):
     pytest.importorskip("heyoka")
     monkeypatch.setattr(fate, "SEARCHED", budget)
     file = tmp_path / "craft.toml"
-    file.write_text(craft_file([12, 9, 5], ([1, 0, 0.2], [0.1, 1, 0.3], 0.2), [([1, 0, 0], 0.8)], [0.1, 0.05, 0.3]) + '\n[limits]\nrate = "120 deg/s"\n')
+    file.write_text(craft_file([12, 9, 5], ([1, 0, 0.2], [0.1, 1, 0.3], 0.2), [([1, 0, 0], 0.8)],
+                               [0.1, 0.05, 0.3]) + '\n[limits]\nrate = "120 deg/s"\n')
     (wheel,) = stabilab.stuck(stabilab.load(file)).rows[0].wheels
     assert wheel.best is not None and wheel.most is most

@@ -25,7 +25,8 @@ angular_velocity = {start!r}
 def a_rotation(numbers) -> np.ndarray:
     """From four normal numbers as a quaternion, by the formula of Rodrigues."""
     w, x, y, z = (q := np.array([numbers.gauss(0, 1) for _ in range(4)])) / np.linalg.norm(q)
-    return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)], [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+    return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+                     [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
                      [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]])
 
 
@@ -38,7 +39,8 @@ def test_ten_frames_give_one_answer(tmp_path, name):
 
     def asked(R):
         path = tmp_path / "turned.toml"
-        path.write_text(TURNED.format(J=(R @ craft.J @ R.T).tolist(), M=(R @ craft.torque()).tolist(), l=(R @ craft.l).tolist(), limit=limit,
+        path.write_text(TURNED.format(J=(R @ craft.J @ R.T).tolist(), M=(R @ craft.torque()).tolist(),
+                                      l=(R @ craft.l).tolist(), limit=limit,
                                       start=(R @ craft.start).tolist()))
         return stabilab.stuck(stabilab.load(path))
     given, numbers = asked(np.eye(3)), random.Random(13)
@@ -49,10 +51,14 @@ def test_ten_frames_give_one_answer(tmp_path, name):
         other = found.rows[0]
         assert (other.fate, other.level, other.axis) == (row.fate, row.level, row.axis)
         assert found.principal.moments == pytest.approx(given.principal.moments, rel=1e-12)
-        turned = np.array(found.principal.axes) @ R  # rows, in the frame of the first file: the same axes but for their sense
+        # rows, in the frame of the first file: the same axes but for their sense
+        turned = np.array(found.principal.axes) @ R
         assert np.abs(np.sum(turned * axes, axis=1)) == pytest.approx(1, abs=1e-10)
         assert R.T @ np.array(other.direction) == pytest.approx(row.direction, abs=1e-10)
-        assert other.sense * np.array(found.principal.axes[other.axis - 1]) == pytest.approx(other.direction, abs=1e-12)
+        assert other.sense * np.array(found.principal.axes[other.axis
+                                                           - 1]) == pytest.approx(other.direction, abs=1e-12)
         assert R.T @ np.array(other.torque) == pytest.approx(row.torque, rel=1e-9, abs=1e-15)
         assert np.abs(other.torque_principal) == pytest.approx(np.abs(row.torque_principal), rel=1e-8)
-        assert other.time_to_limit == pytest.approx(row.time_to_limit, rel=1e-9) and other.largest_rate == pytest.approx(row.largest_rate, rel=1e-9)
+        assert other.time_to_limit == pytest.approx(row.time_to_limit,
+                                                    rel=1e-9) and other.largest_rate == pytest.approx(
+                                                        row.largest_rate, rel=1e-9)

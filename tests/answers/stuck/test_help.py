@@ -46,7 +46,8 @@ rate = "60 deg/s"
 [motion]
 angular_velocity = [0.1, 0.05, {spin}]
 """
-OFF = CASE.replace("inertia = [12.0, 9.0, 5.0]", "inertia = [[12.0, 0.3, 0.1], [0.3, 9.0, -0.2], [0.1, -0.2, 5.0]]")
+OFF = CASE.replace("inertia = [12.0, 9.0, 5.0]",
+                   "inertia = [[12.0, 0.3, 0.1], [0.3, 9.0, -0.2], [0.1, -0.2, 5.0]]")
 
 
 @pytest.fixture
@@ -61,15 +62,18 @@ def asked(tmp_path):
 @pytest.mark.one_in(2)
 @pytest.mark.parametrize("spin, fate", [("0.9", "spin-up"), ("0.02", "bounded")])
 def test_the_fate_changes_just_beyond_each_margin_and_not_before(asked, spin, fate):
-    """Fates by `stabilab.fate` of the changed scene: rate, wheel and torque each moved along the direction told."""
+    """Fates by `stabilab.fate` of the changed scene: rate, wheel and torque each moved along the direction
+    told."""
     row = asked(CASE, spin).rows[0]
     assert row.fate == fate
     start, wheel, torque = (np.array(v, float) for v in ((0.1, 0.05, float(spin)), (0.8, 0, 0), (0, 0, 0.02)))
 
     def label(omega=start, l=wheel, M=torque):
-        scene = stabilab.Scene(stabilab.Body((12, 9, 5)), stabilab.Gyrostat(tuple(l)), stabilab.ConstantTorque(tuple(M)))
+        scene = stabilab.Scene(stabilab.Body((12, 9, 5)), stabilab.Gyrostat(tuple(l)),
+                               stabilab.ConstantTorque(tuple(M)))
         return stabilab.motion(scene, tuple(omega)).fate.word
-    for name, moved in (("rate", lambda v: label(start + v)), ("wheel", lambda v: label(l=wheel + v)), ("torque", lambda v: label(M=torque + v))):
+    for name, moved in (("rate", lambda v: label(start + v)), ("wheel", lambda v: label(l=wheel + v)),
+                        ("torque", lambda v: label(M=torque + v))):
         margin = row.margins[name]
         change = margin.size * np.array(margin.direction)
         assert math.hypot(*margin.direction) == pytest.approx(1)
@@ -85,15 +89,18 @@ def test_no_smaller_change_of_the_wheel_across_the_torque_changes_the_fate(asked
     row = asked(CASE).rows[0]
     for n in range(24):
         turn = 2 * math.pi * n / 24
-        l = (0.8 + 0.995 * row.margins["wheel"].size * math.cos(turn), 0.995 * row.margins["wheel"].size * math.sin(turn), 0)
-        scene = stabilab.Scene(stabilab.Body((12, 9, 5)), stabilab.Gyrostat(l), stabilab.ConstantTorque((0, 0, "0.02")))
+        l = (0.8 + 0.995 * row.margins["wheel"].size * math.cos(turn),
+             0.995 * row.margins["wheel"].size * math.sin(turn), 0)
+        scene = stabilab.Scene(stabilab.Body((12, 9, 5)), stabilab.Gyrostat(l),
+                               stabilab.ConstantTorque((0, 0, "0.02")))
         assert stabilab.motion(scene, (0.1, 0.05, 0.9)).fate.word == "spin-up"
 
 
 def test_about_the_middle_axis_no_change_of_rate_is_said_to_change_the_fate(asked, stabilab, tmp_path):
     """By brute force: from 1 % beyond the margin it turns no faster in a second run as long as the first."""
     text = CASE.replace('[limits]\nrate = "60 deg/s"\n', "")
-    text = text.replace("[12.0, 9.0, 5.0]", "[12.0, 5.0, 9.0]").replace("[0.1, 0.05, {spin}]", "[0.02, -0.1, 0.01]")
+    text = text.replace("[12.0, 9.0, 5.0]",
+                        "[12.0, 5.0, 9.0]").replace("[0.1, 0.05, {spin}]", "[0.02, -0.1, 0.01]")
     row, craft = asked(text).rows[0], Craft(text)
     margin = row.margins["rate"]
     assert row.fate == "bounded" and margin.size and not margin.beyond and "beyond it the motion is bounded again" in margin.because
@@ -106,22 +113,29 @@ def test_about_the_middle_axis_no_change_of_rate_is_said_to_change_the_fate(aske
 
 def test_off_the_axes_no_margin_is_told(asked):
     row = asked(OFF).rows[0]
-    assert all(margin.size is None and "no separatrix" in margin.because for margin in row.margins.values()) and len(row.margins) == 3
+    assert all(margin.size is None and "no separatrix" in margin.because
+               for margin in row.margins.values()) and len(row.margins) == 3
 
 
 def test_thrusters_that_leave_no_torque_are_found_alone_and_in_pairs(asked):
-    """B pushes the other way with 50 mN for 20 mN: 40 %; C and D pass above and below: 30 u + 15 v = 20 and 15 u = 7.5 v, by hand."""
+    """B pushes the other way with 50 mN for 20 mN: 40 %; C and D pass above and below: 30 u + 15 v = 20 and
+    15 u = 7.5 v, by hand."""
     alone, pair = asked(CASE).rows[0].helpers
-    assert (alone.thrusters, alone.effect) == (("B",), "zero") and alone.duty == pytest.approx((0.4,), rel=1e-12)
-    assert (pair.thrusters, pair.effect) == (("C", "D"), "zero") and pair.duty == pytest.approx((1 / 3, 2 / 3), rel=1e-12)
+    assert (alone.thrusters, alone.effect) == (("B",),
+                                               "zero") and alone.duty == pytest.approx((0.4,), rel=1e-12)
+    assert (pair.thrusters, pair.effect) == (("C", "D"),
+                                             "zero") and pair.duty == pytest.approx((1 / 3, 2 / 3), rel=1e-12)
 
 
 @pytest.mark.slow
 def test_a_helper_that_leaves_an_axis_torque_keeps_it_bounded(asked):
-    """E takes the part across axis 3 away and leaves a small one along it, below which the start is captured."""
-    stuck = CASE.replace('position = [1, 0, 0]\ndirection = [0, 1, 0]\nforce = "20 mN"', 'position = [1, 0, -1]\ndirection = [0, 1, 0]\nforce = "20 mN"', 1)
+    """E takes the part across axis 3 away and leaves a small one along it, below which the start is captured.
+    """
+    stuck = CASE.replace('position = [1, 0, 0]\ndirection = [0, 1, 0]\nforce = "20 mN"',
+                         'position = [1, 0, -1]\ndirection = [0, 1, 0]\nforce = "20 mN"', 1)
     text = stuck.split("[[thrusters]]")
-    text = "[[thrusters]]".join(text[:2]) + ('[[thrusters]]\nname = "E"\nposition = [0.9, 0, -1]\ndirection = [0, -1, 0]\nforce = "40 mN"\n'
+    text = "[[thrusters]]".join(text[:2]) + ('[[thrusters]]\nname = "E"\nposition = [0.9, 0, -1]\ndirection '
+                                             '= [0, -1, 0]\nforce = "40 mN"\n'
                                              + stuck[stuck.index("[[wheels]]"):])
     row = asked(text, "0.02").rows[0]
     assert row.fate == "spin-up" and row.torque == pytest.approx((0.02, 0, 0.02))
@@ -155,26 +169,28 @@ angular_velocity = [0, 0, 0]
 
 
 def test_what_leaves_the_least_torque_is_no_help_where_the_limit_comes_sooner(asked):
-    """B1 takes two thirds of the torque away for 94.13 % of the time, and the limit comes sooner; less of it delays, by
-    DOP853 in the frame of the file."""
+    """B1 takes two thirds of the torque away for 94.13 % of the time, and the limit comes sooner; less of it
+    delays, by DOP853 in the frame of the file."""
     text = HURTS.format(1)
     row, craft = asked(text).rows[0], Craft(text)
     (helper,) = row.helpers
     without = craft.run(1e4)[0]
     with_b1 = lambda duty: craft.run(1e4, torque=craft.torque() + duty * craft.torque(["B1"]))[0]
-    assert with_b1(0.9413) < without < helper.time_to_limit[0] == pytest.approx(with_b1(helper.duty[0]), rel=1e-8)
+    assert with_b1(0.9413) < without < helper.time_to_limit[0] == pytest.approx(with_b1(helper.duty[0]),
+                                                                                rel=1e-8)
     assert (helper.thrusters, helper.effect) == (("B1",), "slower")
 
 
 def test_a_helper_that_brings_the_limit_sooner_is_said_not_to_help(asked, stabilab, tmp_path):
-    """B1 ahead of the centre takes a third of a per cent away, at best: any share of that brings the limit sooner, by
-    DOP853."""
+    """B1 ahead of the centre takes a third of a per cent away, at best: any share of that brings the limit
+    sooner, by DOP853."""
     text = HURTS.format(1).replace("[-0.6, 0.1, 0]", "[0, -0.5, 0]").replace("rate = 0.5", "rate = 0.2")
     row, craft = asked(text).rows[0], Craft(text)
     (helper,) = row.helpers
     assert (helper.thrusters, helper.effect) == (("B1",), "none")
     least = -craft.torque() @ craft.torque(["B1"]) / (craft.torque(["B1"]) @ craft.torque(["B1"]))
-    times = [craft.run(1e4, torque=craft.torque() + share * least * craft.torque(["B1"]))[0] for share in (1, 0.75, 0.5, 0.25)]
+    times = [craft.run(1e4, torque=craft.torque() + share * least * craft.torque(["B1"]))[0]
+             for share in (1, 0.75, 0.5, 0.25)]
     assert max(times) < craft.run(1e4)[0] and helper.time_to_limit[0] == pytest.approx(max(times), rel=1e-8)
     code, out, _ = stabilab("stuck", tmp_path / "own.toml")
     assert code == 0 and out.count(": does not help\n") == 2
@@ -195,12 +211,15 @@ def test_no_torque_is_no_help_where_the_free_motion_comes_to_the_limit_sooner(as
 def test_a_wheel_that_only_delays_delays_by_what_is_told(asked, tmp_path):
     row = asked(OFF).rows[0]
     (wheel,) = row.wheels
-    assert wheel.keeps_bounded == () and wheel.best is not None and wheel.searched == (-1.6, 1.6) and wheel.searched[0] <= wheel.best <= wheel.searched[1]
+    assert wheel.keeps_bounded == () and wheel.best is not None and wheel.searched == (
+        -1.6, 1.6) and wheel.searched[0] <= wheel.best <= wheel.searched[1]
     craft = Craft(OFF.replace("{spin}", "0.9"))
     now, _, _ = craft.run(1e3)
     best, _, _ = craft.run(1e3, l=np.array([wheel.best, 0, 0]))
-    assert now == pytest.approx(row.time_to_limit[0], rel=1e-8) and best - now == pytest.approx(wheel.gain, rel=1e-5)
-    assert all(craft.run(1e3, l=np.array([s, 0, 0]))[0] <= best * (1 + 1e-9) for s in np.linspace(-1.6, 1.6, 9))
+    assert now == pytest.approx(row.time_to_limit[0],
+                                rel=1e-8) and best - now == pytest.approx(wheel.gain, rel=1e-5)
+    assert all(craft.run(1e3, l=np.array([s, 0, 0]))[0] <= best * (1 + 1e-9)
+               for s in np.linspace(-1.6, 1.6, 9))
 
 
 @pytest.mark.slow
@@ -216,7 +235,8 @@ def test_a_bounded_motion_never_reaches_a_limit_above_its_largest_rate(asked):
 
 
 def test_several_stuck_thrusters_are_answered_together_and_then_each_alone(asked):
-    found = asked(CASE.replace('name = "C"', 'stuck = true\nname = "C"').replace('[limits]\nrate = "60 deg/s"\n', ""))
+    found = asked(CASE.replace('name = "C"',
+                               'stuck = true\nname = "C"').replace('[limits]\nrate = "60 deg/s"\n', ""))
     assert [row.thrusters for row in found.rows] == [("A", "C"), ("A",), ("C",)]
     assert found.rows[0].torque == pytest.approx(np.add(found.rows[1].torque, found.rows[2].torque))
     assert Fraction(found.rows[2].torque[0]) == Fraction(0.015)
@@ -224,12 +244,17 @@ def test_several_stuck_thrusters_are_answered_together_and_then_each_alone(asked
 
 @pytest.mark.slow
 def test_the_headline_of_a_bounded_motion_says_what_a_tilt_does(asked, stabilab, tmp_path):
-    """The tilted torque that is told, followed by brute force in the frame of the file, reaches the limit when it is told to."""
-    text = CASE.replace('force = "20 mN"\n', 'force = "20 mN"\nmisalignment = "5 deg"\n').replace("60 deg/s", "12 deg/s")
+    """The tilted torque that is told, followed by brute force in the frame of the file, reaches the limit
+    when it is told to."""
+    text = CASE.replace('force = "20 mN"\n',
+                        'force = "20 mN"\nmisalignment = "5 deg"\n').replace("60 deg/s", "12 deg/s")
     row = asked(text, "0.02").rows[0]
-    assert row.fate == "bounded" and row.tilt.angle == pytest.approx(math.radians(5)) and row.tilt.of == "the force of A"
+    assert row.fate == "bounded" and row.tilt.angle == pytest.approx(
+        math.radians(5)) and row.tilt.of == "the force of A"
     t, _, _ = Craft(text.replace("{spin}", "0.02")).run(2 * row.tilt.high, torque=np.array(row.tilt.torque))
-    assert row.tilt.low * (1 - 1e-8) < t < row.tilt.high * (1 + 1e-8) and 0 <= row.tilt.not_before <= row.tilt.low
+    assert row.tilt.low * (1
+                           - 1e-8) < t < row.tilt.high * (1
+                                                          + 1e-8) and 0 <= row.tilt.not_before <= row.tilt.low
     code, out, _ = stabilab("stuck", tmp_path / "own.toml")
     first = out.splitlines()[0]
     assert code == 0 and "only while the torque is exactly along z (minor axis): tilted by 5 deg it reaches 12 deg/s after " in first
@@ -255,14 +280,17 @@ def test_a_terminal_is_told_what_is_being_asked_and_a_pipe_is_not(stabilab, tmp_
 
 @pytest.mark.slow
 def test_a_margin_into_a_narrow_gap_between_two_separatrices_says_where_the_fate_is_back(stabilab, tmp_path):
-    """Beside the tip of a wedge of spin-up: by the balance of energy, whose least value ahead of the start has the sign of the fate."""
-    text = craft_file([[0.74352, 0, 0.14064], [0, 0.887, 0], [0.14064, 0, 0.66148]], ([1.1, -0.2, 0.7], [0.6, 0, -0.8], 0.166), [([1.092, 0, -0.62], 0.643)],
+    """Beside the tip of a wedge of spin-up: by the balance of energy, whose least value ahead of the start
+    has the sign of the fate."""
+    text = craft_file([[0.74352, 0, 0.14064], [0, 0.887, 0], [0.14064, 0, 0.66148]],
+                      ([1.1, -0.2, 0.7], [0.6, 0, -0.8], 0.166), [([1.092, 0, -0.62], 0.643)],
                       [-0.137, 0.305, -0.346], [0.3, -0.2, 0.1])
     (tmp_path / "own.toml").write_text(text)
     craft, margin = Craft(text), stuck(load(tmp_path / "own.toml")).rows[0].margins["wheel"]
     assert 1 < margin.until / margin.size < 1.0001 and "it is bounded again" in margin.because
     middle = math.sqrt(margin.size * margin.until)
-    for size, fate in ((margin.size * (1 - 1e-9), "bounded"), (middle, "spin-up"), (margin.until * (1 + 1e-9), "bounded"), (1.01 * margin.size, "bounded")):
+    for size, fate in ((margin.size * (1 - 1e-9), "bounded"), (middle, "spin-up"),
+                       (margin.until * (1 + 1e-9), "bounded"), (1.01 * margin.size, "bounded")):
         l = craft.l + size * np.array(margin.direction)
         assert energy_fate(craft.J, craft.torque(), l, craft.start)[0] == fate == craft.fate(l=l)
     code, out, _ = stabilab("stuck", tmp_path / "own.toml")
@@ -271,7 +299,8 @@ def test_a_margin_into_a_narrow_gap_between_two_separatrices_says_where_the_fate
 
 
 def test_an_end_at_infinity_is_a_number_in_json_and_null_is_what_is_not_known(stabilab, tmp_path):
-    """RFC 8259 has numbers of any exponent; IEEE 754 rounds 1e999 to infinity. A change of rate never leads back either: by the balance of energy."""
+    """RFC 8259 has numbers of any exponent; IEEE 754 rounds 1e999 to infinity. A change of rate never leads
+    back either: by the balance of energy."""
     (tmp_path / "own.toml").write_text(CASE.replace("{spin}", "0.9"))
     code, out, _ = stabilab("stuck", tmp_path / "own.toml", "--json")
     (row,) = json.loads(out, parse_constant=lambda word: pytest.fail(f"{word} is no JSON"))["rows"]
@@ -285,6 +314,8 @@ def test_an_end_at_infinity_is_a_number_in_json_and_null_is_what_is_not_known(st
     for s in row["margin"]["rate"] * np.array([1 - 1e-6, 1 + 1e-6, 1.1, 3, 30, 1e3]):
         fate = energy_fate(craft.J, craft.torque(), craft.l, craft.start + s * change)[0]
         assert (fate == row["fate"]) == (s < row["margin"]["rate"])
-    (tmp_path / "tilted.toml").write_text(CASE.replace("{spin}", "0.9").replace("direction = [0, 1, 0]", "direction = [0, 1, 1]"))
+    (tmp_path / "tilted.toml").write_text(CASE.replace("{spin}",
+                                                       "0.9").replace("direction = [0, 1, 0]",
+                                                                      "direction = [0, 1, 1]"))
     (row,) = json.loads(stabilab("stuck", tmp_path / "tilted.toml", "--json")[1])["rows"]
     assert row["margin_until"] == {"rate": None, "wheel": None, "torque": None} == row["margin"]

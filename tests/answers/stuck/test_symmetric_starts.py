@@ -159,7 +159,8 @@ def numbers(values):
 
 @pytest.mark.parametrize("first, many", [(400, 4), pytest.param(404, 60, marks=pytest.mark.slow)])
 def test_the_fate_changes_at_every_margin_and_not_before(tmp_path, first, many):
-    """By energy, a millionth of the change before and beyond, where it ends, and at smaller changes all round."""
+    """By energy, a millionth of the change before and beyond, where it ends, and at smaller changes all
+    round."""
     compared = 0
     for seed in range(first, first + many):
         rng = random.Random(seed)
@@ -168,12 +169,15 @@ def test_the_fate_changes_at_every_margin_and_not_before(tmp_path, first, many):
             continue
         torque = [M if n == i else 0 for n in range(3)]
         path = tmp_path / "own.toml"
-        text = "[body]\ninertia = {}\n[effects.constant_torque]\ntorque = {}\n[effects.gyrostat]\nmomentum = {}\n"
+        text = (
+            "[body]\ninertia = {}\n[effects.constant_torque]\ntorque = {}\n[effects.gyrostat]\nmomentum "
+            "= {}\n")
         path.write_text((text + "[motion]\nangular_velocity = {}\n").format(*map(numbers, (D, torque, l, w))))
         row = stuck(load(path)).rows[0]
 
         def changed(name, change, D=D, i=i, M=M, l=l, w=w):
-            parts = {"rate": [Fraction(0)] * 3, "wheel": [Fraction(0)] * 3, "torque": [Fraction(0)] * 3, name: change}
+            parts = {"rate": [Fraction(0)] * 3, "wheel": [Fraction(0)] * 3, "torque": [Fraction(0)] * 3,
+                     name: change}
             l = [a + b * (n != i) for n, (a, b) in enumerate(zip(l, parts["wheel"]))]
             torque, w = M + parts["torque"][i], [a + b for a, b in zip(w, parts["rate"])]
             return torque == 0 or least(D, i, torque, l, w) < 0

@@ -11,7 +11,8 @@ import stabilab
 from tests.answers.stuck.brute import Craft
 
 ROOT = Path(__file__).parents[3]
-BODIES = {name: ROOT / "cases" / f"{name}.toml" for name in ("cubesat-3u", "geostationary-22n", "upper-stage")}
+BODIES = {name: ROOT / "cases" / f"{name}.toml"
+          for name in ("cubesat-3u", "geostationary-22n", "upper-stage")}
 
 
 @pytest.fixture(scope="module", params=BODIES)
@@ -40,9 +41,13 @@ def test_axis_and_sense_are_those_of_a_run_continued_far(answered):
 def test_torque_and_principal_axes_are_those_of_the_file(answered):
     found, craft = answered
     axes, row = np.array(found.principal.axes), found.rows[0]
-    assert row.torque == pytest.approx(craft.torque(), rel=1e-12) and row.torque_principal == pytest.approx(axes @ craft.torque(), abs=1e-12)
+    assert row.torque == pytest.approx(craft.torque(),
+                                       rel=1e-12) and row.torque_principal == pytest.approx(
+                                           axes @ craft.torque(), abs=1e-12)
     moments = found.principal.moments
-    assert list(moments) == sorted(moments, reverse=True) and axes.T @ np.diag(moments) @ axes == pytest.approx(craft.J, rel=1e-12, abs=1e-10)
+    assert list(moments) == sorted(moments,
+                                   reverse=True) and axes.T @ np.diag(moments) @ axes == pytest.approx(
+                                       craft.J, rel=1e-12, abs=1e-10)
     assert np.linalg.det(axes) == pytest.approx(1)
 
 
@@ -60,7 +65,9 @@ def test_the_largest_rate_before_the_limit_is_the_limit_where_it_is_of_omega(ans
 def test_the_first_line_answers_in_degrees_and_the_time_that_suits(stabilab, name):
     code, out, err = stabilab("stuck", BODIES[name])
     first = out.splitlines()[0]
-    assert code == 0 and not err and first.startswith(f"{name}: SPINS UP about the minor axis, (") and "deg/s in " in first and re.search(r" (s|min) \(", first)
+    assert code == 0 and not err and first.startswith(
+        f"{name}: SPINS UP about the minor axis, (") and "deg/s in " in first and re.search(r" (s|min) \(",
+                                                                                            first)
     assert len(out.split("\n\n")[0].splitlines()) <= 5
     code, out, _ = stabilab("stuck", BODIES[name], "--si")
     assert code == 0 and " rad/s in " in out.splitlines()[0] and " s (" in out.splitlines()[0]
@@ -70,11 +77,14 @@ def test_json_has_the_documented_keys_and_the_numbers_of_python(stabilab):
     from stabilab import load, stuck
     code, out, _ = stabilab("stuck", BODIES["cubesat-3u"], "--json")
     answer, row = json.loads(out), stuck(load(BODIES["cubesat-3u"])).rows[0]
-    assert code == 0 and answer["schema"] == "stabilab.stuck/2" and set(answer["principal"]) == {"moments", "axes"}
+    assert code == 0 and answer["schema"] == "stabilab.stuck/2" and set(answer["principal"]) == {
+        "moments", "axes"}
     (told,) = answer["rows"]
-    assert {"thrusters", "torque", "torque_principal", "fate", "level", "axis", "sense", "limit", "time_to_limit", "largest_rate", "margin",
+    assert {"thrusters", "torque", "torque_principal", "fate", "level", "axis", "sense", "limit",
+            "time_to_limit", "largest_rate", "margin",
             "wheel_intervals", "because"} <= set(told)
-    assert told["thrusters"] == ["A1"] and told["time_to_limit"] == list(row.time_to_limit) and set(told["margin"]) == {"rate", "wheel", "torque"}
+    assert told["thrusters"] == ["A1"] and told["time_to_limit"] == list(row.time_to_limit) and set(
+        told["margin"]) == {"rate", "wheel", "torque"}
     assert told["limit"] == pytest.approx(math.radians(60))
 
 
@@ -94,7 +104,8 @@ def test_all_thrusters_are_ranked_by_time_each_alone(stabilab):
 def test_csv_has_a_line_a_row_in_si(stabilab):
     code, out, _ = stabilab("stuck", BODIES["geostationary-22n"], "--all-thrusters", "--csv")
     head, *lines = out.splitlines()
-    assert code == 0 and len(lines) == 2 and all(len(line.split(",")) == len(head.split(",")) for line in lines)
+    assert code == 0 and len(lines) == 2 and all(len(line.split(",")) == len(head.split(","))
+                                                 for line in lines)
     assert lines[0].startswith("geostationary-22n,R4,18.87")
 
 

@@ -1,4 +1,5 @@
-"""Wheel momenta that keep a motion bounded: every end stands between a bounded motion and a spin-up of another kind of run."""
+"""Wheel momenta that keep a motion bounded: every end stands between a bounded motion and a spin-up of
+another kind of run."""
 import math
 import random
 from fractions import Fraction
@@ -31,20 +32,26 @@ def run_is_bounded(D, wheel, torque, start):
 
 
 def a_scene(numbers, at_rest=False):
-    """(moments, wheel, torque, start, axis of a wheel) with the torque on the major or the minor axis i and the wheels across it."""
+    """(moments, wheel, torque, start, axis of a wheel) with the torque on the major or the minor axis i and
+    the wheels across it."""
     while True:
         moments = [Fraction(numbers.randint(20, 100), 10) for _ in range(3)]
         if 2 * max(moments) < sum(moments) and len(set(moments)) == 3:
             break
     i = moments.index(numbers.choice([max, min])(moments))
-    torque, wheel, axis = [Fraction(0)] * 3, [Fraction(numbers.randint(-300, 300), 100) for _ in range(3)], [Fraction(numbers.randint(-3, 3)) for _ in range(3)]
-    torque[i], wheel[i], axis[i], axis[i - 1] = Fraction(numbers.randint(1, 100), numbers.choice([-100, 100])), Fraction(0), Fraction(0), Fraction(2)
+    torque, wheel, axis = [Fraction(0)] * 3, [Fraction(numbers.randint(-300, 300), 100)
+                                              for _ in range(3)], [Fraction(numbers.randint(-3, 3))
+                                                                   for _ in range(3)]
+    torque[i], wheel[i], axis[i], axis[i - 1] = Fraction(numbers.randint(1, 100),
+                                                         numbers.choice([-100, 100])), Fraction(0), Fraction(
+                                                             0), Fraction(2)
     start = [Fraction(numbers.randint(-300, 300), 100) for _ in range(3)]
     start[i] = Fraction(0) if at_rest else start[i]
     return moments, wheel, torque, start, axis
 
 
-@pytest.mark.parametrize("seed", [0, 1, 2, *(pytest.param(seed, marks=pytest.mark.slow) for seed in range(3, 40))])
+@pytest.mark.parametrize("seed",
+                         [0, 1, 2, *(pytest.param(seed, marks=pytest.mark.slow) for seed in range(3, 40))])
 def test_a_run_changes_its_fate_at_every_end(seed):
     moments, wheel, torque, start, axis = a_scene(random.Random(seed))
     found, _ = intervals(scene(moments, wheel, torque), start, axis)
@@ -60,7 +67,8 @@ def test_a_run_changes_its_fate_at_every_end(seed):
 
 @pytest.mark.parametrize("at_rest", [False, True])
 def test_no_momentum_between_the_ends_has_another_fate(at_rest):
-    """Exact fates, one by one, at places that know nothing of the roots; at_rest: no rate about the torque's axis, a double zero of the resultant."""
+    """Exact fates, one by one, at places that know nothing of the roots; at_rest: no rate about the torque's
+    axis, a double zero of the resultant."""
     numbers, some = random.Random(7 + at_rest), 0
     for _ in range(6):
         moments, wheel, torque, start, axis = a_scene(numbers, at_rest)
@@ -76,8 +84,8 @@ def test_no_momentum_between_the_ends_has_another_fate(at_rest):
 
 
 def test_the_resultant_vanishes_where_the_start_is_on_a_separatrix():
-    """At every end, a candidate: the highest rise of the potential, by the formulas of `orbit.reduction`, is the
-    energy."""
+    """At every end, a candidate: the highest rise of the potential, by the formulas of `orbit.reduction`, is
+    the energy."""
     family = family_of(scene(D, (0, 0, 0), TORQUE), START)
     at_0, at_1 = family.reduction((0, 0, 0)), family.reduction((1, 0, 0))
     circle = Line(at_0, at_1, START, START)
@@ -96,7 +104,8 @@ def test_the_resultant_vanishes_where_the_start_is_on_a_separatrix():
         h, s = numbers.ball(Fraction(3, 4)), numbers.ball(Fraction("0.4"))
         f, g = circle.pair(numbers.ball)(h)
         sigma = s * h.sin()
-        assert 0 in (f[0] * sigma * sigma + f[1] * sigma + f[2]) - _rise(family, Fraction("0.4"), Fraction(3, 2), numbers)
+        assert 0 in (f[0] * sigma * sigma + f[1] * sigma
+                     + f[2]) - _rise(family, Fraction("0.4"), Fraction(3, 2), numbers)
         assert 0 not in resultant(f, g)
 
 
@@ -109,13 +118,15 @@ def _rise(family, s, y, numbers):
 def test_a_wheel_along_the_torque_keeps_nothing_bounded_but_at_one_momentum():
     """|H|^2/2 - D_i T grows at the rate l_i M_i: README's law of endless growth."""
     given = scene(D, ("0.8", 0, "0.3"), TORQUE)
-    found, because = intervals(given, (Fraction("0.1"), Fraction("0.05"), Fraction("0.02")), (Fraction(0), Fraction(0), Fraction(1)))
+    found, because = intervals(given, (Fraction("0.1"), Fraction("0.05"), Fraction("0.02")),
+                               (Fraction(0), Fraction(0), Fraction(1)))
     assert found == ((-0.3, -0.3),) and "grows for ever" in because
     assert intervals(given, START, (Fraction(1), Fraction(0), Fraction(0)))[0] == ()
 
 
 def test_a_torque_on_the_middle_axis_is_borne_with_any_momentum():
-    found, because = intervals(scene(D, (0, 0, 0), (0, "0.02", 0)), START, (Fraction(1), Fraction(0), Fraction(0)))
+    found, because = intervals(scene(D, (0, 0, 0), (0, "0.02", 0)), START,
+                               (Fraction(1), Fraction(0), Fraction(0)))
     assert found == ((-INF, INF),) and "middle axis" in because
 
 
@@ -129,21 +140,26 @@ def test_a_sphere_is_bounded_where_the_wheels_are_across_the_torque():
 
 
 def test_off_the_axes_only_an_equilibrium_is_kept():
-    """M = omega x (D omega + l) with omega = (1, 2, 3), l = 7 (0, 0, 1), D = (3, 2, 1.5), by hand: omega x (3, 4, 11.5) = (11, -2.5, -2)."""
+    """M = omega x (D omega + l) with omega = (1, 2, 3), l = 7 (0, 0, 1), D = (3, 2, 1.5), by hand: omega x
+    (3, 4, 11.5) = (11, -2.5, -2)."""
     given = scene((3, 2, "1.5"), (0, 0, 0), (11, "-2.5", -2))
-    found, _ = intervals(given, (Fraction(1), Fraction(2), Fraction(3)), (Fraction(0), Fraction(0), Fraction(1)))
+    found, _ = intervals(given, (Fraction(1), Fraction(2), Fraction(3)),
+                         (Fraction(0), Fraction(0), Fraction(1)))
     assert found == ((7.0, 7.0),)
-    assert intervals(given, (Fraction(1), Fraction(2), Fraction(2)), (Fraction(0), Fraction(0), Fraction(1)))[0] == ()
+    assert intervals(given, (Fraction(1), Fraction(2), Fraction(2)),
+                     (Fraction(0), Fraction(0), Fraction(1)))[0] == ()
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", range(12))
 def test_no_change_of_the_wheel_smaller_than_the_margin_changes_the_fate(seed, tmp_path):
-    """Exact fates all round the circle just inside the margin, in the plane across the torque; and just beyond it along the direction told."""
+    """Exact fates all round the circle just inside the margin, in the plane across the torque; and just
+    beyond it along the direction told."""
     import stabilab
     moments, wheel, torque, start, _ = a_scene(random.Random(100 + seed))
     path = tmp_path / "own.toml"
-    path.write_text("[body]\ninertia = {}\n[effects.constant_torque]\ntorque = {}\n[effects.gyrostat]\nmomentum = {}\n[motion]\nangular_velocity = {}\n"
+    path.write_text("[body]\ninertia = {}\n[effects.constant_torque]\ntorque = "
+                    "{}\n[effects.gyrostat]\nmomentum = {}\n[motion]\nangular_velocity = {}\n"
                     .format(*([str(v) for v in vector] for vector in (moments, torque, wheel, start))))
     margin = stabilab.stuck(stabilab.load(path)).rows[0].margins["wheel"]
     family = family_of(scene(moments, wheel, torque), start)
@@ -154,18 +170,23 @@ def test_no_change_of_the_wheel_smaller_than_the_margin_changes_the_fate(seed, t
         step[j], step[k] = Fraction(math.cos(n * math.pi / 36)), Fraction(math.sin(n * math.pi / 36))
         assert family.steady(family.along(wheel, step, Fraction(margin.size) * Fraction(998, 1000))) == steady
     told = [Fraction(v) if m != family.axis else Fraction(0) for m, v in enumerate(margin.direction)]
-    assert family.steady(family.along(wheel, told, Fraction(margin.size) * (1 + Fraction(1, 10**7)))) != steady
+    assert family.steady(family.along(wheel, told,
+                                      Fraction(margin.size) * (1 + Fraction(1, 10**7)))) != steady
 
 
 def test_a_wheel_across_a_torque_between_two_equal_moments_is_across_it_along_irrational_axes_too(tmp_path):
-    """M . l = 0.4912 0.012666 - 0.3684 0.016888 = 0 in the frame of the file, by hand; DOP853 turns no faster in a second time as long as the first."""
-    text = craft_file([[97.394176, -1.954368, 4.34304], [-1.954368, 98.534224, 3.25728], [4.34304, 3.25728, 92.7616]],
+    """M . l = 0.4912 0.012666 - 0.3684 0.016888 = 0 in the frame of the file, by hand; DOP853 turns no faster
+    in a second time as long as the first."""
+    text = craft_file([[97.394176, -1.954368, 4.34304], [-1.954368, 98.534224, 3.25728],
+                       [4.34304, 3.25728, 92.7616]],
                       ([-0.42, -0.37, 0.98], [-0.64, -0.48, -0.6], 0.02111), [([0.4912, 0.3684, 0.848], 1)],
                       [0.006743, 0.004293, 0.007586], [0.06, -0.01, 0.18])
     path = tmp_path / "own.toml"
     path.write_text(text)
     case = load(path)
-    assert not case.frame.exact and sum(m * v for m, v in zip(case.scene.vector("constant_torque"), case.scene.vector("gyrostat"))) == 0
+    assert not case.frame.exact and sum(m * v for m,
+                                        v in zip(case.scene.vector("constant_torque"),
+                                                 case.scene.vector("gyrostat"))) == 0
     (row,) = stuck(case).rows
     assert row.fate == "bounded" and row.wheels[0].keeps_bounded == ((-math.inf, math.inf),)
     craft = Craft(text)
@@ -173,20 +194,24 @@ def test_a_wheel_across_a_torque_between_two_equal_moments_is_across_it_along_ir
     assert craft.run(12000.0, limit=False, rtol=1e-9)[2] < 1.2 * first
 
 
-NEAR = craft_file([1.655, 1.857, 1.658], ([0, 1, 0], [0, 0, 1], 0.11), [([0, 0.659, 1], -0.99), ([0, 0.31652340799234546, 0.9485846995355297], 0)],
+NEAR = craft_file([1.655, 1.857, 1.658], ([0, 1, 0], [0, 0, 1], 0.11),
+                  [([0, 0.659, 1], -0.99), ([0, 0.31652340799234546, 0.9485846995355297], 0)],
                   [-0.991, 0.737, -0.926])
 
 
 def test_the_momenta_of_a_nearly_symmetric_body_are_found_however_close_together(tmp_path):
-    """Two separatrices three millionths apart, by the balance of energy (`energy.fate`); the balls of whole cells saw nothing there but what cancels."""
+    """Two separatrices three millionths apart, by the balance of energy (`energy.fate`); the balls of whole
+    cells saw nothing there but what cancels."""
     path, craft = tmp_path / "own.toml", Craft(NEAR)
     path.write_text(NEAR)
     wheel = stuck(load(path)).rows[0].wheels[1]
     (_, low), (high, _) = wheel.keeps_bounded
     assert 1 + 1e-6 < high / low < 1 + 1e-5
-    for s in (-3.0, 0.0, low * (1 - 1e-8), low * (1 + 1e-8), math.sqrt(low * high), high * (1 - 1e-8), high * (1 + 1e-8), 2.0, 5.0):
+    for s in (-3.0, 0.0, low * (1 - 1e-8), low * (1 + 1e-8), math.sqrt(low * high), high * (1 - 1e-8),
+              high * (1 + 1e-8), 2.0, 5.0):
         l = craft.l + s * np.array(wheel.axis)
-        assert energy.fate(craft.J, craft.torque(), l, craft.start)[0] == ("spin-up" if low < s < high else "bounded")
+        assert energy.fate(craft.J, craft.torque(), l,
+                           craft.start)[0] == ("spin-up" if low < s < high else "bounded")
 
 
 def test_the_expansion_over_a_cell_holds_the_resultant_and_nearly_nothing_else():
@@ -206,4 +231,5 @@ def test_the_expansion_over_a_cell_holds_the_resultant_and_nearly_nothing_else()
             assert len(told) == 13 and told[12].rad() > 0 and sizes[12] < 1e-3 * max(sizes, key=float)
             for share in (-1, -0.7, 0.3, 0.99):
                 t = arb(half) * arb(share)
-                assert resultant(*pair(arb(middle) + t)).overlaps(sum((c * t**n for n, c in enumerate(told)), arb(0)))
+                assert resultant(*pair(arb(middle)
+                                       + t)).overlaps(sum((c * t**n for n, c in enumerate(told)), arb(0)))

@@ -1,4 +1,5 @@
-"""Motions with guaranteed digits against Taylor series of another code, closed forms, and laws of the motion; the files that others read."""
+"""Motions with guaranteed digits against Taylor series of another code, closed forms, and laws of the motion;
+the files that others read."""
 from __future__ import annotations
 
 import csv
@@ -39,12 +40,14 @@ def test_states_hold_those_of_a_taylor_series_of_another_code(gyrostat):
     assert found.reached and found.level == PROVED
     with mp.workdps(70):
         for balls, row in zip(found.states, taylor.integrate(model, START, TIMES, digits=55)):
-            assert all(abs(mp.mpf(ball.str(60, radius=False, more=True)) - v) < mp.mpf(10) ** -40 for ball, v in zip(balls, row))
+            assert all(abs(mp.mpf(ball.str(60, radius=False, more=True)) - v) < mp.mpf(10) ** -40 for ball,
+                       v in zip(balls, row))
             assert all(ball.rad() < 1e-40 * 2 for ball in balls)
 
 
 def test_events_are_all_the_sign_changes_and_turns_of_a_dense_run(gyrostat):
-    # Taylor series of another code at 600 times: signs of the rates, and of their differences, change where an event is told
+    # Taylor series of another code at 600 times: signs of the rates, and of their differences, change where
+    # an event is told
     _, model, found = gyrostat
     grid = [k / 100 for k in range(601)]
     rows = [list(map(float, row)) for row in taylor.integrate(model, START, grid, digits=14)]
@@ -52,9 +55,12 @@ def test_events_are_all_the_sign_changes_and_turns_of_a_dense_run(gyrostat):
         column = [row[i] for row in rows]
         zeros = [k for k in range(600) if column[k] * column[k + 1] < 0]
         turns = [k for k in range(1, 600) if (column[k] - column[k - 1]) * (column[k + 1] - column[k]) < 0]
-        mine = {kind: [float(e.t) for e in found.events if e.component == i and (e.kind == "zero") == (kind == "zero")] for kind in ("zero", "turn")}
-        assert len(mine["zero"]) == len(zeros) and all(grid[k] <= t <= grid[k + 1] for k, t in zip(zeros, mine["zero"]))
-        assert len(mine["turn"]) == len(turns) and all(abs(grid[k] - t) < 0.015 for k, t in zip(turns, mine["turn"]))
+        mine = {kind: [float(e.t) for e in found.events if e.component == i
+                       and (e.kind == "zero") == (kind == "zero")] for kind in ("zero", "turn")}
+        assert len(mine["zero"]) == len(zeros) and all(grid[k] <= t <= grid[k + 1] for k,
+                                                       t in zip(zeros, mine["zero"]))
+        assert len(mine["turn"]) == len(turns) and all(abs(grid[k] - t) < 0.015 for k,
+                                                       t in zip(turns, mine["turn"]))
 
 
 def test_a_free_symmetric_body_precesses_as_its_closed_form():
@@ -63,9 +69,13 @@ def test_a_free_symmetric_body_precesses_as_its_closed_form():
     start = (Fraction(1), Fraction(0), Fraction(1))
     found = tabulated(scene, start, start, [Fraction(7)], 30)
     with mp.workdps(40):
-        assert abs(mp.mpf(found.states[0][0].str(40, radius=False)) - mp.cos(mp.mpf(7) / 2)) < mp.mpf(10) ** -30
+        assert abs(mp.mpf(found.states[0][0].str(40, radius=False))
+                   - mp.cos(mp.mpf(7) / 2)) < mp.mpf(10) ** -30
         told = [(e.kind, e.component, mp.mpf(e.t.str(38, radius=False))) for e in found.events]
-        assert {(kind, i) for kind, i, _ in told[:2]} == {("zero", 0), ("least", 1)} and {(kind, i) for kind, i, _ in told[2:]} == {("least", 0), ("zero", 1)}
+        assert {(kind, i) for kind, i,
+                _ in told[:2]} == {("zero", 0),
+                                   ("least", 1)} and {(kind, i) for kind, i,
+                                                      _ in told[2:]} == {("least", 0), ("zero", 1)}
         assert all(abs(t - k * mp.pi) < mp.mpf(10) ** -30 for (_, _, t), k in zip(told, (1, 1, 2, 2)))
     assert not any(e.component == 2 for e in found.events)  # omega3 is constant
 
@@ -73,7 +83,8 @@ def test_a_free_symmetric_body_precesses_as_its_closed_form():
 def test_other_effects_are_told_by_two_precisions():
     case = load(CASES / "top-fast.toml")
     found = tabulated(case.scene, case.start, case.exact_state, [Fraction(0), Fraction(1, 10)], 20)
-    assert found.level == TWICE and found.reached and found.components[3:] == ("gamma1", "gamma2", "gamma3") and not found.events
+    assert found.level == TWICE and found.reached and found.components[3:] == ("gamma1", "gamma2",
+                                                                               "gamma3") and not found.events
     gamma = [float(v) for v in found.states[1][3:]]
     assert abs(sum(v * v for v in gamma) - 1) < 1e-14  # its length is a law of the motion
 
@@ -92,18 +103,22 @@ def test_times_before_the_start_and_too_many_digits_are_refused():
         tabulated(scene, START, START, [Fraction(1)], 51)
 
 
-@pytest.mark.parametrize("t, text", [(Fraction(1, 10), "0.1"), (Fraction(-5, 4), "-1.25"), (Fraction(40), "40"), (Fraction(1, 3), "1/3"), (Fraction(0), "0")])
+@pytest.mark.parametrize("t, text", [(Fraction(1, 10), "0.1"), (Fraction(-5, 4), "-1.25"),
+                                     (Fraction(40), "40"), (Fraction(1, 3), "1/3"), (Fraction(0), "0")])
 def test_times_are_written_exactly(t, text):
     assert decimal(t) == text and Fraction(text) == t
 
 
 def test_reference_writes_csv_and_json_of_the_same_numbers(stabilab, tmp_path):
     args = ("reference", CASES / "minor-axis-100.toml", "--at", "0,0.5,1", "--digits", "30")
-    assert stabilab(*args, "--out", tmp_path / "a.csv")[0] == 0 and stabilab(*args, "--out", tmp_path / "a.json")[0] == 0
+    assert stabilab(*args, "--out",
+                    tmp_path / "a.csv")[0] == 0 and stabilab(*args, "--out", tmp_path / "a.json")[0] == 0
     rows = list(csv.DictReader((tmp_path / "a.csv").open(encoding="utf-8")))
     made = json.loads((tmp_path / "a.json").read_text(encoding="utf-8"))
-    assert [row["value"] for row in rows if row["kind"] == "state"] == [v for row in made["trajectory"]["rows"] for v in row["values"]]
-    assert made["provenance"]["command"].startswith("stabilab reference") and len(made["provenance"]["case_sha256"]) == 64
+    assert [row["value"] for row in rows
+            if row["kind"] == "state"] == [v for row in made["trajectory"]["rows"] for v in row["values"]]
+    assert made["provenance"]["command"].startswith("stabilab reference") and len(
+        made["provenance"]["case_sha256"]) == 64
     period = next(row for row in rows if row["kind"] == "period")["value"]
     assert period == made["period"]["value"] and made["period"]["digits"] >= 30
     # two ways to the least x2 of all time: an event of the enclosed motion, and ball arithmetic on the orbit
@@ -130,12 +145,14 @@ def test_reference_says_what_is_missing_and_ends_with_5(stabilab, monkeypatch):
 @pytest.mark.skipif(not HEYOKA, reason="one column is heyoka's")
 @pytest.mark.parametrize("name", against_reference.CASES)
 def test_the_table_of_integrators_is_what_they_are_off(name):
-    rows = [line.split(" | ") for line in against_reference.PAGE.read_text(encoding="utf-8").splitlines() if re.match(r"\| (RK4|DOP853|heyoka)", line)]
+    rows = [line.split(" | ") for line in against_reference.PAGE.read_text(encoding="utf-8").splitlines()
+            if re.match(r"\| (RK4|DOP853|heyoka)", line)]
     column = 1 + list(against_reference.CASES).index(name)
     assert [row[0].strip("| ") for row in rows] == [words for words, *_ in against_reference.RUNS]
     for row, error in zip(rows, against_reference.errors(name)):
         told = float(row[column].strip(" |"))
-        assert told / 4 < error < 4 * told if told < 1e-11 else abs(error - told) < 0.1 * told  # roundings differ between processors
+        # roundings differ between processors
+        assert told / 4 < error < 4 * told if told < 1e-11 else abs(error - told) < 0.1 * told
 
 
 def test_reference_refuses_other_files_and_times(stabilab, tmp_path):

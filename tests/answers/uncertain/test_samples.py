@@ -1,4 +1,5 @@
-"""Uncertain numbers beside products of inertia and for a flat body: by samples, told as such, against NumPy."""
+"""Uncertain numbers beside products of inertia and for a flat body: by samples, told as such, against NumPy.
+"""
 import json
 
 import numpy as np
@@ -32,14 +33,19 @@ def write(tmp_path):
 
 @pytest.mark.parametrize("yz", [0, 0.7])
 def test_a_point_beside_products_is_the_body_of_its_tensor(write, yz):
-    """Rates and energy in the frame of the file by NumPy: I w' = (I w + h) x w + M; moments by its eigenvalues."""
+    """Rates and energy in the frame of the file by NumPy: I w' = (I w + h) x w + M; moments by its
+    eigenvalues."""
     box = box_of(load(write(OBLIQUE.format(yz=yz))))
     rng = np.random.default_rng(5)
     for point in rng.uniform(-1, 1, (6, len(box.places))):
         values = {name: np.array([float(v) for v in row]) for name, row in box.values(point).items()}
         a, b, c, d, e = point
-        assert values["inertia"] == pytest.approx([20 + 0.2 * a, 15, 10 + 0.2 * b]) and values["products"] == pytest.approx([-0.5, 0, -yz])
-        assert values["momentum"] == pytest.approx([0.5 + 0.1 * c, 0.25, 0]) and values["torque"] == pytest.approx([0, 0, 0.5 + 0.05 * d])
+        assert values["inertia"] == pytest.approx([20 + 0.2 * a, 15,
+                                                   10 + 0.2 * b]) and values["products"] == pytest.approx(
+                                                       [-0.5, 0, -yz])
+        assert values["momentum"] == pytest.approx([0.5 + 0.1 * c, 0.25,
+                                                    0]) and values["torque"] == pytest.approx(
+                                                        [0, 0, 0.5 + 0.05 * d])
         xy, xz, far = values["products"]
         tensor = np.diag(values["inertia"]) + [[0, xy, xz], [xy, 0, far], [xz, far, 0]]
         w = values["state"]
@@ -53,19 +59,24 @@ def test_a_point_beside_products_is_the_body_of_its_tensor(write, yz):
 
 
 def test_beside_products_the_fate_is_by_samples_with_number_seed_and_quantiles(write, stabilab):
-    text = OBLIQUE.format(yz=0).replace("[\"0.5 +- 0.1\", 0.25, 0]", "[0, 0, 0]").replace("0.5 +- 10 %", "0.8 +- 10 %")
+    text = OBLIQUE.format(yz=0).replace("[\"0.5 +- 0.1\", 0.25, 0]",
+                                        "[0, 0, 0]").replace("0.5 +- 10 %", "0.8 +- 10 %")
     path = write(text)
     found = uncertain(load(path), ("fate",))
     over, box = found.fate, box_of(load(path))
     points = np.random.default_rng(SEED).uniform(-1, 1, (SAMPLE, len(box.places)))
-    motions = [program.motion(*box.at(point), brief=True) for point in points]  # one by one, where the samples ask arrays
+    # one by one, where the samples ask arrays
+    motions = [program.motion(*box.at(point), brief=True) for point in points]
     assert {m.fate.word for m in motions} == {"spin-up"} and over.samples.counts == {over.verdict: SAMPLE}
-    assert over.samples.margins == pytest.approx(np.quantile([m.margin_energy for m in motions], (0.05, 0.5, 0.95)), rel=1e-9)
+    assert over.samples.margins == pytest.approx(np.quantile([m.margin_energy for m in motions],
+                                                             (0.05, 0.5, 0.95)), rel=1e-9)
     code, out, _ = stabilab("fate", path, "--json", "--strict")
     told = json.loads(out)[0]["uncertain"]["fate"]
-    assert code == 3 and told["answer"] == "sampled" and told["samples"]["number"] == SAMPLE and told["samples"]["seed"] == SEED
+    assert code == 3 and told["answer"] == "sampled" and told["samples"]["number"] == SAMPLE and told[
+        "samples"]["seed"] == SEED
     assert told["samples"]["margin_quantiles"] == list(over.samples.margins)
-    assert f"of 64 sampled points (seed {SEED})" in told["because"] and "quantiles" in told["because"] and [one.kind for one in found.caveats] == ["samples"]
+    assert f"of 64 sampled points (seed {SEED})" in told["because"] and "quantiles" in told["because"] and [
+        one.kind for one in found.caveats] == ["samples"]
 
 
 def test_the_first_line_says_that_they_are_samples(write, stabilab):
@@ -75,15 +86,23 @@ def test_the_first_line_says_that_they_are_samples(write, stabilab):
 
 
 def test_beside_products_two_fates_in_the_box_are_two_witnesses(write):
-    over = uncertain(load(write(OBLIQUE.format(yz=0).replace("0.3 +- 0.1", "0.3 +- 1.5").replace("[\"0.5 +- 0.1\", 0.25, 0]", "[0, 0, 0]")
+    over = uncertain(load(write(OBLIQUE.format(yz=0).replace("0.3 +- 0.1",
+                                                             "0.3 +- 1.5").replace("[\"0.5 +- 0.1\", "
+                                                                                   "0.25, 0]", "[0, 0, 0]")
                                 .replace("0.5 +- 10 %", "0.2 +- 10 %"))), ("fate",)).fate
-    assert over.answer == "depends" and len({w.verdict for w in over.witnesses}) == 2 == len(over.samples.counts)
+    assert over.answer == "depends" and len({w.verdict
+                                             for w in over.witnesses}) == 2 == len(over.samples.counts)
 
 
 def test_an_uncertain_flat_body_is_answered_by_proof(write):
-    """diag(1, 2, 3) is a plate; with any uncertainty the box has bodies on both sides of the triangle inequality."""
-    path = write('[body]\ninertia = ["3 +- 1 %", "2 +- 1 %", "1 +- 1 %"]\n[effects.constant_torque]\ntorque = [0, 0, 0.001]\n'
+    """diag(1, 2, 3) is a plate; with any uncertainty the box has bodies on both sides of the triangle
+    inequality."""
+    path = write('[body]\ninertia = ["3 +- 1 %", "2 +- 1 %", "1 +- 1 %"]\n[effects.constant_torque]\ntorque '
+                 '= [0, 0, 0.001]\n'
                  "[motion]\nangular_velocity = [1, 0.1, 0]\n")
     case = load(path)
     over = uncertain(case, ("fate",)).fate
-    assert {found.kind for found in case.caveats} == {"uncertain"} and (over.answer, over.verdict) == ("holds", "bounded") and over.samples is None
+    assert {found.kind
+            for found in case.caveats} == {"uncertain"} and (over.answer,
+                                                             over.verdict) == ("holds",
+                                                                               "bounded") and over.samples is None

@@ -30,7 +30,8 @@ momentum = [{momentum}]
 """
 
 
-def case_of(folder, inertia="20, 15, 10", momentum="0, 0, 0", torque="0, 0, 1", state="0, 0, 0", torque_key="torque",
+def case_of(folder, inertia="20, 15, 10", momentum="0, 0, 0", torque="0, 0, 1", state="0, 0, 0",
+            torque_key="torque",
             state_key="angular_velocity"):
     path = folder / "case.toml"
     path.write_text(BODY.format(**{k: v for k, v in locals().items() if k not in ("folder", "path")}))
@@ -43,7 +44,8 @@ def listed(middles, share):
 
 
 def random_case(folder, seed, share, axis):
-    """A body with a torque on a principal axis, a wheel across it and a state, every non-zero number uncertain."""
+    """A body with a torque on a principal axis, a wheel across it and a state, every non-zero number
+    uncertain."""
     rng = np.random.default_rng(seed)
     D = np.sort(rng.uniform(1, 2, 3))[::-1] * (20, 15, 10) / 15
     D[0] = min(D[0], 0.9 * (D[1] + D[2]))
@@ -70,8 +72,9 @@ def numbers_at(box, points):
 
 
 def walls_ahead(box, points, axis, turns=1500):
-    """max over one turn ahead of U - E, J, from Euler's equations in physical variables on a grid of the angle: the linear
-    pair of omega_j, omega_k solved by cosine and sine, U from the work-energy law. Shares no code with the program."""
+    """max over one turn ahead of U - E, J, from Euler's equations in physical variables on a grid of the
+    angle: the linear pair of omega_j, omega_k solved by cosine and sine, U from the work-energy law. Shares
+    no code with the program."""
     D, lam, M, w = numbers_at(box, points)
     i, j, k = axis, (axis + 1) % 3, (axis + 2) % 3
     p, q = (D[:, k] - D[:, i]) / D[:, j], (D[:, i] - D[:, j]) / D[:, k]
@@ -97,7 +100,8 @@ def test_no_sampled_point_contradicts_what_holds_or_what_is_proved(tmp_path, see
     assert over.answer in ("holds", "depends")
     safe = 0.9999 * over.proved
     excess = walls_ahead(box, safe * sampled(box, 300, seed), axis)
-    # half a step of the grid, at most, lies between it and the top: a few parts in 10^5 of the height of the waves
+    # half a step of the grid, at most, lies between it and the top: a few parts in 10^5 of the height of the
+    # waves
     doubt = 1e-4 * (np.abs(excess).max() + 1)
     assert ((excess > -doubt) if over.verdict == "bounded" else (excess < doubt)).all()
     assert (np.abs(excess) > doubt).mean() > 0.9
@@ -122,19 +126,22 @@ def test_a_change_that_is_reported_is_there_and_lies_beyond_what_is_proved(tmp_p
     assert over.proved > 0
     if over.changes_at is not None:
         assert over.proved < over.changes_at
-        assert [w.verdict for w in over.witnesses] == [over.verdict, *{w.verdict for w in over.witnesses} - {over.verdict}]
+        assert [w.verdict for w in over.witnesses] == [over.verdict,
+                                                       *{w.verdict for w in over.witnesses} - {over.verdict}]
         for name, index in box.places:
             away = over.witnesses[1].values[name][index] - box.middle[name][index]
             assert abs(away) <= Fraction(over.changes_at) * box.half[name][index] * (1 + Fraction(1, 10**12))
 
 
-def test_a_box_across_the_separatrix_has_a_witness_on_each_side_that_the_ordinary_command_confirms(tmp_path, stabilab):
+def test_a_box_across_the_separatrix_has_a_witness_on_each_side_that_the_ordinary_command_confirms(
+    tmp_path, stabilab):
     case = load(CASES / "uncertain-separatrix.toml")
     over = uncertain(case, ("fate",)).fate
     assert over.answer == "depends" and over.changes_at < 1 and over.proved > 0.9 * over.changes_at
     words = []
     for witness in shown.as_dict(uncertain(case, ("fate",)))["uncertain"]["fate"]["witnesses"]:
-        quoted = {name: ", ".join(f'"{v}"' for v in witness[name]) for name in ("inertia", "momentum", "torque", "state")}
+        quoted = {name: ", ".join(f'"{v}"' for v in witness[name])
+                  for name in ("inertia", "momentum", "torque", "state")}
         case_of(tmp_path, **quoted)
         code, out, _ = stabilab("fate", str(tmp_path / "case.toml"), "--json")
         answer = json.loads(out)[0]
@@ -144,7 +151,8 @@ def test_a_box_across_the_separatrix_has_a_witness_on_each_side_that_the_ordinar
 
 
 def test_the_nearest_change_is_the_square_root_law_of_a_single_uncertain_rate(tmp_path):
-    # With omega_3 alone uncertain the flip is at the barrier's own speed: margin in energy = D3 (w^2 - w0^2)/2.
+    # With omega_3 alone uncertain the flip is at the barrier's own speed: margin in energy = D3 (w^2 -
+    # w0^2)/2.
     case = case_of(tmp_path, momentum="3, 2, 0", torque="0, 0, 0.1", state='0.2, 0.15, "1.7 +- 0.001"')
     from stabilab.answers.motion import motion
     margin = motion(case.scene, case.state).margin_energy
@@ -155,18 +163,21 @@ def test_the_nearest_change_is_the_square_root_law_of_a_single_uncertain_rate(tm
 
 
 def test_a_start_on_the_separatrix_depends_with_both_sides(tmp_path):
-    # scaled minor axis, a = b = 0: equilibria X = -1/h, x2 = h, centre iff h^4 < 1 (theory: h^4 - c h - 1 < 0)
+    # scaled minor axis, a = b = 0: equilibria X = -1/h, x2 = h, centre iff h^4 < 1 (theory: h^4 - c h - 1 <
+    # 0)
     path = tmp_path / "case.toml"
     path.write_text('[scaled]\na = 0\nb = 0\nmu = [0, 0, "1 +- 1 %"]\n[motion]\nx = ["0.5 +- 1 %", -2, 0]\n')
     over = uncertain(load(path), ("fate",)).fate  # h = -2: a saddle, at rest
-    assert over.answer == "depends" and {w.verdict.split()[0] for w in over.witnesses} == {"bounded", "spin-up"}
+    assert over.answer == "depends" and {w.verdict.split()[0]
+                                         for w in over.witnesses} == {"bounded", "spin-up"}
     assert over.changes_at < 1e-3
 
 
 @pytest.mark.one_in(2)
 @pytest.mark.parametrize("scale", (1e-6, 1e6))
 def test_units_do_not_matter(tmp_path, scale):
-    """Moments, momentum and torque in another unit of mass, and rates in another unit of time: the same dimensionless box."""
+    """Moments, momentum and torque in another unit of mass, and rates in another unit of time: the same
+    dimensionless box."""
     def answer(mass, rate):
         rows = ([20, 15, 10], [3, 2, 0], [0, 0, 0.1], [0.2, 0.15, 1.6])
         factors = (mass, mass * rate, mass * rate**2, rate)
@@ -174,17 +185,20 @@ def test_units_do_not_matter(tmp_path, scale):
         return uncertain(case_of(tmp_path, *scaled), ("fate",)).fate
     one, other = answer(1, 1), answer(scale, 1 / scale)
     assert (other.answer, other.verdict) == (one.answer, one.verdict)
-    assert other.changes_at == pytest.approx(one.changes_at, rel=1e-4) and other.proved == pytest.approx(one.proved, rel=1e-3)
+    assert other.changes_at == pytest.approx(one.changes_at,
+                                             rel=1e-4) and other.proved == pytest.approx(one.proved, rel=1e-3)
 
 
 def test_plain_interval_arithmetic_cannot_decide_what_the_mean_value_form_does(tmp_path):
     from flint import arb
     share = 0.01
-    case = case_of(tmp_path, listed((20.0, 15.0, 10.0), share), listed((3.0, 2.0, 0.0), share), listed((0.0, 0.0, 0.1), share),
+    case = case_of(tmp_path, listed((20.0, 15.0, 10.0), share), listed((3.0, 2.0, 0.0), share),
+                   listed((0.0, 0.0, 0.1), share),
                    listed((0.2, 0.15, 1.6), share))
     assert uncertain(case, ("fate",)).fate.answer == "holds"
     ball = lambda v: arb(v, abs(v) * share)
-    D, lam, w = [ball(v) for v in (20.0, 15.0, 10.0)], [ball(3.0), ball(2.0)], [ball(v) for v in (0.2, 0.15, 1.6)]
+    D, lam, w = [ball(v) for v in (20.0, 15.0, 10.0)], [ball(3.0),
+                                                        ball(2.0)], [ball(v) for v in (0.2, 0.15, 1.6)]
     p, q = (D[1] - D[2]) / D[0], (D[2] - D[0]) / D[1]
     n, sj, sk = (-p * q).sqrt(), lam[0] / (D[0] - D[2]), lam[1] / (D[1] - D[2])
 
@@ -233,9 +247,11 @@ def test_between_walls_everything_is_bounded_but_for_a_set_of_measure_zero(tmp_p
 
 
 def test_a_wheel_along_the_torque_leaves_nothing_bounded_and_may_not_vanish(tmp_path):
-    always = uncertain(case_of(tmp_path, momentum='"3 +- 10 %", 0, 0', torque="1, 0, 0", state="0.1, 0, 0")).fate
+    always = uncertain(case_of(tmp_path, momentum='"3 +- 10 %", 0, 0', torque="1, 0, 0",
+                               state="0.1, 0, 0")).fate
     assert (always.answer, always.verdict) == ("holds", "unbounded")
-    maybe = uncertain(case_of(tmp_path, momentum='"0 +- 0.1", 5, 0', torque="0.01, 0, 0", state="0, 0, 0")).fate
+    maybe = uncertain(case_of(tmp_path, momentum='"0 +- 0.1", 5, 0', torque="0.01, 0, 0",
+                              state="0, 0, 0")).fate
     assert maybe.answer in ("depends", "sampled") and "may vanish" in maybe.because
 
 
@@ -243,18 +259,23 @@ def test_off_the_axes_the_fate_is_sampled_and_says_why(tmp_path):
     over = uncertain(case_of(tmp_path, torque='0, "0 +- 0.1", 1', state="0, 0, 1"))
     assert over.fate.answer == "sampled" and "off the principal axes" in over.fate.because
     assert "no proof for the box; of 64 sampled points (seed 20261122) all: spin-up about axis 3, positive sense" in over.fate.because
-    assert over.fate.samples.counts == {over.fate.verdict: 64} and over.fate.samples.otherwise == pytest.approx(1 - 0.05**(1 / 64))
+    assert over.fate.samples.counts == {
+        over.fate.verdict: 64} and over.fate.samples.otherwise == pytest.approx(1 - 0.05**(1 / 64))
     assert [one.kind for one in over.caveats] == ["samples"]
     assert over.fate.verdict == "spin-up about axis 3, positive sense"
 
 
 def test_moments_that_may_be_equal_are_no_ground_for_a_proof(tmp_path):
-    case = case_of(tmp_path, inertia='"20 +- 1", "20 +- 1", 10', torque="1, 0, 0", state="0.3, 0.2, 0.1", momentum="0, 1, 1")
+    case = case_of(tmp_path, inertia='"20 +- 1", "20 +- 1", 10', torque="1, 0, 0", state="0.3, 0.2, 0.1",
+                   momentum="0, 1, 1")
     over = uncertain(case, ("fate",)).fate
-    assert over.answer == "depends" and "may be equal" in over.because and over.samples.counts["bounded"] == 63
+    assert over.answer == "depends" and "may be equal" in over.because and over.samples.counts[
+        "bounded"] == 63
     for witness in over.witnesses:  # by DOP853: a spin-up passes every bound in the end, as omega' -> M/D
-        D, h, M, w = (np.array([float(v) for v in witness.values[name]]) for name in ("inertia", "momentum", "torque", "state"))
-        run = solve_ivp(lambda t, x, D=D, h=h, M=M: (np.cross(D * x + h, x) + M) / D, (0, 300), w, method="DOP853", rtol=1e-9, atol=1e-10)
+        D, h, M, w = (np.array([float(v) for v in witness.values[name]])
+                      for name in ("inertia", "momentum", "torque", "state"))
+        run = solve_ivp(lambda t, x, D=D, h=h, M=M: (np.cross(D * x + h, x) + M) / D, (0, 300), w,
+                        method="DOP853", rtol=1e-9, atol=1e-10)
         assert (np.abs(run.y[0]).max() > 0.5 * 300 * M[0] / D[0]) == witness.verdict.startswith("spin-up")
 
 
@@ -266,7 +287,8 @@ def test_a_torque_of_either_sign_cannot_say_which_way_a_body_spins_up(tmp_path):
 
 
 def test_without_a_torque_every_motion_is_bounded(tmp_path):
-    over = uncertain(case_of(tmp_path, inertia=listed((20.0, 15.0, 10.0), 0.01), torque="0, 0, 0", state="0.3, 0.2, 0.1"))
+    over = uncertain(case_of(tmp_path, inertia=listed((20.0, 15.0, 10.0), 0.01), torque="0, 0, 0",
+                             state="0.3, 0.2, 0.1"))
     assert (over.fate.answer, over.fate.verdict) == ("holds", "bounded")
     assert over.equilibria.answer == "holds"
 
@@ -283,7 +305,8 @@ def test_sampled_bodies_have_the_equilibria_that_hold(tmp_path, seed, axes):
     torque[list(axes)] = rng.choice((-1, 1), len(axes)) * rng.uniform(0.1, 1, len(axes))
     lam[axes[0]] = 0 if len(axes) == 1 else lam[axes[0]]
     rows = [[float(f"{v:.4g}") for v in row] for row in (lam, torque)]
-    case = case_of(tmp_path, listed((20.0, 15.0, 10.0), 0.005), *(listed(row, 0.005) for row in rows), "0.1, 0.2, 0.3")
+    case = case_of(tmp_path, listed((20.0, 15.0, 10.0), 0.005), *(listed(row, 0.005) for row in rows),
+                   "0.1, 0.2, 0.3")
     over, box = uncertain(case, ("equilibria",)).equilibria, box_of(case)
     if over.answer == "holds":
         for point in sampled(box, 6, seed):
@@ -299,7 +322,8 @@ def test_two_equilibria_that_may_meet_depend_on_the_numbers(tmp_path):
     assert fold.scene.plain
     text = (CASES / "off-axis-fold.toml").read_text()
     path = tmp_path / "case.toml"
-    path.write_text(re.sub(r"(momentum = \[)\s*([-\d.]+)", r'\1"\2 +- 1 %"', text, count=1) if "momentum" in text else
+    path.write_text(re.sub(r"(momentum = \[)\s*([-\d.]+)", r'\1"\2 +- 1 %"', text, count=1)
+                    if "momentum" in text else
                     re.sub(r"^a = ([-\d.]+)", r'a = "\1 +- 1 %"', text, count=1, flags=re.M))
     over = uncertain(load(path), ("equilibria",)).equilibria
     assert over.answer == "depends" and over.changes_at < 1e-3
@@ -309,11 +333,13 @@ def test_the_number_of_equilibria_is_one_only_where_the_third_torque_vanishes(tm
     torque = '"0.1 +- 1 %", "0.2 +- 1 %", {}'
 
     def ask(third):
-        return uncertain(case_of(tmp_path, momentum="3, 2, 1", torque=torque.format(third)), ("equilibria",)).equilibria
+        return uncertain(case_of(tmp_path, momentum="3, 2, 1", torque=torque.format(third)),
+                         ("equilibria",)).equilibria
     across = ask('"0.005 +- 0.01"')
     assert across.answer == "holds" and "infinity" in across.but
     on_it = ask('"0 +- 0.01"')
-    assert on_it.answer == "depends" and [w.verdict.split(":")[1].split()[0] for w in on_it.witnesses] == ["1", "2"]
+    assert on_it.answer == "depends" and [w.verdict.split(":")[1].split()[0]
+                                          for w in on_it.witnesses] == ["1", "2"]
 
 
 def test_an_uncertain_start_has_no_part_in_the_equilibria(tmp_path):
@@ -324,8 +350,10 @@ def test_an_uncertain_start_has_no_part_in_the_equilibria(tmp_path):
 # -- case files and commands
 
 
-BAD = {'"2000 +- "': "expected a number and its uncertainty", '"2000 +- -20"': "half-width", '"+- 20"': "expected a number",
-       '"2000 +- 20 +- 3"': "expected a number", '"2000 ± x %"': "expected a number", '"0 +- 1 %"': "percentage of zero",
+BAD = {'"2000 +- "': "expected a number and its uncertainty", '"2000 +- -20"': "half-width",
+       '"+- 20"': "expected a number",
+       '"2000 +- 20 +- 3"': "expected a number", '"2000 ± x %"': "expected a number",
+       '"0 +- 1 %"': "percentage of zero",
        '"2000 +- 1e400"': "larger than the largest double", '"2000 % +- 20"': "expected a number",
        '"nan +- 1"': "expected a number",
        '"2000 +- 3000"': "no rigid body"}
@@ -368,14 +396,16 @@ def test_commands_say_what_the_box_does_in_text_and_json(stabilab):
     _, out, _ = stabilab("classify", path, "--json")
     told = json.loads(out)[0]["uncertain"]
     assert told["numbers"][1] == {"key": "body.inertia[2]", "middle": "1500", "half_width": "15"}
-    assert told["fate"]["answer"] == told["equilibria"]["answer"] == "holds" and told["fate"]["verdict"] == "bounded"
+    assert told["fate"]["answer"] == told["equilibria"]["answer"] == "holds" and told["fate"][
+        "verdict"] == "bounded"
     assert told["fate"]["proved_up_to"] > 1 and told["fate"]["changes_at"] > told["fate"]["proved_up_to"]
     _, out, _ = stabilab("fate", path)
     assert "fate: holds all over the box: bounded" in out and "equilibria" not in out
     _, plain, _ = stabilab("extremes", path)
     _, certain, _ = stabilab("extremes", str(CASES / "minor-axis-300.toml"))
     middles = "  caveat: of the middles of the uncertain numbers; stabilab fate says what their box does"
-    assert [line for line in plain.splitlines()[1:] if line != middles] == certain.splitlines()[1:] and middles in plain.splitlines()
+    assert [line for line in plain.splitlines()[1:]
+            if line != middles] == certain.splitlines()[1:] and middles in plain.splitlines()
 
 
 def test_a_body_in_scaled_variables_is_the_box_of_its_physical_numbers(tmp_path):
@@ -383,7 +413,8 @@ def test_a_body_in_scaled_variables_is_the_box_of_its_physical_numbers(tmp_path)
     box = box_of(case)
     assert case.variables == "scaled" and [name for name, _ in box.places].count("inertia") == 3
     scene, state = box.at(np.zeros(len(box.places)))
-    assert scene == case.scene and state == case.state and verdict_at(box, np.zeros(len(box.places))) == "bounded"
+    assert scene == case.scene and state == case.state and verdict_at(box,
+                                                                      np.zeros(len(box.places))) == "bounded"
     numbers = box.numbers(np.zeros((1, 7)), np.zeros((1, 7)))
     form, exact = box.rates(numbers), case.scene.quadratic()
     assert form.rho[2].low[0] <= float(exact.rho[2]) <= form.rho[2].high[0]

@@ -1,7 +1,7 @@
 """Liquid and resistance: where the rates vanish, and which of these states attract.
 
-Independent means: SymPy's Groebner bases for completeness, finite differences of the compiled rates with NumPy's eigenvalues for the
-spectra, long runs of the Taylor integrator for the verdicts.
+Independent means: SymPy's Groebner bases for completeness, finite differences of the compiled rates with
+NumPy's eigenvalues for the spectra, long runs of the Taylor integrator for the verdicts.
 """
 import itertools
 from fractions import Fraction
@@ -55,7 +55,8 @@ def test_liquid_takes_energy_by_its_law():
     # Work of the liquid as theory has it, symbolically in D, kappa and omega.
     equations = derive(scene(LIQUID))
     w, D, kappa = equations.state, equations.inertia, equations.symbols["kappa"]
-    taken = sum((D[i] - D[j])**2 * (D[i] + D[j] - D[3 - i - j]) * w[i]**2 * w[j]**2 for i, j in ((0, 1), (0, 2), (1, 2)))
+    taken = sum((D[i] - D[j])**2 * (D[i] + D[j] - D[3 - i - j]) * w[i]**2 * w[j]**2 for i,
+                j in ((0, 1), (0, 2), (1, 2)))
     work = sum(d * x * rate for d, x, rate in zip(D, w, equations.rhs))
     assert sp.expand(sp.together(work + kappa * taken / (D[0] * D[1] * D[2]))) == 0
 
@@ -78,7 +79,8 @@ def test_plane_of_rotations_of_a_symmetric_body_attracts_iff_its_moment_is_large
     assert {s.verdict for s in plane.segments} == {"stable" if attracting else "unstable"}
 
 
-WHEELS = [(Gyrostat((0, 0, "0.5")), Body(("8.7", "8.6", "11.1"))), (Gyrostat((1, 2, "0.5")), BODY), (Gyrostat((1, 0, 2)), BODY)]
+WHEELS = [(Gyrostat((0, 0, "0.5")), Body(("8.7", "8.6", "11.1"))), (Gyrostat((1, 2, "0.5")), BODY),
+          (Gyrostat((1, 0, 2)), BODY)]
 
 
 @pytest.mark.one_in(2)
@@ -102,7 +104,8 @@ def test_rotations_with_wheel_and_liquid_are_equilibria_with_the_stated_spectrum
 @pytest.mark.slow
 def test_motion_next_to_an_attracting_rotation_with_wheel_tends_to_a_rotation_of_its_curve():
     where = scene(Gyrostat((1, 2, "0.5")), LIQUID)
-    chosen = [p for p in all_points(equilibria(where)) if p.linear == "stable" and 0.5 < np.abs(p.at).max() < 20][:2]
+    chosen = [p for p in all_points(equilibria(where)) if p.linear == "stable"
+              and 0.5 < np.abs(p.at).max() < 20][:2]
     assert chosen
     for p in chosen:
         run = trajectory(where, np.array(p.at) * 1.01 + 0.01, [3000.0])
@@ -143,10 +146,12 @@ def real_solutions(equations):
     w = equations.state
     polynomials = [sp.numer(sp.together(equations.numeric(rate))) for rate in equations.rhs]
     for order in itertools.permutations(w):
-        basis = sp.groebner(polynomials, *w, order="grevlex").fglm("lex") if order == w else sp.groebner(polynomials, *order, order="lex")
+        basis = (sp.groebner(polynomials, *w, order="grevlex").fglm("lex") if order == w
+                 else sp.groebner(polynomials, *order, order="lex"))
         last = order[-1]
         leading = [sp.Poly(g, *order) for g in basis.exprs]
-        if all(any(sp.Poly(g, v).degree() == 1 and not sp.Poly(g, v).LC().free_symbols for g in basis.exprs) for v in order[:2]):
+        if all(any(sp.Poly(g, v).degree() == 1 and not sp.Poly(g, v).LC().free_symbols for g in basis.exprs)
+               for v in order[:2]):
             break
     out = []
     assert leading
@@ -155,7 +160,8 @@ def real_solutions(equations):
             continue
         values = {last: sp.re(root)}
         for v in order[:2][::-1]:
-            g = next(g for g in basis.exprs if sp.Poly(g, v).degree() == 1 and not sp.Poly(g, v).LC().free_symbols)
+            g = next(g for g in basis.exprs if sp.Poly(g, v).degree() == 1
+                     and not sp.Poly(g, v).LC().free_symbols)
             values[v] = sp.solve(g.subs(values), v)[0]
         out.append(tuple(float(values[v]) for v in w))
     return sorted(set(out))
@@ -200,26 +206,31 @@ def test_all_motions_tend_to_the_equilibrium_that_is_said_to_draw_all():
 
 
 def test_a_triple_equilibrium_at_the_pitchfork_attracts():
-    # D = (9, 5, 4), torque on the middle axis: with c = 1/2 rotation at 3 c has a zero eigenvalue; a torque above the one
+    # D = (9, 5, 4), torque on the middle axis: with c = 1/2 rotation at 3 c has a zero eigenvalue; a torque
+    # above the one
     # here (15/4) has three equilibria, one below has one, so this is a supercritical pitchfork.
     where = scene(ConstantTorque((0, "15/4", 0)), Resistance("1/2"), body=Body((9, 5, 4)))
     (fold,) = equilibria(where).points
-    assert fold.at == (0.0, 1.5, 0.0) and fold.linear == "degenerate" and fold.verdict == "asymptotically stable"
+    assert fold.at == (0.0, 1.5,
+                       0.0) and fold.linear == "degenerate" and fold.verdict == "asymptotically stable"
     far, later = trajectory(where, (0.3, 1.5, 0.3), [200.0, 20000.0]).states
     assert np.abs(later - fold.at).max() < 0.2 * np.abs(far - fold.at).max()
     more = scene(ConstantTorque((0, 4, 0)), Resistance("1/2"), body=Body((9, 5, 4)))
-    assert [p.verdict for p in equilibria(more).points] == ["asymptotically stable", "unstable", "asymptotically stable"]
+    assert [p.verdict for p in equilibria(more).points] == ["asymptotically stable", "unstable",
+                                                            "asymptotically stable"]
 
 
 def test_rest_draws_every_motion_where_no_torque_acts():
-    for effects in ((Resistance("0.1"),), (Resistance("0.1"), LIQUID), (Resistance("0.1"), Gyrostat((1, 2, 3)))):
+    for effects in ((Resistance("0.1"),), (Resistance("0.1"), LIQUID),
+                    (Resistance("0.1"), Gyrostat((1, 2, 3)))):
         (rest,) = equilibria(scene(*effects)).points
         assert rest.at == (0.0, 0.0, 0.0) and rest.verdict == "asymptotically stable"
         assert motion(scene(*effects), (1, 2, 3)).fate == Fate.BOUNDED
 
 
 @pytest.mark.parametrize("effects", [(ConstantTorque((0, 0, 1)), Resistance("0.05"), LIQUID),
-                                     (ConstantTorque((0, "0.5", "0.1")), Resistance("0.02"), Gyrostat((0, 0, "0.1")), LIQUID)])
+                                     (ConstantTorque((0, "0.5", "0.1")), Resistance("0.02"),
+                                      Gyrostat((0, 0, "0.1")), LIQUID)])
 def test_newton_from_many_starts_finds_no_equilibrium_beyond_those_proved_with_liquid_and_torque(effects):
     where = scene(*effects)
     found = equilibria(where)
@@ -237,7 +248,8 @@ def test_newton_from_many_starts_finds_no_equilibrium_beyond_those_proved_with_l
     assert set(nearest.argmin(axis=1)) == set(range(len(points)))  # and each proved one is found
     for p in found.points:
         assert np.allclose(np.poly(measured(system, p.at)), np.poly(p.eigenvalues), atol=1e-6)
-        assert p.verdict == ("asymptotically stable" if max(z.real for z in p.eigenvalues) < 0 else "unstable")
+        assert p.verdict == ("asymptotically stable" if max(z.real for z in p.eigenvalues) < 0
+                             else "unstable")
 
 
 @pytest.mark.slow
@@ -254,7 +266,8 @@ def test_energy_bound_with_wheel_liquid_and_torque_holds_along_a_run():
 
 def test_boxes_hold_all_zeros_of_a_product():
     # (x^2 - 1, y^2 - 4, z^3 - z): twelve zeros, known by eye.
-    found = zeros([{(2, 0, 0): 1, (0, 0, 0): -1}, {(0, 2, 0): 1, (0, 0, 0): -4}, {(0, 0, 3): 1, (0, 0, 1): -1}], (3, 3, 3))
+    found = zeros([{(2, 0, 0): 1, (0, 0, 0): -1}, {(0, 2, 0): 1, (0, 0, 0): -4},
+                   {(0, 0, 3): 1, (0, 0, 1): -1}], (3, 3, 3))
     wanted = sorted(itertools.product((-1.0, 1.0), (-2.0, 2.0), (-1.0, 0.0, 1.0)))
     assert found.complete and np.allclose(sorted(map(tuple, found.points)), wanted, atol=1e-14)
 
@@ -266,7 +279,8 @@ def test_boxes_say_so_where_a_double_zero_cannot_be_told_apart():
 
 
 def test_exact_rates_are_those_of_the_derived_equations():
-    where = scene(Gyrostat((1, 2, 3)), Charge("0.3", 2, 1, "0.4"), ConstantTorque((1, 0, 2)), Resistance("0.1"), LIQUID)
+    where = scene(Gyrostat((1, 2, 3)), Charge("0.3", 2, 1, "0.4"), ConstantTorque((1, 0, 2)),
+                  Resistance("0.1"), LIQUID)
     omega = (0.3, -0.7, 1.1)
     first, _ = rates(content(where), omega, None)
     assert np.allclose([float(v) for v in first], to_numpy(derive(where))(np.array(omega)), rtol=1e-13)
@@ -305,7 +319,8 @@ def test_force_at_the_centre_of_mass_leaves_the_verdicts_as_they_are():
 
 
 @pytest.mark.one_in(2)
-@pytest.mark.parametrize("name", ["liquid-base", "liquid-lambda3-25", "charged-body", "charged-body-attitude"])
+@pytest.mark.parametrize("name",
+                         ["liquid-base", "liquid-lambda3-25", "charged-body", "charged-body-attitude"])
 def test_classification_of_a_case_is_complete_json(name):
     case = stabilab.load(ROOT / "cases" / f"{name}.toml")
     vertical = case.blocks["gamma"] if "gamma" in case.scene.blocks else ()
@@ -316,17 +331,20 @@ def test_classification_of_a_case_is_complete_json(name):
 
 
 def test_rest_is_told_where_the_list_of_equilibria_is_undecided():
-    """By hand: at omega = 0 no torque acts. Its spectrum beside NumPy's of finite differences of the rates."""
+    """By hand: at omega = 0 no torque acts. Its spectrum beside NumPy's of finite differences of the rates.
+    """
     scene = Scene(Body((3, 2, "1.5")), Gyrostat((0, 10, 10)), LiquidCavity(1, "0.1", 10), Resistance("0.001"))
     found = equilibria(scene)
     assert found.kind == "undecided" and "nothing bounds the equilibria; rest is one" in found.reason
     (rest,) = found.points
     h = 1e-6
     parts = content(scene)
-    slopes = np.array([(np.array(rates(parts, tuple(h * e), None)[0], float) - np.array(rates(parts, tuple(-h * e), None)[0], float)) / (2 * h)
+    slopes = np.array([(np.array(rates(parts, tuple(h * e), None)[0], float)
+                        - np.array(rates(parts, tuple(-h * e), None)[0], float)) / (2 * h)
                        for e in np.eye(3)]).T
     assert rest.at == (0, 0, 0) and rest.verdict == "asymptotically stable"
-    assert np.sort(np.linalg.eigvals(slopes).real) == pytest.approx(np.sort([z.real for z in rest.eigenvalues]), rel=1e-4)
+    assert np.sort(np.linalg.eigvals(slopes).real) == pytest.approx(
+        np.sort([z.real for z in rest.eigenvalues]), rel=1e-4)
     from stabilab.show.terminal.classification import resting
     from stabilab.show.units import SI
     assert resting(found, SI) == "UNDECIDED, 1 known (1 asymptotically stable)"

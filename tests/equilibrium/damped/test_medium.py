@@ -1,4 +1,5 @@
-"""Equilibria in a resisting medium at the edges: folds, pairs on the imaginary axis, and where no rate determines the others.
+"""Equilibria in a resisting medium at the edges: folds, pairs on the imaginary axis, and where no rate
+determines the others.
 
 The rates, their Jacobian and the torque that holds a given equilibrium are written here from
 (D omega + lambda) x omega - c D omega + M = 0 in exact numbers (SymPy), sharing no code with the elimination.
@@ -34,13 +35,15 @@ def held(D, wheel, c, at, nudge=(0, 0, 0)):
 
 
 def scene(D, wheel, torque, c):
-    wheel, torque = (tuple(Fraction(int(v.p), int(v.q)) for v in map(sp.Rational, row)) for row in (wheel, torque))
+    wheel, torque = (tuple(Fraction(int(v.p), int(v.q)) for v in map(sp.Rational, row))
+                     for row in (wheel, torque))
     return Scene(Body(D), Gyrostat(wheel), ConstantTorque(torque), Resistance(str(c)))
 
 
 def point(where, at):
     """The one equilibrium at `at`."""
-    (found,) = [p for p in equilibria(where).points if np.allclose(p.at, np.array(at, float), rtol=1e-12, atol=1e-12)]
+    (found,) = [p for p in equilibria(where).points
+                if np.allclose(p.at, np.array(at, float), rtol=1e-12, atol=1e-12)]
     return found
 
 
@@ -62,23 +65,27 @@ def test_a_pair_of_eigenvalues_on_the_imaginary_axis_is_left_to_the_next_order(D
     assert [e.real for e in found.eigenvalues] == [float(real), 0.0, 0.0]
 
 
-FOLDS = [((3, 2, 1), (5, -1, 5), 1, (-3, 2, 3)), ((2, 2, 1), (2, -5, -3), 1, (-3, 1, 2)), ((3, 2, 2), (6, -4, 5), HALF, (3, 1, 3))]
+FOLDS = [((3, 2, 1), (5, -1, 5), 1, (-3, 2, 3)), ((2, 2, 1), (2, -5, -3), 1, (-3, 1, 2)),
+         ((3, 2, 2), (6, -4, 5), HALF, (3, 1, 3))]
 
 
 @pytest.mark.parametrize("D, wheel, c, at", FOLDS)
 def test_motions_leave_a_fold_on_the_side_of_the_square(D, wheel, c, at):
-    """On the centre line z' = a z^2, a = l . f''(v, v)/(2 l . v) with J v = 0 = l J: one side leaves, the other returns."""
+    """On the centre line z' = a z^2, a = l . f''(v, v)/(2 l . v) with J v = 0 = l J: one side leaves, the
+    other returns."""
     where, jacobian = held(D, wheel, c, at)
     (v,), (left,) = jacobian.nullspace(), jacobian.T.nullspace()
     bend = sp.Matrix(rates(D, (0, 0, 0), 0, x=v))  # the quadratic part of the rates
     a = float(left.dot(bend) / left.dot(v))
     found = point(where, at)
-    assert a != 0 and (found.linear, found.verdict) == ("degenerate", "unstable") and "even power" in found.because
+    assert a != 0 and (found.linear, found.verdict) == ("degenerate",
+                                                        "unstable") and "even power" in found.because
     torque = [-d * r for d, r in zip(D, rates(D, wheel, c, x=at))]
     run = sp.lambdify([OMEGA], rates(D, wheel, c, torque))
     v, start = np.array(v, float).ravel(), np.array(at, float)
     step = 1e-3 * np.sign(a) / np.abs(v).max()
-    ends = [solve_ivp(lambda t, x: run(x), (0, 1.5 / abs(a * step)), start + side * step * v, method="LSODA", rtol=1e-10,
+    ends = [solve_ivp(lambda t, x: run(x), (0, 1.5 / abs(a * step)), start + side * step * v, method="LSODA",
+                      rtol=1e-10,
                       atol=1e-12).y[:, -1] for side in (1, -1)]
     away, back = (np.abs(end - start).max() for end in ends)
     assert away > 0.1 and back < 0.7e-3
@@ -89,8 +96,9 @@ SUBCRITICAL = [((4, 3, 5), 2, -5, 4), ((4, 3, 2), 2, -5, -4)]
 
 @pytest.mark.parametrize("D, axis, wheel, rate", SUBCRITICAL)
 def test_a_triple_equilibrium_of_a_subcritical_pitchfork_drives_away(D, axis, wheel, rate):
-    """Rotation about the wheel's axis k with c^2 = -a f: the pair (v_i, v_j) of the zero eigenvalue pulls omega_k by
-    h = kappa_k v_i v_j z^2/c, and z' = z l . A'(omega_k) v h/(l . v), A the matrix of the other two rates."""
+    """Rotation about the wheel's axis k with c^2 = -a f: the pair (v_i, v_j) of the zero eigenvalue pulls
+    omega_k by h = kappa_k v_i v_j z^2/c, and z' = z l . A'(omega_k) v h/(l . v), A the matrix of the other
+    two rates."""
     momentum, at = [0, 0, 0], [0, 0, 0]
     momentum[axis], at[axis] = wheel, rate
     where, jacobian = held(D, momentum, HALF, at)
@@ -104,7 +112,8 @@ def test_a_triple_equilibrium_of_a_subcritical_pitchfork_drives_away(D, axis, wh
 
 @pytest.mark.parametrize("nudge", ["1/1000000", "1e-200"])
 def test_equilibria_beside_a_fold_are_told_apart_however_close(nudge):
-    """Beyond the fold two are gone, before it there is a saddle and a node: as the eigenvalues at a millionth say."""
+    """Beyond the fold two are gone, before it there is a saddle and a node: as the eigenvalues at a millionth
+    say."""
     D, wheel, c, at = FOLDS[0]
     before, beyond = (held(D, wheel, c, at, (side * sp.Rational(nudge), 0, 0))[0] for side in (-1, 1))
     words = [p.verdict for p in equilibria(before).points]
@@ -122,11 +131,13 @@ def test_no_rate_determines_the_others_where_on_each_axis_two_equations_are_one(
         others = [i for i in range(3) if i != axis]
         two = [rates(D, wheel, c, torque)[i].subs(OMEGA[axis], value) for i in others]
         matrix, right = sp.linear_eq_to_matrix(two, [OMEGA[i] for i in others])
-        assert matrix.rank() == matrix.row_join(right).rank() == 1  # a line of solutions: the axis determines nothing
+        # a line of solutions: the axis determines nothing
+        assert matrix.rank() == matrix.row_join(right).rank() == 1
     found = equilibria(scene(D, wheel, torque, c))
     assert found.kind == "undecided" and not found.points and "not determined" in found.reason
     beside = equilibria(scene(D, wheel, (torque[0] + sp.Rational(1, 10**9), *torque[1:]), c))
-    assert beside.kind == "points" and len(beside.points) % 2 == 1  # the degree of the map at infinity is that of -c D omega
+    # the degree of the map at infinity is that of -c D omega
+    assert beside.kind == "points" and len(beside.points) % 2 == 1
 
 
 @pytest.mark.parametrize("wheel", [0, 1])

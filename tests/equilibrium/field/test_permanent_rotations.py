@@ -1,7 +1,7 @@
 """Permanent rotations of a body in a field: all of them, their spectrum, and what energy and spectrum decide.
 
-Independent means: Groebner bases of the balance in gamma (SymPy), central differences of the compiled rates with NumPy's
-eigenvalues, second differences of the amended potential, classical criteria, long runs.
+Independent means: Groebner bases of the balance in gamma (SymPy), central differences of the compiled rates
+with NumPy's eigenvalues, second differences of the amended potential, classical criteria, long runs.
 """
 from fractions import Fraction
 from pathlib import Path
@@ -83,20 +83,23 @@ def test_permanent_rotations_rest_and_have_the_stated_spectrum(name):
 
 
 def by_groebner(scene, Omega):
-    """Number of real gamma with (S gamma + b) x gamma = 0, |gamma| = 1 by a Groebner basis of the derived rates."""
+    """Number of real gamma with (S gamma + b) x gamma = 0, |gamma| = 1 by a Groebner basis of the derived
+    rates."""
     equations = derive(scene)
     g = equations.state[3:]
     omega = dict(zip(equations.state[:3], (sp.Rational(Omega.numerator, Omega.denominator) * x for x in g)))
     parts = [sp.numer(sp.together(equations.numeric(r).subs(omega))) for r in equations.rhs[:3]]
     # a linear form of gamma takes different values at different solutions, so its polynomial counts them
     u = sp.Symbol("u")
-    basis = sp.groebner([*parts, sum(x**2 for x in g) - 1, u - 3 * g[0] - 5 * g[1] - 11 * g[2]], *g, u, order="grevlex").fglm("lex")
+    basis = sp.groebner([*parts, sum(x**2 for x in g) - 1, u - 3 * g[0] - 5 * g[1] - 11 * g[2]], *g, u,
+                        order="grevlex").fglm("lex")
     last = sp.Poly(next(e for e in basis.exprs if e.free_symbols == {u}), u)
     return sum(1 for _ in set(sp.real_roots(last)))
 
 
 @pytest.mark.one_in(2)
-@pytest.mark.parametrize("name, values", [("paper", ("-12", "1/2", "24")), ("charged", ("-3", "7")), ("weight on an axis", ("-2", "1/3", "3")),
+@pytest.mark.parametrize("name, values", [("paper", ("-12", "1/2", "24")), ("charged", ("-3", "7")),
+                                          ("weight on an axis", ("-2", "1/3", "3")),
                                           ("constant charge", ("-2", "1"))])
 def test_each_rate_has_exactly_the_rotations_of_a_groebner_basis(name, values):
     field = Field.of(content(SCENES[name]))
@@ -113,13 +116,15 @@ def test_branches_hold_every_rotation_of_every_rate(name):
     curves = [c for c in found(name).curves if c.name.startswith("branch")]
     for value in np.random.default_rng(5).normal(0, 4, 25):
         with many_digits():
-            wanted = sorted(tuple(float(g.mid()) for g in r.gamma) for r in rotations_at(field, Fraction(value)))
+            wanted = sorted(tuple(float(g.mid()) for g in r.gamma)
+                            for r in rotations_at(field, Fraction(value)))
         got = sorted(c.point(value)[3:] for c in curves if c.segments[0].t[0] < value < c.segments[-1].t[1])
         assert len(got) == len(wanted) and np.allclose(got, wanted, atol=1e-12)
 
 
 def amended(scene, A, gamma):
-    """Potential energy on |gamma| = 1 at constant area integral A, for gyrostat, weight, Newtonian field and charge."""
+    """Potential energy on |gamma| = 1 at constant area integral A, for gyrostat, weight, Newtonian field and
+    charge."""
     parts = content(scene)
     D, lam, s = (np.array([float(v) for v in row]) for row in (parts.D, parts.Lambda, parts.s))
     gamma = gamma / np.linalg.norm(gamma)
@@ -139,7 +144,8 @@ def test_energy_decides_as_second_differences_of_the_amended_potential_do(name):
         u = np.linalg.svd(gamma[None])[2][1:]  # tangent plane
         h = 1e-4
         value = lambda a, b: amended(SCENES[name], A, gamma + h * (a * u[0] + b * u[1]))
-        K = np.array([[value(1, 0) - 2 * value(0, 0) + value(-1, 0), (value(1, 1) - value(1, -1) - value(-1, 1) + value(-1, -1)) / 4],
+        K = np.array([[value(1, 0) - 2 * value(0, 0) + value(-1, 0),
+                       (value(1, 1) - value(1, -1) - value(-1, 1) + value(-1, -1)) / 4],
                       [0, value(0, 1) - 2 * value(0, 0) + value(0, -1)]]) / h**2
         K[1, 0] = K[0, 1]
         low, high = np.linalg.eigvalsh(K)
@@ -155,13 +161,15 @@ def test_energy_decides_as_second_differences_of_the_amended_potential_do(name):
 
 def excursion(scene, x, size, end):
     """Largest departure from x of the motion that starts `size` away, in units of `size`."""
-    run = trajectory(scene, x + size * np.array([0.3, -0.5, 0.4, 0, 0, 0]), np.linspace(1 / 300, 1, 300) * end)
+    run = trajectory(scene, x + size * np.array([0.3, -0.5, 0.4, 0, 0, 0]),
+                     np.linspace(1 / 300, 1, 300) * end)
     return np.abs(run.states - x).max() / size
 
 
 @pytest.mark.parametrize("name", ["paper", "charged"])
 def test_motions_stay_by_stable_rotations_in_proportion_and_leave_unstable_ones(name):
-    # Next to a change of verdict the well is shallow, so a stable rotation is judged by ever smaller departures: the
+    # Next to a change of verdict the well is shallow, so a stable rotation is judged by ever smaller
+    # departures: the
     # excursion shrinks in proportion. An unstable one is left however small the departure.
     stay = leave = 0
     for p in samples(name):
@@ -191,10 +199,12 @@ def test_changes_of_verdict_lie_where_an_eigenvalue_passes_zero_or_two_meet():
 
 @pytest.mark.parametrize("spin", [0, 3])
 def test_sleeping_top_is_stable_from_the_classical_rate_on(spin):
-    # Routh and Lagrange: upright iff (C Omega + lambda)^2 > 4 A M g l; gamma along +e3 hangs, so upright is -e3 here.
+    # Routh and Lagrange: upright iff (C Omega + lambda)^2 > 4 A M g l; gamma along +e3 hangs, so upright is
+    # -e3 here.
     A, C, weight = 5, 7, 2
     top = Scene(Body((A, A, C)), Gyrostat((0, 0, spin)), Gravity(20, (0, 0, "0.1")))
-    edges = {edge for c in equilibria(top).curves for s in c.segments if s.because.startswith("sleeping") for edge in s.t}
+    edges = {edge for c in equilibria(top).curves for s in c.segments if s.because.startswith("sleeping")
+             for edge in s.t}
     for sign in (1, -1):
         critical = (sign * np.sqrt(4 * A * weight) - spin) / C
         assert min(abs(edge + critical) for edge in edges) < 1e-12  # omega = Omega gamma = -Omega e3
@@ -254,7 +264,8 @@ def test_state_may_be_given_by_blocks_and_an_equilibrium_is_told():
 
 
 def test_exact_rates_are_those_of_the_derived_equations_with_gamma():
-    scene = Scene(Body((5, 6, 7)), WHEEL, WEIGHT, CENTRE, CHARGE, ConstantTorque((1, 0, 2)), Resistance("0.1"))
+    scene = Scene(Body((5, 6, 7)), WHEEL, WEIGHT, CENTRE, CHARGE, ConstantTorque((1, 0, 2)),
+                  Resistance("0.1"))
     omega, gamma = (0.3, -0.7, 1.1), (0.6, 0.0, 0.8)
     exact = [float(v) for block in rates(content(scene), omega, gamma) for v in block]
     assert np.allclose(exact, to_numpy(derive(scene))(np.array(omega + gamma)), rtol=1e-13, atol=1e-16)
@@ -307,11 +318,13 @@ def test_steady_states_under_a_torque_along_an_axis_rest_and_leave_as_told():
 
 
 def test_steady_states_of_a_torque_are_all_that_newton_finds():
-    scene = Scene(Body((5, 6, 7)), Gyrostat((0, 0, 1)), Gravity(2, (0, 0, 1)), CHARGE, ConstantTorque((2, 0, 0)))
+    scene = Scene(Body((5, 6, 7)), Gyrostat((0, 0, 1)), Gravity(2, (0, 0, 1)), CHARGE,
+                  ConstantTorque((2, 0, 0)))
     curves = equilibria(scene).curves
     assert curves
     rng, hits = np.random.default_rng(3), 0
-    for _ in range(60):  # (Omega, gamma) with gamma1 = 0, from random starts: every zero lies on a curve at its angle
+    # (Omega, gamma) with gamma1 = 0, from random starts: every zero lies on a curve at its angle
+    for _ in range(60):
         t, Omega = rng.uniform(-np.pi, np.pi), rng.normal(0, 5)
         c, s = np.cos(t), np.sin(t)
         system = to_numpy(derive(scene))
@@ -327,7 +340,8 @@ def test_steady_states_of_a_torque_are_all_that_newton_finds():
     assert hits > 15
 
 
-@pytest.mark.parametrize("effects", [(WEIGHT, ConstantTorque((1, 2, 0))), (WEIGHT, LiquidCavity(1250, 1000, "0.1")),
+@pytest.mark.parametrize("effects",
+                         [(WEIGHT, ConstantTorque((1, 2, 0))), (WEIGHT, LiquidCavity(1250, 1000, "0.1")),
                                      (WEIGHT, ConstantTorque((1, 0, 0)), Resistance("0.1"))])
 def test_what_has_no_closed_form_is_undecided_with_a_reason(effects):
     rest = equilibria(Scene(Body((5, 6, 7)), *effects))
@@ -353,7 +367,8 @@ def test_classification_of_a_top_is_complete_json(name):
 
 
 def test_a_branch_of_permanent_rotations_has_no_point_outside_it():
-    curves = equilibria(Scene(Body((5, "5.1", 7)), Gyrostat((1, 0, 2)), Gravity(20, ("0.7", "0.3", "0.1")))).curves
+    curves = equilibria(Scene(Body((5, "5.1", 7)), Gyrostat((1, 0, 2)),
+                              Gravity(20, ("0.7", "0.3", "0.1")))).curves
     refused = 0
     for curve in curves:
         low, high = curve.segments[0].t[0], curve.segments[-1].t[1]
@@ -376,7 +391,8 @@ def test_equal_stiffness_is_found_at_every_rate_or_none():
     for Omega in _same_stiffness(parts, 0, 2):
         assert abs((Omega**2 - parts.N) * (parts.D[0] - parts.D[2]) + Omega * parts.E) < Fraction(1, 2**200)
     assert len(_same_stiffness(parts, 0, 2)) == 2
-    pulled = SimpleNamespace(D=parts.D, N=Fraction(-4), E=Fraction(3))  # Omega^2 - 3 Omega + 4 has no real root
+    # Omega^2 - 3 Omega + 4 has no real root
+    pulled = SimpleNamespace(D=parts.D, N=Fraction(-4), E=Fraction(3))
     assert _same_stiffness(pulled, 0, 2) == []
 
 
@@ -401,7 +417,8 @@ def test_a_curve_of_steady_states_has_no_point_at_its_ends():
             curve.point(end)
 
 
-@pytest.mark.parametrize("e2, e3, e4", [(5, 0, 4), (5, 0, 6.25), (2, 0, 3), (1, 0, -1), (-5, 0, 4), (-2, 0, 1), (3, 0, 0), (5, 1, 4),
+@pytest.mark.parametrize("e2, e3, e4", [(5, 0, 4), (5, 0, 6.25), (2, 0, 3), (1, 0, -1), (-5, 0, 4),
+                                        (-2, 0, 1), (3, 0, 0), (5, 1, 4),
                                         (5, -1, 4), (0, 0, 0)])
 def test_steady_states_of_a_torque_are_told_by_their_quartic(e2, e3, e4):
     from flint import arb

@@ -1,4 +1,5 @@
-"""An atlas has in each cell the answer of the scene with that torque, the symmetries of the body, and the same bytes whoever computes it."""
+"""An atlas has in each cell the answer of the scene with that torque, the symmetries of the body, and the
+same bytes whoever computes it."""
 from __future__ import annotations
 
 import itertools
@@ -31,8 +32,10 @@ angular_velocity = {start}
 """
 
 
-def case_of(inertia=(3.1, 2.3, 1.45), wheel=(0.0, 0.0, 0.0), torque=(0.0, 0.0, 1.0), start=(0.0, 0.0, 0.0), rest=""):
-    return read_text("body.toml", BODY.format(inertia=list(inertia), wheel=list(wheel), torque=list(torque), start=list(start), rest=rest))
+def case_of(inertia=(3.1, 2.3, 1.45), wheel=(0.0, 0.0, 0.0), torque=(0.0, 0.0, 1.0), start=(0.0, 0.0, 0.0),
+            rest=""):
+    return read_text("body.toml", BODY.format(inertia=list(inertia), wheel=list(wheel), torque=list(torque),
+                                              start=list(start), rest=rest))
 
 
 UNITS = units_of(case_of())
@@ -52,7 +55,8 @@ def test_cells_have_the_answers_of_their_scenes_alone(spinning):
     body, wheel = stabilab.Body(("3.1", "2.3", "1.45")), stabilab.Gyrostat((0, "0.2", 0))
     for n in (0, 5, 13, 22, 31):
         scene = stabilab.Scene(body, wheel, stabilab.ConstantTorque(spinning.directions[n].tolist()))
-        alone, when = stabilab.motion(scene, (0.3, -0.2, 0.5)), stabilab.time_to(scene, (0.3, -0.2, 0.5), rate="2")
+        alone, when = stabilab.motion(scene,
+                                      (0.3, -0.2, 0.5)), stabilab.time_to(scene, (0.3, -0.2, 0.5), rate="2")
         row = spinning.records[n]
         assert (row["fate"], row["spin_axis"]) == (alone.fate, alone.axis * alone.sense)
         assert row["when_low"] <= when.high and when.low <= row["when_high"]  # both enclose the same time
@@ -60,11 +64,13 @@ def test_cells_have_the_answers_of_their_scenes_alone(spinning):
 
 
 def test_brute_force_sees_the_axis_of_a_cell(spinning):
-    """Euler's equations written anew, DOP853: the last rate is far beyond the others, about the axis of the cell and in its sense."""
+    """Euler's equations written anew, DOP853: the last rate is far beyond the others, about the axis of the
+    cell and in its sense."""
     D, wheel = np.array([3.1, 2.3, 1.45]), np.array([0.0, 0.2, 0.0])
     for n in (2, 19):
         torque = spinning.directions[n]
-        run = solve_ivp(lambda t, w: (torque - np.cross(w, D * w + wheel)) / D, (0, 60), (0.3, -0.2, 0.5), "DOP853", rtol=1e-8, atol=1e-8)
+        run = solve_ivp(lambda t, w: (torque - np.cross(w, D * w + wheel)) / D, (0, 60), (0.3, -0.2, 0.5),
+                        "DOP853", rtol=1e-8, atol=1e-8)
         last = run.y[:, -1]
         axis = int(np.abs(last).argmax())
         assert abs(last[axis]) > 4 * np.delete(np.abs(last), axis).max()
@@ -86,11 +92,13 @@ def test_from_rest_without_a_wheel_a_half_turn_about_an_axis_maps_the_atlas_onto
 
 @pytest.mark.parametrize("order", [(1, 2, 0), (0, 2, 1)])
 def test_other_names_of_the_axes_permute_the_atlas(order):
-    """A cyclic exchange turns vectors of rates and torques; one of two axes is a mirror, which turns them the other way as well."""
+    """A cyclic exchange turns vectors of rates and torques; one of two axes is a mirror, which turns them the
+    other way as well."""
     moments, wheel, start = (3.1, 2.3, 1.45), (0.1, 0.0, -0.2), (0.2, -0.1, 0.3)
     sign = 1 if order == (1, 2, 0) else -1
     one = _by_direction(made(case_of(moments, wheel, start=start)))
-    other = _by_direction(made(case_of([moments[n] for n in order], [sign * wheel[n] for n in order], start=[sign * start[n] for n in order])))
+    other = _by_direction(made(case_of([moments[n] for n in order], [sign * wheel[n] for n in order],
+                                       start=[sign * start[n] for n in order])))
     for direction, axis in one.items():
         named = order.index(abs(axis) - 1) + 1 if axis else 0
         assert other[tuple(sign * direction[n] + 0.0 for n in order)] == sign * np.sign(axis) * named
@@ -117,7 +125,8 @@ def test_an_axis_is_a_point_of_its_own_with_the_verdict_of_its_reduction():
         alone = stabilab.motion(scene, (0.1, 0.2, 0.3))
         assert (row["fate"], row["level"]) == (alone.fate, 2)  # exact
     # a torque on the middle axis keeps every motion bounded, and no cell beside it is bounded
-    assert own[2]["fate"] == own[3]["fate"] == Fate.BOUNDED and not (found.records["fate"] == Fate.BOUNDED).any()
+    assert own[2]["fate"] == own[3]["fate"] == Fate.BOUNDED and not (
+        found.records["fate"] == Fate.BOUNDED).any()
 
 
 def test_refinement_leaves_both_sides_of_every_boundary_at_the_last_depth():
@@ -150,22 +159,29 @@ def test_no_time_is_asked_on_request(tmp_path):
         asked(case, timed=False, rate="2")
     pytest.importorskip("xarray")
     again = stabilab.atlas(case, level=0, refine=0, timed=False, out=tmp_path / "atlas.nc")
-    assert "when_low" not in again and atlas_words.answer(atlas_files.atlas_of(again, tmp_path / "atlas.nc"), UNITS).count("time") == 0
+    assert "when_low" not in again and atlas_words.answer(atlas_files.atlas_of(again, tmp_path / "atlas.nc"),
+                                                          UNITS).count("time") == 0
 
 
-@pytest.mark.parametrize("wheel, words", [((0.1, 0.2, 0.4), "the wheel's axis"), ((0, 0, 0), "the torque's axis")])
+@pytest.mark.parametrize("wheel, words",
+                         [((0.1, 0.2, 0.4), "the wheel's axis"), ((0, 0, 0), "the torque's axis")])
 def test_a_sphere_spins_up_about_the_axis_of_its_wheel_or_of_the_torque(wheel, words):
-    # by hand, D w' = l x w + M up to the sign: the part along l grows at the rate M.l/|l|, all of it along M without a wheel
+    # by hand, D w' = l x w + M up to the sign: the part along l grows at the rate M.l/|l|, all of it along M
+    # without a wheel
     found = made(case_of(inertia=(2, 2, 2), wheel=wheel), level=0)
-    assert f"all directions spin up about {words}" in atlas_words.answer(found, UNITS) and "no principal axis" not in atlas_words.text(found, UNITS)
+    assert f"all directions spin up about {words}" in atlas_words.answer(found,
+                                                                         UNITS) and "no principal axis" not in atlas_words.text(found, UNITS)
 
 
 def test_wheel_momenta_are_along_the_wheel_or_along_the_axis_that_is_named(spinning):
     found = made(case_of(wheel=(0.0, 0.2, 0.0), start=(0.3, -0.2, 0.5)), level=0, wheel="-0.2, 0, 0.2")
-    assert [tuple(map(float, wheel)) for wheel in found.asked.wheels] == [(0, -0.2, 0), (0, 0, 0), (0, 0.2, 0)]
+    assert [tuple(map(float, wheel))
+            for wheel in found.asked.wheels] == [(0, -0.2, 0), (0, 0, 0), (0, 0.2, 0)]
     alone = made(case_of(wheel=(0.0, 0.2, 0.0), start=(0.3, -0.2, 0.5)), level=0)
     assert (found.records[found.leaves.wheel == 2] == alone.records).all()
-    assert asked(case_of(), wheel="z=0.1:0.3:3").wheels[2][2] == pytest.approx(0.3) and asked(case_of(), wheel="1=0:1:2 mN m s").unit == "mN m s"
+    assert asked(case_of(),
+                 wheel="z=0.1:0.3:3").wheels[2][2] == pytest.approx(0.3) and asked(case_of(),
+                                                                                   wheel="1=0:1:2 mN m s").unit == "mN m s"
 
 
 @pytest.mark.slow
@@ -173,9 +189,12 @@ def test_directions_of_a_full_tensor_are_told_in_the_frame_of_the_file():
     found = made(stabilab.load(CASES / "upper-stage.toml"), level=0)
     thruster = next(n for n, point in enumerate(found.named) if point.level == -2)
     torque = np.array(list(map(float, found.asked.case.thrusters[0].torque)))
-    assert found.in_file(found.named_directions)[thruster] == pytest.approx(torque / np.linalg.norm(torque), abs=1e-12)
-    assert [point.level for point in found.named] == 6 * [-1] + [-2]  # the case's torque is that of its one thruster
-    assert found.named_records["fate"][thruster] == stabilab.motion(found.asked.case.scene, found.asked.case.state).fate
+    assert found.in_file(found.named_directions)[thruster] == pytest.approx(torque / np.linalg.norm(torque),
+                                                                            abs=1e-12)
+    # the case's torque is that of its one thruster
+    assert [point.level for point in found.named] == 6 * [-1] + [-2]
+    assert found.named_records["fate"][thruster] == stabilab.motion(found.asked.case.scene,
+                                                                    found.asked.case.state).fate
 
 
 def test_a_run_that_was_stopped_goes_on_with_the_same_bytes(tmp_path, monkeypatch):
@@ -195,8 +214,10 @@ def test_a_run_that_was_stopped_goes_on_with_the_same_bytes(tmp_path, monkeypatc
     assert list(tmp_path.glob("sky.nc*.parts"))
     with drawn(plan, out, workers=1) as found:
         pass
-    # six chunks were done: the first round of 32 cells, six axes and the torque of the case, and two of the next
-    assert found.resumed == 39 + 20 and (found.records == whole.records).all() and not list(tmp_path.iterdir())
+    # six chunks were done: the first round of 32 cells, six axes and the torque of the case, and two of the
+    # next
+    assert found.resumed == 39 + 20 and (found.records
+                                         == whole.records).all() and not list(tmp_path.iterdir())
 
 
 @pytest.mark.slow
@@ -213,12 +234,17 @@ def test_certified_fates_are_proved_on_request():
 
 
 @pytest.mark.parametrize("options, words", [
-    ({"torque": "1 N"}, "torque: expected energy|torque: expected torque"), ({"torque": "-1 N m"}, "torque: expected a positive size"),
+    ({"torque": "1 N"}, "torque: expected energy|torque: expected torque"),
+    ({"torque": "-1 N m"}, "torque: expected a positive size"),
     ({"torque": "strong"}, "torque: expected a decimal"),
-    ({"wheel": "0:2:5"}, "wheel: the case has no wheel that turns: say along which axis"), ({"wheel": "q=0:2:5"}, "wheel: expected a range.*the axis \"q\""),
-    ({"wheel": "z=0:2:5 N m"}, "wheel: expected angular momentum"), ({"wheel": "z=0:2:0"}, "wheel: expected at least one point"),
-    ({"level": -1}, "level: expected a whole number"), ({"refine": 1.5}, "refine: expected a whole number"), ({"level": 9, "refine": 5}, "at most 12 in all"),
-    ({"level": 9}, "at most 2,000,000 are asked"), ({"rate": "3 kg"}, "rate: expected angular velocity"), ({"until": "3 s"}, "no limit: give --rate")])
+    ({"wheel": "0:2:5"}, "wheel: the case has no wheel that turns: say along which axis"),
+    ({"wheel": "q=0:2:5"}, "wheel: expected a range.*the axis \"q\""),
+    ({"wheel": "z=0:2:5 N m"}, "wheel: expected angular momentum"),
+    ({"wheel": "z=0:2:0"}, "wheel: expected at least one point"),
+    ({"level": -1}, "level: expected a whole number"), ({"refine": 1.5}, "refine: expected a whole number"),
+    ({"level": 9, "refine": 5}, "at most 12 in all"),
+    ({"level": 9}, "at most 2,000,000 are asked"), ({"rate": "3 kg"}, "rate: expected angular velocity"),
+    ({"until": "3 s"}, "no limit: give --rate")])
 def test_what_cannot_be_asked_is_told(options, words):
     with pytest.raises(InputError, match=words):
         asked(case_of(), **options)
@@ -232,13 +258,17 @@ def test_a_case_that_has_no_atlas_says_why():
     with pytest.raises(InputError, match="covers a gyrostat and a constant torque; the scene also has"):
         asked(CASES / "liquid-base.toml", torque="1 N m")
     with pytest.raises(InputError, match="expected angular_velocity in .motion."):
-        asked(read_text("still.toml", BODY.partition("[motion]")[0].format(inertia=[3, 2, 1.5], wheel=[0, 0, 0], torque=[1, 0, 0])))
+        asked(read_text("still.toml",
+                        BODY.partition("[motion]")[0].format(inertia=[3, 2, 1.5], wheel=[0, 0, 0],
+                                                             torque=[1, 0, 0])))
 
 
 @pytest.mark.slow
 def test_a_motion_on_an_island_is_marked_where_its_torque_points():
-    """The island of docs/spin-up.md, whose elliptic periodic motion `unreduced.periodic` finds by Newton's method."""
-    case = case_of((1.2412, 0.3937, 1.3650), (-0.5224, 0.8309, 0.1914), (0.0987, 0.8450, 0.5255), (-1.572, 0.657, 0.738))
+    """The island of docs/spin-up.md, whose elliptic periodic motion `unreduced.periodic` finds by Newton's
+    method."""
+    case = case_of((1.2412, 0.3937, 1.3650), (-0.5224, 0.8309, 0.1914), (0.0987, 0.8450, 0.5255),
+                   (-1.572, 0.657, 0.738))
     plan = asked(case, level=0).plan(asked(case, level=0).named[-1:])
     (own,) = machinery.answered(plan, 0)
     assert (own["fate"], own["island"], own["level"]) == (Fate.UNDECIDED, 2, 0)

@@ -11,7 +11,8 @@ from stabilab.maps.atlas.pointed import Leaves
 
 
 def solid_angle(outline):
-    """Of a closed line of unit vectors seen from the centre: triangles from its own middle, by the formula of Van Oosterom and Strackee (1983)."""
+    """Of a closed line of unit vectors seen from the centre: triangles from its own middle, by the formula of
+    Van Oosterom and Strackee (1983)."""
     a = outline.mean(axis=0) / np.linalg.norm(outline.mean(axis=0))
     b, c = outline, np.roll(outline, -1, axis=0)
     return abs((2 * np.arctan2(np.cross(b, c) @ a, 1 + b @ a + c @ a + (b * c).sum(axis=1))).sum())
@@ -35,7 +36,8 @@ def test_directions_and_places_are_inverse():
 
 
 def test_corners_of_the_octahedron_are_the_axes_and_its_edges_lie_in_their_planes():
-    assert (cells.directions(np.array([[1, 0, 0], [0, -1, 0], [0, 0, 1]])) == [[1, 0, 0], [0, -1, 0], [0, 0, 1]]).all()
+    assert (cells.directions(np.array([[1, 0, 0], [0, -1, 0],
+                                       [0, 0, 1]])) == [[1, 0, 0], [0, -1, 0], [0, 0, 1]]).all()
     assert (cells.directions(np.array([[0.3, 0.7, 0], [-0.2, 0, 0.8]]))[[0, 1], [2, 1]] == 0).all()
 
 
@@ -43,7 +45,8 @@ def test_reflections_and_exchanges_of_axes_map_middles_onto_middles():
     middles = cells.middles(2, np.arange(cells.count(2)))
     assert (middles != 0).all()  # none lies in a principal plane
     ordered = lambda rows: rows[np.lexsort(rows.round(9).T)]
-    for order, signs in itertools.product(itertools.permutations(range(3)), ((1, 1, -1), (-1, 1, 1), (1, -1, -1))):
+    for order, signs in itertools.product(itertools.permutations(range(3)),
+                                          ((1, 1, -1), (-1, 1, 1), (1, -1, -1))):
         assert ordered(middles[:, order] * signs) == pytest.approx(ordered(middles), abs=1e-14)
 
 
@@ -61,7 +64,8 @@ def test_neighbours_share_an_edge_over_the_seams_too(level):
     near = cells.neighbours(level, numbers)
     corners = [set(map(tuple, at)) for at in cells.corners(level, numbers).tolist()]
     assert all(len(corners[n] & corners[other]) == 2 for n in numbers for other in near[n])
-    assert all(len(set(row)) == 3 for row in near.tolist()) and all(n in near[other] for n in numbers for other in near[n])
+    assert all(len(set(row)) == 3
+               for row in near.tolist()) and all(n in near[other] for n in numbers for other in near[n])
 
 
 def test_cells_of_several_depths_lie_beside_those_with_which_they_share_an_edge():
@@ -71,7 +75,8 @@ def test_cells_of_several_depths_lie_beside_those_with_which_they_share_an_edge(
     edges = [{frozenset(pair) for pair in itertools.combinations(map(tuple, _fine(level, number)), 2)}
              for level, number in zip(leaves.level.tolist(), leaves.number.tolist())]
     found = {frozenset(pair) for pair in leaves.beside().tolist()}
-    assert found == {frozenset((n, m)) for n, m in itertools.combinations(range(len(edges)), 2) if _touch(edges[n], edges[m])}
+    assert found == {frozenset((n, m)) for n,
+                     m in itertools.combinations(range(len(edges)), 2) if _touch(edges[n], edges[m])}
 
 
 def _fine(level, number):
@@ -80,22 +85,27 @@ def _fine(level, number):
 
 
 def _touch(one, other):
-    """Whether two triangles share more than a corner: an edge of one lies on an edge of the other (whole points, straight on the octahedron)."""
-    points = lambda edge: {tuple(a + (b - a) * n // 8 for a, b in zip(*edge)) for n in range(9) if all((b - a) * n % 8 == 0 for a, b in zip(*edge))}
+    """Whether two triangles share more than a corner: an edge of one lies on an edge of the other (whole
+    points, straight on the octahedron)."""
+    points = lambda edge: {tuple(a + (b - a) * n // 8 for a, b in zip(*edge)) for n in range(9)
+                           if all((b - a) * n % 8 == 0 for a, b in zip(*edge))}
     return any(len(points(tuple(a)) & points(tuple(b))) > 1 for a in one for b in other)
 
 
 @pytest.mark.slow
 def test_cutting_follows_a_circle_to_the_last_depth():
     leaves, deepest, axis, height = whole(2), 6, np.array([0.36, 0.48, 0.8]), 0.35
-    side = lambda of: np.concatenate([_side(level, number, axis, height) for level, number in zip(of.level, of.number)])
+    side = lambda of: np.concatenate([_side(level, number, axis, height) for level,
+                                      number in zip(of.level, of.number)])
     while len(rows := leaves.to_cut(side(leaves), deepest)):
         leaves = cut(leaves, rows)
     kinds = side(leaves)
     pairs = leaves.beside()
     across = pairs[kinds[pairs[:, 0]] != kinds[pairs[:, 1]]]
     assert len(across) > 100 and (leaves.level[across] == deepest).all()
-    assert (cells.area(leaves.level).sum()) == pytest.approx(4 * np.pi, rel=1e-12) and len(leaves.level) < cells.count(deepest) / 8
+    assert (cells.area(leaves.level).sum()) == pytest.approx(4 * np.pi,
+                                                             rel=1e-12) and len(leaves.level) < cells.count(
+                                                                 deepest) / 8
     high = cells.area(leaves.level)[kinds].sum()  # by Archimedes a cap of height h has the area 2 pi h
     assert high == pytest.approx(2 * np.pi * (1 - height), abs=cells.area(deepest) * len(across) / 2)
 
@@ -111,5 +121,6 @@ def whole(level):
 
 def cut(leaves, rows):
     parts, stay = leaves.children(rows), leaves.taken(np.setdiff1d(np.arange(len(leaves.level)), rows))
-    joined = Leaves(*(np.concatenate([getattr(stay, name), getattr(parts, name)]) for name in ("wheel", "level", "number")))
+    joined = Leaves(*(np.concatenate([getattr(stay, name), getattr(parts, name)])
+                      for name in ("wheel", "level", "number")))
     return joined.taken(joined.order())

@@ -16,16 +16,20 @@ A, B, TURN = 0.2, 0.4, np.linspace(0, 2 * np.pi, 20_001)[1:]
 
 
 def height(x1):
-    """(n,): what x3^2/2 must stay below for a bounded motion from (x1, 4, x3) of minor-axis-100, by hand: x1 + a = r sin t, x2 = r cos t, t' = x3,
-    x3' = 1 + x2 (x1 + b) = -V'(t); the highest V within a turn ahead, less V at the start. No turn farther ahead is as high: V falls by 2 pi a turn."""
+    """(n,): what x3^2/2 must stay below for a bounded motion from (x1, 4, x3) of minor-axis-100, by hand: x1
+    + a = r sin t, x2 = r cos t, t' = x3, x3' = 1 + x2 (x1 + b) = -V'(t); the highest V within a turn ahead,
+    less V at the start. No turn farther ahead is as high: V falls by 2 pi a turn."""
     radius, start = np.hypot(x1 + A, 4.0), np.arctan2(x1 + A, 4.0)
     V = lambda t: -t - radius**2 * np.sin(t) ** 2 / 2 - (B - A) * radius * np.sin(t)
-    return np.array([max(0.0, _highest(lambda t: -t - r**2 * np.sin(t) ** 2 / 2 - (B - A) * r * np.sin(t), t0) - v)
-                     for r, t0, v in zip(np.ravel(radius), np.ravel(start), np.ravel(V(start)))]).reshape(np.shape(x1))
+    return np.array([max(0.0,
+                         _highest(lambda t: -t - r**2 * np.sin(t) ** 2 / 2 - (B - A) * r * np.sin(t), t0) - v)
+                     for r, t0, v in zip(np.ravel(radius), np.ravel(start),
+                                         np.ravel(V(start)))]).reshape(np.shape(x1))
 
 
 def _highest(V, start):
-    """The greatest value within a turn: on a grid, then by the parabola through the three highest places there."""
+    """The greatest value within a turn: on a grid, then by the parabola through the three highest places
+    there."""
     values = V(start + TURN)
     n = int(values.argmax())
     if n == 0:  # it falls from the start on
@@ -40,7 +44,8 @@ def minor():
 
 
 def test_each_finest_cell_on_the_boundary_holds_a_zero_of_the_exact_margin_and_none_is_missed(minor):
-    """Oracle: the margin by hand at every place of the finest grid, 705 x 641: it is continuous, so a cell whose corners differ in its sign holds a zero."""
+    """Oracle: the margin by hand at every place of the finest grid, 705 x 641: it is continuous, so a cell
+    whose corners differ in its sign holds a zero."""
     x1, x3 = (np.array(axis.values) for axis in minor.plan.axes)
     margin = height(x1)[:, None] - x3**2 / 2
     assert margin.shape == (705, 641) and np.abs(margin).min() > 1e-9  # no corner is a tie
@@ -49,11 +54,14 @@ def test_each_finest_cell_on_the_boundary_holds_a_zero_of_the_exact_margin_and_n
     expected = (corners != corners[0]).any(axis=0)
     found = np.zeros_like(expected)
     found[minor.mesh.at(6, minor.boundary)] = True
-    assert (found == expected).all() and found.sum() == len(minor.boundary) > 1500 and minor.unclear == 0 and minor.exact
+    assert (found
+            == expected).all() and found.sum() == len(
+                minor.boundary) > 1500 and minor.unclear == 0 and minor.exact
 
 
 def test_the_line_that_is_drawn_lies_on_the_exact_separatrix(minor):
-    """x3^2/2 is the height by hand there, to the halving of a side (3e-6, times the slope of the height, 6 at most)."""
+    """x3^2/2 is the height by hand there, to the halving of a side (3e-6, times the slope of the height, 6 at
+    most)."""
     pieces = minor.separatrix()
     assert len(pieces) == len(minor.boundary)
     at = pieces[::9].reshape(-1, 2)
@@ -74,8 +82,10 @@ def test_a_state_is_asked_once_and_few_are(minor):
 def test_the_basins_of_a_torque_off_the_axes_are_those_of_its_states(tmp_path):
     """Each place that was asked, asked again by itself."""
     import stabilab
-    found = basin(island(tmp_path), {"angular_velocity[1]": "-2:0:5", "angular_velocity[3]": "0:2:5"}, depth=2, follow="300 s")
-    assert set(found.shares) == {2, 3, UNDECIDED} and not found.exact and found.unclear and found.separatrix().shape == (0, 2, 2)
+    found = basin(island(tmp_path), {"angular_velocity[1]": "-2:0:5", "angular_velocity[3]": "0:2:5"},
+                  depth=2, follow="300 s")
+    assert set(found.shares) == {2, 3,
+                                 UNDECIDED} and not found.exact and found.unclear and found.separatrix().shape == (0, 2, 2)
     scene, values = found.plan.case.scene, [np.array(axis.values) for axis in found.plan.axes]
     row, column = found.mesh.places(found.mesh.keys)
     for n in range(0, len(row), 17):
@@ -86,8 +96,10 @@ def test_the_basins_of_a_torque_off_the_axes_are_those_of_its_states(tmp_path):
 
 def island(folder):
     path = folder / "island.toml"
-    path.write_text("[body]\ninertia = [1.2412, 0.3937, 1.3650]\n[effects.gyrostat]\nmomentum = [-0.5224, 0.8309, 0.1914]\n[effects.constant_torque]\n"
-                    "torque = [0.0987, 0.8450, 0.5255]\n[motion]\nangular_velocity = [-1.572, 0.657, 0.738]\n")
+    path.write_text("[body]\ninertia = [1.2412, 0.3937, 1.3650]\n[effects.gyrostat]\nmomentum = [-0.5224, "
+                    "0.8309, 0.1914]\n[effects.constant_torque]\n"
+                    "torque = [0.0987, 0.8450, 0.5255]\n[motion]\nangular_velocity = [-1.572, 0.657, "
+                    "0.738]\n")
     return path
 
 

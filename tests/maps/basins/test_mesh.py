@@ -33,7 +33,10 @@ def ellipse(rng):
     (cx, cy), (a, b), turn = rng.uniform(0.2, 0.8, 2), rng.uniform(0.1, 0.45, 2), rng.uniform(0, 3)
 
     def label(x, y):
-        u, v = (x - cx) * math.cos(turn) + (y - cy) * math.sin(turn), (y - cy) * math.cos(turn) - (x - cx) * math.sin(turn)
+        u, v = (x - cx) * math.cos(turn) + (y
+                                            - cy) * math.sin(turn), (y
+                                                                     - cy) * math.cos(turn) - (x
+                                                                                               - cx) * math.sin(turn)
         return ((u / a) ** 2 + (v / b) ** 2 < 1).astype(int)
     return label
 
@@ -45,12 +48,14 @@ def test_the_finest_cells_on_a_boundary_are_those_of_the_whole_grid(seed):
     mesh, asked = followed(label, cells, depth)
     row, column = mesh.at(depth, mesh.boundary)
     expected = everywhere(label, cells, depth)
-    assert set(zip(row.tolist(), column.tolist())) == set(zip(*(part.tolist() for part in expected))) and len(row)
+    assert set(zip(row.tolist(),
+                   column.tolist())) == set(zip(*(part.tolist() for part in expected))) and len(row)
     assert len(asked) == len(np.unique(asked)) == len(mesh.keys) < 8 * len(row)
 
 
 def test_a_tongue_between_corners_is_followed_into_cells_whose_own_corners_agree():
-    """A tongue narrower than a coarse cell enters cells through the middle of their sides: corners alone would stop at the first such cell."""
+    """A tongue narrower than a coarse cell enters cells through the middle of their sides: corners alone
+    would stop at the first such cell."""
     tongue = lambda x, y: ((abs(x - 0.43) < 0.03) & (y < 0.9) | (y < 0.05)).astype(int)
     cells, depth = (5, 5), 4
     mesh, _ = followed(tongue, cells, depth)
@@ -87,12 +92,14 @@ def test_a_smooth_boundary_has_dimension_one_within_its_uncertainty(seed):
 
 
 def test_a_boundary_like_kochs_has_kochs_dimension():
-    """log 4 / log 3, by Koch's construction; the inside of the island between two of its sides is found by the rule of its corners."""
+    """log 4 / log 3, by Koch's construction; the inside of the island between two of its sides is found by
+    the rule of its corners."""
     corners = np.array([0.1 + 0.3j, 0.9 + 0.3j])
     for _ in range(8):
         a, b = corners[:-1], corners[1:]
         third = (b - a) / 3
-        corners = np.append(np.stack([a, a + third, a + third + third * np.exp(1j * math.pi / 3), a + 2 * third], axis=1).ravel(), corners[-1])
+        corners = np.append(np.stack([a, a + third, a + third + third * np.exp(1j * math.pi / 3),
+                                      a + 2 * third], axis=1).ravel(), corners[-1])
     from matplotlib.path import Path
     island = Path(np.stack([corners.real, corners.imag], axis=1))
     label = lambda x, y: island.contains_points(np.stack([np.ravel(x), np.ravel(y)], axis=1)).astype(int)

@@ -1,7 +1,9 @@
-"""Equilibria on a motion's own curve counted by brute force: NumPy and Euler's equations, nothing of the package.
+"""Equilibria on a motion's own curve counted by brute force: NumPy and Euler's equations, nothing of the
+package.
 
-With torque M on principal axis i and rates (x, y) about j and k, cyclic, an equilibrium has (Dj x + lj) y - (Dk y + lk) x + M = 0, and
-dx/da = ((Dk - Di) y + lk)/Dj, dy/da = ((Di - Dj) x - lj)/Dk along the curve, so Dj ((Di - Dj) x^2 - 2 lj x) - Dk ((Dk - Di) y^2 + 2 lk y) stays.
+With torque M on principal axis i and rates (x, y) about j and k, cyclic, an equilibrium has (Dj x + lj) y -
+(Dk y + lk) x + M = 0, and dx/da = ((Dk - Di) y + lk)/Dj, dy/da = ((Di - Dj) x - lj)/Dk along the curve, so Dj
+((Di - Dj) x^2 - 2 lj x) - Dk ((Dk - Di) y^2 + 2 lk y) stays.
 """
 from __future__ import annotations
 
@@ -23,7 +25,8 @@ def sign_changes(D, lam, M, omega, i):
     level = a * x0**2 + 2 * b * x0 + c * y0**2 + 2 * d * y0
     if a and c:
         centre, rest = (-b / a, -d / c), level + b**2 / a + d**2 / c
-        return sum(_changes(force(centre[0] + x, centre[1] + y), closed) for x, y, closed in _branches(a, c, rest))
+        return sum(_changes(force(centre[0] + x, centre[1] + y), closed) for x, y,
+                   closed in _branches(a, c, rest))
     t = np.concatenate([-np.logspace(7, -7, POINTS), np.logspace(-7, 7, POINTS)])
     if a and d:  # c = 0: y from x
         return _changes(force(t, (level - a * t**2 - 2 * b * t) / (2 * d)), False)
@@ -47,9 +50,11 @@ def _branches(a, c, rest):
 
 
 def rises(D, lam, M, omega, i):
-    """How much the potential T - M alpha rises from one saddle of the motion's ellipse to the next, both ways round; None but for two saddles.
+    """How much the potential T - M alpha rises from one saddle of the motion's ellipse to the next, both ways
+    round; None but for two saddles.
 
-    alpha is the angle of the turn: from the equations above in centred coordinates X = r cos(n a), Y = -(r n/p) sin(n a), p = (Dk - Di)/Dj.
+    alpha is the angle of the turn: from the equations above in centred coordinates X = r cos(n a), Y = -(r
+    n/p) sin(n a), p = (Dk - Di)/Dj.
     """
     j, k = (i + 1) % 3, (i + 2) % 3
     D, lam, omega = (np.array([float(v) for v in row]) for row in (D, lam, omega))
@@ -60,10 +65,12 @@ def rises(D, lam, M, omega, i):
     r = np.hypot(omega[j] - x0, p * (omega[k] - y0) / n)
     place = lambda s: (x0 + r * np.cos(s), y0 - r * n / p * np.sin(s))
     height = lambda s: 0.5 * (D[j] * place(s)[0]**2 + D[k] * place(s)[1]**2) - float(M[i]) * s / n
-    force = lambda s: (D[j] * place(s)[0] + lam[j]) * place(s)[1] - (D[k] * place(s)[1] + lam[k]) * place(s)[0] + float(M[i])
+    force = lambda s: (D[j] * place(s)[0] + lam[j]) * place(s)[1] - (D[k] * place(s)[1]
+                                                                     + lam[k]) * place(s)[0] + float(M[i])
     grid = np.linspace(0, 2 * np.pi, 4001)
     values = force(grid)
-    tops = [brentq(force, a, b) for a, b, u, v in zip(grid, grid[1:], values, values[1:]) if u < 0 < v]  # the force pushes away on both sides
+    # the force pushes away on both sides
+    tops = [brentq(force, a, b) for a, b, u, v in zip(grid, grid[1:], values, values[1:]) if u < 0 < v]
     if len(tops) != 2:
         return None
     first, second = tops

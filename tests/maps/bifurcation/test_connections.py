@@ -1,4 +1,5 @@
-"""Values at which two saddles come to one height, against heights by quadrature-free NumPy along the motion's ellipse."""
+"""Values at which two saddles come to one height, against heights by quadrature-free NumPy along the motion's
+ellipse."""
 from __future__ import annotations
 
 from fractions import Fraction
@@ -28,7 +29,8 @@ def dense(D, lam, M, omega, i, low, high):
 
 
 @pytest.mark.one_in(2)
-@pytest.mark.parametrize("seed", [0, 1, *(pytest.param(seed, marks=pytest.mark.slow) for seed in range(2, 12))])
+@pytest.mark.parametrize("seed",
+                         [0, 1, *(pytest.param(seed, marks=pytest.mark.slow) for seed in range(2, 12))])
 def test_connections_are_those_that_a_grid_of_heights_brackets(tmp_path, seed):
     rng = np.random.default_rng(seed)
     i = int(rng.choice([0, 2]))  # of the greatest or the least moment: circles
@@ -37,7 +39,8 @@ def test_connections_are_those_that_a_grid_of_heights_brackets(tmp_path, seed):
     lam, M = [Fraction(int(v), 4) for v in rng.integers(-6, 7, 3)], [Fraction(0)] * 3
     lam[i], M[i] = Fraction(0), Fraction(int(rng.integers(1, 9)), 10)
     low, high = -12, 12
-    found = stabilab.bifurcation(written(tmp_path, D, lam, M, omega), {f"momentum[{(i + 1) % 3 + 1}]": (low, high)})
+    found = stabilab.bifurcation(written(tmp_path, D, lam, M, omega),
+                                 {f"momentum[{(i + 1) % 3 + 1}]": (low, high)})
     values = [event.value for event in found.connections]
     assert all(any(a <= value <= b for value in values) for a, b in dense(D, lam, M, omega, i, low, high))
     for value in values:
@@ -50,9 +53,11 @@ def test_connections_are_those_that_a_grid_of_heights_brackets(tmp_path, seed):
 
 
 @pytest.mark.one_in(2)
-@pytest.mark.parametrize("ends", [pytest.param(("-0.5", "0.5"), marks=pytest.mark.slow), ("-0.5", "0.4"), ("-0.01", "0.013")])
+@pytest.mark.parametrize("ends", [pytest.param(("-0.5", "0.5"), marks=pytest.mark.slow), ("-0.5", "0.4"),
+                                  ("-0.01", "0.013")])
 def test_mirrored_saddles_are_at_one_height_without_a_torque(tmp_path, ends):
-    # by hand: with the wheel along axis 1 alone w2 -> -w2 maps the motion without a torque onto itself backwards, and one saddle onto the other
+    # by hand: with the wheel along axis 1 alone w2 -> -w2 maps the motion without a torque onto itself
+    # backwards, and one saddle onto the other
     case = written(tmp_path, (12, 9, 5), ("0.8", 0, 0), (0, 0, "0.02"), ("0.1", "0.05", "0.02"))
     found = stabilab.bifurcation(case, {"torque[3]": tuple(map(Fraction, ends))})
     assert [event.value for event in found.connections] == [0.0] and not found.notes
@@ -63,12 +68,14 @@ def test_mirrored_saddles_are_at_one_height_without_a_torque(tmp_path, ends):
 def sign_changes(rises_at, low, high, count=201):
     """Pairs of neighbouring values between which a rise changes its sign."""
     rows = [(value, rises_at(value)) for value in np.linspace(low, high, count)]
-    return [(p, q) for (p, before), (q, now) in zip(rows, rows[1:]) if before and now and any(u * v < 0 for u, v in zip(before, now))]
+    return [(p, q) for (p, before), (q, now) in zip(rows, rows[1:]) if before and now
+            and any(u * v < 0 for u, v in zip(before, now))]
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("lam, omega", [(("-0.75", "-0.75"), ("0.05", "-0.25", "-0.05")),
-                                        pytest.param(("0.5", "0.125"), ("0.2", "0.3", "0"), marks=pytest.mark.slow)])
+                                        pytest.param(("0.5", "0.125"), ("0.2", "0.3", "0"),
+                                                     marks=pytest.mark.slow)])
 def test_connections_are_those_of_a_grid_where_equilibria_pass_one_above_another(tmp_path, lam, omega):
     D, torque = (12, 9, 5), -Fraction(lam[0]) * Fraction(lam[1]) / 3
     ends = (torque - Fraction(1, 5), torque + Fraction(1, 4))
@@ -87,16 +94,19 @@ def test_connections_are_looked_for_up_to_the_moment_of_inertia_at_which_the_cir
     assert all(a <= event.value <= b for event, (a, b) in zip(found.connections, brackets))
 
 
-CROSSING = ((7, 6, 3), (0, 0, "1/2"), ("1/50", 0, 0), (0, -1, 1)), {"inertia[1]": "25/8:9"}  # beyond D1 = D2 the circle opens, and two saddles go far away
+# beyond D1 = D2 the circle opens, and two saddles go far away
+CROSSING = ((7, 6, 3), (0, 0, "1/2"), ("1/50", 0, 0), (0, -1, 1)), {"inertia[1]": "25/8:9"}
 
 
 @pytest.mark.slow
-def test_saddles_that_go_far_away_where_the_circle_opens_take_a_bounded_number_of_enclosures(tmp_path, monkeypatch):
+def test_saddles_that_go_far_away_where_the_circle_opens_take_a_bounded_number_of_enclosures(tmp_path,
+                                                                                             monkeypatch):
     monkeypatch.setattr(connections, "MOST", 2500)
     numbers, vary = CROSSING
     found = stabilab.bifurcation(written(tmp_path, *numbers), vary)
     assert not found.notes and not found.connections
-    heights = lambda value: rises((value, 6, 3), (0, 0, 0.5), (0.02, 0, 0), numbers[3], 0)  # NumPy along the ellipse
+    # NumPy along the ellipse
+    heights = lambda value: rises((value, 6, 3), (0, 0, 0.5), (0.02, 0, 0), numbers[3], 0)
     assert not sign_changes(heights, 6.0001, 9.0, 101)
 
 
@@ -104,14 +114,17 @@ def test_connections_that_the_enclosures_do_not_reach_are_said_to_be_undecided(t
     monkeypatch.setattr(connections, "MOST", 60)
     numbers, vary = CROSSING
     found = stabilab.bifurcation(written(tmp_path, *numbers), vary)
-    assert not found.connections and any("undecided: whether two saddles come to one height" in note for note in found.notes)
+    assert not found.connections and any("undecided: whether two saddles come to one height" in note
+                                         for note in found.notes)
     assert [piece.count for piece in found.pieces] == [2, 4]  # what the polynomials tell stays
 
 
 def test_a_spent_budget_is_never_taken_for_a_zero(tmp_path, monkeypatch):
-    # without a torque the mirrored saddles are at one height, at torque 0 by hand (above): a bisection that is cut short tells nothing
+    # without a torque the mirrored saddles are at one height, at torque 0 by hand (above): a bisection that
+    # is cut short tells nothing
     case = written(tmp_path, (12, 9, 5), ("0.8", 0, 0), (0, 0, "0.02"), ("0.1", "0.05", "0.02"))
     for most in (5, 20, 40, 60, 100):
         monkeypatch.setattr(connections, "MOST", most)
         found = stabilab.bifurcation(case, {"torque[3]": ("-0.01", "0.013")})
-        assert [event.value for event in found.connections] == [0.0] or (not found.connections and found.notes)
+        assert [event.value
+                for event in found.connections] == [0.0] or (not found.connections and found.notes)

@@ -1,4 +1,5 @@
-"""Folds of a generic continuation package (bice, pseudo-arclength) are folds of the diagram, and it meets every fold of the diagram."""
+"""Folds of a generic continuation package (bice, pseudo-arclength) are folds of the diagram, and it meets
+every fold of the diagram."""
 from __future__ import annotations
 
 from fractions import Fraction
@@ -15,7 +16,8 @@ STEPS, STEP = 1500, 0.02
 
 
 def followed(residual, start, parameter, low, high):
-    """(turning points of the parameter, where the branch left) from a start to both sides: each a parabola through three steps."""
+    """(turning points of the parameter, where the branch left) from a start to both sides: each a parabola
+    through three steps."""
     from bice.continuation import PseudoArclengthContinuation
 
     class Balance(bice.Equation):
@@ -81,11 +83,14 @@ def test_folds_off_the_axes_are_those_of_a_continuation_package(tmp_path, seed):
 @pytest.mark.parametrize("seed", range(8))
 def test_folds_on_a_motions_circle_are_those_of_a_continuation_package(tmp_path, seed):
     rng = np.random.default_rng(seed)
-    D, lam = (Fraction(3), Fraction(2), Fraction(3, 2)), [Fraction(int(v), 4) for v in rng.integers(-4, 5, 2)] + [Fraction(0)]
+    D, lam = (Fraction(3), Fraction(2),
+              Fraction(3, 2)), [Fraction(int(v), 4) for v in rng.integers(-4, 5, 2)] + [Fraction(0)]
     omega = [Fraction(int(v), 4) for v in rng.integers(-6, 7, 3)]
     low, high = Fraction(1, 100), 4
     found = stabilab.bifurcation(written(tmp_path, D, lam, (0, 0, 1), omega), {"torque[3]": (low, high)})
     d, l, w = (np.array([float(v) for v in row]) for row in (D, lam, omega))
-    level = lambda u: ((d[:2] * u + l[:2]) ** 2).sum() - d[2] * (d[:2] * u * u).sum()  # |H|^2 - 2 D3 T across axis 3, which is kept
-    residual = lambda u, torque: np.array([np.cross([*(d[:2] * u[:2] + l[:2]), 0], [*u[:2], 0])[2] + torque, level(u[:2]) - level(w[:2]), u[2]])
+    # |H|^2 - 2 D3 T across axis 3, which is kept
+    level = lambda u: ((d[:2] * u + l[:2]) ** 2).sum() - d[2] * (d[:2] * u * u).sum()
+    residual = lambda u, torque: np.array([np.cross([*(d[:2] * u[:2] + l[:2]), 0], [*u[:2], 0])[2] + torque,
+                                           level(u[:2]) - level(w[:2]), u[2]])
     assert agree(found, residual, float(low), high) >= 1 or len(found.pieces) == 1

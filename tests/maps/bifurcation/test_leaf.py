@@ -1,4 +1,5 @@
-"""Equilibria on the curve that a motion keeps to: counted by brute force on both sides of every event of random scenes."""
+"""Equilibria on the curve that a motion keeps to: counted by brute force on both sides of every event of
+random scenes."""
 from __future__ import annotations
 
 from fractions import Fraction
@@ -10,7 +11,8 @@ import stabilab
 from tests.maps.bifurcation.leaf import sign_changes
 from tests.maps.bifurcation.test_line import written
 
-NEAR = 1e-5  # of the range: the pair that has just met is some 1e-3 apart, wider than the grid of the brute force
+# of the range: the pair that has just met is some 1e-3 apart, wider than the grid of the brute force
+NEAR = 1e-5
 
 
 def numbers(rng, size):
@@ -23,7 +25,8 @@ def check(tmp_path):
         """Events of one random scene, both sides of each counted."""
         rng = np.random.default_rng(seed)
         i = int(rng.integers(3))
-        rows = {"inertia": [Fraction(int(v), 32) for v in rng.integers(36, 60, 3)], "momentum": numbers(rng, 8), "torque": [Fraction(0)] * 3,
+        rows = {"inertia": [Fraction(int(v), 32) for v in rng.integers(36, 60, 3)],
+                "momentum": numbers(rng, 8), "torque": [Fraction(0)] * 3,
                 "angular_velocity": numbers(rng, 8)}
         if rng.random() < 0.15:
             rows["inertia"][(i + 1) % 3] = rows["inertia"][i]  # a parabola
@@ -44,7 +47,8 @@ def check(tmp_path):
                 continue
             for value in (piece.low + off, piece.low + 0.38 * (piece.high - piece.low), piece.high - off):
                 row[n] = Fraction(value)
-                counted = sign_changes(rows["inertia"], rows["momentum"], rows["torque"], rows["angular_velocity"], i)
+                counted = sign_changes(rows["inertia"], rows["momentum"], rows["torque"],
+                                       rows["angular_velocity"], i)
                 assert counted == piece.count, (seed, name, n, value, [event.value for event in found.events])
         return len(found.events)
     return one

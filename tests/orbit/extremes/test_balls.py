@@ -19,8 +19,8 @@ from tests.orbit.extremes.test_extremes import assert_extremes
 
 
 def test_the_turning_point_on_a_large_circle_is_settled_in_some_number_of_bits():
-    """The middle of the ball was exact, so its height's ball came out narrower than those of its neighbours, and four times
-    that was never enough to see the sign change, at any precision: the certificate failed."""
+    """The middle of the ball was exact, so its height's ball came out narrower than those of its neighbours,
+    and four times that was never enough to see the sign change, at any precision: the certificate failed."""
     scene, problem = scaled(0.3769424341839118, 0.1628431382008905, (0, 0, -1))
     state = exactly("0x1.ab58ea425c626p+1", "-0x1.23cc00d9b9bbap+4", "0x1.43e7a7276f052p+1")
     made = certificate(scene, state)
@@ -28,15 +28,18 @@ def test_the_turning_point_on_a_large_circle_is_settled_in_some_number_of_bits()
     assert_extremes(stabilab.extremes(scene, np.array(state)), energy.extremes(problem, state), 1e-11)
 
 
-@pytest.mark.parametrize("scene, state, extremes, period", [  # by hand, p, q, r the rates; all three are circles
+@pytest.mark.parametrize("scene, state, extremes, period",
+                         [  # by hand, p, q, r the rates; all three are circles
     # r = 1: p' = (1 - q)/2, q' = p/2
     (Scene(Body((2, 2, 3)), ConstantTorque((1, 0, 0))), (0, 0, 1), [(-1, 1), (0, 2), (1, 1)], 4 * np.pi),
     # r = -1/2: p' = (1 - q/2)/2, q' = p/4
-    (Scene(Body((2, 2, 3)), Gyrostat((0, 0, 1)), ConstantTorque((1, 0, 0))), (1, 2, -0.5), [(-1, 1), (1, 3), (-0.5, -0.5)], 8 * np.pi),
+    (Scene(Body((2, 2, 3)), Gyrostat((0, 0, 1)), ConstantTorque((1, 0, 0))), (1, 2, -0.5),
+     [(-1, 1), (1, 3), (-0.5, -0.5)], 8 * np.pi),
     # three equal moments: omega turns about the wheel's axis at lambda/D = 1/2
     (Scene(Body((2, 2, 2)), Gyrostat((0, 1, 0))), (1, 1, 0), [(-1, 1), (1, 1), (-1, 1)], 4 * np.pi)])
 def test_a_turning_point_that_is_a_double_itself_is_settled(scene, state, extremes, period):
-    """Its height's ball is zero, so that no width about it had heights of both signs: a motion ended in Unclear."""
+    """Its height's ball is zero, so that no width about it had heights of both signs: a motion ended in
+    Unclear."""
     motion = stabilab.motion(scene, state)
     np.testing.assert_allclose(motion.extremes, extremes, rtol=0, atol=1e-14)
     assert abs(motion.period / period - 1) < 1e-14
@@ -47,7 +50,8 @@ def test_a_turning_point_that_is_a_double_itself_is_settled(scene, state, extrem
 
 @pytest.mark.parametrize("barrier", [1, -1])
 def test_a_turning_point_hundreds_of_powers_of_two_nearer_than_the_barrier_takes_few_steps(barrier):
-    """Height y^2 and energy 2^-3000 beside a barrier 1 away: the root is 2^-1500 by hand, and Newton's method from afar halves y at each step."""
+    """Height y^2 and energy 2^-3000 beside a barrier 1 away: the root is 2^-1500 by hand, and Newton's method
+    from afar halves y at each step."""
     asked = []
 
     class Well:

@@ -1,4 +1,5 @@
-"""Extremes and periods against the reduced potential at 60 digits and against tight integration with roots of rates."""
+"""Extremes and periods against the reduced potential at 60 digits and against tight integration with roots of
+rates."""
 from __future__ import annotations
 
 import mpmath as mp
@@ -16,7 +17,8 @@ families = pytest.mark.parametrize("name", FAMILIES)
 
 
 def assert_extremes(got, exact, tolerance):
-    """Relative to the larger of a component's two finite extremes, or to the whole motion's where both nearly vanish."""
+    """Relative to the larger of a component's two finite extremes, or to the whole motion's where both nearly
+    vanish."""
     exact = as_floats(exact)
     finite = np.isfinite(exact)
     np.testing.assert_array_equal(np.where(finite, 0.0, got), np.where(finite, 0.0, exact))
@@ -54,7 +56,8 @@ def test_extremes_and_period_equal_tight_integration(name):
     states = sample(name, 60)
     labels = stabilab.fate(scene, states).labels
     margins = stabilab.fate(scene, states).margins
-    for state, label, margin, got, period in zip(states.tolist(), labels, margins, stabilab.extremes(scene, states),
+    for state, label, margin, got, period in zip(states.tolist(), labels, margins,
+                                                 stabilab.extremes(scene, states),
                                                  stabilab.period(scene, states)):
         if label == stabilab.Fate.BOUNDED and abs(margin) > 1e-3:
             assert np.max(np.abs(got - brute.extremes(problem, state))) < 1e-11 * np.max(np.abs(got))
@@ -71,19 +74,24 @@ TABLES = [((2.5, 4.0, 0.1), (0, 0, 1)), ((1.7, 1.1, -0.2), (0, 1, 0)), ((2.5, 1.
 def test_states_of_the_tables_have_twelve_correct_digits(state, mu, lambda1):
     scene, problem = paper(lambda1, mu)
     assert_extremes(stabilab.extremes(scene, np.array(state)), energy.extremes(problem, state), 1e-12)
-    assert float(stabilab.period(scene, np.array(state))) == pytest.approx(float(energy.period(problem, state)), rel=1e-12)
+    assert float(stabilab.period(scene,
+                                 np.array(state))) == pytest.approx(float(energy.period(problem, state)),
+                                                                    rel=1e-12)
 
 
 @pytest.mark.parametrize("lambda1", [100, 300, 500])
 def test_a_physical_case_has_the_extremes_of_its_scaled_twin_times_the_rates(lambda1):
-    """omega_j = sqrt(k_j) x_j with k = (1/4, 2/3, 1/2) for D = (2000, 1500, 1000), u = 1; M3 = D3 sqrt(k k3), k = 1/12."""
+    """omega_j = sqrt(k_j) x_j with k = (1/4, 2/3, 1/2) for D = (2000, 1500, 1000), u = 1; M3 = D3 sqrt(k k3),
+    k = 1/12."""
     rates = np.sqrt([1 / 4, 2 / 3, 1 / 2])
     state = np.array([2.5, 4.0, 0.1])
     scene, _ = physical(PAPER_BODY, (lambda1, 0, 0), (0, 0, 1000 * np.sqrt(1 / 24)))
     twin, _ = paper(lambda1, (0, 0, 1))
-    np.testing.assert_allclose(stabilab.extremes(scene, state * rates), stabilab.extremes(twin, state) * rates[:, None],
+    np.testing.assert_allclose(stabilab.extremes(scene, state * rates),
+                               stabilab.extremes(twin, state) * rates[:, None],
                                rtol=1e-12)
-    assert stabilab.period(scene, state * rates) == pytest.approx(stabilab.period(twin, state) * np.sqrt(12), rel=1e-12)
+    assert stabilab.period(scene, state * rates) == pytest.approx(stabilab.period(twin, state) * np.sqrt(12),
+                                                                  rel=1e-12)
 
 
 @pytest.mark.one_in(3)
@@ -104,9 +112,11 @@ def test_extremes_and_period_just_inside_the_separatrix_keep_their_digits(name, 
 
 
 def test_period_grows_like_the_logarithm_of_the_distance_from_the_separatrix():
-    """One passage of the saddle a period: dT = -ln(dE)/nu, nu^2 = dF/dalpha there = X2 (h) terms = (h^4 - c h - 1)/h^2."""
+    """One passage of the saddle a period: dT = -ln(dE)/nu, nu^2 = dF/dalpha there = X2 (h) terms = (h^4 - c h
+    - 1)/h^2."""
     scene, problem = paper(0, (0, 0, 1))
-    # a = b = 0: equilibria X = -1/h; saddle h^4 > 1. Circle through the saddle h = 2, X = -1/2; the loop's other points
+    # a = b = 0: equilibria X = -1/h; saddle h^4 > 1. Circle through the saddle h = 2, X = -1/2; the loop's
+    # other points
     # are found on the same circle at x = (-2, 1/2, .) (the centre h = 1/2), an exact double.
     nu = np.sqrt((2.0 ** 4 - 1) / 2.0 ** 2)
     periods = []
@@ -115,7 +125,8 @@ def test_period_grows_like_the_logarithm_of_the_distance_from_the_separatrix():
         axis_energy = energy.margin(problem, state)
         periods.append((float(mp.log(axis_energy)), float(stabilab.period(scene, np.array(state)))))
     slopes = [(q[1] - p[1]) / (p[0] - q[0]) for p, q in zip(periods, periods[1:])]
-    np.testing.assert_allclose(slopes, 1 / nu, rtol=2e-3)  # first order in the distance, whose largest value is 1e-4
+    # first order in the distance, whose largest value is 1e-4
+    np.testing.assert_allclose(slopes, 1 / nu, rtol=2e-3)
     np.testing.assert_allclose(slopes[1:], 1 / nu, rtol=1e-5)
 
 
@@ -150,7 +161,8 @@ def test_a_batch_answers_as_its_states_one_by_one(name):
     boxes, periods = stabilab.extremes(scene, states), stabilab.period(scene, states)
     assert boxes.shape == (3, 4, 3, 2) and periods.shape == (3, 4)
     for index in np.ndindex(3, 4):
-        np.testing.assert_allclose(stabilab.extremes(scene, states[index]), boxes[index], rtol=1e-12, atol=1e-14)
+        np.testing.assert_allclose(stabilab.extremes(scene, states[index]), boxes[index], rtol=1e-12,
+                                   atol=1e-14)
         np.testing.assert_allclose(stabilab.period(scene, states[index]), periods[index], rtol=1e-12)
 
 
@@ -174,8 +186,10 @@ component = st.floats(-8, 8).map(lambda x: round(x, 9))
 
 
 @settings(deadline=None, max_examples=40, derandomize=True)
-@given(parts=st.tuples(*[st.integers(1, 1 << 12)] * 3), axis=st.integers(0, 2), lam=st.tuples(component, component),
-       torque=st.tuples(st.sampled_from([-1, 1]), st.integers(-6, 4)), state=st.tuples(component, component, component))
+@given(parts=st.tuples(*[st.integers(1, 1 << 12)] * 3), axis=st.integers(0, 2),
+       lam=st.tuples(component, component),
+       torque=st.tuples(st.sampled_from([-1, 1]), st.integers(-6, 4)),
+       state=st.tuples(component, component, component))
 def test_extremes_of_any_body_gyrostat_and_torque_equal_the_potential_oracle(parts, axis, lam, torque, state):
     a, b, c = parts
     momentum, moment = [0.0] * 3, [0.0] * 3

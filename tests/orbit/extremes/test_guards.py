@@ -1,4 +1,5 @@
-"""What extremes of spin-ups leave to ball arithmetic: next to separatrices, at barriers, far from the centre."""
+"""What extremes of spin-ups leave to ball arithmetic: next to separatrices, at barriers, far from the centre.
+"""
 from __future__ import annotations
 
 import numpy as np
@@ -28,7 +29,8 @@ def flip_of(values, accepted):
 @pytest.mark.parametrize("name", ["minor scaled -", "major physical", "middle physical, other sign",
                                   "middle scaled, |c| far above"])
 def test_motions_within_a_share_of_the_energy_s_terms_of_the_separatrix_go_to_balls(name):
-    """The terms: the kinetic energy, the torque's, and the force's at a place with both rates alike times its size."""
+    """The terms: the kinetic energy, the torque's, and the force's at a place with both rates alike times its
+    size."""
     land = landscape(FAMILIES[name][0])
     margins = 10.0 ** np.arange(-12, 6, 0.01)
     for size, speed in ((0.02, 0.0), (3.0, 0.1), (50.0, 0.0), (3.0, 40.0)):
@@ -76,7 +78,9 @@ def test_states_at_the_place_of_a_barrier_go_to_balls_and_those_at_a_well_do_not
             found = guards.on_top(land, near)
             if barrier[0, column]:
                 edge = flip_of(off, found)
-                assert edge * pot.slope(tuple(spots[:, 0, column])) / pot.terms(tuple(spots[:, 0, column])) == pytest.approx(
+                assert edge * pot.slope(tuple(spots[:, 0,
+                                                    column])) / pot.terms(tuple(spots[:, 0,
+                                                                                      column])) == pytest.approx(
                     1e-13, rel=0.2)
             else:
                 assert not found.any()
@@ -85,7 +89,8 @@ def test_states_at_the_place_of_a_barrier_go_to_balls_and_those_at_a_well_do_not
 def test_spin_ups_within_their_share_of_the_separatrix_are_left_to_balls(monkeypatch):
     """Nearer than the share of the terms: the torque's, the force's along the orbit, the kinetic energy."""
     (scene, problem), asked = FAMILIES["minor scaled +"], []
-    monkeypatch.setattr(both, "precise_extremes", lambda orbit, label: asked.append(tuple(orbit.state)) or precise_extremes(orbit, label))
+    monkeypatch.setattr(both, "precise_extremes", lambda orbit,
+                        label: asked.append(tuple(orbit.state)) or precise_extremes(orbit, label))
     off = 10.0 ** np.arange(-9, -1.5, 0.5)
     edge = np.array(brink(problem, (-3.0, 1.0), 0.0))
     states = np.array([[*edge[:2], edge[2] * (1 + d)] for d in off])
@@ -97,10 +102,13 @@ def test_spin_ups_within_their_share_of_the_separatrix_are_left_to_balls(monkeyp
 
 
 def test_an_end_beyond_the_doubles_beside_an_equilibrium_of_nearly_equal_moments_is_left_to_balls_without_a_warning():
-    """A wild scene: the search for the well ended elsewhere on the hyperbola. The second rate swings by the 7.2e-15 rad/s that balls find."""
+    """A wild scene: the search for the well ended elsewhere on the hyperbola. The second rate swings by the
+    7.2e-15 rad/s that balls find."""
     scene = stabilab.Scene(stabilab.Body((1.1358912034371995, 1.1358912034372006, 1.369444431794344)),
-                           stabilab.Gyrostat((15.42395050522702, 0.0, 0.006658581675073356)), stabilab.ConstantTorque((0.0, 142451.4621787088, 0.0)))
+                           stabilab.Gyrostat((15.42395050522702, 0.0, 0.006658581675073356)),
+                           stabilab.ConstantTorque((0.0, 142451.4621787088, 0.0)))
     state = tuple(map(float.fromhex, ("0x1.fa74aefe3b0dfp+9", "0x0.0p+0", "-0x1.4217b28358025p+9")))
     box, periods = extremes_and_periods(scene, np.array([state]))
-    np.testing.assert_allclose(box[0, 1], np.array((-7.199010478703518e-15, 7.199010478703518e-15)), rtol=1e-9)
+    np.testing.assert_allclose(box[0, 1], np.array((-7.199010478703518e-15, 7.199010478703518e-15)),
+                               rtol=1e-9)
     assert periods[0] == pytest.approx(float(period_ball(Orbit(reduce(scene), state), 20).mid()), rel=1e-12)

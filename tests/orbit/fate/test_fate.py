@@ -72,7 +72,8 @@ def test_margins_of_random_states_equal_the_potential_oracle(name):
 
 
 @pytest.mark.one_in(2)
-@pytest.mark.parametrize("name", ["minor scaled +", "minor physical", "middle scaled +", "major physical, other sign"])
+@pytest.mark.parametrize("name", ["minor scaled +", "minor physical", "middle scaled +",
+                                  "major physical, other sign"])
 def test_labels_equal_tight_integration(name):
     pytest.importorskip("heyoka")
     scene, problem = FAMILIES[name]
@@ -104,7 +105,8 @@ def test_states_next_to_the_separatrix_are_labelled_by_the_side_they_are_on(name
 
 
 def test_consecutive_doubles_across_the_separatrix_change_label_exactly_once_and_never_tie():
-    """An exact tie would make an angle with algebraic cosine algebraic (Lindemann): no double is on the separatrix."""
+    """An exact tie would make an angle with algebraic cosine algebraic (Lindemann): no double is on the
+    separatrix."""
     scene, problem = FAMILIES["minor scaled +"]
     u, v, w = -3.0, 1.0, brink(problem, (-3.0, 1.0), 0.0)[2]
     speeds = [w]
@@ -138,7 +140,8 @@ def test_no_states_give_empty_answers(shape):
     assert result.labels.shape == result.margins.shape == shape[:-1]
 
 
-@pytest.mark.parametrize("bad", [np.zeros(2), np.zeros((3, 4)), np.float64(1.0), [[0, 0, np.nan]], [[np.inf, 0, 0]]])
+@pytest.mark.parametrize("bad",
+                         [np.zeros(2), np.zeros((3, 4)), np.float64(1.0), [[0, 0, np.nan]], [[np.inf, 0, 0]]])
 def test_states_that_are_not_three_finite_numbers_are_refused(bad):
     from stabilab.errors import InputError
     with pytest.raises(InputError):
@@ -147,16 +150,19 @@ def test_states_that_are_not_three_finite_numbers_are_refused(bad):
 
 @pytest.mark.one_in(2)
 @pytest.mark.parametrize("places", [2, pytest.param(6, marks=pytest.mark.slow)])
-@pytest.mark.parametrize("name", ["minor scaled +", "middle scaled +", "minor scaled -", "minor physical", "major physical"])
+@pytest.mark.parametrize("name", ["minor scaled +", "middle scaled +", "minor scaled -", "minor physical",
+                                  "major physical"])
 def test_the_doubles_next_to_an_equilibrium_have_the_fate_of_exact_arithmetic(name, places):
-    """Oracle: the potential at 100 digits, for the doubles themselves; a rounded equilibrium is as little one as its neighbours."""
+    """Oracle: the potential at 100 digits, for the doubles themselves; a rounded equilibrium is as little one
+    as its neighbours."""
     scene, problem = FAMILIES[name]
     axis = axis_of(problem)
     j, k = (axis + 1) % 3, (axis + 2) % 3
     rng, states = np.random.default_rng(3), []
     for v in (rng.normal(size=6) * 3).tolist()[:places]:
         # F = (kappa v + sigma) u + rho v + m = 0, solved exactly for u
-        u = -(problem.rho[axis] * Fraction(v) + problem.m[axis]) / (problem.kappa[axis] * Fraction(v) + problem.sigma[axis])
+        u = (-(problem.rho[axis] * Fraction(v) + problem.m[axis])
+             / (problem.kappa[axis] * Fraction(v) + problem.sigma[axis]))
         for steps in (0, 1, -1, 3):
             state = [0.0] * 3
             state[j], state[k] = float(u) + steps * np.spacing(abs(float(u))), v
@@ -166,14 +172,16 @@ def test_the_doubles_next_to_an_equilibrium_have_the_fate_of_exact_arithmetic(na
     np.testing.assert_array_equal(found.labels, [WORDS[w] for w in words])
     assert "equilibrium" not in words
     if problem.kappa[j] * problem.kappa[k] < 0:  # circles, where a negative margin means release
-        assert set(words) <= {"bounded", "spin-up"} and ((found.margins > 0) == (found.labels == BOUNDED)).all()
+        assert set(words) <= {"bounded",
+                              "spin-up"} and ((found.margins > 0) == (found.labels == BOUNDED)).all()
     assert [motion(scene, s).fate for s in states] == found.labels.tolist()
 
 
-@pytest.mark.parametrize("x2, word", [("-1.99999999999999999", "spin-up"), ("-2", "equilibrium"), ("-2.00000000000000001", "bounded")])
+@pytest.mark.parametrize("x2, word", [("-1.99999999999999999", "spin-up"), ("-2", "equilibrium"),
+                                      ("-2.00000000000000001", "bounded")])
 def test_decimals_next_to_a_saddle_are_told_from_it(x2, word):
-    """x3' = x2 (x1 + b) + 1 at x1 = x3 = 0 is 1 + x2/2: it vanishes at -2 alone, and pushes away from there (a saddle, by hand: the
-    slope of the force is X2^2 - X1^2 - c X1 > 0)."""
+    """x3' = x2 (x1 + b) + 1 at x1 = x3 = 0 is 1 + x2/2: it vanishes at -2 alone, and pushes away from there
+    (a saddle, by hand: the slope of the force is X2^2 - X1^2 - c X1 > 0)."""
     scene, state = ScaledGyrostat("1/4", "1/2", (0, 0, 1)), tuple(map(Fraction, (0, x2, 0)))
     found = motion(scene, tuple(map(float, state)), exact=state)
     assert found.fate.word == word
@@ -182,7 +190,8 @@ def test_decimals_next_to_a_saddle_are_told_from_it(x2, word):
 
 
 def test_nothing_rests_where_the_scene_has_no_equilibrium():
-    """One moment for all axes: omega . M and |H|^2 grow for ever. Nearly one: the balance at rates of 1 asks for 1e-20 = 2e-20."""
+    """One moment for all axes: omega . M and |H|^2 grow for ever. Nearly one: the balance at rates of 1 asks
+    for 1e-20 = 2e-20."""
     bodies = Body((1, 1, 1)), Body(("1.00000000000000000003", "1.00000000000000000001", 1))
     torques = ("1e-20", 0, 0), ("1e-20", "2e-20", "1e-20")
     for body, torque, word in zip(bodies, torques, ("spin-up", "undecided")):
@@ -199,10 +208,13 @@ def test_torque_free_motion_is_bounded():
 
 
 def test_torque_free_state_with_the_energy_and_momentum_of_middle_spin_is_on_the_separatrix():
-    """D = (6, 5, 3): 2T D2 = |H|^2 iff D1 (D1-D2) w1^2 = D3 (D2-D3) w3^2 iff |w1| = |w3|; exact in doubles."""
+    """D = (6, 5, 3): 2T D2 = |H|^2 iff D1 (D1-D2) w1^2 = D3 (D2-D3) w3^2 iff |w1| = |w3|; exact in doubles.
+    """
     scene, _ = physical((6.0, 5.0, 3.0))
-    states = np.array([(1.0, 0.7, 1.0), (0.5, -3.0, -0.5), (1.0, 0.7, np.nextafter(1.0, 2)), (1.0, 0.7, np.nextafter(1.0, 0))])
-    np.testing.assert_array_equal(stabilab.fate(scene, states).labels, [SEPARATRIX, SEPARATRIX, BOUNDED, BOUNDED])
+    states = np.array([(1.0, 0.7, 1.0), (0.5, -3.0, -0.5), (1.0, 0.7, np.nextafter(1.0, 2)),
+                       (1.0, 0.7, np.nextafter(1.0, 0))])
+    np.testing.assert_array_equal(stabilab.fate(scene, states).labels,
+                                  [SEPARATRIX, SEPARATRIX, BOUNDED, BOUNDED])
 
 
 @pytest.mark.parametrize("state", [(2.0, 0.0, 0.0), (0.0, -1.5, 0.0), (0.0, 0.0, 0.3), (0.0, 0.0, 0.0)])
@@ -216,7 +228,8 @@ def test_torque_off_the_principal_axes_has_a_reason_and_no_margin(mu):
     """Spin-up is told where a certificate was met, "undecided" elsewhere; no barrier is known either way."""
     scene, _ = scaled(0.2, 0.4, mu)
     result = stabilab.fate(scene, np.ones((3, 3)), follow=20)
-    assert np.all((result.labels == UNDECIDED) | (result.labels == SPIN_UP)) and np.all(np.isnan(result.margins))
+    assert np.all((result.labels == UNDECIDED)
+                  | (result.labels == SPIN_UP)) and np.all(np.isnan(result.margins))
     assert all("principal" in str(reason) for reason in np.ravel(result.because))
 
 
@@ -239,7 +252,8 @@ def test_spin_up_is_about_the_torque_axis_in_its_sense(name):
 
 @pytest.mark.parametrize("state", [(4.5, 1.8, 3.4), (0.0, -1.0, 5.0), (-3.0, 0.0, 0.1)])
 def test_major_axis_torque_with_c_positive_spins_every_state_up(state):
-    """J = x2^2 + x3^2 - 2c x1 falls as J0 - 2c tau (theory, [S]): no orbit is bounded, and c > 0 leaves only x1 -> inf."""
+    """J = x2^2 + x3^2 - 2c x1 falls as J0 - 2c tau (theory, [S]): no orbit is bounded, and c > 0 leaves only
+    x1 -> inf."""
     scene, _ = paper(500, (1, 0, 0))
     assert stabilab.fate(scene, np.array(state)).labels == SPIN_UP
 
@@ -250,11 +264,15 @@ component = st.floats(-8, 8).map(lambda x: round(x, 9))
 
 
 @settings(deadline=None, max_examples=60, derandomize=True)
-@given(parts=st.tuples(dyadic, dyadic, dyadic), size=exponent, axis=st.integers(0, 2), lam=st.tuples(component, component),
-       torque=st.tuples(st.sampled_from([-1, 1]), st.integers(-12, 6)), state=st.tuples(component, component, component))
-def test_labels_of_any_body_gyrostat_and_torque_equal_the_potential_oracle(parts, size, axis, lam, torque, state):
+@given(parts=st.tuples(dyadic, dyadic, dyadic), size=exponent, axis=st.integers(0, 2),
+       lam=st.tuples(component, component),
+       torque=st.tuples(st.sampled_from([-1, 1]), st.integers(-12, 6)),
+       state=st.tuples(component, component, component))
+def test_labels_of_any_body_gyrostat_and_torque_equal_the_potential_oracle(parts, size, axis, lam, torque,
+                                                                           state):
     a, b, c = parts
-    inertia = [float(n) * 2.0 ** (size - 16) for n in (b + c, a + c, a + b)]  # exact: the triangle inequality holds
+    # exact: the triangle inequality holds
+    inertia = [float(n) * 2.0 ** (size - 16) for n in (b + c, a + c, a + b)]
     momentum, moment = [0.0] * 3, [0.0] * 3
     scale = 2.0 ** size
     momentum[(axis + 1) % 3], momentum[(axis + 2) % 3] = lam[0] * scale, lam[1] * scale
@@ -276,8 +294,10 @@ def test_random_problems_on_every_axis_agree_with_the_potential_oracle():
 
 
 def test_scenes_that_differ_in_an_exact_number_alone_are_different_scenes():
-    """"0.2" is a fifth, 0.2 a double beside it: equal floats must not make one scene answer for the other from memory."""
-    fifth, double = stabilab.ScaledGyrostat("0.2", "0.4", (0, 0, 1)), stabilab.ScaledGyrostat(0.2, 0.4, (0, 0, 1))
+    """"0.2" is a fifth, 0.2 a double beside it: equal floats must not make one scene answer for the other
+    from memory."""
+    fifth, double = stabilab.ScaledGyrostat("0.2", "0.4",
+                                            (0, 0, 1)), stabilab.ScaledGyrostat(0.2, 0.4, (0, 0, 1))
     assert fifth != double and fifth == stabilab.ScaledGyrostat("1/5", "2/5", (0, 0, "1"))
     assert stabilab.Gyrostat(("0.1", 0, 0)) != stabilab.Gyrostat((0.1, 0, 0))
     state = brink(FAMILIES["minor scaled +"][1], (-3.0, 1.0), -1e-14)

@@ -22,7 +22,8 @@ CUBIC = [name for name in PARABOLIC if barrier_table(PARABOLIC[name][0]) is not 
 
 
 def on_the_way_to_barriers(name, count):
-    """States of all sizes; every second at a relative distance of 1e-15 to 0.1 from the separatrix in the torque's rate, where its orbit has one."""
+    """States of all sizes; every second at a relative distance of 1e-15 to 0.1 from the separatrix in the
+    torque's rate, where its orbit has one."""
     (scene, problem), rng = PARABOLIC[name], np.random.default_rng(5)
     i, land = axis_of(problem), landscape(PARABOLIC[name][0])
     states = rng.normal(size=(count, 3)) * 10.0 ** rng.uniform(-1, 2, (count, 1))
@@ -34,7 +35,8 @@ def on_the_way_to_barriers(name, count):
 
 
 def test_the_middle_root_stands_at_its_distance_from_the_fold():
-    """x = 1 - e is a root of x^3 - 3 x + 2 s, to the rounding of a step of Newton's method from 3e-5; the equation itself is the check."""
+    """x = 1 - e is a root of x^3 - 3 x + 2 s, to the rounding of a step of Newton's method from 3e-5; the
+    equation itself is the check."""
     g = 2 * np.append(10.0 ** np.linspace(-12, 0, 2000), 0.5)
     e = arithmetic.middle_root(g)
     assert np.abs(e * e * (3 - e) / g - 1).max() < 1e-8 and e.max() <= 1 + 1e-9
@@ -49,11 +51,13 @@ def test_margins_by_the_formula_keep_twelve_digits_next_to_the_separatrix_too(na
     found = stabilab.fate(scene, states, fast=False)
     asked = np.append(np.nonzero(near)[0][:20], range(1, 20, 2))
     for n in asked:
-        exact, kinetic = energy.margin(problem, states[n].tolist(), digits=60), 0.5 * float(problem.weight[i]) * states[n, i] ** 2
+        exact, kinetic = energy.margin(problem, states[n].tolist(),
+                                       digits=60), 0.5 * float(problem.weight[i]) * states[n, i] ** 2
         if exact is None:
             assert np.isposinf(found.margins[n])
         else:
-            assert abs(found.margins[n] - float(exact)) <= 1e-12 * (kinetic + abs(float(exact) + kinetic)), states[n].tolist()
+            assert abs(found.margins[n]
+                       - float(exact)) <= 1e-12 * (kinetic + abs(float(exact) + kinetic)), states[n].tolist()
             assert np.sign(found.margins[n]) == np.sign(float(exact))
     assert near.sum() > 100
 
@@ -68,7 +72,8 @@ def test_on_parabolas_the_loop_for_the_compiler_gives_the_bytes_of_the_arrays_as
         with np.errstate(all="ignore"):
             open_ones = label_by_table(table, states, out, loops)
         certain = np.delete(np.arange(len(states)), open_ones)
-        answers.append([open_ones.tobytes()] + [out[key][certain].tobytes() for key in ("margins", "labels", "reasons", "axis", "sense")])
+        answers.append([open_ones.tobytes()] + [out[key][certain].tobytes()
+                                                for key in ("margins", "labels", "reasons", "axis", "sense")])
     assert answers[0] == answers[1] and len(certain) > 200
 
 
@@ -78,14 +83,17 @@ def test_on_parabolas_the_loop_for_the_compiler_gives_the_bytes_of_the_arrays_as
 def test_on_parabolas_numba_gives_the_bytes_of_numpy(name):
     scene, states = PARABOLIC[name][0], on_the_way_to_barriers(name, 6000)[0]
     one, other = (stabilab.fate(scene, states, fast=fast) for fast in (False, True))
-    assert all(getattr(one, key).tobytes() == getattr(other, key).tobytes() for key in ("margins", "labels", "reasons", "axis", "sense"))
+    assert all(getattr(one, key).tobytes() == getattr(other, key).tobytes()
+               for key in ("margins", "labels", "reasons", "axis", "sense"))
 
 
 def test_of_a_parabola_s_states_one_in_a_hundred_takes_twofold_numbers_and_none_takes_balls(monkeypatch):
-    """Number 87 of the random scenes: a row in 230 went to balls, and of each a companion matrix had its eigenvalues found."""
+    """Number 87 of the random scenes: a row in 230 went to balls, and of each a companion matrix had its
+    eigenvalues found."""
     one, asked = drawn(88)[87], []
     fine = fate.valley_margins
-    monkeypatch.setattr(fate, "valley_margins", lambda land, rows, known: asked.append(len(rows)) or fine(land, rows, known))
+    monkeypatch.setattr(fate, "valley_margins", lambda land, rows,
+                        known: asked.append(len(rows)) or fine(land, rows, known))
     states = one.states(20_000)
     assert stabilab.fate(one.scene, states, fast=False).precise == 0 and sum(asked) <= 100
     asked.clear()

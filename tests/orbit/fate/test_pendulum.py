@@ -1,6 +1,8 @@
-"""A free symmetric body with a wheel across its axis is a pendulum: exact separatrices of it, and captured motions on planes.
+"""A free symmetric body with a wheel across its axis is a pendulum: exact separatrices of it, and captured
+motions on planes.
 
-D = (2, 2, 1), lambda = (l, 0, 0), u = omega1 + l, v = omega2:  u' = v omega3/2, v' = -u omega3/2, omega3' = l v, so
+D = (2, 2, 1), lambda = (l, 0, 0), u = omega1 + l, v = omega2:  u' = v omega3/2, v' = -u omega3/2, omega3' = l
+v, so
 omega3^2/2 - 2 l u is constant on the circle u^2 + v^2 = A^2 and the top u = -A (l > 0) is the saddle.
 """
 import numpy as np
@@ -13,9 +15,11 @@ from tests.oracles import energy
 from tests.oracles.pairs import scaled
 from tests.orbit.extremes.test_extremes import assert_extremes
 
-# l = 2, A = 5, (u, v) = (3, 4): omega3^2 = 4 l (u + A) = 64. The motion falls to u = -5; on the way through u = 5 omega3^2 = 80.
+# l = 2, A = 5, (u, v) = (3, 4): omega3^2 = 4 l (u + A) = 64. The motion falls to u = -5; on the way through u
+# = 5 omega3^2 = 80.
 TIED = [((1.0, 4.0, 8.0), [(-7, 3), (-5, 4), (0, 80**0.5)]), ((1.0, 4.0, -8.0), [(-7, 1), (0, 5), (-8, 0)]),
-        ((1.0, -4.0, 8.0), [(-7, 1), (-5, 0), (0, 8)]), ((1.0, -4.0, -8.0), [(-7, 3), (-4, 5), (-(80**0.5), 0)])]
+        ((1.0, -4.0, 8.0), [(-7, 1), (-5, 0), (0, 8)]),
+        ((1.0, -4.0, -8.0), [(-7, 3), (-4, 5), (-(80**0.5), 0)])]
 
 
 @pytest.mark.parametrize("state, wanted", TIED)
@@ -38,7 +42,8 @@ def test_beside_it_the_pendulum_swings_or_turns(push):
     assert least == pytest.approx((64 * push**2 - 64) ** 0.5 if push > 1 else -most, rel=1e-9)
 
 
-@pytest.mark.parametrize("y, rate", [(0.5, -0.5), (1.0, 0.0), (2.5, 0.25), (2.75, -1.0), (-1.0, 0.5), (1.5, -3.0)])
+@pytest.mark.parametrize("y, rate",
+                         [(0.5, -0.5), (1.0, 0.0), (2.5, 0.25), (2.75, -1.0), (-1.0, 0.5), (1.5, -3.0)])
 def test_on_the_decaying_plane_a_well_captures_or_lets_go(y, rate):
     """x1 + b = -x3 (mu2 = 1) with c = 3 > 2: part of the plane is captured (theory: on |c| > 2)."""
     scene, model = scaled(0.0, 3.0, (0, 1, 0))

@@ -1,4 +1,5 @@
-"""Fates of large arrays: the table of barriers and its compiled loops against the oracle and the general formula."""
+"""Fates of large arrays: the table of barriers and its compiled loops against the oracle and the general
+formula."""
 from __future__ import annotations
 
 import importlib
@@ -26,7 +27,8 @@ from tests.orbit.fate.test_fate import ELLIPTIC, FAMILIES, axis_of, sample
 
 module = importlib.import_module("stabilab.orbit.fate.arrays")
 TABLED = [name for name in FAMILIES if barrier_table(FAMILIES[name][0]) is not None]
-EASY = ["minor scaled +", "minor physical, other sign", "middle scaled -, |c| above the cusp", "major physical, other sign"]
+EASY = ["minor scaled +", "minor physical, other sign", "middle scaled -, |c| above the cusp",
+        "major physical, other sign"]
 ways = pytest.mark.parametrize("fast", [False, True], ids=["numpy", "numba"])
 
 
@@ -63,7 +65,8 @@ def test_every_family_with_curved_equilibria_and_a_torque_has_a_table():
 
 @lru_cache
 def hard_states(name):
-    """(states at relative distances 1e-3 to 1e-15 on both sides of the separatrix, their labels by the oracle)."""
+    """(states at relative distances 1e-3 to 1e-15 on both sides of the separatrix, their labels by the
+    oracle)."""
     distances = [side * 10.0 ** -p for p in (3, 8, 12, 14, 15) for side in (-1, 1)]
     states = near_the_separatrix(FAMILIES[name][1], np.random.default_rng(ELLIPTIC.index(name)), distances)
     return states, [WORDS[energy.label(FAMILIES[name][1], s)] for s in states.tolist()]
@@ -148,10 +151,12 @@ def test_labels_of_random_bodies_over_twelve_decades_equal_the_oracle(fast, tabl
         axis, size, rate = n % 3, 10.0 ** rng.uniform(-6, 6), 10.0 ** rng.uniform(-6, 6)
         inertia = np.array(random_body(rng)) * size
         momentum, torque = rng.normal(size=3) * size * rate * (n % 4 > 0), np.zeros(3)
-        momentum[axis], torque[axis] = 0.0, rng.choice([-1, 1]) * 10.0 ** rng.uniform(-1, 1) * size * rate * rate
+        momentum[axis], torque[axis] = 0.0, rng.choice([-1,
+                                                        1]) * 10.0 ** rng.uniform(-1, 1) * size * rate * rate
         scene, problem = physical(inertia, momentum, torque)
         states = rng.normal(size=(4, 3)) * 2 * rate
-        if (near := brink(problem, states[0, [(axis + 1) % 3, (axis + 2) % 3]], 10.0 ** rng.uniform(-15, -3))) is not None:
+        if (near := brink(problem, states[0, [(axis + 1) % 3, (axis + 2) % 3]],
+                          10.0 ** rng.uniform(-15, -3))) is not None:
             states = np.concatenate([states, [near]])
         expected = [WORDS[energy.label(problem, tuple(s))] for s in states.tolist()]
         np.testing.assert_array_equal(stabilab.fate(scene, states, fast=available(fast)).labels, expected)
@@ -164,13 +169,14 @@ def test_a_hundred_thousand_states_of_random_scenes_answer_as_the_general_formul
     rng = np.random.default_rng(seed)
     scene, _ = random_problem(rng, seed % 3) if seed % 2 else random_problem(rng, 1 + seed % 4 // 2, "scaled")
     states = rng.normal(size=(50_000, 3)) * 10.0 ** rng.uniform(-2, 2)
-    np.testing.assert_array_equal(stabilab.fate(scene, states, fast=available(fast)).labels, general(scene, states)["labels"])
+    np.testing.assert_array_equal(stabilab.fate(scene, states, fast=available(fast)).labels,
+                                  general(scene, states)["labels"])
 
 
 @ways
 def test_equilibria_and_centres_in_a_large_array_are_recognised(fast):
-    """X1 = 0, X2 = -1/b is an equilibrium of the scaled minor-axis system (rates by hand); the axis X1 = -a, X2 = 0 is the
-    centre of every circle: pure spin."""
+    """X1 = 0, X2 = -1/b is an equilibrium of the scaled minor-axis system (rates by hand); the axis X1 = -a,
+    X2 = 0 is the centre of every circle: pure spin."""
     scene = scaled(0.25, 0.5, (0, 0, 1))[0]
     states = sample("minor scaled +", 6000)
     states[17], states[5999] = (0.0, -2.0, 0.0), (-0.25, 0.0, 0.3)
@@ -179,19 +185,24 @@ def test_equilibria_and_centres_in_a_large_array_are_recognised(fast):
     assert result.labels[5999] == stabilab.Fate.SPIN_UP and result.margins[5999] == -np.inf
 
 
-NEARLY_EQUAL = [((0.544, 2.2, 2.199), (-1.021, 2.296, 0), (0, 0, -0.0843)), ((2.705, 2.701, 0.145), (0.207, 0, 0), (0, 0.0933, 0)),
-                ((6.973, 9.358, 9.348), (-0.316, 1.387, 0), (0, 0, -0.1215)), ((3.681, 0.291, 3.679), (0.159, -2.973, 0), (0, 0, 0.2086)),
-                ((2.2, 2.1999, 0.544), (2.296, 0, -1.021), (0, 0.0843, 0)), ((1.0 + 2.0**-16, 1.0, 0.5), (0.4, 0, 0.3), (0, 0.02, 0))]
+NEARLY_EQUAL = [((0.544, 2.2, 2.199), (-1.021, 2.296, 0), (0, 0, -0.0843)),
+                ((2.705, 2.701, 0.145), (0.207, 0, 0), (0, 0.0933, 0)),
+                ((6.973, 9.358, 9.348), (-0.316, 1.387, 0), (0, 0, -0.1215)),
+                ((3.681, 0.291, 3.679), (0.159, -2.973, 0), (0, 0, 0.2086)),
+                ((2.2, 2.1999, 0.544), (2.296, 0, -1.021), (0, 0.0843, 0)),
+                ((1.0 + 2.0**-16, 1.0, 0.5), (0.4, 0, 0.3), (0, 0.02, 0))]
 
 
 @ways
 @pytest.mark.parametrize("body", NEARLY_EQUAL)
 def test_margins_on_wide_hyperbolas_are_answered_by_the_table_in_twofold_numbers(body, fast, tables_always):
-    """Of nearly equal moments heights are sums of terms a thousand and more times as large: a third of the rows used to take the general formula."""
+    """Of nearly equal moments heights are sums of terms a thousand and more times as large: a third of the
+    rows used to take the general formula."""
     scene, problem = physical(*body)
     rng, axis = np.random.default_rng(3), axis_of(problem)
     states = rng.normal(size=(2000, 3)) * 10.0 ** rng.uniform(-1, 1, (2000, 1))
-    result, half_weight = stabilab.fate(scene, states, fast=available(fast)), 0.5 * float(problem.weight[axis])
+    result, half_weight = stabilab.fate(scene, states,
+                                        fast=available(fast)), 0.5 * float(problem.weight[axis])
     assert len(label_by_table(barrier_table(scene), states, module.empty_columns(2000))) <= 2
     height = result.margins + half_weight * states[:, axis] ** 2
     high = rng.permutation(np.nonzero(np.isfinite(height) & (height > 0))[0])[:8]
@@ -199,7 +210,8 @@ def test_margins_on_wide_hyperbolas_are_answered_by_the_table_in_twofold_numbers
     near[:, axis] = np.sqrt(height[high] / half_weight) * (1 + 10.0 ** -np.arange(2, 2 + len(high)))
     for state in [*near, *states[rng.permutation(np.nonzero(np.isfinite(height))[0])[:12]]]:
         got = stabilab.fate(scene, np.array([state] * 5), fast=available(fast)).margins[0]
-        exact, kinetic = float(energy.margin(problem, tuple(state.tolist()), digits=60)), half_weight * state[axis] ** 2
+        exact, kinetic = float(energy.margin(problem, tuple(state.tolist()),
+                                             digits=60)), half_weight * state[axis] ** 2
         assert abs(got - exact) <= 1e-12 * (abs(exact + kinetic) + kinetic), state
 
 
@@ -222,16 +234,19 @@ def test_a_fate_map_takes_less_memory_than_three_times_its_input():
     assert peak + states.nbytes <= 3 * states.nbytes
 
 
-@pytest.mark.parametrize("name", ["minor scaled +", "middle scaled -, |c| above the cusp", "minor on axis 1", "major physical",
+@pytest.mark.parametrize("name", ["minor scaled +", "middle scaled -, |c| above the cusp", "minor on axis 1",
+                                  "major physical",
                                   "minor physical"])
 def test_a_grid_has_the_labels_of_its_states(name):
     scene, _ = FAMILIES[name]
     rng = np.random.default_rng(3)
-    axes = [np.linspace(-4, 4, 17), np.sort(rng.normal(size=23)) * 2, rng.normal(size=19) * 2]  # 17: zero is among them
+    # 17: zero is among them
+    axes = [np.linspace(-4, 4, 17), np.sort(rng.normal(size=23)) * 2, rng.normal(size=19) * 2]
     states = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1)
     labels = fate_grid(scene, axes)
     assert labels.dtype == np.int8
-    np.testing.assert_array_equal(labels, general(scene, states.reshape(-1, 3))["labels"].reshape(labels.shape))
+    np.testing.assert_array_equal(labels,
+                                  general(scene, states.reshape(-1, 3))["labels"].reshape(labels.shape))
 
 
 def test_a_grid_through_ties_equilibria_and_the_centre_has_the_labels_of_its_states():
@@ -252,7 +267,8 @@ def test_a_grid_of_a_scene_without_a_table_has_the_labels_of_its_states():
     np.testing.assert_array_equal(fate_grid(scene, axes), stabilab.fate(scene, states).labels)
 
 
-@pytest.mark.parametrize("axes", [[[0.0], [1.0]], [[0.0], [1.0], [[2.0]]], [[0.0], [np.nan], [1.0]], [["x"], [0], [0]]])
+@pytest.mark.parametrize("axes", [[[0.0], [1.0]], [[0.0], [1.0], [[2.0]]], [[0.0], [np.nan], [1.0]],
+                                  [["x"], [0], [0]]])
 def test_grid_axes_that_are_not_three_rows_of_finite_numbers_are_refused(axes):
     with pytest.raises(InputError):
         fate_grid(FAMILIES["minor scaled +"][0], axes)
@@ -270,7 +286,8 @@ def test_angle_and_logarithm_are_right_to_rounding():
 
 
 def run(code, **env):
-    return subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env={**os.environ, **env})
+    return subprocess.run([sys.executable, "-c", code], capture_output=True, text=True,
+                          env={**os.environ, **env})
 
 
 def test_small_arrays_never_load_numba():
@@ -296,17 +313,22 @@ def test_compiled_loops_work_where_no_folder_can_be_written():
     pytest.importorskip("numba")
     code = ("import numpy as np, stabilab; s = stabilab.ScaledGyrostat(0.2, 0.4, (0, 0, 1));"
             "x = np.random.default_rng(0).normal(size=(6000, 3)) * 3;"
-            "a, b = (stabilab.fate(s, x, fast=f) for f in (True, False)); print(a.margins.tobytes() == b.margins.tobytes())")
+            "a, b = (stabilab.fate(s, x, fast=f) for f in (True, False)); print(a.margins.tobytes() == "
+            "b.margins.tobytes())")
     done = run(code, NUMBA_CACHE_DIR="/proc/no/such/folder")
     assert done.stdout.strip() == "True", done.stderr
 
 
 @pytest.mark.one_in(2)
-@pytest.mark.parametrize("gap", [0.0, 1e-15, 1e-10, 1e-4, *(pytest.param(gap, marks=pytest.mark.slow) for gap in (1e-14, 1e-12, 1e-8, 1e-6))])
+@pytest.mark.parametrize("gap",
+                         [0.0, 1e-15, 1e-10, 1e-4,
+                          *(pytest.param(gap, marks=pytest.mark.slow) for gap in (1e-14, 1e-12, 1e-8, 1e-6))])
 def test_tables_hold_however_nearly_equal_two_moments_are(gap):
-    """The curve of equilibria led from a point 1e15 away to the well instead of the barrier: spin-up for bounded."""
+    """The curve of equilibria led from a point 1e15 away to the well instead of the barrier: spin-up for
+    bounded."""
     scene, problem = physical((21.500084290532417, 24.358784335374747, 21.500084290532417 * (1 + gap)),
-                              (-1.3709072194035352, 0.0, 0.09621494789491448), (0.0, -0.10920909535513186, 0.0))
+                              (-1.3709072194035352, 0.0, 0.09621494789491448),
+                              (0.0, -0.10920909535513186, 0.0))
     rng = np.random.default_rng(4)
     states = rng.normal(size=(5000, 3)) * (1, 0.5, 0.3)
     states[0] = -0.6078189955764939, 1.3931012988621379e-12, 0.14338820960207116
@@ -322,4 +344,5 @@ def test_tables_hold_however_nearly_equal_two_moments_are(gap):
 
 
 def test_the_grid_is_a_public_name():
-    assert "fate_grid" in stabilab.__all__ and "fate_grid" in dir(stabilab) and stabilab.fate_grid is fate_grid
+    assert "fate_grid" in stabilab.__all__ and "fate_grid" in dir(
+        stabilab) and stabilab.fate_grid is fate_grid

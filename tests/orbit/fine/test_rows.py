@@ -1,4 +1,5 @@
-"""Laws of rows, one libration at a time, as plain Python: against ball arithmetic and a potential in many digits, on every geometry.
+"""Laws of rows, one libration at a time, as plain Python: against ball arithmetic and a potential in many
+digits, on every geometry.
 
 Nothing looks at the clock.
 """
@@ -61,7 +62,8 @@ PAIRS = {
 SCENES = {name: pair[0] for name, pair in PAIRS.items()}
 PARABOLAS = [name for name in SCENES if name.startswith("parabolas") and "sphere" not in name]
 each = pytest.mark.parametrize("name", SCENES)
-# of the sample of random scenes: hyperbolas and circles, a rod, nearly equal moments, equilibria between two folds
+# of the sample of random scenes: hyperbolas and circles, a rod, nearly equal moments, equilibria between two
+# folds
 SAMPLE = (0, 1, 2, 13, 39, 46, 82)
 
 
@@ -75,7 +77,8 @@ def states_of(name, count):
     """Librations of a tenth to ten times the rates that wheel and torque bring about."""
     one, rng = SCENES[name], np.random.default_rng(len(name))
     least = min(map(float, one.body.exact))
-    wheel, torque = (float(np.linalg.norm([float(v) for v in one.vector(which)])) for which in ("gyrostat", "torque"))
+    wheel, torque = (float(np.linalg.norm([float(v) for v in one.vector(which)]))
+                     for which in ("gyrostat", "torque"))
     way = rng.normal(size=(8 * count, 3))
     rate = (wheel / least + math.sqrt(torque / least) or 1.0) * 10 ** rng.uniform(-1, 1, (8 * count, 1))
     return librations(one, way / np.linalg.norm(way, axis=1)[:, None] * rate)[:count]
@@ -95,7 +98,8 @@ def assert_exact(one, states, boxes, periods, left):
         orbit = Orbit(landscape(one).reduction, state)
         if not bits & 1:
             exact = np.array(precise_extremes(orbit, Fate.BOUNDED), float)
-            assert (np.abs(box - exact).max(axis=1) <= 1e-12 * np.abs(exact).max(axis=1)).all(), state.tolist()
+            assert (np.abs(box - exact).max(axis=1) <= 1e-12
+                    * np.abs(exact).max(axis=1)).all(), state.tolist()
         if not bits & 2:
             assert time == pytest.approx(precise_period(orbit, Fate.BOUNDED), rel=1e-11), state.tolist()
 
@@ -117,7 +121,8 @@ def test_all_rows_are_settled_with_the_digits_of_balls_and_of_a_potential_in_man
 
 
 @pytest.mark.parametrize("sign", [-1, 1])
-@pytest.mark.parametrize("axis, wheel", [(2, (100, 0, 0)), (2, (60, 90, 0)), (0, (0, 70, 0)), (0, (0, 50, -90)),
+@pytest.mark.parametrize("axis, wheel",
+                         [(2, (100, 0, 0)), (2, (60, 90, 0)), (0, (0, 70, 0)), (0, (0, 50, -90)),
                                          (1, (100, 0, 0)), (1, (60, 0, 90))])
 def test_either_direction_of_the_torque_about_every_axis(sign, axis, wheel):
     one = physical(BODY, wheel, tuple(200.0 * sign if n == axis else 0 for n in range(3)))[0]
@@ -130,7 +135,8 @@ def test_either_direction_of_the_torque_about_every_axis(sign, axis, wheel):
 @pytest.mark.parametrize("scale", [1e-20, 1e-6, 1e3, 1e20])
 @pytest.mark.parametrize("axis", [1, 2])
 def test_scaling_the_scene_scales_the_answers(scale, axis):
-    """omega, lambda ~ s and M ~ s^2 leave D omega' = (D omega + lambda) x omega + M as it is in the time t/s."""
+    """omega, lambda ~ s and M ~ s^2 leave D omega' = (D omega + lambda) x omega + M as it is in the time t/s.
+    """
     torque = np.where(np.arange(3) == axis, 200.0, 0.0)
     one = physical(BODY, (100, 0, 0), tuple(torque))[0]
     twin = physical(BODY, (100 * scale, 0, 0), tuple(torque * scale * scale))[0]
@@ -187,7 +193,8 @@ def test_rows_that_just_reach_their_barrier_keep_their_digits_or_stay_open(numbe
 @pytest.mark.one_in(3)
 @pytest.mark.parametrize("number", [23, 86, 0, 39, 89, 24])
 def test_the_rows_of_random_scenes_nearest_to_a_separatrix_have_the_period_of_balls(number):
-    """Of 4,000 states: energies over the equilibria in twofold numbers, and the integral in pieces from one of them to the next."""
+    """Of 4,000 states: energies over the equilibria in twofold numbers, and the integral in pieces from one
+    of them to the next."""
     one = drawn(number + 1)[number]
     states = librations(one.scene, one.states(4000))
     near = states[np.argsort(np.abs(fate(one.scene, states).margins) / (states**2).sum(axis=1))[:8]]
@@ -217,14 +224,19 @@ def test_small_motions_about_a_well_keep_their_digits_or_stay_open(number, decad
 
 
 @pytest.mark.parametrize("one, state", [
-    # ends 1e-10 to 2e-8 away from where steps of the third order stopped; a well where the force bends sharply
-    (physical((3, 2, 1), (3, 0, 0), (0, 0, -1))[0], (0, -3, 4)), (physical((2, 3, 1), (1, 0, 0), (0, -0.25, 0))[0], (0, 0, 2)),
+    # ends 1e-10 to 2e-8 away from where steps of the third order stopped; a well where the force bends
+    # sharply
+    (physical((3, 2, 1), (3, 0, 0), (0, 0, -1))[0], (0, -3, 4)),
+    (physical((2, 3, 1), (1, 0, 0), (0, -0.25, 0))[0], (0, 0, 2)),
     (physical((1, 2, 3), (-1, -1, 0), (0, 0, 0.25))[0], (-1.5, 1.5, -0.5)),
-    (physical((4.845, 4.842, 3.945), (0, -0.849, 0.291), (1.0328, 0, 0))[0], (0.08901751458670247, -1.249736256580412, -0.1355491972910896)),
+    (physical((4.845, 4.842, 3.945), (0, -0.849, 0.291), (1.0328, 0, 0))[0],
+     (0.08901751458670247, -1.249736256580412, -0.1355491972910896)),
     (drawn(24)[23].scene, (0.062022077246017424, -2.40730533121281, 1.7694966114961876)),
     (drawn(2)[1].scene, (18.42036219, -4.97608147, 5.74449751)),  # an end eleven e-foldings away
-    (drawn(186)[185].scene, (0.7065480824112208, -0.4458277770271243, 0.007785850961628301)),  # a small force at an end
-    (physical((2, 3, 4), (0, 2, 0), (0, 0, 0))[0], (4.0, 0.0, 2.0))])  # so flat a well that a first guess lay beyond the barrier
+    # a small force at an end
+    (drawn(186)[185].scene, (0.7065480824112208, -0.4458277770271243, 0.007785850961628301)),
+    # so flat a well that a first guess lay beyond the barrier
+    (physical((2, 3, 4), (0, 2, 0), (0, 0, 0))[0], (4.0, 0.0, 2.0))])
 def test_hard_rows_have_the_digits_of_balls(one, state):
     states = np.array([state], float)
     boxes, periods, left = settled(one, states)
@@ -233,7 +245,8 @@ def test_hard_rows_have_the_digits_of_balls(one, state):
 
 
 @pytest.mark.parametrize("pair, state", [
-    (physical((1.28, 2.85, 1.98), (5.59, 0, -1.92), (0, 14.32, 0)), (1.0, 2.0, -3.0)),  # equilibria between two folds
+    # equilibria between two folds
+    (physical((1.28, 2.85, 1.98), (5.59, 0, -1.92), (0, 14.32, 0)), (1.0, 2.0, -3.0)),
     # D1 = D3 and momentum along both: no fold
     (physical((31.654399378285476, 0.063245553203366, 31.654399378285476), (-100, 0, -100), (0, -1000, 0)),
      exactly("0x1.96c946803cb76p+1", "-0x1.9c092949740b8p-7", "0x1.952d3d56f3435p+1"))])
@@ -245,26 +258,36 @@ def test_orbits_with_four_folds_and_with_none_have_the_extremes_of_the_potential
     # 26 e-foldings from the well of its orbit, beside a plane: half of a motion was called all of it
     (ScaledGyrostat(a=-0.23863090224735242, b=-0.6107161051478869, mu=(0.0, -1.0, 0.0)),
      exactly("-0x1.c39a15804066ap+7", "0x1.1f10bffa14b2dp+1", "-0x1.c4d2c54845fc5p+7")),
-    (physical((4.112906792284341, 4.116438148785544, 6.651829713409366), (-1.0968587547960387, 0, -1.253790681840892), (0, 0.022295378844975795, 0))[0],
+    (physical((4.112906792284341, 4.116438148785544, 6.651829713409366),
+              (-1.0968587547960387, 0, -1.253790681840892), (0, 0.022295378844975795, 0))[0],
      (-310.60505266244706, 0.2419430815388782, 0.4944901326076557)),
-    (physical((1.696601852841146, 1.6966018528540456, 1.6966018528531723), (-1.3494698280666895, 0.3393281923930477, 0), (0, 0, 0.009203201574543322))[0],
+    (physical((1.696601852841146, 1.6966018528540456, 1.6966018528531723),
+              (-1.3494698280666895, 0.3393281923930477, 0), (0, 0, 0.009203201574543322))[0],
      (-112209146907.95891, -388557925455.79285, -0.3297841721936806)),
     # on a circle of 2e14 the component is largest 1e-11 of a radian from the state
-    (physical((2.3655510073770074, 2.365549804636911, 2.365551007409251), (-5.159491704033158, 0, 0), (0, 0, -0.325038361299964))[0],
+    (physical((2.3655510073770074, 2.365549804636911, 2.365551007409251), (-5.159491704033158, 0, 0),
+              (0, 0, -0.325038361299964))[0],
      (0.0, -0.009737502569610706, 0.05214105440254145)),
     # moments that differ in the ninth digit or in the last, beside a plane
-    (physical((3.1876285123265875, 3.187628515759982, 1.824928201205744), (0.0, 0.05445062017840716, -0.09398239699358375), (-0.006183334127165318, 0, 0))[0],
+    (physical((3.1876285123265875, 3.187628515759982, 1.824928201205744),
+              (0.0, 0.05445062017840716, -0.09398239699358375), (-0.006183334127165318, 0, 0))[0],
      (0.0024122515732403014, -0.03254345636626074, 1052.018292334662)),
-    (physical((4.692222633355173, 4.692222633355175, 1.3368392299688445), (0.0, 2.742149968031607, -12.151034472655752), (-8.273460328896768, 0, 0))[0],
+    (physical((4.692222633355173, 4.692222633355175, 1.3368392299688445),
+              (0.0, 2.742149968031607, -12.151034472655752), (-8.273460328896768, 0, 0))[0],
      (0.05123606193972703, -2.8557630770849878, 66543357.684882864)),
     # intervals of some dozens
-    (physical((2.031718528933873, 4.10832328101258, 3.3109147205774123), (0, 1.917540936122219, 0), (0, 0, 0.0023455994280943146))[0],
+    (physical((2.031718528933873, 4.10832328101258, 3.3109147205774123), (0, 1.917540936122219, 0),
+              (0, 0, 0.0023455994280943146))[0],
      (114.31465919137567, -104.22387896633768, 121.00166087530833)),
-    (physical((0.3741516734409537, 1.210595902320289, 1.2105959023202715), (-0.20062944808043162, 0, 0), (0, 0, -4.158795551286843))[0],
+    (physical((0.3741516734409537, 1.210595902320289, 1.2105959023202715), (-0.20062944808043162, 0, 0),
+              (0, 0, -4.158795551286843))[0],
      (4.4020441308656935, 17819913.764604468, -22.438121828253696)),
-    (scaled(3.846545761245209, 25.295513736469676, (0, -1, 0))[0], exactly("-0x1.94ba667b95571p+4", "0x1.f595dad344cb2p+1", "0x1.520cbec7a148ap-17")),
-    (scaled(0.31323180931136274, -29.568055273764834, (0, -1, 0))[0], exactly("0x1.d916c1102ce7dp+4", "-0x1.59eddc4d730c7p+2", "0x1.a85885ae4c3a0p-25"))])
-def test_rows_beside_planes_and_of_nearly_equal_moments_have_their_digits_or_stay_open_and_balls_answer(one, state):
+    (scaled(3.846545761245209, 25.295513736469676, (0, -1, 0))[0],
+     exactly("-0x1.94ba667b95571p+4", "0x1.f595dad344cb2p+1", "0x1.520cbec7a148ap-17")),
+    (scaled(0.31323180931136274, -29.568055273764834, (0, -1, 0))[0],
+     exactly("0x1.d916c1102ce7dp+4", "-0x1.59eddc4d730c7p+2", "0x1.a85885ae4c3a0p-25"))])
+def test_rows_beside_planes_and_of_nearly_equal_moments_have_their_digits_or_stay_open_and_balls_answer(
+    one, state):
     states = np.array([state], float)
     assert_exact(one, states, *settled(one, states))
     assert_exact(one, states, *extremes_and_periods(one, states), np.zeros(1, np.uint8))
@@ -287,8 +310,10 @@ def test_any_split_of_the_rows_gives_the_same_bytes_and_either_question_those_of
     (physical((3, 2, 1), (0, 0, 1), (0, -2, 0))[0], [[2.0, 0.0, 0.0]]),
     # planes w3 = +-w1: dw3/dw1 = ((D1 - D2)/D3) w1/(((D2 - D3)/D1) w3) = w1/w3
     (physical((3, 2.5, 1), (0, 0, 0), (0, 0.5, 0))[0], [[1.0, 0.3, 1.0], [-1.5, 0.2, 1.5], [0.0, 0.4, 0.0]]),
-    # a = b = 0: an equilibrium (h = 1/2, X = -2) and a pure spin; (2 - 3) 1 1 = -1: the torque is met, by hand
-    (scaled(0, 0, (0, 0, 1))[0], [[-2.0, 0.5, 0.0], [0.0, 0.0, 1.0]]), (physical((3, 2, 4), (0, 0, 0), (0, 0, -1))[0], [[1.0, 1.0, 0.0]])])
+    # a = b = 0: an equilibrium (h = 1/2, X = -2) and a pure spin; (2 - 3) 1 1 = -1: the torque is met, by
+    # hand
+    (scaled(0, 0, (0, 0, 1))[0], [[-2.0, 0.5, 0.0], [0.0, 0.0, 1.0]]),
+    (physical((3, 2, 4), (0, 0, 0), (0, 0, -1))[0], [[1.0, 1.0, 0.0]])])
 def test_spin_ups_states_at_rest_and_states_on_a_plane_stay_open_and_unwritten(one, states):
     states = np.array(states)
     assert (fate(one, states).labels != Fate.BOUNDED).any() or landscape(one).base == "hyperbola"
@@ -316,11 +341,13 @@ def test_states_at_the_place_of_an_equilibrium_of_a_parabola_are_left_open_or_ri
 
 def test_a_barrier_of_a_parabola_that_rounding_hides_is_left_to_exact_arithmetic():
     """At a barrier, with a rate of 1e-17, doubles put the energy above it, and exact arithmetic below."""
-    one = physical((0.9772121786953248, 1, 1), (-1.127222631044502, 0, 1.5683903018982321), (0, 615.1464762599369, 0))[0]
+    one = physical((0.9772121786953248, 1, 1), (-1.127222631044502, 0, 1.5683903018982321),
+                   (0, 615.1464762599369, 0))[0]
     state = np.array([exactly("-0x1.036b6becc30acp-3", "-0x1.3e7b05dd99639p-57", "-0x1.1178b59885828p+9")])
     assert settled(one, state)[2][0] == 3
     box = stabilab.extremes(one, state)[0]
-    assert box[0, 0] == pytest.approx(state[0, 0], rel=1e-12)  # it turns there; over the barrier it would reach -466
+    # it turns there; over the barrier it would reach -466
+    assert box[0, 0] == pytest.approx(state[0, 0], rel=1e-12)
 
 
 @pytest.mark.one_in(2)
@@ -363,27 +390,36 @@ def test_the_exponential_of_a_double_is_known_to_twenty_seven_digits(y):
 
 def test_the_mean_gives_the_complete_integral():
     for m in (0.0, 0.3, 0.9, 1 - 1e-9):
-        assert 0.5 * math.pi / parabola_kernel.mean(1.0, math.sqrt(1 - m)) == pytest.approx(float(ellipk(m)), rel=1e-14)
+        assert 0.5 * math.pi / parabola_kernel.mean(1.0,
+                                                    math.sqrt(1 - m)) == pytest.approx(float(ellipk(m)),
+                                                                                       rel=1e-14)
 
 
-@pytest.mark.parametrize("ends, inner", [((-1.0, 2.0), (1.3, 0.7)), ((-0.2, 0.1), (-4.0, 5.0)), ((-3.0, -1.0), (0.5, 1e-3))])
+@pytest.mark.parametrize("ends, inner",
+                         [((-1.0, 2.0), (1.3, 0.7)), ((-0.2, 0.1), (-4.0, 5.0)), ((-3.0, -1.0), (0.5, 1e-3))])
 def test_the_period_between_two_roots_is_the_integral(ends, inner):
-    """K = c (y - l)(r - y)((y - a)^2 + b), its coefficients by hand; the integral by SciPy's quadrature of the angle."""
+    """K = c (y - l)(r - y)((y - a)^2 + b), its coefficients by hand; the integral by SciPy's quadrature of
+    the angle."""
     (left, right), (a, b), c = ends, inner, 0.8
-    poly = c * np.polynomial.Polynomial.fromroots([left, right]) * -np.polynomial.Polynomial([a * a + b, -2 * a, 1])
+    poly = (c * np.polynomial.Polynomial.fromroots([left, right])
+            * -np.polynomial.Polynomial([a * a + b, -2 * a, 1]))
     pulls = float(poly.deriv()(left)), -float(poly.deriv()(right))
-    period, off = parabola_kernel.period_of(left, right, float(poly.deriv(4)(0.0)), (0.0, 0.0), pulls, (0.0, 0.0))
+    period, off = parabola_kernel.period_of(left, right, float(poly.deriv(4)(0.0)), (0.0, 0.0), pulls,
+                                            (0.0, 0.0))
     middle, rho = 0.5 * (left + right), 0.5 * (right - left)
-    exact = quad(lambda phi: math.sqrt(2) / math.sqrt(c * ((middle + rho * math.cos(phi) - a) ** 2 + b)), 0, math.pi, epsabs=0, epsrel=1e-13, limit=500)[0]
+    exact = quad(lambda phi: math.sqrt(2) / math.sqrt(c * ((middle + rho * math.cos(phi) - a) ** 2 + b)), 0,
+                 math.pi, epsabs=0, epsrel=1e-13, limit=500)[0]
     assert period == pytest.approx(exact, rel=1e-12) and off < 1e-11
 
 
 def test_fates_show_in_the_extremes_exactly():
-    """Bounded motions have finite extremes and periods, spin-ups infinite ones, as an oracle's potential decides."""
+    """Bounded motions have finite extremes and periods, spin-ups infinite ones, as an oracle's potential
+    decides."""
     one, problem = FAMILIES["minor scaled +"]
     states = sample("minor scaled +", 60)
     boxes, periods = extremes_and_periods(one, states)
-    spins = np.array([energy.label(problem, tuple(state), digits=60) == "spin-up" for state in states.tolist()])
+    spins = np.array([energy.label(problem, tuple(state), digits=60) == "spin-up"
+                      for state in states.tolist()])
     np.testing.assert_array_equal(np.isinf(boxes).any(axis=(1, 2)), spins)
     np.testing.assert_array_equal(np.isinf(periods), spins)
 
@@ -401,9 +437,11 @@ def test_without_numba_plain_python_serves(monkeypatch):
 
 
 def test_a_torque_along_an_axis_of_symmetry_has_no_equilibria():
-    one, _ = physical((5.526899912556323, 10.679241384490718, 5.526899912556323), (0, 0, 0), (0, -358.8648632605358, 0))
+    one, _ = physical((5.526899912556323, 10.679241384490718, 5.526899912556323), (0, 0, 0),
+                      (0, -358.8648632605358, 0))
     found = stabilab.extremes(one, np.array([[3.0, 2.0, 4.0]] * 3))
-    np.testing.assert_allclose(found, [[[-5, 5], [-np.inf, 2], [-5, 5]]] * 3, rtol=1e-14)  # the circle of radius 5; omega2 falls steadily
+    # the circle of radius 5; omega2 falls steadily
+    np.testing.assert_allclose(found, [[[-5, 5], [-np.inf, 2], [-5, 5]]] * 3, rtol=1e-14)
     assert np.isinf(stabilab.period(one, np.array([[3.0, 2.0, 4.0]]))).all()
 
 
@@ -412,7 +450,8 @@ def test_a_torque_along_an_axis_of_symmetry_has_no_equilibria():
 def test_compiled_rows_are_those_of_plain_python(name):
     pytest.importorskip("numba")
     states = states_of(name, 40)
-    (boxes, periods, left), (others, times, open_) = (settled(SCENES[name], states, by_numba) for by_numba in (False, True))
+    (boxes, periods, left), (others, times,
+                             open_) = (settled(SCENES[name], states, by_numba) for by_numba in (False, True))
     np.testing.assert_array_equal(left, open_)
     np.testing.assert_allclose(periods, times, rtol=1e-12)
     np.testing.assert_allclose(boxes, others, rtol=0, atol=1e-13 * np.abs(boxes).max())

@@ -1,4 +1,5 @@
-"""The state at any time by quadrature: against Taylor series in many digits, zeta functions and the stepping methods."""
+"""The state at any time by quadrature: against Taylor series in many digits, zeta functions and the stepping
+methods."""
 import math
 
 import numpy as np
@@ -27,10 +28,12 @@ needs_heyoka = pytest.mark.skipif(not heyoka_available(), reason="heyoka is not 
 
 
 def error_of(scene, state, times, **options):
-    """(n,) relative error against Taylor series in 30 and 42 digits, which share nothing with the quadrature."""
+    """(n,) relative error against Taylor series in 30 and 42 digits, which share nothing with the quadrature.
+    """
     exact = reference(scene, state, np.asarray(times, float), **options)
     assert exact.status == "agrees"
-    return relative_errors(reduced_motion(scene, state).states(exact.t), exact.states, exact.rest, exact.slices)
+    return relative_errors(reduced_motion(scene, state).states(exact.t), exact.states, exact.rest,
+                           exact.slices)
 
 
 def turning_speed(x1, x2):
@@ -42,9 +45,11 @@ def turning_speed(x1, x2):
 
 
 @pytest.mark.one_in(2)
-@pytest.mark.parametrize("scene, state", [(MINOR, HELD), (MINOR, (4.5, -4.9, -1.4)), (MIDDLE, (1.0, 2.0, 0.5)),
+@pytest.mark.parametrize("scene, state",
+                         [(MINOR, HELD), (MINOR, (4.5, -4.9, -1.4)), (MIDDLE, (1.0, 2.0, 0.5)),
                                           (MIDDLE, (-1.0, -2.0, 5.0)),
-                                          (Scene(Body((2000, 1500, 1000)), Gyrostat((100, 0, 0))), (1.0, 2.0, -1.0)),
+                                          (Scene(Body((2000, 1500, 1000)), Gyrostat((100, 0, 0))),
+                                           (1.0, 2.0, -1.0)),
                                           (Scene(Body((3, 2, "1.5"))), (1.0, 0.2, 2.5))])
 def test_late_state_of_a_repeating_motion_errs_by_its_period_alone(scene, state):
     # one rounding of the period shifts t = 1000 by some 1e-13: a few of them, times rates of order 10
@@ -55,7 +60,8 @@ def test_late_state_of_a_repeating_motion_errs_by_its_period_alone(scene, state)
 @pytest.mark.parametrize("sign", [1, -1])
 def test_scales_and_signs_of_the_torque_keep_the_digits(scale, sign):
     # moments and rates in other units: times shrink by the scale
-    scene = Scene(Body((2.0, 1.5, 1.0)), Gyrostat((0.1 * scale, 0.2 * scale, 0)), ConstantTorque((0, 0, sign * 0.2 * scale**2)))
+    scene = Scene(Body((2.0, 1.5, 1.0)), Gyrostat((0.1 * scale, 0.2 * scale, 0)),
+                  ConstantTorque((0, 0, sign * 0.2 * scale**2)))
     for state in ((1.0 * scale, 0.3 * scale, 0.2 * scale), (0.2 * scale, -0.1 * scale, -0.3 * scale)):
         assert error_of(scene, state, np.array([0.3, 3.0]) / scale).max() < 2e-15
 
@@ -72,7 +78,8 @@ def test_state_next_to_the_separatrix_keeps_its_digits(distance, side):
 
 
 def test_energies_subtracted_lose_the_period_that_divided_differences_keep():
-    """The hard case: 1e-9 from the separatrix the period by the textbook formula, energies subtracted, and the quadrature."""
+    """The hard case: 1e-9 from the separatrix the period by the textbook formula, energies subtracted, and
+    the quadrature."""
     state = (2.75, 1.125, turning_speed(2.75, 1.125) * (1 - 1e-9))
     motion = reduced_motion(MINOR, state)
     time, rest, _ = reference(MINOR, state, np.array([1.0]), orbit=True).period
@@ -106,7 +113,8 @@ def test_many_times_and_one_time_agree():
 
 def test_table_of_a_motion_holds_its_states_to_rounding():
     times = np.linspace(-1000.0, 1000.0, 777)
-    for scene, state in ((MINOR, HELD), (MIDDLE, (1.0, 2.0, 0.5)), (Scene(Body((3, 2, "1.5"))), (1.0, 0.2, 2.5))):
+    for scene, state in ((MINOR, HELD), (MIDDLE, (1.0, 2.0, 0.5)),
+                         (Scene(Body((3, 2, "1.5"))), (1.0, 0.2, 2.5))):
         motion = reduced_motion(scene, state)
         table = tabulated(motion)
         (states, way), (rows, ways) = motion.follow(times), table.follow(times)
@@ -116,7 +124,8 @@ def test_table_of_a_motion_holds_its_states_to_rounding():
 
 
 def test_a_period_later_the_state_is_back():
-    for scene, state in ((MINOR, HELD), (MIDDLE, (1.0, 2.0, 0.5)), (Scene(Body((3, 2, "1.5"))), (1.0, 0.2, 2.5))):
+    for scene, state in ((MINOR, HELD), (MIDDLE, (1.0, 2.0, 0.5)),
+                         (Scene(Body((3, 2, "1.5"))), (1.0, 0.2, 2.5))):
         motion = reduced_motion(scene, state)
         assert np.abs(motion.at(motion.period) - np.array(state)).max() < 1e-14
         assert np.abs(np.array(motion.at(0.0)) - state).max() < 4e-15
@@ -127,7 +136,8 @@ def test_a_period_later_the_state_is_back():
 
 def summed_time(state, theta, bits=120):
     """Time from a state of MINOR (x3 > 0) to coordinate theta, by Hurwitz's zeta function in balls:
-    sum over turns of (K + 2 pi n)^(-1/2) = (zeta(1/2, k) - zeta(1/2, k + n))/sqrt(2 pi), Gauss's rule over one turn."""
+    sum over turns of (K + 2 pi n)^(-1/2) = (zeta(1/2, k) - zeta(1/2, k + n))/sqrt(2 pi), Gauss's rule over
+    one turn."""
     from flint import acb, arb, ctx
     with ctx.workprec(bits):
         a, b = arb(1) / 5, arb(2) / 5
@@ -141,7 +151,8 @@ def summed_time(state, theta, bits=120):
 
         def over(first, last, function, pieces):
             width = (last - first) / pieces / 2
-            return sum((w * width * function(first + width * (2 * p + 1 + x)) for p in range(pieces) for x, w in rule), arb(0))
+            return sum((w * width * function(first + width * (2 * p + 1 + x)) for p in range(pieces) for x,
+                        w in rule), arb(0))
 
         def whole(q):
             k = (energy - height(q)) / turn
@@ -152,7 +163,8 @@ def summed_time(state, theta, bits=120):
 
 
 def place_after(state, time):
-    """(theta in many digits, the state given at that time) from the energy's whole turns and the angle of the answer."""
+    """(theta in many digits, the state given at that time) from the energy's whole turns and the angle of the
+    answer."""
     from flint import arb, ctx
     motion = reduced_motion(MINOR, state)
     found, way = motion.follow(np.array([time]))
@@ -166,7 +178,8 @@ def place_after(state, time):
 
 @pytest.mark.parametrize("time", [30.0, 1e3, 1e4, 1e6])
 def test_spin_up_is_as_right_as_one_ulp_of_the_time_allows(time):
-    """An ulp of the time t turns the body by t times eps times x3 ~ t^2 eps: no answer in doubles knows its place better."""
+    """An ulp of the time t turns the body by t times eps times x3 ~ t^2 eps: no answer in doubles knows its
+    place better."""
     theta, found = place_after(SPINNING, time)
     assert abs(float(summed_time(SPINNING, theta) - time)) < 4 * EPS * time
     # the rate from work and energy, the coordinate being known
@@ -176,20 +189,25 @@ def test_spin_up_is_as_right_as_one_ulp_of_the_time_allows(time):
     assert found[2] == pytest.approx(time, rel=0.2)
 
 
-@pytest.mark.parametrize("state", [SPINNING, (1.0, 4.0, -3.0), (0.1, 0.2, 30.0), (0.1, 0.2, -30.0), (-0.2, 0.0, -1.0)])
+@pytest.mark.parametrize("state",
+                         [SPINNING, (1.0, 4.0, -3.0), (0.1, 0.2, 30.0), (0.1, 0.2, -30.0), (-0.2, 0.0, -1.0)])
 def test_spin_up_agrees_with_the_series_back_and_forth(state):
     times = np.array([-6.0, -1.0, 0.0, 0.3, 3.0, 25.0])
     run, steps = trajectory(MINOR, state, times, "reduced"), trajectory(MINOR, state, times, rtol=1e-13)
-    # Taylor's phase errs by some roundings of rates near 50 over as long a time; circle A = 0 has no angle at all
+    # Taylor's phase errs by some roundings of rates near 50 over as long a time; circle A = 0 has no angle at
+    # all
     assert np.abs(run.states - steps.states).max() < 2e-10
     assert max(run.invariant_drift.values()) < 2e-15
 
 
 @pytest.mark.parametrize("weak", [1e-2, 1e-3, 1e-4])
 def test_weak_torques_turn_the_motion_back_at_the_same_times_one_by_one_and_together(weak):
-    """Hills hundreds and thousands of times as high as a turn's work, so that the closed form guesses the turn badly."""
-    scene, state = Scene(Body((3, 2, 1.5)), Gyrostat((1, 0.5, 0)), ConstantTorque((0, 0, weak))), (0.2, 0.1, -20.0)
-    motion, late = reduced_motion(scene, state), np.linspace(0.01, 100, 30) / weak  # rest comes at some 30/weak
+    """Hills hundreds and thousands of times as high as a turn's work, so that the closed form guesses the
+    turn badly."""
+    scene, state = Scene(Body((3, 2, 1.5)), Gyrostat((1, 0.5, 0)),
+                         ConstantTorque((0, 0, weak))), (0.2, 0.1, -20.0)
+    # rest comes at some 30/weak
+    motion, late = reduced_motion(scene, state), np.linspace(0.01, 100, 30) / weak
     assert isinstance(motion, SpinUp) and motion.sense < 0
     together = motion.follow(late)[0]
     for time, found in zip(late, together):
@@ -213,7 +231,8 @@ def test_spin_up_told_from_its_state_declines_times_before_it():
 
 
 def test_plain_doubles_and_balls_tell_the_same_motion():
-    """States that doubles answer, worked out in balls too: equilibria, heights and other coordinates, not the state's own."""
+    """States that doubles answer, worked out in balls too: equilibria, heights and other coordinates, not the
+    state's own."""
     kinds, times = set(), np.linspace(0.0, 5.0, 7)
     for scene, state in [(MINOR, HELD), (MINOR, SPINNING), *random_scenes(60, 7)]:
         reduction, plain = constants(scene)
@@ -270,7 +289,8 @@ def random_scenes(count, seed=20261122):
 
 @pytest.mark.slow
 def test_random_bodies_agree_with_the_stepping_method():
-    """Librations, rotations, spin-up; circles and hyperbolas. Where a motion is not of these kinds, it is declined."""
+    """Librations, rotations, spin-up; circles and hyperbolas. Where a motion is not of these kinds, it is
+    declined."""
     times, kinds = np.array([-7.0, -0.4, 0.7, 5.0, 20.0]), set()
     for scene, state in random_scenes(40):
         run, steps = trajectory(scene, state, times, "reduced"), trajectory(scene, state, times, rtol=1e-13)
@@ -282,13 +302,15 @@ def test_random_bodies_agree_with_the_stepping_method():
 
 @pytest.mark.one_in(2)
 @pytest.mark.parametrize("moments, momentum, torque", [
-    ((2, 2, 1), (0.1, 0.2, 0), (0, 0, 0.3)), ((2, 1, 1), (0, 0.2, 0), (0, 0, 0.3)), ((2, 1, 1), (0, 0.2, 0.3), (0, 0, 0)),
+    ((2, 2, 1), (0.1, 0.2, 0), (0, 0, 0.3)), ((2, 1, 1), (0, 0.2, 0), (0, 0, 0.3)),
+    ((2, 1, 1), (0, 0.2, 0.3), (0, 0, 0)),
     ((1, 1, 1), (0, 0.2, 0), (0.3, 0, 0.0)), ((2, 1.9999, 1), (0.1, 0.2, 0), (0, 0, 0.3)),
     ((2, 1 + 1e-7, 1), (0, 0.2, 0), (0, 0, 0.3))])
 def test_bodies_with_equal_and_nearly_equal_moments_agree_with_the_stepping_method(moments, momentum, torque):
     scene = Scene(Body(moments), Gyrostat(momentum), *([ConstantTorque(torque)] if any(torque) else []))
     times = np.array([-2.0, 0.5, 8.0])
-    run, steps = trajectory(scene, (0.5, 1.0, -0.4), times, "reduced"), trajectory(scene, (0.5, 1.0, -0.4), times, rtol=1e-14)
+    run, steps = trajectory(scene, (0.5, 1.0, -0.4), times,
+                            "reduced"), trajectory(scene, (0.5, 1.0, -0.4), times, rtol=1e-14)
     assert np.abs(run.states - steps.states).max() < 1e-11
 
 
@@ -298,7 +320,8 @@ def test_bodies_with_equal_and_nearly_equal_moments_agree_with_the_stepping_meth
 def test_motions_without_a_reduced_form_are_declined_in_words():
     with pytest.raises(InputError, match="no reduction to one degree of freedom"):
         trajectory(ScaledGyrostat("0.2", "0.4", (1, 0, 0)), (1, 2, 3), [1.0], "reduced")
-    with pytest.raises(InputError, match="separatrix"):  # 3 omega1^2 = 12 omega3^2: on the middle axis' separatrix, exactly
+    # 3 omega1^2 = 12 omega3^2: on the middle axis' separatrix, exactly
+    with pytest.raises(InputError, match="separatrix"):
         trajectory(Scene(Body((3, 4, 6))), (2, 1, 1), [1.0], "reduced")
     with pytest.raises(InputError, match="blocks"):
         trajectory(MINOR_BODY, {"omega": (1, 2, 3), "gamma": (0, 0, 1)}, [1.0], "reduced")
@@ -306,7 +329,8 @@ def test_motions_without_a_reduced_form_are_declined_in_words():
         trajectory(MINOR, HELD, [1.0], "reduced", 1e-9)
     with pytest.raises(InputError, match="spin-up on an invariant plane"):
         trajectory(ScaledGyrostat("0.25", "0.5", (0, 1, 0)), (0.5, 1, -1), [1.0], "reduced")
-    with pytest.raises(InputError, match="more panels"):  # 1e-17 off a plane, where the hyperbola is long and thin
+    # 1e-17 off a plane, where the hyperbola is long and thin
+    with pytest.raises(InputError, match="more panels"):
         trajectory(ScaledGyrostat("0.2", "0.4", (0, 1, 0)), (-0.4, 1, 0), [1.0], "reduced")
 
 
@@ -321,7 +345,8 @@ def test_equilibrium_stays_to_the_last_digit():
 @pytest.mark.one_in(3)
 @pytest.mark.parametrize("over", [1e-4, -1e-4, 1e-9, -1e-9])
 def test_a_free_motion_that_nearly_stops_at_its_saddle_is_told_on_either_side(over):
-    """Against a Taylor series in 200 bits; 6 (6 - 4) omega1^2 = 3 (4 - 3) omega3^2 on the middle axis' separatrix."""
+    """Against a Taylor series in 200 bits; 6 (6 - 4) omega1^2 = 3 (4 - 3) omega3^2 on the middle axis'
+    separatrix."""
     pytest.importorskip("heyoka")
     scene, problem = physical((6, 4, 3), (0, 0, 0), (0, 0, 0))
     state = (0.5 * (1 + over), 0.75, 1.0)
@@ -331,12 +356,15 @@ def test_a_free_motion_that_nearly_stops_at_its_saddle_is_told_on_either_side(ov
         # a unit in the last place of the start counts as many times as the way along the saddle grows it
         np.testing.assert_allclose(found, many_digits(problem, state, time), atol=4e-15 / abs(over))
 
-# Large circles: a state next to its turning point lies beyond it by rounding, and was then told from the other end of the libration.
+# Large circles: a state next to its turning point lies beyond it by rounding, and was then told from the
+# other end of the libration.
 AT_THE_TURN = {
     "scaled, A = 5e5": (scaled(2.67894360502477, -3.1359257959706746, (0.0, 0.0, 0.0005447722269963265)),
                         exactly("-0x1.138fab90267b8p+18", "-0x1.9dec3a4355bedp+18", "0x1.c9f18f2312009p-13")),
-    "physical": (physical((2.1119923659985465, 0.7483138778422094, 1.4269240413647868), (-61.189403922546475, -0.15012964884116087, 0.0),
-                          (0.0, 0.0, -0.4039882799028167)), exactly("-0x1.6dd06db6e893fp+23", "0x1.07530fe5effdep+22", "0x1.120f1b6153672p-14")),
+    "physical": (physical((2.1119923659985465, 0.7483138778422094, 1.4269240413647868),
+                          (-61.189403922546475, -0.15012964884116087, 0.0),
+                          (0.0, 0.0, -0.4039882799028167)),
+                 exactly("-0x1.6dd06db6e893fp+23", "0x1.07530fe5effdep+22", "0x1.120f1b6153672p-14")),
     "scaled, A = 1e7": (scaled(8.945321721015654, 9.383261012998357, (0, 0, 1.0)),
                         exactly("0x1.18d3b2e8758a0p+21", "0x1.30d9d1ea2337ep+23", "-0x1.3859bade30e6dp-11")),
 }
@@ -345,21 +373,26 @@ AT_THE_TURN = {
 @pytest.mark.parametrize("name", AT_THE_TURN)
 def test_a_libration_on_a_large_circle_may_start_at_its_turning_point(name):
     (scene, problem), state = AT_THE_TURN[name]
-    size, words = DISAGREEMENTS["methods"](scene, problem, state)  # quadrature against Taylor series, in units of rounding
+    # quadrature against Taylor series, in units of rounding
+    size, words = DISAGREEMENTS["methods"](scene, problem, state)
     assert 0 < size <= 1, words
 
 
 def test_panels_that_do_not_add_up_to_the_period_are_refused():
-    """Flights of 2e6 between walls like exp(theta): each panel's series settled, their sum missed the period by 5e-7."""
+    """Flights of 2e6 between walls like exp(theta): each panel's series settled, their sum missed the period
+    by 5e-7."""
     scene, problem = scaled(-0.11664492020020725, 0.06352349753161168, (0.0, 5809731895.024427, 0.0))
     state = exactly("-0x1.1d12a8d1d583ap+5", "0x1.a9d236fe690c0p+20", "0x1.d10dc4ead4843p+6")
-    assert float(stabilab.period(scene, np.array(state))) == pytest.approx(float(energy.period(problem, state)), rel=1e-11)
+    assert float(stabilab.period(scene,
+                                 np.array(state))) == pytest.approx(float(energy.period(problem, state)),
+                                                                    rel=1e-11)
     with pytest.raises(stabilab.errors.InputError, match="take method taylor"):
         stabilab.trajectory(scene, state, [1e-5], "reduced")
 
 
 def test_a_libration_of_which_doubles_lose_the_turning_point_is_told_otherwise_or_refused():
-    scene, problem = physical((3.0541906867772606, 2.781647235252075, 0.47338365602266785), (0.0, -178.98735879325278, 0.35249398302471097),
+    scene, problem = physical((3.0541906867772606, 2.781647235252075, 0.47338365602266785),
+                              (0.0, -178.98735879325278, 0.35249398302471097),
                               (53232.467476916085, 0.0, 0.0))
     state = exactly("-0x1.29b952f4ec612p-19", "0x1.b12f3aa1229d7p+15", "-0x1.0de749c175e0ep-2")
     size, words = DISAGREEMENTS["methods"](scene, problem, state)

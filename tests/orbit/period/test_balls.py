@@ -29,10 +29,12 @@ def test_a_rate_below_a_barrier_is_asked_for_again_with_more_bits():
 
 @pytest.mark.parametrize("digits", [9, 14, 20, 30, 50])
 def test_a_period_in_balls_is_worked_out_once(digits, monkeypatch):
-    """The last whole step of the rule stands nearer to a turning point than its terms need: with fewer bits every first try was in vain."""
+    """The last whole step of the rule stands nearer to a turning point than its terms need: with fewer bits
+    every first try was in vain."""
     tried, orbit = [], Orbit(reduce(scene := ScaledGyrostat(1, 2, (0, 0, 1))), (0.3, 0.2, 0.1))
     assert stabilab.fate(scene, [orbit.state]).labels[0] == Fate.BOUNDED
-    monkeypatch.setattr(balls, "turning_points", lambda one: tried.append(one.numbers.bits) or turning_points(one))
+    monkeypatch.setattr(balls, "turning_points",
+                        lambda one: tried.append(one.numbers.bits) or turning_points(one))
     found = balls.period_ball(orbit, digits)
     assert len(tried) == 1
     finer = balls.period_ball(orbit, digits + 12)
@@ -50,7 +52,8 @@ def test_a_height_in_balls_forms_the_force_at_the_state_once(monkeypatch):
 
 
 def test_two_steps_that_agree_by_chance_do_not_end_the_rule():
-    """The error of a sum over nodes changes its sign as a peak moves past the nodes: in between two steps agree, and say nothing of the error."""
+    """The error of a sum over nodes changes its sign as a peak moves past the nodes: in between two steps
+    agree, and say nothing of the error."""
     def total(level, centre):
         """The rule's sum at one step, of a peak at the centre, in doubles."""
         step, sums = 2.0**-level, 0.0
@@ -67,14 +70,16 @@ def test_two_steps_that_agree_by_chance_do_not_end_the_rule():
 
     def peak(near, a, b):
         return 1 / (1 + ((near + (a if near > 0 else b) - centre) / WIDTH) ** 2)
-    exact = WIDTH * (math.atan((1 - centre) / WIDTH) + math.atan(centre / WIDTH))  # the integral in closed form
+    # the integral in closed form
+    exact = WIDTH * (math.atan((1 - centre) / WIDTH) + math.atan(centre / WIDTH))
     assert abs(strayed(centre)) < 1e-14 and abs(total(3, centre) - exact) > 1e-6 * exact  # by chance
     with working(200):
         assert float(balls._tanh_sinh(peak, arb(0), arb(1), 9).mid()) == pytest.approx(exact, rel=1e-14)
 
 
 def test_the_error_by_rate_is_the_power_that_squares_with_every_doubling():
-    """A geometric rule: changes of 1e-1, 1e-2, 1e-4 leave 1e-8; by chance the last is nothing, and the change before tells."""
+    """A geometric rule: changes of 1e-1, 1e-2, 1e-4 leave 1e-8; by chance the last is nothing, and the change
+    before tells."""
     assert balls.power_of_error(-1.0, -2.0, -4.0) == pytest.approx(-8.0)
     assert balls.power_of_error(-1.0, -2.0, -30.0) == pytest.approx(-8.0)
     assert balls.power_of_error(-1.0, -15.0, -4.0) > 0

@@ -1,4 +1,5 @@
-"""The distance from the separatrix: charts err by less than their bounds, lower bound and witness meet where that is hard."""
+"""The distance from the separatrix: charts err by less than their bounds, lower bound and witness meet where
+that is hard."""
 from __future__ import annotations
 
 from fractions import Fraction
@@ -28,7 +29,8 @@ def test_the_chart_beside_a_state_errs_by_less_than_its_bounds_however_alike_two
         for pair in ((0, 1), (0, 2), (1, 2)):
             moments = rng.uniform(1.0, 1.3, 3)
             moments[pair[1]] = moments[pair[0]] * (1 + gap)
-            wheel, torque, state = rng.normal(size=3), (0, 0, float(rng.normal())), rng.normal(size=3).tolist()
+            wheel, torque, state = rng.normal(size=3), (0, 0,
+                                                        float(rng.normal())), rng.normal(size=3).tolist()
             reduction = reduce(physical(tuple(moments), (*wheel[:2], 0), torque)[0])
             seen, conic = Seen.of(reduction, state), conic_of(reduction)
             for piece in conic.pieces:
@@ -45,25 +47,30 @@ def test_the_chart_beside_a_state_errs_by_less_than_its_bounds_however_alike_two
 
 
 def test_charts_of_long_loops_err_by_less_than_their_bounds():
-    """Values and slopes in doubles against the place and the potential in 256 bits, which are other formulas."""
+    """Values and slopes in doubles against the place and the potential in 256 bits, which are other formulas.
+    """
     rng, seen_points = np.random.default_rng(12), {FarChart: 0, TurnChart: 0}
     while min(seen_points.values()) < 100:
         moments, wheel, state = rng.uniform(1, 2, 3), rng.normal(size=3), rng.normal(size=3) * 0.1
         axis = int(np.argsort(moments)[1])
         wheel[axis] = 0
-        reduction = reduce(physical(moments, wheel, [rng.normal() * (n == axis and rng.random() < 0.5) for n in range(3)])[0])
+        reduction = reduce(physical(moments, wheel,
+                                    [rng.normal() * (n == axis and rng.random() < 0.5) for n in range(3)])[0])
         if reduction is None or reduction.e < 0:
             continue
         seen, conic = Seen.of(reduction, state.tolist()), conic_of(reduction)
-        curves = [Hyperbola(seen, *conic.sharp_ends(piece), piece.sign) for piece in conic.pieces if piece.barrier]
-        for chart in (chart for curve in curves for chart in loops_of(seen, curve, curve.low, curve.high, 100.0)):
+        curves = [Hyperbola(seen, *conic.sharp_ends(piece), piece.sign) for piece in conic.pieces
+                  if piece.barrier]
+        for chart in (chart for curve in curves
+                      for chart in loops_of(seen, curve, curve.low, curve.high, 100.0)):
             for _ in range(10 * (type(chart) in seen_points)):
                 t, y = (float(rng.uniform(low, min(high, 30))) for low, high in (chart.t, chart.y))
                 if not chart.holds(t, y) or chart.folded(t, 0.0, y, 0.0):
                     continue
                 p, exact = chart.point(t, y), chart.exact_point(t, y)
                 assert abs(p.apart - exact.apart) <= p.off[0] and abs(p.phi - exact.phi) <= p.off[1]
-                slopes = [(p.apart_t, exact.apart_t), (p.apart_y, exact.apart_y), (p.phi_t, exact.phi_t), (p.phi_y, exact.phi_y)]
+                slopes = [(p.apart_t, exact.apart_t), (p.apart_y, exact.apart_y), (p.phi_t, exact.phi_t),
+                          (p.phi_y, exact.phi_y)]
                 assert all(abs(a - b) <= off for (a, b), off in zip(slopes, p.rough)), (chart, t, y)
                 seen_points[type(chart)] += 1
 
@@ -78,15 +85,18 @@ def exact_point(mp, curve, t, y):
     X, Z = x * C + z * S, z * C + seen.e * x * S
     # dX/dy = Z and F = mu + G X Z + c Z + d X = -V' with V = -mu y - G X^2/2 - c X - e d Z
     V = lambda y, X, Z: -g["mu"] * y - g["G"] * X * X / 2 - g["c"] * X - seen.e * g["d"] * Z
-    return g["a"] * (X - g["X"]) ** 2 + g["b"] * (Z - g["Z"]) ** 2, 2 * (V(0, x, z) - V(mp.mpf(y), X, Z)) / g["n2"]
+    return g["a"] * (X - g["X"]) ** 2 + g["b"] * (Z
+                                                  - g["Z"]) ** 2, 2 * (V(0, x, z)
+                                                                       - V(mp.mpf(y), X, Z)) / g["n2"]
 
 
 @pytest.mark.one_in(3)
 @pytest.mark.parametrize("lift", [1e-5, -1e-7, 1e-9, -1e-11, 1e-12])
 @pytest.mark.parametrize("pair, state", [((0, 1), (0.4, 0.3, 0.5)), ((1, 0), (-1.0, 0.3, 2.0))])
 def test_bound_and_witness_meet_however_alike_two_moments_are(lift, pair, state):
-    """The doubles of loops told from the centre of the orbits used to leave brackets of up to 9 %. The witness is on the separatrix:
-    the margin, which has no code in common with the search, changes its sign there."""
+    """The doubles of loops told from the centre of the orbits used to leave brackets of up to 9 %. The
+    witness is on the separatrix: the margin, which has no code in common with the search, changes its sign
+    there."""
     moments = [1.2, 1.2, 1.0]
     moments[pair[1]] *= 1 + lift
     scene, state = physical(moments, (0.3, 0.2, 0), (0, 0, 0.1))[0], np.array(state)
@@ -100,83 +110,108 @@ def test_bound_and_witness_meet_however_alike_two_moments_are(lift, pair, state)
 @pytest.mark.one_in(2)
 @pytest.mark.parametrize("inertia, wheel, torque, state", [
     ((1.49736644, 0.44230883, 1.49736648), (-1.367, 0, 0), (0, 0, 0), (0.0977, -0.00325, 0.2235)),
-    ((1.6706906974740514, 1.6706906974740514, 1.236882267730723), (0.2887157196510496, 0.6707558503088299, 0), (0, 0, 0),
+    ((1.6706906974740514, 1.6706906974740514, 1.236882267730723), (0.2887157196510496, 0.6707558503088299, 0),
+     (0, 0, 0),
      (-0.005014297134250996, 0.006338772360293345, 0.0015443377386760225)),
-    ((1.2118380149530614, 1.13074942401926, 1.276202384807355), (-1.3650447610137093, 0, -1.953706814412097), (0, 0, 0),
+    ((1.2118380149530614, 1.13074942401926, 1.276202384807355), (-1.3650447610137093, 0, -1.953706814412097),
+     (0, 0, 0),
      (0.5646276455972182, 0.005992371043408872, 0.39077055411060624)),
-    ((1.3514392022064112, 1.837516534734172, 1.3514017666271823), (0.7865822722196931, 0, 0), (0, 0, 0.3020370702905364),
+    ((1.3514392022064112, 1.837516534734172, 1.3514017666271823), (0.7865822722196931, 0, 0),
+     (0, 0, 0.3020370702905364),
      (-2.4811783407460117, 1.2515862632451265, -5.671545379657007))])
-def test_bound_and_witness_meet_at_the_tips_of_cones_and_beside_the_folds_of_far_circles(inertia, wheel, torque, state):
-    """There W grows like a root, and halving boxes by the slopes of smooth bounds used to leave brackets of 2e-8 to 4e-6."""
+def test_bound_and_witness_meet_at_the_tips_of_cones_and_beside_the_folds_of_far_circles(inertia, wheel,
+                                                                                         torque, state):
+    """There W grows like a root, and halving boxes by the slopes of smooth bounds used to leave brackets of
+    2e-8 to 4e-6."""
     found = distance_of(reduce(physical(inertia, wheel, torque)[0]), state)
-    assert found.settled and np.linalg.norm(np.array(found.witness) - state) == pytest.approx(found.upper, rel=1e-9)
+    assert found.settled and np.linalg.norm(np.array(found.witness)
+                                            - state) == pytest.approx(found.upper, rel=1e-9)
 
 
 @pytest.mark.parametrize("inertia, wheel, torque, state", [
-    ((1.5637603579889892, 1.9618001934913478, 1.0286388451871102), (0, 0.1298210205682596, -0.2809807005880112), (0, 0, 0),
+    ((1.5637603579889892, 1.9618001934913478, 1.0286388451871102),
+     (0, 0.1298210205682596, -0.2809807005880112), (0, 0, 0),
      (3.574180856662026, 8.536803480006071, 5.307671798974504)),
-    ((1.1617853181353837, 1.5412202312016956, 1.0769660944416684), (0, -0.2532265090143425, -1.9717684404796492), (0.8474919665936105, 0, 0),
+    ((1.1617853181353837, 1.5412202312016956, 1.0769660944416684),
+     (0, -0.2532265090143425, -1.9717684404796492), (0.8474919665936105, 0, 0),
      (11.26726403504404, 18.488724448197452, 12.682158756064094)),
-    ((1.2429607089343842, 1.2429618285607196, 1.0774172052746194), (0, 0, -300680.3833442784), (0.05248724485989692, 0, 0),
+    ((1.2429607089343842, 1.2429618285607196, 1.0774172052746194), (0, 0, -300680.3833442784),
+     (0.05248724485989692, 0, 0),
      (5.00238728361977, -0.21685189881815653, -0.11852856533633595)),
-    ((1.3577243346918109, 1.2641610423199228, 1.3577243023289156), (0.0013684417647415105, -988.3521929006432, 0), (0, 0, -0.9165233236148685),
+    ((1.3577243346918109, 1.2641610423199228, 1.3577243023289156),
+     (0.0013684417647415105, -988.3521929006432, 0), (0, 0, -0.9165233236148685),
      (1.157434860394527, 4.03197807466792, -2.4550689216984347)),
-    ((1.9947841924869367, 1.663839618515029, 1.8797443467606212), (0.7974582055588898, -2.1079932791879634, 0), (0, 0, 0),
+    ((1.9947841924869367, 1.663839618515029, 1.8797443467606212),
+     (0.7974582055588898, -2.1079932791879634, 0), (0, 0, 0),
      (0.002589834840908386, -0.0100443715920583, 0.009826799926438293))])
 def test_bound_and_witness_meet_where_loops_run_far_along_an_invariant_plane(inertia, wheel, torque, state):
-    """Told by their saddles, such loops move by e^y: brackets were 8e-9 to 60 % wide, or no point was found at all."""
+    """Told by their saddles, such loops move by e^y: brackets were 8e-9 to 60 % wide, or no point was found
+    at all."""
     found = distance_of(reduce(physical(inertia, wheel, torque)[0]), state)
-    assert found.settled and np.linalg.norm(np.array(found.witness) - state) == pytest.approx(found.upper, rel=1e-9)
+    assert found.settled and np.linalg.norm(np.array(found.witness)
+                                            - state) == pytest.approx(found.upper, rel=1e-9)
 
 
 def test_newtons_method_that_leaves_a_branch_is_no_end_of_the_search():
-    """Its steps used to leave the saddles of the branch, and the distance was told as unknown; that of the image was 1.292."""
-    scene = physical((1.2958441810930759, 1.7178832789325895, 1.3916007488529667), (0.5618419444540199, -0.47551310516025364, 0),
+    """Its steps used to leave the saddles of the branch, and the distance was told as unknown; that of the
+    image was 1.292."""
+    scene = physical((1.2958441810930759, 1.7178832789325895, 1.3916007488529667),
+                     (0.5618419444540199, -0.47551310516025364, 0),
                      (0, 0, 0.3575622571421843))[0]
     found = distance_of(reduce(scene), (-1.631349547138242, -0.6426082392398669, -7.664385358239262))
-    assert found.settled and found.upper == pytest.approx(1.29215665158, rel=1.1e-9)  # of the image under (1, 3, -2)
+    # of the image under (1, 3, -2)
+    assert found.settled and found.upper == pytest.approx(1.29215665158, rel=1.1e-9)
 
 
 def test_a_branch_that_ends_beside_a_plane_is_not_taken_to_reach_it():
-    """Its fold lies 1e-7 from the plane of loops of 1e6: the sheet ends there, and the plane, 880 away, is none of it. Without code
-    in common: on the way the margin in energy stays above zero; at the witness, on the edge of the sheet, it vanishes with the barrier."""
-    inertia, wheel = (1.8290967274280594, 1.8290962446652763, 1.5191332376501885), (0.1741448013106836, 0.0, -426.0248717963907)
+    """Its fold lies 1e-7 from the plane of loops of 1e6: the sheet ends there, and the plane, 880 away, is
+    none of it. Without code in common: on the way the margin in energy stays above zero; at the witness, on
+    the edge of the sheet, it vanishes with the barrier."""
+    inertia, wheel = (1.8290967274280594, 1.8290962446652763,
+                      1.5191332376501885), (0.1741448013106836, 0.0, -426.0248717963907)
     scene = physical(inertia, wheel, (0.0, -1.0941156527864675e-07, 0.0))[0]
     state = np.array([-0.1880791489812675, 0.018586251832376544, 0.034107800405773304])
     found = distance_of(reduce(scene), state.tolist())
     way = (np.array(found.witness) - state) / found.upper
-    margins = stabilab.fate(scene, state + way * found.upper * np.array([[0.7], [1 - 1e-6], [1 - 1e-9], [1 + 1e-6]])).margins
+    margins = stabilab.fate(scene,
+                            state + way * found.upper
+                            * np.array([[0.7], [1 - 1e-6], [1 - 1e-9], [1 + 1e-6]])).margins
     assert found.settled and margins[0] > 0 and 0 < margins[2] < 2e-3 * margins[1] and margins[3] == np.inf
 
 
 def test_an_unknown_distance_is_no_number_and_none_is_infinite():
     """Infinite would say that no separatrix is near: the unsafe side."""
-    assert np.isnan(UNKNOWN.value) and not UNKNOWN.settled and NO_SEPARATRIX.value == np.inf and NO_SEPARATRIX.settled
+    assert np.isnan(
+        UNKNOWN.value) and not UNKNOWN.settled and NO_SEPARATRIX.value == np.inf and NO_SEPARATRIX.settled
 
 
 @pytest.mark.parametrize("part", [1e-9, 1e-12, 1e-15])
 def test_states_far_nearer_than_doubles_of_the_search_tell_have_a_settled_distance(part):
-    """On the perpendicular of a nearest point, at a distance that is known but for the rounding of that point to doubles."""
+    """On the perpendicular of a nearest point, at a distance that is known but for the rounding of that point
+    to doubles."""
     scene, state = physical((3.0, 2.0, 1.5), (0, 0.8, 0), (0.2, 0, 0))[0], (0.3, 0.5, 0.4)
     still = distance_of(reduce(scene), state)
-    beside = [Fraction(w) + Fraction(part / still.upper) * (Fraction(v) - Fraction(w)) for v, w in zip(state, still.witness)]
+    beside = [Fraction(w) + Fraction(part / still.upper) * (Fraction(v) - Fraction(w)) for v,
+              w in zip(state, still.witness)]
     found = distance_of(reduce(scene), beside)
     assert found.settled and found.boxes < 3000 and abs(found.upper - part) < 1e-9 * part + 1e-15
 
 
 def test_a_side_of_a_box_that_no_double_divides_is_left_for_the_other():
-    """Halving it went on until the boxes were spent, and the nearest point told was 1.24 away. The point told is on the separatrix: by the oracle
-    the margin in energy changes its sign across it."""
+    """Halving it went on until the boxes were spent, and the nearest point told was 1.24 away. The point told
+    is on the separatrix: by the oracle the margin in energy changes its sign across it."""
     scene, problem = scaled(3.0, 1.0, (0, 1, 0))
     found = distance_of(reduce(scene), (-1, 1.5, -0.5))
     assert found.upper < 0.5843 and found.lower > 0.49
-    x, y, z = found.witness  # on the plane x + z = -1 to rounding, on one side of which alone there is a barrier
+    # on the plane x + z = -1 to rounding, on one side of which alone there is a barrier
+    x, y, z = found.witness
     z += 1e-12
     assert energy.margin(problem, (x, y * (1 - 1e-9), z)) > 0 > energy.margin(problem, (x, y * (1 + 1e-9), z))
 
 
 def touching(part):
-    """(scene, its image with x2, x3 and the torque reversed) whose hyperbola of equilibria touches an invariant plane but for a share of the torque."""
+    """(scene, its image with x2, x3 and the torque reversed) whose hyperbola of equilibria touches an
+    invariant plane but for a share of the torque."""
     mu = Fraction(1, 4) * (1 + part)
     return tuple(stabilab.ScaledGyrostat(-2, -1, (0, side * mu, 0)) for side in (1, -1))
 
@@ -187,36 +222,46 @@ PARTS = [0, *(sign * Fraction(1, 10**n) for n in (3, 9, 15, 24) for sign in (1, 
 @pytest.mark.one_in(3)
 @pytest.mark.parametrize("part", PARTS)
 def test_bound_and_witness_meet_where_a_fold_stands_on_an_invariant_plane_or_beside_it(part):
-    """There xi of the saddles goes with a square, and no search ended from a share of 1e-8 on. An image has the same distance, as a reflection
-    keeps distances."""
-    for state in ((0.0, 0.75, -4.0), (-4.464045877402299, 5.91141621500135, -0.860840120095671), (0.3, -0.2, 0.1)):
-        found, image = (distance_of(reduce(scene), (state[0], *(side * v for v in state[1:]))) for scene, side in zip(touching(part), (1, -1)))
-        assert found.settled and image.settled and found.boxes < 2500 and abs(found.upper - image.upper) <= 1.1e-9 * found.upper
+    """There xi of the saddles goes with a square, and no search ended from a share of 1e-8 on. An image has
+    the same distance, as a reflection keeps distances."""
+    for state in ((0.0, 0.75, -4.0), (-4.464045877402299, 5.91141621500135, -0.860840120095671),
+                  (0.3, -0.2, 0.1)):
+        found, image = (distance_of(reduce(scene), (state[0], *(side * v for v in state[1:]))) for scene,
+                        side in zip(touching(part), (1, -1)))
+        assert found.settled and image.settled and found.boxes < 2500 and abs(
+            found.upper - image.upper) <= 1.1e-9 * found.upper
 
 
 @pytest.mark.one_in(3)
 @pytest.mark.parametrize("part", PARTS)
 def test_charts_about_such_a_fold_err_by_less_than_their_bounds(part):
-    """Against the potential and the moved saddle, told by its h, in 80 digits: another formula than that by the square."""
+    """Against the potential and the moved saddle, told by its h, in 80 digits: another formula than that by
+    the square."""
     rng, mp, checked = np.random.default_rng(13), mpmath.mp.clone(), {RootChart: 0, TurnChart: 0, FarChart: 0}
     mp.dps = 80
     for scene in touching(part):
         seen, conic = Seen.of(reduce(scene), (1.0, 2.0, -1.5)), conic_of(reduce(scene))
-        curves = [Hyperbola(seen, *conic.sharp_ends(piece), piece.sign) for piece in conic.pieces if piece.barrier]
-        for chart in (chart for curve in curves for chart in loops_of(seen, curve, curve.low, curve.high, 10.0) if type(chart) in checked):
+        curves = [Hyperbola(seen, *conic.sharp_ends(piece), piece.sign) for piece in conic.pieces
+                  if piece.barrier]
+        for chart in (chart for curve in curves
+                      for chart in loops_of(seen, curve, curve.low, curve.high, 10.0)
+                      if type(chart) in checked):
             turn = Turn.of(seen, curve_of(chart, curves), chart.flip)
             for _ in range(30 * (turn is not None)):
                 t, y = (float(rng.uniform(low, min(high, 20))) for low, high in (chart.t, chart.y))
                 if not chart.holds(t, y) or chart.folded(t, 0.0, y, 0.0):
                     continue
-                p, (apart, phi) = chart.point(t, y), exact_point(mp, *from_turn(mp, chart, turn, curves, t, y))
+                p, (apart, phi) = chart.point(t,
+                                              y), exact_point(mp, *from_turn(mp, chart, turn, curves, t, y))
                 assert abs(p.apart - apart) <= p.off[0] and abs(p.phi - phi) <= p.off[1], (chart, t, y)
                 checked[type(chart)] += 1
     assert checked[FarChart] + checked[RootChart] > 20
 
 
 def curve_of(chart, curves):
-    return curves[0] if len(curves) == 1 else next(c for c in curves if (c.sign * chart.flip > 0) == (getattr(chart, "H", None) or chart.reach.rising) > 0)
+    return (curves[0] if len(curves) == 1
+            else next(c for c in curves
+                      if (c.sign * chart.flip > 0) == (getattr(chart, "H", None) or chart.reach.rising) > 0))
 
 
 def from_turn(mp, chart, turn, curves, t, y):
@@ -231,61 +276,81 @@ def from_turn(mp, chart, turn, curves, t, y):
         s, way = (of(Fraction(chart.places[1])) + y, None) if type(chart) is TurnChart else (None, mp.mpf(y))
         if s is None:
             G = of(chart.seen.exact["G"])
-            s = mp.sqrt((xi * mp.exp(-way) - r) / H) * (1 if chart.reach.rising / (float(turn.H) * float(G)) < 0 else -1)
+            s = (mp.sqrt((xi * mp.exp(-way) - r) / H)
+                 * (1 if chart.reach.rising / (float(turn.H) * float(G)) < 0 else -1))
         else:
             way = mp.log(xi / (r + H * s * s))
     return curve, mp.log(of(turn.h) / of(curve.h0)) + 2 * mp.asinh(s / 2), chart.flip * way
 
 
 @pytest.mark.parametrize("scaled, state", [
-    ((0, -1, Fraction(-1, 4)), (2, -1, 1)), ((-1, 1, -1), (0, -1, -4)), ((3, 1, 1), (-1, Fraction(3, 2), Fraction(-1, 2))),
-    ((0, -2, -1), (2, Fraction(5, 4), 1)), ((1, 0, Fraction(1, 4)), (Fraction(-5, 3), -1, 0)), ((Fraction(-5, 4), Fraction(5, 3), -2), (0, 1, -1))])
+    ((0, -1, Fraction(-1, 4)), (2, -1, 1)), ((-1, 1, -1), (0, -1, -4)),
+    ((3, 1, 1), (-1, Fraction(3, 2), Fraction(-1, 2))),
+    ((0, -2, -1), (2, Fraction(5, 4), 1)), ((1, 0, Fraction(1, 4)), (Fraction(-5, 3), -1, 0)),
+    ((Fraction(-5, 4), Fraction(5, 3), -2), (0, 1, -1))])
 def test_bound_and_witness_meet_in_scenes_of_small_numbers(scaled, state):
-    """A fold on a plane, or nearly: brackets were up to twice the lower bound wide, or no point was found at all."""
+    """A fold on a plane, or nearly: brackets were up to twice the lower bound wide, or no point was found at
+    all."""
     a, b, mu = scaled
     found = distance_of(reduce(stabilab.ScaledGyrostat(a, b, (0, mu, 0))), state)
-    assert found.settled and np.linalg.norm(np.array(found.witness) - np.array(state, float)) == pytest.approx(found.upper, rel=1e-9)
+    assert found.settled and np.linalg.norm(np.array(found.witness)
+                                            - np.array(state, float)) == pytest.approx(found.upper, rel=1e-9)
 
 
 def test_bound_and_witness_meet_where_two_nearest_points_merge():
-    """The squared distance bends by nothing one way there, and its bound lost the mixed bend of every box: the bracket was 4e-8 wide. As
-    (x1 + x3)' = x2 (x1 + x3 + b), the plane x1 + x3 = -b is invariant, and it is a part of the separatrix; the state is 1/sqrt 2 from it."""
-    found = distance_of(reduce(stabilab.ScaledGyrostat(Fraction(-5, 2), Fraction(5, 4), (0, 0, 0))), (Fraction(-1, 4), -3, -2))
-    assert found.settled and found.upper == pytest.approx(0.5**0.5, rel=1e-9) and found.witness == pytest.approx((0.25, -3, -1.5), abs=1e-8)
+    """The squared distance bends by nothing one way there, and its bound lost the mixed bend of every box:
+    the bracket was 4e-8 wide. As (x1 + x3)' = x2 (x1 + x3 + b), the plane x1 + x3 = -b is invariant, and it
+    is a part of the separatrix; the state is 1/sqrt 2 from it."""
+    found = distance_of(reduce(stabilab.ScaledGyrostat(Fraction(-5, 2), Fraction(5, 4), (0, 0, 0))),
+                        (Fraction(-1, 4), -3, -2))
+    assert found.settled and found.upper == pytest.approx(0.5**0.5,
+                                                          rel=1e-9) and found.witness == pytest.approx(
+                                                              (0.25, -3, -1.5), abs=1e-8)
 
 
 def test_a_state_in_the_middle_of_its_circles_has_a_settled_distance():
-    """All that tells points of a loop apart is the rate about the axis there, and boxes were halved the other way: 1.4e-6 was left. By the oracle
-    a motion just beyond the witness is held, and none is at 2,000 places just nearer than the lower bound."""
+    """All that tells points of a loop apart is the rate about the axis there, and boxes were halved the other
+    way: 1.4e-6 was left. By the oracle a motion just beyond the witness is held, and none is at 2,000 places
+    just nearer than the lower bound."""
     scene, problem = physical((4.0, 2.0, 4.0), (0, 0, -0.5), (0, -3.0, 0))
     state, rng = np.array([0, 1, 0.25]), np.random.default_rng(6)
     found = distance_of(reduce(scene), tuple(state))
     ways = rng.normal(size=(2000, 3)) * (1, 1e-3, 1e-2)
     about = state + 0.999999 * found.lower * ways / np.linalg.norm(ways, axis=1)[:, None]
     x, y, z = found.witness
-    assert found.settled and energy.margin(problem, (x, y * (1 - 1e-6), z)) > 0 > energy.margin(problem, (x, y * (1 + 1e-6), z))
+    assert found.settled and energy.margin(problem,
+                                           (x, y * (1 - 1e-6),
+                                            z)) > 0 > energy.margin(problem, (x, y * (1 + 1e-6), z))
     assert (stabilab.fate(scene, about).margins < 0).all()
 
 
 @pytest.mark.parametrize("scene, state", [
-    (stabilab.Scene(stabilab.Body((5, 3, 4))), (0, 0, 0)), (stabilab.Scene(stabilab.Body(("2", "4/3", "7/4"))), (0, 0, Fraction(3, 4))),
-    (stabilab.ScaledGyrostat("-4/3", "5/2", (0, 0, 0)), (1, 0, 0)), (stabilab.ScaledGyrostat("3/2", 1, (0, 0, 0)), (-1, Fraction(-2, 3), 0)),
-    (stabilab.ScaledGyrostat(1, -2, (0, 0, 0)), (3, Fraction(-3, 4), -1)), (stabilab.ScaledGyrostat("1/3", "-5/3", (0, 0, 0)), (Fraction(5, 3), -1, 0))])
+    (stabilab.Scene(stabilab.Body((5, 3, 4))), (0, 0, 0)),
+    (stabilab.Scene(stabilab.Body(("2", "4/3", "7/4"))), (0, 0, Fraction(3, 4))),
+    (stabilab.ScaledGyrostat("-4/3", "5/2", (0, 0, 0)), (1, 0, 0)),
+    (stabilab.ScaledGyrostat("3/2", 1, (0, 0, 0)), (-1, Fraction(-2, 3), 0)),
+    (stabilab.ScaledGyrostat(1, -2, (0, 0, 0)), (3, Fraction(-3, 4), -1)),
+    (stabilab.ScaledGyrostat("1/3", "-5/3", (0, 0, 0)), (Fraction(5, 3), -1, 0))])
 def test_a_state_exactly_on_the_separatrix_is_at_no_distance_from_it(scene, state):
-    """Saddles, and states whose energy equals a barrier's in rational numbers: the search crept towards 1e-80, or hung."""
+    """Saddles, and states whose energy equals a barrier's in rational numbers: the search crept towards
+    1e-80, or hung."""
     assert distance_of(reduce(scene), state) == (0.0, 0.0, tuple(map(float, state)), "", 0)
 
 
-FAR = [((12, 9, 5), (0.8, 0, 0), (0, 0, 0.02), (0.1, None, 0.02)), ((12, 9, 5), (0, 0.3, 0.2), (0.02, 0, 0), (0.1, None, 0.02)),
-       ((12, 9, 5), (0.8, 0.3, 0), (0, 0, 0.02), (0.1, None, 0.02)), ((3, 2, 1), (0, 0, 0.5), (1, 0, 0), (0.1, None, 0.02))]
+FAR = [((12, 9, 5), (0.8, 0, 0), (0, 0, 0.02), (0.1, None, 0.02)),
+       ((12, 9, 5), (0, 0.3, 0.2), (0.02, 0, 0), (0.1, None, 0.02)),
+       ((12, 9, 5), (0.8, 0.3, 0), (0, 0, 0.02), (0.1, None, 0.02)),
+       ((3, 2, 1), (0, 0, 0.5), (1, 0, 0), (0.1, None, 0.02))]
 
 
 @pytest.mark.one_in(4)
 @pytest.mark.parametrize("size", [1e3, 5e8, 1e13])
 @pytest.mark.parametrize("moments, wheel, torque, state", FAR)
-def test_a_state_far_from_the_centre_of_its_circles_has_a_settled_distance(moments, wheel, torque, state, size):
-    """A branch of saddles was halved down to the state's own circle once for every part of the loops: a bracket from zero up after 3 s. The
-    witness parts the fates by the oracle's energy in 60 digits, and no place just nearer than the lower bound does."""
+def test_a_state_far_from_the_centre_of_its_circles_has_a_settled_distance(moments, wheel, torque, state,
+                                                                           size):
+    """A branch of saddles was halved down to the state's own circle once for every part of the loops: a
+    bracket from zero up after 3 s. The witness parts the fates by the oracle's energy in 60 digits, and no
+    place just nearer than the lower bound does."""
     state = [size if v is None else v for v in state]
     scene, problem = physical(moments, wheel, torque)
     found, rng = distance_of(reduce(scene), state), np.random.default_rng(2)
@@ -295,9 +360,11 @@ def test_a_state_far_from_the_centre_of_its_circles_has_a_settled_distance(momen
     for share in (0.999999, 1.000001):
         at = [Fraction(v) + Fraction(share) * Fraction(s) for v, s in zip(state, step)]
         beyond = energy.margin(problem, tuple(at), 60) > 0
-        assert (beyond == side) == (share < 1) or step[axis] == -state[axis]  # at a saddle itself the way ends at the rim of a sheet
+        # at a saddle itself the way ends at the rim of a sheet
+        assert (beyond == side) == (share < 1) or step[axis] == -state[axis]
     for way in rng.normal(size=(12, 3)):
-        at = [Fraction(v) + Fraction(float(0.999999 * found.lower * w / np.linalg.norm(way))) for v, w in zip(state, way)]
+        at = [Fraction(v) + Fraction(float(0.999999 * found.lower * w / np.linalg.norm(way))) for v,
+              w in zip(state, way)]
         assert (energy.margin(problem, tuple(at), 60) > 0) == side
 
 

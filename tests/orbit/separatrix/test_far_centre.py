@@ -1,4 +1,5 @@
-"""Sheets of nearly equal moments, whose orbits are centred far away, against Euler's equations in 80 digits."""
+"""Sheets of nearly equal moments, whose orbits are centred far away, against Euler's equations in 80 digits.
+"""
 from __future__ import annotations
 
 import math
@@ -17,10 +18,14 @@ from stabilab.orbit.separatrix.saddles import limit_of, saddle_branches
 from tests.oracles import homoclinic
 
 EPS = 2.0**-52
-SCENES = {  # moments, wheel, torque; the centre is 1e11, 1e12, 1e7 and 1e4 times the size of loops away; on hyperbolas and a circle
-    "slow wheel, moments equal to 1e-15": ((5.456456129673027, 6.928705469657129, 6.928705469657137), (-0.000911389824785606, 0.0, -0.0013736390275602755),
+# moments, wheel, torque; the centre is 1e11, 1e12, 1e7 and 1e4 times the size of loops away; on hyperbolas
+# and a circle
+SCENES = {
+    "slow wheel, moments equal to 1e-15": ((5.456456129673027, 6.928705469657129, 6.928705469657137),
+                                           (-0.000911389824785606, 0.0, -0.0013736390275602755),
                                            (0.0, 2.0250834995008057e-05, 0.0)),
-    "fast wheel, moments equal to 3e-12": ((18.20049062417707, 18.200490624214233, 1.4728292681191526), (0.0, -113.85443677306515, 0.2007990610339373),
+    "fast wheel, moments equal to 3e-12": ((18.20049062417707, 18.200490624214233, 1.4728292681191526),
+                                           (0.0, -113.85443677306515, 0.2007990610339373),
                                            (0.08717046823027266, 0.0, 0.0)),
     "moments equal to 1e-8, a hyperbola": ((3.0, 3.00000003, 2.0), (0.0, 2.5, 0.4), (0.3, 0.0, 0.0)),
     "moments equal to 1e-8, a circle": ((3.00000003, 3.0, 2.0), (0.0, 2.5, 0.4), (0.3, 0.0, 0.0)),
@@ -29,12 +34,14 @@ scenes = pytest.mark.parametrize("name", SCENES)
 
 
 def scene_of(name, *numbers):
-    """(scene, oracle's gyrostat) of a name above, or `number N` of the benchmarks' sample, or of moments, wheel and torque."""
+    """(scene, oracle's gyrostat) of a name above, or `number N` of the benchmarks' sample, or of moments,
+    wheel and torque."""
     if name.startswith("number"):
         one = drawn(int(name[7:]) + 1)[-1]
         numbers = one.moments, one.wheel, one.torque
     moments, wheel, torque = numbers or SCENES[name]
-    return stabilab.Scene(stabilab.Body(moments), stabilab.Gyrostat(wheel), stabilab.ConstantTorque(torque)), homoclinic.Gyrostat(moments, wheel, torque)
+    return stabilab.Scene(stabilab.Body(moments), stabilab.Gyrostat(wheel),
+                          stabilab.ConstantTorque(torque)), homoclinic.Gyrostat(moments, wheel, torque)
 
 
 @scenes
@@ -47,7 +54,9 @@ def test_places_keep_the_digits_of_their_own_size_however_far_the_centre_is(name
             place = sheet.points[row, column]
             if np.abs(sheet.points[row]).max() < 1e-3 * np.abs(body.coefficients()[2:]).max():
                 asked += 1
-                assert homoclinic.in_digits(body, place.tolist(), digits=80) < 16 * EPS * np.abs(place).max(), (sheet.name, row, column)
+                assert homoclinic.in_digits(body, place.tolist(),
+                                            digits=80) < 16 * EPS * np.abs(place).max(), (sheet.name, row,
+                                                                                          column)
     assert asked > 0
 
 
@@ -56,10 +65,13 @@ def test_saddles_and_centres_are_equilibria_to_the_digits_of_their_own_size(name
     scene, body = scene_of(name)
     for sheet in stabilab.separatrix(scene, shape=(9, 17)).sheets:
         for states in (sheet.saddle, sheet.centre):
-            small = states[np.abs(sheet.points).max(axis=(1, 2)) < 1e-3 * np.abs(body.coefficients()[2:]).max()]
+            small = states[np.abs(sheet.points).max(axis=(1, 2)) < 1e-3
+                           * np.abs(body.coefficients()[2:]).max()]
             D, spin = np.array(body.inertia), np.array(body.inertia) * small + np.array(body.wheel)
-            terms = (np.abs(spin).max(axis=1) * np.abs(small).max(axis=1) + max(map(abs, body.torque)))[:, None]
-            assert (np.abs(np.cross(spin, small) + np.array(body.torque)) < 16 * EPS * terms * D.max() / D.min()).all()
+            terms = (np.abs(spin).max(axis=1) * np.abs(small).max(axis=1)
+                     + max(map(abs, body.torque)))[:, None]
+            assert (np.abs(np.cross(spin, small) + np.array(body.torque)) < 16 * EPS * terms * D.max()
+                    / D.min()).all()
 
 
 def test_a_loop_about_a_centre_nearby_is_the_same_told_from_its_saddle():
@@ -72,11 +84,14 @@ def test_a_loop_about_a_centre_nearby_is_the_same_told_from_its_saddle():
     assert not made.far.any()
     r = land.reduction
     saddle = made.saddle_state[0]
-    orbits = Orbits(r, saddle[:, r.j] + float(r.rho / r.kappa), saddle[:, r.k] + float(r.sigma / r.kappa), np.sign(made.end[0] * land.unit))
+    orbits = Orbits(r, saddle[:, r.j] + float(r.rho / r.kappa), saddle[:, r.k] + float(r.sigma / r.kappa),
+                    np.sign(made.end[0] * land.unit))
     alpha = made.offset[0] * land.unit
     np.testing.assert_allclose(orbits.ends(), made.end[0] * land.unit, rtol=1e-8)
-    np.testing.assert_allclose(np.moveaxis(orbits.moved(alpha), 0, -1), made.points[0][..., [r.j, r.k]], rtol=0, atol=1e-13)
-    np.testing.assert_allclose(np.abs(alpha) * np.sqrt(2 * np.maximum(orbits.fall(alpha), 0)), np.abs(made.points[0][..., r.axis]), atol=1e-8)
+    np.testing.assert_allclose(np.moveaxis(orbits.moved(alpha), 0, -1), made.points[0][..., [r.j, r.k]],
+                               rtol=0, atol=1e-13)
+    np.testing.assert_allclose(np.abs(alpha) * np.sqrt(2 * np.maximum(orbits.fall(alpha), 0)),
+                               np.abs(made.points[0][..., r.axis]), atol=1e-8)
 
 
 def test_the_reported_residual_sees_a_vertex_that_is_off_a_surface_with_a_far_centre():
@@ -92,9 +107,11 @@ def test_the_reported_residual_sees_a_vertex_that_is_off_a_surface_with_a_far_ce
 
 
 def nearly_equal(count, seed=5):
-    """{name: (moments, wheel, torque)}: two scenes of the benchmarks' sample, and as many as asked from another seed, two of their moments made equal to 3 to
+    """{name: (moments, wheel, torque)}: two scenes of the benchmarks' sample, and as many as asked from
+    another seed, two of their moments made equal to 3 to
     12 digits, that have a saddle much nearer than the centre."""
-    found = {f"number {n}": (one.moments, one.wheel, one.torque) for n in (82, 89) for one in drawn(n + 1)[n:]}
+    found = {f"number {n}": (one.moments, one.wheel, one.torque) for n in (82, 89)
+             for one in drawn(n + 1)[n:]}
     rng = random.Random(seed)
     for one in drawn(40 * count, seed):
         moments, (first, second) = list(one.moments), rng.sample(range(3), 2)
@@ -102,7 +119,8 @@ def nearly_equal(count, seed=5):
         if 2 * max(moments) >= sum(moments):
             continue  # no body
         numbers = tuple(moments), one.wheel, one.torque
-        if any(saddles_of(land, branch, np.linspace(0, 1, 9))[1].any() for land, branch, _ in strips_of(scene_of("", *numbers)[0])):
+        if any(saddles_of(land, branch, np.linspace(0, 1, 9))[1].any() for land, branch,
+               _ in strips_of(scene_of("", *numbers)[0])):
             found[f"seed {seed}, scene {one.number}"] = numbers
         if len(found) == count + 2:
             return found
@@ -120,26 +138,33 @@ def strips_of(scene):
 
 @pytest.mark.slow  # twenty-two scenes in 80 digits
 def test_sheets_of_random_nearly_equal_moments_lie_on_the_surface_and_their_facets_near_it():
-    """To first order, at mid-points of edges away from folds and saddles, where no slope leads to the surface, and from rims, which may be coarser."""
+    """To first order, at mid-points of edges away from folds and saddles, where no slope leads to the
+    surface, and from rims, which may be coarser."""
     asked = {"vertices": 0, "edges": 0, "beyond": 0}
     for name, (moments, wheel, torque) in nearly_equal(20).items():
         scene, body, rng = *scene_of(name, moments, wheel, torque), np.random.default_rng(1)
-        accuracy = 3e-4 * max(np.abs(sheet.points - sheet.points.mean(axis=(0, 1))).max() for sheet in stabilab.separatrix(scene, shape=(9, 17)).sheets)
+        accuracy = (3e-4 * max(np.abs(sheet.points - sheet.points.mean(axis=(0, 1))).max()
+                               for sheet in stabilab.separatrix(scene, shape=(9, 17)).sheets))
         for sheet in stabilab.separatrix(scene, accuracy=accuracy).sheets:
             assert sheet.error <= accuracy, name
             half, centre = sheet.points.shape[1] // 2, np.abs(body.coefficients()[2:]).max()
             for row, column in zip(rng.integers(1, len(sheet.points), 4), rng.integers(1, half + 1, 4)):
                 place, size = sheet.points[row, column], np.abs(sheet.points[row]).max()
-                if size < 1e-3 * centre and np.ptp(sheet.points[row], axis=0).max() > 1e-6 * size:  # a loop, and no fold
+                # a loop, and no fold
+                if size < 1e-3 * centre and np.ptp(sheet.points[row], axis=0).max() > 1e-6 * size:
                     asked["vertices"] += 1
-                    assert homoclinic.in_digits(body, place.tolist(), digits=80) < 16 * EPS * np.abs(place).max(), (name, sheet.name, row, column)
-            for row, column in zip(rng.integers(1, len(sheet.points) - 1, 4) if len(sheet.points) > 2 else (), rng.integers(min(3, half - 1), half, 4)):
+                    assert homoclinic.in_digits(body, place.tolist(),
+                                                digits=80) < 16 * EPS * np.abs(place).max(), (
+                                                    name, sheet.name, row, column)
+            for row, column in zip(rng.integers(1, len(sheet.points) - 1, 4) if len(sheet.points) > 2 else (),
+                                   rng.integers(min(3, half - 1), half, 4)):
                 for beside in ((row, column + 1), (row + 1, column)):
                     middle = 0.5 * (sheet.points[row, column] + sheet.points[beside])
                     stray = homoclinic.in_digits(body, middle.tolist(), digits=80)
                     asked["edges"] += 1
                     asked["beyond"] += math.isinf(stray)
-                    assert stray <= 1.05 * accuracy or math.isinf(stray), (name, sheet.name, row, column, stray / accuracy)
+                    assert stray <= 1.05 * accuracy or math.isinf(stray), (name, sheet.name, row, column,
+                                                                           stray / accuracy)
     assert asked["vertices"] > 20 and asked["beyond"] < 0.2 * asked["edges"], asked
 
 

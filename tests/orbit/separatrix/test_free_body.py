@@ -1,7 +1,9 @@
-"""Free bodies on the separatrix of Euler's polhodes, however their axes are numbered: exact ties and hyperbolic functions.
+"""Free bodies on the separatrix of Euler's polhodes, however their axes are numbered: exact ties and
+hyperbolic functions.
 
-With D1 > D2 > D3 and D1 (D1 - D2) w1^2 = D3 (D2 - D3) w3^2 the motion is w2 = W tanh(n t + c), w1 and w3 in sech(n t + c)
-(Euler; Landau and Lifshitz, Mechanics, section 37): it tends to a rotation about the middle axis.
+With D1 > D2 > D3 and D1 (D1 - D2) w1^2 = D3 (D2 - D3) w3^2 the motion is w2 = W tanh(n t + c), w1 and w3 in
+sech(n t + c) (Euler; Landau and Lifshitz, Mechanics, section 37): it tends to a rotation about the middle
+axis.
 """
 from fractions import Fraction
 from itertools import permutations
@@ -45,7 +47,8 @@ def sech_extremes(state):
 @pytest.mark.parametrize("place", PLACES)
 @pytest.mark.parametrize("order", ORDERS)
 def test_a_free_body_on_the_separatrix_tends_to_its_middle_axis(order, place):
-    """Two axes exchanged turn the motion round in time, so its mirror image is asked for: one sign of the state turns."""
+    """Two axes exchanged turn the motion round in time, so its mirror image is asked for: one sign of the
+    state turns."""
     even = order in ((0, 1, 2), (1, 2, 0), (2, 0, 1))
     mirrored = [v if even else -v for v in place]
     scene = Scene(Body([MOMENTS[n] for n in order]))
@@ -60,12 +63,14 @@ def test_a_free_body_on_the_separatrix_tends_to_its_middle_axis(order, place):
 
 
 def polhode(state):
-    """(extremes, period) of a free body off the separatrix, D1 > D2 > D3, in exact squares and Jacobi's K (Landau and Lifshitz, section 37)."""
+    """(extremes, period) of a free body off the separatrix, D1 > D2 > D3, in exact squares and Jacobi's K
+    (Landau and Lifshitz, section 37)."""
     D, w = [Fraction(d) for d in MOMENTS], [Fraction(v) for v in state]
     twice, square = sum(d * v * v for d, v in zip(D, w)), sum((d * v) ** 2 for d, v in zip(D, w))
     round_1 = square > twice * D[1]
     a, c = (0, 2) if round_1 else (2, 0)  # it turns about axis a
-    tops = [(twice * D[c if n != c else a] - square) / (D[n] * (D[c if n != c else a] - D[n])) for n in (0, 1, 2)]
+    tops = [(twice * D[c if n != c else a] - square) / (D[n] * (D[c if n != c else a] - D[n]))
+            for n in (0, 1, 2)]
     tops[1] = (twice * D[a] - square) / (D[1] * (D[a] - D[1]))
     least = (square - twice * D[1]) / (D[a] * (D[a] - D[1]))
     rows = [[-float(t) ** 0.5, float(t) ** 0.5] for t in tops]
@@ -90,29 +95,35 @@ def test_beside_the_separatrix_a_free_body_turns_as_jacobis_functions_say(order,
 
 def test_on_the_separatrix_no_digit_of_a_margin_is_known_and_no_barrier_has_none():
     tied, spinning = reduce(Scene(Body(MOMENTS))), reduce(ScaledGyrostat(0, 0, (0, 0, 1)))
-    assert precise_margin(Orbit(tied, (3.0, 1.0, 4.0)), 20) is None and decide(Orbit(tied, (3.0, 1.0, 4.0))).sign == 0
-    assert precise_margin(Orbit(spinning, (0.5, 0.5, 0.0)), 20) is None  # A^2 = 1/2 < 2: no equilibrium on the circle
+    assert precise_margin(Orbit(tied, (3.0, 1.0, 4.0)),
+                          20) is None and decide(Orbit(tied, (3.0, 1.0, 4.0))).sign == 0
+    # A^2 = 1/2 < 2: no equilibrium on the circle
+    assert precise_margin(Orbit(spinning, (0.5, 0.5, 0.0)), 20) is None
     assert decide(Orbit(spinning, (0.5, 0.5, 0.0))).margin == -np.inf
 
 
 def test_a_state_at_rest_has_itself_for_extremes_and_no_time_for_a_period():
     scene = reduce(ScaledGyrostat(0, 0, (0, 0, 1)))  # x1 x2 = -1, x3 = 0
-    assert precise_extremes(Orbit(scene, (-1.0, 1.0, 0.0)), Fate.EQUILIBRIUM).tolist() == [[-1, -1], [1, 1], [0, 0]]
+    assert precise_extremes(Orbit(scene, (-1.0, 1.0, 0.0)),
+                            Fate.EQUILIBRIUM).tolist() == [[-1, -1], [1, 1], [0, 0]]
     assert precise_period(Orbit(scene, (-1.0, 1.0, 0.0)), Fate.EQUILIBRIUM) == 0.0
     assert precise_period(Orbit(scene, (0.5, 0.5, 0.0)), Fate.SPIN_UP) == np.inf
 
 
 @pytest.mark.parametrize("speed", [0.5, -0.5, -3.0])
 def test_through_the_inflection_of_a_fold_a_motion_spins_up(speed):
-    # a = b = 0: the equilibria (-1/h, h) merge at h = 1 on A^2 = 2; an inflection is no barrier, the potential falls all the way
+    # a = b = 0: the equilibria (-1/h, h) merge at h = 1 on A^2 = 2; an inflection is no barrier, the
+    # potential falls all the way
     found = motion(ScaledGyrostat(0, 0, (0, 0, 1)), (-1.0, 1.0, speed))
     assert found.fate == Fate.SPIN_UP
-    assert_extremes(np.array(found.extremes), energy.extremes(scaled(0, 0, (0, 0, 1)), (-1.0, 1.0, speed), digits=60), 1e-12)
+    assert_extremes(np.array(found.extremes),
+                    energy.extremes(scaled(0, 0, (0, 0, 1)), (-1.0, 1.0, speed), digits=60), 1e-12)
 
 
 def test_a_pure_spin_of_a_circle_of_no_radius_spins_up():
     for speed in (0.75, -0.75):
-        found = motion(ScaledGyrostat("0.5", "0.5", (0, 0, 1)), (-0.5, 0.0, speed))  # x1 + a = x2 = 0: x3' = 1
+        # x1 + a = x2 = 0: x3' = 1
+        found = motion(ScaledGyrostat("0.5", "0.5", (0, 0, 1)), (-0.5, 0.0, speed))
         assert found.fate == Fate.SPIN_UP and found.extremes == ((-0.5, -0.5), (0.0, 0.0), (speed, np.inf))
         assert found.invariants["Q"] == 0.0 and found.invariants["energy"] == pytest.approx(speed**2 / 2)
 
@@ -121,4 +132,5 @@ def test_a_pure_spin_of_a_circle_of_no_radius_spins_up():
 def test_a_pure_spin_about_one_of_two_equal_axes_spins_up(state):
     # D = (2, 2, 1), torque on axis 1: omega_2 = omega_3 = 0 stays, and omega_1' = M/D
     found = motion(Scene(Body((2, 2, 1)), ConstantTorque((0.5, 0, 0))), state)
-    assert found.fate == Fate.SPIN_UP and found.axis == 1 and found.extremes == ((state[0], np.inf), (0.0, 0.0), (0.0, 0.0))
+    assert found.fate == Fate.SPIN_UP and found.axis == 1 and found.extremes == ((state[0], np.inf),
+                                                                                 (0.0, 0.0), (0.0, 0.0))

@@ -22,21 +22,24 @@ SCENES = {
 
 
 def largest_stray(scene, sheets, exact=2) -> float:
-    """Largest distance from the separatrix of facets' centres and edges' mid-points: to first order |margin|/|gradient|
-    of the fates' margins, then by the search for the nearest point for the worst. Neither knows the grid."""
+    """Largest distance from the separatrix of facets' centres and edges' mid-points: to first order
+    |margin|/|gradient| of the fates' margins, then by the search for the nearest point for the worst. Neither
+    knows the grid."""
     meshes = [triangulate(sheet) for sheet in sheets]
     a, b, c = np.concatenate([mesh.points[mesh.triangles] for mesh in meshes]).swapaxes(0, 1)
     middles = np.concatenate([(a + b + c) / 3, (a + b) / 2, (b + c) / 2, (c + a) / 2])
     margins = lambda states: stabilab.fate(scene, states).margins
     step = 1e-6 * np.abs(middles).max()
     with np.errstate(all="ignore"):
-        slope = np.stack([(margins(middles + d) - margins(middles - d)) / (2 * step) for d in step * np.eye(3)], axis=-1)
+        slope = np.stack([(margins(middles + d) - margins(middles - d)) / (2 * step)
+                          for d in step * np.eye(3)], axis=-1)
         first = np.nan_to_num(np.abs(margins(middles)) / np.linalg.norm(slope, axis=-1), posinf=0)
     return stabilab.fate(scene, middles[np.argsort(first)[-exact:]]).velocity_margins.max()
 
 
 @pytest.mark.one_in(2)
-@pytest.mark.parametrize("name, accuracy", [("minor a<b", 3e-2), ("middle, c = 3", 3e-2), pytest.param("minor physical", 3e-2, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("name, accuracy", [("minor a<b", 3e-2), ("middle, c = 3", 3e-2),
+                                            pytest.param("minor physical", 3e-2, marks=pytest.mark.slow)])
 def test_facets_stay_within_the_accuracy_asked_for_and_not_far_below(name, accuracy):
     scene = SCENES[name]
     sheets = stabilab.separatrix(scene, accuracy=accuracy).sheets
@@ -51,18 +54,23 @@ def test_cells_grow_like_the_inverse_of_the_accuracy():
     assert 0.8**2 < flat[1] / flat[0] < 1.3**2 and fine.error < 0.015 * coarse.error
 
 
-@pytest.mark.parametrize("number, most", [(51, 45_000), (177, 57_000), (32, 55_000), (88, 50_000), (33, 8_000), (98, 3_000)])
+@pytest.mark.parametrize("number, most",
+                         [(51, 45_000), (177, 57_000), (32, 55_000), (88, 50_000), (33, 8_000), (98, 3_000)])
 def test_random_scenes_take_few_places_and_their_sheets_keep_shapes_of_their_own(monkeypatch, number, most):
-    """Places computed in all attempts; with one shape for all sheets, and more of both where facets strayed, number 51 took two million. With steps like the
-    root of how far edges stray where they bend within a cell too, the first four took 63,000 to 73,000."""
+    """Places computed in all attempts; with one shape for all sheets, and more of both where facets strayed,
+    number 51 took two million. With steps like the root of how far edges stray where they bend within a cell
+    too, the first four took 63,000 to 73,000."""
     from benchmarks.random_scenes import drawn
     from stabilab.orbit.separatrix import grid
     counted, loops = [], grid.loops
-    monkeypatch.setattr(grid, "loops", lambda land, parts, s, u: counted.append(s.size * u.shape[1]) or loops(land, parts, s, u))
-    accuracy = {51: 1.05e-3, 177: 0.142, 32: 1.705e-2, 88: 1.765e-3, 33: 6.64e-3, 98: 5.23e-4}[number]  # of Flying Edges at 256^3 there
+    monkeypatch.setattr(grid, "loops", lambda land, parts, s,
+                        u: counted.append(s.size * u.shape[1]) or loops(land, parts, s, u))
+    # of Flying Edges at 256^3 there
+    accuracy = {51: 1.05e-3, 177: 0.142, 32: 1.705e-2, 88: 1.765e-3, 33: 6.64e-3, 98: 5.23e-4}[number]
     sheets = stabilab.separatrix(drawn(number + 1)[number].scene, accuracy=accuracy).sheets
     assert sum(counted) < most and max(sheet.error for sheet in sheets) <= accuracy
-    assert len({sheet.points.shape for sheet in sheets}) > 1 or number == 98  # alike enough to be computed as one
+    # alike enough to be computed as one
+    assert len({sheet.points.shape for sheet in sheets}) > 1 or number == 98
 
 
 def test_planes_of_a_free_body_need_the_smallest_grid_only():
@@ -84,7 +92,8 @@ def test_a_bad_accuracy_is_refused(bad):
     ((3, 2, 1), (0, 0, 0), (0, 0, 0.1)),
     ((3, 2, 1), (5.0, -0.2, 0), (0, 0, -0.3)), ((2.0, 2.0 - 1e-9, 1.5), (0.3, 0.2, 0), (0, 0, 0.3))])
 def test_wells_from_the_cubic_of_a_circle_are_those_of_the_equilibrium_conic(inertia, momentum, torque):
-    """The conic's intersections with the circle share no code with the cubic for the angle from the saddle."""
+    """The conic's intersections with the circle share no code with the cubic for the angle from the saddle.
+    """
     land = landscape(physical(inertia, momentum, torque)[0])
     for branch in saddle_branches(land.conic, land.potential, limit_of(land.conic, 4.0)):
         s = np.linspace(0.02, 0.97, 41)
@@ -97,7 +106,8 @@ def test_wells_from_the_cubic_of_a_circle_are_those_of_the_equilibrium_conic(ine
             assert not (passed & spots.barrier[row] & (spots.energy[row] < 0)).any()
             wells = passed & ~spots.barrier[row]
             deepest = np.argmax(np.where(wells, spots.energy[row], -np.inf))
-            np.testing.assert_allclose(centre[:, row], spots.place[:, row, deepest], atol=1e-9 * np.abs(saddle).max())
+            np.testing.assert_allclose(centre[:, row], spots.place[:, row, deepest],
+                                       atol=1e-9 * np.abs(saddle).max())
 
 
 @pytest.mark.parametrize("cut", [1, -1])
@@ -106,8 +116,10 @@ def test_both_cuts_of_a_grid_give_a_mesh_of_the_same_outline_and_the_mirror_imag
     sheet = replace(stabilab.separatrix(SCENES["minor a<b"], shape=(6, 9)).sheets[0], cut=cut)
     mesh = triangulate(sheet)
     triangles = {frozenset(map(tuple, np.round(corner, 9) + 0.0)) for corner in mesh.points[mesh.triangles]}
-    mirrored = {frozenset(map(tuple, np.round(corner * [1, 1, -1], 9) + 0.0)) for corner in mesh.points[mesh.triangles]}
-    assert len(triangles) == len(mesh.triangles) == 2 * 8 * 5 - 8  # the tip takes one triangle of each of its quads
+    mirrored = {frozenset(map(tuple, np.round(corner * [1, 1, -1], 9) + 0.0))
+                for corner in mesh.points[mesh.triangles]}
+    # the tip takes one triangle of each of its quads
+    assert len(triangles) == len(mesh.triangles) == 2 * 8 * 5 - 8
     assert triangles == mirrored
 
 
@@ -121,8 +133,8 @@ def test_a_grid_without_repeated_points_gives_the_mesh_that_merging_gives():
 
 
 def test_edges_of_a_rim_that_starts_straight_stray_by_no_less_than_they_do():
-    """On y = x^6 the edge from x0 to x1 strays by the largest distance of the curve from its chord, on a fine table; the curvature falls beyond zero if it is
-    taken on linearly."""
+    """On y = x^6 the edge from x0 to x1 strays by the largest distance of the curve from its chord, on a fine
+    table; the curvature falls beyond zero if it is taken on linearly."""
     x = np.linspace(0, 1, 9)
     told, = _along(np.stack([x, x**6, 0 * x], axis=-1)[None], np.ones((1, 9), bool))
     for x0, x1, stray in zip(x, x[1:], told):

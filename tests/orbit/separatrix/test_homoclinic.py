@@ -23,15 +23,17 @@ def test_real_roots_of_cubics_and_of_what_is_left_of_them(roots):
     c = pairs[len(roots)] if len(roots) < 2 else [*([0.0] * (3 - len(roots))), *np.poly(roots)]
     found = sorted(t for t in real_cubic(*c) if not math.isnan(t))
     np.testing.assert_allclose(found, roots, rtol=1e-9)
-    assert sorted(t for t in real_cubic(1.0, 0.0, 1.0, -2.0) if not math.isnan(t)) == pytest.approx([1.0])  # (t - 1)(t^2 + t + 2)
+    # (t - 1)(t^2 + t + 2)
+    assert sorted(t for t in real_cubic(1.0, 0.0, 1.0, -2.0) if not math.isnan(t)) == pytest.approx([1.0])
     assert all(map(math.isnan, real_cubic(0.0, 0.0, 0.0, 1.0))) and 0.0 in real_cubic(0.0, 1.0, 0.0, 0.0)
 
 
-@pytest.mark.parametrize("roots", [(-2.7e9, 1.5, 5.7e-10), (9.8e9, -10.2, 1.04e-9), (2.9e8, -1.27, 4.4e-9), (1e6, 1.0, 1.0 + 1e-6),
+@pytest.mark.parametrize("roots", [(-2.7e9, 1.5, 5.7e-10), (9.8e9, -10.2, 1.04e-9), (2.9e8, -1.27, 4.4e-9),
+                                   (1e6, 1.0, 1.0 + 1e-6),
                                    (1.0, 1e-5, -1e-5), (1e4, None)])
 def test_roots_of_cubics_keep_their_digits_beside_much_larger_ones(roots):
-    """Coefficients of products in exact arithmetic, rounded once; two roots as near as 1e-6 keep nine of their digits in these, and beside 1e4 stand those of
-    t^2 + t + 1."""
+    """Coefficients of products in exact arithmetic, rounded once; two roots as near as 1e-6 keep nine of
+    their digits in these, and beside 1e4 stand those of t^2 + t + 1."""
     big, *small = (Fraction(t) for t in roots if t is not None)
     first, second = (-sum(small), small[0] * small[1]) if small else (Fraction(1), Fraction(1))
     c = [float(v) for v in (1, first - big, second - big * first, -big * second)]
@@ -42,7 +44,8 @@ def test_roots_of_cubics_keep_their_digits_beside_much_larger_ones(roots):
 
 
 def test_a_loop_beside_the_centre_of_its_hyperbola_ends_where_the_potential_is_back():
-    """mu = 3e-7 and c = 18.5: equilibria stand 1e9 to 1 and 1 to 1e9 in exp(y). The saddle's height and the potential at 50 digits are the check."""
+    """mu = 3e-7 and c = 18.5: equilibria stand 1e9 to 1 and 1 to 1e9 in exp(y). The saddle's height and the
+    potential at 50 digits are the check."""
     scene, problem = scaled(3.1287795379262113, 21.64743733428723, (0, 3.2175766464241995e-07, 0))
     sheets = stabilab.separatrix(scene, shape=(7, 9)).sheets
     assert {sheet.name for sheet in sheets} >= {"sheet 2, left loop", "sheet 2, right loop"}

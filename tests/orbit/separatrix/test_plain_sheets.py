@@ -7,7 +7,8 @@ import pytest
 from stabilab import load, separatrix, trajectory
 from stabilab.orbit.separatrix.plain_sheets import plain_separatrix
 
-CASES = [path for path in sorted((Path(__file__).parents[3] / "cases").glob("*.toml")) if load(path).scene.plain]
+CASES = [path for path in sorted((Path(__file__).parents[3] / "cases").glob("*.toml"))
+         if load(path).scene.plain]
 
 
 @pytest.mark.parametrize("path", CASES, ids=lambda p: p.stem)
@@ -15,15 +16,18 @@ def test_there_are_the_sheets_of_the_arrays_and_their_words(path):
     scene = load(path).scene
     found, words = plain_separatrix(scene, rows=6, half=5)
     arrays = separatrix(scene, shape=(6, 9))
-    assert words == arrays.reason and [sheet.name for sheet in found] == [sheet.name for sheet in arrays.sheets]
+    assert words == arrays.reason and [sheet.name
+                                       for sheet in found] == [sheet.name for sheet in arrays.sheets]
     for sheet in found:
         assert len(sheet.points) == sheet.rows * sheet.columns and sheet.columns == 9 and sheet.rows > 1
 
 
 @pytest.mark.one_in(3)
-@pytest.mark.parametrize("name", ["minor-axis-100", "thruster-stuck-major-axis", "middle-axis-double-well", "torque-free-gyrostat", "torque-free-body"])
+@pytest.mark.parametrize("name", ["minor-axis-100", "thruster-stuck-major-axis", "middle-axis-double-well",
+                                  "torque-free-gyrostat", "torque-free-body"])
 def test_the_motion_from_every_place_all_but_rests_at_a_saddle(name):
-    """Followed by an integrator, which knows of no surface: a motion on the separatrix tends to an equilibrium, where the rates stand still."""
+    """Followed by an integrator, which knows of no surface: a motion on the separatrix tends to an
+    equilibrium, where the rates stand still."""
     scene = load(f"cases/{name}.toml").scene
     form = scene.quadratic()
     for sheet in plain_separatrix(scene)[0]:
@@ -37,4 +41,6 @@ def test_the_motion_from_every_place_all_but_rests_at_a_saddle(name):
 def test_a_row_runs_once_round_its_loop_and_the_first_is_the_fold():
     sheet, *_ = plain_separatrix(load("cases/minor-axis-100.toml").scene, rows=5, half=7)[0]
     rows = np.array(sheet.points).reshape(sheet.rows, sheet.columns, 3)
-    assert np.ptp(rows[0], axis=0).max() < 1e-6 and np.allclose(rows[1:, 0], rows[1:, -1]) and np.ptp(rows[-1], axis=0).min() > 0.1
+    assert np.ptp(rows[0],
+                  axis=0).max() < 1e-6 and np.allclose(rows[1:, 0],
+                                                       rows[1:, -1]) and np.ptp(rows[-1], axis=0).min() > 0.1

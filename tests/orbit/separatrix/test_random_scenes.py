@@ -1,4 +1,5 @@
-"""Surfaces within an accuracy on random scenes against Euler's equations: vertices on them, facets near them, and no part missing."""
+"""Surfaces within an accuracy on random scenes against Euler's equations: vertices on them, facets near them,
+and no part missing."""
 from __future__ import annotations
 
 import numpy as np
@@ -11,8 +12,11 @@ from stabilab.show.surface.mesh import triangulate
 from tests.oracles import homoclinic
 
 SHARE = 1e-3  # of a sheet's size: the accuracy that is asked for
-DEFAULT = (3, 25, 49)  # a rim on a fold and few rows along the saddles; few columns at the outer rim; a figure eight
-numbers = pytest.mark.parametrize("number", [*DEFAULT, *(pytest.param(n, marks=pytest.mark.slow) for n in range(60) if n not in DEFAULT)])
+# a rim on a fold and few rows along the saddles; few columns at the outer rim; a figure eight
+DEFAULT = (3, 25, 49)
+numbers = pytest.mark.parametrize("number",
+                                  [*DEFAULT, *(pytest.param(n, marks=pytest.mark.slow) for n in range(60)
+                                               if n not in DEFAULT)])
 EPS = 2.0**-52
 
 
@@ -28,7 +32,8 @@ def surface(number):
 
 
 def beside_a_plane(body, sheet):
-    """(n,) rows whose invariant is lost in the rounding of their places: on an open curve that is a plane, no loop of its own."""
+    """(n,) rows whose invariant is lost in the rounding of their places: on an open curve that is a plane, no
+    loop of its own."""
     _, p, cu, cv = body.coefficients()
     size = (np.abs(sheet.points).max(axis=(1, 2)) + abs(cu) + abs(cv)) ** 2 * (abs(p) + 1)
     return np.abs(body.invariant(sheet.saddle)) < 1e4 * EPS * size
@@ -39,7 +44,8 @@ def test_vertices_lie_on_the_loop_of_a_saddle_that_no_higher_barrier_hides(numbe
     body, sheets, _, rng = surface(number)
     for sheet in sheets:
         rows = np.flatnonzero(~beside_a_plane(body, sheet))[1:]
-        for row, column in zip(rng.choice(rows, 4 if len(rows) else 0), rng.integers(0, sheet.points.shape[1], 4)):
+        for row, column in zip(rng.choice(rows, 4 if len(rows) else 0),
+                               rng.integers(0, sheet.points.shape[1], 4)):
             vertex = sheet.points[row, column]
             size = np.abs(sheet.points[row]).max() + sum(map(abs, body.coefficients()[2:]))
             assert homoclinic.in_digits(body, vertex.tolist()) <= 1e-13 * size, (sheet.name, row, column)
@@ -47,13 +53,17 @@ def test_vertices_lie_on_the_loop_of_a_saddle_that_no_higher_barrier_hides(numbe
 
 @numbers
 def test_facets_stray_by_no_more_than_asked(number):
-    """To first order, at mid-points of edges between inner rows and columns: at folds and saddles, where no slope leads, edges are held as parts of the rim."""
+    """To first order, at mid-points of edges between inner rows and columns: at folds and saddles, where no
+    slope leads, edges are held as parts of the rim."""
     body, sheets, accuracy, rng = surface(number)
     asked = beyond = 0
     for sheet in sheets:
         rows, half = np.flatnonzero(~beside_a_plane(body, sheet))[2:-1], sheet.points.shape[1] // 2
-        for row, column in zip(rng.choice(rows, 6 if len(rows) else 0), rng.integers(min(3, half - 1), half, 6)):
-            here, below, beside = sheet.points[row, column], sheet.points[row - 1, column], sheet.points[row, column + 1]
+        for row, column in zip(rng.choice(rows, 6 if len(rows) else 0),
+                               rng.integers(min(3, half - 1), half, 6)):
+            here, below, beside = sheet.points[row,
+                                               column], sheet.points[row - 1,
+                                                                     column], sheet.points[row, column + 1]
             for middle in (0.5 * (here + below), 0.5 * (here + beside)):
                 far = homoclinic.in_digits(body, middle.tolist())
                 asked += 1
@@ -63,20 +73,25 @@ def test_facets_stray_by_no_more_than_asked(number):
 
 
 def test_rows_of_a_long_hyperbola_whose_steps_grow_tenfold_stray_by_no_more_than_asked():
-    """A wheel of some fold's size and rows out to a thousand times as far: as above, at mid-points of edges between rows of very unequal distances."""
-    body = homoclinic.Gyrostat((0.1619448155909737, 0.045896896851083835, 0.16184929154606645), (-3.542460467595858, -0.27482217382798146, 0.0),
+    """A wheel of some fold's size and rows out to a thousand times as far: as above, at mid-points of edges
+    between rows of very unequal distances."""
+    body = homoclinic.Gyrostat((0.1619448155909737, 0.045896896851083835, 0.16184929154606645),
+                               (-3.542460467595858, -0.27482217382798146, 0.0),
                                (0, 0, -0.6218782672186429))
-    scene = stabilab.Scene(stabilab.Body(body.inertia), stabilab.Gyrostat(body.wheel), stabilab.ConstantTorque(body.torque))
+    scene = stabilab.Scene(stabilab.Body(body.inertia), stabilab.Gyrostat(body.wheel),
+                           stabilab.ConstantTorque(body.torque))
     accuracy = 13.185715550973878
     sheet = separatrix(scene, 2.2623282727111005, accuracy=accuracy).sheets[-1]
     far = sheet.points[1:9, sheet.points.shape[1] // 2]
-    assert max(float(homoclinic.in_digits(body, place.tolist())) for place in 0.5 * (far[1:] + far[:-1])) <= 1.05 * accuracy
+    assert max(float(homoclinic.in_digits(body, place.tolist()))
+               for place in 0.5 * (far[1:] + far[:-1])) <= 1.05 * accuracy
 
 
 @numbers
 def test_no_part_of_a_separatrix_is_missing(number):
-    """Places on the loops of saddles that the oracle finds, as far out as half the invariant of the last row, whose rim is a coarser one, have a facet
-    nearby; on open curves not so near to the planes that the oracle's doubles lose the invariant."""
+    """Places on the loops of saddles that the oracle finds, as far out as half the invariant of the last row,
+    whose rim is a coarser one, have a facet nearby; on open curves not so near to the planes that the
+    oracle's doubles lose the invariant."""
     body, sheets, accuracy, rng = surface(number)
     limit = max(np.abs(body.invariant(sheet.saddle)).max() for sheet in sheets)
     least = 0.0 if body.closed else 1e-3 * limit
@@ -89,13 +104,16 @@ def test_no_part_of_a_separatrix_is_missing(number):
             assert distance_to_facets(place, corner) <= 1.1 * accuracy, (lobe, place)
 
 
-@pytest.mark.parametrize("number", [31, 82, *(pytest.param(n, marks=pytest.mark.slow) for n in (13, 15, 27, 28, 40, 56, 65, 89, 95, 96, 112, 114, 149, 176,
+@pytest.mark.parametrize("number",
+                         [31, 82, *(pytest.param(n, marks=pytest.mark.slow)
+                                    for n in (13, 15, 27, 28, 40, 56, 65, 89, 95, 96, 112, 114, 149, 176,
                                                                                                 198))])
 def test_no_row_of_a_long_hyperbola_is_missing_where_its_saddle_has_a_loop(number):
-    """The oracle looks for the ends on either side of the saddles of the sheet that has the most rows, but for the last one's,
-    which may lie on an invariant plane; equilibria stand up to e^20 apart there."""
+    """The oracle looks for the ends on either side of the saddles of the sheet that has the most rows, but
+    for the last one's, which may lie on an invariant plane; equilibria stand up to e^20 apart there."""
     one = drawn(number + 1)[number]
-    body, sheets = homoclinic.Gyrostat(one.moments, one.wheel, one.torque), separatrix(one.scene, shape=(9, 17)).sheets
+    body, sheets = homoclinic.Gyrostat(one.moments, one.wheel,
+                                       one.torque), separatrix(one.scene, shape=(9, 17)).sheets
     for branch in sorted({sheet.name.split(",")[0] for sheet in sheets}):
         drawn_here = [sheet for sheet in sheets if sheet.name.split(",")[0] == branch]
         saddles = max((sheet.saddle for sheet in drawn_here), key=len)[1:-1]
@@ -107,7 +125,8 @@ def test_no_row_of_a_long_hyperbola_is_missing_where_its_saddle_has_a_loop(numbe
 
 def test_the_largest_fold_tells_how_far_sheets_on_circles_go():
     body, sheets, _, _ = surface(25)
-    assert max(np.abs(body.invariant(sheet.saddle)).max() for sheet in sheets) == pytest.approx(16 * homoclinic.largest_fold(body), rel=1e-6)
+    assert max(np.abs(body.invariant(sheet.saddle)).max()
+               for sheet in sheets) == pytest.approx(16 * homoclinic.largest_fold(body), rel=1e-6)
 
 
 def distance_to_facets(place, corner):
@@ -122,6 +141,7 @@ def distance_to_facets(place, corner):
         found = [np.min(np.abs(np.sum(way * normal, axis=1)) / np.sqrt(square), where=inside, initial=np.inf)]
     for start, end in ((a, b), (b, c), (c, a)):
         edge = end - start
-        share = np.clip(np.sum((place - start) * edge, axis=1) / np.maximum(np.sum(edge * edge, axis=1), 1e-300), 0, 1)
+        share = np.clip(np.sum((place - start) * edge,
+                               axis=1) / np.maximum(np.sum(edge * edge, axis=1), 1e-300), 0, 1)
         found.append(np.linalg.norm(start + share[:, None] * edge - place, axis=1).min())
     return float(min(found))

@@ -1,4 +1,5 @@
-"""Sheets whose loops reach a second saddle as high, or bend where few rows look: cut there, and graded anew."""
+"""Sheets whose loops reach a second saddle as high, or bend where few rows look: cut there, and graded anew.
+"""
 import numpy as np
 import pytest
 
@@ -9,19 +10,24 @@ from stabilab.orbit.separatrix.seams import pinched_shares, seam_of
 from stabilab.show.surface.mesh import triangulate
 
 SEAMS = {  # the distance of facets that is asked for
-    "nearly equal": (Scene(Body(("5.771", "4.602", "4.74")), Gyrostat((0, 0, "-0.126")), ConstantTorque((0, "0.5517", 0))), 1e-2),
-    "far apart": (Scene(Body(("2.867", "1.661", "3.9")), Gyrostat(("0.15", 0, 0)), ConstantTorque((0, 0, "0.3348"))), 7e-3),
+    "nearly equal": (Scene(Body(("5.771", "4.602", "4.74")), Gyrostat((0, 0, "-0.126")),
+                           ConstantTorque((0, "0.5517", 0))), 1e-2),
+    "far apart": (Scene(Body(("2.867", "1.661", "3.9")), Gyrostat(("0.15", 0, 0)),
+                        ConstantTorque((0, 0, "0.3348"))), 7e-3),
 }
 BENDS = {
-    "second saddle just below": (Scene(Body(("2.808", "2.114", "4.282")), Gyrostat(("0.128", "-0.319", 0)), ConstantTorque((0, 0, "-0.0794"))), 2e-3),
-    "rod": (Scene(Body(("2.889", "2.883", "0.161")), Gyrostat(("1.525", 0, 0)), ConstantTorque((0, 0, "0.0172"))), 0.25),
+    "second saddle just below": (Scene(Body(("2.808", "2.114", "4.282")), Gyrostat(("0.128", "-0.319", 0)),
+                                       ConstantTorque((0, 0, "-0.0794"))), 2e-3),
+    "rod": (Scene(Body(("2.889", "2.883", "0.161")), Gyrostat(("1.525", 0, 0)),
+                  ConstantTorque((0, 0, "0.0172"))), 0.25),
 }
 
 
 def strip_of(scene):
     """(landscape, the one strip that has a seam, what the seam is)."""
     land = landscape_in_doubles(scene)
-    found = [(branch, -1, seam) for branch in saddle_branches(land.conic, land.potential, limit_of(land.conic, 4.0))
+    found = [(branch, -1, seam)
+             for branch in saddle_branches(land.conic, land.potential, limit_of(land.conic, 4.0))
              if (seam := seam_of(land, branch, -1))]
     (branch, side, seam), = found
     return land, (branch, side), seam
@@ -30,11 +36,13 @@ def strip_of(scene):
 @pytest.mark.one_in(2)
 @pytest.mark.parametrize("name", ["nearly equal", "far apart"])
 def test_facets_keep_to_the_surface_on_few_rows_and_columns(name):
-    """The distance from the surface is that of `fate`, by a search over all saddles that knows of no grid; other sheets stand where no fate changes."""
+    """The distance from the surface is that of `fate`, by a search over all saddles that knows of no grid;
+    other sheets stand where no fate changes."""
     scene, accuracy = SEAMS[name]
     sheets = separatrix(scene, accuracy=accuracy).sheets
     assert max(sheet.error for sheet in sheets) <= accuracy
-    assert all(np.prod(sheet.points.shape[:2]) < 25_000 for sheet in sheets)  # without the cut, or a new grading, two million
+    # without the cut, or a new grading, two million
+    assert all(np.prod(sheet.points.shape[:2]) < 25_000 for sheet in sheets)
     rng = np.random.default_rng(3)
     for sheet in (sheet for sheet in sheets if "part" in sheet.name):
         mesh = triangulate(sheet)
@@ -45,7 +53,8 @@ def test_facets_keep_to_the_surface_on_few_rows_and_columns(name):
 
 @pytest.mark.slow
 def test_a_sheet_that_bends_where_few_rows_look_is_graded_anew():
-    """As above, at the edge of a rod's sheet: without, the largest grids of two million places strayed by 0.44."""
+    """As above, at the edge of a rod's sheet: without, the largest grids of two million places strayed by
+    0.44."""
     scene, accuracy = BENDS["rod"]
     sheet = separatrix(scene, accuracy=accuracy).sheets[0]
     mesh = triangulate(sheet)
@@ -62,17 +71,21 @@ def test_the_parts_of_a_sheet_meet_in_the_second_saddle(name):
     shorter, longer = first.points[-1], second.points[0]
     far_end = shorter[len(shorter) // 2]
     size = np.abs(longer).max()
-    assert np.abs(scene.quadratic().rate(far_end.tolist())).max() < 1e-6 * size**2  # Euler's rates: it rests there
+    # Euler's rates: it rests there
+    assert np.abs(scene.quadratic().rate(far_end.tolist())).max() < 1e-6 * size**2
     chord, way = np.diff(longer, axis=0), far_end - longer[:-1]
     share = np.clip((way * chord).sum(axis=1) / (chord * chord).sum(axis=1), 0, 1)
     assert np.linalg.norm(way - share[:, None] * chord, axis=1).min() < accuracy
-    assert np.linalg.norm(longer[0] - shorter[0]) < 1e-6 * size and np.abs(second.invariant[0] - first.invariant[-1]) < 1e-9 * size**2
+    assert np.linalg.norm(longer[0]
+                          - shorter[0]) < 1e-6 * size and np.abs(second.invariant[0]
+                                                                 - first.invariant[-1]) < 1e-9 * size**2
     assert max(first.residual.max(), second.residual.max()) < 1e-13
 
 
 @pytest.mark.parametrize("name", SEAMS)
 def test_a_seam_is_placed_to_twelve_digits_and_one_side_passes_over(name):
-    """There the second saddle is as high as the first: the rise between them, by the potential, is that of rounding."""
+    """There the second saddle is as high as the first: the rise between them, by the potential, is that of
+    rounding."""
     land, (branch, side), (before, behind, over) = strip_of(SEAMS[name][0])
     assert 0 < behind - before < 3e-12 and over == 1
     end = [abs(_end(land, branch, side, s)) for s in (before, behind)]
@@ -100,4 +113,5 @@ def test_columns_of_a_pinched_loop_rise_from_the_saddle_to_the_far_end_and_crowd
 def test_smooth_sheets_are_not_cut():
     for scene, _ in BENDS.values():
         land = landscape_in_doubles(scene)
-        assert not any(seam_of(land, branch, -1) for branch in saddle_branches(land.conic, land.potential, limit_of(land.conic, 4.0)))
+        assert not any(seam_of(land, branch, -1)
+                       for branch in saddle_branches(land.conic, land.potential, limit_of(land.conic, 4.0)))

@@ -1,4 +1,5 @@
-"""Separatrix sheets: vertices on the surface to rounding, rows from the fold outward, and what lies on either side."""
+"""Separatrix sheets: vertices on the surface to rounding, rows from the fold outward, and what lies on either
+side."""
 from __future__ import annotations
 
 import math
@@ -45,12 +46,13 @@ def sheets():
 
 
 def excess(problem, vertex, digits=60):
-    """(saddle energy - energy for the nearest in energy of the saddles of the vertex's conic within a turn, size of the
-    terms of the energy); None without a saddle."""
+    """(saddle energy - energy for the nearest in energy of the saddles of the vertex's conic within a turn,
+    size of the terms of the energy); None without a saddle."""
     with mp.workdps(digits):
         motion = energy.Reduced(problem, tuple(map(float, vertex)), digits)
         turns = (-1, 0, 1) if motion.kind == "elliptic" else (0,)
-        marks = [a + n * motion.turn if n else a for a, kind in motion.stationary() if kind != "centre" for n in turns]
+        marks = [a + n * motion.turn if n else a for a,
+                 kind in motion.stationary() if kind != "centre" for n in turns]
         if not marks:
             return None
         best = min(marks, key=lambda a: abs(motion.W(a) + motion.w0 ** 2 / 2))
@@ -58,7 +60,8 @@ def excess(problem, vertex, digits=60):
 
 
 def change_under_rounding(problem, vertex):
-    """How much the excess moves when each coordinate moves by one unit in the last place: no double does better."""
+    """How much the excess moves when each coordinate moves by one unit in the last place: no double does
+    better."""
     here, total = excess(problem, vertex), 0
     for i in range(3):
         moved = np.array(vertex, float)
@@ -76,7 +79,8 @@ def some(sheet, rows=6, columns=9):
 
 
 def at_fold(problem, sheet, row):
-    return abs(rate_and_slope(problem, sheet.saddle[row], axis_of(problem))[1]) <= 1e-9 * np.max(np.abs(sheet.saddle))
+    return (abs(rate_and_slope(problem, sheet.saddle[row], axis_of(problem))[1]) <= 1e-9
+            * np.max(np.abs(sheet.saddle)))
 
 
 def axis_of(problem):
@@ -103,12 +107,15 @@ def test_vertices_have_the_energy_of_their_saddle_to_rounding(name, rows, column
     for sheet in sheets[name]:
         for r, c in some(sheet, rows, columns):
             if at_fold(problem, sheet, r):
-                continue  # a fold ends the sheet: rounding decides whether the vertex's own conic has a saddle at all
+                # a fold ends the sheet: rounding decides whether the vertex's own conic has a saddle at all
+                continue
             found = excess(problem, sheet.points[r, c])
             assert found is not None, (sheet.name, r, c)
             gap, size = abs(found[0]), found[1]
             if gap > 16 * EPS * size:  # three rounded coordinates, each entering a handful of terms
-                assert gap <= 2 * change_under_rounding(problem, sheet.points[r, c]), (sheet.name, r, c, sheet.points[r, c], float(gap))
+                assert gap <= 2 * change_under_rounding(problem,
+                                                        sheet.points[r, c]), (sheet.name, r, c,
+                                                                              sheet.points[r, c], float(gap))
 
 
 @scenes
@@ -144,18 +151,20 @@ def test_rows_start_at_a_fold(name, sheets):
         size = np.max(np.abs(sheet.points))
         if np.abs(sheet.saddle[0] - sheet.centre[0]).max() > 1e-7 * size:
             continue  # the other loop of a figure eight: see below
-        np.testing.assert_allclose(sheet.points[0], np.broadcast_to(sheet.saddle[0], sheet.points[0].shape), atol=1e-7 * size)
+        np.testing.assert_allclose(sheet.points[0], np.broadcast_to(sheet.saddle[0], sheet.points[0].shape),
+                                   atol=1e-7 * size)
         rate, slope, scale = rate_and_slope(problem, sheet.saddle[0], axis)
         assert abs(rate) <= 1e-13 * scale
-        # the slope in alpha vanishes at a fold; its unit is rate times the conic's wave number squared, of order scale
+        # the slope in alpha vanishes at a fold; its unit is rate times the conic's wave number squared, of
+        # order scale
         steep = max(abs(rate_and_slope(problem, p, axis)[1]) for p in sheet.saddle)
         assert abs(slope) <= 1e-6 * steep
 
 
 @scenes
 def test_no_membrane_spans_a_loop_at_the_fold(name, sheets):
-    """Only the loop around the well that the saddle meets shrinks there. Of a figure eight the other loop keeps its size: rows
-    next to each other lie next to each other, and one loop of each pair shrinks."""
+    """Only the loop around the well that the saddle meets shrinks there. Of a figure eight the other loop
+    keeps its size: rows next to each other lie next to each other, and one loop of each pair shrinks."""
     shrunk = 0
     for sheet in sheets[name]:
         extent = np.ptp(sheet.points[1], axis=0).max()
@@ -167,8 +176,10 @@ def test_no_membrane_spans_a_loop_at_the_fold(name, sheets):
 @scenes
 def test_rows_run_outward_and_columns_from_saddle_to_saddle(name, sheets):
     for sheet in sheets[name]:
-        np.testing.assert_allclose(sheet.points[:, 0], sheet.points[:, -1], atol=1e-12 * np.max(np.abs(sheet.points)))
-        np.testing.assert_allclose(sheet.points[:, 0], sheet.saddle, atol=1e-12 * np.max(np.abs(sheet.points)))
+        np.testing.assert_allclose(sheet.points[:, 0], sheet.points[:, -1],
+                                   atol=1e-12 * np.max(np.abs(sheet.points)))
+        np.testing.assert_allclose(sheet.points[:, 0], sheet.saddle,
+                                   atol=1e-12 * np.max(np.abs(sheet.points)))
         steps = np.diff(np.asarray(sheet.invariant, float))
         assert np.all(steps > 0) or np.all(steps < 0)
 
@@ -180,8 +191,9 @@ def test_reported_residuals_are_at_rounding(name, sheets):
 
 
 def _distance(vertex, saddle, c, digits=60):
-    """Distance from the true separatrix of the scaled middle axis (Y = x1 + b), relative to the vertex: excess of energy
-    over its slope. Y^2/2 - c Y - ln(Y + x3) is the potential where dY/d alpha = x3, dx3/d alpha = Y, x2' = 1 - x3 (Y - c)."""
+    """Distance from the true separatrix of the scaled middle axis (Y = x1 + b), relative to the vertex:
+    excess of energy over its slope. Y^2/2 - c Y - ln(Y + x3) is the potential where dY/d alpha = x3, dx3/d
+    alpha = Y, x2' = 1 - x3 (Y - c)."""
     with mp.workdps(digits):
         def excess(Y, x2, x3):
             g = mp.findroot(lambda g: (c + 1 / g) ** 2 - g * g - (Y * Y - x3 * x3), mp.mpf(saddle))
@@ -193,7 +205,8 @@ def _distance(vertex, saddle, c, digits=60):
 
 
 def test_loops_next_to_an_open_plane_close_to_rounding_as_reported():
-    """Their energy is known to eps |x|^2/|C| only, but the surface is so steep there that the vertices lie on it."""
+    """Their energy is known to eps |x|^2/|C| only, but the surface is so steep there that the vertices lie on
+    it."""
     scene, c = scaled(0.0, 2.5, (0, 1, 0))[0], mp.mpf("2.5")
     right = [sheet for sheet in stabilab.separatrix(scene).sheets if "right" in sheet.name]
     assert len(right) == 2
@@ -230,7 +243,8 @@ def test_points_inside_and_outside_a_sheet_have_the_fates_of_their_sides(name, s
         states, sides = [], []
         for r in np.linspace(n // 3, n - 1, 4).astype(int):
             if at_fold(problem, sheet, r):
-                continue  # the far end of a branch between two folds: rounding decides whether there is a saddle at all
+                # the far end of a branch between two folds: rounding decides whether there is a saddle at all
+                continue
             column = int(np.argmax(np.abs(sheet.points[r, :, axis])))
             for side in (-1, 1):
                 state = np.array(sheet.points[r, column])
@@ -238,10 +252,13 @@ def test_points_inside_and_outside_a_sheet_have_the_fates_of_their_sides(name, s
                 states.append(state)
                 sides.append(side)
         result = stabilab.fate(scene, np.array(states))
-        np.testing.assert_array_equal(result.labels, [WORDS[energy.label(problem, tuple(s), digits=60)] for s in np.array(states).tolist()])
+        np.testing.assert_array_equal(result.labels,
+                                      [WORDS[energy.label(problem, tuple(s), digits=60)]
+                                       for s in np.array(states).tolist()])
         if name in ("both components", "major physical", "equilibria on lines"):
             continue  # two saddles on one circle: bounded motion on both sides of the lower one's loop
-        outside = Fate.SPIN_UP if elliptic else Fate.BOUNDED  # around the figure-eight everything is bounded too
+        # around the figure-eight everything is bounded too
+        outside = Fate.SPIN_UP if elliptic else Fate.BOUNDED
         np.testing.assert_array_equal(result.labels, [Fate.BOUNDED if s < 0 else outside for s in sides])
         np.testing.assert_array_equal(np.sign(result.margins), [-s for s in sides])
 
@@ -254,7 +271,8 @@ def test_minor_axis_sheets_start_at_the_folds_of_the_quartic(a, b, sign):
     c = b - a
     roots = sorted(float(mp.re(r)) for r in mp.polyroots([1, 0, 0, -sign * c, -1]) if abs(mp.im(r)) < 1e-12)
     expected = sorted((-b - sign / h, h) for h in roots)
-    got = sorted({(round(float(s.saddle[0, 0]), 9), round(float(s.saddle[0, 1]), 9)) for s in stabilab.separatrix(scene).sheets})
+    got = sorted({(round(float(s.saddle[0, 0]), 9), round(float(s.saddle[0, 1]), 9))
+                  for s in stabilab.separatrix(scene).sheets})
     np.testing.assert_allclose(got, expected, atol=1e-6)
 
 
@@ -296,16 +314,19 @@ def test_shape_sets_rows_and_columns():
 
 
 FREE = {"no effect at all": ((3, 2, 1), (0, 0, 0)), "wheel on the major axis": ((3, 2, 1), (0.3, 0, 0)),
-        "wheel on the middle axis": ((3, 2, 1), (0, 0.3, 0)), "wheel on the minor axis": ((3, 2, 1), (0, 0, 0.3)),
-        "wheel across the major axis": ((3.0, 2.0, 1.5), (0, 0.1, 0.2)), "wheel across the minor axis": ((3.0, 2.0, 1.5), (0.3, 0.2, 0))}
+        "wheel on the middle axis": ((3, 2, 1), (0, 0.3, 0)),
+        "wheel on the minor axis": ((3, 2, 1), (0, 0, 0.3)),
+        "wheel across the major axis": ((3.0, 2.0, 1.5), (0, 0.1, 0.2)),
+        "wheel across the minor axis": ((3.0, 2.0, 1.5), (0.3, 0.2, 0))}
 
 
 @pytest.mark.one_in(3)
 @pytest.mark.parametrize("name", FREE)
 def test_without_torque_no_surface_comes_twice(name):
-    """Without torque the potential has period 2 pi: barriers of one height on a circle share one level set, in which a
-    barrier's right loop is the left loop of the next barrier at its height (or its own, right round). So two vertices of
-    different sheets coincide at saddles only. Were a sheet there twice, all its vertices would be met again."""
+    """Without torque the potential has period 2 pi: barriers of one height on a circle share one level set,
+    in which a barrier's right loop is the left loop of the next barrier at its height (or its own, right
+    round). So two vertices of different sheets coincide at saddles only. Were a sheet there twice, all its
+    vertices would be met again."""
     inertia, momentum = FREE[name]
     scene, _ = physical(inertia, momentum, (0, 0, 0))
     found = stabilab.separatrix(scene, shape=(24, 33)).sheets
@@ -323,14 +344,16 @@ def test_without_torque_no_surface_comes_twice(name):
 
 
 def _row_at(scene, sheet, level):
-    """(n, 3) dense polyline of a sheet's row at one value of the invariant: its grid, refined, at the nearest row."""
+    """(n, 3) dense polyline of a sheet's row at one value of the invariant: its grid, refined, at the nearest
+    row."""
     fine = next(s for s in stabilab.separatrix(scene, shape=(400, 129)).sheets if s.name == sheet.name)
     return fine.points[np.argmin(np.abs(fine.invariant - level))]
 
 
 def test_sheets_of_the_free_body_are_its_two_planes_through_the_middle_axis():
-    """Euler's top: |H|^2 = 2 T D2 gives D1(D1 - D2) w1^2 = D3(D2 - D3) w3^2, two planes, cut into two halves each by the
-    middle axis; a sheet holds the two halves about one end of a centre's axis, so two sheets cover both planes once."""
+    """Euler's top: |H|^2 = 2 T D2 gives D1(D1 - D2) w1^2 = D3(D2 - D3) w3^2, two planes, cut into two halves
+    each by the middle axis; a sheet holds the two halves about one end of a centre's axis, so two sheets
+    cover both planes once."""
     found = stabilab.separatrix(stabilab.Scene(stabilab.Body((3, 2, 1))), shape=(24, 33)).sheets
     assert len(found) == 2
     for sheet in found:
@@ -344,7 +367,8 @@ def test_sheets_of_the_free_body_are_its_two_planes_through_the_middle_axis():
 @pytest.mark.one_in(2)
 @pytest.mark.parametrize("spread", [0.002, 0.01, 0.1])
 def test_distance_next_to_a_fold_is_that_of_a_dense_cloud_of_vertices(spread):
-    """The search for the nearest point shares the loops with the vertices, not the way to the nearest of them."""
+    """The search for the nearest point shares the loops with the vertices, not the way to the nearest of
+    them."""
     scene, _ = SCENES["minor a<b"]
     cloud = np.concatenate([sheet.points.reshape(-1, 3) for reach in (1.02, 1.3) for sheet in
                             stabilab.separatrix(scene, reach=reach, shape=(300, 401)).sheets])
@@ -353,7 +377,8 @@ def test_distance_next_to_a_fold_is_that_of_a_dense_cloud_of_vertices(spread):
     margins = stabilab.fate(scene, states).velocity_margins
     nearest = np.array([np.linalg.norm(cloud - state, axis=1).min() for state in states])
     assert np.all(margins <= nearest * (1 + 1e-9))
-    # a vertex lies within a cell's diagonal of the nearest point, so the cloud's distance is too large by less than that
+    # a vertex lies within a cell's diagonal of the nearest point, so the cloud's distance is too large by
+    # less than that
     assert np.all(margins >= nearest - 0.1 * spread)
 
 
@@ -361,14 +386,16 @@ def test_distance_next_to_a_fold_is_that_of_a_dense_cloud_of_vertices(spread):
 @pytest.mark.parametrize("rows", [100, pytest.param(300, marks=pytest.mark.slow)])
 @pytest.mark.parametrize("name", ["minor a<b", "both components", "middle, c = 3"])
 def test_no_vertex_is_nearer_than_the_distance_says(name, rows):
-    """States off the saddles and on the plane of symmetry, W = 0, where the distance may be stationary without being least:
-    a search that starts there on a ridge stays. Vertices are an upper bound that owes nothing to the search; those where the
-    margin in energy is not zero part a well from a wider one that a higher barrier closes, and there no fate changes."""
+    """States off the saddles and on the plane of symmetry, W = 0, where the distance may be stationary
+    without being least: a search that starts there on a ridge stays. Vertices are an upper bound that owes
+    nothing to the search; those where the margin in energy is not zero part a well from a wider one that a
+    higher barrier closes, and there no fate changes."""
     scene, problem = SCENES[name]
     sheets = stabilab.separatrix(scene, shape=(rows, rows + 101)).sheets
     cloud = np.concatenate([sheet.points.reshape(-1, 3) for sheet in sheets])
     rng = np.random.default_rng(21)
-    states = [sheet.saddle[int(share * rows)] + 0.05 * rng.normal(size=3) for sheet in sheets for share in (0.3, 0.67, 0.93)]
+    states = [sheet.saddle[int(share * rows)] + 0.05 * rng.normal(size=3) for sheet in sheets
+              for share in (0.3, 0.67, 0.93)]
     states += list(rng.uniform(-3, 3, (rows // 50, 3)))
     states = np.array(states)
     states[:, axis_of(problem)] = sheets[0].saddle[0, axis_of(problem)]
@@ -380,11 +407,13 @@ def test_no_vertex_is_nearer_than_the_distance_says(name, rows):
 
 
 def test_distance_reaches_a_loop_that_a_second_barrier_is_about_to_open():
-    """Two saddles on one circle: where the farther one sinks to the nearer one's height the loop jumps to another end, and the
-    nearest point lies on the last loop before. A dense cloud of vertices gives 0.19613; a coarse grid's vertex 0.19652."""
+    """Two saddles on one circle: where the farther one sinks to the nearer one's height the loop jumps to
+    another end, and the nearest point lies on the last loop before. A dense cloud of vertices gives 0.19613;
+    a coarse grid's vertex 0.19652."""
     scene, _ = physical((3.0, 2.0, 1.5), (0.4, -0.7, 0), (0, 0, 0.3))
     state = np.array([-0.12794675, 1.19927972, 0.0])
-    cloud = np.concatenate([sheet.points.reshape(-1, 3) for sheet in stabilab.separatrix(scene, reach=5.6, shape=(700, 801)).sheets])
+    cloud = np.concatenate([sheet.points.reshape(-1, 3)
+                            for sheet in stabilab.separatrix(scene, reach=5.6, shape=(700, 801)).sheets])
     nearest = np.linalg.norm(cloud - state, axis=1).min()
     assert nearest * (1 - 1e-3) < stabilab.fate(scene, state).velocity_margins <= nearest
 
@@ -395,7 +424,8 @@ def distance(inertia, wheel, torque, state):
 
 
 def test_a_sheet_that_nears_an_invariant_plane_is_found_however_near_it_is():
-    """omega1 = -4 + 1e-62 and -4 + 1e-63 have margins of either sign, so a sheet passes within 1e-62 of the plane
+    """omega1 = -4 + 1e-62 and -4 + 1e-63 have margins of either sign, so a sheet passes within 1e-62 of the
+    plane
     2 (omega1 + 4)^2 = omega2^2, whose distance is that of a line from a point in its plane: 0.1 sqrt(2/3)."""
     found = distance((4, 2, 3), (4, 0, 0), (0, 0, -1.5), (-3.9, 0.0, 20.0))
     assert found.settled and found.upper == pytest.approx(0.1 * math.sqrt(2 / 3), rel=1e-9)
@@ -414,7 +444,8 @@ def random_scene(rng):
 
 
 def inside(found, state, scene, rng, rays=12, steps=60):
-    """Least distance within the lower bound at which the margin in energy passes through zero along random rays, or None."""
+    """Least distance within the lower bound at which the margin in energy passes through zero along random
+    rays, or None."""
     ways = rng.normal(size=(rays, 3)) + 2 * (np.array(found.witness) - state) / found.upper
     ways /= np.linalg.norm(ways, axis=1, keepdims=True)
     at = np.linspace(0, found.lower * (1 - 1e-9), steps)
@@ -433,7 +464,8 @@ def inside(found, state, scene, rng, rays=12, steps=60):
 
 
 def check_distances(number, seed):
-    """How many of the brackets are settled; each is a bracket, and no margin changes its sign nearer than its lower bound."""
+    """How many of the brackets are settled; each is a bracket, and no margin changes its sign nearer than its
+    lower bound."""
     rng, settled, known = np.random.default_rng(seed), 0, 0
     while known < number:
         moments, wheel, torque, state = random_scene(rng)
@@ -446,7 +478,8 @@ def check_distances(number, seed):
             continue
         known += 1
         settled += found.settled
-        apart = np.linalg.norm(np.array(found.witness) - state)  # where rounding keeps the bracket open, its upper end allows for it
+        # where rounding keeps the bracket open, its upper end allows for it
+        apart = np.linalg.norm(np.array(found.witness) - state)
         assert found.lower * (1 - 1e-9) <= apart <= found.upper * (1 + 1e-9)
         if torque.any():  # without torque the margin is the highest barrier's alone
             assert inside(found, state, scene, rng) is None, (moments, wheel, torque, state)
@@ -464,7 +497,8 @@ def test_no_margin_of_many_random_scenes_changes_its_sign_nearer_than_the_lower_
 
 
 @pytest.mark.parametrize("inertia, wheel, torque, state", [
-    ((3, 2, 1.5), (0.4, -0.7, 0), (0, 0, 0.3), (-0.3, 1.2, 0.4)), ((3, 2, 2.5), (3, -2, 0), (0, 0, 0.2), (1.0, 2.0, -3.0)),
+    ((3, 2, 1.5), (0.4, -0.7, 0), (0, 0, 0.3), (-0.3, 1.2, 0.4)),
+    ((3, 2, 2.5), (3, -2, 0), (0, 0, 0.2), (1.0, 2.0, -3.0)),
     ((3, 3, 1), (0.3, 0.2, 0), (0, 0, 0.1), (1.0, 2.0, 3.0))])
 def test_relabelled_and_mirrored_scenes_are_as_far_from_their_separatrix(inertia, wheel, torque, state):
     """Cyclic names of the axes, and half a turn about axis 3, are rotations of the same body."""
@@ -473,27 +507,34 @@ def test_relabelled_and_mirrored_scenes_are_as_far_from_their_separatrix(inertia
     half = lambda v: (-v[0], -v[1], v[2])
     others = [distance(*(turn(v, n) for v in (inertia, wheel, torque, state))) for n in (1, 2)]
     others.append(distance(inertia, half(wheel), torque, half(state)))
-    others.append(distance(inertia, wheel, torque, (*state[:2], -state[2])))  # the separatrix is symmetric in the rate of its axis
-    assert first.settled and all(o.settled and o.upper == pytest.approx(first.upper, rel=1.1e-9) for o in others)
+    # the separatrix is symmetric in the rate of its axis
+    others.append(distance(inertia, wheel, torque, (*state[:2], -state[2])))
+    assert first.settled and all(o.settled and o.upper == pytest.approx(first.upper, rel=1.1e-9)
+                                 for o in others)
 
 
 def test_two_equal_moments_have_a_separatrix_where_the_quartic_valley_has_a_barrier():
-    """On a parabola the margin is that of a quartic: the witness, moved along its line, is on either side of it."""
+    """On a parabola the margin is that of a quartic: the witness, moved along its line, is on either side of
+    it."""
     scene, state = physical((3, 3, 1), (0.3, 0.2, 0), (0, 0, 0.1))[0], np.array([1.0, 2.0, 3.0])
     found = distance_of(reduce(scene), state.tolist())
     way = np.array(found.witness) - state
-    before, after = stabilab.fate(scene, np.array([state + way * (1 - 1e-6), state + way * (1 + 1e-6)])).margins
+    before, after = stabilab.fate(scene,
+                                  np.array([state + way * (1 - 1e-6), state + way * (1 + 1e-6)])).margins
     assert found.settled and before * after < 0 and abs(before) < 1e-4
 
 
 @pytest.mark.parametrize("inertia, wheel, torque, state", [
-    ((1.0, 1.0000649330345721, 0.009103227291082629), (0, -42951531.77014759, 0), (0, 0, -1.0000649330345721), (0.0, 0.0, 0.0)),
-    ((1.0, 0.4988300420368622, 1.000000010254544), (0, -0.500000005127272, -0.18134422971955058), (-1.5000000153818163, 0, 0),
+    ((1.0, 1.0000649330345721, 0.009103227291082629), (0, -42951531.77014759, 0), (0, 0, -1.0000649330345721),
+     (0.0, 0.0, 0.0)),
+    ((1.0, 0.4988300420368622, 1.000000010254544), (0, -0.500000005127272, -0.18134422971955058),
+     (-1.5000000153818163, 0, 0),
      (0.0, -0.10657666490228779, -3.0))])
 def test_moments_almost_equal_give_a_bracket_where_the_search_cannot_close(inertia, wheel, torque, state):
     found = motion(physical(inertia, wheel, torque)[0], state)
     low, high = found.velocity_bounds
-    assert 0 <= low <= high and (high - low <= 1e-9 * high or found.velocity_because and found.margin_velocity == low)
+    assert 0 <= low <= high and (high - low <= 1e-9 * high or found.velocity_because
+                                 and found.margin_velocity == low)
 
 
 def test_the_loops_of_a_free_hyperbola_keep_the_energy_and_the_momentum_of_their_saddle():
@@ -509,7 +550,8 @@ def test_the_loops_of_a_free_hyperbola_keep_the_energy_and_the_momentum_of_their
 
 
 def test_a_mesh_that_cannot_be_made_is_refused_and_a_parabola_has_none():
-    for wrong in ({"shape": (2, 9)}, {"shape": (9, 4)}, {"reach": 1.0}, {"reach": -2}, {"shape": (9, 9), "accuracy": 1e-3}, {"accuracy": 0.0}):
+    for wrong in ({"shape": (2, 9)}, {"shape": (9, 4)}, {"reach": 1.0}, {"reach": -2},
+                  {"shape": (9, 9), "accuracy": 1e-3}, {"accuracy": 0.0}):
         with pytest.raises(InputError):
             stabilab.separatrix(SCALED_MINOR, **wrong)
     found = stabilab.separatrix(Scene(Body((2, 2, 1)), ConstantTorque((1, 0, 0))))
@@ -517,11 +559,15 @@ def test_a_mesh_that_cannot_be_made_is_refused_and_a_parabola_has_none():
 
 
 @pytest.mark.parametrize("scene, words", [  # what there is none of, by hand
-    (Scene(Body((2, 2, 3))), "no force acts along any orbit"),  # the axis and a plane of equilibria: not "there is no equilibrium"
+    # the axis and a plane of equilibria: not "there is no equilibrium"
+    (Scene(Body((2, 2, 3))), "no force acts along any orbit"),
     (Scene(Body((3, 2, 2)), ConstantTorque((1, 0, 0))), "there is no equilibrium"),  # D1 p' = 1
-    (Scene(Body((2, 2, 2)), ConstantTorque((1, 0, 0))), "every motion spins up"),  # D omega' = M: not "all motions are bounded"
-    (Scene(Body((2, 2, 2)), Gyrostat((0, 1, 0)), ConstantTorque((1, 0, 0))), "all motions are bounded"),  # omega turns about the wheel, shifted
-    (Scene(Body((2, 2, 2)), Gyrostat((0, 1, 0))), "no torque acts")])  # nor is there a "pure spin about the torque"
+    # D omega' = M: not "all motions are bounded"
+    (Scene(Body((2, 2, 2)), ConstantTorque((1, 0, 0))), "every motion spins up"),
+    # omega turns about the wheel, shifted
+    (Scene(Body((2, 2, 2)), Gyrostat((0, 1, 0)), ConstantTorque((1, 0, 0))), "all motions are bounded"),
+    # nor is there a "pure spin about the torque"
+    (Scene(Body((2, 2, 2)), Gyrostat((0, 1, 0))), "no torque acts")])
 @pytest.mark.parametrize("sheets_of", [stabilab.separatrix, plain_separatrix])
 def test_a_scene_without_sheets_is_told_what_is_true_of_it(scene, words, sheets_of):
     found = sheets_of(scene)
@@ -532,5 +578,6 @@ def test_a_scene_without_sheets_is_told_what_is_true_of_it(scene, words, sheets_
 def test_sheets_are_numbered_from_one_and_lie_on_their_surface_to_rounding(name, sheets):
     names = [sheet.name for sheet in sheets[name]]
     numbers = [int("".join(c for c in word if c.isdigit())) for word in names]
-    assert numbers[0] == 1 and len(set(names)) == len(names) and sorted(set(numbers)) == list(range(1, max(numbers) + 1))
+    assert numbers[0] == 1 and len(set(names)) == len(names) and sorted(set(numbers)) == list(
+        range(1, max(numbers) + 1))
     assert max(sheet.residual.max() for sheet in sheets[name]) < 1e-14

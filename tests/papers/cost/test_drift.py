@@ -20,14 +20,15 @@ def test_the_integrals_are_constant_along_the_motion():
 
 @pytest.mark.parametrize("power", [0.5, 1.0])
 def test_the_growth_of_known_drifts_is_told(power):
-    rows = [Drift("energy", m, t, int(t), (-1) ** m * 1e-16 * t**power) for m in range(3) for t in (10.0, 100.0, 1000.0)]
+    rows = [Drift("energy", m, t, int(t), (-1) ** m * 1e-16 * t**power) for m in range(3)
+            for t in (10.0, 100.0, 1000.0)]
     assert growth(rows, "energy") == pytest.approx(power)
 
 
 @pytest.mark.parametrize("turns, motions", [(300, 3), pytest.param(1e5, 4, marks=pytest.mark.slow)])
 def test_the_drift_grows_no_faster_than_the_root_of_the_number_of_steps(turns, motions):
-    """Brouwer 1937: independent roundings, each up to half a unit, make a random walk; three times its spread is allowed. A bias
-    of a tenth of a unit a step alone would exceed it after 1e4 steps."""
+    """Brouwer 1937: independent roundings, each up to half a unit, make a random walk; three times its spread
+    is allowed. A bias of a tenth of a unit a step alone would exceed it after 1e4 steps."""
     rows = [row for n, state in enumerate(starts(motions)) for row in drifts(state, turns, n)]
     assert {r.integral for r in rows} == {"circle", "energy"} and max(r.turns for r in rows) > 0.7 * turns
     assert all(abs(r.drift) <= 3 * 2.0**-52 * np.sqrt(10 + r.steps) for r in rows)

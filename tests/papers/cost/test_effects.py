@@ -1,4 +1,5 @@
-"""A scene costs what its effects cost: counted; and an effect of zero strength is an absent one, to the last bit."""
+"""A scene costs what its effects cost: counted; and an effect of zero strength is an absent one, to the last
+bit."""
 import inspect
 import json
 
@@ -9,29 +10,52 @@ from stabilab import Scene, derive, load
 from stabilab.cli import whole
 from stabilab.errors import CaseError
 from stabilab.papers.cost import effects as effect_cost
-from stabilab.papers.cost.effects import BODY, EXAMPLES, alone, answers, counted, example, imported, ladder, operations, without, zero_is_absent
+from stabilab.papers.cost.effects import (
+    BODY,
+    EXAMPLES,
+    alone,
+    answers,
+    counted,
+    example,
+    imported,
+    ladder,
+    operations,
+    without,
+    zero_is_absent,
+)
 from stabilab.physics.effects import REGISTRY, effect_class
 from stabilab.physics.to_numpy import Form, _function, form
 
-# By hand. States: omega 3, gamma 3, attitude 4, velocity 3, position 3. Symbols: the moments of inertia and the effect's
+# By hand. States: omega 3, gamma 3, attitude 4, velocity 3, position 3. Symbols: the moments of inertia and
+# the effect's
 # own; a force brings the mass.
-ALONE = {"constant_torque": (3, 3 + 3), "gyrostat": (3, 3 + 3), "charge": (3, 3 + 1), "resistance": (3, 3 + 1),
-         "liquid_cavity": (3, 3 + 1), "newtonian_field": (6, 3 + 1), "gravity": (6, 3 + 3), "body_force": (13, 3 + 3 + 1)}
-# Operations by hand, one added after the other. Body: c q r in each row, 2 * 3. Torque: one addition a row. Gyrostat: two
-# terms c x a row, 4 each. Charge: its terms are the gyrostat's along axis 3. Resistance: one term c x a row. Field: one
+ALONE = {"constant_torque": (3, 3 + 3), "gyrostat": (3, 3 + 3), "charge": (3, 3 + 1),
+         "resistance": (3, 3 + 1),
+         "liquid_cavity": (3, 3 + 1), "newtonian_field": (6, 3 + 1), "gravity": (6, 3 + 3),
+         "body_force": (13, 3 + 3 + 1)}
+# Operations by hand, one added after the other. Body: c q r in each row, 2 * 3. Torque: one addition a row.
+# Gyrostat: two
+# terms c x a row, 4 each. Charge: its terms are the gyrostat's along axis 3. Resistance: one term c x a row.
+# Field: one
 # term c g2 g3 a row, and gamma' = gamma x omega, 3 a row. Gravity: two terms c g a row.
-ADDED = {"body alone": 6, "constant_torque": 3, "gyrostat": 3 * 4, "charge": 0, "resistance": 3 * 2, "newtonian_field": 3 * 3 + 3 * 3,
+ADDED = {"body alone": 6, "constant_torque": 3, "gyrostat": 3 * 4, "charge": 0, "resistance": 3 * 2,
+         "newtonian_field": 3 * 3 + 3 * 3,
          "gravity": 3 * 4}
 ZERO = {  # the table of a case file, its strength zero
-    "constant_torque": ["torque = [0, 0, 0]"], "gyrostat": ["momentum = [0, 0.0, 0]"], "resistance": ["coefficient = 0"],
-    "charge": ['charge = 0\nfield = 100\narm = 1\nangle = 0.3', 'charge = 0.1\nfield = 0.0\narm = 1\nangle = "attitude"'],
+    "constant_torque": ["torque = [0, 0, 0]"], "gyrostat": ["momentum = [0, 0.0, 0]"],
+    "resistance": ["coefficient = 0"],
+    "charge": ['charge = 0\nfield = 100\narm = 1\nangle = 0.3',
+               'charge = 0.1\nfield = 0.0\narm = 1\nangle = "attitude"'],
     "liquid_cavity": ["density = 1000\nviscosity = 1\nP0 = 0", "density = 0\nviscosity = 1\nradius = 0.1"],
-    "newtonian_field": ["strength = 0", "lambda = 0\nR = 10"], "gravity": ["weight = 0\ncentre_of_mass = [0, 0, 0.1]"],
+    "newtonian_field": ["strength = 0", "lambda = 0\nR = 10"],
+    "gravity": ["weight = 0\ncentre_of_mass = [0, 0, 0.1]"],
     "body_force": ["force = [0, 0, 0]"]}
 FAULTY = {  # the same, wrong in a way that its strength does not excuse
-    "constant_torque": "torque = [0, 0]", "gyrostat": "momentum = [0, 0, 0]\nspeed = 1", "resistance": "coefficient = -0.1",
+    "constant_torque": "torque = [0, 0]", "gyrostat": "momentum = [0, 0, 0]\nspeed = 1",
+    "resistance": "coefficient = -0.1",
     "charge": "charge = 0\nfield = 100\narm = 1", "liquid_cavity": "density = 0\nviscosity = 0\nP0 = 1",
-    "newtonian_field": "lambda = 0\nR = 0", "gravity": 'weight = 0\ncentre_of_mass = "low"', "body_force": "force = 0"}
+    "newtonian_field": "lambda = 0\nR = 0", "gravity": 'weight = 0\ncentre_of_mass = "low"',
+    "body_force": "force = 0"}
 CASE = """[body]
 inertia = [3, 2, 1.5]
 mass = 10
@@ -40,7 +64,8 @@ mass = 10
 angular_velocity = [0.3, 0.2, -0.4]
 span = [0, 5]
 """
-BASE = {"gyrostat": "[effects.gyrostat]\nmomentum = [0.4, 0, 0]\n", "constant_torque": "[effects.constant_torque]\ntorque = [0, 0, 0.2]\n"}
+BASE = {"gyrostat": "[effects.gyrostat]\nmomentum = [0.4, 0, 0]\n",
+        "constant_torque": "[effects.constant_torque]\ntorque = [0, 0, 0.2]\n"}
 
 
 def test_every_effect_has_an_example():
@@ -80,7 +105,8 @@ def test_compiled_rates_hold_no_condition():
 
 
 @pytest.mark.one_in(2)
-@pytest.mark.parametrize("names", [(), ("gravity",), ("gyrostat", "charge")], ids=lambda names: "+".join(names) or "none")
+@pytest.mark.parametrize("names", [(), ("gravity",), ("gyrostat", "charge")],
+                         ids=lambda names: "+".join(names) or "none")
 def test_only_the_named_effects_are_imported(names):
     assert set(imported(*names)) == set(names)
 

@@ -38,15 +38,19 @@ def test_a_case_that_no_hand_touched_is_the_case_itself():
 def test_numbers_that_no_hand_touched_stay_as_they_were_written():
     case, new = moved("thruster-stuck-major-axis", wheel=[None, None, "0.25"], start=["7.5", None, None])
     assert new.scene.vector("gyrostat") == (0, 4, Fraction(1, 4))
-    assert new.exact_state[1:] == case.exact_state[1:] and 'angular_velocity = ["7.5 deg/s", 0.03, -0.02]' in new.text
-    assert new.scene.body.exact == case.scene.body.exact and new.scene.vector("constant_torque") == case.scene.vector("constant_torque")
+    assert new.exact_state[1:] == case.exact_state[
+        1:] and 'angular_velocity = ["7.5 deg/s", 0.03, -0.02]' in new.text
+    assert new.scene.body.exact == case.scene.body.exact and new.scene.vector(
+        "constant_torque") == case.scene.vector("constant_torque")
 
 
 def test_a_case_that_is_saved_states_what_was_seen():
-    for name in ("upper-stage", "cubesat-3u", "geostationary-22n", "minor-axis-100", "charged-body", "two-wheels-minor-axis"):
+    for name in ("upper-stage", "cubesat-3u", "geostationary-22n", "minor-axis-100", "charged-body",
+                 "two-wheels-minor-axis"):
         case = load(NAMED[name])
         n = len(controls.vector(case, "wheel"))
-        _, new = moved(name, torque={"axis": 2, "size": "0.5", "tilt": "3", "azimuth": "90"}, wheel=["0.125", *[None] * (n - 1)], start=[None, "1.5", None])
+        _, new = moved(name, torque={"axis": 2, "size": "0.5", "tilt": "3", "azimuth": "90"},
+                       wheel=["0.125", *[None] * (n - 1)], start=[None, "1.5", None])
         again = read_text("saved.toml", new.text)
         assert (again.scene, again.exact_state, again.span) == (new.scene, new.exact_state, new.span)
 
@@ -54,14 +58,17 @@ def test_a_case_that_is_saved_states_what_was_seen():
 def test_the_wheel_of_a_tensor_that_is_not_diagonal_counts_along_its_principal_axes():
     case, new = moved("cubesat-3u", wheel=["0.001", None, None])
     assert new.scene.vector("gyrostat")[0] == Fraction(1, 1000)
-    for one, other in zip(case.scene.vector("gyrostat")[1:] + case.scene.body.exact, new.scene.vector("gyrostat")[1:] + new.scene.body.exact):
+    for one, other in zip(case.scene.vector("gyrostat")[1:] + case.scene.body.exact,
+                          new.scene.vector("gyrostat")[1:] + new.scene.body.exact):
         assert abs(one - other) <= abs(one) / 10**34  # 36 digits are written
     assert new.frame.as_given and not new.wheels and not new.thrusters
 
 
 def test_a_stuck_thruster_closes_where_a_slider_gives_the_torque():
     case, new = moved("upper-stage", torque={"axis": 3, "size": "2", "tilt": "0", "azimuth": "0"})
-    assert tuple(map(float, new.scene.vector("constant_torque"))) == (0, 0, 2) and not any(t.stuck for t in new.thrusters)
+    assert tuple(map(float, new.scene.vector("constant_torque"))) == (0, 0,
+                                                                      2) and not any(t.stuck
+                                                                                     for t in new.thrusters)
 
 
 def test_a_start_beyond_the_limit_is_explored_without_the_limit():
@@ -71,17 +78,23 @@ def test_a_start_beyond_the_limit_is_explored_without_the_limit():
 
 
 def test_what_cannot_be_stated_along_the_principal_axes_is_said_to_be_left_out():
-    case = load(NAMED["geostationary-22n"])  # limits about x, y, z of a full tensor, and a thruster with a misalignment
+    # limits about x, y, z of a full tensor, and a thruster with a misalignment
+    case = load(NAMED["geostationary-22n"])
     _, words = changed(case, asked(wheel=["0.6", None, None]), units_of(case))
     assert "limits about the axes of the file and the misalignment of thrusters" in words
-    _, words = changed(case, asked(torque={"axis": 3, "size": "2", "tilt": "0", "azimuth": "0"}), units_of(case))
+    _, words = changed(case, asked(torque={"axis": 3, "size": "2", "tilt": "0", "azimuth": "0"}),
+                       units_of(case))
     assert "limits about the axes of the file." in words and "misalignment" not in words
     assert changed(case, asked(), units_of(case))[1] == ""
 
 
-@pytest.mark.parametrize("axis, size, tilt, azimuth", [(1, 2.0, 0.0, 0.0), (2, -3.0, 5.0, 90.0), (3, 0.5, 30.0, -120.0), (3, -1.0, 12.0, 45.0)])
+@pytest.mark.parametrize("axis, size, tilt, azimuth",
+                         [(1, 2.0, 0.0, 0.0), (2, -3.0, 5.0, 90.0), (3, 0.5, 30.0, -120.0),
+                          (3, -1.0, 12.0, 45.0)])
 def test_size_tilt_and_azimuth_tell_a_torque_back(axis, size, tilt, azimuth):
-    assert controls.direction(controls.torque_of(axis, size, tilt, azimuth)) == pytest.approx((axis, size, tilt, azimuth), abs=1e-12)
+    assert controls.direction(controls.torque_of(axis, size, tilt,
+                                                 azimuth)) == pytest.approx((axis, size, tilt, azimuth),
+                                                                            abs=1e-12)
 
 
 def test_a_torque_on_an_axis_or_in_a_plane_is_there_exactly():
@@ -89,15 +102,18 @@ def test_a_torque_on_an_axis_or_in_a_plane_is_there_exactly():
     assert controls.torque_of(1, 2.0, 10.0, 90.0)[1] == 0 == controls.torque_of(1, 2.0, 10.0, -180.0)[2]
 
 
-@pytest.mark.parametrize("parts", [{"wheel": ["x"]}, {"start": ["nan", None, None]}, {"start": [1.5, None, None]}, {"start": ["1e999", None, None]},
-                                   {"torque": {"axis": 4, "size": "1", "tilt": "0", "azimuth": "0"}}, {"torque": {"axis": 1}}])
+@pytest.mark.parametrize("parts", [{"wheel": ["x"]}, {"start": ["nan", None, None]},
+                                   {"start": [1.5, None, None]}, {"start": ["1e999", None, None]},
+                                   {"torque": {"axis": 4, "size": "1", "tilt": "0", "azimuth": "0"}},
+                                   {"torque": {"axis": 1}}])
 def test_what_is_no_number_is_refused_in_words(parts):
     with pytest.raises(InputError, match="expected"):
         moved("thruster-stuck-major-axis", **parts)
 
 
 @pytest.mark.parametrize("value, text", [
-    (Fraction(1, 8), "0.125"), (Fraction(-3), "-3.0"), (Fraction(1, 3), "1/3"), (Fraction(0), "0.0"), (Fraction(1, 10**6), "0.000001")])
+    (Fraction(1, 8), "0.125"), (Fraction(-3), "-3.0"), (Fraction(1, 3), "1/3"), (Fraction(0), "0.0"),
+    (Fraction(1, 10**6), "0.000001")])
 def test_a_rational_is_written_with_nothing_lost(value, text):
     assert exact_text(value) == text and Fraction(text) == value
 
@@ -111,8 +127,11 @@ def test_every_slider_holds_the_number_of_its_case(path):
 
 
 def test_the_torque_of_a_fast_top_goes_as_far_as_that_of_its_weight():
-    """By hand: 2943 N at an arm of (0.7, 0.3, 0.1) m are 2261 N m; what turns 150 rad/s within some radians is 300,000 N m."""
+    """By hand: 2943 N at an arm of (0.7, 0.3, 0.1) m are 2261 N m; what turns 150 rad/s within some radians
+    is 300,000 N m."""
     case = load(NAMED["top-fast"])
     size = controls.groups(case, units_of(case))[0]["controls"][0]
     weight = 2943 * math.hypot(0.7, 0.3, 0.1)
-    assert weight == pytest.approx(2261, abs=1) and controls.ROOM * weight <= size["high"] == -size["low"] < 4 * weight
+    assert weight == pytest.approx(2261,
+                                   abs=1) and controls.ROOM * weight <= size["high"] == -size[
+                                       "low"] < 4 * weight

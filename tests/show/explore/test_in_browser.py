@@ -1,4 +1,5 @@
-"""The folder in a real browser: Python, python-flint and the exact core run there, and nothing comes from elsewhere."""
+"""The folder in a real browser: Python, python-flint and the exact core run there, and nothing comes from
+elsewhere."""
 import functools
 import http.server
 import json
@@ -32,9 +33,12 @@ def pyodide(tmp_path_factory):
     if shutil.which("npm") is None:
         pytest.skip("npm is not installed")
     try:
-        packed = subprocess.run(["npm", "pack", "--silent", f"pyodide@{static.PYODIDE}"], cwd=folder, capture_output=True, text=True, timeout=300)
-        wheel = subprocess.run([sys.executable, "-m", "pip", "download", "--quiet", "--no-deps", "--only-binary=:all:", "--python-version", "3.14",
-                                "--platform", "pyemscripten_2026_0_wasm32", "--dest", str(folder / "package"), f"python-flint=={static.FLINT}"],
+        packed = subprocess.run(["npm", "pack", "--silent", f"pyodide@{static.PYODIDE}"], cwd=folder,
+                                capture_output=True, text=True, timeout=300)
+        wheel = subprocess.run([sys.executable, "-m", "pip", "download", "--quiet", "--no-deps",
+                                "--only-binary=:all:", "--python-version", "3.14",
+                                "--platform", "pyemscripten_2026_0_wasm32", "--dest", str(folder / "package"),
+                                f"python-flint=={static.FLINT}"],
                                capture_output=True, text=True, timeout=300)
     except subprocess.TimeoutExpired as error:
         pytest.skip(f"a registry does not answer: {error}")
@@ -53,9 +57,11 @@ def page(pyodide, tmp_path_factory):
     class Quiet(http.server.SimpleHTTPRequestHandler):
         def log_message(self, *_):
             pass
-    with http.server.ThreadingHTTPServer(("127.0.0.1", 0), functools.partial(Quiet, directory=index.parent)) as server:
+    with http.server.ThreadingHTTPServer(("127.0.0.1", 0),
+                                         functools.partial(Quiet, directory=index.parent)) as server:
         threading.Thread(target=server.serve_forever, daemon=True).start()
-        with Browser(tmp_path_factory.mktemp("profile"), flags=["--host-resolver-rules=MAP * ~NOTFOUND, EXCLUDE 127.0.0.1"]) as browser:
+        with Browser(tmp_path_factory.mktemp("profile"),
+                     flags=["--host-resolver-rules=MAP * ~NOTFOUND, EXCLUDE 127.0.0.1"]) as browser:
             browser.open(f"http://127.0.0.1:{server.server_port}/")
             browser.until(f"document.documentElement.dataset.answers && {RESTS}", 240)
             yield browser
@@ -75,12 +81,17 @@ def test_sliders_move_verdict_and_surface(page):
         page.until(ANSWERED)
     page.until(f"{RESTS} && {ANSWERED}", 60)
     case = read_text("saved.toml", page.run("shown.toml"))
-    assert page.run(HEADLINE) == greek(headline(case, motion(case.scene, case.state, exact=case.exact_state))) != said and page.run(mesh) != drawn
+    assert page.run(HEADLINE) == greek(headline(case,
+                                                motion(case.scene, case.state,
+                                                       exact=case.exact_state))) != said and page.run(
+                                                           mesh) != drawn
 
 
 def test_a_tilt_is_undecided_and_says_why(page):
     page.run("fields.tilt.field.value = '3'; fields.tilt.field.oninput()")
-    page.until(f"{RESTS} && {HEADLINE}.startsWith('UNDECIDED: this motion has to be followed, which needs NumPy')", 60)
+    page.until(
+        f"{RESTS} && {HEADLINE}.startsWith('UNDECIDED: this motion has to be followed, which needs NumPy')",
+        60)
     page.run("document.querySelector('#again').click()")
     page.until(f"{RESTS} && {HEADLINE}.startsWith('BOUNDED')", 60)
 

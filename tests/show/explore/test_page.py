@@ -14,7 +14,8 @@ from tests.browser import CHROMIUM, Browser
 
 CASE = "cases/minor-axis-100.toml"
 pytestmark = pytest.mark.skipif(CHROMIUM is None, reason="Chromium is not installed")
-HEADLINE, ANSWERS = "document.querySelector('#headline').textContent", "Number(document.documentElement.dataset.answers || 0)"
+HEADLINE, ANSWERS = ("document.querySelector('#headline').textContent",
+                     "Number(document.documentElement.dataset.answers || 0)")
 RESTS = "document.documentElement.dataset.moving === 'false'"
 MESH = "JSON.stringify(shown.space.sheets.map(s => Array.from(s.at.slice(0, 3000))))"
 
@@ -35,7 +36,8 @@ def browser(tmp_path_factory):
 
 @pytest.fixture
 def page(server, browser):
-    """As it was opened: the button "As in the case" brings it there, and where a test has gone to another address, opening it anew does."""
+    """As it was opened: the button "As in the case" brings it there, and where a test has gone to another
+    address, opening it anew does."""
     browser.size(900, 800)
     if browser.run("location.href") != server.address:
         browser.open(server.address)
@@ -44,7 +46,8 @@ def page(server, browser):
         next_answer(browser, lambda: browser.run("$('again').click()"))
     yield browser
     assert browser.console == []
-    assert {urlsplit(one).netloc for one in browser.requests if not one.startswith(("data:", "blob:"))} == {f"127.0.0.1:{server.server_port}"}
+    assert {urlsplit(one).netloc for one in browser.requests
+            if not one.startswith(("data:", "blob:"))} == {f"127.0.0.1:{server.server_port}"}
 
 
 def next_answer(page, act):
@@ -84,7 +87,8 @@ def test_a_tilt_is_followed_once_the_hand_rests(page):
 
 
 def test_numbers_beside_the_pictures_have_the_minus_of_a_book(page):
-    told = page.run("document.querySelector('#facts').textContent + document.querySelector('#equilibria').textContent")
+    told = page.run(
+        "document.querySelector('#facts').textContent + document.querySelector('#equilibria').textContent")
     assert "\u2212" in told and "(-" not in told and " -" not in told
 
 
@@ -93,11 +97,14 @@ def test_numbers_beside_the_pictures_have_the_minus_of_a_book(page):
 
 
 def test_every_axis_has_a_scale_and_every_line_is_named(page):
-    """A scale takes two numbers; of an axis whose labels have no room for more, the round ones it has are kept."""
+    """A scale takes two numbers; of an axis whose labels have no room for more, the round ones it has are
+    kept."""
     spans = [(-42, 42), (-50.1, 49.9), (0, 97), (-1000, 8600), (0, 1e-7), (3.9, 15)]
-    told = page.run(f"{json.dumps(spans)}.map(([low, high]) => [3, 4, 5].map(n => ticks(low, high, n, () => true)))")
+    told = page.run(
+        f"{json.dumps(spans)}.map(([low, high]) => [3, 4, 5].map(n => ticks(low, high, n, () => true)))")
     for (low, high), rows in zip(spans, told):
-        assert all(len(marks) >= 3 and min(marks) >= low - 1e-6 and max(marks) <= high + 1e-6 for marks in rows)
+        assert all(len(marks) >= 3 and min(marks) >= low - 1e-6 and max(marks) <= high + 1e-6
+                   for marks in rows)
         assert all(len({round(b - a, 9) for a, b in zip(marks, marks[1:])}) == 1 for marks in rows)
     assert page.run("ticks(-42, 42, 4, () => false)") == [0]
     drawn = page.run("""(() => {
@@ -106,16 +113,20 @@ def test_every_axis_has_a_scale_and_every_line_is_named(page):
       drawTime(made, {times: [0, 1], rates: [[8000, 34000], [0, 1], [0, 1]], x: "time", y: "rate"});
       brush.fillText = real; made.remove();
       return told; })()""")
-    assert min(x - wide for _, align, x, wide in drawn if align == "right") > 20  # right of the label, which stands upright at 12 and is 12 high
+    # right of the label, which stands upright at 12 and is 12 high
+    assert min(x - wide for _, align, x, wide in drawn if align == "right") > 20
     assert "Grey: whole periods" in page.run("$('time-words').textContent")
-    assert "black: separatrix" in page.run("$('plane-words').textContent") and "open: saddle" in page.run("$('plane-words').textContent")
+    assert "black: separatrix" in page.run("$('plane-words').textContent") and "open: saddle" in page.run(
+        "$('plane-words').textContent")
 
 
 def test_a_click_in_the_phase_plane_starts_a_motion(page):
     said = page.run(HEADLINE)
     assert next_answer(page, lambda: page.click("#plane", 0.5, 0.12)) != said
     start = page.run("['start0', 'start1', 'start2'].map(name => Number(fields[name].field.value))")
-    assert start != [2.5, 4, 0.1] and read_text("saved.toml", page.run("shown.toml")).state == pytest.approx(start, rel=1e-6)
+    assert start != [2.5, 4, 0.1] and read_text("saved.toml",
+                                                page.run("shown.toml")).state == pytest.approx(start,
+                                                                                               rel=1e-6)
 
 
 @pytest.mark.slow
@@ -152,8 +163,11 @@ def test_the_case_is_saved_as_it_is_seen(page, tmp_path):
             break
         time.sleep(0.05)
     case = load(saved)
-    assert case.state == (2.5, 3.25, 0.1) and motion(case.scene, case.state).fate.word == page.run("shown.fate")
-    assert next_answer(page, lambda: page.click("#again")).startswith("BOUNDED") and page.run("Object.keys(touched).length") == 0
+    assert case.state == (2.5, 3.25,
+                          0.1) and motion(case.scene, case.state).fate.word == page.run("shown.fate")
+    assert next_answer(page,
+                       lambda: page.click("#again")).startswith("BOUNDED") and page.run(
+                           "Object.keys(touched).length") == 0
 
 
 def test_a_dropped_certificate_is_checked(page):
@@ -167,6 +181,10 @@ def test_the_page_fits_a_telephone_and_says_so_of_every_slider(page):
     page.size(400, 800)
     page.run("scrollTo(0, 0)")
     assert page.run("document.documentElement.scrollWidth") <= 400
-    assert page.run("[...document.querySelectorAll('input, select')].every(one => one.labels.length || one.getAttribute('aria-label'))")
-    tops = page.run("['#headline', '.space', '#controls', '#plane'].map(one => document.querySelector(one).getBoundingClientRect().top)")
+    assert page.run(
+        "[...document.querySelectorAll('input, select')].every(one => one.labels.length || "
+        "one.getAttribute('aria-label'))")
+    tops = page.run(
+        "['#headline', '.space', '#controls', '#plane'].map(one => "
+        "document.querySelector(one).getBoundingClientRect().top)")
     assert tops == sorted(tops)

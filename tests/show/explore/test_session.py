@@ -29,18 +29,22 @@ def ask(session, **asked):
 
 
 def row(numbers, told):
-    return np.frombuffer(numbers, {"int16": "<i2", "float32": "<f4"}[told["type"]], told["count"], told["from"])
+    return np.frombuffer(numbers, {"int16": "<i2", "float32": "<f4"}[told["type"]], told["count"],
+                         told["from"])
 
 
 def test_numbers_come_out_of_a_message_as_they_went_in():
     bag = Bag()
-    rows = [bag.add("int16", [1, -2, 3]), bag.add("float32", [0.5, float("inf")]), bag.add("int16", b"\x01\x00")]
+    rows = [bag.add("int16", [1, -2, 3]), bag.add("float32", [0.5, float("inf")]),
+            bag.add("int16", b"\x01\x00")]
     header, numbers = unframed(bag.framed({"rows": rows, "ä": float("nan")}))
-    assert header["ä"] is None and [row(numbers, one).tolist() for one in header["rows"]] == [[1, -2, 3], [0.5, float("inf")], [1]]
+    assert header["ä"] is None and [row(numbers, one).tolist()
+                                    for one in header["rows"]] == [[1, -2, 3], [0.5, float("inf")], [1]]
 
 
 @pytest.mark.one_in(2)
-@pytest.mark.parametrize("name", ["minor-axis-100", "thruster-stuck-major-axis", "torque-free-gyrostat", "wheel-and-thruster", "symmetric-body",
+@pytest.mark.parametrize("name", ["minor-axis-100", "thruster-stuck-major-axis", "torque-free-gyrostat",
+                                  "wheel-and-thruster", "symmetric-body",
                                   "off-axis-two"])
 def test_the_verdict_of_a_resting_hand_is_that_of_the_questions(name):
     case = case_of(name)
@@ -50,14 +54,16 @@ def test_the_verdict_of_a_resting_hand_is_that_of_the_questions(name):
 
 
 def test_axes_are_those_of_the_file_that_was_opened_also_of_a_changed_case():
-    """Expected by NumPy's eigenvectors: the least moment of the file's tensor is about its y axis but for half a degree."""
+    """Expected by NumPy's eigenvectors: the least moment of the file's tensor is about its y axis but for
+    half a degree."""
     case = case_of("geostationary-22n")
     _, axes = np.linalg.eigh([[5830, -38, 112], [-38, 1240, -24], [112, -24, 5410]])
     minor = f"the minor axis, ({', '.join(f'{v:.3f}' for v in axes[:, 0] * np.sign(axes[1, 0]))})"
     for changes in ({}, {"wheel": ["0.6", None, None]}):
         told, _ = ask(Session(case), **changes)
         assert f"SPINS UP about {minor} in the file's frame, negative sense" in told["headline"]
-        assert told["rows"][0][0] == "axes" and told["rows"][0][1].endswith(f"; ω3 about {minor} in the file's frame")
+        assert told["rows"][0][0] == "axes" and told["rows"][0][1].endswith(
+            f"; ω3 about {minor} in the file's frame")
 
 
 def test_the_verdict_is_that_of_the_case_that_is_saved(tmp_path):
@@ -72,22 +78,27 @@ def test_the_verdict_is_that_of_the_case_that_is_saved(tmp_path):
 def test_a_moving_hand_gets_the_same_fate_without_the_search_for_the_separatrix():
     session = Session(case_of("thruster-stuck-major-axis"))
     whole, brief = ask(session)[0], ask(session, moving=True)[0]
-    assert whole["fate"] == brief["fate"] == "bounded" and "margin, rate" in str(whole["rows"]) and "margin, rate" not in str(brief["rows"])
+    assert whole["fate"] == brief["fate"] == "bounded" and "margin, rate" in str(
+        whole["rows"]) and "margin, rate" not in str(brief["rows"])
     assert sum(s["rows"] for s in brief["space"]["sheets"]) < sum(s["rows"] for s in whole["space"]["sheets"])
 
 
 def test_a_tilted_torque_is_undecided_while_the_hand_moves_and_followed_when_it_rests():
-    session, tilted = Session(case_of("thruster-stuck-major-axis")), {"torque": {"axis": 1, "size": "0.02", "tilt": "2", "azimuth": "0"}}
+    session, tilted = Session(case_of("thruster-stuck-major-axis")), {
+        "torque": {"axis": 1, "size": "0.02", "tilt": "2", "azimuth": "0"}}
     box = ask(session)[0]["space"]["box"]
     told = ask(session, moving=True, box=box, **tilted)[0]
-    assert told["space"]["box"] == box and told["space"]["sheets"] and told["headline"] == f"UNDECIDED so far: {FOLLOWED}"
+    assert told["space"]["box"] == box and told["space"]["sheets"] and told[
+        "headline"] == f"UNDECIDED so far: {FOLLOWED}"
     assert told["fate"] == "undecided" and told["plane"] is None
-    assert "without its tilt" in told["space"]["words"] and all(s["name"].endswith("without the tilt") for s in told["space"]["sheets"])
+    assert "without its tilt" in told["space"]["words"] and all(s["name"].endswith("without the tilt")
+                                                                for s in told["space"]["sheets"])
     assert ask(session, **tilted)[0]["fate"] == "spin-up"
 
 
 def test_a_kind_of_motion_that_took_long_waits_until_the_hand_rests(monkeypatch):
-    session, along = Session(case_of("thruster-stuck-major-axis")), {"wheel": ["1", None, None]}  # a wheel along the torque leaves no integral
+    # a wheel along the torque leaves no integral
+    session, along = Session(case_of("thruster-stuck-major-axis")), {"wheel": ["1", None, None]}
     assert ask(session, moving=True, **along)[0]["fate"] == "spin-up"
     monkeypatch.setattr("stabilab.show.explore.session.PATIENCE", 0.0)  # any work takes longer
     assert ask(session, moving=True, **along)[0]["headline"].startswith("UNDECIDED so far: keep still")
@@ -106,7 +117,8 @@ def test_the_drawn_surface_is_the_separatrix():
     space, per_degree = told["space"], np.pi / 180
     middle, half = np.array(space["middle"]) * per_degree, space["half"] * per_degree
     # the same scene, farther out and finer; every drawn place inside the box lies on one of its facets' size
-    exact = np.concatenate([s.points.reshape(-1, 3) for s in separatrix(case.scene, reach=60.0, shape=(400, 401)).sheets])
+    exact = np.concatenate([s.points.reshape(-1, 3)
+                            for s in separatrix(case.scene, reach=60.0, shape=(400, 401)).sheets])
     for sheet in space["sheets"]:
         places = row(numbers, sheet["at"]).reshape(-1, 3) / 4095
         inside = middle + half * places[(np.abs(places) < 1).all(axis=1)][::17]
@@ -120,7 +132,8 @@ def test_the_box_stays_while_the_motion_stays_in_it():
     assert ask(session, box=first, moving=True, start=["60", None, None])[0]["space"]["box"] != first
 
 
-@pytest.mark.parametrize("name", ["minor-axis-100", "thruster-stuck-major-axis", "middle-axis-double-well", "torque-free-body", "symmetric-spin-up"])
+@pytest.mark.parametrize("name", ["minor-axis-100", "thruster-stuck-major-axis", "middle-axis-double-well",
+                                  "torque-free-body", "symmetric-spin-up"])
 def test_the_plane_in_plain_floats_is_that_in_arrays(name):
     case = case_of(name)
     plain, arrays = plane_of(case.scene, case.state), phase_plane(case.scene, case.state)
@@ -128,37 +141,45 @@ def test_the_plane_in_plain_floats_is_that_in_arrays(name):
         assert plain is None
         return
     heights = arrays.height(np.array(plain.y))
-    assert np.allclose(plain.heights, heights, rtol=1e-9, atol=1e-9 * np.abs(heights).max()) and plain.unit == pytest.approx(arrays.unit)
+    assert np.allclose(plain.heights, heights, rtol=1e-9,
+                       atol=1e-9 * np.abs(heights).max()) and plain.unit == pytest.approx(arrays.unit)
     for y, _, saddle in plain.rests:
         near = arrays.repeated(arrays.saddles if saddle else arrays.centres, y - 1e-6, y + 1e-6)
         assert len(near) >= 1
     for y, W in ((0.3, 0.7), (-0.4, -1.1)):
         state = arrays.states(np.array(y), np.array(W))
-        assert plain.state(y * plain.unit, float(state[plain.reduction.axis])) == pytest.approx(state, rel=1e-9, abs=1e-9)
+        assert plain.state(y * plain.unit,
+                           float(state[plain.reduction.axis])) == pytest.approx(state, rel=1e-9, abs=1e-9)
         assert plain.rate(W) == pytest.approx(float(state[plain.reduction.axis]))
 
 
 def test_a_click_in_the_phase_plane_starts_there():
     session = Session(case_of("thruster-stuck-major-axis"))
     told = ask(session, click={"turn": 0.0, "rate": 25.0})[0]
-    assert [float(v) for v in told["start"]] == pytest.approx([25.0, 0.03 * 180 / np.pi, -0.02 * 180 / np.pi], rel=1e-6)
+    assert [float(v) for v in told["start"]] == pytest.approx([25.0, 0.03 * 180 / np.pi, -0.02 * 180 / np.pi],
+                                                              rel=1e-6)
 
 
 @pytest.mark.parametrize("asked", [
-    {"click": {"turn": "x"}}, {"click": 3}, {"start": ["x", None, None]}, {"start": 3}, {"box": 3}, {"torque": []}, {"wheel": {"a": 1}},
-    {"box": {"middle": [0, 0, "x"], "half": 1}}, {"box": {"middle": [0, 0, 0], "half": 0}}, {"click": {"turn": "inf", "rate": 1}}])
+    {"click": {"turn": "x"}}, {"click": 3}, {"start": ["x", None, None]}, {"start": 3}, {"box": 3},
+    {"torque": []}, {"wheel": {"a": 1}},
+    {"box": {"middle": [0, 0, "x"], "half": 1}}, {"box": {"middle": [0, 0, 0], "half": 0}},
+    {"click": {"turn": "inf", "rate": 1}}])
 def test_a_question_that_is_none_is_answered_in_words(asked):
     told, _ = ask(Session(case_of("minor-axis-100")), **asked)
     assert "expected" in told["error"] or "click" in told["error"]
 
 
 @pytest.mark.one_in(2)
-@pytest.mark.parametrize("size, refused", [("1e8", False), ("-1e8", False), ("1e-300", False), ("1.1e8", True), ("1e200", True)])
+@pytest.mark.parametrize("size, refused", [("1e8", False), ("-1e8", False), ("1e-300", False),
+                                           ("1.1e8", True), ("1e200", True)])
 def test_numbers_of_any_size_are_drawn_or_refused_in_words(size, refused):
     session = Session(case_of("thruster-stuck-major-axis"))
-    for asked in ({"start": [size, None, None]}, {"wheel": [None, size, None]}, {"torque": {"axis": 3, "size": size, "tilt": "0", "azimuth": "0"}}):
+    for asked in ({"start": [size, None, None]}, {"wheel": [None, size, None]},
+                  {"torque": {"axis": 3, "size": size, "tilt": "0", "azimuth": "0"}}):
         header, _ = ask(session, moving=True, **asked)
-        assert ("which can still be drawn" in header.get("error", "")) == refused and ("headline" in header) != refused
+        assert ("which can still be drawn" in header.get("error",
+                                                         "")) == refused and ("headline" in header) != refused
 
 
 @pytest.mark.parametrize("name, because", [("liquid-sensible", "the liquid and the medium take energy away"),
@@ -166,7 +187,8 @@ def test_numbers_of_any_size_are_drawn_or_refused_in_words(size, refused):
 def test_a_body_with_other_effects_is_shown_and_the_page_says_what_is_not_there(name, because):
     told, _ = ask(Session(case_of(name)), moving=True)
     assert told["fate"] == "bounded" and told["plane"] is None and told["space"]["sheets"] == []
-    assert told["space"]["words"].startswith("No separatrix and no phase plane: ") and because in told["space"]["words"]
+    assert told["space"]["words"].startswith("No separatrix and no phase plane: ") and because in told[
+        "space"]["words"]
 
 
 def test_the_rates_of_a_body_in_a_medium_lose_their_momentum_as_they_should():
@@ -181,26 +203,32 @@ span = [0, 30]
 units = "si"
 """
     told, numbers = ask(Session(read_text("medium.toml", text)), moving=True)
-    t, rates = row(numbers, told["time"]["times"]), np.array([row(numbers, one) for one in told["time"]["rates"]])
+    t, rates = row(numbers,
+                   told["time"]["times"]), np.array([row(numbers, one) for one in told["time"]["rates"]])
     size = np.linalg.norm(np.array([[12], [9], [5]]) * rates, axis=0)
-    assert t[-1] == 30 and size == pytest.approx(size[0] * np.exp(-0.03 * t), rel=1e-5)  # by hand: H' = -c H + H x omega
+    # by hand: H' = -c H + H x omega
+    assert t[-1] == 30 and size == pytest.approx(size[0] * np.exp(-0.03 * t), rel=1e-5)
 
 
 def test_all_curves_of_a_field_are_drawn_without_their_vertical():
-    told, _ = ask(Session(case_of("charged-body-attitude")), torque={"axis": 1, "size": "0.1", "tilt": "0", "azimuth": "0"})
+    told, _ = ask(Session(case_of("charged-body-attitude")),
+                  torque={"axis": 1, "size": "0.1", "tilt": "0", "azimuth": "0"})
     assert "error" not in told and told["space"]["curves"]
 
 
 @pytest.mark.parametrize("torque, rate", [("1e150", "0.1"), ("0.02", "1e200"), ("1e150", "1e90")])
 def test_a_case_file_with_numbers_that_no_double_can_follow_is_refused_in_words(torque, rate):
-    text = f"[body]\ninertia = [12, 9, 5]\n[effects.constant_torque]\ntorque = [0, 0, {torque}]\n[motion]\nangular_velocity = [{rate}, 0, 0.1]\n"
+    text = (
+        f"[body]\ninertia = [12, 9, 5]\n[effects.constant_torque]\ntorque = [0, 0, "
+        f"{torque}]\n[motion]\nangular_velocity = [{rate}, 0, 0.1]\n")
     told, _ = ask(Session(read_text("huge.toml", text)), moving=True)
     assert "too fast to be drawn" in told["error"] and "expected" in told["error"]
 
 
 def test_a_file_with_a_sweep_is_told_of_whose_numbers_the_page_is():
     told, _ = ask(Session(case_of("charged-sweep")), moving=True)
-    assert "[sweep]" in told["note"] and "sweep" not in ask(Session(case_of("minor-axis-100")), moving=True)[0]["note"]
+    assert "[sweep]" in told["note"] and "sweep" not in ask(Session(case_of("minor-axis-100")),
+                                                            moving=True)[0]["note"]
 
 
 @pytest.mark.parametrize("name", ["uncertain-separatrix", "uncertain-minor-axis"])
@@ -213,29 +241,38 @@ def test_an_approximate_law_is_judged_along_the_motion_as_classify_does():
     """Oracle: classify, which follows the same motion; a smaller torque keeps within the law."""
     for name, held in (("charged-body", False), ("charged-body-small-torque", True)):
         told = ask(Session(case_of(name)), moving=True)[0]
-        line = subprocess.run([sys.executable, "-m", "stabilab", "classify", f"cases/{name}.toml"], capture_output=True, text=True, check=True,
-                              env={**os.environ, "COLUMNS": "400", "PYTHONIOENCODING": "utf-8"}).stdout.split("\nwhy:")[0]
-        assert told["note"].removeprefix("Within the law: ").removeprefix("BEYOND THE LAW: ") in line and "along the run" in told["note"]
-        assert told["headline"].startswith("BEYOND THE LAW; by that law: BOUNDED") != held and told["headline"].split("law: ")[-1] in line
+        line = subprocess.run([sys.executable, "-m", "stabilab", "classify", f"cases/{name}.toml"],
+                              capture_output=True, text=True, check=True,
+                              env={**os.environ, "COLUMNS": "400",
+                                   "PYTHONIOENCODING": "utf-8"}).stdout.split("\nwhy:")[0]
+        assert told["note"].removeprefix("Within the law: ").removeprefix(
+            "BEYOND THE LAW: ") in line and "along the run" in told["note"]
+        assert told["headline"].startswith("BEYOND THE LAW; by that law: BOUNDED") != held and told[
+            "headline"].split("law: ")[-1] in line
 
 
 def test_no_equilibrium_of_undecided_stability_is_called_stable_by_its_colour():
-    """The table beside it and classify say undecided of each of this field's curves, whose linear verdict is a centre."""
+    """The table beside it and classify say undecided of each of this field's curves, whose linear verdict is
+    a centre."""
     told = ask(Session(case_of("charged-body-attitude")))[0]
     assert {verdict for _, verdict in told["equilibria"]["rows"]} == {"undecided"}
     names = dict(told["space"]["legend"])
-    assert "stable equilibria" not in names and names["equilibria of undecided stability"] not in (MEANING["stable"]["color"], MEANING["unstable"]["color"])
+    assert "stable equilibria" not in names and names["equilibria of undecided stability"] not in (
+        MEANING["stable"]["color"], MEANING["unstable"]["color"])
 
 
 def test_no_two_things_in_space_have_one_colour():
-    legend = ask(Session(case_of("middle-axis-double-well")), start=["-1.57", "1.027", "0.43"])[0]["space"]["legend"]
+    legend = ask(Session(case_of("middle-axis-double-well")),
+                 start=["-1.57", "1.027", "0.43"])[0]["space"]["legend"]
     assert len(legend) >= 8 and len({colour for _, colour in legend}) == len(legend)
 
 
 def test_a_sheet_keeps_its_colour_while_others_come_into_the_box_and_go():
     session = Session(case_of("thruster-stuck-major-axis"))
-    near, far = (dict(ask(session, **asked)[0]["space"]["legend"]) for asked in ({}, {"start": ["49.8", "118.5", "-53.6"]}))
-    sheets = [{name: colour for name, colour in legend.items() if name.startswith("Sheet")} for legend in (near, far)]
+    near, far = (dict(ask(session, **asked)[0]["space"]["legend"])
+                 for asked in ({}, {"start": ["49.8", "118.5", "-53.6"]}))
+    sheets = [{name: colour for name, colour in legend.items() if name.startswith("Sheet")}
+              for legend in (near, far)]
     assert 0 < len(sheets[0]) < len(sheets[1]) and sheets[0].items() <= sheets[1].items()
 
 
@@ -267,34 +304,46 @@ print(along["headline"], along["space"]["words"])
     run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
     assert run.returncode == 0, run.stderr
     first, second, third = run.stdout.splitlines()
-    assert first.startswith("BOUNDED only while the torque is exactly along x (major axis); largest rate |ω| = 2.244 deg/s (1.725 deg/s")
+    assert first.startswith(
+        "BOUNDED only while the torque is exactly along x (major axis); largest rate |ω| = 2.244 deg/s "
+        "(1.725 deg/s")
     assert second.startswith("UNDECIDED: this motion has to be followed, which needs NumPy")
-    assert third.startswith("UNDECIDED: this motion has to be followed, which needs NumPy") and "No separatrix" in third
+    assert third.startswith(
+        "UNDECIDED: this motion has to be followed, which needs NumPy") and "No separatrix" in third
 
 
 def test_a_curve_of_equilibria_is_told_by_a_state_on_each_piece():
     """Torque on axis 3, wheel along axis 1: by Euler's third equation w2 (l1 + (D1 - D2) w1) = -M3 there."""
     case = read_text("my.toml", '[body]\ninertia = [12, 9, 5]\n[effects.gyrostat]\nmomentum = [0.8, 0, 0]\n'
-                     '[effects.constant_torque]\ntorque = [0, 0, 0.02]\n[motion]\nangular_velocity = [0.1, 0.05, 0.02]\n')
+                     '[effects.constant_torque]\ntorque = [0, 0, 0.02]\n[motion]\nangular_velocity = [0.1, '
+                     '0.05, 0.02]\n')
     told = unframed(Session(case).answer({}))[0]["equilibria"]["rows"]
     assert [verdict for _, verdict in told] == ["unstable", "stable", "unstable"]
     for where, _ in told:
-        w1, w2, w3 = (math.radians(float(v)) for v in re.search(r"such as \((.*)\) deg/s", where)[1].split(", "))
+        w1, w2, w3 = (math.radians(float(v))
+                      for v in re.search(r"such as \((.*)\) deg/s", where)[1].split(", "))
         assert w3 == 0 and (0.8 + (12 - 9) * w1) * w2 == pytest.approx(-0.02, rel=1e-3)
 
 
 @pytest.mark.parametrize("moving", [False, True])
 def test_a_motion_on_an_unstable_plane_is_drawn_on_it_to_its_end_once_the_hand_rests(moving):
-    """By hand: x1 + 1 + x3 = 0 for ever, (x1 + 1 + x3)' = x2 (x1 + 1 + x3): floats lose the plane at tau = 5."""
-    told, numbers = ask(Session(read_text("plane.toml", "[scaled]\na = 0.5\nb = 1\nmu = [0, 1, 0]\n[motion]\nx = [5, 0, -6]\ntau = [0, 8]\n")), moving=moving)
-    tau, (x1, x2, x3) = row(numbers, told["time"]["times"]), (row(numbers, one) for one in told["time"]["rates"])
+    """By hand: x1 + 1 + x3 = 0 for ever, (x1 + 1 + x3)' = x2 (x1 + 1 + x3): floats lose the plane at tau = 5.
+    """
+    told, numbers = ask(Session(read_text("plane.toml",
+                                          "[scaled]\na = 0.5\nb = 1\nmu = [0, 1, 0]\n[motion]\nx = [5, 0, "
+                                          "-6]\ntau = [0, 8]\n")), moving=moving)
+    tau, (x1, x2, x3) = row(numbers,
+                            told["time"]["times"]), (row(numbers, one) for one in told["time"]["rates"])
     assert np.abs(x1 + 1 + x3).max() < 0.02 and (1 < tau[-1] < 5 if moving else tau[-1] == 8 and x2[-1] > 12)
 
 
 @pytest.mark.one_in(2)
-@pytest.mark.parametrize("name, words", [("liquid-sensible", "Within the law: liquid cavity: Reynolds number"),
-                                         ("liquid-base", "BEYOND THE LAW: liquid cavity"), ("minor-axis-100", "")])
+@pytest.mark.parametrize("name, words",
+                         [("liquid-sensible", "Within the law: liquid cavity: Reynolds number"),
+                                         ("liquid-base", "BEYOND THE LAW: liquid cavity"),
+                          ("minor-axis-100", "")])
 def test_a_law_that_is_judged_says_so(name, words):
-    """The Reynolds number of the sensible liquid is 0.215 < 1; 25 t of liquid in a body of 9 kg m^2 are beyond any law; a torque and a wheel have none."""
+    """The Reynolds number of the sensible liquid is 0.215 < 1; 25 t of liquid in a body of 9 kg m^2 are
+    beyond any law; a torque and a wheel have none."""
     note = ask(Session(case_of(name)), moving=True)[0]["note"]
     assert words in note and ("law" in note.lower()) == bool(words)

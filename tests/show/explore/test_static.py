@@ -1,4 +1,5 @@
-"""The page as a folder: what is in it, what it says it needs, and that its core runs with python-flint alone."""
+"""The page as a folder: what is in it, what it says it needs, and that its core runs with python-flint alone.
+"""
 import io
 import json
 import subprocess
@@ -33,7 +34,8 @@ def test_the_archive_is_the_same_every_time_and_holds_no_papers():
     once = static.archive()
     names = zipfile.ZipFile(io.BytesIO(once)).namelist()
     assert once == static.archive() and "stabilab/show/explore/session.py" in names and "stabilab/verify/__init__.py" in names
-    assert not [name for name in names if "theories" in name or "cost" in name.split("/") or not name.endswith(".py")]
+    assert not [name for name in names if "theories" in name or "cost" in name.split("/")
+                or not name.endswith(".py")]
 
 
 def test_the_archive_answers_and_checks_with_python_flint_alone(tmp_path):
@@ -44,18 +46,25 @@ def test_the_archive_answers_and_checks_with_python_flint_alone(tmp_path):
     (tmp_path / "flint").symlink_to(flint)
     for beside in flint.parent.glob("python_flint*.libs"):
         (tmp_path / beside.name).symlink_to(beside)
-    code = ("import sys\nfrom pathlib import Path\nfrom stabilab.case.read import read_text\nfrom stabilab.show.explore.session import Session\n"
-            "from stabilab.show.explore.session import checked\nfrom stabilab.show.explore.pictures import unframed\n"
+    code = ("import sys\nfrom pathlib import Path\nfrom stabilab.case.read import read_text\nfrom "
+            "stabilab.show.explore.session import Session\n"
+            "from stabilab.show.explore.session import checked\nfrom stabilab.show.explore.pictures import "
+            "unframed\n"
             "from stabilab.answers.certificate import certificate\n"
-            "import json\nname, text = 'c.toml', Path(sys.argv[1]).read_text()\ncase = read_text(name, text)\n"
+            "import json\nname, text = 'c.toml', Path(sys.argv[1]).read_text()\ncase = read_text(name, "
+            "text)\n"
             "print(unframed(Session(case).answer({}))[0]['headline'])\n"
-            "print(unframed(checked({'text': json.dumps(certificate(case.scene, case.exact_state))}))[0]['status'])\n"
+            "print(unframed(checked({'text': json.dumps(certificate(case.scene, "
+            "case.exact_state))}))[0]['status'])\n"
             "print(sorted(m for m in ('numpy', 'sympy', 'mpmath', 'jinja2', 'typer') if m in sys.modules))")
-    run = subprocess.run([sys.executable, "-I", "-S", "-c", f"import sys; sys.path.insert(0, {str(tmp_path)!r})\n{code}", str(Path(CASE).resolve())],
+    run = subprocess.run([sys.executable, "-I", "-S", "-c",
+                          f"import sys; sys.path.insert(0, {str(tmp_path)!r})\n{code}",
+                          str(Path(CASE).resolve())],
                          capture_output=True, text=True, cwd=tmp_path)
     assert run.returncode == 0, run.stderr
     headline, status, loaded = run.stdout.splitlines()
-    assert headline.startswith("BOUNDED only while the torque is exactly along x (major axis)") and "margin 74.4 deg/s" in headline
+    assert headline.startswith(
+        "BOUNDED only while the torque is exactly along x (major axis)") and "margin 74.4 deg/s" in headline
     assert (status, loaded) == ("proved", "[]")
 
 
@@ -78,7 +87,8 @@ def test_what_is_missing_of_pyodide_is_named_with_the_cure(tmp_path, pyodide, wi
     (pyodide / without).unlink()
     with pytest.raises(InputError, match="npm pack pyodide") as refused:
         static.write(load(CASE), tmp_path / "site", pyodide)
-    assert ("python_flint" if without == WHEEL else without) in str(refused.value) and not (tmp_path / "site").exists()
+    assert ("python_flint" if without == WHEEL
+            else without) in str(refused.value) and not (tmp_path / "site").exists()
 
 
 @pytest.mark.parametrize("lock", ["{", "[]", '{"info": {}}', '{"info": {"python": 3, "abi_version": 1}}'])
@@ -89,6 +99,7 @@ def test_a_lock_that_is_none_is_refused(tmp_path, pyodide, lock):
 
 
 def test_the_wheel_must_be_of_this_python(tmp_path, pyodide):
-    (pyodide / "pyodide-lock.json").write_text(json.dumps({"info": {"abi_version": "2027_0", "python": "3.15.0"}}))
+    (pyodide / "pyodide-lock.json").write_text(
+        json.dumps({"info": {"abi_version": "2027_0", "python": "3.15.0"}}))
     with pytest.raises(InputError, match="no wheel python_flint"):
         static.write(load(CASE), tmp_path / "site", pyodide)

@@ -29,27 +29,36 @@ def minor():
 
 def test_the_first_line_tells_the_shares_and_the_others_the_boundary(minor):
     first, *rest = words.text(minor).splitlines()
-    assert first.startswith("minor-axis-100: 2 kinds of motion in this plane: 57.5 % spin-up about +x3, 42.5 % bounded (± ")
-    assert "the exact separatrix passes through each" in rest[0] and "that of a smooth line" in rest[1] and " ± " in rest[1] and "known as exact" in rest[2]
+    assert first.startswith(
+        "minor-axis-100: 2 kinds of motion in this plane: 57.5 % spin-up about +x3, 42.5 % bounded (± ")
+    assert "the exact separatrix passes through each" in rest[0] and "that of a smooth line" in rest[
+        1] and " ± " in rest[1] and "known as exact" in rest[2]
     assert f"{len(minor.records):,} states asked, of 28,497" in rest[3]
 
 
 def test_json_has_what_the_words_say_and_a_command_that_asks_the_same(minor):
     told = json.loads(words.json(minor))
-    assert told["schema"] == "stabilab.basin/1" and told["complete"] and told["states_asked"] == len(minor.records)
-    assert {row["basin"]: row["share"] for row in told["basins"]} == {words.basin_name(minor, k): v for k, v in minor.shares.items()}
-    assert len(told["boundary"]["corners"]) == told["boundary"]["cells"] == len(told["boundary"]["separatrix"])
+    assert told["schema"] == "stabilab.basin/1" and told["complete"] and told["states_asked"] == len(
+        minor.records)
+    assert {row["basin"]: row["share"]
+            for row in told["basins"]} == {words.basin_name(minor, k): v for k, v in minor.shares.items()}
+    assert len(told["boundary"]["corners"]) == told["boundary"]["cells"] == len(
+        told["boundary"]["separatrix"])
     assert told["box_dimension"]["value"] == minor.dimension.value and told["axes"][0]["cells"] == 11
-    vary = dict(word.removeprefix("--vary=").split("=") for word in told["command"].replace("'", "").split()[3:5])
+    vary = dict(word.removeprefix("--vary=").split("=")
+                for word in told["command"].replace("'", "").split()[3:5])
     again = stabilab.basin(MINOR, vary, depth=int(told["command"].rpartition("=")[2]))
     assert words.json(again) == words.json(minor)
 
 
 def test_csv_has_a_line_for_each_cell_and_its_cells_cover_the_plane(minor):
     rows = list(csv.reader(io.StringIO(words.csv(minor))))
-    assert rows[0] == ["motion.x[1] from", "motion.x[1] to", "motion.x[3] from", "motion.x[3] to", "depth", "basin", "caveats"]
+    assert rows[0] == ["motion.x[1] from", "motion.x[1] to", "motion.x[3] from", "motion.x[3] to", "depth",
+                       "basin", "caveats"]
     areas = [(float(b) - float(a)) * (float(d) - float(c)) for a, b, c, d, *_ in rows[1:]]
-    assert sum(areas) == pytest.approx(8 * 6.1) and {row[-2] for row in rows[1:]} == {"bounded", "spin-up about +x3", "boundary"}
+    assert sum(areas) == pytest.approx(8 * 6.1) and {row[-2]
+                                                     for row in rows[1:]} == {"bounded", "spin-up about +x3",
+                                                                              "boundary"}
     assert sum(row[-2] == "boundary" for row in rows[1:]) == len(minor.boundary)
 
 
@@ -66,7 +75,8 @@ def test_a_file_holds_the_basins_and_plot_draws_it(minor, tmp_path):
 
 def test_a_file_that_was_changed_is_refused(minor, tmp_path):
     made = dataset.dataset(minor)
-    for name, value in (("fate", made.fate * 0), ("cell", made.cell * 0 + 10**6), ("cell_depth", made.cell_depth * 0)):
+    for name, value in (("fate", made.fate * 0), ("cell", made.cell * 0 + 10**6),
+                        ("cell_depth", made.cell_depth * 0)):
         made.assign({name: value}).to_netcdf(tmp_path / f"{name}.nc", engine="scipy")
         with pytest.raises(InputError, match="changed"):
             pictures.write(tmp_path / f"{name}.nc", tmp_path / "a.png")
@@ -76,18 +86,24 @@ def test_a_file_that_was_changed_is_refused(minor, tmp_path):
 def test_the_picture_shows_each_basin_where_its_states_are(minor):
     """Colours of the picture's own grid, beside the fates of states asked by themselves."""
     shown = picture.raster(minor)
-    x, y = (0.5 * (edges[1:] + edges[:-1]) for edges in (np.linspace(-4, 4, shown.shape[0] + 1), np.linspace(-3, 3.1, shown.shape[1] + 1)))
+    x, y = (0.5 * (edges[1:] + edges[:-1])
+            for edges in (np.linspace(-4, 4, shown.shape[0] + 1), np.linspace(-3, 3.1, shown.shape[1] + 1)))
     states = np.stack(np.broadcast_arrays(x[:, None], 4.0, y), axis=-1)
-    expected = np.where(stabilab.fate(stabilab.load(MINOR).scene, states).labels == stabilab.Fate.SPIN_UP, 3, 0)
+    expected = np.where(stabilab.fate(stabilab.load(MINOR).scene, states).labels == stabilab.Fate.SPIN_UP, 3,
+                        0)
     assert (shown != expected).mean() < minor.blur
     ax = stabilab.plot.basin(minor)
-    assert (ax.get_xlabel(), ax.get_ylabel()) == ("$x_1$", "$x_3$") and len(ax.collections[-1].get_segments()) == len(minor.boundary)
+    assert (ax.get_xlabel(), ax.get_ylabel()) == ("$x_1$",
+                                                  "$x_3$") and len(ax.collections[-1].get_segments()) == len(
+                                                      minor.boundary)
     legend = ax.figure.legends[0]
-    assert [text.get_text() for text in legend.get_texts()] == ["spin-up about +x3", "bounded", "separatrix (exact)", "the case itself"]
+    assert [text.get_text() for text in legend.get_texts()] == ["spin-up about +x3", "bounded",
+                                                                "separatrix (exact)", "the case itself"]
     plt.close("all")
 
 
 def test_files_are_judged_before_the_work():
-    for paths, told in (((MINOR.with_suffix(".txt"),), "ends in"), ((MINOR.with_name("a.nc"), MINOR.with_name("b.nc")), "one data set")):
+    for paths, told in (((MINOR.with_suffix(".txt"),), "ends in"),
+                        ((MINOR.with_name("a.nc"), MINOR.with_name("b.nc")), "one data set")):
         with pytest.raises(InputError, match=told):
             write.checked(paths)

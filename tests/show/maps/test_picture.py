@@ -57,7 +57,8 @@ def test_pieces_of_the_boundary_close_a_circle():
         return (target - low) / step
     pieces = field.segments_of(inside.astype(np.int8), x, y, way)
     assert np.abs((pieces**2).sum(axis=-1) - 1.2).max() < 1e-12
-    assert np.linalg.norm(pieces[:, 1] - pieces[:, 0], axis=1).sum() == pytest.approx(2 * np.pi * np.sqrt(1.2), rel=0.01)
+    assert np.linalg.norm(pieces[:, 1] - pieces[:, 0],
+                          axis=1).sum() == pytest.approx(2 * np.pi * np.sqrt(1.2), rel=0.01)
 
 
 def test_a_file_is_drawn_with_its_columns_by_name(swept, tmp_path, stabilab):
@@ -90,7 +91,8 @@ def _refused(path):
 
 def test_a_file_that_is_cut_off_or_changed_is_one_error(swept, tmp_path):
     whole, other = swept.read_bytes(), tmp_path / "other.nc"
-    for content in (whole[:40], whole[:500], whole[:-40], whole.replace(b'"vary"', b'"vbry"'), whole.replace(b"x_1", b"x_9"),
+    for content in (whole[:40], whole[:500], whole[:-40], whole.replace(b'"vary"', b'"vbry"'),
+                    whole.replace(b"x_1", b"x_9"),
                     whole.replace(b"long_name", b"lung_name"), whole.replace(b"margin", b"morgin")):
         assert content != whole
         other.write_bytes(content)
@@ -100,13 +102,16 @@ def test_a_file_that_is_cut_off_or_changed_is_one_error(swept, tmp_path):
 
 
 def test_a_part_of_a_sweep_is_refused_since_its_boundary_would_be_that_of_another(swept, tmp_path):
-    xarray.load_dataset(swept, engine="scipy").isel(x_1=slice(2, None)).to_netcdf(tmp_path / "part.nc", engine="scipy")
+    xarray.load_dataset(swept,
+                        engine="scipy").isel(x_1=slice(2,
+                                                       None)).to_netcdf(tmp_path / "part.nc", engine="scipy")
     with pytest.raises(InputError, match="its axis x_1 is not that of the sweep"):
         picture.write(tmp_path / "part.nc", tmp_path / "x.png")
 
 
 def test_a_column_without_a_finite_number_is_refused_and_not_drawn_empty(tmp_path):
-    sweep(MINOR, {"x[3]": "100:101:3"}, answer="period", out=tmp_path / "up.nc")  # far above every barrier: a spin-up has no period
+    # far above every barrier: a spin-up has no period
+    sweep(MINOR, {"x[3]": "100:101:3"}, answer="period", out=tmp_path / "up.nc")
     with pytest.raises(InputError, match="no point has a finite value of period"):
         picture.write(tmp_path / "up.nc", tmp_path / "x.png")
 
@@ -115,18 +120,22 @@ def test_a_column_named_is_drawn_alone_along_one_axis(tmp_path):
     data = sweep(MINOR, {"x[1]": "1:2:3"}, answer="fate,margin,period", out=tmp_path / "line.nc")
     plan = picture.opened(tmp_path / "line.nc")[1]
     with style.drawing() as plt:
-        assert [ax.get_ylabel() for ax in curves.curves(data, plan, "period", "x_1", None, plt).axes] == ["period"]
+        assert [ax.get_ylabel()
+                for ax in curves.curves(data, plan, "period", "x_1", None, plt).axes] == ["period"]
         assert len(curves.curves(data, plan, "fate", "x_1", None, plt).axes) == 2
 
 
 def test_flags_are_drawn_in_words_and_rates_with_their_sign():
     data = sweep(MINOR, {"mu[1]": "0, 0.4", "x[3]": "0, 4"}, answer="fate,level,extremes")
     assert [word for _, word in shades.flag_legend(data, "level")] == ["certified", "exact"]
-    assert (field.values_of(data, "least") == data.least.values.min(axis=-1)).all() and (field.values_of(data, "least") < 0).all()
+    assert (field.values_of(data,
+                            "least") == data.least.values.min(axis=-1)).all() and (
+                                field.values_of(data, "least") < 0).all()
 
 
 def test_no_title_of_small_maps_lies_on_its_neighbour(tmp_path):
-    data = sweep(MINOR, {"momentum[1]": "100, 200", "x[1]": "0, 1", "x[2]": "0:1:4", "x[3]": "0:1:4"}, out=tmp_path / "four.nc")
+    data = sweep(MINOR, {"momentum[1]": "100, 200", "x[1]": "0, 1", "x[2]": "0:1:4", "x[3]": "0:1:4"},
+                 out=tmp_path / "four.nc")
     plan = picture.opened(tmp_path / "four.nc")[1]
     with style.drawing() as plt:
         figure = picture.drawn(data, plan, "fate", None, plt)
@@ -135,16 +144,19 @@ def test_no_title_of_small_maps_lies_on_its_neighbour(tmp_path):
         assert boxes[0].x1 < boxes[1].x0 and "9 of 16 maps" in figure.get_suptitle()
 
 
-@pytest.mark.parametrize("values, logarithmic", [((1, 10, 100), True), ((1, 2, 3), False), ((-1, 0, 1), False), ((1, 2), False)])
+@pytest.mark.parametrize("values, logarithmic",
+                         [((1, 10, 100), True), ((1, 2, 3), False), ((-1, 0, 1), False), ((1, 2), False)])
 def test_values_in_equal_ratios_are_drawn_so(values, logarithmic):
     assert shades.is_log(np.array(values, float)) == logarithmic
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("case, vary, options", [
-    ("uncertain-separatrix", {}, {"samples": 50}), ("uncertain-separatrix", {"angular_velocity[1]": "0:1:3"}, {"samples": 20}),
+    ("uncertain-separatrix", {}, {"samples": 50}),
+    ("uncertain-separatrix", {"angular_velocity[1]": "0:1:3"}, {"samples": 20}),
     ("uncertain-separatrix", {"angular_velocity[1]": "0:1:3", "torque[3]": "1:100:4:log"}, {"samples": 10}),
-    ("off-axis-two", {"torque[1]": "-0.2:0.2:5", "torque[2]": "-0.2:0.2:5"}, {"answer": "equilibria,verdict"}),
+    ("off-axis-two", {"torque[1]": "-0.2:0.2:5", "torque[2]": "-0.2:0.2:5"},
+     {"answer": "equilibria,verdict"}),
     ("minor-axis-100", {"momentum[1]": "-300:300:21"}, {"answer": "fate,margin,extremes,period,verdict"}),
     ("minor-axis-100", {"momentum[1]": "-300:300:5", "x[1]": "0:4:5", "x[2]": "0:4:4", "x[3]": "0:1:5"}, {})])
 def test_every_kind_of_sweep_has_its_picture(tmp_path, case, vary, options):
@@ -153,9 +165,12 @@ def test_every_kind_of_sweep_has_its_picture(tmp_path, case, vary, options):
 
 
 def test_keys_are_as_short_as_the_others_allow():
-    assert labels.said(["effects.constant_torque.torque[3]", "motion.angular_velocity[1]"]) == ["torque[3]", "ω[1]"]
-    assert list(map(labels.drawn, ("torque[3]", "ω[1]", "x[3]", "charge"))) == ["torque[3]", "$ω_1$", "$x_3$", "charge"]
-    assert labels.said(["wheels.a.speed", "wheels.b.speed", "scaled.mu[1]"]) == ["a.speed", "b.speed", "scaled.μ[1]"]
+    assert labels.said(["effects.constant_torque.torque[3]",
+                        "motion.angular_velocity[1]"]) == ["torque[3]", "ω[1]"]
+    assert list(map(labels.drawn,
+                    ("torque[3]", "ω[1]", "x[3]", "charge"))) == ["torque[3]", "$ω_1$", "$x_3$", "charge"]
+    assert labels.said(["wheels.a.speed", "wheels.b.speed",
+                        "scaled.mu[1]"]) == ["a.speed", "b.speed", "scaled.μ[1]"]
 
 
 def test_a_size_of_which_no_picture_can_be_made_is_refused_for_maps_too(tmp_path):
@@ -179,17 +194,22 @@ span = [0.0, 300.0]
 def test_rates_and_times_of_a_map_have_the_units_of_the_case_or_those_asked_for(tmp_path):
     """Oracle: the file itself, in SI units; a turn is 2 pi, an hour 3600 s."""
     (tmp_path / "my.toml").write_text(BODY)
-    data = sweep(tmp_path / "my.toml", {"angular_velocity[1]": "1:3:3 deg/s"}, answer="fate,extremes,period,when", rate="10 deg/s", out=tmp_path / "a.nc")
+    data = sweep(tmp_path / "my.toml", {"angular_velocity[1]": "1:3:3 deg/s"},
+                 answer="fate,extremes,period,when", rate="10 deg/s", out=tmp_path / "a.nc")
     plan = picture.opened(tmp_path / "a.nc")[1]
     told = picture.in_units(data, picture.units_of(plan.case, None))
-    assert (told.least.attrs["units"], told.period.attrs["units"], data.least.attrs["units"]) == ("deg/s", "s", "rad/s")
-    assert told.least.values == pytest.approx(np.degrees(data.least.values)) and told.period.values == pytest.approx(data.period.values)
-    slow = picture.in_units(data.assign(period=(data.period * 1000).assign_attrs(data.period.attrs)), picture.units_of(plan.case, "deg"))
+    assert (told.least.attrs["units"], told.period.attrs["units"],
+            data.least.attrs["units"]) == ("deg/s", "s", "rad/s")
+    assert told.least.values == pytest.approx(
+        np.degrees(data.least.values)) and told.period.values == pytest.approx(data.period.values)
+    slow = picture.in_units(data.assign(period=(data.period * 1000).assign_attrs(data.period.attrs)),
+                            picture.units_of(plan.case, "deg"))
     assert slow.period.attrs["units"] == "h" and slow.period.values == pytest.approx(data.period.values / 3.6)
     si = picture.in_units(data, picture.units_of(plan.case, "si"))
     assert si.least.attrs["units"] == "rad/s" and (si.least.values == data.least.values).all()
     with style.drawing() as plt:
-        assert curves.curves(told, plan, "least", data.least.dims[0], None, plt).axes[0].get_ylabel() == "extremes (deg/s)"
+        assert curves.curves(told, plan, "least", data.least.dims[0], None,
+                             plt).axes[0].get_ylabel() == "extremes (deg/s)"
 
 
 def test_a_period_of_a_scaled_case_is_in_tau_on_a_map(swept):
@@ -198,23 +218,27 @@ def test_a_period_of_a_scaled_case_is_in_tau_on_a_map(swept):
 
 
 def test_a_map_says_what_its_white_cells_mean_and_is_refused_where_all_are(tmp_path):
-    data = sweep(MINOR, {"x[1]": "0:4:3", "x[3]": "0:100:3"}, answer="fate,period,extremes", out=tmp_path / "two.nc")
+    data = sweep(MINOR, {"x[1]": "0:4:3", "x[3]": "0:100:3"}, answer="fate,period,extremes",
+                 out=tmp_path / "two.nc")
     plan = picture.opened(tmp_path / "two.nc")[1]
     assert {0, 1} == set(data.fate.values.ravel().tolist())  # some stay, some spin up and have no period
     with style.drawing() as plt:
         figure = picture.drawn(data, plan, "period", None, plt)
         assert "white: never repeats" in [text.get_text() for text in figure.legends[0].get_texts()]
     sweep(MINOR, {"x[1]": "1, 2", "x[3]": "100, 101"}, answer="fate,extremes", out=tmp_path / "up.nc")
-    with pytest.raises(InputError, match="no point has a finite value of greatest"):  # axes 1 and 2 have one, of three the greatest is without end
+    # axes 1 and 2 have one, of three the greatest is without end
+    with pytest.raises(InputError, match="no point has a finite value of greatest"):
         picture.write(tmp_path / "up.nc", tmp_path / "x.png", "greatest")
 
 
 def test_lines_of_equal_margin_lie_at_round_numbers():
-    """Margins that grow evenly to 1.776, as those of the tug of docs/sweep.md: lines stood at 0.296, 0.592 and so on."""
+    """Margins that grow evenly to 1.776, as those of the tug of docs/sweep.md: lines stood at 0.296, 0.592
+    and so on."""
     import matplotlib.pyplot as plt
     x, y = np.linspace(0, 1, 12), np.linspace(0, 1, 12)
     margin = 1.776 * (x[:, None] + y) / 2
-    data = {"x": x, "y": y, "fate": np.full((12, 12), int(stabilab.Fate.BOUNDED)), "margin": xarray.DataArray(margin, attrs={"units": "J"})}
+    data = {"x": x, "y": y, "fate": np.full((12, 12), int(stabilab.Fate.BOUNDED)),
+            "margin": xarray.DataArray(margin, attrs={"units": "J"})}
     figure, ax = plt.subplots()
     assert list(field._levels(ax, data, ("x", "y"))) == ["equal margin (J)"]
     levels = [float(text.get_text()) for text in ax.texts]

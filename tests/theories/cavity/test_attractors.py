@@ -10,7 +10,8 @@ from stabilab.theories.cavity.attractors import attractors
 from tests.shared import LIQUID, ROUND
 
 
-@pytest.mark.parametrize("rates, kind", [((-1, -2), "attracting"), ((1, 2), "repelling"), ((-1, 2), "saddle"), ((0, -1), "neutral"),
+@pytest.mark.parametrize("rates, kind", [((-1, -2), "attracting"), ((1, 2), "repelling"), ((-1, 2), "saddle"),
+                                         ((0, -1), "neutral"),
                                          ((0, 1), "repelling"), ((1j, -1j), "neutral")])
 def test_averaged_steady_states_are_named_by_their_rates(rates, kind):
     from stabilab.theories.cavity.attractors import _kind
@@ -27,8 +28,10 @@ def test_cross_torques_average_out_of_the_steady_states_and_the_reason_says_so()
 
 @pytest.mark.one_in(2)
 @pytest.mark.parametrize("effects, words", [
-    ((Gyrostat((0, 0, "0.1")),), "every amplitude and spin"), ((Charge("0.1", 2, 1, 0),), "every amplitude and spin"),
-    ((LIQUID, Gyrostat((0, 0, "0.1"))), "r = 0.2"), ((LIQUID,), "r = 0 ")])  # nu = (d r - Gamma)/J0 = 0 at r = 0.1/0.5
+    ((Gyrostat((0, 0, "0.1")),), "every amplitude and spin"),
+    ((Charge("0.1", 2, 1, 0),), "every amplitude and spin"),
+    # nu = (d r - Gamma)/J0 = 0 at r = 0.1/0.5
+    ((LIQUID, Gyrostat((0, 0, "0.1"))), "r = 0.2"), ((LIQUID,), "r = 0 ")])
 def test_families_of_averaged_steady_states_stand_where_the_turn_does(effects, words):
     found = attractors(Scene(ROUND, *effects))
     assert not found.points and any(words in family for family in found.families)

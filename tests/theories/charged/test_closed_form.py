@@ -1,4 +1,5 @@
-"""Closed forms of the charged, nearly axisymmetric body: against the equations in arbitrary precision, and in print."""
+"""Closed forms of the charged, nearly axisymmetric body: against the equations in arbitrary precision, and in
+print."""
 import math
 
 import numpy as np
@@ -19,11 +20,13 @@ from tests.oracles.axisymmetric import BITS, OUTPUTS, conditioned  # noqa: E402 
 ALLOWED = 20  # times the effect of half a unit in the last place of the inputs
 TIMES = (1e-12, 1e-6, 1e-3, 0.3, 7.0, 50.0, 1e3, 1e6, 1e9)
 NEAR = (0.0, *(sign * 10.0**-n for n in range(2, 15, 2) for sign in (1, -1)))
-START = dict(M1=0.3, M2=-0.2, p0=0.1, q0=-0.25, psi0=0.03, phi0=0.01, theta0=0.4, f1=0.2, f2=-0.7, f3=3.0, m=10.0,
+START = dict(M1=0.3, M2=-0.2, p0=0.1, q0=-0.25, psi0=0.03, phi0=0.01, theta0=0.4, f1=0.2, f2=-0.7, f3=3.0,
+             m=10.0,
              v1=0.1, v2=-0.2, v3=0.3, x1=1.0, x2=-2.0, x3=0.5)
 D1, D2, D3, R0, K = 8.75, 8.5, 11.0, 0.25, 0.3125  # binary fractions: the resonances are met exactly
 RESONANT = {  # lambda3 that meets the resonance, by the definitions of a, b, X, Y
-    "a = 0": K - (D3 - D2) * R0, "b = 0": K - (D3 - D1) * R0, "X = 0": K - D3 * R0, "Y = 0": K - (D3 - D1 - D2) * R0,
+    "a = 0": K - (D3 - D2) * R0, "b = 0": K - (D3 - D1) * R0, "X = 0": K - D3 * R0,
+    "Y = 0": K - (D3 - D1 - D2) * R0,
     "a = -b": K - R0 * ((D3 - D2) * D2 + (D3 - D1) * D1) / (D1 + D2)}  # the middle of the unstable band
 PAPER = dict(inertia=(8.7, 8.6, 11.1), spin=2.7 * 2 * math.pi / 60, mass=10.0, force=(0.0, 0.0, 3.0))
 
@@ -33,13 +36,15 @@ def near_resonance(name, distance, t):
         return START | dict(D1=D1, D2=D2, D3=D3, k=K, lambda3=1.25, r0=distance, t=t)
     v = START | dict(D1=D1, D2=D2, D3=D3, k=K, r0=R0, lambda3=RESONANT[name] * (1 + distance), t=t)
     m = modes(body_of(v))
-    return v | dict(t=min(t, 300 / abs(float(m.root.value())))) if m.unstable else v  # exp(300) is still a double
+    # exp(300) is still a double
+    return v | dict(t=min(t, 300 / abs(float(m.root.value())))) if m.unstable else v
 
 
 def body_of(v):
     get = lambda *names: [v[n] for n in names]
     return ChargedBody(get("D1", "D2", "D3"), v["r0"], v["lambda3"], v["k"], get("M1", "M2"), get("p0", "q0"),
-                       get("psi0", "phi0", "theta0"), get("f1", "f2", "f3"), v["m"], get("v1", "v2", "v3"), get("x1", "x2", "x3"))
+                       get("psi0", "phi0", "theta0"), get("f1", "f2", "f3"), v["m"], get("v1", "v2", "v3"),
+                       get("x1", "x2", "x3"))
 
 
 def twelve(motion):
@@ -50,7 +55,8 @@ def worst(v, values):
     """Largest error of the twelve outputs over the effect of half a unit in the last place of the inputs."""
     exact, effect = conditioned(v)
     with flint.ctx.workprec(BITS):
-        error = {name: float(abs(flint.arb(float(x)) - e).mid()) for name, x, e in zip(OUTPUTS, values, exact)}
+        error = {name: float(abs(flint.arb(float(x)) - e).mid()) for name, x,
+                 e in zip(OUTPUTS, values, exact)}
     assert all(s > 0 for s in effect)
     return max(error[name] / s for name, s in zip(OUTPUTS, effect))
 
@@ -76,7 +82,8 @@ def test_ordinary_bodies_keep_every_digit_from_1e_minus_12_to_1e9_s(shape):
 @pytest.mark.parametrize("changes", [
     dict(D1=2.4, D2=0.0024, D3=2.399, r0=0.0, lambda3=0.604, k=0.0, p0=0.0, t=1.2984),
     dict(D1=2.4, D2=0.0024, D3=2.399, r0=0.0, lambda3=0.548, k=0.0, p0=0.0, t=1.1187),
-    dict(D1=3.1, D2=3.1, D3=0.0003, r0=1.0, lambda3=0.0, k=0.0, M1=0.0, M2=0.0, psi0=0.0, phi0=0.0, f3=0.0, v1=0.0, v2=0.0, v3=0.0,
+    dict(D1=3.1, D2=3.1, D3=0.0003, r0=1.0, lambda3=0.0, k=0.0, M1=0.0, M2=0.0, psi0=0.0, phi0=0.0, f3=0.0,
+         v1=0.0, v2=0.0, v3=0.0,
          t=2 * math.pi * 3.1 / 0.0003)],  # needs r0 + w to more digits than r0 and w have
     ids=["a far below b", "a far below b, slower", "rod after a turn of its cone"])
 def test_extreme_shapes_keep_every_digit(changes):
@@ -92,7 +99,8 @@ def test_partial_fractions_lose_what_the_closed_forms_keep():
     a, b, w, r0 = m.a.value(), m.b.value(), m.frequency, body.spin
     m1, m2 = v["M1"] / D1, v["M2"] / D2
     poles = (0, -1j * r0, 1j * w, -1j * w)
-    residue = lambda s: ((m1 + 1j * m2) * s - a * m2 + 1j * b * m1) / np.prod([s - z for z in poles if z != s])
+    residue = lambda s: ((m1 + 1j * m2) * s - a * m2
+                         + 1j * b * m1) / np.prod([s - z for z in poles if z != s])
     tilt = sum(residue(s) * np.exp(s * t) for s in poles)
     good = twelve(solution(body, t))
     naive = [*good[:2], tilt.real, tilt.imag, *good[4:]]
@@ -116,34 +124,44 @@ def test_a_batch_of_bodies_and_times_agrees_with_single_answers():
         for j, time in enumerate(t):
             one = solution(ChargedBody(**{n: x[i] for n, x in fields.items()}), time)
             for part in ("omega", "angles", "momentum", "velocity", "position"):
-                np.testing.assert_allclose(getattr(batch, part)[i, j], getattr(one, part), rtol=1e-13, atol=1e-15)
+                np.testing.assert_allclose(getattr(batch, part)[i, j], getattr(one, part), rtol=1e-13,
+                                           atol=1e-15)
 
 
 def test_the_motion_satisfies_its_differential_equations():
     body, h = random_bodies(40), 1e-4
     early, now, late = (solution(body, 3.0 + x) for x in (-h, 0.0, h))
-    rate = {n: (getattr(late, n) - getattr(early, n)) / (2 * h) for n in ("omega", "angles", "velocity", "position")}
+    rate = {n: (getattr(late, n) - getattr(early, n)) / (2 * h)
+            for n in ("omega", "angles", "velocity", "position")}
     (p, q, r), (psi, phi, theta) = np.moveaxis(now.omega, -1, 0), np.moveaxis(now.angles, -1, 0)
-    (A, B, C), Lam, (f1, f2, f3) = np.moveaxis(body.inertia, -1, 0), body.gyrostat - body.charge_moment, np.moveaxis(body.force, -1, 0)
+    (A, B, C), Lam, (f1, f2, f3) = np.moveaxis(body.inertia, -1,
+                                               0), body.gyrostat - body.charge_moment, np.moveaxis(body.force,
+                                                                                                   -1, 0)
     push = np.exp(1j * theta) * (f1 + 1j * f2 - 1j * (psi + 1j * phi) * f3)
-    wanted = {"omega": ((body.torque[:, 0] - ((C - B) * r + Lam) * q) / A, (body.torque[:, 1] + ((C - A) * r + Lam) * p) / B, 0 * p),
+    wanted = {"omega": ((body.torque[:, 0] - ((C - B) * r + Lam) * q) / A,
+                        (body.torque[:, 1] + ((C - A) * r + Lam) * p) / B, 0 * p),
               "angles": (p + r * phi, q - r * psi, r),
-              "velocity": (push.real / body.mass, push.imag / body.mass, (f3 - phi * f1 + psi * f2) / body.mass),
+              "velocity": (push.real / body.mass, push.imag / body.mass,
+                           (f3 - phi * f1 + psi * f2) / body.mass),
               "position": np.moveaxis(now.velocity, -1, 0)}
     for name, parts in wanted.items():
-        np.testing.assert_allclose(rate[name], np.stack(parts, axis=-1), atol=3e-7)  # h^2 times a third derivative near 10
+        # h^2 times a third derivative near 10
+        np.testing.assert_allclose(rate[name], np.stack(parts, axis=-1), atol=3e-7)
 
 
 def test_equal_transverse_moments_make_the_papers_model_exact():
-    body = ChargedBody((8.7, 8.7, 11.1), 0.283, 1.3, 0.29, (4.0, 1.0), (0.1, 0.2), (0.1, 0.2, 0.3), (1.0, 2.0, 3.0), 10.0)
+    body = ChargedBody((8.7, 8.7, 11.1), 0.283, 1.3, 0.29, (4.0, 1.0), (0.1, 0.2), (0.1, 0.2, 0.3),
+                       (1.0, 2.0, 3.0), 10.0)
     t = np.linspace(0, 50, 501)
     exact, paper, early = solution(body, t), corrected(body, t), t < fractions(body).wide
     assert 0 < early.sum() < len(t)
     for part in ("omega", "angles", "velocity", "position"):
         one, other = getattr(paper, part), getattr(exact, part)
         np.testing.assert_array_equal(one[early], other[early])  # bit for bit
-        np.testing.assert_allclose(one, other, rtol=1e-14, atol=1e-14)  # late times come by partial fractions, which round otherwise
-    np.testing.assert_allclose(paper.momentum, exact.momentum, atol=1e-13)  # (33) against the balance of momentum
+        # late times come by partial fractions, which round otherwise
+        np.testing.assert_allclose(one, other, rtol=1e-14, atol=1e-14)
+    # (33) against the balance of momentum
+    np.testing.assert_allclose(paper.momentum, exact.momentum, atol=1e-13)
 
 
 def test_without_gyrostat_and_charge_the_papers_model_is_exact_too():
@@ -154,7 +172,8 @@ def test_without_gyrostat_and_charge_the_papers_model_is_exact_too():
 
 def test_the_papers_frequency_shifts_the_phase_on_its_own_data_whatever_the_amplitude():
     for torque in (4.0, 4e-6):
-        body = ChargedBody(**PAPER, gyrostat=1.3, charge_moment=0.003 * 100 * 1.02**2 * math.cos(0.37), torque=(torque, 0.0))
+        body = ChargedBody(**PAPER, gyrostat=1.3, charge_moment=0.003 * 100 * 1.02**2 * math.cos(0.37),
+                           torque=(torque, 0.0))
         t = np.linspace(0, 50, 5001)
         exact, paper = solution(body, t), corrected(body, t)
         off = np.abs(paper.omega - exact.omega).max(axis=0)[:2] / np.abs(exact.omega).max(axis=0)[:2]
@@ -162,25 +181,30 @@ def test_the_papers_frequency_shifts_the_phase_on_its_own_data_whatever_the_ampl
 
 
 def typed(gyrostat=1.3, **changes):
-    data = PAPER | dict(gyrostat=gyrostat, charge_moment=0.29, torque=(0.4, -0.2), rates=(0.1, 0.2), attitude=(0.02, 0.01, 0.3))
+    data = (PAPER | dict(gyrostat=gyrostat, charge_moment=0.29, torque=(0.4, -0.2), rates=(0.1, 0.2),
+                         attitude=(0.02, 0.01, 0.3)))
     return ChargedBody(**(data | changes))
 
 
 def test_the_typed_tilt_is_the_one_frequency_model():
     t = np.linspace(0, 50, 101)
-    for part in ("omega", "angles", "momentum"):  # (11)-(13), (20)-(26), (33) hold misprints of the frequency only
-        np.testing.assert_allclose(getattr(printed(typed(), t), part), getattr(corrected(typed(), t), part), atol=1e-12)
+    # (11)-(13), (20)-(26), (33) hold misprints of the frequency only
+    for part in ("omega", "angles", "momentum"):
+        np.testing.assert_allclose(getattr(printed(typed(), t), part), getattr(corrected(typed(), t), part),
+                                   atol=1e-12)
 
 
 def test_the_typed_translation_is_right_where_print_is():
     """D1 = D2 removes (46) and (61); f1 = f2 = 0 removes (50), (51), (64)-(66) and the sign in (58)."""
     body, t = typed(inertia=(8.7, 8.7, 11.1)), np.linspace(0, 50, 101)
     for part in ("velocity", "position"):
-        np.testing.assert_allclose(getattr(printed(body, t), part), getattr(corrected(body, t), part), atol=1e-9)
+        np.testing.assert_allclose(getattr(printed(body, t), part), getattr(corrected(body, t), part),
+                                   atol=1e-9)
 
 
 def test_the_printed_translation_is_what_the_paper_prints():
-    """(43)-(46), (58)-(61) typed a second time, from rest with f1 = f2 = 0: Pi10 = Gamma0 = 0, plain complex numbers."""
+    """(43)-(46), (58)-(61) typed a second time, from rest with f1 = f2 = 0: Pi10 = Gamma0 = 0, plain complex
+    numbers."""
     from cmath import exp
     D1, D2, D3, M1, f3, m, r0, t = 8.7, 8.6, 11.1, 4.0, 3.0, 10.0, PAPER["spin"], 7.0
     Lam = 1.3 - 0.29
@@ -190,12 +214,16 @@ def test_the_printed_translation_is_what_the_paper_prints():
     A, plus, minus = M1 * math.sqrt(zeta2) / D1, r0 + W, r0 - W
     spin = 1j / r0 * (1 - exp(1j * r0 * t)) - t
     I1 = A / W * (spin / r0 - (1j * (1 - exp(1j * t * plus)) / plus - t) / plus)
-    I2 = -A / W * (spin / r0 - (1j * (exp(1j * t * (r0 - zeta * (r0 + zeta * Lam / (zeta1 * D1)))) - 1) / minus - t) / minus)
-    both = lambda a, b: ((math.sqrt(zeta1) + math.sqrt(zeta2)) * a + (math.sqrt(zeta1) - math.sqrt(zeta2)) * b) / (2 * zeta)
+    I2 = (-A / W
+          * (spin / r0 - (1j * (exp(1j * t * (r0 - zeta * (r0 + zeta * Lam / (zeta1 * D1)))) - 1) / minus - t)
+             / minus))
+    both = lambda a, b: ((math.sqrt(zeta1) + math.sqrt(zeta2)) * a
+                         + (math.sqrt(zeta1) - math.sqrt(zeta2)) * b) / (2 * zeta)
     omega = -1j * f3 * both(I1, I2) / m
     inner = 1j / r0 * (t - 1j / r0 * (1 - exp(1j * r0 * t))) - t**2 / 2
     J1 = A / W * (inner / r0 - (-t**2 / 2 + 1j / plus * (t + 1j * (exp(1j * t * plus) - 1) / plus)) / plus)
-    J2 = -A / W * (inner / r0 - (-t**2 / 2 + 1j / minus * (t + 1j * (1 - exp(1j * t * minus) - 1) / minus)) / minus)
+    J2 = (-A / W * (inner / r0 - (-t**2 / 2 + 1j / minus * (t + 1j * (1 - exp(1j * t * minus) - 1) / minus))
+                    / minus))
     eta = -1j * f3 * both(J1, J2) / m
     run = printed(ChargedBody(**PAPER, gyrostat=1.3, charge_moment=0.29, torque=(M1, 0.0)), t)
     assert run.velocity == pytest.approx([omega.real, omega.imag, f3 * t / m], rel=1e-12)
@@ -203,11 +231,15 @@ def test_the_printed_translation_is_what_the_paper_prints():
 
 
 @pytest.mark.parametrize("number, integral, integrand, back", [
-    ("(45)", "I1w_45", "I1G_24", False), ("(46)", "I2w_46", "I2G_25", False), ("(50), (51)", "I4w_50", "I1G_24", True),
-    ("(50), (51)", "I5w_51", "I2G_25", True), ("(60)", "I1e_60", "I1w_45", False), ("(61)", "I2e_61", "I2w_46", False)])
-def test_a_typed_integral_differs_from_what_it_integrates_exactly_if_listed_as_misprinted(number, integral, integrand, back):
+    ("(45)", "I1w_45", "I1G_24", False), ("(46)", "I2w_46", "I2G_25", False),
+    ("(50), (51)", "I4w_50", "I1G_24", True),
+    ("(50), (51)", "I5w_51", "I2G_25", True), ("(60)", "I1e_60", "I1w_45", False),
+    ("(61)", "I2e_61", "I2w_46", False)])
+def test_a_typed_integral_differs_from_what_it_integrates_exactly_if_listed_as_misprinted(number, integral,
+                                                                                          integrand, back):
     r0, h = 0.28, 1e-4
-    values = {"r0": r0, "zeta1": 0.8, "zeta2": 0.9, "D1": 2.0, "Lam": -0.15, "P10": 0.1 + 0.2j, "A": 0.3 - 0.1j}
+    values = {"r0": r0, "zeta1": 0.8, "zeta2": 0.9, "D1": 2.0, "Lam": -0.15, "P10": 0.1 + 0.2j,
+              "A": 0.3 - 0.1j}
     at = lambda name, t: formulas()(name, values, t=t)
     slope = (at(integral, 2 + h) - at(integral, 2 - h)) / (2 * h)
     meant = at(integrand, 2.0) * (np.exp(-2j * r0) if back else 1)
@@ -215,8 +247,10 @@ def test_a_typed_integral_differs_from_what_it_integrates_exactly_if_listed_as_m
 
 
 def test_with_the_printed_data_the_small_angles_end_after_0_66_s():
-    body = ChargedBody(**PAPER, gyrostat=1.3, charge_moment=0.003 * 100 * 1.02**2 * math.cos(0.37), torque=(4.0, 0.0))
-    assert horizon(body, 0.1) == pytest.approx(math.sqrt(2 * 0.1 / (4 / 8.7)), rel=1e-14) == pytest.approx(0.66, abs=0.001)
+    body = ChargedBody(**PAPER, gyrostat=1.3, charge_moment=0.003 * 100 * 1.02**2 * math.cos(0.37),
+                       torque=(4.0, 0.0))
+    assert horizon(body, 0.1) == pytest.approx(math.sqrt(2 * 0.1 / (4 / 8.7)),
+                                               rel=1e-14) == pytest.approx(0.66, abs=0.001)
     motion = solution(body, np.linspace(0, 50, 501))
     assert motion.status == BEYOND and "0.1 rad" in motion.reason
     assert solution(body, np.linspace(0, 0.65, 9)).status == WITHIN
@@ -226,7 +260,8 @@ def test_before_the_horizon_a_symmetric_body_keeps_its_tilt_small():
     rng = np.random.default_rng(8)
     for _ in range(50):
         D = rng.uniform(2, 9)
-        body = ChargedBody((D, D, rng.uniform(0.1, 2 * D)), *rng.uniform(-3, 3, 3), rng.uniform(-1, 1, 2), rng.uniform(-0.1, 0.1, 2),
+        body = ChargedBody((D, D, rng.uniform(0.1, 2 * D)), *rng.uniform(-3, 3, 3), rng.uniform(-1, 1, 2),
+                           rng.uniform(-0.1, 0.1, 2),
                            rng.uniform(-0.05, 0.05, 3))
         until = float(min(horizon(body, 0.1), 1e4))
         assert np.max(solution(body, until * np.linspace(0, 1, 200)).tilt) <= 0.1 * (1 + 1e-12)
@@ -256,12 +291,16 @@ def test_four_rotating_parts_make_the_tilt():
 def test_mean_velocity_points_where_the_corrected_53_and_54_say():
     M1, M2, r0, Lam, C = 0.3, -0.2, 0.9, 1.3, 11.1
     body = ChargedBody((8.7, 8.6, C), r0, Lam, torque=(M1, M2), force=(0.0, 0.0, 3.0), mass=10.0)
-    assert complex(pointing(body).velocity_ratio) == pytest.approx(1j * (M1 + 1j * M2) / (r0 * (C * r0 + Lam)), rel=1e-13)
-    plain = ChargedBody((8.7, 8.6, C), r0, torque=(M1, M2), force=(0.2, 0.5, 3.0), mass=10.0)  # (53)-(54) as printed: Lambda = 0
+    assert complex(pointing(body).velocity_ratio) == pytest.approx(1j * (M1 + 1j * M2)
+                                                                   / (r0 * (C * r0 + Lam)), rel=1e-13)
+    # (53)-(54) as printed: Lambda = 0
+    plain = ChargedBody((8.7, 8.6, C), r0, torque=(M1, M2), force=(0.2, 0.5, 3.0), mass=10.0)
     bracket = 1 + M1 * 0.5 / 3 / ((C - 8.6) * r0**2) - M2 * 0.2 / 3 / ((C - 8.7) * r0**2)
-    assert complex(pointing(plain).velocity_ratio) == pytest.approx(1j * (M1 + 1j * M2) / (C * r0**2) / bracket, rel=1e-13)
+    assert complex(pointing(plain).velocity_ratio) == pytest.approx(1j * (M1 + 1j * M2) / (C * r0**2)
+                                                                    / bracket, rel=1e-13)
     velocity = solution(plain, 1e9).velocity
-    assert (velocity[0] + 1j * velocity[1]) / velocity[2] == pytest.approx(complex(pointing(plain).velocity_ratio), rel=1e-7)
+    assert (velocity[0] + 1j
+            * velocity[1]) / velocity[2] == pytest.approx(complex(pointing(plain).velocity_ratio), rel=1e-7)
 
 
 def test_mean_angular_momentum_is_the_average_of_the_motion():
@@ -275,20 +314,25 @@ def test_mean_angular_momentum_is_the_average_of_the_motion():
 
 
 @pytest.mark.one_in(3)
-@pytest.mark.parametrize("torque, rates", [((0.0, 0.0), (0.5, -0.3)), ((1.0, 0.0), (0.5, -0.3)), ((0.0, 1.0), (0.0, 0.0))])
+@pytest.mark.parametrize("torque, rates",
+                         [((0.0, 0.0), (0.5, -0.3)), ((1.0, 0.0), (0.5, -0.3)), ((0.0, 1.0), (0.0, 0.0))])
 def test_the_spin_angle_drifts_as_the_nonlinear_equations_do(torque, rates):
-    """Euler's equations and the 3-1-2 kinematics (14), integrated by SciPy, minus r0 t; error of fourth order in 0.01."""
+    """Euler's equations and the 3-1-2 kinematics (14), integrated by SciPy, minus r0 t; error of fourth order
+    in 0.01."""
     from scipy.integrate import solve_ivp
     small, (A, B, C), Lam, r0 = 0.01, (8.7, 6.1, 11.1), 1.01, 0.9
-    body = ChargedBody((A, B, C), r0, 1.3, 0.29, [small * x for x in torque], [small * x for x in rates], (0.4 * small, -0.3 * small, 0.0))
+    body = ChargedBody((A, B, C), r0, 1.3, 0.29, [small * x for x in torque], [small * x for x in rates],
+                       (0.4 * small, -0.3 * small, 0.0))
 
     def rate(t, y):
         p, q, r, psi, phi, _ = y
         along = r * math.cos(phi) - p * math.sin(phi)
-        return [(small * torque[0] - ((C - B) * r + Lam) * q) / A, (small * torque[1] + ((C - A) * r + Lam) * p) / B, (A - B) * p * q / C,
+        return [(small * torque[0] - ((C - B) * r + Lam) * q) / A,
+                (small * torque[1] + ((C - A) * r + Lam) * p) / B, (A - B) * p * q / C,
                 p * math.cos(phi) + r * math.sin(phi), q - along * math.tan(psi), along / math.cos(psi)]
     t = np.linspace(0, 1200, 12001)
-    y = solve_ivp(rate, (0, 1200), [*body.rates, r0, *body.attitude], "DOP853", t, rtol=1e-11, atol=1e-13).y[5] - r0 * t
+    y = (solve_ivp(rate, (0, 1200), [*body.rates, r0, *body.attitude], "DOP853", t, rtol=1e-11,
+                   atol=1e-13).y[5] - r0 * t)
     slope = np.polyfit(t, y, 1, w=np.hanning(t.size))[0]
     assert slope == pytest.approx(float(spin_drift(body).rate), rel=1e-3)
     assert spin_drift(body).acceleration == pytest.approx(0.0, abs=1e-15)
@@ -302,7 +346,8 @@ def test_two_torques_on_unequal_moments_accelerate_the_spin():
     assert spin_drift(body).acceleration == pytest.approx(wanted, rel=1e-12)
 
 
-@pytest.mark.parametrize("name, word", [("r0 = 0", "r0 = 0"), ("a = 0", "omega = 0"), ("b = 0", "omega = 0"), ("X = 0", "r0 = -omega"),
+@pytest.mark.parametrize("name, word", [("r0 = 0", "r0 = 0"), ("a = 0", "omega = 0"), ("b = 0", "omega = 0"),
+                                        ("X = 0", "r0 = -omega"),
                                         ("Y = 0", "r0 = omega"), ("a = -b", "unstable band")])
 def test_resonances_are_named(name, word):
     met = resonances(body_of(near_resonance(name, 0.0, 1.0)))
@@ -313,12 +358,15 @@ def test_resonances_are_named(name, word):
 def test_the_meeting_of_frequencies_at_Y_0_makes_nothing_grow_and_X_0_does():
     quiet, growing = (body_of(near_resonance(n, 0.0, 1.0) | dict(M1=0.0, M2=0.0)) for n in ("Y = 0", "X = 0"))
     assert solution(quiet, 1e8).tilt < 5 and largest_tilt(quiet) < 5
-    assert solution(growing, 1e8).tilt > 1e6 and np.isinf(largest_tilt(growing)) and np.isinf(pointing(growing).momentum_error)
+    assert solution(growing,
+                    1e8).tilt > 1e6 and np.isinf(largest_tilt(growing)) and np.isinf(
+                        pointing(growing).momentum_error)
 
 
 def test_without_a_mass_there_is_no_translation():
     motion = solution(ChargedBody((8.7, 8.6, 11.1), 0.3), 1.0)
-    assert motion.velocity is None and motion.position is None and motion.reason.startswith("the tilt stays below")
+    assert motion.velocity is None and motion.position is None and motion.reason.startswith(
+        "the tilt stays below")
 
 
 @pytest.mark.parametrize("changes, said", [
@@ -346,14 +394,16 @@ def test_questions_without_an_answer_are_refused():
         circle(typed(spin=0.0), 1.0)
 
 
-# -- late times: partial fractions, formed once per body ---------------------------------------------------------------
+# -- late times: partial fractions, formed once per body
+# ---------------------------------------------------------------
 
 
 def bodies_with_a_late_time(count, seed=5):
     """Values of stable bodies at the time from which on the fractions are used."""
     rng = np.random.default_rng(seed)
     while count:
-        v = START | dict(zip(("D1", "D2", "D3"), rng.uniform(7, 9, 3))) | dict(zip(("r0", "lambda3", "k"), rng.normal(size=3) * (1, 3, 1)))
+        v = (START | dict(zip(("D1", "D2", "D3"), rng.uniform(7, 9, 3)))
+             | dict(zip(("r0", "lambda3", "k"), rng.normal(size=3) * (1, 3, 1))))
         v |= dict(zip(("M1", "M2", "p0", "q0"), rng.normal(size=4)), t=1.0)
         if (late := fractions(body_of(v))) is not None:
             yield v | dict(t=late.wide), late
@@ -368,7 +418,8 @@ def test_the_first_late_time_keeps_every_digit():
 
 
 def test_partial_fractions_lose_digits_before_their_time():
-    """What they are kept from: terms of the size of those at late times, whose sum is but the motion of an instant."""
+    """What they are kept from: terms of the size of those at late times, whose sum is but the motion of an
+    instant."""
     v, late = next(bodies_with_a_late_time(1))
     v |= dict(t=v["t"] * 1e-6)
     rates, angles, momentum, velocity, position = late(np.array([v["t"]]))[:, 0]
@@ -383,7 +434,8 @@ def test_start_early_and_late_times_come_in_the_order_asked_for():
     for i in np.ndindex(2, 2):
         alone = solution(body_of(v), t[i])
         for part in ("omega", "angles", "momentum", "velocity", "position"):
-            np.testing.assert_allclose(getattr(together, part)[i], getattr(alone, part), rtol=1e-14, atol=1e-14)
+            np.testing.assert_allclose(getattr(together, part)[i], getattr(alone, part), rtol=1e-14,
+                                       atol=1e-14)
     np.testing.assert_array_equal(together.angles[0, 1], body.attitude)
     np.testing.assert_array_equal(together.position[0, 1], body.position)
 

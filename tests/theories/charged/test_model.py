@@ -11,14 +11,18 @@ from stabilab.theories.follow import models_of
 def followed(tmp_path, effect, rates):
     """(case, times, its models' runs) of one body with this effect from these rates."""
     path = tmp_path / "case.toml"
-    path.write_text(f"[body]\ninertia = [8, 8, 10]\nmass = 5\n{effect}[motion]\nangular_velocity = {rates}\nspan = [0, 3]\n")
+    path.write_text(
+        f"[body]\ninertia = [8, 8, 10]\nmass = 5\n{effect}[motion]\nangular_velocity = {rates}\nspan = "
+        f"[0, 3]\n")
     case, times = stabilab.load(path), np.linspace(0, 3, 7)
     return case, times, side_by_side(case, times)[0]
 
 
 def test_a_charged_body_without_an_attitude_has_the_linear_models_rates(tmp_path):
-    """p + iq of D1 = D2 = 8, D3 = 10, r = 2, k = 0.3 turns at n = ((10 - 8) 2 - 0.3)/8: Euler's equations with Lambda = -k."""
-    case, times, runs = followed(tmp_path, "[effects.charge]\ncharge = 0.3\nfield = 1\narm = 1\nangle = 0\n", [0.02, 0.01, 2])
+    """p + iq of D1 = D2 = 8, D3 = 10, r = 2, k = 0.3 turns at n = ((10 - 8) 2 - 0.3)/8: Euler's equations
+    with Lambda = -k."""
+    case, times, runs = followed(tmp_path, "[effects.charge]\ncharge = 0.3\nfield = 1\narm = 1\nangle = 0\n",
+                                 [0.02, 0.01, 2])
     assert "linear" in models_of(case.scene) and set(runs) >= {"exact", "linear"}
     turned = (0.02 + 0.01j) * np.exp(1j * (4 - 0.3) / 8 * times)
     for name in ("exact", "linear"):

@@ -11,15 +11,18 @@ from stabilab.theories.top.euler_angles import euler_angles
 
 
 def spinning(t):
-    """Samples of a body that turns at rate 2 about axis 3, tilted by 0.3: gamma turns back in the body, psi' = 0."""
+    """Samples of a body that turns at rate 2 about axis 3, tilted by 0.3: gamma turns back in the body, psi'
+    = 0."""
     t = np.asarray(t, float)
-    gamma = np.stack([math.sin(0.3) * np.sin(2 * t), math.sin(0.3) * np.cos(2 * t), np.full(t.shape, math.cos(0.3))], axis=-1)
+    gamma = np.stack([math.sin(0.3) * np.sin(2 * t), math.sin(0.3) * np.cos(2 * t),
+                      np.full(t.shape, math.cos(0.3))], axis=-1)
     return t, np.tile([0.0, 0.0, 2.0], (t.size, 1)), gamma
 
 
 def test_samples_that_are_none_are_refused():
     t, omega, gamma = spinning(np.linspace(0, 1, 9))
-    for bad in ((t, omega[:-1], gamma), (t[:, None], omega, gamma), (t[:0], omega[:0], gamma[:0]), (t, omega, gamma[:, :2])):
+    for bad in ((t, omega[:-1], gamma), (t[:, None], omega, gamma), (t[:0], omega[:0], gamma[:0]),
+                (t, omega, gamma[:, :2])):
         with pytest.raises(InputError, match="shapes"):
             euler_angles(*bad)
     for times in (t[::-1], np.zeros(9)):

@@ -18,7 +18,8 @@ def by_events(scene, state, end, value):
     """The first time at which value(state) rises through 0, by DOP853."""
     event, rate = (lambda _, w: value(np.asarray(w))), rates_of(scene)
     event.terminal, event.direction = True, 1
-    run = solve_ivp(lambda _, y: rate(y.tolist()), (0, end), state, "DOP853", events=event, rtol=1e-12, atol=1e-12, max_step=0.1)
+    run = solve_ivp(lambda _, y: rate(y.tolist()), (0, end), state, "DOP853", events=event, rtol=1e-12,
+                    atol=1e-12, max_step=0.1)
     return run.t_events[0][0] if run.t_events[0].size else math.inf
 
 
@@ -33,7 +34,8 @@ def test_the_first_time_is_between_its_bounds(n):
     i, D = n % 3, np.array([float(d) for d in scene.body.exact])
     found = first_crossing(scene, state, limit, component=i, t_max=20.0)
     true = by_events(scene, state, 20, lambda w: w[i] ** 2 - limit**2)
-    assert (found.low == 20 and true == math.inf) or (found.low - 1e-8 <= true <= found.high + 1e-8 and found.high - found.low < 1e-9)
+    assert (found.low == 20 and true == math.inf) or (found.low - 1e-8 <= true <= found.high + 1e-8
+                                                      and found.high - found.low < 1e-9)
     found = first_crossing(scene, state, 2.0, weights=D / 2)  # the energy reaches 4
     true = by_events(scene, state, 50, lambda w: float(D @ (w * w)) / 2 - 4)
     assert found.low - 1e-8 <= true <= found.high + 1e-8
@@ -46,7 +48,8 @@ def test_a_spin_about_an_axis_is_linear_in_time():
 
 
 def test_a_limit_that_is_touched_is_not_taken_for_one_that_is_passed():
-    """omega of a body with two equal moments and no torque along its axis goes round at a constant size: the limit is exactly it, or just not."""
+    """omega of a body with two equal moments and no torque along its axis goes round at a constant size: the
+    limit is exactly it, or just not."""
     scene = Scene(Body((2, 2, 1)), ConstantTorque((0, 0, 0.0)))
     assert first_crossing(scene, (.6, .8, 1), math.sqrt(2) * (1 - 1e-10), t_max=5.0).low == 0
     assert first_crossing(scene, (.6, .8, 1), math.sqrt(2) * (1 + 1e-10), t_max=5.0).low == 5

@@ -1,4 +1,5 @@
-"""Enclosures hold the motions: judged by runs in 50 digits of another code, over bodies, sizes and kinds of numbers."""
+"""Enclosures hold the motions: judged by runs in 50 digits of another code, over bodies, sizes and kinds of
+numbers."""
 import random
 import subprocess
 import sys
@@ -24,19 +25,24 @@ def rows(scene):
     if scene.variables == "scaled":
         a, b = scene.exact_ab
         return (1, -1, 1), (0, 0, b), (0, -a, 0), scene.exact_mu
-    (D1, D2, D3), (l1, l2, l3), M = scene.body.exact, scene.vector("gyrostat"), scene.vector("constant_torque")
+    (D1, D2, D3), (l1, l2,
+                   l3), M = scene.body.exact, scene.vector("gyrostat"), scene.vector("constant_torque")
     kappa = (D2 - D3) / D1, (D3 - D1) / D2, (D1 - D2) / D3
-    return kappa, (l2 / D1, l3 / D2, l1 / D3), (-l3 / D1, -l1 / D2, -l2 / D3), [M[0] / D1, M[1] / D2, M[2] / D3]
+    return kappa, (l2 / D1, l3 / D2, l1 / D3), (-l3 / D1, -l1 / D2,
+                                                -l2 / D3), [M[0] / D1, M[1] / D2, M[2] / D3]
 
 
 def drawn(rng, n):
-    """(scene, start, time): generic, nearly equal moments, scaled, fast; starts are doubles or decimals that are none."""
+    """(scene, start, time): generic, nearly equal moments, scaled, fast; starts are doubles or decimals that
+    are none."""
     scene, kind = random_scene(rng), n % 4
     if kind == 1:
         wheel = Gyrostat(sphere(rng, rng.choice((0, 1))))
-        scene = Scene(Body((1, 1 + rng.choice((1e-3, 1e-6, 1e-9)), rng.uniform(.3, 1.5))), wheel, ConstantTorque(sphere(rng)))
+        scene = Scene(Body((1, 1 + rng.choice((1e-3, 1e-6, 1e-9)), rng.uniform(.3, 1.5))), wheel,
+                      ConstantTorque(sphere(rng)))
     if kind == 2:
-        scene = ScaledGyrostat(Fraction(rng.uniform(-1, 1)), Fraction(rng.uniform(-1, 1)), tuple(map(Fraction, sphere(rng))))
+        scene = ScaledGyrostat(Fraction(rng.uniform(-1, 1)), Fraction(rng.uniform(-1, 1)),
+                               tuple(map(Fraction, sphere(rng))))
     size = rng.choice((.1, 1, 10)) if kind < 3 else rng.choice((1e3, 1e5))
     start = [Fraction(v) for v in sphere(rng, size)]
     if n % 3 == 0:
@@ -45,7 +51,8 @@ def drawn(rng, n):
 
 
 def holds(scene, start, end, rng, bits=None):
-    """The greatest share of a radius that the true motion takes, at the end and at times between; the enclosure at the end."""
+    """The greatest share of a radius that the true motion takes, at the end and at times between; the
+    enclosure at the end."""
     course, bands = Course(scene, start, end, bits), []
     while course.status == kernel.GOING:
         bands.append(course.advance(end, band=True))
@@ -84,7 +91,8 @@ def test_motions_lie_within_radii_of_many_bits(n):
     rng = random.Random(80 + n)
     scene, start, end = drawn(rng, n)
     worst, found = holds(scene, start, end / 4, rng, bits=128)
-    assert worst <= 1 and found.bits == 128 and found.radius.max() < 1e-26 * np.abs(found.middle).max()  # a run in 50 digits
+    # a run in 50 digits
+    assert worst <= 1 and found.bits == 128 and found.radius.max() < 1e-26 * np.abs(found.middle).max()
 
 
 def test_a_long_motion_is_held():
@@ -100,20 +108,26 @@ def test_a_thousand_turns_keep_ten_digits_beyond_those_of_a_double():
 
 @pytest.mark.skipif(not installed(), reason="hundreds of steps take the compiled kernel")
 def test_a_fast_wheel_widens_the_set_by_no_more_than_its_turns():
-    """Beside a strong wheel the rates go round on an ellipse: directions made orthogonal at each step would widen the set at each by a third."""
-    scene = Scene(Body((3.46, 3.46 + 1e-10, .51)), Gyrostat((2e4, -8.7e4, 0)), ConstantTorque((0, -2.4, -178)))
+    """Beside a strong wheel the rates go round on an ellipse: directions made orthogonal at each step would
+    widen the set at each by a third."""
+    scene = Scene(Body((3.46, 3.46 + 1e-10, .51)), Gyrostat((2e4, -8.7e4, 0)),
+                  ConstantTorque((0, -2.4, -178)))
     found = enclose(scene, (38, 0, -.2), .01)
     assert found.steps > 400 and found.radius.max() < 1e-20
 
 
 def test_a_fraction_and_a_decimal_in_a_string_are_taken_exactly():
     end = 0.5
-    one, two = enclose(EXAMPLE, ("0.1", "1/3", "2"), end), enclose(EXAMPLE, (Fraction(1, 10), Fraction(1, 3), 2), end)
+    one, two = enclose(EXAMPLE, ("0.1", "1/3", "2"), end), enclose(EXAMPLE,
+                                                                   (Fraction(1, 10), Fraction(1, 3), 2), end)
     assert one.middle.tolist() == two.middle.tolist() and one.rest.tolist() == two.rest.tolist()
-    assert max(shares(one.middle, one.rest, one.radius, run(rows(EXAMPLE), ("0.1", "1/3", "2"), [end])[0])) <= 1  # a run in 50 digits
+    # a run in 50 digits
+    assert max(shares(one.middle, one.rest, one.radius,
+                      run(rows(EXAMPLE), ("0.1", "1/3", "2"), [end])[0])) <= 1
     double = enclose(EXAMPLE, (.1, 1 / 3, 2.), end)  # another motion, 1e-17 beside it
     assert max(shares(one.middle, one.rest, one.radius, run(rows(EXAMPLE), (.1, 1 / 3, 2), [end])[0])) > 1e3
-    assert max(shares(double.middle, double.rest, double.radius, run(rows(EXAMPLE), (.1, 1 / 3, 2), [end])[0])) <= 1
+    assert max(shares(double.middle, double.rest, double.radius,
+                      run(rows(EXAMPLE), (.1, 1 / 3, 2), [end])[0])) <= 1
 
 
 def test_energy_and_squares_of_a_band_are_those_of_the_motion():
@@ -127,8 +141,10 @@ def test_energy_and_squares_of_a_band_are_those_of_the_motion():
             x = Fraction(3, 8)
             state = run(rows(EXAMPLE), (.1, 1, 2), [begin + x * (end - begin)])[0]
             with mpmath.workdps(50):
-                true = sum(mpmath.mpf(Fraction(w).numerator) / Fraction(w).denominator * v * v for w, v in zip(weights, state))
-                value = sum(mpmath.mpf(c) * (mpmath.mpf(3) / 8) ** k for k, c in enumerate(polynomials[i].tolist()))
+                true = sum(mpmath.mpf(Fraction(w).numerator) / Fraction(w).denominator * v * v for w,
+                           v in zip(weights, state))
+                value = sum(mpmath.mpf(c) * (mpmath.mpf(3) / 8) ** k for k,
+                            c in enumerate(polynomials[i].tolist()))
                 assert abs(value - true) <= radii[i] and radii[i] < 1e-10  # a run in 50 digits
 
 
@@ -148,7 +164,8 @@ def test_steps_that_run_out_are_told():
 
 
 def test_what_is_no_start_or_time_is_refused():
-    for state, t in (((1, 2), 1.), ((1, 2, "x"), 1.), ((1, 2, 3), 0.), ((1, 2, 3), float("inf")), ((1, 2, 3), float("nan"))):
+    for state, t in (((1, 2), 1.), ((1, 2, "x"), 1.), ((1, 2, 3), 0.), ((1, 2, 3), float("inf")),
+                     ((1, 2, 3), float("nan"))):
         with pytest.raises(InputError):
             enclose(EXAMPLE, state, t)
 
@@ -177,8 +194,10 @@ def test_steps_without_the_compiler_give_the_same_bits(plain, monkeypatch):
             monkeypatch.setattr("stabilab.unreduced.enclosure.run.loaded", lambda first=first: not first)
             course = Course(scene, state, 40.0, plain=first)
             bands = [course.advance(40.0, 12, band=True), course.advance(40.0, 3, band=True)]
-            told.append([course.t, course.steps, course.status, *(v.tobytes() for v in (course.now.middle, course.now.rest, course.now.radius)),
-                         *(v.tobytes() for band in bands if band for v in (band.times, band.polynomials, band.radii))])
+            told.append([course.t, course.steps, course.status,
+                         *(v.tobytes() for v in (course.now.middle, course.now.rest, course.now.radius)),
+                         *(v.tobytes() for band in bands if band
+                           for v in (band.times, band.polynomials, band.radii))])
         assert told[0] == told[1] and told[0][1] > 5
 
 
@@ -192,4 +211,5 @@ from stabilab.unreduced.spin_up.follow import spin_up
 scene = Scene(Body((1.4, 1, .6)), Gyrostat((.2, .1, -.3)), ConstantTorque((.5, .6, .62)))
 print(proved(scene, (.1, 1, 2), spin_up(scene, (.1, 1, 2)), plain=64).level, "numba" in sys.modules)
 """
-    assert subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True).stdout.split() == ["proved", "False"]
+    assert subprocess.run([sys.executable, "-c", program], capture_output=True, text=True,
+                          check=True).stdout.split() == ["proved", "False"]

@@ -1,4 +1,5 @@
-"""The compiled steps do what is written, operation by operation, and their bounds of what is linear are bounds."""
+"""The compiled steps do what is written, operation by operation, and their bounds of what is linear are
+bounds."""
 import random
 from fractions import Fraction
 
@@ -13,7 +14,8 @@ from stabilab.unreduced.enclosure.digits import functions, twofold
 
 @pytest.mark.skipif(not installed(), reason="nothing is compiled without numba")
 def test_the_compiler_fuses_and_rearranges_nothing():
-    """Python itself rounds each operation by itself: thousands of them, in the same order, give the same bits."""
+    """Python itself rounds each operation by itself: thousands of them, in the same order, give the same
+    bits."""
     generator, table = np.random.default_rng(3), functions()
     numbers, low = generator.normal(size=(4, 3)), generator.normal(size=(4, 3)) * 2.0**-54
     def both(name, make, *changed):
@@ -33,7 +35,8 @@ def test_the_compiler_fuses_and_rearranges_nothing():
     V = both("variations", lambda: (numbers, 0.25, a[3], B, np.zeros((kernel.ORDER + 1, 3, 3))), 4)[4]
     rad = np.array([1e-20, 1e-24, 1e-22])
     out = lambda: [np.zeros(3), np.zeros(3), np.zeros(3), np.zeros((3, 3)), np.zeros(3)]
-    made = both("judged", lambda: [numbers, np.ones(4), kernel.FINE, a[3], V, B, rad, 0.0625, 0.25, *out()], 9, 10, 11, 12, 13)
+    made = both("judged", lambda: [numbers, np.ones(4), kernel.FINE, a[3], V, B, rad, 0.0625, 0.25, *out()],
+                9, 10, 11, 12, 13)
     assert made[9].max() > 0
     M = both("end_of_variations", lambda: [V, 0.25, np.zeros((3, 3))], 2)[2]
     both("taken_along", lambda: [M, made[11], rad.copy(), B.copy()], 2, 3)
@@ -49,7 +52,9 @@ def test_the_bound_of_a_flow_is_one():
         kernel.bound_of_flow(M, G)
         with mpmath.workdps(60):
             true = mpmath.expm(mpmath.matrix(M.tolist()))
-            assert all(true[i, j] <= G[i, j] <= true[i, j] * (1 + 1e-6) + 1e-8 for i in range(3) for j in range(3))  # mpmath's
+            # mpmath's
+            assert all(true[i, j] <= G[i, j] <= true[i, j] * (1 + 1e-6) + 1e-8 for i in range(3)
+                       for j in range(3))
 
 
 @pytest.mark.parametrize("name", ["turned", "taken_along"])
@@ -59,7 +64,8 @@ def test_a_set_in_new_directions_holds_the_old_one(name):
         M = np.array([[rng.gauss(0, 1) for _ in range(3)] for _ in range(3)])
         if n % 4 == 0:
             M[:, 1] = M[:, 0] * (1 + 1e-9 * rng.random())  # edges nearly along each other
-        old, rest = [10.0 ** rng.uniform(-20, -5) for _ in range(3)], [10.0 ** rng.uniform(-25, -8) for _ in range(3)]
+        old, rest = [10.0 ** rng.uniform(-20, -5) for _ in range(3)], [10.0 ** rng.uniform(-25, -8)
+                                                                       for _ in range(3)]
         rad, B = np.array(old), np.empty((3, 3))
         if getattr(kernel, name)(M, np.array(rest), rad, B) is False:
             assert rad.tolist() == old  # nothing is changed
@@ -68,8 +74,10 @@ def test_a_set_in_new_directions_holds_the_old_one(name):
         with mpmath.workdps(60):
             inverse = mpmath.matrix(B.tolist()) ** -1
             for _ in range(8):
-                edge, beside = ([mpmath.mpf(v) * rng.choice((-1, 1)) for v in lengths] for lengths in (old, rest))
-                corner = mpmath.matrix([sum(mpmath.mpf(float(M[i, c])) * edge[c] for c in range(3)) + beside[i] for i in range(3)])
+                edge, beside = ([mpmath.mpf(v) * rng.choice((-1, 1)) for v in lengths]
+                                for lengths in (old, rest))
+                corner = mpmath.matrix([sum(mpmath.mpf(float(M[i, c])) * edge[c] for c in range(3))
+                                        + beside[i] for i in range(3)])
                 r = inverse * corner
                 assert all(abs(r[i]) <= rad[i] for i in range(3))  # exact arithmetic to 60 digits
     assert taken >= 29

@@ -1,4 +1,5 @@
-"""Proved spin-up: the motion, run in 50 digits by another code, is where the proof says and stays where it says."""
+"""Proved spin-up: the motion, run in 50 digits by another code, is where the proof says and stays where it
+says."""
 import random
 from fractions import Fraction
 
@@ -24,7 +25,8 @@ def test_random_motions_are_proved_to_spin_up_and_do(n):
     scene, state = random_scene(rng, (0, .1)[n % 2]), sphere(rng, (3, .3)[n % 3 % 2])
     found = spin_up(scene, state, t_max=200, budget=4000, proof=True)
     assert found.level == "proved" and "is proved" in found.cause and "enclosed, within" in found.cause
-    true = np.array([float(v) for v in run(rows(scene), state, [found.t])[0]]) if found.t else np.array(state)  # a run in 50 digits
+    # a run in 50 digits
+    true = np.array([float(v) for v in run(rows(scene), state, [found.t])[0]]) if found.t else np.array(state)
     assert np.abs(true - found.state).max() < 1e-13 * max(1, np.abs(true).max())
     times = np.linspace(0, 20, 201)
     spin = found.sense * scenes.run(rates_of(scene), true, times)[:, found.axis - 1]  # DOP853
@@ -33,7 +35,8 @@ def test_random_motions_are_proved_to_spin_up_and_do(n):
 
 
 def test_a_proof_takes_fractions_and_decimals_at_their_word():
-    found = [spin_up(EXAMPLE, state, proof=True) for state in (("0.5", "-0.7", "1.1"), (Fraction(1, 2), Fraction(-7, 10), Fraction(11, 10)))]
+    found = [spin_up(EXAMPLE, state, proof=True)
+             for state in (("0.5", "-0.7", "1.1"), (Fraction(1, 2), Fraction(-7, 10), Fraction(11, 10)))]
     assert found[0].level == found[1].level == "proved" and found[0].state == found[1].state
     at = spin_up(EXAMPLE, ("6", "0.1", "-0.1"), proof=True)  # where the inequality holds at the start itself
     assert at.level == "proved" and at.t == 0 and at.state == (6, .1, -.1)
@@ -90,7 +93,8 @@ def test_many_are_proved_as_one_by_one():
     many = spin_up_many(EXAMPLE, states, t_max=12, proof=True)
     for number, state in enumerate(states):
         one, row = spin_up(EXAMPLE, state, t_max=12, proof=True), many.row(number)
-        assert LEVELS[many.level[number]] == one.level == row.level and row.axis == one.axis == many.axis[number]
+        assert LEVELS[many.level[number]] == one.level == row.level and row.axis == one.axis == many.axis[
+            number]
     assert set(many.level.tolist()) == {LEVELS.index("proved"), LEVELS.index("undecided")}
     assert len(spin_up_many(EXAMPLE, np.empty((0, 3)), proof=True).level) == 0
 

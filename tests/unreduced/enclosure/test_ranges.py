@@ -26,7 +26,9 @@ def test_a_polynomial_lies_between_its_bounds():
     generator = np.random.default_rng(5)
     rows = generator.normal(size=(2, 3, 37)) * 0.7 ** np.arange(37)
     found = ranges(Band(np.array([0., 1, 2]), rows, np.zeros((2, 3))))
-    values = np.array([[np.polynomial.polynomial.polyval(np.linspace(0, 1, 4001), c) for c in row] for row in rows])  # NumPy's
+    # NumPy's
+    values = np.array([[np.polynomial.polynomial.polyval(np.linspace(0, 1, 4001), c) for c in row]
+                       for row in rows])
     least, greatest = values.min(axis=(0, 2)), values.max(axis=(0, 2))
     assert (found[:, 0] <= least).all() and (greatest <= found[:, 1]).all()
     assert (found[:, 1] - greatest < 0.02 * (greatest - least)).all()
@@ -44,7 +46,9 @@ def test_a_band_of_a_chunk_goes_on_where_the_last_one_ended():
 
 def test_a_motion_is_proved_when_asked_and_its_bounds_are_what_it_cannot_leave():
     plain, proved = motion(EXAMPLE, (.1, 1, 2)), motion(EXAMPLE, (.1, 1, 2), proof=True)
-    assert (plain.level, proved.level) == ("certified", "proved") and (plain.axis, plain.sense) == (proved.axis, proved.sense)
+    assert (plain.level, proved.level) == ("certified",
+                                           "proved") and (plain.axis,
+                                                          plain.sense) == (proved.axis, proved.sense)
     states = run(rates_of(EXAMPLE), (.1, 1, 2), np.linspace(0, 30, 30001))  # DOP853
     for i, (low, high) in enumerate(proved.bounds):
         assert low <= states[:, i].min() and states[:, i].max() <= high

@@ -1,4 +1,5 @@
-"""Tests of `unreduced/growth/extremes.py`: what is known of the extremes of a motion that grows for ever, and how it is told."""
+"""Tests of `unreduced/growth/extremes.py`: what is known of the extremes of a motion that grows for ever, and
+how it is told."""
 from __future__ import annotations
 
 import csv
@@ -18,7 +19,8 @@ BALL = 2.5
 
 
 def drift(lam, M, x, times):
-    """omega of a body with three equal moments, D omega' = lambda x omega + M, by the exponential of its matrix (SciPy): no formula shared."""
+    """omega of a body with three equal moments, D omega' = lambda x omega + M, by the exponential of its
+    matrix (SciPy): no formula shared."""
     from scipy.linalg import expm
     a, b, c = np.array(lam) / BALL
     matrix = np.zeros((4, 4))
@@ -53,7 +55,8 @@ def test_a_body_of_three_equal_moments_has_its_extremes_for_all_time(seed):
 
 
 def test_a_component_that_starts_on_its_way_up_is_least_at_the_start():
-    """omega3' = 1/D at first and the turn never outruns the drift: by hand, with lambda along axis 3 but for a trace."""
+    """omega3' = 1/D at first and the turn never outruns the drift: by hand, with lambda along axis 3 but for
+    a trace."""
     scene = Scene(Body((1, 1, 1)), Gyrostat((0.25, 0, 1)), ConstantTorque((0, 0, 1)))
     assert stabilab.motion(scene, (0.0, 0.0, 2.0)).extremes[2] == (2.0, math.inf)
 
@@ -80,7 +83,8 @@ def test_one_state_and_arrays_have_the_same_extremes(name):
     scene, state = GROWING[name]
     one = stabilab.motion(scene, state, span=(0, 30))
     assert one.evidence["certificate"] == name
-    assert stabilab.extremes(scene, [state, state], span=30)[1].tolist() == [list(pair) for pair in one.extremes]
+    assert stabilab.extremes(scene, [state, state],
+                             span=30)[1].tolist() == [list(pair) for pair in one.extremes]
     if name in ("axis", "law"):
         assert stabilab.extremes(scene, [state])[0].tolist() == [list(pair) for pair in one.extremes]
         assert stabilab.motion(scene, state).extremes == one.extremes and one.extremes_over == "all time"
@@ -100,7 +104,8 @@ def test_digits_of_a_growing_motion_are_those_of_its_finite_entries(name):
         assert told.digits >= digits, told.because
         np.testing.assert_allclose(np.array(told.values, float), np.array(known), rtol=1e-10)
         if digits == 25:
-            assert [[text in ("inf", "-inf") for text in pair] for pair in told.decimals] == np.isinf(known).tolist()
+            assert [[text in ("inf", "-inf") for text in pair]
+                    for pair in told.decimals] == np.isinf(known).tolist()
 
 
 def test_a_spin_up_is_run_on_to_where_its_least_rate_is_certain():
@@ -121,10 +126,13 @@ def test_before_the_start_a_growing_motion_is_told_over_its_span_alone():
 
 def test_commands_tell_what_a_growing_motion_is_known_over(stabilab, tmp_path):
     path = tmp_path / "growing.toml"
-    path.write_text('[body]\ninertia = [3, 2, 1]\n[effects.gyrostat]\nmomentum = [1, 0, 0]\n[effects.constant_torque]\ntorque = ["0.3", 0, 0]\n'
+    path.write_text('[body]\ninertia = [3, 2, 1]\n[effects.gyrostat]\nmomentum = [1, 0, '
+                    '0]\n[effects.constant_torque]\ntorque = ["0.3", 0, 0]\n'
                     '[motion]\nangular_velocity = ["0.1", "0.2", "0.1"]\nspan = [0, 30]\n')
     told = json.loads(stabilab("extremes", path, "--json")[1])[0]
-    assert told["extremes"][0] == [pytest.approx(0.1), None] and told["over"] == "axis 1 for all time, the others over s in [0, 30]"
+    assert told["extremes"][0] == [pytest.approx(0.1),
+                                   None] and told[
+                                       "over"] == "axis 1 for all time, the others over s in [0, 30]"
     rows = list(csv.reader(stabilab("extremes", path, "--csv")[1].splitlines()))
     assert rows[1][3] == "inf" and {row[4] for row in rows[1:]} == {told["over"]}
     for command in ("classify", "extremes"):

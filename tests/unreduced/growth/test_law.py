@@ -10,7 +10,13 @@ import stabilab
 from stabilab import Body, ConstantTorque, Fate, Gyrostat, ScaledGyrostat, Scene
 from stabilab.answers.trajectory import trajectory
 from stabilab.errors import InputError
-from stabilab.unreduced.growth.certificate import certificate, growth_law, spin_up_margin, standard_form, well_margin
+from stabilab.unreduced.growth.certificate import (
+    certificate,
+    growth_law,
+    spin_up_margin,
+    standard_form,
+    well_margin,
+)
 from stabilab.unreduced.growth.extremes import captured_extremes
 from stabilab.unreduced.growth.law import captured_fate
 
@@ -24,7 +30,8 @@ def paper(c, mu1=1, a=0):
 
 @pytest.fixture(scope="module")
 def brute():
-    """Standard form written out by hand, with roots of phi' R^2 (event 0) and of y3 (event 1): no code of the package."""
+    """Standard form written out by hand, with roots of phi' R^2 (event 0) and of y3 (event 1): no code of the
+    package."""
     u, y, z = heyoka.make_vars("u", "y", "z")
     c, hits = heyoka.par[0], []
     du, dy, dz = y * z + 1.0, -z * (u - 0.5 * c), y * (u + 0.5 * c)
@@ -43,7 +50,8 @@ def brute():
 
 
 def random_states(seed, count):
-    """c < 0 mostly, over three decades; states over two, half of them pushed to just inside a certificate's boundary."""
+    """c < 0 mostly, over three decades; states over two, half of them pushed to just inside a certificate's
+    boundary."""
     rng = np.random.default_rng(seed)
     for n in range(count):
         c = float(rng.choice([-1, -1, -1, 1]) * 10**rng.uniform(-2, 1))
@@ -52,7 +60,8 @@ def random_states(seed, count):
 
 
 def onto_boundary(c, y, rng):
-    """A state in which a certificate holds by a hair: bisection on a segment from a certified state to another."""
+    """A state in which a certificate holds by a hair: bisection on a segment from a certified state to
+    another."""
     inside = certificate(c, y)
     other = rng.normal(size=3) * np.abs(y).max()
     if inside is None or certificate(c, other) == inside:
@@ -82,13 +91,15 @@ def test_no_certificate_misfires_against_brute_force(brute, count):
 
 
 def test_theory_well_condition_is_the_weaker_one():
-    """pi - p + P^2/2 + (c^2/8) sin^2 2phi < (J/2) sin^2 phi: the barrier taken at phi = pi, whose height does not change."""
+    """pi - p + P^2/2 + (c^2/8) sin^2 2phi < (J/2) sin^2 phi: the barrier taken at phi = pi, whose height does
+    not change."""
     for c, y in random_states(7, 2000):
         if c > 0:
             continue
         phi = math.atan2(y[2], y[1])
         P, J = y[0] + c / 2 * math.cos(2 * phi), y[1]**2 + y[2]**2 - 2 * c * y[0]
-        excess = P * P / 2 + c * c / 8 * math.sin(2 * phi)**2 + math.pi - phi % math.pi - J / 2 * math.sin(phi)**2
+        excess = (P * P / 2 + c * c / 8 * math.sin(2 * phi)**2 + math.pi - phi % math.pi
+                  - J / 2 * math.sin(phi)**2)
         margin, size = well_margin(c, y)
         assert margin >= -excess - 1e-13 * size
 
@@ -145,7 +156,8 @@ def test_paper_runs_at_negative_c_are_captured_or_released():
 
 def test_capture_grows_like_the_square_root_of_time(brute):
     _, end = brute(-0.1, (-0.05, -1, 5), 3e3)
-    # J = J0 + 2|c| tau = R^2 + O(J^(1/4)), and the swing in angle about axis 3 is of order J^(-1/4), quadratic here
+    # J = J0 + 2|c| tau = R^2 + O(J^(1/4)), and the swing in angle about axis 3 is of order J^(-1/4),
+    # quadratic here
     assert end[2] == pytest.approx(math.sqrt(26 + 0.2 * 3e3), rel=0.05)
 
 
@@ -176,24 +188,28 @@ def test_scaling_rate_and_time_keeps_the_fate(factor):
         assert (one.axis, one.sense) == (other.axis, other.sense)
 
 
-@pytest.mark.parametrize("inertia, axis", [((2000, 1500, 1000), 0), ((2000, 1500, 1000), 2), ((1000, 2000, 1500), 1),
+@pytest.mark.parametrize("inertia, axis",
+                         [((2000, 1500, 1000), 0), ((2000, 1500, 1000), 2), ((1000, 2000, 1500), 1),
                                            ((1000, 2000, 1500), 0), ((3, 4, 5), 2), ((5, 3, 4), 1)])
 @pytest.mark.parametrize("sense", [1, -1])
 def test_standard_form_maps_bodies_exactly(inertia, axis, sense):
     """Rates carried to standard form equal its right side, for the major and the minor axis in any place."""
     unit = [0, 0, 0]
     unit[axis] = 1
-    scene = Scene(Body(inertia), Gyrostat([3 * v for v in unit]), ConstantTorque([7 * sense * v for v in unit]))
+    scene = Scene(Body(inertia), Gyrostat([3 * v for v in unit]),
+                  ConstantTorque([7 * sense * v for v in unit]))
     change = standard_form(scene)
     for x in np.random.default_rng(1).normal(size=(5, 3)):
         rate = scene.quadratic().rate(x.tolist())
         u, y2, y3 = change.to_standard(x)
         got = [rate[n] * change.time / r for n, r in zip(change.axes, change.rates)]
-        assert got == pytest.approx([y2 * y3 + 1, -y3 * (u - change.c / 2), y2 * (u + change.c / 2)], rel=1e-12, abs=1e-12)
+        assert got == pytest.approx([y2 * y3 + 1, -y3 * (u - change.c / 2), y2 * (u + change.c / 2)],
+                                    rel=1e-12, abs=1e-12)
 
 
 @pytest.mark.one_in(5)
-@pytest.mark.parametrize("torque, momentum", [((0, 0, -10), (0, 0, 30)), ((0, 0, 10), (0, 0, 30)), ((200, 0, 0), (-40, 0, 0)),
+@pytest.mark.parametrize("torque, momentum",
+                         [((0, 0, -10), (0, 0, 30)), ((0, 0, 10), (0, 0, 30)), ((200, 0, 0), (-40, 0, 0)),
                                               ((0, 30, 0), (0, 100, 0)), ((0, 0, -40), (0, 100, 30))])
 def test_bodies_spin_up_about_the_answered_axis(torque, momentum):
     """Brute force: far beyond the answer, the answered axis holds the growing spin."""
@@ -201,7 +217,8 @@ def test_bodies_spin_up_about_the_answered_axis(torque, momentum):
     answer = captured_fate(scene, (0.5, 2.6, 0.06))
     assert answer.fate is Fate.SPIN_UP
     late = 4 * (answer.t_certificate or 3000.0) + 500
-    early, end = (trajectory(scene, (0.5, 2.6, 0.06), np.linspace(f * late / 2, f * late / 2 * 1.1, 200)).states for f in (1, 2))
+    early, end = (trajectory(scene, (0.5, 2.6, 0.06),
+                             np.linspace(f * late / 2, f * late / 2 * 1.1, 200)).states for f in (1, 2))
     held = answer.sense * end[:, answer.axis - 1]
     assert held.min() > 1.15 * np.abs(early[:, answer.axis - 1]).min() > 0
 
@@ -217,14 +234,16 @@ def test_finite_extreme_of_a_spin_up_is_its_minimum_over_a_long_run():
     extremes, over = found.box, found.over
     run = trajectory(paper("0.1"), (4.5, 1.8, 3.4), np.linspace(0.001, 60, 60_000))
     assert extremes[0, 1] == np.inf and over.startswith("axis 1 for all time")
-    assert extremes[0, 0] == pytest.approx(run.states[:, 0].min(), abs=1e-5)  # samples 1e-3 apart: x1'' h^2/8 off
+    # samples 1e-3 apart: x1'' h^2/8 off
+    assert extremes[0, 0] == pytest.approx(run.states[:, 0].min(), abs=1e-5)
     assert extremes[0, 0] <= run.states[:, 0].min()
 
 
 def test_captured_axis_has_one_infinite_end():
     scene, state = paper("-0.1"), (0, -1, -5)
     extremes = captured_extremes(scene, state, captured_fate(scene, state)).box
-    assert extremes[2, 0] == -np.inf and -6 < extremes[2, 1] < 0 and np.isfinite(extremes[:2]).all()  # the two others over the span alone
+    # the two others over the span alone
+    assert extremes[2, 0] == -np.inf and -6 < extremes[2, 1] < 0 and np.isfinite(extremes[:2]).all()
 
 
 @pytest.mark.slow
@@ -235,10 +254,12 @@ def test_same_answers_without_heyoka(monkeypatch):
     for one, (c, x) in zip(first, cases):
         other = captured_fate(paper(c), x)
         assert (one.axis, one.sense, one.certificate) == (other.axis, other.sense, other.certificate)
-        assert one.release_time == (None if other.release_time is None else pytest.approx(other.release_time, rel=1e-8))
+        assert one.release_time == (None if other.release_time is None
+                                    else pytest.approx(other.release_time, rel=1e-8))
 
 
-@pytest.mark.parametrize("scene", [ScaledGyrostat(0, 0, (1, 0, 0)), ScaledGyrostat(0, 1, (1, 1, 0)), ScaledGyrostat(0, 1, (0, 0, 1)),
+@pytest.mark.parametrize("scene", [ScaledGyrostat(0, 0, (1, 0, 0)), ScaledGyrostat(0, 1, (1, 1, 0)),
+                                   ScaledGyrostat(0, 1, (0, 0, 1)),
                                    Scene(BODY, Gyrostat((1, 0, 0)), ConstantTorque((0, 0, 1))), Scene(BODY)])
 def test_other_scenes_are_turned_away(scene):
     with pytest.raises(InputError, match="torque along one principal axis"):
@@ -246,7 +267,8 @@ def test_other_scenes_are_turned_away(scene):
 
 
 def test_three_equal_moments_spin_up_along_lambda():
-    """D w' = lambda x w + M is linear; its part along lambda is lambda . M t / D, the rest turns at a constant rate."""
+    """D w' = lambda x w + M is linear; its part along lambda is lambda . M t / D, the rest turns at a
+    constant rate."""
     scene = Scene(Body((2, 2, 2)), Gyrostat((1, 2, 0)), ConstantTorque((3, 0, 0)))
     answer = captured_fate(scene, (1, 2, 3))
     assert (answer.fate, answer.axis, answer.certificate) == (Fate.SPIN_UP, 0, "law")
@@ -256,8 +278,10 @@ def test_three_equal_moments_spin_up_along_lambda():
 
 @pytest.mark.parametrize("size", [1e-12, 1e12])
 def test_tiny_and_huge_torques_are_answered_in_their_own_time(size):
-    answer = captured_fate(ScaledGyrostat(0, -0.3 * math.sqrt(size), (size, 0, 0)), np.array([-6.0, 2, -1]) * math.sqrt(size))
-    assert (answer.axis, answer.sense) == (lambda one: (one.axis, one.sense))(captured_fate(paper("-0.3"), (-6.0, 2, -1)))
+    answer = captured_fate(ScaledGyrostat(0, -0.3 * math.sqrt(size), (size, 0, 0)),
+                           np.array([-6.0, 2, -1]) * math.sqrt(size))
+    assert (answer.axis,
+            answer.sense) == (lambda one: (one.axis, one.sense))(captured_fate(paper("-0.3"), (-6.0, 2, -1)))
 
 
 def test_rates_whose_squares_overflow_are_refused():
@@ -269,8 +293,8 @@ def test_rates_whose_squares_overflow_are_refused():
 
 
 def boundary(c, seed):
-    """(scene, states on a line by their distance from the boundary between spin-up and capture), located by halving as far as
-    the answers are decided."""
+    """(scene, states on a line by their distance from the boundary between spin-up and capture), located by
+    halving as far as the answers are decided."""
     scene, rng = ScaledGyrostat(-c / 2, c / 2, (1, 0, 0)), np.random.default_rng(seed)
     ends = {}
     while len(ends) < 2:
@@ -286,7 +310,8 @@ def boundary(c, seed):
 
 
 def by_many_digits(c, state):
-    """Which certificate fires first on a Taylor series of 30 digits; the certificates' inequalities as in theory.md, section 1."""
+    """Which certificate fires first on a Taylor series of 30 digits; the certificates' inequalities as in
+    theory.md, section 1."""
     import mpmath as mp
 
     from tests.oracles import taylor
@@ -299,7 +324,8 @@ def by_many_digits(c, state):
             P, J, p = u + mp.mpf(c) / 2 * mp.cos(2 * phi), y2**2 + y3**2 - 2 * c * u, phi % mp.pi
             bump = mp.mpf(c) ** 2 / 8
             # J < 0 is left to a later time: the printed inequality needs J >= 0 there
-            if P > 0 and J > 0 and P**2 / 2 - J / 2 * mp.sin(phi) ** 2 - bump * mp.cos(2 * phi) ** 2 > mp.mpf(c) ** 2 / 2:
+            if P > 0 and J > 0 and P**2 / 2 - J / 2 * mp.sin(phi) ** 2 - bump * mp.cos(2 * phi) ** 2 > mp.mpf(
+                c) ** 2 / 2:
                 return "spin-up"
             if P**2 / 2 + bump * mp.sin(2 * phi) ** 2 + mp.pi - p < J / 2 * mp.sin(phi) ** 2:
                 return "well"
@@ -308,8 +334,11 @@ def by_many_digits(c, state):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("c, seed, decades", [(-0.5, 1, (3, 9, 16)), *(pytest.param(c, n, range(3, 17), marks=pytest.mark.slow) for n, c in
-                                                                       enumerate((-0.5, -3.0, -1.0, -0.2), 1))])
+@pytest.mark.parametrize("c, seed, decades",
+                         [(-0.5, 1, (3, 9, 16)),
+                          *(pytest.param(c, n, range(3, 17), marks=pytest.mark.slow) for n, c in
+                                                                       enumerate((-0.5, -3.0, -1.0, -0.2),
+                                                                                 1))])
 def test_no_state_beside_the_boundary_between_spin_up_and_capture_gets_the_wrong_axis(c, seed, decades):
     """Fails in code that trusts the end of one run: rounding carries a motion over the boundary."""
     scene, at = boundary(c, seed)
@@ -325,7 +354,8 @@ def test_no_state_beside_the_boundary_between_spin_up_and_capture_gets_the_wrong
                 assert found.certificate == by_many_digits(c, state), (decade, side)
                 words.add(found.certificate)
                 told.append(decade)
-    assert words == {"undecided", "spin-up", "well"} and max(told) >= 9  # nine digits of a state are enough to be told
+    # nine digits of a state are enough to be told
+    assert words == {"undecided", "spin-up", "well"} and max(told) >= 9
 
 
 @pytest.mark.parametrize("torque", [(1e160, 0, 0), (1e160, 0, 1e160)])  # without a torque: test_free_gyrostat
@@ -336,7 +366,10 @@ def test_moments_whose_squares_are_beyond_the_doubles_are_refused(torque):
 
 
 def test_a_temporary_capture_whose_swing_dies_out_is_no_spin_up():
-    """Oracle: without the 1e-14 across the torque the spin-up about axis 1 is proved, after a release at t = 14,619 s."""
-    scene = Scene(Body((2, 1, 1.5)), Gyrostat((F(4862117930819083, 2**58), 1e-14, 0)), ConstantTorque((F(6340252040850999, 2**50), 0, 0)))
-    found = captured_fate(scene, (-0.029033100610280364, 52.89864997290313, -0.0026971012632171962), t_max=7000)
+    """Oracle: without the 1e-14 across the torque the spin-up about axis 1 is proved, after a release at t =
+    14,619 s."""
+    scene = Scene(Body((2, 1, 1.5)), Gyrostat((F(4862117930819083, 2**58), 1e-14, 0)),
+                  ConstantTorque((F(6340252040850999, 2**50), 0, 0)))
+    found = captured_fate(scene, (-0.029033100610280364, 52.89864997290313, -0.0026971012632171962),
+                          t_max=7000)
     assert found.axis in (0, 1) and found.fate in (Fate.UNDECIDED, Fate.SPIN_UP)

@@ -23,12 +23,14 @@ def euler(D, l, M, w):
 
 def rates_of(scene):
     """omega'(omega) of a physical scene in floats."""
-    D, l, M = ([float(v) for v in vector] for vector in (scene.body.exact, scene.vector("gyrostat"), scene.vector("constant_torque")))
+    D, l, M = ([float(v) for v in vector]
+               for vector in (scene.body.exact, scene.vector("gyrostat"), scene.vector("constant_torque")))
     return lambda w: euler(D, l, M, w)
 
 
 def random_scene(rng: random.Random, wheel: float | None = None):
-    """A body of random second moments, a torque of unit size, a wheel of size `wheel` (None: 0, 0.1, 1 or 10)."""
+    """A body of random second moments, a torque of unit size, a wheel of size `wheel` (None: 0, 0.1, 1 or
+    10)."""
     a, b, c = (Fraction(rng.uniform(.05, 1)) for _ in range(3))
     size = rng.choice((0, .1, 1, 10)) if wheel is None else wheel
     return Scene(Body((b + c, a + c, a + b)), Gyrostat(sphere(rng, size)), ConstantTorque(sphere(rng)))
@@ -44,4 +46,5 @@ def run(rate, start, times):
     """States (n, 3) of a motion by SciPy's DOP853."""
     import numpy as np
     from scipy.integrate import solve_ivp
-    return solve_ivp(lambda _, y: np.array(rate(y.tolist())), (times[0], times[-1]), start, "DOP853", times, rtol=1e-11, atol=1e-12).y.T
+    return solve_ivp(lambda _, y: np.array(rate(y.tolist())), (times[0], times[-1]), start, "DOP853", times,
+                     rtol=1e-11, atol=1e-12).y.T

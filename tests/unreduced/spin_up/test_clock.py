@@ -50,8 +50,8 @@ def test_clock_shrinks_when_the_trap_is_a_later_one():
 
 @pytest.mark.parametrize("sign", [1, -1])
 def test_a_wheel_that_helps_or_hinders_widens_no_time(sign):
-    """The drive is M1 + m*/x: over a hundredfold of rates m* moves the time by m* D1/M1^2 ln 100, known to both ends whatever its sign, but
-    for the trap's z k, here a twelfth of it."""
+    """The drive is M1 + m*/x: over a hundredfold of rates m* moves the time by m* D1/M1^2 ln 100, known to
+    both ends whatever its sign, but for the trap's z k, here a twelfth of it."""
     D, l, M = (1.4, 1, .6), tuple(sign * v for v in (.2, .1, -.3)), (.5, .6, .62)
     trap = spin_up(Scene(Body(D), Gyrostat(l), ConstantTorque(M)), (6, 1, -1), after=200).trap
     mean = l[1] * M[1] / (D[0] - D[1]) + l[2] * M[2] / (D[0] - D[2])  # m* of the averaged motion, by hand
@@ -61,10 +61,13 @@ def test_a_wheel_that_helps_or_hinders_widens_no_time(sign):
         assert gone - (1e6 - 1e4) * D[0] / M[0] == pytest.approx(-moved, rel=0.15)
 
 
-@pytest.mark.parametrize("D, l, M, w", [((1.1, .58, 1.32), (2.17, -.87, 9.72), (.06, .86, .51), (2.56, 5.02, 8.26)),
-                                        ((1.48, .67, .84), (3.2, -4.8, 8.17), (-.6, .69, -.4), (-.75, -2.06, -2.05))])
+@pytest.mark.parametrize("D, l, M, w",
+                         [((1.1, .58, 1.32), (2.17, -.87, 9.72), (.06, .86, .51), (2.56, 5.02, 8.26)),
+                                        ((1.48, .67, .84), (3.2, -4.8, 8.17), (-.6, .69, -.4),
+                                         (-.75, -2.06, -2.05))])
 def test_about_the_moving_centre_far_times_are_known_as_well(D, l, M, w):
-    """What is beside M1 in the drive falls like 1/x, so far limits take M1/D1 alone but for a logarithm; near ones by DOP853."""
+    """What is beside M1 in the drive falls like 1/x, so far limits take M1/D1 alone but for a logarithm; near
+    ones by DOP853."""
     scene = Scene(Body(D), Gyrostat(l), ConstantTorque(M))
     answer = spin_up(scene, w, 2000, 30_000)
     trap, spin = answer.trap, np.dot(answer.state, answer.direction)
@@ -74,7 +77,8 @@ def test_about_the_moving_centre_far_times_are_known_as_well(D, l, M, w):
     limit = spin + 6.0
     early, late = trap.clock(limit)
     times = np.linspace(answer.t, late, 4001)
-    reached = times[np.argmax(run(rates_of(scene), answer.state, times) @ np.array(answer.direction) >= limit)]
+    reached = times[np.argmax(run(rates_of(scene), answer.state,
+                                  times) @ np.array(answer.direction) >= limit)]
     assert early <= reached <= late + 1e-9
 
 
@@ -94,6 +98,7 @@ def test_clock_of_a_body_of_revolution_is_the_linear_law():
 @pytest.mark.parametrize("scale", [2.0**-20, 2.0**15])
 def test_clock_keeps_units(scale):
     """The same motion in another unit of time: powers of two, exact."""
-    other = Scene(Body((1.4, 1, .6)), Gyrostat([scale * v for v in (.2, .1, -.3)]), ConstantTorque([scale**2 * v for v in (.5, .6, .62)]))
+    other = Scene(Body((1.4, 1, .6)), Gyrostat([scale * v for v in (.2, .1, -.3)]),
+                  ConstantTorque([scale**2 * v for v in (.5, .6, .62)]))
     one, two = spin_up(EXAMPLE, (6, 1, -1)), spin_up(other, [scale * v for v in (6, 1, -1)])
     assert np.allclose(two.trap.clock(100 * scale), np.array(one.trap.clock(100)) / scale, rtol=1e-9)

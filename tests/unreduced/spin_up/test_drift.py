@@ -1,4 +1,5 @@
-"""Slow drifts run over many revolutions at once: against sums by hand, runs by DOP853 and the tangent flow."""
+"""Slow drifts run over many revolutions at once: against sums by hand, runs by DOP853 and the tangent flow.
+"""
 import random
 
 import numpy as np
@@ -22,7 +23,8 @@ START = (12.0, 20.0, 90.0)
 def dop(scene, start, end):
     """The state of a motion at a time, by SciPy's DOP853."""
     rate = rates_of(scene)
-    return solve_ivp(lambda _, y: np.array(rate(y.tolist())), (0, end), start, "DOP853", rtol=1e-13, atol=1e-12).y[:, -1]
+    return solve_ivp(lambda _, y: np.array(rate(y.tolist())), (0, end), start, "DOP853", rtol=1e-13,
+                     atol=1e-12).y[:, -1]
 
 
 @pytest.mark.parametrize("count", [16.0, 100.0, 4097.0])
@@ -34,7 +36,9 @@ def test_sums_of_polynomials_are_those_by_hand(count):
     pair = n * (n - 1) / 2
     for d, expected in ((np.ones_like(n), n), (n, pair), (n**2, pair * (2 * n - 1) / 3), (n**3, pair**2)):
         assert np.allclose(matrix @ d, expected, rtol=0, atol=1e-13 * count * np.abs(d).max())
-    assert between @ n**3 == pytest.approx((BETWEEN * count)**3, rel=1e-13) and np.abs(coefficients @ n**3)[4:].max() < 1e-13 * count**3
+    assert between @ n**3 == pytest.approx((BETWEEN * count)**3,
+                                           rel=1e-13) and np.abs(coefficients @ n**3)[
+                                               4:].max() < 1e-13 * count**3
 
 
 def test_slopes_are_those_of_the_rates_forth_and_back():
@@ -42,9 +46,12 @@ def test_slopes_are_those_of_the_rates_forth_and_back():
     runs, rng = Runs(EXAMPLE, np.zeros((5, 3))), np.random.default_rng(1)
     states, directions, weights = rng.normal(size=(3, 5, 3))
     rate = rates_of(EXAMPLE)
-    expected = np.array([(np.array(rate(w + v)) - np.array(rate(w - v))) / 2 for w, v in zip(states, directions)])
-    assert np.allclose(runs.rates(states), [rate(w) for w in states]) and np.allclose(runs.slopes(states, directions), expected)
-    assert np.allclose((runs.slopes_back(states, weights) * directions).sum(axis=1), (expected * weights).sum(axis=1))
+    expected = np.array([(np.array(rate(w + v)) - np.array(rate(w - v))) / 2 for w,
+                         v in zip(states, directions)])
+    assert np.allclose(runs.rates(states),
+                       [rate(w) for w in states]) and np.allclose(runs.slopes(states, directions), expected)
+    assert np.allclose((runs.slopes_back(states, weights) * directions).sum(axis=1),
+                       (expected * weights).sum(axis=1))
 
 
 def test_a_window_ends_where_a_run_by_another_formula_does():
@@ -63,7 +70,8 @@ def test_a_window_ends_where_a_run_by_another_formula_does():
 
 
 def test_a_window_that_meets_no_smooth_drift_is_refused():
-    """Five natural units of speed: a revolution changes the motion too much for six hundred of them to be a polynomial."""
+    """Five natural units of speed: a revolution changes the motion too much for six hundred of them to be a
+    polynomial."""
     own, unit = natural(FAST)
     start = np.array([[0.3, 0.5, 1.0]]) / unit
     returns = Returns(Runs(own, start))
@@ -72,14 +80,16 @@ def test_a_window_that_meets_no_smooth_drift_is_refused():
 
 
 def test_growth_is_that_of_the_tangent_flow_across_the_motion():
-    """Against the variational equation by DOP853, from the first direction, what lies along the motion taken off."""
+    """Against the variational equation by DOP853, from the first direction, what lies along the motion taken
+    off."""
     rate, runs = rates_of(FAST), Runs(FAST, np.array([START]))
 
     def both(_, y):
         w, v = y[:3], y[3:]
         slope = [(a - b) / 2 for a, b in zip(rate(w + v), rate(w - v))]
         return np.array([*rate(w), *slope])
-    first = runs.twins.ahead[0] - (along := np.array(rate(START))) * (runs.twins.ahead[0] @ along) / (along @ along)
+    first = (runs.twins.ahead[0] - (along := np.array(rate(START))) * (runs.twins.ahead[0] @ along)
+             / (along @ along))
     runs.advance(np.array([0]), 100, 1e300)
     end = solve_ivp(both, (0, runs.times[0]), [*START, *first], "DOP853", rtol=1e-12, atol=1e-12).y[:, -1]
     along = np.array(rate(end[:3]))
@@ -90,10 +100,12 @@ def test_growth_is_that_of_the_tangent_flow_across_the_motion():
 
 def test_a_mere_delay_is_no_growth():
     """A twin ahead on the same motion: nothing lies across it."""
-    rates = lambda states: np.array([euler((1.4, 1, 0.6), (0.2, 0.1, -0.3), (0.5, 0.6, 0.62), w) for w in states])
+    rates = lambda states: np.array([euler((1.4, 1, 0.6), (0.2, 0.1, -0.3), (0.5, 0.6, 0.62), w)
+                                     for w in states])
     twins, state = Twins(1, rates), np.array([START])
     early = dop(FAST, START, 1e-6)[None]
-    lost = twins.compare(np.array([0]), state, state, early, np.array([0.0]), np.array([1e-5]), np.array([1e-15]))
+    lost = twins.compare(np.array([0]), state, state, early, np.array([0.0]), np.array([1e-5]),
+                         np.array([1e-15]))
     assert not lost[0] and twins.growth[0] < 1e-4
 
 
@@ -110,7 +122,8 @@ def test_a_slow_despin_is_certified_by_far_fewer_steps_than_it_takes():
     while runs.times[0] < answer.t:
         runs.advance(np.array([0]), 20_000, answer.t)
     D = np.array([float(d) for d in scene.body.exact])
-    assert float((D * runs.states[0]**2).sum()) == pytest.approx(float((D * np.array(answer.state)**2).sum()), rel=1e-9)
+    assert float((D * runs.states[0]**2).sum()) == pytest.approx(float((D * np.array(answer.state)**2).sum()),
+                                                                 rel=1e-9)
 
 
 @pytest.mark.slow
@@ -130,5 +143,7 @@ def test_the_clock_allows_for_the_blur_of_the_time():
     wide = replace(answer.trap, blur=0.5)
     limit = 5 * answer.trap.z_up * answer.trap.unit
     (early, late), (earlier, later) = answer.trap.clock(limit), wide.clock(limit)
-    assert earlier == pytest.approx(early - 0.5 + answer.trap.blur, rel=1e-9) and later == pytest.approx(late + 0.5 - answer.trap.blur, rel=1e-9)
+    assert earlier == pytest.approx(early - 0.5 + answer.trap.blur,
+                                    rel=1e-9) and later == pytest.approx(late + 0.5 - answer.trap.blur,
+                                                                         rel=1e-9)
     assert wide.line(answer.t + 10)[0] < answer.trap.line(answer.t + 10)[0]

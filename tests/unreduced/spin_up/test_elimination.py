@@ -16,7 +16,8 @@ from .scenes import EXAMPLE, random_scene
 class Digits:
     """A kind of number with 40 digits."""
 
-    real, root, pair = staticmethod(lambda v: mpmath.mpf(v.numerator) / v.denominator), mpmath.sqrt, mpmath.mpc
+    real, root, pair = staticmethod(lambda v: mpmath.mpf(v.numerator)
+                                    / v.denominator), mpmath.sqrt, mpmath.mpc
     i = mpmath.mpc(0, 1)
 
 
@@ -68,11 +69,14 @@ def test_first_order_is_the_classical_energy_and_amplitude():
     f = normal_form((1.4, 1, .6), (.2, .1, -.3), (.5, .6, .62), 0)
     X, z = 6.375, .5 - .4j
     ((added, _), _), ((second, _), _) = corrected(f, (0, 2), 0.0)
-    energy = f.gam / 2 / f.om * (z * z).real - (f.kap.conjugate() * z).imag / f.om - (f.nu * z).imag / f.om**2 / X
+    energy = (f.gam / 2 / f.om * (z * z).real - (f.kap.conjugate() * z).imag / f.om
+              - (f.nu * z).imag / f.om**2 / X)
     assert value(added, X, z).real == pytest.approx(energy, rel=1e-13)  # E2 of the paper's section 1
     m, k, g, h, M1 = f.mu, f.kap.conjugate(), f.gam, f.h, f.M1
-    psi = (M1 * h / 2 * (z**2).imag + 2 * M1 * (m.conjugate() * z).real - g * h / 8 * (z**4).real - g * abs(z)**2 * (m * z).imag
-           + g / 3 * (m.conjugate() * z**3).imag + h / 6 * (k * z**3).imag + h / 2 * abs(z)**2 * (f.kap * z).imag + (k * m.conjugate() * z**2).real / 2)
+    psi = (M1 * h / 2 * (z**2).imag + 2 * M1 * (m.conjugate() * z).real - g * h / 8 * (z**4).real
+           - g * abs(z)**2 * (m * z).imag
+           + g / 3 * (m.conjugate() * z**3).imag + h / 6 * (k * z**3).imag
+           + h / 2 * abs(z)**2 * (f.kap * z).imag + (k * m.conjugate() * z**2).real / 2)
     R = h * (z * z).real - 2 * (m.conjugate() * z).imag
     amplitude = R / f.om / X + psi / f.D1 / f.om**2 / X**3
     assert value(second, X, z).real == pytest.approx(amplitude, rel=1e-12)  # B of section 1
@@ -82,7 +86,8 @@ def test_the_term_of_the_amplitude_that_falls_like_1_over_x_vanishes_identically
     z, zc, mu, muc, h = sp.symbols("z zc mu muc h")
     rest, restc = sp.I * h * zc + mu, -sp.I * h * z + muc
     R = h * (z**2 + zc**2) / 2 - (muc * z - mu * zc) / sp.I
-    assert sp.expand(sp.diff(R, z) * rest + sp.diff(R, zc) * restc) == 0  # in symbols; so no tolerance decides it
+    # in symbols; so no tolerance decides it
+    assert sp.expand(sp.diff(R, z) * rest + sp.diff(R, zc) * restc) == 0
 
 
 @pytest.mark.parametrize("order", [2, 6, 14])
@@ -98,7 +103,8 @@ def test_everything_left_of_the_amplitude_falls_like_1_over_x_squared(order):
 @pytest.mark.parametrize("orders", [(4, 6), (12, 14)])
 def test_majorants_cover_the_rounding_of_coefficients(orders):
     scene = random_scene(random.Random(6), 1)
-    args = [tuple(map(float, v)) for v in (scene.body.exact, scene.vector("gyrostat"), scene.vector("constant_torque"))]
+    args = [tuple(map(float, v)) for v in (scene.body.exact, scene.vector("gyrostat"),
+                                           scene.vector("constant_torque"))]
     with mpmath.workdps(40):
         for axis in range(3):
             rough, fine = normal_form(*args, axis), normal_form(*args, axis, Digits)

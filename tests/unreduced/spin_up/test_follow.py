@@ -23,7 +23,8 @@ def departures(scene, answer, span):
     spin = states @ np.array(answer.direction)
     low, high = np.array([answer.trap.line(t) for t in times]).T
     wrong = [side for side, bad in (("low", spin < low - 1e-6), ("high", spin > high + 1e-6)) if bad.any()]
-    return wrong + [n for n, (a, b) in enumerate(answer.trap.bounds()) if ((states[:, n] < a - 1e-6) | (states[:, n] > b + 1e-6)).any()]
+    return (wrong + [n for n, (a, b) in enumerate(answer.trap.bounds())
+                     if ((states[:, n] < a - 1e-6) | (states[:, n] > b + 1e-6)).any()])
 
 
 @pytest.mark.slow
@@ -34,7 +35,8 @@ def test_certified_motions_keep_what_they_promise():
         answer = spin_up(scene, sphere(rng, rng.choice((.1, 1, 3))), 200, 5000)
         if answer.level == "certified":
             certified += 1
-            pace = max(map(abs, answer.state)) + max(map(abs, scene.vector("gyrostat"))) / min(scene.body.exact)
+            pace = (max(map(abs, answer.state))
+                    + max(map(abs, scene.vector("gyrostat"))) / min(scene.body.exact))
             assert not departures(scene, answer, 30 / float(pace))  # some five turns
     assert certified > 25
 
@@ -44,7 +46,8 @@ def test_certified_motions_keep_what_they_promise():
 def test_certified_motions_keep_what_they_promise_for_long():
     from benchmarks.spin_up import main
     rows = main(31, 300, 2e4, 600_000, 3600, 3000)
-    assert not any(wrong for *_, wrong in rows)  # a compiled Runge-Kutta run of some three hundred turns after each certificate
+    # a compiled Runge-Kutta run of some three hundred turns after each certificate
+    assert not any(wrong for *_, wrong in rows)
     no_wheel = [answer for _, wheel, answer, *_ in rows if wheel == 0]
     assert all(answer.level == "certified" and answer.t < 5000 for answer in no_wheel)
     assert sum(answer.level == "certified" for _, _, answer, *_ in rows) >= 0.93 * len(rows)
@@ -63,7 +66,8 @@ def test_fate_agrees_with_a_long_run_by_brute_force():
     for _ in range(6):
         scene = random_scene(rng, rng.choice((0, .1)))
         answer = spin_up(scene, sphere(rng), 500)
-        end = run(rates_of(scene), sphere(rng) if answer.level != "certified" else answer.state, np.array([0.0, 15.0, 30.0]))
+        end = run(rates_of(scene), sphere(rng) if answer.level != "certified" else answer.state,
+                  np.array([0.0, 15.0, 30.0]))
         if answer.level == "certified":
             i = answer.axis - 1
             assert np.sign(end[-1, i]) == answer.sense and abs(end[-1, i]) > abs(end[1, i])
@@ -112,7 +116,8 @@ def test_scaled_twin_has_the_fate_of_its_body():
     twin, change = to_scaled(scene)
     for state in np.random.default_rng(5).normal(size=(6, 3)) * 0.1:
         one, two = spin_up(scene, state), spin_up(twin, change.to_scaled(state))
-        assert (one.level, one.axis, one.sense) == (two.level, two.axis, two.sense) and one.level == "certified"
+        assert (one.level, one.axis, one.sense) == (two.level, two.axis,
+                                                    two.sense) and one.level == "certified"
 
 
 def test_scaled_scenes_of_no_body_are_certified_too():
@@ -132,19 +137,23 @@ def test_fate_does_not_depend_on_units(unit, mass):
     scene = Scene(Body([mass * v for v in (1.4, 1, .6)]), Gyrostat([mass * unit * v for v in (.2, .1, -.3)]),
                   ConstantTorque([mass * unit**2 * v for v in (.5, .6, .62)]))
     one, two = spin_up(EXAMPLE, (.1, .2, .3)), spin_up(scene, [unit * v for v in (.1, .2, .3)])
-    assert (one.axis, one.sense, one.steps) == (two.axis, two.sense, two.steps) and two.t == pytest.approx(one.t / unit, rel=1e-9)
+    assert (one.axis, one.sense, one.steps) == (two.axis, two.sense,
+                                                two.steps) and two.t == pytest.approx(one.t / unit, rel=1e-9)
 
 
 def test_bounded_island_is_never_certified():
     """D = (1.2412, .3937, 1.3650): bounded over 1e6 units, an elliptic orbit between two saddle-foci."""
-    scene = Scene(Body((1.2412, .3937, 1.3650)), Gyrostat((-.5224, .8309, .1914)), ConstantTorque((.0987, .8450, .5255)))
+    scene = Scene(Body((1.2412, .3937, 1.3650)), Gyrostat((-.5224, .8309, .1914)),
+                  ConstantTorque((.0987, .8450, .5255)))
     answer = spin_up(scene, (-1.572, .657, .738), 3000)
     assert answer.level == "undecided" and answer.fate is Fate.UNDECIDED and "island" in answer.cause
 
 
 def test_two_equilibria_rest():
-    scene = Scene(Body((1.2412, .3937, 1.3650)), Gyrostat((-.5224, .8309, .1914)), ConstantTorque((.0987, .8450, .5255)))
-    D, l, M = ([float(v) for v in vector] for vector in (scene.body.exact, scene.vector("gyrostat"), scene.vector("constant_torque")))
+    scene = Scene(Body((1.2412, .3937, 1.3650)), Gyrostat((-.5224, .8309, .1914)),
+                  ConstantTorque((.0987, .8450, .5255)))
+    D, l, M = ([float(v) for v in vector]
+               for vector in (scene.body.exact, scene.vector("gyrostat"), scene.vector("constant_torque")))
     ends = _equilibria(scene)
     assert len(ends) == 2 and all(max(map(abs, euler(D, l, M, w))) < 1e-12 for w in ends)
 
@@ -162,7 +171,8 @@ def test_condition_is_the_growth_of_a_small_change():
     answer = spin_up(EXAMPLE, state)
     times = np.linspace(0, answer.t, 400)
     step = 1e-6 * np.array((1, -1, 1))
-    apart = np.abs(run(rates_of(EXAMPLE), state + step, times) - run(rates_of(EXAMPLE), state, times)).max(axis=1).max() / 1e-6
+    apart = (np.abs(run(rates_of(EXAMPLE), state + step, times) - run(rates_of(EXAMPLE), state,
+                                                                      times)).max(axis=1).max() / 1e-6)
     assert 0.3 * apart < max(answer.condition, 1) < 1.1 * max(apart, 1)
 
 
@@ -177,7 +187,8 @@ def test_bad_states_are_refused():
 def test_rates_beyond_what_a_run_in_doubles_holds_are_undecided_with_the_reason(rate):
     """A warning of overflow would be an error here; the other state of the batch keeps its answer."""
     one, many = spin_up(EXAMPLE, (rate, 0.0, 0.0)), spin_up_many(EXAMPLE, [(rate, 0.0, 0.0), (0.1, 0.2, 0.3)])
-    assert one.level == "undecided" and "no run in doubles holds it" in one.cause and many.row(0).cause == one.cause
+    assert one.level == "undecided" and "no run in doubles holds it" in one.cause and many.row(
+        0).cause == one.cause
     assert many.row(1).level == spin_up(EXAMPLE, (0.1, 0.2, 0.3)).level == "certified"
 
 
@@ -189,7 +200,8 @@ def test_nothing_is_followed_beyond_the_limits():
 
 
 def test_a_small_component_without_a_wheel_is_certified_about_the_moving_centre_in_time():
-    """The torque's share along the major axis is 0.002: the fixed centre alone takes 6,700 natural units, so slowly does the spin grow."""
+    """The torque's share along the major axis is 0.002: the fixed centre alone takes 6,700 natural units, so
+    slowly does the spin grow."""
     rng = random.Random(12)
     scene, state, *_ = [benchmark_scene(rng) for _ in range(1423)][-1]
     answer = spin_up(scene, state)
@@ -213,12 +225,16 @@ def test_a_test_has_its_number_before_another_thread_may_find_it(monkeypatch):
 
 
 def test_a_motion_that_a_law_keeps_bounded_is_no_open_question_of_spin_up():
-    """Table 2 of the paper has the first of these motions periodic, with extremes; the second goes round axis 3 and spins up."""
+    """Table 2 of the paper has the first of these motions periodic, with extremes; the second goes round axis
+    3 and spins up."""
     scene = ScaledGyrostat("0.2", "0.4", (0, 0, 1))
     states = [(2.5, 4.0, 0.1), (2.5, 4.0, 30.0)]
     one = [spin_up(scene, state, 20) for state in states]
-    assert [(answer.fate, answer.level) for answer in one] == [(Fate.BOUNDED, "exact"), (Fate.SPIN_UP, "certified")]
+    assert [(answer.fate, answer.level) for answer in one] == [(Fate.BOUNDED, "exact"),
+                                                               (Fate.SPIN_UP, "certified")]
     assert one[0].cause.startswith("bounded by the law of a torque along a principal axis: ")
     many = spin_up_many(scene, np.array(states), 20)
-    assert many.fate.tolist() == [Fate.BOUNDED, Fate.SPIN_UP] and [many.row(n).cause for n in range(2)] == [answer.cause for answer in one]
+    assert many.fate.tolist() == [Fate.BOUNDED,
+                                  Fate.SPIN_UP] and [many.row(n).cause
+                                                     for n in range(2)] == [answer.cause for answer in one]
     assert many.row(1).trap is not None

@@ -23,7 +23,8 @@ def scaled_rates(scene):
 
 
 def gap(form, rate, w):
-    """Relative departure of the form's rates from those of the motion; X and zeta are affine, so a difference gives theirs."""
+    """Relative departure of the form's rates from those of the motion; X and zeta are affine, so a difference
+    gives theirs."""
     X, z = form.place(w)
     X1, z1 = form.place([a + b for a, b in zip(w, rate(w))])
     G = form.M1 + form.gam * (z * z).imag + (form.kap.conjugate() * z).real
@@ -38,7 +39,8 @@ def test_normal_forms_move_as_eulers_equations_say():
         rate, w = rates_of(scene), [rng.gauss(0, 3) for _ in range(3)]
         forms = forms_of(scene)
         assert len(forms) == 2  # major and minor axis
-        assert max(gap(form, rate, w) for form in forms) < 1e-11  # rounding; oracle: Euler's equations written out
+        # rounding; oracle: Euler's equations written out
+        assert max(gap(form, rate, w) for form in forms) < 1e-11
 
 
 def test_scaled_forms_move_as_the_paper_says_for_any_a_and_b():
@@ -56,10 +58,12 @@ def test_mean_drag_of_the_wheel_is_that_of_the_form():
     for _ in range(40):
         for form in forms_of(random_scene(rng)):
             drag = -(form.kap.conjugate() * form.mu).imag / form.om
-            assert abs(form.drag - drag) < 1e-12 * (1 + abs(form.kap * form.mu) / form.om)  # off-axis identity m* = -Im(kap* mu)/om
+            # off-axis identity m* = -Im(kap* mu)/om
+            assert abs(form.drag - drag) < 1e-12 * (1 + abs(form.kap * form.mu) / form.om)
 
 
-@pytest.mark.parametrize("D, torque, axis", [((3, 2, 1.5), (1, 1, 1), 1), ((3, 2, 2), (1, 1, 1), 1), ((3, 2, 1.5), (0, 1, 1), 0)],
+@pytest.mark.parametrize("D, torque, axis", [((3, 2, 1.5), (1, 1, 1), 1), ((3, 2, 2), (1, 1, 1), 1),
+                                             ((3, 2, 1.5), (0, 1, 1), 0)],
                          ids=["middle axis", "axis of two equal moments", "no torque about it"])
 def test_no_form_where_none_exists(D, torque, axis):
     assert normal_form(D, (1, 1, 1), torque, axis) is None
@@ -85,7 +89,8 @@ def test_moving_centre_moves_as_eulers_equations_say():
                                       for j, k, a, b, c in zip(*terms.powers, terms.c))
             swing = value(field.algebra.x_rate)
             turned = -1 / field.algebra.lift * (p * q)**0.5 * z + swing * value(field.algebra.carried)
-            assert abs((xp - xm) / (2 * step) - swing) < 1e-6 * (1 + abs(swing))  # central differences of Euler's equations
+            # central differences of Euler's equations
+            assert abs((xp - xm) / (2 * step) - swing) < 1e-6 * (1 + abs(swing))
             assert abs((zp - zm) / (2 * step) - turned) < 1e-5 * (1 + abs(turned))
 
 
@@ -97,7 +102,8 @@ def test_mean_drift_about_the_moving_centre_vanishes_identically():
     G0 = M1 + l2 * M2 / Q + l3 * M3 / P - e * M2 * M3 / (P * Q)
     # Re(k* f) with s = 1: rho cancels between k and f
     product = -(e * M2 - l3 * Q) / P * n3 / Q**2 + (l2 * P - e * M3) / Q * n2 / P**2
-    assert sp.simplify(product + sp.diff(G0, x)) == 0  # in symbols: Re(k* f) = -G0', what lets the mean terms be dropped
+    # in symbols: Re(k* f) = -G0', what lets the mean terms be dropped
+    assert sp.simplify(product + sp.diff(G0, x)) == 0
 
 
 def test_quasi_equilibrium_gives_the_mean_torque():
@@ -112,15 +118,19 @@ def test_quasi_equilibrium_gives_the_mean_torque():
 
 
 def test_a_turned_case_has_the_same_forms():
-    """Half a turn about axis 2 turns torque, wheel and state: the form is that of the turned scene, sense reversed."""
+    """Half a turn about axis 2 turns torque, wheel and state: the form is that of the turned scene, sense
+    reversed."""
     one = Scene(Body((3, 2, 1.5)), Gyrostat((.3, .2, .1)), ConstantTorque((1, .5, .2)))
     other = Scene(Body((3, 2, 1.5)), Gyrostat((-.3, .2, -.1)), ConstantTorque((-1, .5, -.2)))
     for a, b in zip(forms_of(one), forms_of(other)):
-        assert a.sense == -b.sense and a.place((1, 2, 3)) == b.place((-1, 2, -3)) and a.mu == b.mu or a.axis == 2
+        assert a.sense == -b.sense and a.place((1, 2, 3)) == b.place((-1, 2,
+                                                                      -3)) and a.mu == b.mu or a.axis == 2
 
 
-QUESTIONS = {"fate": stabilab.fate, "extremes": stabilab.extremes, "period": stabilab.period, "time to": partial(stabilab.time_to, rate=1.0),
-             "spin-up": lambda scene, states: stabilab.spin_up(scene, states[0]), "motion": lambda scene, states: stabilab.motion(scene, states[0])}
+QUESTIONS = {"fate": stabilab.fate, "extremes": stabilab.extremes, "period": stabilab.period,
+             "time to": partial(stabilab.time_to, rate=1.0),
+             "spin-up": lambda scene, states: stabilab.spin_up(scene, states[0]), "motion": lambda scene,
+             states: stabilab.motion(scene, states[0])}
 
 
 @pytest.mark.one_in(2)
@@ -129,5 +139,6 @@ QUESTIONS = {"fate": stabilab.fate, "extremes": stabilab.extremes, "period": sta
 @pytest.mark.parametrize("wheel", [1e160, 1e300])
 def test_wheels_whose_squares_are_no_doubles_are_refused_by_every_question(question, moments, wheel):
     scene = Scene(Body(moments), Gyrostat((wheel, .1, .2)), ConstantTorque((.001, .01, .02)))
-    with pytest.raises(InputError, match="momenta this large are beyond the range of doubles: choose other units"):
+    with pytest.raises(InputError,
+                       match="momenta this large are beyond the range of doubles: choose other units"):
         QUESTIONS[question](scene, np.array([[.05, .01, .01], [.1, 0, 0]]))

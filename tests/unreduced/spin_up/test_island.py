@@ -16,7 +16,8 @@ ISLANDS = [((1.2412, .3937, 1.3650), (.0987, .8450, .5255), (-.5224, .8309, .191
 
 
 def test_centre_is_where_the_stream_function_of_the_averaged_flow_is_stationary():
-    """psi = I f0 + I^2 f1/2 of the derivation, written anew for this body: both derivatives vanish by finite differences."""
+    """psi = I f0 + I^2 f1/2 of the derivation, written anew for this body: both derivatives vanish by finite
+    differences."""
     (found,) = centres(MIDDLE)
     D1, D2, D3, M1, M3, l3 = 1.4, 1, .6, .01, .6, .193
     d2, d3 = D1 - D2, D1 - D3
@@ -32,7 +33,8 @@ def test_centre_is_where_the_stream_function_of_the_averaged_flow_is_stationary(
 
 
 def test_motion_about_the_centre_stays_and_that_of_the_other_wheel_leaves():
-    """By DOP853: |eta|^2 = I across, D2 a2 U^2 = I/om-like scales from the normal form; the wheel on the other axis has no centre."""
+    """By DOP853: |eta|^2 = I across, D2 a2 U^2 = I/om-like scales from the normal form; the wheel on the
+    other axis has no centre."""
     start = (-6.975, 5.28, .24)
     states = run(rates_of(MIDDLE), start, np.linspace(0, 100, 401))
     assert np.linalg.norm(states, axis=1).max() < 15

@@ -16,7 +16,8 @@ FAST = find_spec("numba") is not None
 def decided(seed, scenes, times, steps):
     """(kind, wheel, scene, answer) of random scenes."""
     rng = random.Random(seed)
-    return [(kind, wheel, scene, spin_up(scene, state, times, steps, fast=FAST)) for scene, state, kind, wheel in (random_scene(rng) for _ in range(scenes))]
+    return [(kind, wheel, scene, spin_up(scene, state, times, steps, fast=FAST)) for scene, state, kind,
+            wheel in (random_scene(rng) for _ in range(scenes))]
 
 
 def share(rows):
@@ -25,7 +26,8 @@ def share(rows):
 
 def against(scene, answer):
     """What a run by DOP853, some ten turns on from the certified state, breaks of the bounds told."""
-    pace = max(map(abs, answer.state)) + 2 * max(map(abs, map(float, scene.vector("gyrostat")))) / min(map(float, scene.body.exact)) + 1
+    pace = (max(map(abs, answer.state))
+            + 2 * max(map(abs, map(float, scene.vector("gyrostat")))) / min(map(float, scene.body.exact)) + 1)
     times = answer.t + np.linspace(0, 60 / pace, 121)
     states = run(rates_of(scene), answer.state, times)
     low, high = np.array(answer.trap.bounds()).T
@@ -48,10 +50,12 @@ def test_most_random_motions_are_certified_and_the_others_have_a_cause():
 
 @pytest.mark.slow
 def test_two_thousand_random_motions_reach_the_shares_promised():
-    """Without a wheel nearly all, by 5,000 natural units; generic bodies with wheels up to 1 at least 97 %; all at least 92 %."""
+    """Without a wheel nearly all, by 5,000 natural units; generic bodies with wheels up to 1 at least 97 %;
+    all at least 92 %."""
     rows = decided(42, 2000, 2e4, 100_000)  # a sixth of the steps that an answer takes unasked
     without = [answer for _, wheel, _, answer in rows if wheel == 0]
     assert sum(answer.level != "undecided" and answer.t <= 5000 for answer in without) >= 0.995 * len(without)
     assert share([row for row in rows if row[0] == "generic" and row[1] <= 1]) >= 0.97
     assert share(rows) >= 0.92 and all(answer.cause for *_, answer in rows)
-    assert not any(against(scene, answer) for _, _, scene, answer in rows[::10] if answer.level == "certified")
+    assert not any(against(scene, answer) for _, _, scene,
+                   answer in rows[::10] if answer.level == "certified")

@@ -38,28 +38,34 @@ def test_steps_side_by_side_end_where_a_run_by_another_formula_does(fast):
     out, times = runs.carried(starts, np.full(5, 0.7), 1000)
     assert (times == 0.7).all()
     for start, end in zip(starts, out):
-        assert np.allclose(end, run(rates_of(EXAMPLE), start, np.array([0.0, 0.7]))[-1], rtol=0, atol=1e-8 * (1 + np.abs(start).max()))
+        assert np.allclose(end, run(rates_of(EXAMPLE), start, np.array([0.0, 0.7]))[-1], rtol=0,
+                           atol=1e-8 * (1 + np.abs(start).max()))
     back, times = runs.carried(out, np.full(5, -0.7), 1000)
-    assert (times == -0.7).all() and np.allclose(back, starts, rtol=0, atol=1e-11 * (1 + np.abs(starts).max()))
+    assert (times == -0.7).all() and np.allclose(back, starts, rtol=0,
+                                                 atol=1e-11 * (1 + np.abs(starts).max()))
 
 
 @pytest.mark.parametrize("small", [1e-30, 1e-45, 1e-60])
 def test_steps_beside_a_saddle_stay_short_though_the_state_hardly_leaves_it(small):
-    """Expected: the linear solution beside the free spin w2 = -20 about the middle axis of D = (3, 2, 1), w1' = -20 w3/3, w3' = -20 w1."""
+    """Expected: the linear solution beside the free spin w2 = -20 about the middle axis of D = (3, 2, 1), w1'
+    = -20 w3/3, w3' = -20 w1."""
     scene, r = Scene(Body((3, 2, 1)), Gyrostat((0, 0, 0)), ConstantTorque((0, 0, 0))), 3**0.5
-    growing = lambda t: np.array([np.cosh(20 / r * t) - np.sinh(20 / r * t) / r, np.cosh(20 / r * t) - r * np.sinh(20 / r * t)])
+    growing = lambda t: np.array([np.cosh(20 / r * t) - np.sinh(20 / r * t) / r,
+                                  np.cosh(20 / r * t) - r * np.sinh(20 / r * t)])
     starts = np.array([[small, -20.0, small]])
     runs = Runs(scene, starts)
     out, _ = runs.carried(starts, np.array([2.0]), 1000)
     assert np.allclose(out[0, [0, 2]], small * growing(2.0), rtol=1e-3, atol=0)
     runs.advance(np.arange(1), 1000, 4.0)
-    assert runs.times[0] == 4.0 and np.allclose(runs.states[0, [0, 2]], small * growing(4.0), rtol=1e-3, atol=0)
+    assert runs.times[0] == 4.0 and np.allclose(runs.states[0, [0, 2]], small * growing(4.0), rtol=1e-3,
+                                                atol=0)
     assert runs.twins.growth[0] == pytest.approx(np.abs(growing(4.0)).max(), rel=0.05)
 
 
 @numba
 def test_vectors_are_as_numpy_has_them():
-    """Compiled operations on eight doubles against their plain meaning, to the last bit: what a process has compiled is in no answer."""
+    """Compiled operations on eight doubles against their plain meaning, to the last bit: what a process has
+    compiled is in no answer."""
     starts = states(6, 11)
     plain, compiled = Runs(EXAMPLE, starts), Runs(EXAMPLE, starts, fast=True)
     for one in (plain, compiled):
@@ -70,7 +76,8 @@ def test_vectors_are_as_numpy_has_them():
     for name in ("logarithm", "power_of_two", "size"):
         assert np.array_equal(applied(name, columns + 1.0), getattr(lanes, name)(columns + 1.0))
     powers = np.array([-900.0, -3.5, 0.0, 0.25, 1.0, 9.75, 77.0, 101.5])
-    assert np.array_equal(applied("two_to", powers), lanes.two_to(powers)) and np.allclose(lanes.two_to(powers), 2.0**powers, rtol=0.004)
+    assert np.array_equal(applied("two_to", powers),
+                          lanes.two_to(powers)) and np.allclose(lanes.two_to(powers), 2.0**powers, rtol=0.004)
 
 
 def applied(name, row):
@@ -110,9 +117,11 @@ print(rows.tolist())
 @pytest.mark.slow
 @numba
 def test_lanes_that_are_partly_kept_on_disk_are_those_that_are_compiled_anew(tmp_path):
-    """A process that was killed, or asked for less, keeps some functions: the others, compiled beside them by the next one, take their values."""
+    """A process that was killed, or asked for less, keeps some functions: the others, compiled beside them by
+    the next one, take their values."""
     (tmp_path / "halves.py").write_text(HALVES)
-    environment = {**os.environ, "NUMBA_CACHE_DIR": str(tmp_path / "kept"), "PYTHONPATH": os.pathsep.join([str(tmp_path), str(ROOT)])}
+    environment = {**os.environ, "NUMBA_CACHE_DIR": str(tmp_path / "kept"),
+                   "PYTHONPATH": os.pathsep.join([str(tmp_path), str(ROOT)])}
     for _ in range(2):
         done = subprocess.run([sys.executable, "-c", ASKED], env=environment, capture_output=True, text=True)
         assert done.stdout == f"{[[2.0 * n for n in range(8)]]}\n", done.stderr

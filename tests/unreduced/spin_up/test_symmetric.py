@@ -37,7 +37,8 @@ def test_without_a_torque_about_the_axis_the_spin_decides():
     assert spin_up(scene, (1, 0, 0)).fate is Fate.BOUNDED  # X = 1.5 turns the torque round
     still = spin_up(scene, (-0.5, 1, 2))  # X = -0.5 + 0.25/0.5 = 0
     assert still.fate is Fate.SPIN_UP and still.direction == pytest.approx((0, 0.6, 0.8)) and still.axis == 0
-    assert np.allclose(run(rates_of(scene), (-0.5, 1, 2), np.array([0, 15.0]))[-1], (-0.5, 1 + 3, 2 + 4))  # xi = xi(0) + mu t
+    # xi = xi(0) + mu t
+    assert np.allclose(run(rates_of(scene), (-0.5, 1, 2), np.array([0, 15.0]))[-1], (-0.5, 1 + 3, 2 + 4))
 
 
 def test_sphere_grows_along_its_wheel():
@@ -54,8 +55,10 @@ def test_sphere_with_the_torque_across_its_wheel_is_bounded_and_without_wheel_gr
     assert grows.direction == pytest.approx((0.6, 0.8, 0)) and grows.fate is Fate.SPIN_UP
 
 
-@pytest.mark.parametrize("D, l, M, exists", [((2, 1, 1), (.3, 2, 0), (.2, -1, .1), True), ((2, 1, 1), (.3, 2, 0), (.2, 1, .1), False),
-                                             ((1, 1.5, 1.5), (.3, 2, 0), (.2, 1, .1), True), ((1.5, 1, 1.5), (1, 0, 2), (0, 1, 0), False)])
+@pytest.mark.parametrize("D, l, M, exists", [((2, 1, 1), (.3, 2, 0), (.2, -1, .1), True),
+                                             ((2, 1, 1), (.3, 2, 0), (.2, 1, .1), False),
+                                             ((1, 1.5, 1.5), (.3, 2, 0), (.2, 1, .1), True),
+                                             ((1.5, 1, 1.5), (1, 0, 2), (0, 1, 0), False)])
 def test_equatorial_form_exists_where_the_torque_pushes_the_right_way(D, l, M, exists):
     assert (equatorial(scene_of(D, l, M)) is not None) == exists  # (M_perp.l_perp)(D1 - D2) < 0
 
@@ -101,7 +104,8 @@ def test_torque_near_the_middle_axis_is_decided_about_an_extremal_one():
 
 def test_torque_without_a_component_on_one_axis_is_decided_about_the_other():
     answer = spin_up(scene_of((3, 2, 1.5), (0, 0, 0), (0, 0.6, 0.8)), (0.1, 0.2, 0.1))
-    assert answer.level == "certified" and (answer.axis, answer.sense) == (3, 1)  # axis 1 has no torque, axis 3 the only form
+    # axis 1 has no torque, axis 3 the only form
+    assert answer.level == "certified" and (answer.axis, answer.sense) == (3, 1)
 
 
 def test_no_torque_is_bounded():

@@ -2,35 +2,42 @@
 
 Which points of a sheet part bounded motions from spin-up: those whose saddle no higher barrier stands beside.
 
-On a circle under a torque the fate is that of the highest barrier within one turn ahead. A loop counts as far as no place
-between it and its saddle, and none ahead of the saddle, is higher than the saddle: there the sheet ends on the loop on which
-two barriers are as high, and the other barrier's sheet goes on. Where two sheets meet so, they form a notch that points into
-the bounded motions, and the nearest point may lie in it: a bound that uses both heights at once closes there.
+On a circle under a torque the fate is that of the highest barrier within one turn ahead. A loop counts as far
+as no place between it and its saddle, and none ahead of the saddle, is higher than the saddle: there the
+sheet ends on the loop on which two barriers are as high, and the other barrier's sheet goes on. Where two
+sheets meet so, they form a notch that points into the bounded motions, and the nearest point may lie in it: a
+bound that uses both heights at once closes there.
 
-The distance from the separatrix of a scene whose orbits are circles or hyperbolas: its branches of saddles and their charts.
+The distance from the separatrix of a scene whose orbits are circles or hyperbolas: its branches of saddles
+and their charts.
 
-Without a torque the states of an invariant plane whose energy exceeds that of the resting centre tend to a rotation about the
-axis and are on the separatrix too: a flat piece, bounded by the loops' limit n^2 W^2/2 = u(xi, eta). Its distance is that of
-the plane where the foot of the perpendicular has the energy; else the nearest point is on that limit, where the sheets end.
-With a torque no point of the planes is a limit of sheets but the curve of each saddle on them: a sheet beside a plane keeps
-eta = eta* exp(-(n^2 W^2/2 + ...)/mu) > 0 at every rate W.
+Without a torque the states of an invariant plane whose energy exceeds that of the resting centre tend to a
+rotation about the axis and are on the separatrix too: a flat piece, bounded by the loops' limit n^2 W^2/2 =
+u(xi, eta). Its distance is that of the plane where the foot of the perpendicular has the energy; else the
+nearest point is on that limit, where the sheets end. With a torque no point of the planes is a limit of
+sheets but the curve of each saddle on them: a sheet beside a plane keeps eta = eta* exp(-(n^2 W^2/2 +
+...)/mu) > 0 at every rate W.
 
-Sheets of the separatrix of a body with two equal moments, where orbits are parabolas and the potential is a quartic.
+Sheets of the separatrix of a body with two equal moments, where orbits are parabolas and the potential is a
+quartic.
 
-With D_k = D_i (p = 0, q = -kappa, rho = -q0) let q = kappa omega_j + rho and N = kappa omega_k + sigma. Then q grows by kappa a y
-along the orbit (a = p0), equilibria have q N = K := sigma rho - kappa m, and from a saddle (s, N), a N > s^2,
+With D_k = D_i (p = 0, q = -kappa, rho = -q0) let q = kappa omega_j + rho and N = kappa omega_k + sigma. Then
+q grows by kappa a y along the orbit (a = p0), equilibria have q N = K := sigma rho - kappa m, and from a
+saddle (s, N), a N > s^2,
 
-    W^2 = 2 (V_saddle - V) = y^2 [a N - (s + kappa a y/2)^2],  kappa omega_k + sigma = N - kappa s y - kappa^2 a y^2/2.
+    W^2 = 2 (V_saddle - V) = y^2 [a N - (s + kappa a y/2)^2],  kappa omega_k + sigma = N - kappa s y - kappa^2
+    a y^2/2.
 
-So there is a separatrix wherever a is not zero: the valley of the quartic has a barrier between two wells for all |N| beyond
-the fold |a| |N|^3 = K^2. With D_j = D_i instead the two components change roles.
+So there is a separatrix wherever a is not zero: the valley of the quartic has a barrier between two wells for
+all |N| beyond the fold |a| |N|^3 = K^2. With D_j = D_i instead the two components change roles.
 
-How far a state is from the separatrix: the smallest change of the three rates that reaches it, with a proof and a witness.
+How far a state is from the separatrix: the smallest change of the three rates that reaches it, with a proof
+and a witness.
 
-The separatrix is the set of states whose fate is to tend to a saddle of the reduced potential: the loops of all saddles, on a
-circle under a torque of those that no higher barrier stands beside (`shade`), swept along the branches of saddles. Branch and
-bound over these sheets (`search`) brings a proved lower bound and a point of the separatrix together; what the number of boxes does
-not close is told as a bracket.
+The separatrix is the set of states whose fate is to tend to a saddle of the reduced potential: the loops of
+all saddles, on a circle under a torque of those that no higher barrier stands beside (`shade`), swept along
+the branches of saddles. Branch and bound over these sheets (`search`) brings a proved lower bound and a point
+of the separatrix together; what the number of boxes does not close is told as a bracket.
 """
 from __future__ import annotations
 
@@ -109,9 +116,9 @@ class Shade:
 
 
 def _barrier(chart, t, at):
-    """The point of a sheet at another barrier: phi is below zero where that is higher than the saddle. Two barriers of a wide circle may be as
-    high but for the last digits of what they rise above the centre, which doubles lose, with those of the barrier's place: then a step of
-    Newton's method in balls leads to it."""
+    """The point of a sheet at another barrier: phi is below zero where that is higher than the saddle. Two
+    barriers of a wide circle may be as high but for the last digits of what they rise above the centre, which
+    doubles lose, with those of the barrier's place: then a step of Newton's method in balls leads to it."""
     p, (bend, _) = chart.point(t, at), chart.bends(t, 0.0, at, 0.0)[5]
     if not bend > 0 or abs(p.phi) > 4 * (p.off[1] + (abs(p.phi_y) + p.rough[3]) ** 2 / bend):
         return p
@@ -128,21 +135,24 @@ def on_conic(reduction, state, orbit) -> Apart:
     seen, way = Seen.of(reduction, state), GEOMETRIES[reduction.e]
     arcs = list(_arcs(way, conic_of(reduction), seen))
     shade = way.shade(orbit, arcs)
-    start = min([_first(seen, arc, shade) for arc in arcs] + way.flat(seen, reduction.sense, arcs), key=lambda one: one[0], default=None)
+    start = min([_first(seen, arc, shade) for arc in arcs] + way.flat(seen, reduction.sense, arcs),
+                key=lambda one: one[0], default=None)
     if start is None:
         return NO_SEPARATRIX
     if start[0] == 0:  # at the end of a branch
         return Apart(0.0, 0.0, (float(state[0]), float(state[1]), float(state[2])))
     charts = [chart for arc in arcs for chart in arc.charts(seen, reduction.sense, start[0])]
     charts += way.opposite(lambda other: _arcs(way, conic_of(reduction), other), seen, start[0])
-    found = nearest(charts, seen.plain["w"], start[0] * (1 + 1e-14) + 1e-300, genuine=shade, start=_on_chart(charts, *start[2:]))
+    found = nearest(charts, seen.plain["w"], start[0] * (1 + 1e-14) + 1e-300, genuine=shade,
+                    start=_on_chart(charts, *start[2:]))
     place = start[1] if found.chart is None else found.chart.place(found.t, found.y)
     return Apart(found.lower, found.upper, _rates_on_conic(reduction, seen, place, state), "", found.boxes)
 
 
 def _on_chart(charts, saddle=None):
     """(chart, t, y) of a saddle (branch, t)."""
-    on = [chart for chart in charts if saddle and chart.from_saddle and chart.curve is saddle[0] and chart.t[0] <= saddle[1] <= chart.t[1]
+    on = [chart for chart in charts if saddle and chart.from_saddle and chart.curve is saddle[0]
+          and chart.t[0] <= saddle[1] <= chart.t[1]
           and chart.y[0] <= 0 <= chart.y[1]]
     return (on[0], saddle[1], 0.0) if on else None
 
@@ -167,9 +177,11 @@ class _OnCircles(_Arc):
 
     @staticmethod
     def opposite(arcs_of, seen, upper):
-        """Charts of the same loops opposite to their saddles; arcs_of: the branches as told from another place."""
+        """Charts of the same loops opposite to their saddles; arcs_of: the branches as told from another
+        place."""
         image = mirrored(seen)
-        return [OppositeChart(image, arc.curve, piece, (-QUARTER, QUARTER)) for arc in arcs_of(image) for piece in arc._pieces(image, upper)]
+        return [OppositeChart(image, arc.curve, piece, (-QUARTER, QUARTER)) for arc in arcs_of(image)
+                for piece in arc._pieces(image, upper)]
 
     def _pieces(self, seen, upper):
         g = seen.plain
@@ -185,7 +197,8 @@ class _OnCircles(_Arc):
 
     @staticmethod
     def shade(orbit, arcs):
-        """What may shade a sheet: only a state that a barrier holds sees the difference, and only where there are two barriers."""
+        """What may shade a sheet: only a state that a barrier holds sees the difference, and only where there
+        are two barriers."""
         reduction = orbit.reduction
         if not reduction.sense or len(arcs) < 2 or decide(orbit, FIRST_BITS).sign < 0:
             return None
@@ -207,7 +220,9 @@ class _OnHyperbolas(_Arc):
 
     @staticmethod
     def flat(seen, sense, arcs):
-        return ([] if sense else _flat_pieces(seen)) + [place for arc in arcs for place in planes_met(seen, arc.curve, arc.low, arc.high)]
+        return ([] if sense
+                else _flat_pieces(seen)) + [place for arc in arcs
+                                            for place in planes_met(seen, arc.curve, arc.low, arc.high)]
 
     @staticmethod
     def shade(orbit, arcs):
@@ -226,7 +241,8 @@ def _arcs(way, conic, seen):
     for line in conic.lines:
         curve = Straight(seen, ("x" if line.dz else "z") if conic.G else None)
         for low, high in pairwise((-INF, *curve.knots, INF)):
-            if slope_at(*(seen.plain[n] for n in ("G", "c", "d")), seen.e, *curve.at(_between(low, high))[:2]) > 0:
+            if slope_at(*(seen.plain[n] for n in ("G", "c", "d")), seen.e,
+                        *curve.at(_between(low, high))[:2]) > 0:
                 yield way(curve, low, high)
 
 
@@ -252,13 +268,15 @@ def _first(seen, arc, shade):
         at = arc.curve.at(t)
         u, v = abs(at.u) + UNIT * at.su, abs(at.v) + UNIT * at.sv
         distance = math.sqrt(g["a"] * u * u + g["b"] * v * v + g["w"] ** 2)
-        if distance < best[0] and (shade is None or shade(Chart(seen, arc.curve, (t, t), (0.0, 0.0)), t, 0.0)):
+        if distance < best[0] and (shade is None
+                                   or shade(Chart(seen, arc.curve, (t, t), (0.0, 0.0)), t, 0.0)):
             best = distance, (at.u, at.v, 0.0), (arc.curve, t)
     return best
 
 
 def _flat_pieces(seen):
-    """[(distance, foot)] of the planes of a hyperbola without torque, where the foot of the perpendicular is on the separatrix."""
+    """[(distance, foot)] of the planes of a hyperbola without torque, where the foot of the perpendicular is
+    on the separatrix."""
     g, found = seen.plain, []
     for flip in (1.0, -1.0):  # Z = flip X
         x = (g["a"] * g["X"] + flip * g["b"] * g["Z"]) / (g["a"] + g["b"])
@@ -308,7 +326,8 @@ class ParabolaChart(Chart):
         u, v = s + 2 * half - g["u"], N - kappa * y * (s + half) - g["v"]
         lift = s + half
         phi = y * y * (a * N - lift * lift)
-        phi_t, phi_y = y * y * (a * N + 2 * lift * s), 2 * y * (a * N - lift * lift) - y * y * kappa * a * lift
+        phi_t, phi_y = y * y * (a * N
+                                + 2 * lift * s), 2 * y * (a * N - lift * lift) - y * y * kappa * a * lift
         u_t, u_y, v_t, v_y = -s, kappa * a, N + kappa * y * s, -kappa * (s + 2 * half)
         k2 = kappa * kappa
         tall, wide, long = abs(a * N) + (abs(s) + abs(half)) ** 2, abs(s) + abs(half), abs(kappa * y)
@@ -318,9 +337,11 @@ class ParabolaChart(Chart):
         apart, off = square_of(u, v, off_u, off_v, 1 / k2, 1 / k2)
         gap, off_w = gap_of(phi, off_phi, g["w"])
         rough = (4 * (off_u * abs(s) + abs(u) * UNIT * abs(s) + off_v * mN + abs(v) * UNIT * mN) / k2,
-                 4 * (off_u * abs(kappa * a) + abs(u) * UNIT * abs(kappa * a) + (off_v + abs(v) * UNIT) * abs(kappa) * 2 * wide) / k2,
+                 4 * (off_u * abs(kappa * a) + abs(u) * UNIT * abs(kappa * a)
+                      + (off_v + abs(v) * UNIT) * abs(kappa) * 2 * wide) / k2,
                  4 * UNIT * y * y * tall, 8 * UNIT * (abs(y) * tall + y * y * abs(kappa * a) * wide))
-        return Point(apart, 2 * (u * u_t + v * v_t) / k2, 2 * (u * u_y + v * v_y) / k2, phi, phi_t, phi_y, gap, (off, off_phi, off_w), rough)
+        return Point(apart, 2 * (u * u_t + v * v_t) / k2, 2 * (u * u_y + v * v_y) / k2, phi, phi_t, phi_y,
+                     gap, (off, off_phi, off_w), rough)
 
     def sharp(self, numbers, g, t, y):
         return parabola_place(g, t, y)
@@ -358,13 +379,15 @@ def parabola_seen(reduction, state):
         u, v, p0, rho, sigma = v, u, r.q0, r.sigma, r.rho
     if not r.kappa or not p0:
         return None
-    exact = {"kappa": r.kappa, "a": p0, "K": sigma * rho - r.kappa * r.m, "u": r.kappa * u + rho, "v": r.kappa * v + sigma,
+    exact = {"kappa": r.kappa, "a": p0, "K": sigma * rho - r.kappa * r.m, "u": r.kappa * u + rho,
+             "v": r.kappa * v + sigma,
              "w": abs(Fraction(state[r.axis]) + r.s)}
     return seen_as(Parabola, exact)
 
 
 def rectangle(g, upper):
-    """((t_low, t_high), (y_low, y_high)) outside which every point is farther than `upper`; None where nothing is left."""
+    """((t_low, t_high), (y_low, y_high)) outside which every point is farther than `upper`; None where
+    nothing is left."""
     kappa, a, K = g["kappa"], g["a"], g["K"]
     far = abs(kappa) * upper * (1 + 1e-9)
     q_low, q_high, v_most = g["u"] - far, g["u"] + far, abs(g["v"]) + far
@@ -391,10 +414,13 @@ def on_parabolas(reduction, state) -> Apart:
     upper = math.inf
     for n in range(-8, 60):
         N = math.copysign(fold * 2 ** (n / 4 if n > 0 else n if not g["K"] else 0), g["a"])
-        upper = min(upper, math.sqrt(((g["K"] / N - g["u"]) ** 2 + (N - g["v"]) ** 2) / g["kappa"] ** 2 + g["w"] ** 2))
+        upper = min(upper,
+                    math.sqrt(((g["K"] / N - g["u"]) ** 2 + (N - g["v"]) ** 2) / g["kappa"] ** 2
+                              + g["w"] ** 2))
     t, y = rectangle(g, upper)
     found = nearest([ParabolaChart(seen, t, y)], g["w"], upper * (1 + 1e-12))
-    witness = None if found.chart is None else _rates_on_parabola(reduction, found.chart.place(found.t, found.y), state)
+    witness = (None if found.chart is None
+               else _rates_on_parabola(reduction, found.chart.place(found.t, found.y), state))
     return Apart(found.lower, found.upper, witness, "", found.boxes)
 
 
@@ -410,12 +436,14 @@ def _rates_on_parabola(reduction, place, state):
 
 
 def separatrix_distance(scene, states):
-    """Euclidean distance (...,) of states (..., 3) from the nearest point of the scene's separatrix, in the unit of the
-    states: to 1e-9, or a proved lower bound; inf where the scene has none, NaN where it is not known.
+    """Euclidean distance (...,) of states (..., 3) from the nearest point of the scene's separatrix, in the
+    unit of the states: to 1e-9, or a proved lower bound; inf where the scene has none, NaN where it is not
+    known.
 
-    A torque in a plane of equal moments: the distance of the turned state in the turned scene, as a turn keeps distances. Not known:
-    a free gyrostat without a reduction (its separatrix is known by its energy on each momentum sphere, not as sheets), and a torque
-    off the axes. A gyrostatic moment along the torque leaves no equilibrium (|H|^2/2 - D T grows steadily), so no separatrix: inf.
+    A torque in a plane of equal moments: the distance of the turned state in the turned scene, as a turn
+    keeps distances. Not known: a free gyrostat without a reduction (its separatrix is known by its energy on
+    each momentum sphere, not as sheets), and a torque off the axes. A gyrostatic moment along the torque
+    leaves no equilibrium (|H|^2/2 - D T grows steadily), so no separatrix: inf.
     """
     import numpy as np
     array = np.asarray(states, float)
@@ -436,14 +464,16 @@ def _asker(scene):
 
 
 def has_no_saddle(scene) -> bool:
-    """Whether a scene without a reduction, its torque on one axis or none, has no saddle for sure: a gyrostatic moment along the torque
-    leaves no equilibrium, and with equal moments the kinetic energy is a linear function on each momentum sphere."""
+    """Whether a scene without a reduction, its torque on one axis or none, has no saddle for sure: a
+    gyrostatic moment along the torque leaves no equilibrium, and with equal moments the kinetic energy is a
+    linear function on each momentum sphere."""
     acting = sum(m != 0 for m in scene.quadratic().m)
     return acting == 1 or not acting and not any(scene.quadratic().kappa)
 
 
 def distance_of(reduction, state, orbit: Orbit | None = None) -> Apart:
-    """The distance of one state (three floats or Fractions) of a scene with this reduction (None: it has none).
+    """The distance of one state (three floats or Fractions) of a scene with this reduction (None: it has
+    none).
 
     orbit: the state's, where that is at hand.
     """
@@ -454,8 +484,10 @@ def distance_of(reduction, state, orbit: Orbit | None = None) -> Apart:
         orbit = orbit or Orbit(reduction, state)
         if on_separatrix(orbit):
             return Apart(0.0, 0.0, (float(state[0]), float(state[1]), float(state[2])))
-        found = on_conic(reduction, state, orbit) if reduction.geometry.centred else on_parabolas(reduction, state)
-    except (Unclear, ArithmeticError, ValueError):  # a logarithm of what has vanished in doubles is a ValueError
+        found = (on_conic(reduction, state, orbit) if reduction.geometry.centred
+                 else on_parabolas(reduction, state))
+    except (Unclear, ArithmeticError,
+            ValueError):  # a logarithm of what has vanished in doubles is a ValueError
         return UNKNOWN
     if found.upper != found.upper or found.lower != found.lower:
         return UNKNOWN

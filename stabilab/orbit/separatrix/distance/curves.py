@@ -2,15 +2,17 @@
 
 Branches of saddles: curves on the conic of equilibria, with places told from the state.
 
-A branch has a parameter t whose zero is at or near the saddle nearest to the state, and the places there, and how far they are from
-the state, are differences of exact numbers.
+A branch has a parameter t whose zero is at or near the saddle nearest to the state, and the places there, and
+how far they are from the state, are differences of exact numbers.
 
-Which saddles of circles have loops that come near a state: those about as far from the centre as the state is.
+Which saddles of circles have loops that come near a state: those about as far from the centre as the state
+is.
 
-On a circle X^2 + Z^2 is the saddle's all along the loop, and the distance of two places is at least sqrt(min(a, b)) times that of
-their circles. Far from the centre that leaves a branch of saddles in a few pieces, a share `upper`/radius of its length each; a search
-over all of it would halve its way there once for every part of the loop. The difference of the squares is told from the state's
-place, so it keeps its digits where both are huge.
+On a circle X^2 + Z^2 is the saddle's all along the loop, and the distance of two places is at least
+sqrt(min(a, b)) times that of their circles. Far from the centre that leaves a branch of saddles in a few
+pieces, a share `upper`/radius of its length each; a search over all of it would halve its way there once for
+every part of the loop. The difference of the squares is told from the state's place, so it keeps its digits
+where both are huge.
 """
 from __future__ import annotations
 
@@ -28,8 +30,9 @@ UNIT = ROUNDINGS * EPS
 
 
 class Point(NamedTuple):
-    """phi = W^2 and the squared distance `apart` in the plane of the orbit with their slopes in (t, y), in the scene's unit;
-    gap: sqrt(max(phi, 0)) less the state's. off: the errors of apart, phi and gap; rough: those of the four slopes in their order.
+    """phi = W^2 and the squared distance `apart` in the plane of the orbit with their slopes in (t, y), in
+    the scene's unit; gap: sqrt(max(phi, 0)) less the state's. off: the errors of apart, phi and gap; rough:
+    those of the four slopes in their order.
     """
 
     apart: float
@@ -43,7 +46,8 @@ class Point(NamedTuple):
     rough: tuple[float, float, float, float]
 
     def off_square(self, w0):
-        """Error of the square of the gap: next to W = 0 it is that of phi - 2 w0 sqrt(phi), where the root's own is large."""
+        """Error of the square of the gap: next to W = 0 it is that of phi - 2 w0 sqrt(phi), where the root's
+        own is large."""
         off = self.off[2]
         return min(2 * abs(self.gap) * off + off * off, self.off[1] + 2 * w0 * off)
 
@@ -61,7 +65,8 @@ class Constants:
 
 
 class Seen(NamedTuple):
-    """A reduction seen from a state: constants of the force and the metric, the state's place; exact, as balls and as doubles."""
+    """A reduction seen from a state: constants of the force and the metric, the state's place; exact, as
+    balls and as doubles."""
 
     geometry: Any  # a class of `potential`
     exact: dict
@@ -79,12 +84,15 @@ class Seen(NamedTuple):
         g, r = reduction.exact_constants, reduction
         u, v, speed = (Fraction(state[axis]) for axis in (r.j, r.k, r.axis))
         x, z, w = g["flip"] * (u + g["sj"]) / g["rx"], (v + g["sk"]) / g["rz"], g["n"] * (speed + r.s)
-        return seen_as(reduction.geometry, {"G": g["G"], "c": g["c"], "d": g["d"], "mu": g["mu"], "n2": g["n"] ** 2, "a": g["rx"] ** 2,
-                                            "b": g["rz"] ** 2, "X": x, "Z": z, "w": abs(w) / g["n"]}, planes_touched(r))
+        return seen_as(reduction.geometry, {"G": g["G"], "c": g["c"], "d": g["d"], "mu": g["mu"],
+                                            "n2": g["n"] ** 2, "a": g["rx"] ** 2,
+                                            "b": g["rz"] ** 2, "X": x, "Z": z, "w": abs(w) / g["n"]},
+                       planes_touched(r))
 
 
 def seen_as(geometry, exact, touched=()) -> Seen:
-    return Seen(geometry, exact, Constants(exact), {name: float(value) for name, value in exact.items()}, touched)
+    return Seen(geometry, exact, Constants(exact), {name: float(value) for name, value in exact.items()},
+                touched)
 
 
 def gap_of(phi, off_phi, w0):
@@ -105,8 +113,8 @@ ROUNDING = 16 * EPS
 
 
 class Spot(NamedTuple):
-    """A saddle: its place, slopes, the sizes of the terms of x and z; (u, v) from the state, with the sizes of their terms; the
-    parts (p, r) = (G x + c, G z + d) of the force, with theirs."""
+    """A saddle: its place, slopes, the sizes of the terms of x and z; (u, v) from the state, with the sizes
+    of their terms; the parts (p, r) = (G x + c, G z + d) of the force, with theirs."""
 
     x: float
     z: float
@@ -125,7 +133,8 @@ class Spot(NamedTuple):
 
 
 class _Remembered:
-    """A branch remembers the place that it was asked for last: a box asks for that of its middle twice, and its neighbour for the same one."""
+    """A branch remembers the place that it was asked for last: a box asks for that of its middle twice, and
+    its neighbour for the same one."""
 
     last: tuple[float, Spot | None] = (math.nan, None)
 
@@ -143,9 +152,10 @@ class _Remembered:
 class Hyperbola(_Remembered):
     """Saddles X = (K/h - c)/G, Z = h - shift for h = h0 exp(t), |h| within [inner, outer].
 
-    h0 is, of the ends of the branch and the saddles level with the state, the one nearest to the state; the places there, and how far they
-    are from the state, are differences of exact numbers. So doubles resolve the branch next to the state, however far from the
-    centre both are: with two moments equal to a share g, the saddles near the state have h alike to that share.
+    h0 is, of the ends of the branch and the saddles level with the state, the one nearest to the state; the
+    places there, and how far they are from the state, are differences of exact numbers. So doubles resolve
+    the branch next to the state, however far from the centre both are: with two moments equal to a share g,
+    the saddles near the state have h alike to that share.
     """
 
     def __init__(self, seen, inner, outer, sign):
@@ -167,7 +177,8 @@ class Hyperbola(_Remembered):
 
         def apart(h):
             h = self.sign * h
-            return g["a"] * ((self.K / h - g["c"]) / g["G"] - g["X"]) ** 2 + g["b"] * (h - self.shift - g["Z"]) ** 2
+            return (g["a"] * ((self.K / h - g["c"]) / g["G"] - g["X"]) ** 2
+                    + g["b"] * (h - self.shift - g["Z"]) ** 2)
         return self.sign * min(found, key=apart, default=short(Fraction(math.sqrt(abs(self.K)) or 1.0)))
 
     def to(self, size):
@@ -175,7 +186,8 @@ class Hyperbola(_Remembered):
         if not 0 < size < INF:
             return INF if size else -INF
         more = Fraction(size) / abs(self.h0) - 1
-        return math.log1p(more) if abs(more) < 0.5 else math.log((more + 1).numerator) - math.log((more + 1).denominator)
+        return (math.log1p(more) if abs(more) < 0.5
+                else math.log((more + 1).numerator) - math.log((more + 1).denominator))
 
     def found(self, t) -> Spot:
         K, c, G, shift = self.plain
@@ -189,12 +201,14 @@ class Hyperbola(_Remembered):
                     abs(u0) + abs(dk), abs(v0) + abs(dh), p, r, abs(p), abs(r))
 
     def exact(self, t):
-        """(x, z) of a saddle at t, or beside it, as Fractions; at the ends of the branch those of the ends."""
+        """(x, z) of a saddle at t, or beside it, as Fractions; at the ends of the branch those of the ends.
+        """
         return self.place(self.h_at(t))
 
     def h_at(self, t):
         """h there."""
-        h = self.ends[0] if t == self.low else self.ends[1] if t == self.high else short(abs(self.h0) * Fraction(math.exp(t)))
+        h = (self.ends[0] if t == self.low else self.ends[1] if t == self.high
+             else short(abs(self.h0) * Fraction(math.exp(t))))
         return self.sign * Fraction(h)
 
     def place(self, h):
@@ -220,8 +234,8 @@ class Hyperbola(_Remembered):
         return self.to(low), self.to(min(high, abs(self.K) / least) if least > 0 else high)
 
     def over(self, t, dt):
-        """Middles and radii of x, z, x_t, z_t, x_tt, z_tt over [t - dt, t + dt]; what x and z are there less the state's, and the
-        sizes of the terms of these."""
+        """Middles and radii of x, z, x_t, z_t, x_tt, z_tt over [t - dt, t + dt]; what x and z are there less
+        the state's, and the sizes of the terms of these."""
         s = self.at(t)
         half, r = math.sinh(0.5 * dt), math.sinh(dt)
         more, m = 2 * half * half, math.cosh(dt)
@@ -233,8 +247,9 @@ class Hyperbola(_Remembered):
 class Straight(_Remembered):
     """Saddles on one of the lines that the conic degenerates to, at a point of it plus t times its direction.
 
-    The point is the foot of the orbits, where a cone may have its tip, or the place nearest to the state where the state is much
-    nearer to that. knots: t of the foot and of where two lines cross; between them all of the line are saddles or none.
+    The point is the foot of the orbits, where a cone may have its tip, or the place nearest to the state
+    where the state is much nearer to that. knots: t of the foot and of where two lines cross; between them
+    all of the line are saddles or none.
     """
 
     def __init__(self, seen, fixed):
@@ -247,7 +262,8 @@ class Straight(_Remembered):
         square = way[1] ** 2 - seen.e * way[0] ** 2
         foot = -(base[1] * way[1] - seen.e * base[0] * way[0]) / square if square else Fraction(0)
         level = self._level(g, base, way)
-        start = short(level) if 1000**2 * self._apart(g, base, way, level) < self._apart(g, base, way, foot) else foot
+        start = (short(level) if 1000**2 * self._apart(g, base, way, level) < self._apart(g, base, way, foot)
+                 else foot)
         self.base, self.way = tuple(b + start * w for b, w in zip(base, way)), tuple(map(Fraction, way))
         self.knots = sorted({float(t - start) for t in (foot, cross) if t is not None})
         x, z = self.base
@@ -267,12 +283,14 @@ class Straight(_Remembered):
         x0, z0, dx, dz, u0, v0 = self.plain
         g, tx, tz = self.here, t * dx, t * dz
         x, z, sx, sz = x0 + tx, z0 + tz, abs(x0) + abs(tx), abs(z0) + abs(tz)
-        return Spot(x, z, dx, dz, sx, sz, u0 + tx, v0 + tz, abs(u0) + abs(tx), abs(v0) + abs(tz), g["G"] * x + g["c"],
+        return Spot(x, z, dx, dz, sx, sz, u0 + tx, v0 + tz, abs(u0) + abs(tx), abs(v0) + abs(tz),
+                    g["G"] * x + g["c"],
                     g["G"] * z + g["d"], abs(g["G"]) * sx + abs(g["c"]), abs(g["G"]) * sz + abs(g["d"]))
 
     def over(self, t, dt):
         s = self.at(t)
-        return (s.x, abs(s.xt) * dt + ROUNDING * s.sx, s.z, abs(s.zt) * dt + ROUNDING * s.sz, s.xt, 0.0, s.zt, 0.0,
+        return (s.x, abs(s.xt) * dt + ROUNDING * s.sx, s.z, abs(s.zt) * dt + ROUNDING * s.sz, s.xt, 0.0, s.zt,
+                0.0,
                 0.0, 0.0, 0.0, 0.0, s.u, s.v, s.su, s.sv)
 
     def exact(self, t):
@@ -297,11 +315,13 @@ def short(number):
     return Fraction(round(number * Fraction(2) ** bits)) / Fraction(2) ** bits
 
 
-WIDEST = 1e14  # radii, in distances: doubles do not tell the angles of the other barriers of a wider circle well enough
+# radii, in distances: doubles do not tell the angles of the other barriers of a wider circle well enough
+WIDEST = 1e14
 
 
 def within(seen: Any, curve: Any, low: float, high: float, upper: float) -> list[tuple[float, float]]:
-    """The pieces (from, to) of a branch over [low, high] that hold all its saddles with loops within `upper` of the state, in rising order."""
+    """The pieces (from, to) of a branch over [low, high] that hold all its saddles with loops within `upper`
+    of the state, in rising order."""
     g = seen.plain
     wide, radius = upper * (1 + 1e-9) / math.sqrt(min(g["a"], g["b"])), math.hypot(g["X"], g["Z"])
     if wide >= radius:
@@ -309,7 +329,8 @@ def within(seen: Any, curve: Any, low: float, high: float, upper: float) -> list
     if radius > WIDEST * wide:
         raise OverflowError
     pieces: list[tuple[float, float]] = []
-    for start, end in _pieces(curve, (g["X"], g["Z"]), 0.5 * (low + high), 0.5 * (high - low), (radius, wide)):
+    for start, end in _pieces(curve, (g["X"], g["Z"]), 0.5 * (low + high), 0.5 * (high - low),
+                              (radius, wide)):
         if pieces and start <= pieces[-1][1]:
             pieces[-1] = pieces[-1][0], end
         else:
@@ -317,8 +338,10 @@ def within(seen: Any, curve: Any, low: float, high: float, upper: float) -> list
     return [(max(start, low), min(end, high)) for start, end in pieces]
 
 
-def _pieces(curve: Any, place: tuple[float, float], t: float, dt: float, band: tuple[float, float]) -> Iterator[tuple[float, float]]:
-    """Those of [t - dt, t + dt], halved until they are no longer than the band is wide, or doubles tell no more."""
+def _pieces(curve: Any, place: tuple[float, float], t: float, dt: float,
+            band: tuple[float, float]) -> Iterator[tuple[float, float]]:
+    """Those of [t - dt, t + dt], halved until they are no longer than the band is wide, or doubles tell no
+    more."""
     radius, wide = band
     middle, reach, rounding = _beyond(curve, place, t, dt)
     if middle - reach > wide * (2 * radius + wide) or middle + reach < -wide * (2 * radius - wide):
@@ -333,10 +356,13 @@ def _pieces(curve: Any, place: tuple[float, float], t: float, dt: float, band: t
 
 
 def _beyond(curve: Any, place: tuple[float, float], t: float, dt: float) -> tuple[float, float, float]:
-    """(middle, radius) of |saddle|^2 less the state's |place|^2 over [t - dt, t + dt], and the part of the radius that is rounding."""
-    x1, rx1, z1, rz1, _, _, _, _, u, v, su, sv = curve.over(t, dt)[4:]  # the slopes, as the places' own radii hold the rounding of all of a place
+    """(middle, radius) of |saddle|^2 less the state's |place|^2 over [t - dt, t + dt], and the part of the
+    radius that is rounding."""
+    # the slopes, as the places' own radii hold the rounding of all of a place
+    x1, rx1, z1, rz1, _, _, _, _, u, v, su, sv = curve.over(t, dt)[4:]
     middle, reach, rounding = 0.0, 0.0, 0.0
-    for apart, r, size, at in ((u, (abs(x1) + rx1) * dt, su, place[0]), (v, (abs(z1) + rz1) * dt, sv, place[1])):
+    for apart, r, size, at in ((u, (abs(x1) + rx1) * dt, su, place[0]),
+                               (v, (abs(z1) + rz1) * dt, sv, place[1])):
         lost = ROUNDING * size
         middle += apart * (apart + 2 * at)
         reach += (r + lost) * (2 * abs(apart + at) + r + lost)

@@ -1,28 +1,35 @@
 """Charts of loops that reach far: along the offset, along the turn, and which serves where.
 
-Long loops of a hyperbola's saddles, which run beside an invariant plane, in coordinates in which they are regular.
+Long loops of a hyperbola's saddles, which run beside an invariant plane, in coordinates in which they are
+regular.
 
-In xi = X + Z, eta = X - Z orbits are (xi e^y, eta e^-y). Along a branch on which xi is monotone the saddles are (r, E(r)); after
-a way y the loop of r = xi e^-y is at (xi, E(r) e^-y), and with u = G (xi^2 + eta^2)/8 + e1 xi - e2 eta
+In xi = X + Z, eta = X - Z orbits are (xi e^y, eta e^-y). Along a branch on which xi is monotone the saddles
+are (r, E(r)); after a way y the loop of r = xi e^-y is at (xi, E(r) e^-y), and with u = G (xi^2 + eta^2)/8 +
+e1 xi - e2 eta
 
     n^2 W^2/2 = mu y + u(xi, eta) - u(r, E(r)),  G E^2/4 - e2 E = mu + G r^2/4 + e1 r.
 
-In (xi, y) the sheet is regular however long its loops are, while the place on the branch decides xi by e^y, and terms of size
-e^2y would cancel. Where the branch meets the plane, r = 0, loops grow without bound and the eta that is left is below e^-y: with a torque
-the sheet is within e^(-n^2 W^2/2 mu) of the plane eta = 0 at a rate W, never on it, but nearer than any number of digits tells.
-The sheets beside eta = 0 are those of the mirror image Z -> -Z, in which mu, d and the sense of the orbit change sign.
+In (xi, y) the sheet is regular however long its loops are, while the place on the branch decides xi by e^y,
+and terms of size e^2y would cancel. Where the branch meets the plane, r = 0, loops grow without bound and the
+eta that is left is below e^-y: with a torque the sheet is within e^(-n^2 W^2/2 mu) of the plane eta = 0 at a
+rate W, never on it, but nearer than any number of digits tells. The sheets beside eta = 0 are those of the
+mirror image Z -> -Z, in which mu, d and the sense of the orbit change sign.
 
-Long loops beside the saddle of a hyperbola's branch at which xi is stationary, by xi and the place on the branch.
+Long loops beside the saddle of a hyperbola's branch at which xi is stationary, by xi and the place on the
+branch.
 
-There neither is the place told by xi nor does the place alone tell a loop's far points well. With r(s), E(s) the xi and eta of the saddles (`turn`), the
-loop of s passes xi after the way y = log(xi/r), at eta = r E/xi, and
+There neither is the place told by xi nor does the place alone tell a loop's far points well. With r(s), E(s)
+the xi and eta of the saddles (`turn`), the loop of s passes xi after the way y = log(xi/r), at eta = r E/xi,
+and
 
     n^2 W^2/2 = mu log(xi/r) + u(xi, eta) - u(r, E),  u = G (xi^2 + eta^2)/8 + e1 xi - e2 eta.
 
-The charts of the loops of a hyperbola's branch of saddles: by the place on the branch near the saddle, by xi or eta far along.
+The charts of the loops of a hyperbola's branch of saddles: by the place on the branch near the saddle, by xi
+or eta far along.
 
-xi = x + z of a saddle is stationary along the hyperbola at h^2 = K/G, eta = x - z at h^2 = -K/G, and on a line where its
-direction is theirs. Next to such a place the chart of the branch itself goes on as far as loops reach.
+xi = x + z of a saddle is stationary along the hyperbola at h^2 = K/G, eta = x - z at h^2 = -K/G, and on a
+line where its direction is theirs. Next to such a place the chart of the branch itself goes on as far as
+loops reach.
 """
 from __future__ import annotations
 
@@ -36,8 +43,9 @@ from .loop_charts import Chart, OpenChart, RootChart, outside
 
 
 class Tube(NamedTuple):
-    """About the turn of a branch, where xi = r is stationary and H = flip h: saddles that other charts have, all up to a depth |H| zone^2 up to the
-    way `until`, then those whose xi is within |H| sigma^2 of r e^y, and from the way `turning` on those up to a depth |H| thin^2."""
+    """About the turn of a branch, where xi = r is stationary and H = flip h: saddles that other charts have,
+    all up to a depth |H| zone^2 up to the way `until`, then those whose xi is within |H| sigma^2 of r e^y,
+    and from the way `turning` on those up to a depth |H| thin^2."""
 
     r: float
     H: float
@@ -48,7 +56,8 @@ class Tube(NamedTuple):
     thin: float
 
     def past(self, xi, dxi, y, dy):
-        """The least and the greatest xi - r e^y over a box, where they have the sign of H; by the size of H."""
+        """The least and the greatest xi - r e^y over a box, where they have the sign of H; by the size of H.
+        """
         sign, swing = math.copysign(1.0, self.H), 4e-16 * (abs(xi) + dxi)
         low, high = sign * xi - dxi - swing, sign * xi + dxi + swing
         if not self.r:
@@ -57,12 +66,16 @@ class Tube(NamedTuple):
         return low - shift[1], high - shift[0]
 
     def depth(self, xi, dxi, y, dy):
-        """The same of r e^-y less r, the depth in saddles: from that, or where e^y is beyond doubles from r itself."""
+        """The same of r e^-y less r, the depth in saddles: from that, or where e^y is beyond doubles from r
+        itself."""
         sign = math.copysign(1.0, self.H)
-        low, high = (end * math.exp((-dy if (end > 0) == (side < 0) else dy) - y) for side, end in ((-1, sign * xi - dxi), (1, sign * xi + dxi)))
+        low, high = (end * math.exp((-dy if (end > 0) == (side < 0) else dy) - y) for side,
+                     end in ((-1, sign * xi - dxi), (1, sign * xi + dxi)))
         swing, (least, most) = 1e-15 * (abs(low) + abs(high) + abs(self.r)), self.past(xi, dxi, y, dy)
         shed = math.exp(-y - dy), math.exp(dy - y)
-        least, most = least * shed[least < 0] if least > -math.inf else least, most * shed[most > 0] if most < math.inf else most
+        least, most = least * shed[least
+                                   < 0] if least > -math.inf else least, most * shed[
+                                       most > 0] if most < math.inf else most
         return max(low - sign * self.r - swing, least), min(high - sign * self.r + swing, most)
 
     def covers(self, past, y, dy):
@@ -78,9 +91,10 @@ def _grown(y):
 
 
 class Reach(NamedTuple):
-    """A piece of a branch on which xi is monotone: a saddle (r0, E0), in its middle or at a turn of the branch beside it, xi from low to
-    high, the middle and radius of eta; line: the slope of E where the branch is straight, else None; exact: r0, E0 and line as Fractions; rising:
-    the sign of G E/2 - e2 on it; tube: about a turn."""
+    """A piece of a branch on which xi is monotone: a saddle (r0, E0), in its middle or at a turn of the
+    branch beside it, xi from low to high, the middle and radius of eta; line: the slope of E where the branch
+    is straight, else None; exact: r0, E0 and line as Fractions; rising: the sign of G E/2 - e2 on it; tube:
+    about a turn."""
 
     r0: float
     E0: float
@@ -94,7 +108,8 @@ class Reach(NamedTuple):
 
 
 class FarChart(Chart):
-    """xi (less the state's) and y over a rectangle, for the saddles of a reach; flip: -1 in the mirror image."""
+    """xi (less the state's) and y over a rectangle, for the saddles of a reach; flip: -1 in the mirror image.
+    """
 
     from_saddle = False
 
@@ -103,7 +118,8 @@ class FarChart(Chart):
         g, exact = self.here, seen.exact
         self.reach, self.flip, self.mu, d = reach, flip, flip * g["mu"], flip * g["d"]
         self.e1, self.e2 = 0.5 * (g["c"] + d), 0.5 * (d - g["c"])
-        self.xi0, self.eta0 = float(exact["X"] + int(flip) * exact["Z"]), float(exact["X"] - int(flip) * exact["Z"])
+        self.xi0, self.eta0 = float(exact["X"]
+                                    + int(flip) * exact["Z"]), float(exact["X"] - int(flip) * exact["Z"])
         self.rate0 = 0.0 if reach.tube else 0.5 * g["G"] * reach.E0 - self.e2
         self.wide = 1 / math.sqrt(g["a"]) + 1 / math.sqrt(g["b"])
 
@@ -115,7 +131,8 @@ class FarChart(Chart):
             y0 = last
 
     def misses(self, t, dt, y, dy, upper):
-        """Whether a box holds no saddle's loop, or none that another chart does not cover, or is farther than `upper` in eta for certain."""
+        """Whether a box holds no saddle's loop, or none that another chart does not cover, or is farther than
+        `upper` in eta for certain."""
         tube = self.reach.tube
         if tube and tube.covers(tube.past(self.xi0 + t, dt, y, dy), y, dy):
             return True
@@ -138,19 +155,22 @@ class FarChart(Chart):
         eta, gap = E * less, E * less - self.eta0
         u, v = 0.5 * (gap + Span(t, dt)), 0.5 * (Span(t, dt) - gap)
         eighth = 0.125 * g["G"]
-        phi = (self.mu * Span(y, dy) + xi * (eighth * xi + self.e1) + eta * (eighth * eta - self.e2) - r * (eighth * r + self.e1)
+        phi = (self.mu * Span(y, dy) + xi * (eighth * xi + self.e1) + eta * (eighth * eta - self.e2)
+               - r * (eighth * r + self.e1)
                - E * (eighth * E - self.e2)) * (2 / g["n2"])
         if phi.m + phi.r < 0:
             return math.inf
         beside = max(math.sqrt(max(phi.m - phi.r, 0.0)) - g["w"], g["w"] - math.sqrt(phi.m + phi.r), 0.0)
-        return (sum(w * max(abs(s.m) - s.r, 0.0) ** 2 for w, s in ((g["a"], u), (g["b"], v))) + beside * beside) * (1 - 1e-12)
+        return (sum(w * max(abs(s.m) - s.r, 0.0) ** 2 for w, s in ((g["a"], u), (g["b"], v)))
+                + beside * beside) * (1 - 1e-12)
 
     def steep(self, t, dt, y, dy):
         """Whether the saddle of a box moves more with xi than with y."""
         tube = self.reach.tube
         if not tube:
             return dt >= abs(self.xi0 + t) * dy
-        return dt >= (abs(tube.r) and abs(tube.r) * _grown(y + dy)) * dy and (dy < 0.5 or self.folded(t, dt, y, dy))
+        return (dt >= (abs(tube.r) and abs(tube.r) * _grown(y + dy)) * dy
+                and (dy < 0.5 or self.folded(t, dt, y, dy)))
 
     def place(self, t, y):
         less = math.exp(-y)
@@ -193,20 +213,25 @@ class FarChart(Chart):
         most, high, G1 = abs(self.xi0) + abs(t), abs(self.reach.E0) + abs(E), abs(G)
         off_E = UNIT * (high + abs(E1) * (most * less + abs(self.reach.r0)))
         tall = G1 * high + abs(e2)
-        off_phi = k * (UNIT * (abs(self.mu * y) + most * (G1 * (abs(xi) + most * less) + abs(e1)) + high * tall) + off_E * tall)
+        off_phi = (k * (UNIT * (abs(self.mu * y) + most * (G1 * (abs(xi) + most * less) + abs(e1))
+                                + high * tall) + off_E * tall))
         off_u = UNIT * (abs(t) + abs(self.eta0) + abs(eta)) + off_E * less
         apart, off = square_of(u, v, off_u, off_u, a, b)
         gap, off_w = gap_of(phi, off_phi, g["w"])
-        own_most, eta_most = G1 * most * less + abs(e1) + abs(E1) * tall, (high + most * less * (abs(E1) + abs(E2) * most * less)) * less
+        own_most, eta_most = G1 * most * less + abs(e1) + abs(E1) * tall, (
+            high + most * less * (abs(E1) + abs(E2) * most * less)) * less
         off_eta = 8 * (UNIT * eta_most + off_E * less)
         change = 8 * UNIT * (abs(E1) + abs(E2) * most * less) * less * less
         share = off_u * (a + b) + (a * abs(u) + b * abs(v)) * UNIT
-        rough = (share * (1 + abs(eta_t)) + (a * abs(u) + b * abs(v)) * change, share * eta_most + (a * abs(u) + b * abs(v)) * off_eta,
-                 8 * UNIT * k * (G1 * most + abs(e1) + (abs(e2) + G1 * abs(eta)) * abs(eta_t) + own_most * less)
+        rough = (share * (1 + abs(eta_t)) + (a * abs(u) + b * abs(v)) * change,
+                 share * eta_most + (a * abs(u) + b * abs(v)) * off_eta,
+                 8 * UNIT * k * (G1 * most + abs(e1) + (abs(e2) + G1 * abs(eta)) * abs(eta_t)
+                                 + own_most * less)
                  + 8 * k * (abs(pull_eta) + tall) * change,
                  8 * k * (UNIT * (abs(self.mu) + tall * eta_most + own_most * most * less) + tall * off_eta))
         return Point(apart, 2 * (a * u * ut + b * v * vt), 2 * (a * u * uy + b * v * vy), phi,
-                     k * (pull_xi + pull_eta * eta_t - own * less), k * (self.mu + pull_eta * eta_y + own * r), gap,
+                     k * (pull_xi + pull_eta * eta_t - own * less),
+                     k * (self.mu + pull_eta * eta_y + own * r), gap,
                      (off, off_phi, off_w), rough)
 
     def sharp(self, numbers, g, t, y):
@@ -249,10 +274,12 @@ class FarChart(Chart):
             (least, most), size = tube.depth(self.xi0 + t, dt, y, dy), abs(tube.H)
             if least <= 0:
                 return 0.0, math.inf
-            return G * G * least * (size + 0.25 * least) * (1 - 1e-12), G * G * most * (size + 0.25 * most) * (1 + 1e-12)
+            return G * G * least * (size + 0.25
+                                    * least) * (1 - 1e-12), G * G * most * (size + 0.25 * most) * (1 + 1e-12)
         r = self._feet(t, dt, y, dy)
         middle, slope = self.rate0 * self.rate0 + G * self._lift(r.m), G * (0.5 * G * r.m + self.e1)
-        swing = abs(slope) * r.r + 0.25 * G * G * r.r * r.r + 2.0**-40 * (self.rate0 * self.rate0 + abs(middle))
+        swing = (abs(slope) * r.r + 0.25 * G * G * r.r * r.r
+                 + 2.0**-40 * (self.rate0 * self.rate0 + abs(middle)))
         return middle - swing, middle + swing
 
     def _saddles(self, r, square):
@@ -262,7 +289,8 @@ class FarChart(Chart):
             return Span(self._saddle(r.m)[0], r.r), Span(line), Span(0.0)
         least, most = map(math.sqrt, square)
         sign, thin, wide = math.copysign(0.5, self.reach.rising), 1 / most, 1 / least
-        rate, over = Span(sign * (least + most), 0.5 * (most - least)), Span(sign * (wide + thin), 0.5 * (wide - thin))
+        rate, over = Span(sign * (least + most),
+                          0.5 * (most - least)), Span(sign * (wide + thin), 0.5 * (wide - thin))
         E1 = (0.5 * G * r + self.e1) * over
         if self.reach.tube:  # E = 2 (rate + e2)/G
             E = (2 / G) * (rate + self.e2)
@@ -272,7 +300,8 @@ class FarChart(Chart):
 
 
 class TurnChart(Chart):
-    """xi (less the state's) as t and s, less s0, as y; flip: -1 in the mirror image, where eta takes the place of xi."""
+    """xi (less the state's) as t and s, less s0, as y; flip: -1 in the mirror image, where eta takes the
+    place of xi."""
 
     from_saddle = False
 
@@ -302,7 +331,10 @@ class TurnChart(Chart):
             cuts.append(near)
         cuts = sorted(cuts)
         for a, b in zip(cuts, cuts[1:]):
-            yield self, 0.5 * (a + b) - self.xi0, 0.5 * (b - a) * (1 + 1e-15) + 1e-16 * abs(self.xi0), 0.5 * (y0 + y1), 0.5 * (y1 - y0)
+            yield self, 0.5 * (a
+                               + b) - self.xi0, 0.5 * (b
+                                                       - a) * (1 + 1e-15) + 1e-16 * abs(self.xi0), 0.5 * (
+                                                           y0 + y1), 0.5 * (y1 - y0)
 
     def misses(self, t, dt, y, dy, upper):
         return False
@@ -328,7 +360,8 @@ class TurnChart(Chart):
     def _sizes(self, y):
         """The sizes of the terms of r and E."""
         far = abs(self.s0) + abs(y)
-        return abs(self.r0) + abs(self.H * y) * (abs(self.s0) + far), abs(self.E) + 4 * abs(self.H) * far * (1 + far)
+        return abs(self.r0) + abs(self.H * y) * (abs(self.s0)
+                                                 + far), abs(self.E) + 4 * abs(self.H) * far * (1 + far)
 
     def place(self, t, y):
         r, E = (n.m for n in self._branch(y)[:2])
@@ -348,18 +381,23 @@ class TurnChart(Chart):
                    - r * (0.125 * G * r + e1) - E * (0.125 * G * E - e2))
         most, size, G1, m1 = abs(self.xi0) + abs(t), thin + tall_E, abs(G), abs(self.mu)
         steep, tall, turn = G1 * abs(xi) + abs(e1), G1 * size + abs(e2) + abs(e1), abs(r1) + abs(E1)
-        off_phi = k * UNIT * (m1 * (2 + abs(math.log(xi / r)) + most / abs(xi) + thin / abs(r)) + most * steep + 4 * size * tall)
+        off_phi = (k * UNIT * (m1 * (2 + abs(math.log(xi / r)) + most / abs(xi) + thin / abs(r))
+                               + most * steep + 4 * size * tall))
         off_eta = UNIT * thin * tall_E * (1 + most / abs(xi)) / abs(xi)
         off_u = UNIT * (abs(t) + abs(self.eta0)) + off_eta
         apart, off = square_of(u, v, off_u, off_u, a, b)
         gap, off_w = gap_of(phi, off_phi, g["w"])
-        wide, along = a * abs(u) + b * abs(v), 2 * (abs(r1) * tall_E + thin * abs(E1) + abs(self.H) * UNIT * tall_E) / abs(xi)
+        wide, along = a * abs(u) + b * abs(v), 2 * (abs(r1) * tall_E + thin * abs(E1)
+                                                    + abs(self.H) * UNIT * tall_E) / abs(xi)
         rough = ((off_u * (a + b) + wide * UNIT) * (1 + abs(eta_t)) + wide * 4 * off_eta / abs(xi),
                  (off_u * (a + b) + wide * UNIT * (3 + most / abs(xi))) * along,
-                 8 * k * (UNIT * (m1 / abs(xi) * (1 + most / abs(xi)) + G1 * most + abs(e1)) + (abs(pull_eta) + tall) * off_eta / abs(xi)),
-                 8 * k * UNIT * ((abs(pull_eta) + tall) * along * (2 + most / abs(xi)) + m1 * abs(r1 / r) * (1 + thin / abs(r)) + tall * turn))
+                 8 * k * (UNIT * (m1 / abs(xi) * (1 + most / abs(xi)) + G1 * most + abs(e1))
+                          + (abs(pull_eta) + tall) * off_eta / abs(xi)),
+                 8 * k * UNIT * ((abs(pull_eta) + tall) * along * (2 + most / abs(xi))
+                                 + m1 * abs(r1 / r) * (1 + thin / abs(r)) + tall * turn))
         return Point(apart, a * u * (1 + eta_t) + b * v * (1 - eta_t), (a * u - b * v) * eta_y, phi,
-                     k * (self.mu / xi + pull_xi + pull_eta * eta_t), k * (pull_eta * eta_y - own), gap, (off, off_phi, off_w), rough)
+                     k * (self.mu / xi + pull_xi + pull_eta * eta_t), k * (pull_eta * eta_y - own), gap,
+                     (off, off_phi, off_w), rough)
 
     def sharp(self, numbers, g, t, y):
         return turn_place(numbers, g, self.places, self.flip, t, y)
@@ -381,7 +419,8 @@ class TurnChart(Chart):
         pull, slow = 0.25 * G * eta - e2, r1 * ebb
         f_tt = 0.25 * G * (1 + eta_t * eta_t) - mu * (over * over) + pull * eta_tt
         f_ty = 0.25 * G * (eta_t * eta_y) + pull * eta_ty
-        f_yy = (0.25 * G * (eta_y * eta_y) + pull * eta_yy - mu * (r2 * ebb - slow * slow) - 0.25 * G * (r1 * r1 + E1 * E1)
+        f_yy = (0.25 * G * (eta_y * eta_y) + pull * eta_yy - mu * (r2 * ebb - slow * slow)
+                - 0.25 * G * (r1 * r1 + E1 * E1)
                 - (0.25 * G * r + e1) * r2 - (0.25 * G * E - e2) * E2)
         return tuple(n.pair() for n in (tt, ty, yy, k * f_tt, k * f_ty, k * f_yy))
 
@@ -396,11 +435,13 @@ NO_END = 720.0  # e^-y is gone in doubles
 
 
 def planes_met(seen, curve, low, high):
-    """(distance, place) of the planes that the loops of a branch come exponentially near to, where the foot of the perpendicular
-    is reached at the state's own rate after a way so long that nothing in doubles is left of eta."""
+    """(distance, place) of the planes that the loops of a branch come exponentially near to, where the foot
+    of the perpendicular is reached at the state's own rate after a way so long that nothing in doubles is
+    left of eta."""
     for flip in (-1, 1):
         side = Side(seen, curve, flip, math.inf, low, high)
-        yield from (found for a, b, turning in side.pieces() if not turning and (found := side.on_plane(a, b)))
+        yield from (found for a, b, turning in side.pieces() if not turning
+                    and (found := side.on_plane(a, b)))
 
 
 def loops_of(seen, curve, low, high, upper):
@@ -417,8 +458,8 @@ def loops_of(seen, curve, low, high, upper):
 
 
 class Side:
-    """Loops along which xi = X + flip Z grows, of the branch t from low to high. turn: where xi is stationary on it or beside it, if anywhere;
-    rooted: so near a plane that charts go with the root of xi there."""
+    """Loops along which xi = X + flip Z grows, of the branch t from low to high. turn: where xi is stationary
+    on it or beside it, if anywhere; rooted: so near a plane that charts go with the root of xi there."""
 
     def __init__(self, seen, curve, flip, upper, low, high):
         self.seen, self.curve, self.flip, self.upper = seen, curve, flip, upper
@@ -437,7 +478,8 @@ class Side:
         return Turn.of(self.seen, self.curve, flip) if isinstance(self.curve, Hyperbola) else None
 
     def way(self, low, high):
-        """How far along the loops of a piece of the branch |xi| stays below what it is within `upper` of the state."""
+        """How far along the loops of a piece of the branch |xi| stays below what it is within `upper` of the
+        state."""
         least = self._least(low, high)
         if not least:
             return math.inf
@@ -464,7 +506,8 @@ class Side:
         yield from self._by_turn(*self._places(a, b), NEAR)
 
     def _places(self, a, b):
-        """The least and greatest s of a piece, and the one of them next to the turn that s is told from, or zero."""
+        """The least and greatest s of a piece, and the one of them next to the turn that s is told from, or
+        zero."""
         turn = self.turn
         ends = [turn.s_of(turn.h if t == turn.t else self.curve.h_at(t)) for t in (a, b)]
         start = min(ends, key=abs)
@@ -484,12 +527,15 @@ class Side:
             yield chart.over(*ends)
 
     def _about_root(self):
-        """Charts of the saddles of the tube, where xi tells them badly: first, as long as eta still goes with the root of a small xi, a part of the
-        branch, then those about the turn that xi is near for; when r e^y has become large beside that, xi and the place are good parameters."""
+        """Charts of the saddles of the tube, where xi tells them badly: first, as long as eta still goes with
+        the root of a small xi, a part of the branch, then those about the turn that xi is near for; when r
+        e^y has become large beside that, xi and the place are good parameters."""
         turn, tube = self.turn, self.tube
-        end = max(NO_END if self.on_plane(a, b) else self._end(self._reach(a, b), self.way(a, b)) for a, b, _ in self.pieces())
+        end = max(NO_END if self.on_plane(a, b) else self._end(self._reach(a, b), self.way(a, b)) for a, b,
+                  _ in self.pieces())
         low, high, start = self._places(self.low, self.high)
-        for y0, y1, most in ((NEAR, min(tube.until, end), tube.zone * math.exp(0.5 * tube.until)), (tube.until, min(tube.turning, end), tube.sigma)):
+        for y0, y1, most in ((NEAR, min(tube.until, end), tube.zone * math.exp(0.5 * tube.until)),
+                             (tube.until, min(tube.turning, end), tube.sigma)):
             if y0 < y1:
                 chart = RootChart(self.seen, turn, (low, high, start), self.flip, self.upper, (y0, y1), most)
                 if chart.t[0] < chart.t[1]:
@@ -511,14 +557,16 @@ class Side:
         return Tube(float(self.turn.r), float(self.turn.H), ZONE, until, sigma, max(turning, until), thin)
 
     def pieces(self):
-        """(a, b, turning): the branch cut where xi is stationary, or beside such places if it is not near a plane there."""
+        """(a, b, turning): the branch cut where xi is stationary, or beside such places if it is not near a
+        plane there."""
         low, high, turn = self.low, self.high, self.turn
         if turn is None:
             return [(low, high, not self._moves())]
         # beside it xi stays above half of its value
         zone = 0.0 if self.rooted else min(ZONE, 2 * math.asinh(0.5 * math.sqrt(0.5 * abs(turn.r / turn.H))))
         a, b = max(low, turn.t - zone), min(high, turn.t + zone)
-        return [piece for piece in ((low, min(a, high), False), (a, b, True), (max(b, low), high, False)) if piece[0] < piece[1]]
+        return [piece for piece in ((low, min(a, high), False), (a, b, True), (max(b, low), high, False))
+                if piece[0] < piece[1]]
 
     def _moves(self):
         """Whether xi changes along the branch at all."""
@@ -528,7 +576,8 @@ class Side:
         return abs(dx + self.flip * dz) * 10**6 > abs(dx) + abs(dz)
 
     def _values(self, a, b, flip):
-        """The least and the greatest X + flip Z of the saddles of a piece: where it ends in a fold beside a plane, how near decides."""
+        """The least and the greatest X + flip Z of the saddles of a piece: where it ends in a fold beside a
+        plane, how near decides."""
         values = [self._value(t, flip) for t in (a, b)]
         turn = self.turn if flip == self.flip else self._turn_of(flip)
         if turn and a < turn.t < b:
@@ -563,7 +612,8 @@ class Side:
                      float(g["G"] * exact[1] - self.flip * g["d"] + g["c"]))
 
     def on_plane(self, a, b):
-        """(distance, place) of the foot on the plane eta = 0 if the loops of a monotone piece reach it there, else None."""
+        """(distance, place) of the foot on the plane eta = 0 if the loops of a monotone piece reach it there,
+        else None."""
         g, flip = self.seen.plain, self.flip
         if not g["mu"] or self._least(a, b):
             return None
@@ -572,18 +622,22 @@ class Side:
         x = (g["a"] * g["X"] + flip * g["b"] * g["Z"]) / (g["a"] + g["b"])
         if reach.low < 0 < reach.high:
             E = chart.root()
-        elif self.rooted and self.turn.t in (a, b) and not self.turn.r and x * self.turn.H >= 0:  # loops on one side of it
+        elif self.rooted and self.turn.t in (a,
+                                             # loops on one side of it
+                                             b) and not self.turn.r and x * self.turn.H >= 0:
             E = 2 * chart.e2 / g["G"]
         else:
             return None
-        energy = (0.5 * g["n2"] * g["w"] ** 2 - x * (0.5 * g["G"] * x + 2 * chart.e1) + E * (0.125 * g["G"] * E - chart.e2))
+        energy = (0.5 * g["n2"] * g["w"] ** 2 - x * (0.5 * g["G"] * x + 2 * chart.e1)
+                  + E * (0.125 * g["G"] * E - chart.e2))
         if not (chart.mu > 0 and E * (0.5 * g["G"] * E - chart.e2) > 0 and energy > 1.01 * NO_END * chart.mu):
             return None
         apart = abs(chart.eta0) * math.sqrt(g["a"] * g["b"] / (g["a"] + g["b"]))
         return apart, (x - g["X"], flip * x - g["Z"], g["w"])
 
     def _end(self, reach, way):
-        """The way beyond which W is too great, or none is left; NO_END where it makes no difference any more."""
+        """The way beyond which W is too great, or none is left; NO_END where it makes no difference any more.
+        """
         g = self.seen.plain
         mu, G, e = self.flip * g["mu"], abs(g["G"]), 0.5 * (abs(g["c"]) + abs(g["d"]))
         if not mu:

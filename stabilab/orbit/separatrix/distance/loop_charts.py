@@ -1,42 +1,61 @@
 """Charts of a separatrix: loops about a saddle, whole turns, roots at a turning point.
 
-A sheet of the separatrix as a surface in two parameters: t along a branch of saddles, y along the loop of each.
+A sheet of the separatrix as a surface in two parameters: t along a branch of saddles, y along the loop of
+each.
 
 A saddle S(t) = (x, z) stands on the conic of equilibria; carried along its orbit by the offset y it is
 
     X = x C(y) + z S(y),  Z = z C(y) + e x S(y),   C, S = cos, sin (e = -1) or cosh, sinh (e = +1),
 
-and the loop passes there with W^2 = phi = 2 (V_saddle - V) = 2 [mu (y - S) + b (G x^2 + c x + e d z) + G dx^2/2], b = C - 1,
-dx = X - x. Derivatives along the orbit are phi_y = 2 F(X, Z), phi_yy = 2 F'(X, Z); across it the saddle's own height is
-stationary, which leaves phi_t = 2 [(G X + c) X_t + e d Z_t - (G x + c) x_t - e d z_t]. Values at a point come with a
-bound on their rounding; bounds of second derivatives over a box are sums of sizes in floats.
+and the loop passes there with W^2 = phi = 2 (V_saddle - V) = 2 [mu (y - S) + b (G x^2 + c x + e d z) + G
+dx^2/2], b = C - 1, dx = X - x. Derivatives along the orbit are phi_y = 2 F(X, Z), phi_yy = 2 F'(X, Z); across
+it the saddle's own height is stationary, which leaves phi_t = 2 [(G X + c) X_t + e d Z_t - (G x + c) x_t - e
+d z_t]. Values at a point come with a bound on their rounding; bounds of second derivatives over a box are
+sums of sizes in floats.
 
-Where a loop on a circle comes round to its saddle again, and where it passes opposite to it: charts with y told from there.
+Where a loop on a circle comes round to its saddle again, and where it passes opposite to it: charts with y
+told from there.
 
-On a circle much wider than the distance no doubles near pi and 2 pi tell its places apart. After a whole turn a loop has the same place, and
-phi is less by 2 |mu| 2 pi/n^2. Opposite to the saddle the place (X, Z) is that of the chart turned by pi: with (X', Z') = -(X, Z) and y from
-there
+On a circle much wider than the distance no doubles near pi and 2 pi tell its places apart. After a whole turn
+a loop has the same place, and phi is less by 2 |mu| 2 pi/n^2. Opposite to the saddle the place (X, Z) is that
+of the chart turned by pi: with (X', Z') = -(X, Z) and y from there
 
     phi = phi of the chart at (X', Z') + (2/n^2) [mu (y - y') - 2 c X' + 2 d Z'],
 
-and its distance from the state is that of (X', Z') from the state's mirror image in the centre, from which the branch of saddles is told.
+and its distance from the state is that of (X', Z') from the state's mirror image in the centre, from which
+the branch of saddles is told.
 
-Long loops of the saddles about a place of a hyperbola's branch at which xi is stationary, on an invariant plane or beside it.
+Long loops of the saddles about a place of a hyperbola's branch at which xi is stationary, on an invariant
+plane or beside it.
 
 The saddles are r = r_T + H s^2, E = E_T - 2 H s q (`turn`): xi goes with the square of s. A loop is
 at (xi, eta) = (r e^y, E e^-y) after a way y, so with s = s0 + sigma e^(-y/2)
 
-    xi = r0 e^y + 2 H s0 sigma e^(y/2) + H sigma^2,  n^2 W^2/2 = mu y + u(xi, eta) - u(r, E),  u = G (xi^2 + eta^2)/8 + e1 xi - e2 eta,
+    xi = r0 e^y + 2 H s0 sigma e^(y/2) + H sigma^2,  n^2 W^2/2 = mu y + u(xi, eta) - u(r, E),  u = G (xi^2 +
+    eta^2)/8 + e1 xi - e2 eta,
 
-which is regular in (sigma, y) as long as r_T e^y is no more than xi: where a fold stands on the plane, r_T = s0 = 0, for all y. In
-xi the saddle would go with its root there, and the place on the branch would decide xi by e^y.
+which is regular in (sigma, y) as long as r_T e^y is no more than xi: where a fold stands on the plane, r_T =
+s0 = 0, for all y. In xi the saddle would go with its root there, and the place on the branch would decide xi
+by e^y.
 """
 from __future__ import annotations
 
 import math
 
 from ...potential import force_at
-from .bends import Span, eta_over, loop_bends, loop_place, opposite_place, root_place, sharp_place, sharp_point, shrinking, turned, widened
+from .bends import (
+    Span,
+    eta_over,
+    loop_bends,
+    loop_place,
+    opposite_place,
+    root_place,
+    sharp_place,
+    sharp_point,
+    shrinking,
+    turned,
+    widened,
+)
 from .curves import UNIT, Point, Seen, gap_of, seen_as, square_of
 
 
@@ -51,7 +70,8 @@ class Chart:
         self.seen, self.curve, self.t, self.y, self.here = seen, curve, t, y, seen.plain
 
     def boxes(self):
-        """The boxes (chart, t, half its length, y, half its length) to begin with; y = 0, the saddle, is at an edge."""
+        """The boxes (chart, t, half its length, y, half its length) to begin with; y = 0, the saddle, is at
+        an edge."""
         (t0, t1), (y0, y1) = self.t, self.y
         for low, high in ((y0, min(y1, 0.0)), (max(y0, 0.0), y1)):
             if low < high:
@@ -86,7 +106,8 @@ class Chart:
         at = self.curve.at(t)
         s, half = self.seen.geometry.turn(y)
         b = 2 * self.seen.e * half * half
-        return at.u + at.x * b + at.z * s, at.v + at.z * b + self.seen.e * at.x * s, math.sqrt(max(self.point(t, y).phi, 0.0))
+        return at.u + at.x * b + at.z * s, at.v + at.z * b + self.seen.e * at.x * s, math.sqrt(
+            max(self.point(t, y).phi, 0.0))
 
     def point(self, t, y) -> Point:
         e, g = self.seen.e, self.here
@@ -99,22 +120,28 @@ class Chart:
         big_s, big_b = abs(s), abs(b)
         dx, dz, dxt = z * s + x * b, z * b + e * x * s, zt * s + xt * b
         u, v = u + dx, v + dz
-        # the squares of dx, with s^2 = e b (b + 2), are put to the terms in b: these are then as small as their sum
-        phi = 2 * (mu * lag + b * (x * p + e * z * r) + 0.5 * G * b * b * (x * x + e * z * z) + G * b * s * x * z) / n2
+        # the squares of dx, with s^2 = e b (b + 2), are put to the terms in b: these are then as small as
+        # their sum
+        phi = (2 * (mu * lag + b * (x * p + e * z * r) + 0.5 * G * b * b * (x * x + e * z * z)
+                    + G * b * s * x * z) / n2)
         force = force_at(G, c, d, mu, X, Z)
         phi_t = 2 * (b * ((p + G * x) * xt + e * d * zt) + G * dx * dxt) / n2  # p z_t + r x_t is zero
-        off_phi = 2 * UNIT * (abs(mu * lag) + big_b * (sx * sp + sz * sr) + 0.5 * abs(G) * big_b * big_b * (sx * sx + sz * sz)
+        off_phi = 2 * UNIT * (abs(mu * lag) + big_b * (sx * sp + sz * sr)
+                              + 0.5 * abs(G) * big_b * big_b * (sx * sx + sz * sz)
                               + abs(G) * big_b * big_s * sx * sz) / n2
         off_u, off_v = UNIT * (su + sx * big_b + sz * big_s), UNIT * (sv + sz * big_b + sx * big_s)
         apart, off = square_of(u, v, off_u, off_v, a, b2)
         gap, off_w = gap_of(phi, off_phi, g["w"])
-        mX, mZ, mXt, mZt = sx + abs(dx), sz + sz * big_b + sx * big_s, abs(xt) + abs(dxt), abs(zt * q) + abs(xt * s)
+        mX, mZ, mXt, mZt = sx + abs(dx), sz + sz * big_b + sx * big_s, abs(xt) + abs(dxt), abs(zt * q) + abs(
+            xt * s)
         ut, uy, vt, vy = (2 * UNIT * m for m in (mXt, mZ, mZt, mX))
         rough = (2 * a * (off_u * mXt + abs(u) * ut) + 2 * b2 * (off_v * mZt + abs(v) * vt),
                  2 * a * (off_u * mZ + abs(u) * uy) + 2 * b2 * (off_v * mX + abs(v) * vy),
-                 4 * UNIT * (big_b * ((sp + abs(G) * sx) * abs(xt) + abs(d * zt)) + abs(G) * (sz * big_s + sx * big_b) * mXt) / n2,
+                 4 * UNIT * (big_b * ((sp + abs(G) * sx) * abs(xt) + abs(d * zt))
+                             + abs(G) * (sz * big_s + sx * big_b) * mXt) / n2,
                  4 * UNIT * (abs(mu) + abs(G) * mX * mZ + abs(c) * mZ + abs(d) * mX) / n2)
-        return Point(apart, 2 * (a * u * Xt + b2 * v * Zt), 2 * (a * u * Z + b2 * v * e * X), phi, phi_t, 2 * force / n2, gap,
+        return Point(apart, 2 * (a * u * Xt + b2 * v * Zt), 2 * (a * u * Z + b2 * v * e * X), phi, phi_t,
+                     2 * force / n2, gap,
                      (off, off_phi, off_w), rough)
 
     def exact_point(self, t, y) -> Point:
@@ -126,7 +153,8 @@ class Chart:
         return sharp_place(self, t, y)
 
     def sharp(self, numbers, g, t, y):
-        return loop_place(g, self.seen.geometry, self.curve.sharp(numbers, g, t), y, 2 * self.turns * numbers.pi())
+        return loop_place(g, self.seen.geometry, self.curve.sharp(numbers, g, t), y,
+                          2 * self.turns * numbers.pi())
 
     @staticmethod
     def metric(g):
@@ -141,7 +169,8 @@ class OpenChart(Chart):
     """A sheet whose loops are hyperbolas."""
 
     def misses(self, t, dt, y, dy, upper):
-        """By the ranges of X + Z and X - Z alone: they grow and shrink like e^y, and a Taylor polynomial over a long way tells nothing."""
+        """By the ranges of X + Z and X - Z alone: they grow and shrink like e^y, and a Taylor polynomial over
+        a long way tells nothing."""
         g = self.here
         wide = upper * (1 / math.sqrt(g["a"]) + 1 / math.sqrt(g["b"])) * (1 + 1e-9)
         x, rx, z, rz = self.curve.over(t, dt)[:4]
@@ -151,7 +180,8 @@ class OpenChart(Chart):
 
 
 def outside(middle, radius, low, high, place, wide):
-    """Whether all products of a number within the radius and a factor in [low, high] are farther than `wide` from the place."""
+    """Whether all products of a number within the radius and a factor in [low, high] are farther than `wide`
+    from the place."""
     least, most = middle - radius, middle + radius
     least, most = least * (low if least > 0 else high), most * (high if most > 0 else low)
     slack = 1e-12 * (abs(least) + abs(most) + abs(place))
@@ -168,7 +198,8 @@ class TurnedChart(Chart):
 
 
 class OppositeChart(Chart):
-    """A sheet beside the places opposite to the saddles, after half a turn back; `seen` and the curve are of the state's mirror image."""
+    """A sheet beside the places opposite to the saddles, after half a turn back; `seen` and the curve are of
+    the state's mirror image."""
 
     from_saddle, turns = False, -0.5
 
@@ -190,8 +221,10 @@ class OppositeChart(Chart):
         C, D, size, slopes = abs(c), abs(d), at.sx + at.sz, abs(at.xt) + abs(at.zt)
         off_phi = p.off[1] + k * UNIT * (C + D) * size + UNIT * abs(p.phi)
         gap, off_w = gap_of(phi, off_phi, g["w"])
-        rough = (*p.rough[:2], p.rough[2] + k * UNIT * (C + D) * slopes, p.rough[3] + k * UNIT * (C + D) * size)
-        return Point(p.apart, p.apart_t, p.apart_y, phi, p.phi_t + k * (d * Zt - c * Xt), p.phi_y - k * (d * X + c * Z), gap,
+        rough = (*p.rough[:2], p.rough[2] + k * UNIT * (C + D) * slopes,
+                 p.rough[3] + k * UNIT * (C + D) * size)
+        return Point(p.apart, p.apart_t, p.apart_y, phi, p.phi_t + k * (d * Zt - c * Xt),
+                     p.phi_y - k * (d * X + c * Z), gap,
                      (p.off[0], off_phi, off_w), rough)
 
     def sharp(self, numbers, g, t, y):
@@ -207,9 +240,11 @@ class OppositeChart(Chart):
         X1, rX1, Z1, rZ1 = turned(-1, turn, x1, rx1, z1, rz1)
         X2, rX2, Z2, rZ2 = turned(-1, turn, x2, rx2, z2, rz2)
         C, D = abs(c), abs(d)
-        more = ((d * Z2 - c * X2, D * rZ2 + C * rX2), (-d * X1 - c * Z1, D * rX1 + C * rZ1), (c * X - d * Z, C * rX + D * rZ))
+        more = ((d * Z2 - c * X2, D * rZ2 + C * rX2), (-d * X1 - c * Z1, D * rX1 + C * rZ1),
+                (c * X - d * Z, C * rX + D * rZ))
         own = loop_bends(self.seen, self.curve, t, dt, y, dy)
-        return (*own[:3], *widened((m + k * n, r + k * o + 1e-15 * k * abs(n)) for (m, r), (n, o) in zip(own[3:], more)))
+        return (*own[:3], *widened((m + k * n, r + k * o + 1e-15 * k * abs(n)) for (m, r),
+                                   (n, o) in zip(own[3:], more)))
 
 
 class _FromSaddle(Chart):
@@ -230,8 +265,8 @@ class RootChart(Chart):
     from_saddle = False
 
     def __init__(self, seen, turn, ends, flip, upper, y, most):
-        """ends: the least and greatest s, and that of the two, or zero, which sigma is told from (Fractions); upper: distances that
-        matter; most: the greatest |s e^(y/2)| that does."""
+        """ends: the least and greatest s, and that of the two, or zero, which sigma is told from (Fractions);
+        upper: distances that matter; most: the greatest |s e^(y/2)| that does."""
         g, exact = seen.plain, seen.exact
         super().__init__(seen, None, (0.0, 0.0), y)
         self.flip, self.mu, d = flip, flip * g["mu"], flip * g["d"]
@@ -273,7 +308,9 @@ class RootChart(Chart):
         slack = 1e-12 * (abs(self.least) + abs(self.most))
         if s.m - s.r > self.most + slack or s.m + s.r < self.least - slack:
             return True
-        wide = self.wide * min(1.0, upper * (1 / math.sqrt(self.here["a"]) + 1 / math.sqrt(self.here["b"])) * (1 + 1e-9) / self.wide)
+        wide = (self.wide * min(1.0,
+                                upper * (1 / math.sqrt(self.here["a"]) + 1 / math.sqrt(self.here["b"]))
+                                * (1 + 1e-9) / self.wide))
         eta = E[0] * less
         return abs(xi[0].m - self.xi0) - xi[0].r > wide or abs(eta.m - self.eta0) - eta.r > wide
 
@@ -289,10 +326,14 @@ class RootChart(Chart):
         step = t * half
         s = s0 + step
         xi = grown + H * t * (2 * root + t), 2 * H * (root + t), grown + H * root * t
-        xi_size = abs(grown) + abs(H * t) * (2 * abs(root) + abs(t)), 2 * abs(H) * (abs(root) + abs(t)), abs(grown) + abs(H * root * t)
+        xi_size = abs(grown) + abs(H * t) * (2 * abs(root)
+                                             + abs(t)), 2 * abs(H) * (abs(root)
+                                                                      + abs(t)), abs(grown) + abs(H * root
+                                                                                                  * t)
         r = r0 + H * step * (2 * s0 + step), 2 * H * s * half, -H * s * step
         s_size = abs(s0) + abs(step)
-        r_size = abs(r0) + abs(H * step) * (abs(s0) + s_size), 2 * abs(H) * s_size * half, abs(H * step) * s_size
+        r_size = abs(r0) + abs(H * step) * (abs(s0)
+                                            + s_size), 2 * abs(H) * s_size * half, abs(H * step) * s_size
         q = math.sqrt(1 + 0.25 * s * s)
         first = -2 * H * (1 + 0.5 * s * s) / q
         E = self.E - 2 * H * s * q, first * half, -0.5 * first * step
@@ -309,8 +350,10 @@ class RootChart(Chart):
         off_P, off_Q = UNIT * (xi_size[0] + abs(self.xi0)), UNIT * (eta_size[0] + abs(self.eta0))
         u, v = 0.5 * (P + Q), 0.5 * (P - Q)
         apart, off = square_of(u, v, 0.5 * (off_P + off_Q), 0.5 * (off_P + off_Q), a, b)
-        phi, phi_t, phi_y, off_phi, rough_t, rough_y = self.mu * y, 0.0, self.mu, abs(self.mu * y), 0.0, abs(self.mu)
-        for sign, e, value, size in ((1, e1, xi, xi_size), (1, -e2, eta, eta_size), (-1, e1, r, r_size), (-1, -e2, E, E_size)):
+        phi, phi_t, phi_y, off_phi, rough_t, rough_y = self.mu * y, 0.0, self.mu, abs(self.mu * y), 0.0, abs(
+            self.mu)
+        for sign, e, value, size in ((1, e1, xi, xi_size), (1, -e2, eta, eta_size), (-1, e1, r, r_size),
+                                     (-1, -e2, E, E_size)):
             pull, steep = 0.25 * G * value[0] + e, abs(G) * size[0] + abs(e)
             phi += sign * value[0] * (0.125 * G * value[0] + e)
             phi_t, phi_y = phi_t + sign * pull * value[1], phi_y + sign * pull * value[2]
@@ -319,9 +362,12 @@ class RootChart(Chart):
         phi, off_phi = k * phi, k * UNIT * off_phi
         gap, off_w = gap_of(phi, off_phi, g["w"])
         wide, share = a * abs(u) + b * abs(v), (a + b) * (off_P + off_Q)
-        rough = tuple(share * (abs(xi[n]) + abs(eta[n])) + 2 * UNIT * wide * (xi_size[n] + eta_size[n]) for n in (1, 2))
-        return Point(apart, a * u * (xi[1] + eta[1]) + b * v * (xi[1] - eta[1]), a * u * (xi[2] + eta[2]) + b * v * (xi[2] - eta[2]),
-                     phi, k * phi_t, k * phi_y, gap, (off, off_phi, off_w), (*rough, k * UNIT * rough_t, k * UNIT * rough_y))
+        rough = tuple(share * (abs(xi[n]) + abs(eta[n])) + 2 * UNIT * wide * (xi_size[n] + eta_size[n])
+                      for n in (1, 2))
+        return Point(apart, a * u * (xi[1] + eta[1]) + b * v * (xi[1] - eta[1]),
+                     a * u * (xi[2] + eta[2]) + b * v * (xi[2] - eta[2]),
+                     phi, k * phi_t, k * phi_y, gap, (off, off_phi, off_w),
+                     (*rough, k * UNIT * rough_t, k * UNIT * rough_y))
 
     def sharp(self, numbers, g, t, y):
         return root_place(numbers, g, self.places, self.flip, t, y)
@@ -335,10 +381,12 @@ class RootChart(Chart):
         grown = shrinking(-y, dy) * r0 if r0 else Span(0.0)
         root = shrinking(-0.5 * y, 0.5 * dy) * s0 if s0 else Span(0.0)
         mixed = H * (root * more)
-        xi = (grown + 2 * mixed + H * (more * more), (2 * H) * (root + more), grown + mixed, Span(2 * H), H * root, grown + 0.5 * mixed)
+        xi = (grown + 2 * mixed + H * (more * more), (2 * H) * (root + more), grown + mixed, Span(2 * H),
+              H * root, grown + 0.5 * mixed)
         both = H * (s0 * step)
         square = H * (step * step)
-        r = (2 * both + square + r0, (2 * H) * (s * half), -both - square, (2 * H) * less, -(H * ((s + step) * half)), 0.5 * both + square)
+        r = (2 * both + square + r0, (2 * H) * (s * half), -both - square, (2 * H) * less,
+             -(H * ((s + step) * half)), 0.5 * both + square)
         eta, first, second = eta_over(H, self.E, s)
         pulled = second * step
         E = (eta, first * half, -0.5 * (first * step), second * less, -0.5 * ((pulled + first) * half),
@@ -349,16 +397,20 @@ class RootChart(Chart):
         g = self.here
         G, e1, e2, k, a, b = g["G"], self.e1, self.e2, 2 / g["n2"], g["a"], g["b"]
         _, xi, r, E, less = self._spans(t, dt, y, dy)
-        eta = (E[0] * less, E[1] * less, (E[2] - E[0]) * less, E[3] * less, (E[4] - E[1]) * less, (E[5] - 2 * E[2] + E[0]) * less)
+        eta = (E[0] * less, E[1] * less, (E[2] - E[0]) * less, E[3] * less, (E[4] - E[1]) * less,
+               (E[5] - 2 * E[2] + E[0]) * less)
         P, Q = xi[0] - self.xi0, eta[0] - self.eta0
         u, v = 0.5 * (P + Q), 0.5 * (P - Q)
         x, z = [0.5 * (m + n) for m, n in zip(xi, eta)], [0.5 * (m - n) for m, n in zip(xi, eta)]
-        apart = [(2 * a) * (x[m] * x[n] + u * x[at]) + (2 * b) * (z[m] * z[n] + v * z[at]) for m, n, at in SECOND]
+        apart = [(2 * a) * (x[m] * x[n] + u * x[at]) + (2 * b) * (z[m] * z[n] + v * z[at]) for m, n,
+                 at in SECOND]
         phi = [Span(0.0) for _ in SECOND]
         for sign, e, value in ((1, e1, xi), (1, -e2, eta), (-1, e1, r), (-1, -e2, E)):
             pull = 0.25 * G * value[0] + e
-            phi = [sum_ + sign * (pull * value[at] + (0.25 * G) * (value[m] * value[n])) for sum_, (m, n, at) in zip(phi, SECOND)]
+            phi = [sum_ + sign * (pull * value[at] + (0.25 * G) * (value[m] * value[n])) for sum_,
+                   (m, n, at) in zip(phi, SECOND)]
         return tuple(n.pair() for n in (*apart, *(k * one for one in phi)))
 
 
-SECOND = (1, 1, 3), (1, 2, 4), (2, 2, 5)  # of what is listed by derivatives: the two slopes and the place of their derivative
+# of what is listed by derivatives: the two slopes and the place of their derivative
+SECOND = (1, 1, 3), (1, 2, 4), (2, 2, 5)

@@ -2,20 +2,22 @@
 
 Smooth functions below the squared distance over a box, and their least values.
 
-The squared distance of a state from the point (t, y) of a sheet is D = R + (sqrt(phi) - w0)^2, with R in the plane of the orbit
-and phi = W^2. Its root is taken out by duality: for every multiplier k < 1 and all phi >= 0
+The squared distance of a state from the point (t, y) of a sheet is D = R + (sqrt(phi) - w0)^2, with R in the
+plane of the orbit and phi = W^2. Its root is taken out by duality: for every multiplier k < 1 and all phi >=
+0
 
     D >= R + k phi + min over s >= 0 of [(1 - k) s^2 - 2 w0 s + w0^2],
 
 and the right-hand side is smooth in (t, y), where W = 0 too; with k = 1 - w0/sqrt(phi) it touches D.
 
-The nearest point of the sheets of a separatrix: branch and bound over their parameters, with a proved lower bound.
+The nearest point of the sheets of a separatrix: branch and bound over their parameters, with a proved lower
+bound.
 
-A box is done with when its second-order Taylor bound (`forms`) exceeds the least distance found; where the Hessian is positive
-definite all over the box the bound is that of the convex quadratic, so no cluster of boxes gathers about the nearest point: a
-rectangle with that point in its middle is tried first, and what lies within it needs no boxes.
-A point whose rounding in doubles would decide is looked at in balls; a nearest point that lies between doubles is gone round
-in offsets from an exact place (`beside`).
+A box is done with when its second-order Taylor bound (`forms`) exceeds the least distance found; where the
+Hessian is positive definite all over the box the bound is that of the convex quadratic, so no cluster of
+boxes gathers about the nearest point: a rectangle with that point in its middle is tried first, and what lies
+within it needs no boxes. A point whose rounding in doubles would decide is looked at in balls; a nearest
+point that lies between doubles is gone round in offsets from an exact place (`beside`).
 """
 from __future__ import annotations
 
@@ -44,23 +46,27 @@ class Beside:
 
     @staticmethod
     def of(chart, t, y, w0, goal):
-        """The neighbourhood at whose edge the squared distance is some times the least one; None where it has no size."""
+        """The neighbourhood at whose edge the squared distance is some times the least one; None where it has
+        no size."""
         p = chart.exact_point(t, y)
         w = math.sqrt(max(p.phi, 0.0))
         (tt, _), _, (yy, _), (f_tt, _), _, (f_yy, _) = chart.bends(float(t), 0.0, float(y), 0.0)
         k = p.gap / w if w > 0 else 0.0
-        sizes = [math.sqrt(2 * FAR * goal / bend) if bend > 0 else math.inf for bend in (tt + k * f_tt, yy + k * f_yy)]
+        sizes = [math.sqrt(2 * FAR * goal / bend) if bend > 0 else math.inf
+                 for bend in (tt + k * f_tt, yy + k * f_yy)]
         inner = sizes
         sizes = [min(max(size, COARSE * (abs(at) + high - low)), high - low)
                  for size, at, (low, high) in zip(sizes, (float(t), float(y)), (chart.t, chart.y))]
-        return Beside(chart, t, y, *sizes, inner) if min(sizes) > 0 and all(map(math.isfinite, sizes)) else None
+        return (Beside(chart, t, y, *sizes, inner) if min(sizes) > 0 and all(map(math.isfinite, sizes))
+                else None)
 
     def boxes(self):
-        """The box about the place where squared distances are some times the least, and frames about it, each sixteen times as wide: a
-        box that reaches far beyond would lose the least distance to rounding."""
+        """The box about the place where squared distances are some times the least, and frames about it, each
+        sixteen times as wide: a box that reaches far beyond would lose the least distance to rounding."""
         (t, y), last = self.inner, None
         while True:
-            (t0, t1), (y0, y1) = ((max(-size, low), min(size, high)) for size, (low, high) in zip((t, y), (self.t, self.y)))
+            (t0, t1), (y0, y1) = ((max(-size, low), min(size, high)) for size,
+                                  (low, high) in zip((t, y), (self.t, self.y)))
             if last is None:
                 yield self._of(t0, t1, y0, y1)
             else:
@@ -127,7 +133,8 @@ def _within(place, size, low, high):
 
 
 class Form(NamedTuple):
-    """A function below D over a box: value and slopes at its middle, the Hessian's entries (middle, radius) over it, rounding."""
+    """A function below D over a box: value and slopes at its middle, the Hessian's entries (middle, radius)
+    over it, rounding."""
 
     value: float
     t: float
@@ -141,12 +148,14 @@ class Form(NamedTuple):
     def way(self, dt, dy):
         """The side of the box that the bound loses most by."""
         tt, _, yy = self.bends
-        return 0 if (abs(self.t) + (abs(tt[0]) + tt[1]) * dt) * dt >= (abs(self.y) + (abs(yy[0]) + yy[1]) * dy) * dy else 1
+        return (0 if (abs(self.t) + (abs(tt[0]) + tt[1]) * dt) * dt
+                >= (abs(self.y) + (abs(yy[0]) + yy[1]) * dy) * dy else 1)
 
 
 class Box(NamedTuple):
-    """A box |t - middle| <= dt, |y - middle| <= dy of a chart: its middle y (0 where no saddle stands at y = 0), the point
-    there, bounds of the second derivatives of R and phi, and the least and greatest W = sqrt(phi) of it; swing: how far phi goes from the middle's."""
+    """A box |t - middle| <= dt, |y - middle| <= dy of a chart: its middle y (0 where no saddle stands at y =
+    0), the point there, bounds of the second derivatives of R and phi, and the least and greatest W =
+    sqrt(phi) of it; swing: how far phi goes from the middle's."""
 
     y: float
     dt: float
@@ -166,23 +175,28 @@ class Box(NamedTuple):
     def forms(self, w0):
         for k, part, touch in self._multipliers(w0):
             yield self._form(w0, k, part, touch)
-        if self.y and abs(self.y) == self.dy:  # beside the saddle: W <= sqrt(m) |y|, as phi and its slope vanish there
+        # beside the saddle: W <= sqrt(m) |y|, as phi and its slope vanish there
+        if self.y and abs(self.y) == self.dy:
             p, m = self.p, 0.5 * max(self.f[2][0] + self.f[2][1], 0.0)
             pull = 2 * w0 * math.sqrt(m) * (1 + 1e-12)
-            yield Form(p.apart + w0 * w0 - pull * abs(self.y), p.apart_t, p.apart_y - math.copysign(pull, self.y), self.r,
+            yield Form(p.apart + w0 * w0 - pull * abs(self.y), p.apart_t,
+                       p.apart_y - math.copysign(pull, self.y), self.r,
                        self._off_r() + 4e-16 * (w0 * w0 + pull * abs(self.y)))
 
     def _form(self, w0, k, part, touch):
         """That of the multiplier k with its least at W = s = w0 + part."""
         p, s = self.p, w0 + part
-        over = (p.gap - part) * (2 * w0 + p.gap + part) if p.phi > 0 else p.phi - s * s  # phi - s^2 without cancellation
-        off_over = min(p.off[1], p.off[2] * (2 * w0 + 2 * abs(p.gap) + abs(part) + p.off[2])) if p.phi > 0 else p.off[1]
+        # phi - s^2 without cancellation
+        over = (p.gap - part) * (2 * w0 + p.gap + part) if p.phi > 0 else p.phi - s * s
+        off_over = (min(p.off[1], p.off[2] * (2 * w0 + 2 * abs(p.gap) + abs(part) + p.off[2])) if p.phi > 0
+                    else p.off[1])
         off = (self._off_r() + abs(k) * (off_over + p.rough[2] * self.dt + p.rough[3] * self.dy)
                + 2e-15 * (part * part + abs(k * over)) + (4e-16 * abs(k) * s * s if not p.phi > 0 else 0.0))
         bends = [(a[0] + k * b[0], a[1] + abs(k) * b[1]) for a, b in zip(self.r, self.f)]
         if touch and w0 > 0:  # the root is concave: its curvature over the box bends D upward
             bends = self._bent(bends, 0.25 * w0 / (self.w_high * self.w_high * self.w_high))
-        return Form(p.apart + part * part + k * over, p.apart_t + k * p.phi_t, p.apart_y + k * p.phi_y, bends, off)
+        return Form(p.apart + part * part + k * over, p.apart_t + k * p.phi_t, p.apart_y + k * p.phi_y, bends,
+                    off)
 
     def _off_r(self):
         return self.p.off[0] + self.p.rough[0] * self.dt + self.p.rough[1] * self.dy
@@ -246,7 +260,8 @@ def under(value, g1, g2, h11, h12, h22, d1, d2) -> float:
 
 
 def _convex(g1, g2, a, b, m, d1, d2):
-    """The same of g.d + d.H.d/2 as a convex quadratic, made one where it is nearly one: where two nearest points merge, it bends by nothing one way."""
+    """The same of g.d + d.H.d/2 as a convex quadratic, made one where it is nearly one: where two nearest
+    points merge, it bends by nothing one way."""
     if not (a > 0 and b > 0):
         return -math.inf
     det, loss = a * b - m * m, 0.0
@@ -259,7 +274,8 @@ def _convex(g1, g2, a, b, m, d1, d2):
     t, y = (m * g2 - b * g1) / det, (m * g1 - a * g2) / det
     if abs(t) <= d1 and abs(y) <= d2:
         return -0.5 * (b * g1 * g1 - 2 * m * g1 * g2 + a * g2 * g2) / det - loss
-    # the least is on an edge; from a place near it, by the tangent plane there, which a convex function stays above
+    # the least is on an edge; from a place near it, by the tangent plane there, which a convex function stays
+    # above
     best = -math.inf
     t, y = math.copysign(d1, t), math.copysign(d2, y)
     for s, z in ((t, min(max(-(g2 + m * t) / b, -d2), d2)), (min(max(-(g1 + m * y) / a, -d1), d1), y)):
@@ -269,7 +285,8 @@ def _convex(g1, g2, a, b, m, d1, d2):
 
 
 def _crossed(g1, g2, a, b, m, d1, d2):
-    """The least over the second of (g2 + m d1) d2 + b d2^2/2, at an edge unless b bends up, then over the first."""
+    """The least over the second of (g2 + m d1) d2 + b d2^2/2, at an edge unless b bends up, then over the
+    first."""
     bend = 0.5 * b * d2 * d2 if b < 0 else 0.0
     return min(g2 * d2 + _least(g1 + m * d2, a, d1), _least(g1 - m * d2, a, d1) - g2 * d2) + bend
 
@@ -282,10 +299,12 @@ def _least(g, h, d):
 
 # --- Newton's method for the nearest point of a sheet
 def descent(chart, t, y, w0, steps=30, exact=False):
-    """Places on the way of Newton's method for the conditions of a least distance in (t, y, W - w0, k): stationary R + (W - w0)^2 on
-    phi = W^2, which are regular where W = 0 too; it stays in the rectangle and yields each place.
+    """Places on the way of Newton's method for the conditions of a least distance in (t, y, W - w0, k):
+    stationary R + (W - w0)^2 on phi = W^2, which are regular where W = 0 too; it stays in the rectangle and
+    yields each place.
 
-    exact: with points in balls and places as Fractions; the slopes' own slopes in doubles cost steps, not digits.
+    exact: with points in balls and places as Fractions; the slopes' own slopes in doubles cost steps, not
+    digits.
     """
     (t0, t1), (y0, y1) = chart.t, chart.y
     point, step_of = (chart.exact_point, Fraction) if exact else (chart.point, float)
@@ -305,7 +324,8 @@ def descent(chart, t, y, w0, steps=30, exact=False):
         step = [0.0] * 4
         for n, move in zip(keep, moves):
             step[n] = move
-        share = min(1.0, 0.25 * (t1 - t0) / abs(step[0]) if step[0] else 1.0, 0.25 * (y1 - y0) / abs(step[1]) if step[1] else 1.0)
+        share = min(1.0, 0.25 * (t1 - t0) / abs(step[0]) if step[0] else 1.0,
+                    0.25 * (y1 - y0) / abs(step[1]) if step[1] else 1.0)
         if not math.isfinite(share * (step[0] + step[1])):
             return
         t, y = min(max(t + step_of(share * step[0]), t0), t1), min(max(y + step_of(share * step[1]), y0), y1)
@@ -324,18 +344,20 @@ def descent(chart, t, y, w0, steps=30, exact=False):
 
 
 def _conditions(p, bends, w0, gap, k):
-    """Rows of the linear system for steps of (t, y, W - w0, k) to where L = R + (W - w0)^2 + k (phi - W^2) is stationary; the
-    right-hand side last."""
+    """Rows of the linear system for steps of (t, y, W - w0, k) to where L = R + (W - w0)^2 + k (phi - W^2) is
+    stationary; the right-hand side last."""
     (r_tt, _), (r_ty, _), (r_yy, _), (f_tt, _), (f_ty, _), (f_yy, _) = bends
     w = w0 + gap
-    lift = (gap - p.gap) * (2 * w0 + gap + p.gap) if p.phi > 0 else w * w - p.phi  # W^2 - phi without cancellation
+    # W^2 - phi without cancellation
+    lift = (gap - p.gap) * (2 * w0 + gap + p.gap) if p.phi > 0 else w * w - p.phi
     return [[r_tt + k * f_tt, r_ty + k * f_ty, 0.0, p.phi_t, -(p.apart_t + k * p.phi_t)],
             [r_ty + k * f_ty, r_yy + k * f_yy, 0.0, p.phi_y, -(p.apart_y + k * p.phi_y)],
             [0.0, 0.0, 2 - 2 * k, -2 * w, -2 * gap + 2 * k * w], [p.phi_t, p.phi_y, -2 * w, 0.0, lift]]
 
 
 def _solved(rows):
-    """The solution of a small linear system, rows with the right-hand side last; None where it is singular."""
+    """The solution of a small linear system, rows with the right-hand side last; None where it is singular.
+    """
     n = len(rows)
     for i in range(n):
         best = max(range(i, n), key=lambda r: abs(rows[r][i]))
@@ -359,7 +381,8 @@ TRIES, SHRUNK = 6, 0.4  # rectangles about the nearest point found, each so much
 
 
 class Nearest(NamedTuple):
-    """The distance lies in [lower, upper]; upper: of the point (t, y) of the chart; boxes: how many were looked at."""
+    """The distance lies in [lower, upper]; upper: of the point (t, y) of the chart; boxes: how many were
+    looked at."""
 
     lower: float
     upper: float
@@ -374,9 +397,11 @@ class Nearest(NamedTuple):
 
 
 def nearest(charts, state_w, upper, most=MOST, genuine=None, start=None) -> Nearest:
-    """Branch and bound over charts, from a known upper bound of the distance; start: (chart, t, y) of a point as near, if on a chart.
+    """Branch and bound over charts, from a known upper bound of the distance; start: (chart, t, y) of a point
+    as near, if on a chart.
 
-    genuine: the `shade.Shade` that tells which points of the rectangles belong to the separatrix (None: all do).
+    genuine: the `shade.Shade` that tells which points of the rectangles belong to the separatrix (None: all
+    do).
     """
     charts = list(charts)
     search = _Search(state_w, upper, genuine, start)
@@ -394,7 +419,8 @@ class _Search:
     def __init__(self, w, upper, genuine, start):
         self.w, self.upper, self.genuine, self.hole = w, upper, genuine, None
         self.at = start or (None, 0.0, 0.0)
-        self.clear: tuple = (None, 0.0, 0.0)  # (at, dt, dy): the rectangle about the witness `at` that holds nothing nearer
+        # (at, dt, dy): the rectangle about the witness `at` that holds nothing nearer
+        self.clear: tuple = (None, 0.0, 0.0)
         self.goal = (upper * (1 - CLOSE)) ** 2
 
     def run(self, charts, most, hole=None):
@@ -411,13 +437,15 @@ class _Search:
                 return self.found(min(low, stuck), boxes)
             if self.clear[0] is not self.at and self.at[0] is chart and hole is None:
                 boxes += self.clear_about_the_witness(chart, dt, dy)
-            if not chart.sharpest and (dt <= TINY * (abs(t) + dt) and dy <= TINY * (abs(y) + dy) or low < 0 and dt + dy < 1e-12):
+            if not chart.sharpest and (dt <= TINY * (abs(t) + dt) and dy <= TINY * (abs(y) + dy) or low < 0
+                                       and dt + dy < 1e-12):
                 stuck = min(stuck, low)  # no smaller box: doubles of t and y do not tell the rest apart
                 continue
             if (dt, dy)[way] <= TINY * (abs((t, y)[way]) + (dt, dy)[way]):  # no double lies between
                 way = 1 - way
             for side in (-0.5, 0.5):
-                box = (chart, t + side * dt, 0.5 * dt, y, dy) if way == 0 else (chart, t, dt, y + side * dy, 0.5 * dy)
+                box = (chart, t + side * dt, 0.5 * dt, y,
+                       dy) if way == 0 else (chart, t, dt, y + side * dy, 0.5 * dy)
                 low, new = self.bound(*box)
                 boxes += 1
                 if low < self.goal:
@@ -425,7 +453,8 @@ class _Search:
         return self.found(min(stuck, self.goal), boxes)
 
     def clear_about_the_witness(self, chart, dt, dy) -> int:
-        """Look for a rectangle about the nearest point, at most 2 dt by 2 dy, that holds nothing nearer; the number of boxes looked at."""
+        """Look for a rectangle about the nearest point, at most 2 dt by 2 dy, that holds nothing nearer; the
+        number of boxes looked at."""
         at = _, t, y = self.at
         self.clear = at, 0.0, 0.0
         dy = min(dy, abs(y)) if chart.from_saddle else dy
@@ -439,7 +468,8 @@ class _Search:
     def cleared(self, chart, t, dt, y, dy) -> bool:
         """Whether a box lies within the rectangle about the nearest point."""
         at, wide, high = self.clear
-        return at is self.at and chart is at[0] and abs(t - at[1]) + dt <= wide and abs(y - at[2]) + dy <= high
+        return (at is self.at and chart is at[0] and abs(t - at[1]) + dt <= wide
+                and abs(y - at[2]) + dy <= high)
 
     def found(self, square, boxes):
         """square: a bound that no point's squared distance is below."""
@@ -470,7 +500,8 @@ class _Search:
         p = chart.point(t, y)
         if p.phi < -p.off[1] or p.apart - p.off[0] > self.goal:
             return False
-        if p.off[0] + p.off_square(self.w) > 0.05 * CLOSE * self.goal and not chart.sharpest:  # rounding would tell how near it is
+        # rounding would tell how near it is
+        if p.off[0] + p.off_square(self.w) > 0.05 * CLOSE * self.goal and not chart.sharpest:
             p = chart.exact_point(t, y)
             if p.phi < -p.off[1]:
                 return False
@@ -482,8 +513,10 @@ class _Search:
         return True
 
     def bound(self, chart, t, dt, y, dy):
-        """(lower bound of D over a box, inf where it holds no point; 0 or 1: the side that is better halved)."""
-        if (self.hole is not None and self.hole.covers(chart, t, dt, y, dy) or self.cleared(chart, t, dt, y, dy)
+        """(lower bound of D over a box, inf where it holds no point; 0 or 1: the side that is better halved).
+        """
+        if (self.hole is not None and self.hole.covers(chart, t, dt, y, dy)
+            or self.cleared(chart, t, dt, y, dy)
                 or chart.misses(t, dt, y, dy, self.upper)):
             return INF, 0
         if chart.folded(t, dt, y, dy):
@@ -492,7 +525,8 @@ class _Search:
         if p.phi > 0 and p.apart + p.gap * p.gap < self.goal:
             self.better(chart, t, y)
         bends = chart.bends(t, dt, y, dy)
-        if not math.isfinite(sum(abs(middle) + radius for middle, radius in bends)):  # beyond the doubles nothing is known but D >= 0
+        # beyond the doubles nothing is known but D >= 0
+        if not math.isfinite(sum(abs(middle) + radius for middle, radius in bends)):
             return 0.0, 0 if chart.steep(t, dt, y, dy) else 1
         low, way, rough = self._bound(chart, t, dt, y, dy, p, bends)
         if low < self.goal and rough and not chart.sharpest:
@@ -501,12 +535,14 @@ class _Search:
 
     def _bound(self, chart, t, dt, y, dy, p, bends):
         w0, r, f = self.w, bends[:3], bends[3:]
-        swing = ((abs(p.phi_t) + p.rough[2]) * dt + (abs(p.phi_y) + p.rough[3]) * dy + 0.5 * (abs(f[0][0]) + f[0][1]) * dt * dt
+        swing = ((abs(p.phi_t) + p.rough[2]) * dt + (abs(p.phi_y) + p.rough[3]) * dy
+                 + 0.5 * (abs(f[0][0]) + f[0][1]) * dt * dt
                  + (abs(f[1][0]) + f[1][1]) * dt * dy + 0.5 * (abs(f[2][0]) + f[2][1]) * dy * dy + p.off[1])
         high = p.phi + swing
         if high < 0:
             return INF, 0, False
-        box = Box(y if chart.from_saddle else 0.0, dt, dy, p, r, f, swing, math.sqrt(max(p.phi - swing, 0.0)), math.sqrt(high))
+        box = Box(y if chart.from_saddle else 0.0, dt, dy, p, r, f, swing, math.sqrt(max(p.phi - swing, 0.0)),
+                  math.sqrt(high))
         form = first = box.flat(w0)
         best = form.least(dt, dy)
         if best < self.goal:
@@ -527,16 +563,21 @@ class _Search:
         """The side of a box that is better halved."""
         p, dt, dy = box.p, box.dt, box.dy
         if self._far_reaching(box):
-            along, across = (abs(s) * d + 0.5 * (abs(m) + n) * d * d for s, (m, n), d in ((p.phi_t, box.f[0], dt), (p.phi_y, box.f[2], dy)))
+            along, across = (abs(s) * d + 0.5 * (abs(m) + n) * d * d for s, (m, n),
+                             d in ((p.phi_t, box.f[0], dt), (p.phi_y, box.f[2], dy)))
             return 0 if along >= across else 1
         if not flat and self.w <= 2 * box.w_high:
             return form.way(dt, dy)
-        # this bound loses by the range of W as well: D changes by (W - w0)/W times phi, and where W stays far below the state's own that is most of it
+        # this bound loses by the range of W as well: D changes by (W - w0)/W times phi, and where W stays far
+        # below the state's own that is most of it
         share = (abs(p.gap) + box.w_high - box.w_low) / (box.w_high + 1e-300)
-        return form._replace(t=abs(p.apart_t) + share * abs(p.phi_t), y=abs(p.apart_y) + share * abs(p.phi_y), bends=[
+        return form._replace(t=abs(p.apart_t) + share * abs(p.phi_t), y=abs(p.apart_y) + share * abs(p.phi_y),
+                             bends=[
             (abs(a[0]) + a[1] + share * (abs(b[0]) + b[1]), 0.0) for a, b in zip(box.r, box.f)]).way(dt, dy)
 
     def _far_reaching(self, box):
-        """Whether W goes from near zero to far above the state's own over a box: near a cone's tip or a fold the root of phi then
-        decides the bound, and halving the side that phi changes along comes to the state's own W in a few steps."""
-        return 4 * self.w < box.w_high and 4 * box.w_low < box.w_high and self.w * box.w_high > 0.1 * CLOSE * self.goal
+        """Whether W goes from near zero to far above the state's own over a box: near a cone's tip or a fold
+        the root of phi then decides the bound, and halving the side that phi changes along comes to the
+        state's own W in a few steps."""
+        return (4 * self.w < box.w_high and 4 * box.w_low < box.w_high
+                and self.w * box.w_high > 0.1 * CLOSE * self.goal)

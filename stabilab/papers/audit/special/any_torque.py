@@ -23,7 +23,8 @@ def _largest_rate(points, a, b, mu):
 
 
 def _printed_eight():
-    """Largest rate at the eight points of (9), and at the two true ones; mu = (1, 2, 2)/3, a = 0.2, b = 0.4."""
+    """Largest rate at the eight points of (9), and at the two true ones; mu = (1, 2, 2)/3, a = 0.2, b = 0.4.
+    """
     import math
     a, b, mu = 0.2, 0.4, (1 / 3, 2 / 3, 2 / 3)
     true = three_torque_equilibria(a, b, mu)
@@ -34,14 +35,16 @@ def _printed_eight():
 
 
 def _exists_below_zero():
-    """Two equilibria with mu1 mu2 mu3 < 0: the printed rule counts none. Number missed; rate at the true ones."""
+    """Two equilibria with mu1 mu2 mu3 < 0: the printed rule counts none. Number missed; rate at the true
+    ones."""
     a, b, mu = 0.2, 0.4, (0.95, 0.05, -0.1)
     points = three_torque_equilibria(a, b, mu)
     return len(points), _largest_rate(points, a, b, mu)
 
 
 def major_axis_ideal(a, b):
-    """1 where the equilibrium equations of a torque on axis 1 contradict each other (Groebner basis {1}), else 0."""
+    """1 where the equilibrium equations of a torque on axis 1 contradict each other (Groebner basis {1}),
+    else 0."""
     import sympy as sp
     x1, x2, x3 = sp.symbols("x1:4")
     a, b = sp.Rational(a), sp.Rational(b)
@@ -52,7 +55,8 @@ def major_axis_ideal(a, b):
 def _zero_product():
     """The contradiction for a != b (print: equilibria exist), and for a = b (corrected: they do)."""
     import sympy as sp
-    return major_axis_ideal(sp.Rational(1, 5), sp.Rational(2, 5)), major_axis_ideal(sp.Rational(1, 5), sp.Rational(1, 5))
+    return major_axis_ideal(sp.Rational(1, 5),
+                            sp.Rational(2, 5)), major_axis_ideal(sp.Rational(1, 5), sp.Rational(1, 5))
 
 
 def _characteristic():

@@ -1,4 +1,5 @@
-"""Claims of the charged body's figures: by the printed (8) and (11), by (35), and by the linear model that the paper solves, with the paper's data."""
+"""Claims of the charged body's figures: by the printed (8) and (11), by (35), and by the linear model that
+the paper solves, with the paper's data."""
 from __future__ import annotations
 
 import math
@@ -16,7 +17,8 @@ ROUNDING = 1e-12  # a smaller relative change is none
 
 def _body(**changed) -> ChargedBody:
     data = OTHERS | changed
-    return ChargedBody((8.7, 8.6, 11.1), 2.7 * 2 * math.pi / 60, data["wheel"], data["charge"] * FIELD, (data["torque"], 0.0), force=(0, 0, 3), mass=10.0)
+    return ChargedBody((8.7, 8.6, 11.1), 2.7 * 2 * math.pi / 60, data["wheel"], data["charge"] * FIELD,
+                       (data["torque"], 0.0), force=(0, 0, 3), mass=10.0)
 
 
 def _wave(**changed):
@@ -29,7 +31,8 @@ def _wave(**changed):
 
 
 def _steps(name, good):
-    """How many of the paper's steps of a parameter are not as `good`(change of amplitude, change of wavelength) says."""
+    """How many of the paper's steps of a parameter are not as `good`(change of amplitude, change of
+    wavelength) says."""
     waves = [_wave(**{name: value}) for value in STEPS[name]]
     return sum(not good(b[0] - a[0], b[1] - a[1]) for a, b in zip(waves, waves[1:]))
 
@@ -49,7 +52,8 @@ def _circle():
 
 
 def _axial(names, good):
-    """Of the linear model at the end: how many steps of the parameters do not change axial velocity and way as `good` says; the largest relative change."""
+    """Of the linear model at the end: how many steps of the parameters do not change axial velocity and way
+    as `good` says; the largest relative change."""
     missed, largest = 0, 0.0
     for name in names:
         runs = [solution(_body(**{name: value}), END) for value in STEPS[name]]
@@ -62,9 +66,12 @@ def _axial(names, good):
 
 
 TESTS = {
-    "wheel lowers": lambda: (_steps("wheel", lambda amplitude, wavelength: amplitude < 0 and wavelength < 0), 0),
-    "charge wavelength": lambda: (_steps("charge", lambda amplitude, wavelength: wavelength < 0), _steps("charge", lambda a, w: a > 0 and w > 0)),
-    "torque amplitude": lambda: (_steps("torque", lambda amplitude, wavelength: amplitude < 0), _proportion()),
+    "wheel lowers": lambda: (_steps("wheel", lambda amplitude, wavelength: amplitude < 0 and wavelength < 0),
+                             0),
+    "charge wavelength": lambda: (_steps("charge", lambda amplitude, wavelength: wavelength < 0),
+                                  _steps("charge", lambda a, w: a > 0 and w > 0)),
+    "torque amplitude": lambda: (_steps("torque", lambda amplitude, wavelength: amplitude < 0),
+                                 _proportion()),
     "circle": _circle,
     "axial by wheel": lambda: _axial(("wheel",), lambda change: change < -ROUNDING),
     "axial by charge and torque": lambda: _axial(("charge", "torque"), lambda change: change > ROUNDING),

@@ -1,4 +1,5 @@
-"""Claims about the liquid's figures that no formula says, by the program's own normal form and averaged equations, with the paper's data."""
+"""Claims about the liquid's figures that no formula says, by the program's own normal form and averaged
+equations, with the paper's data."""
 from __future__ import annotations
 
 import math
@@ -20,7 +21,8 @@ RESISTANCES = (1.5, 2.0, 2.5)
 
 def scene(wheel=0.1, charge=0.01, zeta=2.0) -> Scene:
     """The paper's body, its unvaried data completed as in the cases."""
-    return Scene(Body(MOMENTS), Gyrostat((0, 0, wheel)), Charge(charge, 100, 0.01, 0.3), LiquidCavity(DENSITY, 1000, P0),
+    return Scene(Body(MOMENTS), Gyrostat((0, 0, wheel)), Charge(charge, 100, 0.01, 0.3),
+                 LiquidCavity(DENSITY, 1000, P0),
                  Resistance(EPS**2 * zeta), ConstantTorque((0, 0, -6 * EPS**2)))
 
 
@@ -32,36 +34,42 @@ def _frequency(one: Scene) -> float:
 
 
 def _wheel():
-    """Share of the paper's steps of lambda3 at which the frequency does not grow; at which it does other than whether Gamma is above d r says."""
+    """Share of the paper's steps of lambda3 at which the frequency does not grow; at which it does other than
+    whether Gamma is above d r says."""
     missed = parted = steps = 0
     for values in WHEELS:
         for a, b in zip(values, values[1:]):
             first, second = scene(wheel=a), scene(wheel=b)
             n = {name: float(value) for name, value in constants(first).items()}
-            grows, above = _frequency(second) > _frequency(first), n["Gamma"] > (n["d"] + abs(n["h"])) * START[2]
+            grows, above = _frequency(second) > _frequency(first), n["Gamma"] > (
+                n["d"] + abs(n["h"])) * START[2]
             missed, parted, steps = missed + (not grows), parted + (grows != above), steps + 1
     return missed / steps, parted / steps
 
 
 def _mass():
-    """Moment of inertia of the frozen liquid as a sphere over the body's, less 1; how many of the statements "radius 1.69 m" and "25 t" are not so."""
+    """Moment of inertia of the frozen liquid as a sphere over the body's, less 1; how many of the statements
+    "radius 1.69 m" and "25 t" are not so."""
     radius = (P0 * 525 / (8 * math.pi)) ** (1 / 7)
     mass = DENSITY * 4 / 3 * math.pi * radius**3
     return 2 / 5 * mass * radius**2 / MOMENTS[2] - 1, (abs(radius - 1.69) > 0.005) + (abs(mass - 25e3) > 500)
 
 
 def _resistance():
-    """Of the averaged motion: steps of zeta downwards after which the amplitude at the end is not smaller; upwards."""
+    """Of the averaged motion: steps of zeta downwards after which the amplitude at the end is not smaller;
+    upwards."""
     ends = [float(averaged(scene(zeta=zeta), START, (0.0, END)).amplitude[-1]) for zeta in RESISTANCES]
     steps = list(zip(ends, ends[1:]))  # (at the smaller zeta, at the larger)
     return sum(not small < large for small, large in steps), sum(not large < small for small, large in steps)
 
 
 def _charge():
-    """Relative change of the frequency from e = 0.01 to 10,000 C; of that with the charge's moment taken off the wheel instead."""
+    """Relative change of the frequency from e = 0.01 to 10,000 C; of that with the charge's moment taken off
+    the wheel instead."""
     plain, charged = scene(), scene(charge=1e4)
     instead = scene(wheel=float(constants(charged)["Gamma"]), charge=0)
-    return abs(_frequency(charged) / _frequency(plain) - 1), abs(_frequency(charged) / _frequency(instead) - 1)
+    return abs(_frequency(charged) / _frequency(plain)
+               - 1), abs(_frequency(charged) / _frequency(instead) - 1)
 
 
 TESTS = {"mass": _mass, "wheel frequency": _wheel, "resistance": _resistance, "charge": _charge}

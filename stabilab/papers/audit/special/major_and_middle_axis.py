@@ -1,4 +1,5 @@
-"""Amer et al. 2024: torque on the major axis (eqs (41)-(43), Figs 8-15) and on the middle axis (eqs (44)-(84))."""
+"""Amer et al. 2024: torque on the major axis (eqs (41)-(43), Figs 8-15) and on the middle axis (eqs
+(44)-(84))."""
 from __future__ import annotations
 
 import math
@@ -11,7 +12,8 @@ from ....physics.scene import Body, ScaledGyrostat
 from .any_torque import major_axis_ideal
 from .constant_torque import middle_equilibria, misjudged
 
-# Figs 8-11: ranges of x2 and x3 over tau in [0, 15] from (4.5, 1.8, 3.4); lambda1 -> ((x2), (x3)); printed in the
+# Figs 8-11: ranges of x2 and x3 over tau in [0, 15] from (4.5, 1.8, 3.4); lambda1 -> ((x2), (x3)); printed in
+# the
 # text, and from the equations (Taylor integration; the smallest and largest value of the dense output).
 RANGES_PRINTED = {100: ((-4, 4), (-4.1, 4)), 300: ((-4.2, 4), (-5, 4)), 500: ((-4.5, 4), (-6, 4))}
 RANGES_TRUE = {100: ((-3.8126, 3.8127), (-3.8591, 3.8642)), 300: ((-3.7568, 3.7571), (-3.8839, 3.8946)),
@@ -22,7 +24,8 @@ def _ranges(table):
     """Largest distance of the table's ranges from those of the motion."""
     worst = 0.0
     for lam, limits in table.items():
-        run = trajectory(ScaledGyrostat(lam / 500, lam / 250, (1, 0, 0)), (4.5, 1.8, 3.4), np.linspace(0, 15, 60001))
+        run = trajectory(ScaledGyrostat(lam / 500, lam / 250, (1, 0, 0)), (4.5, 1.8, 3.4),
+                         np.linspace(0, 15, 60001))
         for row, (low, high) in zip((1, 2), limits):
             states = np.asarray(run.states)[:, row]
             worst = max(worst, abs(states.min() - low), abs(states.max() - high))
@@ -41,7 +44,8 @@ def _capture():
 def _major_rule():
     """The printed rule on the line of equilibria that a = b has: x1 = -a, x2 x3 = -1."""
     points = [(-0.2, -1 / g, g) for g in (-3, -1.6, -0.6, -0.3, 0.3, 0.6, 1.6, 3)]
-    return (misjudged(lambda x: x[2] > 1, points, 0.2, 0.2), misjudged(lambda x: abs(x[2]) > abs(x[1]), points, 0.2, 0.2))
+    return (misjudged(lambda x: x[2] > 1, points, 0.2, 0.2),
+            misjudged(lambda x: abs(x[2]) > abs(x[1]), points, 0.2, 0.2))
 
 
 def _always_stable():

@@ -5,7 +5,8 @@ import math
 
 from .constant_torque import minor_equilibria, misjudged
 
-# Saddles and centres of Fig. 4 in alpha = 2 atan2(x1 + a, x2): lambda1 -> (left saddle, right saddle, left centre,
+# Saddles and centres of Fig. 4 in alpha = 2 atan2(x1 + a, x2): lambda1 -> (left saddle, right saddle, left
+# centre,
 # right centre); printed, and roots of 1 + A cos(alpha/2) (A sin(alpha/2) + c) = 0.
 FIG4_PRINTED = {100: (0.0, 6.2, -3.0, 3.3), 300: (0.19, 6.15, -3.1, 3.29), 500: (0.32, 5.8, -3.13, 3.28)}
 FIG4_TRUE = {100: (-0.16926911783859, 6.28019631200926, -3.05188202440815, 3.22414013741707),
@@ -15,19 +16,21 @@ G1_PRINTED = 2.54
 
 
 def _fig4(table, pull: bool):
-    """Largest residual of the equilibrium condition over the table; with `pull` the paper's own (23) is tried."""
+    """Largest residual of the equilibrium condition over the table; with `pull` the paper's own (23) is
+    tried."""
     worst = 0.0
     for lam, angles in table.items():
         a, b = lam / 500, lam / 250
         radius, offset = (math.hypot(2.5, 4), -b) if pull else (math.hypot(2.5 + a, 4), b - a)
         for alpha in angles:
-            worst = max(worst, abs(1 + radius * math.cos(alpha / 2) * (radius * math.sin(alpha / 2) + offset)))
+            worst = max(worst,
+                        abs(1 + radius * math.cos(alpha / 2) * (radius * math.sin(alpha / 2) + offset)))
     return worst
 
 
 def _fold_radius():
-    """Circles x2^2 + (x1+a)^2 = A^2 that carry an equilibrium: smallest A found on the hyperbola, against the printed
-    root of 2 and against the true smaller fold radius, for c = 0.2 (lambda1 = 100)."""
+    """Circles x2^2 + (x1+a)^2 = A^2 that carry an equilibrium: smallest A found on the hyperbola, against the
+    printed root of 2 and against the true smaller fold radius, for c = 0.2 (lambda1 = 100)."""
     import numpy as np
     c = 0.2
     heights = np.concatenate([-np.geomspace(0.1, 10, 40001), np.geomspace(0.1, 10, 40001)])
@@ -85,7 +88,8 @@ def _loop_ends():
     A, c, saddle, centre = math.hypot(2.7, 4), 0.2, FIG4_TRUE[100][0], FIG4_TRUE[100][2]
 
     def speed(al):
-        return (A**2 * (math.cos(saddle) - math.cos(al)) + 4 * A * c * (math.sin(al / 2) - math.sin(saddle / 2))
+        return (A**2 * (math.cos(saddle) - math.cos(al))
+                + 4 * A * c * (math.sin(al / 2) - math.sin(saddle / 2))
                 + 2 * (al - saddle))
 
     def invariant(al):

@@ -12,7 +12,8 @@ def _lambda1(C: float, A=1.0, B=1.1) -> tuple[float, float]:
 
 
 def _poles():
-    """Size of lambda1 where C is 1e-9 short of A + B over that at C = 1.4, less one; the residue of the pole seen 1e-6 short of it against 1e-9, relative."""
+    """Size of lambda1 where C is 1e-9 short of A + B over that at C = 1.4, less one; the residue of the pole
+    seen 1e-6 short of it against 1e-9, relative."""
     (near, at), (closer, there), (far, _) = _lambda1(2.1 - 1e-6), _lambda1(2.1 - 1e-9), _lambda1(1.4)
     return abs(closer / far) - 1, closer * (1 - there) / (near * (1 - at)) - 1
 

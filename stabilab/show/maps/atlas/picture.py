@@ -28,12 +28,14 @@ ROWS = 5  # wheel momenta of a picture
 LOG = 8  # times of more than this ratio are shown by their logarithm
 KINDS = ("fate", "when", "equilibria", "level")
 NEVER, UNKNOWN = light(style.GREY, 0.25), light(style.YELLOW, 0.6)
-COUNTED = (light(style.GREY, 0.35), light(style.SKY, 0.7), light(style.ORANGE, 0.7), light(style.GREEN, 0.6), light(style.PURPLE, 0.7))
+COUNTED = (light(style.GREY, 0.35), light(style.SKY, 0.7), light(style.ORANGE, 0.7), light(style.GREEN, 0.6),
+           light(style.PURPLE, 0.7))
 
 
-def write_picture(atlas: Atlas, path: Path, units: Units, kind: str | None = None, size: tuple[float, float] | None = None, dpi: float | None = None) -> Path:
-    """Draw the atlas and write the picture; returns its path. kind: one of KINDS; None: the fate, and beside it the time to the limit, or the number of
-    equilibria where there is no limit."""
+def write_picture(atlas: Atlas, path: Path, units: Units, kind: str | None = None,
+                  size: tuple[float, float] | None = None, dpi: float | None = None) -> Path:
+    """Draw the atlas and write the picture; returns its path. kind: one of KINDS; None: the fate, and beside
+    it the time to the limit, or the number of equilibria where there is no limit."""
     return style.write(path, lambda plt: drawn(atlas, units, chosen(atlas, kind), size, plt), dpi)
 
 
@@ -46,13 +48,16 @@ def chosen(atlas: Atlas, kind: str | None) -> tuple[str, ...]:
     return (kind,) if kind else ("fate", "when" if timed else "equilibria")
 
 
-def drawn(atlas: Atlas, units: Units, shown: tuple[str, ...], size: tuple[float, float] | None, plt: Any) -> Any:
+def drawn(atlas: Atlas, units: Units, shown: tuple[str, ...], size: tuple[float, float] | None,
+          plt: Any) -> Any:
     """The figure: maps below each other for one wheel, in rows for several."""
     wheels = _wheels(atlas)
     alone = len(wheels) == 1
     down, across = (len(shown), 1) if alone else (len(wheels), len(shown))
     figure, axes = plt.subplots(down, across, squeeze=False, layout="constrained",
-                                figsize=size or ((7.8, 4.05 * down + 0.5) if alone else (5.4 * across + 0.4, 2.75 * down + 1.2)))
+                                figsize=size
+                                or ((7.8, 4.05 * down + 0.5) if alone
+                                    else (5.4 * across + 0.4, 2.75 * down + 1.2)))
     times = _times(atlas, units)
     for n, wheel in enumerate(wheels):
         for m, kind in enumerate(shown):
@@ -63,7 +68,8 @@ def drawn(atlas: Atlas, units: Units, shown: tuple[str, ...], size: tuple[float,
     for m, kind in enumerate(shown):
         below = [axes[m, 0]] if alone else list(axes[:, m])
         _explained(figure, below, atlas, kind, times, units)
-    figure.suptitle(f"{style.literal(atlas.asked.case.title or atlas.asked.case.name)}\ntorque of {units.torque(float(atlas.asked.torque))} in every direction",
+    figure.suptitle(f"{style.literal(atlas.asked.case.title or atlas.asked.case.name)}\ntorque of "
+                    f"{units.torque(float(atlas.asked.torque))} in every direction",
                     fontsize=10.5, wrap=True)
     return figure
 
@@ -75,13 +81,16 @@ def _wheels(atlas: Atlas) -> list[int]:
 
 
 def _map(ax: Any, atlas: Atlas, wheel: int, kind: str, times: Any, plain: bool) -> None:
-    x, y = np.meshgrid((np.arange(PIXELS) + 0.5) / PIXELS * 2 - 1, (np.arange(PIXELS // 2) + 0.5) / (PIXELS // 2) * 2 - 1)
+    x, y = np.meshgrid((np.arange(PIXELS) + 0.5) / PIXELS * 2 - 1,
+                       (np.arange(PIXELS // 2) + 0.5) / (PIXELS // 2) * 2 - 1)
     directions, inside = flat.off_sheet(x.ravel() * flat.ACROSS, y.ravel() * flat.UP)
     image = np.ones((len(inside), 4))
     image[~inside, 3] = 0
-    image[inside, :3] = colours(atlas, kind, times)[atlas.leaves.holding(wheel, places_of(directions[inside]))]
+    image[inside, :3] = colours(atlas, kind,
+                                times)[atlas.leaves.holding(wheel, places_of(directions[inside]))]
     ends = (-flat.ACROSS, flat.ACROSS, -flat.UP, flat.UP)
-    ax.imshow(image.reshape(PIXELS // 2, PIXELS, 4), origin="lower", extent=ends, interpolation="antialiased", interpolation_stage="rgba")
+    ax.imshow(image.reshape(PIXELS // 2, PIXELS, 4), origin="lower", extent=ends, interpolation="antialiased",
+              interpolation_stage="rgba")
     ax.set_aspect("equal")
     ax.axis("off")
     ax.set_xlim(-flat.ACROSS * 1.04, flat.ACROSS * 1.04)
@@ -99,23 +108,28 @@ def _points(ax: Any, atlas: Atlas, wheel: int, plain: bool) -> None:
     halo = [withStroke(linewidth=2.4, foreground="white")]
     here = [n for n, point in enumerate(atlas.named) if point.wheel == wheel]
     size, taken = 8 if plain else 9, []
-    scale = ax.figure.get_figwidth() * 72 * 0.9 / (ax.get_subplotspec().get_gridspec().ncols * 2.08 * flat.ACROSS)  # points of a unit of the sheet, roughly
+    # points of a unit of the sheet, roughly
+    scale = (ax.figure.get_figwidth() * 72 * 0.9
+             / (ax.get_subplotspec().get_gridspec().ncols * 2.08 * flat.ACROSS))
     for n, place in zip(here, flat.on_sheet(atlas.named_directions[here])):
         point = atlas.named[n]
         on_axis = point.level == AXES
-        ax.plot(*place, marker="o" if on_axis else "*", markersize=4 if on_axis else 10, color="white", markeredgecolor=style.BLACK, markeredgewidth=0.9,
+        ax.plot(*place, marker="o" if on_axis else "*", markersize=4 if on_axis else 10, color="white",
+                markeredgecolor=style.BLACK, markeredgewidth=0.9,
                 linestyle="none", clip_on=False, zorder=3)
         pole = on_axis and point.number >= 4  # its name stands left of it: thrusters have theirs on the right
         right = place[0] <= flat.ACROSS * 0.75 and not pole
         label = _label(atlas, point, plain)
         at, wide = place * scale, 0.62 * size * len(label)
-        for side, up in ((right, 3 if place[1] > -flat.UP * 0.98 else -9), (right, -11), (not right, 3), (not right, -11)):
+        for side, up in ((right, 3 if place[1] > -flat.UP * 0.98 else -9), (right, -11), (not right, 3),
+                         (not right, -11)):
             left = at[0] + (5 if side else -5 - wide)
             box = (left, left + wide, at[1] + up, at[1] + up + size)
             if not any(box[0] < b and a < box[1] and box[2] < d and c < box[3] for a, b, c, d in taken):
                 break
         taken.append(box)
-        ax.annotate(label, place, (5 if side else -5, up), textcoords="offset points", fontsize=size, path_effects=halo, zorder=4,
+        ax.annotate(label, place, (5 if side else -5, up), textcoords="offset points", fontsize=size,
+                    path_effects=halo, zorder=4,
                     ha="left" if side else "right", fontweight="normal" if on_axis else "bold")
 
 
@@ -124,7 +138,8 @@ def _label(atlas: Atlas, point: Any, plain: bool) -> str:
     if point.level != AXES or plain:
         return shown_name(atlas, point)
     axes, number = axes_of(atlas.asked.case), point.number // 2 + 1
-    return " ".join(filter(None, [shown_name(atlas, point), axes.letters[number - 1] and axes.words[number - 1]]))
+    return " ".join(filter(None,
+                           [shown_name(atlas, point), axes.letters[number - 1] and axes.words[number - 1]]))
 
 
 def _times(atlas: Atlas, units: Units) -> Any:
@@ -171,7 +186,8 @@ def _explained(figure: Any, axes: list[Any], atlas: Atlas, kind: str, times: Any
     from matplotlib.ticker import LogLocator, NullFormatter
     if kind == "when":
         scale, name, _ = times
-        bar = figure.colorbar(ScalarMappable(scale, "cividis_r"), ax=axes, location="bottom", shrink=0.7, aspect=40, pad=0.02,
+        bar = figure.colorbar(ScalarMappable(scale, "cividis_r"), ax=axes, location="bottom", shrink=0.7,
+                              aspect=40, pad=0.02,
                               label=f"time to {limit_words(atlas, units)} ({name})")
         if scale.vmax > LOG * scale.vmin > 0:
             bar.ax.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
@@ -179,22 +195,28 @@ def _explained(figure: Any, axes: list[Any], atlas: Atlas, kind: str, times: Any
         bar.ax.xaxis.set_minor_formatter(NullFormatter())
         known, low = _known(atlas), atlas.records["when_low"]
         rows = [(NEVER, "never", np.isinf(low)), (UNKNOWN, "time not known", ~known & ~np.isinf(low))]
-        handles = [(Patch(facecolor=colour, edgecolor=style.GREY), words) for colour, words, cells in rows if cells.any()]
+        handles = [(Patch(facecolor=colour, edgecolor=style.GREY), words) for colour, words,
+                   cells in rows if cells.any()]
     elif kind == "fate":
-        handles = [(Patch(facecolor=kind_colour(*key), edgecolor=style.GREY), f"{kind_words(atlas, *key)}: {100 * share:.3g} %")
+        handles = [(Patch(facecolor=kind_colour(*key), edgecolor=style.GREY),
+                    f"{kind_words(atlas, *key)}: {100 * share:.3g} %")
                    for key, _, share in kinds(atlas)]
     else:
         values = atlas.records[kind]
-        words = {"equilibria": lambda v: COUNTS.get(v) or f"{v} equilibri{'um' if v == 1 else 'a'}", "level": lambda v: LEVELS[v]}[kind]
-        handles = [(Patch(facecolor=COUNTED[(int(value) if value >= 0 else n) % len(COUNTED)], edgecolor=style.GREY), words(int(value)))
+        words = {"equilibria": lambda v: COUNTS.get(v) or f"{v} equilibri{'um' if v == 1 else 'a'}",
+                 "level": lambda v: LEVELS[v]}[kind]
+        handles = [(Patch(facecolor=COUNTED[(int(value) if value >= 0 else n) % len(COUNTED)],
+                          edgecolor=style.GREY), words(int(value)))
                    for n, value in enumerate(np.unique(values))]
     if handles:
-        axes[-1].legend(*zip(*handles), loc="upper center", bbox_to_anchor=(0.5, 0.0), ncols=min(2, len(handles)), borderaxespad=0.2)
+        axes[-1].legend(*zip(*handles), loc="upper center", bbox_to_anchor=(0.5, 0.0),
+                        ncols=min(2, len(handles)), borderaxespad=0.2)
 
 
 # --- An atlas as one page that needs no network: the map or a globe, and what the pointer is on in words
 SHADES = 60  # colours of the map of times
-TITLES = {"fate": "the fate", "when": "the time to the limit", "level": "how well the fate is known", "equilibria": "the number of equilibria",
+TITLES = {"fate": "the fate", "when": "the time to the limit", "level": "how well the fate is known",
+          "equilibria": "the number of equilibria",
           "island": "where bounded islands are suspected"}
 
 
@@ -204,7 +226,8 @@ def write_page(atlas: Atlas, path: Path, units: Units) -> Path:
     of = atlas.asked
     momenta = [wheel_words(atlas, n) for n in range(len(of.momenta))]
     lead = f"Torque of {units.torque(float(of.torque), SHORT)} in every direction: {answer(atlas, units)}."
-    return html.write(path, "atlas.html", title=of.case.title or of.case.name, lead=html.signed(lead), momenta=momenta,
+    return html.write(path, "atlas.html", title=of.case.title or of.case.name, lead=html.signed(lead),
+                      momenta=momenta,
                       words=in_words(atlas, units), command=of.command, drawn=_drawn(atlas, units, momenta))
 
 
@@ -217,12 +240,15 @@ def _drawn(atlas: Atlas, units: Units, momenta: list[str]) -> dict[str, Any]:
     wheels = []
     for wheel in range(len(atlas.asked.wheels)):
         rows = np.flatnonzero(atlas.leaves.wheel == wheel)
-        wheels.append({"begin": (atlas.leaves.begin[rows] >> 2 * (DEEPEST - deepest)).tolist(), "depth": atlas.leaves.level[rows].tolist(),
+        wheels.append({"begin": (atlas.leaves.begin[rows] >> 2 * (DEEPEST - deepest)).tolist(),
+                       "depth": atlas.leaves.level[rows].tolist(),
                        "columns": {name: which[rows].tolist() for name, (which, _) in tables.items()},
                        "times": [told[n] for n in rows] if told else None})
-    return {"deepest": deepest, "wheels": wheels, "kinds": {name: table | {"title": TITLES[name]} for name, (_, table) in tables.items()},
+    return {"deepest": deepest, "wheels": wheels,
+            "kinds": {name: table | {"title": TITLES[name]} for name, (_, table) in tables.items()},
             "order": list(tables), "named": _named(atlas, units), "momenta": momenta,
-            "axes": None if frame is None or frame.as_given else [[float(v) for v in row] for row in frame.axes]}
+            "axes": None if frame is None or frame.as_given
+            else [[float(v) for v in row] for row in frame.axes]}
 
 
 def _tables(atlas: Atlas, units: Units) -> dict[str, tuple[np.ndarray, dict[str, Any]]]:
@@ -233,21 +259,30 @@ def _tables(atlas: Atlas, units: Units) -> dict[str, tuple[np.ndarray, dict[str,
         which[rows] = n
     words = [kind_words(atlas, *key) for key, _, _ in fates]
     colours = [_bytes(kind_colour(*key)) for key, _, _ in fates]
-    told = {"fate": (which, {"words": words, "colours": colours, "legend": [[f"{word}: {100 * share:.3g} %", colour] for word, colour, (_, _, share)
-                                                                               in zip(words, colours, fates)]})}
+    told = {"fate": (which,
+                     {"words": words, "colours": colours,
+                      "legend": [[f"{word}: {100 * share:.3g} %", colour] for word, colour, (_, _, share)
+                                                                               in zip(words, colours,
+                                                                                      fates)]})}
     if atlas.asked.stated_limit is not None:
         told["when"] = _shaded(atlas, units)
-    told["level"] = _flags(records["level"], lambda v: f"the fate is {LEVELS[v]}" if v else "the fate is undecided")
-    told["equilibria"] = _flags(records["equilibria"], lambda v: COUNTS.get(v) or f"{v} equilibri{'um' if v == 1 else 'a'}")
-    told["island"] = _flags(records["island"], lambda v: ("no island is suspected", "a bounded island may exist", "a bounded island is seen")[v])
+    told["level"] = _flags(records["level"],
+                           lambda v: f"the fate is {LEVELS[v]}" if v else "the fate is undecided")
+    told["equilibria"] = _flags(records["equilibria"],
+                                lambda v: COUNTS.get(v) or f"{v} equilibri{'um' if v == 1 else 'a'}")
+    told["island"] = _flags(records["island"],
+                            lambda v: ("no island is suspected", "a bounded island may exist",
+                                       "a bounded island is seen")[v])
     return told
 
 
 def _flags(values: np.ndarray, words: Any) -> tuple[np.ndarray, dict[str, Any]]:
     present, which = np.unique(values, return_inverse=True)
     told = [words(int(value)) for value in present]
-    colours = [_bytes(COUNTED[(int(value) if value >= 0 else n) % len(COUNTED)]) for n, value in enumerate(present)]
-    return which.ravel(), {"words": told, "colours": colours, "legend": [list(pair) for pair in zip(told, colours)]}
+    colours = [_bytes(COUNTED[(int(value) if value >= 0 else n) % len(COUNTED)]) for n,
+               value in enumerate(present)]
+    return which.ravel(), {"words": told, "colours": colours,
+                           "legend": [list(pair) for pair in zip(told, colours)]}
 
 
 def _shaded(atlas: Atlas, units: Units) -> tuple[np.ndarray, dict[str, Any]]:
@@ -261,18 +296,25 @@ def _shaded(atlas: Atlas, units: Units) -> tuple[np.ndarray, dict[str, Any]]:
     step = (most - least) / (SHADES - 1) or 1.0
     which = np.where(np.isinf(low), SHADES, SHADES + 1)
     which[known] = np.round((heights - least) / step).astype(int)
-    colours = [*(_bytes(matplotlib.colormaps["cividis_r"](n / (SHADES - 1))) for n in range(SHADES)), _bytes(NEVER), _bytes(UNKNOWN)]
+    colours = [*(_bytes(matplotlib.colormaps["cividis_r"](n / (SHADES - 1))) for n in range(SHADES)),
+               _bytes(NEVER), _bytes(UNKNOWN)]
     name, one = units.times(float(np.exp(np.median(heights))) if len(heights) else 1.0)
     marks = _marks(np.exp(least) * one, np.exp(most) * one) if len(heights) else []
-    legend = [[f"{mark:g} {name}", colours[int(np.clip(round((np.log(mark / one) - least) / step), 0, SHADES - 1))]] for mark in marks]
-    legend += [[words, colours[n]] for n, words in ((SHADES, "never"), (SHADES + 1, "not known")) if (which == n).any()]
-    return which, {"words": [""] * len(colours), "colours": colours, "legend": [[f"{limit_words(atlas, units)} in", None], *legend]}
+    legend = [[f"{mark:g} {name}",
+               colours[int(np.clip(round((np.log(mark / one) - least) / step), 0, SHADES - 1))]]
+              for mark in marks]
+    legend += [[words, colours[n]] for n,
+               words in ((SHADES, "never"), (SHADES + 1, "not known")) if (which == n).any()]
+    return which, {"words": [""] * len(colours), "colours": colours,
+                   "legend": [[f"{limit_words(atlas, units)} in", None], *legend]}
 
 
 def _marks(least: float, most: float) -> list[float]:
     """Round numbers between two, 1, 2 and 5 of each ten; nearer ones where there are fewer than three."""
-    tens = range(int(np.floor(np.log10(least))) - 1, int(np.ceil(np.log10(most))) + 1) if 0 < least <= most else ()
-    within = [[one for one in (float(f"{part}e{ten}") for ten in tens for part in parts) if least <= one <= most]
+    tens = (range(int(np.floor(np.log10(least))) - 1, int(np.ceil(np.log10(most))) + 1) if 0 < least <= most
+            else ())
+    within = [[one for one in (float(f"{part}e{ten}") for ten in tens for part in parts)
+               if least <= one <= most]
               for parts in ((1, 2, 5), range(1, 10), np.arange(1, 10, 0.1).round(1).tolist())]
     chosen = next((marks for marks in within if len(marks) >= 3), within[-1]) or [float(f"{least:.3g}")]
     return chosen[::max(1, -(-len(chosen) // 8))]
@@ -285,7 +327,8 @@ def _times_on_page(atlas: Atlas, units: Units) -> list[str]:
         return []
     name = limit_words(atlas, units)
     told = []
-    for low, high, level in zip(*(atlas.records[column].tolist() for column in ("when_low", "when_high", "when_level"))):
+    for low, high, level in zip(*(atlas.records[column].tolist()
+                                  for column in ("when_low", "when_high", "when_level"))):
         if low == float("inf"):
             told.append(f"never reaches {name}")
         elif high == high and high < float("inf"):
@@ -299,9 +342,11 @@ def _named(atlas: Atlas, units: Units) -> list[dict[str, Any]]:
     rows = []
     for n, (point, direction) in enumerate(zip(atlas.named, atlas.named_directions.tolist())):
         record = atlas.named_records[n]
-        words = [html.signed(does(atlas, n) + in_time(atlas, n, units)), f"the fate is {LEVELS[record['level']]}",
+        words = [html.signed(does(atlas, n) + in_time(atlas, n, units)),
+                 f"the fate is {LEVELS[record['level']]}",
                  f"islands: {ISLANDS[record['island']].replace('_', ' ')}"]
-        rows.append({"name": printable(shown_name(atlas, point)), "axis": point.level == AXES, "wheel": point.wheel, "direction": direction,
+        rows.append({"name": printable(shown_name(atlas, point)), "axis": point.level == AXES,
+                     "wheel": point.wheel, "direction": direction,
                      "words": words[:2] if not record["island"] else words})
     return rows
 

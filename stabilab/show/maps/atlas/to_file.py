@@ -19,7 +19,8 @@ PAGES = (".html",)
 
 
 def checked(out: Sequence[Path]) -> list[Path]:
-    """The paths, each with an ending that an atlas can be written to. Raises InputError for others, and for one that is named twice."""
+    """The paths, each with an ending that an atlas can be written to. Raises InputError for others, and for
+    one that is named twice."""
     targets = [endings.file(path, (*sweeps.ENDING, *endings.PICTURES, *PAGES)) for path in out]
     if len(set(targets)) < len(targets):
         raise InputError("out: the same file twice: give each once")
@@ -33,7 +34,8 @@ def checked(out: Sequence[Path]) -> list[Path]:
     return targets
 
 
-def write(found: Atlas, path: Path, units: Units, kind: str | None = None, size: tuple[float, float] | None = None, dpi: float | None = None) -> Path:
+def write(found: Atlas, path: Path, units: Units, kind: str | None = None,
+          size: tuple[float, float] | None = None, dpi: float | None = None) -> Path:
     """Write the atlas in the format of the ending."""
     if endings.ending(path) in sweeps.ENDING:
         return sweeps.write(dataset.dataset(found), path)
@@ -53,7 +55,9 @@ def is_atlas(path: Path) -> bool:
         return False
 
 
-def redrawn(path: Path, out: Path, kind: str | None, size: tuple[float, float] | None, dpi: float | None, units: str | None) -> Path:
+def redrawn(path: Path, out: Path, kind: str | None, size: tuple[float, float] | None, dpi: float | None,
+            units: str | None) -> Path:
     """Draw the atlas of a NetCDF file."""
     found = dataset.atlas_of(read(path, f"{printable(str(path))}: expected a file of stabilab atlas"), path)
-    return write(found, endings.file(out, (*endings.PICTURES, *PAGES)), units_of(found.asked.case, units), kind, size, dpi)
+    return write(found, endings.file(out, (*endings.PICTURES, *PAGES)), units_of(found.asked.case, units),
+                 kind, size, dpi)

@@ -1,8 +1,10 @@
 """An atlas in words: names of directions and fates, their colours, text and CSV.
 
-The sphere of directions on a sheet: Hammer's map, on which areas are kept, turned so that no principal axis lies on its rim.
+The sphere of directions on a sheet: Hammer's map, on which areas are kept, turned so that no principal axis
+lies on its rim.
 
-Axis 3 points up. Axes 1 and 2 stand 45 degrees left and right of the middle, so all six directions of the axes lie inside; the rim is half way from -1 to -2.
+Axis 3 points up. Axes 1 and 2 stand 45 degrees left and right of the middle, so all six directions of the
+axes lie inside; the rim is half way from -1 to -2.
 """
 from __future__ import annotations
 
@@ -27,22 +29,29 @@ from ..words import COUNTS
 
 # --- How directions, axes and fates of an atlas are named, and the colour of each fate
 # (axis, sense) of a spin-up -> its colour: a hue for each axis, the lighter one against it
-SPINS = {(1, 1): light(style.BLUE, 0.95), (1, -1): light(style.BLUE, 0.5), (2, 1): light(style.GREEN, 0.95), (2, -1): light(style.GREEN, 0.45),
-         (3, 1): light(style.VERMILION, 0.95), (3, -1): light(style.VERMILION, 0.5), (0, 0): light(style.PURPLE, 0.9)}
-ISLAND_COLOURS = {1: light(style.GREY, 0.75), 2: light(style.BLACK, 0.8)}  # of undecided cells: where one may exist, where one is seen
-DOES = {Fate.BOUNDED: "stay bounded", Fate.SEPARATRIX: "lie on the separatrix", Fate.EQUILIBRIUM: "keep a steady rotation", Fate.UNDECIDED: "are undecided"}
+SPINS = {(1, 1): light(style.BLUE, 0.95), (1, -1): light(style.BLUE, 0.5), (2, 1): light(style.GREEN, 0.95),
+         (2, -1): light(style.GREEN, 0.45),
+         (3, 1): light(style.VERMILION, 0.95), (3, -1): light(style.VERMILION, 0.5),
+         (0, 0): light(style.PURPLE, 0.9)}
+# of undecided cells: where one may exist, where one is seen
+ISLAND_COLOURS = {1: light(style.GREY, 0.75), 2: light(style.BLACK, 0.8)}
+DOES = {Fate.BOUNDED: "stay bounded", Fate.SEPARATRIX: "lie on the separatrix",
+        Fate.EQUILIBRIUM: "keep a steady rotation", Fate.UNDECIDED: "are undecided"}
 
 
 def other_axis(atlas: Atlas) -> str:
-    """About what a motion spins up that does so about no principal axis: of a sphere every axis is one, and the wheel or the torque chooses."""
+    """About what a motion spins up that does so about no principal axis: of a sphere every axis is one, and
+    the wheel or the torque chooses."""
     if len(set(atlas.asked.case.scene.body.exact)) > 1:  # type: ignore[union-attr]
         return "no principal axis"
     wheels = {any(wheel) for wheel in atlas.asked.wheels}
-    return "the wheel's axis" if wheels == {True} else "the torque's axis" if wheels == {False} else "the axis of the wheel, or of the torque"
+    return ("the wheel's axis" if wheels == {True} else "the torque's axis" if wheels == {False}
+            else "the axis of the wheel, or of the torque")
 
 
 def point_name(atlas: Atlas, point: Point) -> str:
-    """"+z" and "-z" for the axes (of a full tensor "+minor" and "-minor"), a thruster's name, "torque of the case"."""
+    """"+z" and "-z" for the axes (of a full tensor "+minor" and "-minor"), a thruster's name, "torque of the
+    case"."""
     if point.level == AXES:
         return axes_of(atlas.asked.case).signed(point.number // 2 + 1, -1 if point.number % 2 else 1)
     return "torque of the case" if point.level == OWN else atlas.asked.case.thrusters[point.number].name
@@ -71,8 +80,10 @@ def kind_colour(fate: int, axis: int, island: int = 0) -> Any:
     return ISLAND_COLOURS.get(island) or light(FATES[Fate(fate)][1], 0.8)
 
 
-def kinds(atlas: Atlas, rows: np.ndarray | None = None) -> list[tuple[tuple[int, int, int], np.ndarray, float]]:
-    """((fate, axis with its sense, island), rows of cells, share of the sphere and of the wheels) of all that occurs, the most first."""
+def kinds(atlas: Atlas,
+          rows: np.ndarray | None = None) -> list[tuple[tuple[int, int, int], np.ndarray, float]]:
+    """((fate, axis with its sense, island), rows of cells, share of the sphere and of the wheels) of all that
+    occurs, the most first."""
     chosen = np.arange(len(atlas.records)) if rows is None else rows
     records = atlas.records[chosen]
     seen = np.where(records["fate"] == Fate.UNDECIDED, records["island"], 0)
@@ -80,7 +91,8 @@ def kinds(atlas: Atlas, rows: np.ndarray | None = None) -> list[tuple[tuple[int,
     found, which = np.unique(keys, axis=0, return_inverse=True)
     which = which.ravel()
     whole = atlas.share[chosen].sum()
-    told = [((int(key[0]), int(key[1]), int(key[2])), chosen[which == n], float(atlas.share[chosen][which == n].sum() / whole))
+    told = [((int(key[0]), int(key[1]), int(key[2])), chosen[which == n],
+             float(atlas.share[chosen][which == n].sum() / whole))
             for n, key in enumerate(found)]
     return sorted(told, key=lambda one: (-one[2], one[0]))
 
@@ -92,7 +104,8 @@ def wheel_words(atlas: Atlas, number: int) -> str:
 
 def direction_words(vector: Any) -> str:
     """Three digits of a direction."""
-    return "(" + ", ".join(f"{v + 0.0:.3g}" if abs(v) >= 5e-4 else "0" for v in np.asarray(vector).tolist()) + ")"
+    return ("(" + ", ".join(f"{v + 0.0:.3g}" if abs(v) >= 5e-4 else "0" for v in np.asarray(vector).tolist())
+            + ")")
 
 
 ACROSS, UP = 2 * np.sqrt(2), np.sqrt(2)  # half the width and half the height of the map
@@ -150,7 +163,8 @@ ROWS = 12  # wheel momenta that are told one by one
 def text(atlas: Atlas, units: Units) -> str:
     """The answer in the first line; then what is behind it."""
     told = limiting.lines(caveats_of(atlas.asked.case, _all(atlas)), units)
-    return "\n".join([f"{atlas.asked.case.name}: {answer(atlas, units)}", *told, *_wheels(atlas, units), *_details(atlas, units), *_named(atlas, units)])
+    return "\n".join([f"{atlas.asked.case.name}: {answer(atlas, units)}", *told, *_wheels(atlas, units),
+                      *_details(atlas, units), *_named(atlas, units)])
 
 
 def _all(atlas: Atlas) -> np.ndarray:
@@ -159,13 +173,16 @@ def _all(atlas: Atlas) -> np.ndarray:
 
 
 def answer(atlas: Atlas, units: Units, rows: np.ndarray | None = None) -> str:
-    """"78 % of directions spin up about z (minor axis), 22 % about x (major axis); shortest time to 30 deg/s: 2.1 min at direction (...)"."""
+    """"78 % of directions spin up about z (minor axis), 22 % about x (major axis); shortest time to 30 deg/s:
+    2.1 min at direction (...)"."""
     shares = _by_axis(atlas, rows)
-    what = "directions" if len(atlas.asked.wheels) == 1 or rows is not None else "directions and wheel momenta"
+    what = ("directions" if len(atlas.asked.wheels) == 1 or rows is not None
+            else "directions and wheel momenta")
     parts = []
     for n, ((fate, axis), share) in enumerate(shares):
         about = axes_of(atlas.asked.case).whole(axis) if axis else other_axis(atlas)
-        verb = f"about {about}" if n and shares[n - 1][0][0] == fate == Fate.SPIN_UP else f"spin up about {about}" if fate == Fate.SPIN_UP else DOES[Fate(fate)]
+        verb = (f"about {about}" if n and shares[n - 1][0][0] == fate == Fate.SPIN_UP
+                else f"spin up about {about}" if fate == Fate.SPIN_UP else DOES[Fate(fate)])
         parts.append(f"{_per_cent(share)} of {what} {verb}" if not n else f"{_per_cent(share)} {verb}")
     if len(shares) == 1:
         parts = [parts[0].replace("100 % of", "all", 1)]
@@ -173,7 +190,8 @@ def answer(atlas: Atlas, units: Units, rows: np.ndarray | None = None) -> str:
 
 
 def _by_axis(atlas: Atlas, rows: np.ndarray | None) -> list[tuple[tuple[int, int], float]]:
-    """((fate, axis), share), both senses of an axis together; spin-ups beside each other, in order of what most do."""
+    """((fate, axis), share), both senses of an axis together; spin-ups beside each other, in order of what
+    most do."""
     found: dict[tuple[int, int], float] = {}
     for (fate, axis, _), _, share in kinds(atlas, rows):
         found[fate, abs(axis)] = found.get((fate, abs(axis)), 0.0) + share
@@ -192,13 +210,18 @@ def _shortest(atlas: Atlas, units: Units, rows: np.ndarray | None = None) -> str
     if atlas.asked.stated_limit is None:
         return ""
     low = atlas.records["when_low"] if rows is None else atlas.records["when_low"][rows]
-    known = np.isfinite(low) & np.isfinite(atlas.records["when_high"] if rows is None else atlas.records["when_high"][rows])
+    known = (np.isfinite(low) & np.isfinite(atlas.records["when_high"] if rows is None
+                                            else atlas.records["when_high"][rows]))
     if not known.any():
         return f"; {limit_words(atlas, units)} is not known to be reached"
-    at = int(np.flatnonzero(known)[np.argmin(low[known])]) if rows is None else int(rows[np.flatnonzero(known)[np.argmin(low[known])]])
-    beside = f", wheel {wheel_words(atlas, int(atlas.leaves.wheel[at]))}" if atlas.asked.momenta and rows is None else ""
+    at = (int(np.flatnonzero(known)[np.argmin(low[known])]) if rows is None
+          else int(rows[np.flatnonzero(known)[np.argmin(low[known])]]))
+    beside = (f", wheel {wheel_words(atlas, int(atlas.leaves.wheel[at]))}" if atlas.asked.momenta
+              and rows is None else "")
     where = direction_words(atlas.in_file(atlas.directions[at:at + 1])[0])
-    return f"; shortest time to {limit_words(atlas, units)}: {units.time(float(atlas.records['when_low'][at]), SHORT)} at direction {where}{beside}"
+    return (
+        f"; shortest time to {limit_words(atlas, units)}: "
+        f"{units.time(float(atlas.records['when_low'][at]), SHORT)} at direction {where}{beside}")
 
 
 def limit_words(atlas: Atlas, units: Units) -> str:
@@ -219,35 +242,47 @@ def _wheels(atlas: Atlas, units: Units) -> list[str]:
     if not atlas.asked.momenta:
         return []
     numbers = range(len(atlas.asked.wheels))
-    shown = numbers if len(numbers) <= ROWS else [int(n) for n in np.unique(np.linspace(0, len(numbers) - 1, ROWS).round())]
-    lines = [f"  wheel {wheel_words(atlas, n)}: {answer(atlas, units, np.flatnonzero(atlas.leaves.wheel == n))}" for n in shown]
-    return lines + ([f"  and {len(numbers) - len(shown)} more wheel momenta between"] if len(shown) < len(numbers) else [])
+    shown = (numbers if len(numbers) <= ROWS
+             else [int(n) for n in np.unique(np.linspace(0, len(numbers) - 1, ROWS).round())])
+    lines = [
+        f"  wheel {wheel_words(atlas, n)}: {answer(atlas, units, np.flatnonzero(atlas.leaves.wheel == n))}"
+        for n in shown]
+    return (lines + ([f"  and {len(numbers) - len(shown)} more wheel momenta between"]
+                     if len(shown) < len(numbers) else []))
 
 
 def _details(atlas: Atlas, units: Units) -> list[str]:
     records, whole = atlas.records, atlas.share.sum()
     levels = np.unique(atlas.leaves.level)
     size = math.degrees(math.sqrt(float(area(int(levels[-1])))))
-    lines = [f"  torque {units.torque(float(atlas.asked.torque))}; {len(records):,} cells of equal area at each of {len(levels)} depths, the smallest some "
+    lines = [f"  torque {units.torque(float(atlas.asked.torque))}; {len(records):,} cells of equal area at "
+             f"each of {len(levels)} depths, the smallest some "
              f"{size:.2g} deg wide" if len(levels) > 1 else
-             f"  torque {units.torque(float(atlas.asked.torque))}; {len(records):,} cells of equal area, some {size:.2g} deg wide"]
+             f"  torque {units.torque(float(atlas.asked.torque))}; {len(records):,} cells of equal area, "
+             f"some {size:.2g} deg wide"]
     spun = records["fate"] == Fate.SPIN_UP
     if spun.any():
-        lines.append("  spin-up about " + _listed(atlas, records["spin_axis"], spun, whole, lambda axis: _signed(atlas, axis)))
-    lines.append("  the fate is known as " + _listed(atlas, records["level"], records["level"] >= 0, whole, lambda level: LEVELS[level]))
+        lines.append("  spin-up about " + _listed(atlas, records["spin_axis"], spun, whole,
+                                                  lambda axis: _signed(atlas, axis)))
+    lines.append("  the fate is known as " + _listed(atlas, records["level"], records["level"] >= 0, whole,
+                                                     lambda level: LEVELS[level]))
     if atlas.asked.stated_limit is not None:
         lines.append(_times(atlas, units, whole))
-    lines.append("  number of equilibria: " + _listed(atlas, records["equilibria"], records["equilibria"] > -9, whole,
+    lines.append("  number of equilibria: "
+                 + _listed(atlas, records["equilibria"], records["equilibria"] > -9, whole,
                                                       lambda n: COUNTS.get(n) or str(n)))
     suspected = records["island"] > 0
     if suspected.any():
-        lines.append("  bounded islands: " + _listed(atlas, records["island"], suspected, whole, lambda n: ("", "may exist", "one is seen")[n]))
+        lines.append("  bounded islands: " + _listed(atlas, records["island"], suspected, whole,
+                                                     lambda n: ("", "may exist", "one is seen")[n]))
     return lines
 
 
 def _listed(atlas: Atlas, values: np.ndarray, rows: np.ndarray, whole: float, words: Any) -> str:
-    shares = {int(value): float(atlas.share[rows & (values == value)].sum() / whole) for value in np.unique(values[rows])}
-    return ", ".join(f"{words(value)} ({_per_cent(share)})" for value, share in sorted(shares.items(), key=lambda one: -one[1]))
+    shares = {int(value): float(atlas.share[rows & (values == value)].sum() / whole)
+              for value in np.unique(values[rows])}
+    return ", ".join(f"{words(value)} ({_per_cent(share)})" for value,
+                     share in sorted(shares.items(), key=lambda one: -one[1]))
 
 
 def _times(atlas: Atlas, units: Units, whole: float) -> str:
@@ -260,19 +295,23 @@ def _times(atlas: Atlas, units: Units, whole: float) -> str:
         told += f"{units.time(least, SHORT)} to {units.time(most, SHORT)}, {levels}"
     rest = [(words, float(atlas.share[rows].sum() / whole)) for words, rows in
             (("never", np.isinf(low)), ("not known", ~known & ~np.isinf(low))) if rows.any()]
-    return told + ("; " if known.any() and rest else "") + ", ".join(f"{words} ({_per_cent(share)})" for words, share in rest)
+    return (told + ("; " if known.any() and rest else "")
+            + ", ".join(f"{words} ({_per_cent(share)})" for words, share in rest))
 
 
 def _named(atlas: Atlas, units: Units) -> list[str]:
-    """A line for the principal axes and one for each thruster; where wheels vary, of the first of them alone."""
+    """A line for the principal axes and one for each thruster; where wheels vary, of the first of them alone.
+    """
     first = [n for n, point in enumerate(atlas.named) if point.wheel == 0]
     beside = f", wheel {wheel_words(atlas, 0)}" if atlas.asked.momenta else ""
-    axes = [f"{point_name(atlas, atlas.named[n])} {does(atlas, n)}" for n in first if atlas.named[n].level == AXES]
+    axes = [f"{point_name(atlas, atlas.named[n])} {does(atlas, n)}" for n in first
+            if atlas.named[n].level == AXES]
     lines = [f"  exactly on an axis{beside}: {', '.join(axes)}"]
     for n in first:
         point = atlas.named[n]
         if point.level != AXES:
-            name = f"thruster {printable(point_name(atlas, point))}" if point.level == THRUSTERS else point_name(atlas, point)
+            name = (f"thruster {printable(point_name(atlas, point))}" if point.level == THRUSTERS
+                    else point_name(atlas, point))
             where = direction_words(atlas.in_file(atlas.named_directions[n:n + 1])[0])
             lines.append(f"  {name}, direction {where}{beside}: {does(atlas, n)}{in_time(atlas, n, units)}")
     return lines
@@ -283,7 +322,8 @@ def does(atlas: Atlas, n: int) -> str:
     record = atlas.named_records[n]
     fate, axis = Fate(int(record["fate"])), int(record["spin_axis"])
     if fate != Fate.SPIN_UP:
-        return {Fate.BOUNDED: "stays bounded", Fate.SEPARATRIX: "lies on the separatrix", Fate.EQUILIBRIUM: "keeps a steady rotation",
+        return {Fate.BOUNDED: "stays bounded", Fate.SEPARATRIX: "lies on the separatrix",
+                Fate.EQUILIBRIUM: "keeps a steady rotation",
                 Fate.UNDECIDED: "is undecided"}[fate]
     return f"spins up about {_signed(atlas, axis)}"
 
@@ -296,28 +336,38 @@ def in_time(atlas: Atlas, n: int, units: Units) -> str:
     """When it reaches the limit there; nothing where that is not known."""
     if atlas.asked.stated_limit is None or not math.isfinite(atlas.named_records["when_high"][n]):
         return ""
-    return f", reaches {limit_words(atlas, units)} in {units.time(float(atlas.named_records['when_high'][n]), SHORT)}"
+    return (
+        f", reaches {limit_words(atlas, units)} in "
+        f"{units.time(float(atlas.named_records['when_high'][n]), SHORT)}")
 
 
 def undecided(atlas: Atlas) -> bool:
     """Whether a fate is."""
-    return bool((atlas.records["fate"] == Fate.UNDECIDED).any() or (atlas.named_records["fate"] == Fate.UNDECIDED).any())
+    return bool((atlas.records["fate"] == Fate.UNDECIDED).any()
+                or (atlas.named_records["fate"] == Fate.UNDECIDED).any())
 
 
 def csv(atlas: Atlas) -> str:
     """A line for each direction with a name, then one for each cell."""
     plan = atlas.asked.plan(())
     columns = columns_of(atlas.asked.answers)[1:]
-    told = lambda column: column.name if unit(plan, column) == "1" else f"{column.name} ({unit(plan, column)})"
-    heads = ["name", "wheel", "level", "number", "share", *(f"direction{n}" for n in (1, 2, 3)), *(f"file_{n}" for n in "xyz"), *map(told, columns)]
-    rows = [[point_name(atlas, point), _momentum(atlas, point.wheel), "", "", "", *direction, *of_file, *_cells(columns, record)]
-            for point, direction, of_file, record in zip(atlas.named, atlas.named_directions.tolist(), atlas.in_file(atlas.named_directions).tolist(),
+    told = lambda column: column.name if unit(plan,
+                                              column) == "1" else f"{column.name} ({unit(plan, column)})"
+    heads = ["name", "wheel", "level", "number", "share", *(f"direction{n}" for n in (1, 2, 3)),
+             *(f"file_{n}" for n in "xyz"), *map(told, columns)]
+    rows = [[point_name(atlas, point), _momentum(atlas, point.wheel), "", "", "", *direction, *of_file,
+             *_cells(columns, record)]
+            for point, direction, of_file,
+            record in zip(atlas.named, atlas.named_directions.tolist(),
+                          atlas.in_file(atlas.named_directions).tolist(),
                                                          atlas.named_records)]
     leaves = atlas.leaves
     for wheel, level, number, share, direction, of_file, record in zip(
-            leaves.wheel.tolist(), leaves.level.tolist(), leaves.number.tolist(), atlas.share.tolist(), atlas.directions.tolist(),
+            leaves.wheel.tolist(), leaves.level.tolist(), leaves.number.tolist(), atlas.share.tolist(),
+            atlas.directions.tolist(),
             atlas.in_file(atlas.directions).tolist(), atlas.records):
-        rows.append(["", _momentum(atlas, wheel), level, number, share, *direction, *of_file, *_cells(columns, record)])
+        rows.append(["", _momentum(atlas, wheel), level, number, share, *direction, *of_file,
+                     *_cells(columns, record)])
     return comma.lines([heads, *rows])
 
 
@@ -331,34 +381,48 @@ def _cells(columns: Any, record: Any) -> list[Any]:
 
 
 def json(atlas: Atlas, units: Units) -> str:
-    """Everything: what was asked, the answer, directions with a name, each column of the cells in one list."""
+    """Everything: what was asked, the answer, directions with a name, each column of the cells in one list.
+    """
     asked, plan = atlas.asked, atlas.asked.plan(())
     wheels = [{"momentum": momentum, "unit": asked.unit, "vector": list(map(float, vector))}
               for momentum, vector in zip(asked.momenta or (None,) * len(asked.wheels), asked.wheels)]
     axes = axes_of(asked.case)
-    shares = [{"fate": Fate(fate).word, **axes.key(abs(axis)), "sense": (axis > 0) - (axis < 0) or None, "island": ISLANDS[island], "share": share}
+    shares = [{"fate": Fate(fate).word, **axes.key(abs(axis)), "sense": (axis > 0) - (axis < 0) or None,
+               "island": ISLANDS[island], "share": share}
               for (fate, axis, island), _, share in kinds(atlas)]
     limit = asked.stated_limit
-    cells = {"wheel": atlas.leaves.wheel, "level": atlas.leaves.level, "number": atlas.leaves.number, "share": atlas.share,
+    cells = {"wheel": atlas.leaves.wheel, "level": atlas.leaves.level, "number": atlas.leaves.number,
+             "share": atlas.share,
              "direction": atlas.directions, "direction_in_file": atlas.in_file(atlas.directions)}
-    named = [{"name": point_name(atlas, point), "kind": {AXES: "axis", THRUSTERS: "thruster"}.get(point.level, "case"), "wheel": point.wheel,
+    named = [{"name": point_name(atlas, point),
+              "kind": {AXES: "axis", THRUSTERS: "thruster"}.get(point.level, "case"), "wheel": point.wheel,
               "direction": direction, "direction_in_file": of_file} | _as_dict(asked, record)
-             for point, direction, of_file, record in zip(atlas.named, atlas.named_directions.tolist(), atlas.in_file(atlas.named_directions).tolist(),
+             for point, direction, of_file,
+             record in zip(atlas.named, atlas.named_directions.tolist(),
+                           atlas.in_file(atlas.named_directions).tolist(),
                                                           atlas.named_records)]
     frame = asked.case.frame
     told: dict[str, Any] = {
-        "schema": SCHEMA, "case": asked.case.name, "command": asked.command, "answer": answer(atlas, units), "torque": float(asked.torque),
+        "schema": SCHEMA, "case": asked.case.name, "command": asked.command, "answer": answer(atlas, units),
+        "torque": float(asked.torque),
         "moments": list(map(float, asked.case.scene.body.exact)),  # type: ignore[union-attr]
-        "axes": [[float(v) for v in row] for row in frame.axes] if frame is not None else None, "wheels": wheels,
-        "limit": None if limit is None else {"kind": limit.kind, "names": list(limit.names), "values": list(limit.limits)}, "shares": shares, "named": named,
-        "flags": {column.name: list(column.flags) for column in columns_of(asked.answers)[1:] if column.flags},
-        "units": {column.name: unit(plan, column) for column in columns_of(asked.answers)[1:] if column.kind == "f8"},
-        "cells": cells | {column.name: _plain(atlas.records[column.name]) for column in columns_of(asked.answers)[1:]}}
+        "axes": [[float(v) for v in row] for row in frame.axes] if frame is not None else None,
+        "wheels": wheels,
+        "limit": None if limit is None else {"kind": limit.kind, "names": list(limit.names),
+                                             "values": list(limit.limits)}, "shares": shares, "named": named,
+        "flags": {column.name: list(column.flags) for column in columns_of(asked.answers)[1:]
+                  if column.flags},
+        "units": {column.name: unit(plan, column) for column in columns_of(asked.answers)[1:]
+                  if column.kind == "f8"},
+        "cells": cells | {column.name: _plain(atlas.records[column.name])
+                          for column in columns_of(asked.answers)[1:]}}
     return as_json(told | limiting.key(asked.case, caveats_of(asked.case, _all(atlas))))
 
 
 def _as_dict(asked: Any, record: Any) -> dict[str, Any]:
-    return {column.name: value for column, value in zip(columns_of(asked.answers)[1:], _words(_cells(columns_of(asked.answers)[1:], record)))}
+    return {column.name: value for column,
+            value in zip(columns_of(asked.answers)[1:],
+                         _words(_cells(columns_of(asked.answers)[1:], record)))}
 
 
 def _words(values: list[Any]) -> list[Any]:

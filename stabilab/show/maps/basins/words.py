@@ -1,4 +1,5 @@
-"""Basins in words: what share of the plane each has, how far its boundary was followed and how rough it is; CSV and JSON."""
+"""Basins in words: what share of the plane each has, how far its boundary was followed and how rough it is;
+CSV and JSON."""
 from __future__ import annotations
 
 import math
@@ -23,7 +24,8 @@ SMOOTH = 0.1  # of the dimension: less than this above 1 is told as smooth where
 
 def basin_name(found: Basins, label: int) -> str:
     """What motions of a basin do."""
-    named = {BOUNDED: "bounded", UNDECIDED: "undecided", NO_AXIS: "spin-up about an axis between equal moments"}
+    named = {BOUNDED: "bounded", UNDECIDED: "undecided",
+             NO_AXIS: "spin-up about an axis between equal moments"}
     return named.get(label) or f"spin-up about {axes_of(found.plan.case).signed(abs(label), label)}"
 
 
@@ -33,18 +35,26 @@ def text(found: Basins) -> str:
     lines = [f"{printable(found.plan.case.name)}: {_answer(found)}"]
     lines += [f"  {line}" for line in (*_boundary(found), _known(found))]
     full = (mesh.cells[0] << mesh.depth) + 1, (mesh.cells[1] << mesh.depth) + 1
-    lines.append(f"  {len(mesh.keys):,} states asked, of {full[0] * full[1]:,} of the grid of finest cells ({full[0]:,} x {full[1]:,})")
-    lines += limiting.lines(caveats_of(found.plan.case, found.records), units_of(found.plan.case)) + law.beside(found.plan.case)
+    lines.append(
+        f"  {len(mesh.keys):,} states asked, of {full[0] * full[1]:,} of the grid of finest cells "
+        f"({full[0]:,} x {full[1]:,})")
+    lines += (limiting.lines(caveats_of(found.plan.case, found.records), units_of(found.plan.case))
+              + law.beside(found.plan.case))
     if mesh.full:
-        lines.append("  refinement ended before the depth asked for: more than the largest number of states would be needed; take a smaller depth or plane")
+        lines.append(
+            "  refinement ended before the depth asked for: more than the largest number of states would be "
+            "needed; take a smaller depth or plane")
     return "\n".join(lines)
 
 
 def _answer(found: Basins) -> str:
-    parts = [f"{_percent(share, found.blur)} {basin_name(found, label)}" for label, share in found.shares.items()]
+    parts = [f"{_percent(share, found.blur)} {basin_name(found, label)}" for label,
+             share in found.shares.items()]
     if len(parts) == 1:
         return f"one basin in this plane: all of it {basin_name(found, next(iter(found.shares)))}"
-    return f"{len(parts)} kinds of motion in this plane: {', '.join(parts)} (± {_digits(100 * found.blur)} %: the cells on the boundaries)"
+    return (
+        f"{len(parts)} kinds of motion in this plane: {', '.join(parts)} (± {_digits(100 * found.blur)} %: "
+        f"the cells on the boundaries)")
 
 
 def _percent(share: float, blur: float) -> str:
@@ -58,10 +68,14 @@ def _digits(value: float) -> str:
 
 def _boundary(found: Basins) -> list[str]:
     if not len(found.boundary):
-        seen = "" if not found.unclear else f": {found.unclear:,} finest cells lie between what is decided and what is undecided"
-        return [f"no boundary between decided basins is seen{seen or ' from cell to cell: a smaller basin inside a coarse cell would not be'}"]
+        seen = ("" if not found.unclear
+                else f": {found.unclear:,} finest cells lie between what is decided and what is undecided")
+        return [
+            f"no boundary between decided basins is "
+            f"seen{seen or ' from cell to cell: a smaller basin inside a coarse cell would not be'}"]
     steps, units = found.steps, [axis.shown_unit for axis in found.plan.axes]
-    size = " x ".join(f"{_digits(abs(step))}{'' if unit == '1' else f' {unit}'}" for step, unit in zip(steps, units))
+    size = " x ".join(f"{_digits(abs(step))}{'' if unit == '1' else f' {unit}'}" for step,
+                      unit in zip(steps, units))
     through = "; the exact separatrix passes through each" if found.exact else ""
     rough = found.dimension
     lines = [f"boundary: {len(found.boundary):,} cells of depth {found.mesh.depth}, {size} each{through}"]
@@ -69,43 +83,53 @@ def _boundary(found: Basins) -> list[str]:
         lines.append(f"besides {found.unclear:,} cells between what is decided and what is undecided")
     if math.isnan(rough.value):
         return [*lines, f"its box dimension is not known: {rough.reason}"]
-    lines.append(f"its box dimension: {rough.value:.4f} ± {rough.uncertainty:.4f}, {_roughness(rough)} ({rough.reason.partition(';')[0]})")
+    lines.append(
+        f"its box dimension: {rough.value:.4f} ± {rough.uncertainty:.4f}, {_roughness(rough)} "
+        f"({rough.reason.partition(';')[0]})")
     return lines
 
 
 def _roughness(rough: Any) -> str:
     if abs(rough.value - 1) <= rough.uncertainty:
         return "that of a smooth line" if rough.uncertainty < SMOOTH else "which a smooth line may have"
-    return "more than a smooth line has at these sizes" if rough.value > 1 else "less than a line has: pieces smaller than the cells"
+    return ("more than a smooth line has at these sizes" if rough.value > 1
+            else "less than a line has: pieces smaller than the cells")
 
 
 def _known(found: Basins) -> str:
     values, counts = np.unique(found.records["level"], return_counts=True)
-    return "the fate is known as " + ", ".join(f"{LEVELS[value]} ({count:,})" for value, count in zip(values.tolist(), counts.tolist()))
+    return ("the fate is known as " + ", ".join(f"{LEVELS[value]} ({count:,})" for value,
+                                                count in zip(values.tolist(), counts.tolist())))
 
 
 def cells_of(found: Basins) -> dict[str, np.ndarray]:
-    """The cells that are not split, coarse ones first: places of their ends on the finest grid, depth, whether their corners differ, and the label at the
-    first corner."""
+    """The cells that are not split, coarse ones first: places of their ends on the finest grid, depth,
+    whether their corners differ, and the label at the first corner."""
     mesh, rows = found.mesh, []
     for depth, cells in leaves(mesh):
         row, column = mesh.at(depth, cells)
         step = 1 << mesh.depth - depth
-        rows.append(np.stack([row * step, column * step, np.full(len(cells), step), np.full(len(cells), depth), mesh.mixed(depth, cells),
+        rows.append(np.stack([row * step, column * step, np.full(len(cells), step),
+                              np.full(len(cells), depth), mesh.mixed(depth, cells),
                               mesh.labels_of(mesh.corners(depth, cells)[:, 0])]))
     names = ("first", "second", "width", "depth", "mixed", "label")
     return dict(zip(names, np.concatenate(rows, axis=1)))
 
 
 def csv(found: Basins) -> str:
-    """A line for each cell: its ends along both axes, its depth, and what its states do, or that it is on a boundary."""
+    """A line for each cell: its ends along both axes, its depth, and what its states do, or that it is on a
+    boundary."""
     cells = cells_of(found)
-    heads = [f"{axis.key.name} {end}" + ("" if axis.shown_unit == "1" else f" ({axis.shown_unit})") for axis in found.plan.axes for end in ("from", "to")]
+    heads = [f"{axis.key.name} {end}" + ("" if axis.shown_unit == "1" else f" ({axis.shown_unit})")
+             for axis in found.plan.axes for end in ("from", "to")]
     values = [np.array(axis.values) for axis in found.plan.axes]
-    columns = [values[n][cells[name] + more].tolist() for n, name in enumerate(("first", "second")) for more in (0, cells["width"])]
-    words = ["boundary" if mixed else basin_name(found, label) for mixed, label in zip(cells["mixed"].tolist(), cells["label"].tolist())]
+    columns = [values[n][cells[name] + more].tolist() for n,
+               name in enumerate(("first", "second")) for more in (0, cells["width"])]
+    words = ["boundary" if mixed else basin_name(found, label) for mixed,
+             label in zip(cells["mixed"].tolist(), cells["label"].tolist())]
     told = [limiting.cell(found.plan.case, caveats_of(found.plan.case, found.records))] * len(words)
-    return comma.lines([[*heads, "depth", "basin", "caveats"], *zip(*columns, cells["depth"].tolist(), words, told)])
+    return comma.lines([[*heads, "depth", "basin", "caveats"],
+                        *zip(*columns, cells["depth"].tolist(), words, told)])
 
 
 def json(found: Basins) -> str:
@@ -113,15 +137,20 @@ def json(found: Basins) -> str:
     mesh, rough = found.mesh, found.dimension
     row, column = mesh.at(mesh.depth, found.boundary)
     lower = [np.array(axis.values)[place] for axis, place in zip(found.plan.axes, (row, column))]
-    axes = [{"key": axis.key.name, "unit": axis.shown_unit, "from": axis.values[0], "to": axis.values[-1], "cells": cells, "finest_cell": step}
+    axes = [{"key": axis.key.name, "unit": axis.shown_unit, "from": axis.values[0], "to": axis.values[-1],
+             "cells": cells, "finest_cell": step}
             for axis, cells, step in zip(found.plan.axes, mesh.cells, found.steps)]
     return as_json(limiting.key(found.plan.case, caveats_of(found.plan.case, found.records)) | {
-        "schema": SCHEMA, "case": found.plan.case.name, "variables": found.plan.case.variables, "command": command(found), "axes": axes,
+        "schema": SCHEMA, "case": found.plan.case.name, "variables": found.plan.case.variables,
+        "command": command(found), "axes": axes,
         "depth": mesh.depth, "complete": not mesh.full, "states_asked": len(mesh.keys),
-        "basins": [{"basin": basin_name(found, label), "share": share} for label, share in found.shares.items()], "share_uncertainty": found.blur,
-        "boundary": {"cells": len(found.boundary), "unclear_cells": found.unclear, "exact": found.exact, "corners": np.stack(lower, axis=1),
+        "basins": [{"basin": basin_name(found, label), "share": share} for label,
+                   share in found.shares.items()], "share_uncertainty": found.blur,
+        "boundary": {"cells": len(found.boundary), "unclear_cells": found.unclear, "exact": found.exact,
+                     "corners": np.stack(lower, axis=1),
                      "separatrix": found.separatrix()},
-        "box_dimension": {"value": rough.value, "uncertainty": rough.uncertainty, "depths": list(rough.depths), "cells": list(rough.counts),
+        "box_dimension": {"value": rough.value, "uncertainty": rough.uncertainty,
+                          "depths": list(rough.depths), "cells": list(rough.counts),
                           "fitted_depths": list(rough.used), "because": rough.reason}})
 
 
@@ -129,7 +158,8 @@ def command(found: Basins) -> str:
     """A command that asks the same."""
     import os
     import shlex
-    rows = [f"--vary={axis.key.name}={axis.values[0]!r}:{axis.values[-1]!r}:{cells + 1}{_spacing(found, n)} {axis.unit}".strip()
+    rows = [f"--vary={axis.key.name}={axis.values[0]!r}:{axis.values[-1]!r}:{cells + 1}{_spacing(found, n)} "
+            f"{axis.unit}".strip()
             for n, (axis, cells) in enumerate(zip(found.plan.axes, found.mesh.cells))]
     rows += [f"--depth={found.asked}", *([f"--follow={found.plan.follow}"] if found.plan.follow else [])]
     return shlex.join(["stabilab", "basin", os.path.basename(found.plan.path), *rows])

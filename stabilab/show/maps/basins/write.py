@@ -37,4 +37,5 @@ def checked(paths: Iterable[Path]) -> Targets:
 
 def write(found: Basins, path: Path) -> Path:
     """Write one of them."""
-    return sweeps.write(dataset.dataset(found), path) if endings.ending(path) in sweeps.ENDING else picture.write(found, path)
+    return (sweeps.write(dataset.dataset(found), path) if endings.ending(path) in sweeps.ENDING
+            else picture.write(found, path))

@@ -8,7 +8,8 @@ GAP = 4.0  # points between two labels of a row
 
 
 def rows_apart(places: Sequence[float], texts: Sequence[str], size: float, rows: int) -> list[int | None]:
-    """The row (0 is the lowest) of each text, centred at a rising place and in a font of so many points, such that no two of a row meet.
+    """The row (0 is the lowest) of each text, centred at a rising place and in a font of so many points, such
+    that no two of a row meet.
 
     places: in points. None where no row has room.
     """

@@ -1,4 +1,5 @@
-"""A diagram over one number as a picture: a panel for each component that moves, branches stable or not, events marked."""
+"""A diagram over one number as a picture: a panel for each component that moves, branches stable or not,
+events marked."""
 from __future__ import annotations
 
 from pathlib import Path
@@ -15,24 +16,32 @@ from .labels import rows_apart
 from .words import unit
 
 CROWD = 6.0  # a component that goes to infinity is cut at so many times what nine tenths of the points reach
-SIZE, ROWS, MARGIN = 7.5, 3, 1.2  # of the values above the panel: points, rows at the most, inches of the figure beside the panel
-LOOKS = {"stable": ("stable", "stable"), "unstable": ("unstable", "unstable"), "border": ("fold", "stability changes"),
+# of the values above the panel: points, rows at the most, inches of the figure beside the panel
+SIZE, ROWS, MARGIN = 7.5, 3, 1.2
+LOOKS = {"stable": ("stable", "stable"), "unstable": ("unstable", "unstable"),
+         "border": ("fold", "stability changes"),
          "undecided": ("dividing", "undecided")}
 
 
-def write(found: Diagram, out: str | Path, size: tuple[float, float] | None = None, dpi: float | None = None) -> Path:
-    """Draw the diagram and write the picture; returns its path. Raises InputError where equilibria form curves for every value."""
+def write(found: Diagram, out: str | Path, size: tuple[float, float] | None = None,
+          dpi: float | None = None) -> Path:
+    """Draw the diagram and write the picture; returns its path. Raises InputError where equilibria form
+    curves for every value."""
     if found.kind == CURVES:
         what = axes_of(found.family.case).sentence(found.what).partition(";")[0]
-        raise InputError(f"{found.family.case.place}: {what}: these are told in words, and no branches are there to draw: leave --out away")
+        raise InputError(
+            f"{found.family.case.place}: {what}: these are told in words, and no branches are there to draw: "
+            f"leave --out away")
     return style.write(out, lambda plt: drawn(found, size, plt), dpi)
 
 
 def drawn(found: Diagram, size: tuple[float, float] | None, plt: Any) -> Any:
     """The figure."""
     rows = branches(found)
-    moving = [i for i in range(3) if any(abs(state[i]) > 0 for branch in rows for state in branch.states)] or [0]
-    figure, axes = plt.subplots(len(moving), 1, sharex=True, squeeze=False, layout="constrained", figsize=size or (8, 1.4 + 2.6 * len(moving)))
+    moving = ([i for i in range(3) if any(abs(state[i]) > 0 for branch in rows for state in branch.states)]
+              or [0])
+    figure, axes = plt.subplots(len(moving), 1, sharex=True, squeeze=False, layout="constrained",
+                                figsize=size or (8, 1.4 + 2.6 * len(moving)))
     units = units_of(found.family.case)
     for ax, i in zip(axes[:, 0], moving):
         _panel(ax, found, rows, i, units.rates[1])
@@ -42,7 +51,8 @@ def drawn(found: Diagram, size: tuple[float, float] | None, plt: Any) -> Any:
     _counts(axes[0, 0], found)
     case = found.family.case
     counted = "changes of stability" if found.kind == BORDERS else "equilibria"
-    figure.suptitle(f"{style.literal(case.title or case.name)}\nin bold: the number of {counted}", x=0.02, ha="left", fontsize=10.5, wrap=True)
+    figure.suptitle(f"{style.literal(case.title or case.name)}\nin bold: the number of {counted}", x=0.02,
+                    ha="left", fontsize=10.5, wrap=True)
     handles, words = axes[0, 0].get_legend_handles_labels()
     kept = dict(zip(words, handles))
     if kept:
@@ -56,7 +66,8 @@ def _panel(ax: Any, found: Diagram, rows: list[Branch], i: int, one: float) -> N
         look, word = LOOKS[branch.verdict]
         ax.plot(branch.values, [state[i] * one for state in branch.states], label=word, **style.MEANING[look])
     for event in found.connections:
-        ax.axvline(event.value, label="connection: two saddles at one height", zorder=1, **style.MEANING["separatrix"] | {"linewidth": 1.2})
+        ax.axvline(event.value, label="connection: two saddles at one height", zorder=1,
+                   **style.MEANING["separatrix"] | {"linewidth": 1.2})
     for event in found.events:
         ax.axvline(event.value, color=style.GREY, linewidth=0.7, linestyle=":", zorder=0)
         met = [state.at[i] * one for state in event.states if state.times > 1]
@@ -76,15 +87,18 @@ def _counts(ax: Any, found: Diagram) -> None:
     whole = float(span.high) - float(span.low)
     for piece in found.pieces:
         if piece.high - piece.low > 0.03 * whole:
-            ax.annotate(str(piece.count) if piece.count >= 0 else "curves", (0.5 * (piece.low + piece.high), 1.0), xycoords=("data", "axes fraction"),
-                        xytext=(0, 3), textcoords="offset points", ha="center", va="bottom", fontsize=9, fontweight="bold")
+            ax.annotate(str(piece.count) if piece.count >= 0 else "curves",
+                        (0.5 * (piece.low + piece.high), 1.0), xycoords=("data", "axes fraction"),
+                        xytext=(0, 3), textcoords="offset points", ha="center", va="bottom", fontsize=9,
+                        fontweight="bold")
     shown = sorted((event.value, f"{event.value + 0.0:.5g}") for event in (*found.events, *found.connections)
                    if event.value not in (float(span.low), float(span.high)))
     wide = 72 * (ax.figure.get_figwidth() - MARGIN) / whole
     places = [wide * (value - float(span.low)) for value, _ in shown]
     for (value, told), row in zip(shown, rows_apart(places, [told for _, told in shown], SIZE, ROWS)):
         if row is not None:
-            ax.annotate(told, (value, 1.0), xycoords=("data", "axes fraction"), xytext=(0, 16 + 1.3 * SIZE * row), textcoords="offset points",
+            ax.annotate(told, (value, 1.0), xycoords=("data", "axes fraction"),
+                        xytext=(0, 16 + 1.3 * SIZE * row), textcoords="offset points",
                         ha="center", va="bottom", fontsize=SIZE)
 
 

@@ -32,10 +32,11 @@ EXPLAINED = {"margin, rate": ": the smallest change of the rates that reaches th
 
 
 def sections(case, folder: Path, stem: str, deep: bool = True, certify: bool = False) -> dict:
-    """Everything that the template says of a case; pictures go into the folder, their names begin with the stem.
+    """Everything that the template says of a case; pictures go into the folder, their names begin with the
+    stem.
 
-    deep: also what takes seconds (a tilt of the torque). certify: write a certificate and check it. What the analysis cannot answer stands
-    under "absent" with its reason; nothing of it raises.
+    deep: also what takes seconds (a tilt of the torque). certify: write a certificate and check it. What the
+    analysis cannot answer stands under "absent" with its reason; nothing of it raises.
     """
     units, absent, one = units_of(case), [], subject(case)
     found = _tried(absent, "Equilibria", lambda: equilibria(case.scene))
@@ -61,7 +62,9 @@ def sections(case, folder: Path, stem: str, deep: bool = True, certify: bool = F
     if moved is not None:
         page |= {"facts": facts(case, moved, units), "extremes": extremes(case, moved, units),
                  "over": _over(units.words(moved.extremes_over))}
-        page["pictures"] = _tried(absent, "Pictures", lambda: pictures(one, folder, stem, deep, "deg" if units.scaled else units.name)) or []
+        page["pictures"] = (_tried(absent, "Pictures",
+                                   lambda: pictures(one, folder, stem, deep,
+                                                    "deg" if units.scaled else units.name)) or [])
         absent += [(title, why) for kind, (title, _) in SHOWN.items() if (why := which.why_not(kind, one))]
         page["sensitivity"] = _tried(absent, "Sensitivity", lambda: sensitivity(case, moved, units))
     page["space"] = _tried(absent, "Space of the rates", lambda: space(case, moved, found, units))

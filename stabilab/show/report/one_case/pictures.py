@@ -1,4 +1,5 @@
-"""The pictures of one motion on its page: the plots that a user can ask for, of each kind that the case has."""
+"""The pictures of one motion on its page: the plots that a user can ask for, of each kind that the case has.
+"""
 from __future__ import annotations
 
 import math
@@ -14,21 +15,26 @@ from ...units import units_of
 # kind -> (title, caption)
 SHOWN = {
     "time": ("Rates over time", "The rates along the principal axes."),
-    "phase": ("Phase plane", "Turn about one axis since the start, and the rate about it. A motion stays on its curve; black curves, where there are any, "
+    "phase": ("Phase plane",
+              "Turn about one axis since the start, and the rate about it. A motion stays on its curve; "
+              "black curves, where there are any, "
                              "part motions of different kinds."),
     "sphere": ("The surface on which the motion stays", "With the other motions on it."),
     "equilibria": ("All equilibria", "Stable and unstable ones in the space of the rates."),
-    "state": ("Analytic models beside the exact motion", "Each part of the state over time; stabilab compare tells when a model is off by 1 % and 10 %.")}
+    "state": ("Analytic models beside the exact motion",
+              "Each part of the state over time; stabilab compare tells when a model is off by 1 % "
+              "and 10 %.")}
 OF_THE_FILE = "The rates along the axes of the file, about which its limits are."
 BRIEF = ("time", "phase", "state")  # on a page among many
-PERIODS = 5.0    # of a motion that repeats, where the span of the case would crowd a picture of several motions
+# of a motion that repeats, where the span of the case would crowd a picture of several motions
+PERIODS = 5.0
 CROWDED = 25.0
 NATURAL = 15.0   # units of the motion's own time, where the case gives no span
 
 
 def pictures(one, folder: Path, stem: str, deep: bool, units: str = "deg") -> list[dict]:
-    """Draw every plot of a subject (`plot.subject`) that a page shows; file, size in pixels, title and caption of each, in order. deep: all
-    kinds, not only those of the motion itself."""
+    """Draw every plot of a subject (`plot.subject`) that a page shows; file, size in pixels, title and
+    caption of each, in order. deep: all kinds, not only those of the motion itself."""
     found = []
     for kind in which.offered(one):
         if kind in (SHOWN if deep else BRIEF):
@@ -38,7 +44,8 @@ def pictures(one, folder: Path, stem: str, deep: bool, units: str = "deg") -> li
             if kind == "time":
                 caption += _later(one)
             made = to_file.write(one, folder / f"{stem}-{kind}.png", kind, units=units)
-            found.append(described(made, caption) | {"kind": kind, "title": title, "command": f"stabilab plot {one.path} --kind {kind}"})
+            found.append(described(made, caption) | {"kind": kind, "title": title,
+                                                     "command": f"stabilab plot {one.path} --kind {kind}"})
     return found
 
 

@@ -1,6 +1,8 @@
-"""The space of the three rates, to be turned by hand: separatrix, equilibria and the motion, as numbers that a small script of the page draws.
+"""The space of the three rates, to be turned by hand: separatrix, equilibria and the motion, as numbers that
+a small script of the page draws.
 
-The box is that of the motion with some room about it, so that a surface that reaches far shows the part that matters. Places are whole numbers of
+The box is that of the motion with some room about it, so that a surface that reaches far shows the part that
+matters. Places are whole numbers of
 16 bits along each axis: a hundred thousandth of the box, and half the bytes.
 """
 from __future__ import annotations
@@ -25,14 +27,16 @@ ROOM = 1.9           # half of the box, of the farthest point of the motion from
 WHOLE = 2.5          # boxes that a surface may fill at most to be shown whole
 BEYOND = 8.0         # boxes: what is farther off is moved in, outside what is drawn
 STEPS = 900          # points of the motion, where these make no corners
-SEEN, COARSEST, MOST = 1e-3, 16e-3, 6000  # of the motion's size: how far a line with fewer points may be from it, at most; points of such a line
+# of the motion's size: how far a line with fewer points may be from it, at most; points of such a line
+SEEN, COARSEST, MOST = 1e-3, 16e-3, 6000
 LINES, FEWEST = 1600, 60  # points of all curves of equilibria, of each at least
 LATEST = 3.0         # times its first size, up to which a motion that spins up is drawn
 NARROW = 0.02        # halves of the box: a surface no wider than that is not seen in it
 
 
 def space(case, motion, found_equilibria, units, shape=SHAPE) -> dict:
-    """What the script draws: box, ticks, sheets, curves and points, and the rows of the legend; `reason`: what is to be said of the separatrix."""
+    """What the script draws: box, ticks, sheets, curves and points, and the rows of the legend; `reason`:
+    what is to be said of the separatrix."""
     sheets, reason = _sheets(case.scene, shape)
     curve = None if motion is None or case.state is None else _curve(case, motion, bool(sheets))
     marks = _marks(motion, found_equilibria)
@@ -43,15 +47,18 @@ def space(case, motion, found_equilibria, units, shape=SHAPE) -> dict:
     curves = found_equilibria.curves if found_equilibria is not None else ()
     drawn = {"names": [f"{printed(name)}{f' ({unit})' if unit else ''}" for name in case.scene.components],
              "middle": [v * one for v in box[0]], "half": box[1] * one,
-             "sheets": [_sheet(sheet, style.BESIDE[n % len(style.BESIDE)], box) for n, sheet in enumerate(sheets)],
-             "curves": _curves(curves, curve, box), "points": [m | {"at": _share(m["at"], box)} for m in marks if _inside(m["at"], box)]}
+             "sheets": [_sheet(sheet, style.BESIDE[n % len(style.BESIDE)], box) for n,
+                        sheet in enumerate(sheets)],
+             "curves": _curves(curves, curve, box),
+             "points": [m | {"at": _share(m["at"], box)} for m in marks if _inside(m["at"], box)]}
     return {"drawn": drawn, "legend": _legend(drawn), "reason": printed(units.words(reason)),
             "clipped": any(_outside(s.points, box) for s in reaching)}
 
 
 def _sheet(sheet, colour, box):
     rows, columns, _ = sheet.points.shape
-    return {"name": f"{sheet.name[0].upper()}{sheet.name[1:]} of the separatrix", "colour": colour, "rows": rows, "columns": columns,
+    return {"name": f"{sheet.name[0].upper()}{sheet.name[1:]} of the separatrix", "colour": colour,
+            "rows": rows, "columns": columns,
             "at": packed(sheet.points, box)}
 
 
@@ -73,12 +80,14 @@ def _reaching(scene, sheets, box, shape):
 
 
 def _curve(case, motion, beside_sheets):
-    """(n, 3) rates along the motion; beside a separatrix a spin-up only while it is near where it began, which else would make it a dot."""
+    """(n, 3) rates along the motion; beside a separatrix a spin-up only while it is near where it began,
+    which else would make it a dot."""
     until = pictures.length(case, motion)
     if motion.period:
         until = min(until, 1.02 * motion.period)
     cut = beside_sheets and motion.fate is Fate.SPIN_UP
-    t, rates = along(one := subject(case), np.linspace(0.0, until, STEPS), drawn=(lambda states: _near(states, motion)) if cut else len)
+    t, rates = along(one := subject(case), np.linspace(0.0, until, STEPS),
+                     drawn=(lambda states: _near(states, motion)) if cut else len)
     size = float(np.ptp(rates, axis=0).max())
     if not size or not angular(rates, 3 * SEEN * size):
         return rates
@@ -97,14 +106,16 @@ def _near(states, motion):
 
 def _least(motion):
     """A size below which a motion is shown on to: the distance from the separatrix."""
-    return motion.margin_velocity if motion.margin_velocity is not None and math.isfinite(motion.margin_velocity) else 0.0
+    return (motion.margin_velocity if motion.margin_velocity is not None
+            and math.isfinite(motion.margin_velocity) else 0.0)
 
 
 def _marks(motion, found):
     """Start, nearest point of the separatrix, isolated equilibria."""
     marks = [] if motion is None else [{"kind": "start", "colour": style.BLACK, "at": motion.at[:3]}]
     if motion is not None and motion.velocity_witness is not None:
-        marks.append({"kind": "nearest point of the separatrix", "colour": style.YELLOW, "at": motion.velocity_witness})
+        marks.append({"kind": "nearest point of the separatrix", "colour": style.YELLOW,
+                      "at": motion.velocity_witness})
     for point in found.points if found is not None else ():
         kind = style.kind_of(point)
         marks.append({"kind": style.EQUILIBRIA[kind], "colour": style.colour_of(kind), "at": point.at[:3]})
@@ -112,12 +123,14 @@ def _marks(motion, found):
 
 
 def _box(curve, sheets, marks):
-    """(middle, half of the length): of the motion, its start and the nearest separatrix, or of the surface where that is not much larger."""
+    """(middle, half of the length): of the motion, its start and the nearest separatrix, or of the surface
+    where that is not much larger."""
     near = [m["at"] for m in marks if m["kind"] in ("start", "nearest point of the separatrix")]
     whole = np.concatenate([s.points.reshape(-1, 3) for s in sheets]) if sheets else np.zeros((0, 3))
     shown = np.concatenate([part for part in (curve, np.array(near or np.zeros((0, 3)))) if part is not None])
     if not len(shown):
-        shown = whole if len(whole) else np.array([m["at"] for m in marks] or [(1.0, 1.0, 1.0), (-1.0, -1.0, -1.0)])
+        shown = (whole if len(whole)
+                 else np.array([m["at"] for m in marks] or [(1.0, 1.0, 1.0), (-1.0, -1.0, -1.0)]))
         return _about(shown, 1.05)
     middle, half = _about(shown, ROOM)
     if len(whole) and _about(np.concatenate([whole, shown]), 1.05)[1] < WHOLE * half:
@@ -133,11 +146,17 @@ def _about(points, room):
 
 def _curves(curves, curve, box):
     size = float(np.abs(np.asarray(box[0])).max()) + 2 * box[1]
-    lines = equilibrium_lines(curves, size, max(FEWEST, LINES // (1 + sum(len(one.segments) for one in curves))))
+    lines = equilibrium_lines(curves, size,
+                              max(FEWEST, LINES // (1 + sum(len(one.segments) for one in curves))))
     lines = [(kind, points) for kind, points in lines if _seen(points[:, :3], box)]
-    rows = [{"kind": style.EQUILIBRIA[kind], "colour": style.colour_of(kind), "at": packed(points[:, :3], box)}  # a field adds the vertical
+    # a field adds the vertical
+    rows = [{"kind": style.EQUILIBRIA[kind], "colour": style.colour_of(kind),
+             "at": packed(points[:, :3], box)}
             for kind, points in lines]
-    return rows + ([] if curve is None else [{"kind": "this motion", "colour": style.MEANING["this motion"]["color"], "at": packed(curve, box)}])
+    return (rows
+            + ([] if curve is None
+               else [{"kind": "this motion", "colour": style.MEANING["this motion"]["color"],
+                      "at": packed(curve, box)}]))
 
 
 def _legend(drawn):
@@ -166,8 +185,10 @@ def _seen(points, box):
 
 
 def _wide(points, box):
-    """Whether a surface has more than a line in the box: the crest along which a loop meets its neighbour is the neighbour's too."""
-    inside = ((points - np.asarray(box[0])) / box[1])[(np.abs(points - np.asarray(box[0])) <= box[1]).all(axis=-1)]
+    """Whether a surface has more than a line in the box: the crest along which a loop meets its neighbour is
+    the neighbour's too."""
+    inside = ((points - np.asarray(box[0]))
+              / box[1])[(np.abs(points - np.asarray(box[0])) <= box[1]).all(axis=-1)]
     if not len(inside):
         return False
     _, _, directions = np.linalg.svd(inside - inside.mean(axis=0), full_matrices=False)

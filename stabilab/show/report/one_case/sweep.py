@@ -1,4 +1,5 @@
-"""A file with [sweep] as one page: a row a combination, a column a swept key, and one picture of all motions."""
+"""A file with [sweep] as one page: a row a combination, a column a swept key, and one picture of all motions.
+"""
 from __future__ import annotations
 
 from pathlib import Path
@@ -46,7 +47,8 @@ def sections(cases, folder: Path, stem: str) -> dict:
             "caveats": [printed(line) for line in limiting.beside(caveats, units)],
             "heads": [f"{head} ({unit})" if unit else head for head, unit in heads],
             "source": first.source, "path": first.path, "text": first.text, "rows": rows,
-            "keys": [_head(label, unit) for key in keys for label, unit, _ in key], "equations": _equations(first),
+            "keys": [_head(label, unit) for key in keys for label, unit, _ in key],
+            "equations": _equations(first),
             "picture": _picture(moved, keys, cases, units, folder / f"{stem}-sweep.png") if moved else None,
             "headline": f"{some(len(rows), 'combination')}: {'; '.join(answers)}",
             "law": "; ".join(lines_of(beyond, units))}
@@ -55,7 +57,9 @@ def sections(cases, folder: Path, stem: str) -> dict:
 def _answer(case):
     """(the motion or None, why there is none)."""
     try:
-        return (None, "no motion is given") if case.state is None else (judged(case, motion(case.scene, case.start, case.span, True, case.exact_state)), "")
+        return (None,
+                "no motion is given") if case.state is None else (
+                    judged(case, motion(case.scene, case.start, case.span, True, case.exact_state)), "")
     except StabilabError as error:
         return None, str(error)
 
@@ -78,7 +82,8 @@ def _equations(case):
 
 
 def _picture(moved, keys, cases, units, path):
-    """The size of the rates against time, all combinations in one panel: colour, dashes and width tell the values of the first three keys."""
+    """The size of the rates against time, all combinations in one panel: colour, dashes and width tell the
+    values of the first three keys."""
     until = max(pictures.length(case, found) for case, found in moved)
     (unit, one), (clock, per) = units.rates, units.times(until)
     letter = "ω" if unit else "x"
@@ -87,21 +92,26 @@ def _picture(moved, keys, cases, units, path):
         for case, found in moved:
             t, states = along(subject(case), np.linspace(0.0, pictures.length(case, found), POINTS))
             ax.plot(t * per, np.linalg.norm(states, axis=1) * one, **_look(_places(case)))
-        ax.set(xlim=(0.0, until * per), xlabel=f"time ({clock})" if unit else "τ", ylabel=f"|{letter}| ({unit})" if unit else f"|{letter}|")
+        ax.set(xlim=(0.0, until * per), xlabel=f"time ({clock})" if unit else "τ",
+               ylabel=f"|{letter}| ({unit})" if unit else f"|{letter}|")
         style.legend(figure, list(_legend(keys, cases)), columns=3)
-        return pictures.described(style.save(figure, path), f"The size of the rates, |{letter}|, of every combination.")
+        return pictures.described(style.save(figure, path),
+                                  f"The size of the rates, |{letter}|, of every combination.")
 
 
 def _look(places):
     first, second, third = (*places, 0, 0, 0)[:3]
-    return {"color": style.SERIES[first % len(style.SERIES)], "linestyle": STYLES[second % len(STYLES)], "linewidth": WIDTHS[third % len(WIDTHS)]}
+    return {"color": style.SERIES[first % len(style.SERIES)], "linestyle": STYLES[second % len(STYLES)],
+            "linewidth": WIDTHS[third % len(WIDTHS)]}
 
 
 def _legend(keys, cases):
     """A row a value of each of the first three keys."""
     for number, columns in enumerate(keys[:3]):
-        first = {_places(case)[number]: n for n, case in reversed(list(enumerate(cases)))}  # value -> the first combination that has it
+        # value -> the first combination that has it
+        first = {_places(case)[number]: n for n, case in reversed(list(enumerate(cases)))}
         for at, n in sorted(first.items()):
             look = _look([at if m == number else 0 for m in range(3)])
-            words = ", ".join(f"{label.replace('_', ' ')} = {cells[n]} {unit}".rstrip() for label, unit, cells in columns)
+            words = ", ".join(f"{label.replace('_', ' ')} = {cells[n]} {unit}".rstrip() for label, unit,
+                              cells in columns)
             yield words, look if number == 0 else look | {"color": style.GREY}

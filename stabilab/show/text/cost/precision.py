@@ -14,12 +14,14 @@ from ...report.precision_picture import picture
 from ...terminal.letters import written
 from .words import caption, duration, methods, setting, title, words
 
-COLUMNS = ("case", "question", "method", "setting", "value", "error", "digits", "steps", "evaluations", "seconds", "slowest",
+COLUMNS = ("case", "question", "method", "setting", "value", "error", "digits", "steps", "evaluations",
+           "seconds", "slowest",
            "repeats", "compile_seconds", "lanes", "parts", "on_front")
 
 
 def text(found) -> str:
-    """The table of the terminal, * marking the front, then the words. rates: how often the rates were evaluated; the slowest run is in CSV and JSON."""
+    """The table of the terminal, * marking the front, then the words. rates: how often the rates were
+    evaluated; the slowest run is in CSV and JSON."""
     told = words(found)
     answer = next((line for line in told if "six digits cost" in line), told[0])
     lines = [f"{found.case.name}: {answer}", *([written(found.case.title)] if found.case.title else [])]
@@ -37,7 +39,8 @@ def _left_out(found):
     first: dict = {}
     for name, value, why in found.left_out:
         first.setdefault(why, {}).setdefault(name, []).append(value)
-    words = {why: [f"{name}, {values[0]:g}{' and finer' if len(values) > 1 else ''}" for name, values in methods.items()] for why, methods in first.items()}
+    words = {why: [f"{name}, {values[0]:g}{' and finer' if len(values) > 1 else ''}" for name,
+                   values in methods.items()] for why, methods in first.items()}
     return [f"{'; '.join(methods)}: {why}" for why, methods in words.items()]
 
 
@@ -45,36 +48,46 @@ def _line(p, best) -> str:
     error = "none" if math.isinf(p.error) else f"{p.error:.1e}"
     counts = "".join(f"{'' if n is None else n:>{width}}" for n, width in ((p.steps, 8), (p.evaluations, 8)))
     times = f"{duration(p.seconds):>10}{duration(p.compile) if p.compile > 1e-4 else '':>9}"
-    return f"{'*' if best else ' '} {p.method:<13}{setting(p)[2:]:<13}{error:>8}{p.digits:>8.1f}{counts}{times}".rstrip()
+    return (
+        f"{'*' if best else ' '} "
+        f"{p.method:<13}{setting(p)[2:]:<13}{error:>8}{p.digits:>8.1f}{counts}{times}".rstrip())
 
 
 def as_dict(found) -> dict:
     """The object of `stabilab precision --json`. Errors are null where no answer came."""
     r = found.reference
-    return {"schema": "stabilab.precision/1", "case": found.case.name, "time": found.case.scene.time_unit, "quick": found.quick,
+    return {"schema": "stabilab.precision/1", "case": found.case.name, "time": found.case.scene.time_unit,
+            "quick": found.quick,
             "times": r.t, "machine": machine(), "versions": versions(),
-            "reference": {"digits": r.digits, "error": float(r.error.max()) if len(r.t) else None, "status": r.status,
+            "reference": {"digits": r.digits, "error": float(r.error.max()) if len(r.t) else None,
+                          "status": r.status,
                           "reason": r.reason, "multiplications": r.work, "period": r.period and r.period[0],
                           "period_error": r.period and r.period[2], "extremes_error": r.extremes_error},
             "sensitivity": found.sensitivity, "points": [_row(found, p) for p in found.points],
-            "digit_price": {q: {m: digit_price(found.of(q, m)) for m in methods(found, q)} for q in found.questions},
+            "digit_price": {q: {m: digit_price(found.of(q, m)) for m in methods(found, q)}
+                            for q in found.questions},
             "fates": [vars(f) for f in found.fates],
-            "left_out": [{"method": m, "value": v, "reason": why} for m, v, why in found.left_out], "words": words(found)}
+            "left_out": [{"method": m, "value": v, "reason": why} for m, v, why in found.left_out],
+            "words": words(found)}
 
 
 def _row(found, p) -> dict:
-    values = (found.case.name, p.question, p.method, p.setting, p.value, p.error, min(p.digits, 99.0), p.steps, p.evaluations, p.seconds,
+    values = (found.case.name, p.question, p.method, p.setting, p.value, p.error, min(p.digits, 99.0),
+              p.steps, p.evaluations, p.seconds,
               p.slowest, p.repeats, p.compile, p.lanes, p.parts, any(p is q for q in found.front(p.question)))
     return dict(zip(COLUMNS, values))
 
 
 def csv(*measured) -> str:
     """One line per point of every case; empty where a count does not exist, inf where no answer came."""
-    return comma.lines([(*COLUMNS, "caveats"), *((*_row(found, p).values(), _limits(found)) for found in measured for p in found.points)])[:-1]
+    return comma.lines([(*COLUMNS, "caveats"),
+                        *((*_row(found, p).values(), _limits(found)) for found in measured
+                          for p in found.points)])[:-1]
 
 
 def _limits(found) -> str:
-    return limiting.cell(found.case, caveats_of(found.case.scene, validity=found.validity, file=found.case.caveats))
+    return limiting.cell(found.case,
+                         caveats_of(found.case.scene, validity=found.validity, file=found.case.caveats))
 
 
 def write(found, path) -> Path:

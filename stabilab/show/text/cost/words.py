@@ -16,7 +16,8 @@ BLAMED = 20  # an error this many times the effect of the start's last place has
 
 def words(found) -> list[str]:
     """The measurement in plain words, one sentence or two a string."""
-    return [_reference_words(found), *(s for q in found.questions for s in _question_words(found, q)), *_fate_words(found),
+    return [_reference_words(found), *(s for q in found.questions for s in _question_words(found, q)),
+            *_fate_words(found),
             *_model_words(found)]
 
 
@@ -26,8 +27,10 @@ def _reference_words(found) -> str:
         return f"Nothing was measured: {r.reason}."
     whole = r.reason if found.case.variables == "scaled" else SPAN.sub(r"\1 s", r.reason)
     reach = "" if r.status == "agrees" else f" Only so far: {whole}; the rest of the span is not judged."
-    return (f"Judged at {some(len(r.t), 'time')} up to {_moment(found)} by a Taylor series run in {r.digits[0]} and in {r.digits[1]} "
-            f"digits; the two differ by {r.error.max():.0e} of the state, which is the reference's error.{reach}")
+    return (f"Judged at {some(len(r.t), 'time')} up to {_moment(found)} by a Taylor series run in "
+            f"{r.digits[0]} and in {r.digits[1]} "
+            f"digits; the two differ by {r.error.max():.0e} of the state, which is the reference's "
+            f"error.{reach}")
 
 
 def _question_words(found, question):
@@ -42,7 +45,8 @@ def _question_words(found, question):
         yield f"{head}: no method has {WANTED[0]} digits."
         return
     yield from _six(found, points, head)
-    parts = [f"{digits} digits cost {duration(p.seconds)} ({p.method}{setting(p)})" for digits, p in _merged(prices)]
+    parts = [f"{digits} digits cost {duration(p.seconds)} ({p.method}{setting(p)})" for digits,
+             p in _merged(prices)]
     yield f"{head}: " + ", ".join(parts) + "." + _against(points, prices) + _digit_words(found, question)
     missing = next((d for d in WANTED if d > prices[-1][0]), None)
     best = max(points, key=lambda p: p.digits)
@@ -60,12 +64,14 @@ def _six(found, points, head):
         if p.digits >= SIX:
             enough.setdefault(p.method, p)
     if len(enough) > 1:
-        yield f"{head}: six digits cost " + ", ".join(f"{duration(p.seconds)} with {name}" for name, p in enough.items()) + "."
+        yield f"{head}: six digits cost " + ", ".join(f"{duration(p.seconds)} with {name}" for name,
+                                                      p in enough.items()) + "."
 
 
 def title(found, question) -> str:
     """The question of this case, as a heading."""
-    named = {"span": f"States at {some(len(found.reference.t), 'time')} up to {_moment(found)}", "end": f"The state at {_moment(found)}"}
+    named = {"span": f"States at {some(len(found.reference.t), 'time')} up to {_moment(found)}",
+             "end": f"The state at {_moment(found)}"}
     return named.get(question, f"The {question}")
 
 
@@ -105,7 +111,8 @@ def price(factor) -> str:
 def _because(found, question, missing, best) -> str:
     shift = (found.sensitivity or 0.0) * EPS if question in ("span", "end") else 0.0
     if shift > max(0.2 * 10.0**-missing, best.error / BLAMED):
-        return (f"; a change of the start in its last place (1e-16) moves the state by {shift:.0e} within the span, "
+        return (f"; a change of the start in its last place (1e-16) moves the state by {shift:.0e} within "
+                f"the span, "
                 "so doubles do not hold more")
     if found.left_out:
         return "; rounding on the way has the last word, or the finer settings that were left out"
@@ -114,10 +121,12 @@ def _because(found, question, missing, best) -> str:
 
 def _fate_words(found):
     if found.fates:
-        yield "Fate: " + "; ".join(_FATE[f.method].format(f.word, duration(f.seconds)) for f in found.fates) + "."
+        yield "Fate: " + "; ".join(_FATE[f.method].format(f.word, duration(f.seconds))
+                                   for f in found.fates) + "."
 
 
-_FATE = {"energy": "{0}, by the energy in doubles with its error bound in {1}", "balls": "in many digits the energy is {0}: {1}"}
+_FATE = {"energy": "{0}, by the energy in doubles with its error bound in {1}",
+         "balls": "in many digits the energy is {0}: {1}"}
 
 
 def _model_words(found):
@@ -125,7 +134,8 @@ def _model_words(found):
         points = found.of("span", name)
         if points:
             best = min(points, key=lambda p: p.error)
-            yield (f"The model {name}{setting(best)}: its own error is {share(best.error)} the state, whatever is spent on it"
+            yield (f"The model {name}{setting(best)}: its own error is {share(best.error)} the state, "
+                   f"whatever is spent on it"
                    f"{f' (of {written(best.parts)} alone)' if best.parts else ''}.")
         elif any(m == name for m, *_ in found.left_out):
             yield f"The model {name} has no answer over the whole span."
@@ -151,13 +161,15 @@ def duration(seconds) -> str:
 
 def setting(p) -> str:
     """", rtol 1e-09" and its like; nothing for a formula."""
-    return "" if p.setting == "formula" else f", {p.setting} {p.value:.2g}" if p.setting == "rtol" else f", {p.setting} {p.value:g}"
+    return ("" if p.setting == "formula" else f", {p.setting} {p.value:.2g}" if p.setting == "rtol"
+            else f", {p.setting} {p.value:g}")
 
 
 def caption() -> str:
     """Machine and versions that the times belong to."""
     m, v = machine(), versions()
-    return f"{m['processor']}, {m['cores']} cores, {m['system']}; " + ", ".join(f"{name} {number}" for name, number in v.items())
+    return (f"{m['processor']}, {m['cores']} cores, {m['system']}; "
+            + ", ".join(f"{name} {number}" for name, number in v.items()))
 
 
 def methods(found, question) -> list[str]:

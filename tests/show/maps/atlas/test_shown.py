@@ -48,7 +48,8 @@ def test_the_first_line_has_shares_of_the_sphere_and_the_shortest_time(found):
     for axis, name in ((1, "x (major axis)"), (3, "z (minor axis)")):
         assert f"{100 * shares[axis]:.0f} %" in first and f"about {name}" in first
     assert f"shortest time to 90 deg/s: {found.records['when_low'].min():.4g} s at direction (" in first
-    assert any(line.startswith("  wheel 0.2 N m s: ") for line in rest) and any("thruster A <1>, direction (0, -1, 0)" in line for line in rest)
+    assert any(line.startswith("  wheel 0.2 N m s: ")
+               for line in rest) and any("thruster A <1>, direction (0, -1, 0)" in line for line in rest)
 
 
 def test_names_of_directions_that_are_one_stand_apart():
@@ -57,17 +58,23 @@ def test_names_of_directions_that_are_one_stand_apart():
     with drawn(asked(case_of(torque=(0.0, 1.0, 0.0)), level=0, refine=0), workers=1) as atlas:
         figure = picture.drawn(atlas, DEG, ("fate",), None, plt)
     figure.canvas.draw()
-    boxes, names = [label.get_window_extent() for label in figure.axes[0].texts], [label.get_text() for label in figure.axes[0].texts]
+    boxes, names = [label.get_window_extent()
+                    for label in figure.axes[0].texts], [label.get_text() for label in figure.axes[0].texts]
     legend = [entry.get_text() for entry in figure.axes[0].get_legend().get_texts()]
     plt.close(figure)
-    assert not [name for name in names + legend if "-" in name] and {"−x major", "+y intermediate", "−z minor"} < set(names)
-    assert len(boxes) == 7 and not [1 for n, box in enumerate(boxes) for other in boxes[:n] if box.overlaps(other)]
+    assert not [name for name in names + legend
+                if "-" in name] and {"−x major", "+y intermediate", "−z minor"} < set(names)
+    assert len(boxes) == 7 and not [1 for n,
+                                    box in enumerate(boxes) for other in boxes[:n] if box.overlaps(other)]
 
 
 def test_json_and_csv_hold_every_cell(found):
     told = json.loads(words.json(found, DEG))
-    assert told["schema"] == "stabilab.atlas/1" and len(told["cells"]["share"]) == len(found.records) == len(told["cells"]["direction"])
-    assert sum(told["cells"]["share"]) == pytest.approx(2) and sum(one["share"] for one in told["shares"]) == pytest.approx(1)
+    assert told["schema"] == "stabilab.atlas/1" and len(told["cells"]["share"]) == len(found.records) == len(
+        told["cells"]["direction"])
+    assert sum(told["cells"]["share"]) == pytest.approx(2) and sum(one["share"]
+                                                                   for one in told[
+                                                                       "shares"]) == pytest.approx(1)
     rows = list(csv.DictReader(io.StringIO(words.csv(found))))
     assert len(rows) == len(found.records) + len(found.named)
     assert float(rows[-1]["when_low (s)"]) == found.records["when_low"][-1] and rows[0]["name"] == "+x"
@@ -76,7 +83,8 @@ def test_json_and_csv_hold_every_cell(found):
 def test_a_file_holds_the_atlas_and_opens_as_a_data_set(found, tmp_path):
     path = to_file.write(found, tmp_path / "sky.nc", DEG)
     data = xarray.open_dataset(path).load()
-    assert data.share.sum() == pytest.approx(2) and data.corners.shape == (len(found.records), 3, 3) and data.when_low.units == "s"
+    assert data.share.sum() == pytest.approx(2) and data.corners.shape == (len(found.records), 3,
+                                                                           3) and data.when_low.units == "s"
     again = dataset.atlas_of(data, path)
     assert words.text(again, DEG) == words.text(found, DEG) and to_file.is_atlas(path)
     assert to_file.write(again, tmp_path / "two.nc", DEG).read_bytes() == path.read_bytes()
@@ -85,8 +93,11 @@ def test_a_file_holds_the_atlas_and_opens_as_a_data_set(found, tmp_path):
 
 
 def test_python_gives_the_data_set(tmp_path):
-    made = stabilab.atlas(case_of(wheel=(0.0, 0.2, 0.0), start=(0.3, -0.2, 0.5)), level=0, refine=0, out=tmp_path / "sky.nc")
-    assert made.sizes["cell"] == 8 and list(made.point.values[:2]) == ["+x", "-x"] and (tmp_path / "sky.nc").is_file() and "when_low" not in made
+    made = stabilab.atlas(case_of(wheel=(0.0, 0.2, 0.0), start=(0.3, -0.2, 0.5)), level=0, refine=0,
+                          out=tmp_path / "sky.nc")
+    assert made.sizes["cell"] == 8 and list(made.point.values[:2]) == ["+x",
+                                                                       "-x"] and (tmp_path
+                                                                                  / "sky.nc").is_file() and "when_low" not in made
 
 
 def test_the_map_keeps_areas_and_comes_back():
@@ -99,14 +110,16 @@ def test_the_map_keeps_areas_and_comes_back():
     for one in d[::97]:
         east = np.cross([0, 0, 1], one) / np.linalg.norm(np.cross([0, 0, 1], one))
         north = np.cross(one, east)
-        ends = flat.on_sheet(np.stack([one + step * east, one - step * east, one + step * north, one - step * north]))
+        ends = flat.on_sheet(np.stack([one + step * east, one - step * east, one + step * north,
+                                       one - step * north]))
         a, b = (ends[0] - ends[1]) / (2 * step), (ends[2] - ends[3]) / (2 * step)
         assert abs(a[0] * b[1] - a[1] * b[0]) == pytest.approx(1, rel=1e-6)
 
 
 def test_pictures_show_what_is_asked_and_refuse_others(found, tmp_path, monkeypatch):
     monkeypatch.setattr(picture, "PIXELS", 200)
-    sizes = [picture.write_picture(found, tmp_path / f"{kind}.png", DEG, kind, dpi=50).stat().st_size for kind in (None, "equilibria")]
+    sizes = [picture.write_picture(found, tmp_path / f"{kind}.png", DEG, kind, dpi=50).stat().st_size
+             for kind in (None, "equilibria")]
     assert sizes[0] > 1.5 * sizes[1] > 5_000  # two maps for each wheel, and one
     with pytest.raises(InputError, match="plot margin: this atlas has fate, when, equilibria, level"):
         picture.write_picture(found, tmp_path / "no.png", DEG, "margin")
@@ -123,7 +136,8 @@ def test_the_page_has_the_minus_of_a_book_and_round_times_in_its_legend(found, t
     text = page.write_page(found, tmp_path / "sky.html", DEG).read_text(encoding="utf-8")
     (lead,) = re.findall(r'<p class="lead">(.*?)</p>', text, re.S)
     assert "−" in lead and not re.search(r"-[\d.]", lead)
-    (head, none), *marks = json.loads(re.search(r'id="atlas-data">(.*?)</script>', text, re.S)[1])["kinds"]["when"]["legend"]
+    (head, none), *marks = json.loads(re.search(r'id="atlas-data">(.*?)</script>', text,
+                                                re.S)[1])["kinds"]["when"]["legend"]
     times = [float(words.removesuffix(" s")) for words, _ in marks]
     assert (head, none) == ("90 deg/s in", None) and len(times) >= 2 and times == sorted(times)
     low, high = found.records["when_low"].min(), found.records["when_low"].max()
@@ -131,7 +145,8 @@ def test_the_page_has_the_minus_of_a_book_and_round_times_in_its_legend(found, t
 
 
 @pytest.mark.parametrize(("least", "most", "marks"), [
-    (0.58, 114, [1, 2, 5, 10, 20, 50, 100]), (5.9, 74, [10, 20, 50]), (4.2, 9.1, [5, 6, 7, 8, 9]), (3.0, 3.4, [3.0, 3.1, 3.2, 3.3, 3.4]),
+    (0.58, 114, [1, 2, 5, 10, 20, 50, 100]), (5.9, 74, [10, 20, 50]), (4.2, 9.1, [5, 6, 7, 8, 9]),
+    (3.0, 3.4, [3.0, 3.1, 3.2, 3.3, 3.4]),
     (3.011, 3.012, [3.01]), (1, 1e6, None)])
 def test_marks_are_round_and_few(least, most, marks):
     found = page._marks(least, most)
@@ -146,11 +161,15 @@ def test_a_narrow_page_has_names_to_be_read_and_a_tap_is_answered(found, tmp_pat
         browser.open(path.as_uri())
         browser.until("window.atlas")
         shown = browser.run("(() => { const c = document.querySelector('canvas'); "
-                            "return c.getContext('2d').font.match(/([\\d.]+)px/)[1] * c.clientWidth / c.width; })()")
+                            "return c.getContext('2d').font.match(/([\\d.]+)px/)[1] * c.clientWidth / "
+                            "c.width; })()")
         assert 11 < shown < 16  # pixels of the page
-        browser.run("(() => { const c = document.querySelector('canvas'), r = c.getBoundingClientRect(); c.dispatchEvent(new PointerEvent('pointerdown', "
-                    "{pointerType: 'touch', pointerId: 1, clientX: r.x + 0.4 * r.width, clientY: r.y + 0.4 * r.height})); })()")
-        assert "spins up about" in browser.run("document.getElementById('told').innerText") and browser.console == []
+        browser.run("(() => { const c = document.querySelector('canvas'), r = c.getBoundingClientRect(); "
+                    "c.dispatchEvent(new PointerEvent('pointerdown', "
+                    "{pointerType: 'touch', pointerId: 1, clientX: r.x + 0.4 * r.width, clientY: r.y + 0.4 * "
+                    "r.height})); })()")
+        assert "spins up about" in browser.run(
+            "document.getElementById('told').innerText") and browser.console == []
 
 
 @pytest.mark.slow
@@ -165,14 +184,20 @@ def test_the_pages_pointer_tells_the_cell_that_python_finds(found, tmp_path):
     with Browser(tmp_path / "profile", flags=["--host-resolver-rules=MAP * ~NOTFOUND"]) as browser:
         browser.open(path.as_uri())
         browser.until("window.atlas")
-        assert browser.run(f"{json.dumps(directions.tolist())}.map(d => atlas.cellOf(d, 1))") == expected.tolist()
+        assert browser.run(
+            f"{json.dumps(directions.tolist())}.map(d => atlas.cellOf(d, 1))") == expected.tolist()
         for globe in ("false", "true"):  # what lies under a pixel is drawn there
             browser.run(f"atlas.set({{globe: {globe}}})")
-            seen = browser.run(f"{json.dumps(directions.tolist())}.map(d => [d, atlas.pixelOf(d)]).filter(one => one[1])"
-                               ".map(([d, at]) => { const e = atlas.directionAt(...at); return Math.hypot(...d.map((v, n) => v - e[n])); })")
+            seen = browser.run(f"{json.dumps(directions.tolist())}.map(d => [d, "
+                               f"atlas.pixelOf(d)]).filter(one => one[1])"
+                               ".map(([d, at]) => { const e = atlas.directionAt(...at); return "
+                               "Math.hypot(...d.map((v, n) => v - e[n])); })")
             assert len(seen) > 50 and max(seen) < 1e-6
         browser.run("atlas.set({globe: false, wheel: 0})")
-        browser.run("document.querySelector('canvas').dispatchEvent(new PointerEvent('pointermove', {clientX: 500, clientY: 400}))")
+        browser.run(
+            "document.querySelector('canvas').dispatchEvent(new PointerEvent('pointermove', {clientX: 500, "
+            "clientY: 400}))")
         told = browser.run("document.getElementById('told').innerText")
         assert "direction (" in told and "spins up about" in told and "90 deg/s" in told
-        assert browser.console == [] and all(address.startswith(("file:", "data:")) for address in browser.requests)
+        assert browser.console == [] and all(address.startswith(("file:", "data:"))
+                                             for address in browser.requests)

@@ -27,14 +27,16 @@ def plane():
 
 def test_the_first_line_is_the_answer(line, plane):
     first, second = (told.splitlines()[0] for told in (words.text(line), plane_words.text(plane)))
-    assert first == ("wheel-and-thruster: 4 equilibria for 0 ≤ torque[3] < 1084.686668 N m, 2 for 1084.686668 < torque[3] < 1281.113057, none above: "
+    assert first == ("wheel-and-thruster: 4 equilibria for 0 ≤ torque[3] < 1084.686668 N m, 2 for "
+                     "1084.686668 < torque[3] < 1281.113057, none above: "
                      "folds at 1084.686668 and 1281.113057 N m")
     assert second == "middle-axis-double-well: 2 or 4 equilibria over b and x[1]; curves: fold; cusp at (1.754765351, -0.2799433883)"
 
 
 def test_an_event_in_json_is_a_root_of_its_polynomial(line):
     told = json.loads(words.json(line))
-    assert told["schema"] == "stabilab.bifurcation/1" and [piece["equilibria"] for piece in told["pieces"]] == [4, 2, 0]
+    assert told["schema"] == "stabilab.bifurcation/1" and [piece["equilibria"]
+                                                           for piece in told["pieces"]] == [4, 2, 0]
     for event in told["events"]:
         value, total = event["value"], 0
         sizes = [abs(int(c)) * value**n for n, c in enumerate(event["polynomial"])]
@@ -45,7 +47,8 @@ def test_an_event_in_json_is_a_root_of_its_polynomial(line):
 def test_curves_of_a_plane_in_json_are_zero_at_its_cusps(plane):
     told = json.loads(plane_words.json(plane))
     (curve,), (cusp,) = told["curves"], told["cusps"]
-    terms = [int(term["coefficient"]) * cusp["at"][0]**term["powers"][0] * cusp["at"][1]**term["powers"][1] for term in curve]
+    terms = [int(term["coefficient"]) * cusp["at"][0]**term["powers"][0] * cusp["at"][1]**term["powers"][1]
+             for term in curve]
     assert abs(sum(terms)) < 1e-12 * max(map(abs, terms))
 
 
@@ -54,7 +57,8 @@ def test_every_point_of_the_csv_is_an_equilibrium(line):
     assert len(rows) > 300
     for row in rows:
         torque, w1, w2 = (float(row[n]) for n in (0, 3, 4))
-        assert abs(500 * w1 * w2 + 100 * w2 + torque) < 1e-9 * (1 + torque)  # by hand: (D1 - D2) w1 w2 + l1 w2 + M3 = 0
+        # by hand: (D1 - D2) w1 w2 + l1 w2 + M3 = 0
+        assert abs(500 * w1 * w2 + 100 * w2 + torque) < 1e-9 * (1 + torque)
 
 
 @pytest.mark.one_in(4)
@@ -69,7 +73,8 @@ def test_a_picture_says_what_it_counts_and_shows_a_cusp_on_its_edge_whole(line, 
     from matplotlib import pyplot
     figures = [picture.drawn(line, None, pyplot), plane_picture.drawn(plane, None, pyplot)]
     try:
-        assert "number of equilibria" in figures[0].get_suptitle() and "number of equilibria" in figures[1].axes[0].get_title(loc="left")
+        assert "number of equilibria" in figures[0].get_suptitle() and "number of equilibria" in figures[
+            1].axes[0].get_title(loc="left")
         cusps = [one for one in figures[1].axes[0].get_lines() if one.get_label() == "cusp"]
         assert cusps and not any(one.get_clip_on() for one in cusps)
     finally:
@@ -79,7 +84,9 @@ def test_a_picture_says_what_it_counts_and_shows_a_cusp_on_its_edge_whole(line, 
 
 def test_where_curves_of_equilibria_are_no_number_of_changes_is_told(tmp_path):
     path = tmp_path / "case.toml"
-    path.write_text("[body]\ninertia = [12.0, 9.0, 5.0]\n[effects.gyrostat]\nmomentum = [0.8, 0, 0]\n[effects.constant_torque]\ntorque = [0, 0, 0.02]\n")
+    path.write_text(
+        "[body]\ninertia = [12.0, 9.0, 5.0]\n[effects.gyrostat]\nmomentum = [0.8, 0, "
+        "0]\n[effects.constant_torque]\ntorque = [0, 0, 0.02]\n")
     told = words.text(stabilab.bifurcation(path, {"torque[3]": "-1:1"})).splitlines()[0]
     assert told == "case: 2 changes of stability for -1 ≤ torque[3] ≤ 1 N m, but curves of equilibria at 0 N m: on a principal axis at 0 N m"
 
@@ -99,7 +106,9 @@ def test_values_that_stand_near_each_other_are_both_told_above_the_picture_and_a
 
 def test_labels_take_the_lowest_row_with_room_and_none_where_no_row_has():
     wide = 5 * GLYPH * 10  # points of a text of five digits
-    assert rows_apart((0, wide + GAP + 1, wide + GAP + 2, wide + GAP + 3), ("12345",) * 4, 10, 2) == [0, 0, 1, None]  # by hand
+    # by hand
+    assert rows_apart((0, wide + GAP + 1, wide + GAP + 2, wide + GAP + 3), ("12345",) * 4, 10,
+                      2) == [0, 0, 1, None]
 
 
 def test_a_range_that_is_missing_is_asked_for_in_the_form_that_a_diagram_takes():
