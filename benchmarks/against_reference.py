@@ -8,8 +8,8 @@ from __future__ import annotations
 from fractions import Fraction
 from pathlib import Path
 
-from stabilab.answers.tabulated.ask import tabulated
-from stabilab.answers.trajectory import trajectory
+from stabilab.answers.simulate import trajectory
+from stabilab.answers.tabulated import tabulated
 from stabilab.case.read import load
 from stabilab.numbers.balls import working
 from stabilab.papers.validation.integrators import rk4, run

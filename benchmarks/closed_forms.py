@@ -65,7 +65,7 @@ def _note(one, times, raw) -> str:
 
 
 def _late(one) -> float:
-    from stabilab.theories.charged.partial_fractions import fractions
+    from stabilab.theories.charged.closed_form import fractions
     return fractions(one).wide
 
 

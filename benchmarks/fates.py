@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from stabilab import Body, ConstantTorque, Fate, Gyrostat, ScaledGyrostat, Scene, fate
-from stabilab.answers.fate_grid import fate_grid
+from stabilab.answers.fate import fate_grid
 
 from .contestants import BatchFate, SciPyFate
 from .rows import SCENE, Row, each, numba_available, random_states

@@ -12,13 +12,13 @@ if TYPE_CHECKING:  # what `_HOME` loads on first use, for editors and type check
     from .answers.extremes import extremes as extremes
     from .answers.extremes import period as period
     from .answers.fate import fate as fate
-    from .answers.fate_grid import fate_grid as fate_grid
+    from .answers.fate import fate_grid as fate_grid
     from .answers.motion import motion as motion
-    from .answers.passage.result import TimeTo as TimeTo
+    from .answers.passage.run import TimeTo as TimeTo
     from .answers.simulate import simulate as simulate
+    from .answers.simulate import trajectory as trajectory
     from .answers.stuck.ask import stuck as stuck
     from .answers.time_to import time_to as time_to
-    from .answers.trajectory import trajectory as trajectory
     from .case.read import Case as Case
     from .case.read import load as load
     from .errors import InputError as InputError
@@ -54,11 +54,11 @@ _HOME = {
     "Gyrostat": "physics.effects.gyrostat", "ConstantTorque": "physics.effects.constant_torque",
     "Fate": "orbit.result",
     "equilibria": "answers.equilibria", "chaos": "answers.chaos",
-    "fate": "answers.fate", "fate_grid": "answers.fate_grid", "motion": "answers.motion",
+    "fate": "answers.fate", "fate_grid": "answers.fate", "motion": "answers.motion",
     "extremes": "answers.extremes", "period": "answers.extremes", "spin_up": "unreduced.spin_up.follow",
     "separatrix": "orbit.separatrix.sheets", "stuck": "answers.stuck.ask",
-    "time_to": "answers.time_to", "TimeTo": "answers.passage.result",
-    "trajectory": "answers.trajectory", "ensemble": "integrate.ensemble",
+    "time_to": "answers.time_to", "TimeTo": "answers.passage.run",
+    "trajectory": "answers.simulate", "ensemble": "integrate.ensemble",
     "simulate": "answers.simulate", "compare": "theories.comparison", "theory": "theories.theory",
     "Charge": "physics.effects.charge", "Resistance": "physics.effects.resistance",
     "LiquidCavity": "physics.effects.liquid_cavity",

@@ -7,13 +7,12 @@ words.
 from __future__ import annotations
 
 from collections.abc import Iterable
-
-from .record import record
+from dataclasses import dataclass
 
 KINDS = ("tilt", "limit", "law", "unphysical", "samples", "uncertain")
 
 
-@record
+@dataclass(frozen=True)
 class Caveat:
     """kind: one of KINDS; words: a sentence on its own, in SI units, without a full stop."""
 

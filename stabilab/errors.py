@@ -1,7 +1,7 @@
 """What can go wrong, in words for the user, and the exit codes that announce it."""
 from __future__ import annotations
 
-from .record import record
+from dataclasses import dataclass
 
 OK, BUG, BAD_INPUT, UNDECIDED, NO_RENDERING, TOLERANCE_NOT_MET, INTERRUPTED = 0, 1, 2, 3, 4, 5, 130
 
@@ -31,7 +31,7 @@ def told(value: object) -> str:
     return (words if " at 0x" not in words else f"{type(value).__name__} that holds no numbers")[:80]
 
 
-@record
+@dataclass(frozen=True)
 class Problem:
     """One fault of a case file; `line` is 1-based, None where the file as a whole is meant."""
 

@@ -16,7 +16,7 @@ import pytest
 
 import stabilab
 from stabilab import Body, ConstantTorque, Gyrostat, LiquidCavity, Scene
-from stabilab.kept import MOST, cache_folder, kept
+from stabilab.cache import MOST, cache_folder, kept
 from stabilab.physics import equations, to_numpy
 
 

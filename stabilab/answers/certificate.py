@@ -10,7 +10,6 @@ from collections.abc import Sequence
 from fractions import Fraction
 from typing import Any
 
-from ..equilibrium.balance import pencil
 from ..equilibrium.gyrostat import (
     DRIFT,
     balance_fails,
@@ -21,11 +20,11 @@ from ..equilibrium.gyrostat import (
     plane_of_equal_moments,
     torque_free_curves,
 )
-from ..equilibrium.stability import curve_with_verdicts, cuts_of, isolated_point
-from ..orbit.extremes.balls import extreme_balls
+from ..equilibrium.stability import curve_with_verdicts, cuts_of, isolated_point, pencil
+from ..orbit.extremes.one_state import extreme_balls
 from ..orbit.fate.one_state import fate_of
 from ..orbit.one_orbit import Orbit
-from ..orbit.period.balls import period_ball
+from ..orbit.period import period_ball
 from ..orbit.reduction import reduce
 from ..orbit.result import Fate
 from ..physics.scene import AnyScene
@@ -162,8 +161,7 @@ def _motion(scene: AnyScene, state: tuple[Fraction, ...], uncertified: list[str]
 
 def _without_reduction(scene: AnyScene, state: tuple[Fraction, ...], claims: dict[str, Any],
                        uncertified: list[str]) -> dict[str, Any] | None:
-    from .certified_spin_up import certified_spin_up
-    from .closed_motion import closed_motion
+    from .certified_motion import certified_spin_up, closed_motion
     if closed := closed_motion(scene, state):
         return claims | closed
     found, why = certified_spin_up(scene, state)

@@ -9,15 +9,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..asked import checked_scene
 from ..errors import InputError
 from ..orbit.result import Fate
 from ..physics.coefficients import effective
 from ..physics.scene import AnyScene, slices
 from ..physics.states import checked_starts, float_array, start_of
 from ..physics.to_numpy import equations_of
-from ..shown import Shown
+from ..representation import Shown
 from ..unreduced.chaos import TURNS, growth, turn_of
+from ..validation import checked_scene
 from .fate import fate
 from .motion import motion
 

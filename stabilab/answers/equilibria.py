@@ -5,11 +5,11 @@ from dataclasses import replace
 from importlib import import_module
 from typing import Any
 
-from ..asked import checked_scene, is_case
 from ..equilibrium.gyrostat import gyrostat_equilibria
 from ..equilibrium.result import Equilibria
 from ..physics.coefficients import content, limits_of
 from ..physics.scene import AnyScene
+from ..validation import checked_scene, is_case
 
 # kind of a scene's torques -> (module of `equilibrium`, its function of their coefficients); one that no
 # scene names is not loaded

@@ -5,9 +5,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..asked import checked_span, is_case, reach_of, scene_and_state
 from ..physics.coefficients import effective
 from ..physics.states import checked_states
+from ..validation import checked_span, is_case, reach_of, scene_and_state
 from .digits.ask import ask_all
 from .kinds import following, many
 

@@ -37,8 +37,8 @@ def _acting(scene: AnyScene) -> int:
 # otherwise.
 KINDS = {
     # liquid, medium, field: rows are refused, with the effect's name
-    "bounds": Kind(lambda scene: not scene.plain, "unreduced.bounds", "orbit.many"),
-    "orbit": Kind(lambda scene: reduce(scene) is not None, "orbit.one_state", "orbit.many"),
+    "bounds": Kind(lambda scene: not scene.plain, "unreduced.bounds", "orbit.extremes_and_periods"),
+    "orbit": Kind(lambda scene: reduce(scene) is not None, "orbit.one_state", "orbit.extremes_and_periods"),
     # a wheel with no zero component
     "free": Kind(lambda scene: _acting(scene) == 0, "unreduced.free_gyrostat", "unreduced.free_gyrostat"),
     # a wheel along the torque

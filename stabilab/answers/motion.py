@@ -7,12 +7,12 @@ from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
-from ..asked import checked_span, is_case, scene_and_state
 from ..integrate.quadratic_series import largest
 from ..orbit.far_states import in_range
 from ..orbit.result import Fate, Motion
 from ..physics.coefficients import content, effective, gyrostat_scene, limits_of, split
 from ..physics.scene import AnyScene
+from ..validation import checked_span, is_case, scene_and_state
 from .caveats import limited
 from .kinds import following, one
 

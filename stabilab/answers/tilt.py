@@ -18,19 +18,18 @@ from typing import Any, ClassVar, TypeAlias, cast
 
 import numpy as np
 
-from ..asked import checked_scene
 from ..errors import InputError
 from ..numbers.vectors import Exact3
 from ..orbit.result import Fate
 from ..physics.coefficients import three_floats
 from ..physics.scene import AnyScene, Scene, torque_axis
+from ..validation import checked_scene
 from .caveats import STEADY
 from .extremes import extremes
 from .fate import fate
 from .kinds import kind_of
-from .passage.drift import stays_below
 from .passage.limit import asked
-from .passage.run import run_once
+from .passage.run import run_once, stays_below
 from .time_to import time_to
 
 DEGREE = math.pi / 180  # taken where nothing states an angle

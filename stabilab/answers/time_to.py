@@ -10,20 +10,18 @@ from typing import Any
 
 import numpy as np
 
-from ..asked import checked_scene
 from ..errors import InputError
 from ..numbers.exact import exact_vector
 from ..physics.coefficients import content, effective
 from ..physics.scene import AnyScene
 from ..physics.states import checked_states, equations_and_start, float_array, start_of
+from ..validation import checked_scene
 from .caveats import caveats_of
-from .passage.clock import by_clock
 from .passage.enclosed import STEPS as BAND_STEPS
 from .passage.enclosed import WORK, banded, enclosed
 from .passage.limit import Limit, asked
-from .passage.never import after_a_period, earliest, never, never_bounded
-from .passage.result import Found, TimeTo
-from .passage.run import by_run, by_run_of
+from .passage.never import after_a_period, by_clock, earliest, never, never_bounded
+from .passage.run import Found, TimeTo, by_run, by_run_of
 
 LATER = 1e-6  # of the time that a run finds: the enclosure goes on for so long after it
 

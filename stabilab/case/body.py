@@ -2,7 +2,7 @@
 against the principal axes."""
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from ..errors import InputError
@@ -11,7 +11,6 @@ from ..numbers.principal import IDENTITY, PrincipalAxes, fault_of, principal_axe
 from ..numbers.vectors import Exact3, cross, dot
 from ..physics.effects import effect_class
 from ..physics.scene import ROUNDING, Body
-from ..record import record
 from .table import Faults, Table, Written, described, plus_minus, states_uncertainty
 from .units import FORCE, INERTIA, in_dimension, pi, split
 
@@ -160,7 +159,7 @@ WHEEL = ("name", "axis", "momentum", "inertia", "speed")
 SAME = Fraction(1, 10**6)  # relative: momentum and inertia x speed given to six digits agree
 
 
-@record
+@dataclass(frozen=True)
 class Thruster:
     """position: m, structural frame; direction: unit vector of the force on the body, input frame; force: N;
     misalignment: half-angle of the cone that the true direction lies in, rad, or None; force_tolerance:
@@ -178,7 +177,7 @@ class Thruster:
     arm: Exact3 = ZERO3
 
 
-@record
+@dataclass(frozen=True)
 class Wheel:
     """axis: unit vector, input frame; momentum: along it relative to the body, N m s; vector: both as a
     vector, input frame."""
@@ -189,7 +188,7 @@ class Wheel:
     vector: Exact3
 
 
-@record
+@dataclass(frozen=True)
 class Limits:
     """rate: largest |omega|, rad/s, or rates: largest |omega_i| along the axes of the input frame; the other
     one is None."""

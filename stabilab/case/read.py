@@ -4,7 +4,7 @@ from __future__ import annotations
 import math
 import os
 from contextlib import contextmanager
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -17,7 +17,6 @@ from ..numbers.vectors import Exact3, Float3, dot
 from ..physics.coefficients import Scaling, to_scaled, torque_from_mu
 from ..physics.effects import REGISTRY, effect_class
 from ..physics.scene import Body, ScaledGyrostat, Scene, ordered
-from ..record import record
 from .body import (
     Limits,
     Thruster,
@@ -91,7 +90,7 @@ MIDDLES = Caveat("uncertain",
 STAND_IN = Body((3, 2, 1))  # lets the faults of the effects show where the body itself is at fault
 
 
-@record
+@dataclass(frozen=True)
 class Case:
     """One case file.
 
@@ -382,7 +381,7 @@ def _scaled(top: Table) -> ScaledGyrostat | None:
     return None if a is None or b is None or mu is None else ScaledGyrostat(a, b, mu)
 
 
-@record
+@dataclass(frozen=True)
 class _Motion:
     """[motion] as it is written: which keys, and their numbers."""
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from functools import partial
 
-from ..answers.digits.front import keep
+from ..answers.digits.run import keep
 from ..case.read import blamed_on
 from ..cost.accuracy import precision as measure
 from ..errors import InputError

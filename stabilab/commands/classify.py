@@ -5,10 +5,19 @@ from ..answers.equilibria import equilibria
 from ..case.read import blamed_on
 from ..show.terminal import classification
 from ..show.text import answers, law, uncertain
-from .common.cases import load_cases, one_by_one, tell_radians, units_asked
-from .common.motions import motion_of, over_boxes, sampled, tilted
+from .common.cases import (
+    load_cases,
+    motion_of,
+    one_by_one,
+    over_boxes,
+    sampled,
+    swept_motions,
+    tell_all,
+    tell_radians,
+    tilted,
+    units_asked,
+)
 from .common.output import hold_laws, leave_undecided, write
-from .common.tables import swept_motions, tell_all
 
 
 def classify(cases, json, strict, certify, out, follow, tilt, units, why):

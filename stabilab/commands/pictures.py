@@ -21,9 +21,8 @@ from ..show.surface.write import write_all
 from ..show.terminal.letters import lettered
 from ..show.text import law
 from ..show.units import units_of
-from .common.cases import load_cases, one_by_one, time_asked, units_asked
+from .common.cases import load_cases, one_by_one, tell_all, time_asked, units_asked
 from .common.output import hold_laws, leave_undecided, say, say_written, tell, write, write_json, written
-from .common.tables import tell_all
 
 AN_EXAMPLE = Path(__file__).parents[1] / "cases" / "thruster-stuck-major-axis.toml"
 

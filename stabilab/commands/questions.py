@@ -5,10 +5,20 @@ from ..answers.digits.checked import DEFAULT, by_bound, short
 from ..case.read import blamed_on
 from ..show.terminal import questions
 from ..show.text import answers, law, uncertain
-from .common.cases import load_cases, one_by_one, tell_radians, units_asked
-from .common.motions import motion_of, over_boxes, sampled, tilted
+from .common.cases import (
+    load_cases,
+    motion_of,
+    one_by_one,
+    over_boxes,
+    sampled,
+    swept_extremes,
+    swept_motions,
+    tell_all,
+    tell_radians,
+    tilted,
+    units_asked,
+)
 from .common.output import all_reached, hold_laws, leave_undecided, write
-from .common.tables import swept_extremes, swept_motions, tell_all
 
 
 def answer(question, paths, digits, json, strict, csv=False, follow=None, tilt=None, proof=False, units=None,

@@ -18,7 +18,7 @@ from ..show.terminal.run import text, zero_within
 from ..show.text import answers, law
 from ..theories.follow import follow
 from ..theories.theory import lines, theory
-from ..theories.top.run_angles import with_euler_angles
+from ..theories.top.euler_angles import with_euler_angles
 from .common.cases import exact_times_asked, load_cases, one_by_one, say_repeated, times_asked, units_asked
 from .common.output import all_reached, hold_laws, say, say_laws, tell, write, write_each, write_json
 

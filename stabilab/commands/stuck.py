@@ -9,9 +9,8 @@ from ..show.files import endings
 from ..show.progress import told
 from ..show.stuck_picture import draw
 from ..show.text import stuck as shown
-from .common.cases import load_cases, units_asked
+from .common.cases import load_cases, tell_all, units_asked
 from .common.output import hold_laws, leave_undecided, say_written, write, write_json, written
-from .common.tables import tell_all
 
 
 def stuck(case, all_thrusters, units, why, out, json, csv, strict):

@@ -9,9 +9,8 @@ from ..case.limit_options import stated_limit
 from ..case.read import blamed_on
 from ..show.text import answers, law
 from ..show.text import when as shown
-from .common.cases import load_cases, one_by_one, tell_radians, units_asked
+from .common.cases import load_cases, one_by_one, tell_all, tell_radians, units_asked
 from .common.output import hold_laws, leave_undecided, write
-from .common.tables import tell_all
 
 
 def when(cases, limits, units, json, csv, strict):

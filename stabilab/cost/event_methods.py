@@ -15,11 +15,11 @@ from ..answers.fate import fate
 from ..errors import InputError
 from ..integrate.to_heyoka import heyoka_available, taylor_events
 from ..integrate.trajectory import ATOL_SHARE
-from ..orbit.extremes.balls import precise_extremes
+from ..orbit.extremes.one_state import precise_extremes
 from ..orbit.fate.one_state import decide, free_margin, is_free
 from ..orbit.landscape import landscape
 from ..orbit.one_orbit import Orbit
-from ..orbit.period.balls import precise_period
+from ..orbit.period import precise_period
 from ..orbit.result import Fate
 from ..physics.to_numpy import form
 from .methods import IMPLICIT, SCIPY_LADDER, TAYLOR_LADDER, Answer, Method, Problem, thinned

@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from ..answers.digits.reduced import ladder, reduced
+from ..answers.digits.run import ladder, reduced
 from ..errors import InputError
 from ..integrate.to_heyoka import TAYLOR_TOLERANCE, heyoka, heyoka_available, heyoka_form, to_taylor
 from ..integrate.trajectory import ATOL_SHARE, SCIPY_METHODS

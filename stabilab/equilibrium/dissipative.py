@@ -1,4 +1,19 @@
-"""Equilibria of a body that a liquid in a cavity or a resisting medium takes energy from.
+"""Equilibria with dissipation: a resisting medium, and others.
+
+Equilibria in a resisting medium: (D omega + Lambda) x omega - c D omega + M = 0, c > 0, all of them and
+their stability.
+
+Given omega_e of one axis e the other two components solve two linear equations, determinant
+q(t) = c^2 + ((D_e - D_i) t + Lambda_e)((D_e - D_j) t + Lambda_e)/(D_i D_j), t = omega_e; put into the third
+equation they leave one polynomial P(t) of degree five at most, with exact coefficients: Sturm's theorem gives
+all its real roots. The axis is chosen so that q has no real root at which the two equations are solvable.
+Stability: the characteristic polynomial is (z + c)^3 + m (z + c) + n, with m, n of the motion without
+resistance, so p2 = 3 c > 0, p1 = 3 c^2 + m, p0 = c^3 + m c + n, and by Routh and Hurwitz all roots lie on the
+left iff p0 > 0 and
+8 c^3 + 2 c m - n > 0. A sign at a root of P is decided exactly: by distance, and where that is not enough by
+the common divisor. Everywhere T' = M . omega - 2 c T.
+
+Equilibria of a body that a liquid in a cavity or a resisting medium takes energy from.
 
 `liquid` has the balance with a liquid, `medium` that with a resisting medium alone; here is what both
 together or a body in a field leave to say. The liquid does no work against rest, and for Lambda = 0 it only
@@ -9,13 +24,168 @@ from __future__ import annotations
 from fractions import Fraction
 
 from ..numbers.balls import many_digits
-from ..numbers.vectors import dot
+from ..numbers.polynomial import Poly, real_roots
+from ..numbers.vectors import CYCLE, dot
 from ..physics.coefficients import Content
+from ..physics.scene import euler_form
 from .field_balance import Field, blocks, rotations_at
 from .field_states import around
 from .liquid import balanced_equilibria, liquid_equilibria
-from .medium import resisted_equilibria
 from .result import CurveSegment, Equilibria, EquilibriumCurve, EquilibriumPoint
+from .stability import eigenvalues, invariants
+
+T = Poly((0, 1))
+BITS = 256
+GLOBAL = "every motion tends to it: "
+REST = (GLOBAL + "T' = -2 c T without a torque, so the energy and with it every rate decays as exp(-c t)")
+ALL_LEFT = (
+    "asymptotically stable: p0 > 0 and 8 c^3 + 2 c m - n > 0 in (z + c)^3 + m (z + c) + n (Routh and "
+    "Hurwitz), so all roots lie on the left")
+SADDLE = "p0 < 0: the product of the roots is positive, so one of them is"
+FOCUS = "8 c^3 + 2 c m - n < 0 (Routh and Hurwitz): a root with positive real part"
+
+
+def resisted_equilibria(parts: Content) -> Equilibria:
+    """All equilibria with resistance (and no liquid), each with its stability."""
+    form = euler_form(parts.D, parts.Lambda, parts.M)
+    if not any(parts.M):
+        m, n = invariants(form, (Fraction(0),) * 3)
+        rest = EquilibriumPoint((0.0,) * 3, damped(m, n, parts.c), "stable", "asymptotically stable", REST)
+        return Equilibria("points",
+                          "resistance without a torque: T' = -2 c T, so only rest is an equilibrium", (rest,))
+    chosen = next((found for e in _axes(parts.D) if (found := elimination(parts, form, e)) is not None), None)
+    if chosen is None:
+        return Equilibria("undecided",
+                          "undecided: on every axis the elimination meets a rate at which the other two are "
+                          "not determined")
+    numerators, q, P, e = chosen
+    points = []
+    for t in real_roots(P, BITS):
+        points.append(_point(parts, form, numerators, q, P, t))
+    reason = (f"omega{e + 1} determines the other two rates, and it is a root of a polynomial of degree "
+              f"{P.degree} with exact coefficients, "
+              f"whose real roots are {len(points)} by Sturm's theorem")
+    return Equilibria("points", reason, tuple(points))
+
+
+def damped(m, n, c):
+    """Roots of (z + c)^3 + m (z + c) + n."""
+    return tuple(z - float(c) for z in eigenvalues(m, n))
+
+
+def _axes(D):
+    """Axes of the largest and smallest moment first: there q > 0 where the axis carries no gyrostatic moment.
+    """
+    order = sorted(range(3), key=lambda i: D[i])
+    return order[2], order[0], order[1]
+
+
+def elimination(parts: Content, form, e):
+    """((numerators of omega), q, P, e) with omega = numerators(t)/q(t) and P(t) = 0; None where q has a real
+    root at which the two linear equations are solvable."""
+    i, j = CYCLE[e]
+    c = parts.c
+    # axis i has neighbours (j, e), axis j has (e, i), cyclic: rate_i = kappa_i x_j x_e + rho_i x_e + sigma_i
+    # x_j + m_i
+    a, b = form.kappa[i] * T + form.sigma[i], form.rho[i] * T + form.m[i]  # c x_i = a x_j + b
+    # c x_j = f x_i + g
+    f, g = form.kappa[j] * T + form.rho[j], form.sigma[j] * T + form.m[j]
+    q = c * c - a * f
+    top_i, top_j = c * b + a * g, c * g + f * b
+    common = q.gcd(top_i).gcd(top_j)
+    if common.degree > 0 and real_roots(common):
+        return None
+    P = (form.kappa[e] * top_i * top_j + form.rho[e] * top_j * q + form.sigma[e] * top_i * q - c * T * q * q
+         + form.m[e] * q * q)
+    tops = [None] * 3
+    tops[i], tops[j], tops[e] = top_i, top_j, T * q
+    return tuple(tops), q, _without_common(P, q), e
+
+
+def _without_common(P: Poly, q: Poly) -> Poly:
+    """P without the factors it shares with q (there the linear equations have no solution)."""
+    while (common := P.gcd(q)).degree > 0:
+        P = P // common
+    return P
+
+
+def sign_at(R: Poly, P: Poly, t: Fraction, bits: int = BITS) -> int:
+    """Exact sign of R at the root of P that t approximates to 2**-bits relative."""
+    radius = abs(t) / 2**(bits - 2)
+    value = R(t)
+    slack = radius * sum(n * abs(v) * (abs(t) + radius)**(n - 1) for n, v in enumerate(R.c) if n)
+    if abs(value) > slack or not radius:
+        return (value > 0) - (value < 0)
+    common = P.gcd(R)
+    if common.degree > 0 and any(abs(r - t) <= 4 * radius for r in real_roots(common, bits)):
+        return 0
+    finer = min(real_roots(P, 2 * bits), key=lambda r: abs(r - t))
+    return sign_at(R, P, finer, 2 * bits)
+
+
+def _point(parts, form, numerators, q, P, t) -> EquilibriumPoint:
+    c = parts.c
+    m, n = invariants(form, numerators, q)  # times q^2, q^3
+    side = sign_at(q, P, t)
+    p0 = side * sign_at(q * q * q * c**3 + m * q * c + n, P, t)
+    hurwitz = side * sign_at(q * q * q * (8 * c**3) + 2 * c * m * q - n, P, t)
+    bottom = q(t)
+    omega = tuple(top(t) / bottom for top in numerators)
+    numbers = invariants(form, omega)
+    linear, verdict, because = _verdict(p0, hurwitz, side, P, t)
+    if verdict == "asymptotically stable" and draws_all(parts, omega):
+        because += ("; " + GLOBAL
+                    + "V = delta . D delta/2, delta the departure, has V' = -2 c V + omega* . (delta x D "
+                      "delta), a "
+                    "negative definite form")
+    return EquilibriumPoint(tuple(float(v) for v in omega), damped(*numbers, c), linear, verdict, because)  # type: ignore[call-arg]
+
+
+def _verdict(p0, hurwitz, side, P, t):
+    if p0 < 0 or hurwitz < 0:
+        return "unstable", "unstable", SADDLE if p0 < 0 else FOCUS
+    if p0 and hurwitz:
+        return "stable", "asymptotically stable", ALL_LEFT
+    if not hurwitz:
+        return ("degenerate", "undecided",
+                "a pair of eigenvalues on the imaginary axis: the next order decides")
+    order, slope = _crossing(P, t)
+    words = f"fold: eigenvalue 0, the others on the left; on the centre manifold z' = a z^{order} + ... "
+    if order % 2 == 0:
+        return "degenerate", "unstable", words + "with an even power: motions leave on one side"
+    # p0 = -det J and P' = (det J/det J_ij) q^2 ..., so p0 has the sign of -P' q near the root
+    if -slope * side > 0:
+        return "degenerate", "asymptotically stable", words + "with an odd power that restores"
+    return "degenerate", "unstable", words + "with an odd power that drives away"
+
+
+def _crossing(P: Poly, t) -> tuple[int, int]:
+    """Multiplicity of the root t of P and the sign of the first derivative that does not vanish there."""
+    derivative, order = P.derivative(), 1
+    while not (found := sign_at(derivative, P, t)):
+        derivative, order = derivative.derivative(), order + 1
+    return order, found
+
+
+def draws_all(parts: Content, omega) -> bool:
+    """Whether -c delta . D delta + omega . (delta x D delta) is negative definite (by principal minors)."""
+    D, c = parts.D, parts.c
+    S = [[c * D[i] if i == j else None for j in range(3)] for i in range(3)]
+    for i, (j, k) in enumerate(CYCLE):  # (delta x D delta)_i = (D_k - D_j) delta_j delta_k
+        S[j][k] = S[k][j] = -omega[i] * (D[k] - D[j]) / 2
+    two = S[0][0] * S[1][1] - S[0][1]**2
+    three = (S[0][0] * (S[1][1] * S[2][2] - S[1][2]**2) - S[0][1] * (S[0][1] * S[2][2] - S[1][2] * S[0][2])
+             + S[0][2] * (S[0][1] * S[1][2] - S[1][1] * S[0][2]))
+    scale = S[0][0] * S[1][1] * S[2][2] / 2**100  # far above what the 2**-256 of omega can change
+    return two * S[2][2] > scale and three > scale
+
+
+def energy_bound(parts: Content, T0: float) -> tuple[float, float]:
+    """(largest sqrt(2 T) ever, its limit at late times) from (sqrt(2 T))' <= -c sqrt(2 T) + sqrt(M . D^-1 M).
+    """
+    push = sum(float(m) ** 2 / float(d) for m, d in zip(parts.M, parts.D)) ** 0.5 / float(parts.c)
+    return max((2 * T0) ** 0.5, push), push
+
 
 MINIMUM = ("asymptotically stable",
            "the potential energy has a strict minimum here and the medium takes energy at every rotation "

@@ -53,7 +53,6 @@ from ..numbers.polynomial import Poly
 from ..numbers.vectors import CYCLE, Exact3, Number, Triple, cross, dot
 from ..physics.coefficients import Content, gyrostat_scene
 from ..physics.scene import AnyScene, QuadraticForm
-from .balance import ONE, ZERO, Pencil, pencil, unit
 from .result import (
     CurveSegment,
     Equilibria,
@@ -71,7 +70,7 @@ from .result import (
     straight_line,
     sum_of,
 )
-from .stability import curve_with_verdicts, isolated_point
+from .stability import ONE, ZERO, Pencil, curve_with_verdicts, isolated_point, pencil, unit
 
 # Line of equilibria along axis 1 (x1 = X, the others at y2, y3): deltas obey d2' = -P(X) d3, d3' = Q(X) d2,
 # X' = e d2 d3

@@ -39,7 +39,6 @@ from ..numbers.exact import sqrt_fraction
 from ..numbers.polynomial import Poly, real_roots
 from ..numbers.vectors import cross, dot
 from ..physics.coefficients import Content, gyrostat_scene, linear_rates, liquid_torque
-from .balance import pencil
 from .gyrostat import torque_free_curves
 from .result import (
     CurveSegment,
@@ -51,6 +50,7 @@ from .result import (
     sample_parameters,
     values_inside,
 )
+from .stability import pencil
 
 ATTRACTING = ("stable",
               "c1, c2 > 0 in z (z^2 + c2 z + c1): the curve of permanent rotations attracts, so this "

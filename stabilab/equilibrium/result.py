@@ -3,7 +3,7 @@ changes."""
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import field
+from dataclasses import dataclass, field
 from fractions import Fraction
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -11,13 +11,12 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from ..errors import InputError
 from ..numbers.polynomial import Poly
 from ..numbers.vectors import Exact3, Float3, Number
-from ..record import record
-from ..shown import Shown
+from ..representation import Shown
 
 if TYPE_CHECKING:
     from ..physics.law_limits import Validity
 
-@record
+@dataclass(frozen=True)
 class EquilibriumPoint:
     """One equilibrium with its verdicts.
 
@@ -33,7 +32,7 @@ class EquilibriumPoint:
     because: str
 
 
-@record
+@dataclass(frozen=True)
 class CurveSegment:
     """A piece of an equilibrium curve with one verdict; `t` is the open parameter interval (ends may be
     infinite)."""
@@ -44,7 +43,7 @@ class CurveSegment:
     because: str
 
 
-@record
+@dataclass(frozen=True)
 class EquilibriumCurve:
     """A curve of equilibria: point(t) -> (x1, x2, x3) for t inside the segments' intervals.
 
@@ -61,7 +60,7 @@ class EquilibriumCurve:
     samples: tuple[EquilibriumPoint, ...] = ()
 
 
-@record
+@dataclass(frozen=True)
 class Equilibria(Shown):
     """All equilibria of a scene. kind: "none", "points", "curves" (curves, possibly with points) or "all"
     (every state is one); reason: why these and no others. validity: of an approximate law
@@ -89,7 +88,7 @@ class Grounds(NamedTuple):
     maximum: Verdict    # m < 0 on both sides
 
 
-@record
+@dataclass(frozen=True)
 class RationalCurve:
     """x_i(t) = numerators[i](t)/denominator(t). crossings: parameter where another curve meets this one ->
     verdict. poles: zeros of the denominator, rising, all rational. scale: a parameter size at which something

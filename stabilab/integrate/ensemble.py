@@ -19,7 +19,7 @@ from ..physics.coefficients import limits_of
 from ..physics.scene import AnyScene, slices
 from ..physics.states import checked_rtol, checked_starts, checked_times
 from ..physics.to_numpy import equations_of, to_numpy
-from ..shown import Compared, Shown
+from ..representation import Compared, Shown
 from .quadratic_series import FAST, SLOW, in_unit, own_unit
 from .to_heyoka import TAYLOR_TOLERANCE, borrowed_taylor, heyoka_available
 from .trajectory import PATIENCE, REPORT, STEP_LIMIT, integrated, steps_left

@@ -17,7 +17,7 @@ from ..physics.coefficients import limits_of
 from ..physics.scene import slices
 from ..physics.states import checked_rtol, checked_times, equations_and_start
 from ..physics.to_numpy import to_numpy
-from ..shown import Compared, Shown
+from ..representation import Compared, Shown
 from .quadratic_series import in_unit, mass_unit, own_unit
 from .to_heyoka import FEATHER, TAYLOR_TOLERANCE, borrowed_taylor, heyoka_available
 
@@ -43,7 +43,7 @@ OUTCOMES = {"err_nf_state": "the numbers overflowed"}
 def integrated(scene, state, times, method: str = "taylor", rtol: float | None = None,
                steps: list | None = None,
                laws: bool = True) -> Trajectory:
-    """States of a scene at the given times, followed in steps; see `answers.trajectory` for the arguments.
+    """States of a scene at the given times, followed in steps; see `answers.simulate` for the arguments.
 
     method: "taylor" or one of SCIPY_METHODS, as spelt there.
     """

@@ -7,11 +7,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import AbstractContextManager, contextmanager
+from dataclasses import dataclass
 from fractions import Fraction
 from threading import RLock
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from ..record import record
 from .vectors import Number
 
 if TYPE_CHECKING:
@@ -46,7 +46,7 @@ def working(bits: int, terms: int = 10) -> Iterator[Digits]:
             flint.ctx.cap = before
 
 
-@record
+@dataclass(frozen=True)
 class Digits:
     """Where python-flint's balls come from, to be used while it is `working` with so many bits."""
 

@@ -5,6 +5,7 @@ import math
 import re
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass
 from fractions import Fraction
 from numbers import Integral, Rational, Real
 from threading import RLock
@@ -12,7 +13,6 @@ from types import ModuleType
 from typing import Any
 
 from ..errors import InputError
-from ..record import record
 from .vectors import Exact3, Number
 
 # one way only to match: else a long wrong number would be tried in exponentially many
@@ -195,7 +195,7 @@ def floats(values: Iterable[Any]) -> tuple[float, ...]:
     return tuple(float(v) for v in values)
 
 
-@record
+@dataclass(frozen=True)
 class Surd:
     """p + q sqrt(d). Arithmetic joins surds of one d and rationals."""
 

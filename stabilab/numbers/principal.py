@@ -9,11 +9,11 @@ and the gaps (Davis and Kahan 1970).
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from fractions import Fraction
 from typing import TypeAlias
 
 from ..errors import InputError
-from ..record import record
 from .balls import rational
 from .exact import sqrt_fraction
 from .polynomial import Poly, real_roots
@@ -28,7 +28,7 @@ NAMES = "xyz"
 NOTHING = Fraction(1, 1 << 200)
 
 
-@record
+@dataclass(frozen=True)
 class PrincipalAxes:
     """moments: three, in the tensor's unit; axes: rows, unit vectors of the principal axes in the input
     frame, right-handed.

@@ -1,5 +1,8 @@
-"""Extremes and periods of many states in one pass: fates, then librations row by row, the rest by NumPy, and
-balls of what these leave open."""
+"""Extremes and periods of many motions.
+
+Extremes and periods of many states in one pass: fates, then librations row by row, the rest by NumPy, and
+balls of what these leave open.
+"""
 from __future__ import annotations
 
 import numpy as np
@@ -8,15 +11,15 @@ from ..errors import InputError
 from ..physics.coefficients import effective
 from ..physics.states import checked_states
 from .extremes.arrays import open_extremes, rotation_periods, trapped_rows
-from .extremes.balls import precise_extremes
+from .extremes.one_state import precise_extremes
 from .far_states import far_numbers
-from .fate.arrays import fate_on_orbit, rows_beyond_doubles
+from .fate.arrays import fate_on_orbit, fates, rows_beyond_doubles
 from .fate.result import CHUNK
 from .fine.rows_kernel import BOX, PERIOD
 from .fine.rows_numba import settle_rows
 from .landscape import landscape
 from .one_orbit import Orbit
-from .period.balls import precise_period
+from .period import precise_period
 from .reduction import reduce
 from .result import Fate, without_return
 
@@ -74,3 +77,18 @@ def _of_chunk(scene, states, box, period, by_numba):
         for index in np.nonzero((left_open & PERIOD > 0) | (rotating & np.isnan(periods)))[0]:
             periods[index] = precise_period(Orbit(land.reduction, states[index]), Fate.BOUNDED)
     return boxes, periods
+
+
+# --- Many states of a scene with an orbit: fates, extremes and periods of rows (n, 3)
+__all__ = ["extremes", "fates", "periods"]
+
+
+def extremes(scene, states, span=None, fast: bool | None = None):
+    """(n, 3, 2) over t >= 0; `span` and `fast` are not needed."""
+    return extremes_and_periods(scene, states, period=False)[0]
+
+
+def periods(scene, states, fast: bool | None = None):
+    """(n,); inf where the motion does not repeat, 0 at an equilibrium, NaN where it is undecided; `fast` is
+    not needed."""
+    return extremes_and_periods(scene, states, box=False)[1]

@@ -16,7 +16,7 @@ from ..errors import InputError
 from .extremes.one_state import extremes_of
 from .fate.one_state import fate_of, is_free
 from .one_orbit import Orbit
-from .period.one_state import period_of
+from .period import period_of
 from .reduction import reduce
 from .result import Motion, finite
 

@@ -9,7 +9,7 @@ from .extremes.one_state import extremes_of
 from .far_states import far_exponent, far_fate, in_scene_unit, own
 from .fate.one_state import fate_of
 from .one_orbit import Orbit
-from .period.one_state import period_of
+from .period import period_of
 from .reduction import reduce
 from .result import Fate, Motion, finite, judged, repeats
 from .separatrix.distance.ask import distance_of

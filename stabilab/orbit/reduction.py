@@ -21,6 +21,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property, lru_cache
 from typing import Any, NamedTuple
@@ -28,7 +29,6 @@ from typing import Any, NamedTuple
 from ..numbers.exact import sqrt_fraction
 from ..numbers.vectors import CYCLE, Exact3, Number, Triple
 from ..physics.scene import AnyScene, QuadraticForm
-from ..record import record
 from .potential import GEOMETRIES, Geometry
 
 
@@ -49,7 +49,7 @@ class Constants(NamedTuple):
     flip: int
 
 
-@record
+@dataclass(frozen=True)
 class Reduction:
     """A scene seen as a particle in a potential (see the module text).
 

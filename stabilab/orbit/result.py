@@ -3,14 +3,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from dataclasses import field
+from dataclasses import dataclass, field
 from enum import IntEnum
 from typing import TYPE_CHECKING, Any
 
 from ..caveat import Caveat
 from ..numbers.vectors import Float3, Number
-from ..record import record
-from ..shown import Shown
+from ..representation import Shown
 
 if TYPE_CHECKING:  # a scene of exact laws does not load it
     from ..physics.law_limits import Validity
@@ -36,7 +35,7 @@ class Fate(IntEnum):
         return ("bounded", "spin-up", "separatrix", "equilibrium", "undecided")[self]
 
 
-@record
+@dataclass(frozen=True)
 class Motion(Shown):
     """Everything known about the motion from one state.
 

@@ -23,15 +23,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from fractions import Fraction
 from types import ModuleType
 from typing import Any, ClassVar
 
-from ..asked import checked_scene, real
 from ..errors import InputError
 from ..numbers.exact import exact_vector, sqrt_fraction
 from ..numbers.vectors import Exact3, Float3, Number, Triple, cross
-from ..record import record
+from ..validation import checked_scene, real
 from .effects import effect_class
 from .effects.base import Effect
 from .scene import ZERO3, AnyScene, Body, ScaledGyrostat, Scene
@@ -41,7 +41,7 @@ KNOWN = {"gyrostat", "constant_torque", "charge", "resistance", "liquid_cavity",
 ZERO = Fraction(0)
 
 
-@record
+@dataclass(frozen=True)
 class Content:
     """The coefficients of the equations above, exact. printed: the liquid's torque is the printed one."""
 
@@ -128,7 +128,7 @@ def shortened(value: Fraction) -> Fraction:
     return Fraction(round(value * 2**shift), 2**shift)
 
 
-@record
+@dataclass(frozen=True)
 class Together(Effect):
     """What turns the body as a wheel of moment Lambda would: wheel and charge of constant angle in one."""
 
@@ -248,7 +248,7 @@ def three_floats(state: Any) -> Float3:
     return tuple(array.reshape(3).tolist())
 
 
-@record
+@dataclass(frozen=True)
 class Scaling:
     """omega_j = rate[j] x_j and t = time tau; exact up to square roots kept to 240 bits."""
 

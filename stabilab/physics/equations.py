@@ -16,11 +16,11 @@ from functools import cached_property, lru_cache, reduce
 from pathlib import Path
 from typing import Any, TypeAlias
 
-from ..asked import checked_scene
+from ..cache import in_words, kept
 from ..errors import InputError
-from ..kept import in_words, kept
 from ..numbers.exact import exact
 from ..numbers.vectors import Number, Triple, cross, dot
+from ..validation import checked_scene
 from .scene import BLOCKS, AnyScene, ScaledGyrostat, Scene, ordered
 
 Symbolic: TypeAlias = Any  # an expression or a symbol of SymPy, which is loaded by none who only reads

@@ -12,8 +12,8 @@ from dataclasses import dataclass, replace
 from functools import reduce
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-from ..asked import checked_scene
 from ..numbers.vectors import Number
+from ..validation import checked_scene
 from .effects.base import Limit, effect_words
 from .scene import AnyScene, slices
 

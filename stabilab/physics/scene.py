@@ -13,17 +13,16 @@ moments is principal.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import field
+from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple, TypeAlias
 
-from ..asked import Asked
 from ..caveat import Caveat
 from ..errors import InputError
 from ..numbers.exact import exact, exact_vector, floats, half_unit, sqrt_fraction
 from ..numbers.vectors import CYCLE, Exact3, Given, Number, Triple, dot
-from ..record import record
+from ..validation import Asked
 from .effects.base import Effect, effect_words
 
 if TYPE_CHECKING:
@@ -34,7 +33,7 @@ if TYPE_CHECKING:
 ROUNDING = Fraction(1, 1 << 48)  # of the largest moment: what a routine of eigenvalues in doubles leaves
 
 
-@record
+@dataclass(frozen=True)
 class Body(metaclass=Asked):
     """A rigid body seen from its principal axes 1, 2, 3.
 
@@ -89,7 +88,7 @@ class Body(metaclass=Asked):
 
 # --- The blocks a state may consist of, in their order: the angular velocity always, the others when
 # something needs them
-@record
+@dataclass(frozen=True)
 class Block:
     """A part of the state: the names of its components, their unit, and what it is in words."""
 
@@ -140,7 +139,7 @@ def slices(names: Iterable[str]) -> dict[str, slice]:
     return out
 
 
-@record
+@dataclass(frozen=True)
 class QuadraticForm:
     """Coefficients of the rates; `symbol` is the letter of the state ("omega" or "x")."""
 
@@ -205,7 +204,7 @@ def rests(form: QuadraticForm, state: Iterable[Number]) -> bool:
 ZERO3 = (Fraction(0),) * 3
 
 
-@record
+@dataclass(frozen=True)
 class Scene(metaclass=Asked):
     """A body and its effects, each at most once. Effects not named here do not exist for any later step, and
     one of zero strength is not kept: it equals an absent one in every answer because it is absent.
@@ -284,7 +283,7 @@ class Scene(metaclass=Asked):
         return euler_form(self.body.exact, self.vector("gyrostat"), self.vector("constant_torque"))
 
 
-@record
+@dataclass(frozen=True)
 class ScaledGyrostat(metaclass=Asked):
     """The dimensionless system of Amer et al. 2024, eq. (5), for any real a, b, mu; accepted wherever a scene
     is.

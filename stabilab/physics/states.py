@@ -14,9 +14,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..asked import real
 from ..errors import InputError, told
 from ..numbers.constants import EPS
+from ..validation import real
 from .equations import Equations, derive, rotation
 from .scene import BLOCKS, ORDER, AnyScene, Scene, ordered, rests
 from .to_numpy import equations_of

@@ -17,7 +17,6 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 
 from ..errors import InputError
-from ..record import record
 from .equations import Equations, Symbolic, derive, kept_of_symbols, values
 from .scene import AnyScene
 
@@ -29,7 +28,7 @@ QUICK = {"inertia", "gyrostat", "constant_torque"}  # torques of which the rates
 Known: TypeAlias = tuple[tuple[Symbolic, Symbolic], ...]  # parameters and their numbers
 
 
-@record
+@dataclass(frozen=True)
 class Structure:
     """What a form has beside its numbers: code is compiled once for all scenes of one structure."""
 

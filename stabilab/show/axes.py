@@ -9,10 +9,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from ..numbers.vectors import Float3
-from ..record import record
 
 if TYPE_CHECKING:
     from ..case.read import Case
@@ -24,7 +24,7 @@ IN_FILE = " in the file's frame"
 RANKS = ("major", "intermediate", "minor")
 
 
-@record
+@dataclass(frozen=True)
 class Axes:
     """letters: of the axes of the file or of the paper, "" of a full tensor; words: which axis each one is by
     its moment, "" where they are all alike or unknown; directions: unit vectors in the frame of the file,

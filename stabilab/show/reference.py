@@ -10,8 +10,7 @@ from ..answers.caveats import limited
 from ..answers.certificate import subject
 from ..answers.digits.ask import ask
 from ..answers.motion import motion
-from ..answers.tabulated.ask import tabulated
-from ..answers.tabulated.result import Tabulated
+from ..answers.tabulated import Tabulated, tabulated
 from ..caveat import key
 from ..files import whole_file
 from ..numbers.balls import working

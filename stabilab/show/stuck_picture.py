@@ -6,8 +6,8 @@ from pathlib import Path
 
 import numpy as np
 
-from ..answers.stuck.scenario import scenario_of
-from ..answers.trajectory import trajectory
+from ..answers.simulate import trajectory
+from ..answers.stuck.fate import scenario_of
 from ..packages import demand
 from . import style
 from .files import endings

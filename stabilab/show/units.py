@@ -3,13 +3,12 @@ from __future__ import annotations
 
 import math
 import re
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from decimal import ROUND_CEILING, ROUND_FLOOR, Decimal, localcontext
 from functools import partial
 from typing import TYPE_CHECKING
 
 from ..errors import InputError
-from ..record import record
 from .axes import PLAIN, Axes, axes_of
 
 if TYPE_CHECKING:
@@ -28,7 +27,7 @@ AFTER = re.compile(rf"\b(after|before|within) {NUMBER} s(?![\w^])")
 OF_RATES = re.compile(r"\((-?\d[-+.\de]*(?:, -?\d[-+.\de]*)+)\) rad/s(?![\w^])")
 
 
-@record
+@dataclass(frozen=True)
 class Units:
     """A system of units: `name` is "deg", "si", or "scaled" for dimensionless variables.
 

@@ -7,10 +7,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..asked import checked_case
 from ..errors import InputError
 from ..physics.states import checked_times
-from ..shown import Compared, Shown
+from ..representation import Compared, Shown
+from ..validation import checked_case
 from .follow import follow, models_of
 from .theory import theory
 

@@ -6,20 +6,17 @@ from typing import Any
 
 import numpy as np
 
-from ..asked import checked_case
 from ..errors import InputError
 from ..integrate.events import roots_of_rates
-from .cavity.attractors import attractors
+from ..validation import checked_case
+from .cavity.normal_form import attractors
 from .charged.mean_pointing import pointing, spin_drift
-from .charged.model import body_of
-from .charged.modes import modes, resonances
-from .charged.printed import MISPRINTS
-from .charged.validity import SMALL_ANGLE, horizon, largest_tilt
+from .charged.model import MISPRINTS, body_of
+from .charged.modes import SMALL_ANGLE, horizon, largest_tilt, modes, resonances
 from .follow import family
-from .top.euler_angles import COARSE, mean_precession
+from .top.euler_angles import COARSE, angles_along, mean_precession
 from .top.lindstedt import lindstedt
 from .top.model import ORDER, state_of
-from .top.run_angles import angles_along
 
 GAMMA = (3, 4, 5)  # of the state of a top
 

@@ -13,7 +13,7 @@ import numpy as np
 
 from ..errors import InputError
 from ..numbers.constants import EPS
-from ..orbit import many
+from ..orbit import extremes_and_periods as many
 from ..orbit.fate.arrays import at_rest
 from ..orbit.fate.arrays import fates as fates_on_orbit
 from ..orbit.fate.one_state import OneFate, Reason, fate_of
@@ -22,7 +22,7 @@ from ..orbit.fate.result import FateResult, in_chunks, write_row
 from ..orbit.landscape import landscape
 from ..orbit.one_orbit import Orbit
 from ..orbit.one_state import apart_fields
-from ..orbit.period.one_state import period_of
+from ..orbit.period import period_of
 from ..orbit.reduction import reduce
 from ..orbit.result import Fate, Motion, finite, judged, pairs, repeats
 from ..physics.coefficients import three_floats

@@ -10,8 +10,8 @@ from fractions import Fraction
 from math import hypot, inf, sqrt
 from typing import Any
 
+from ..equilibrium.dissipative import GLOBAL, energy_bound, resisted_equilibria
 from ..equilibrium.liquid import trap
-from ..equilibrium.medium import GLOBAL, energy_bound, resisted_equilibria
 from ..numbers.vectors import dot
 from ..orbit.fate.one_state import REASONS, Reason
 from ..orbit.result import Fate, Motion

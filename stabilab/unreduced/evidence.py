@@ -7,13 +7,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..asked import reach_of
 from ..errors import InputError
 from ..integrate.events import RateRoots, roots_of_rates
 from ..integrate.trajectory import integrated
 from ..orbit.result import Fate, pairs
 from ..physics.states import three_numbers
 from ..physics.to_numpy import equations_of, to_numpy
+from ..validation import reach_of
 
 # A run that has not shown what is asked after this many steps (seconds of work) gives up and says so.
 STEP_BUDGET = 1_000_000

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..asked import reach_of
 from ..integrate.events import roots_of_rates
 from ..physics.coefficients import limits_of
 from ..physics.scene import Scene
 from ..physics.states import equations_and_start
 from ..physics.to_numpy import to_numpy
+from ..validation import reach_of
 
 STIFF = 1e5  # fastest decay times span beyond which a search for extremes would take minutes
 

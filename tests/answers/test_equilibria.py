@@ -12,7 +12,7 @@ import stabilab
 from stabilab import Body, Scene
 from stabilab.answers.equilibria import equilibria, other_equilibria
 from stabilab.answers.motion import motion
-from stabilab.answers.trajectory import trajectory
+from stabilab.answers.simulate import trajectory
 from stabilab.errors import InputError
 from stabilab.physics.coefficients import content
 from stabilab.physics.effects.base import Effect

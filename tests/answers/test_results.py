@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 import stabilab
-from stabilab.shown import same
+from stabilab.representation import same
 
 STATE = (0.1, 0.05, 0.02)
 SCENES = {"bounded": stabilab.Scene(stabilab.Body((12, 9, 5)), stabilab.Gyrostat(("0.8", 0, 0)),

@@ -13,11 +13,9 @@ import numpy as np
 import pytest
 
 from stabilab import load
-from stabilab.answers.digits import front as precision_front
 from stabilab.answers.digits import run as precision_digits
-from stabilab.answers.digits.front import FrontPoint
-from stabilab.answers.digits.reduced import ladder, reduced
-from stabilab.answers.digits.run import candidates, simulate_to
+from stabilab.answers.digits import run as precision_front
+from stabilab.answers.digits.run import FrontPoint, candidates, ladder, reduced, simulate_to
 from stabilab.cost import accuracy as measuring
 from stabilab.cost.accuracy import Point, digit_price, pareto, precision
 from stabilab.cost.methods import methods, problem
@@ -360,7 +358,7 @@ def test_front_is_kept_per_motion_machine_and_version(tmp_path, monkeypatch, mea
                                         effort="full")) == path and len(precision_front.front(FREE)) == 1
     short = replace(measured, effort="full", reference=replace(measured.reference, status="stopped"))
     assert precision_front.keep(short) is None  # it would speak of times that were not judged
-    monkeypatch.setattr("stabilab.answers.digits.front.versions", lambda: {"stabilab": "0"})
+    monkeypatch.setattr("stabilab.answers.digits.run.versions", lambda: {"stabilab": "0"})
     assert precision_front.front(FREE) == ()
     path.write_text("{")
     assert precision_front.front(FREE) == ()

@@ -15,9 +15,9 @@ from hypothesis import strategies as st
 
 import stabilab
 from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene, equilibria
-from stabilab.equilibrium.balance import pencil
 from stabilab.equilibrium.gyrostat import balance_fails, conic_curves, torque_free_curves
 from stabilab.equilibrium.result import decimal
+from stabilab.equilibrium.stability import pencil
 from stabilab.errors import InputError
 
 D_PAPER = (2000, 1500, 1000)

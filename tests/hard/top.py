@@ -12,7 +12,7 @@ from stabilab.errors import InputError
 from stabilab.physics.effects.gravity import Gravity
 from stabilab.theories.top.euler_angles import mean_precession
 from stabilab.theories.top.lindstedt import lindstedt
-from stabilab.theories.top.printed import printed
+from stabilab.theories.top.model import printed
 from tests.hard.row import Verdict, numbers
 from tests.oracles import energy, euler
 from tests.theories.top.test_lindstedt import ARM, FIELD, MOMENTS, R0, START, WEIGHT, near, top

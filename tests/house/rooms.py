@@ -14,8 +14,8 @@ from typing import NamedTuple
 ROOT = Path(__file__).resolve().parents[2]
 PACKAGE = ROOT / "stabilab"
 PAGE = ROOT / "docs" / "house.md"
-GROUND = {"caveat", "errors", "files", "interrupt", "machine", "packages", "streams", "asked", "shown",
-          "version", "record", "processes", "kept", "written"}
+GROUND = {"caveat", "errors", "files", "interrupt", "packages", "streams", "validation", "cache",
+          "version", "representation", "processes"}
 # room -> rooms that it may import, besides itself and the ground; None: nothing, the ground included
 MAY: dict[str, str | None] = {
     "numbers": "", "physics": "numbers", "case": "physics numbers", "integrate": "physics numbers",

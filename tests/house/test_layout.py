@@ -40,12 +40,11 @@ IMPORTS_INSIDE = 60  # of 237 once: some thirty of commands, the others in the t
 SIGNS = 25  # tests of the sign of p q, of 139 once
 # Imports inside functions, besides those of the commands: (importing module, imported module) -> why it waits
 DOORS = {
-    ("stabilab.answers.certificate", "stabilab.answers.certified_spin_up"): "loads numpy",
-    ("stabilab.answers.certificate", "stabilab.answers.closed_motion"): "loads numpy",
+    ("stabilab.answers.certificate", "stabilab.answers.certified_motion"): "loads numpy",
     ("stabilab.commands.classify", "stabilab.commands.certify"): "loaded for --certify alone",
-    ("stabilab.commands.common.motions",
-     "stabilab.answers.uncertain.verdicts"): "loaded for uncertain numbers alone",
-    ("stabilab.commands.common.motions", "stabilab.commands.common.tilt"): "loads numpy",
+    ("stabilab.commands.common.cases",
+     "stabilab.answers.uncertain.fate"): "loaded for uncertain numbers alone",
+    ("stabilab.commands.common.cases", "stabilab.commands.common.tilt"): "loads numpy",
     ("stabilab.commands.pictures", "stabilab.show.explore.serve"): "loads what serves a page",
     ("stabilab.commands.pictures", "stabilab.show.explore.static"): "loads what writes a page as a folder",
     ("stabilab.commands.questions", "stabilab.answers.digits.ask"): "loads numpy",

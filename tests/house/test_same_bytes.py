@@ -95,7 +95,7 @@ def test_what_was_measured_on_a_machine_changes_no_answer_that_did_not_ask_for_i
                                                                                   stabilab):
     """A front that names another method is followed by --digits alone."""
     from stabilab.answers.digits import run as precision_digits
-    from stabilab.answers.digits.front import FrontPoint
+    from stabilab.answers.digits.run import FrontPoint
     without = stabilab("simulate", FEW[0], "--at", "0,1,2")
     monkeypatch.setattr(precision_digits, "front", lambda case: (FrontPoint("DOP853", 1e-13, 12.5, 1e-6),))
     assert stabilab("simulate", FEW[0], "--at", "0,1,2") == without and without[0] == OK

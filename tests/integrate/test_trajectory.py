@@ -7,7 +7,7 @@ import pytest
 
 import stabilab
 from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene, trajectory
-from stabilab.answers.trajectory import METHODS
+from stabilab.answers.simulate import METHODS
 from stabilab.errors import InputError
 from stabilab.integrate import to_heyoka
 from stabilab.integrate import trajectory as trajectories

@@ -147,7 +147,7 @@ def test_a_killed_sweep_goes_on_with_any_number_of_processes_to_the_same_bytes(t
 ENDLESS = """
 import sys, time
 from pathlib import Path
-from stabilab.maps import workers
+from stabilab.maps import run as workers
 def answered(plan, number):
     workers.parts.write(plan, Path(sys.argv[1]), number, b"begun")
     time.sleep(600)

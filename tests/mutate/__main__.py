@@ -15,7 +15,7 @@ from tests.mutate import faults, runs
 
 # subject -> (modules, test files that belong to it)
 SUBJECTS = {
-    "equilibria": (("equilibrium/gyrostat", "equilibrium/result", "equilibrium/balance"),
+    "equilibria": (("equilibrium/gyrostat", "equilibrium/result", "equilibrium/stability"),
                    ("equilibrium/test_gyrostat", "equilibrium/test_stability", "equilibrium/test_curve",
                     "answers/test_certificate", "equilibrium/test_curve_text")),
     "stability": (("equilibrium/stability",),
@@ -44,7 +44,7 @@ SUBJECTS = {
                    ("orbit/separatrix/test_sheets", "orbit/separatrix/test_grid")),
     "growth": (tuple(f"unreduced/growth/{name}" for name in ("law", "certificate")),
                ("unreduced/growth/test_law", "unreduced/growth/test_certificates")),
-    "balls": (("orbit/one_orbit", "orbit/fate/one_state", "orbit/extremes/balls", "orbit/period/balls",
+    "balls": (("orbit/one_orbit", "orbit/fate/one_state", "orbit/extremes/one_state", "orbit/period",
                "orbit/fate/one_state", "orbit/fate/one_state"),
               ("orbit/fate/test_fate", "orbit/extremes/test_extremes", "orbit/extremes/test_arrays",
                "orbit/fate/test_one_state",

@@ -13,11 +13,11 @@ import stabilab
 from stabilab import Body, Fate, Gyrostat, Scene
 from stabilab.answers.motion import motion
 from stabilab.numbers.balls import DOUBLE_BITS, START_BITS
-from stabilab.orbit.extremes.balls import precise_extremes
+from stabilab.orbit.extremes.one_state import precise_extremes
 from stabilab.orbit.fate.one_state import decide, fate_of
 from stabilab.orbit.landscape import landscape
 from stabilab.orbit.one_orbit import Orbit
-from stabilab.orbit.period.balls import precise_period
+from stabilab.orbit.period import precise_period
 from stabilab.orbit.reduction import reduce
 from tests.oracles import energy
 from tests.oracles.pairs import PAPER_BODY, WORDS, brink, physical, scaled

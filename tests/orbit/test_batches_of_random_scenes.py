@@ -11,11 +11,11 @@ import stabilab
 from benchmarks.random_scenes import SEED, drawn
 from stabilab import Fate
 from stabilab.numbers.numba_door import installed
-from stabilab.orbit.extremes.balls import precise_extremes
+from stabilab.orbit.extremes.one_state import precise_extremes
 from stabilab.orbit.extremes_and_periods import extremes_and_periods
 from stabilab.orbit.fate.one_state import decide, fate_of
 from stabilab.orbit.one_orbit import Orbit
-from stabilab.orbit.period.balls import precise_period
+from stabilab.orbit.period import precise_period
 from stabilab.orbit.reduction import reduce
 
 # promised of extremes and periods, relative to themselves, and of margins, relative to kinetic energy and

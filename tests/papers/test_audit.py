@@ -16,11 +16,10 @@ from stabilab.papers.audit.decide import decide
 from stabilab.papers.audit.findings import domain_of, examine, prove_systems
 from stabilab.papers.audit.repair import edits, repairs
 from stabilab.papers.audit.systems import system_of
-from stabilab.theories.cavity import printed as cavity
-from stabilab.theories.charged import printed as charged
-from stabilab.theories.printed.claims import read
-from stabilab.theories.printed.formulas import FormulaError, parse, sides
-from stabilab.theories.top import printed as top
+from stabilab.theories.cavity import model as cavity
+from stabilab.theories.charged import model as charged
+from stabilab.theories.printed.claims import FormulaError, parse, read, sides
+from stabilab.theories.top import model as top
 
 PAPERS = {name: audit.paper(name) for name in audit.papers()}
 ROWS = [(name, row.equation) for name, paper in PAPERS.items() for row in paper.rows]
@@ -294,7 +293,7 @@ def test_operators_carried_out_in_numbers_and_in_symbols_have_one_value(text, va
     import mpmath
     import sympy as sp
 
-    from stabilab.theories.printed.values import Evaluator
+    from stabilab.theories.printed.evaluate import Evaluator
     symbols = {name: sp.Symbol(name, real=True) for name in "txy"}
     bound = {"y": parse("t*x", symbols)}
     for in_numbers in (False, True):
@@ -307,7 +306,7 @@ def test_an_edit_is_tried_in_doubles_without_work_on_symbols(monkeypatch):
     """Of hundreds of edits of a formula with `at`, few need SymPy: those where a number would be divided by
     zero. Before, all did."""
     from stabilab.papers.audit import repair
-    from stabilab.theories.printed.values import Evaluator
+    from stabilab.theories.printed.evaluate import Evaluator
     tried, carried = [], []
     near, plain = repair._Trial._near, Evaluator.plain
     monkeypatch.setattr(repair._Trial, "_near", lambda self,

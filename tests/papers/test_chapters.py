@@ -139,8 +139,7 @@ def test_where_a_printed_curve_leaves_its_panel_it_is_also_shown_whole():
 
 
 def test_printed_curves_of_the_velocity_are_the_printed_formulas():
-    from stabilab.theories.charged.model import body_of
-    from stabilab.theories.charged.printed import printed
+    from stabilab.theories.charged.model import body_of, printed
     column = next(iter(figures_charged._columns("lambda3")))
     t, drawn = figures_charged.VELOCITY[0].pick(column.runs["printed"])
     np.testing.assert_array_equal(drawn,

@@ -11,7 +11,7 @@ from stabilab import errors
 from stabilab.show.plot import phase_plane as plane_section
 from stabilab.show.plot import subject, to_file
 from stabilab.show.plot import subject as which
-from stabilab.unreduced.section import crossed, neighbours_of, returns
+from stabilab.unreduced.periodic import crossed, neighbours_of, returns
 
 matplotlib.use("Agg")
 from matplotlib import pyplot as plt  # after the back end is chosen

@@ -54,8 +54,7 @@ def test_models_have_the_parts_of_the_state_that_the_exact_motion_has():
 def test_the_model_printed_follows_the_print_and_the_model_corrected_the_integrals_it_means():
     """(44) of the paper: I_omega is the integral of I_Gamma, so the rate of omega is -i f3 e^(i r0 t)
     Gamma/m; (46) as typed misses that, and (61) does not vanish at t = 0."""
-    from stabilab.theories.charged.model import body_of
-    from stabilab.theories.charged.printed import printed
+    from stabilab.theories.charged.model import body_of, printed
     case, t, h = load(CHARGED), 20.0, 1e-4
     runs = {model: follow(case, [0.0, t - h, t, t + h], model).state for model in ("corrected", "printed")}
     for model, right in (("corrected", True), ("printed", False)):
@@ -178,7 +177,7 @@ def test_compare_names_the_attracting_spin_of_a_body_with_a_liquid():
 
 def test_the_periodic_motion_precesses_as_the_exact_one_through_it():
     from stabilab.theories.theory import theory
-    from stabilab.theories.top.run_angles import with_euler_angles
+    from stabilab.theories.top.euler_angles import with_euler_angles
     case = load(CASES / "top-fast.toml")
     rows = {row["about"]: row["values"] for row in theory(case, 8)}
     turns = rows["periodic motion"]["period"] * np.array([0.0, 24.0])

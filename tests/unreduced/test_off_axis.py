@@ -21,8 +21,7 @@ from stabilab import (
 from stabilab.errors import InputError
 from stabilab.integrate.events import roots_of_rates
 from stabilab.orbit.one_orbit import Orbit
-from stabilab.orbit.period.balls import precise_period
-from stabilab.orbit.period.one_state import period_of
+from stabilab.orbit.period import period_of, precise_period
 from stabilab.orbit.reduction import reduce
 from stabilab.unreduced import off_axis
 from stabilab.unreduced.evidence import evidence

@@ -8,7 +8,7 @@ from scipy.integrate import solve_ivp
 from stabilab import Body, ConstantTorque, Gyrostat, Scene
 from stabilab.unreduced.off_axis import motion
 from stabilab.unreduced.periodic import Section, continued, elliptic_of, in_the_middle, passage, periodic
-from stabilab.unreduced.spin_up.cause import centres
+from stabilab.unreduced.spin_up.form import centres
 from tests.unreduced.spin_up.scenes import rates_of
 
 MIDDLE = Scene(Body((1.4, 1, .6)), Gyrostat((0, 0, .193)), ConstantTorque((.01, -.6, .6)))

@@ -16,25 +16,25 @@ from typing import Any
 
 import numpy as np
 
-from ...asked import reach_of
 from ...integrate.events import roots_of_rates
 from ...integrate.reference import DIGITS, GUARD, WORK, Exhausted, Recursion, reference, steps, widen
 from ...integrate.to_heyoka import TAYLOR_TOLERANCE
 from ...numbers.balls import DOUBLE_BITS, Digits, working
 from ...numbers.vectors import Exact3, Number
-from ...orbit.extremes.balls import extreme_balls
+from ...orbit.extremes.one_state import extreme_balls
 from ...orbit.fate.one_state import free_margin, is_free, precise_margin
 from ...orbit.landscape import Landscape, landscape
 from ...orbit.one_orbit import Orbit
-from ...orbit.period.balls import period_ball
+from ...orbit.period import period_ball
 from ...orbit.reduction import reduce
 from ...orbit.result import Fate, Motion, no_period
 from ...physics.coefficients import effective
 from ...physics.equations import Equations
 from ...physics.scene import AnyScene, QuadraticForm, Scene, aligned
 from ...physics.states import checked_states, equations_and_start, moved_row
-from ...unreduced.growth.extremes import law_extremes
+from ...unreduced.growth.certificate import law_extremes
 from ...unreduced.near_rest import beside_rest, small_loop
+from ...validation import reach_of
 from ..motion import motion
 from .checked import CAUTION, MOST, MOST_DECIMALS, NEAR, Told, checked_digits, digits_of, nothing
 

@@ -1,4 +1,6 @@
-"""A motion to as many digits as are asked for: the cheapest setting that was measured to reach them, checked
+"""One motion to the digits asked for, by the cheapest method that proves or shows them.
+
+A motion to as many digits as are asked for: the cheapest setting that was measured to reach them, checked
 afterwards.
 
 The check needs no reference: the same motion at another tolerance, its start moved by a unit in its last
@@ -7,16 +9,22 @@ short is done again with the next setting, at last in many digits, rounded once.
 """
 from __future__ import annotations
 
+import json
 import math
-from dataclasses import dataclass, replace
+import os
+from dataclasses import asdict, dataclass, replace
+from hashlib import sha256
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ...cache import cache_folder, in_words
 from ...errors import InputError, ToleranceNotMet
 from ...integrate.reference import reference
 from ...integrate.to_heyoka import TAYLOR_TOLERANCE
 from ...integrate.trajectory import FALLBACK_RTOL, SCIPY_METHODS
+from ...orbit.flow.flow import reduced_motion
 from ...physics.coefficients import limits_of
 from ...physics.equations import derive
 from ...physics.scene import AnyScene
@@ -31,13 +39,104 @@ from ...physics.states import (
     to_space,
 )
 from ...physics.to_numpy import to_numpy
+from ...processes import machine, versions
 from ..simulate import STIFF_METHOD, Simulation, errors_of, in_quaternions, simulate
 from .checked import CAUTION, DEFAULT, MOST, NEAR, checked_digits, digits_of
-from .front import SAFETY, front
-from .reduced import ladder, reduced
 
 if TYPE_CHECKING:
     from ...physics.law_limits import Validity
+
+
+# --- The measured fronts, kept from run to run: per machine and version, in the user's cache folder
+CACHE_SCHEMA = "stabilab.front/1"
+SAFETY = 1.0  # digits that a setting must have had to spare when it was measured
+
+
+@dataclass(frozen=True)
+class FrontPoint:
+    """A setting that no other beats: digits of the states over the span, cost in seconds. rtol: the setting's
+    value (nodes for "reduced", order for an expansion)."""
+
+    method: str
+    rtol: float
+    digits: float
+    cost: float
+
+
+def front(case: Any) -> tuple[FrontPoint, ...]:
+    """The measured front of a case on this machine with this version, cheapest first; empty where none was
+    measured (`stabilab precision CASE` measures it)."""
+    try:
+        data = json.loads(_file(case).read_text(encoding="utf-8"))
+        if data["schema"] != CACHE_SCHEMA or data["machine"] != machine() | versions():
+            return ()
+        return tuple(FrontPoint(str(p["method"]), float(p["rtol"]), float(p["digits"]), float(p["cost"]))
+                     for p in data["front"])
+    except (OSError, ValueError, KeyError, TypeError):
+        return ()
+
+
+def keep(measured: Any) -> Path | None:
+    """Keep the front of a measurement over the whole span, a quick one only where there is none yet; the
+    file, or None where a part of the span was not judged or the folder cannot be written."""
+    if measured.reference.status != "agrees":
+        return None
+    try:
+        path = _file(measured.case)
+    except OSError:
+        return None
+    if measured.quick and front(measured.case):
+        return path
+    points = [asdict(FrontPoint(p.method, p.value, round(p.digits, 3), p.seconds))
+              for p in measured.front("span")]
+    text = json.dumps({"schema": CACHE_SCHEMA, "case": measured.case.name, "machine": machine() | versions(),
+                       "front": points},
+                      indent=1, allow_nan=False)
+    waiting = path.with_name(f".{path.name}.{os.getpid()}")
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        waiting.write_text(text, encoding="utf-8")
+        waiting.replace(path)
+    except OSError:
+        return None
+    return path
+
+
+def _file(case: Any) -> Path:
+    """One file per motion: the scene's numbers, the start and the span, whatever the case file is called.
+    OSError where nothing is to be kept."""
+    folder = cache_folder()
+    if folder is None:
+        raise FileNotFoundError("STABILAB_CACHE is off")
+    key = in_words((case.scene, case.state, case.span, *sorted(case.blocks.items())))
+    return folder / "precision" / f"{sha256(key.encode()).hexdigest()[:24]}.json"
+
+
+# --- The reduced form as one of the ways to follow a motion: `reduced_motion` at a given resolution
+SAMPLES = (8, 16, 32, 64, 128, 256, 512)  # of the phase over a turn, for motions that repeat
+POINTS = (2, 4, 6, 8, 12, 16)  # of Gauss's rule on each panel of a spin-up
+
+
+class Reduced:
+    """The motion with at(times) -> states (n, 3), its period, and `counts`: evaluations of the integrand in
+    its preparation."""
+
+    def __init__(self, motion: Any) -> None:
+        self.at, self.period, self.counts = motion.states, motion.period, motion.evaluations
+
+
+def reduced(scene: AnyScene, state: Any, nodes: int) -> Reduced:
+    """At a resolution of `nodes` samples a turn (motions that repeat) or points a panel (spin-up). Raises
+    InputError where the motion has no reduced form."""
+    return Reduced(reduced_motion(scene, state, nodes))
+
+
+def ladder(scene: AnyScene, state: Any) -> tuple[int, ...]:
+    """Resolutions worth trying for this motion."""
+    if reduced_motion(scene, state).period == 0:
+        raise InputError("the state is an equilibrium: there is nothing to follow")
+    return SAMPLES if math.isfinite(reduced_motion(scene, state).period) else POINTS
+
 
 MANY, REDUCED_FORM = "many digits", "reduced form"
 # the finest Taylor series, which costs little more than a coarse one; Radau where the scene is stiff

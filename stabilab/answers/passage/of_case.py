@@ -15,7 +15,7 @@ from ..tilt import Spread, Tilt, cone_of, spread, tilt
 from ..time_to import time_of_case
 from .enclosed import WORK
 from .limit import asked
-from .result import TimeTo
+from .run import TimeTo
 
 FASTEST = 1e150  # rad/s: beyond it squares come near the end of doubles, and no run holds the motion
 

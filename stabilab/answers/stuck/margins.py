@@ -17,10 +17,9 @@ from ...orbit.reduction import Reduction
 from ...orbit.result import Fate, Motion
 from ...physics.scene import Scene
 from ..caveats import STEADY
-from .fate import Found
+from .fate import Found, Scenario
 from .line import TRIES, Family, Line, candidates, change_between, family_of, nearest_change, pieces, rise
 from .result import Margin
-from .scenario import Scenario
 from .wheel import across, loose
 
 TURN = 2000  # places on the turn at which the rise of the potential is looked at, to find a direction

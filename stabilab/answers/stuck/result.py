@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 from ...caveat import Caveat
 from ...numbers.vectors import Float3
-from ...shown import Shown
+from ...representation import Shown
 from ..tilt import Spread, Tilt
 
 

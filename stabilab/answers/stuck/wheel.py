@@ -15,9 +15,8 @@ from ...numbers.vectors import Exact3, Number, dot
 from ...orbit.reduction import Reduction
 from ...physics.scene import Scene, rests
 from ..caveats import STEADY
-from .fate import PATIENCE, first_time, limit_in, time_under
+from .fate import PATIENCE, Scenario, first_time, limit_in, time_under
 from .line import EVERY, INF, Family, Intervals, Line, candidates, family_of, pieces
-from .scenario import Scenario
 
 Answer: TypeAlias = tuple[Intervals, str]  # and because
 Bracket: TypeAlias = tuple[float, float]

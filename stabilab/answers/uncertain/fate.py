@@ -1,13 +1,25 @@
-"""The fate of a motion whose body, torque or start is known only within bounds: proved, or with a witness on
-each side."""
+"""Fates over a box of uncertain numbers, and the verdicts of a case within its uncertainties.
+
+The fate of a motion whose body, torque or start is known only within bounds: proved, or with a witness on
+each side.
+
+What uncertain numbers do to the verdicts on equilibria and motion.
+
+A case may state inertia, gyrostatic moment, torque and state with half-widths; together they span a box. For
+the whole box a verdict holds (proved), or it depends (with a point of the box on each side), or it stays
+undecided (with the reason); and the smallest change that flips it is bracketed: proved to be safe below one
+factor of the stated uncertainties, seen to flip at another.
+"""
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
 import numpy as np
 
+from ...caveat import Caveat
 from ...errors import InputError
 from ...numbers.affine import Affine, lifted, sign_over
 from ...numbers.vectors import Number
@@ -19,8 +31,9 @@ from ...orbit.result import Fate
 from ...physics.scene import QuadraticForm
 from ..fate import fate
 from ..kinds import kind_of
-from .box import Box, Numbers, Point, present
+from .box import Box, Numbers, Point, box_of, present
 from .branch_and_bound import Family, Proof, orbit_of, prove
+from .equilibria import equilibria_over
 from .result import UNKNOWN, Answer, Over, Witness, bracketed, by_sample, by_trial, confirmed, nearest_in_box
 
 UNBOUNDED = "unbounded"
@@ -242,3 +255,40 @@ def _under_law(box: Box, here: Any, answer: Answer, numbers: Numbers, form: Quad
                     f"the gyrostatic moment along axis {axis + 1}, the torque's, may vanish or not: where it "
                     f"does not, there is "
                     "no reduction to one degree of freedom, and no motion is bounded")
+
+
+@dataclass(frozen=True)
+class Uncertainty:
+    """numbers: the uncertain numbers of the case; equilibria, fate: what they do to each, None where not
+    asked (and the fate where there is no state). caveats: that samples stand in place of a proof, where they
+    do."""
+
+    numbers: tuple[Any, ...]
+    equilibria: Over | None
+    fate: Over | None
+
+    @property
+    def caveats(self) -> tuple[Caveat, ...]:
+        sampled = ((name, over.samples) for name,
+                   over in (("equilibria", self.equilibria), ("fate", self.fate)) if over)
+        return tuple(Caveat("samples",
+                            f"{name} over the uncertain numbers by samples, not by proof: {found.words}")
+                     for name, found in sampled if found)
+
+
+def uncertain(case: Any, questions: Sequence[str] = ("equilibria", "fate")) -> Uncertainty | None:
+    """What the uncertain numbers of a Case do to its verdicts, None where it has none; questions: those to be
+    answered."""
+    if not case.uncertain:
+        return None
+    ask = {"equilibria": equilibria_over, "fate": fate_over}
+    asked = [name for name in questions if name == "equilibria" or case.state is not None]
+    try:
+        box = box_of(case)
+        found = {name: ask[name](box) for name in asked}
+    except InputError as error:
+        found = {name: Over("undecided", None, str(error)) for name in asked}
+    return Uncertainty(case.uncertain, found.get("equilibria"), found.get("fate"))
+
+
+__all__ = ["Over", "Uncertainty", "uncertain"]

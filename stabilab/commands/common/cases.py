@@ -1,19 +1,25 @@
-"""The cases, times and units that a command line names."""
+"""Cases that a command is given, their motions, and what is printed of them."""
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from contextlib import suppress
+from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 
-from ...case.read import Case, load_all
+from ...answers.motion import motion
+from ...case.read import Case, blamed_on, load_all
 from ...case.units import NONE, TIME, quantity, split
 from ...errors import InputError, printable
 from ...show.progress import each
+from ...show.terminal import page, sweep
+from ...show.text import law
 from ...show.units import DEG, DIGITS, Units, number, units_of
+from ...streams import Progress
 from .output import say
 
 
+# --- The cases, times and units that a command line names
 def load_cases(paths: Iterable[Path], motion: bool = False) -> list[Case]:
     """All cases, of a file with [sweep] every combination; the faults of all files at once. motion: each must
     state one."""
@@ -108,3 +114,84 @@ def _time(text: str, case: Case, option: str) -> Fraction:
         return quantity(text.strip(), NONE if case.variables == "scaled" else TIME)[0]
     except InputError as error:
         raise InputError(f"--{option}: {error}") from None
+
+
+# --- The motion of a case, with what a tilt of its torque and uncertain numbers do to it
+def motion_of(case, brief=False, follow=None, proof=False):
+    """The motion of a case. follow: how long one that only a run decides is followed, as typed; proof: its
+    way is enclosed."""
+    long = time_asked(follow, case)
+    with blamed_on(case), Progress() as progress:
+        words = lambda t, steps, left: progress(
+            f"{printable(case.name)}: followed to {t:.4g} {case.scene.time_unit}, {steps} steps")
+        found = motion(case.scene, case.start, case.span, brief, case.exact_state, long,
+                       words if progress.wanted else None, proof)
+        return law.judged(case, found)
+
+
+def tilted(case, motion, angle: str | None):
+    """The motion with what a tilt of its torque does, where that is asked for or the case states what it
+    takes: a second of work otherwise saved."""
+    stated = (case.limits is not None
+              or any(thruster.stuck and thruster.misalignment for thruster in case.thrusters))
+    if angle is None and not stated:
+        return motion
+    from .tilt import with_angle
+    return with_angle(case, motion, angle)
+
+
+def sampled(motion, box):
+    """The motion with what uncertain numbers do to it by samples, not by proof, as a caveat."""
+    return (motion if motion is None or box is None
+            else replace(motion, caveats=(*motion.caveats, *box.caveats)))
+
+
+def over_boxes(cases, *questions):
+    """What uncertain numbers do to the verdicts of each case; None where it has none."""
+    if not questions or not any(case.uncertain for case in cases):
+        return [None] * len(cases)
+    from ...answers.uncertain.fate import uncertain
+    return [uncertain(case, questions) for case in cases]
+
+
+# --- The answers of several cases as text: one after the other, or the combinations of a [sweep] as one
+# table
+def tell_all(cases, texts, laws, boxes, full, between, swept, systems):
+    """Text of every case to stdout; the combinations of a [sweep] as one table, unless all is asked for in
+    full. texts: functions, a case each; swept(indices): (answer in a line, columns, rows) of a table;
+    systems: the units of each."""
+    if full or not any(case.variant for case in cases):
+        page.tell(between.join(law.first(held, text(), units, _of(case, box)) + box
+                               for case, text, held, box, units in zip(cases, texts, laws, boxes, systems)))
+        return
+    told = []
+    for of in sweep.groups(cases):
+        words = sweep.text([cases[n] for n in of], *swept(of)) if cases[of[0]].variant else texts[of[0]]()
+        caveats = dict.fromkeys(one for n in of for one in _of(cases[n], boxes[n]))
+        told.append(law.first(law.worst(*(laws[n] for n in of)), words, systems[of[0]], caveats)
+                    + "".join(dict.fromkeys(boxes[n] for n in of)))
+    page.tell("\n\n".join(told))
+
+
+def _of(case, box):
+    """The caveats of a case; without that on uncertain numbers where the words on their box follow."""
+    return [one for one in case.caveats if not box or one.kind != "uncertain"]
+
+
+def swept_motions(motions, systems):
+    """How `tell_all` tells the motions of a sweep."""
+    def table(of):
+        chosen = [motions[n] for n in of]
+        if None in chosen:
+            return f"{sum(m is None for m in chosen)} of them state no motion", [], [[] for _ in of]
+        return sweep.fates(chosen, systems[of[0]]), *sweep.of_motions(chosen, systems[of[0]])
+    return table
+
+
+def swept_extremes(cases, motions, systems):
+    """How `tell_all` tells the extremes of a sweep."""
+    def table(of):
+        chosen = [motions[n] for n in of]
+        return sweep.fates(chosen, systems[of[0]]), *sweep.of_extremes(chosen, cases[of[0]].scene.components,
+                                                                       systems[of[0]])
+    return table

@@ -10,8 +10,8 @@ from ...case.source import parsed
 from ...errors import InputError
 from ...numbers.balls import Unclear
 from ...physics.coefficients import effective
+from ..axes import spans_of
 from ..plan import place_and_text
-from ..span import spans_of
 from .connections import with_connections
 from .diagram import diagram
 from .family import Diagram, Family

@@ -18,14 +18,13 @@ from typing import Any
 from flint import fmpq_mat, fmpq_mpoly, fmpq_mpoly_ctx
 
 from ...case.read import Case, with_data
-from ...equilibrium.balance import pencil
+from ...equilibrium.stability import pencil
 from ...errors import InputError, printable
 from ...numbers.balls import rational
 from ...numbers.vectors import Float3
 from ...physics.coefficients import effective
-from ...shown import Shown
-from ..axes import put
-from ..span import Span
+from ...representation import Shown
+from ..axes import Span, put
 
 DEGREE = 3  # in each number that varies; a thruster's arm, force and a wheel's speed come to one each
 CHECKS = 2  # further values at which the polynomials must hold

@@ -26,7 +26,7 @@ from flint import arb, arb_poly, fmpq_mpoly, fmpq_poly
 
 from ...errors import InputError
 from ...numbers.balls import Unclear, evaluated, rational, real_roots_of, settled
-from ...shown import Shown
+from ...representation import Shown
 from ..axes import put
 from .algebraic import Algebraic, Cut, cuts, gaps, real_balls
 from .diagram import ball_form, diagram, doubles, spread, state_of

@@ -10,7 +10,7 @@ import numpy as np
 
 from ...physics.coefficients import limits_of
 from ...physics.scene import AnyScene
-from ...shown import Compared, Shown
+from ...representation import Compared, Shown
 from ..far_states import BEYOND
 from ..result import Fate
 from ..separatrix.distance.ask import separatrix_distance

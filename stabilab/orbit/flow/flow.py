@@ -30,7 +30,7 @@ from ...physics.coefficients import effective
 from ...physics.states import checked_states
 from ..far_states import own
 from ..one_orbit import Orbit
-from ..period.one_state import period_of
+from ..period import period_of
 from ..potential import slope_at
 from ..reduction import reduce
 from ..result import Fate

@@ -2,10 +2,10 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
-from ...record import record
-from ...shown import Compared, Shown
+from ...representation import Compared, Shown
 
 if TYPE_CHECKING:
     import numpy as np
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 AGREE = 1e-9  # relative: nearer than that, lower bound and witness are one number
 
 
-@record
+@dataclass(frozen=True)
 class Sheet(Compared):
     """One sheet of the separatrix as a parametric grid.
 
@@ -36,7 +36,7 @@ class Sheet(Compared):
     cut: int = 1
 
 
-@record
+@dataclass(frozen=True)
 class Separatrix(Shown):
     """Every sheet of the separatrix inside the asked-for range; reason says why there is none or what bounds
     it."""

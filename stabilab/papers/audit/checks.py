@@ -5,9 +5,8 @@ from __future__ import annotations
 from importlib import import_module
 
 from ...errors import InputError
-from ...theories.printed.claims import Paper, Row
-from ...theories.printed.formulas import parse, sides
-from ...theories.printed.values import Evaluator
+from ...theories.printed.claims import Paper, Row, parse, sides
+from ...theories.printed.evaluate import Evaluator
 
 
 def pairs(paper: Paper, row: Row, printed, system, bound) -> list:

@@ -5,9 +5,8 @@ from __future__ import annotations
 from itertools import combinations
 
 from ...errors import InputError
-from ...theories.printed.claims import Paper, Row
-from ...theories.printed.formulas import parse
-from ...theories.printed.values import points
+from ...theories.printed.claims import Paper, Row, parse
+from ...theories.printed.evaluate import points
 from .decide import decide, free, residual
 
 

@@ -6,7 +6,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ...errors import InputError
-from ...theories.printed.values import Evaluator, Undefined, points, precise, settled
+from ...theories.printed.evaluate import Evaluator, Undefined, points, precise, settled
 
 DIGITS = (50, 80)  # a claim "holds" by values only if its residual shrinks with the digits
 POINTS = 5

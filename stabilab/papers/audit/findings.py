@@ -8,8 +8,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from ...errors import InputError
-from ...theories.printed.claims import Paper, Row
-from ...theories.printed.formulas import parse
+from ...theories.printed.claims import Paper, Row, parse
 from .checks import bound_of, raw
 from .checks import pairs as pairs_of
 from .conditions import condition_of, singles

@@ -4,9 +4,8 @@ from __future__ import annotations
 from decimal import Decimal, InvalidOperation
 
 from ...errors import InputError
-from ...theories.printed.claims import Paper, Row
-from ...theories.printed.formulas import parse
-from ...theories.printed.values import Evaluator, Undefined, points, precise, settled
+from ...theories.printed.claims import Paper, Row, parse
+from ...theories.printed.evaluate import Evaluator, Undefined, points, precise, settled
 from .checks import bound_of, residuals_of
 from .decide import Decision, free
 from .systems import system_of

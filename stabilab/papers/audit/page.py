@@ -11,7 +11,7 @@ from pathlib import Path
 from ...show.report import html
 from ...show.report.typeset import numbered
 from ...show.terminal.letters import ALPHABET
-from ...theories.printed.formulas import FormulaError
+from ...theories.printed.claims import FormulaError
 from .checks import raw
 from .findings import VERDICTS
 from .words import counted, figures_changed

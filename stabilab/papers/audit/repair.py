@@ -12,7 +12,7 @@ from itertools import islice
 
 from ...errors import InputError
 from ...theories.printed.claims import Paper, Row
-from ...theories.printed.values import Evaluator, Undefined, points, settled
+from ...theories.printed.evaluate import Evaluator, Undefined, points, settled
 from .checks import pairs as pairs_of
 from .decide import decide, residual
 

@@ -14,8 +14,7 @@ from importlib import import_module
 from ...errors import InputError
 from ...physics.equations import derive
 from ...physics.scene import Body, Scene
-from ...theories.printed.claims import Paper
-from ...theories.printed.formulas import FormulaError, parse
+from ...theories.printed.claims import FormulaError, Paper, parse
 
 # effect -> (module, class, arguments that leave no parameter zero)
 EFFECTS = {

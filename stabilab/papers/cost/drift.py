@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...answers.extremes import period
-from ...answers.trajectory import trajectory
+from ...answers.simulate import trajectory
 from ...physics.scene import ScaledGyrostat
 
 SCENE = ScaledGyrostat("0.2", "0.4", (0, 0, 1))

@@ -15,7 +15,7 @@ import numpy as np
 
 from ...answers.equilibria import equilibria
 from ...answers.motion import motion
-from ...answers.trajectory import trajectory
+from ...answers.simulate import trajectory
 from ...integrate.to_heyoka import borrowed_taylor, heyoka_available
 from ...physics.effects import REGISTRY, effect_class
 from ...physics.equations import derive

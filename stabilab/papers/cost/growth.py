@@ -18,11 +18,11 @@ from ...cost.accuracy import precision
 from ...integrate.reference import WORK, Recursion, one_run, pairs, relative_errors
 from ...numbers.balls import Unclear, sign, working
 from ...numbers.numba_door import installed
-from ...orbit.extremes.balls import extreme_balls, turning_points
+from ...orbit.extremes.one_state import extreme_balls, turning_points
 from ...orbit.fate.one_state import precise_margin
 from ...orbit.landscape import landscape
 from ...orbit.one_orbit import Orbit, ball_orbit
-from ...orbit.period.balls import period_ball, precise_period
+from ...orbit.period import period_ball, precise_period
 from ...orbit.result import Fate
 
 SEED = 4

@@ -8,8 +8,7 @@ from functools import lru_cache, partial
 
 import numpy as np
 
-from ...theories.cavity.averaged import RTOL
-from ...theories.cavity.polar import polar
+from ...theories.cavity.averaged import RTOL, polar
 from . import panels
 from .figure import Figure, listed
 

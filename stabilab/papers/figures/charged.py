@@ -9,9 +9,9 @@ import numpy as np
 
 from ...theories.charged.corrected import one_frequency
 from ...theories.charged.model import body_of
-from ...theories.charged.printed import circle as by_35
-from ...theories.charged.validity import horizon
-from ...theories.charged.validity import horizon as until
+from ...theories.charged.model import circle as by_35
+from ...theories.charged.modes import horizon
+from ...theories.charged.modes import horizon as until
 from . import panels
 from .figure import Figure, listed
 

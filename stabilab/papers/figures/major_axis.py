@@ -6,7 +6,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from ...answers.trajectory import trajectory
+from ...answers.simulate import trajectory
 from ...physics.coefficients import to_scaled
 from ...show import style
 from ...unreduced.growth.law import captured_fate

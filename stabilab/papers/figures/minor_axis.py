@@ -5,7 +5,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from ...answers.trajectory import trajectory
+from ...answers.simulate import trajectory
 from ...orbit.phase_plane import motion_curve, phase_plane
 from ...orbit.separatrix.sheets import separatrix
 from ...show import style

@@ -8,7 +8,7 @@ from functools import lru_cache, partial
 import numpy as np
 
 from ...theories.top.euler_angles import euler_angles
-from ...theories.top.printed import printed
+from ...theories.top.model import printed
 from ...theories.top.scaling import fast_top
 from . import panels
 from .figure import Figure

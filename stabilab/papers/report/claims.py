@@ -7,8 +7,8 @@ import math
 import numpy as np
 
 from ...theories.charged.model import body_of
-from ...theories.charged.validity import horizon
-from ...theories.top.printed import paper_numbers
+from ...theories.charged.modes import horizon
+from ...theories.top.model import paper_numbers
 from ...theories.top.scaling import fast_top
 from ..figures import cavity as figures_cavity
 from ..figures import charged as figures_charged

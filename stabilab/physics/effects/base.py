@@ -7,13 +7,13 @@ fractions.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any, ClassVar
 
-from ...asked import Asked
 from ...numbers.principal import PrincipalAxes
 from ...numbers.vectors import Number, Triple
-from ...record import record
+from ...validation import Asked
 
 
 def effect_words(name: str) -> str:
@@ -21,7 +21,7 @@ def effect_words(name: str) -> str:
     return name.replace("_", " ").replace("newtonian", "Newtonian")
 
 
-@record
+@dataclass(frozen=True)
 class Limit:
     """Up to where an approximate law may be used: a dimensionless number that must not exceed `limit`.
 
@@ -38,7 +38,7 @@ class Limit:
     needs: str = "a part of the state"
 
 
-@record
+@dataclass(frozen=True)
 class Effect(metaclass=Asked):
     """Base of every effect. `name` is its table in a case file; `keys` its keys there."""
 

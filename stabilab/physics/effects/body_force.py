@@ -2,17 +2,16 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import field
+from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any, ClassVar
 
 from ...numbers.exact import exact_vector, floats
 from ...numbers.vectors import Exact3, Given, Number, Triple
-from ...record import record
 from .base import Effect
 
 
-@record
+@dataclass(frozen=True)
 class BodyForce(Effect):
     """Force f, N, body frame, through the centre of mass (Galal et al., charged body: eq. (38)). The body
     needs a mass."""

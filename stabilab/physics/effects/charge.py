@@ -2,20 +2,19 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import field
+from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any, ClassVar
 
 from ...errors import InputError
 from ...numbers.exact import exact, precise
 from ...numbers.vectors import Given, Number, Triple, cross
-from ...record import record
 from .base import Effect, Limit
 
 SHARE = 0.1  # of the torque, by which a constant angle may be wrong
 
 
-@record
+@dataclass(frozen=True)
 class Charge(Effect):
     """Torque k omega x e3 with k = e H l^2 cos sigma, N m s (Galal et al., charged body: eq. (3) ff.).
 

@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import field
+from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any, ClassVar
 
@@ -10,11 +10,10 @@ from ...errors import InputError
 from ...numbers.exact import exact_vector, floats
 from ...numbers.principal import PrincipalAxes
 from ...numbers.vectors import Exact3, Given, Number, Triple
-from ...record import record
 from .base import Effect
 
 
-@record
+@dataclass(frozen=True)
 class ConstantTorque(Effect):
     """Body-fixed torque M, N m, body frame (paper: Amer et al. 2024, eq. (1))."""
 

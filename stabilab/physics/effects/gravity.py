@@ -2,18 +2,17 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import field
+from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any, ClassVar
 
 from ...numbers.exact import exact, exact_vector, floats
 from ...numbers.principal import PrincipalAxes
 from ...numbers.vectors import Exact3, Float3, Given, Number, Triple, cross, dot
-from ...record import record
 from .base import Effect
 
 
-@record
+@dataclass(frozen=True)
 class Gravity(Effect):
     """Torque M g c x gamma, N m: weight M g, N, at the centre of mass c, m, body frame; gamma is the
     direction of the weight (Amer et al. 2023, fast top: eq. (2)). Potential energy -M g c . gamma."""

@@ -2,18 +2,17 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import field
+from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import ClassVar
 
 from ...numbers.exact import exact_vector, floats
 from ...numbers.principal import PrincipalAxes
 from ...numbers.vectors import Exact3, Given, Number, Triple
-from ...record import record
 from .base import Effect
 
 
-@record
+@dataclass(frozen=True)
 class Gyrostat(Effect):
     """Gyrostatic moment lambda, body frame, kg m^2/s, any direction (paper: Amer et al. 2024, eq. (1), along
     axis 1).

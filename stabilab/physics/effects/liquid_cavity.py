@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import field
+from dataclasses import dataclass, field
 from fractions import Fraction
 from math import pi
 from types import SimpleNamespace
@@ -12,7 +12,6 @@ from ...errors import InputError
 from ...numbers.exact import exact, precise
 from ...numbers.principal import PrincipalAxes
 from ...numbers.vectors import Given, Number, Triple, cross, dot
-from ...record import record
 from .base import Effect, Limit
 
 
@@ -64,7 +63,7 @@ NEXT_TERM = 2 / 45
 SOURCE = "Chernousko's expansion for small Reynolds numbers; Galal et al., liquid cavity: sections 1 and 2"
 
 
-@record
+@dataclass(frozen=True)
 class LiquidCavity(Effect):
     """Torque kappa (omega'' + omega x omega'), kappa = density P0/viscosity, N m s^3: the rates of omega
     taken along the motion without the small effects, as Chernousko's derivation for small Reynolds numbers

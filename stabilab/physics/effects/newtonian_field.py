@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import field
+from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any, ClassVar
 
@@ -10,14 +10,13 @@ from ...errors import InputError
 from ...numbers.exact import exact
 from ...numbers.principal import PrincipalAxes
 from ...numbers.vectors import Given, Number, Triple, cross
-from ...record import record
 from .base import Effect, Limit
 
 # size over distance at which the next term of the field's torque is a tenth or so of the one that is kept
 SMALL = 0.1
 
 
-@record
+@dataclass(frozen=True)
 class NewtonianField(Effect):
     """Torque N gamma x D gamma, N m, with N = 3 lambda/R^3 in 1/s^2; gamma along the line to the centre (Amer
     et al.

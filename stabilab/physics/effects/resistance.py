@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import field
+from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any, ClassVar
 
@@ -10,11 +10,10 @@ from ...errors import InputError
 from ...numbers.exact import exact
 from ...numbers.principal import PrincipalAxes
 from ...numbers.vectors import Given, Number, Triple
-from ...record import record
 from .base import Effect
 
 
-@record
+@dataclass(frozen=True)
 class Resistance(Effect):
     """Torque -c D omega, N m, with c > 0 in 1/s (Galal et al., liquid cavity: eq. (2), where c is eps^2
     zeta)."""

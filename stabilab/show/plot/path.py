@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...answers.digits.run import best_reached
-from ...answers.simulate import simulate
-from ...answers.trajectory import trajectory
+from ...answers.simulate import simulate, trajectory
 from ...cost.accuracy import Precision, precision
 from ...errors import InputError
 from .. import style

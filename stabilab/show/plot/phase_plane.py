@@ -11,8 +11,16 @@ from ...orbit.phase_plane import PhasePlane, motion_curve, phase_plane, window
 from ...orbit.reduction import reduce
 from ...orbit.result import Fate
 from ...physics.states import checked_states
-from ...unreduced.periodic import Periodic, Section, in_the_middle
-from ...unreduced.section import LEAST, crossed, neighbours_of, one_place, returns
+from ...unreduced.periodic import (
+    LEAST,
+    Periodic,
+    Section,
+    crossed,
+    in_the_middle,
+    neighbours_of,
+    one_place,
+    returns,
+)
 from .. import style
 from ..units import number
 from . import subject as canvas

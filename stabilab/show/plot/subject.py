@@ -11,7 +11,6 @@ from typing import Any
 
 from ...answers.equilibria import equilibria
 from ...answers.motion import motion
-from ...asked import checked_scene, checked_span
 from ...case.read import Case
 from ...errors import InputError, printable
 from ...orbit.far_states import far_exponent
@@ -22,7 +21,8 @@ from ...physics.coefficients import effective
 from ...physics.effects.base import effect_words
 from ...physics.scene import AnyScene, Scene
 from ...physics.states import checked_states, start_of
-from ...unreduced.section import LEAST, crossed
+from ...unreduced.periodic import LEAST, crossed
+from ...validation import checked_scene, checked_span
 from .. import style
 from ..axes import PLAIN, Axes, axes_of
 from ..text import law

@@ -1,4 +1,30 @@
-"""Closed-form motion of the charged, nearly axisymmetric body under constant body-fixed torque and force.
+"""The motion of a charged body in closed form.
+
+The sums of divided differences that make up the motion of the charged axisymmetric body.
+
+Every quantity is a sum of divided differences D of the exponential, regular at every resonance. With w^2 =
+ab, nu+- = r0 +- w, mu = M1/D1 + i M2/D2, Pi = p + iq, k0 = (w - a) q0 + i (b - w) p0 and k1 the same of mu
+(proof: Laplace transform of the linear equations, s/(s^2 + w^2) = 1/(s - iw) - iw/(s^2 + w^2)):
+
+    n-fold integral of Gamma:            J_n = Gamma0 D[0^n,-ir0] + Pi0 D[0^n,-ir0,iw] + mu D[0^(n+1),-ir0,iw]
+                                               + k0 D[0^n,-ir0,iw,-iw] + k1 D[0^(n+1),-ir0,iw,-iw]
+    n-fold integral of e^(ir0t) Gamma:   Z_n = Gamma0 D[0^(n+1)] + Pi0 D[0^(n+1),inu+] + mu
+    D[0^(n+1),ir0,inu+]
+                                               + k0 D[0^(n+1),inu+,inu-] + k1 D[0^(n+1),ir0,inu+,inu-]
+
+That suits a near b, where k0 and k1 are small. Where one is much larger, or ab < 0, half of Pi0 and mu goes
+with -iw: s/(s^2 + w^2) = [1/(s - iw) + 1/(s + iw)]/2, and k0 = -a q0 + i b p0, k1 = -a m2 + i b m1 with m1 +
+i m2 = mu.
+
+The charged axisymmetric body long after its start: the divided differences as partial fractions, formed
+once per body.
+
+Where all frequencies 0, r0, w, r0 + w, r0 - w are far apart (times t), no partial fraction is larger than
+what it adds up to, and every output is a fixed combination of cos and sin of wt, r0 t, (r0 + w) t, (r0 - w) t
+and of 1, t, t^2: one product of matrices. `axisymmetric_terms` has the formulas, and what holds nearer to the
+start.
+
+Closed-form motion of the charged, nearly axisymmetric body under constant body-fixed torque and force.
 
 The linear model of `axisymmetric_modes`, solved with both of its rates a and b (the paper's equation (8)
 keeps one of them: `axisymmetric_corrected`); the formulas are in `axisymmetric_terms`, how far to believe
@@ -7,14 +33,274 @@ them in `axisymmetric_limits`.
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import lru_cache
+from math import factorial
 
 import numpy as np
 
 from ...errors import InputError
-from .modes import ChargedBody, modes, resonances
-from .partial_fractions import fractions
-from .terms import Terms
-from .validity import SMALL_ANGLE, horizon
+from ...numbers.divided_differences import divided_differences
+from ...numbers.double_double import twofold
+from ...numbers.error_free import exact_product
+from .modes import SMALL_ANGLE, ChargedBody, Modes, horizon, modes, resonances
+
+LOPSIDED = 4.0  # a/b beyond which the even split loses less: w - a cancels against 1 by sqrt(a/b)
+
+
+class Terms:
+    """The divided differences at the times t and the coefficients in front of them."""
+
+    def __init__(self, body: ChargedBody, t, m: Modes):
+        self.body, self.t = body, t
+        self.shape = np.broadcast_shapes(t.shape, *body.shapes)
+        D1, D2 = body.inertia[..., 0], body.inertia[..., 1]
+        self.p0, self.q0 = body.rates[..., 0], body.rates[..., 1]
+        self.m1, self.m2 = body.torque[..., 0] / D1, body.torque[..., 1] / D2
+        self.a, self.b = m.a.value(), m.b.value()
+        self.nodes, self.low = _nodes(m, body.spin)
+        a, b = np.abs(self.a), np.abs(self.b)
+        even = m.unstable | (a > LOPSIDED * b) | (b > LOPSIDED * a)
+        self.share = np.where(even, 0.5, 1.0)
+        self.above, self.below = (-m.a).where(even,
+                                              m.root - m.a).value(), m.b.where(even, m.b - m.root).value()
+        self.Gamma0 = body.attitude[..., 0] + 1j * body.attitude[..., 1]
+        self.turn = np.exp(1j * body.attitude[..., 2])
+
+    def _tables(self, names, counts):
+        return divided_differences([self.nodes[n] for n in names], counts, self.t,
+                                   [self.low[n] for n in names])
+
+    def vector(self, *components):
+        return np.stack([np.broadcast_to(c, self.shape) for c in components], axis=-1)
+
+    def angular_velocity(self):
+        """p, q of the real form: cos(wt), sin(wt)/w and (1 - cos(wt))/w^2 are even in w and real in the
+        unstable band too."""
+        plus, minus, S, S2 = ((0, 1, 0), (0, 0, 1), (0, 1, 1), (1, 1, 1))
+        D = {c: v.real for c, v in self._tables("0+-", [plus, minus, S, S2]).items()}
+        C, S, S2 = (D[plus] + D[minus]) / 2, D[S], D[S2]
+        p = self.p0 * C + (self.m1 - self.a * self.q0) * S - self.a * self.m2 * S2
+        q = self.q0 * C + (self.m2 + self.b * self.p0) * S + self.b * self.m1 * S2
+        return self.vector(p, q, self.body.spin)
+
+    def _sums(self, names, folds, Gamma0):
+        """The divided differences of each fold with the coefficients Gamma0, Pi0, mu, k0, k1 of the module's
+        formulas."""
+        D = self._tables(names, {counts for each in folds.values() for counts in each})
+        k0 = self.above * self.q0 + 1j * self.below * self.p0
+        k1 = self.above * self.m2 + 1j * self.below * self.m1
+        Pi0, mu, rest = self.p0 + 1j * self.q0, self.m1 + 1j * self.m2, 1 - self.share
+        factors = (Gamma0, self.share * Pi0, rest * Pi0, self.share * mu, rest * mu, k0, k1)
+        return {n: sum(factor * D[counts] for factor, counts in zip(factors, each)) for n,
+                each in folds.items()}
+
+    def J(self, *folds):
+        """The n-fold integrals of Gamma, for the n in folds."""
+        counts = {n: ((n, 1, 0, 0), (n, 1, 1, 0), (n, 1, 0, 1), (n + 1, 1, 1, 0), (n + 1, 1, 0, 1),
+                      (n, 1, 1, 1), (n + 1, 1, 1, 1))
+                  for n in folds}
+        return self._sums("0b+-", counts, self.Gamma0)
+
+    def Z(self, *folds, start=None):
+        """The n-fold integrals of e^(i r0 t) Gamma, for the n in folds; start: another tilt in place of
+        Gamma0."""
+        counts = {n: ((n + 1, 0, 0, 0), (n + 1, 0, 1, 0), (n + 1, 0, 0, 1), (n + 1, 1, 1, 0),
+                      (n + 1, 1, 0, 1), (n + 1, 0, 1, 1),
+                      (n + 1, 1, 1, 1)) for n in folds}
+        return self._sums("0fhl", counts, self.Gamma0 if start is None else start)
+
+    def angles(self):
+        """psi, phi, theta."""
+        Gamma = self.J(0)[0]
+        return self.vector(Gamma.real, Gamma.imag, self.body.attitude[..., 2] + self.body.spin * self.t)
+
+    def momentum(self):
+        """From the balance (e^(i theta) (L - i Gamma X))' = e^(i theta) M, in which the charge is the -k of X
+        = H3 - k:
+
+        G = e^(i theta0) [L0 - i Gamma0 H3 + M D[0,ir0] - i k (Z_0 - Gamma0)],   L = D1 p + i D2 q,   H3 = D3
+        r0 + lambda3.
+        """
+        wheel = self._tables("0f", [(1, 1)])[1, 1]
+        away = self.Z(0, start=0.0)[0]  # what the tilt adds to Gamma0 in inertial axes
+        G = self.turn * (self.still_momentum() + self.M * wheel - 1j * self.body.charge_moment * away)
+        return self.vector(G.real, G.imag, self.axial_momentum())
+
+    @property
+    def M(self):
+        return self.body.torque[..., 0] + 1j * self.body.torque[..., 1]
+
+    def axial_momentum(self):
+        """H3, which stays."""
+        return (twofold(self.body.inertia[..., 2]) * self.body.spin + self.body.gyrostat).value()
+
+    def still_momentum(self):
+        """L0 - i Gamma0 H3: G at the start, in axes turned by theta0."""
+        L0 = self.body.inertia[..., 0] * self.p0 + 1j * self.body.inertia[..., 1] * self.q0
+        return L0 - 1j * self.Gamma0 * self.axial_momentum()
+
+    def translation(self):
+        """Velocity and position from m v' = R f, R the rotation to first order in the tilt."""
+        body, t = self.body, self.t
+        f, f3 = body.force[..., 0] + 1j * body.force[..., 1], body.force[..., 2]
+        wheel, J, Z = self._tables("0f", [(1, 1), (2, 1)]), self.J(1, 2), self.Z(1, 2)
+        moved = []
+        for n, free in ((1, body.velocity), (2, body.position)):
+            across = self.turn * (f * wheel[n, 1] - 1j * f3 * Z[n])
+            along = f3 * t**n / n - (np.conj(f) * J[n]).imag
+            push = self.vector(across.real, across.imag, along) / body.mass[..., None]
+            moved.append(free + push if n == 1 else free + body.velocity * t[..., None] + push)
+        return tuple(np.broadcast_to(x, (*self.shape, 3)) for x in moved)
+
+
+def _nodes(m, spin):
+    """Nodes by letter and what rounding took from them: 0, + and - for +-iw, f and b for +-ir0, h and l for i
+    nu+-."""
+    r0 = twofold(spin)
+    high, low = ((r0 + m.root).where(~m.unstable, r0), (r0 - m.root).where(~m.unstable, r0))
+    w, s = m.root.where(~m.unstable, 0.0), m.root.where(m.unstable, 0.0)
+    both = {"0": (0.0, 0.0), "+": (-s, w), "-": (s, -w), "f": (0.0, r0), "b": (0.0, -r0), "h": (-s, high),
+            "l": (s, low)}
+    parts = {name: (twofold(re), twofold(im)) for name, (re, im) in both.items()}
+    return ({n: re.high + 1j * im.high for n, (re, im) in parts.items()},
+            {n: re.low + 1j * im.low for n, (re, im) in parts.items()})
+
+
+# |difference of two frequencies| t from which on the fractions are used: from 3 on they lose no more than the
+# rounding of
+# the data and of t does, at 1 eight times that (measured against balls; tests)
+WIDE = 4.0
+RANGE = 1e40  # rates beyond, or below its inverse, overflow in the products of six
+NODES, POWERS = "+-fbhl", 3  # of `axisymmetric_terms`, and of t: what a divided difference is made of
+AGAINST = {"-": "+", "b": "f"}  # the node that turns the other way
+TURNING = "+fhl"
+
+
+class Coefficients(Terms):
+    """`Terms` whose divided differences are arrays of coefficients of e^(node t) for NODES, then of 1, t,
+    t^2."""
+
+    def __init__(self, body: ChargedBody):
+        super().__init__(body, np.zeros(()), modes(body))
+        self.nodes, self.low = ({n: complex(v) for n, v in d.items()} for d in (self.nodes, self.low))
+
+    def gap(self, i, j) -> complex:
+        """Node i minus node j."""
+        return (self.nodes[i] - self.nodes[j]) + (self.low[i] - self.low[j])
+
+    def _tables(self, names, counts):
+        return {c: self._fractions(names, c) for c in counts}
+
+    def _fractions(self, names, counts):
+        """Residues of e^(st) / product of (s - node): the node 0, which comes first, may be there up to four
+        times."""
+        zeros, single = (counts[0],
+                         [n for n, c in zip(names[1:], counts[1:]) if c]) if names[0] == "0" else (0, names)
+        out = np.zeros(len(NODES) + POWERS, complex)
+        for n in single:
+            rest = self.gap(n, "0") ** zeros
+            for other in single:
+                rest *= self.gap(n, other) if other != n else 1.0
+            out[NODES.index(n)] = 1 / rest
+        series = [1.0 + 0j] + [0j] * POWERS  # of 1/product of (s - node) about s = 0
+        for n in single:
+            for k in range(len(series)):
+                series[k] = ((series[k - 1] if k else 0) - series[k]) / self.gap(n, "0")
+        for k in range(min(zeros, POWERS)):
+            out[len(NODES) + k] = series[zeros - 1 - k] / factorial(k)
+        return out
+
+    def power(self, n, factor=1.0):
+        """factor t^n."""
+        out = np.zeros(len(NODES) + POWERS, complex)
+        out[len(NODES) + n] = factor
+        return out
+
+    def outputs(self) -> list:
+        """Complex combinations: p + iq, Gamma, G1 + i G2, and with a mass v1 + i v2, v3, x1 + i x2, x3."""
+        body, J = self.body, self.J(0, 1, 2)
+        D = self._tables("0+-", [(0, 1, 0), (0, 0, 1), (0, 1, 1), (1, 1, 1)])
+        C, S, S2 = (D[0, 1, 0] + D[0, 0, 1]) / 2, D[0, 1, 1], D[1, 1, 1]
+        Pi = ((self.p0 + 1j * self.q0) * C
+              + (self.m1 - self.a * self.q0 + 1j * (self.m2 + self.b * self.p0)) * S
+              + (1j * self.b * self.m1 - self.a * self.m2) * S2)
+        wheel, Z, away = self._tables("0f", [(1, 1), (2, 1)]), self.Z(1, 2), self.Z(0, start=0.0)[0]
+        found = [Pi, J[0],
+                 self.turn * (self.power(0, self.still_momentum()) + self.M * wheel[1, 1]
+                              - 1j * body.charge_moment * away)]
+        if body.mass is None:
+            return found
+        f, f3 = body.force[..., 0] + 1j * body.force[..., 1], body.force[..., 2]
+        for n, start in ((1, [body.velocity]), (2, [body.position, body.velocity])):
+            free = [sum(self.power(k, v[..., 0] + 1j * v[..., 1]) for k, v in enumerate(start)),
+                    sum(self.power(k, v[..., 2]) for k, v in enumerate(start))]
+            across = self.turn * (f * wheel[n, 1] - 1j * f3 * Z[n])
+            along = self.power(n, f3 / n) + 1j * np.conj(f) * J[n]  # of which the real part counts
+            found += [free[0] + across / body.mass, free[1] + along / body.mass]
+        return found
+
+
+class Fractions:
+    """Rates, angles, momentum and, with a mass, velocity and position, (5 or 3, len(t), 3), at times |t| >=
+    wide, s; start: the same at t = 0, (5 or 3, 3)."""
+
+    def __init__(self, body: ChargedBody):
+        terms = Coefficients(body)
+        rates = [abs(terms.nodes[n]) for n in TURNING]
+        self.wide = WIDE / min(rates) if min(rates) * RANGE > 1 and max(rates) < RANGE else np.inf
+        if not np.isfinite(self.wide):
+            return
+        self.angles = [(terms.nodes[n].imag, terms.low[n].imag) for n in "+f"]
+        self.columns = np.stack([column for part in self._columns(terms, body) for column in part], axis=1)
+        G = terms.turn * terms.still_momentum()
+        start = [(*body.rates, body.spin), body.attitude, (G.real, G.imag, terms.axial_momentum()),
+                 body.velocity, body.position]
+        self.start = np.array([np.array(row, float) for row in start[:self.columns.shape[1] // 3]])
+
+    def _columns(self, terms, body):
+        """Combinations of the basis for each component of each part."""
+        Pi, Gamma, G, *places = terms.outputs()
+        for across, along in ((Pi, terms.power(0, body.spin)),
+                              (Gamma, terms.power(0, body.attitude[2]) + terms.power(1, body.spin)),
+                              (G, terms.power(0, terms.axial_momentum())), *zip(places[::2], places[1::2])):
+            yield _real(across), _imaginary(across), _real(along)
+
+    def __call__(self, t):
+        (cw, sw), (cr, sr) = (_turned(*angle, t) for angle in self.angles)
+        basis = (cw, sw, cr, sr, cr * cw - sr * sw, sr * cw + cr * sw, cr * cw + sr * sw, sr * cw - cr * sw,
+                 np.ones_like(t), t, t * t)
+        return np.moveaxis((np.stack(basis, axis=1) @ self.columns).reshape(len(t), -1, 3), 1, 0)
+
+
+@lru_cache(maxsize=64)
+def fractions(body: ChargedBody) -> Fractions | None:
+    """The fractions of one body, kept while it lives; None for a batch of bodies and in the unstable band."""
+    single = not any(body.shapes)
+    return Fractions(body) if single and not modes(body).unstable else None
+
+
+def _real(z):
+    """Coefficients of cos and sin of TURNING, then of 1, t, t^2, in the real part of a combination."""
+    out = np.zeros(2 * len(TURNING) + POWERS)
+    for n, c in zip(NODES, z):
+        place = 2 * TURNING.index(AGAINST.get(n, n))
+        out[place] += c.real
+        out[place + 1] += c.imag if n in AGAINST else -c.imag
+    out[2 * len(TURNING):] = z[len(NODES):].real
+    return out
+
+
+def _imaginary(z):
+    return _real(-1j * z)
+
+
+def _turned(rate, rest, t):
+    """cos and sin of (rate + rest) t, the rounding of the product made good."""
+    angle, low = exact_product(rate, t)
+    low = low + rest * t
+    c, s, dc, ds = np.cos(angle), np.sin(angle), np.cos(low), np.sin(low)
+    return c * dc - s * ds, s * dc + c * ds
+
 
 WITHIN, BEYOND = "small angles", "beyond small angles"
 

@@ -19,10 +19,8 @@ import numpy as np
 
 from ...errors import InputError
 from ...numbers.double_double import twofold
-from .closed_form import times, verdict
-from .modes import ChargedBody, modes
-from .terms import Terms
-from .validity import SMALL_ANGLE, horizon
+from .closed_form import Terms, times, verdict
+from .modes import SMALL_ANGLE, ChargedBody, horizon, modes
 
 
 @dataclass(frozen=True, eq=False)

@@ -9,8 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .modes import ChargedBody
-from .validity import tilt_parts
+from .modes import ChargedBody, tilt_parts
 
 
 @dataclass(frozen=True, eq=False)

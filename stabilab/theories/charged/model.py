@@ -1,15 +1,187 @@
-"""The closed forms of the charged, nearly axisymmetric body as models of a case."""
+"""The analytic model of a charged body, corrected and as printed.
+
+The charged axisymmetric body by the paper's formulas as they stand in print, misprints and all.
+
+Galal et al., charged body, (11)-(13), (20)-(26), (33), (35), (43)-(51), (58)-(66). The formulas are those of
+the audit's file on the paper (`theories/printed/papers/charged-axisymmetric.toml`), which holds each against
+the equations of motion; here they are put together. Supplied is only what print leaves open: zeta3 and zeta4
+of (64), not defined: (sqrt(zeta1) +- sqrt(zeta2))/(2 zeta) as in (49); the bracket of (45) and (60) that does
+not close, closed as in (46). The short form (Elneklawy) prints the same, but for the second zeta of (46).
+`corrected` has the integrals that the paper means.
+"""
 from __future__ import annotations
 
+from dataclasses import dataclass
 from fractions import Fraction
 
-from ...answers.simulate import Simulation
-from .closed_form import solution
-from .corrected import corrected
-from .modes import ChargedBody
-from .printed import printed
-from .validity import spin_words
+import numpy as np
 
+from ...answers.simulate import Simulation
+from ...errors import InputError
+from ..printed.evaluate import printed_formulas
+from .closed_form import solution, times, verdict
+from .corrected import corrected, momentum
+from .modes import SMALL_ANGLE, ChargedBody, horizon, spin_words
+
+PARTS = ("omega", "angles", "momentum", "velocity", "position")
+# equation of the paper: (what it gives, what is wrong in print, what `corrected` takes instead)
+MISPRINTS = {
+    "(8)": ("frequency W",
+            "zeta1 D1 stands in both lines of (7): not an approximation for D1 near D2, the phase is off",
+            "it as it stands"),
+    "(11)": ("p1 + i q1", "", "as printed"),
+    "(13)": ("p, q", "the second form of q lacks 1/i", "q = Im Pi1 / sqrt(zeta1), its first form"),
+    "(20)-(26)": ("psi, phi, theta", "", "as printed"),
+    "(30), (38)": ("rotation",
+                   "R23 = sin(theta) sin(phi) - cos(theta) sin(psi) cos(phi); printed with cos(theta) "
+                   "sin(phi)",
+                   "the true R23, which (31), (33) and (40) use"),
+    "(33)": ("G1 + i G2", "", "as printed"),
+    "(35)": ("G1 + i G2",
+             "leaves out the charge, G0 and theta0: it holds for k = 0, a start from rest and theta0 = "
+             "0 only",
+             "(33), which has them"),
+    "(37)": ("acceleration", "lacks 1/m", "(40), which has it"),
+    "(42)": ("velocity", "lacks its value at t = 0", "(43), which has it"),
+    "(46)": ("I2 omega", "sign of both exponential terms; a second zeta before Lambda in the exponent",
+             "the integral of (25)"),
+    "(50), (51)": ("I4, I5 omega",
+                   "e^(-i r0 t) under the integral is left out; sign of the exponential terms in (50)",
+                   "the integral of e^(-i r0 t) times (24), (25)"),
+    "(53), (54)": ("velocity ratio", "hold for Lambda = 0 only: D3 r0 stands for D3 r0 + Lambda",
+                   "D3 r0 + Lambda in its place"),
+    "(58)": ("transverse displacement",
+             "sign of f (e^(i r0 t) - 1)/r0^2; Gamma0 t for Gamma0 tau under the integral",
+             "the integral of (43)"),
+    "(61)": ("I2 eta", "1 - e^(...) - 1 for e^(...) - 1", "the integral of the true (46)"),
+    "(64)": ("I3 eta", "zeta3 and zeta4 are not defined: (sqrt(zeta1) +- sqrt(zeta2))/(2 zeta)",
+             "the integral of (48)"),
+    "(65), (66)": ("I4, I5 eta",
+                   "e^(-i r0 t) left out: (65) repeats (60); Pi10 for its conjugate and wrong signs in (66)",
+                   "the integrals of the true (50), (51)"),
+}
+
+
+@dataclass(frozen=True, eq=False)
+class PrintedMotion:
+    """The printed motion at the asked-for times; units, frames and shapes as in `AxisymmetricMotion`, None
+    where not asked for.
+
+    omega: (13), q by its first form. angles: (26). momentum: (33). velocity: (43), (47). position: (58),
+    (63). status, reason: how far this motion's own tilt is small, and what is to be known of the print.
+    """
+
+    t: np.ndarray
+    omega: np.ndarray
+    angles: np.ndarray | None
+    momentum: np.ndarray | None
+    velocity: np.ndarray | None
+    position: np.ndarray | None
+    status: str
+    reason: str
+
+
+def printed(body: ChargedBody, t, parts=PARTS, small_angle: float = SMALL_ANGLE) -> PrintedMotion:
+    """The paper's formulas for the asked-for parts of the state at times t (s, any shape).
+
+    Raises InputError for D3 not above D1 and D2 (the paper takes roots of zeta1 and zeta2), for velocity or
+    position without a mass, and where the formulas of a part divide by zero (near that they lose digits: they
+    are partial fractions).
+    """
+    t = times(t)
+    values = numbers(body, t)
+    omega, found = _rates(values), dict.fromkeys(PARTS[1:])
+    if set(parts) & set(PARTS[1:]):
+        found["angles"] = _angles(body, values)
+    if "momentum" in parts:
+        found["momentum"] = momentum(body, omega, found["angles"])
+    if set(parts) & {"velocity", "position"}:
+        found |= _translation(body, values)
+    tilt = (np.zeros(omega.shape[:-1]) if found["angles"] is None
+            else np.hypot(*np.moveaxis(found["angles"], -1, 0)[:2]))
+    status, reason = verdict(tilt, t, horizon(body, small_angle), small_angle)
+    return PrintedMotion(t, omega, **found, status=status, reason=reason)
+
+
+def circle(body: ChargedBody, t) -> np.ndarray:
+    """G1, G2 of (35), (..., 2), kg m^2/s: i M (1 - e^(i r0 t))/r0. Raises InputError for r0 = 0, where (35)
+    divides by it."""
+    if np.any(body.spin == 0):
+        raise InputError("r0 = 0: the printed (35) divides by it")
+    M1, M2 = np.moveaxis(body.torque, -1, 0)
+    G = formulas()("G_35", {"M1": M1, "M2": M2, "r0": body.spin, "t": times(t)})
+    return np.stack([G.real, G.imag], axis=-1)
+
+
+def numbers(body: ChargedBody, t) -> dict:
+    """The paper's symbols at the times t, by name: (4), (6), (10) and what the start gives. Errors as of
+    `printed`."""
+    D1, D2, D3 = np.moveaxis(body.inertia, -1, 0)
+    zeta1, zeta2, r0 = (D3 - D2) / D1, (D3 - D1) / D2, body.spin
+    if np.any((zeta1 <= 0) | (zeta2 <= 0)):
+        raise InputError(
+            f"the printed formulas take roots of zeta1 and zeta2: D3 must exceed D1 and D2; got "
+            f"{np.asarray(body.inertia).tolist()}")
+    root1, root2, Lam = np.sqrt(zeta1), np.sqrt(zeta2), body.gyrostat - body.charge_moment
+    if np.any(root1 * root2 * (r0 + Lam / (zeta1 * D1)) == 0):
+        raise InputError("W = 0: the printed formulas divide by their frequency (8), which is zero here")
+    pairs = {"P10": (body.rates[..., 0] * root2, body.rates[..., 1] * root1),
+             "A": (body.torque[..., 0] * root2 / D1, body.torque[..., 1] * root1 / D2),
+             "G0": (body.attitude[..., 0], body.attitude[..., 1]),
+             "f": (body.force[..., 0], body.force[..., 1]),
+             "w0": (body.velocity[..., 0], body.velocity[..., 1])}
+    return {"t": t, "D1": D1, "zeta1": zeta1, "zeta2": zeta2, "r0": r0, "Lam": Lam,
+            "th0": body.attitude[..., 2], "f3": body.force[..., 2],
+            "m": body.mass, **{name: x + 1j * y for name, (x, y) in pairs.items()}}
+
+
+def formulas():
+    """The paper's formulas; SymPy is imported with the first of them."""
+    return printed_formulas("charged-axisymmetric")
+
+
+def _rates(values):
+    """(11)-(13), q by its first form."""
+    Pi1 = formulas()("Pi1_11", values)
+    return _three(Pi1.real / np.sqrt(values["zeta2"]), Pi1.imag / np.sqrt(values["zeta1"]), values["r0"])
+
+
+def _angles(body, values):
+    """(20), (23), (26)."""
+    r0, root = values["r0"], np.sqrt(values["zeta1"] * values["zeta2"])
+    W = root * (r0 + values["Lam"] / (values["zeta1"] * values["D1"]))
+    if np.any(r0 * (W + r0) * (r0 - W) == 0):
+        raise InputError(
+            "r0 = 0 or r0 = +-W: the printed formulas for angles, velocity and position divide by zero here")
+    Gamma = formulas()("Gamma_20", values, IG=_both(values, "I1G_24", "I2G_25"))
+    return _three(Gamma.real, Gamma.imag, body.attitude[..., 2] + r0 * values["t"])
+
+
+def _translation(body, values) -> dict:
+    """(43), (47), (58) and (63), with the integrals of (44), (48), (49), (59) and (64)."""
+    if body.mass is None:
+        raise InputError("the printed translation formulas need a mass: give mass = ... in kg")
+    formula, t = formulas(), values["t"]
+    w = formula("w_43", values, Iw=_both(values, "I1w_45", "I2w_46"))
+    along = formula("w3_47", values, IGam=formula("IG0_48", values) + _both(values, "I4w_50", "I5w_51"))
+    eta = formula("eta_58", values, Ieta=_both(values, "I1e_60", "I2e_61"))
+    eta3 = formula("eta3_63", values, IIGam=formula("IIG0_64", values) + _both(values, "I4e_65", "I5e_66"))
+    v3 = body.velocity[..., 2]
+    return {"velocity": _three(w.real, w.imag, v3 + along.real),
+            "position": body.position + _three(eta.real, eta.imag, v3 * t + eta3.real)}
+
+
+def _both(values, first, second):
+    """(23), (44), (49), (59), (64)."""
+    formula = formulas()
+    return formula("both_23", values, X1=formula(first, values), X2=formula(second, values))
+
+
+def _three(x, y, z):
+    return np.stack(np.broadcast_arrays(x, y, z), axis=-1)
+
+
+# --- The closed forms of the charged, nearly axisymmetric body as models of a case
 MODELS = ("linear", "corrected", "printed")
 NEARLY = Fraction(1, 10)  # D1 - D2 over D1 up to which a body counts as nearly axisymmetric
 COVERED = {"charge", "gyrostat", "constant_torque", "body_force"}

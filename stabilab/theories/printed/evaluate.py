@@ -1,15 +1,347 @@
-"""Printed formulas as functions of NumPy arrays: what `model = "printed"` draws is what the audit holds
-against the equations of motion."""
+"""Printed formulas evaluated: values with derivatives.
 
+Printed formulas as functions of NumPy arrays: what `model = "printed"` draws is what the audit holds
+against the equations of motion.
+"""
 from __future__ import annotations
 
+import cmath
+import random
+import zlib
+from fractions import Fraction
 from functools import lru_cache
 from pathlib import Path
 
+from ...errors import InputError
 from ...physics.to_numpy import lambdified
-from .claims import FOLDER, vocabulary
-from .formulas import parse
-from .values import Evaluator
+from .claims import FOLDER, parse, vocabulary
+
+
+# --- Numbers that carry a derivative along: value + slope e, e^2 = 0, over any mpmath context
+class Dual:
+    """A value and its derivative by one real variable."""
+
+    __slots__ = ("value", "slope")
+
+    def __init__(self, value, slope):
+        self.value, self.slope = value, slope
+
+    def __add__(self, other):
+        v, s = parts(other)
+        return Dual(self.value + v, self.slope + s)
+
+    def __mul__(self, other):
+        v, s = parts(other)
+        return Dual(self.value * v, self.slope * v + self.value * s)
+
+    def __pow__(self, n: int):
+        return Dual(self.value**n, n * self.value ** (n - 1) * self.slope if n else 0 * self.slope)
+
+    __radd__, __rmul__ = __add__, __mul__
+
+
+def parts(x):
+    """(value, derivative) of a dual number or a constant."""
+    return (x.value, x.slope) if isinstance(x, Dual) else (x, 0)
+
+
+class DualNumbers:
+    """The functions of an mpmath context, for dual numbers of its kind."""
+
+    def __init__(self, numbers):
+        self.plain = numbers
+
+    def __getattr__(self, name):
+        numbers = self.plain
+        if name in ("pi", "mpf", "mpc"):
+            return getattr(numbers, name)
+        function = getattr(numbers, name, getattr(cmath, name, None))
+        if name == "atan2":
+            return lambda y, x: self._atan2(y, x)
+        return lambda x: Dual(function(x.value),
+                              SLOPES[name](numbers, x.value, function(x.value),
+                                           x.slope)) if isinstance(x, Dual) else function(x)
+
+    def _atan2(self, y, x):
+        (a, da), (b, db) = parts(y), parts(x)
+        return Dual(self.plain.atan2(a, b), (b * da - a * db) / (a * a + b * b))
+
+    def power(self, base, exponent):
+        (a, da), (b, db) = parts(base), parts(exponent)
+        value = self.plain.power(a, b)
+        return Dual(value, value * (db * self.plain.ln(a) + b * da / a)) if da or db else value
+
+
+# name -> derivative, from (numbers, x, f(x), slope of x)
+SLOPES = {
+    "sin": lambda m, x, f, s: m.cos(x) * s, "cos": lambda m, x, f, s: -m.sin(x) * s, "tan": lambda m, x, f,
+    s: (1 + f * f) * s,
+    "cot": lambda m, x, f, s: -(1 + f * f) * s, "sec": lambda m, x, f, s: f * m.tan(x) * s,
+    "sinh": lambda m, x, f, s: m.cosh(x) * s, "cosh": lambda m, x, f, s: m.sinh(x) * s, "tanh": lambda m, x,
+    f, s: (1 - f * f) * s,
+    "exp": lambda m, x, f, s: f * s, "ln": lambda m, x, f, s: s / x, "sqrt": lambda m, x, f, s: s / (2 * f),
+    "asin": lambda m, x, f, s: s / m.sqrt(1 - x * x), "acos": lambda m, x, f, s: -s / m.sqrt(1 - x * x),
+    "atan": lambda m, x, f, s: s / (1 + x * x),
+    "asinh": lambda m, x, f, s: s / m.sqrt(1 + x * x), "atanh": lambda m, x, f, s: s / (1 - x * x),
+    "conj": lambda m, x, f, s: m.conj(s), "re": lambda m, x, f, s: m.re(s), "im": lambda m, x, f, s: m.im(s),
+    "fabs": lambda m, x, f, s: m.re(m.conj(x) * s) / f, "sign": lambda m, x, f, s: 0 * s,
+}
+
+
+# --- Values of formulas at random points, to any number of digits: what decides where symbols do not
+FUNCTION_NAMES = {"Abs": "fabs", "conjugate": "conj", "log": "ln"}
+MEAN_POINTS = 48  # equally spaced angles: exact for harmonics below 48
+
+
+def precise(digits: int):
+    """An mpmath context of its own with so many digits: mpmath's common one has its precision for the whole
+    process."""
+    import mpmath
+    numbers = mpmath.MPContext()
+    numbers.dps = digits
+    return numbers
+
+
+class Undefined(Exception):
+    """The formula has no value at the point: division by zero, a logarithm of it."""
+
+
+class Evaluator:
+    """Values of raw formulas at one point.
+
+    numbers: an mpmath context (`mpmath.fp`, or `mpmath.mp` whose digits the caller sets); point: symbol name
+    -> value; bound: symbol name -> SymPy expression it stands for (definitions, `where`); system: whose
+    `rate` the operator asks for, or None. in_numbers: `at`, `mean` and `integral` put numbers in place of
+    their symbol, where else SymPy puts in all that stands for another symbol first: quick for many formulas
+    that share most of their parts, but a division by zero is not cancelled.
+    """
+
+    def __init__(self, numbers, point: dict, bound: dict, system, in_numbers: bool = False):
+        self.numbers, self.point, self.bound, self.system, self.in_numbers = (numbers, point, bound, system,
+                                                                              in_numbers)
+        self.known: dict = {}   # expression -> value
+        self._beside: dict = {}  # what differs -> evaluator that has the same but for that
+
+    def beside(self, key, make):
+        """The evaluator kept under a key, made where there is none: what it has found once serves the next
+        formula."""
+        if key not in self._beside:
+            self._beside[key] = make()
+        return self._beside[key]
+
+    def moved(self, name, value):
+        """The same with another value of one symbol."""
+        return self.beside((name, value),
+                           lambda: Evaluator(self.numbers, self.point | {name: value}, self.bound,
+                                             self.system, True))
+
+    def __call__(self, expression):
+        if expression in self.known:
+            return self.known[expression]
+        try:
+            value = self._value(expression)
+        except (ZeroDivisionError, ValueError, OverflowError):
+            raise Undefined(str(expression)) from None
+        if parts(value)[0] != parts(value)[0]:
+            raise Undefined(str(expression))
+        self.known[expression] = value
+        return value
+
+    def _value(self, e):
+        numbers = self.numbers
+        if e.is_Rational:
+            return numbers.mpf(int(e.p)) / int(e.q)
+        if e.is_Symbol:
+            return self(self.bound[e.name]) if e.name in self.bound else self._known(e.name)
+        if e.is_Add:
+            return sum((self(a) for a in e.args[1:]), self(e.args[0]))
+        if e.is_Mul:
+            out = self(e.args[0])
+            for factor in e.args[1:]:
+                out = out * self(factor)
+            return out
+        if e.is_Pow:
+            base, power = e.args
+            if power.is_Integer:
+                return self(base) ** int(power)
+            if power.is_Rational and power.q == 2:
+                return numbers.sqrt(self(base)) ** int(power.p)
+            return numbers.power(self(base), self(power))
+        name = e.func.__name__
+        if name in OPERATORS:
+            return OPERATORS[name](self, *e.args)
+        if name == "exp":
+            return numbers.exp(self(e.args[0]))
+        if name == "ImaginaryUnit":
+            return numbers.mpc(0, 1)
+        if name == "Pi":
+            return +numbers.pi
+        if name == "Exp1":
+            return numbers.exp(numbers.mpf(1))
+        if name in ("Integral", "Subs"):
+            raise InputError(f"cannot evaluate {e}")
+        name = FUNCTION_NAMES.get(name, name)
+        return getattr(numbers, name, getattr(cmath, name, None))(*map(self, e.args))
+
+    def _known(self, name):
+        if name not in self.point:
+            raise InputError(f"symbol {name!r} has no value")
+        return self.point[name]
+
+    def plain(self, e):
+        """The expression with bound symbols put in and every operator carried out, as far as SymPy can."""
+        e = e.xreplace({s: self.plain(self.bound[s.name]) for s in e.free_symbols if s.name in self.bound})
+        return self.carried(e)
+
+    def carried(self, e):
+        """The expression with every rate along the motion carried out."""
+        return (e.replace(lambda f: f.func.__name__ == "rate", lambda f: _rate_of(self, f)) if operated(e)
+                else e)
+
+
+def operated(e) -> bool:
+    """Whether an operator (rate, diff, at, mean, integral) stands in a formula."""
+    return not e.is_Atom and _operated(e)
+
+
+@lru_cache(maxsize=1 << 16)
+def _operated(e):
+    return e.func.__name__ in OPERATORS or any(operated(a) for a in e.args)
+
+
+def _rate_of(evaluator, f):
+    if evaluator.system is None:
+        raise InputError("rate(...) needs a system: name one in the row")
+    own = {name: e for name, e in evaluator.bound.items()
+           if name not in {x.name for x in evaluator.system.state}}
+    # the state moves by the system, whatever stands for it in the row
+    expression = Evaluator(None, {}, own, evaluator.system).plain(f.args[0])
+    for _ in range(int(f.args[1]) if len(f.args) > 1 else 1):
+        expression = evaluator.system.rate(expression)
+    return expression
+
+
+def _rate(evaluator, f, n=1):
+    """By a derivative carried along where that is enough, else by symbols."""
+    import sympy as sp
+    if n != 1 or f.has(sp.Function("rate")) or isinstance(evaluator.numbers, DualNumbers):
+        return evaluator(_rate_of(evaluator, sp.Function("rate")(f, n)))
+    if evaluator.system is None:
+        raise InputError("rate(...) needs a system: name one in the row")
+    return parts(evaluator.beside("rate", lambda: _along(evaluator))(f))[1]
+
+
+def _along(evaluator):
+    """Values that carry their rate along the motion."""
+    state = {x.name: x for x in evaluator.system.state}
+    values = {name: evaluator(x) for name, x in state.items()}
+    slopes = dict(zip(state, map(evaluator, evaluator.system.rates)))
+    return _with_slopes(evaluator, {name: e for name, e in evaluator.bound.items() if name not in state},
+                        values, slopes)
+
+
+def _diff(evaluator, f, s, n=1):
+    if n != 1 or isinstance(evaluator.numbers, DualNumbers) or operated(f):
+        return evaluator(evaluator.plain(f).diff(s, int(n)))
+    one = evaluator.numbers.mpf(1)
+    return parts(evaluator.beside(("diff", s.name),
+                                  lambda: _with_slopes(evaluator, evaluator.bound, {s.name: evaluator(s)},
+                                                       {s.name: one}))(f))[1]
+
+
+def _with_slopes(evaluator, bound, values, slopes):
+    """Values that carry their derivative where the symbols of `slopes` change at those rates."""
+    point = evaluator.point | {name: Dual(value, slopes[name]) for name, value in values.items()}
+    return Evaluator(DualNumbers(evaluator.numbers), point, bound, evaluator.system)
+
+
+def _at(evaluator, f, s, value):
+    if evaluator.in_numbers and not isinstance(evaluator.numbers, DualNumbers):
+        try:
+            return evaluator.moved(s.name, evaluator(value))(f)
+        except Undefined:
+            pass  # what SymPy cancels, it may have
+    f = evaluator.plain(f).replace(lambda e: e.func.__name__ == "diff",
+                                   lambda e: evaluator.plain(e.args[0]).diff(*e.args[1:]))
+    return evaluator(f.subs(s, value))
+
+
+def _moved(evaluator, f, s):
+    """f as a function of one symbol, the others as they are."""
+    if evaluator.in_numbers and not isinstance(evaluator.numbers, DualNumbers):
+        return lambda value: evaluator.moved(s.name, value)(f)
+    f = evaluator.plain(f)
+
+    def of(value):
+        return Evaluator(evaluator.numbers, evaluator.point | {s.name: value}, {}, evaluator.system)(f)
+
+    return of
+
+
+def _mean(evaluator, f, angle):
+    of, numbers = _moved(evaluator, f, angle), evaluator.numbers
+    return sum(of(2 * numbers.pi * n / MEAN_POINTS) for n in range(MEAN_POINTS)) / MEAN_POINTS
+
+
+def _integral(evaluator, f, s, low, high):
+    return evaluator.numbers.quad(_moved(evaluator, f, s), [evaluator(low), evaluator(high)])
+
+
+OPERATORS = {"rate": _rate, "diff": _diff, "at": _at, "mean": _mean, "integral": _integral}
+
+
+def points(symbols, seed_text: str, count: int, domain, bound: dict, system, fixed: dict | None = None):
+    """`count` random rational points: symbol name -> Fraction (pairs for complex symbols), sizes 1/3 to 3,
+    where every expression of `domain` is positive.
+
+    fixed: symbol name -> expression of the others (a condition). InputError where the domain is not met in
+    many tries.
+    """
+    import mpmath
+
+    draw, out = random.Random(zlib.crc32(seed_text.encode())), []
+    for _ in range(400 * count):
+        point = {s.name: _random(draw, s) for s in symbols}
+        ready = settled(mpmath.fp, point, fixed, bound, system)
+        if ready is None:
+            continue
+        try:
+            if all(_positive(Evaluator(mpmath.fp, ready, bound, system)(d)) for d in domain):
+                out.append(point)
+        except Undefined:
+            continue
+        if len(out) == count:
+            return out
+    raise InputError(f"no point found at which all of {', '.join(map(str, domain))} are positive")
+
+
+def settled(numbers, point, fixed, bound, system):
+    """The point as numbers of a kind, fixed symbols by their expressions; None where these have no value."""
+    values = {
+        name: numbers.mpc(*(numbers.mpf(p.numerator) / p.denominator for p in value))
+        if isinstance(value, tuple)
+        else numbers.mpf(value.numerator) / value.denominator
+        for name, value in point.items()
+    }
+    for name, expression in (fixed or {}).items():
+        try:
+            values[name] = Evaluator(numbers, values, bound, system)(expression)
+        except Undefined:
+            return None
+    return values
+
+
+def _random(draw, symbol):
+    size = lambda: Fraction(draw.randrange(334, 3000), 1000)
+    if symbol.is_positive:
+        return size()
+    if symbol.is_real:
+        return size() * draw.choice((1, -1))
+    return size() * draw.choice((1, -1)), size() * draw.choice((1, -1))
+
+
+def _positive(value):
+    return abs(value.imag) < 1e-12 and value.real > 1e-9
 
 
 @lru_cache

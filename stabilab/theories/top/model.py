@@ -1,11 +1,181 @@
-"""The periodic motion of a fast top as a model of a case: expanded to any order, and the printed first order.
+"""The analytic model of a fast top, corrected and as printed.
+
+The fast top's first approximation as Amer et al. 2023 (fast top) print it: eqs. (4), (10), (41), (42),
+(43).
+
+For comparison only. The formulas are those of the audit's file on the paper
+(`theories/printed/papers/newtonian-field-top.toml`), which holds each against the equations of motion. What
+is wrong in it:
+
+- (18), (22), (23): the generating solution has the permanent tilt P0 = y1 C/(C* - A) in p1; (22), (23) and
+(41) drop it, so
+  for l_x != 0 p is wrong at its leading order, gamma1, gamma1', gamma1'' at their first;
+- (41): cos tau with tau = r0 t; the frequency nu = 1 + O(eps^2) is missing, so the phase is lost after
+1/eps^2 revolutions;
+- (41): gamma1' has second-order terms X(y0'/a + lambda2 M3 sin tau) that no equation gives: gamma1'(0) != 0
+and |gamma| != 1;
+- (41): gamma1'' has y1 where P0 belongs, and a term y1 y3; with (10) it is right to second order for l_x =
+l_z = 0 only;
+- (10): X and Omega^2 are cut off after the first power of l_z/r0 (C* = C + l_z/r0 in place of C makes them
+exact);
+- (42): 1 - gamma'^2 under psi' stands for 1 - gamma''^2; (43): csc(eps theta0) stands for csc theta0, kept as
+printed;
+- (43): wrong signs of the y0' terms, sin r0 t in theta2 and cos r0 t in psi2 (and so in phi2); theta1 carries
+y1 where P0
+  belongs; psi1 is not 0 (it integrates P0 cos tau); psi3 lacks factors 1/r0;
+- the text's "no singular points for any frequency": Omega = 0, Omega = 1 and C = B are poles of (41) itself.
 """
 from __future__ import annotations
 
-from ...answers.simulate import Simulation
-from .lindstedt import LindstedtMotion, lindstedt
-from .printed import PrintedMotion, printed
+import math
+from dataclasses import dataclass
 
+import numpy as np
+
+from ...answers.simulate import Simulation
+from ...errors import InputError
+from ..printed.evaluate import printed_formulas
+from .lindstedt import LindstedtMotion, lindstedt, times_row
+from .scaling import fast_top
+
+
+@dataclass(frozen=True)
+class PaperNumbers:
+    """The dimensionless numbers of eqs. (4) and (10) as printed, for one scene and start; h: the start's
+    place in the paper's time, s (its tau = 0 has gamma' = 0)."""
+
+    r0: float
+    c: float
+    gamma0: float
+    epsilon: float
+    x: float
+    y: float
+    z: float
+    k: float
+    a: float
+    b: float
+    A1: float
+    B1: float
+    C1: float
+    X: float
+    Omega2: float
+    lambda_: float
+    lambda1: float
+    lambda2: float
+    y1: float
+    y3: float
+    M3: float
+    h: float
+
+
+@dataclass(frozen=True)
+class PrintedMotion:
+    """The printed solution at t (n,), s: omega (n, 3) rad/s, gamma (n, 3) (not of length 1), psi, theta, phi
+    (n,) rad of (43) with psi0 = 0. status: "as printed" or "pole" (a divisor is 0: no numbers, empty arrays);
+    reason in words."""
+
+    t: np.ndarray
+    omega: np.ndarray
+    gamma: np.ndarray
+    psi: np.ndarray
+    theta: np.ndarray
+    phi: np.ndarray
+    epsilon: float
+    status: str
+    reason: str
+
+
+def paper_numbers(scene, state) -> PaperNumbers:
+    """Eqs. (4) and (10) for a scene with gravity, gamma0'' > 0 and l_y = 0. Raises InputError elsewhere, and
+    ZeroDivisionError at the poles C = B, Omega^2 = 0 and Omega^2 = 1."""
+    top = fast_top(scene, state)
+    gamma0 = float(top.gamma[2])
+    if not any(top.force) or gamma0 <= 0:
+        raise InputError("the printed solution divides by sqrt(M g L gamma0''): it needs gravity and a third "
+                         "component of gamma "
+                         f"above 0, got M g L/(C r0^2) = {math.hypot(*map(float, top.force)):g} and gamma0'' "
+                         f"= {gamma0:g}")
+    if top.tilt[1]:
+        raise InputError(
+            "the printed solution has the gyrostatic moment (l_x, 0, l_z); the scene's has a second "
+            "component")
+    r0, a, b, lz = float(top.r0), float(top.a), float(top.b), float(top.wheel)
+    length = math.hypot(*map(float, top.force))
+    x, y, z = (float(f) / length for f in top.force)
+    c = math.sqrt(length) * abs(r0)
+    k = float(top.field) * r0**2 * gamma0 / c**2
+    A1, B1, C1 = float((1 - top.b) / top.a), float((top.a - 1) / top.b), float(top.b - top.a)
+    share = c * math.sqrt(gamma0) / r0
+    M3 = math.sqrt(max(0.0, 1 - gamma0**2)) / gamma0
+    h = (math.atan2(float(top.gamma[0]), float(top.gamma[1])) - math.pi / 2) / r0
+    # in units of C and 1/r0: C = 1, s/r0 = eps, and l_z/r0 = lz
+    formula = formulas()
+    values = {"A": a, "B": b, "a": a, "b": b, "A1": A1, "B1": B1, "om": -A1 * B1, "xs": x, "zs": z, "k": k,
+              "ep": share, "s": share, "lz": lz}
+    X, Omega2 = formula("X_10", values), formula("Om_10", values)
+    lambda_, lambda1 = formula("lam_10", values, Om=Omega2), formula("lam1_10", values, Om=Omega2)
+    lambda2 = formula("lam2_10", values, lam1=lambda1)
+    return PaperNumbers(r0, c, gamma0, share, x, y, z, k, a, b, A1, B1, C1, X, Omega2, lambda_, lambda1,
+                        lambda2,
+                        float(top.tilt[0]) / share, lz / share, M3, h)
+
+
+def formulas():
+    """The paper's formulas; SymPy is imported with the first of them."""
+    return printed_formulas("newtonian-field-top")
+
+
+def symbols_of(n: PaperNumbers) -> dict:
+    """The numbers under the names that the formulas have for them."""
+    return {"ep": n.epsilon, "r0": n.r0, "t0": n.h, "c": n.c, "xs": n.x, "ys": n.y, "k": n.k, "a": n.a,
+            "b": n.b, "A1": n.A1, "C1": n.C1, "Xs": n.X,
+            "Om": n.Omega2, "lam": n.lambda_, "lam1": n.lambda1, "lam2": n.lambda2, "y1": n.y1, "y3": n.y3,
+            "M3": n.M3, "th": math.atan(n.M3)}
+
+
+def printed(scene, state, times) -> PrintedMotion:
+    """The paper's (41) and (43) at the times, s, through r and gamma of the state at t = 0 (arguments as of
+    `lindstedt`; its p, q are not free). Raises InputError without gravity, for gamma0'' not between 0 and 1,
+    and for l_y."""
+    times, top = times_row(times), fast_top(scene, state)
+    try:
+        n = paper_numbers(scene, state)
+    except ZeroDivisionError:
+        empty = np.empty(0)
+        return PrintedMotion(empty, np.empty((0, 3)), np.empty((0, 3)), empty, empty, empty, top.epsilon,
+                             "pole",
+                             "C = B, Omega = 0 or Omega = 1: the printed solution divides by 0")
+    formula, values = formulas(), symbols_of(n)
+    omega, gamma = ([np.broadcast_to(formula(f"{name}_41", values, tau=n.r0 * (times + n.h)), times.shape)
+                     for name in names]
+                    for names in (("p1", "q1", "r1"), ("g1", "g2", "g3")))
+    psi, theta, phi = _angles(n, values, times)
+    scale = n.c * math.sqrt(n.gamma0)
+    return PrintedMotion(times, np.stack([scale * omega[0], scale * omega[1], n.r0 * omega[2]], -1),
+                         n.gamma0 * np.stack(gamma, -1),
+                         psi, theta, phi, n.epsilon, "as printed",
+                         "eqs. (10), (41) and (43) as they stand in print, misprints and all")
+
+
+def _angles(n, values, t):
+    """Eq. (43), csc(eps theta0) and all: psi (0 at t = 0), theta, phi. psi1 = phi1 = 0, phi2 = psi2, phi4 =
+    psi3 as printed."""
+    if values["th"] == 0:
+        raise InputError("the printed angles divide by sin(theta0), which is 0 for this start")
+    formula = formulas()
+
+    def gained(name):
+        """What a term has more than at the start."""
+        at = lambda t: formula(f"{name}_43", values, t=t + n.h, tau=n.r0 * (t + n.h))
+        return at(t) - at(0.0)
+
+    terms = {"dth1": gained("theta1"), "dth2": gained("theta2"), "dps2": gained("psi2"),
+             "dps3": gained("psi3"), "dph3": gained("phi3")}
+    return tuple(formula(f"{angle}_43", values, t=t, **terms) for angle in ("psi", "theta", "phi"))
+
+
+# --- The periodic motion of a fast top as a model of a case: expanded to any order, and the printed first
+# order
 MODELS = ("lindstedt", "printed")
 ORDER = 4
 COVERED = {"gravity", "newtonian_field", "gyrostat"}

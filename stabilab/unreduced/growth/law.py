@@ -29,7 +29,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...asked import reach_of
 from ...errors import InputError
 from ...numbers.vectors import CYCLE
 from ...orbit.far_states import in_range
@@ -39,17 +38,18 @@ from ...orbit.fate.result import FateResult, in_chunks, write_row
 from ...orbit.result import Fate, Motion, judged, pairs
 from ...physics.coefficients import three_floats
 from ...physics.states import three_numbers
+from ...validation import reach_of
 from ..evidence import growth as seen_growth
 from ..evidence import seen_over, span_needed
 from .certificate import (
     angle_of,
+    captured_extremes,
     growth_law,
     nearest_other,
     release_estimate,
     search_certificate,
     standard_form,
 )
-from .extremes import captured_extremes
 
 # How long to look where the caller names no time, in the motion's own unit 1/sqrt(g |m|).
 PATIENCE = 1e6

@@ -40,8 +40,7 @@ import numpy as np
 
 from ...integrate.quadratic_series import in_unit
 from . import fixed_kernel, moving_kernel
-from .centres import FixedCentre, MovingCentre, moving_centre
-from .elimination import Terms, sizes
+from .centres import FixedCentre, MovingCentre, Terms, moving_centre, sizes
 from .form import forms_of
 from .lanes import WIDE, functions
 from .symmetric import equatorial

@@ -15,7 +15,6 @@ from typing import Any
 
 import numpy as np
 
-from ...asked import checked_scene
 from ...numbers.numba_door import installed, wanted
 from ...orbit import one_state as law
 from ...orbit.reduction import reduce
@@ -23,13 +22,13 @@ from ...orbit.result import Fate
 from ...physics.coefficients import effective, three_floats
 from ...physics.scene import AnyScene
 from ...physics.states import checked_states
-from ..enclosure.proof import proved
-from .cause import island_words, recurs, seen
+from ...validation import checked_scene
+from ..enclosure.run import proved
 from .certificate import Tests, natural, tests_of
-from .drift import Leaps
+from .drift import Leaps, Runs
+from .form import island_words, recurs, seen
 from .lanes import loaded, stored
 from .result import SpinUp, Trap
-from .runs import Runs
 from .symmetric import exactly
 
 NATURAL_TIMES, BUDGET = 1e9, 600_000

@@ -1,4 +1,6 @@
-"""A gyrostat under a constant torque of any direction, seen from its major or minor axis: the exact normal
+"""The normal form of spin-up, and what decides whether a motion spins up.
+
+A gyrostat under a constant torque of any direction, seen from its major or minor axis: the exact normal
 form.
 
 With the axis under study called 1 (cyclic relabelling), d2 = D1 - D2 and d3 = D1 - D3 of one sign s, a2 =
@@ -22,6 +24,19 @@ is negative the body is turned by half a turn about axis 2 first, so that M1 > 0
 The scaled gyrostat x1' = x2 x3 + mu1, x2' = -x3 (x1 + a) + mu2, x3' = x2 (x1 + b) + mu3 has such forms for
 any a and b, those of no body as well: about x1 with zeta = x2 + i x3, X = x1 + (a + b)/2, h = (b - a)/2, kap
 = 0, and about x3 with zeta = x2 + i (x1 + a), X = x3, h = 0, kap = b - a; om = 1 and gam = 1/2 in both.
+
+What is seen of a motion that no certificate decides, in words; where averaging puts bounded islands, and
+when a motion looks like one.
+
+Islands need a wheel. About an extremal axis (`form`; X the spin, I = |eta|^2 the action across, a = l2 M2/d2,
+b = l3 M3/d3, c = (d3 - d2) M2 M3/(d2 d3), l1 = 0) the averaged flow is X' = f0 + I f1, I' = -(I f0' + I^2
+f1'/2), with the stream function psi = I f0 + I^2 f1/2,
+
+    D1 f0 = M1 + (a + b)/X - c/X^2,    D1 f1 = K/X^3,    K = s (d3 - d2)(a - b)/(4 D1 om sqrt(D2 D3)).
+
+Where M1 c < 0, (a + b)^2 > 4 |M1 c| (both equilibria on one side) and (|d3| - |d2|)(b^2 - a^2) > 0, psi has a
+centre with I > 0: an elliptic periodic orbit between two saddle-foci, which tori surround (by averaging, for
+great X). This is a pointer, not a proof.
 """
 from __future__ import annotations
 
@@ -152,3 +167,172 @@ def forms_of(scene, kind=Floats) -> list[NormalForm]:
             forms = [normal_form(scene.body.exact, scene.vector("gyrostat"), scene.vector("constant_torque"),
                                  i, kind) for i in range(3)]
     return [form for form in forms if form]
+
+
+SMALL = 0.05  # a component of the torque below this share of it is called small
+PARKED = 0.3  # relative distance from the saddle-focus, in spin and in cone, that is called parked
+WIDE = 2.0    # transverse motion over spin beyond which the motion is not about the axis at all
+# see `recurs`; doublings of the steps begin to count after 2^SETTLED of them
+SAME, SWINGS, DOUBLINGS, SETTLED = 1.1, 0.9, 3, 10
+
+
+def seen(scene, state, recurrence: str = "") -> str:
+    """The cause why spin-up about neither axis is certified at a state on its way, strongest first.
+    recurrence: what is said of a motion that recurs, where it does."""
+    forms = forms_of(scene)
+    if not forms:
+        return _no_form(scene)
+    causes = [words for rank, words in sorted(_look(form, state, scene.time_unit) for form in forms) if words]
+    island = _between(scene, state, recurrence)
+    small = _small(scene, forms)
+    return "; ".join(filter(None,
+                            [causes[0] if causes
+                             else "slow: the torque has not yet gathered the spin about an axis", small,
+                             island]))
+
+
+def _no_form(scene):
+    if scene.variables != "scaled" and len(set(scene.body.exact)) == 2:
+        return (
+            "the torque has no component about the axis of symmetry and no spin-up in the equator has a "
+            "certificate: nothing to test")
+    return ("the torque has no component about the major or the minor axis (it lies along the middle axis, "
+            "if anywhere): no certificate of "
+            "spin-up exists about that axis, and nothing was followed")
+
+
+def _look(form, state, unit):
+    """(rank, words) of one form."""
+    X, zeta = form.place(state)
+    axis, cone = form.axis + 1, abs(zeta) / (abs(X)
+                                             or 1e-300) / math.sqrt(form.D1
+                                                                    * abs(form.scale[0] * form.scale[1]))
+    if X < 0:
+        rest = form.drag / form.M1
+        if form.drag > 0 and abs(X + rest) < PARKED * rest and cone < 3 * PARKED:
+            return 0, (f"parked near a saddle-focus, a spin of {-form.sense * rest:.4g} against the torque "
+                       f"about axis {axis}, which it leaves on the "
+                       f"time scale of {form.D1 * form.drag / form.M1**2:.3g} {unit}")
+        if cone < 1:
+            return 1, (f"spin against the torque about axis {axis}, still slowing down: it ends after some "
+                       f"{form.D1 * -X / form.M1:.3g} {unit} "
+                       "and the fate is open until then")
+        return 4, ""
+    if cone > WIDE:
+        return 4, ""
+    return (2, f"wide cone about axis {axis}: the transverse motion is {cone:.2g} times the spin, which "
+               f"gains only in the mean") if cone > 0.3 else (
+        3, f"spin along the torque about axis {axis}, whose rate swings by much more than the torque "
+           f"gives it")
+
+
+def _small(scene, forms):
+    torque = [float(v)
+              for v in (scene.exact_mu if scene.variables == "scaled" else scene.vector("constant_torque"))]
+    size = math.hypot(*torque)
+    words = [f"small torque component about axis {form.axis + 1} ({form.M1 / size:.2g} of the torque)"
+             for form in forms if form.M1 < SMALL * size]
+    return ", ".join(words)
+
+
+def _between(scene, state, recurrence):
+    """A pointer to bounded islands: with a wheel and two equilibria, the state no faster than thrice the
+    farther of them."""
+    ends = _equilibria(scene)
+    if not ends:
+        return ""
+    size = math.hypot(*state)
+    if size > 3 * max(math.hypot(*end) for end in ends):
+        return ""
+    return recurrence or "between two equilibria, saddle-foci as a rule, where a bounded island may exist"
+
+
+def _equilibria(scene):
+    """The two equilibria of a scene with a wheel, or none: M.w = 0 and M.Dw = -M.l leave a line, and one
+    quadratic on it."""
+    if scene.variables == "scaled" or not any(scene.vector("gyrostat")):
+        return ()
+    D, l, M = ([float(v) for v in vector]
+               for vector in (scene.body.exact, scene.vector("gyrostat"), scene.vector("constant_torque")))
+    DM = [d * m for d, m in zip(D, M)]
+    along = _cross(M, DM)
+    square = _dot(along, along)
+    if not square:
+        return ()
+    base = [-_dot(M, l) * v / square for v in _cross(along, M)]  # M.base = 0, DM.base = -M.l
+    # along M: (w x (Dw + l)).M = M.M with w = base + s along
+    H = lambda w: [d * v + e for d, v, e in zip(D, w, l)]
+    c = _dot(_cross(base, H(base)), M) - _dot(M, M)
+    a = _dot(_cross(along, [d * v for d, v in zip(D, along)]), M)
+    b = _dot(_cross(along, H(base)), M) + _dot(_cross(base, [d * v for d, v in zip(D, along)]), M)
+    disc = b * b - 4 * a * c
+    if not a or disc <= 0:
+        return ()
+    return tuple([v + s * u for v, u in zip(base, along)]
+                 for s in ((-b - math.sqrt(disc)) / (2 * a), (-b + math.sqrt(disc)) / (2 * a)))
+
+
+def _dot(a, b):
+    return sum(x * y for x, y in zip(a, b))
+
+
+def _cross(a, b):
+    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+
+
+@dataclass(frozen=True)
+class Centre:
+    """The centre of the averaged flow: axis (1, 2, 3), spin about it (signed, rad/s or the motion's unit),
+    action |eta|^2 across."""
+
+    axis: int
+    spin: float
+    action: float
+
+
+def centres(scene) -> list[Centre]:
+    """The centres of the averaged flow of a scene in physical variables, with the wheel's part along each
+    axis left out (leading order)."""
+    if scene.variables == "scaled":
+        return []
+    D, l, M = ([float(v) for v in vector]
+               for vector in (scene.body.exact, scene.vector("gyrostat"), scene.vector("constant_torque")))
+    return [found for i in range(3) if (found := _centre(D, l, M, i))]
+
+
+def _centre(D, l, M, i):
+    j, k = (i + 1) % 3, (i + 2) % 3
+    d2, d3, M1 = D[i] - D[j], D[i] - D[k], M[i]
+    if not (M1 and d2 * d3 > 0):
+        return None
+    a, b, c = l[j] * M[j] / d2, l[k] * M[k] / d3, (d3 - d2) * M[j] * M[k] / (d2 * d3)
+    total = a + b
+    if not (M1 * c < 0 and total**2 > 4 * abs(M1 * c) and (abs(d3) - abs(d2)) * (b * b - a * a) > 0):
+        return None
+    X = (-total - math.copysign(math.sqrt(total**2 - 12 * M1 * c), total)) / (6 * M1)
+    om = math.sqrt(d2 * d3 / (D[j] * D[k]))
+    K = math.copysign(1, d2) * (d3 - d2) * (a - b) / (4 * D[i] * om * math.sqrt(D[j] * D[k]))
+    action = -(M1 + total / X - c / X**2) * X**3 / K
+    return Centre(i + 1, X, action) if action > 0 else None
+
+
+def recurs(largest, least, steps: int) -> bool:
+    """Whether the size of a motion kept its greatest value over the last three doublings of the steps, and
+    swung under it.
+
+    largest, least: of |omega| during each doubling; one that is parked beside a saddle-focus does not swing.
+    """
+    last = int(math.log2(1 + steps))
+    if last < SETTLED + DOUBLINGS:
+        return False
+    tops = largest[last - DOUBLINGS:last + 1]
+    return max(tops) <= SAME * min(tops) and min(least[last - DOUBLINGS:last + 1]) < SWINGS * max(tops)
+
+
+def island_words(scene, t: float) -> str:
+    """What is said of a motion that recurs, followed for a time t."""
+    told = (
+        f"bounded over {t:.4g} {scene.time_unit}, its largest rate no greater in any of the last doublings: "
+        f"an island is seen")
+    where = [f"about axis {found.axis} at a spin of {found.spin:.4g}" for found in centres(scene)]
+    return told + (f"; averaging has its centre {' or '.join(where)}" if where else "")

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from ...orbit.result import Fate
-from ...shown import Shown
+from ...representation import Shown
 
 WIDER = 1e-12  # relative widening of what is told: the rounding of these few lines
 

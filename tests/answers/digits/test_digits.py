@@ -14,8 +14,7 @@ from stabilab.answers.digits import ask as precision_questions
 from stabilab.answers.digits import run as precision_digits
 from stabilab.answers.digits.ask import ask, ask_all
 from stabilab.answers.digits.checked import Told
-from stabilab.answers.digits.front import FrontPoint
-from stabilab.answers.digits.run import best_reached, simulate_to
+from stabilab.answers.digits.run import FrontPoint, best_reached, simulate_to
 from stabilab.cost import accuracy as measuring
 from stabilab.errors import InputError, ToleranceNotMet
 from stabilab.integrate.reference import reference, relative_errors
@@ -195,7 +194,7 @@ def test_every_ladder_of_digits_is_reached_on_the_papers_cases_and_costs_as_the_
     # taken, and along Taylor series and formulas of Runge and Kutta more digits take more evaluations.
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     one = replace(case(name), span=(0.0, 6.0))
-    from stabilab.answers.digits.front import front, keep
+    from stabilab.answers.digits.run import front, keep
     found = measuring.precision(one, "quick")
     assert keep(found) and found.reference.status == "agrees"
     times, costs = found.times, []

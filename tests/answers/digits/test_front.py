@@ -8,9 +8,9 @@ from pathlib import Path
 import pytest
 
 import stabilab
-from stabilab import machine
-from stabilab.answers.digits import front as precision_front
-from stabilab.answers.digits.front import FrontPoint, cache_folder, front
+from stabilab import processes as machine
+from stabilab.answers.digits import run as precision_front
+from stabilab.answers.digits.run import FrontPoint, cache_folder, front
 
 CASE = stabilab.load(Path(__file__).parents[3] / "cases" / "torque-free-body.toml")
 

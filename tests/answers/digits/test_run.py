@@ -9,8 +9,7 @@ import pytest
 
 import stabilab
 from stabilab.answers.digits import run as precision_digits
-from stabilab.answers.digits.front import FrontPoint
-from stabilab.answers.digits.run import OWN, best_reached
+from stabilab.answers.digits.run import OWN, FrontPoint, best_reached
 from stabilab.errors import InputError
 from tests.shared import case
 

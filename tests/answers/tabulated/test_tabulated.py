@@ -14,8 +14,7 @@ import pytest
 
 from benchmarks import against_reference
 from stabilab import Body, ConstantTorque, Gyrostat, Scene
-from stabilab.answers.tabulated.ask import tabulated
-from stabilab.answers.tabulated.result import PROVED, TWICE
+from stabilab.answers.tabulated import PROVED, TWICE, tabulated
 from stabilab.case.read import load
 from stabilab.errors import InputError
 from stabilab.numbers.balls import working
@@ -136,7 +135,7 @@ def test_what_is_written_is_within_its_bound():
 
 
 def test_reference_says_what_is_missing_and_ends_with_5(stabilab, monkeypatch):
-    monkeypatch.setattr("stabilab.answers.tabulated.ask.WORK", 30_000)
+    monkeypatch.setattr("stabilab.answers.tabulated.WORK", 30_000)
     code, out, err = stabilab("reference", CASES / "minor-axis-100.toml", "--at", "0.01,15", "--digits", "30")
     assert code == 5 and "state,0.01" in out and "state,15" not in out and "proved up to 0.01" in err
 

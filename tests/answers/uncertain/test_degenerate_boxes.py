@@ -10,9 +10,8 @@ import pytest
 from stabilab.answers.uncertain.box import box_of
 from stabilab.answers.uncertain.branch_and_bound import Proof
 from stabilab.answers.uncertain.equilibria import signature_at
-from stabilab.answers.uncertain.fate import fate_over, verdict_at
+from stabilab.answers.uncertain.fate import fate_over, uncertain, verdict_at
 from stabilab.answers.uncertain.result import bracketed
-from stabilab.answers.uncertain.verdicts import uncertain
 from stabilab.case.read import load
 from tests.answers.uncertain.test_verdicts import BODY, case_of, sampled
 

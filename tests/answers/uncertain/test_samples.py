@@ -7,8 +7,8 @@ import pytest
 
 import stabilab as program
 from stabilab.answers.uncertain.box import box_of
+from stabilab.answers.uncertain.fate import uncertain
 from stabilab.answers.uncertain.result import SAMPLE, SEED
-from stabilab.answers.uncertain.verdicts import uncertain
 from stabilab.case.read import load
 
 OBLIQUE = """[body]

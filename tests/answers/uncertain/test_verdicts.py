@@ -10,8 +10,7 @@ from scipy.integrate import solve_ivp
 
 from stabilab.answers.uncertain.box import box_of
 from stabilab.answers.uncertain.equilibria import signature_at
-from stabilab.answers.uncertain.fate import verdict_at
-from stabilab.answers.uncertain.verdicts import uncertain
+from stabilab.answers.uncertain.fate import uncertain, verdict_at
 from stabilab.case.read import load
 from stabilab.errors import CaseError
 from stabilab.numbers.affine import Affine, root

@@ -15,7 +15,7 @@ import stabilab
 from stabilab import Body, ConstantTorque, Gyrostat, Scene
 from stabilab.answers.equilibria import equilibria
 from stabilab.answers.motion import motion
-from stabilab.answers.trajectory import trajectory
+from stabilab.answers.simulate import trajectory
 from stabilab.equilibrium.liquid import trap
 from stabilab.numbers.krawczyk import zeros
 from stabilab.orbit.result import Fate

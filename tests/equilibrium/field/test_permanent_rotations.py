@@ -14,7 +14,7 @@ import stabilab
 from stabilab import Body, ConstantTorque, Gyrostat, Scene
 from stabilab.answers.equilibria import equilibria
 from stabilab.answers.motion import motion
-from stabilab.answers.trajectory import trajectory
+from stabilab.answers.simulate import trajectory
 from stabilab.equilibrium.field_balance import Field, rotations_at
 from stabilab.errors import InputError
 from stabilab.numbers.balls import many_digits

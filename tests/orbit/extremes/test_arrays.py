@@ -12,7 +12,7 @@ import pytest
 import stabilab
 from stabilab import Body, Fate, Gyrostat, Scene
 from stabilab.answers.motion import motion
-from stabilab.orbit.extremes.balls import precise_extremes
+from stabilab.orbit.extremes.one_state import precise_extremes
 from stabilab.orbit.extremes_and_periods import extremes_and_periods
 from stabilab.orbit.fate.arrays import circle_margins
 from stabilab.orbit.landscape import landscape

@@ -1,4 +1,4 @@
-"""Tests of `orbit/extremes/balls.py`: what once went wrong there, and its edges."""
+"""Tests of `orbit/extremes/one_state.py`: what once went wrong there, and its edges."""
 from __future__ import annotations
 
 import json
@@ -11,7 +11,7 @@ from stabilab import Body, ConstantTorque, Gyrostat, Scene
 from stabilab.answers.certificate import certificate
 from stabilab.answers.digits.ask import ask
 from stabilab.numbers.balls import Digits, working
-from stabilab.orbit.extremes.balls import solve
+from stabilab.orbit.extremes.one_state import solve
 from stabilab.verify import verify
 from tests.oracles import energy
 from tests.oracles.pairs import exactly, scaled

@@ -8,11 +8,11 @@ import pytest
 import stabilab
 from stabilab.orbit import extremes_and_periods as both
 from stabilab.orbit.extremes import arrays as guards
-from stabilab.orbit.extremes.balls import precise_extremes
+from stabilab.orbit.extremes.one_state import precise_extremes
 from stabilab.orbit.extremes_and_periods import extremes_and_periods
 from stabilab.orbit.landscape import landscape
 from stabilab.orbit.one_orbit import Orbit
-from stabilab.orbit.period.balls import period_ball
+from stabilab.orbit.period import period_ball
 from stabilab.orbit.reduction import reduce
 from tests.oracles.pairs import brink, scaled
 from tests.orbit.fate.test_fate import FAMILIES

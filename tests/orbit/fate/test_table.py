@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 
 import stabilab
-from stabilab.answers.fate_grid import fate_grid
+from stabilab.answers.fate import fate_grid
 from stabilab.errors import InputError
 from stabilab.numbers import numba_door
 from stabilab.orbit.fate import table_kernel as barrier_heights

@@ -7,7 +7,7 @@ import pytest
 
 from stabilab import Body, ConstantTorque, Gyrostat, Scene, extremes, fate
 from stabilab.orbit import extremes_and_periods as both
-from stabilab.orbit.extremes.balls import precise_extremes
+from stabilab.orbit.extremes.one_state import precise_extremes
 from stabilab.orbit.fate.one_state import decide
 from stabilab.orbit.fine.margins import MARGIN_SHARE, valley_margins
 from stabilab.orbit.landscape import landscape

@@ -20,14 +20,14 @@ from stabilab.numbers import numba_door
 from stabilab.numbers.numba_door import twins
 from stabilab.orbit.extremes import parabola_kernel
 from stabilab.orbit.extremes.arrays import trapped_rows
-from stabilab.orbit.extremes.balls import precise_extremes
+from stabilab.orbit.extremes.one_state import precise_extremes
 from stabilab.orbit.extremes_and_periods import extremes_and_periods
 from stabilab.orbit.fate.arrays import fate_on_orbit
 from stabilab.orbit.fine import rows_kernel, rows_numba
 from stabilab.orbit.fine.rows_numba import kernel_input, settle_rows
 from stabilab.orbit.landscape import landscape
 from stabilab.orbit.one_orbit import Orbit
-from stabilab.orbit.period.balls import precise_period
+from stabilab.orbit.period import precise_period
 from tests.oracles import energy
 from tests.oracles.pairs import brink, exactly, physical, scaled
 from tests.orbit.extremes.test_extremes import assert_extremes

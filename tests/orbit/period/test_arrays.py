@@ -15,7 +15,7 @@ from stabilab.orbit.extremes_and_periods import extremes_and_periods
 from stabilab.orbit.fine.rows_kernel import converged
 from stabilab.orbit.landscape import landscape
 from stabilab.orbit.one_orbit import Orbit
-from stabilab.orbit.period.balls import precise_period
+from stabilab.orbit.period import precise_period
 from stabilab.orbit.reduction import reduce
 from tests.oracles import energy
 from tests.oracles.pairs import physical

@@ -1,4 +1,4 @@
-"""Tests of `orbit/period/balls.py`: what once went wrong there, and its edges."""
+"""Tests of `orbit/period.py`: what once went wrong there, and its edges."""
 from __future__ import annotations
 
 import math
@@ -10,10 +10,10 @@ from scipy.optimize import brentq
 import stabilab
 from stabilab import Fate, ScaledGyrostat
 from stabilab.numbers.balls import Digits, Unclear, settled, working
-from stabilab.orbit.extremes.balls import turning_points
+from stabilab.orbit import period as balls
+from stabilab.orbit.extremes.one_state import turning_points
 from stabilab.orbit.one_orbit import Orbit, ball_orbit
-from stabilab.orbit.period import balls
-from stabilab.orbit.period.balls import _rate
+from stabilab.orbit.period import _rate
 from stabilab.orbit.reduction import reduce
 
 WIDTH = 0.1  # of a peak, against an interval of 1

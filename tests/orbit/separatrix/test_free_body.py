@@ -15,10 +15,10 @@ import pytest
 import stabilab
 from stabilab import Body, ConstantTorque, Fate, ScaledGyrostat, Scene
 from stabilab.answers.motion import motion
-from stabilab.orbit.extremes.balls import precise_extremes
+from stabilab.orbit.extremes.one_state import precise_extremes
 from stabilab.orbit.fate.one_state import decide, precise_margin
 from stabilab.orbit.one_orbit import Orbit
-from stabilab.orbit.period.balls import precise_period
+from stabilab.orbit.period import precise_period
 from stabilab.orbit.reduction import reduce
 from tests.oracles import energy
 from tests.oracles.model import scaled

@@ -11,7 +11,7 @@ import stabilab
 from stabilab.orbit.landscape import landscape
 from stabilab.orbit.separatrix.circle import force, moved, real_cubic
 from stabilab.orbit.separatrix.circle import settled as settled_on_circle
-from stabilab.orbit.separatrix.ends_in_arrays import real_cubics
+from stabilab.orbit.separatrix.homoclinic_arrays import real_cubics
 from tests.hunt.disagreements import off_surface
 from tests.oracles.pairs import scaled
 from tests.shared import SCALED_MINOR

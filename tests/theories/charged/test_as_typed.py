@@ -5,8 +5,8 @@ import numpy as np
 import pytest
 
 from stabilab.errors import InputError
+from stabilab.theories.charged.model import printed
 from stabilab.theories.charged.modes import ChargedBody
-from stabilab.theories.charged.printed import printed
 
 
 @pytest.mark.parametrize("change, words",

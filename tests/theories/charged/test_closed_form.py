@@ -6,13 +6,11 @@ import numpy as np
 import pytest
 
 from stabilab.errors import InputError
-from stabilab.theories.charged.closed_form import BEYOND, WITHIN, solution
+from stabilab.theories.charged.closed_form import BEYOND, WITHIN, fractions, solution
 from stabilab.theories.charged.corrected import corrected
 from stabilab.theories.charged.mean_pointing import pointing, spin_drift
-from stabilab.theories.charged.modes import ChargedBody, modes, resonances
-from stabilab.theories.charged.partial_fractions import fractions
-from stabilab.theories.charged.printed import MISPRINTS, circle, formulas, printed
-from stabilab.theories.charged.validity import horizon, largest_tilt, tilt_parts
+from stabilab.theories.charged.model import MISPRINTS, circle, formulas, printed
+from stabilab.theories.charged.modes import ChargedBody, horizon, largest_tilt, modes, resonances, tilt_parts
 
 flint = pytest.importorskip("flint")
 from tests.oracles.axisymmetric import BITS, OUTPUTS, conditioned  # noqa: E402 - after importorskip

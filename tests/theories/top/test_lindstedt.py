@@ -14,7 +14,7 @@ from stabilab.physics.effects.gravity import Gravity
 from stabilab.physics.effects.newtonian_field import NewtonianField
 from stabilab.theories.top.euler_angles import euler_angles, mean_precession, periodic_angles
 from stabilab.theories.top.lindstedt import lindstedt
-from stabilab.theories.top.printed import paper_numbers, printed
+from stabilab.theories.top.model import paper_numbers, printed
 
 CASES = Path(__file__).parents[3] / "cases"
 R0, START = 150.0, {"omega": (0.0, 0.0, 150.0), "gamma": (0.8, 0.0, 0.6)}

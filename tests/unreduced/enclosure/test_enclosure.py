@@ -206,7 +206,7 @@ def test_a_short_way_is_proved_without_the_compiler():
     program = """
 import sys
 from stabilab import Body, ConstantTorque, Gyrostat, Scene
-from stabilab.unreduced.enclosure.proof import proved
+from stabilab.unreduced.enclosure.run import proved
 from stabilab.unreduced.spin_up.follow import spin_up
 scene = Scene(Body((1.4, 1, .6)), Gyrostat((.2, .1, -.3)), ConstantTorque((.5, .6, .62)))
 print(proved(scene, (.1, 1, 2), spin_up(scene, (.1, 1, 2)), plain=64).level, "numba" in sys.modules)

@@ -11,15 +11,15 @@ import numpy as np
 import pytest
 
 from stabilab import Body, ConstantTorque, Fate, Gyrostat, ScaledGyrostat, Scene
-from stabilab.answers.trajectory import trajectory
+from stabilab.answers.simulate import trajectory
 from stabilab.unreduced.growth.certificate import (
+    captured_extremes,
     release_estimate,
     runner,
     search_certificate,
     spin_up_margin,
     well_margin,
 )
-from stabilab.unreduced.growth.extremes import captured_extremes
 from stabilab.unreduced.growth.law import captured_fate
 
 captured = importlib.import_module("stabilab.unreduced.growth.law")

@@ -1,4 +1,4 @@
-"""Tests of `unreduced/growth/extremes.py`: what is known of the extremes of a motion that grows for ever, and
+"""Tests of `unreduced/growth/certificate.py`: what is known of the extremes of a motion that grows for ever, and
 how it is told."""
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ import pytest
 import stabilab
 from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene, errors
 from stabilab.answers.digits.ask import ask
-from stabilab.unreduced.growth.extremes import captured_extremes
+from stabilab.unreduced.growth.certificate import captured_extremes
 from stabilab.unreduced.growth.law import captured_fate
 
 BALL = 2.5

@@ -8,16 +8,16 @@ import pytest
 
 import stabilab
 from stabilab import Body, ConstantTorque, Fate, Gyrostat, ScaledGyrostat, Scene
-from stabilab.answers.trajectory import trajectory
+from stabilab.answers.simulate import trajectory
 from stabilab.errors import InputError
 from stabilab.unreduced.growth.certificate import (
+    captured_extremes,
     certificate,
     growth_law,
     spin_up_margin,
     standard_form,
     well_margin,
 )
-from stabilab.unreduced.growth.extremes import captured_extremes
 from stabilab.unreduced.growth.law import captured_fate
 
 heyoka = pytest.importorskip("heyoka")

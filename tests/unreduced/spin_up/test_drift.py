@@ -10,9 +10,8 @@ from benchmarks.spin_up import random_scene as benchmark_scene
 from stabilab import Body, ConstantTorque, Gyrostat, Scene
 from stabilab.unreduced.spin_up import drift
 from stabilab.unreduced.spin_up.certificate import natural
-from stabilab.unreduced.spin_up.drift import BETWEEN, NODES, Returns, matrices, window
+from stabilab.unreduced.spin_up.drift import BETWEEN, NODES, Returns, Runs, Twins, matrices, window
 from stabilab.unreduced.spin_up.follow import spin_up
-from stabilab.unreduced.spin_up.runs import Runs, Twins
 
 from .scenes import EXAMPLE, euler, numba, rates_of
 

@@ -10,8 +10,8 @@ from stabilab import Body, ConstantTorque, Fate, Gyrostat, ScaledGyrostat, Scene
 from stabilab.errors import InputError
 from stabilab.physics.coefficients import to_scaled
 from stabilab.unreduced.spin_up import certificate, follow
-from stabilab.unreduced.spin_up.cause import _equilibria, seen
 from stabilab.unreduced.spin_up.follow import spin_up, spin_up_many
+from stabilab.unreduced.spin_up.form import _equilibria, seen
 
 from .scenes import EXAMPLE, euler, numba, random_scene, rates_of, run, sphere
 

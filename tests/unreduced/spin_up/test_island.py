@@ -5,8 +5,8 @@ import numpy as np
 import pytest
 
 from stabilab import Body, ConstantTorque, Fate, Gyrostat, Scene
-from stabilab.unreduced.spin_up.cause import _equilibria, centres, recurs
 from stabilab.unreduced.spin_up.follow import spin_up
+from stabilab.unreduced.spin_up.form import _equilibria, centres, recurs
 
 from .scenes import rates_of, run
 

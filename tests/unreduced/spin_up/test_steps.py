@@ -9,8 +9,10 @@ import numpy as np
 import pytest
 
 from stabilab import Body, ConstantTorque, Gyrostat, Scene
-from stabilab.unreduced.spin_up import elimination, fixed_kernel, lanes, moving_kernel, runs, steps
-from stabilab.unreduced.spin_up.runs import Runs
+from stabilab.unreduced.spin_up import centres as elimination
+from stabilab.unreduced.spin_up import drift as runs
+from stabilab.unreduced.spin_up import fixed_kernel, lanes, moving_kernel, steps
+from stabilab.unreduced.spin_up.drift import Runs
 
 from .scenes import EXAMPLE, numba, rates_of, run
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 
 from ....theories.charged.closed_form import solution
+from ....theories.charged.model import circle
 from ....theories.charged.modes import ChargedBody
-from ....theories.charged.printed import circle
 
 FIELD = 100.0 * 1.02**2 * math.cos(0.37)  # H l^2 cos(sigma)
 STEPS = {"wheel": (1.3, 1.6, 1.9), "charge": (0.001, 0.003, 0.005), "torque": (4.0, 4.5, 5.0)}

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from ....answers.trajectory import trajectory
+from ....answers.simulate import trajectory
 from ....physics.coefficients import scaling
 from ....physics.scene import Body, ScaledGyrostat
 from .any_torque import major_axis_ideal

@@ -4,10 +4,10 @@ from __future__ import annotations
 from typing import Any
 
 from ....caveat import cell, key
+from ....maps.axes import Span
 from ....maps.bifurcation.diagram import branches
 from ....maps.bifurcation.equations import BORDERS
 from ....maps.bifurcation.family import CURVES, ENDLESS, Diagram, Event, Piece, State
-from ....maps.span import Span
 from ... import limiting
 from ...files import comma
 from ...terminal.letters import greek

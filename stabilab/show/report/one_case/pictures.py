@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from pathlib import Path
 
-from ....asked import reach_of
+from ....validation import reach_of
 from ...plot import subject as which
 from ...plot import to_file
 from ...plot.over_time import file_axes

@@ -6,8 +6,8 @@ from pathlib import Path
 
 from ....answers.caveats import caveats_of
 from ....cost.accuracy import digit_price
-from ....machine import machine, versions
 from ....packages import demand
+from ....processes import machine, versions
 from ... import limiting, style
 from ...files import comma, endings
 from ...report.precision_picture import picture

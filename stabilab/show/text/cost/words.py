@@ -5,7 +5,7 @@ import re
 
 from ....cost.accuracy import EPS, digit_price
 from ....integrate.trajectory import SCIPY_METHODS
-from ....machine import machine, versions
+from ....processes import machine, versions
 from ...terminal.letters import some, written
 
 FORMULAS = ("linear", "corrected", "printed", "averaged1", "averaged2", "lindstedt")

@@ -1,5 +1,5 @@
-"""How results show themselves: the room that typesets them is asked by name, when a reader asks; no result
-knows it."""
+"""How results are compared, printed and exported. The module that typesets them is imported by name, when a
+reader asks."""
 from __future__ import annotations
 
 from dataclasses import fields

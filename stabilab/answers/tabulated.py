@@ -1,4 +1,6 @@
-"""States and events of a motion to so many digits: enclosed where a wheel and a torque are all there is, else
+"""A motion at given times, with its zeros and extremes, to proved digits.
+
+States and events of a motion to so many digits: enclosed where a wheel and a torque are all there is, else
 by Taylor series in two precisions.
 
 Zeros and extremes of the rates along an enclosed motion, each proved to be one and none passed over.
@@ -10,20 +12,56 @@ derivatives, so that no error is differentiated.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-from ...errors import InputError
-from ...integrate.integer_flow import IntegerFlow
-from ...integrate.reference import GUARD, Recursion, one_run
-from ...numbers.balls import working
-from ...numbers.vectors import CYCLE
-from ...physics.coefficients import effective
-from ...physics.scene import AnyScene, QuadraticForm
-from ...physics.states import equations_and_start
-from ..digits.checked import MOST_DECIMALS, checked_digits
-from ..passage.enclosed import own_unit
-from .result import PROVED, TWICE, Event, Tabulated
+from ..errors import InputError
+from ..integrate.integer_flow import IntegerFlow
+from ..integrate.reference import GUARD, Recursion, one_run
+from ..numbers.balls import working
+from ..numbers.vectors import CYCLE
+from ..physics.coefficients import effective
+from ..physics.scene import AnyScene, QuadraticForm
+from ..physics.states import equations_and_start
+from .digits.checked import MOST_DECIMALS, checked_digits
+from .passage.enclosed import own_unit
+
+# --- A motion in many digits and how well each of them is known
+PROVED, TWICE = "proved", "two precisions agree"
+
+
+@dataclass(frozen=True)
+class Event:
+    """A zero, a least or a greatest value of a rate: kind "zero", "least" or "greatest", of which component
+    (0 to 2), time and value as balls."""
+
+    kind: str
+    component: int
+    t: Any
+    value: Any
+
+
+@dataclass(frozen=True)
+class Tabulated:
+    """States (balls) at times, each within 10^-digits of the largest rate (or of the largest number of its
+    kind), as `level` says: PROVED or TWICE.
+
+    t: the times that were reached, of all that were asked for where `reached`; because: how, or why the run
+    ended. events: in order of time, those after the start; events_because: how they were found, or what is
+    left out.
+    """
+
+    t: tuple[Fraction, ...]
+    states: tuple[tuple[Any, ...], ...]
+    components: tuple[str, ...]
+    digits: int
+    level: str
+    because: str
+    reached: bool
+    events: tuple[Event, ...]
+    events_because: str
+
 
 MOST_BOXES = 500  # of a piece and a function
 UNEVEN = Fraction(4871, 10000)  # where intervals are divided, lest a symmetric motion's root be met

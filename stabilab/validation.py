@@ -1,4 +1,4 @@
-"""What the public functions are asked with: a scene, real numbers, a span. InputError for anything else."""
+"""Arguments of public functions, checked."""
 from __future__ import annotations
 
 import math

@@ -1,1 +1,0 @@
-"""The time of one turn or libration: the integral of dtheta/W."""
