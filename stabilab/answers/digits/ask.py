@@ -55,9 +55,9 @@ def ask(question: str, scene: AnyScene, state: Any, digits: int, span: Any = Non
     by `NEAR` is not done again. Told.digits may be below what was asked: see Told.required.
     """
     digits = checked_digits(digits, MOST_DECIMALS)
-    if known is None:
-        known = motion(scene, state, span, exact=exact)
     twin, land = _reduced(scene)
+    if known is None:  # by a reduction none of the three questions needs the distance from the separatrix
+        known = motion(scene, state, span, brief=land is not None, exact=exact)
     if question != "extremes" and _number(question, known) is None:
         return nothing(question, digits, no_period(known.fate) if question == "period"
                        else "there is no margin in energy to be judged")
