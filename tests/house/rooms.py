@@ -1,6 +1,6 @@
 """The rooms of the package and what each may import; the walk over all imports; the drawing in docs/house.md.
 
-`python -m tests.house.rooms` writes the drawing anew from the imports as they stand.
+`python -m tests.house.rooms` writes the drawing and its picture anew from the imports as they stand.
 """
 from __future__ import annotations
 
@@ -14,6 +14,8 @@ from typing import NamedTuple
 ROOT = Path(__file__).resolve().parents[2]
 PACKAGE = ROOT / "stabilab"
 PAGE = ROOT / "docs" / "house.md"
+ASIDE = ("case", "maps", "verify")  # drawn at the side of the others
+PICTURE = ROOT / "docs" / "static" / "rooms.svg"
 GROUND = {"caveat", "errors", "files", "interrupt", "packages", "streams", "validation", "cache",
           "version", "representation", "processes"}
 # room -> rooms that it may import, besides itself and the ground; None: nothing, the ground included
@@ -139,15 +141,53 @@ def circles(arrows) -> list[list[str]]:
     return found
 
 
-def drawing() -> str:
-    """The rooms from the top down, a line each: the rooms that it really imports, as the imports stand."""
-    into: dict[str, set] = defaultdict(set)
+def _used() -> dict[str, set[str]]:
+    """Of each room the rooms that it imports, as the imports stand."""
+    into: dict[str, set[str]] = defaultdict(set)
     for one in all_imports():
         into[room(one.source)].add(room(one.target))
-    rows = ["cli", *reversed(_floors())]
-    lines = (f"    {name:<12}-> {', '.join(other for other in rows if other in into[name] - {name})}"
-             for name in rows)
+    return {name: {other for other in into[name] - {name} if other in MAY} for name in [*_floors(), "cli"]}
+
+
+def drawing() -> str:
+    """The rooms from the top down, a line each with the rooms that it imports."""
+    used = _used()
+    lines = (f"    {name:<12}-> {', '.join(other for other in reversed(used) if other in used[name])}"
+             for name in reversed(used))
     return "\n".join(line.removesuffix("-> ").rstrip() for line in lines)
+
+
+def picture() -> str:
+    """The same as a picture (SVG): every room above those that it imports, with a line to each that it does
+    not also reach through another."""
+    used, floors = _used(), defaultdict(list)
+    level: dict[str, int] = {}
+    for name in used:
+        level[name] = 1 + max((level[other] for other in used[name]), default=-1)
+        if name not in ASIDE:
+            floors[level[name]].append(name)
+    top = max(floors)
+    columns = {name: 2 + n - (len(row) - 1) / 2 for row in floors.values() for n, name in enumerate(row)}
+    columns |= {name: 4 + n for n, name in enumerate(ASIDE)}
+    middle = {name: (118 * column - 56, 24 + 62 * (top - level[name])) for name, column in columns.items()}
+    lines, boxes = [], []
+    for name, (x, y) in middle.items():
+        boxes.append(f'<rect x="{x - 48:.0f}" y="{y - 14:.0f}" width="96" height="28" rx="4"/>'
+                     f'<text x="{x:.0f}" y="{y + 5:.0f}">{name}</text>')
+        reached = {far for other in used[name] for far in _below(other, used)}
+        ends = [middle[other] for other in sorted(used[name] - reached)]
+        lines += [f'<line x1="{x:.0f}" y1="{y + 14:.0f}" x2="{u:.0f}" y2="{v - 14:.0f}"/>' for u, v in ends]
+    size = f"{118 * (4 + len(ASIDE)) - 110} {48 + 62 * top}"
+    return (f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {size}" '
+            'font-family="sans-serif" font-size="14" text-anchor="middle">'
+            '<rect width="100%" height="100%" fill="white"/>'
+            f'<g stroke="#777">{"".join(lines)}</g><g fill="#dbe9f6" stroke="#0072b2">'
+            + "".join(boxes).replace("<text", '<text fill="black" stroke="none"') + "</g></svg>\n")
+
+
+def _below(name: str, used: dict[str, set[str]]) -> set[str]:
+    """The rooms that a room imports, and those that they import."""
+    return used[name] | {far for other in used[name] for far in _below(other, used)}
 
 
 def _floors() -> list[str]:
@@ -160,12 +200,13 @@ def _floors() -> list[str]:
 
 
 def main() -> None:
-    """Write the drawing into docs/house.md, between its two marks."""
+    """Write the drawing into docs/house.md, between its two marks, and the picture beside it."""
     text = PAGE.read_text(encoding="utf-8")
     head, rest = text.split("<!-- drawing -->\n", 1)
     tail = rest.split("<!-- end of drawing -->", 1)[1]
     PAGE.write_text(f"{head}<!-- drawing -->\n\n{drawing()}\n\n<!-- end of drawing -->{tail}",
                     encoding="utf-8")
+    PICTURE.write_text(picture(), encoding="utf-8")
 
 
 if __name__ == "__main__":
