@@ -60,7 +60,7 @@ class EquilibriumCurve:
     samples: tuple[EquilibriumPoint, ...] = ()
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Equilibria(Shown):
     """All equilibria of a scene. kind: "none", "points", "curves" (curves, possibly with points) or "all"
     (every state is one); reason: why these and no others. validity: of an approximate law

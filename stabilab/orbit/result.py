@@ -35,7 +35,7 @@ class Fate(IntEnum):
         return ("bounded", "spin-up", "separatrix", "equilibrium", "undecided")[self]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Motion(Shown):
     """Everything known about the motion from one state.
 

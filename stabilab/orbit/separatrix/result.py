@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 AGREE = 1e-9  # relative: nearer than that, lower bound and witness are one number
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Sheet(Compared):
     """One sheet of the separatrix as a parametric grid.
 
@@ -36,7 +36,7 @@ class Sheet(Compared):
     cut: int = 1
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Separatrix(Shown):
     """Every sheet of the separatrix inside the asked-for range; reason says why there is none or what bounds
     it."""
