@@ -144,8 +144,8 @@ def pace(seed=1, scenes=10, states=1000, times=2000.0, steps=20_000):
             total += ours, raw
             ratios.append(ours / raw if raw else np.inf)  # a clock of ticks may see none go by
             left = int((found.level == 0).sum())
-            print(
-                f"{kind:>8}{wheel:6}{left:10d}{found.steps.mean():9.0f}{1e6 * ours / states:9.1f}{1e6 * raw / states:9.1f}{ratios[-1]:7.2f}")
+            print(f"{kind:>8}{wheel:6}{left:10d}{found.steps.mean():9.0f}{1e6 * ours / states:9.1f}"
+                  f"{1e6 * raw / states:9.1f}{ratios[-1]:7.2f}")
     print(
         f"all together: {total[0] / total[1]:.2f} times the raw integration; median of the scenes "
         f"{sorted(ratios)[len(ratios) // 2]:.2f}")
@@ -174,8 +174,8 @@ def _raw(scene, starts, times):
 
 
 def _table(rows, continued):
-    print(
-        f"{'':>12}{'scenes':>7}{'t<10':>7}{'<100':>7}{'<1e3':>7}{'<5e3':>7}{'all':>7}{'1e3 st':>8}{'1e4':>7}{'1e5':>7}{'med t':>8}{'steps':>7}{'ms':>7}")
+    print(f"{'':>12}{'scenes':>7}{'t<10':>7}{'<100':>7}{'<1e3':>7}{'<5e3':>7}{'all':>7}{'1e3 st':>8}"
+          f"{'1e4':>7}{'1e5':>7}{'med t':>8}{'steps':>7}{'ms':>7}")
     groups = ([(f"wheel {w}", [r for r in rows if r[1] == w]) for w in WHEELS]
               + [(k, [r for r in rows if r[0] == k]) for k in KINDS])
     groups += [("generic l<=1", [r for r in rows if r[0] == "generic" and r[1] <= 1]), ("all", rows)]
@@ -202,7 +202,8 @@ def _line(group):
     text += " " + "".join(share(lambda a, n=n: a.steps < n) for n in (1e3, 1e4, 1e5))
     middle = lambda values: sorted(values)[len(values) // 2]
     return (text
-            + f"{middle([r[2].t for r in group]):8.3g}{middle([r[2].steps for r in group]):7d}{middle([r[3] for r in group]):7.1f}")
+            + f"{middle([r[2].t for r in group]):8.3g}{middle([r[2].steps for r in group]):7d}"
+              f"{middle([r[3] for r in group]):7.1f}")
 
 
 if __name__ == "__main__":

@@ -46,8 +46,9 @@ def explained(error: ImportError) -> StabilabError | None:
     if isinstance(cause, ModuleNotFoundError):
         words = f"{package} is not installed, and stabilab needs it for this: {cure(module)}"
     else:
-        words = f"{package} cannot be loaded ({str(cause).strip().splitlines()[0] if str(cause).strip() else 'no reason given'}): " \
-                f"install what that names, or the package anew; stabilab doctor names the versions that are there"
+        why = str(cause).strip().partition("\n")[0] or "no reason given"
+        words = (f"{package} cannot be loaded ({why}): install what that names, or the package anew; stabilab "
+                 "doctor names the versions that are there")
     return (RenderingUnavailable(f"no picture can be drawn: {words}") if package in DRAWING
             else InputError(words))
 

@@ -19,7 +19,8 @@ FOLDER = "gallery"
 SHARP = 75  # dots an inch: a picture as wide as the text, some 20 kB
 HEAD = """# Cases
 
-Each picture is a case file of the folder `cases/`: a body, what acts on it, and one motion. A click leads to the answer, the file and the commands.
+Each picture is a case file of the folder `cases/`: a body, what acts on it, and one motion. A click leads to
+the answer, the file and the commands.
 
 """
 LEAD = (

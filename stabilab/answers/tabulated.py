@@ -94,7 +94,8 @@ def events_of(scene: AnyScene, pieces: Sequence[Any], until: Fraction) -> tuple[
         f"zeros and extremes of each rate after the start, by roots along the enclosed motion: none is "
         f"passed over (below 1e-{NOTHING} counts as zero)")
     if open_at:
-        words += f", but where the digits leave open whether there is one ({'; '.join(open_at[:3])}{' and so on' * (len(open_at) > 3)})"
+        places = "; ".join(open_at[:3]) + " and so on" * (len(open_at) > 3)
+        words += f", but where the digits leave open whether there is one ({places})"
     return tuple(sorted(found, key=lambda one: one.t.mid())), words
 
 

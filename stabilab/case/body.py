@@ -36,9 +36,9 @@ def body_of(top: Table) -> tuple[Body | None, PrincipalAxes | None]:
     table.vector("centre_of_mass")
     frame = _frame(table) if table.required("inertia") else None
     try:
-        return (None, None) if frame is None or (mass is None
-                                                 and "mass" in table) else (Body(frame.moments, mass,
-                                                                                 _slack(table)), frame)
+        if frame is None or (mass is None and "mass" in table):
+            return None, None
+        return Body(frame.moments, mass, _slack(table)), frame
     except InputError as error:
         table.fault(str(error).removeprefix("inertia: "), "inertia")
         return None, None

@@ -39,10 +39,8 @@ def stated_limit(case: Case, rate: str | None = None, component: str | None = No
     if len(given) > 1:
         raise InputError(
             f"expected one limit, got {' and '.join(f'--{name}' for name in given)}: ask for each by itself")
-    scaled, end = case.variables == "scaled", None if until is None else _number(until,
-                                                                                 NONE if case.variables
-                                                                                 == "scaled" else TIME,
-                                                                                 "until")
+    scaled = case.variables == "scaled"
+    end = None if until is None else _number(until, NONE if scaled else TIME, "until")
     if not given:
         found = _of_case(case)
     else:
@@ -69,9 +67,8 @@ def _of_case(case):
     if case.limits.rate is not None:
         return {"rate": case.limits.rate}, "rate", ("|omega|",), (float(case.limits.rate),)
     pairs = [(_along(case, FILE_AXES[n]), most) for n, most in enumerate(case.limits.rates)]
-    return {"component": pairs}, "component", tuple(f"|omega {name}|"
-                                                    for name in FILE_AXES), tuple(map(float,
-                                                                                      case.limits.rates))
+    names = tuple(f"|omega {name}|" for name in FILE_AXES)
+    return {"component": pairs}, "component", names, tuple(map(float, case.limits.rates))
 
 
 def _rate(case, text, dimension):

@@ -183,8 +183,8 @@ def bifurcation(case: CaseFile,
                 curve: Annotated[bool,
                                  typer.Option("--curve",
                                               help="Of a torque on a principal axis: where stability changes "
-                                                   "along the whole curve of "
-                                                                    "equilibria, whatever the motion.")] = False,
+                                                   "along the whole curve of equilibria, whatever the "
+                                                   "motion.")] = False,
                 out: Annotated[Path | None,
                                typer.Option(metavar="FILE.png", help="Draw it: .png, .svg or .pdf.")] = None,
                 certify: Annotated[Path | None,

@@ -94,8 +94,7 @@ def when(cases: CaseFiles,
          component: Annotated[str | None,
                               typer.Option(metavar="AXIS=RATE",
                                            help='Of one component\'s size: "z = 30 deg/s"; x, y, z of the '
-                                                'file, '
-                                                                                 '1, 2, 3 for principal axes.')] = None,
+                                                'file, 1, 2, 3 for principal axes.')] = None,
          energy: Annotated[str | None,
                            typer.Option(metavar="ENERGY", help='Of the kinetic energy: "5 J".')] = None,
          tilt: Annotated[str | None,

@@ -17,8 +17,8 @@ def simulate(case: CaseFile,
              at: Annotated[list[str] | None,
                            typer.Option(metavar="T1,T2,...",
                                         help="Times, with a unit (\"2 min\") or in that of the case; the "
-                                             "state is at 0. "
-                                                       "Default: 201 times over the span of the case.")] = None,
+                                             "state is at 0. Default: 201 times over the span of the "
+                                             "case.")] = None,
              model: Annotated[str, typer.Option(metavar="NAME", autocompletion=completion.models,
                                                 help="exact, or an analytic solution that applies: linear, "
                                                      "corrected, printed, "
@@ -125,8 +125,8 @@ def report(cases: Annotated[list[Path] | None, typer.Argument(
                               typer.Option("--certify",
                                            help="A certificate of each case, checked, too.")] = False,
            workers: Annotated[int | None,
-                              typer.Option(metavar="N", min=1,
-                                           help="Processes that share the work; default: one a core.")] = None,
+                              typer.Option(metavar="N", min=1, help="Processes that share the work; "
+                                                                    "default: one a core.")] = None,
            strict: Strict = False):
     """Write a report on your cases: web pages.
 

@@ -44,8 +44,8 @@ def bifurcation(case, vary, curve, out, certify, csv, json):
         certifiable(spans)
     found = ask(case, spans, curve)
     made = diagram_certificate(found) if certify else None
-    shown, picture = (diagram_words, diagram_picture) if isinstance(found,
-                                                                    Diagram) else (plane_words, plane_picture)
+    shown, picture = ((diagram_words, diagram_picture) if isinstance(found, Diagram)
+                      else (plane_words, plane_picture))
     files = [picture.write(found, out)] if out else []
     answer(shown, found, json, csv)
     say_written(files)

@@ -99,8 +99,8 @@ def _crossings(field: Field, parts: Content):
         for group in idle:
             axes = [i for i in range(3) if abs(S[i] - S[group[0]]) <= abs(tiny)]
             others = [i for i in range(3) if i not in axes]
-            if axes[0] != group[0] or len(axes) == len(group) or any(parts.s[i] or parts.Lambda[i]
-                                                                     for i in axes):
+            other = any(parts.s[i] or parts.Lambda[i] for i in axes)
+            if axes[0] != group[0] or len(axes) == len(group) or other:
                 continue
             gamma = [arb(-b[i] / (S[i] - S[axes[0]])) if i in others else arb(0) for i in range(3)]
             rest = 1 - sum((g * g for g in gamma), arb(0))

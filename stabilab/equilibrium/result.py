@@ -196,8 +196,8 @@ def decimal(value: Number) -> str:
     if value and not number:
         from decimal import Context
         digits, value = Context(prec=6, Emin=-10**6, Emax=10**6), Fraction(value)
-        return (
-            f"{digits.divide(digits.create_decimal(value.numerator), digits.create_decimal(value.denominator)):e}")
+        ratio = digits.divide(*map(digits.create_decimal, (value.numerator, value.denominator)))
+        return f"{ratio:e}"
     return repr(number + 0.0).removesuffix(".0")
 
 

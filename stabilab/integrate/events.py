@@ -197,9 +197,8 @@ def _by_taylor(forms, state, t_max, steps, tolerance, longest):
         integrator.time, done = 0.0, 0
         integrator.state[:] = state
         while True:
-            outcome, _, _, taken, *_ = integrator.propagate_until(t_max,
-                                                                  max_steps=min(TOGETHER, steps - done),
-                                                                  max_delta_t=longest)
+            outcome, _, _, taken, *_ = integrator.propagate_until(
+                t_max, max_steps=min(TOGETHER, steps - done), max_delta_t=longest)
             done += taken
             hits = [t for t, *_ in found if t > 0]
             if hits:

@@ -173,8 +173,8 @@ def _rounded(values, bits, by=1):
 def _shear(form, q, unit, i, j, k):
     """(a, b) with |S_jk| (q_j q_k)^(-1/2) <= a |x_i| + b."""
     root = 2 * math.sqrt(float(q[j] * q[k])) / MORE
-    through, constant = q[j] * form.kappa[j] + q[k] * form.kappa[k], (q[j] * form.sigma[j]
-                                                                      + q[k] * form.rho[k]) / unit
+    through = q[j] * form.kappa[j] + q[k] * form.kappa[k]
+    constant = (q[j] * form.sigma[j] + q[k] * form.rho[k]) / unit
     return abs(float(through)) / root * MORE, abs(float(constant)) / root * MORE
 
 

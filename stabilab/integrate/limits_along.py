@@ -102,7 +102,6 @@ def _largest(value_at, pieces) -> float | None:
         for n, value in enumerate(values):
             first, last = max(n - 1, 0), min(n + 1, INSIDE)
             if value >= NEAR * best and value >= max(values[first], values[last]):
-                best = max(best,
-                           *(-size for _, size in golden_section(lambda t: -at(t), h * first / INSIDE,
-                                                                 h * last / INSIDE, FINER)))
+                sections = golden_section(lambda t: -at(t), h * first / INSIDE, h * last / INSIDE, FINER)
+                best = max(best, *(-size for _, size in sections))
     return best if pieces else None

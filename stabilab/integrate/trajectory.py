@@ -177,8 +177,8 @@ class _Taylor:
             self.counters["steps"] += steps
             rows.append(out.reshape(-1, size)[1:])
             if outcome.name != "step_limit":
-                return rows[0] if len(rows) == 1 else np.concatenate(rows), OUTCOMES.get(outcome.name,
-                                                                                         outcome.name)
+                found = rows[0] if len(rows) == 1 else np.concatenate(rows)
+                return found, OUTCOMES.get(outcome.name, outcome.name)
             left = steps_left(ta.time - last, grid[-1] - ta.time)
             if self.counters["steps"] - begun >= STEP_LIMIT or left > PATIENCE * STEP_LIMIT:
                 return np.concatenate(rows), (f"the last {REPORT} steps went from t = {last:.9g} to "

@@ -147,8 +147,8 @@ def _bisect_newton(value: Callable[[Number], Number], left: Fraction, right: Fra
         if TINY < size < math.inf and not abs(f) < 1e-10 * size:
             return f, df, (f > 0) != (fl > 0)
         exact = value(Fraction(x)) * unit  # the sign must be exact
-        return float(exact) if _log2(exact) < 1000 else math.inf, df, (exact
-                                                                       > 0) != (fl > 0) if exact else None
+        wrong = (exact > 0) != (fl > 0) if exact else None
+        return float(exact) if _log2(exact) < 1000 else math.inf, df, wrong
     return held_newton(look, float(left), float(right), 0.9, 1e-17)
 
 

@@ -61,8 +61,8 @@ def far_rows(scene, states):
     own = scene_exponent(scene)
     # wheel or torque of ordinary size, and no larger rate: all of them are ordinary, told without a row's own
     # size
-    if own is not None and abs(own) <= ORDINARY and len(states) and max(states.max(),
-                                                                        -states.min()) < 2.0**ORDINARY:
+    within = len(states) and max(states.max(), -states.min()) < 2.0**ORDINARY
+    if own is not None and abs(own) <= ORDINARY and within:
         return np.zeros(len(states), bool)
     if own is not None and -ORDINARY <= own <= ORDINARY and np.abs(states).max(initial=0.0) < 2.0 ** (
         ORDINARY - 1):

@@ -169,8 +169,8 @@ def whole_conic(rates, kind, points, curves):
     if not degenerate:
         one = curves[0] if len(curves) == 1 else None
         proper = one is not None and one.degree == 2 and one.bottom.degree() < 2
-        return ("proved" if proper
-                else "refuted"), "a conic that does not fall apart; a parametrisation of degree 2 runs over all of it"
+        return ("proved" if proper else "refuted",
+                "a conic that does not fall apart; a parametrisation of degree 2 runs over all of it")
     lines = [_line_in_plane(rates, c) for c in curves]
     if any(line is None for line in lines):
         return "refuted", "the conic falls apart into lines; a curve is none"

@@ -226,8 +226,8 @@ class MovingInequality:
         i, star = _i(), {key: conjugate(c) for key, c in k.items()}
         self.G = {(0, 0, *key): c for key, c in self._folded(form.G).items()}
         swing = {(2, 0, 0, 0): -i * form.g / 2, (0, 2, 0, 0): i * form.g / 2}
-        beat = ({(1, 0, *key): c / 2 for key, c in star.items()} | {(0, 1, *key): c / 2 for key,
-                                                                    c in k.items()})
+        beat = ({(1, 0, *key): c / 2 for key, c in star.items()}
+                | {(0, 1, *key): c / 2 for key, c in k.items()})
         self.swing = total(swing, beat)  # x' - G
         self.spin_rate = total(self.G, self.swing)
         self.r = {} if form.r.is_zero() else self._folded({(4, 4): form.r + 0 * i})

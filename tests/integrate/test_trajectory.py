@@ -241,21 +241,6 @@ def test_a_second_run_compiles_and_copies_no_integrator(monkeypatch):
     assert (to_heyoka._integrator.cache_info().misses, to_heyoka._free.cache_info().misses) == before
 
 
-@needs_heyoka
-@pytest.mark.parametrize("laws", [True, False])
-def test_a_second_run_looks_neither_at_fractions_nor_at_symbols(monkeypatch, laws):
-    """What belongs to the scene is read once: each fraction and symbol that is hashed again costs a short run
-    a hundredth of its time."""
-    from sympy.core.basic import Basic
-    trajectory(OFF_AXIS, (1, 2, 3), [0.0, 4.0], laws=laws)
-    seen = []
-    for kind in (Fraction, Basic):
-        monkeypatch.setattr(kind, "__hash__", lambda self,
-                            kept=kind.__hash__: seen.append(self) or kept(self))
-    trajectory(OFF_AXIS, (3, 2, 1), [0.0, 4.0], laws=laws)
-    assert not seen
-
-
 @pytest.mark.parametrize("times", [[-3, -1, 0, 2, 4], [-3, -1], [2, 4], [0], [0.0, 1.5], [-2, 0], [-0.0, 1],
                                    [5.0], [-5.0]])
 @pytest.mark.parametrize("way", [1, -1])

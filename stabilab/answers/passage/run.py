@@ -1,4 +1,4 @@
-"""When a motion reaches a limit: the result, the run that finds it, and what a small change of the torque moves.
+"""When a motion reaches a limit: the result, the run that finds it, what a change of the torque moves.
 
 How long a motion bounded by a torque on an axis surely stays below a rate when the torque is a little off
 that axis.
@@ -221,8 +221,8 @@ def by_run_of(scene: AnyScene, start: Any, limit: Limit, t_max: float = math.inf
     if one.t is None:
         far = "t_max" if one.ended else f"{steps} steps"
         low = one.until * (1 - ROUNDING) / unit
-        return Found(low, math.nan, "run",
-                     f"{words}: not reached by t = {one.until / unit:.6g} {scene.time_unit} ({far})"), one.steps
+        because = f"{words}: not reached by t = {one.until / unit:.6g} {scene.time_unit} ({far})"
+        return Found(low, math.nan, "run", because), one.steps
     two = first_root(equations, moved_row(state, MOVED), expressions, end, 2 * steps, 4 * TAYLOR_TOLERANCE)
     if two.t is None:
         return Found(0.0, math.nan, "undecided",

@@ -100,8 +100,8 @@ class Family:
         label, margin = self._decided(wheel, torque)
         steady = label in STEADY
         holds, sign = steady == wanted, 1 if wanted else -1
-        return holds, sign * margin if math.isfinite(margin) and (sign * margin
-                                                                  > 0) == holds and label != Fate.EQUILIBRIUM else math.nan
+        known = math.isfinite(margin) and (sign * margin > 0) == holds and label != Fate.EQUILIBRIUM
+        return holds, sign * margin if known else math.nan
 
     def steady(self, wheel: Sequence[Fraction] | None = None, torque: Fraction | None = None) -> bool:
         """Whether the start stays bounded."""

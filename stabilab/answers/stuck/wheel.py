@@ -46,7 +46,8 @@ def intervals(scene: Scene, state: Sequence[Fraction], axis: Exact3) -> Answer:
     if step[i]:
         return _one_momentum(family, start, step, -start[i] / step[i])
     if start[i]:
-        return (), "momentum of the others lies along the torque: |H|^2/2 - D T then grows for ever, whatever this wheel does"
+        return (), ("momentum of the others lies along the torque: |H|^2/2 - D T then grows for ever, "
+                    "whatever this wheel does")
     return across(family, start, tuple(step))
 
 

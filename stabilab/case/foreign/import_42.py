@@ -378,9 +378,8 @@ def _numbers(entries, label, count, path):
     if entry is None:
         return None
     words = entry.value.split()
-    if len(words) < count or not all(_NUMBER.fullmatch(word)
-                                     for word in words[:count]) or (len(words) > count
-                                                                    and _NUMBER.fullmatch(words[count])):
+    numbers = all(_NUMBER.fullmatch(word) for word in words[:count])
+    if len(words) < count or not numbers or (len(words) > count and _NUMBER.fullmatch(words[count])):
         raise InputError(
             f"{path}:{entry.line}: {entry.label}: expected {WORDS[count]}, got \"{entry.value[:60]}\"")
     return [_written(word) for word in words[:count]]

@@ -192,6 +192,6 @@ def swept_extremes(cases, motions, systems):
     """How `tell_all` tells the extremes of a sweep."""
     def table(of):
         chosen = [motions[n] for n in of]
-        return sweep.fates(chosen, systems[of[0]]), *sweep.of_extremes(chosen, cases[of[0]].scene.components,
-                                                                       systems[of[0]])
+        extremes = sweep.of_extremes(chosen, cases[of[0]].scene.components, systems[of[0]])
+        return sweep.fates(chosen, systems[of[0]]), *extremes
     return table

@@ -195,7 +195,8 @@ class Pointed:
         torque = tuple(self.torque * part for part in self._direction(case, number))
         wheel = without_trace(self.wheels[point.wheel], torque)
         body = case.scene.body  # type: ignore[union-attr]
-        return replace(case, scene=Scene(body, effect_class("gyrostat")(wheel), effect_class("constant_torque")(torque)))
+        effects = effect_class("gyrostat")(wheel), effect_class("constant_torque")(torque)
+        return replace(case, scene=Scene(body, *effects))
 
     def _direction(self, case: Case, number: int) -> Exact3:
         point = self.points[number]

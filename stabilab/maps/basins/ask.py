@@ -238,13 +238,8 @@ def _across(mesh: Mesh, depth: int) -> np.ndarray:
     out = []
     for (one, other), (down, right) in SIDES.items():
         beside_row, beside_column = row + down, column + right
-        crossed = (labels[:, one] != labels[:,
-                                            other]) & (0
-                                                       <= beside_row) & (beside_row
-                                                                         < rows) & (0
-                                                                                    <= beside_column) & (
-                                                                                        beside_column
-                                                                                        < columns)
+        crossed = ((labels[:, one] != labels[:, other]) & (0 <= beside_row) & (beside_row < rows)
+                   & (0 <= beside_column) & (beside_column < columns))
         out.append(mesh.number(depth, beside_row[crossed], beside_column[crossed]))
     return np.unique(np.concatenate(out))
 

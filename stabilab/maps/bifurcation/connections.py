@@ -143,8 +143,8 @@ class _Rise:
 
     def __init__(self, family: Family, eliminated: Eliminated, saddles: list[int], way: int,
                  budget: list[int]) -> None:
-        self.family, self.eliminated, self.saddles, self.way, self.budget = (family, eliminated, saddles, way,
-                                                                             budget)
+        self.family, self.eliminated, self.saddles = family, eliminated, saddles
+        self.way, self.budget = way, budget
         self.known: dict[Fraction, arb] = {}
         f = eliminated.main.f
         self.top, self.bottom = coefficients(f, 1, 2)[:2]  # y = -top/bottom, with its slopes' numerators

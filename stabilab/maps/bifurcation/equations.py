@@ -47,8 +47,8 @@ class OnLine:
         there, mirrored, middle = _linear_m(family,
                                             y), _linear_m(family,
                                                           [-c for c in y]), _linear_m(family, [zero] * 3)
-        return (there + mirrored) / 2 - middle + (there
-                                                  - mirrored) / 2 * self.below + middle * self.below * self.below
+        mean, half = (there + mirrored) / 2, (there - mirrored) / 2
+        return mean - middle + half * self.below + middle * self.below * self.below
 
 
 @dataclass(frozen=True)

@@ -85,8 +85,8 @@ class Family:
             return self.at(values)
         except InputError as error:
             told = ", ".join(f"{span.label} = {float(value):.6g}" for span, value in zip(self.spans, values))
-            raise InputError(
-                f"vary: the range leaves what a case may be: at {told}: {str(error).splitlines()[0]}") from None
+            first = str(error).splitlines()[0]
+            raise InputError(f"vary: the range leaves what a case may be: at {told}: {first}") from None
 
     def _hold(self, found, values) -> None:
         case = self._read(values)

@@ -98,8 +98,8 @@ def solve(orbit, inner, outer):
         far = _between_scales(lo, hi, step - STEPS) if step >= STEPS else None
         if far is not None:
             new = far
-        elif new is None or not (lo < new < hi or hi < new < lo) or (last is not None
-                                                                     and 2 * abs(new - y) > last):
+        elif (new is None or not (lo < new < hi or hi < new < lo)
+              or (last is not None and 2 * abs(new - y) > last)):
             new = ((lo + hi) / 2).mid()
         last = abs(new - y).mid()
         if new == y:

@@ -105,9 +105,8 @@ def _on_conic(orbit, spot) -> bool:
     x, one = polynomial(0, 1), polynomial(1)
     if r.kappa and r.kappa * m == rho * sigma:
         line_v, line_u = -sigma / r.kappa, -rho / r.kappa
-        if V.contains(rational(line_v)) and shares_root(polynomial(line_v**2 / aq - orbit.Q, 0,
-                                                                   Fraction(-r.e) / ap),
-                                                        excess(x, polynomial(line_v), one), U):
+        on_line = polynomial(line_v**2 / aq - orbit.Q, 0, Fraction(-r.e) / ap)
+        if V.contains(rational(line_v)) and shares_root(on_line, excess(x, polynomial(line_v), one), U):
             return True
         return U.contains(rational(line_u)) and shares_root(
             polynomial(-orbit.Q - r.e * line_u**2 / ap, 0, 1 / aq), excess(polynomial(line_u), x, one), V)

@@ -72,9 +72,8 @@ def _on_hyperbolas(land, states, critical):
         near = np.abs(way - rough[there]) <= DRIFT
         sure[there] = (np.abs(last) <= ENOUGH) & near & (slope > 0) & np.isfinite(height[there])
         apart = (np.diff(offset, axis=1) > 0) | ~there[:, 1:]
-    certain = (sure
-               | ~there).all(axis=1) & apart.all(axis=1) & ~_beside_fold(land, place,
-                                                                         size) & ~land.beside_centre(place)
+    certain = ((sure | ~there).all(axis=1) & apart.all(axis=1)
+               & ~_beside_fold(land, place, size) & ~land.beside_centre(place))
     if not there.shape[1]:
         return np.full(len(states), np.inf), kinetic, np.zeros(len(states)), certain
     one, nearest = np.arange(len(states)), np.argmin(np.abs(height), axis=1)

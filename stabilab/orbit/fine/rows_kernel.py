@@ -245,10 +245,8 @@ class Circle:
         x, z = x + dx, z + dz
         data[0], data[1], data[2], data[3] = -c * x + d * z, -c * z - d * x, -0.25 * G * (x - z) * (
             x + z), -0.5 * G * x * z
-        data[4], data[5], data[6], data[7] = abs(c
-                                                 * x) + abs(d
-                                                            * z), abs(c * z) + abs(d * x), abs(data[2]), abs(
-                                                                data[3])
+        data[4], data[5] = abs(c * x) + abs(d * z), abs(c * z) + abs(d * x)
+        data[6], data[7] = abs(data[2]), abs(data[3])
 
     @staticmethod
     def whole(rho):
@@ -366,9 +364,8 @@ class Hyperbola:
     def middle_modes(conic, x, z, xi, eta, y, data):
         c, d, G = conic[0], conic[1], conic[2]
         xi, eta = xi * np.exp(y), eta * np.exp(-y)
-        data[0], data[1], data[2], data[3] = -0.5 * (c
-                                                     + d) * xi, 0.5 * (d
-                                                                       - c) * eta, -0.125 * G * xi * xi, -0.125 * G * eta * eta
+        data[0], data[1] = -0.5 * (c + d) * xi, 0.5 * (d - c) * eta
+        data[2], data[3] = -0.125 * G * xi * xi, -0.125 * G * eta * eta
         for k in range(4):
             data[4 + k] = abs(data[k])
 

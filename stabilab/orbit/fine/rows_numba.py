@@ -96,8 +96,8 @@ def kernel_input(land: Landscape):
                        for p in conic.pieces], float)
     points = np.array([(*line, side) for line in lines for side in (-1, 1)], float)
     folds = np.array(conic.fold_invariants + conic.tangents, float)
-    return _parts(fine).ravel(), form, axes, numbers, pieces.reshape(-1,
-                                                                     7), points.reshape(-1, 5), folds, rules()
+    return (_parts(fine).ravel(), form, axes, numbers, pieces.reshape(-1, 7), points.reshape(-1, 5), folds,
+            rules())
 
 
 def _parts(numbers):

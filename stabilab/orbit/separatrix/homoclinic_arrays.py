@@ -237,9 +237,8 @@ def loops(land, strips, s, u) -> Loops:
     saddle = np.array(polished(land, (place[:, 0].ravel(), place[:, 1].ravel()), s.ravel())).reshape(2, k, n)
     sides = np.array([strip[1] for strip in strips])
     end, centre, found, shared = loop_ends(land, tuple(saddle.reshape(2, -1)), np.repeat(sides, n))
-    end, centre, found, shared = end.reshape(k,
-                                             n), centre.reshape(2, k,
-                                                                n), found.reshape(k, n), shared.reshape(k, n)
+    end, found, shared = end.reshape(k, n), found.reshape(k, n), shared.reshape(k, n)
+    centre = centre.reshape(2, k, n)
     found &= ~(shared & (sides[:, None] > 0))
     fold = s == 0
     found |= fold

@@ -110,7 +110,7 @@ def _sheets(land, made):
         several = len({one[0].side for one in kept}) > 1
         for part, points, off, saddle, centre, invariant, found, cut, error in kept:
             rows = found if not found.all() else slice(None)
-            name = (
-                f"sheet {number}{words[part.side] if several else ''}{f', part {part.number}' if part.number else ''}")
+            side, piece = words[part.side] if several else "", f", part {part.number}" if part.number else ""
+            name = f"sheet {number}{side}{piece}"
             yield Sheet(name, points[rows], off[rows], saddle[rows], centre[rows], invariant[rows],
                         float(error), cut)

@@ -117,9 +117,8 @@ class LiquidCavity(Effect):
         law = table.text("torque", "consistent")
         if law not in TORQUES:
             table.fault(f'expected "consistent" or "printed", got "{law}"', "torque")
-        if not complete or shape is None or law not in TORQUES or None in (values["density"],
-                                                                           values["viscosity"],
-                                                                           values[shape]):
+        given = complete and shape is not None and law in TORQUES
+        if not given or None in (values["density"], values["viscosity"], values[shape]):
             return None
         make = cls if shape == "P0" else cls.of_sphere
         return make(values["density"], values["viscosity"], values[shape], law)

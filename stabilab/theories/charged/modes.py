@@ -143,7 +143,8 @@ def resonances(body: ChargedBody, tolerance: float = 1e-6) -> tuple[str, ...]:
     sides = np.sqrt(body.inertia[..., 0] * body.inertia[..., 1])
     found = {
         "r0 = 0: no spin; a transverse torque tilts the body without bound": np.abs(r0) <= small,
-        "omega = 0: a or b vanishes; p or q grows steadily under a torque, or the motion drifts": np.abs(m.root.value()) <= small,
+        "omega = 0: a or b vanishes; p or q grows steadily under a torque, or the motion drifts":
+            np.abs(m.root.value()) <= small,
         "r0 = -omega, D3 r0 + Lambda = 0: no axial momentum is left to hold the axis; the tilt grows "
         "steadily":
             np.abs(m.X.value()) <= small * sides,

@@ -117,8 +117,8 @@ class Evaluator:
     """
 
     def __init__(self, numbers, point: dict, bound: dict, system, in_numbers: bool = False):
-        self.numbers, self.point, self.bound, self.system, self.in_numbers = (numbers, point, bound, system,
-                                                                              in_numbers)
+        self.numbers, self.point, self.bound = numbers, point, bound
+        self.system, self.in_numbers = system, in_numbers
         self.known: dict = {}   # expression -> value
         self._beside: dict = {}  # what differs -> evaluator that has the same but for that
 

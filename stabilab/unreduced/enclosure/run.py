@@ -306,7 +306,8 @@ class _Way:
         steps = allowed(self.course.bits) if steps is None else steps
         if not self.course.steps:
             self.course.advance(t, min(steps, TRIED))
-            if self.course.status == kernel.GOING and self.course.t * steps < t * self.course.steps / HOPELESS:
+            slow = self.course.t * steps < t * self.course.steps / HOPELESS
+            if self.course.status == kernel.GOING and slow:
                 self.t, self.steps, self.why = self.course.t, self.course.steps, "too long to enclose"
                 return None
         self.course.advance(t, steps - self.course.steps)

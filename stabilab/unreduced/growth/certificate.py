@@ -319,8 +319,8 @@ def _run_to_floor(scene, state, change, answer, span):
     while answer.certificate in ("spin-up", "bound") and span > 0:
         if _floor_holds(change, longer):
             return longer, True
-        if answer.certificate == "bound" or longer.reason or max(longer.steps,
-                                                                 answer.steps) >= EXTREMES_BUDGET:
+        spent = max(longer.steps, answer.steps) >= EXTREMES_BUDGET
+        if answer.certificate == "bound" or longer.reason or spent:
             break
         span = max(1.5 * span, answer.t_certificate)
         longer = roots_of_rates(scene, state, span)

@@ -118,9 +118,8 @@ class Runs:
 
     def slopes(self, states, directions):
         """How the rates change along directions (m, 3)."""
-        y, z, v, w = states[:, [1, 2, 0]], states[:,
-                                                  [2, 0, 1]], directions[:,
-                                                                         [1, 2, 0]], directions[:, [2, 0, 1]]
+        y, z = states[:, [1, 2, 0]], states[:, [2, 0, 1]]
+        v, w = directions[:, [1, 2, 0]], directions[:, [2, 0, 1]]
         c = self.coefficients
         return c[0] * (y * w + v * z) + c[1] * w + c[2] * v
 

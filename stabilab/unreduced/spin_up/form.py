@@ -204,9 +204,8 @@ def _no_form(scene):
 def _look(form, state, unit):
     """(rank, words) of one form."""
     X, zeta = form.place(state)
-    axis, cone = form.axis + 1, abs(zeta) / (abs(X)
-                                             or 1e-300) / math.sqrt(form.D1
-                                                                    * abs(form.scale[0] * form.scale[1]))
+    axis = form.axis + 1
+    cone = abs(zeta) / (abs(X) or 1e-300) / math.sqrt(form.D1 * abs(form.scale[0] * form.scale[1]))
     if X < 0:
         rest = form.drag / form.M1
         if form.drag > 0 and abs(X + rest) < PARKED * rest and cone < 3 * PARKED:

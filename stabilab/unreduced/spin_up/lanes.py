@@ -183,8 +183,8 @@ def vectors() -> dict:
         return ir.Constant(kind, [number] * WIDE)
 
     def chosen(sign):
-        return lambda context, builder, signature, given: builder.select(builder.fcmp_ordered(sign, *given),
-                                                                         *given)
+        return lambda context, builder, signature, given: builder.select(
+            builder.fcmp_ordered(sign, *given), *given)
 
     def logarithm_of(context, builder, signature, given):
         bits = builder.sitofp(builder.bitcast(given[0], whole), double)

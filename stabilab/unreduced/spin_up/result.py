@@ -130,8 +130,8 @@ class SteadyTrap:
     def clock(self, rate: float) -> tuple[float, float]:
         """(earliest, latest) time at which the spin reaches `rate`."""
         blur = WIDER * (abs(rate) + abs(self.start)) / self.gain
-        return max(0.0, (rate - self.start) / self.gain - blur), max(0.0,
-                                                                     (rate - self.start) / self.gain + blur)
+        t = (rate - self.start) / self.gain
+        return max(0.0, t - blur), max(0.0, t + blur)
 
 
 @dataclass(frozen=True, repr=False)

@@ -58,11 +58,8 @@ def series(numbers, a):
         half = (n + 1) // 2
         for m in range(half):
             p, q = 3 * m, 3 * (n - m)
-            x0, x1, x2, y0, y1, y2 = load(a,
-                                          p), load(a, p + 1), load(a,
-                                                                   p + 2), load(a,
-                                                                                q), load(a, q
-                                                                                         + 1), load(a, q + 2)
+            x0, x1, x2 = load(a, p), load(a, p + 1), load(a, p + 2)
+            y0, y1, y2 = load(a, q), load(a, q + 1), load(a, q + 2)
             s0, s1, s2 = times_plus(x1, y2, s0), times_plus(x2, y0, s1), times_plus(x0, y1, s2)
             s0, s1, s2 = times_plus(y1, x2, s0), times_plus(y2, x0, s1), times_plus(y0, x1, s2)
         if n % 2 == 0:
@@ -87,11 +84,8 @@ def series_beside(numbers, a, v):
         s0 = s1 = s2 = spread(0.0)
         for m in range(n + 1):
             p, q = 3 * m, 3 * (n - m)
-            x0, x1, x2, y0, y1, y2 = load(a,
-                                          p), load(a, p + 1), load(a,
-                                                                   p + 2), load(v,
-                                                                                q), load(v, q
-                                                                                         + 1), load(v, q + 2)
+            x0, x1, x2 = load(a, p), load(a, p + 1), load(a, p + 2)
+            y0, y1, y2 = load(v, q), load(v, q + 1), load(v, q + 2)
             s0, s1, s2 = times_plus(x1, y2, s0), times_plus(x2, y0, s1), times_plus(x0, y1, s2)
             s0, s1, s2 = times_plus(y1, x2, s0), times_plus(y2, x0, s1), times_plus(y0, x1, s2)
         p, over = 3 * n, spread(1.0 / (n + 1.0))
@@ -161,10 +155,9 @@ def ahead_by(table, order, work):
     s0, s1, s2 = load(table, p), load(table, p + 1), load(table, p + 2)
     for n in range(order - 1, -1, -1):
         p = 3 * n
-        s0, s1, s2 = times_plus(s0, h,
-                                load(table, p)), times_plus(s1, h,
-                                                            load(table, p
-                                                                 + 1)), times_plus(s2, h, load(table, p + 2))
+        s0 = times_plus(s0, h, load(table, p))
+        s1 = times_plus(s1, h, load(table, p + 1))
+        s2 = times_plus(s2, h, load(table, p + 2))
     store(table, 0, s0)
     store(table, 1, s1)
     store(table, 2, s2)

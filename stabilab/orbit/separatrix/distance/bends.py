@@ -186,9 +186,8 @@ def _tight(p):
 
 
 def _point(s, a, b, w0):
-    apart, apart_t, apart_y = a * s.u * s.u + b * s.v * s.v, 2 * (a * s.u * s.ut
-                                                                  + b * s.v * s.vt), 2 * (a * s.u * s.uy
-                                                                                          + b * s.v * s.vy)
+    apart = a * s.u * s.u + b * s.v * s.v
+    apart_t, apart_y = 2 * (a * s.u * s.ut + b * s.v * s.vt), 2 * (a * s.u * s.uy + b * s.v * s.vy)
     root = s.phi.sqrt() if s.phi > 0 else s.phi * 0
     gap = root - w0
     values = [_double(n) for n in (apart, apart_t, apart_y, s.phi, s.phi_t, s.phi_y, gap)]

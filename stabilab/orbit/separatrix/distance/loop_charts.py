@@ -326,10 +326,8 @@ class RootChart(Chart):
         step = t * half
         s = s0 + step
         xi = grown + H * t * (2 * root + t), 2 * H * (root + t), grown + H * root * t
-        xi_size = abs(grown) + abs(H * t) * (2 * abs(root)
-                                             + abs(t)), 2 * abs(H) * (abs(root)
-                                                                      + abs(t)), abs(grown) + abs(H * root
-                                                                                                  * t)
+        xi_size = (abs(grown) + abs(H * t) * (2 * abs(root) + abs(t)), 2 * abs(H) * (abs(root) + abs(t)),
+                   abs(grown) + abs(H * root * t))
         r = r0 + H * step * (2 * s0 + step), 2 * H * s * half, -H * s * step
         s_size = abs(s0) + abs(step)
         r_size = abs(r0) + abs(H * step) * (abs(s0)
