@@ -24,8 +24,9 @@ def _version(wanted: bool):
         raise typer.Exit()
 
 
-def stabilab(version: Annotated[bool, typer.Option("--version", callback=_version, is_eager=True,
-                                                   help="Show the version and exit.")] = False):
+def stabilab(
+        version: Annotated[bool, typer.Option(
+            "--version", callback=_version, is_eager=True, help="Show the version and exit.")] = False):
     """Where a rotating body's equilibria are, which are stable, and whether a motion stays bounded."""
 
 

@@ -6,56 +6,50 @@ from typing import Annotated  # typer reads the annotations at run time
 
 import typer
 
-from .options import CaseFile, Follow, Json, UnitsOption, either_json_or_csv
+from .options import (
+    CaseFile,
+    Component,
+    CsvOfCells,
+    Energy,
+    Follow,
+    Json,
+    Scheduler,
+    StrictFate,
+    TiltBy,
+    UnitsOption,
+    Until,
+    Workers,
+    either_json_or_csv,
+)
 
 commands = typer.Typer()
 
 
 @commands.command()
-def sweep(case: CaseFile,
-          vary: Annotated[list[str] | None,
-                          typer.Option(metavar="KEY=VALUES",
-                                       help='A number that varies: "torque[3]=0:0.1:101", '
-                                                         '"motion.angular_velocity[1]=-30:30:61 deg/s", '
-                                                         '"speed=1:1000:31:log rpm", "torque[1]=0, 1, 2". '
-                                                         'Up to '
-                                                         'four.')] = None,
-          samples: Annotated[int | None,
-                             typer.Option(metavar="N",
-                                          help="Random points over the uncertainties that the case "
-                                               "states.")] = None,
-          seed: Annotated[int, typer.Option(metavar="S", help="Of the random points.")] = 1,
-          answer: Annotated[str | None,
-                            typer.Option(metavar="A,B,...",
-                                         help="fate, level, reason, island, margin, distance, extremes, "
-                                              "period, when, "
-                                                     "equilibria, verdict, chaos. Default: "
-                                                     "fate,level,margin.")] = None,
-          out: Annotated[Path | None,
-                         typer.Option(metavar="FILE.nc",
-                                      help="Write NetCDF. What is finished outlives a killed run: the same "
-                                           "command goes "
-                                                   "on.")] = None,
-          workers: Annotated[int | None,
-                             typer.Option(metavar="N",
-                                          help="Processes that share the work; default: one a core where "
-                                               "that pays.")] = None,
-          scheduler: Annotated[str | None,
-                               typer.Option(metavar="tcp://...",
-                                            help="Let the workers of this Dask scheduler do it (extra "
-                                                 "cluster).")] = None,
-          rate: Annotated[str | None,
-                          typer.Option(metavar="RATE",
-                                       help="Limits of the answer when, as of stabilab when.")] = None,
-          component: Annotated[str | None, typer.Option(metavar="AXIS=RATE", hidden=True)] = None,
-          energy: Annotated[str | None, typer.Option(metavar="ENERGY", hidden=True)] = None,
-          tilt: Annotated[str | None, typer.Option(metavar="AXIS=ANGLE", hidden=True)] = None,
-          until: Annotated[str | None, typer.Option(metavar="TIME", hidden=True)] = None,
-          follow: Follow = None,
-          csv: Annotated[bool, typer.Option("--csv", help="CSV on stdout: a line for each point.")] = False,
-          json: Json = False,
-          strict: Annotated[bool,
-                            typer.Option("--strict", help="Exit with 3 where a fate is undecided.")] = False):
+def sweep(
+        case: CaseFile,
+        vary: Annotated[list[str] | None, typer.Option(
+            metavar="KEY=VALUES",
+            help='A number that varies: "torque[3]=0:0.1:101", '
+                 '"motion.angular_velocity[1]=-30:30:61 deg/s", "speed=1:1000:31:log rpm", "torque[1]=0, '
+                 '1, 2". Up to four.')] = None,
+        samples: Annotated[int | None, typer.Option(
+            metavar="N", help="Random points over the uncertainties that the case states.")] = None,
+        seed: Annotated[int, typer.Option(metavar="S", help="Of the random points.")] = 1,
+        answer: Annotated[str | None, typer.Option(
+            metavar="A,B,...",
+            help="fate, level, reason, island, margin, distance, extremes, period, when, "
+                 "equilibria, verdict, chaos. Default: fate,level,margin.")] = None,
+        out: Annotated[Path | None, typer.Option(
+            metavar="FILE.nc",
+            help="Write NetCDF. What is finished outlives a killed run: the same command goes on.")] = None,
+        workers: Workers = None, scheduler: Scheduler = None,
+        rate: Annotated[str | None, typer.Option(
+            metavar="RATE", help="Limits of the answer when, as of stabilab when.")] = None,
+        component: Component = None, energy: Energy = None, tilt: TiltBy = None, until: Until = None,
+        follow: Follow = None,
+        csv: Annotated[bool, typer.Option("--csv", help="CSV on stdout: a line for each point.")] = False,
+        json: Json = False, strict: StrictFate = False):
     """Answer a case over ranges of its numbers.
 
     A map of fates, margins, extremes, equilibria, by short names of the numbers where these are unique.
@@ -70,55 +64,33 @@ def sweep(case: CaseFile,
 
 
 @commands.command()
-def atlas(case: CaseFile,
-          torque: Annotated[str | None,
-                            typer.Option(metavar="SIZE",
-                                         help='Size of the torque: "1 N m". Default: that of '
-                                              'the case.')] = None,
-          wheel: Annotated[str | None,
-                           typer.Option(metavar="[AXIS=]VALUES",
-                                        help='Wheel momenta beside each of which all directions are asked: '
-                                             '"0:2:5" along '
-                                                    'the wheel of the case, "z=-2:2:5" (x, y, z of the file, '
-                                                    'or 1, 2, 3). Default: as in the case.')] = None,
-          level: Annotated[int,
-                           typer.Option(metavar="N", help="8 times 4^N cells of equal area at first.")] = 3,
-          refine: Annotated[int, typer.Option(metavar="N",
-                                              help="How often cells along a boundary are cut in four.")] = 2,
-          rate: Annotated[str | None,
-                          typer.Option(metavar="RATE",
-                                       help="Limit whose time is asked, as of stabilab when; default: that "
-                                            "of [limits].")] = None,
-          component: Annotated[str | None, typer.Option(metavar="AXIS=RATE", hidden=True)] = None,
-          energy: Annotated[str | None, typer.Option(metavar="ENERGY", hidden=True)] = None,
-          tilt: Annotated[str | None, typer.Option(metavar="AXIS=ANGLE", hidden=True)] = None,
-          until: Annotated[str | None, typer.Option(metavar="TIME", hidden=True)] = None,
-          no_time: Annotated[bool,
-                             typer.Option("--no-time",
-                                          help="Leave out the time to a limit, which takes most of "
-                                               "the work.")] = False,
-          certify: Annotated[bool,
-                             typer.Option("--certify",
-                                          help="Prove fates and times where that succeeds, whatever it "
-                                               "takes.")] = False,
-          out: Annotated[list[Path] | None,
-                         typer.Option(metavar="FILE.nc|.png|.svg|.pdf|.html",
-                                      help="Write cells, a picture or a page that answers the "
-                                                         "pointer; may be given again. What is finished "
-                                                         "outlives a killed run.")] = None,
-          workers: Annotated[int | None,
-                             typer.Option(metavar="N",
-                                          help="Processes that share the work; default: one a core where "
-                                               "that pays.")] = None,
-          scheduler: Annotated[str | None,
-                               typer.Option(metavar="tcp://...",
-                                            help="Let the workers of this Dask scheduler do it (extra "
-                                                 "cluster).")] = None,
-          follow: Follow = None, units: UnitsOption = None,
-          csv: Annotated[bool, typer.Option("--csv", help="CSV on stdout: a line for each cell.")] = False,
-          json: Json = False,
-          strict: Annotated[bool,
-                            typer.Option("--strict", help="Exit with 3 where a fate is undecided.")] = False):
+def atlas(
+        case: CaseFile,
+        torque: Annotated[str | None, typer.Option(
+            metavar="SIZE", help='Size of the torque: "1 N m". Default: that of the case.')] = None,
+        wheel: Annotated[str | None, typer.Option(
+            metavar="[AXIS=]VALUES",
+            help='Wheel momenta beside each of which all directions are asked: "0:2:5" along '
+                 'the wheel of the case, "z=-2:2:5" (x, y, z of the file, or 1, 2, 3). Default: as in '
+                 "the case.")] = None,
+        level: Annotated[int, typer.Option(
+            metavar="N", help="8 times 4^N cells of equal area at first.")] = 3,
+        refine: Annotated[int, typer.Option(
+            metavar="N", help="How often cells along a boundary are cut in four.")] = 2,
+        rate: Annotated[str | None, typer.Option(
+            metavar="RATE",
+            help="Limit whose time is asked, as of stabilab when; default: that of [limits].")] = None,
+        component: Component = None, energy: Energy = None, tilt: TiltBy = None, until: Until = None,
+        no_time: Annotated[bool, typer.Option(
+            "--no-time", help="Leave out the time to a limit, which takes most of the work.")] = False,
+        certify: Annotated[bool, typer.Option(
+            "--certify", help="Prove fates and times where that succeeds, whatever it takes.")] = False,
+        out: Annotated[list[Path] | None, typer.Option(
+            metavar="FILE.nc|.png|.svg|.pdf|.html",
+            help="Write cells, a picture or a page that answers the pointer; may be given "
+                 "again. What is finished outlives a killed run.")] = None,
+        workers: Workers = None, scheduler: Scheduler = None, follow: Follow = None,
+        units: UnitsOption = None, csv: CsvOfCells = False, json: Json = False, strict: StrictFate = False):
     """Map all directions of a torque: fates, axes, times.
 
     Cells of equal area on the sphere, smaller ones along the boundaries; principal axes and thrusters stand
@@ -134,33 +106,20 @@ def atlas(case: CaseFile,
 
 
 @commands.command()
-def basin(case: CaseFile,
-          vary: Annotated[list[str] | None,
-                          typer.Option(metavar="KEY=FROM:TO[:N]",
-                                       help='A rate of the initial state and its range: "x[1]=-4:4", '
-                                                         '"angular_velocity[3]=-30:30:33 deg/s" for 33 '
-                                                         'points of the coarse grid. Two of them.')] = None,
-          depth: Annotated[int,
-                           typer.Option(metavar="K",
-                                        help="How often a cell is halved whose corners have different "
-                                             "fates.")] = 5,
-          out: Annotated[list[Path] | None,
-                         typer.Option(metavar="FILE.png|.svg|.pdf|.nc",
-                                      help="Draw, or write NetCDF, whose parts outlive a killed run; may "
-                                                         "be repeated.")] = None,
-          workers: Annotated[int | None,
-                             typer.Option(metavar="N",
-                                          help="Processes that share the work; default: one a core where "
-                                               "that pays.")] = None,
-          scheduler: Annotated[str | None,
-                               typer.Option(metavar="tcp://...",
-                                            help="Let the workers of this Dask scheduler do it (extra "
-                                                 "cluster).")] = None,
-          follow: Follow = None,
-          csv: Annotated[bool, typer.Option("--csv", help="CSV on stdout: a line for each cell.")] = False,
-          json: Json = False,
-          strict: Annotated[bool,
-                            typer.Option("--strict", help="Exit with 3 where a fate is undecided.")] = False):
+def basin(
+        case: CaseFile,
+        vary: Annotated[list[str] | None, typer.Option(
+            metavar="KEY=FROM:TO[:N]",
+            help='A rate of the initial state and its range: "x[1]=-4:4", '
+                 '"angular_velocity[3]=-30:30:33 deg/s" for 33 points of '
+                 'the coarse grid. Two of them.')] = None,
+        depth: Annotated[int, typer.Option(
+            metavar="K", help="How often a cell is halved whose corners have different fates.")] = 5,
+        out: Annotated[list[Path] | None, typer.Option(
+            metavar="FILE.png|.svg|.pdf|.nc",
+            help="Draw, or write NetCDF, whose parts outlive a killed run; may be repeated.")] = None,
+        workers: Workers = None, scheduler: Scheduler = None, follow: Follow = None, csv: CsvOfCells = False,
+        json: Json = False, strict: StrictFate = False):
     """Show which initial states spin up, and how rough the edge is.
 
     A plane of states in cells that get smaller towards the boundary between fates; shares, the exact
@@ -174,28 +133,24 @@ def basin(case: CaseFile,
 
 
 @commands.command()
-def bifurcation(case: CaseFile,
-                vary: Annotated[list[str] | None,
-                                typer.Option(metavar="KEY=FROM:TO",
-                                             help='A number that varies: "torque[3]=0:0.5", '
-                                                               '"wheels.pitch.speed=-3000:3000 rpm". One '
-                                                               'or two.')] = None,
-                curve: Annotated[bool,
-                                 typer.Option("--curve",
-                                              help="Of a torque on a principal axis: where stability changes "
-                                                   "along the whole curve of equilibria, whatever the "
-                                                   "motion.")] = False,
-                out: Annotated[Path | None,
-                               typer.Option(metavar="FILE.png", help="Draw it: .png, .svg or .pdf.")] = None,
-                certify: Annotated[Path | None,
-                                   typer.Option(metavar="FILE.json",
-                                                help="Of one number: write a certificate of every value and "
-                                                     "count, which "
-                                                             "`stabilab verify` checks by other "
-                                                             "algebra.")] = None,
-                csv: Annotated[bool,
-                               typer.Option("--csv", help="CSV on stdout: points of all branches.")] = False,
-                json: Json = False):
+def bifurcation(
+        case: CaseFile,
+        vary: Annotated[list[str] | None, typer.Option(
+            metavar="KEY=FROM:TO",
+            help='A number that varies: "torque[3]=0:0.5", "wheels.pitch.speed=-3000:3000 '
+                 'rpm". One or two.')] = None,
+        curve: Annotated[bool, typer.Option(
+            "--curve",
+            help="Of a torque on a principal axis: where stability changes along the whole "
+                 "curve of equilibria, whatever the motion.")] = False,
+        out: Annotated[Path | None, typer.Option(
+            metavar="FILE.png", help="Draw it: .png, .svg or .pdf.")] = None,
+        certify: Annotated[Path | None, typer.Option(
+            metavar="FILE.json",
+            help="Of one number: write a certificate of every value and count, which `stabilab "
+                 "verify` checks by other algebra.")] = None,
+        csv: Annotated[bool, typer.Option("--csv", help="CSV on stdout: points of all branches.")] = False,
+        json: Json = False):
     """Find where equilibria appear and vanish.
 
     Exactly, over the range of one number or two: folds and what else there is are roots of discriminants,

@@ -17,6 +17,7 @@ from .options import (
     Prove,
     Si,
     Strict,
+    StrictFate,
     Tilt,
     UnitsOption,
     Why,
@@ -27,19 +28,19 @@ commands = typer.Typer()
 
 
 @commands.command()
-def classify(cases: CaseFiles, json: Json = False, strict: Annotated[bool, typer.Option(
-        "--strict", help="Exit with 3 where a verdict or a fate is undecided or an approximate law does "
-                         "not hold.")] = False,
-             certify: Annotated[bool,
-                                typer.Option("--certify",
-                                             help="Prove the answer in exact numbers and balls, and write "
-                                                  "it as a "
-                                                                     "certificate that `stabilab verify` "
-                                                                     "checks.")] = False,
-             out: Annotated[Path,
-                            typer.Option(metavar="FILE.json",
-                                         help="Where the certificate goes.")] = Path("certificate.json"),
-             follow: Follow = None, tilt: Tilt = None, units: UnitsOption = None, why: Why = False):
+def classify(
+        cases: CaseFiles, json: Json = False,
+        strict: Annotated[bool, typer.Option(
+            "--strict",
+            help="Exit with 3 where a verdict or a fate is undecided or an approximate law "
+                 "does not hold.")] = False,
+        certify: Annotated[bool, typer.Option(
+            "--certify",
+            help="Prove the answer in exact numbers and balls, and write it as a certificate "
+                 "that `stabilab verify` checks.")] = False,
+        out: Annotated[Path, typer.Option(
+            metavar="FILE.json", help="Where the certificate goes.")] = Path("certificate.json"),
+        follow: Follow = None, tilt: Tilt = None, units: UnitsOption = None, why: Why = False):
     """Find the equilibria, their stability, and the motion's fate.
 
     Example: stabilab classify cases/minor-axis-100.toml --json
@@ -87,28 +88,25 @@ def period(cases: CaseFiles, json: Json = False, digits: Digits = None, strict: 
 
 
 @commands.command()
-def when(cases: CaseFiles,
-         rate: Annotated[str | None,
-                         typer.Option(metavar="RATE",
-                                      help='Of |ω|: "30 deg/s". Default: the limit of [limits].')] = None,
-         component: Annotated[str | None,
-                              typer.Option(metavar="AXIS=RATE",
-                                           help='Of one component\'s size: "z = 30 deg/s"; x, y, z of the '
-                                                'file, 1, 2, 3 for principal axes.')] = None,
-         energy: Annotated[str | None,
-                           typer.Option(metavar="ENERGY", help='Of the kinetic energy: "5 J".')] = None,
-         tilt: Annotated[str | None,
-                         typer.Option(metavar="AXIS=ANGLE",
-                                      help='Of the angle between a body axis and its direction at the start: '
-                                                                             '"z = 20 deg".')] = None,
-         until: Annotated[str | None,
-                          typer.Option(metavar="TIME", help='Search no further than this: "10 min".')] = None,
-         units: UnitsOption = None, si: Si = False,
-         json: Json = False, csv: Csv = False,
-         strict: Annotated[bool,
-                           typer.Option("--strict",
-                                        help="Exit with 3 where the time is not known or an approximate law "
-                                             "does not hold.")] = False):
+def when(
+        cases: CaseFiles,
+        rate: Annotated[str | None, typer.Option(
+            metavar="RATE", help='Of |ω|: "30 deg/s". Default: the limit of [limits].')] = None,
+        component: Annotated[str | None, typer.Option(
+            metavar="AXIS=RATE",
+            help="Of one component's size: \"z = 30 deg/s\"; x, y, z of the file, 1, 2, 3 for "
+                 "principal axes.")] = None,
+        energy: Annotated[str | None, typer.Option(
+            metavar="ENERGY", help='Of the kinetic energy: "5 J".')] = None,
+        tilt: Annotated[str | None, typer.Option(
+            metavar="AXIS=ANGLE",
+            help='Of the angle between a body axis and its direction at the start: "z = 20 deg".')] = None,
+        until: Annotated[str | None, typer.Option(
+            metavar="TIME", help='Search no further than this: "10 min".')] = None,
+        units: UnitsOption = None, si: Si = False, json: Json = False, csv: Csv = False,
+        strict: Annotated[bool, typer.Option(
+            "--strict",
+            help="Exit with 3 where the time is not known or an approximate law does not hold.")] = False):
     """Say when each motion first reaches a limit.
 
     Enclosed between two times, by roots and not by sampling, or never.
@@ -122,20 +120,16 @@ def when(cases: CaseFiles,
 
 
 @commands.command()
-def stuck(case: CaseFile,
-          all_thrusters: Annotated[bool,
-                                   typer.Option("--all-thrusters",
-                                                help="Each thruster alone, stuck or not; the one that "
-                                                     "reaches "
-                                                                              "the limit first in "
-                                                                              "front.")] = False,
-          units: UnitsOption = None, si: Si = False, why: Why = False,
-          out: Annotated[Path | None,
-                         typer.Option(metavar="FILE.png|.svg|.pdf",
-                                      help="Draw the rates against time.")] = None,
-          json: Json = False, csv: Csv = False,
-          strict: Annotated[bool,
-                            typer.Option("--strict", help="Exit with 3 where a fate is undecided.")] = False):
+def stuck(
+        case: CaseFile,
+        all_thrusters: Annotated[bool, typer.Option(
+            "--all-thrusters",
+            help="Each thruster alone, stuck or not; the one that reaches the limit first in "
+                 "front.")] = False,
+        units: UnitsOption = None, si: Si = False, why: Why = False,
+        out: Annotated[Path | None, typer.Option(
+            metavar="FILE.png|.svg|.pdf", help="Draw the rates against time.")] = None,
+        json: Json = False, csv: Csv = False, strict: StrictFate = False):
     """Say what a thruster stuck open does, how soon, what helps.
 
     Fate, axis, time to the limit of [limits], margins; wheel momenta that keep the motion bounded, thrusters
@@ -149,18 +143,16 @@ def stuck(case: CaseFile,
 
 
 @commands.command()
-def chaos(cases: CaseFiles,
-          until: Annotated[str | None,
-                           typer.Option(metavar="TIME",
-                                        help="How long each motion is followed; default: a thousand "
-                                             "turns.")] = None,
-          out: Annotated[Path | None,
-                         typer.Option(metavar="FILE.png|.svg|.pdf",
-                                      help="Draw the Poincaré section and MEGNO over its plane.")] = None,
-          csv: Annotated[bool, typer.Option("--csv", help="CSV on stdout: MEGNO over time.")] = False,
-          json: Json = False,
-          strict: Annotated[bool,
-                            typer.Option("--strict", help="Exit with 3 where it stays undecided.")] = False):
+def chaos(
+        cases: CaseFiles,
+        until: Annotated[str | None, typer.Option(
+            metavar="TIME", help="How long each motion is followed; default: a thousand turns.")] = None,
+        out: Annotated[Path | None, typer.Option(
+            metavar="FILE.png|.svg|.pdf", help="Draw the Poincaré section and MEGNO over its plane.")] = None,
+        csv: Annotated[bool, typer.Option("--csv", help="CSV on stdout: MEGNO over time.")] = False,
+        json: Json = False,
+        strict: Annotated[bool, typer.Option(
+            "--strict", help="Exit with 3 where it stays undecided.")] = False):
     """Say whether each motion is regular or chaotic.
 
     By how a small change of the start grows (MEGNO), from variational equations of the case's own; seen up to

@@ -7,7 +7,7 @@ from typing import Annotated  # typer reads the annotations at run time
 
 import typer
 
-from .options import CaseFile, Csv, Json, Strict, UnitsOption, either_json_or_csv
+from .options import CaseFile, Csv, Json, Order, Strict, UnitsOption, either_json_or_csv
 
 commands = typer.Typer()
 
@@ -25,13 +25,11 @@ def show(case: CaseFile):
 
 
 @commands.command()
-def compare(case: CaseFile,
-            order: Annotated[int | None,
-                             typer.Option(metavar="N", min=1,
-                                          help="Order of the lindstedt expansion.")] = None,
-            out: Annotated[Path | None,
-                           typer.Option(metavar="FILE.csv", help="Write the errors over time.")] = None,
-            json: Json = False, strict: Strict = False, units: UnitsOption = None):
+def compare(
+        case: CaseFile, order: Order = None,
+        out: Annotated[Path | None, typer.Option(
+            metavar="FILE.csv", help="Write the errors over time.")] = None,
+        json: Json = False, strict: Strict = False, units: UnitsOption = None):
     """Set the analytic models of a case beside its exact motion.
 
     Error over time, and when it first reaches 1 % and 10 %.
@@ -43,19 +41,15 @@ def compare(case: CaseFile,
 
 
 @commands.command()
-def precision(case: CaseFile, json: Json = False,
-              csv: Csv = False,
-              out: Annotated[Path | None,
-                             typer.Option(metavar="FILE.png|.svg|.pdf|.csv",
-                                          help="Write the picture or the points.")] = None,
-              until: Annotated[str | None,
-                               typer.Option(metavar="TIME",
-                                            help="End of the span: \"10 min\"; default: the "
-                                                 "case's own.")] = None,
-              quick: Annotated[bool,
-                               typer.Option("--quick",
-                                            help="Few settings: seconds instead of a minute.")] = False,
-              strict: Strict = False):
+def precision(
+        case: CaseFile, json: Json = False, csv: Csv = False,
+        out: Annotated[Path | None, typer.Option(
+            metavar="FILE.png|.svg|.pdf|.csv", help="Write the picture or the points.")] = None,
+        until: Annotated[str | None, typer.Option(
+            metavar="TIME", help="End of the span: \"10 min\"; default: the case's own.")] = None,
+        quick: Annotated[bool, typer.Option(
+            "--quick", help="Few settings: seconds instead of a minute.")] = False,
+        strict: Strict = False):
     """Measure what accuracy costs: every method, error and time.
 
     Judged by a Taylor series in many digits that knows its own error.
@@ -68,20 +62,17 @@ def precision(case: CaseFile, json: Json = False,
 
 
 @commands.command(name="import")
-def import_(file: Annotated[Path,
-                            typer.Argument(metavar="FILE",
-                                           help="A NASA 42 spacecraft file, or JSON or a Python "
-                                                "dictionary with "
-                                                                      "Basilisk's names.",
-                                           show_default=False)],
-            out: Annotated[Path | None,
-                           typer.Option(metavar="FILE.toml", help="Write the case to a file.")] = None,
-            stuck: Annotated[list[str] | None,
-                             typer.Option(metavar="NAME",
-                                          help="A thruster that is stuck open; may be repeated.")] = None,
-            body: Annotated[int | None,
-                            typer.Option(metavar="N", help="Of several bodies in a NASA 42 file, one alone.",
-                                                     show_default="all, joined")] = None):
+def import_(
+        file: Annotated[Path, typer.Argument(
+            metavar="FILE", show_default=False,
+            help="A NASA 42 spacecraft file, or JSON or a Python dictionary with Basilisk's names.")],
+        out: Annotated[Path | None, typer.Option(
+            metavar="FILE.toml", help="Write the case to a file.")] = None,
+        stuck: Annotated[list[str] | None, typer.Option(
+            metavar="NAME", help="A thruster that is stuck open; may be repeated.")] = None,
+        body: Annotated[int | None, typer.Option(
+            metavar="N", show_default="all, joined",
+            help="Of several bodies in a NASA 42 file, one alone.")] = None):
     """Write another program's spacecraft as a case.
 
     Several bodies on joints become one rigid body, the joints locked as the file places them.

@@ -8,43 +8,48 @@ import typer
 
 from ..show.terminal import completion
 
-CaseFile = Annotated[Path, typer.Argument(metavar="CASE", help="A case file (TOML).", show_default=False,
-                                          autocompletion=completion.cases)]
-CaseFiles = Annotated[list[Path], typer.Argument(metavar="CASE...", help="Case files (TOML).",
-                                                 show_default=False, autocompletion=completion.cases)]
+CaseFile = Annotated[Path, typer.Argument(
+    metavar="CASE", show_default=False, autocompletion=completion.cases, help="A case file (TOML).")]
+CaseFiles = Annotated[list[Path], typer.Argument(
+    metavar="CASE...", show_default=False, autocompletion=completion.cases, help="Case files (TOML).")]
 Json = Annotated[bool, typer.Option("--json", help="JSON on stdout instead of text.")]
 Csv = Annotated[bool, typer.Option("--csv", help="CSV on stdout instead of text.")]
-Digits = Annotated[int | None,
-                   typer.Option(metavar="N", help="Reach N digits (1 to 50) the cheapest way and check them; "
-                                                                 "exit 5 where they are not reached. Without "
-                                                                 "it 10 are the aim.")]
-Follow = Annotated[str | None,
-                   typer.Option(metavar="T",
-                                help="How long to follow a motion that only a run with a certificate decides "
-                                     "(torque "
-                                                             "off the principal axes), with a unit or in the "
-                                                             "time of the case. Default: a second of work.")]
-Prove = Annotated[bool,
-                  typer.Option("--certify",
-                               help="Enclose the way of a motion that has to be followed, so that its fate "
-                                    "is proved; classify --certify "
-                                                        "writes the proof down.")]
-Tilt = Annotated[str | None,
-                 typer.Option(metavar="ANGLE",
-                              help="What a tilt of the torque by up to so much, \"1 deg\", does to a motion "
-                                   "that a torque on an "
-                                                               "axis keeps bounded. By itself where the case "
-                                                               "states a misalignment or [limits].")]
-UnitsOption = Annotated[str | None, typer.Option("--units", metavar="deg|si", autocompletion=completion.units,
-                                                 help="deg/s and min, or rad/s and s, in text. Default: "
-                                                      "[output] units of the case, else deg.")]
+Digits = Annotated[int | None, typer.Option(
+    metavar="N",
+    help="Reach N digits (1 to 50) the cheapest way and check them; exit 5 where they are not reached. "
+         "Without it 10 are the aim.")]
+Follow = Annotated[str | None, typer.Option(
+    metavar="T",
+    help="How long to follow a motion that only a run with a certificate decides (torque off the "
+         "principal axes), with a unit or in the time of the case. Default: a second of work.")]
+Prove = Annotated[bool, typer.Option(
+    "--certify",
+    help="Enclose the way of a motion that has to be followed, so that its fate is proved; classify "
+         "--certify writes the proof down.")]
+Tilt = Annotated[str | None, typer.Option(
+    metavar="ANGLE",
+    help='What a tilt of the torque by up to so much, "1 deg", does to a motion that a torque on an '
+         "axis keeps bounded. By itself where the case states a misalignment or [limits].")]
+UnitsOption = Annotated[str | None, typer.Option(
+    "--units", metavar="deg|si", autocompletion=completion.units,
+    help="deg/s and min, or rad/s and s, in text. Default: [output] units of the case, else deg.")]
 Si = Annotated[bool, typer.Option("--si", hidden=True, help="The same as --units si.")]
 Why = Annotated[bool, typer.Option("--why", "-v", help="With proofs, derivations and algebra.")]
-Strict = Annotated[bool,
-                   typer.Option("--strict",
-                                help="Exit with 3 where a fate is undecided or an approximate law does "
-                                     "not hold "
-                                                       "along the motion.")]
+Strict = Annotated[bool, typer.Option(
+    "--strict",
+    help="Exit with 3 where a fate is undecided or an approximate law does not hold along the motion.")]
+StrictFate = Annotated[bool, typer.Option("--strict", help="Exit with 3 where a fate is undecided.")]
+Workers = Annotated[int | None, typer.Option(
+    metavar="N", help="Processes that share the work; default: one a core where that pays.")]
+Scheduler = Annotated[str | None, typer.Option(
+    metavar="tcp://...", help="Let the workers of this Dask scheduler do it (extra cluster).")]
+Component = Annotated[str | None, typer.Option(metavar="AXIS=RATE", hidden=True)]
+Energy = Annotated[str | None, typer.Option(metavar="ENERGY", hidden=True)]
+TiltBy = Annotated[str | None, typer.Option(metavar="AXIS=ANGLE", hidden=True)]
+Until = Annotated[str | None, typer.Option(metavar="TIME", hidden=True)]
+CsvOfCells = Annotated[bool, typer.Option("--csv", help="CSV on stdout: a line for each cell.")]
+Folder = Annotated[Path, typer.Option(metavar="DIR", help="Folder for the files.")]
+Order = Annotated[int | None, typer.Option(metavar="N", min=1, help="Order of the lindstedt expansion.")]
 
 
 def either_json_or_csv(json: bool, csv: bool) -> None:

@@ -7,13 +7,13 @@ from typing import Annotated  # typer reads the annotations at run time
 import typer
 
 from ..show.terminal import completion
+from .options import Folder
 
 commands = typer.Typer()
 
 
 @commands.command()
-# typer: must be given
-def tables(out: Annotated[Path, typer.Option(metavar="DIR", help="Folder for the files.")] = ...):  # type: ignore[assignment]
+def tables(out: Folder = ...):  # type: ignore[assignment]  # typer: must be given
     """Write Tables 1-4 of the constant-torque paper.
 
     Formats: text, CSV, Markdown, LaTeX, HTML.
@@ -25,15 +25,14 @@ def tables(out: Annotated[Path, typer.Option(metavar="DIR", help="Folder for the
 
 
 @commands.command()
-def figures(numbers: Annotated[list[int] | None, typer.Argument(
-                metavar="[N...]", help="Figure numbers of one paper; none: all.", show_default=False)] = None,
-            paper: Annotated[str | None, typer.Option(metavar="NAME", autocompletion=completion.papers,
-                                                      help="constant-torque, charged, cavity or top. "
-                                                           "Default: "
-                                                         "constant-torque where numbers are given, "
-                                                         "else all.")] = None,
-            out: Annotated[Path,
-                           typer.Option(metavar="DIR", help="Folder for the pictures.")] = Path("figures")):
+def figures(
+        numbers: Annotated[list[int] | None, typer.Argument(
+            metavar="[N...]", show_default=False, help="Figure numbers of one paper; none: all.")] = None,
+        paper: Annotated[str | None, typer.Option(
+            metavar="NAME", autocompletion=completion.papers,
+            help="constant-torque, charged, cavity or top. Default: constant-torque where "
+                 "numbers are given, else all.")] = None,
+        out: Annotated[Path, typer.Option(metavar="DIR", help="Folder for the pictures.")] = Path("figures")):
     """Draw the figures of the papers.
 
     Each picture gets a text file: caption, command, version, tolerance.

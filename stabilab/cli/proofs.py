@@ -14,19 +14,16 @@ commands = typer.Typer()
 
 
 @commands.command()
-def verify(certificate: Annotated[Path,
-                                  typer.Argument(metavar="CERTIFICATE",
-                                                 help="A certificate.json of classify --certify or "
-                                                      "bifurcation --certify.",
-                                                       show_default=False,
-                                                 autocompletion=completion.certificates)],
-           case: Annotated[Path | None,
-                           typer.Option(metavar="CASE.toml",
-                                        help="The case it must be of: exit with 5 where scene or "
-                                                        "state differ.")] = None, json: Json = False,
-           strict: Annotated[bool,
-                             typer.Option("--strict",
-                                          help="Exit with 3 where a claim could not be checked.")] = False):
+def verify(
+        certificate: Annotated[Path, typer.Argument(
+            metavar="CERTIFICATE", show_default=False, autocompletion=completion.certificates,
+            help="A certificate.json of classify --certify or bifurcation --certify.")],
+        case: Annotated[Path | None, typer.Option(
+            metavar="CASE.toml",
+            help="The case it must be of: exit with 5 where scene or state differ.")] = None,
+        json: Json = False,
+        strict: Annotated[bool, typer.Option(
+            "--strict", help="Exit with 3 where a claim could not be checked.")] = False):
     """Check a certificate with separate code.
 
     Shares only python-flint with the analysis. Exits with 5 where a claim is wrong.
@@ -38,16 +35,15 @@ def verify(certificate: Annotated[Path,
 
 
 @commands.command()
-def reference(case: CaseFile,
-              at: Annotated[list[str] | None,
-                            typer.Option(metavar="T1,T2,...",
-                                         help="Times from 0 on, with a unit or in that of the case. "
-                                                                                   "Default: 201 times over "
-                                                                                   "the span.")] = None,
-              digits: Annotated[int, typer.Option(metavar="N", help="Digits (1 to 50) of every state.")] = 30,
-              out: Annotated[Path | None,
-                             typer.Option(metavar="FILE.csv|.json", help="Write to a file.")] = None,
-              json: Json = False):
+def reference(
+        case: CaseFile,
+        at: Annotated[list[str] | None, typer.Option(
+            metavar="T1,T2,...",
+            help="Times from 0 on, with a unit or in that of the case. Default: 201 times over "
+                 "the span.")] = None,
+        digits: Annotated[int, typer.Option(metavar="N", help="Digits (1 to 50) of every state.")] = 30,
+        out: Annotated[Path | None, typer.Option(metavar="FILE.csv|.json", help="Write to a file.")] = None,
+        json: Json = False):
     """Write a motion with guaranteed digits, to test integrators.
 
     States, zeros and extremes, period, with versions, case and command: CSV, or JSON. Exits with 5 where
@@ -60,19 +56,15 @@ def reference(case: CaseFile,
 
 
 @commands.command()
-def audit(paper: Annotated[str | None,
-                           typer.Argument(metavar="[PAPER]",
-                                          help="A paper on record or a file of claims, .toml; default: all "
-                                               "papers.",
-                                                      show_default=False,
-                                          autocompletion=completion.audited)] = None,
-          equation: Annotated[str | None,
-                              typer.Option(metavar="N",
-                                           help="One equation or claim, as 17 or text-8a.")] = None,
-          json: Json = False,
-          out: Annotated[Path | None,
-                         typer.Option("--html", metavar="FILE.html",
-                                      help="Write a page with the formulas typeset.")] = None):
+def audit(
+        paper: Annotated[str | None, typer.Argument(
+            metavar="[PAPER]", show_default=False, autocompletion=completion.audited,
+            help="A paper on record or a file of claims, .toml; default: all papers.")] = None,
+        equation: Annotated[str | None, typer.Option(
+            metavar="N", help="One equation or claim, as 17 or text-8a.")] = None,
+        json: Json = False,
+        out: Annotated[Path | None, typer.Option(
+            "--html", metavar="FILE.html", help="Write a page with the formulas typeset.")] = None):
     """Hold published formulas against the equations of motion.
 
     Each row: holds, holds only under a condition, wrong (with what is right), definition, or not checkable.
@@ -84,15 +76,13 @@ def audit(paper: Annotated[str | None,
 
 
 @commands.command()
-def validate(source: Annotated[str | None,
-                               typer.Argument(metavar="[SOURCE]",
-                                              help="nesc, basilisk, orekit or 42; default: all.",
-                                              show_default=False,
-                                                      autocompletion=completion.sources)] = None,
-             json: Json = False,
-             out: Annotated[Path | None,
-                            typer.Option("--html", metavar="FILE.html",
-                                         help="Write a page with the table.")] = None):
+def validate(
+        source: Annotated[str | None, typer.Argument(
+            metavar="[SOURCE]", show_default=False, autocompletion=completion.sources,
+            help="nesc, basilisk, orekit or 42; default: all.")] = None,
+        json: Json = False,
+        out: Annotated[Path | None, typer.Option(
+            "--html", metavar="FILE.html", help="Write a page with the table.")] = None):
     """Hold other tools' published numbers against ours.
 
     Ours with proved digits, theirs, the difference, and its cause. Exits with 5 where a difference is not
@@ -105,13 +95,12 @@ def validate(source: Annotated[str | None,
 
 
 @commands.command()
-def rerun(manifest: Annotated[Path,
-                              typer.Argument(metavar="MANIFEST",
-                                             help="A manifest.json, or the folder that holds it.",
-                                                   show_default=False,
-                                             autocompletion=completion.certificates)],
-          out: Annotated[Path | None,
-                         typer.Option(metavar="DIR", help="Keep the new files in an empty folder.")] = None):
+def rerun(
+        manifest: Annotated[Path, typer.Argument(
+            metavar="MANIFEST", show_default=False, autocompletion=completion.certificates,
+            help="A manifest.json, or the folder that holds it.")],
+        out: Annotated[Path | None, typer.Option(
+            metavar="DIR", help="Keep the new files in an empty folder.")] = None):
     """Repeat what made a folder and compare every byte.
 
     Exits with 2 where inputs are missing or changed, with 5 where a file differs.

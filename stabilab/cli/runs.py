@@ -7,49 +7,41 @@ from typing import Annotated  # typer reads the annotations at run time
 import typer
 
 from ..show.terminal import completion
-from .options import CaseFile, Json, Strict, UnitsOption
+from .options import CaseFile, Folder, Json, Order, Strict, UnitsOption
 
 commands = typer.Typer()
 
 
 @commands.command()
-def simulate(case: CaseFile,
-             at: Annotated[list[str] | None,
-                           typer.Option(metavar="T1,T2,...",
-                                        help="Times, with a unit (\"2 min\") or in that of the case; the "
-                                             "state is at 0. Default: 201 times over the span of the "
-                                             "case.")] = None,
-             model: Annotated[str, typer.Option(metavar="NAME", autocompletion=completion.models,
-                                                help="exact, or an analytic solution that applies: linear, "
-                                                     "corrected, printed, "
-                                                     "averaged1, averaged2, lindstedt.")] = "exact",
-             order: Annotated[int | None,
-                              typer.Option(metavar="N", min=1,
-                                           help="Order of the lindstedt expansion.")] = None,
-             method: Annotated[str | None, typer.Option(metavar="NAME", autocompletion=completion.methods,
-                                                        help="taylor (default), a method of SciPy's "
-                                                             "solve_ivp by name, or "
-                                                                "reduced (any time at one cost); for the "
-                                                                "exact model.")] = None,
-             rtol: Annotated[float | None,
-                             typer.Option(metavar="TOL",
-                                          help="Relative tolerance; default: the method's own.")] = None,
-             digits: Annotated[int | None,
-                               typer.Option(metavar="N",
-                                            help="Reach N digits (1 to 15) the cheapest way, check "
-                                                           "them, or exit with 5. Without it 10 are the aim, "
-                                                           "unless "
-                                                           "--model, --method or --rtol is given.")] = None,
-             angles: Annotated[bool,
-                               typer.Option("--angles",
-                                            help="Euler angles ψ, θ, φ of the vertical, too.")] = False,
-             attitude: Annotated[bool,
-                                 typer.Option("--attitude",
-                                              help="The attitude as a quaternion and the angular momentum in "
-                                                   "space, too.")] = False,
-             out: Annotated[Path | None,
-                            typer.Option(metavar="FILE.nc|.csv", help="Write the states to a file.")] = None,
-             json: Json = False, strict: Strict = False, units: UnitsOption = None):
+def simulate(
+        case: CaseFile,
+        at: Annotated[list[str] | None, typer.Option(
+            metavar="T1,T2,...",
+            help='Times, with a unit ("2 min") or in that of the case; the state is at 0. '
+                 "Default: 201 times over the span of the case.")] = None,
+        model: Annotated[str, typer.Option(
+            metavar="NAME", autocompletion=completion.models,
+            help="exact, or an analytic solution that applies: linear, corrected, printed, "
+                 "averaged1, averaged2, lindstedt.")] = "exact",
+        order: Order = None,
+        method: Annotated[str | None, typer.Option(
+            metavar="NAME", autocompletion=completion.methods,
+            help="taylor (default), a method of SciPy's solve_ivp by name, or reduced (any "
+                 "time at one cost); for the exact model.")] = None,
+        rtol: Annotated[float | None, typer.Option(
+            metavar="TOL", help="Relative tolerance; default: the method's own.")] = None,
+        digits: Annotated[int | None, typer.Option(
+            metavar="N",
+            help="Reach N digits (1 to 15) the cheapest way, check them, or exit with 5. "
+                 "Without it 10 are the aim, unless --model, --method or --rtol is given.")] = None,
+        angles: Annotated[bool, typer.Option(
+            "--angles", help="Euler angles ψ, θ, φ of the vertical, too.")] = False,
+        attitude: Annotated[bool, typer.Option(
+            "--attitude",
+            help="The attitude as a quaternion and the angular momentum in space, too.")] = False,
+        out: Annotated[Path | None, typer.Option(
+            metavar="FILE.nc|.csv", help="Write the states to a file.")] = None,
+        json: Json = False, strict: Strict = False, units: UnitsOption = None):
     """Follow a motion in time.
 
     Says how far the run departs from the laws of motion; with --model also what the theory says of the
@@ -62,26 +54,25 @@ def simulate(case: CaseFile,
 
 
 @commands.command()
-def plot(case: CaseFile,
-         kind: Annotated[str | None, typer.Option(metavar="KIND", autocompletion=completion.kinds,
-                                                  help="time, phase, sphere, space, section, equilibria, "
-                                                       "budget, state or attitude (moves). "
-                                                                       "Default: the one that says most of "
-                                                                       "the case.")] = None,
-         out: Annotated[Path | None,
-                        typer.Option(metavar="FILE.png|.svg|.pdf",
-                                     help="Picture to write; default: CASE.png in the current "
-                                                  "folder. Of an attitude .html, .gif or .mp4.")] = None,
-         size: Annotated[str | None,
-                         typer.Option(metavar="WxH", help='Width and height in inches: "8x5".')] = None,
-         dpi: Annotated[float | None,
-                        typer.Option(metavar="N", help="Dots an inch of a .png; default: 110.")] = None,
-         until: Annotated[str | None,
-                          typer.Option(metavar="TIME", help='Draw up to this time: "10 min".')] = None,
-         neighbours: Annotated[int,
-                               typer.Option(metavar="N",
-                                            help="Of a section: so many motions beside this one.")] = 0,
-         units: UnitsOption = None, strict: Strict = False):
+def plot(
+        case: CaseFile,
+        kind: Annotated[str | None, typer.Option(
+            metavar="KIND", autocompletion=completion.kinds,
+            help="time, phase, sphere, space, section, equilibria, budget, state or attitude "
+                 "(moves). Default: the one that says most of the case.")] = None,
+        out: Annotated[Path | None, typer.Option(
+            metavar="FILE.png|.svg|.pdf",
+            help="Picture to write; default: CASE.png in the current folder. Of an attitude "
+                 ".html, .gif or .mp4.")] = None,
+        size: Annotated[str | None, typer.Option(
+            metavar="WxH", help='Width and height in inches: "8x5".')] = None,
+        dpi: Annotated[float | None, typer.Option(
+            metavar="N", help="Dots an inch of a .png; default: 110.")] = None,
+        until: Annotated[str | None, typer.Option(
+            metavar="TIME", help='Draw up to this time: "10 min".')] = None,
+        neighbours: Annotated[int, typer.Option(
+            metavar="N", help="Of a section: so many motions beside this one.")] = 0,
+        units: UnitsOption = None, strict: Strict = False):
     """Draw a case: rates over time, phase plane, separatrix, more.
 
     Of a FILE.nc of stabilab sweep it draws the map; --kind is then a column.
@@ -94,10 +85,10 @@ def plot(case: CaseFile,
 
 
 @commands.command()
-def surface(case: CaseFile,
-            # typer: must be given
-            out: Annotated[Path, typer.Option(metavar="DIR", help="Folder for the files.")] = ...,  # type: ignore[assignment]
-            json: Json = False, strict: Strict = False):
+def surface(
+        case: CaseFile,
+        out: Folder = ...,  # type: ignore[assignment]  # typer: must be given
+        json: Json = False, strict: Strict = False):
     """Write the separatrix surfaces as meshes and a picture.
 
     Files: .vtp, .glb, .stl, .png, and a summary, .json. Where there is no separatrix, it says why, and no
@@ -110,24 +101,21 @@ def surface(case: CaseFile,
 
 
 @commands.command()
-def report(cases: Annotated[list[Path] | None, typer.Argument(
-               metavar="[CASE...]", help="Case files; none: everything that stabilab brings.",
-               show_default=False,
-               autocompletion=completion.cases)] = None,
-           out: Annotated[Path, typer.Option(metavar="DIR", help="Folder for the report.")] = Path("report"),
-           papers: Annotated[bool,
-                             typer.Option("--papers",
-                                          help="The papers' tables and figures, the audit of their formulas "
-                                               "and other "
-                                                                 "tools' numbers as well: minutes.")] = False,
-           precision: Annotated[bool, typer.Option("--precision", help="What accuracy costs, too.")] = False,
-           certify: Annotated[bool,
-                              typer.Option("--certify",
-                                           help="A certificate of each case, checked, too.")] = False,
-           workers: Annotated[int | None,
-                              typer.Option(metavar="N", min=1, help="Processes that share the work; "
-                                                                    "default: one a core.")] = None,
-           strict: Strict = False):
+def report(
+        cases: Annotated[list[Path] | None, typer.Argument(
+            metavar="[CASE...]", show_default=False, autocompletion=completion.cases,
+            help="Case files; none: everything that stabilab brings.")] = None,
+        out: Annotated[Path, typer.Option(metavar="DIR", help="Folder for the report.")] = Path("report"),
+        papers: Annotated[bool, typer.Option(
+            "--papers",
+            help="The papers' tables and figures, the audit of their formulas and other "
+                 "tools' numbers as well: minutes.")] = False,
+        precision: Annotated[bool, typer.Option("--precision", help="What accuracy costs, too.")] = False,
+        certify: Annotated[bool, typer.Option(
+            "--certify", help="A certificate of each case, checked, too.")] = False,
+        workers: Annotated[int | None, typer.Option(
+            metavar="N", min=1, help="Processes that share the work; default: one a core.")] = None,
+        strict: Strict = False):
     """Write a report on your cases: web pages.
 
     Verdict, margins, rates over time, phase plane, separatrix, equilibria, what would change the fate,
@@ -140,28 +128,21 @@ def report(cases: Annotated[list[Path] | None, typer.Argument(
 
 
 @commands.command()
-def explore(case: Annotated[Path | None,
-                            typer.Argument(metavar="[CASE]",
-                                           help="A case file (TOML). Default: one that stabilab brings.",
-                                           show_default=False,
-                                                           autocompletion=completion.cases)] = None,
-            port: Annotated[int, typer.Option(metavar="N", min=0, max=65535,
-                                              help="Port of this machine; 0: a free one.")] = 0,
-            browser: Annotated[bool,
-                               typer.Option("--browser/--no-browser",
-                                            help="Open the page, or only print its address.")] = True,
-            static: Annotated[Path | None,
-                              typer.Option(metavar="DIR",
-                                           help="Write the page as a folder for any web server: "
-                                                                           "Python answers in the "
-                                                                           "browser.")] = None,
-            pyodide: Annotated[Path | None,
-                               typer.Option(metavar="DIR",
-                                            help="With --static: a folder with Pyodide and python-flint's "
-                                                 "wheel, to be "
-                                                                            "copied in. Without: loaded from "
-                                                                            "where they are "
-                                                                            "published.")] = None):
+def explore(
+        case: Annotated[Path | None, typer.Argument(
+            metavar="[CASE]", show_default=False, autocompletion=completion.cases,
+            help="A case file (TOML). Default: one that stabilab brings.")] = None,
+        port: Annotated[int, typer.Option(
+            metavar="N", min=0, max=65535, help="Port of this machine; 0: a free one.")] = 0,
+        browser: Annotated[bool, typer.Option(
+            "--browser/--no-browser", help="Open the page, or only print its address.")] = True,
+        static: Annotated[Path | None, typer.Option(
+            metavar="DIR",
+            help="Write the page as a folder for any web server: Python answers in the browser.")] = None,
+        pyodide: Annotated[Path | None, typer.Option(
+            metavar="DIR",
+            help="With --static: a folder with Pyodide and python-flint's wheel, to be copied "
+                 "in. Without: loaded from where they are published.")] = None):
     """Move a case by hand: sliders, and the verdict follows.
 
     Separatrix, equilibria, motion, phase plane and rates over time; the verdict changes as you drag. The page
