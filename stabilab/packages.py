@@ -47,8 +47,8 @@ def explained(error: ImportError) -> StabilabError | None:
         words = f"{package} is not installed, and stabilab needs it for this: {cure(module)}"
     else:
         why = str(cause).strip().partition("\n")[0] or "no reason given"
-        words = (f"{package} cannot be loaded ({why}): install what that names, or the package anew; stabilab "
-                 "doctor names the versions that are there")
+        words = (f"{package} cannot be loaded ({why}): install what that names, or the package anew; "
+                 "stabilab doctor names the versions that are there")
     return (RenderingUnavailable(f"no picture can be drawn: {words}") if package in DRAWING
             else InputError(words))
 

@@ -57,9 +57,9 @@ def why(scene: AnyScene) -> str:
     if isinstance(scene,
                   Scene) and (charge := scene.effect("charge")) is not None and charge.follows_attitude:
         turning.append("the charge")
-    reasons = [f"{' and '.join(some)} {word}{'s' * (len(some) == 1)} {how}" for some, word,
-               how in ((taking, "take", "energy away"),
-                                                                                                 (turning, "act", "by the attitude")) if some]
+    parts = (taking, "take", "energy away"), (turning, "act", "by the attitude")
+    reasons = [f"{' and '.join(some)} {word}{'s' * (len(some) == 1)} {how}"
+               for some, word, how in parts if some]
     return (
         f"No separatrix and no phase plane: {' and '.join(reasons)}, so no law keeps the rates on a curve "
         f"that is known; what is drawn is the motion itself")

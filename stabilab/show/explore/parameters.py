@@ -256,9 +256,8 @@ def changed(case: Case, asked: dict[str, Any], units: Units) -> tuple[Case, str]
         if not all(problem.key.startswith("limits") for problem in error.problems):
             raise
     base.pop("limits")
-    return read_text(case.path,
-                     text_of(base,
-                             head)), f"The start is beyond the limit of the case, which is left out here. {left}".rstrip()
+    words = f"The start is beyond the limit of the case, which is left out here. {left}".rstrip()
+    return read_text(case.path, text_of(base, head)), words
 
 
 def _left_out(case: Case, fires: bool) -> str:

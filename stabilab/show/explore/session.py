@@ -209,9 +209,8 @@ class Session:
         """
         if twin is not None:
             return self._once("equilibria", twin, lambda: equilibria(twin))
-        if moving and self._cost.get("equilibria",
-                                     math.inf) > PATIENCE and self._kept.get("equilibria",
-                                                                             (None,))[0] != case.scene:
+        slow = self._cost.get("equilibria", math.inf) > PATIENCE
+        if moving and slow and self._kept.get("equilibria", (None,))[0] != case.scene:
             return None
         began = time.process_time()
         found = self._once("equilibria", case.scene, lambda: other.at_rest(case.scene))

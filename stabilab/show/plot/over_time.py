@@ -178,7 +178,8 @@ def file_axes(one: Subject):
     """Rows that turn rates to the axes of the file, where limits are about those and they are not the
     principal ones."""
     case = one.case
-    if case is None or case.limits is None or case.limits.rate is not None or case.frame is None or case.frame.as_given:
+    stated = case is not None and case.limits is not None and case.limits.rate is None
+    if not stated or case.frame is None or case.frame.as_given:
         return None
     return np.array([[float(v) for v in axis] for axis in case.frame.axes]).T
 

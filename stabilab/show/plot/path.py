@@ -112,8 +112,8 @@ def band(t: np.ndarray, values: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.
     columns."""
     edges = np.linspace(t[0], t[-1], BINS + 1)
     first = np.clip(np.searchsorted(t, edges[:-1]), 0, len(t) - 1)
-    return 0.5 * (edges[:-1] + edges[1:]), np.minimum.reduceat(values,
-                                                               first), np.maximum.reduceat(values, first)
+    least, most = np.minimum.reduceat(values, first), np.maximum.reduceat(values, first)
+    return 0.5 * (edges[:-1] + edges[1:]), least, most
 
 
 def angular(points: np.ndarray, near: float) -> bool:

@@ -135,6 +135,7 @@ def _product(name) -> str:
     """What a name stands for as a product of letters, those with an index or a power included; empty where it
     stands for itself."""
     made = (re.split("([_^])", word) for word in PRODUCTS.get(name, "").split())
-    letters = "".join(f"<m{'sub' if part[1] == '_' else 'sup'}><mi>{part[0]}</mi><mi>{part[2]}</mi></m{'sub' if part[1] == '_' else 'sup'}>"
+    kind = {"_": "msub", "^": "msup"}
+    letters = "".join(f"<{kind[part[1]]}><mi>{part[0]}</mi><mi>{part[2]}</mi></{kind[part[1]]}>"
                       if len(part) > 1 else f"<mi>{part[0]}</mi>" for part in made)
     return letters and f"<mrow>{letters}</mrow>"

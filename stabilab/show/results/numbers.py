@@ -41,8 +41,7 @@ def variables(result: Any) -> Variables:
 
 
 def of_parts(parts: Mapping[str, Any], time: str = "time",
-             errors: Mapping[str, Any] | None = None) -> dict[str,
-                                                              tuple[tuple[str, ...], Any, dict[str, Any]]]:
+             errors: Mapping[str, Any] | None = None) -> dict[str, Any]:
     """Parts of the state over time, with units and words; time: the name of their first dimension; errors: of
     their components, where known."""
     known = errors or {}
@@ -83,9 +82,8 @@ def _dims(array) -> tuple[str, ...]:
 
 def _fates(found):
     dims, labels = _dims(found.labels), np.asarray(found.labels)
-    rate, energy = ({"units": "1"},
-                    {"units": "1"}) if found.scene.variables == "scaled" else ({"units": "rad/s"},
-                                                                               {"units": "J"})
+    rate, energy = ("1", "1") if found.scene.variables == "scaled" else ("rad/s", "J")
+    rate, energy = {"units": rate}, {"units": energy}
     words = np.array([Fate(int(label)).word for label in labels.reshape(-1)],
                      dtype=object).reshape(labels.shape)
     values = {"start": ((*dims, "axis"), found.states, rate | {"long_name": "rates at t = 0"}),

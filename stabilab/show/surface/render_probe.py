@@ -30,7 +30,8 @@ import pyvista
 plotter = pyvista.Plotter(off_screen=True, window_size=(32, 32))
 plotter.add_mesh(pyvista.Sphere(), color="white")
 image = plotter.screenshot(return_img=True)
-lines = [l.split(":", 1)[1].strip() for l in plotter.render_window.ReportCapabilities().splitlines() if "renderer string" in l]
+told = plotter.render_window.ReportCapabilities().splitlines()
+lines = [line.split(":", 1)[1].strip() for line in told if "renderer string" in line]
 if not image.max() > image.min():
     raise SystemExit("an empty picture")
 print("RENDERER", lines[0] if lines else "unknown")

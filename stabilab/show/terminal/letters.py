@@ -17,7 +17,8 @@ PLAIN = {letter: name for name, letter in ALPHABET.items()} | {
     "≠": "!=", "√": "sqrt", "×": "x",
     "·": ".", "µ": "u", "°": " deg", "…": "..."}
 # A name with its number, between bars, or the time of a scaled case; not part of a path, a key or an option.
-NAMES = re.compile(r"(?<![\w./\\])(?<![\w-]-)(omega|lambda|Lambda|mu|gamma|alpha|sigma|zeta)(?=(?:[123]|_[ijk])\b(?!\\|/[A-Za-z]|\.\w))"
+NAMES = re.compile(r"(?<![\w./\\])(?<![\w-]-)(omega|lambda|Lambda|mu|gamma|alpha|sigma|zeta)"
+                   r"(?=(?:[123]|_[ijk])\b(?!\\|/[A-Za-z]|\.\w))"
                    r"|(?<=\|)(?:omega|gamma)(?= ?[xyz]?\|)|\bomega(?= \. \()|\bgamma(?= = \()|(?<=[\d )=] "
                    r")tau\b|(?<=\bin )tau\b(?! \[)|(?<=\bof )tau\b")
 LETTER = re.compile(r"(?<![A-Za-z_])(" + "|".join(sorted(ALPHABET, key=len, reverse=True))

@@ -110,8 +110,8 @@ def why(case, motion, units: Units, proofs: bool) -> list[str]:
     """
     lines = [f"why: {reason(motion.because, units)}"]
     if proofs and motion.velocity_because:
-        lines.append(
-            f"  {'' if motion.velocity_bounds else 'margin, rate unknown: '}{reason(motion.velocity_because, units)}")
+        rate = "" if motion.velocity_bounds else "margin, rate unknown: "
+        lines.append(f"  {rate}{reason(motion.velocity_because, units)}")
     if proofs:
         lines += [row(*fact) for fact in constants(motion, units)]
     return lines
@@ -155,8 +155,8 @@ def tilt_lines(case, motion, units: Units, proofs: bool = False) -> list[str]:
     if found is None or found.ranges:
         asked = found is None and not units.scaled and limiting.condition(motion.caveats, units)
         return [row("off that axis", TILTED)] if asked else []
-    limit = (
-        f"|omega| = {units.rate(found.limit)}{'' if found.stated else ', twice the largest of this motion (no limit is stated)'}")
+    stated = "" if found.stated else ", twice the largest of this motion (no limit is stated)"
+    limit = f"|omega| = {units.rate(found.limit)}{stated}"
     lines = [f"  tilted by {_angle(found.angle)}: {found.of}, to {limit}"]
     if found.ends:
         lines.append(f"    shortest time found   {clock((found.low, found.high), units)} ({found.level})")

@@ -58,11 +58,9 @@ def _all_digits(case, motion, told):
     unit = "" if case.variables == "scaled" else "rad/s"
     pairs = told.decimals or [[number(v, max(SHOWN, told.asked)) for v in pair] for pair in motion.extremes]
     wide = max(24, told.asked + 8)
-    return [f"  over {motion.extremes_over}, least and greatest:",
-            *(f"  {greek(name):<8}{_word(low):>{wide}}{_word(high):>{wide}}  {unit}".rstrip()
-                                                           for name, (low,
-                                                                      high) in zip(case.scene.components,
-                                                                                   pairs))]
+    rows = (f"  {greek(name):<8}{_word(low):>{wide}}{_word(high):>{wide}}  {unit}".rstrip()
+            for name, (low, high) in zip(case.scene.components, pairs))
+    return [f"  over {motion.extremes_over}, least and greatest:", *rows]
 
 
 def _word(decimal) -> str:

@@ -112,10 +112,10 @@ def digits(told) -> dict:
 def extremes(case, motion, told) -> dict:
     """One object of `stabilab extremes --json`; null where a component is unbounded or unknown (see fate)."""
     motion = _with(motion, told)
-    return {"schema": "stabilab.extremes/1", "case": case.name, "variables": case.variables, "at": motion.at,
-            "fate": motion.fate.word, "components": case.scene.components, "extremes": motion.extremes,
-            "over": motion.extremes_over} | followed(motion) | _around(case,
-                                                                       motion) | {"digits": digits(told)}
+    found = {"schema": "stabilab.extremes/1", "case": case.name, "variables": case.variables, "at": motion.at,
+             "fate": motion.fate.word, "components": case.scene.components, "extremes": motion.extremes,
+             "over": motion.extremes_over}
+    return found | followed(motion) | _around(case, motion) | {"digits": digits(told)}
 
 
 def _around(case, motion) -> dict:

@@ -166,8 +166,9 @@ def _labelled(ax, name, unit) -> str:
     from matplotlib.ticker import FuncFormatter
     power = math.floor(math.log10((high - low) / 2))
     whole = math.floor(low / 10.0 ** (power + 1) + 0.5) * 10.0 ** (power + 1)
-    ax.yaxis.set_major_formatter(FuncFormatter(lambda value,
-                                               _: f"{round((value - whole) / 10.0**power, 4) + 0.0:.6g}".replace("-", "−")))
+    def shown(value, _):
+        return f"{round((value - whole) / 10.0**power, 4) + 0.0:.6g}".replace("-", "−")
+    ax.yaxis.set_major_formatter(FuncFormatter(shown))
     ten = rf"$10^{{{power}}}$" + (f" {unit}" if unit else "")
     return f"{name} {'−' if whole >= 0 else '+'} {abs(whole):.12g} ({ten})"
 

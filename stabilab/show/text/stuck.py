@@ -112,11 +112,9 @@ def _ranking(found, units):
 def _first(row, units):
     wheel = next((w for w in row.wheels if w.keeps_bounded),
                  next((w for w in row.wheels if w.best is not None), None))
-    return [answer_line(row, units), f"  {_torque(row, units)}",
-            *(f"  {line}" for line in (_margins(row, units), wheel and _wheel(wheel, units),
-                                                                                      row.helpers and _helper(
-                                                                                          row.helpers[0],
-                                                                                          units)) if line)]
+    more = (_margins(row, units), wheel and _wheel(wheel, units),
+            row.helpers and _helper(row.helpers[0], units))
+    return [answer_line(row, units), f"  {_torque(row, units)}", *(f"  {line}" for line in more if line)]
 
 
 def row_name(row) -> str:

@@ -266,8 +266,8 @@ def decide(rows, states, reach, fired, number, found, order, frame, D1, M1, drag
     for n in rows:
         if fired[n] >= 0:
             continue
-        w1, w2, w3 = frame[0] * states[n, order[0]], frame[1] * states[n, order[1]], frame[2] * states[n, order[2]]
-        near = reach[n]
+        w1, w2 = frame[0] * states[n, order[0]], frame[1] * states[n, order[1]]
+        w3, near = frame[2] * states[n, order[2]], reach[n]
         x = w1 + frame[3]
         if not x > 0:
             continue

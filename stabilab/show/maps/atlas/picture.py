@@ -259,11 +259,9 @@ def _tables(atlas: Atlas, units: Units) -> dict[str, tuple[np.ndarray, dict[str,
         which[rows] = n
     words = [kind_words(atlas, *key) for key, _, _ in fates]
     colours = [_bytes(kind_colour(*key)) for key, _, _ in fates]
-    told = {"fate": (which,
-                     {"words": words, "colours": colours,
-                      "legend": [[f"{word}: {100 * share:.3g} %", colour] for word, colour, (_, _, share)
-                                                                               in zip(words, colours,
-                                                                                      fates)]})}
+    legend = [[f"{word}: {100 * share:.3g} %", colour]
+              for word, colour, (_, _, share) in zip(words, colours, fates)]
+    told = {"fate": (which, {"words": words, "colours": colours, "legend": legend})}
     if atlas.asked.stated_limit is not None:
         told["when"] = _shaded(atlas, units)
     told["level"] = _flags(records["level"],

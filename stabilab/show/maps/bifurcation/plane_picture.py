@@ -93,9 +93,8 @@ def _regions(bands: list[dict[str, Any]], height: float) -> list[list[dict[str, 
         for b in bands:
             meet = (a["p"] is not b["p"] and abs(a["p"][-1] - b["p"][0]) <= 1e-6
                     * (a["p"][-1] - a["p"][0] + b["p"][-1] - b["p"][0]))
-            if meet and a["count"] == b["count"] and min(a["high"][-1],
-                                                         b["high"][0]) - max(a["low"][-1],
-                                                                             b["low"][0]) > 1e-3 * height:
+            overlap = min(a["high"][-1], b["high"][0]) - max(a["low"][-1], b["low"][0])
+            if meet and a["count"] == b["count"] and overlap > 1e-3 * height:
                 one, other = (next(g for g in groups if any(band is x for x in g)) for band in (a, b))
                 if one is not other:
                     one.extend(other)

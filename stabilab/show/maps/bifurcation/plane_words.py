@@ -22,8 +22,9 @@ def answer(found: Plane) -> str:
     counts = sorted({piece.count for _, piece in _cells(found)})
     things = ("changes of stability" if found.kind == BORDERS else "equilibria" if counts != [1]
               else "equilibrium")
-    told = [f"{_or(['no' if c == 0 and len(counts) == 1 else 'curves of' if c == ENDLESS else str(c) for c in counts])} {things} over {first.label} "
-            f"and {second.label}"]
+    some = _or(["no" if c == 0 and len(counts) == 1 else "curves of" if c == ENDLESS else str(c)
+                for c in counts])
+    told = [f"{some} {things} over {first.label} and {second.label}"]
     kinds = sorted({kind for strip in found.strips for arc in strip.arcs for kind in arc.kinds}
                    | {kind for wall in found.walls for kind in wall.kinds})
     if kinds:

@@ -99,7 +99,8 @@ def _events_told(found: Diagram) -> str:
     for event in (*found.events, *found.connections):
         by_kind.setdefault(event.kinds[0], []).append(number(event.value, digits))
     names = NAMES | ({"curve": "other curves"} if found.kind == CURVES else {})
-    return ", ".join(f"{names[kind]}{'s' if len(values) > 1 and kind not in ('infinity', 'axis', 'curve') else ''} at {_and(values)}{of}"
+    alone = "infinity", "axis", "curve"
+    return ", ".join(f"{names[kind]}{'s' * (len(values) > 1 and kind not in alone)} at {_and(values)}{of}"
                      for kind, values in by_kind.items())
 
 

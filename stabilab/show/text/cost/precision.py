@@ -28,7 +28,8 @@ def text(found) -> str:
     for question in found.questions:
         front = set(map(id, found.front(question)))
         lines += ["", title(found, question),
-                  f"  {'method':<13}{'setting':<13}{'error':>8}{'digits':>8}{'steps':>8}{'rates':>8}{'time':>10}{'compile':>9}"]
+                  f"  {'method':<13}{'setting':<13}{'error':>8}{'digits':>8}{'steps':>8}{'rates':>8}"
+                  f"{'time':>10}{'compile':>9}"]
         lines += [_line(p, id(p) in front) for p in found.of(question)]
     lines += [f"  left out: {line}" for line in _left_out(found)]
     return "\n".join([*lines, "", *told, "", caption()])

@@ -51,7 +51,9 @@ def _question_words(found, question):
     missing = next((d for d in WANTED if d > prices[-1][0]), None)
     best = max(points, key=lambda p: p.digits)
     if missing:
-        yield f"No method gets {missing} digits: the best is {best.digits:.1f} ({best.method}{setting(best)}){_because(found, question, missing, best)}."
+        reached = f"{best.digits:.1f} ({best.method}{setting(best)})"
+        because = _because(found, question, missing, best)
+        yield f"No method gets {missing} digits: the best is {reached}{because}."
 
 
 SIX = 6  # digits at which the methods are set side by side
