@@ -133,8 +133,8 @@ def _pool():
                 workers.map(_one, states, chunksize=25))
         return
     with Parallel(n_jobs=2) as workers:
-        yield "joblib with 2 processes that ask motion", lambda states: workers(delayed(_one)(state)
-                                                                                for state in states)
+        yield ("joblib with 2 processes that ask motion",
+               lambda states: workers(delayed(_one)(state) for state in states))
 
 
 def _states(side) -> np.ndarray:

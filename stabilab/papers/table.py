@@ -51,7 +51,6 @@ def cell(value) -> str:
 
 
 # -- what the tables say
-# ------------------------------------------------------------------------------------------------
 
 
 TORQUE_COLUMNS = {"wheel": "gyrostat", "torque signs": "mu", "equilibria": "number", "form": "form",
@@ -154,7 +153,6 @@ def tables(tell: Callable[[int, int, str], None] | None = None) -> tuple[Table, 
 
 
 # -- formats
-# -----------------------------------------------------------------------------------------------------------
 
 
 def text(table: Table, width: int = 160) -> str:
@@ -246,15 +244,15 @@ def _signed(value) -> str:
 
 def html_page(table: Table) -> str:
     """The fragment as a page of its own."""
+    style = ("body{font:14px sans-serif;margin:1em}div{overflow-x:auto}table{border-collapse:collapse}"
+             "caption{text-align:left;font-weight:600}"
+             "td,th{padding:.25em .6em;border-bottom:1px solid #ccc;text-align:right;vertical-align:top}"
+             ".words,.sentence{text-align:left}.words{white-space:nowrap}.sentence{min-width:4.5em}"
+             "@media(max-width:36rem){td.sentence:nth-child(n+4){min-width:13em}}")
     return ('<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">'
-            '<meta name="viewport" content="width=device-width, initial-scale=1"><link rel="icon" '
-            'href="data:,"><title>'
-            f"Table {table.number}. {html.escape(table.title)}</title>\n<style>"
-            "body{font:14px "
-            "sans-serif;margin:1em}div{overflow-x:auto}table{border-collapse:collapse}caption{text-align:left;font-weight:600}"
-            "td,th{padding:.25em .6em;border-bottom:1px solid #ccc;text-align:right;vertical-align:top}"
-            ".words,.sentence{text-align:left}.words{white-space:nowrap}.sentence{min-width:4.5em}"
-            "@media(max-width:36rem){td.sentence:nth-child(n+4){min-width:13em}}</style>"
+            '<meta name="viewport" content="width=device-width, initial-scale=1">'
+            '<link rel="icon" href="data:,">'
+            f"<title>Table {table.number}. {html.escape(table.title)}</title>\n<style>{style}</style>"
             f"</head>\n<body>\n<div>{html_fragment(table)}</div></body></html>\n")
 
 

@@ -51,9 +51,8 @@ def test_the_quaternion_of_a_spacecraft_is_scalar_last_from_body_to_space(stabil
     assert code == 0 and "scalar last" in found["quaternion"]
     assert np.array(found["state"]["omega"]) == pytest.approx(rates, abs=1e-9)
     q = np.array(found["state"]["quaternion"])
-    assert Rotation.from_quat(q).as_matrix() == pytest.approx(matrices,
-                                                              abs=1e-9) and np.linalg.norm(q,
-                                                                                           axis=1) == pytest.approx(1, abs=1e-14)
+    assert Rotation.from_quat(q).as_matrix() == pytest.approx(matrices, abs=1e-9)
+    assert np.linalg.norm(q, axis=1) == pytest.approx(1, abs=1e-14)
     assert q[0].tolist() == [0, 0, 0, 1]
 
 

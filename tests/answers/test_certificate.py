@@ -137,9 +137,8 @@ def test_planes_of_equilibria_are_claimed_with_their_centre():
     # omega1 and omega2 are
     (plane,) = certificate(Scene(Body((2, 2, 1)), Gyrostat((0, 0, 3)),
                                  ConstantTorque((0, 0, 0))))["equilibria"]["planes"]
-    assert plane["base"] == plane["centre"]["at"] == ["0", "0",
-                                                      "3"] and plane["directions"] == [["1", "0", "0"],
-                                                                                       ["0", "1", "0"]]
+    assert plane["base"] == plane["centre"]["at"] == ["0", "0", "3"]
+    assert plane["directions"] == [["1", "0", "0"], ["0", "1", "0"]]
     assert plane["verdict"] == "unstable" and plane["centre"]["verdict"] == "stable"
 
 

@@ -23,9 +23,8 @@ from tests.unreduced.test_chaos import TAME, TOP, WILD
 @pytest.mark.slow
 def test_arrays_have_a_label_for_each_state():
     found = stabilab.chaos(TOP, [[WILD, TAME]])
-    assert found.labels.tolist() == [[Order.CHAOTIC,
-                                      Order.REGULAR]] and found.history.shape == (1, 2,
-                                                                                  6) and found.megno.shape == (1, 2)
+    assert found.labels.tolist() == [[Order.CHAOTIC, Order.REGULAR]] and found.history.shape == (1, 2, 6)
+    assert found.megno.shape == (1, 2)
     assert found.lyapunov[0, 0] > 5 * found.lyapunov_error[0, 0] > 0 and found.lyapunov[0, 1] == 0
 
 
@@ -126,9 +125,8 @@ def test_a_sweep_is_one_table_and_the_law_is_told_first(stabilab, tmp_path):
     assert [f"{one['megno']:.4f}" for one in told] == [line.split()[-1] for line in lines[4:]]
     assert stabilab("chaos", path, "--until", "60", "--strict")[0] == 3
     rows = [(SimpleNamespace(scene=SimpleNamespace(time_unit="s")),
-             Chaos(np.array(label), np.array(6.0), np.array([1.0, 2.0]), np.array([3.0, 6.0]),
-                                                                         np.array(0.5), np.array(0.1), 1.0,
-                   None)) for label in (Order.CHAOTIC, Order.REGULAR)]
+             Chaos(np.array(label), np.array(6.0), np.array([1.0, 2.0]), np.array([3.0, 6.0]), np.array(0.5),
+                   np.array(0.1), 1.0, None)) for label in (Order.CHAOTIC, Order.REGULAR)]
     # ln 2/0.5
     assert words.swept(rows)[1][-1] == ("doubles in",
                                         "s") and [row[-1] for row in words.swept(rows)[2]] == ["1.39", ""]

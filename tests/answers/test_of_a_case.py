@@ -11,10 +11,8 @@ CASE = stabilab.load(Path(__file__).parents[2] / "cases" / "thruster-stuck-major
 
 def test_a_case_stands_for_its_scene_its_start_and_its_span():
     scene, start, span = CASE.scene, CASE.start, CASE.span
-    assert stabilab.fate(CASE).labels == stabilab.fate(scene,
-                                                       start).labels and stabilab.fate(
-                                                           CASE).margins == stabilab.fate(scene,
-                                                                                          start).margins
+    assert stabilab.fate(CASE).labels == stabilab.fate(scene, start).labels
+    assert stabilab.fate(CASE).margins == stabilab.fate(scene, start).margins
     assert stabilab.period(CASE) == stabilab.period(scene,
                                                     start) and stabilab.equilibria(
                                                         CASE) == stabilab.equilibria(scene)

@@ -30,8 +30,8 @@ def test_charged_body_and_its_angles_agree_with_the_kinematic_equations_of_the_p
         rates = euler.charged(D, k, [0, 0, mp.mpf("1.3")], [4, 0, 0])
     run = simulate(CHARGED, (0, 0, 0.25), [0.5, 1.5])
     for row, time in enumerate((0.5, 1.5)):
-        exact = np.array([float(v) for v in euler.integrate(rates, [0, 0, 0.25, 0, 0, 0], time,
-                                                            int(24 * time))])
+        exact = np.array([float(v)
+                          for v in euler.integrate(rates, [0, 0, 0.25, 0, 0, 0], time, int(24 * time))])
         np.testing.assert_allclose(run.state["omega"][row], exact[:3], rtol=0,
                                    atol=1e-13 * np.abs(exact[:3]).max())
         np.testing.assert_allclose(run.state["angles"][row], exact[3:], rtol=0,

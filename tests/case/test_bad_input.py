@@ -37,7 +37,6 @@ def test_a_mutated_case_is_a_case_or_names_its_faults(tmp_path_factory, raw):
 
 
 # -- what fuzzing found
-# ------------------------------------------------------------------------------------------------
 
 BODY = "[body]\ninertia = [3, 2, 1]\n"
 
@@ -100,7 +99,6 @@ def test_one_case_of_a_sweep_file_makes_no_combinations(tmp_path, monkeypatch):
 
 
 # -- nothing of a case file is ever run
-# --------------------------------------------------------------------------------
 
 SOURCES = sorted((Path(stabilab_package.__file__).parent).rglob("*.py"))
 # builtins that turn text into code
@@ -170,7 +168,6 @@ def test_an_expression_in_a_case_file_is_refused_not_run(judge, tmp_path, monkey
 
 
 # -- files that are none
-# -----------------------------------------------------------------------------------------------
 
 
 def refused(stabilab, *arguments):
@@ -245,7 +242,6 @@ def test_output_that_takes_ascii_only_is_no_fault(tmp_path):
 
 
 # -- pages and documents
-# -----------------------------------------------------------------------------------------------
 
 HOSTILE = "<script>alert(1)</script> & \\\\input{/etc/passwd} $x_1$ %d {{ 7*7 }} \\\"q\\\" # ~ ^"
 

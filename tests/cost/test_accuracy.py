@@ -44,7 +44,6 @@ def sums(found):
 
 
 # -- the reference
-# -----------------------------------------------------------------------------------------------------
 
 
 def test_reference_meets_eulers_elliptic_functions_within_its_error():
@@ -127,7 +126,6 @@ def test_recursion_forms_each_product_once():
 
 
 # -- the methods
-# -------------------------------------------------------------------------------------------------------
 
 
 @pytest.mark.one_in(3)
@@ -187,7 +185,6 @@ def test_every_model_of_a_case_is_among_the_methods():
 
 
 # -- the measurement
-# ---------------------------------------------------------------------------------------------------
 
 
 @pytest.fixture(scope="module")
@@ -256,12 +253,12 @@ def test_price_of_a_digit_is_the_slope_of_the_logarithm():
 
 
 # -- outputs
-# -----------------------------------------------------------------------------------------------------------
 
 
 def test_words_tell_price_reference_and_limit(measured):
     said = " ".join(shown.words(measured))
-    assert "digits cost" in said and "Taylor series run in 30 and in 42 digits" in said and "One more digit" in said
+    assert "digits cost" in said and "Taylor series run in 30 and in 42 digits" in said
+    assert "One more digit" in said
     assert "nan" not in said.lower() and "inf " not in said
 
 
@@ -339,7 +336,6 @@ def test_command_refuses_other_endings_before_it_measures(stabilab, monkeypatch,
 
 
 # -- the front that is kept
-# --------------------------------------------------------------------------------------------
 
 
 def test_front_is_kept_per_motion_machine_and_version(tmp_path, monkeypatch, measured):
@@ -371,7 +367,6 @@ def test_a_folder_that_cannot_be_written_keeps_nothing(tmp_path, monkeypatch, me
 
 
 # -- digits asked for
-# --------------------------------------------------------------------------------------------------
 
 
 @pytest.fixture(scope="module")

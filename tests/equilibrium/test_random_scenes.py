@@ -127,7 +127,8 @@ def piece_disagrees(piece, model, tops, bottom):
         linear, verdict = piece["linear"], piece["verdict"]
         if any(model.rate(x)) or n or linear != ("unstable" if m < 0
                                                  else "stable") or (m < 0 and verdict != "unstable"):
-            yield f"piece at t = {float(t)}: rates {model.rate(x)}, m = {m}, n = {n}, said {linear}, {verdict}"
+            yield (
+                f"piece at t = {float(t)}: rates {model.rate(x)}, m = {m}, n = {n}, said {linear}, {verdict}")
 
 
 def examined(count, seed, degenerate, answers=True):

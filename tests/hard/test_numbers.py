@@ -21,7 +21,6 @@ BOUNDED, SPIN_UP, SEPARATRIX, EQUILIBRIUM, UNDECIDED = (int(f) for f in Fate)
 
 
 # 1. On and next to a separatrix
-# --------------------------------------------------------------------------------------
 
 @pytest.mark.parametrize("decade", range(3, 16))
 def test_case_1_states_a_power_of_ten_off_the_separatrix_are_on_their_side(decade):
@@ -32,7 +31,6 @@ def test_case_1_states_a_power_of_ten_off_the_separatrix_are_on_their_side(decad
 
 
 # 2. Large circles: A = 1e3 ... 1e8
-# -----------------------------------------------------------------------------------
 
 @pytest.mark.one_in(3)
 @pytest.mark.parametrize("decade", range(3, 9))
@@ -64,7 +62,6 @@ def test_case_2_extremes_on_large_circles_keep_their_digits(decade):
 
 
 # 3. Folds: saddle and centre merging
-# ---------------------------------------------------------------------------------
 
 @pytest.mark.one_in(3)
 @pytest.mark.parametrize("decade", [1, 3, 5, *(pytest.param(n, marks=pytest.mark.slow) for n in (2, 4))])
@@ -95,7 +92,6 @@ def test_case_3_the_exact_fold_is_an_equilibrium_and_holds_nothing():
 
 
 # 4. Limits of the parameters
-# -----------------------------------------------------------------------------------------
 
 @pytest.mark.parametrize("a, b", [(1.0, 1.0 + 2.0 ** -52), (1.0, 1.0 + 1e-9), (0.0, 1e-300), (-1e6, -2e6),
                                   (3e4, -1e4),
@@ -127,7 +123,6 @@ def test_case_4_torques_tiny_and_huge_against_the_gyrostat(decade, axis, sign):
 
 
 # 6. Nearly and exactly symmetric bodies
-# ------------------------------------------------------------------------------
 
 BODIES = {
     "D1 = (1 + 1e-12) D2": (1000.0 * (1 + 1e-12), 1000.0, 700.0),
@@ -192,7 +187,6 @@ def test_case_6_parabolic_states_exactly_on_a_separatrix_are_recognised(l2, torq
 
 
 # 7. The ends of the equilibrium hyperbola, and its degeneration to lines
-# ---------------------------------------------
 
 @pytest.mark.parametrize("h", [2.0 ** -20, 2.0 ** -40, 2.0 ** 20, 2.0 ** 40, -(2.0 ** -30)])
 def test_case_7_equilibria_far_out_on_the_hyperbola_are_found_and_judged(h):
@@ -220,7 +214,6 @@ def test_case_7_fates_where_the_equilibrium_conic_is_two_lines(axis, momentum, t
 
 
 # 8. Exact equilibria and invariant planes as initial states
-# ----------------------------------------------------------
 
 @pytest.mark.parametrize("a, b, mu, state", [
     (0.0, 0.0, (0, 0, 1), (-2.0, 0.5, 0.0)), (0.0, 0.0, (0, 0, 1), (-0.5, 2.0, 0.0)),
@@ -237,7 +230,6 @@ def test_case_8_an_exact_equilibrium_is_neither_bounded_nor_spinning_up(a, b, mu
 
 
 # 9. Long motions
-# -----------------------------------------------------------------------------------------------------
 
 @pytest.mark.parametrize("speed", [-1e3, -1e6])
 def test_case_9_a_spin_that_must_first_be_braked_through_many_turns_has_exact_extremes(speed):

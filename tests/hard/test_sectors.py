@@ -21,7 +21,6 @@ SPIN_UP, UNDECIDED = int(Fate.SPIN_UP), int(Fate.UNDECIDED)
 
 
 # 5. Middle axis next to the invariant planes
-# -------------------------------------------------------------------------
 
 @pytest.mark.one_in(2)
 @pytest.mark.parametrize("tiny", [1e-3, 1e-8, 1e-15, 1e-30, pytest.param(1e-100, marks=pytest.mark.slow),
@@ -88,7 +87,6 @@ def test_case_5_on_the_other_plane_the_motion_is_periodic(y):
 
 
 # 10. Torque a hair off a principal axis
-# ------------------------------------------------------------------------------
 
 @pytest.mark.one_in(3)
 @pytest.mark.parametrize("off", [1e-9, -1e-12, 1e-300])
@@ -101,7 +99,6 @@ def test_case_10_a_torque_off_the_axis_by_any_amount_is_not_rounded_to_the_axis(
 
 
 # 11. Cancellation between a and b, circles without a radius, the cusp, minute orbits
-# ----------------------------------
 
 @pytest.mark.one_in(3)
 @pytest.mark.parametrize("mu", [(0, 0, 1), (0, 0, -1), (0, 1, 0)])
@@ -122,8 +119,8 @@ def test_case_11_circles_of_no_or_hardly_any_radius_spin_up_without_nan(radius, 
     result = stabilab.fate(scene, state)
     assert result.labels == SPIN_UP and result.margins == -np.inf
     box = stabilab.extremes(scene, state)
-    assert box[2, 1] == np.inf and box[2, 0] == pytest.approx(min(speed, 0.0) if speed < 0 else speed,
-                                                              rel=1e-7)
+    assert box[2, 1] == np.inf
+    assert box[2, 0] == pytest.approx(min(speed, 0.0) if speed < 0 else speed, rel=1e-7)
     np.testing.assert_allclose(box[:2], [[-radius, radius]] * 2, rtol=1e-11)
 
 
@@ -161,5 +158,5 @@ def test_case_11_an_orbit_of_any_smallness_about_a_centre_has_its_period_and_ext
     np.testing.assert_allclose(stabilab.extremes(pair[0], probe)[2], [-amplitude, amplitude], rtol=1e-11)
     harmonic = 2 * math.pi / math.sqrt(h ** -2 - h ** 2)
     # the correction to the harmonic period is of the order of (amplitude/h)^2
-    assert stabilab.period(pair[0], probe) == pytest.approx(harmonic,
-                                                            rel=max(100 * (amplitude / h) ** 2, 1e-11))
+    assert stabilab.period(pair[0],
+                           probe) == pytest.approx(harmonic, rel=max(100 * (amplitude / h) ** 2, 1e-11))

@@ -97,12 +97,12 @@ def test_a_target_below_a_file_or_in_a_special_folder_ends_with_2(tmp_path, name
     for folder in (tmp_path / "file", Path("/proc/self/fd")):
         run = subprocess.run(command(name, folder), capture_output=True, text=True, cwd=tmp_path,
                              env=environment(tmp_path))
-        assert run.returncode == BAD_INPUT and "cannot be written" in run.stderr and "Traceback" not in run.stderr, run.stderr
+        assert run.returncode == BAD_INPUT and "cannot be written" in run.stderr, run.stderr
+        assert "Traceback" not in run.stderr, run.stderr
     assert written(tmp_path) == {"file": b"x"}
 
 
 # -- standard streams
-# --------------------------------------------------------------------------------------------------
 
 # Every way that stdout is written to: through the program's own words, and through those of the command
 # line's library; and every command.
@@ -204,7 +204,6 @@ def test_a_command_says_on_stderr_that_it_works(tmp_path, quiet, words):
 
 
 # -- packages that are not there
-# ---------------------------------------------------------------------------------------
 
 # module -> package to install, exit code, a command that needs it; with a dot, another door of the same
 # package
@@ -243,9 +242,8 @@ def test_a_package_that_is_missing_is_named_with_what_to_install(tmp_path, modul
     assert run.returncode == code and len(
         run.stderr.splitlines()) == 1 and "Traceback" not in run.stderr, run.stderr
     assert f"{package} is not installed" in run.stderr and f"pip install {package}" in run.stderr
-    assert "fault of the program" not in run.stderr and not [name for name in written(tmp_path)
-                                                             if name.endswith((".png", ".svg", ".nc",
-                                                                               ".html"))]
+    assert "fault of the program" not in run.stderr
+    assert not [name for name in written(tmp_path) if name.endswith((".png", ".svg", ".nc", ".html"))]
 
 
 @pytest.mark.parametrize("module, kinds",
@@ -280,7 +278,6 @@ def test_a_package_that_cannot_be_loaded_is_no_fault_of_the_program():
 
 
 # -- versions
-# ----------------------------------------------------------------------------------------------------------
 
 
 def test_every_package_states_a_lowest_version_and_the_pinned_one_is_not_below_it():
@@ -314,7 +311,6 @@ def test_ci_runs_the_lowest_versions():
 
 
 # -- installed, away from the repository
-# -------------------------------------------------------------------------------
 
 # A report with one figure, no chapters and no audit: what is left reads the papers' cases as all of it does.
 LIGHT_REPORT = ("from stabilab.papers import table\nfrom stabilab.papers.figures import catalogue as "
@@ -437,11 +433,11 @@ def test_a_case_that_is_not_here_but_comes_with_the_package_is_named(tmp_path, s
     monkeypatch.chdir(tmp_path)
     code, _, err = stabilab("show", "cases/minor-axis-100.toml")
     named = Path(err.strip().rpartition(": ")[2])
-    assert code == BAD_INPUT and "no such file; stabilab brings one: " in err and named.read_bytes() == MINOR.read_bytes()
+    assert code == BAD_INPUT and "no such file; stabilab brings one: " in err
+    assert named.read_bytes() == MINOR.read_bytes()
 
 
 # -- ended in the middle
-# -----------------------------------------------------------------------------------------------
 
 # A program that writes one file, or fills a folder, and stops in the middle of it, after it said so.
 HALF_FILE = ("from stabilab.files import whole_file\nwith whole_file('wanted.txt') as waiting:\n"
@@ -578,7 +574,6 @@ def test_a_name_may_be_as_long_as_the_system_allows_and_hold_what_patterns_mean(
 
 
 # -- the report
-# --------------------------------------------------------------------------------------------------------
 
 
 def report(folder):

@@ -189,7 +189,7 @@ def methods(scene, problem, state):
     return (size,
             words) if size <= 1 else worst(_against_many_digits(problem, state, times[at], here[at],
                                                                 effect[at]),
-                                                 _step_by_step(scene, problem, state, times[at]))
+                                           _step_by_step(scene, problem, state, times[at]))
 
 
 def _and_one_unit_away(scene, problem, state, times):

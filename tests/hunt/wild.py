@@ -185,7 +185,9 @@ def _against_arrays(scene, state, one, many, n):
     label, words = Fate(int(many.labels[n])), REASONS[Reason(int(many.reasons[n]))]
     if (one.fate, one.axis, one.sense) != (label, many.axis[n],
                                            many.sense[n]) or not one.because.startswith(words):
-        yield f"one state: {one.fate.word} {one.axis} {one.sense}, {one.because}; arrays: {label.word} {many.axis[n]} {many.sense[n]}, {words}"
+        yield (
+            f"one state: {one.fate.word} {one.axis} {one.sense}, {one.because}; arrays: {label.word} "
+            f"{many.axis[n]} {many.sense[n]}, {words}")
     if margins_part(scene, state, many.margins[n], one.margin_energy):
         yield f"margin {one.margin_energy!r}, arrays {float(many.margins[n])!r}"
 

@@ -1,14 +1,18 @@
-"""Homoclinic loops of a gyrostat under a constant torque about one principal axis, from Euler's equations alone.
+"""Homoclinic loops of a gyrostat under a constant torque about one principal axis, from Euler's equations
+alone.
 
-D w' = (D w + lambda) x w + M with M = (.., M_i, ..) and lambda_i = 0, i j k cyclic. With d alpha = w_i dt the rates across the axis
-obey the linear D_j dw_j = ((D_k - D_i) w_k + lambda_k) d alpha, D_k dw_k = ((D_i - D_j) w_j - lambda_j) d alpha: w_j and w_k are a sum of
-exp(+-kappa alpha), kappa^2 = (D_k - D_i)(D_i - D_j)/(D_j D_k), plus constants; the exponent is imaginary where they run round a closed
-curve. The work-energy law makes T - M_i alpha a constant, and D_i w_i' = F = (D_j - D_k) w_j w_k + lambda_j w_k - lambda_k w_j + M_i, so an
-equilibrium of the motion along the curve is F = 0, y^2 F a quartic in y = exp(kappa alpha), and it is a saddle where F grows with alpha.
+D w' = (D w + lambda) x w + M with M = (.., M_i, ..) and lambda_i = 0, i j k cyclic. With d alpha = w_i dt the
+rates across the axis obey the linear D_j dw_j = ((D_k - D_i) w_k + lambda_k) d alpha, D_k dw_k = ((D_i - D_j)
+w_j - lambda_j) d alpha: w_j and w_k are a sum of exp(+-kappa alpha), kappa^2 = (D_k - D_i)(D_i - D_j)/(D_j
+D_k), plus constants; the exponent is imaginary where they run round a closed curve. The work-energy law makes
+T - M_i alpha a constant, and D_i w_i' = F = (D_j - D_k) w_j w_k + lambda_j w_k - lambda_k w_j + M_i, so an
+equilibrium of the motion along the curve is F = 0, y^2 F a quartic in y = exp(kappa alpha), and it is a
+saddle where F grows with alpha.
 
-The separatrix is made of the loops that leave a saddle and come back to it: on closed curves against the torque, where the potential rises from turn to
-turn; on open ones on either side. `Curves` holds the curves of many states in doubles, `lobes` give places of the surface, `in_digits` tells in 50
-digits how far a place lies from it to first order.
+The separatrix is made of the loops that leave a saddle and come back to it: on closed curves against the
+torque, where the potential rises from turn to turn; on open ones on either side. `Curves` holds the curves of
+many states in doubles, `lobes` give places of the surface, `in_digits` tells in 50 digits how far a place
+lies from it to first order.
 """
 from __future__ import annotations
 
@@ -88,7 +92,9 @@ class Curves:
 
     def pair(self, alpha):
         """(w_j, w_k) at alpha (n, ...)."""
-        up, down = self._of(self.up, alpha) * np.exp(self.kappa * alpha), self._of(self.down, alpha) * np.exp(-self.kappa * alpha)
+        up, down = self._of(self.up,
+                            alpha) * np.exp(self.kappa
+                                            * alpha), self._of(self.down, alpha) * np.exp(-self.kappa * alpha)
         return self.cu + np.real(up + down), self.cv + np.real((up - down) * self.kappa / self.p)
 
     def force(self, alpha):
@@ -100,7 +106,8 @@ class Curves:
         """dF/d alpha."""
         Di, Dj, Dk, lj, lk, _ = self.body.numbers()
         u, v = self.pair(alpha)
-        return ((Dj - Dk) * v - lk) * ((Dk - Di) * v + lk) / Dj + ((Dj - Dk) * u + lj) * ((Di - Dj) * u - lj) / Dk
+        return ((Dj - Dk) * v - lk) * ((Dk - Di) * v
+                                       + lk) / Dj + ((Dj - Dk) * u + lj) * ((Di - Dj) * u - lj) / Dk
 
     def rise(self, alpha):
         """Potential at alpha over that at the state, the differences of squares formed as products."""
@@ -112,12 +119,14 @@ class Curves:
         return 0.5 * (Dj * du * (2 * u + du) + Dk * dv * (2 * v + dv)) - M * alpha
 
     def equilibria(self):
-        """alpha (n, 4) of the equilibria, nan where there are fewer; on closed curves within half a turn either way."""
+        """alpha (n, 4) of the equilibria, nan where there are fewer; on closed curves within half a turn
+        either way."""
         _, Dj, Dk, lj, lk, M = self.body.numbers()
         r, a, b = self.kappa / self.p, self.up, self.down
         of_u, of_v = (Dj - Dk) * self.cv - lk, (Dj - Dk) * self.cu + lj
         rest = (Dj - Dk) * self.cu * self.cv + lj * self.cv - lk * self.cu + M
-        quartic = [(Dj - Dk) * r * a * a, of_u * a + of_v * r * a, rest + 0 * a, of_u * b - of_v * r * b, -(Dj - Dk) * r * b * b]
+        quartic = [(Dj - Dk) * r * a * a, of_u * a + of_v * r * a, rest + 0 * a, of_u * b - of_v * r * b,
+                   -(Dj - Dk) * r * b * b]
         with np.errstate(all="ignore"):
             alpha = np.log(_roots(np.stack(quartic, axis=-1))) / self.kappa
             out = np.where(np.abs(alpha.imag) < 0.3 / abs(self.kappa), alpha.real, np.nan)
@@ -130,7 +139,8 @@ class Curves:
 
 
 def _roots(c):
-    """(n, 4) complex roots of quartics c (n, 5), highest power first; of those that lack powers at either end fewer, then nan."""
+    """(n, 4) complex roots of quartics c (n, 5), highest power first; of those that lack powers at either end
+    fewer, then nan."""
     out = np.full((len(c), 4), np.nan, complex)
     size = np.abs(c).max(axis=1)
     whole = (np.abs(c[:, 0]) > 1e-14 * size) & (np.abs(c[:, 4]) > 0)
@@ -148,8 +158,9 @@ def _roots(c):
 
 @dataclass(frozen=True)
 class Stretch:
-    """A stretch of the curve F = 0, w_i = 0, all of saddles: with gap = D_j - D_k, w_j = sign exp(t) - lambda_j/gap and w_k = K/(sign exp(t)) + lambda_k/gap
-    for t between low and high. at_fold: whether F's slope vanishes at low and at high; else the invariant reaches its limit there."""
+    """A stretch of the curve F = 0, w_i = 0, all of saddles: with gap = D_j - D_k, w_j = sign exp(t) -
+    lambda_j/gap and w_k = K/(sign exp(t)) + lambda_k/gap for t between low and high. at_fold: whether F's
+    slope vanishes at low and at high; else the invariant reaches its limit there."""
 
     body: Gyrostat
     sign: int
@@ -186,7 +197,8 @@ def stretches(body: Gyrostat, limit=np.inf, number=20_001):
     for sign in (-1, 1):
         slope, room = value(sign, t)
         good = (slope > 0) & (room >= 0)
-        for a, b in zip(np.flatnonzero(good & ~np.r_[False, good[:-1]]), np.flatnonzero(good & ~np.r_[good[1:], False])):
+        for a, b in zip(np.flatnonzero(good & ~np.r_[False, good[:-1]]),
+                        np.flatnonzero(good & ~np.r_[good[1:], False])):
             ends, folds = [], []
             for inside, outside in ((a, a - 1), (b, b + 1)):
                 if not 0 <= outside < number:
@@ -211,7 +223,8 @@ def largest_fold(body: Gyrostat) -> float:
 
 
 def far_ends(body: Gyrostat, places, side):
-    """alpha (n,) from saddles (n, 3), on the side -1 or +1, at which the potential is back at the saddle's height behind a well; nan where no loop closes."""
+    """alpha (n,) from saddles (n, 3), on the side -1 or +1, at which the potential is back at the saddle's
+    height behind a well; nan where no loop closes."""
     curves = Curves(body, places)
     alpha = curves.equilibria()
     small = 1e-6 / abs(curves.kappa)
@@ -234,7 +247,8 @@ def far_ends(body: Gyrostat, places, side):
         last = np.where(np.isnan(high), np.fmax(low, 0.0), high)
         for _ in range(60):
             with np.errstate(all="ignore"):
-                last = np.where(np.isnan(high) & ~(curves.rise(side * last[:, None])[:, 0] > 0), last + step, last)
+                last = np.where(np.isnan(high) & ~(curves.rise(side * last[:, None])[:, 0] > 0), last + step,
+                                last)
         high = np.where(np.isnan(high), last, high)
     with np.errstate(all="ignore"):
         good = (curves.rise(side * high[:, None])[:, 0] >= 0) & (curves.rise(side * low[:, None])[:, 0] < 0)
@@ -246,7 +260,8 @@ def far_ends(body: Gyrostat, places, side):
 
 
 def loop_places(body: Gyrostat, places, ends, shares, sign):
-    """(n, 3) places of the loops of saddles, at shares (n,) of the way to the far end, with w_i of that sign."""
+    """(n, 3) places of the loops of saddles, at shares (n,) of the way to the far end, with w_i of that sign.
+    """
     curves = Curves(body, places)
     alpha = (ends * shares)[:, None]
     u, v = curves.pair(alpha)
@@ -256,16 +271,19 @@ def loop_places(body: Gyrostat, places, ends, shares, sign):
 
 @dataclass(frozen=True)
 class Lobe:
-    """The loops of a stretch of saddles on one side of them, with w_i of the sign `way`: a sheet's half, or a quarter of it."""
+    """The loops of a stretch of saddles on one side of them, with w_i of the sign `way`: a sheet's half, or a
+    quarter of it."""
 
     stretch: Stretch
     side: int
     way: int
 
     def places(self, t, turned):
-        """(n, 3) places of the surface by the saddle's t (n,) and `turned` (n,), from 0 at the saddle to 1 at the far end; nan where no loop closes."""
+        """(n, 3) places of the surface by the saddle's t (n,) and `turned` (n,), from 0 at the saddle to 1 at
+        the far end; nan where no loop closes."""
         saddle = self.stretch.saddle(t)
-        return loop_places(self.stretch.body, saddle, far_ends(self.stretch.body, saddle, self.side), np.sin(0.5 * np.pi * turned) ** 2, self.way)
+        return loop_places(self.stretch.body, saddle, far_ends(self.stretch.body, saddle, self.side),
+                           np.sin(0.5 * np.pi * turned) ** 2, self.way)
 
 
 def lobes(body: Gyrostat, limit):
@@ -277,14 +295,16 @@ def lobes(body: Gyrostat, limit):
 # ---- how far places are from it
 
 def in_digits(body: Gyrostat, state, digits=DIGITS):
-    """The first-order distance of one state from the stable manifolds of the saddles of its curve, as mpf: the least of those that no higher barrier hides
-    and that lie towards the torque on closed curves, or half a turn beyond at most; inf without a saddle."""
+    """The first-order distance of one state from the stable manifolds of the saddles of its curve, as mpf:
+    the least of those that no higher barrier hides and that lie towards the torque on closed curves, or half
+    a turn beyond at most; inf without a saddle."""
     with mp.workdps(digits):
         curve, best = _Curve(body, state), mp.inf
         for start in curve.visible():
             step, grad = mp.mpf(10) ** (-digits // 3) * max(map(abs, state)), mp.mpf(0)
             for n in range(3):
-                ends = [_Curve(body, [mp.mpf(v) + sign * step * (m == n) for m, v in enumerate(state)]).gap(start) for sign in (1, -1)]
+                ends = [_Curve(body, [mp.mpf(v) + sign * step * (m == n) for m,
+                                      v in enumerate(state)]).gap(start) for sign in (1, -1)]
                 grad += ((ends[0] - ends[1]) / (2 * step)) ** 2
             if grad:
                 best = min(best, abs(curve.gap(start)) / mp.sqrt(grad))
@@ -310,7 +330,8 @@ class _Curve:
         Di, Dj, Dk, lj, lk, M = self.numbers
         u, v = self.pair(alpha)
         return ((Dj - Dk) * u * v + lj * v - lk * u + M,
-                ((Dj - Dk) * v - lk) * ((Dk - Di) * v + lk) / Dj + ((Dj - Dk) * u + lj) * ((Di - Dj) * u - lj) / Dk)
+                ((Dj - Dk) * v - lk) * ((Dk - Di) * v + lk) / Dj
+                + ((Dj - Dk) * u + lj) * ((Di - Dj) * u - lj) / Dk)
 
     def rise(self, alpha):
         _, Dj, Dk, _, _, M = self.numbers
@@ -334,7 +355,9 @@ class _Curve:
         """alpha of the saddles that no higher barrier hides."""
         heights = [(t, self.rise(t)) for t in self.saddles()]
         torque = mp.sign(self.numbers[-1])
-        return [t for t, height in heights if not any(0 < other * mp.sign(t) < abs(t) and above > height for other, above in heights)
+        return [t for t,
+                height in heights if not any(0 < other * mp.sign(t) < abs(t) and above > height for other,
+                                             above in heights)
                 and (not self.body.closed or t * torque * abs(self.kappa) > -mp.pi)]
 
     def gap(self, alpha):

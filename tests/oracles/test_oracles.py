@@ -39,8 +39,8 @@ def test_potential_and_integration_agree_on_fate_period_and_extremes(seed):
         word = energy.label(problem, state, digits=60)
         assert brute.label(problem, state) == word
         if word == "bounded":
-            assert brute.period(problem, state) == pytest.approx(float(energy.period(problem, state)),
-                                                                 rel=1e-11)
+            assert brute.period(problem,
+                                state) == pytest.approx(float(energy.period(problem, state)), rel=1e-11)
             exact = np.array([[float(v) for v in row] for row in energy.extremes(problem, state, digits=60)])
             assert np.max(np.abs(brute.extremes(problem, state) - exact)) < 1e-12 * np.max(np.abs(exact))
         else:

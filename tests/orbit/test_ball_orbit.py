@@ -117,8 +117,8 @@ def test_on_planes_with_irrational_axes_one_state_and_arrays_know_the_fate_and_e
     found, boxes = stabilab.fate(scene, np.array(states)), stabilab.extremes(scene, np.array(states))
     for n, state in enumerate(states):
         one, word = motion(scene, state), energy.label(problem, state, digits=40)
-        assert found.labels[n] == one.fate == WORDS[word] and (found.axis[n],
-                                                               found.sense[n]) == (one.axis, one.sense)
+        assert found.labels[n] == one.fate == WORDS[word]
+        assert (found.axis[n], found.sense[n]) == (one.axis, one.sense)
         assert one.because.startswith(found.because[n])
         exact = energy.extremes(problem, state, digits=40)
         for box in (boxes[n], np.array(one.extremes),

@@ -40,5 +40,5 @@ def test_extremes_and_period_beside_the_centre_of_a_hyperbola(torque, off):
         ours = float(stabilab.fate(scene, state).margins)
         assert ours == pytest.approx(float("inf") if margin is None else float(margin), rel=1e-6, abs=1e-28)
     if label == "bounded":
-        assert float(stabilab.period(scene, state)) == pytest.approx(float(energy.period(model, state)),
-                                                                     rel=1e-9)
+        assert float(stabilab.period(scene,
+                                     state)) == pytest.approx(float(energy.period(model, state)), rel=1e-9)

@@ -37,10 +37,8 @@ def test_a_motion_in_another_unit_of_rate_is_the_same_motion(name, k):
     one, far = (motion(scene, tuple(w * v for w in RATES)) for scene, v in zip(made, (1.0, float(u))))
     assert (far.fate, far.axis, far.sense) == (one.fate, one.axis, one.sense)
     np.testing.assert_allclose(np.array(far.extremes) / float(u), one.extremes, rtol=1e-11)
-    assert (one.period is None) == (far.period is None) and (one.period is None
-                                                             or far.period
-                                                             * float(u) == pytest.approx(one.period,
-                                                                                         rel=1e-11))
+    assert (one.period is None) == (far.period is None)
+    assert (one.period is None or far.period * float(u) == pytest.approx(one.period, rel=1e-11))
     many = stabilab.fate(made[1], np.array(RATES) * float(u))
     assert int(many.labels) == far.fate
     np.testing.assert_allclose(stabilab.extremes(made[1], np.array(RATES) * float(u)), far.extremes,

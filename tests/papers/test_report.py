@@ -403,8 +403,8 @@ def test_formulas_of_the_audit_keep_rates_bars_and_squares():
     a, b, rate = Symbol("x1"), Symbol("x2"), Function("rate")
     shown = html_text(str(audit_page.mathml(rate(a) / rate(b),
                                             conjugate(Symbol("P1")) + Symbol("ep") + Symbol("Om"), ("Om",))))
-    assert shown.count(
-        "<mi>d\u209c</mi>") == 2 and "<mover" in shown and "menclose" not in shown and "<mi>\u03b5</mi>" in shown
+    assert shown.count("<mi>d\u209c</mi>") == 2 and "<mover" in shown and "menclose" not in shown
+    assert "<mi>\u03b5</mi>" in shown
     assert "<msup><mi>\u03a9</mi><mn>2</mn></msup>" in shown and "<msup>" not in str(
         audit_page.mathml(a, Symbol("Om")))
     assert html_text(str(audit_page.mathml(rate(a, 2), b))).count("<mi>d\u209c</mi>") == 2

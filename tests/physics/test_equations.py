@@ -21,8 +21,9 @@ from stabilab.show.text.notation import latex, lines
 
 BODY = Body((2000, "1500.5", 1000))
 WHEEL, THRUST = Gyrostat((100, "2/3", 0)), ConstantTorque((1, -2, "204.1"))
-SCENES = [Scene(BODY), Scene(BODY, WHEEL), Scene(BODY, THRUST), Scene(BODY, WHEEL, THRUST), Scene(BODY, THRUST, WHEEL),
-          ScaledGyrostat("0.2", "0.4", (1, -2, "1/3")), ScaledGyrostat(0, 0, (0, 0, 1))]
+SCENES = [Scene(BODY), Scene(BODY, WHEEL), Scene(BODY, THRUST), Scene(BODY, WHEEL, THRUST),
+          Scene(BODY, THRUST, WHEEL), ScaledGyrostat("0.2", "0.4", (1, -2, "1/3")),
+          ScaledGyrostat(0, 0, (0, 0, 1))]
 
 
 def exact_states(count=4):
@@ -31,18 +32,22 @@ def exact_states(count=4):
 
 
 def at(equations, expression, x):
-    return equations.numeric(expression).subs(dict(zip(equations.state, [sp.Rational(v.numerator, v.denominator) for v in x])))
+    return equations.numeric(expression).subs(dict(zip(equations.state,
+                                                       [sp.Rational(v.numerator, v.denominator) for v in x])))
 
 
 @pytest.mark.parametrize("scene", SCENES)
 def test_closed_forms_are_the_derived_equations_exactly(scene):
-    """QuadraticForm, written by hand for the analyses, against the one derivation; rational arithmetic on both sides."""
+    """QuadraticForm, written by hand for the analyses, against the one derivation; rational arithmetic on
+    both sides."""
     equations, quadratic = derive(scene), scene.quadratic()
     for x in exact_states():
         rows = quadratic.rate(x), quadratic.jacobian(x)
-        assert [at(equations, r, x) for r in equations.rhs] == [sp.Rational(v.numerator, v.denominator) for v in rows[0]]
+        assert [at(equations, r, x)
+                for r in equations.rhs] == [sp.Rational(v.numerator, v.denominator) for v in rows[0]]
         derived = equations.jacobian.applyfunc(lambda e: at(equations, e, x))
-        assert [[sp.Rational(Fraction(v).numerator, Fraction(v).denominator) for v in row] for row in rows[1]] == derived.tolist()
+        assert [[sp.Rational(Fraction(v).numerator, Fraction(v).denominator) for v in row]
+                for row in rows[1]] == derived.tolist()
 
 
 def test_parameters_keep_the_order_of_declaration():
@@ -51,7 +56,8 @@ def test_parameters_keep_the_order_of_declaration():
     assert derive(SCENES[5]).parameters["mu3"] == Fraction(1, 3)
 
 
-@pytest.mark.parametrize("effects, absent", [((), {"lambda1", "M1"}), ((WHEEL,), {"M1", "M2", "M3"}), ((THRUST,), {"lambda1"})])
+@pytest.mark.parametrize("effects, absent",
+                         [((), {"lambda1", "M1"}), ((WHEEL,), {"M1", "M2", "M3"}), ((THRUST,), {"lambda1"})])
 def test_unnamed_effects_leave_no_symbol_state_or_torque(effects, absent):
     equations = derive(Scene(BODY, *effects))
     names = {str(s) for r in equations.rhs for s in r.free_symbols} | set(equations.parameters)
@@ -62,10 +68,13 @@ def test_unnamed_effects_leave_no_symbol_state_or_torque(effects, absent):
 LIQUID = (LiquidCavity(1000, 1, "0.001"), Resistance("0.01"), Charge("0.1", 1, 1, "0.3"))
 ZEROS = [  # effects with components that are zero, the same with none, the symbols that must not be there
     ((Gyrostat((0, 0, 1)),), (Gyrostat((1, 1, 1)),), {"lambda1", "lambda2"}),
-    ((ConstantTorque((0, 2, 0)), WHEEL), (ConstantTorque((1, 2, 1)), Gyrostat((100, "2/3", 1))), {"M1", "M3", "lambda3"}),
-    ((Gravity(3, (0, 0, 1)), Gyrostat((1, 0, 0))), (Gravity(3, (1, 1, 1)), Gyrostat((1, 1, 1))), {"Mgx", "Mgy", "lambda2", "lambda3"}),
+    ((ConstantTorque((0, 2, 0)), WHEEL), (ConstantTorque((1, 2, 1)), Gyrostat((100, "2/3", 1))),
+     {"M1", "M3", "lambda3"}),
+    ((Gravity(3, (0, 0, 1)), Gyrostat((1, 0, 0))), (Gravity(3, (1, 1, 1)), Gyrostat((1, 1, 1))),
+     {"Mgx", "Mgy", "lambda2", "lambda3"}),
     ((BodyForce((0, 0, 3)),), (BodyForce((1, 1, 3)),), {"f1", "f2"}),
-    ((Gyrostat((0, 0, 1)), ConstantTorque((0, 0, -1)), *LIQUID), (Gyrostat((1, 1, 1)), ConstantTorque((1, 1, -1)), *LIQUID),
+    ((Gyrostat((0, 0, 1)), ConstantTorque((0, 0, -1)), *LIQUID),
+     (Gyrostat((1, 1, 1)), ConstantTorque((1, 1, -1)), *LIQUID),
      {"lambda1", "lambda2", "M1", "M2"})]
 
 
@@ -74,7 +83,8 @@ ZEROS = [  # effects with components that are zero, the same with none, the symb
 def test_zero_components_leave_no_symbol_and_the_same_equations(effects, full, absent):
     few, many = (derive(Scene(Body(BODY.inertia, 10), *chosen)) for chosen in (effects, full))
     rows = (*few.rhs, *few.jacobian, *(v for law in few.balances for v in (law.quantity, law.rate)))
-    assert not ({str(s) for r in rows for s in sp.sympify(r).free_symbols} | set(few.parameters) | set(few.symbols)) & absent
+    assert not ({str(s) for r in rows for s in sp.sympify(r).free_symbols} | set(few.parameters)
+                | set(few.symbols)) & absent
     swap = {many.symbols[name]: 0 for name in absent}  # the equations with every symbol, those put to zero
     assert all(sp.expand(one - two.subs(swap)) == 0 for one, two in zip(few.rhs, many.rhs))
     assert sum(map(sp.count_ops, few.rhs)) < sum(map(sp.count_ops, many.rhs))
@@ -91,14 +101,18 @@ def run_python(code):
 
 
 def test_unnamed_effects_are_not_imported():
-    code = ("import sys; from stabilab import Body, Scene; from stabilab.physics.equations import derive; derive(Scene(Body((3, 2, 2))));"
-            "print(*[m for m in sys.modules if m.startswith('stabilab.physics.effects.')])")
+    code = (
+        "import sys; from stabilab import Body, Scene; from stabilab.physics.equations import derive; "
+        "derive(Scene(Body((3, 2, 2))));"
+        "print(*[m for m in sys.modules if m.startswith('stabilab.physics.effects.')])")
     assert run_python(code).split() == ["stabilab.physics.effects.base"]
 
 
 def test_deriving_waits_to_import_sympy_and_compiling_heyoka():
-    code = ("import sys, stabilab.physics.equations, stabilab.physics.to_numpy, stabilab.integrate.trajectory, stabilab.unreduced.growth.law;"
-            "print(*[m for m in ('sympy', 'heyoka', 'scipy') if m in sys.modules])")
+    code = (
+        "import sys, stabilab.physics.equations, stabilab.physics.to_numpy, stabilab.integrate.trajectory, "
+        "stabilab.unreduced.growth.law;"
+        "print(*[m for m in ('sympy', 'heyoka', 'scipy') if m in sys.modules])")
     assert run_python(code).split() == []
 
 
@@ -107,7 +121,8 @@ def test_numpy_rates_are_the_exact_rates_rounded(scene):
     system = to_numpy(derive(scene))
     states = exact_states(6)
     batch = np.array([[float(v) for v in x] for x in states]).reshape(2, 3, 3)
-    exact = np.array([[float(v) for v in scene.quadratic().rate([Fraction(float(v)) for v in x])] for x in states]).reshape(2, 3, 3)
+    exact = np.array([[float(v) for v in scene.quadratic().rate([Fraction(float(v)) for v in x])]
+                      for x in states]).reshape(2, 3, 3)
     size = np.abs(batch).max()**2 + 1
     assert np.abs(system(batch) - exact).max() <= 1e-15 * size
     assert system.rate(batch[0, 0].tolist()) == system(batch)[0, 0].tolist()
@@ -123,7 +138,8 @@ def test_numpy_and_heyoka_rates_agree(scene):
     for x in np.random.default_rng(2).normal(size=(5, 3)):
         integrator.time, integrator.state[:] = 0.0, x
         integrator.step(write_tc=True)
-        assert integrator.tc[:3, 1] == pytest.approx(system(x), rel=4e-16, abs=4e-16 * (1 + np.abs(x).max()**2))
+        assert integrator.tc[:3, 1] == pytest.approx(system(x), rel=4e-16,
+                                                     abs=4e-16 * (1 + np.abs(x).max()**2))
 
 
 @pytest.mark.parametrize("scene", SCENES)
@@ -163,9 +179,11 @@ def test_equations_read_as_text_and_latex():
     (Scene(BODY, Gyrostat((1, 2, 3))), ["energy", "momentum"]),
     (Scene(BODY, Gyrostat((1, 2, 0)), ConstantTorque((0, 0, 5))), ["energy with turn angles", "quadratic"]),
     (Scene(BODY, ConstantTorque((1, 0, 5))), ["energy with turn angles", "momentum with turn angles"]),
-    (Scene(Body((2, 2, 1)), Gyrostat((0, 0, 3)), ConstantTorque((0, 0, 1))), ["energy with turn angles", "quadratic", "spin 3"]),
+    (Scene(Body((2, 2, 1)), Gyrostat((0, 0, 3)), ConstantTorque((0, 0, 1))),
+     ["energy with turn angles", "quadratic", "spin 3"]),
     (ScaledGyrostat(1, 2, (0, 0, 1)), ["circle", "hyperbola with turn angles"]),
-    (ScaledGyrostat(1, 2, (0, 1, 0)), ["hyperbola", "circle with turn angles", "plane x1 + b = x3", "plane x1 + b = -x3"]),
+    (ScaledGyrostat(1, 2, (0, 1, 0)),
+     ["hyperbola", "circle with turn angles", "plane x1 + b = x3", "plane x1 + b = -x3"]),
     (ScaledGyrostat(1, 2, (1, 0, 0)), ["circle with turn angles", "hyperbola with turn angles", "J"]),
 ])
 def test_each_scene_has_its_own_laws(scene, names):
@@ -173,12 +191,14 @@ def test_each_scene_has_its_own_laws(scene, names):
 
 
 def test_growth_rate_of_the_quadratic_law_is_lambda_times_torque():
-    law = {v.name: v for v in invariants(Scene(BODY, Gyrostat((1, 2, 7)), ConstantTorque((0, 0, 5))))}["quadratic"]
+    law = {v.name: v
+           for v in invariants(Scene(BODY, Gyrostat((1, 2, 7)), ConstantTorque((0, 0, 5))))}["quadratic"]
     assert law.rate == 35
 
 
 def test_a_run_with_its_laws_forms_no_jacobian():
-    """It is as dear as all the rest of a liquid's equations, and only stiff methods and spectra ask for it."""
+    """It is as dear as all the rest of a liquid's equations, and only stiff methods and spectra ask for it.
+    """
     scene = Scene(Body((12, 9, 5)), Gyrostat((1, 0, 2)), ConstantTorque((0, 0, 3)))
     system = to_numpy(scene)
     system.rate_and_laws([0.1, 0.2, 0.3])
@@ -187,7 +207,8 @@ def test_a_run_with_its_laws_forms_no_jacobian():
     np.testing.assert_allclose(system.jacobian(np.array([0.1, 0.2, 0.3]))[:1], by_hand, rtol=1e-14)
 
 
-@pytest.mark.parametrize("wrong, got", [((), "nothing"), ((5,), "5"), ((ConstantTorque((1, 2, 3)),), "ConstantTorque")])
+@pytest.mark.parametrize("wrong, got",
+                         [((), "nothing"), ((5,), "5"), ((ConstantTorque((1, 2, 3)),), "ConstantTorque")])
 def test_a_scene_without_a_body_is_refused_in_words(wrong, got):
     with pytest.raises(InputError, match=f"scene: expected a Body first, such as .*, got {got}"):
         Scene(*wrong)

@@ -55,7 +55,7 @@ def ball(viscosity, *more):
     return Scene(Body((5000, 5000, 5000)), LiquidCavity.of_sphere(1000, viscosity, "1.2"), *more)
 
 
-# -- the numbers ---------------------------------------------------------------------------------------------------------
+# -- the numbers
 
 
 def share(z):
@@ -152,7 +152,7 @@ def test_a_constant_angle_is_judged_along_the_run_of_a_case_that_gives_an_attitu
     assert stabilab(command, CASES / "charged-body.toml", "--strict")[0] == 3
 
 
-# -- along a motion ----------------------------------------------------------------------------------------------------------
+# -- along a motion
 
 
 def test_value_of_a_run_is_the_largest_on_the_way_and_not_at_the_times_asked_for():
@@ -198,7 +198,7 @@ def test_exact_laws_have_none():
     assert stabilab.validity(Scene(Body((3, 4, 5), 2), BodyForce((1, 0, 0)), Resistance(1), Gravity(1, (0, 0, 1))), (0, 0, 1)) is None
 
 
-# -- commands ------------------------------------------------------------------------------------------------------------------
+# -- commands
 
 @pytest.fixture(scope="module")
 def measured():

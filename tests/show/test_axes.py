@@ -145,9 +145,8 @@ def test_a_full_tensor_of_the_catalogue_is_named_with_its_direction(stabilab, tm
                                       "--json")[1])[0], json.loads(stabilab("stuck", path, "--json")[1])
     for told in (fate, stuck["rows"][0]):
         along = np.array(told["axis_direction"])
-        assert abs(along @ eigenvectors[told["axis"] - 1]) == pytest.approx(1,
-                                                                            abs=1e-12) and told[
-                                                                                "sense"] * along @ grows > 0.95
+        assert abs(along @ eigenvectors[told["axis"] - 1]) == pytest.approx(1, abs=1e-12)
+        assert told["sense"] * along @ grows > 0.95
     assert fate["axis"] == stuck["rows"][0]["axis"] and fate["axis_name"] == RANKS[fate["axis"] - 1]
     assert "about axis" not in stabilab("fate",
                                         path)[1] + stabilab("stuck", path)[1] + stabilab("show", path)[1]
@@ -185,10 +184,8 @@ def test_sentences_have_names_for_numbers_and_scenes_without_a_file_keep_these()
                               words) == "spin about the z axis, not the x axis and the y axis; the torque is on the z axis"
     assert turned.sentence("about axis 3") == "about the symmetry axis" and turned.sentence(
         "on axis 1") == "on the transverse axis (0.000, 1.000, 0.000)"
-    assert turned.signed(1,
-                         -1) == "-transverse 1" and turned.signed(3,
-                                                                  1) == "+symmetry" and turned.signed(0,
-                                                                                                      0) == ""
+    assert turned.signed(1, -1) == "-transverse 1" and turned.signed(3, 1) == "+symmetry"
+    assert turned.signed(0, 0) == ""
     assert PLAIN.sentence(words) == words and PLAIN.whole(2) == "axis 2"
 
 

@@ -127,10 +127,8 @@ def test_a_caveat_is_a_key_of_every_object_and_empty_where_nothing_limits_the_an
         found = json.loads(stabilab(command[0], free, *command[1:], "--json")[1])
         assert found[0]["caveats"] == [], command
     motion = package.motion(load(files["axis"]).scene, [0.1, 0, 0.01])
-    assert [one.kind
-            for one in motion.caveats] == ["tilt"] and package.time_to(load(files["axis"]).scene,
-                                                                       [0.1, 0, 0.01],
-                                                                       rate=2).caveats == motion.caveats
+    assert [one.kind for one in motion.caveats] == ["tilt"]
+    assert package.time_to(load(files["axis"]).scene, [0.1, 0, 0.01], rate=2).caveats == motion.caveats
     assert caveats_of(load(free).scene, True) == ()
 
 
@@ -155,9 +153,8 @@ def test_the_range_over_a_cone_off_the_axes_is_that_of_brute_force(stabilab, fil
                  else math.sin(angle) * np.array([math.cos(azimuth), 0, math.sin(azimuth)]))
         direction = np.array([0, 1.0 if azimuth is None else math.cos(angle), 0]) + aside
         times.append(first_time(load(files["off axis"]), np.cross(arm, force * direction), math.radians(7)))
-    assert found["earliest"][0] == pytest.approx(min(times),
-                                                 rel=1e-4) and found["latest"][1] == pytest.approx(max(times),
-                                                                                                   rel=1e-4)
+    assert found["earliest"][0] == pytest.approx(min(times), rel=1e-4)
+    assert found["latest"][1] == pytest.approx(max(times), rel=1e-4)
     assert found["earliest"][0] <= min(times) * (1
                                                  + 1e-9) and found["latest"][1] >= max(times) * (
                                                      1 - 1e-9) and found["level"] == "proved"

@@ -472,9 +472,8 @@ def test_on_the_momentum_sphere_the_motion_keeps_its_energy_and_the_separatrix_t
     assert np.ptp(size) < 1e-9 * size[0]
     start = np.array([3, 2, 1]) * (0.2, 0.4, 0.3)
     drawn = size[0] / np.linalg.norm(start)
-    assert drawn == pytest.approx(1.002) and of_free_body(motion,
-                                                          (3, 2, 1)) == pytest.approx(
-                                                              drawn**2 * of_free_body(start, (3, 2, 1)))
+    assert drawn == pytest.approx(1.002)
+    assert of_free_body(motion, (3, 2, 1)) == pytest.approx(drawn**2 * of_free_body(start, (3, 2, 1)))
     # of a grid of half a degree
     assert of_free_body(separatrix, (3, 2, 1)) == pytest.approx(size[0] ** 2 / 4, rel=2e-4)
 
@@ -692,7 +691,8 @@ def test_a_small_picture_of_costs_has_as_many_questions_as_have_room_and_nothing
         assert len(shown) == panels and tuple(figure.get_size_inches()) == size
         for box in (below.get_window_extent(), below.get_title().get_window_extent(),
                     *(ax.get_window_extent() for ax in shown)):
-            assert 0 <= box.x0 + 2 and box.x1 <= figure.bbox.width + 2 and 0 <= box.y0 + 2 and box.y1 <= figure.bbox.height + 2
+            assert 0 <= box.x0 + 2 and box.x1 <= figure.bbox.width + 2 and 0 <= box.y0 + 2
+            assert box.y1 <= figure.bbox.height + 2
         assert all(ax.get_window_extent().height > figure.bbox.height / 8 for ax in shown)
 
 

@@ -69,9 +69,8 @@ def test_the_lines_of_a_stuck_thruster_of_models_and_of_a_spin_up_have_their_num
 
 def test_tables_of_a_stuck_thruster_of_models_and_of_a_spin_up_hold_their_numbers(results):
     table, rows = results["Stuck"].to_pandas(), results["Stuck"].rows
-    assert list(table["fate"]) == [row.fate
-                                   for row in rows] and list(table["limit_low"]) == [row.time_to_limit[0]
-                                                                                     for row in rows]
+    assert list(table["fate"]) == [row.fate for row in rows]
+    assert list(table["limit_low"]) == [row.time_to_limit[0] for row in rows]
     table, rows = results["Comparison"].to_pandas(), results["Comparison"].departures
     assert list(table["largest"]) == [d.largest
                                       for d in rows] and list(table["part"]) == [d.part for d in rows]
@@ -109,9 +108,8 @@ def test_tables_hold_the_numbers_of_the_results(results):
                                    "omega3"] and list(table.index) == TIMES and table.index.name == "time"
     assert np.array_equal(table.to_numpy(), results["Trajectory"].states)
     table = results["FateResult"].to_pandas()
-    assert list(table["fate"]) == ["bounded",
-                                   "spin-up"] and np.array_equal(table["margin"],
-                                                                 results["FateResult"].margins)
+    assert list(table["fate"]) == ["bounded", "spin-up"]
+    assert np.array_equal(table["margin"], results["FateResult"].margins)
     table = results["Motion"].to_pandas()
     assert [tuple(row)
             for row in table[["least", "greatest"]].to_numpy()] == [tuple(pair)

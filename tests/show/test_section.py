@@ -142,8 +142,8 @@ def test_of_a_motion_that_spins_up_the_passages_until_that_is_certain_are_drawn(
     one = subject.subject(load("cubesat-3u"))
     until, ax = which.certain_from(one), stabilab.plot.section(one.case)
     times, places = returns(one.twin, one.state, crossed(one.twin, one.state, until), 100)
-    assert len(dots(ax, ORANGE)) == np.count_nonzero(times
-                                                     <= until) < 100 and "until spin-up about the minor axis is certain" in ax.get_title()
+    assert len(dots(ax, ORANGE)) == np.count_nonzero(times <= until) < 100
+    assert "until spin-up about the minor axis is certain" in ax.get_title()
     plt.close("all")
 
 

@@ -229,8 +229,8 @@ def test_long_commands_count_their_steps(monkeypatch, stabilab, tmp_path):
     for words in (("audit", paper), ("tables", "--out", tmp_path / "tables"), ("validate", "orekit")):
         steps.clear()
         assert stabilab(*map(str, words))[0] == 0
-        assert len({count for _, count in steps}) == 1 and {done for done,
-                                                            _ in steps} == set(range(steps[0][1])), words
+        assert len({count for _, count in steps}) == 1, words
+        assert {done for done, _ in steps} == set(range(steps[0][1])), words
 
 
 def test_thrusters_that_do_nothing_are_told_beside_the_answer(stabilab, tmp_path):
@@ -306,8 +306,9 @@ def test_a_least_rate_that_is_zero_but_for_rounding_is_told_as_zero(stabilab):
     swept = stabilab("extremes", ROOT / "cases/charged-sweep.toml")[1]
     assert "ω2 least" in swept and not re.search(r"\de-\d", swept)
     exact = stabilab("extremes", ROOT / "cases/charged-body.toml", "--json")[1]
-    assert '"extremes"' in exact and units.but_for_rounding([(1e-13, 2.0), (-1e-11, float("inf"))],
-                                                            1e-12) == ((0.0, 2.0), (-1e-11, float("inf")))
+    assert '"extremes"' in exact
+    assert units.but_for_rounding([(1e-13, 2.0), (-1e-11, float("inf"))],
+                                  1e-12) == ((0.0, 2.0), (-1e-11, float("inf")))
 
 
 @pytest.mark.parametrize("name", ["cubesat-3u", "minor-axis-100", "top-fast", "charged-sweep", "liquid-base"])

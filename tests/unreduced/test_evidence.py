@@ -47,8 +47,8 @@ def test_a_growing_motion_between_equal_axes_has_no_extremes_for_all_time():
     scene = Scene(Body((10, 10, 6)),
                   *(effect(v) for effect, v in zip((Gyrostat, ConstantTorque), CUT["aligned, growing"])))
     seen, unseen = motion(scene, (.05, .01, .01), (0.0, 5.0)), motion(scene, (.05, .01, .01))
-    assert seen.extremes_over == "s in [0, 5]" and np.array_equal(seen.extremes,
-                                                                  extremes(scene, (.05, .01, .01), span=5.0))
+    assert seen.extremes_over == "s in [0, 5]"
+    assert np.array_equal(seen.extremes, extremes(scene, (.05, .01, .01), span=5.0))
     assert unseen.extremes is None and "give span=T" in unseen.extremes_over
 
 

@@ -266,9 +266,8 @@ def test_a_gyrostatic_component_along_a_torque_between_equal_axes_leaves_no_moti
     assert kind_of(scene) == "aligned" and -4.1 * 3 + 3.0750000000000006 * 4 != 0
     states = np.array([(1.0, 0.5, -0.25), (0.1, -2.0, 0.5)])
     many = stabilab.fate(scene, states)
-    assert set(many.labels.tolist()) <= {Fate.SPIN_UP,
-                                         Fate.UNDECIDED} and (many.margins
-                                                              == -np.inf).all() and not many.axis.any()
+    assert set(many.labels.tolist()) <= {Fate.SPIN_UP, Fate.UNDECIDED} and (many.margins == -np.inf).all()
+    assert not many.axis.any()
     one = stabilab.motion(scene, tuple(states[0]), brief=True)
     assert one.fate == many.labels[0] and "no motion is bounded" in one.because
 
@@ -408,7 +407,8 @@ def test_rates_next_to_the_largest_doubles_lose_what_is_no_double_and_say_so():
     np.testing.assert_allclose(found[held] / 1e308, ordinary[held], rtol=1e-11)
     assert np.isnan(found[~held]).all()
     one = stabilab.motion(scene, tuple(state))
-    assert one.extremes is None and "an extreme" in one.because and one.extremes_over == "none: beyond the range of doubles"
+    assert one.extremes is None and "an extreme" in one.because
+    assert one.extremes_over == "none: beyond the range of doubles"
     assert one.period * 1e308 == pytest.approx(stabilab.period(plain, start), rel=1e-11)
 
 

@@ -188,9 +188,8 @@ def test_a_trace_form_counts_the_points_of_a_circle_on_a_line():
     system = System(2, [{(2, 0): p(1), (0, 2): p(1), (0, 0): p(-1)}, {(0, 1): p(1), (0, 0): p(0, -1)}],
                     [{(1, 0): p(1)}])
     found = {t: count_at(system, Between(F(t), Work()), Work()) for t in (0, F(3, 5), 1, 2)}
-    assert [found[t].real for t in found] == [2, 2, 1,
-                                              0] and found[0].tests == ((0, True),
-                                                                        ) and found[1].tests == ((0, False),)
+    assert [found[t].real for t in found] == [2, 2, 1, 0] and found[0].tests == ((0, True), )
+    assert found[1].tests == ((0, False),)
     assert {(root.low, root.high) for root in roots(critical(system, Work()), F(-3), F(3),
                                                     Work())} == {(F(-1), F(-1)), (F(1), F(1))}
 

@@ -114,7 +114,6 @@ def _number(question: str, known: Motion) -> Any:
 
 
 # -- motions with a reduction
-# ------------------------------------------------------------------------------------------
 
 
 def _by_formula(question: str, scene: AnyScene, land: Landscape, known: Motion, digits: int,
@@ -198,7 +197,6 @@ def _decimals(balls: Any, digits: int) -> Any:
 
 
 # -- motions without one
-# -----------------------------------------------------------------------------------------------
 
 
 def _margin_without_reduction(scene: AnyScene, known: Motion, digits: int, state: Any) -> Told:

@@ -46,7 +46,6 @@ def valley_margins(land: Landscape, states, critical=None):
 
 
 # -- on hyperbolas: barriers by Newton's method, heights told from these
-# ------------------------------------------------
 
 
 def _on_hyperbolas(land, states, critical):
@@ -170,7 +169,6 @@ def _rise(land, y, u, v, slope, pull, tilt):
 
 
 # -- on parabolas: heights are quartics of the way
-# -----------------------------------------------------------------------
 
 
 @lru_cache(maxsize=64)

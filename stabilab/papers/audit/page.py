@@ -96,8 +96,8 @@ def mathml(left, right, squares=()):
     names = {s: sp.Symbol(_name(s.name)) ** (2 if s.name in squares else 1)
              for s in left.free_symbols | right.free_symbols}
     equation = sp.Eq(_readable(left.xreplace(names)), _readable(right.xreplace(names)), evaluate=False)
-    return Markup(
-        f'<math xmlns="http://www.w3.org/1998/Math/MathML">{numbered(printed(equation, printer="presentation"))}</math>')
+    body = numbered(printed(equation, printer="presentation"))
+    return Markup(f'<math xmlns="http://www.w3.org/1998/Math/MathML">{body}</math>')
 
 
 def _readable(expression):

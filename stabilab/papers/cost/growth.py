@@ -67,7 +67,6 @@ def _timed(call, most=30):
 
 
 # -- with the number of states
-# -----------------------------------------------------------------------------------------
 
 
 def with_states(case, full: bool = False, tell=lambda words: None) -> list[Growth]:
@@ -111,7 +110,6 @@ _FUNCTIONS = {"fate": _fate, "extremes": _extremes, "period": _period}
 
 
 # -- with the digits
-# ---------------------------------------------------------------------------------------------------
 
 
 def with_digits(case, effort: str = "brief", tell=lambda words: None) -> list[Growth]:
@@ -165,7 +163,6 @@ def _reached(states, exact) -> float:
 
 
 # -- with closeness to the separatrix
-# ----------------------------------------------------------------------------------
 
 
 def near(case, decade: int) -> tuple[np.ndarray, float]:

@@ -56,7 +56,6 @@ def _family(plt, family, rows, title, own=False):
 
 
 # -- captions, with their numbers
-# ------------------------------------------------------------------------------------------
 
 
 @lru_cache(maxsize=16)

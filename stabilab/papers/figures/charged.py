@@ -80,8 +80,8 @@ def _circle_lines():
     for end in (2.0, 10.0, SPAN):
         c = _without(next(iter(_columns("M1", end, horizon=False))), "corrected")
         parts.append(replace(c, heading=f"0 to {end:g} s",
-                             runs={n: _by_35("M1", 1, r) if n == "printed" else r
-                                                                 for n, r in c.runs.items()}))
+                             runs={n: _by_35("M1", 1, r) if n == "printed" else r for n,
+                                   r in c.runs.items()}))
     return [(row, parts) for row in MOMENTUM[2:]]
 
 
@@ -110,7 +110,6 @@ def _direction(run):
 
 
 # -- captions, with their numbers
-# ------------------------------------------------------------------------------------------
 
 
 def runs_of(family) -> list[dict]:

@@ -118,7 +118,7 @@ def section(name: str, folder: Path, tell=lambda words: None) -> dict:
         made["compared"] = [row for name, variant in chapter.compared
                             for row in _errors(panels.sweep(name)[variant], chapter.end)]
         made["sensible"] = _sensible(chapter, folder)
-    except StabilabError as error:  # a case that is not there yet, or a motion that cannot be run: the chapter says so
+    except StabilabError as error:  # no such case yet, or a motion that cannot be run: the chapter says so
         made["problem"] = str(error)
     return made
 
@@ -128,8 +128,11 @@ def _parameters(case):
     values = ", ".join(f"{PRODUCTS.get(name, name)} = {float(value):.6g} {parameter_unit(name)}".rstrip()
                        for name, value in derive(case.scene).parameters.items())
     starts = {"omega": case.state, **case.blocks}
-    return written(f"{values}; at t = 0: " + ", ".join(
-        f"{name} = ({', '.join(f'{v:.6g}' for v in row)}) {PARTS[name].unit if name in PARTS else ''}".rstrip() for name, row in starts.items()))
+    return written(f"{values}; at t = 0: "
+                   + ", ".join(
+                       f"{name} = ({', '.join(f'{v:.6g}' for v in row)}) "
+                       f"{PARTS[name].unit if name in PARTS else ''}".rstrip() for name,
+                       row in starts.items()))
 
 
 def _errors(case, end, found=None):

@@ -30,7 +30,6 @@ AUDIT_TAKES = {"constant-torque-gyrostat": 15.0, "charged-axisymmetric-short": 1
 
 
 # -- what is drawn and computed, by whichever process is free
-# ----------------------------------------------------------------
 
 
 def tables(folder: Path) -> list[dict]:
@@ -73,17 +72,21 @@ def others() -> tuple:
 
 
 # -- the pages
-# ---------------------------------------------------------------------------------------------------------------
 
 
 def pages(cases, folder: Path, tell, wanted: own.Wanted, workers=None, **around) -> list[tuple[str, bool]]:
-    """Everything: tasks first, by all processes, then the pages. Of each entry a line for each law that a motion leaves, and whether a fate is undecided."""
+    """Everything: tasks first, by all processes, then the pages. Of each entry a line for each law that a
+    motion leaves, and whether a fate is undecided."""
     work = [Task("tables", "papers.report.whole:tables", (folder,), 0.5), *own.tasks(cases, folder, wanted)]
-    work += [Task(f"figure {row.number}", "papers.report.whole:figure", (row.number, folder), 1.2) for row in figures.FIGURES]
-    work += [Task(f"chapter {one.paper}", "papers.report.whole:chapter", (one.paper, folder), one.weight) for one in chapters.CHAPTERS]
-    work += [Task(f"audit of {name}", "papers.report.whole:audited", (name,), AUDIT_TAKES.get(name, 6.0)) for name in audited_papers()]
+    work += [Task(f"figure {row.number}", "papers.report.whole:figure", (row.number, folder), 1.2)
+             for row in figures.FIGURES]
+    work += [Task(f"chapter {one.paper}", "papers.report.whole:chapter", (one.paper, folder), one.weight)
+             for one in chapters.CHAPTERS]
+    work += [Task(f"audit of {name}", "papers.report.whole:audited", (name,), AUDIT_TAKES.get(name, 6.0))
+             for name in audited_papers()]
     work += [Task("numbers of other tools", "papers.report.whole:others", (), 5.0)]
-    work += [Task("what answers cost", "papers.report.whole:costs", (cases, folder), 90.0)] if wanted.precision else []
+    work += ([Task("what answers cost", "papers.report.whole:costs", (cases, folder), 90.0)]
+             if wanted.precision else [])
     found = dict(zip([task.words for task in work], done(work, folder, tell, workers)))
     cost = found.get("what answers cost", [])
     nav = _nav(cost)
@@ -91,14 +94,16 @@ def pages(cases, folder: Path, tell, wanted: own.Wanted, workers=None, **around)
     groups = _cases(cases, folder, found, nav, around)
     audit, tools = _audit(folder, found, nav), _validation(folder, found, nav)
     if cost:
-        html.write(folder / "cost.html", "cost.html", title="What answers cost", pages=cost, nav=nav, here="cost.html")
+        html.write(folder / "cost.html", "cost.html", title="What answers cost", pages=cost, nav=nav,
+                   here="cost.html")
     _start(folder, found, nav, groups, audit, tools, cost, around)
     return [(made["beyond"], made["open"]) for name, made in found.items() if name.startswith("case ")]
 
 
 def _nav(cost):
-    rows = [("index.html", "Start"), ("constant-torque.html", "Constant torque"), *((f"{one.paper}.html", one.short) for one in chapters.CHAPTERS),
-            ("cases.html", "Cases"), ("audit.html", "Printed formulas"), ("validation.html", "Other tools")]
+    rows = [("index.html", "Start"), ("constant-torque.html", "Constant torque"),
+            *((f"{one.paper}.html", one.short) for one in chapters.CHAPTERS), ("cases.html", "Cases"),
+            ("audit.html", "Printed formulas"), ("validation.html", "Other tools")]
     rows += [("cost.html", "Cost")] if cost else []
     return [{"file": file, "title": title} for file, title in rows]
 
@@ -106,18 +111,24 @@ def _nav(cost):
 def _papers(folder, found, nav):
     """The pages of the papers."""
     from markupsafe import Markup
-    rows = [one | {"html": Markup(one["html"])} for one in found["tables"]]  # escaped cell by cell in table.py
-    html.write(folder / "constant-torque.html", "constant_torque.html", title="Constant torque", paper=paper.PAPER, tables=rows, nav=nav,
-               here="constant-torque.html", figures=[found[f"figure {row.number}"] for row in figures.FIGURES])
+    # escaped cell by cell in table.py
+    rows = [one | {"html": Markup(one["html"])} for one in found["tables"]]
+    html.write(folder / "constant-torque.html", "constant_torque.html", title="Constant torque",
+               paper=paper.PAPER, tables=rows, nav=nav, here="constant-torque.html",
+               figures=[found[f"figure {row.number}"] for row in figures.FIGURES])
     for one in chapters.CHAPTERS:
-        html.write(folder / f"{one.paper}.html", "chapter.html", chapter=found[f"chapter {one.paper}"], nav=nav, here=f"{one.paper}.html", title=one.title)
+        html.write(folder / f"{one.paper}.html", "chapter.html", chapter=found[f"chapter {one.paper}"],
+                   nav=nav, here=f"{one.paper}.html", title=one.title)
 
 
-GROUPS = (("Constant torque along a principal axis", lambda case: case.scene.plain and not case.thrusters and torque_axis(case.scene)),
-          ("Constant torque in another direction", lambda case: case.scene.plain and not case.thrusters and _acts(case.scene)),
+GROUPS = (("Constant torque along a principal axis",
+           lambda case: case.scene.plain and not case.thrusters and torque_axis(case.scene)),
+          ("Constant torque in another direction",
+           lambda case: case.scene.plain and not case.thrusters and _acts(case.scene)),
           ("No torque", lambda case: case.scene.plain and not case.thrusters),
           ("Spacecraft with thrusters", lambda case: case.thrusters),
-          ("A charge in a magnetic field", lambda case: _has(case, "charge") and not _has(case, "liquid_cavity")),
+          ("A charge in a magnetic field",
+           lambda case: _has(case, "charge") and not _has(case, "liquid_cavity")),
           ("A cavity of viscous liquid", lambda case: _has(case, "liquid_cavity")),
           ("Weight and field: tops", lambda case: _has(case, "gravity") or _has(case, "newtonian_field")),
           ("Other effects", lambda case: True))
@@ -141,11 +152,13 @@ def _cases(cases, folder, found, nav, around):
     rows: dict[str, list] = {title: [] for title, _ in GROUPS}
     for stem, members in own.entries(cases):
         made = found[f"case {stem}"]
-        own.write(made, folder / own.FOLDER / f"{stem}.html", "", nav=nav, up="../", below="cases.html", **own.of_one(made, around))
+        own.write(made, folder / own.FOLDER / f"{stem}.html", "", nav=nav, up="../", below="cases.html",
+                  **own.of_one(made, around))
         row = own.listed(stem, made)
         rows[group(members[0])].append(row | {"file": f"{own.FOLDER}/{row['file']}"})
     groups = [{"title": title, "rows": listed} for title, listed in rows.items() if listed]
-    html.write(folder / "cases.html", "list.html", title="Cases", groups=groups, nav=nav, here="cases.html", **around)
+    html.write(folder / "cases.html", "list.html", title="Cases", groups=groups, nav=nav, here="cases.html",
+               **around)
     return [(one["title"], len(one["rows"])) for one in groups]
 
 
@@ -163,10 +176,11 @@ def _audit(folder, found, nav):
 def _validation(folder, found, nav):
     findings = found["numbers of other tools"]
     validation.page(findings, folder / "validation.html", nav=nav, here="validation.html")
-    return "; ".join(f"{source.title}: {validation.counts(rows)}" for source, rows in validation.told(findings))
+    return "; ".join(f"{source.title}: {validation.counts(rows)}" for source,
+                     rows in validation.told(findings))
 
 
-# -- what measures times -----------------------------------------------------------------------------------------------------
+# -- what measures times
 
 
 def _precision(cases, folder, **around):
@@ -176,8 +190,10 @@ def _precision(cases, folder, **around):
         if case.state is not None and case.span is not None:
             firsts.setdefault(precision_page.kind(case), case)
     left = len(own.entries(cases)) - len(firsts)
-    return precision_page.page(firsts.values(), folder, passed=(f"{left} other cases, with the equations of one of these and other numbers",) if left else (),
-                               **around)
+    return precision_page.page(firsts.values(), folder,
+                               passed=(
+                                   f"{left} other cases, with the equations of one of these and other "
+                                   f"numbers",) if left else (), **around)
 
 
 def _growth(cases, folder, **around):
@@ -190,25 +206,37 @@ def _effects(cases, folder, **around):
 
 
 # (title, what it says, page(cases, folder) -> its path, or None where the cases do not call for it)
-COSTS = (("What accuracy costs", "every way to follow each motion: error against time, and the cheapest way to each digit", _precision),
-         ("How cost grows", "with the number of states, the digits, and closeness to the separatrix", _growth),
-         ("What each effect costs", "state, equations and time as effects are added one at a time", _effects))
+COSTS = (("What accuracy costs",
+          "every way to follow each motion: error against time, and the cheapest way to each digit",
+          _precision),
+         ("How cost grows", "with the number of states, the digits, and closeness to the separatrix",
+          _growth), ("What each effect costs", "state, equations and time as effects are added one at a time",
+                     _effects))
 
 
 def costs(cases, folder: Path) -> list[dict]:
-    """The pages that hold measured times, one after the other by one process: never two measurements at once."""
-    made = [(title, words, page(cases, folder, nav=_nav(True), below="cost.html")) for title, words, page in COSTS]
+    """The pages that hold measured times, one after the other by one process: never two measurements at once.
+    """
+    made = [(title, words, page(cases, folder, nav=_nav(True), below="cost.html")) for title, words,
+            page in COSTS]
     return [{"title": title, "words": words, "file": path.name} for title, words, path in made if path]
 
 
 def _start(folder, found, nav, groups, audit, tools, cost, around):
     """The first page: the finest picture, and what is inside."""
     first, last = figures.FIGURES[0].number, figures.FIGURES[-1].number
-    words = {"constant-torque.html": f"{paper.PAPER}: tables 1 to {len(found['tables'])}, figures {first} to {last}, recomputed and corrected",
-             "cases.html": "; ".join(f"{title[0].lower()}{title[1:]} ({some(number, 'case')})" for title, number in groups),
-             "audit.html": f"every numbered equation of five papers, tried on the equations of motion: {audit}", "validation.html": tools,
-             "cost.html": "What accuracy, many states and each effect cost, measured"}
+    words = {
+        "constant-torque.html": f"{paper.PAPER}: tables 1 to {len(found['tables'])}, figures {first} to "
+                                f"{last}, recomputed and corrected",
+                                "cases.html": "; ".join(
+                                    f"{title[0].lower()}{title[1:]} ({some(number, 'case')})" for title,
+                                    number in groups),
+                                    "audit.html": f"every numbered equation of five papers, tried on the "
+                                                  f"equations of motion: {audit}", "validation.html": tools,
+                                                  "cost.html": "What accuracy, many states and each effect "
+                                                               "cost, measured"}
     words |= {f"{one.paper}.html": f"{one.title}: {figures.PAPERS[one.paper]}" for one in chapters.CHAPTERS}
     cards = [page | {"words": words[page["file"]]} for page in nav if page["file"] != "index.html"]
     picture = found.get(f"figure {FINEST}") or found[f"figure {figures.FIGURES[0].number}"]
-    html.write(folder / "index.html", "start.html", title=TITLE, picture=picture, cards=cards, nav=nav, here="index.html", **around)
+    html.write(folder / "index.html", "start.html", title=TITLE, picture=picture, cards=cards, nav=nav,
+               here="index.html", **around)

@@ -61,7 +61,9 @@ def _lines(source, found):
     yield f"  {source.repository} at {source.commit[:12]}, {source.licence}; {source.about}"
     for group in grouped(found):
         printed = group[0].printed
-        yield f"  {printed.tool} ({printed.file.rsplit('/', 1)[-1]}; tolerance {_tolerance(printed)}: {printed.tolerance_is})"
+        yield (
+            f"  {printed.tool} ({printed.file.rsplit('/', 1)[-1]}; tolerance {_tolerance(printed)}: "
+            f"{printed.tolerance_is})")
         yield from _table([("t (s)", "quantity", "ours", "theirs", "differs by", "")] + [
             (one.time, one.component, _short(one.ours), one.theirs,
              f"{one.difference:.1e} {one.unit}".strip(), one.verdict) for one in group])

@@ -60,6 +60,7 @@ def test_what_has_no_number_is_told_for_states_and_rows_alike():
 
 @pytest.mark.parametrize("question", ["extremes", "period", "fate"])
 def test_digits_do_not_search_for_the_distance_from_the_separatrix(question, monkeypatch):
-    monkeypatch.setattr("stabilab.orbit.one_state.distance_of", lambda *_: pytest.fail("a distance was searched"))
+    monkeypatch.setattr("stabilab.orbit.one_state.distance_of",
+                        lambda *_: pytest.fail("a distance was searched"))
     case = stabilab.load(CASES / "thruster-stuck-major-axis.toml")
     getattr(stabilab, question)(case.scene, case.state, digits=5)

@@ -136,7 +136,6 @@ def test_digits_that_are_not_reached_raise():
 
 
 # -- commands
-# ----------------------------------------------------------------------------------------------------------
 
 
 def test_commands_tell_digits_and_write_out_what_doubles_cannot_hold(stabilab):
@@ -146,8 +145,8 @@ def test_commands_tell_digits_and_write_out_what_doubles_cannot_hold(stabilab):
                           nodes=60)
     answer = json.loads(stabilab("period", path, "--digits", "30", "--json")[1])[0]
     with mp.workdps(60):
-        assert answer["schema"] == "stabilab.period/1" and abs(mp.mpf(answer["digits"]["decimals"])
-                                                               - exact) < mp.mpf(10) ** -29
+        assert answer["schema"] == "stabilab.period/1"
+        assert abs(mp.mpf(answer["digits"]["decimals"]) - exact) < mp.mpf(10) ** -29
     code, out, err = stabilab("period", path, "--digits", "30")
     assert code == 0 and answer["digits"]["decimals"] in out and "digits: ball" in out and not err
     answer = json.loads(stabilab("fate", path, "--json")[1])[0]
@@ -177,7 +176,6 @@ def test_too_few_digits_end_with_5_after_the_answer(stabilab, monkeypatch):
 
 
 # -- the paper's cases
-# -------------------------------------------------------------------------------------------------
 
 
 # half a minute each
@@ -236,7 +234,6 @@ def test_a_front_that_was_measured_decides_the_method_and_a_stopped_run_is_hande
 
 
 # -- far times, and digits that nobody asked for
-# -------------------------------------------------------------------------
 
 
 def home(one, t):

@@ -32,10 +32,8 @@ def test_every_field_off_the_axes_is_that_of_a_run(asked, n):
     found, craft = asked(anywhere(np.random.default_rng([13, n]), n))
     moments, axes = (np.array(found["principal"][name]) for name in ("moments", "axes"))
     assert found["schema"] == "stabilab.stuck/2"
-    assert np.cross(axes[0],
-                    axes[1]) == pytest.approx(axes[2],
-                                              abs=1e-14) and axes @ axes.T == pytest.approx(np.eye(3),
-                                                                                            abs=1e-14)
+    assert np.cross(axes[0], axes[1]) == pytest.approx(axes[2], abs=1e-14)
+    assert axes @ axes.T == pytest.approx(np.eye(3), abs=1e-14)
     assert axes @ craft.J @ axes.T == pytest.approx(np.diag(moments), abs=1e-12 * moments.max())
     alone = [[name] for name in craft.stuck] if len(craft.stuck) > 1 else []
     assert [row["thrusters"] for row in found["rows"]] == [craft.stuck, *alone]
@@ -56,12 +54,8 @@ def test_every_field_off_the_axes_is_that_of_a_run(asked, n):
         if row["time_to_limit"]:
             low, high = row["time_to_limit"]
             t, _, largest = craft.run(high * 1.001, M)
-            assert low <= high <= low * (1
-                                         + 1e-9) and low * (1
-                                                            - 1e-8) < t < high * (1
-                                                                                  + 1e-8) and largest <= row[
-                                                                                      "largest_rate"] * (1
-                                                                                                         + 1e-9)
+            assert low <= high <= low * (1 + 1e-9) and low * (1 - 1e-8) < t < high * (1 + 1e-8)
+            assert largest <= row["largest_rate"] * (1 + 1e-9)
         else:
             assert craft.run(30 * math.sqrt(moments[0] / size), M, rtol=1e-9)[0] is None
 
@@ -122,9 +116,8 @@ def _margins_are_where_the_fate_changes(craft, row, across):
         assert (craft.fate(**{what: now + 1.01 * size * change}) == row["fate"]) == back == (
             back and " again" in told)
         if until is not None and size < until < math.inf:
-            assert by_energy(until
-                             * (1 - 1e-9)) != row["fate"] == by_energy(until
-                                                                       * (1 + 1e-9)) and " again" in told
+            assert by_energy(until * (1 - 1e-9)) != row["fate"] == by_energy(until * (1 + 1e-9))
+            assert " again" in told
 
 
 @pytest.mark.parametrize("axis, n",

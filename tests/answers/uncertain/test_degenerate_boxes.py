@@ -118,9 +118,8 @@ def test_a_contradiction_that_a_proof_meets_is_a_change_where_the_ordinary_code_
     def attempt(stretch, most):
         return Proof(False, 1, (0.7,)) if stretch >= 0.7 else Proof(stretch < 0.5 or None, 1)
     over = bracketed(Line, "left", at, None, attempt, "")
-    assert over.answer == "depends" and over.changes_at == 0.7 and [w.verdict
-                                                                    for w in over.witnesses] == ["left",
-                                                                                                 "right"]
+    assert over.answer == "depends" and over.changes_at == 0.7
+    assert [w.verdict for w in over.witnesses] == ["left", "right"]
     assert 0 < over.proved < 0.5
 
 
@@ -158,9 +157,8 @@ def test_a_line_of_equilibria_across_two_equal_moments_holds_where_the_points_sa
     assert {signature_at(box, point) for point in sampled(box, 9, 1)} == {over.verdict}
     vanishing, box = equilibria_of(tmp_path, inertia=inertia, momentum='"0 +- 1", 0, 0', torque="0, 0, 2")
     assert vanishing.answer == "depends"  # without a wheel across D3 omega_3' = M3: no equilibrium at all
-    assert len({w.verdict for w in vanishing.witnesses}) == 2 and signature_at(box,
-                                                                               np.zeros(1)) != signature_at(
-                                                                                   box, np.ones(1))
+    assert len({w.verdict for w in vanishing.witnesses}) == 2
+    assert signature_at(box, np.zeros(1)) != signature_at(box, np.ones(1))
 
 
 def test_without_a_wheel_a_torque_across_equal_moments_leaves_no_equilibrium(tmp_path):
@@ -202,10 +200,8 @@ def test_scaled_variables_of_uncertain_moments_hold_those_of_each_body(tmp_path)
         assert form.rho[2].low[0] <= b <= form.rho[2].high[0] and form.sigma[1].low[0] <= -a <= form.sigma[
             1].high[0]
         scene, state = box.at(np.array([(D1 - 2000) / 10, (wheel - 100) / 5]))
-        assert scene.a == pytest.approx(a,
-                                        rel=1e-14) and scene.b == pytest.approx(b,
-                                                                                rel=1e-14) and state == (2.5,
-                                                                                                         4.0, 0.1)
+        assert scene.a == pytest.approx(a, rel=1e-14) and scene.b == pytest.approx(b, rel=1e-14)
+        assert state == (2.5, 4.0, 0.1)
 
 
 def test_other_effects_are_not_followed_over_a_box(tmp_path):

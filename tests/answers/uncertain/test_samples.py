@@ -82,7 +82,8 @@ def test_beside_products_the_fate_is_by_samples_with_number_seed_and_quantiles(w
 def test_the_first_line_says_that_they_are_samples(write, stabilab):
     text = OBLIQUE.format(yz=0.1).replace("0.5 +- 10 %", "0").replace('["0.5 +- 0.1", 0.25, 0]', "[0, 0, 0]")
     code, out, _ = stabilab("fate", write(text))
-    assert code == 0 and "the fate is the same at 64 sampled points within the uncertainties, without a proof" in out.splitlines()[0]
+    assert code == 0
+    assert "the fate is the same at 64 sampled points within the uncertainties, without a proof" in out.splitlines()[0]
 
 
 def test_beside_products_two_fates_in_the_box_are_two_witnesses(write):
@@ -102,7 +103,5 @@ def test_an_uncertain_flat_body_is_answered_by_proof(write):
                  "[motion]\nangular_velocity = [1, 0.1, 0]\n")
     case = load(path)
     over = uncertain(case, ("fate",)).fate
-    assert {found.kind
-            for found in case.caveats} == {"uncertain"} and (over.answer,
-                                                             over.verdict) == ("holds",
-                                                                               "bounded") and over.samples is None
+    assert {found.kind for found in case.caveats} == {"uncertain"}
+    assert (over.answer, over.verdict) == ("holds", "bounded") and over.samples is None

@@ -412,8 +412,8 @@ def test_a_body_in_scaled_variables_is_the_box_of_its_physical_numbers(tmp_path)
     box = box_of(case)
     assert case.variables == "scaled" and [name for name, _ in box.places].count("inertia") == 3
     scene, state = box.at(np.zeros(len(box.places)))
-    assert scene == case.scene and state == case.state and verdict_at(box,
-                                                                      np.zeros(len(box.places))) == "bounded"
+    assert scene == case.scene and state == case.state
+    assert verdict_at(box, np.zeros(len(box.places))) == "bounded"
     numbers = box.numbers(np.zeros((1, 7)), np.zeros((1, 7)))
     form, exact = box.rates(numbers), case.scene.quadratic()
     assert form.rho[2].low[0] <= float(exact.rho[2]) <= form.rho[2].high[0]

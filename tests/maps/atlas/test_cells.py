@@ -103,9 +103,8 @@ def test_cutting_follows_a_circle_to_the_last_depth():
     pairs = leaves.beside()
     across = pairs[kinds[pairs[:, 0]] != kinds[pairs[:, 1]]]
     assert len(across) > 100 and (leaves.level[across] == deepest).all()
-    assert (cells.area(leaves.level).sum()) == pytest.approx(4 * np.pi,
-                                                             rel=1e-12) and len(leaves.level) < cells.count(
-                                                                 deepest) / 8
+    assert (cells.area(leaves.level).sum()) == pytest.approx(4 * np.pi, rel=1e-12)
+    assert len(leaves.level) < cells.count(deepest) / 8
     high = cells.area(leaves.level)[kinds].sum()  # by Archimedes a cap of height h has the area 2 pi h
     assert high == pytest.approx(2 * np.pi * (1 - height), abs=cells.area(deepest) * len(across) / 2)
 

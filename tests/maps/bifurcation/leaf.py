@@ -65,8 +65,8 @@ def rises(D, lam, M, omega, i):
     r = np.hypot(omega[j] - x0, p * (omega[k] - y0) / n)
     place = lambda s: (x0 + r * np.cos(s), y0 - r * n / p * np.sin(s))
     height = lambda s: 0.5 * (D[j] * place(s)[0]**2 + D[k] * place(s)[1]**2) - float(M[i]) * s / n
-    force = lambda s: (D[j] * place(s)[0] + lam[j]) * place(s)[1] - (D[k] * place(s)[1]
-                                                                     + lam[k]) * place(s)[0] + float(M[i])
+    force = lambda s: (D[j] * place(s)[0]
+                       + lam[j]) * place(s)[1] - (D[k] * place(s)[1] + lam[k]) * place(s)[0] + float(M[i])
     grid = np.linspace(0, 2 * np.pi, 4001)
     values = force(grid)
     # the force pushes away on both sides

@@ -90,8 +90,9 @@ def test_a_physical_case_has_the_extremes_of_its_scaled_twin_times_the_rates(lam
     np.testing.assert_allclose(stabilab.extremes(scene, state * rates),
                                stabilab.extremes(twin, state) * rates[:, None],
                                rtol=1e-12)
-    assert stabilab.period(scene, state * rates) == pytest.approx(stabilab.period(twin, state) * np.sqrt(12),
-                                                                  rel=1e-12)
+    assert stabilab.period(scene,
+                           state * rates) == pytest.approx(stabilab.period(twin, state) * np.sqrt(12),
+                                                           rel=1e-12)
 
 
 @pytest.mark.one_in(3)

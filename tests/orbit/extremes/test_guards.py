@@ -78,10 +78,8 @@ def test_states_at_the_place_of_a_barrier_go_to_balls_and_those_at_a_well_do_not
             found = guards.on_top(land, near)
             if barrier[0, column]:
                 edge = flip_of(off, found)
-                assert edge * pot.slope(tuple(spots[:, 0,
-                                                    column])) / pot.terms(tuple(spots[:, 0,
-                                                                                      column])) == pytest.approx(
-                    1e-13, rel=0.2)
+                assert edge * pot.slope(tuple(spots[:, 0, column])) / pot.terms(
+                    tuple(spots[:, 0, column])) == pytest.approx(1e-13, rel=0.2)
             else:
                 assert not found.any()
 

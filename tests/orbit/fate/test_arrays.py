@@ -292,9 +292,8 @@ NO_BARRIER = {
 def test_an_equilibrium_that_turns_out_a_well_is_no_barrier(name):
     (scene, problem), state = NO_BARRIER[name]
     assert energy.margin(problem, state, digits=200) is None
-    assert stabilab.fate(scene,
-                         np.array(state)).margins == np.inf and stabilab.motion(scene, state,
-                                                                                brief=True).margin_energy is None
+    assert stabilab.fate(scene, np.array(state)).margins == np.inf
+    assert stabilab.motion(scene, state, brief=True).margin_energy is None
 
 TILTED = {
     "a hundredth of a radian from the barrier on a circle of 2e4": (
@@ -360,8 +359,8 @@ def test_spin_about_a_torque_that_no_other_rate_disturbs_grows_for_ever(axis, mo
     found, box = stabilab.fate(scene, np.array(state)), stabilab.extremes(scene, np.array(state))
     reason = Reason.PURE_SPIN if axis == 0 else Reason.NO_BARRIER
     assert (found.labels, found.axis, found.sense, found.reasons) == (Fate.SPIN_UP, axis + 1, sense, reason)
-    assert found.margins == -np.inf and box[axis].tolist() == ([state[axis], np.inf] if sense > 0
-                                                               else [-np.inf, state[axis]])
+    assert found.margins == -np.inf
+    assert box[axis].tolist() == ([state[axis], np.inf] if sense > 0 else [-np.inf, state[axis]])
     if axis == 2:  # the other two turn on their circle
         assert box[:2] == pytest.approx(np.hypot(*state[:2]) * np.array([[-1, 1], [-1, 1]]), rel=1e-14)
     else:

@@ -59,8 +59,8 @@ def test_next_to_the_separatrix_doubles_hand_over_and_the_label_is_right():
 
 def test_a_state_at_an_equilibrium_stays():
     found = motion(ScaledGyrostat(0, 0, (0, 0, 1)), (-1.0, 1.0, 0.0))  # x2 x1 = -1, x3 = 0
-    assert found.fate == Fate.EQUILIBRIUM and found.extremes == ((-1.0, -1.0), (1.0, 1.0),
-                                                                 (0.0, 0.0)) and found.period is None
+    assert found.fate == Fate.EQUILIBRIUM and found.extremes == ((-1.0, -1.0), (1.0, 1.0), (0.0, 0.0))
+    assert found.period is None
 
 
 @pytest.mark.parametrize("state", [(-15.1, 13.8, 7.3), (1.0, -8.0, -2.0), (-5.0, 3.0, -7.0)])

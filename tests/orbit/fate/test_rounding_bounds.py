@@ -275,8 +275,9 @@ def test_margins_near_the_poles_of_circles_of_any_size_keep_twelve_digits_and_se
             kinetic = 0.5 * float(problem.weight[i]) * state[i] ** 2
             assert np.isneginf(margin) if exact is None else abs(margin
                                                                  - float(exact)) <= 1e-12 * (kinetic
-                                                                                             + abs(float(exact) + kinetic)), (
-                name, [v.hex() for v in state])
+                                                                                             + abs(
+                                                                                                 float(exact)
+                                                                                                 + kinetic)), (name, [v.hex() for v in state])
     assert asked <= 0.1 * count
 
 

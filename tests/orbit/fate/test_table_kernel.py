@@ -52,5 +52,5 @@ def test_the_copies_are_those_of_the_rows_in_twofold_numbers():
             for copy in (barrier_heights, *([parabola_kernel] if name != "less" else [])):
                 assert getattr(copy, name)(*asked) == getattr(rows_kernel, name)(*asked)
     assert (barrier_heights.TWOFOLD, barrier_heights.SPLITTER) == (rows_kernel.TWOFOLD, rows_kernel.SPLITTER)
-    assert (parabola_kernel.DIGITS, parabola_kernel.PERIOD_DIGITS) == (rows_kernel.DIGITS,
-                                                                       rows_kernel.PERIOD_DIGITS)
+    assert (parabola_kernel.DIGITS,
+            parabola_kernel.PERIOD_DIGITS) == (rows_kernel.DIGITS, rows_kernel.PERIOD_DIGITS)

@@ -303,9 +303,8 @@ def test_bound_and_witness_meet_where_two_nearest_points_merge():
     is a part of the separatrix; the state is 1/sqrt 2 from it."""
     found = distance_of(reduce(stabilab.ScaledGyrostat(Fraction(-5, 2), Fraction(5, 4), (0, 0, 0))),
                         (Fraction(-1, 4), -3, -2))
-    assert found.settled and found.upper == pytest.approx(0.5**0.5,
-                                                          rel=1e-9) and found.witness == pytest.approx(
-                                                              (0.25, -3, -1.5), abs=1e-8)
+    assert found.settled and found.upper == pytest.approx(0.5**0.5, rel=1e-9)
+    assert found.witness == pytest.approx((0.25, -3, -1.5), abs=1e-8)
 
 
 def test_a_state_in_the_middle_of_its_circles_has_a_settled_distance():

@@ -76,9 +76,8 @@ def test_the_parts_of_a_sheet_meet_in_the_second_saddle(name):
     chord, way = np.diff(longer, axis=0), far_end - longer[:-1]
     share = np.clip((way * chord).sum(axis=1) / (chord * chord).sum(axis=1), 0, 1)
     assert np.linalg.norm(way - share[:, None] * chord, axis=1).min() < accuracy
-    assert np.linalg.norm(longer[0]
-                          - shorter[0]) < 1e-6 * size and np.abs(second.invariant[0]
-                                                                 - first.invariant[-1]) < 1e-9 * size**2
+    assert np.linalg.norm(longer[0] - shorter[0]) < 1e-6 * size
+    assert np.abs(second.invariant[0] - first.invariant[-1]) < 1e-9 * size**2
     assert max(first.residual.max(), second.residual.max()) < 1e-13
 
 

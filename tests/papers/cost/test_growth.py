@@ -63,9 +63,8 @@ def test_in_moments_and_metres_the_distance_is_that_of_the_kinetic_energy():
     exact, at_rest = (float(energy.margin(physical((2000, 1500, 1000), (70, 0, 0), (0, 0, 100)), tuple(s),
                                           digits=60))
                       for s in (state, (*state[:2], 0.0)))
-    assert at_rest - exact == pytest.approx(500 * state[2] ** 2,
-                                            rel=1e-12) and exact / at_rest == pytest.approx(distance,
-                                                                                            rel=1e-9)
+    assert at_rest - exact == pytest.approx(500 * state[2] ** 2, rel=1e-12)
+    assert exact / at_rest == pytest.approx(distance, rel=1e-9)
     assert distance == pytest.approx(1e-3, rel=1e-9)
 
 

@@ -66,9 +66,8 @@ def test_the_wheel_of_a_tensor_that_is_not_diagonal_counts_along_its_principal_a
 
 def test_a_stuck_thruster_closes_where_a_slider_gives_the_torque():
     case, new = moved("upper-stage", torque={"axis": 3, "size": "2", "tilt": "0", "azimuth": "0"})
-    assert tuple(map(float, new.scene.vector("constant_torque"))) == (0, 0,
-                                                                      2) and not any(t.stuck
-                                                                                     for t in new.thrusters)
+    assert tuple(map(float, new.scene.vector("constant_torque"))) == (0, 0, 2)
+    assert not any(t.stuck for t in new.thrusters)
 
 
 def test_a_start_beyond_the_limit_is_explored_without_the_limit():

@@ -124,9 +124,8 @@ def test_a_click_in_the_phase_plane_starts_a_motion(page):
     said = page.run(HEADLINE)
     assert next_answer(page, lambda: page.click("#plane", 0.5, 0.12)) != said
     start = page.run("['start0', 'start1', 'start2'].map(name => Number(fields[name].field.value))")
-    assert start != [2.5, 4, 0.1] and read_text("saved.toml",
-                                                page.run("shown.toml")).state == pytest.approx(start,
-                                                                                               rel=1e-6)
+    assert start != [2.5, 4, 0.1]
+    assert read_text("saved.toml", page.run("shown.toml")).state == pytest.approx(start, rel=1e-6)
 
 
 @pytest.mark.slow

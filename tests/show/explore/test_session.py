@@ -91,8 +91,8 @@ def test_a_tilted_torque_is_undecided_while_the_hand_moves_and_followed_when_it_
     assert told["space"]["box"] == box and told["space"]["sheets"] and told[
         "headline"] == f"UNDECIDED so far: {FOLLOWED}"
     assert told["fate"] == "undecided" and told["plane"] is None
-    assert "without its tilt" in told["space"]["words"] and all(s["name"].endswith("without the tilt")
-                                                                for s in told["space"]["sheets"])
+    assert "without its tilt" in told["space"]["words"]
+    assert all(s["name"].endswith("without the tilt") for s in told["space"]["sheets"])
     assert ask(session, **tilted)[0]["fate"] == "spin-up"
 
 
@@ -227,8 +227,8 @@ def test_a_case_file_with_numbers_that_no_double_can_follow_is_refused_in_words(
 
 def test_a_file_with_a_sweep_is_told_of_whose_numbers_the_page_is():
     told, _ = ask(Session(case_of("charged-sweep")), moving=True)
-    assert "[sweep]" in told["note"] and "sweep" not in ask(Session(case_of("minor-axis-100")),
-                                                            moving=True)[0]["note"]
+    assert "[sweep]" in told["note"]
+    assert "sweep" not in ask(Session(case_of("minor-axis-100")), moving=True)[0]["note"]
 
 
 @pytest.mark.parametrize("name", ["uncertain-separatrix", "uncertain-minor-axis"])

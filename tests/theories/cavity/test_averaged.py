@@ -108,7 +108,6 @@ def long(e):
 
 
 # --- the derived equations
-# ----------------------------------------------------------------------------------------
 
 def full_scene():
     return Scene(Body(("9.51", "9.3", "9")), Gyrostat((0, 0, "0.1")), Charge("0.01", 100, "0.01", "0.3"),
@@ -215,7 +214,6 @@ def test_bad_requests_are_refused(state, times, order):
 
 
 # --- observed orders
-# ----------------------------------------------------------------------------------------------
 
 def test_the_oracle_is_the_package_s_exact_motion():
     scene, t = body(0.05), np.linspace(0, 200, 9)
@@ -253,7 +251,6 @@ def test_orders_through_zero_frequency():
 
 
 # --- regular where polar coordinates are not
-# ----------------------------------------------------------------------
 
 @pytest.mark.parametrize("state", [(0, 0, 1), (0, 0, -1), (1, 0.3, -1), (0, 0, 0), (1, 0, 0.5)], ids=str)
 def test_amplitude_zero_negative_spin_rest_and_resonance_are_regular(state):
@@ -307,7 +304,6 @@ def test_first_order_says_that_it_leaves_a_torque_across_a_ball_out():
 
 
 # --- where the motion ends
-# ----------------------------------------------------------------------------------------
 
 @pytest.mark.one_in(2)
 @pytest.mark.parametrize("name", ["base", "lambda3-15", "torque-9"])
@@ -352,7 +348,6 @@ def test_without_torque_and_resistance_there_are_families_not_points():
 
 
 # --- the printed polynomials
-# --------------------------------------------------------------------------------------
 
 def test_printed_polynomials_are_the_taylor_polynomials_of_the_printed_averages():
     # (20)-(22) typed here and differentiated by SymPy along themselves; (24)-(26) typed in the package.

@@ -1,5 +1,5 @@
-"""Tests of `theories/cavity/averaged.py`: amplitude and phase of a liquid's motion far below the rounding of its
-spin."""
+"""Tests of `theories/cavity/averaged.py`: amplitude and phase of a liquid's motion far below the rounding of
+its spin."""
 from __future__ import annotations
 
 import math
@@ -37,9 +37,8 @@ def uncharged(scene):
 def test_phase_and_amplitude_are_those_of_many_digits(name):
     one, (phase, amplitude) = case(name), BY_SERIES[name]
     found = polar(one.scene, one.state, [0.0, 20.0])
-    assert found["phase"] == pytest.approx([0, phase],
-                                           abs=2e-10) and found["amplitude"] == pytest.approx([1, amplitude],
-                                                                                              rel=1e-9)
+    assert found["phase"] == pytest.approx([0, phase], abs=2e-10)
+    assert found["amplitude"] == pytest.approx([1, amplitude], rel=1e-9)
 
 
 def test_the_whole_way_is_that_of_equations_by_hand():

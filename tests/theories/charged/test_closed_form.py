@@ -393,7 +393,6 @@ def test_questions_without_an_answer_are_refused():
 
 
 # -- late times: partial fractions, formed once per body
-# ---------------------------------------------------------------
 
 
 def bodies_with_a_late_time(count, seed=5):

@@ -1,4 +1,5 @@
-"""The fast top: its periodic motion by order, against hand derivation, the paper's equations in many digits, exact motion."""
+"""The fast top: its periodic motion by order, against hand derivation, the paper's equations in many digits,
+exact motion."""
 import math
 from itertools import product
 from pathlib import Path
@@ -24,17 +25,20 @@ needs_heyoka = pytest.mark.skipif(not heyoka_available(), reason="heyoka is not 
 
 def top(h=1.0, lx=30.0, lz=30.0, arm=ARM, moments=MOMENTS, field=FIELD):
     """A top whose small parameters are h times those of the first one, at the same spin."""
-    return Scene(Body(moments), Gravity(WEIGHT * h * h, arm), NewtonianField(field * h * h), Gyrostat((lx * h, 0, lz)))
+    return Scene(Body(moments), Gravity(WEIGHT * h * h, arm), NewtonianField(field * h * h),
+                 Gyrostat((lx * h, 0, lz)))
 
 
 def on_periodic(scene, start=START):
     """(start on the periodic motion to rounding, its period)."""
     motion = lindstedt(scene, start, [0.0], 16)
-    return {"omega": motion.omega[0], "gamma": motion.gamma[0] / np.linalg.norm(motion.gamma[0])}, motion.period
+    return {"omega": motion.omega[0],
+            "gamma": motion.gamma[0] / np.linalg.norm(motion.gamma[0])}, motion.period
 
 
 def errors(motion, run):
-    return (np.abs(motion.omega - run.block("omega")).max() / R0, np.abs(motion.gamma - run.block("gamma")).max())
+    return (np.abs(motion.omega - run.block("omega")).max() / R0,
+            np.abs(motion.gamma - run.block("gamma")).max())
 
 
 # The expansion itself
@@ -59,14 +63,19 @@ def test_first_two_orders_are_those_of_a_derivation_by_hand():
     s = np.linspace(0, 6.3, 40)
     cos, sin = np.cos(s), np.sin(s)
     wanted = {  # (order, field): the paper's scaled quantity times its power of epsilon
-        (0, 0): P0 + 0 * s, (1, 0): e * (lam + lam1 * M3 * cos), (0, 1): 0 * s, (1, 1): e * X * (y / a + lam2 * M3 * sin),
-        (0, 2): 1 + 0 * s, (1, 2): 0 * s, (2, 2): e**2 * (M3 * (x * (cos - 1) - y * sin) - k * C1 * M3**2 * sin**2 / 2),
-        (0, 3): M3 * np.exp(-1j * s), (1, 3): e * P0 * (1 - cos + 1j * sin), (0, 4): 1 + 0 * s, (1, 4): e * P0 * M3 * (1 - cos),
-        (2, 4): e**2 * (X * y * M3 * sin / a + M3**2 * (lam1 + X * lam2) * sin**2 / 2 + (lam * M3 - P0**2) * (1 - cos))}
+        (0, 0): P0 + 0 * s, (1, 0): e * (lam + lam1 * M3 * cos), (0, 1): 0 * s,
+        (1, 1): e * X * (y / a + lam2 * M3 * sin),
+        (0, 2): 1 + 0 * s, (1, 2): 0 * s,
+        (2, 2): e**2 * (M3 * (x * (cos - 1) - y * sin) - k * C1 * M3**2 * sin**2 / 2),
+        (0, 3): M3 * np.exp(-1j * s), (1, 3): e * P0 * (1 - cos + 1j * sin), (0, 4): 1 + 0 * s,
+        (1, 4): e * P0 * M3 * (1 - cos),
+        (2, 4): e**2 * (X * y * M3 * sin / a + M3**2 * (lam1 + X * lam2) * sin**2 / 2
+                        + (lam * M3 - P0**2) * (1 - cos))}
     series = motion.expansion
     K = series.fields.shape[-1] // 2
     waves = np.exp(1j * np.outer(np.arange(-K, K + 1), s))
-    unit = (series.size / e, series.size / e, 1, 1 / g0, 1 / g0)  # p, q over c sqrt(gamma0''), gamma over gamma0''
+    # p, q over c sqrt(gamma0''), gamma over gamma0''
+    unit = (series.size / e, series.size / e, 1, 1 / g0, 1 / g0)
     for (n, part), value in wanted.items():
         got = series.fields[n, part] @ waves * series.size**n * unit[part]
         assert np.abs(got - value).max() <= 1e-13 * max(np.abs(value).max(), e**n), (n, part)
@@ -90,8 +99,10 @@ def test_conditions_of_solvability_hold_by_the_integrals():
 
 def test_a_gyrostat_across_both_axes_is_expanded_too():
     scene = Scene(Body(MOMENTS), Gravity(30, ARM), Gyrostat((10, -25, 30)))
-    slopes = [math.log2(lindstedt(scene, START, [0.0], n).residual / lindstedt(
-        Scene(Body(MOMENTS), Gravity(7.5, ARM), Gyrostat((5, -12.5, 30))), START, [0.0], n).residual) for n in (1, 3)]
+    slopes = [math.log2(lindstedt(scene, START, [0.0],
+                                  n).residual / lindstedt(Scene(Body(MOMENTS), Gravity(7.5, ARM),
+                                                                Gyrostat((5, -12.5, 30))), START, [0.0],
+                                                          n).residual) for n in (1, 3)]
     assert slopes == pytest.approx([2, 4], abs=0.2)
 
 
@@ -102,12 +113,14 @@ def test_motion_solves_the_papers_equation_5_in_many_digits():
     motion = lindstedt(scene, START, [0.0], 14)
     with mp.workdps(20):
         A, B, C = (mp.mpf(v) for v in MOMENTS)
-        g0, lx, lz, r0, N, W = (mp.mpf(v) for v in (0.6, 30 * 0.2, 30, 150, FIELD * 0.2 * 0.2, WEIGHT * 0.2 * 0.2))
+        g0, lx, lz, r0, N, W = (mp.mpf(v)
+                                for v in (0.6, 30 * 0.2, 30, 150, FIELD * 0.2 * 0.2, WEIGHT * 0.2 * 0.2))
         L = mp.sqrt(sum(mp.mpf(v)**2 for v in ARM))
         x, y, z = (mp.mpf(v) / L for v in ARM)
         c = mp.sqrt(W * L / C)
         e, k, a, b = c * mp.sqrt(g0) / r0, N * g0 / c**2, A / C, B / C
-        A1, B1, C1, A0, B0, C0 = (C - B) / A, (A - C) / B, (B - A) / C, 1 / (A * r0), 1 / (B * r0), 1 / (C * r0)
+        A1, B1, C1, A0, B0, C0 = (C - B) / A, (A
+                                               - C) / B, (B - A) / C, 1 / (A * r0), 1 / (B * r0), 1 / (C * r0)
 
         def rates(_, v):
             p, q, r, g1, g2, g3 = v
@@ -124,13 +137,17 @@ def test_motion_solves_the_papers_equation_5_in_many_digits():
     assert np.abs(omega[0] - found[:3]).max() < 2e-13 * R0 and np.abs(gamma[0] - found[3:]).max() < 2e-13
 
 
-FEW = {((0.8, 0, 0.6), 30.0), ((0.28, -0.96, 0), 1e-10), ((0, 0, 1), 30.0)}  # of the default suite; all pairs are slow
+# of the default suite; all pairs are slow
+FEW = {((0.8, 0, 0.6), 30.0), ((0.28, -0.96, 0), 1e-10), ((0, 0, 1), 30.0)}
 
 
 @pytest.mark.one_in(3)
 @needs_heyoka
-@pytest.mark.parametrize("gamma, lx", [pytest.param(*pair, marks=() if pair in FEW else pytest.mark.slow) for pair in product(
-    ((0.8, 0, 0.6), (0.28, -0.96, 0), (-0.48, 0.64, -0.6), (0, 0, 1), (1e-9, 0, 1), (0, 0, -1), (1, 0, 1e-6)), (30.0, 1e-10))])
+@pytest.mark.parametrize("gamma, lx",
+                         [pytest.param(*pair, marks=() if pair in FEW else pytest.mark.slow)
+                          for pair in product(
+    ((0.8, 0, 0.6), (0.28, -0.96, 0), (-0.48, 0.64, -0.6), (0, 0, 1), (1e-9, 0, 1), (0, 0, -1), (1, 0, 1e-6)),
+    (30.0, 1e-10))])
 def test_high_order_is_the_exact_motion_at_every_tilt(gamma, lx):
     scene, start = top(0.5, lx), {"omega": START["omega"], "gamma": gamma}
     motion = lindstedt(scene, start, [0.0], 12)
@@ -170,8 +187,10 @@ def test_motion_repeats_after_its_period_for_six_thousand_revolutions():
 
 def test_start_sets_spin_and_vertical_and_the_rest_is_said():
     motion = lindstedt(top(), START, [0.0], 4)
-    assert motion.omega[0, 2] == pytest.approx(R0, rel=1e-15) and motion.gamma[0] == pytest.approx(START["gamma"], abs=1e-15)
-    assert motion.departure == pytest.approx(-motion.omega[0, :2]) and "is not on the periodic motion" in motion.reason
+    assert motion.omega[0, 2] == pytest.approx(R0, rel=1e-15)
+    assert motion.gamma[0] == pytest.approx(START["gamma"], abs=1e-15)
+    assert motion.departure == pytest.approx(-motion.omega[0, :2])
+    assert "is not on the periodic motion" in motion.reason
     start = {"omega": motion.omega[0], "gamma": START["gamma"]}
     assert "lies on the periodic motion" in lindstedt(top(), start, [0.0], 4).reason
 
@@ -181,9 +200,11 @@ def test_start_off_the_periodic_motion_wobbles_about_it_by_the_departure():
     """The free wobble p'' = -Omega^2 r0^2 p of the undisturbed top, to leading order."""
     scene = top(0.1)
     times = np.linspace(0, 0.5, 400)
-    motion, run = lindstedt(scene, START, times, 4), trajectory(scene, START, np.maximum(times, 1e-12 * (times == 0)))
+    motion, run = lindstedt(scene, START, times,
+                            4), trajectory(scene, START, np.maximum(times, 1e-12 * (times == 0)))
     away, size = run.block("omega") - motion.omega, np.hypot(*motion.departure)
-    assert np.abs(away[:, :2]).max() == pytest.approx(size, rel=0.1) and np.abs(away[:, 2]).max() < 0.02 * size
+    assert np.abs(away[:, :2]).max() == pytest.approx(size, rel=0.1)
+    assert np.abs(away[:, 2]).max() < 0.02 * size
 
 
 def test_l_x_tilts_the_spin_axis_by_l_x_over_C_star_minus_A():
@@ -193,7 +214,8 @@ def test_l_x_tilts_the_spin_axis_by_l_x_over_C_star_minus_A():
         motion = lindstedt(scene, START, np.linspace(0, 1, 200), 3)
         tilt = 30 * h / (C + 30 / R0 - A)
         assert motion.omega[:, 0].mean() == pytest.approx(tilt, rel=0.5 * h)
-        assert abs(printed(scene, START, motion.t).omega[:, 0].mean()) < 0.5 * h * abs(tilt)  # the paper drops it
+        # the paper drops it
+        assert abs(printed(scene, START, motion.t).omega[:, 0].mean()) < 0.5 * h * abs(tilt)
 
 
 # Resonances and instability
@@ -231,7 +253,8 @@ def test_near_a_resonance_the_expansion_is_still_exact_for_a_small_enough_parame
 @pytest.mark.parametrize("lz, lx, order", [
     ((12 + 12 - 6) * R0, 30.0, 0),   # C* = A + B: Omega = 1
     (-6 * R0, 30.0, 0),              # C* = 0: Omega = 1 too
-    (30 * R0, 30.0, 1),              # A = B = 2 C, C* = 3 A: Omega = 2, forced at order 2 by l_x and the field
+    # A = B = 2 C, C* = 3 A: Omega = 2, forced at order 2 by l_x and the field
+    (30 * R0, 30.0, 1),
     (30 * R0, 0.0, 2),               # without l_x only at order 3
     (6 * R0, 30.0, -1),              # C* = A = B: no tilt balances l_x
     (6 * R0, 0.0, 0),                # C* = A = B, forced at order 1
@@ -239,8 +262,10 @@ def test_near_a_resonance_the_expansion_is_still_exact_for_a_small_enough_parame
 def test_an_exact_resonance_ends_the_expansion_below_it(lz, lx, order):
     motion = lindstedt(top(0.01, lx, lz, moments=(12, 12, 6)), START, [0.0, 1.0], 5)
     assert motion.status == "resonant" and motion.order == order and "exact resonance" in motion.reason
-    assert motion.omega.shape == motion.gamma.shape == ((2, 3) if order >= 0 else (0, 3)) and len(motion.t) == len(motion.omega)
-    assert np.isfinite(motion.omega).all() and (motion.residual < 0.1 if order >= 0 else motion.residual == math.inf)
+    assert motion.omega.shape == motion.gamma.shape == ((2, 3) if order >= 0 else (0, 3))
+    assert len(motion.t) == len(motion.omega)
+    assert np.isfinite(motion.omega).all()
+    assert (motion.residual < 0.1 if order >= 0 else motion.residual == math.inf)
 
 
 def test_omega_two_does_not_force_the_second_order_without_l_x():
@@ -255,8 +280,8 @@ def test_middle_axis_is_called_unstable_and_neighbours_do_leave_at_the_said_rate
     rate = R0 * math.sqrt(-motion.Omega2)
     assert motion.status == "unstable" and "Omega^2" in motion.reason
     push = np.array([1e-8, 0, 0])
-    run = [trajectory(scene, {"omega": motion.omega[0] + s * push, "gamma": motion.gamma[0]}, [6 / rate, 10 / rate])
-           for s in (1, -1)]
+    run = [trajectory(scene, {"omega": motion.omega[0] + s * push, "gamma": motion.gamma[0]},
+                      [6 / rate, 10 / rate]) for s in (1, -1)]
     apart = np.linalg.norm(run[0].block("omega") - run[1].block("omega"), axis=1)
     assert math.log(apart[1] / apart[0]) == pytest.approx(4, rel=0.02)
 
@@ -266,13 +291,15 @@ def test_a_slow_top_is_called_diverging():
     motion = lindstedt(case.scene, {"omega": case.state, **case.blocks}, [0.0], 4)
     assert motion.status == "diverging" and motion.size > 1 and "lies on" not in motion.reason
     # the paper's assumption eps delta of order eps, broken: eps delta1 = 4.5, M g L/(C r0^2) = 8.2
-    assert motion.epsilon * 50 == pytest.approx(4.53, abs=0.01) and motion.size**2 == pytest.approx(8.22, abs=0.01)
+    assert motion.epsilon * 50 == pytest.approx(4.53, abs=0.01)
+    assert motion.size**2 == pytest.approx(8.22, abs=0.01)
 
 
 # Angles
 
 def test_regular_precession_of_the_symmetric_top_is_met_order_by_order():
-    # Exact: A cos(theta) P^2 - (C r + l_z) P - M g z = 0 for the steady precession P about the weight, slow root.
+    # Exact: A cos(theta) P^2 - (C r + l_z) P - M g z = 0 for the steady precession P about the weight, slow
+    # root.
     A, C, lz, arm = 16.0, 11.0, 30.0, 0.5
     slow = 2 * -WEIGHT * arm / ((s := C * R0 + lz) + math.sqrt(s * s + 4 * A * 0.6 * WEIGHT * arm))
     scene = Scene(Body((A, A, C)), Gravity(WEIGHT, (0, 0, arm)), Gyrostat((0, 0, lz)))
@@ -306,15 +333,18 @@ def test_precession_and_nutation_are_those_of_the_axis_in_space(gamma):
     azimuth = np.unwrap(np.arctan2(axis @ np.cross(up, across), axis @ across))
     motion = lindstedt(top(), start, times, 16)
     exact, periodic = euler_angles(times, run.block("omega"), run.block("gamma")), periodic_angles(motion)
-    assert exact.psi - exact.psi[0] == pytest.approx(azimuth - azimuth[0], abs=1e-7) and exact.status == "regular"
+    assert exact.psi - exact.psi[0] == pytest.approx(azimuth - azimuth[0], abs=1e-7)
+    assert exact.status == "regular"
     assert periodic.psi == pytest.approx(azimuth, abs=1e-9)
-    assert exact.theta == pytest.approx(np.arccos(axis @ up), abs=1e-9) and periodic.theta == pytest.approx(exact.theta, abs=1e-9)
+    assert exact.theta == pytest.approx(np.arccos(axis @ up), abs=1e-9)
+    assert periodic.theta == pytest.approx(exact.theta, abs=1e-9)
     assert exact.phi == pytest.approx(periodic.phi, abs=1e-8) and abs(exact.phi[-1] - exact.phi[0]) > 60
     assert exact.error < 1e-6
 
 
 def test_angles_pass_the_pole_by_their_sum():
-    # Closed form: rotation about a body axis across the weight, theta = |t|, then phi jumps by half a turn and psi back.
+    # Closed form: rotation about a body axis across the weight, theta = |t|, then phi jumps by half a turn
+    # and psi back.
     t = np.linspace(-1, 1, 41)
     gamma = np.stack([0 * t, np.sin(t), np.cos(t)], -1)
     omega = np.stack([1 + 0 * t, 0 * t, 0 * t], -1)  # gamma' = gamma x omega
@@ -343,7 +373,8 @@ def test_no_order_calls_the_data_of_table_1_a_periodic_motion(name, order):
 
 @pytest.mark.parametrize("order", range(9))
 def test_a_valid_top_is_told_as_one_at_every_order_with_what_the_order_leaves_out(order):
-    """What order 12 has at the start, no less than twice the departure told, is what the lower order leaves out."""
+    """What order 12 has at the start, no less than twice the departure told, is what the lower order leaves
+    out."""
     case = stabilab.load(CASES / "top-fast.toml")
     state = {"omega": case.state, "gamma": case.blocks["gamma"]}
     found, best = (lindstedt(case.scene, state, [0.0], n) for n in (order, 12))
@@ -354,7 +385,8 @@ def test_a_valid_top_is_told_as_one_at_every_order_with_what_the_order_leaves_ou
 
 @pytest.mark.one_in(2)
 @needs_heyoka
-@pytest.mark.parametrize("h, status", [(0.1, "asymptotic"), (0.3, "asymptotic"), (1.0, "asymptotic"), (3.0, "asymptotic"),
+@pytest.mark.parametrize("h, status",
+                         [(0.1, "asymptotic"), (0.3, "asymptotic"), (1.0, "asymptotic"), (3.0, "asymptotic"),
                                        (9.0, "diverging"), (15.0, "diverging")])
 def test_asymptotic_series_follow_the_motion_for_a_revolution_and_diverging_ones_do_not(h, status):
     """Against a run of the exact equations from the series' own start."""
@@ -378,7 +410,8 @@ def test_printed_solution_is_right_to_its_order_without_gyrostat():
         paper = printed(scene, START, motion.t)
         drops.append([np.abs(paper.omega - motion.omega).max(0), np.abs(paper.gamma - motion.gamma).max(0)])
     slopes = np.log2(np.array(drops[0]) / np.array(drops[1]))
-    # p, q: epsilon of omega times epsilon^2 beyond (no even orders); r, gamma'': to second order; gamma, gamma': the missing nu
+    # p, q: epsilon of omega times epsilon^2 beyond (no even orders); r, gamma'': to second order; gamma,
+    # gamma': the missing nu
     assert slopes == pytest.approx(np.array([[4, 4, 4], [2, 2, 4]]), abs=0.2)
 
 
@@ -391,7 +424,8 @@ def test_printed_angles_have_wrong_signs_where_y0_enters(arm, order):
         motion = lindstedt(scene, START, np.linspace(0, 0.04, 40), 8)
         paper, angles = printed(scene, START, motion.t), periodic_angles(motion)
         theta0 = math.acos(START["gamma"][2])
-        meant = paper.psi * math.sin(paper.epsilon * theta0) / math.sin(theta0)  # csc(eps theta0) stands where csc theta0 is meant
+        # csc(eps theta0) stands where csc theta0 is meant
+        meant = paper.psi * math.sin(paper.epsilon * theta0) / math.sin(theta0)
         drops.append([np.abs(paper.theta - angles.theta).max(), np.abs(meant - angles.psi).max()])
         assert np.abs(paper.psi - angles.psi).max() > np.abs(angles.psi).max()
     assert np.log2(np.array(drops[0]) / np.array(drops[1])) == pytest.approx(order, abs=0.2)
@@ -400,7 +434,8 @@ def test_printed_angles_have_wrong_signs_where_y0_enters(arm, order):
 def test_printed_solution_has_poles_though_the_text_denies_it():
     # l_z = 0 and C = A + B is a flat body; printed Omega^2 = (C-A)(C-B)/(A B) = 1
     scene = Scene(Body((5, 6, 11)), Gravity(WEIGHT, ARM))
-    found = [printed(Scene(body, Gravity(WEIGHT, ARM)), START, [0.0]) for body in (Body((12, 11, 11)), Body((11, 12, 11)))]
+    found = [printed(Scene(body, Gravity(WEIGHT, ARM)), START, [0.0])
+             for body in (Body((12, 11, 11)), Body((11, 12, 11)))]
     assert all(p.status == "pole" and p.omega.shape == (0, 3) for p in found)
     assert abs(1 - paper_numbers(Scene(Body((5, 6, "10.999999")), Gravity(WEIGHT, ARM)), START).Omega2) < 1e-5
     assert lindstedt(scene, START, [0.0], 2).status == "resonant"
@@ -419,7 +454,8 @@ def test_cases_of_the_table_have_its_data():
         A, B, C = case.scene.body.inertia
         state = {"omega": case.state, **case.blocks}
         numbers = paper_numbers(case.scene, state)
-        assert (A, B, C) == pytest.approx((15 * (1 + 50 * numbers.epsilon), 15 * (1 + 45 * numbers.epsilon), 11), rel=1e-6)
+        assert (A, B, C) == pytest.approx((15 * (1 + 50 * numbers.epsilon), 15 * (1 + 45 * numbers.epsilon),
+                                           11), rel=1e-6)
         assert case.scene.vector("gyrostat") == (lx, 0, lz) and case.state[2] == 5
         assert printed(case.scene, state, [0.0]).omega[0] == pytest.approx(case.state, abs=1e-6)
 
@@ -430,7 +466,8 @@ def test_the_fast_case_is_the_periodic_motion_throughout_its_span():
     state = {"omega": case.state, **case.blocks}
     times = np.linspace(0.1, case.span[1], 20)
     motion, run = lindstedt(case.scene, state, times, 12), trajectory(case.scene, state, times)
-    assert case.state[2] >= 150 and motion.status == "asymptotic" and "lies on the periodic motion" in motion.reason
+    assert case.state[2] >= 150 and motion.status == "asymptotic"
+    assert "lies on the periodic motion" in motion.reason
     assert max(errors(motion, run)) < 1e-10
 
 

@@ -118,8 +118,8 @@ def test_a_fast_wheel_widens_the_set_by_no_more_than_its_turns():
 
 def test_a_fraction_and_a_decimal_in_a_string_are_taken_exactly():
     end = 0.5
-    one, two = enclose(EXAMPLE, ("0.1", "1/3", "2"), end), enclose(EXAMPLE,
-                                                                   (Fraction(1, 10), Fraction(1, 3), 2), end)
+    one, two = enclose(EXAMPLE, ("0.1", "1/3", "2"),
+                       end), enclose(EXAMPLE, (Fraction(1, 10), Fraction(1, 3), 2), end)
     assert one.middle.tolist() == two.middle.tolist() and one.rest.tolist() == two.rest.tolist()
     # a run in 50 digits
     assert max(shares(one.middle, one.rest, one.radius,

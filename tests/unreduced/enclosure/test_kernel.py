@@ -64,8 +64,8 @@ def test_a_set_in_new_directions_holds_the_old_one(name):
         M = np.array([[rng.gauss(0, 1) for _ in range(3)] for _ in range(3)])
         if n % 4 == 0:
             M[:, 1] = M[:, 0] * (1 + 1e-9 * rng.random())  # edges nearly along each other
-        old, rest = [10.0 ** rng.uniform(-20, -5) for _ in range(3)], [10.0 ** rng.uniform(-25, -8)
-                                                                       for _ in range(3)]
+        old, rest = [10.0 ** rng.uniform(-20, -5)
+                     for _ in range(3)], [10.0 ** rng.uniform(-25, -8) for _ in range(3)]
         rad, B = np.array(old), np.empty((3, 3))
         if getattr(kernel, name)(M, np.array(rest), rad, B) is False:
             assert rad.tolist() == old  # nothing is changed

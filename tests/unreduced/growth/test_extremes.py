@@ -1,5 +1,5 @@
-"""Tests of `unreduced/growth/certificate.py`: what is known of the extremes of a motion that grows for ever, and
-how it is told."""
+"""Tests of `unreduced/growth/certificate.py`: what is known of the extremes of a motion that grows for ever,
+and how it is told."""
 from __future__ import annotations
 
 import csv

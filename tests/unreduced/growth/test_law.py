@@ -174,7 +174,8 @@ def test_opposite_torque_and_c_give_the_mirror_image(c):
     for x in rng.normal(size=(8, 3)) * 4:
         one = captured_fate(paper(c), x)
         other = captured_fate(ScaledGyrostat(0, -Fraction(c), (-1, 0, 0)), x * [-1, 1, -1])
-        assert one.axis == other.axis and one.sense == -other.sense and one.t_certificate == other.t_certificate
+        assert one.axis == other.axis and one.sense == -other.sense
+        assert one.t_certificate == other.t_certificate
 
 
 @pytest.mark.parametrize("factor", [1e-6, 1e3])

@@ -142,7 +142,6 @@ def test_the_clock_allows_for_the_blur_of_the_time():
     wide = replace(answer.trap, blur=0.5)
     limit = 5 * answer.trap.z_up * answer.trap.unit
     (early, late), (earlier, later) = answer.trap.clock(limit), wide.clock(limit)
-    assert earlier == pytest.approx(early - 0.5 + answer.trap.blur,
-                                    rel=1e-9) and later == pytest.approx(late + 0.5 - answer.trap.blur,
-                                                                         rel=1e-9)
+    assert earlier == pytest.approx(early - 0.5 + answer.trap.blur, rel=1e-9)
+    assert later == pytest.approx(late + 0.5 - answer.trap.blur, rel=1e-9)
     assert wide.line(answer.t + 10)[0] < answer.trap.line(answer.t + 10)[0]

@@ -171,8 +171,8 @@ def test_condition_is_the_growth_of_a_small_change():
     answer = spin_up(EXAMPLE, state)
     times = np.linspace(0, answer.t, 400)
     step = 1e-6 * np.array((1, -1, 1))
-    apart = (np.abs(run(rates_of(EXAMPLE), state + step, times) - run(rates_of(EXAMPLE), state,
-                                                                      times)).max(axis=1).max() / 1e-6)
+    apart = (np.abs(run(rates_of(EXAMPLE), state + step, times)
+                    - run(rates_of(EXAMPLE), state, times)).max(axis=1).max() / 1e-6)
     assert 0.3 * apart < max(answer.condition, 1) < 1.1 * max(apart, 1)
 
 
@@ -230,8 +230,8 @@ def test_a_motion_that_a_law_keeps_bounded_is_no_open_question_of_spin_up():
     scene = ScaledGyrostat("0.2", "0.4", (0, 0, 1))
     states = [(2.5, 4.0, 0.1), (2.5, 4.0, 30.0)]
     one = [spin_up(scene, state, 20) for state in states]
-    assert [(answer.fate, answer.level) for answer in one] == [(Fate.BOUNDED, "exact"),
-                                                               (Fate.SPIN_UP, "certified")]
+    assert [(answer.fate, answer.level)
+            for answer in one] == [(Fate.BOUNDED, "exact"), (Fate.SPIN_UP, "certified")]
     assert one[0].cause.startswith("bounded by the law of a torque along a principal axis: ")
     many = spin_up_many(scene, np.array(states), 20)
     assert many.fate.tolist() == [Fate.BOUNDED,

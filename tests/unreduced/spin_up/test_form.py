@@ -123,8 +123,8 @@ def test_a_turned_case_has_the_same_forms():
     one = Scene(Body((3, 2, 1.5)), Gyrostat((.3, .2, .1)), ConstantTorque((1, .5, .2)))
     other = Scene(Body((3, 2, 1.5)), Gyrostat((-.3, .2, -.1)), ConstantTorque((-1, .5, -.2)))
     for a, b in zip(forms_of(one), forms_of(other)):
-        assert a.sense == -b.sense and a.place((1, 2, 3)) == b.place((-1, 2,
-                                                                      -3)) and a.mu == b.mu or a.axis == 2
+        assert a.sense == -b.sense and a.place((1, 2,
+                                                3)) == b.place((-1, 2, -3)) and a.mu == b.mu or a.axis == 2
 
 
 QUESTIONS = {"fate": stabilab.fate, "extremes": stabilab.extremes, "period": stabilab.period,

@@ -46,7 +46,8 @@ def test_motion_about_the_centre_stays_and_that_of_the_other_wheel_leaves():
 def test_a_motion_in_an_island_is_told_to_be_in_one_and_is_never_certified(D, M, l, state):
     """Bounded over 1e6 natural units by runs in other integrators."""
     answer = spin_up(Scene(Body(D), Gyrostat(l), ConstantTorque(M)), state, 5000)
-    assert answer.fate == Fate.UNDECIDED and "an island is seen" in answer.cause and "bounded over 5000 s" in answer.cause
+    assert answer.fate == Fate.UNDECIDED and "an island is seen" in answer.cause
+    assert "bounded over 5000 s" in answer.cause
     early = spin_up(Scene(Body(D), Gyrostat(l), ConstantTorque(M)), state, 300)
     assert "is seen" not in early.cause and "may exist" in early.cause
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 from functools import lru_cache
 
 # -- the true equations, and a state at which nothing is special
-# ------------------------------------------------------
 
 AXES = {"major": (1, 0, 0), "middle": (0, 1, 0), "minor": (0, 0, 1)}
 

@@ -72,9 +72,8 @@ def test_json_and_csv_hold_every_cell(found):
     told = json.loads(words.json(found, DEG))
     assert told["schema"] == "stabilab.atlas/1" and len(told["cells"]["share"]) == len(found.records) == len(
         told["cells"]["direction"])
-    assert sum(told["cells"]["share"]) == pytest.approx(2) and sum(one["share"]
-                                                                   for one in told[
-                                                                       "shares"]) == pytest.approx(1)
+    assert sum(told["cells"]["share"]) == pytest.approx(2)
+    assert sum(one["share"] for one in told["shares"]) == pytest.approx(1)
     rows = list(csv.DictReader(io.StringIO(words.csv(found))))
     assert len(rows) == len(found.records) + len(found.named)
     assert float(rows[-1]["when_low (s)"]) == found.records["when_low"][-1] and rows[0]["name"] == "+x"
@@ -83,8 +82,8 @@ def test_json_and_csv_hold_every_cell(found):
 def test_a_file_holds_the_atlas_and_opens_as_a_data_set(found, tmp_path):
     path = to_file.write(found, tmp_path / "sky.nc", DEG)
     data = xarray.open_dataset(path).load()
-    assert data.share.sum() == pytest.approx(2) and data.corners.shape == (len(found.records), 3,
-                                                                           3) and data.when_low.units == "s"
+    assert data.share.sum() == pytest.approx(2) and data.corners.shape == (len(found.records), 3, 3)
+    assert data.when_low.units == "s"
     again = dataset.atlas_of(data, path)
     assert words.text(again, DEG) == words.text(found, DEG) and to_file.is_atlas(path)
     assert to_file.write(again, tmp_path / "two.nc", DEG).read_bytes() == path.read_bytes()
@@ -95,9 +94,8 @@ def test_a_file_holds_the_atlas_and_opens_as_a_data_set(found, tmp_path):
 def test_python_gives_the_data_set(tmp_path):
     made = stabilab.atlas(case_of(wheel=(0.0, 0.2, 0.0), start=(0.3, -0.2, 0.5)), level=0, refine=0,
                           out=tmp_path / "sky.nc")
-    assert made.sizes["cell"] == 8 and list(made.point.values[:2]) == ["+x",
-                                                                       "-x"] and (tmp_path
-                                                                                  / "sky.nc").is_file() and "when_low" not in made
+    assert made.sizes["cell"] == 8 and list(made.point.values[:2]) == ["+x", "-x"]
+    assert (tmp_path / "sky.nc").is_file() and "when_low" not in made
 
 
 def test_the_map_keeps_areas_and_comes_back():
