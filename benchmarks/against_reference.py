@@ -12,7 +12,7 @@ from stabilab.answers.simulate import trajectory
 from stabilab.answers.tabulated import tabulated
 from stabilab.case.read import load
 from stabilab.numbers.balls import working
-from stabilab.papers.validation.integrators import rk4, run
+from stabilab.papers.validation.quantities import rk4, run
 
 ROOT = Path(__file__).parents[1]
 PAGE = ROOT / "docs" / "reference.md"

@@ -7,10 +7,9 @@ from ..errors import ToleranceNotMet
 from ..papers import table
 from ..papers.audit import audited
 from ..papers.audit import page as audit_page
-from ..papers.audit import words as audit_text
 from ..papers.figures import catalogue
+from ..papers.validation import comparison as validation_text
 from ..papers.validation import validated
-from ..papers.validation import words as validation_text
 from ..show.files import manifest
 from ..show.progress import counted
 from ..show.terminal.page import width
@@ -23,8 +22,8 @@ def audit(paper, equation, json, out):
         findings = audited(paper, equation, tell)
     if out is not None:
         say(f"written: {audit_page.page(findings, out)}")
-    either(json, lambda: audit_text.as_dict(findings),
-           lambda: audit_text.text(findings, min(width() or 100, 100)))
+    either(json, lambda: audit_page.as_dict(findings),
+           lambda: audit_page.text(findings, min(width() or 100, 100)))
 
 
 def validate(source, json, out):

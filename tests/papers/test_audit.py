@@ -11,11 +11,8 @@ import pytest
 
 from stabilab.errors import InputError
 from stabilab.papers import audit
-from stabilab.papers.audit.checks import bound_of, pairs, raw
-from stabilab.papers.audit.decide import decide
-from stabilab.papers.audit.findings import domain_of, examine, prove_systems
-from stabilab.papers.audit.repair import edits, repairs
-from stabilab.papers.audit.systems import system_of
+from stabilab.papers.audit.checks import bound_of, decide, pairs, raw, system_of
+from stabilab.papers.audit.findings import domain_of, edits, examine, prove_systems, repairs
 from stabilab.theories.cavity import model as cavity
 from stabilab.theories.charged import model as charged
 from stabilab.theories.printed.claims import FormulaError, parse, read, sides
@@ -228,7 +225,7 @@ def test_the_corrected_integral_is_constant_along_a_run_and_the_printed_one_is_n
 
 
 def test_json_of_the_audit_has_the_keys_of_its_schema():
-    from stabilab.papers.audit.words import as_dict
+    from stabilab.papers.audit.page import as_dict
 
     told = as_dict(audit.audited("constant-torque-gyrostat", "17"))
     (row,) = json.loads(json.dumps(told))["rows"]
@@ -306,7 +303,7 @@ def test_operators_carried_out_in_numbers_and_in_symbols_have_one_value(text, va
 def test_an_edit_is_tried_in_doubles_without_work_on_symbols(monkeypatch):
     """Of hundreds of edits of a formula with `at`, few need SymPy: those where a number would be divided by
     zero. Before, all did."""
-    from stabilab.papers.audit import repair
+    from stabilab.papers.audit import findings as repair
     from stabilab.theories.printed.evaluate import Evaluator
     tried, carried = [], []
     near, plain = repair._Trial._near, Evaluator.plain

@@ -13,11 +13,10 @@ import pytest
 
 from stabilab.errors import InputError
 from stabilab.numbers.balls import working
+from stabilab.papers.validation import comparison as shown
 from stabilab.papers.validation import findings, source, sources
-from stabilab.papers.validation import words as shown
-from stabilab.papers.validation.enclose import at
-from stabilab.papers.validation.integrators import ab2, rk4, run
-from stabilab.papers.validation.record import Source
+from stabilab.papers.validation.comparison import Source
+from stabilab.papers.validation.quantities import ab2, at, rk4, run
 from stabilab.show.terminal.letters import written
 from tests.oracles import taylor
 from tests.oracles.pairs import physical
@@ -71,7 +70,7 @@ def test_the_attitude_under_a_torque_is_what_the_rates_integrate_to(by_tool):
 
 
 def _sigma(printed, step):
-    from stabilab.papers.validation.integrators import reproduced
+    from stabilab.papers.validation.quantities import reproduced
     return reproduced(replace(printed, cause={"method": "rk4", "step": step}), 600.0)
 
 

@@ -1,14 +1,202 @@
-"""What each kind of claim says, as pairs of expressions that are equal where the claim is true."""
+"""How a printed equation is tried on the equations of motion, and what is decided of it.
 
+The true motion that a claim is held against: the program's own equations of motion, in the paper's
+letters.
+
+A system is either derived (`effects`: the equations that the program integrates, renamed by `names`), or
+stated by its rates in other variables (`follows`, `meaning`, `pace`) and then proved to follow from its
+parent before anything is held against it, or a parent with some symbols set (`set`).
+
+Whether two expressions are one: by symbols where SymPy can, else by their values at random points with 50
+and 80 digits.
+"""
 from __future__ import annotations
 
+from dataclasses import dataclass
+from decimal import Decimal, InvalidOperation
 from importlib import import_module
+from itertools import combinations
 
 from ...errors import InputError
-from ...theories.printed.claims import Paper, Row, parse, sides
-from ...theories.printed.evaluate import Evaluator
+from ...physics.equations import derive
+from ...physics.scene import Body, Scene
+from ...theories.printed.claims import FormulaError, Paper, Row, parse, sides
+from ...theories.printed.evaluate import Evaluator, Undefined, points, precise, settled
+
+# effect -> (module, class, arguments that leave no parameter zero)
+EFFECTS = {
+    "gyrostat": ("gyrostat", "Gyrostat", ((2, 3, 5),)),
+    "constant_torque": ("constant_torque", "ConstantTorque", ((2, 3, 5),)),
+    "charge": ("charge", "Charge", (2, 3, 5, "1/2")),
+    "gravity": ("gravity", "Gravity", (7, (2, 3, 5))),
+    "newtonian_field": ("newtonian_field", "NewtonianField", (3,)),
+    "liquid_cavity": ("liquid_cavity", "LiquidCavity", (2, 3, 5)),
+    "resistance": ("resistance", "Resistance", (2,)),
+}
 
 
+@dataclass(frozen=True)
+class System:
+    """state: SymPy symbols; rates: their rates by the system's own time; set: symbols with a value in it;
+    time: unit of that time, words."""
+
+    name: str
+    state: tuple
+    rates: tuple
+    set: dict
+    time: str
+
+    def rate(self, expression):
+        """Rate of an expression along the motion."""
+        return sum((expression.diff(x) * r for x, r in zip(self.state, self.rates)), 0 * expression)
+
+
+def system_of(paper: Paper, name: str | None, place: str = "") -> System | None:
+    """The system of a name; None for None. InputError where it is not described or does not follow from its
+    parent."""
+    if name is None:
+        return None
+    if name not in paper.systems:
+        raise InputError(
+            f"{place or paper.name}: unknown system {name!r}; described are "
+            f"{', '.join(paper.systems) or 'none'}")
+    data, place = paper.systems[name], f"{paper.name}, systems.{name}"
+    unknown = (set(data) - {"effects", "names", "blocks", "state", "rates", "follows", "meaning", "pace",
+                            "set", "time", "scene"})
+    if unknown:
+        raise InputError(f"{place}: unknown keys {', '.join(sorted(unknown))}")
+    values = {symbol: _read(paper, place, text) for symbol, text in data.get("set", {}).items()}
+    if "effects" in data or "scene" in data:
+        return _derived(paper, name, data, values, place)
+    if "rates" in data:
+        state = tuple(_symbol(paper, place, s) for s in data["state"])
+        return System(name, state, tuple(_put(_read(paper, place, r), values) for r in data["rates"]), values,
+                      data.get("time", "s"))
+    if "follows" not in data:
+        raise InputError(f"{place}: give effects (derived), rates (stated) or follows with set")
+    parent = system_of(paper, data["follows"], place)
+    return System(name, parent.state, tuple(_put(r, values) for r in parent.rates), parent.set | values,
+                  parent.time)
+
+
+def stated(paper: Paper):
+    """(system's name, parent, pairs that vanish if its stated rates follow from the parent's) for every
+    system stated by rates."""
+    for name, data in paper.systems.items():
+        if "rates" not in data or "follows" not in data:
+            continue
+        place = f"{paper.name}, systems.{name}"
+        parent, own = system_of(paper, data["follows"], place), system_of(paper, name)
+        meaning = {_symbol(paper, place, s): _read(paper, place, text) for s, text in data["meaning"].items()}
+        pace = _read(paper, place, data.get("pace", "1"))
+        yield name, parent, [(parent.rate(meaning[x]) / pace, rate.xreplace(meaning)) for x,
+                             rate in zip(own.state, own.rates)]
+
+
+def _derived(paper, name, data, values, place):
+
+    equations = derive(_scene(data, place), tuple(data.get("blocks", ())))
+    import sympy as sp
+
+    renamed = {}
+    for theirs in (*equations.state, *equations.symbols.values()):
+        text = data.get("names", {}).get(theirs.name, theirs.name)
+        renamed[theirs] = sp.Integer(0) if text == "0" else _read(paper, place, text)
+    state = tuple(renamed[s] for s in equations.state)
+    if not all(s.is_Symbol for s in state):
+        raise InputError(f"{place}: names of the state are to be plain symbols")
+    return System(name, state, tuple(_put(r.xreplace(renamed), values) for r in equations.rhs), values,
+                  data.get("time", "s"))
+
+
+def _scene(data, place):
+
+    if "scene" in data:
+        module, _, function = data["scene"].partition(":")
+        return getattr(import_module(f".special.{module}", __package__), function)()
+    effects = []
+    for effect in data["effects"]:
+        if effect not in EFFECTS:
+            raise InputError(f"{place}: unknown effect {effect!r}; known are {', '.join(EFFECTS)}")
+        module, kind, arguments = EFFECTS[effect]
+        effects.append(getattr(import_module(f"...physics.effects.{module}", __package__), kind)(*arguments))
+    return Scene(Body((7, 6, 4)), *effects)
+
+
+def _put(expression, values):
+    return (expression.subs({s: v for s, v in expression_symbols(expression, values)}) if values
+            else expression)
+
+
+def expression_symbols(expression, values):
+    """(symbol, value) of those of the named symbols that stand in the expression."""
+    return [(s, values[s.name]) for s in expression.free_symbols if s.name in values]
+
+
+def _read(paper, place, text):
+    try:
+        return parse(text, paper.symbols)
+    except FormulaError as error:
+        raise FormulaError(f"{place}: {error}") from None
+
+
+def _symbol(paper, place, name):
+    if name not in paper.symbols:
+        raise InputError(f"{place}: unknown symbol {name!r}; declare it under [symbols]")
+    return paper.symbols[name]
+
+
+# --- Under which condition a wrong formula is right: a = 0, D1 = D2, no wheel. Singles first, then pairs
+def candidates(paper: Paper, row: Row) -> list[tuple[str, dict]]:
+    """(words, {name: expression}) of every condition to try: the row's own, then the paper's."""
+    out = []
+    for text in dict.fromkeys((*row.options.get("conditions", ()), *paper.conditions)):
+        left, _, right = text.partition("=")
+        out.append((text.strip(), {left.strip(): parse(right, paper.symbols)}))
+    return out
+
+
+def condition_of(paper: Paper, row: Row, pairs, bound, system, domain) -> tuple[str, str]:
+    """(condition, method) under which the pairs agree; ("", "") where none of the candidates helps. Singles
+    are tried before pairs."""
+    import mpmath
+
+    single = singles(paper, row, pairs, bound, system, domain)
+    double = [(f"{a} and {b}", first | second) for (a, first),
+              (b, second) in combinations(single, 2) if first.keys() != second.keys()]
+    for words, fixed in [*single, *((words, fixed) for words, fixed in double if _plain(fixed))]:
+        if not _quick(mpmath.fp, pairs, bound, system, words, domain, fixed):
+            continue
+        decision = decide(pairs, bound, system, row.equation + words, domain, fixed)
+        if decision.holds:
+            return words, decision.method
+    return "", ""
+
+
+def singles(paper: Paper, row: Row, pairs, bound, system, domain) -> list[tuple[str, dict]]:
+    """(words, {name: expression}) of the single conditions that speak of symbols of the pairs."""
+    standing = {s.name for s in free(pairs, domain, bound, system)}
+    return [(words, fixed) for words,
+            fixed in candidates(paper, row) if fixed.keys() <= standing and _plain(fixed)]
+
+
+def _plain(fixed):
+    """Whether no fixed symbol stands in what another is fixed to."""
+    return not any(s.name in fixed for value in fixed.values() for s in value.free_symbols)
+
+
+def _quick(numbers, pairs, bound, system, seed, domain, fixed):
+    """Whether doubles leave it open that the pairs agree under the condition."""
+    symbols = free(pairs, domain, bound, system, fixed)
+    try:
+        chosen = points(symbols, seed, 2, domain, bound, system, fixed)
+    except InputError:
+        return False
+    found = [residual(pairs, numbers, point, bound, system, fixed) for point in chosen]
+    return all(r is not None and r < 1e-7 for r in found)
+
+
+# --- What each kind of claim says, as pairs of expressions that are equal where the claim is true
 def pairs(paper: Paper, row: Row, printed, system, bound) -> list:
     """[(left, right)] that agree wherever the row's formulas are true. printed: [(left, right)] of the
     formulas, as raw SymPy trees."""
@@ -87,3 +275,193 @@ def residuals_of(row: Row):
                      for v in import_module(f".special.{module}", __package__).TESTS[function]())
     except (ModuleNotFoundError, KeyError) as error:
         raise InputError(f"{row.place}: no function {row.options['test']!r} ({error})") from None
+
+
+DIGITS = (50, 80)  # a claim "holds" by values only if its residual shrinks with the digits
+POINTS = 5
+SLACK = 14  # digits that cancellation may cost at points of order one
+APART = 1e-6  # relative difference at a point that settles it
+SYMBOLIC_SIZE = 250  # operations up to which symbols are tried
+
+
+@dataclass(frozen=True)
+class Decision:
+    """holds: True, False, or None where it could not be told; residual: largest relative difference seen;
+    method: words."""
+
+    holds: bool | None
+    residual: float
+    method: str
+
+
+def decide(pairs, bound: dict, system, seed: str, domain=(), fixed=None, symbolic=True) -> Decision:
+    """Whether left equals right in every pair, for all values of the free symbols at which `domain` is
+    positive. fixed: name -> expression (a condition)."""
+
+    chosen, none = (), ""
+    try:
+        chosen = points(free(pairs, domain, bound, system, fixed), seed, POINTS, domain, bound, system, fixed)
+    except InputError as error:
+        none = str(error)
+    if symbolic and not fixed and all(_same_in_symbols(left, right, bound, system, chosen[:1]) for left,
+                                      right in pairs):
+        return Decision(True, 0.0, "symbols")
+    if none:
+        return Decision(None, float("nan"), none)
+    worst, seen = {}, 0
+    for digits in DIGITS:
+        numbers = precise(digits)
+        found = [residual(pairs, numbers, point, bound, system, fixed) for point in chosen]
+        found = [r for r in found if r is not None]
+        seen, worst[digits] = len(found), max(found, default=None)
+        if found and worst[digits] > 10.0 ** -(DIGITS[0] - SLACK):
+            return Decision(False, float(worst[digits]), f"residual at random points, {digits} digits")
+    if not seen:
+        return Decision(None, float("nan"), "the formula has no value at any of the random points")
+    if worst[DIGITS[1]] > 10.0 ** -(DIGITS[1] - SLACK):
+        return Decision(None, float(worst[DIGITS[1]]), "the residual does not shrink with the digits")
+    return Decision(True, float(worst[DIGITS[1]]),
+                    f"residuals at {seen} random points, {DIGITS[0]} and {DIGITS[1]} digits")
+
+
+def residual(pairs, numbers, point, bound, system, fixed=None):
+    """Largest relative difference at one point; None where the formula has no value there."""
+    ready = settled(numbers, point, fixed, bound, system)
+    if ready is None:
+        return None
+    value, worst = Evaluator(numbers, ready, bound, system), numbers.mpf(0)
+    try:
+        for left, right in pairs:
+            a, b = value(left), value(right)
+            size = max(abs(a), abs(b), _largest_term(value, left), _largest_term(value, right))
+            if size:
+                worst = max(worst, abs(a - b) / size)
+    except Undefined:
+        return None
+    return worst
+
+
+def _largest_term(value, expression):
+    """Size of the largest term of a sum: what a difference of rounding is to be compared with."""
+    return max((abs(value(term)) for term in expression.args), default=0) if expression.is_Add else 0
+
+
+def free(pairs, domain, bound, system, fixed=None):
+    """Symbols that need a value, in order of their names."""
+    found, waiting, done = set(), [e for pair in pairs for e in pair] + list(domain), set()
+    if system is not None and any(e.has(*_rates()) for e in waiting):
+        waiting += list(system.rates)
+    while waiting:
+        for s in waiting.pop().free_symbols:
+            if s.name in bound:
+                if s.name not in done:
+                    done.add(s.name)
+                    waiting.append(bound[s.name])
+            elif fixed and s.name in fixed:
+                if s.name not in done:
+                    done.add(s.name)
+                    waiting.append(fixed[s.name])
+            else:
+                found.add(s)
+    return sorted(found, key=lambda s: s.name)
+
+
+def _rates():
+    import sympy as sp
+
+    return (sp.Function("rate"),)
+
+
+def _apart(left, right, bound, system, chosen):
+    """Whether two expressions differ by so much at a point that no rounding of 50 digits makes up for it."""
+    found = [residual([(left, right)], precise(DIGITS[0]), point, bound, system) for point in chosen]
+    return any(r is not None and r > APART for r in found)
+
+
+def _same_in_symbols(left, right, bound, system, chosen=()):
+    """Whether symbols show it; chosen: points at which expressions that differ plainly are told apart before
+    their terms are multiplied out."""
+    import sympy as sp
+
+    plain = Evaluator(None, {}, bound, system).plain
+    try:
+        difference = plain(left) - plain(right)
+    except InputError:
+        return False
+    if difference == 0:
+        return True
+    if difference.has(sp.Function("mean"), sp.Function("integral"), sp.Function("diff"),
+                      sp.Function("at")) or sp.count_ops(difference) > SYMBOLIC_SIZE:
+        return False
+    try:
+        if _apart(left, right, bound, system, chosen):
+            return False
+        if sp.expand(difference) == 0:
+            return True
+        numerator = sp.numer(sp.together(difference))
+        return sp.expand(numerator) == 0 or sp.expand(sp.expand_trig(sp.expand(numerator))) == 0
+    except (RecursionError, sp.PolynomialError):
+        return False
+
+
+# --- Claims that are no identities: the order of a remainder, a printed number, a named test
+TEST_BOUND = 1e-12  # residuals of named tests: 30 digits or exact counts
+
+
+def order(paper: Paper, row: Row, pairs, bound, system) -> Decision:
+    """Whether left - right falls like the stated power of the small symbol: halved thrice, watched."""
+    small, claimed = row.options["small"], row.options["order"]
+    symbols = [s for s in free(pairs, (), bound, system) if s.name != small]
+    least, numbers = float("inf"), precise(60)
+    for point in points(symbols, row.equation, 3,
+                        [parse(t, paper.symbols) for t in row.domain if small not in t], bound, system):
+        sizes = []
+        for halvings in (14, 16, 18):
+            ready = settled(numbers, point, None, bound, system) | {small: numbers.mpf(2) ** -halvings}
+            value = Evaluator(numbers, ready, bound, system)
+            try:
+                sizes.append(max(abs(value(left) - value(right)) for left, right in pairs))
+            except Undefined:
+                return Decision(None, float("nan"), f"no value at a small {small}")
+        for first, second in zip(sizes, sizes[1:]):
+            if second:
+                least = min(least, float(numbers.log(first / second, 4)))
+    return Decision(least > claimed - 0.1, least, f"observed order {least:.3g} in {small}, claimed {claimed}")
+
+
+def number(paper: Paper, row: Row) -> tuple:
+    """(verdict, condition, correction, method, residual, corrected residual) of printed digits held against
+    the value of an expression."""
+    bound = bound_of(paper, row)
+    value = Evaluator(precise(40), {}, bound,
+                      system_of(paper, row.system, row.place))(parse(row.options["value"], paper.symbols))
+    try:
+        text = row.printed[0].replace("\u2212", "-")
+        # finite, so its exponent is a number
+        printed, step = Decimal(text), Decimal(1).scaleb(Decimal(text).as_tuple().exponent)  # type: ignore[arg-type]
+    except (InvalidOperation, IndexError):
+        raise InputError(f"{row.place}: expected a printed number, got {row.printed}") from None
+    error = abs(float(value.real) - float(printed))
+    holds = error <= 0.5 * float(step) * (1 + 1e-9) and abs(float(value.imag)) < 1e-12
+    digits = max(0, -printed.as_tuple().exponent) + 2  # type: ignore[operator]
+    correction = "" if holds else f"{float(value.real):.{digits}f}"
+    return ("holds" if holds else "wrong", "", correction, f"value of {row.options['value']} with 40 digits",
+            error, float("nan") if holds else 0.0)
+
+
+def tested(row: Row) -> tuple:
+    """The same six of a claim that a named test decides; InputError where the stated verdict is not that of
+    its residuals."""
+    printed, corrected = residuals_of(row)
+    bound = row.options.get("bound", TEST_BOUND)
+    stated = row.options.get("verdict", "holds" if printed <= bound else "wrong")
+    if (stated == "holds") != (printed <= bound) or (stated != "holds" and row.corrected
+                                                     and not corrected <= bound):
+        raise InputError(
+            f"{row.place}: stated {stated}, but its residuals are {printed:.3g} (printed) and "
+            f"{corrected:.3g} (corrected), with the bound {bound:.3g}"
+        )
+    words = row.options.get("residual", "residual of the claim")
+    conditions = row.options.get("conditions", ())
+    return (stated, conditions[0] if stated == "only-if" and conditions else "", "; ".join(row.corrected),
+            words, printed, corrected)

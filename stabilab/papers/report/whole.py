@@ -12,13 +12,13 @@ from .. import table
 from ..audit import findings_of
 from ..audit import page as audit_page
 from ..audit import papers as audited_papers
-from ..audit.words import counted
-from ..cost import effect_page as effect_cost
-from ..cost import growth_page as cost_growth
+from ..audit.page import counted
+from ..cost import effects as effect_cost
+from ..cost import growth as cost_growth
 from ..figures import catalogue as figures
 from ..figures import paper
+from ..validation import comparison as validation
 from ..validation import validated
-from ..validation import words as validation
 from . import chapters
 
 TITLE = "Bounded motion and spin-up of a gyrostat under constant torque"

@@ -8,8 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from .findings import Finding, findings
-from .record import Source, source, sources
+from .comparison import Finding, Source, findings, source, sources
 
 
 def validated(name: str | None = None, tell: Callable[[int, int, str], None]

@@ -1,8 +1,258 @@
-"""What is printed of a motion, from its enclosure: rates, modified Rodrigues parameters, angles. Balls in,
-balls out."""
+"""Quantities that other tools print, computed here.
+
+Integrators with a fixed step, in doubles as the tools run them: to show what of a printed number is its
+integrator's error.
+
+A body whose wheels are driven by motors, enclosed: Taylor series in balls with a proved remainder.
+
+With I the moments of the body and its wheels less the wheels' own about their axes, and h the wheels' whole
+momenta about these,
+
+    I omega' = -omega x (I omega + h) - u,    h' = u,    n' = n x omega      (u motor torques, n a direction
+    at rest in space).
+
+A box about the start that x0 + [0, H] f(box) does not leave holds the motion over the step H; the last Taylor
+coefficient over the box bounds the remainder.
+
+Rates and attitude of a recorded motion, enclosed in balls: by the Taylor series in integers of
+`integrate.integer_flow`.
+
+What is printed of a motion, from its enclosure: rates, modified Rodrigues parameters, angles. Balls in,
+balls out.
+"""
 from __future__ import annotations
 
-from .enclose import At, cross
+import math
+from dataclasses import dataclass
+from fractions import Fraction
+from operator import mul
+
+from ...answers.passage.enclosed import own_unit
+from ...integrate.integer_flow import IntegerFlow
+from ...numbers.balls import working
+from ...numbers.vectors import CYCLE
+
+
+def reproduced(printed, time: float, rates=None) -> list[float]:
+    """The quantity (omega or sigma) at a time as the method and step of `printed.cause` leave it. rates: the
+    exact ones there, for the leapfrog rule."""
+    motion, step = printed.motion, float(printed.cause["step"])
+    degrees = 180 / math.pi if motion.unit == "deg/s" else 1.0
+    if printed.cause["method"] == "leapfrog":
+        return [w * degrees for w in _half_a_step_later(_rates(motion), [w / degrees for w in rates], step)]
+    start = [float(w) / degrees for w in motion.omega]
+    if printed.quantity == "sigma":
+        state = run(_rates_and_attitude(motion), [*map(float, motion.sigma), *start], step,
+                    round(time / step), rk4, shortest)
+        return state[:3]
+    return [w * degrees for w in run(_rates(motion), start, step, round(time / step),
+                                     RULES[printed.cause["method"]])]
+
+
+def run(rates, state, step, count, rule, after=None) -> list[float]:
+    """The state after `count` steps. after: what a tool does to the state at the end of each."""
+    memory = None
+    for _ in range(count):
+        state, memory = rule(rates, state, step, memory)
+        state = after(state) if after else state
+    return state
+
+
+def rk4(rates, x, h, _=None):
+    """A step of the classical rule of order four."""
+    k1 = rates(x)
+    k2 = rates([a + h / 2 * b for a, b in zip(x, k1)])
+    k3 = rates([a + h / 2 * b for a, b in zip(x, k2)])
+    k4 = rates([a + h * b for a, b in zip(x, k3)])
+    return [a + h / 6 * (p + 2 * q + 2 * r + s) for a, p, q, r, s in zip(x, k1, k2, k3, k4)], None
+
+
+def ab2(rates, x, h, before=None):
+    """A step of the rule of Adams and Bashforth of order two, the first by Euler's."""
+    now = rates(x)
+    if before is None:
+        return [a + h * b for a, b in zip(x, now)], now
+    return [a + h * (1.5 * b - 0.5 * c) for a, b, c in zip(x, now, before)], now
+
+
+RULES = {"rk4": rk4, "ab2": ab2}
+WORDS = {"rk4": "the classical Runge-Kutta rule of order 4 at {step} s",
+         "ab2": "the Adams-Bashforth rule of order 2, begun by Euler's, at {step} s",
+         "leapfrog": "rates at the middle of the next step of {step} s, as a leapfrog rule leaves them (- "
+                     "h^2/24 omega'')"}
+
+
+def _half_a_step_later(rates, omega, step):
+    """The exact rates half a step later less step^2 omega''/24: what differences over whole steps, centred,
+    make of them."""
+    (later, _), tiny = rk4(rates, omega, step / 2), step / 8
+    ahead, behind = (rates(rk4(rates, later, s)[0]) for s in (tiny, -tiny))
+    return [w - step * step / 24 * (a - b) / (2 * tiny) for w, a, b in zip(later, ahead, behind)]
+
+
+def _rates(motion):
+    moments, torque = [float(v) for v in motion.inertia], [float(v) for v in motion.torque]
+    return lambda w: [((moments[j] - moments[k]) * w[j] * w[k] + torque[i]) / moments[i] for i,
+                      (j, k) in enumerate(CYCLE)]
+
+
+def _rates_and_attitude(motion):
+    spin = _rates(motion)
+
+    def rates(x):
+        s, w = x[:3], x[3:]
+        square, along = sum(v * v for v in s), sum(a * b for a, b in zip(s, w))
+        return [*(0.25 * ((1 - square) * a + 2 * b + 2 * along * c) for a, b, c in zip(w, cross(s, w), s)),
+                *spin(w)]
+    return rates
+
+
+def shortest(state) -> list[float]:
+    """The parameters of the same attitude that are within the unit sphere."""
+    square = sum(v * v for v in state[:3])
+    return [-v / square for v in state[:3]] + state[3:] if square > 1 else state
+
+
+BITS, ORDER, STEP = 256, 30, Fraction(1, 16)
+RPM = Fraction(6000)  # the speed at which a wheel has its nominal momentum
+
+
+def wheels_at(motion, times) -> list:
+    """[(rates, turned rows)] at increasing times (rationals, s), as of `enclose.At`."""
+    found, wheels = [], motion.wheels
+    with working(BITS) as numbers:
+        # moment of a wheel about its axis
+        own = numbers.ball(wheels.momentum) / (numbers.ball(RPM) * numbers.pi() / 30)
+        moments = [numbers.ball(v) - own for v in motion.inertia]
+        omega = [numbers.ball(v) for v in motion.omega]
+        momenta = [own * (numbers.ball(v) * numbers.pi() / 30 + w) for v, w in zip(wheels.speed, omega)]
+        state, now = omega + momenta + [numbers.ball(int(i == k)) for k in range(3)
+                                        for i in range(3)], Fraction(0)
+        for until in times:
+            while now < until:
+                driven = now < wheels.until
+                step = min(STEP, until - now, *([wheels.until - now] if driven else []))
+                motor = [numbers.ball(v if driven else 0) for v in wheels.motor]
+                state, now = _step(moments, motor, state, numbers.ball(step)), now + step
+            found.append((tuple(state[:3]),
+                          tuple(tuple(state[6 + 3 * k + i] for k in range(3)) for i in range(3))))
+    return found
+
+
+def _step(moments, motor, state, length):
+    from flint import arb
+    within, box = arb(length / 2, length / 2), state
+    while True:
+        wider = [x + within * rate for x,
+                 rate in zip(state, (row[1] for row in _series(moments, motor, box, 1)))]
+        if all(b.contains(w) for b, w in zip(box, wider)):
+            break
+        box = [arb(w.mid(), w.rad() * 1.25 + arb(2) ** -80) for w in wider]
+    rows, last = _series(moments, motor, state, ORDER - 1), _series(moments, motor, box, ORDER)
+    found = []
+    for row, beyond in zip(rows, last):
+        total = beyond[ORDER]
+        for c in reversed(row):
+            total = total * length + c
+        found.append(total)
+    return found
+
+
+def _series(moments, motor, state, order):
+    """Taylor coefficients 0..order of every component."""
+    rows = [[v] for v in state]
+    product = lambda a, b, n: sum(map(mul, rows[a], reversed(rows[b][:n + 1])))
+    for n in range(order):
+        new = []
+        for i, (j, k) in enumerate(CYCLE):
+            turn = product(j, k, n) * (moments[k] - moments[j]) + product(j, 3 + k, n) - product(k, 3 + j, n)
+            new.append((-turn - (motor[i] if n == 0 else 0)) / moments[i] / (n + 1))
+        new += [motor[i] if n == 0 else motor[i] * 0 for i in range(3)]
+        for start in (6, 9, 12):
+            new += [(product(start + j, k, n) - product(start + k, j, n)) / (n + 1) for j, k in CYCLE]
+        for row, value in zip(rows, new):
+            row.append(value)
+    return rows
+
+
+# bits at first; that the enclosure is to keep; beyond what the error grew by
+FIRST_BITS, KEPT, SPARE = 112, 60, 48
+BALL_BITS = 400  # of what is formed from an enclosure
+UNITS = ((1, 0, 0), (0, 1, 0))  # directions at rest in space, body frame; the third by their cross product
+
+
+@dataclass(frozen=True)
+class At:
+    """The motion at a time: rates in rad/s (3 balls), and how space has turned, body frame: rows (3, 3) of
+    balls, the columns being what the body's axes of the start have become."""
+
+    omega: tuple
+    turned: tuple
+
+
+def at(motion, times) -> list[At]:
+    """The motion at increasing times (rationals, s)."""
+    if motion.wheels:
+        return [At(*found) for found in wheels_at(motion, times)]
+    runs = [_run(motion, times, axis) for axis in UNITS]
+    with working(BALL_BITS):
+        return [At(tuple(one[0]), _rows(one[1], two[1])) for one, two in zip(*runs)]
+
+
+def _rows(first, second):
+    columns = first, second, cross(first, second)
+    return tuple(tuple(column[i] for column in columns) for i in range(3))
+
+
+def cross(a, b) -> list:
+    """The cross product of two vectors of any numbers."""
+    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+
+
+def _run(motion, times, axis):
+    """[(rates, direction)] at the times, as many bits as it takes."""
+    bits = FIRST_BITS
+    while True:
+        found, lost = _attempt(motion, times, axis, bits)
+        if bits - lost >= KEPT:
+            return found
+        bits = lost + KEPT + SPARE
+
+
+def _attempt(motion, times, axis, bits):
+    scene = motion.scene
+    unit = own_unit(scene, motion.omega)
+    flow = IntegerFlow(scene.quadratic(), list(scene.body.exact), motion.omega, bits, unit,
+                       tuple(map(Fraction, axis)))
+    found, lost = [], 0
+    with working(BALL_BITS) as numbers:
+        # of a unit of omega; a free motion runs so much faster
+        rate = numbers.pi() / 180 if motion.unit == "deg/s" else numbers.ball(1)
+        waiting = [(numbers.ball(t) - numbers.ball(motion.begins)) * numbers.ball(unit) * rate for t in times]
+        while len(found) < len(waiting):
+            piece = flow.step()
+            while len(found) < len(waiting) and waiting[len(found)] < numbers.ball(flow.now):
+                values = values_of(piece, waiting[len(found)], numbers)
+                found.append(([v * numbers.ball(unit) * rate for v in values[:3]], values[3:]))
+                lost = max(lost, *(r.bit_length() for r in piece.radii))
+            if flow.error.bit_length() > 900 - 64:
+                return found, flow.error.bit_length()
+    return found, lost
+
+
+def values_of(piece, now, numbers) -> list:
+    """The components of a piece at a time of the motion's own, a ball; balls, while `numbers` is the working
+    kind."""
+    from flint import arb
+    s, scale, found = (now
+                       - numbers.ball(piece.start)) / numbers.ball(piece.length), arb(2) ** -piece.bits, []
+    for row, radius in zip(piece.rows, piece.radii):
+        total = arb(0)
+        for c in reversed(row):
+            total = total * s + c
+        found.append((total + arb(0, radius)) * scale)
+    return found
+
 
 DEGREES = "deg/s"
 

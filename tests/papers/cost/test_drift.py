@@ -3,7 +3,7 @@ import numpy as np
 import pytest
 
 from stabilab.integrate.to_heyoka import heyoka_available
-from stabilab.papers.cost.drift import Drift, drifts, growth, integrals, starts
+from stabilab.papers.cost.long_runs import Drift, drifts, growth, integrals, starts
 from tests.oracles import taylor
 from tests.oracles.model import scaled
 

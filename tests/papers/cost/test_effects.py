@@ -159,8 +159,8 @@ def test_a_force_of_zero_asks_for_no_mass_once_it_is_built():
 
 
 def test_the_page_shows_every_effect(tmp_path, monkeypatch):
-    from stabilab.papers.cost import effect_page as show
     from stabilab.papers.cost import effects as analysis
+    from stabilab.papers.cost import effects as show
     monkeypatch.setattr(analysis, "REPEATS", 1)
     few = ("constant_torque", "gravity")
     monkeypatch.setattr(show, "EXAMPLES", {name: EXAMPLES[name] for name in few})

@@ -13,7 +13,7 @@ from stabilab.answers.fate import fate
 from stabilab.integrate.reference import reference
 from stabilab.orbit.result import Fate
 from stabilab.papers.cost import growth as cost_growth
-from stabilab.papers.cost import growth_page as shown
+from stabilab.papers.cost import growth as shown
 from stabilab.papers.cost.growth import (
     Growth,
     bits_needed,
