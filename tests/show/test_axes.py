@@ -115,7 +115,7 @@ def test_every_command_names_the_axis_along_which_a_run_grows(stabilab, tmp_path
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("order", itertools.permutations(MOMENTS))
+@pytest.mark.parametrize("order", list(itertools.permutations(MOMENTS)))
 def test_a_bound_names_the_axis_of_its_torque_alike(stabilab, tmp_path, order):
     """A small torque on the minor axis of a body that spins about its major one: nothing that it does by then
     goes past the barrier."""
