@@ -44,8 +44,7 @@ SUBJECTS = {
                    ("orbit/separatrix/test_sheets", "orbit/separatrix/test_grid")),
     "growth": (tuple(f"unreduced/growth/{name}" for name in ("law", "certificate")),
                ("unreduced/growth/test_law", "unreduced/growth/test_certificates")),
-    "balls": (("orbit/one_orbit", "orbit/fate/one_state", "orbit/extremes/one_state", "orbit/period",
-               "orbit/fate/one_state", "orbit/fate/one_state"),
+    "balls": (("orbit/one_orbit", "orbit/fate/one_state", "orbit/extremes/one_state", "orbit/period"),
               ("orbit/fate/test_fate", "orbit/extremes/test_extremes", "orbit/extremes/test_arrays",
                "orbit/fate/test_one_state",
                "orbit/fate/test_tie", "orbit/test_ball_orbit"))}
