@@ -27,14 +27,17 @@ settings.load_profile("same")
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items):
     """One in n, and so that each of n values of another parameter comes up too: the 1st, then the 2nd of the
-    next n, and so on."""
-    seen = Counter()
+    next n, and so on. Of the rows that are left every second is for the slow tests, the others for the long."""
+    seen, left = Counter(), Counter()
     for item in items:
         if mark := item.get_closest_marker("one_in"):
             (n,), place = mark.args, seen[item.path, item.originalname]
             seen[item.path, item.originalname] += 1
             if place % n != place // n % n:
                 item.add_marker("slow")
+                if left[item.path, item.originalname] % 2:
+                    item.add_marker("long")
+                left[item.path, item.originalname] += 1
 
 
 def pytest_collection_finish():

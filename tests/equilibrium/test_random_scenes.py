@@ -236,8 +236,9 @@ def one_wild_scene(seed, number, states, tabled, digits, scene_of=wild_scene, st
 WAYS = (False,) if find_spec("numba") is None else (False, True)  # NumPy, and compiled
 
 
-@pytest.mark.parametrize("scenes", [(3, 4), pytest.param([0, 1, 2, *range(5, 100)], marks=pytest.mark.slow)],
-                         ids=["two", "the others of a hundred"])
+@pytest.mark.parametrize("scenes", [(3, 4), pytest.param([0, 1, 2, *range(5, 35)], marks=pytest.mark.slow),
+                                    pytest.param(range(35, 100), marks=[pytest.mark.slow, pytest.mark.long])],
+                         ids=["two", "thirty-three", "the others of a hundred"])
 def test_wild_scenes_have_one_answer_by_every_way_to_it(scenes):
     """One state, small arrays (NumPy and compiled), large ones (tables) and thirty digits, each within what
     it promises."""
@@ -247,8 +248,9 @@ def test_wild_scenes_have_one_answer_by_every_way_to_it(scenes):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("scenes", [
-    [*range(20), 95, 104, 114, 122, 1145], pytest.param(range(20, 1500), marks=pytest.mark.slow)],
-                         ids=["twenty and what once failed", "the others"])
+    [*range(20), 95, 104, 114, 122, 1145], range(20, 300),
+    pytest.param(range(300, 1500), marks=pytest.mark.long)],
+                         ids=["twenty and what once failed", "to three hundred", "the others"])
 def test_scenes_of_small_numbers_have_one_answer_by_every_way_to_it(scenes):
     """Turning points, centres and places at rest are doubles there: roots whose balls have no width, and
     wells without depth."""

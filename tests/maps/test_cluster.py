@@ -64,6 +64,10 @@ def a_cluster(folder, workers, environment=None, program=("-m", "distributed.cli
         words = [address, "--nthreads", "1", "--no-nanny", "--no-dashboard", "--local-directory", str(folder)]
         processes += [subprocess.Popen([sys.executable, *program, *words], **quiet, env=environment)
                       for _ in range(workers)]
+        if workers:  # a busy machine may take longer to start them than the program waits for the first
+            from distributed import Client
+            with Client(address, timeout=100, set_as_default=False) as client:
+                client.wait_for_workers(workers, timeout=100)
         yield address, processes[1:]
     finally:
         for process in processes:

@@ -55,13 +55,9 @@ def check(tmp_path):
 
 
 @pytest.mark.slow
-def test_equilibria_on_a_motions_curve_are_those_that_brute_force_counts(check):
-    assert sum(check(seed) for seed in range(30)) > 10
-
-
-@pytest.mark.slow
-def test_equilibria_on_a_thousand_motions_curves_are_those_that_brute_force_counts(check):
-    assert sum(check(seed) for seed in range(100, 1100)) > 500
+@pytest.mark.parametrize("seeds", [range(150), pytest.param(range(150, 1100), marks=pytest.mark.long)])
+def test_equilibria_on_a_motions_curve_are_those_that_brute_force_counts(check, seeds):
+    assert sum(check(seed) for seed in seeds) > len(seeds) // 3
 
 
 def test_a_piece_whose_end_is_rounded_outward_is_followed(check):
