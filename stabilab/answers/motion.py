@@ -8,6 +8,7 @@ from fractions import Fraction
 from typing import Any
 
 from ..integrate.quadratic_series import largest
+from ..orbit.energy_integral import energy_integral
 from ..orbit.far_states import in_range
 from ..orbit.result import Fate, Motion
 from ..physics.coefficients import content, effective, gyrostat_scene, limits_of, split
@@ -39,7 +40,15 @@ def motion(scene: Any, state: Any = None, span: Any = None, brief: bool = False,
     limits = limits_of(scene)
     found = (replace(found, validity=limits.of_motion(scene, found)) if limits and found.validity is None
              else found)
-    return limited(replace(found, largest=_largest(scene, found)), scene, case)
+    return limited(replace(found, largest=_largest(scene, found),
+                           energy_integral=None if brief else _energy_integral(scene, found, exact)),
+                   scene, case)
+
+
+def _energy_integral(scene: AnyScene, found: Motion, exact: Sequence[Fraction] | None) -> Any:
+    """The paper's G1, G2 or G3 of the motion; None where there is none."""
+    twin = effective(scene)
+    return energy_integral(twin, exact or found.at[:3], found.margin_energy) if twin.plain else None
 
 
 def _largest(scene: AnyScene, found: Motion) -> float | None:

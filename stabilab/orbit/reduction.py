@@ -171,10 +171,11 @@ class Reduction:
         j, k = (float(self.exact_constants[name] - Fraction(self.constants[name])) for name in ("sj", "sk"))
         return j, k
 
-    def canonical_exact(self, state: Sequence[float]) -> Exact3:
-        """(X, Z, W) of one state of floats, with the 240-bit constants: no cancellation in the shifts."""
+    def canonical_exact(self, state: Sequence[float | Fraction]) -> Exact3:
+        """(X, Z, W) of one state, taken exactly, with the 240-bit constants: no cancellation in the shifts.
+        """
         g = self.exact_constants
-        u, v, w = (Fraction(float(state[a])) for a in (self.j, self.k, self.axis))
+        u, v, w = (Fraction(state[a]) for a in (self.j, self.k, self.axis))
         return (g["flip"] * (u + g["sj"]) / g["rx"], (v + g["sk"]) / g["rz"],
                 g["flip"] * g["n"] * (w + self.s))
 
@@ -193,9 +194,9 @@ class Reduction:
         g = self.constants
         return g["flip"] * w / g["n"] - float(self.s)
 
-    def exact_invariant_sign(self, state: Sequence[float]) -> int:
-        """Sign of Q = Z^2 - e X^2 at a state of floats, exactly (rational arithmetic)."""
-        u, v = Fraction(float(state[self.j])), Fraction(float(state[self.k]))
+    def exact_invariant_sign(self, state: Sequence[float | Fraction]) -> int:
+        """Sign of Q = Z^2 - e X^2 at a state, exactly (rational arithmetic)."""
+        u, v = Fraction(state[self.j]), Fraction(state[self.k])
         sj, sk = self.centre
         x2, z2 = (u + sj) ** 2 / abs(self.p), (v + sk) ** 2 / abs(self.q)
         return _sign(z2 - self.e * x2)

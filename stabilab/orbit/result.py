@@ -13,6 +13,7 @@ from ..representation import Shown
 
 if TYPE_CHECKING:  # a scene of exact laws does not load it
     from ..physics.law_limits import Validity
+    from .energy_integral import EnergyIntegral
 
 
 class Fate(IntEnum):
@@ -39,24 +40,26 @@ class Fate(IntEnum):
 class Motion(Shown):
     """Everything known about the motion from one state.
 
-    axis: 1, 2, 3 of the spin-up, 0 otherwise; sense: +1 or -1 of the spin-up, 0 otherwise.
-    margin_energy: height of the barrier ahead minus energy (negative above it; None where no barrier stands
-    ahead at this value of the invariant); without a torque the kinetic energy of the nearest saddle of the
-    same momentum minus the motion's. margin_velocity: smallest change of the state that reaches the
-    separatrix, at whatever value of the invariant, to 1e-9, or where that is not reached a number that it is
-    proved not to be below (None where the scene has none, or nothing is known: then velocity_because says
-    why). velocity_bounds: (proved lower bound, distance of velocity_witness), velocity_witness: a state on
-    the separatrix as near as that; velocity_because: why the two bounds are apart. period: None where the
-    motion does not repeat, or is undecided. extremes: ((min, max),) * 3 over t >= 0, entries +-inf where
-    unbounded, None where unknown; extremes_over: "all time" or the span they were searched over. validity: of
-    an approximate law (`stabilab.physics.law_limits`), with its largest value along the motion; None where
-    all laws are exact. tilt: what a tilt of its torque off the axis does to a bounded motion
-    (`answers.tilt`), where that was asked; first: the limit of its case in words and its `TimeTo`, likewise;
-    caveats: all that limits the answer (`answers.caveats`). largest: |omega| at the most, over all time,
-    where a motion repeats or rests, to eight digits. level: of the fate, "exact", "certified" (a theorem
-    applied to a run of machine precision) or "undecided". Of motions that were followed until a certificate
-    held, or as long as was asked: cause: what was found on the way, in words; bounds: ((low, high),) * 3 of
-    the rates at all t >= 0, wider than the extremes, +-inf where unbounded (None where not known).
+    axis: 1, 2, 3 of the spin-up, 0 otherwise; sense: +1 or -1 of the spin-up, 0 otherwise. margin_energy:
+    height of the barrier ahead minus energy (negative above it; None where no barrier stands ahead at
+    this value of the invariant); without a torque the kinetic energy of the nearest saddle of the same
+    momentum minus the motion's. margin_velocity: smallest change of the state that reaches the
+    separatrix, at whatever value of the invariant, to 1e-9, or where that is not reached a number that it
+    is proved not to be below (None where the scene has none, or nothing is known: then velocity_because
+    says why). velocity_bounds: (proved lower bound, distance of velocity_witness), velocity_witness: a
+    state on the separatrix as near as that; velocity_because: why the two bounds are apart. period: None
+    where the motion does not repeat, or is undecided. extremes: ((min, max),) * 3 over t >= 0, entries
+    +-inf where unbounded, None where unknown; extremes_over: "all time" or the span they were searched
+    over. validity: of an approximate law (`stabilab.physics.law_limits`), with its largest value along
+    the motion; None where all laws are exact. tilt: what a tilt of its torque off the axis does to a
+    bounded motion (`answers.tilt`), where that was asked; first: the limit of its case in words and its
+    `TimeTo`, likewise; caveats: all that limits the answer (`answers.caveats`). largest: |omega| at the
+    most, over all time, where a motion repeats or rests, to eight digits. energy_integral: the paper's
+    G1, G2 or G3 (`orbit.energy_integral`), under a torque along a principal axis with no wheel along it.
+    level: of the fate, "exact", "certified" (a theorem applied to a run of machine precision) or
+    "undecided". Of motions that were followed until a certificate held, or as long as was asked: cause:
+    what was found on the way, in words; bounds: ((low, high),) * 3 of the rates at all t >= 0, wider than
+    the extremes, +-inf where unbounded (None where not known).
     """
 
     at: Float3
@@ -82,6 +85,7 @@ class Motion(Shown):
     tilt: object = None
     first: tuple[str, Any] | None = None
     largest: float | None = None
+    energy_integral: EnergyIntegral | None = None
     caveats: tuple[Caveat, ...] = ()
 
 

@@ -134,6 +134,9 @@ def _motion(m):
     notes = {"fate": m.fate.word, "level": m.level, "because": m.because, "spin_axis": m.axis,
              "sense": m.sense, "margin_energy": m.margin_energy,
              "margin_rate": m.margin_velocity, "period": m.period, **m.invariants}
+    if m.energy_integral is not None:
+        notes |= {m.energy_integral.name: m.energy_integral.value,
+                  f"{m.energy_integral.name}s": m.energy_integral.on_separatrix}
     return Variables(("axis",), values, AXIS,
                      {name: value for name, value in notes.items() if value is not None})
 

@@ -52,8 +52,24 @@ def margins(motion, units: Units) -> list[tuple[str, str]]:
     energy = motion.margin_energy
     found = (("margin, rate", rate_margin(motion, units, DIGITS)),
              ("margin, energy", "" if energy is None else energy_margin(energy, units.energy)),
+             *energy_integral(motion, units),
              ("period", "" if motion.period is None else units.time(motion.period)))
     return [(name, words) for name, words in found if words]
+
+
+def energy_integral(motion, units: Units) -> list[tuple[str, str]]:
+    """The paper's energy integral, its value on the separatrix and the difference; in scaled variables."""
+    found = motion.energy_integral
+    if found is None:
+        return []
+    words = number(found.value, DIGITS) + ("" if units.scaled else ", scaled variables")
+    if found.difference is None:
+        words += "; no saddle stands ahead"
+    else:
+        more = "more" if found.difference > 0 else "less"
+        words += (f"; on the separatrix {found.name}s = {number(found.on_separatrix, DIGITS)}"
+                  + (f", {number(abs(found.difference), DIGITS)} {more}" if found.difference else ""))
+    return [(f"energy integral {found.name}", words)]
 
 
 def state(at, units: Units) -> str:

@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
+from dataclasses import asdict, replace
 
 from ...physics.scene import PARTS
 from .. import limiting
@@ -82,6 +82,7 @@ def _motion(case, m) -> dict:
                        "bounds": m.velocity_bounds,
                        "witness": m.velocity_witness, "because": m.velocity_because or None},
             "period": m.period, "extremes": m.extremes, "invariants": m.invariants,
+            "energy_integral": None if m.energy_integral is None else asdict(m.energy_integral),
             "sense": m.sense or None, "extremes_over": m.extremes_over, "evidence": m.evidence,
             "tilt": when.tilt_dict(m.tilt)} | followed(m)
 
