@@ -166,8 +166,7 @@ def test_what_no_tilt_can_be_asked_of_is_refused(scene, state, words):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("degrees", [0.1, pytest.param(0.5, marks=pytest.mark.long),
-                                     pytest.param(1, marks=pytest.mark.long), 5])
+@pytest.mark.parametrize("degrees", [0.1, *(pytest.param(n, marks=pytest.mark.long) for n in (0.5, 1, 5))])
 def test_the_times_of_tilted_torques_in_the_documentation_are_those_of_brute_force(degrees):
     """docs/spacecraft.md has these times in minutes, and what no torque of the cone does before."""
     pytest.importorskip("heyoka")

@@ -236,9 +236,9 @@ def one_wild_scene(seed, number, states, tabled, digits, scene_of=wild_scene, st
 WAYS = (False,) if find_spec("numba") is None else (False, True)  # NumPy, and compiled
 
 
-@pytest.mark.parametrize("scenes", [(3, 4), pytest.param([0, 1, 2, *range(5, 35)], marks=pytest.mark.slow),
-                                    pytest.param(range(35, 100), marks=[pytest.mark.slow, pytest.mark.long])],
-                         ids=["two", "thirty-three", "the others of a hundred"])
+@pytest.mark.parametrize("scenes", [(3, 4), pytest.param([0, 1, 2, *range(5, 15)], marks=pytest.mark.slow),
+                                    pytest.param(range(15, 100), marks=[pytest.mark.slow, pytest.mark.long])],
+                         ids=["two", "thirteen", "the others of a hundred"])
 def test_wild_scenes_have_one_answer_by_every_way_to_it(scenes):
     """One state, small arrays (NumPy and compiled), large ones (tables) and thirty digits, each within what
     it promises."""

@@ -52,6 +52,10 @@ def environment(folder):
     return os.environ | {"XDG_CACHE_HOME": str(Path(folder) / "cache"), "PYTHONPATH": str(ROOT)}
 
 
+# For a child with a limit of size: its bytecode would be cut off too, and end every later import of the module
+NO_BYTECODE = {"PYTHONDONTWRITEBYTECODE": "1"}
+
+
 def written(folder):
     """Path from `folder` -> bytes of everything in it but the cache."""
     return {p.relative_to(folder).as_posix(): p.read_bytes() for p in Path(folder).rglob("*")
@@ -80,7 +84,7 @@ def test_a_disk_that_fills_up_ends_with_2_and_leaves_what_was_there(tmp_path, na
     before = written(tmp_path)
     run = subprocess.run(command(name, tmp_path), capture_output=True, text=True, cwd=tmp_path,
                          preexec_fn=limited(200),
-                         env=environment(tmp_path))
+                         env=environment(tmp_path) | NO_BYTECODE)
     assert run.returncode == BAD_INPUT, run.stderr
     assert "cannot be written" in run.stderr and WRITERS[name][
         2] in run.stderr and "Traceback" not in run.stderr

@@ -116,8 +116,7 @@ def same_motion(one, two, order, signs, energy, scene):
                                    err_msg=repr(scene))
 
 
-@pytest.mark.parametrize("seed", [1, pytest.param(2, marks=pytest.mark.slow),
-                                  pytest.param(3, marks=[pytest.mark.slow, pytest.mark.long])])
+@pytest.mark.parametrize("seed", [1, *(pytest.param(n, marks=[pytest.mark.slow, pytest.mark.long]) for n in (2, 3))])
 def test_nothing_depends_on_how_the_axes_are_numbered_or_pointed(seed):
     """P a signed permutation: (P a) x (P b) = det P P (a x b), so w, lambda, M become det P times their
     images. All 48 for fates of arrays, four of them in turn for periods and for one state."""

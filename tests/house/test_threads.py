@@ -141,7 +141,8 @@ def test_threads_have_the_answers_of_one_to_the_bit(count, each, alone, restless
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("count", [pytest.param(2, marks=pytest.mark.long), 8])
+@pytest.mark.long
+@pytest.mark.parametrize("count", [2, 8])
 def test_three_thousand_questions_of_threads_have_the_answers_of_one(count, alone, restless):
     assert wrong(count, 3000 // count, alone) == []
 

@@ -264,7 +264,7 @@ def test_a_disk_that_is_full_is_one_error(tmp_path):
         signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
         resource.setrlimit(resource.RLIMIT_FSIZE, (600, 600))
     command = started("sweep", MINOR, "--vary", "x[1]=-4:4:900", "--out", tmp_path / "map.nc", "--workers", 1,
-                      preexec_fn=limit)
+                      preexec_fn=limit, env=os.environ | {"PYTHONDONTWRITEBYTECODE": "1"})  # none is cut off
     words, err = command.communicate(timeout=100)
     assert command.returncode == BAD_INPUT and not words and "cannot be written: File too large" in err
     assert err.count("\n") == 1

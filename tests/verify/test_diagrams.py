@@ -43,8 +43,9 @@ def status_of(claims):
 
 
 @pytest.mark.parametrize("degenerate", [False, True], ids=["generic", "degenerate"])
-@pytest.mark.parametrize("seeds", [range(20), pytest.param(range(100, 1100), marks=pytest.mark.slow)],
-                         ids=["some", "a thousand"])
+@pytest.mark.parametrize("seeds", [range(20), pytest.param(range(100, 300), marks=pytest.mark.slow),
+                                   pytest.param(range(300, 1100), marks=[pytest.mark.slow, pytest.mark.long])],
+                         ids=["some", "two hundred", "eight hundred"])
 def test_what_elimination_finds_is_what_trace_forms_count(tmp_path, seeds, degenerate):
     proved = 0
     for seed in seeds:
@@ -68,6 +69,7 @@ def test_two_hundred_forgeries_are_refuted(tmp_path):
 
 
 @pytest.mark.slow
+@pytest.mark.long
 def test_thousands_of_forgeries_are_refuted(tmp_path):
     rng, tried = np.random.default_rng(1), 0
     for seed in range(150):

@@ -214,7 +214,8 @@ def test_constants_out_of_reach_and_another_form_are_not_proved():
             assert verify(claims | {"motion": claims["motion"] | {"spin_up": spin_up}}).status == "refuted"
 
 
-@pytest.mark.parametrize("count", [6, pytest.param(150, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("count", [6, pytest.param(40, marks=pytest.mark.slow),
+                                   pytest.param(150, marks=[pytest.mark.slow, pytest.mark.long])])
 def test_certificates_of_bodies_of_revolution_and_of_great_wheels_are_checked(count):
     """Each is proved or says why there is none; SciPy agrees with what is proved."""
     rng, seen = random.Random(6), []

@@ -49,6 +49,7 @@ def test_most_random_motions_are_certified_and_the_others_have_a_cause():
 
 
 @pytest.mark.slow
+@pytest.mark.long
 def test_two_thousand_random_motions_reach_the_shares_promised():
     """Without a wheel nearly all, by 5,000 natural units; generic bodies with wheels up to 1 at least 97 %;
     all at least 92 %."""
