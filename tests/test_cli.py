@@ -72,7 +72,8 @@ def test_classify_answers_once_per_case_with_the_documented_keys(fifth):
         for point in answer["equilibria"]["points"]:
             # a full tensor: the state in the frame of the file as well
             turned = {"at_input"} if "frame" in answer else set()
-            assert point.keys() == {"at", "eigenvalues", "linear", "verdict", "because"} | turned
+            assert point.keys() == {"at", "jacobian", "characteristic", "eigenvalues", "linear", "verdict",
+                                    "because"} | turned
             assert np.shape(point["eigenvalues"]) == (len(point["at"]), 2)
         for curve in answer["equilibria"]["curves"]:
             assert {"name", "samples", "folds", "segments"} <= curve.keys()

@@ -31,6 +31,15 @@ class EquilibriumPoint:
     verdict: str
     because: str
 
+    @property
+    def characteristic(self) -> tuple[float, ...]:
+        """Coefficients of the characteristic polynomial of the Jacobian, highest power first; of a gyrostat
+        (1, 0, m, n), Amer et al. 2024, eq. (12)."""
+        coefficients = [1 + 0j]
+        for root in self.eigenvalues:
+            coefficients = [a - root * b for a, b in zip([*coefficients, 0j], [0j, *coefficients])]
+        return tuple(c.real + 0.0 for c in coefficients)
+
 
 @dataclass(frozen=True)
 class CurveSegment:

@@ -6,6 +6,7 @@ import math
 from collections import Counter
 from itertools import groupby
 
+from ...numbers.vectors import CYCLE
 from ..curve_units import in_units
 from ..text import frame
 from ..text.headline import headline
@@ -27,7 +28,7 @@ def text(case, equilibria, motion, units: Units, proofs: bool = False) -> str:
         lines += [*table(case, motion, units), *tilt_lines(case, motion, units, proofs),
                   *why(case, motion, units, proofs)]
     lines += ["" if motion is None else f"equilibria: {resting(equilibria, units)}",
-              *_equilibria(equilibria, units, proofs)]
+              *_equilibria(case, equilibria, units, proofs)]
     lines += frame.lines(case) if proofs else frame.note(case)
     return "\n".join(line for line in lines if line)
 
@@ -65,10 +66,12 @@ def _ordered(verdicts):
     return sorted(verdicts, key=lambda word: (WORDS.index(word) if word in WORDS else len(WORDS), word))
 
 
-def _equilibria(equilibria, units, proofs):
+def _equilibria(case, equilibria, units, proofs):
     lines = [f"  {reason(equilibria.reason, units)}"] if proofs or equilibria.kind == "undecided" else []
+    linear = case.scene.plain and equilibria.kind in ("points", "curves", "undecided")
+    lines += [jacobian_words(case, units)] if linear else []
     for point in equilibria.points:
-        lines += _point(point, units, proofs)
+        lines += _point(case, point, units, proofs)
     if not proofs and (turning := [curve for curve in equilibria.curves if " Omega for t" in curve.name]):
         lines.append(
             lettered(
@@ -79,23 +82,73 @@ def _equilibria(equilibria, units, proofs):
     return lines
 
 
-def _point(point, units, proofs):
+def jacobian_words(case, units) -> str:
+    """The Jacobian of the rates with the numbers of the case, row by row; the matrix (11) of the paper."""
+    form, rows = case.scene.quadratic(), [["0"] * 3 for _ in range(3)]
+    kappa, rho, sigma, _ = form.coefficients
+    for i, (j, k) in enumerate(CYCLE):
+        rows[i][j] = _linear(kappa[i], case.scene.components[k], sigma[i])
+        rows[i][k] = _linear(kappa[i], case.scene.components[j], rho[i])
+    unit = "" if units.scaled else " 1/s, with rates in rad/s"
+    return lettered(f"  Jacobian: ({'), ('.join(', '.join(row) for row in rows)}){unit}")
+
+
+def _linear(slope, name, constant) -> str:
+    """slope name + constant, without what vanishes or is one."""
+    factor = {1.0: "", -1.0: "-"}.get(slope, f"{number(slope, 6)} ")
+    if not slope:
+        return number(constant, 6)
+    if not constant:
+        return factor + name
+    return f"{factor}{name} {'-' if constant < 0 else '+'} {number(abs(constant), 6)}"
+
+
+def _point(case, point, units, proofs):
     lines = [row(point.verdict, state(point.at, units))]
+    if case.scene.plain:
+        rows = case.scene.quadratic().jacobian(tuple(map(float, point.at)))
+        found = "), (".join(", ".join(number(v + 0.0, 6) for v in one) for one in rows)
+        lines.append(f"    Jacobian ({found}){per_second(units)}")
+    lines.append(f"    {spectrum(point, units)}")
     if proofs:
-        roots = ", ".join(_complex(z) for z in point.eigenvalues)
-        lines += [f"    linear: {point.linear}; eigenvalues {roots} {'' if units.scaled else '1/s'}".rstrip(),
-                  f"    {reason(point.because, units)}"]
+        lines += [f"    linear: {point.linear}", f"    {reason(point.because, units)}"]
     return lines
+
+
+def spectrum(point, units) -> str:
+    """The characteristic polynomial, where it has the form (12) of the paper, and the eigenvalues."""
+    roots = ", ".join(_pairs(map(complex, point.eigenvalues)))
+    polynomial = _characteristic(point) + ", " if len(point.eigenvalues) == 3 else ""
+    return f"{polynomial}eigenvalues {roots}{per_second(units)}"
+
+
+def per_second(units) -> str:
+    """The unit of an eigenvalue after a blank; nothing in scaled variables."""
+    return "" if units.scaled else " 1/s"
+
+
+def _characteristic(point) -> str:
+    """z^3 + c z^2 + m z + n with numbers; terms that vanish are left out."""
+    words = "z³"
+    for value, power in zip(point.characteristic[1:], (" z²", " z", "")):
+        if value:
+            words += f" {'-' if value < 0 else '+'} {number(abs(value), 6)}{power}"
+    return words
 
 
 def _curve(curve, units):
-    """A state on every piece with its verdict; neighbours of one verdict are told together."""
-    lines = [f"  {reason(curve.name, units)}, along it:"]
+    """Its equation, and states on every piece with verdict and eigenvalues: of all that are as good, the
+    slowest."""
+    told = in_units(curve, units)
+    lines = [f"  {lettered(f'{units.axes.sentence(told.name)}: {told.equation}')}, along it:"]
+    rows = []
     for verdict, samples in groupby(curve.samples, lambda sample: sample.verdict):
-        # of all that are as good, the slowest
-        near = min(samples, key=lambda sample: max(map(abs, sample.at[:3])))
-        lines.append(f"    {verdict:<22}such as {state(near.at, units)}")
-    return lines
+        piece = list(samples)
+        near = sorted(piece, key=lambda sample: max(map(abs, sample.at[:3])))[:FEW]
+        rows += [(verdict, state(sample.at, units), spectrum(sample, units)) for sample in piece
+                 if sample in near]
+    wide = max((len(place) for _, place, _ in rows), default=0)
+    return lines + [f"    {verdict:<22}{place:<{wide}}  {roots}" for verdict, place, roots in rows]
 
 
 def _proved_curve(curve, units):
@@ -115,6 +168,21 @@ def _proved_curve(curve, units):
 def _end(t) -> str:
     """An end of a piece of a curve."""
     return number(t, 6) if math.isfinite(t) else "∞" if t > 0 else "-∞"
+
+
+def _pairs(roots):
+    """Each root in words, z and -z or a conjugate pair as one."""
+    left = list(roots)
+    while left:
+        z = left.pop(0)
+        if left and left[0] == -z != 0:
+            yield f"±{_complex(z).lstrip('+-')}"
+            left.pop(0)
+        elif left and z.imag and left[0] == z.conjugate():
+            yield f"{z.real:.6g}±{abs(z.imag):.6g}i"
+            left.pop(0)
+        else:
+            yield _complex(z)
 
 
 def _complex(z) -> str:

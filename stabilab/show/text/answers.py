@@ -52,8 +52,8 @@ def classification(case, equilibria, motion) -> dict:
     """One object of `stabilab classify --json`."""
     return {"schema": "stabilab.classify/1", "case": case.name, "variables": case.variables,
             "equilibria": {"kind": equilibria.kind, "reason": equilibria.reason,
-                           "points": [_point(p) | _input(case, p.at) for p in equilibria.points],
-                           "curves": [_curve(c) for c in equilibria.curves]},
+                           "points": [_point(case, p) | _input(case, p.at) for p in equilibria.points],
+                           "curves": [_curve(case, c) for c in equilibria.curves]},
             "motion": None if motion is None else _motion(case, motion) | _input(case, motion.at)
             } | ({} if motion is None else limiting.key(case, motion.caveats)) | frame.key(case)
 
@@ -64,14 +64,17 @@ def _input(case, at) -> dict:
     return {} if found is None else {"at_input": found}
 
 
-def _point(p) -> dict:
-    return {"at": p.at, "eigenvalues": p.eigenvalues, "linear": p.linear, "verdict": p.verdict,
-            "because": p.because}
+def _point(case, p) -> dict:
+    """With the Jacobian, row by row, where the state is the three rates alone, and the coefficients of its
+    characteristic polynomial, highest power first."""
+    jacobian = case.scene.quadratic().jacobian(tuple(map(float, p.at))) if case.scene.plain else None
+    return {"at": p.at, "jacobian": jacobian, "characteristic": p.characteristic,
+            "eigenvalues": p.eigenvalues, "linear": p.linear, "verdict": p.verdict, "because": p.because}
 
 
-def _curve(c) -> dict:
+def _curve(case, c) -> dict:
     return {"name": c.name, "equation": c.equation, "parametrisation": c.parametrisation,
-            "samples": [_point(p) for p in c.samples], "folds": c.folds,
+            "samples": [_point(case, p) for p in c.samples], "folds": c.folds,
             "segments": [{"t": s.t, "linear": s.linear, "verdict": s.verdict, "because": s.because}
                          for s in c.segments]}
 

@@ -4,6 +4,8 @@ from __future__ import annotations
 import math
 from fractions import Fraction
 
+from ...errors import InputError
+from ...physics.coefficients import shape_factors, to_scaled
 from ...physics.effects.base import effect_words
 from ...physics.equations import derive, invariants
 from .. import limiting
@@ -47,6 +49,7 @@ def _whole(case, equations, own) -> str:
     """
     parts = [_head(case), _parameters(equations, case.variables == "physical"), "Equations of motion",
              *(f"  {lettered(_products(line))}" for line in lines(equations)), "",
+             "Jacobian, the derivatives of each rate by the state", *_jacobian(case, equations), "",
              "In LaTeX", latex(equations), "", "Laws that hold for every value of the parameters"]
     axes = axes_of(case)
     parts += [f"  {lettered(axes.sentence(law.words))}" for law in equations.balances]
@@ -68,14 +71,29 @@ def _head(case) -> str:
         rows += [f"  {effect_words(effect.name)}: {_values(effect)}" for effect in case.physical.effects]
     rows += [f"  {line}" for line in frame.lines(case)]
     rows += [f"  {line}" for line in _craft(case)]
-    if case.scaling:
-        rows.append(f"  one unit of tau is {float(case.scaling.time):.6g} s; "
-                    f"omega_j = {', '.join(f'{float(r):.6g}' for r in case.scaling.rate)} times x_j (rad/s)")
+    rows += _scaled(case)
     units = units_of(case)
     rows += [f"  motion from {units.vector(case.state[:3], units.rates, DIGITS)}"] if case.state else []
     rows += [f"  good to 240 bits, as their unit holds pi: {', '.join(case.inexact)}"] if case.inexact else []
     rows += [f"  note: {note}" for note in case.notes]
     return "\n".join(rows) + "\n"
+
+
+def _scaled(case) -> list[str]:
+    """The paper's scaled variables of a body in order D1 > D2 > D3 with its wheel along axis 1."""
+    body = case.physical and case.physical.body
+    if not body or not case.scene.plain or not body.exact[0] > body.exact[1] > body.exact[2]:
+        return []
+    names = ", ".join(f"k{n} = {_number(k)}" for n, k in enumerate(shape_factors(body), 1))
+    try:
+        twin, change = ((case.scene, case.scaling) if case.variables == "scaled"
+                        else to_scaled(case.physical))
+    except InputError:  # no torque, or a wheel off axis 1
+        return [f"  scaled variables of Amer et al. 2024: {names}"]
+    return [f"  scaled variables of Amer et al. 2024: {names}, u = {_number(change.u)}, "
+            f"a = {_number(twin.a)}, b = {_number(twin.b)}, mu = {_triple(twin.exact_mu)}",
+            f"  one unit of tau is {float(change.time):.6g} s; "
+            f"omega_j = {', '.join(f'{float(r):.6g}' for r in change.rate)} times x_j (rad/s)"]
 
 
 def _craft(case) -> list[str]:
@@ -140,6 +158,15 @@ def _short(expression) -> str:
     from sympy import Rational
     long = {r: r.evalf(DIGITS) for r in expression.atoms(Rational) if len(str(r)) > SHORT}
     return lettered(_products(str(expression.xreplace(long))))
+
+
+def _jacobian(case, equations) -> list[str]:
+    """A row of the matrix a line; that of a liquid in a cavity would fill pages."""
+    from sympy import factor_terms
+    if "liquid_cavity" in (effect.name for effect in case.scene.effects):
+        return ["  too long for a page: stabilab.derive(case.scene).jacobian"]
+    rows = equations.jacobian.applyfunc(factor_terms).tolist()
+    return [f"  ({', '.join(lettered(_products(str(entry))) for entry in row)})" for row in rows]
 
 
 def _products(formula: str) -> str:
