@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 from .version import __version__ as __version__
 
 if TYPE_CHECKING:  # what `_HOME` loads on first use, for editors and type checkers
+    from .answers.attitude.ask import attitude as attitude
     from .answers.chaos import chaos as chaos
     from .answers.equilibria import equilibria as equilibria
     from .answers.extremes import extremes as extremes
@@ -55,7 +56,8 @@ _HOME = {
     "Fate": "orbit.result",
     "equilibria": "answers.equilibria", "chaos": "answers.chaos",
     "fate": "answers.fate", "fate_grid": "answers.fate", "motion": "answers.motion",
-    "extremes": "answers.extremes", "period": "answers.extremes", "spin_up": "unreduced.spin_up.follow",
+    "attitude": "answers.attitude.ask", "extremes": "answers.extremes", "period": "answers.extremes",
+    "spin_up": "unreduced.spin_up.follow",
     "separatrix": "orbit.separatrix.sheets", "stuck": "answers.stuck.ask",
     "time_to": "answers.time_to", "TimeTo": "answers.passage.run",
     "trajectory": "answers.simulate", "ensemble": "integrate.ensemble",

@@ -596,7 +596,8 @@ def test_every_command_has_help_with_an_example(stabilab):
     code, out, _ = stabilab("--help")
     groups = out.split("-h, --help")[1].partition("\n")[2]
     commands = [line.split()[0] for line in groups.splitlines() if line.startswith("  ")]
-    assert code == 0 and set(commands) == {"atlas", "audit", "basin", "bifurcation", "chaos", "classify",
+    assert code == 0 and set(commands) == {"atlas", "attitude", "audit", "basin", "bifurcation", "chaos",
+                                           "classify",
                                            "compare", "doctor", "explore", "extremes",
                                            "fate", "figures", "import", "period", "plot", "precision",
                                            "reference", "report", "rerun", "show",

@@ -88,6 +88,16 @@ def period(cases: CaseFiles, json: Json = False, digits: Digits = None, strict: 
 
 
 @commands.command()
+def attitude(cases: CaseFiles, json: Json = False, strict: StrictFate = False, units: UnitsOption = None):
+    """Find rotation and precession periods, and the turn in space.
+
+    Example: stabilab attitude cases/torque-free-body.toml
+    """
+    from ..commands.questions import attitude as answer
+    answer(cases, json, strict, units)
+
+
+@commands.command()
 def when(
         cases: CaseFiles,
         rate: Annotated[str | None, typer.Option(

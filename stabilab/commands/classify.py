@@ -1,10 +1,12 @@
 """`stabilab classify`: equilibria, their stability, and the fate of the motion."""
 from __future__ import annotations
 
+from ..answers.attitude.ask import attitude, in_closed_form
 from ..answers.equilibria import equilibria
 from ..case.read import blamed_on
 from ..show.terminal import classification
 from ..show.text import answers, law, uncertain
+from ..show.text.attitude import row_of
 from .common.cases import (
     load_cases,
     motion_of,
@@ -33,16 +35,19 @@ def classify(cases, json, strict, certify, out, follow, tilt, units, why):
                 for case in one_by_one(loaded)]
     boxes = over_boxes(loaded, "equilibria", "fate")
     answered = [(case, found, sampled(motion, box)) for (case, found, motion), box in zip(answered, boxes)]
+    turning = [attitude(case) if motion is not None and in_closed_form(case.scene) else None
+               for case, _, motion in answered]
     laws = [law.worst(found.validity, motion and motion.validity) for _, found, motion in answered]
     if json:
         write(answers.as_json([answers.classification(*answer)
+                               | {"attitude": turn and row_of(answer[0], turn)}
                                | law.key(held, answer[0] if answer[2] is None else None)
                                | uncertain.as_dict(box)
-                               for answer, held, box in zip(answered, laws, boxes)]))
+                               for answer, turn, held, box in zip(answered, turning, laws, boxes)]))
     else:
-        texts = [lambda n=n: uncertain.first(boxes[n], classification.text(*answered[n], systems[n], why),
-                                             systems[n])
+        plain = [lambda n=n: classification.text(*answered[n], systems[n], why, turning[n])
                  for n in range(len(answered))]
+        texts = [lambda n=n: uncertain.first(boxes[n], plain[n](), systems[n]) for n in range(len(answered))]
         tell_all(loaded, texts, laws, list(map(uncertain.in_si, boxes, systems)), why, "\n\n",
                  swept_motions([m for *_, m in answered], systems), systems)
     certified = all([proof.certified(case, out) for case in loaded]) if certify else True

@@ -1,10 +1,14 @@
-"""`stabilab extremes`, `fate` and `period`: one question about each motion, with the digits of its answer."""
+"""`stabilab extremes`, `fate` and `period`: one question about each motion, with the digits of its answer;
+`attitude`: how it turns in space."""
 from __future__ import annotations
 
+from ..answers.attitude.ask import attitude as turning
 from ..answers.digits.checked import DEFAULT, by_bound, short
 from ..case.read import blamed_on
 from ..show.terminal import questions
 from ..show.text import answers, law, uncertain
+from ..show.text import attitude as attitudes
+from ..show.units import DEG
 from .common.cases import (
     load_cases,
     motion_of,
@@ -73,3 +77,19 @@ def _told(question, case, motion, digits):
                         motion, case.exact_state,
                         **({"aim": True} if digits is None else {}))
     return found
+
+
+def attitude(cases, json, strict, units):
+    """How each motion turns in space: answer every case, every combination where it has a [sweep]."""
+    loaded, found = load_cases(cases, motion=True), []
+    systems = [DEG if system.scaled else system for system in units_asked(loaded, units)]  # all is in SI here
+    for case in one_by_one(loaded):
+        with blamed_on(case):
+            found.append(turning(case))
+    if json:
+        write(answers.as_json(attitudes.as_dict(loaded, found)))
+    else:
+        texts = [lambda n=n: attitudes.text(loaded[n], found[n], systems[n]) for n in range(len(loaded))]
+        tell_all(loaded, texts, [None] * len(loaded), [""] * len(loaded), True, "\n\n",
+                 lambda of: [], systems)
+    leave_undecided(strict, any(one.fate.word == "undecided" for one in found))

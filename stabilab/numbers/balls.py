@@ -85,6 +85,12 @@ class Digits:
         return arb.atan2(y, x) if not (0 in y and not x > 0) else arb.pi() + arb.atan2(-y, -x)
 
     @staticmethod
+    def elliptic(n: arb, m: arb) -> tuple[arb, arb]:
+        """The complete elliptic integrals K(m) and Pi(n, m) of a parameter m < 1."""
+        from flint import acb
+        return acb(m).elliptic_k().real, acb.elliptic_pi(acb(n), acb(m)).real
+
+    @staticmethod
     def real_roots(coefficients: Sequence[Number]) -> list[tuple[arb, int]]:
         """(root, multiplicity) of the real roots of a polynomial with rational coefficients, lowest first;
         certified."""

@@ -40,6 +40,7 @@ IMPORTS_INSIDE = 60  # of 237 once: some thirty of commands, the others in the t
 SIGNS = 25  # tests of the sign of p q, of 139 once
 # Imports inside functions, besides those of the commands: (importing module, imported module) -> why it waits
 DOORS = {
+    ("stabilab.answers.attitude.ask", "stabilab.answers.attitude.followed"): "loads numpy",
     ("stabilab.answers.certificate", "stabilab.answers.certified_motion"): "loads numpy",
     ("stabilab.commands.classify", "stabilab.commands.certify"): "loaded for --certify alone",
     ("stabilab.commands.common.cases",

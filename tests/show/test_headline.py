@@ -135,7 +135,7 @@ def test_commands_begin_with_it(stabilab, tmp_path, command, own):
 def test_proofs_and_algebra_stand_behind_why(stabilab, own):
     path = own().path
     short, long = (stabilab("classify", path, *option)[1] for option in ([], ["--why"]))
-    for words in ("(ω1 + 15.2789)", "eigenvalue", "Q  ", "t from", "fold at"):
+    for words in ("Q  ", "t from", "fold at"):
         assert words not in short and words in long
     assert long == stabilab("classify", path, "-v")[1] and short.splitlines()[0] == long.splitlines()[0]
     assert "(deg/s)²" in long and "\n  energy, reduced motion" in long and long.count(" J\n") == 2

@@ -63,7 +63,7 @@ ASKED = {"classify": ([], [*MANY, "liquid"]),
                     "motion.angular_velocity[3]=-1:1:3", "--depth", "1"], ["bounded"]),
          "atlas": (["--level", "0", "--refine", "0"], ["bounded"]), "chaos": (["--until", "5"], ["bounded"]),
          "bifurcation": (["--vary", "torque[3]=-1:1"], ["bounded", "off the axes"]),
-         "reference": (["--at", "0,1", "--digits", "12"], ["bounded"]), "stuck": ([], ["craft"]),
+         "attitude": ([], MANY), "reference": (["--at", "0,1", "--digits", "12"], ["bounded"]), "stuck": ([], ["craft"]),
          "verify": ([], ["certificate"]),
          "audit": (["constant-torque-gyrostat", "--equation", "17"], [None]), "validate": ([], [None])}
 

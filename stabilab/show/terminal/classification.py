@@ -8,9 +8,9 @@ from itertools import groupby
 
 from ...numbers.vectors import CYCLE
 from ..curve_units import in_units
-from ..text import frame
+from ..text import attitude, frame
 from ..text.headline import headline
-from ..units import Units, number
+from ..units import SI, Units, number
 from .letters import lettered, written
 from .motion import reason, row, state, table, tilt_lines, why
 
@@ -18,14 +18,15 @@ FEW = 3  # curves that one line has room for
 WORDS = ("stable", "asymptotically stable", "unstable", "undecided")
 
 
-def text(case, equilibria, motion, units: Units, proofs: bool = False) -> str:
-    """The lines for one case. proofs: with eigenvalues, equations of curves, reasons of every verdict and the
-    principal axes."""
+def text(case, equilibria, motion, units: Units, proofs: bool = False, turning=None) -> str:
+    """The lines for one case. turning: its `Attitude`, where that takes no run. proofs: with eigenvalues,
+    equations of curves, reasons of every verdict and the principal axes."""
     answer = (f"{resting(equilibria, units)}; no [motion], so no fate" if motion is None
               else headline(case, motion, units))
     lines = [f"{case.name}: {answer}", *([written(case.title)] if case.title else [])]
     if motion is not None:
-        lines += [*table(case, motion, units), *tilt_lines(case, motion, units, proofs),
+        lines += [*table(case, motion, units), *(row(*fact) for fact in attitude.rows(turning, units)),
+                  *tilt_lines(case, motion, units, proofs),
                   *why(case, motion, units, proofs)]
     lines += ["" if motion is None else f"equilibria: {resting(equilibria, units)}",
               *_equilibria(case, equilibria, units, proofs)]
@@ -68,8 +69,8 @@ def _ordered(verdicts):
 
 def _equilibria(case, equilibria, units, proofs):
     lines = [f"  {reason(equilibria.reason, units)}"] if proofs or equilibria.kind == "undecided" else []
-    linear = case.scene.plain and equilibria.kind in ("points", "curves", "undecided")
-    lines += [jacobian_words(case, units)] if linear else []
+    if case.scene.plain and equilibria.kind != "none" and (units.scaled or units.name == SI.name):
+        lines.append(_jacobian(case, units))  # its entries are 1/s for rates in rad/s alone
     for point in equilibria.points:
         lines += _point(case, point, units, proofs)
     if not proofs and (turning := [curve for curve in equilibria.curves if " Omega for t" in curve.name]):
@@ -82,15 +83,14 @@ def _equilibria(case, equilibria, units, proofs):
     return lines
 
 
-def jacobian_words(case, units) -> str:
+def _jacobian(case, units) -> str:
     """The Jacobian of the rates with the numbers of the case, row by row; the matrix (11) of the paper."""
     form, rows = case.scene.quadratic(), [["0"] * 3 for _ in range(3)]
     kappa, rho, sigma, _ = form.coefficients
     for i, (j, k) in enumerate(CYCLE):
         rows[i][j] = _linear(kappa[i], case.scene.components[k], sigma[i])
         rows[i][k] = _linear(kappa[i], case.scene.components[j], rho[i])
-    unit = "" if units.scaled else " 1/s, with rates in rad/s"
-    return lettered(f"  Jacobian: ({'), ('.join(', '.join(row) for row in rows)}){unit}")
+    return lettered(f"  Jacobian: ({'), ('.join(', '.join(row) for row in rows)}){per_second(units)}")
 
 
 def _linear(slope, name, constant) -> str:

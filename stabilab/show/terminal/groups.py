@@ -8,7 +8,8 @@ from typer.core import TyperGroup
 # title of a group in the help -> the file of `cli` that declares its commands, and their names
 GROUPS = {
     "Answers about a motion": ("motions",
-                               ("classify", "fate", "extremes", "period", "when", "stuck", "chaos")),
+                               ("classify", "fate", "extremes", "period", "attitude", "when", "stuck",
+                                "chaos")),
     "Runs and pictures": ("runs", ("simulate", "plot", "surface", "report", "explore")),
     "Into a case": ("one_case", ("show", "compare", "precision", "import")),
     "Many cases at once": ("many_cases", ("sweep", "atlas", "basin", "bifurcation")),

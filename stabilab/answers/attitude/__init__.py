@@ -1,0 +1,1 @@
+"""How a motion turns in space."""

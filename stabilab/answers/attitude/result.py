@@ -1,0 +1,49 @@
+"""What is known of how a motion turns in space."""
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+from ...caveat import Caveat
+from ...numbers.vectors import Float3
+from ...orbit.result import Fate
+from ...representation import Shown
+
+LONG, SHORT, SEPARATRIX, STEADY = "long-axis", "short-axis", "separatrix", "steady"
+
+
+@dataclass(frozen=True, repr=False)
+class Attitude(Shown):
+    """How one motion turns in space; vectors along the principal axes of the scene.
+
+    mode: "long-axis" or "short-axis" (which the angular momentum goes round, seen from the body; without
+    a torque), "separatrix", "steady", or None. rotation_period: of the rates, s; of a steady rotation, of
+    a turn. precession_period: mean, of that axis about the angular momentum, s. momentum: |H| at the
+    start, N m s; momentum_direction: unit vector along it at the start. cone: (least, greatest) angle
+    between the axis, in the direction that is nearer, and the angular momentum over all time, rad.
+    turn_angle (rad, 0 to pi), turn_axis: the rotation that takes the attitude at the start to that one
+    rotation period later; the axis is the same in body and space. What the motion does not have is None,
+    and `because` says why. error: relative, of the periods and the turn.
+    caveats: all that limits the answer.
+    """
+
+    at: Float3
+    fate: Fate
+    mode: str | None
+    momentum: float
+    momentum_direction: Float3 | None
+    because: str
+    rotation_period: float | None = None
+    precession_period: float | None = None
+    cone: tuple[float, float] | None = None
+    turn_angle: float | None = None
+    turn_axis: Float3 | None = None
+    error: float | None = None
+    caveats: tuple[Caveat, ...] = ()
+
+
+def turned(found: Attitude, turns: float) -> Attitude:
+    """With the turn after one period about the angular momentum, whose whole turns do not count."""
+    angle = 2 * math.pi * (turns - round(turns))
+    h = found.momentum_direction or (0.0, 0.0, 0.0)
+    return replace(found, turn_angle=abs(angle), turn_axis=tuple(math.copysign(1, angle) * v for v in h))
