@@ -49,19 +49,22 @@ def energy_integral(scene: AnyScene, state: Sequence[float | Fraction],
 
     margin: the motion's margin in energy, in the scene's unit. None where the scene has no such integral:
     no torque along a principal axis, a wheel along the torque, two equal moments (no scaled variables), or a
-    pure spin in the centre of the conic, where the angle is undefined.
+    pure spin in the centre of the conic, where the angle is undefined; and where it is no double.
     """
     r = reduce(scene)
     if r is None or not r.sense or not r.geometry.centred:
         return None
-    found = _canonical(r, [Fraction(v) for v in state])
-    if found is None:
+    try:
+        found = _canonical(r, [Fraction(v) for v in state])
+        if found is None:
+            return None
+        name, value = found
+        if margin is None:
+            return EnergyIntegral(name, value)
+        times = 1 if name == "G3" else 4
+        difference = float(times * Fraction(margin) / (r.exact_energy_unit * r.exact_constants["mu"]))
+    except OverflowError:  # squares of rates that are no doubles
         return None
-    name, value = found
-    if margin is None:
-        return EnergyIntegral(name, value)
-    times = 1 if name == "G3" else 4
-    difference = float(times * Fraction(margin) / (r.exact_energy_unit * r.exact_constants["mu"]))
     return EnergyIntegral(name, value, value + difference, difference)
 
 

@@ -8,7 +8,7 @@ import stabilab
 from stabilab.physics.effects.base import Effect
 
 STATE, TIMES = (0.1, 0.05, 0.02), (0.0, 1.0)
-OF_A_SCENE = {"equilibria": (), "fate": (STATE,), "fate_grid": ([[0.1], [0.2], [0.3]],), "motion": (STATE,),
+OF_A_SCENE = {"equilibria": (), "fate": (STATE,), "fate_grid": ([[0.1], [0.2], [0.3]],), "motion": (STATE,), "attitude": (STATE,),
               "extremes": (STATE,), "period": (STATE,),
               "spin_up": (STATE,), "separatrix": (), "time_to": (STATE, 1.0), "trajectory": (STATE, TIMES),
               "ensemble": ([STATE], TIMES),
