@@ -17,6 +17,7 @@ from ..errors import InputError
 from ..show import style
 from ..show.files import comma
 from .figures import paper
+from .printed_extremes import FAMILIES, printed_extremes
 
 DECIMALS = 20  # of periods and extremes, from balls: the double next to each is the right one
 SHOWN_DIGITS = 6  # in the readable formats; the CSV holds every double in full
@@ -66,8 +67,12 @@ _MINUS = re.compile(r"(?<=\bb)-(?=a\b)|(?<![^ (,/|])-(?=[\wμ(])")
 def torque_signs() -> Table:
     """Table 1: every combination of torque signs, with the wheel (a != b) and without its effect (a = b)."""
     scene = paper.scene("minor", 100)
-    rows = [tuple(_signs(getattr(row, field)) for field in TORQUE_COLUMNS.values())
-            for pair in ((scene.a, scene.b), (scene.a, scene.a)) for row in torque_table(*pair)]
+    signs: dict[tuple, list[str]] = {}  # rows that differ in the signs alone are one
+    for pair in ((scene.a, scene.b), (scene.a, scene.a)):
+        for row in torque_table(*pair):
+            wheel, torque, *rest = (_signs(getattr(row, field)) for field in TORQUE_COLUMNS.values())
+            signs.setdefault((wheel, *rest), []).append(str(torque))
+    rows = [(wheel, ", ".join(torques), *rest) for (wheel, *rest), torques in signs.items()]
     return Table(1, "Equilibria and their stability under every constant torque",
                  "All sign combinations of the torque "
                  "(μ1, μ2, μ3). The paper grants eight equilibria whenever μ1 μ2 μ3 ≥ 0; there are never "
@@ -89,19 +94,19 @@ def _signs(value) -> str | None:
 
 
 EXTREMES_HEADER = ("case", "λ1", "a", "b", "x1(0)", "x2(0)", "x3(0)", "fate", "period", "x1 min", "x1 max",
-                   "x2 min",
-                   "x2 max", "x3 min", "x3 max")
+                   "x2 min", "x2 max", "x3 min", "x3 max")
 EXTREMES = {
     2: (("minor-axis",), "Extremes, torque on the minor axis, from x(0) = (2.5, 4, 0.1)",
-        "Extremes over all time. The paper's own table rests on x1² + x2² = F², which is not constant."),
+        "Extremes over all time. The rows as printed are worked out from (18) and (30), on which the "
+        "paper's own table rests: x1² + x2² = F² is not constant. Difference: as printed less true."),
     3: (("middle-axis",), "Extremes, torque on the middle axis, from x(0) = (1.7, 1.1, −0.2)",
-        "Extremes over all time. The paper's own table rests on x1² − x3² = 2N, which is not constant."),
+        "Extremes over all time. The paper's own table rests on x1² − x3² = 2N, which is not constant, and "
+        "on (71), whose artanh ends before x2 returns to zero: as printed there are no extremes."),
     4: (("middle-axis-equal", "middle-axis-plane"),
         "Extremes, torque on the middle axis, from x(0) = (2.5, 1.3, 2.5)",
-        "The paper takes x1(0) = x3(0) for an invariant plane. It is none unless b = 0: the first three rows "
-        "show what the "
-        "state really does, x1 and x3 part at once. The last three rows show the case that was meant, x1 + "
-        "b = x3."),
+        "The paper takes x1(0) = x3(0) for an invariant plane. It is none unless b = 0: the first rows show "
+        "what the state really does, x1 and x3 part at once, beside what follows from the printed (79). The "
+        "last three rows show the case that was meant, x1 + b = x3. Difference: as printed less true."),
 }
 
 
@@ -128,9 +133,23 @@ def extremes_table(number: int, folder: Path | None = None) -> Table:
     """Table 2, 3 or 4: extremes of every component over all time, from the case files."""
     families, title, caption = EXTREMES[number]
     folder = folder or cases_folder()
-    rows = [_extremes_row(folder / f"{family}-{lam}.toml", lam) for family in families
-            for lam in paper.LAMBDAS]
+    rows = [row for family in families for lam in paper.LAMBDAS
+            for row in _with_printed(family, _extremes_row(folder / f"{family}-{lam}.toml", lam))]
     return Table(number, title, caption, EXTREMES_HEADER, tuple(rows))
+
+
+def _with_printed(family: str, row: tuple) -> list[tuple]:
+    """The row, and for a family whose formulas the paper prints what these give and the difference."""
+    if family not in FAMILIES:
+        return [row]
+    name, lam, a, b, *start = row[:7]
+    found = printed_extremes(family, start, a, b)
+    values = [None] * 6 if found is None else [v for pair in found for v in pair]
+    as_printed = ("as printed", lam, a, b, *start, None, None, *values)
+    if found is None:
+        return [row, as_printed]
+    apart = [printed - true for printed, true in zip(values, row[9:])]
+    return [row, as_printed, ("difference", *[None] * 8, *apart)]
 
 
 def _extremes_row(path, lam):
@@ -200,9 +219,18 @@ _LATEX = {"\\": r"\textbackslash{}", "&": r"\&", "%": r"\%", "$": r"\$", "#": r"
           "₁": "$_1$", "₂": "$_2$", "₃": "$_3$", "⟂": r"$\perp$", "Δ": r"$\Delta$"}
 
 
+_INDEXED = re.compile(r"\b([xλμ])(\d)")
+
+
 def latex_escape(words: str) -> str:
-    """Words that LaTeX sets as they stand."""
-    return "".join(_LATEX.get(letter, letter) for letter in words)
+    """Words that LaTeX sets as they stand, x1 and λ1 with their indices."""
+    parts = _INDEXED.split(words)  # text, letter, index, text, ...
+    made = []
+    for text, letter, index in zip(parts[::3], [*parts[1::3], ""], [*parts[2::3], ""]):
+        made.append("".join(_LATEX.get(sign, sign) for sign in text))
+        if letter:
+            made.append(f"${_LATEX.get(letter, letter).strip('$')}_{index}$")
+    return "".join(made)
 
 
 def latex(table: Table) -> str:
