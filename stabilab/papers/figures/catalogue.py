@@ -40,12 +40,12 @@ FIGURES = (
            lambda: "Level curves of x²/2 + A² cos α − 4A(b−a) sin(α/2) − 2α on the "
            f"true circle (x1+a)² + x2² = A² with A = {minor.circle():.4f}. The paper draws F = 4.72 from x1² "
            f"+ x2² = F², which is not "
-           "constant, and −4Fb in place of −4A(b−a).", minor.trajectories,
+           f"constant, and −4Fb in place of −4A(b−a). {minor.departure()}", minor.trajectories,
            f"{_LEVEL}; grey lines: traced on a 700 x 500 grid"),
     Figure(3, "Left and right separatrices",
-           "Each saddle has one loop; triangles mark where a loop crosses the axis "
+           lambda: "Each saddle has one loop; triangles mark where a loop crosses the axis "
            "upright. Outside the loops every motion comes from the right, turns back and spins up to the "
-           "right.",
+           f"right. {minor.departure()}",
            minor.left_right, _LEVEL),
     Figure(4, "Effect of the momentum wheel on the separatrices",
            lambda: "True saddles and centres against the positions printed "

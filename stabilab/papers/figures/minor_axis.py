@@ -21,6 +21,8 @@ REACH = 5.0           # largest circle drawn in Fig. 5, in radii of the outer fo
 LEFT, RIGHT = style.MEANING["separatrix 2"], style.MEANING["separatrix"]
 COPY = RIGHT | {"linestyle": (0, (5, 2)), "linewidth": 1.1}
 LOOPS = [("left separatrix", LEFT), ("right separatrix", RIGHT), ("right separatrix, a turn earlier", COPY)]
+AS_PRINTED = style.MEANING["printed"] | {"color": style.GREEN, "linestyle": "--", "linewidth": 1.6}
+PRINTED_LINE = ("separatrices as printed: (26), (27)", AS_PRINTED)
 POINTS = [("centre (stable)", style.MARKER["centre"]), ("saddle (unstable)", style.MARKER["saddle"])]
 
 
@@ -42,12 +44,13 @@ def trajectories(plt):
     plane, start, span = _plane(100)
     draw(ax, plane, scale=2, offset=start, rate_scale=2, span=span, levels=26, separatrices=False)
     _separatrices(ax, plane, start, span)
+    _as_printed(ax)
     _label(ax)
     radius = np.sqrt(plane.Q)
     ax.set_title(rf"Torque on the minor axis, $\lambda_1=100$: the circle $A={radius:.4f}$ of the start")
     style.legend(figure,
                  [("this motion", style.MEANING["this motion"]), ("start", style.MARKER["start"]), *LOOPS,
-                     ("other energies", style.MEANING["level"]), *POINTS], columns=3)
+                     PRINTED_LINE, ("other energies", style.MEANING["level"]), *POINTS], columns=3)
     return figure
 
 
@@ -66,6 +69,45 @@ def _separatrices(ax, plane, start, span):
 def _left(saddles, start):
     """The left saddle of the paper: the one with alpha nearest to 0."""
     return min(saddles, key=lambda y: abs(start + 2 * y))
+
+
+def _heights(lambda1=100):
+    """(height by (25), as it is printed, true height) over alpha: x^2/2 + height is constant."""
+    def height(radius, wheel):
+        return lambda alpha: (radius**2 * np.cos(alpha) - 4 * radius * wheel * np.sin(alpha / 2) - 2 * alpha)
+
+    scene, (x1, x2, _) = paper.scene("minor", lambda1), paper.START_MINOR
+    return (height(np.hypot(x1, x2), scene.b), height(np.hypot(x1 + scene.a, x2), scene.b - scene.a))
+
+
+def _separatrix_by(height, alpha):
+    """x >= 0 on the separatrices through the saddles of a height near alpha = 0 and 2 pi, each from its own
+    loop on; NaN where there is none."""
+    found = []
+    for near in (0.0, 2 * np.pi):
+        there, h = height(alpha[np.abs(alpha - near) < 1.5]).max(), height(alpha)
+        own = (h <= there) & (alpha > near - 2 * np.pi)
+        found.append(np.sqrt(np.where(own, 2 * (there - h), np.nan)))
+    return found
+
+
+def _as_printed(ax):
+    """The separatrices by the printed (26) and (27)."""
+    alpha = np.linspace(*WINDOW, 4001)
+    for x in _separatrix_by(_heights()[0], alpha):
+        for sign in (1, -1):
+            ax.plot(alpha, sign * x, **AS_PRINTED)
+
+
+def departure() -> str:
+    """How far x of a printed separatrix is from the true one at equal alpha, in words."""
+    alpha = np.linspace(*WINDOW, 4001)
+    found = []
+    for name, printed, true in zip(("left", "right"), *(_separatrix_by(h, alpha) for h in _heights())):
+        apart = np.abs(printed - true)
+        at = int(np.nanargmax(apart))
+        found.append(f"{apart[at]:.2f} at α = {alpha[at]:.2f} on the {name} one")
+    return "Printed separatrices, by (26) and (27): their x is off by up to " + " and ".join(found) + "."
 
 
 def _loops(ax, plane, start, span):
@@ -96,13 +138,14 @@ def left_right(plt):
     ys, Ws = motion_curve(spin, span[0] - span[1], 0.0)
     for sign in (1, -1):
         ax.plot(start + 2 * (span[1] + ys), 2 * sign * Ws, **style.MEANING["spin-up"])
+    _as_printed(ax)
     ax.set_xlim(*WINDOW)
     ax.set_ylim(-14, 14)
     _label(ax)
     ax.set_title(rf"Left and right separatrices, $\lambda_1=100$, $A={np.sqrt(plane.Q):.4f}$")
     style.legend(figure, [*LOOPS, ("periodic motions", style.MEANING["bounded"]),
                           ("spin-up", style.MEANING["spin-up"]),
-                     ("upright crossing", style.MARKER["turning"]), *POINTS], columns=3)
+                     ("upright crossing", style.MARKER["turning"]), PRINTED_LINE, *POINTS], columns=3)
     return figure
 
 
