@@ -100,10 +100,39 @@ def _loop_ends():
     return invariant(brentq(speed, -2 * math.pi, centre, xtol=1e-15)) - invariant(saddle)
 
 
+def _repeated(turns):
+    """The equilibrium condition at every saddle and centre of Fig. 4, so many turns of alpha on."""
+    moved = {lam: [alpha + 2 * math.pi * turns for alpha in angles] for lam, angles in FIG4_TRUE.items()}
+    return _fig4(moved, False)
+
+
+def _loop_area(lam, side):
+    """The area of a loop in the plane (alpha, x); side 0: left, 1: right."""
+    from scipy.integrate import quad
+    from scipy.optimize import brentq
+    A, c = math.hypot(2.5 + lam / 500, 4), lam / 500
+    saddle, centre = FIG4_TRUE[lam][side], FIG4_TRUE[lam][2 + side]
+
+    def square(al):  # of x, by the corrected (25)
+        return 2 * (A**2 * (math.cos(saddle) - math.cos(al))
+                    + 4 * A * c * (math.sin(al / 2) - math.sin(saddle / 2)) + 2 * (al - saddle))
+
+    end = brentq(square, centre - math.pi, centre)
+    return 2 * quad(lambda al: math.sqrt(max(square(al), 0.0)), end, saddle)[0]
+
+
+def _smaller_right_loop():
+    """By how much the order of the areas fails at lambda1 = 300: right below left, and left below right."""
+    left, right = (_loop_area(300, side) for side in (0, 1))
+    return max(0.0, right - left), max(0.0, left - right)
+
+
 TESTS = {
     "stability": _stability_after_13,
     "fold radius": _fold_radius,
     "positions": lambda: (_fig4(FIG4_PRINTED, True), _fig4(FIG4_TRUE, False)),
+    "repetition": lambda: (_repeated(1), _repeated(2)),
+    "loop areas": _smaller_right_loop,
     "dividing line": _dividing,
     "figure 6 item 4": lambda: (_item4(), _loop_ends()),
     "merging": lambda: (_contact_points(False), _contact_points(True)),
