@@ -599,7 +599,7 @@ def test_every_command_has_help_with_an_example(stabilab):
     assert code == 0 and set(commands) == {"atlas", "attitude", "audit", "basin", "bifurcation", "chaos",
                                            "classify",
                                            "compare", "doctor", "explore", "extremes",
-                                           "fate", "figures", "import", "period", "plot", "precision",
+                                           "fate", "figures", "import", "period", "plot", "papers", "precision",
                                            "reference", "report", "rerun", "show",
                                            "simulate", "stuck", "surface", "sweep", "tables", "validate",
                                            "verify", "when"}

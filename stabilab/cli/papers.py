@@ -7,9 +7,23 @@ from typing import Annotated  # typer reads the annotations at run time
 import typer
 
 from ..show.terminal import completion
-from .options import Folder
+from .options import Folder, Json
 
 commands = typer.Typer()
+
+
+@commands.command()
+def papers(
+        paper: Annotated[str | None, typer.Argument(
+            metavar="[PAPER]", autocompletion=completion.audited, show_default=False,
+            help="A paper of `stabilab audit`; none: all.")] = None,
+        json: Json = False):
+    """List equations, figures, tables, claims with verdicts.
+
+    Example: stabilab papers constant-torque-gyrostat
+    """
+    from ..commands.papers import papers as answer
+    answer(paper, json)
 
 
 @commands.command()

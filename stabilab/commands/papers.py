@@ -4,7 +4,7 @@ from __future__ import annotations
 import sys
 
 from ..errors import ToleranceNotMet
-from ..papers import table
+from ..papers import index, table
 from ..papers.audit import audited
 from ..papers.audit import page as audit_page
 from ..papers.figures import catalogue
@@ -35,6 +35,13 @@ def validate(source, json, out):
     either(json, lambda: validation_text.as_dict(found), lambda: validation_text.text(found))
     if apart := validation_text.unexplained(found):
         raise ToleranceNotMet("\n".join(apart))
+
+
+def papers(paper, json):
+    """Where every equation, figure, table and claim of a paper, or of all, is, and what is said of it."""
+    with counted() as tell:
+        findings = audited(paper, None, tell)
+    either(json, lambda: index.as_dict(findings), lambda: index.text(findings))
 
 
 def tables(out):

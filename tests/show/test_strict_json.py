@@ -65,7 +65,8 @@ ASKED = {"classify": ([], [*MANY, "liquid"]),
          "bifurcation": (["--vary", "torque[3]=-1:1"], ["bounded", "off the axes"]),
          "attitude": ([], MANY), "reference": (["--at", "0,1", "--digits", "12"], ["bounded"]), "stuck": ([], ["craft"]),
          "verify": ([], ["certificate"]),
-         "audit": (["constant-torque-gyrostat", "--equation", "17"], [None]), "validate": ([], [None])}
+         "audit": (["constant-torque-gyrostat", "--equation", "17"], [None]), "validate": ([], [None]),
+         "papers": (["liquid-cavity"], [None])}
 
 
 def strictly(text, endless=False):

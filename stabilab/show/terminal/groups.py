@@ -14,7 +14,7 @@ GROUPS = {
     "Into a case": ("one_case", ("show", "compare", "precision", "import")),
     "Many cases at once": ("many_cases", ("sweep", "atlas", "basin", "bifurcation")),
     "Proofs and checks": ("proofs", ("verify", "reference", "audit", "validate", "rerun")),
-    "The papers": ("papers", ("tables", "figures")),
+    "The papers": ("papers", ("papers", "tables", "figures")),
     "Besides": ("besides", ("doctor",)),
 }
 
