@@ -24,6 +24,7 @@ LINES = {
     "chaos": ("chaos", OFF), "plot": ("plot", MINOR, "--out", "o.png"),
     "classify": ("classify", MINOR, "--certify", "--out", "c.json"), "period": ("period", MINOR, "--json"),
     "when": ("when", OFF, "--rate", "3 rad/s"),
+    "attitude": ("attitude", OFF), "papers": ("papers", "liquid-cavity", "--json"),
     "stuck": ("stuck", STUCK), "surface": ("surface", MINOR, "--out", "s"), "show": ("show", MINOR),
     "compare": ("compare", CHARGED),
     "precision": ("precision", MINOR, "--quick", "--until", "1", "--json"),

@@ -95,6 +95,8 @@ def test_tables_agree_with_a_tight_run(number):
     from scipy.integrate import solve_ivp
     for row in table.extremes_table(number).rows:
         values = dict(zip(table.EXTREMES_HEADER, row))
+        if values["case"] in ("as printed", "difference"):  # tests/papers/test_printed_extremes.py
+            continue
         a, b = values["a"], values["b"]
         mu = (0, 0, 1) if "minor" in values["case"] else (0, 1, 0)
         assert values["fate"] == "bounded"
