@@ -72,7 +72,7 @@ def half_unit(value: object) -> Fraction:
     """Half a unit of the last digit of a number as it was written, a double in its shortest digits; 0 of a
     ratio, of a Fraction, and of a whole number of less than four digits: whoever writes 2 or 100 means
     exactly that."""
-    written = repr(value) if isinstance(value, float) else str(value)
+    written = repr(float(value)) if isinstance(value, float) else str(value)  # NumPy repr: np.float64(0.1)
     digits, _, power = "".join(written.replace("_", "").split()).lower().partition("e")
     if isinstance(value, Fraction) or "/" in digits or ("." not in digits and len(digits.lstrip("+-")) < 4):
         return Fraction(0)

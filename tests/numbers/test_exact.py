@@ -4,9 +4,10 @@ import random
 from fractions import Fraction
 
 import mpmath
+import numpy as np
 import pytest
 
-from stabilab.numbers.exact import pi_in, precise
+from stabilab.numbers.exact import half_unit, pi_in, precise
 
 RNG = random.Random(7)
 PI = Fraction(pi_in(400), 1 << 400)
@@ -32,3 +33,8 @@ def test_cosines_and_pi_are_those_of_mpmath_to_the_last_bit(bits):
     wrong = [angle for angle in ANGLES
              if precise("cos", angle, bits=bits) != by_mpmath("cos", angle, bits=bits)]
     assert not wrong
+
+
+@pytest.mark.parametrize("value, half", [(2.5, "1/20"), (4.5e-05, "1/2000000"), (1.9e22, "500000000000000000000")])
+def test_half_a_unit_of_a_numpy_double_is_that_of_its_digits(value, half):
+    assert half_unit(np.float64(value)) == half_unit(value) == Fraction(half)
