@@ -1,176 +1,127 @@
-"""Periods, modes and turns against an attitude that DOP853 follows: Euler's equations and the matrix C' = C [w]x as
-they stand, no code in common with the program's."""
+"""`simulate --attitude`: the quaternion beside the rates, against SciPy's rotations and DOP853."""
+import csv
+import io
 import json
-import math
 
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
-import stabilab
+from stabilab import Body, ConstantTorque, Gyrostat, InputError, Scene, simulate
 
-LONG = [pytest.mark.slow, pytest.mark.long]
-
-
-def run(D, wheel, torque, omega, times):
-    """(rates (n, 3), matrices from body to space (n, 3, 3)) at the times."""
-    def rates(_, y):
-        w, C = y[:3], y[3:].reshape(3, 3)
-        cross = np.array([[0, -w[2], w[1]], [w[2], 0, -w[0]], [-w[1], w[0], 0]])
-        return np.concatenate([(np.cross(D * w + wheel, w) + torque) / D, (C @ cross).ravel()])
-
-    y = solve_ivp(rates, (0, times[-1]), [*omega, *np.eye(3).ravel()], "DOP853", t_eval=times, rtol=3e-14,
-                  atol=1e-14 * np.abs(omega).max()).y.T
-    return y[:, :3], y[:, 3:].reshape(-1, 3, 3)
+BODY = "[body]\ninertia = [3, 2, 1.5]\n"
+REST = "[motion]\nangular_velocity = [0.3, -0.2, 0.5]\nspan = [0, 20]\n"
+MORE = '[effects.gyrostat]\nmomentum = [0.1, 0.2, -0.3]\n[effects.constant_torque]\ntorque = [0, 0, 0.05]\n'
+D, WHEEL, TORQUE, START = np.array([3, 2,
+                                    1.5]), np.array([0.1, 0.2,
+                                                     -0.3]), np.array([0, 0,
+                                                                       0.05]), np.array([0.3, -0.2, 0.5])
+TIMES = [0, 4, 9.5, 20]
 
 
-def scene_of(D, wheel=(0, 0, 0), torque=(0, 0, 0)):
-    return stabilab.Scene(stabilab.Body(tuple(D)), stabilab.Gyrostat(tuple(wheel)),
-                          stabilab.ConstantTorque(tuple(torque)))
+def _turned(first=None, wheel=WHEEL, torque=TORQUE):
+    """(rates, matrices from body to space) at the times, by DOP853 for R' = R [omega x]."""
+    def rate(_, y):
+        w, R = y[:3], y[3:].reshape(3, 3)
+        return [*((np.cross(D * w + wheel, w) + torque) / D),
+                *(R @ [[0, -w[2], w[1]], [w[2], 0, -w[0]], [-w[1], w[0], 0]]).ravel()]
+    first = np.eye(3) if first is None else first
+    run = solve_ivp(rate, (0, 20), [*START, *first.ravel()], method="DOP853", t_eval=TIMES, rtol=1e-12,
+                    atol=1e-13)
+    return run.y[:3].T, run.y[3:].T.reshape(-1, 3, 3)
 
 
-def checked(D, wheel, torque, omega, tolerance):
-    """The answer, after its turn, its return of the rates and its mean precession were compared with a run."""
-    found = stabilab.attitude(scene_of(D, wheel, torque), omega)
-    if found.rotation_period is None or found.mode == "steady":
-        return found
-    period = found.rotation_period
-    count = 2000 if found.precession_period else 2
-    rates, C = run(D, wheel, torque, omega, np.linspace(0, period, count))
-    size = np.abs(rates).max()
-    np.testing.assert_allclose(rates[-1], omega, rtol=0, atol=100 * tolerance * size)
-    turn = Rotation.from_rotvec(found.turn_angle * np.array(found.turn_axis)).as_matrix()
-    np.testing.assert_allclose(turn, C[-1], rtol=0, atol=100 * tolerance)
-    assert 0 <= found.turn_angle <= math.pi
-    H = D * omega + wheel
-    np.testing.assert_allclose(found.momentum_direction, H / np.linalg.norm(H), rtol=1e-14, atol=1e-15)
-    if found.precession_period:
-        axis = np.argmin(D) if found.mode == "long-axis" else np.argmax(D)
-        h = np.array(found.momentum_direction)
-        one = np.cross(h, [0, 0, 1.0] if abs(h[2]) < 0.9 else [1.0, 0, 0])
-        one /= np.linalg.norm(one)
-        e = C[:, :, axis]  # the body's axis in space
-        turned = np.unwrap(np.arctan2(e @ np.cross(h, one), e @ one))[-1] - math.atan2(
-            e[0] @ np.cross(h, one), e[0] @ one)
-        assert 2 * math.pi * period / abs(turned) == pytest.approx(found.precession_period, rel=10 * tolerance)
-        cosines = np.clip(e @ h, -1, 1)
-        angles = np.arccos(cosines * np.sign(cosines.min() + cosines.max()))
-        assert found.cone[0] <= angles.min() + 1e-7
-        assert found.cone[1] >= angles.max() - 1e-7
-        assert found.cone == pytest.approx((angles.min(), angles.max()), abs=1e-2)  # of 2,000 samples
-    return found
+@pytest.fixture
+def case(tmp_path):
+    def write(text):
+        (tmp_path / "own.toml").write_text(text)
+        return tmp_path / "own.toml"
+    return write
 
 
-def body(rng):
-    """Moments of a body, by mass points, in any order."""
-    return rng.permutation(np.array([[0, 1, 1], [1, 0, 1], [1, 1, 0]]) @ rng.uniform(0.05, 1, 3))
+def _asked(stabilab, path, *more):
+    return stabilab("simulate", path, "--at", ",".join(map(str, TIMES)), "--attitude", *more)
 
 
-@pytest.mark.parametrize("seeds", [range(15), pytest.param(range(15, 150), marks=pytest.mark.slow),
-                                   pytest.param(range(150, 1000), marks=LONG)], ids=str)
-def test_periods_of_random_free_bodies_are_those_of_followed_attitudes(seeds):
-    modes = set()
-    for seed in seeds:
-        rng = np.random.default_rng(seed)
-        found = checked(body(rng), np.zeros(3), np.zeros(3), rng.normal(size=3) * 10 ** rng.uniform(-2, 2), 1e-11)
-        modes.add(found.mode)
-    assert modes == {"long-axis", "short-axis"}
+def test_the_quaternion_of_a_spacecraft_is_scalar_last_from_body_to_space(stabilab, case):
+    code, out, _ = _asked(stabilab, case(BODY + MORE + REST), "--json")
+    found = json.loads(out)
+    rates, matrices = _turned()
+    assert code == 0 and "scalar last" in found["quaternion"]
+    assert np.array(found["state"]["omega"]) == pytest.approx(rates, abs=1e-9)
+    q = np.array(found["state"]["quaternion"])
+    assert Rotation.from_quat(q).as_matrix() == pytest.approx(matrices, abs=1e-9)
+    assert np.linalg.norm(q, axis=1) == pytest.approx(1, abs=1e-14)
+    assert q[0].tolist() == [0, 0, 0, 1]
 
 
-@pytest.mark.parametrize("distance", [1e-2, 1e-4, 1e-6])
-@pytest.mark.parametrize("side", [1, -1])
-def test_periods_beside_the_separatrix(distance, side):
-    """H^2 = 2T D_b on it; the second component is moved off it by a share."""
-    D, w1 = np.array([1.0, 2.0, 3.0]), 0.5
-    w3 = w1 * math.sqrt(D[0] * (D[1] - D[0]) / (D[2] * (D[2] - D[1]))) * (1 + side * distance)
-    found = checked(D, np.zeros(3), np.zeros(3), np.array([w1, 0.0, w3]), 3e-11 / math.sqrt(distance))
-    assert found.mode == ("short-axis" if side > 0 else "long-axis")
+def test_a_free_body_keeps_its_momentum_in_space(stabilab, case):
+    state = json.loads(_asked(stabilab, case(BODY + REST), "--json")[1])["state"]
+    momenta = Rotation.from_quat(state["quaternion"]).apply(D * np.array(state["omega"]))
+    assert np.ptp(momenta,
+                  axis=0).max() < 1e-13 and momenta == pytest.approx(np.array(state["momentum"]), abs=1e-13)
 
 
-def test_the_period_grows_by_the_logarithm_down_to_32_decimals_from_the_separatrix(tmp_path):
-    """4 K(m) = 2 ln(16/(1 - m)) + ..., and 1 - m falls with the distance: 4 ln(10) a decade and lambda."""
-    periods = []
-    for n in (30, 32):  # on it w1 = sqrt(3) w3; the case has its decimals exactly
-        w1 = f"0.{str(math.isqrt(3 * 10**80) // 2).zfill(40)}"
-        w3 = f"0.5{'0' * (n - 2)}1"
-        (tmp_path / "case.toml").write_text(f'[body]\ninertia = [1, 2, 3]\n[motion]\n'
-                                            f'angular_velocity = ["{w1}", 0, "{w3}"]\n')
-        periods.append(stabilab.attitude(stabilab.load(tmp_path / "case.toml")).rotation_period)
-    T2, H2 = 3 / 4 + 3 / 4, 3 / 4 + 9 / 4
-    speed = math.sqrt((H2 - T2) * (3 - 2) / (1 * 2 * 3))  # short axis: lambda^2 of the module with A^2 put in
-    assert periods[1] - periods[0] == pytest.approx(2 * math.log(100) / speed, rel=1e-9)
+def test_it_begins_with_the_attitude_of_the_case(stabilab, case):
+    """psi, phi, theta of the 3-1-2 sequence: R = Rz(theta) Rx(psi) Ry(phi)."""
+    path = case(BODY + MORE + REST + "attitude = [0.3, -0.4, 1.1]\n")
+    first = Rotation.from_euler("ZXY", [1.1, 0.3, -0.4])
+    q = json.loads(_asked(stabilab, path, "--json")[1])["state"]["quaternion"]
+    assert Rotation.from_quat(q).as_matrix() == pytest.approx(_turned(first.as_matrix())[1], abs=1e-9)
 
 
-@pytest.mark.parametrize("seeds", [range(6), pytest.param(range(6, 60), marks=pytest.mark.slow),
-                                   pytest.param(range(60, 400), marks=LONG)], ids=str)
-def test_free_gyrostats_turn_as_their_followed_attitudes(seeds):
-    for seed in seeds:
-        rng = np.random.default_rng(500 + seed)
-        wheel = rng.normal(size=3) * (rng.random(3) < 0.6)
-        checked(body(rng), wheel, np.zeros(3), rng.normal(size=3), 1e-10)
+def test_it_begins_with_the_vertical_of_the_case(stabilab, case):
+    """Inertial axis 3 is the vertical: its body components are the third row of R."""
+    path = case(BODY + "[effects.gravity]\nweight = 0.1\ncentre_of_mass = [0, 0, 1]\n" + REST
+                + "vertical = [0, 3, 4]\n")
+    state = json.loads(_asked(stabilab, path, "--json")[1])["state"]
+    assert Rotation.from_quat(state["quaternion"]).as_matrix()[:,
+                                                               2] == pytest.approx(np.array(state["gamma"]),
+                                                                                   abs=1e-12)
+    assert state["gamma"][0] == pytest.approx([0, 0.6, 0.8])
 
 
-@pytest.mark.parametrize("seeds", [range(8), pytest.param(range(8, 40), marks=pytest.mark.slow),
-                                   pytest.param(range(40, 400), marks=LONG)], ids=str)
-def test_bounded_motions_with_a_torque_turn_as_their_followed_attitudes(seeds):
-    bounded = 0
-    for seed in seeds:
-        rng = np.random.default_rng(900 + seed)
-        D, axis = body(rng), rng.integers(3)
-        torque, wheel = np.zeros(3), rng.normal(size=3)
-        torque[axis], wheel[axis] = 0.05 * rng.normal(), 0
-        found = checked(D, wheel, torque, rng.normal(size=3), 1e-10)
-        bounded += found.turn_angle is not None
-        assert found.mode is None or found.mode == "steady"
-    assert bounded > len(seeds) / 3
+def test_quarter_turns_about_axis_1_pass_where_angles_are_singular():
+    """omega = (1, 0, 0): q = (sin t/2, 0, 0, cos t/2); psi = 90 deg leaves phi and theta open."""
+    times = np.pi / 2 * np.arange(5)
+    q = simulate(Scene(Body((3, 2, 1.5))), (1, 0, 0), times, {"attitude": (0, 0, 0, 1)}).state["quaternion"]
+    assert q == pytest.approx(np.column_stack([np.sin(times / 2), 0 * times, 0 * times, np.cos(times / 2)]),
+                              abs=1e-14)
 
 
-def test_a_symmetric_body_precesses_at_its_momentum_over_its_transverse_moment():
-    """Landau & Lifshitz, section 33: H/D1 about H, (D3 - D1)/D1 w3 of the rates in the body."""
-    for D, mode in (((2.0, 2.0, 3.0), "short-axis"), ((2.0, 2.0, 0.5), "long-axis")):
-        omega = np.array([0.3, 0.4, 1.0])
-        found = stabilab.attitude(scene_of(D), omega)
-        assert found.mode == mode
-        assert found.precession_period == pytest.approx(2 * math.pi * 2 / np.linalg.norm(D * omega), rel=1e-14)
-        assert found.rotation_period == pytest.approx(2 * math.pi * 2 / abs(D[2] - 2), rel=1e-14)
+@pytest.mark.parametrize("digits", [9, 15])
+def test_digits_are_those_of_the_quaternion_too(stabilab, case, digits):
+    code, out, _ = _asked(stabilab, case(BODY + MORE + REST), "--json", "--digits", digits)
+    found = json.loads(out)
+    assert code == 0 and found["digits"]["reached"] >= digits
+    assert Rotation.from_quat(found["state"]["quaternion"]).as_matrix() == pytest.approx(_turned()[1],
+                                                                                         abs=1e-8)
 
 
-def test_what_a_motion_does_not_have_is_none():
-    steady = stabilab.attitude(scene_of((3, 2, 1)), (0, 0, 2.0))
-    assert (steady.mode, steady.precession_period, steady.turn_angle) == ("steady", None, None)
-    assert steady.rotation_period == pytest.approx(math.pi)
-    rest = stabilab.attitude(scene_of((3, 2, 1)), (0, 0, 0))
-    assert (rest.mode, rest.rotation_period, rest.momentum_direction) == ("steady", None, None)
-    spin_up = stabilab.attitude(scene_of((3, 2, 1), torque=(0, 0, 1)), (0.1, 0.1, 5.0))
-    assert (spin_up.mode, spin_up.rotation_period) == (None, None)
-    assert "does not repeat" in spin_up.because or "not known to repeat" in spin_up.because
-    between = stabilab.attitude(scene_of((9, 8, 4)), (1.0, 0.0, 0.75))  # 9 (9 - 8) w1^2 = 4 (8 - 4) w3^2
-    assert (between.mode, between.rotation_period) == ("separatrix", None)
+def test_csv_and_netcdf_carry_it_and_say_what_it_is(stabilab, case, tmp_path):
+    xarray, path = pytest.importorskip("xarray"), case(BODY + MORE + REST)
+    wanted = json.loads(_asked(stabilab, path, "--json")[1])["state"]["quaternion"]
+    assert _asked(stabilab, path, "--out",
+                  tmp_path / "a.csv")[0] == _asked(stabilab, path, "--out", tmp_path / "a.nc")[0] == 0
+    rows = list(csv.DictReader(io.StringIO((tmp_path / "a.csv").read_text())))
+    assert [[float(row[name]) for name in ("qx", "qy", "qz", "qw")] for row in rows] == wanted
+    with xarray.open_dataset(tmp_path / "a.nc") as data:
+        assert data["quaternion"].values.tolist() == wanted and "scalar last" in data["quaternion"].attrs[
+            "long_name"]
+    assert "# qx, qy, qz, qw: attitude as a unit quaternion, scalar last" in _asked(stabilab, path)[1]
 
 
-def test_scaled_variables_and_other_effects_are_refused_in_one_line(stabilab):
-    for case, words in (("middle-axis-double-well", "scaled variables have no attitude"),
-                        ("liquid-base", "liquid cavity")):
-        code, out, err = stabilab("attitude", f"cases/{case}.toml")
-        assert (code, out) == (2, "")
-        assert words in err
-        assert err.count("\n") == 1
+def test_nothing_is_carried_that_nobody_asked_for(stabilab, case):
+    out = stabilab("simulate", case(BODY + MORE + REST), "--at", "0,1", "--json")[1]
+    assert set(json.loads(out)["state"]) == {"omega"} and "quaternion" not in json.loads(out)
 
 
-def test_the_answer_in_json_is_in_the_frame_of_the_file(stabilab, tmp_path):
-    text = ("[body]\ninertia = {}\n[motion]\nangular_velocity = {}\n")
-    turn = Rotation.from_rotvec([0.3, -0.2, 0.5]).as_matrix()
-    D, omega = np.diag([3.0, 2.0, 1.0]), np.array([0.2, 0.4, 0.3])
-    answers = []
-    for name, tensor, rates in (("a", [3.0, 2.0, 1.0], omega), ("b", (turn @ D @ turn.T).tolist(), turn @ omega)):
-        (tmp_path / f"{name}.toml").write_text(text.format(tensor, rates.tolist()))
-        code, out, _ = stabilab("attitude", tmp_path / f"{name}.toml", "--json")
-        answers.append(json.loads(out))
-    assert [one["schema"] for one in answers] == ["stabilab.attitude/1"] * 2
-    one, other = (answer["rows"][0] for answer in answers)
-    assert one["mode"] == other["mode"] == "short-axis"
-    for key in ("rotation_period", "precession_period", "turn_angle"):
-        assert other[key] == pytest.approx(one[key], rel=1e-12)
-    for key in ("momentum_direction", "turn_axis"):
-        np.testing.assert_allclose(other[key], turn @ np.array(one[key]), atol=1e-12)
+def test_what_has_no_attitude_says_so(stabilab, case):
+    path = case("[scaled]\na = 1\nb = 2\nmu = [0, 0, 1]\n[motion]\nx = [0, 0, 1]\ntau = [0, 20]\n")
+    code, out, err = _asked(stabilab, path)
+    assert code == 2 and not out and "scaled variables have no attitude" in err
+    assert stabilab("simulate", case(BODY + REST), "--attitude", "--model", "linear")[0] == 2
+    with pytest.raises(InputError, match="not zero"):
+        simulate(Scene(Body((3, 2, 1.5)), Gyrostat((0, 0, 1)), ConstantTorque((0, 0, 1))), (1, 0, 0), [0, 1],
+                 {"attitude": (0, 0, 0, 0)})

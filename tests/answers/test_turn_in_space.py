@@ -1,0 +1,176 @@
+"""Periods, modes and turns against an attitude that DOP853 follows: Euler's equations and the matrix C' = C [w]x as
+they stand, no code in common with the program's."""
+import json
+import math
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+from scipy.spatial.transform import Rotation
+
+import stabilab
+
+LONG = [pytest.mark.slow, pytest.mark.long]
+
+
+def run(D, wheel, torque, omega, times):
+    """(rates (n, 3), matrices from body to space (n, 3, 3)) at the times."""
+    def rates(_, y):
+        w, C = y[:3], y[3:].reshape(3, 3)
+        cross = np.array([[0, -w[2], w[1]], [w[2], 0, -w[0]], [-w[1], w[0], 0]])
+        return np.concatenate([(np.cross(D * w + wheel, w) + torque) / D, (C @ cross).ravel()])
+
+    y = solve_ivp(rates, (0, times[-1]), [*omega, *np.eye(3).ravel()], "DOP853", t_eval=times, rtol=3e-14,
+                  atol=1e-14 * np.abs(omega).max()).y.T
+    return y[:, :3], y[:, 3:].reshape(-1, 3, 3)
+
+
+def scene_of(D, wheel=(0, 0, 0), torque=(0, 0, 0)):
+    return stabilab.Scene(stabilab.Body(tuple(D)), stabilab.Gyrostat(tuple(wheel)),
+                          stabilab.ConstantTorque(tuple(torque)))
+
+
+def checked(D, wheel, torque, omega, tolerance):
+    """The answer, after its turn, its return of the rates and its mean precession were compared with a run."""
+    found = stabilab.attitude(scene_of(D, wheel, torque), omega)
+    if found.rotation_period is None or found.mode == "steady":
+        return found
+    period = found.rotation_period
+    count = 2000 if found.precession_period else 2
+    rates, C = run(D, wheel, torque, omega, np.linspace(0, period, count))
+    size = np.abs(rates).max()
+    np.testing.assert_allclose(rates[-1], omega, rtol=0, atol=100 * tolerance * size)
+    turn = Rotation.from_rotvec(found.turn_angle * np.array(found.turn_axis)).as_matrix()
+    np.testing.assert_allclose(turn, C[-1], rtol=0, atol=100 * tolerance)
+    assert 0 <= found.turn_angle <= math.pi
+    H = D * omega + wheel
+    np.testing.assert_allclose(found.momentum_direction, H / np.linalg.norm(H), rtol=1e-14, atol=1e-15)
+    if found.precession_period:
+        axis = np.argmin(D) if found.mode == "long-axis" else np.argmax(D)
+        h = np.array(found.momentum_direction)
+        one = np.cross(h, [0, 0, 1.0] if abs(h[2]) < 0.9 else [1.0, 0, 0])
+        one /= np.linalg.norm(one)
+        e = C[:, :, axis]  # the body's axis in space
+        turned = np.unwrap(np.arctan2(e @ np.cross(h, one), e @ one))[-1] - math.atan2(
+            e[0] @ np.cross(h, one), e[0] @ one)
+        assert 2 * math.pi * period / abs(turned) == pytest.approx(found.precession_period, rel=10 * tolerance)
+        cosines = np.clip(e @ h, -1, 1)
+        angles = np.arccos(cosines * np.sign(cosines.min() + cosines.max()))
+        assert found.cone[0] <= angles.min() + 1e-7
+        assert found.cone[1] >= angles.max() - 1e-7
+        assert found.cone == pytest.approx((angles.min(), angles.max()), abs=1e-2)  # of 2,000 samples
+    return found
+
+
+def body(rng):
+    """Moments of a body, by mass points, in any order."""
+    return rng.permutation(np.array([[0, 1, 1], [1, 0, 1], [1, 1, 0]]) @ rng.uniform(0.05, 1, 3))
+
+
+@pytest.mark.parametrize("seeds", [range(15), pytest.param(range(15, 150), marks=pytest.mark.slow),
+                                   pytest.param(range(150, 1000), marks=LONG)], ids=str)
+def test_periods_of_random_free_bodies_are_those_of_followed_attitudes(seeds):
+    modes = set()
+    for seed in seeds:
+        rng = np.random.default_rng(seed)
+        found = checked(body(rng), np.zeros(3), np.zeros(3), rng.normal(size=3) * 10 ** rng.uniform(-2, 2), 1e-11)
+        modes.add(found.mode)
+    assert modes == {"long-axis", "short-axis"}
+
+
+@pytest.mark.parametrize("distance", [1e-2, 1e-4, 1e-6])
+@pytest.mark.parametrize("side", [1, -1])
+def test_periods_beside_the_separatrix(distance, side):
+    """H^2 = 2T D_b on it; the second component is moved off it by a share."""
+    D, w1 = np.array([1.0, 2.0, 3.0]), 0.5
+    w3 = w1 * math.sqrt(D[0] * (D[1] - D[0]) / (D[2] * (D[2] - D[1]))) * (1 + side * distance)
+    found = checked(D, np.zeros(3), np.zeros(3), np.array([w1, 0.0, w3]), 3e-11 / math.sqrt(distance))
+    assert found.mode == ("short-axis" if side > 0 else "long-axis")
+
+
+def test_the_period_grows_by_the_logarithm_down_to_32_decimals_from_the_separatrix(tmp_path):
+    """4 K(m) = 2 ln(16/(1 - m)) + ..., and 1 - m falls with the distance: 4 ln(10) a decade and lambda."""
+    periods = []
+    for n in (30, 32):  # on it w1 = sqrt(3) w3; the case has its decimals exactly
+        w1 = f"0.{str(math.isqrt(3 * 10**80) // 2).zfill(40)}"
+        w3 = f"0.5{'0' * (n - 2)}1"
+        (tmp_path / "case.toml").write_text(f'[body]\ninertia = [1, 2, 3]\n[motion]\n'
+                                            f'angular_velocity = ["{w1}", 0, "{w3}"]\n')
+        periods.append(stabilab.attitude(stabilab.load(tmp_path / "case.toml")).rotation_period)
+    T2, H2 = 3 / 4 + 3 / 4, 3 / 4 + 9 / 4
+    speed = math.sqrt((H2 - T2) * (3 - 2) / (1 * 2 * 3))  # short axis: lambda^2 of the module with A^2 put in
+    assert periods[1] - periods[0] == pytest.approx(2 * math.log(100) / speed, rel=1e-9)
+
+
+@pytest.mark.parametrize("seeds", [range(6), pytest.param(range(6, 60), marks=pytest.mark.slow),
+                                   pytest.param(range(60, 400), marks=LONG)], ids=str)
+def test_free_gyrostats_turn_as_their_followed_attitudes(seeds):
+    for seed in seeds:
+        rng = np.random.default_rng(500 + seed)
+        wheel = rng.normal(size=3) * (rng.random(3) < 0.6)
+        checked(body(rng), wheel, np.zeros(3), rng.normal(size=3), 1e-10)
+
+
+@pytest.mark.parametrize("seeds", [range(8), pytest.param(range(8, 40), marks=pytest.mark.slow),
+                                   pytest.param(range(40, 400), marks=LONG)], ids=str)
+def test_bounded_motions_with_a_torque_turn_as_their_followed_attitudes(seeds):
+    bounded = 0
+    for seed in seeds:
+        rng = np.random.default_rng(900 + seed)
+        D, axis = body(rng), rng.integers(3)
+        torque, wheel = np.zeros(3), rng.normal(size=3)
+        torque[axis], wheel[axis] = 0.05 * rng.normal(), 0
+        found = checked(D, wheel, torque, rng.normal(size=3), 1e-10)
+        bounded += found.turn_angle is not None
+        assert found.mode is None or found.mode == "steady"
+    assert bounded > len(seeds) / 3
+
+
+def test_a_symmetric_body_precesses_at_its_momentum_over_its_transverse_moment():
+    """Landau & Lifshitz, section 33: H/D1 about H, (D3 - D1)/D1 w3 of the rates in the body."""
+    for D, mode in (((2.0, 2.0, 3.0), "short-axis"), ((2.0, 2.0, 0.5), "long-axis")):
+        omega = np.array([0.3, 0.4, 1.0])
+        found = stabilab.attitude(scene_of(D), omega)
+        assert found.mode == mode
+        assert found.precession_period == pytest.approx(2 * math.pi * 2 / np.linalg.norm(D * omega), rel=1e-14)
+        assert found.rotation_period == pytest.approx(2 * math.pi * 2 / abs(D[2] - 2), rel=1e-14)
+
+
+def test_what_a_motion_does_not_have_is_none():
+    steady = stabilab.attitude(scene_of((3, 2, 1)), (0, 0, 2.0))
+    assert (steady.mode, steady.precession_period, steady.turn_angle) == ("steady", None, None)
+    assert steady.rotation_period == pytest.approx(math.pi)
+    rest = stabilab.attitude(scene_of((3, 2, 1)), (0, 0, 0))
+    assert (rest.mode, rest.rotation_period, rest.momentum_direction) == ("steady", None, None)
+    spin_up = stabilab.attitude(scene_of((3, 2, 1), torque=(0, 0, 1)), (0.1, 0.1, 5.0))
+    assert (spin_up.mode, spin_up.rotation_period) == (None, None)
+    assert "does not repeat" in spin_up.because or "not known to repeat" in spin_up.because
+    between = stabilab.attitude(scene_of((9, 8, 4)), (1.0, 0.0, 0.75))  # 9 (9 - 8) w1^2 = 4 (8 - 4) w3^2
+    assert (between.mode, between.rotation_period) == ("separatrix", None)
+
+
+def test_scaled_variables_and_other_effects_are_refused_in_one_line(stabilab):
+    for case, words in (("middle-axis-double-well", "scaled variables have no attitude"),
+                        ("liquid-base", "liquid cavity")):
+        code, out, err = stabilab("attitude", f"cases/{case}.toml")
+        assert (code, out) == (2, "")
+        assert words in err
+        assert err.count("\n") == 1
+
+
+def test_the_answer_in_json_is_in_the_frame_of_the_file(stabilab, tmp_path):
+    text = ("[body]\ninertia = {}\n[motion]\nangular_velocity = {}\n")
+    turn = Rotation.from_rotvec([0.3, -0.2, 0.5]).as_matrix()
+    D, omega = np.diag([3.0, 2.0, 1.0]), np.array([0.2, 0.4, 0.3])
+    answers = []
+    for name, tensor, rates in (("a", [3.0, 2.0, 1.0], omega), ("b", (turn @ D @ turn.T).tolist(), turn @ omega)):
+        (tmp_path / f"{name}.toml").write_text(text.format(tensor, rates.tolist()))
+        code, out, _ = stabilab("attitude", tmp_path / f"{name}.toml", "--json")
+        answers.append(json.loads(out))
+    assert [one["schema"] for one in answers] == ["stabilab.attitude/1"] * 2
+    one, other = (answer["rows"][0] for answer in answers)
+    assert one["mode"] == other["mode"] == "short-axis"
+    for key in ("rotation_period", "precession_period", "turn_angle"):
+        assert other[key] == pytest.approx(one[key], rel=1e-12)
+    for key in ("momentum_direction", "turn_axis"):
+        np.testing.assert_allclose(other[key], turn @ np.array(one[key]), atol=1e-12)
