@@ -1,7 +1,7 @@
 """`stabilab classify`: equilibria, their stability, and the fate of the motion."""
 from __future__ import annotations
 
-from ..answers.attitude.ask import attitude, in_closed_form
+from ..answers.attitude.ask import in_closed_form, of_motion
 from ..answers.equilibria import equilibria
 from ..case.read import blamed_on
 from ..show.terminal import classification
@@ -35,8 +35,8 @@ def classify(cases, json, strict, certify, out, follow, tilt, units, why):
                 for case in one_by_one(loaded)]
     boxes = over_boxes(loaded, "equilibria", "fate")
     answered = [(case, found, sampled(motion, box)) for (case, found, motion), box in zip(answered, boxes)]
-    turning = [attitude(case) if motion is not None and in_closed_form(case.scene) else None
-               for case, _, motion in answered]
+    turning = [of_motion(case.scene, case.exact_state or case.state, motion)
+               if motion is not None and in_closed_form(case.scene) else None for case, _, motion in answered]
     laws = [law.worst(found.validity, motion and motion.validity) for _, found, motion in answered]
     if json:
         write(answers.as_json([answers.classification(*answer)

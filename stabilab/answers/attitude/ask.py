@@ -54,10 +54,14 @@ def attitude(scene: Any, state: Any = None) -> Attitude:
     if not scene.plain:
         raise InputError("attitude: it is known of a body with wheels and a torque constant in the body; "
                          f"this scene also has {', '.join(sorted(_others(scene)))}")
-    exact = [Fraction(v) for v in (exact or state[:3])]
+    exact = exact or tuple(Fraction(v) for v in state[:3])
     found = motion(scene, state, brief=True, exact=exact)
-    if case is not None:
-        found = limited(found, scene, case)
+    return of_motion(scene, exact, found if case is None else limited(found, scene, case))
+
+
+def of_motion(scene: Scene, omega: Sequence[float | Fraction], found: Motion) -> Attitude:
+    """How a motion that is known turns in space; omega: its rates at the start, each taken exactly."""
+    exact = [Fraction(w) for w in omega]
     base = _at_start(scene, exact, found)
     if found.fate == Fate.EQUILIBRIUM:
         return _steady(base, exact)

@@ -116,9 +116,11 @@ def _point(case, point, units, proofs):
 
 
 def spectrum(point, units) -> str:
-    """The characteristic polynomial, where it has the form (12) of the paper, and the eigenvalues."""
+    """The characteristic polynomial of three rates, where its coefficients are doubles, and the eigenvalues.
+    """
     roots = ", ".join(_pairs(map(complex, point.eigenvalues)))
-    polynomial = _characteristic(point) + ", " if len(point.eigenvalues) == 3 else ""
+    known = len(point.eigenvalues) == 3 and all(map(math.isfinite, point.characteristic))
+    polynomial = _characteristic(point) + ", " if known else ""
     return f"{polynomial}eigenvalues {roots}{per_second(units)}"
 
 
@@ -137,10 +139,14 @@ def _characteristic(point) -> str:
 
 
 def _curve(curve, units):
-    """Its equation, and states on every piece with verdict and eigenvalues: of all that are as good, the
-    slowest."""
+    """Its equation and states along it."""
     told = in_units(curve, units)
-    lines = [f"  {lettered(f'{units.axes.sentence(told.name)}: {told.equation}')}, along it:"]
+    return [f"  {lettered(f'{units.axes.sentence(told.name)}: {told.equation}')}, along it:",
+            *_samples(curve, units)]
+
+
+def _samples(curve, units):
+    """States on every piece with verdict and eigenvalues: of all that are as good, the slowest."""
     rows = []
     for verdict, samples in groupby(curve.samples, lambda sample: sample.verdict):
         piece = list(samples)
@@ -148,7 +154,7 @@ def _curve(curve, units):
         rows += [(verdict, state(sample.at, units), spectrum(sample, units)) for sample in piece
                  if sample in near]
     wide = max((len(place) for _, place, _ in rows), default=0)
-    return lines + [f"    {verdict:<22}{place:<{wide}}  {roots}" for verdict, place, roots in rows]
+    return [f"    {verdict:<22}{place:<{wide}}  {roots}" for verdict, place, roots in rows]
 
 
 def _proved_curve(curve, units):
@@ -162,7 +168,7 @@ def _proved_curve(curve, units):
         low, high = (_end(t * told.one) for t in piece.t)
         lines += [f"    t from {low} to {high}: {piece.verdict} (linear: {piece.linear})",
                   f"      {reason(piece.because, units)}"]
-    return lines + [f"    fold at {state(fold, units)}" for fold in curve.folds]
+    return [*lines, *(f"    fold at {state(fold, units)}" for fold in curve.folds), *_samples(curve, units)]
 
 
 def _end(t) -> str:
