@@ -12,9 +12,15 @@ from ..packages import demand
 from .files import endings
 from .terminal.letters import written
 
-# Okabe-Ito: told apart by colour-blind readers, and by their lightness in a grey print.
-BLACK, ORANGE, SKY, GREEN, YELLOW, BLUE, VERMILION, PURPLE, GREY = (
-    "#000000", "#E69F00", "#56B4E9", "#009E73", "#F0E442", "#0072B2", "#D55E00", "#CC79A7", "#7A7A7A")
+# The hues of Okabe and Ito, darker: lines in them have a contrast of at least 3 on white, and colour-blind
+# readers tell them apart. YELLOW is for areas alone.
+BLACK, ORANGE, SKY, GREEN, YELLOW, BLUE, VERMILION, PURPLE, GREY, BROWN = (
+    "#000000", "#C27F00", "#4A94E8", "#009E73", "#F0E442", "#005B9A", "#B03A00", "#BC6FA0", "#7A7A7A",
+    "#7A5C33")
+OUTCOME = {"bounded": BLUE, "spin-up": VERMILION, "separatrix": BLACK, "equilibrium": GREEN,
+           "undecided": YELLOW}
+SPIN = {1: VERMILION, 2: ORANGE, 3: PURPLE, 0: BROWN}  # axis of a spin-up, 0: none of the principal ones
+LOOK = {"bounded": BLUE, "changes": VERMILION, "conditional": ORANGE}  # of a headline
 
 MEANING = {  # what a line or a point stands for -> how it is drawn
     "stable": {"color": BLUE, "linestyle": "-", "linewidth": 2.0},
@@ -43,7 +49,7 @@ EQUILIBRIA = {"stable": "stable equilibria", "unstable": "unstable equilibria",
               "degenerate": "degenerate equilibria",
               "undecided": "equilibria of undecided stability"}  # kind -> its words in a legend
 SHEETS = (SKY, ORANGE, GREEN, PURPLE, YELLOW, BLUE, VERMILION)  # surfaces, in order
-# surfaces beside a motion, which is orange, and the nearest point of them, which is yellow
+# surfaces beside a motion, which is orange, and their nearest point, a yellow ball
 BESIDE = (SKY, GREEN, PURPLE, "#B59A6A")
 SERIES = (BLUE, ORANGE, GREEN, PURPLE, VERMILION)               # one curve each for a list of parameters
 

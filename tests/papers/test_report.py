@@ -141,7 +141,7 @@ def test_a_list_of_cases_says_by_how_much_a_law_is_left_and_a_law_that_holds_is_
     law = (
         "BEYOND THE LAW: charge: change of cos σ, held constant, with the attitude, 1.86 along the run, "
         "limit 0.1: the z axis turns away")
-    made = {"case": {"title": "a <b>", "headline": "BOUNDED for ever", "fate": "bounded", "law": law,
+    made = {"case": {"title": "a <b>", "headline": "BOUNDED for ever", "look": "bounded", "law": law,
                      "caveats": []}}
     assert own.listed("one", made)["beyond"] == law.removesuffix(": the z axis turns away")
     made["case"]["law"] = ""
@@ -243,7 +243,7 @@ def test_the_verdict_is_the_first_line_below_the_title(alone):
     text = alone.read_text(encoding="utf-8")
     below = text[text.index("</h1>") + 5:].strip()
     assert below.startswith(
-        '<p class="verdict-line bounded">BOUNDED only while the torque is exactly along x3; largest rate |x| '
+        '<p class="verdict-line conditional">BOUNDED only while the torque is exactly along x3; largest rate |x| '
         '= 6.345 (4.6')
 
 

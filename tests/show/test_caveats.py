@@ -132,13 +132,13 @@ def test_a_caveat_is_a_key_of_every_object_and_empty_where_nothing_limits_the_an
     assert caveats_of(load(free).scene, True) == ()
 
 
-def test_a_limit_comes_before_the_fate_when_it_is_reached(stabilab, files):
+def test_a_limit_that_is_reached_follows_the_fate(stabilab, files):
     """Oracle: SciPy's DOP853 with an event, of Euler's equations written out here."""
     case = load(files["limit"])
     true = first_time(case, np.array([-0.025, 0, 0.05]), math.radians(7))
-    first = stabilab("fate", files["limit"], "--units", "si")[1].split("\n")[0]
-    assert first.startswith("limit: reaches 0.122173 rad/s after ") and float(
-        first.split(" after ")[1].split(" s ")[0]) == pytest.approx(true, rel=2e-4)
+    parts = stabilab("fate", files["limit"], "--units", "si")[1].split("\n")[0].split("; ")
+    assert parts[0].startswith("limit: SPINS UP ") and parts[1].startswith("reaches 0.122173 rad/s after ")
+    assert float(parts[1].split(" after ")[1].split(" s ")[0]) == pytest.approx(true, rel=2e-4)
 
 
 def test_the_range_over_a_cone_off_the_axes_is_that_of_brute_force(stabilab, files):

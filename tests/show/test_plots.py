@@ -271,7 +271,7 @@ def test_a_motion_that_never_turns_has_one_branch_in_its_plane():
     def signs(name):
         ax = stabilab.plot.phase(load(name))
         return sorted(float(np.sign(line.get_ydata()[len(line.get_ydata()) // 2])) for line in ax.get_lines()
-                      if line.get_color() == "#E69F00")
+                      if line.get_color() == ORANGE)
     assert signs("torque-free-body") == [1.0] and signs("minor-axis-100") == [-1.0, 1.0]
 
 
@@ -363,7 +363,7 @@ def test_a_bounded_motion_lies_in_its_phase_plane_whole():
     """That of uncertain-separatrix swings to 95 % of the way to a saddle on one side, and farther than a turn
     and a third from the middle on the other."""
     ax = stabilab.plot.phase(load("uncertain-separatrix"))
-    (low, high), motion = ax.get_xlim(), [line for line in ax.get_lines() if line.get_color() == "#E69F00"]
+    (low, high), motion = ax.get_xlim(), [line for line in ax.get_lines() if line.get_color() == ORANGE]
     turns = np.concatenate([line.get_xdata() for line in motion])
     ends = motion[0].get_ydata()[[0, -1]]
     assert low < turns.min() and turns.max() < high and np.abs(ends).max() < 1e-3 * np.abs(
@@ -455,7 +455,7 @@ def spatial(ax, colour):
     return [np.array(line.get_data_3d()).T for line in ax.get_lines() if line.get_color() == colour]
 
 
-ORANGE, BLACK, BLUE, VERMILION = "#E69F00", "#000000", "#0072B2", "#D55E00"
+ORANGE, BLACK, BLUE, VERMILION = style.ORANGE, style.BLACK, style.BLUE, style.VERMILION
 
 
 def of_free_body(H, D, wheel=(0, 0, 0)):

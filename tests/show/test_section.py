@@ -8,6 +8,7 @@ import pytest
 
 import stabilab
 from stabilab import errors
+from stabilab.show import style
 from stabilab.show.plot import phase_plane as plane_section
 from stabilab.show.plot import subject, to_file
 from stabilab.show.plot import subject as which
@@ -17,7 +18,7 @@ matplotlib.use("Agg")
 from matplotlib import pyplot as plt  # after the back end is chosen
 
 CASES = __file__.rsplit("/tests/", 1)[0] + "/cases"
-ORANGE, BLUE, SKY, VERMILION, PURPLE = "#E69F00", "#0072B2", "#56B4E9", "#D55E00", "#CC79A7"
+ORANGE, BLUE, SKY, VERMILION, PURPLE = style.ORANGE, style.BLUE, style.SKY, style.VERMILION, style.PURPLE
 D, M, WHEEL = np.array([1.2412, .3937,
                         1.3650]), np.array([.0987, .8450, .5255]), np.array([-.5224, .8309, .1914])
 ISLAND = stabilab.Scene(stabilab.Body(D.tolist()), stabilab.Gyrostat(WHEEL.tolist()),

@@ -35,7 +35,7 @@ from .. import limiting
 from ..terminal.letters import greek, lettered, written
 from ..terminal.motion import margins
 from ..text import frame, law
-from ..text.headline import headline
+from ..text.headline import headline, look
 from ..units import Units, but_for_rounding, units_of
 from . import orbits as other
 from . import parameters as controls
@@ -151,7 +151,7 @@ class Session:
             found = law.judged(case, found, brief=True)
             if case.limits is not None and not moving and present("numpy"):
                 found = self._first(case, found)
-            words = law.warned(found.validity, headline(case, found, self.units))
+            words = headline(case, found, self.units)
         settled = time.process_time()
         twin = self._twin(case)
         at_rest = self._at_rest(case, twin, moving)
@@ -160,6 +160,7 @@ class Session:
                                  lambda: line(case, form, _length(case, form), moving))
         picture = self._space(bag, case, twin, found, at_rest, path, asked.get("box"), moving)
         made = {"headline": greek(words), "fate": "undecided" if found is None else found.fate.word,
+                "look": "conditional" if found is None else look(found),
                 "moving": moving, "start": clicked,
                 "note": " ".join(filter(None, (note, self._swept, _law(found, self.units),
                                                    *limiting.beside(case.caveats, self.units)))),

@@ -96,10 +96,11 @@ def limiting(case: Any, records: Any) -> list[Caveat]:
 # --- How fates and axes of a sweep look: colours by meaning, labels with units, straight or logarithmic
 # scales
 # fate -> (its name in a legend, its colour)
-FATES = {Fate.BOUNDED: ("bounded", style.BLUE), Fate.SPIN_UP: ("spins up", style.VERMILION),
-         Fate.SEPARATRIX: ("on the separatrix", style.BLACK),
-         Fate.EQUILIBRIUM: ("equilibrium", style.GREEN), Fate.UNDECIDED: ("undecided", style.YELLOW),
-         5: ("no case", style.GREY)}
+FATES = {Fate.BOUNDED: ("bounded", style.OUTCOME["bounded"]),
+         Fate.SPIN_UP: ("spins up", style.OUTCOME["spin-up"]),
+         Fate.SEPARATRIX: ("on the separatrix", style.OUTCOME["separatrix"]),
+         Fate.EQUILIBRIUM: ("equilibrium", style.OUTCOME["equilibrium"]),
+         Fate.UNDECIDED: ("undecided", style.OUTCOME["undecided"]), 5: ("no case", style.GREY)}
 FLAGS = ("fate", "level", "reason", "chaos")  # columns of words
 LIGHT = 0.45  # of a colour that fills an area
 
@@ -108,6 +109,11 @@ def light(colour: str, share: float = LIGHT) -> tuple[float, float, float]:
     """The colour on white."""
     red, green, blue = (1 - share * (1 - int(colour[i:i + 2], 16) / 255) for i in (1, 3, 5))
     return red, green, blue
+
+
+def spinning(axis: int) -> tuple[float, float, float]:
+    """The colour of an area of spin-up: a hue for each axis, the lighter one against it."""
+    return light(style.SPIN[abs(axis)], 0.4 if axis < 0 else 0.9)
 
 
 def label(data: Any, name: str) -> str:

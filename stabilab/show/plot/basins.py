@@ -13,15 +13,14 @@ from ...packages import demand
 from .. import style
 from ..files import endings
 from ..maps.basins.words import basin_name, cells_of
-from ..maps.shades import dimensions, drawn, light, own_value, said
+from ..maps.shades import dimensions, drawn, light, own_value, said, spinning
 from . import subject as canvas
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-COLOURS = {BOUNDED: style.BLUE, UNDECIDED: style.YELLOW, 1: style.VERMILION, 2: style.ORANGE, 3: style.PURPLE,
-           -1: style.GREEN, -2: style.SKY, -3: "#8A6A3A",
-           NO_AXIS: style.GREY}
+AREAS = {BOUNDED: light(style.OUTCOME["bounded"]), UNDECIDED: light(style.OUTCOME["undecided"]),
+         NO_AXIS: spinning(0)} | {axis: spinning(axis) for axis in (1, 2, 3, -1, -2, -3)}
 DOTS = 1200     # of the picture's own grid along an axis, at most
 
 
@@ -64,7 +63,7 @@ def _areas(ax: Any, found: Basins) -> list[tuple[str, dict[str, Any]]]:
     labels = list(found.shares)
     shown = raster(found)
     ranks = np.searchsorted(np.sort(labels), shown)
-    colours = [light(COLOURS[label]) for label in sorted(labels)]
+    colours = [AREAS[label] for label in sorted(labels)]
     black = not found.exact and len(found.boundary)
     if black:
         ranks = np.where(_on_boundary(found, shown.shape), len(labels), ranks)
@@ -72,7 +71,7 @@ def _areas(ax: Any, found: Basins) -> list[tuple[str, dict[str, Any]]]:
     x, y = (_edges(axis.values, n) for axis, n in zip(found.plan.axes, shown.shape))
     ax.pcolormesh(x, y, ranks.T, cmap=ListedColormap(colours), vmin=-0.5, vmax=len(colours) - 0.5,
                   shading="flat", rasterized=True)
-    rows = [(basin_name(found, label), {"facecolor": light(COLOURS[label]), "edgecolor": COLOURS[label]})
+    rows = [(basin_name(found, label), {"facecolor": AREAS[label], "edgecolor": style.GREY})
             for label in labels]
     return (rows + ([("finest cells on the boundary", {"facecolor": "black", "edgecolor": "black"})] if black
                     else []))

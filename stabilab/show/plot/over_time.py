@@ -11,7 +11,7 @@ from ...answers.time_to import time_of_case
 from ...case.limit_options import stated_limit
 from ...theories.comparison import side_by_side
 from .. import style
-from ..text import comparison, law
+from ..text import comparison
 from ..text.headline import headline
 from . import subject as canvas
 from . import subject as which
@@ -85,9 +85,8 @@ def time(case: Any, state: Any = None, ax: Axes | None = None, span: Any = None,
 
 
 def _answer(one, scale):
-    """The answer in one line, and before it that an approximate law does not hold; of uncertain numbers only
-    their middles are drawn."""
-    told = law.warned(one.motion.validity, headline(one.case, one.motion, scale.system))
+    """The answer in one line; of uncertain numbers only their middles are drawn."""
+    told = headline(one.case, one.motion, scale.system)
     return told + ("; for the middles of the uncertain numbers" if one.case.uncertain else "")
 
 

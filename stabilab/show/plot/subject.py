@@ -37,7 +37,7 @@ class Subject:
     """scene: as it was given; state: the three rates at t = 0 in the scene's variables (rad/s, or x), None
     without a motion; blocks: the rest of the state by name; span: (from, to) or None; heading: for titles,
     may be empty; case: where all this stands, or None; neighbours: how many motions a section shows beside
-    it."""
+    it; known: its motion, where that is worked out already."""
 
     scene: AnyScene
     state: tuple[float, ...] | None
@@ -46,6 +46,7 @@ class Subject:
     heading: str = ""
     case: Case | None = field(default=None, repr=False)
     neighbours: int = 0
+    known: Motion | None = field(default=None, repr=False)
 
     @property
     def physical(self) -> bool:
@@ -93,6 +94,8 @@ class Subject:
     @cached_property
     def motion(self) -> Motion:
         """What is known of the motion: its fate, period and extremes."""
+        if self.known is not None:
+            return self.known
         gamma = tuple(self.blocks.get("gamma", ())) if "gamma" in self.scene.blocks else ()
         found = motion(self.scene, (*self.state, *gamma), self.span, exact=self.exact_state)
         return found if self.case is None else law.judged(self.case, found)

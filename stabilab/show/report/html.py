@@ -7,6 +7,7 @@ from functools import lru_cache
 from pathlib import Path
 
 from ...files import whole_file
+from .. import style
 from ..terminal.letters import ALPHABET, written
 
 TEMPLATES = Path(__file__).parents[1] / "templates"
@@ -17,6 +18,7 @@ ALONE = {"nav": (), "here": "", "below": "", "up": "", "title": ""}  # of a page
 def _environment():
     from jinja2 import Environment, FileSystemLoader, StrictUndefined
     environment = Environment(loader=FileSystemLoader(TEMPLATES), autoescape=True, undefined=StrictUndefined)
+    environment.globals["style"] = style
     environment.filters |= {"written": written, "sentence": sentence, "typed": typed, "formula": formula,
                             "book": book, "signed": signed, "together": together}
     return environment

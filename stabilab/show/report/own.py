@@ -102,7 +102,7 @@ def listed(stem, made) -> dict:
     # by how much; why that matters stands on the page
     beyond = re.match(r"BEYOND THE LAW: .*?, limit [\d.]+", found["law"])
     return {"file": f"{stem}.html", "name": stem, "title": found["title"], "headline": found["headline"],
-            "css": html.css(found.get("fate", "")),
+            "look": found["look"],
             "beyond": " ".join(filter(None, [beyond and beyond[0], *found["caveats"]]))}
 
 

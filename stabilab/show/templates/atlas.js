@@ -105,7 +105,7 @@ function atlasView(canvas, data, say) {
     for (const one of named()) {
       const at = pixelOf(one.direction);
       if (!at) continue;
-      pen.beginPath(); pen.arc(...at, k * (one.axis ? 4.5 : 6.5), 0, 7); pen.fillStyle = one.axis ? "#fff" : "#ffd54a"; pen.fill();
+      pen.beginPath(); pen.arc(...at, k * (one.axis ? 4.5 : 6.5), 0, 7); pen.fillStyle = one.axis ? "#fff" : "{{ style.YELLOW }}"; pen.fill();
       pen.strokeStyle = "#000"; pen.lineWidth = 1.3 * k; pen.stroke();
       const right = at[0] < 0.86 * width(), wide = pen.measureText(one.name).width;
       const boxes = [[right, -6 * k], [right, 18 * k], [!right, -6 * k], [!right, 18 * k]].map(([side, down]) => {

@@ -1,5 +1,5 @@
 // Flat pictures: axes with units, level curves of a potential, curves over time.
-const INK = {motion: "#E69F00", separatrix: "#000000", level: "#B5B5B5", stable: "#0072B2", unstable: "#D55E00", components: ["#0072B2", "#E69F00", "#009E73"]};
+const INK = {motion: "{{ style.ORANGE }}", separatrix: "{{ style.BLACK }}", level: "#B5B5B5", stable: "{{ style.BLUE }}", unstable: "{{ style.VERMILION }}", components: ["{{ style.BLUE }}", "{{ style.ORANGE }}", "{{ style.GREEN }}"]};
 
 function rounded(value) { return (Math.abs(value) < 1e5 ? String(+value.toPrecision(6) || 0) : value.toExponential().replace("e+", "e")).replace("-", "\u2212"); }
 

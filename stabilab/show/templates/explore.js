@@ -115,7 +115,7 @@ function show(answer) {
   if (answer.error) { trouble(answer.error); return; }
   trouble(""); $("note").hidden = !answer.note; $("note").textContent = answer.note; shown = answer;
   $("note").className = answer.note.startsWith("Within") ? "note" : "warning";  // a law that holds is no warning
-  $("headline").textContent = answer.headline; $("headline").className = `verdict-line ${answer.headline.startsWith("BEYOND") ? "undecided" : answer.fate}`;
+  $("headline").textContent = answer.headline; $("headline").className = `verdict-line ${answer.look}`;
   view.show(answer.space);
   fill("legend", answer.space.legend, rows => rows.map(([words, colour]) => { const mark = element("i", {}); mark.style.background = colour; return element("span", {}, mark, words); }));
   fill("space-words", `${answer.space.words}. Drag to turn; click a curve or a point to start there; double click: as at first.`, words => [signed(words)]);

@@ -9,7 +9,7 @@ from itertools import groupby
 from ...numbers.vectors import CYCLE
 from ..curve_units import in_units
 from ..text import attitude, frame
-from ..text.headline import headline
+from ..text.headline import verdict
 from ..units import SI, Units, number
 from .letters import lettered, written
 from .motion import reason, row, state, table, tilt_lines, why
@@ -22,7 +22,7 @@ def text(case, equilibria, motion, units: Units, proofs: bool = False, turning=N
     """The lines for one case. turning: its `Attitude`, where that takes no run. proofs: with eigenvalues,
     equations of curves, reasons of every verdict and the principal axes."""
     answer = (f"{resting(equilibria, units)}; no [motion], so no fate" if motion is None
-              else headline(case, motion, units))
+              else verdict(case, motion, units))
     lines = [f"{case.name}: {answer}", *([written(case.title)] if case.title else [])]
     if motion is not None:
         lines += [*table(case, motion, units), *(row(*fact) for fact in attitude.rows(turning, units)),
@@ -148,13 +148,13 @@ def _curve(curve, units):
 def _samples(curve, units):
     """States on every piece with verdict and eigenvalues: of all that are as good, the slowest."""
     rows = []
-    for verdict, samples in groupby(curve.samples, lambda sample: sample.verdict):
+    for known, samples in groupby(curve.samples, lambda sample: sample.verdict):
         piece = list(samples)
         near = sorted(piece, key=lambda sample: max(map(abs, sample.at[:3])))[:FEW]
-        rows += [(verdict, state(sample.at, units), spectrum(sample, units)) for sample in piece
+        rows += [(known, state(sample.at, units), spectrum(sample, units)) for sample in piece
                  if sample in near]
     wide = max((len(place) for _, place, _ in rows), default=0)
-    return [f"    {verdict:<22}{place:<{wide}}  {roots}" for verdict, place, roots in rows]
+    return [f"    {known:<22}{place:<{wide}}  {roots}" for known, place, roots in rows]
 
 
 def _proved_curve(curve, units):

@@ -8,7 +8,7 @@ from dataclasses import replace
 from ...orbit.result import Fate, no_period
 from .. import limiting
 from ..text import frame
-from ..text.headline import cause, fate_words, headline, largest, rate_margin
+from ..text.headline import cause, largest, outcome, rate_margin, verdict
 from ..units import DIGITS, Units, number
 from .letters import greek
 from .motion import bound_lines, energy_margin, extreme_lines, reason, row, tilt_lines, why
@@ -23,7 +23,7 @@ def fate(case, motion, told, units: Units, all_digits: bool, say: bool, proofs: 
             words in (("margin, rate", rate_margin(motion, units, DIGITS)), ("margin, energy", margin))
             if words]
     bounds = bound_lines(case, replace(motion, extremes=None), units)
-    return "\n".join([f"{case.name}: {headline(case, motion, units)}", *rows, *bounds,
+    return "\n".join([f"{case.name}: {verdict(case, motion, units)}", *rows, *bounds,
                       *tilt_lines(case, motion, units, proofs),
                       *why(case, motion, units, proofs), *frame.note(case), *([_said(told, units)] * (say))])
 
@@ -40,10 +40,8 @@ def extremes(case, motion, told, units: Units, all_digits: bool, say: bool, proo
     """The largest rate and the fate, a line a component, and bounds for all times."""
     shown = (motion if told.values is None
              else replace(motion, extremes=tuple(tuple(map(float, pair)) for pair in told.values)))
-    parts = [fate_words(shown, units), cause(shown, units)]
-    parts = ([*parts, largest(shown, units)] if motion.fate.word == "spin-up"
-             else [largest(shown, units), *parts])
-    parts = [limiting.reached(motion.caveats, units), *parts, limiting.tilted(motion.caveats, units)]
+    parts, most = [*outcome(shown, units), cause(shown, units)], [largest(shown, units)]
+    parts = [*parts, *most] if motion.fate.word == "spin-up" else [*most, *parts]
     rows = [f"  extremes: {shown.extremes_over}"]
     if shown.extremes is not None:
         rows = _all_digits(case, shown, told) if all_digits else extreme_lines(case, shown, units)
@@ -88,7 +86,7 @@ def period(case, motion, told, units: Units, all_digits: bool, say: bool, proofs
     else:
         value = f"period {units.time(told.values)}"
     holds = limiting.condition(motion.caveats, units)
-    parts = [limiting.reached(motion.caveats, units), value + (holds and f",{holds}"),
+    parts = [value + (holds and f",{holds}"), limiting.reached(motion.caveats, units),
              limiting.tilted(motion.caveats, units)]
     lines = [f"{case.name}: {'; '.join(filter(None, parts))}",
              *(why(case, motion, units, proofs) if proofs else ())]

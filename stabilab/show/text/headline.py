@@ -1,5 +1,5 @@
-"""The answer in one line: what becomes of a motion, how large its rates grow, how far it is from another
-fate, and its period."""
+"""The answer in one line: what becomes of a motion and when, how large its rates grow, how far it is from
+another fate, and its period; and how that line looks."""
 from __future__ import annotations
 
 import math
@@ -12,6 +12,7 @@ from .. import limiting
 from ..axes import PLAIN, axes_of
 from ..terminal.letters import lettered
 from ..units import SHORT, SPAN, Units, number, units_of
+from . import law
 
 if TYPE_CHECKING:
     from ...case.read import Case
@@ -26,14 +27,39 @@ CLAUSE = 110  # letters of a cause that the line has room for
 
 
 def headline(case: Case, motion: Motion, units: Units | None = None) -> str:
-    """One line, without the name of the case. units: of the case where None; their names of axes, where they
-    have any, go before those of the case."""
+    """The line of every page, picture and explorer, without the name of the case: the verdict, behind a
+    warning where it is that of an approximate law that does not hold. units: of the case where None; their
+    names of axes, where they have any, go before those of the case."""
+    return law.warned(motion.validity, verdict(case, motion, units))
+
+
+def verdict(case: Case, motion: Motion, units: Units | None = None) -> str:
+    """The outcome, its axis and the condition that it rests on; when the limit of the case is reached; what a
+    tilt does; then its numbers."""
     units = (units_of(case) if units is None else replace(units, axes=axes_of(case)) if units.axes == PLAIN
              else units)
-    parts = [limiting.reached(motion.caveats, units), fate_words(motion, units),
-             limiting.tilted(motion.caveats, units), cause(motion, units),
-             largest(motion, units), margin(motion, units), period(motion, units)]
+    parts = [*outcome(motion, units), cause(motion, units), largest(motion, units), margin(motion, units),
+             period(motion, units)]
     return "; ".join(part for part in parts if part)
+
+
+def outcome(motion: Motion, units: Units) -> list[str]:
+    """What becomes of the motion, when its limit is reached, what a tilt does; each empty where there is
+    nothing to say."""
+    return [fate_words(motion, units), limiting.reached(motion.caveats, units),
+            limiting.tilted(motion.caveats, units)]
+
+
+def look(motion: Motion) -> str:
+    """How the line looks: "changes" of a motion that spins up, reaches its limit or is on the separatrix;
+    "conditional" where the verdict rests on a condition, on a law that does not hold, or is open; else
+    "bounded"."""
+    if law.beyond(motion.validity) or motion.fate.word == "undecided":
+        return "conditional"
+    kinds = [one.kind for one in motion.caveats]
+    if motion.fate.word in ("spin-up", "separatrix") or "limit" in kinds:
+        return "changes"
+    return "conditional" if "tilt" in kinds else "bounded"
 
 
 def fate_words(motion: Motion, units: Units) -> str:

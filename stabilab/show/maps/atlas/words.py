@@ -23,16 +23,11 @@ from ...axes import axes_of
 from ...files import comma
 from ...text.answers import Endless, as_json
 from ...units import SHORT, Units
-from ..shades import FATES, light, unit
+from ..shades import FATES, light, spinning, unit
 from ..shades import limiting as caveats_of
 from ..words import COUNTS
 
 # --- How directions, axes and fates of an atlas are named, and the colour of each fate
-# (axis, sense) of a spin-up -> its colour: a hue for each axis, the lighter one against it
-SPINS = {(1, 1): light(style.BLUE, 0.95), (1, -1): light(style.BLUE, 0.5), (2, 1): light(style.GREEN, 0.95),
-         (2, -1): light(style.GREEN, 0.45),
-         (3, 1): light(style.VERMILION, 0.95), (3, -1): light(style.VERMILION, 0.5),
-         (0, 0): light(style.PURPLE, 0.9)}
 # of undecided cells: where one may exist, where one is seen
 ISLAND_COLOURS = {1: light(style.GREY, 0.75), 2: light(style.BLACK, 0.8)}
 DOES = {Fate.BOUNDED: "stay bounded", Fate.SEPARATRIX: "lie on the separatrix",
@@ -76,7 +71,7 @@ def kind_words(atlas: Atlas, fate: int, axis: int, island: int = 0) -> str:
 def kind_colour(fate: int, axis: int, island: int = 0) -> Any:
     """Red, green and blue, 0 to 1."""
     if fate == Fate.SPIN_UP:
-        return SPINS[(abs(axis), int(np.sign(axis)))]
+        return spinning(axis)
     return ISLAND_COLOURS.get(island) or light(FATES[Fate(fate)][1], 0.8)
 
 

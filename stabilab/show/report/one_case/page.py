@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from pathlib import Path
 
 from ....answers.certificate import certificate
@@ -19,7 +20,7 @@ from ...terminal.letters import greek, printed
 from ...terminal.motion import constants, margins, shown, state
 from ...text import certification, frame
 from ...text import uncertain as boxes
-from ...text.headline import headline
+from ...text.headline import headline, look
 from ...text.notation import latex
 from ...units import DIGITS, but_for_rounding, number, parameter_unit, units_of
 from .. import typeset
@@ -43,6 +44,7 @@ def sections(case, folder: Path, stem: str, deep: bool = True, certify: bool = F
     moved = None if case.state is None else _tried(absent, "Motion", lambda: one.motion)
     if deep and moved is not None:
         moved = _tried(absent, "Tilt of the torque", lambda: with_tilt(case, moved)) or moved
+        one = replace(one, known=moved)
     if case.state is None:
         absent.append(("Motion", "the case states none: no fate, margins and pictures of it"))
     asked = ("equilibria", "fate") if case.state else ("equilibria",)
@@ -56,6 +58,7 @@ def sections(case, folder: Path, stem: str, deep: bool = True, certify: bool = F
             "headline": printed("; ".join(filter(None, (answer, boxes.what_changes(box, units))))),
             "law": printed(units.words(beyond)), "caveats": list(map(printed, caveats)),
             "fate": "" if moved is None else "undecided" if boxes.open_fate(box) else moved.fate.word,
+            "look": "" if moved is None else "conditional" if boxes.open_fate(box) else look(moved),
             "facts": [], "extremes": [], "over": "", "pictures": [], "sensitivity": None, "certificate": None,
             "equilibria": found and equilibrium_table(found, units),
             "equations": _tried(absent, "Equations", lambda: equations(case))}

@@ -14,6 +14,7 @@ from ...plot.path import along
 from ...plot.subject import subject
 from ...terminal.letters import printed, some
 from ...terminal.sweep import fates, key_columns, of_motions
+from ...text.headline import look
 from ...text.law import judged, lines_of
 from ...units import units_of
 from . import pictures
@@ -39,7 +40,7 @@ def sections(cases, folder: Path, stem: str) -> dict:
             for n, (case, found, _) in enumerate(answered)]
     caveats = dict.fromkeys(one for case in cases for one in case.caveats)
     without = len(cases) - len(motions)
-    answers = [fates(motions, units)] if motions else []
+    answers, seen = [fates(motions, units)] if motions else [], set(map(look, motions))
     answers += [f"without a motion: {without}"] if without else []
     laws = [(case, found and found.validity) for case, found, _ in answered]
     beyond = [(case, None if law is None or law.held else law) for case, law in laws]
@@ -51,6 +52,7 @@ def sections(cases, folder: Path, stem: str) -> dict:
             "equations": _equations(first),
             "picture": _picture(moved, keys, cases, units, folder / f"{stem}-sweep.png") if moved else None,
             "headline": f"{some(len(rows), 'combination')}: {'; '.join(answers)}",
+            "look": seen.pop() if len(seen) == 1 else "",
             "law": "; ".join(lines_of(beyond, units))}
 
 
