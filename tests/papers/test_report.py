@@ -247,6 +247,14 @@ def test_the_verdict_is_the_first_line_below_the_title(alone):
         '= 6.345 (4.6')
 
 
+def test_a_page_has_four_tiles_one_picture_and_what_would_change_it_and_the_rest_is_folded(alone):
+    text = alone.read_text(encoding="utf-8")
+    places = [text.index(words) for words in ('class="verdict-line', 'class="tiles"', "<figure>",
+                                              'id="sensitivity"', '<details class="section"')]
+    assert places == sorted(places) and text[places[1]:places[2]].count("<li>") == 4
+    assert text[places[2]:places[4]].count("<figure>") == 1
+
+
 def test_the_page_of_a_case_has_all_that_applies_to_it(alone):
     text = alone.read_text(encoding="utf-8")
     for words in ("Rates over time", "Phase plane", "Separatrix, equilibria and motion in space",

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 
 import stabilab
 from stabilab.answers.equilibria import equilibria
@@ -52,6 +53,37 @@ def test_a_top_has_its_fate_and_says_that_it_has_no_phase_plane(tmp_path):
     assert all((tmp_path / picture["file"]).exists() for picture in page["pictures"])
     assert [what for what, _ in page["absent"]] == ["Phase plane", "The surface on which the motion stays"]
     assert page["space"]["reason"].startswith("no separatrix is drawn: ")
+
+
+SATELLITE = (np.array([100.0, 90, 40]), np.array([3.0, 0, 0]))  # moments, momentum of its wheel
+
+
+def test_the_tiles_have_the_outcome_when_the_largest_rate_and_the_distance(tmp_path):
+    """Time and rate by SciPy's DOP853 on Euler's equations written out here."""
+    text = ("[body]\ninertia = [100, 90, 40]\n[effects.gyrostat]\nmomentum = [3, 0, 0]\n"
+            "[effects.constant_torque]\ntorque = {torque}\n[motion]\nangular_velocity = [0.1, 0, 0.01]\n"
+            "[limits]\nrate = \"12 deg/s\"\n")
+
+    def rates(torque, end, limit=math.inf):
+        moments, wheel = SATELLITE
+        over = lambda t, w: np.hypot(np.hypot(*w[:2]), w[2]) - limit
+        over.terminal = True
+        return solve_ivp(lambda t, w: (np.cross(moments * w + wheel, w) + torque) / moments, (0, end),
+                         [0.1, 0, 0.01], "DOP853", rtol=1e-11, atol=1e-13, events=over, max_step=end / 2000)
+    found = {}
+    for name, torque in (("leaves", [0.0, 0, 3]), ("stays", [0.0, 0, 0.001])):
+        case = read_text(f"{name}.toml", text.format(torque=torque))
+        found[name] = {what: rest for what, *rest in sections(case, tmp_path, name, deep=False)["tiles"]}
+    run = rates([0, 0, 3], 50, math.radians(12))
+    (value, unit), note = found["leaves"]["when"][0].split(" "), found["leaves"]["when"][1]
+    assert found["leaves"]["outcome"][0] == "Spins up" and found["leaves"]["largest rate"][0] == "without end"
+    assert unit == "s" and float(value) == pytest.approx(run.t_events[0][0], rel=2e-4) and "limit" in note
+    size = np.linalg.norm(rates([0, 0, 0.001], 2000).y, axis=0).max()
+    assert found["stays"]["outcome"] == ["Bounded", "only while the torque is exactly along z (minor axis)"]
+    assert found["stays"]["when"][0] == "never"
+    assert float(re.search(r"= (\S+) deg/s", found["stays"]["largest rate"][0])[1]) == pytest.approx(
+        math.degrees(size), rel=1e-3)
+    assert found["stays"]["to another outcome"][0].endswith(" deg/s")
 
 
 def test_a_torque_off_the_axes_is_certified_and_has_no_margins(tmp_path):

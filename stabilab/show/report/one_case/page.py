@@ -27,6 +27,7 @@ from .. import typeset
 from .pictures import SHOWN, pictures
 from .space import space
 from .tables import equilibrium_table, sensitivity
+from .tiles import tiles
 
 EXPLAINED = {"margin, rate": ": the smallest change of the rates that reaches the separatrix",
              "margin, energy": ", the barrier ahead less the energy"}
@@ -59,12 +60,13 @@ def sections(case, folder: Path, stem: str, deep: bool = True, certify: bool = F
             "law": printed(units.words(beyond)), "caveats": list(map(printed, caveats)),
             "fate": "" if moved is None else "undecided" if boxes.open_fate(box) else moved.fate.word,
             "look": "" if moved is None else "conditional" if boxes.open_fate(box) else look(moved),
-            "facts": [], "extremes": [], "over": "", "pictures": [], "sensitivity": None, "certificate": None,
+            "tiles": [], "facts": [], "extremes": [], "over": "", "pictures": [], "sensitivity": None,
+            "certificate": None,
             "equilibria": found and equilibrium_table(found, units),
             "equations": _tried(absent, "Equations", lambda: equations(case))}
     if moved is not None:
-        page |= {"facts": facts(case, moved, units), "extremes": extremes(case, moved, units),
-                 "over": _over(units.words(moved.extremes_over))}
+        page |= {"tiles": tiles(case, moved, units), "facts": facts(case, moved, units),
+                 "extremes": extremes(case, moved, units), "over": _over(units.words(moved.extremes_over))}
         page["pictures"] = (_tried(absent, "Pictures",
                                    lambda: pictures(one, folder, stem, deep,
                                                     "deg" if units.scaled else units.name)) or [])

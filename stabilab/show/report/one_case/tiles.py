@@ -1,0 +1,79 @@
+"""The answer of a page at a glance: the outcome, when, the largest rate, and the distance from another
+outcome."""
+from __future__ import annotations
+
+import math
+import re
+from typing import Any
+
+from ....case.read import Case
+from ....orbit.result import Motion
+from ...terminal.letters import printed
+from ...text import law
+from ...text.headline import REST, STEADY, WORDS, cause, fate_words, largest, rate_and_height
+from ...units import SHORT, Units
+
+WORDS_OF_OUTCOME = re.compile("|".join(map(re.escape, [*WORDS.values(), "BOUNDED", STEADY, REST])))
+
+
+def tiles(case: Case, motion: Motion, units: Units) -> list[tuple[str, str, str]]:
+    """(what, its value, what belongs to it) of four."""
+    return [(name, printed(value), printed(note)) for name, (value, note) in (
+        ("outcome", _outcome(motion, units)), ("when", _when(case, motion, units)),
+        ("largest rate", _largest(motion, units)), ("to another outcome", _distance(motion, units)))]
+
+
+def _outcome(motion, units):
+    words = fate_words(motion, units)
+    value = WORDS_OF_OUTCOME.match(words)[0]
+    if motion.fate.word == "undecided":
+        note = cause(motion, units)
+    else:
+        note = words[len(value):].split(":")[0].strip()  # what a tilt does stands beside it
+    return value.capitalize(), "; ".join(filter(None, ["by a law that does not hold"
+                                                       * law.beyond(motion.validity), note]))
+
+
+def _when(case, motion, units):
+    """The limit of the case first, then what a tilt of the torque does, then a spin-up without a limit."""
+    if motion.first is not None:
+        found = motion.first[1]
+        limit = f"the limit, {units.words(motion.first[0])},"
+        if math.isfinite(found.high):
+            middle = 0.5 * float(found.low + found.high)
+            return units.time(middle, SHORT), f"until {limit[:-1]}, is reached ({found.level})"
+        if math.isinf(found.low):
+            return "never", f"{limit} is not reached ({found.level})"
+        return "not known", f"{limit} is not reached before {units.time(float(found.low), SHORT)}"
+    tilt: Any = motion.tilt
+    if tilt is not None and not tilt.ranges and tilt.ends and tilt.untilted is None:
+        return (units.time(tilt.low, SHORT),
+                f"until {units.rate(tilt.limit, SHORT)}, where the torque is tilted by "
+                f"{units.angle(tilt.angle, SHORT)} ({tilt.level}); else never")
+    if motion.fate.word == "spin-up":
+        certain = motion.evidence.get("t_certificate")
+        return ("at once" if certain is None else units.time(float(certain), SHORT),
+                "" if certain is None else "from then on the spin-up is certain")
+    return ("never" if motion.fate.word in ("bounded", "equilibrium") else "not known"), ""
+
+
+def _largest(motion, units):
+    found = largest(motion, units)
+    if motion.fate.word == "spin-up":
+        return "without end", found
+    if motion.fate.word == "equilibrium":
+        return units.rate(math.hypot(*motion.at[:3]), SHORT), found
+    value, _, note = found.removeprefix("largest rate ").partition(" (")
+    return value or "not known", note.replace(")", "")
+
+
+def _distance(motion, units):
+    rate, height = rate_and_height(motion, units)
+    if rate:
+        return rate, f"the smallest change of the rates to the separatrix{f'; {height}' * bool(height)}"
+    if height:
+        return height, "of energy, to the barrier"
+    if motion.fate.word == "separatrix":
+        return "none", "the smallest change decides"
+    because = units.words(motion.velocity_because).removeprefix("not known: ")
+    return "not known", because or "no separatrix stands ahead of this motion"
