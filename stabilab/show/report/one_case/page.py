@@ -65,7 +65,7 @@ def sections(case, folder: Path, stem: str, deep: bool = True, certify: bool = F
             "equilibria": found and equilibrium_table(found, units),
             "equations": _tried(absent, "Equations", lambda: equations(case))}
     if moved is not None:
-        page |= {"tiles": tiles(case, moved, units), "facts": facts(case, moved, units),
+        page |= {"tiles": tiles(moved, units), "facts": facts(case, moved, units),
                  "extremes": extremes(case, moved, units), "over": _over(units.words(moved.extremes_over))}
         page["pictures"] = (_tried(absent, "Pictures",
                                    lambda: pictures(one, folder, stem, deep,

@@ -6,7 +6,6 @@ import math
 import re
 from typing import Any
 
-from ....case.read import Case
 from ....orbit.result import Motion
 from ...terminal.letters import printed
 from ...text import law
@@ -16,10 +15,10 @@ from ...units import SHORT, Units
 WORDS_OF_OUTCOME = re.compile("|".join(map(re.escape, [*WORDS.values(), "BOUNDED", STEADY, REST])))
 
 
-def tiles(case: Case, motion: Motion, units: Units) -> list[tuple[str, str, str]]:
+def tiles(motion: Motion, units: Units) -> list[tuple[str, str, str]]:
     """(what, its value, what belongs to it) of four."""
     return [(name, printed(value), printed(note)) for name, (value, note) in (
-        ("outcome", _outcome(motion, units)), ("when", _when(case, motion, units)),
+        ("outcome", _outcome(motion, units)), ("when", _when(motion, units)),
         ("largest rate", _largest(motion, units)), ("to another outcome", _distance(motion, units)))]
 
 
@@ -34,22 +33,22 @@ def _outcome(motion, units):
                                                        * law.beyond(motion.validity), note]))
 
 
-def _when(case, motion, units):
+def _when(motion, units):
     """The limit of the case first, then what a tilt of the torque does, then a spin-up without a limit."""
-    if motion.first is not None:
-        found = motion.first[1]
-        limit = f"the limit, {units.words(motion.first[0])},"
-        if math.isfinite(found.high):
-            middle = 0.5 * float(found.low + found.high)
-            return units.time(middle, SHORT), f"until {limit[:-1]}, is reached ({found.level})"
-        if math.isinf(found.low):
-            return "never", f"{limit} is not reached ({found.level})"
-        return "not known", f"{limit} is not reached before {units.time(float(found.low), SHORT)}"
+    limit, found = motion.first or ("", None)
+    limit = f"the limit, {units.words(limit)},"
+    if found is not None and math.isfinite(found.high):
+        middle = 0.5 * float(found.low + found.high)
+        return units.time(middle, SHORT), f"until {limit} is reached ({found.level})"
     tilt: Any = motion.tilt
-    if tilt is not None and not tilt.ranges and tilt.ends and tilt.untilted is None:
+    if tilt is not None and not tilt.ranges and tilt.ends:
         return (units.time(tilt.low, SHORT),
                 f"until {units.rate(tilt.limit, SHORT)}, where the torque is tilted by "
                 f"{units.angle(tilt.angle, SHORT)} ({tilt.level}); else never")
+    if found is not None:
+        never = math.isinf(found.low)
+        return ("never" if never else "not known", f"{limit} is not reached" + (
+            f" ({found.level})" if never else f" before {units.time(float(found.low), SHORT)}"))
     if motion.fate.word == "spin-up":
         certain = motion.evidence.get("t_certificate")
         return ("at once" if certain is None else units.time(float(certain), SHORT),
