@@ -51,7 +51,8 @@ def test_a_top_has_its_fate_and_says_that_it_has_no_phase_plane(tmp_path):
                                                                                "Analytic models beside the "
                                                                                "exact motion"]
     assert all((tmp_path / picture["file"]).exists() for picture in page["pictures"])
-    assert [what for what, _ in page["absent"]] == ["Phase plane", "The surface on which the motion stays"]
+    assert [what for what, _ in page["absent"]] == ["Phase plane, Reduced potential",
+                                                 "The surface on which the motion stays"]
     assert page["space"]["reason"].startswith("no separatrix is drawn: ")
 
 

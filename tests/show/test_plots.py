@@ -378,12 +378,12 @@ def test_a_motion_of_a_ten_thousandth_of_the_picture_is_shown_enlarged():
 
 
 EVERYWHERE = {"time", "space", "budget"}
-KINDS = {"minor-axis-100": EVERYWHERE | {"phase", "sphere", "section", "equilibria"},
+KINDS = {"minor-axis-100": EVERYWHERE | {"phase", "potential", "sphere", "section", "equilibria"},
          "off-axis-two": EVERYWHERE | {"equilibria"},
          "major-axis-100": EVERYWHERE,
-         "torque-free-gyrostat": EVERYWHERE | {"phase", "sphere", "section", "equilibria"},
+         "torque-free-gyrostat": EVERYWHERE | {"phase", "potential", "sphere", "section", "equilibria"},
          "liquid-base": EVERYWHERE | {"state", "equilibria"},
-         "charged-body": EVERYWHERE | {"phase", "sphere", "section", "state", "equilibria"},
+         "charged-body": EVERYWHERE | {"phase", "potential", "sphere", "section", "state", "equilibria"},
          "top-fast": EVERYWHERE | {"state", "equilibria"}}
 
 

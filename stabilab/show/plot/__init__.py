@@ -7,9 +7,10 @@ from .over_time import time as time
 from .path import budget as budget
 from .phase_plane import phase as phase
 from .phase_plane import section as section
+from .potential import potential as potential
 from .surfaces import sphere as sphere
 from .to_file import write as write
 from .turning import attitude as attitude
 
-__all__ = ["attitude", "basin", "budget", "equilibria", "phase", "section", "space", "sphere", "state",
-           "time", "write"]
+__all__ = ["attitude", "basin", "budget", "equilibria", "phase", "potential", "section", "space", "sphere",
+           "state", "time", "write"]

@@ -136,6 +136,7 @@ def _blocks_of(scene: AnyScene, state: Any) -> dict[str, Any]:
 KINDS = {
     "time": "the rates over time, with limits, extremes and period",
     "phase": "the plane of the reduced motion: turn about the torque's axis and its rate",
+    "potential": "the reduced potential: its wells, the energy of the motion and the barrier ahead",
     "sphere": "the surface on which the motion stays, with the other motions on it",
     "space": "the motion in the space of rates, beside the separatrix",
     "section": "the Poincaré section: passages of a plane, with neighbours and the periodic motion in the "
@@ -264,8 +265,8 @@ def _beyond(one: Subject) -> str:
     return f"{', '.join(others)} and {last}" if others else last
 
 
-_REASONS = {"phase": _phase, "sphere": _sphere, "state": _state, "attitude": _attitude, "budget": _budget,
-            "time": _far, "space": _far, "section": _section}
+_REASONS = {"phase": _phase, "potential": _phase, "sphere": _sphere, "state": _state, "attitude": _attitude,
+            "budget": _budget, "time": _far, "space": _far, "section": _section}
 
 
 # --- The units of the axes of a plot: name and factor of rates, times and angles, and the names of

@@ -16,6 +16,7 @@ from .in_space import space
 from .over_time import state, time
 from .path import whole as budget
 from .phase_plane import phase, section
+from .potential import potential
 from .subject import Subject, subject
 from .surfaces import sphere
 from .turning import ENDINGS, film
@@ -27,6 +28,7 @@ PIXELS = 20_000  # of a side: what Matplotlib draws
 DRAWN: dict[str, Callable[..., Any]] = {
     "time": lambda one, units, size, plt: time(one, units=units, size=size).figure,
     "phase": lambda one, units, size, plt: phase(one, units=units, size=size).figure,
+    "potential": lambda one, units, size, plt: potential(one, units=units, size=size).figure,
     "sphere": lambda one, units, size, plt: sphere(one, units=units, size=size).figure,
     "space": lambda one, units, size, plt: space(one, units=units, size=size).figure,
     "section": lambda one, units, size, plt: section(one, units=units, size=size).figure,

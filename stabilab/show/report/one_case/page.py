@@ -70,7 +70,10 @@ def sections(case, folder: Path, stem: str, deep: bool = True, certify: bool = F
         page["pictures"] = (_tried(absent, "Pictures",
                                    lambda: pictures(one, folder, stem, deep,
                                                     "deg" if units.scaled else units.name)) or [])
-        absent += [(title, why) for kind, (title, _) in SHOWN.items() if (why := which.why_not(kind, one))]
+        missing: dict[str, list[str]] = {}  # titles by their reason
+        for kind, (title, _) in SHOWN.items():
+            missing.setdefault(which.why_not(kind, one), []).append(title)
+        absent += [(", ".join(titles), why) for why, titles in missing.items() if why]
         page["sensitivity"] = _tried(absent, "Sensitivity", lambda: sensitivity(case, moved, units))
     page["space"] = _tried(absent, "Space of the rates", lambda: space(case, moved, found, units))
     page["uncertain"] = greek(boxes.text(box, units))

@@ -19,6 +19,8 @@ SHOWN = {
               "Turn about one axis since the start, and the rate about it. A motion stays on its curve; "
               "black curves, where there are any, "
                              "part motions of different kinds."),
+    "potential": ("Reduced potential",
+                  "The motion stays where its energy is above the potential; a barrier holds it."),
     "sphere": ("The surface on which the motion stays", "With the other motions on it."),
     "equilibria": ("All equilibria", "Stable and unstable ones in the space of the rates."),
     "state": ("Analytic models beside the exact motion",

@@ -1,0 +1,68 @@
+"""The picture of the reduced potential: what is drawn, against runs of Euler's equations."""
+import matplotlib
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+from scipy.interpolate import CubicSpline
+
+import stabilab
+from stabilab.errors import InputError
+from stabilab.show import style
+
+matplotlib.use("Agg")
+CASES = __file__.rsplit("/tests/", 1)[0] + "/cases"
+
+
+def curve(ax, name):
+    """The one line with the look of a meaning or marker."""
+    wanted = style.MEANING.get(name) or style.MARKER[name]
+    key = "marker" if name in style.MARKER else "linewidth"
+    lines = [line for line in ax.get_lines() if line.get_color() == wanted.get("color", line.get_color())
+             and getattr(line, f"get_{key}")() == wanted[key]]
+    return lines[0].get_data()
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_the_potential_is_what_the_kinetic_energy_about_the_axis_leaves_of_the_energy(seed):
+    """By SciPy's DOP853 on Euler's equations written out here: the turn is the integral of the rate about the
+    axis of the torque, and D omega^2 / 2 of it and the potential are one constant."""
+    rng = np.random.default_rng(seed)
+    D, axis = np.sort(rng.uniform(1, 2, 3)), seed % 3
+    D = rng.permutation(D * [0.8, 1, 1.1])
+    wheel, torque, start = rng.normal(size=3), np.zeros(3), rng.normal(size=3)
+    wheel[axis], torque[axis] = 0.0, rng.choice([-1, 1]) * rng.uniform(0.05, 0.3)
+    scene = stabilab.Scene(stabilab.Body(tuple(map(float, D))),
+                           [stabilab.Gyrostat(tuple(map(float, wheel))),
+                            stabilab.ConstantTorque(tuple(map(float, torque)))])
+    ax = stabilab.plot.potential(scene, start.tolist(), units="si")
+    turn, height = curve(ax, "separatrix")
+    order = np.argsort(turn)
+    drawn = CubicSpline(turn[order], height[order])
+    energy = ax.get_lines()[1].get_ydata()[0]
+    run = solve_ivp(lambda t, s: [*((np.cross(D * s[:3] + wheel, s[:3]) + torque) / D), s[axis]], (0, 6),
+                    [*start, 0], "DOP853", np.linspace(0, 6, 200), rtol=1e-12, atol=1e-13)
+    there = (run.y[3] > turn.min()) & (run.y[3] < turn.max())
+    rest = energy - D[axis] * run.y[axis] ** 2 / 2
+    assert there.sum() > 20
+    assert np.abs(drawn(run.y[3]) - rest)[there].max() < 1e-6 * (abs(energy) + np.ptp(height))
+
+
+@pytest.mark.parametrize("name, above", [("minor-axis-100", True), ("wheel-and-thruster", False),
+                                         ("thruster-stuck-major-axis", True)])
+def test_the_arrow_has_the_length_of_the_margin_and_ends_at_a_saddle(name, above):
+    """The margin in energy is that of `fate`, which other tests hold against brute force."""
+    case = stabilab.load(f"{CASES}/{name}.toml")
+    ax = stabilab.plot.potential(case)
+    found = stabilab.motion(case.scene, case.state).margin_energy
+    arrow, words = ax.texts
+    (x, high), (_, low) = arrow.xy, arrow.xyann
+    assert high - low == pytest.approx(found, rel=1e-9) and (found > 0) == above
+    assert words.get_text().startswith("margin ") == above
+    saddles = next(line for line in ax.get_lines() if line.get_markeredgecolor() == style.VERMILION
+                   and line.get_marker() == "o").get_data()
+    assert min(np.hypot(saddles[0] - x, saddles[1] - high)) < 1e-6 * max(1, abs(high))
+
+
+def test_a_motion_that_does_not_reduce_has_none_and_says_why():
+    with pytest.raises(InputError, match="plot potential: the motion does not reduce to one degree of free"):
+        stabilab.plot.potential(stabilab.load(f"{CASES}/off-axis-two.toml"))
