@@ -78,5 +78,6 @@ def _margin(ax: Any, motion: Any, plane: PhasePlane, span: tuple[float, float], 
                 arrowprops={"arrowstyle": "<->", "color": style.VERMILION, "linewidth": 1.4})
     size = number(abs(margin), SHORT) + " J" * bool(scale.size)
     ax.annotate(f"margin {size}" if margin > 0 else f"{size} above the barrier",
-                (place, up * energy + margin / 2), (6, 0), textcoords="offset points", va="center", color=style.VERMILION,
+                (place, up * energy + margin / 2), (6, 0), textcoords="offset points", va="center",
+                color=style.VERMILION,
                 bbox={"facecolor": "white", "edgecolor": "none", "pad": 1.0, "alpha": 0.8})
