@@ -19,6 +19,7 @@ from stabilab.show.text import comparison
 
 matplotlib.use("Agg")
 from matplotlib import pyplot as plt  # after the back end is chosen
+from mpl_toolkits.mplot3d.art3d import Line3DCollection, Poly3DCollection
 
 CASES = __file__.rsplit("/tests/", 1)[0] + "/cases"
 
@@ -505,7 +506,33 @@ def test_the_box_of_the_space_of_rates_is_scaled_to_the_motion(name):
 def test_a_separatrix_outside_of_the_picture_is_told_in_words():
     """thruster-stuck-major-axis: classify gives the distance, 1.29853 rad/s = 74.40 deg/s."""
     ax = stabilab.plot.space(load("thruster-stuck-major-axis"))
-    assert "74.4 deg/s away" in ax.get_title() and not ax.collections
+    assert "74.4 deg/s away" in ax.get_title()
+    assert not any(isinstance(one, Poly3DCollection) for one in ax.collections)
+
+
+@pytest.mark.parametrize("name", ["off-axis-two", "torque-free-gyrostat", "cubesat-3u"])
+def test_a_motion_in_space_has_its_shadows_on_the_walls_and_arrows_along_the_flow(name):
+    """The flow by Euler's equations written out here, in the numbers of the case."""
+    case = load(name)
+    ax = stabilab.plot.space(case, units="si")
+    path = np.array([line for line in ax.get_lines() if line.get_color() == ORANGE][0].get_data_3d()).T
+    shadows = [np.array(line.get_data_3d()).T for line in ax.get_lines() if line.get_color() == "#BDBDBD"]
+    for axis, shadow in zip(range(3), shadows, strict=True):
+        others = [n for n in range(3) if n != axis]
+        assert np.array_equal(shadow[:, others], path[:, others]) and np.ptp(shadow[:, axis]) == 0
+    inertia = np.array([float(v) for v in case.scene.body.inertia])
+    wheel, torque = (np.array([float(v) for v in case.scene.vector(effect)])
+                     for effect in ("gyrostat", "constant_torque"))
+    arrows = [one for one in ax.collections if isinstance(one, Line3DCollection)]
+    assert len(arrows) == 3
+    for arrow in arrows:
+        shaft, *barbs = (np.array(segment) for segment in arrow._segments3d)
+        head, tail = shaft
+        assert all(np.array_equal(barb[0], head) for barb in barbs)
+        middle = (tail + head) / 2
+        flow = (np.cross(inertia * middle + wheel, middle) + torque) / inertia
+        along = (head - tail) @ flow / np.linalg.norm(head - tail) / np.linalg.norm(flow)
+        assert along > 0.98  # an arrow is a chord of the path's own length
 
 
 def test_triangles_cut_by_a_box_keep_the_area_inside():

@@ -93,6 +93,7 @@ def _in_space(ax, rest, box, per_rate, labels):
         in_space.polygon(ax, disc(spanning, box.half * per_rate), CURVES[kind]["color"], 0.3)
     for kind, points in rest.curves:
         in_space.line(ax, box.inside(points) * per_rate, CURVES[kind])
+    in_space.depth(ax, in_units, np.empty((0, 3)), [at * per_rate for _, at in rest.points])
     for kind, at in rest.points:
         in_space.line(ax, at[None] * per_rate, POINTS[kind])
     in_space.line(ax, rest.folds[box.holds(rest.folds)] * per_rate, FOLD)

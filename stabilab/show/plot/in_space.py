@@ -183,6 +183,30 @@ def line(ax: Any, points: np.ndarray, look: dict[str, Any], **more: Any) -> None
 
 
 THIN = {"color": style.GREY, "linewidth": 0.6}
+SHADOW = {"color": "#BDBDBD", "linewidth": 0.9, "zorder": 0.5}
+DROP = {"color": style.GREY, "linewidth": 0.7, "linestyle": (0, (2, 2)), "zorder": 0.6}
+
+
+def depth(ax: Any, box: Box, path: np.ndarray, points: np.ndarray) -> None:
+    """What shows where things are in depth: the shadows of a path (n, 3) on the three walls behind it, and a
+    line from each of the points (m, 3) down to the floor."""
+    for axis, wall in ((0, box.low[0]), (1, box.high[1]), (2, box.low[2])):
+        shadow = np.array(path, float)
+        shadow[:, axis] = wall + 0 * shadow[:, axis]  # gaps stay gaps
+        line(ax, shadow, SHADOW)
+    for point in points:
+        line(ax, np.array([point, [*point[:2], box.low[2]]]), DROP)
+
+
+def arrows(ax: Any, box: Box, path: np.ndarray, look: dict[str, Any], shares: tuple[float, ...]) -> None:
+    """The direction of a motion (n, 3), at shares of the length of its path."""
+    steps = np.diff(path, axis=0)
+    length = np.concatenate([[0.0], np.cumsum(np.linalg.norm(steps, axis=1))])
+    if not np.isfinite(length[-1]) or length[-1] == 0:
+        return
+    for n in np.searchsorted(length, np.array(shares) * length[-1]).clip(1, len(steps)) - 1:
+        ax.quiver(*path[n], *steps[n], length=0.11 * box.half, normalize=True, color=look["color"],
+                  linewidth=look["linewidth"], arrow_length_ratio=0.95, pivot="middle", zorder=8)
 
 
 # --- What a plot of a surface with motions on it is made of, and which of its lines lie in front
@@ -324,6 +348,7 @@ REACH, FARTHEST, BEYOND = 4.0, 400.0, 2.5
 COARSE, FINEST, FACETS = (40, 57), 10.0, 12_000
 COLOURS = (style.SKY, style.GREEN, style.PURPLE, style.YELLOW)  # of sheets; orange is the motion's
 ROUND = 0.06  # of the motion's size, about a motion that is a point
+ARROWS = (0.12, 0.45, 0.8)  # where the path has them, shares of its length
 
 
 def space(case: Any, state: Any = None, ax: Axes | None = None, span: Any = None, units: str | None = None,
@@ -353,10 +378,14 @@ def space(case: Any, state: Any = None, ax: Axes | None = None, span: Any = None
         rows += [(f"separatrix, {name}" if len(sheets) > 1 else "separatrix", {"facecolor": pale(colour)})
                  for (name, _), colour in zip(sheets, colours)]
         rows += _rest(target, rest, box, scale.rate[1])
-        line(target, box.inside(omega) * scale.rate[1], style.MEANING["this motion"], zorder=8)
+        drawn = box.inside(omega) * scale.rate[1]
+        spots = [at for _, at in rest.points if box.holds(at)]
+        depth(target, in_units, drawn, np.array([omega[0], *spots]) * scale.rate[1])
+        line(target, drawn, style.MEANING["this motion"], zorder=8)
+        arrows(target, in_units, drawn, style.MEANING["this motion"], ARROWS)
         line(target, omega[:1] * scale.rate[1], style.MARKER["start"], zorder=9)
         furnish(target, in_units, tuple(scale.label(name, scale.rate[0]) for name in scale.names))
-        canvas.title(target, one.heading, words)
+        canvas.title(target, one.heading, canvas.answer(one, scale), words)
         if legend:
             canvas.legend(target, rows, ax is None)
     return target

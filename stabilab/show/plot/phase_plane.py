@@ -55,7 +55,7 @@ def phase(case: Any, state: Any = None, ax: Axes | None = None, units: str | Non
         target.set_xlabel(scale.label(rf"turn $\alpha_{i + 1}$ about {one.axes.short(i + 1)} from the start",
                                       scale.angle[0]))
         target.set_ylabel(scale.label(scale.names[i], scale.rate[0]))
-        canvas.title(target, one.heading)
+        canvas.title(target, one.heading, canvas.answer(one, scale))
         if legend:
             present = {"separatrix": bool(plane.saddles), "saddle (unstable)": bool(plane.saddles),
                        "centre (stable)": bool(plane.centres)}

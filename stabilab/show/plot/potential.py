@@ -56,7 +56,7 @@ def potential(case: Any, state: Any = None, ax: Axes | None = None, units: str |
         target.set_xlabel(scale.label(rf"turn $\alpha_{i}$ about {one.axes.short(i)} from the start",
                                       scale.angle[0]))
         target.set_ylabel(scale.label("energy", "J" if scale.size else ""))
-        canvas.title(target, one.heading)
+        canvas.title(target, one.heading, canvas.answer(one, scale))
         if legend:
             canvas.legend(target, rows, ax is None)
     return target

@@ -26,7 +26,8 @@ from ...validation import checked_scene, checked_span
 from .. import style
 from ..axes import PLAIN, Axes, axes_of
 from ..text import law
-from ..units import SYSTEMS, Units
+from ..text.headline import outcome
+from ..units import SYSTEMS, Units, units_of
 
 # --- What a plot is of: a scene, one motion of it where there is one, and what a case says besides
 DEFAULT_SPAN = (0.0, 15.0)  # in the scene's time, where nothing else says how far
@@ -351,6 +352,14 @@ def legend(ax: Any, rows: list[tuple[str, dict[str, Any]]], own: bool) -> None:
         return
     ax.figure.legend(handles, names, loc="outside lower center",
                      ncols=style.fitting(names, ax.figure.get_figwidth()))
+
+
+def answer(one: Subject, scale: Measures) -> str:
+    """The outcome of the motion of a case, in the words of its headline; empty without a case."""
+    if one.case is None or one.state is None:
+        return ""
+    units = replace(scale.system or units_of(one.case), axes=axes_of(one.case))
+    return law.warned(one.motion.validity, outcome(one.motion, units)[0])
 
 
 def title(ax: Any, *lines: str) -> None:
