@@ -17,6 +17,7 @@ from . import minor_map, paper
 from . import top as figures_top
 from .difference import words
 from .figure import Figure
+from .level import POINTS
 
 _LEVEL = "curves: level sets of the exact potential, in doubles"
 _LAW = ("x2² + x3² − 2(b−a)x1 falls by exactly 2(b−a)τ, so no motion is bounded and there is no equilibrium, "
@@ -53,20 +54,20 @@ FIGURES = (
            f"{minor.left_saddles()}), not right.",
            minor.wheel_effect, _LEVEL),
     Figure(5, "Separatrix surfaces, minor axis",
-           "Inside each of the two surfaces every motion is periodic about its "
+           lambda: "Inside each of the two surfaces every motion is periodic about its "
            "centre; outside it spins up about axis 3. The surfaces open out of a fold, each at its own "
-           "radius; the paper's "
-           "equation (31) holds for λ1 = 0 only.", minor.surfaces, minor.exactness),
+           f"radius; the paper's equation (31) holds for λ1 = 0 only. {minor.surface_departure()}",
+           minor.surfaces, minor.exactness),
     Figure(6, "Contour map of the separatrix surfaces",
-           "The folds lie on two circles of different radius about (−a, 0), "
+           lambda: "The folds lie on two circles of different radius about (−a, 0), "
            "one on either side of the printed √2 about the origin; the curve (x1+a)(x1+b) = x2² parts stable "
-           "from unstable "
-           "equilibria, not the line x1 + x2 = 0.", minor_map.contour_map, minor_map.exactness),
+           f"from unstable equilibria, not the line x1 + x2 = 0. {minor_map.fourth_departure()}",
+           minor_map.contour_map, minor_map.exactness),
     Figure(7, "Typical stable motions, minor axis",
-           "Periodic motions on arcs of circles about (−a, 0), 0.6 of the way up "
+           lambda: "Periodic motions on arcs of circles about (−a, 0), 0.6 of the way up "
            "to the separatrix, and the paper's own start. The paper says that a motion on the separatrix "
-           "settles on the equilibrium of the fold; it "
-           "settles on the saddle of its own circle.", minor.stable_motions, minor.runs_exactness),
+           "settles on the equilibrium of the fold; it settles on the saddle of its own circle. "
+           f"{minor.circle_departure()}", minor.stable_motions, minor.runs_exactness),
     Figure(8, "Major axis from (4.5, 1.8, 3.4)",
            lambda: f"Spin-up about axis 1. {_LAW}. The paper's τ is not in seconds: "
            f"t = {major.second():.4g} τ s.", _run(paper.START_MAJOR), _STARTED),
@@ -89,18 +90,19 @@ FIGURES = (
     Figure(14, "Major axis from (0, −1, 5): x2, x3", _released, _run(paper.START_CAPTURED, "23"), _CAPTURED),
     Figure(15, "Major axis from (0, −1, 5): x1, x2", _released, _run(paper.START_CAPTURED, "12"), _CAPTURED),
     Figure(16, "Middle axis: no separatrix for the paper's data",
-           f"For |b−a| < {middle.CUSP:.4f} there is no saddle: every motion is "
+           lambda: f"For |b−a| < {middle.CUSP:.4f} there is no saddle: every motion is "
            "periodic but those on the plane x1 + b = −x3, which spin up. The paper draws separatrices and "
            "three regions. At "
            f"λ1 = {middle.LAMBDA_BEYOND} a figure-eight separatrix does exist (right): every saddle has two "
            f"loops, and all of them "
-           "together are the surfaces.", middle.surfaces, middle.exactness),
+           f"together are the surfaces. {middle.path_departure()}", middle.surfaces, middle.exactness),
     Figure(17, "Middle axis: projection on (x1, x3)",
-           "All equilibria are stable for the paper's data, on both sides of the "
+           lambda: "All equilibria are stable for the paper's data, on both sides of the "
            f"printed line x1 = x3; that line is no invariant plane, x1 + b = x3 is. At λ1 = "
            f"{middle.LAMBDA_BEYOND} the stretch between the two "
-           "folds is unstable.", middle.projections,
-           "closed forms; motions: level sets of the exact potential"),
+           f"folds is unstable. {middle.level_departure()}", middle.projections,
+           "closed forms; motions: level sets of the exact potential; fourth surface as printed: traced on a "
+           f"grid of {POINTS} x {POINTS}"),
 )
 NUMBERS = tuple(f.number for f in FIGURES)
 

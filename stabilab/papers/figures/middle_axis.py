@@ -6,10 +6,14 @@ import numpy as np
 from ...orbit.phase_plane import motion_curve, phase_plane
 from ...show import style
 from . import paper
+from .figure import listed
+from .level import PRINTED, farthest, level_curves, within
 from .minor_axis import exactness as of_sheets
 from .minor_axis import sheets
 
 LAMBDA_BEYOND = 1250  # c = b - a = 2.5, beyond the cusp 1.7548: there a figure-eight separatrix does exist
+LEVEL = 3.93          # printed for Fig. 17
+HIGH = 1.6            # |x2| of the printed path of Fig. 16
 CUSP = 4 * 3**-0.75
 # the sheets of Fig. 16
 EIGHT = {"lambda1": LAMBDA_BEYOND, "reach": None, "shape": (60, 121), "axis": "middle"}
@@ -18,6 +22,85 @@ EIGHT = {"lambda1": LAMBDA_BEYOND, "reach": None, "shape": (60, 121), "axis": "m
 def exactness() -> str:
     """How far the vertices of Fig. 16 are from their surface."""
     return of_sheets(**EIGHT)
+
+
+def printed_energy(scene, x1, x3):
+    """The printed (71) without its 2 x2^2; NaN where it has no real value."""
+    with np.errstate(invalid="ignore", divide="ignore"):
+        return ((x1**2 + x3**2) * (1 + 2 * (scene.a + scene.b) / np.sqrt(x1**2 - x3**2))
+                - 2 * np.arctanh(2 * x1**2 * x3**2 / (x1**2 + x3**2)))
+
+
+def printed_level(scene) -> list:
+    """Where the printed (71) is `LEVEL` for x2 = 0: curves (n, 2) of x1 and x3, traced in u and sigma, in
+    which they are smooth: x1 = +-R cosh u, x3 = +-R sinh u, R^2 = 2 tanh sigma cosh 2u/sinh^2 2u, where tanh
+    sigma is what the print has under its tanh^-1."""
+    def place(log_u, log_sigma):
+        u = np.exp(log_u)
+        R = np.sqrt(2 * np.tanh(np.exp(log_sigma)) * np.cosh(2 * u)) / np.sinh(2 * u)
+        return R, u
+
+    def energy(log_u, log_sigma):
+        R, u = place(log_u, log_sigma)
+        return (R**2 + 2 * (scene.a + scene.b) * R) * np.cosh(2 * u) - 2 * np.exp(log_sigma)
+
+    curves = []
+    for curve in level_curves(energy, LEVEL, (-9.0, 3.0), (-18.0, 5.0)):
+        R, u = place(*curve.T)
+        quarter = np.stack([R * np.cosh(u), R * np.sinh(u)], axis=-1)
+        curves += [quarter * [i, j] for i in (1, -1) for j in (1, -1)]
+    return curves
+
+
+def true_level(scene) -> list:
+    """Where the true integral 2 x2^2 + (x1+b)^2 + x3^2 - 4c (x1+b) - 4 atanh(x3/(x1+b)) is `LEVEL` for x2 =
+    0: the roots R of a quadratic at x1 + b = +-R cosh u, x3 = R sinh u."""
+    c, curves = scene.b - scene.a, []
+    u = np.sinh(np.linspace(-5.0, 5.0, 40001))
+    for side in (1, -1):
+        room = (2 * c * np.cosh(u))**2 + np.cosh(2 * u) * (LEVEL + 4 * side * u)
+        root = np.sqrt(np.where(room >= 0, room, np.nan))
+        for sign in (1, -1):
+            R = (2 * c * side * np.cosh(u) + sign * root) / np.cosh(2 * u)
+            R = np.where(R > 0, R, np.nan)
+            curves.append(np.stack([side * R * np.cosh(u) - scene.b, R * np.sinh(u)], axis=-1))
+    return curves
+
+
+def level_departure() -> str:
+    """How far the printed fourth surface of Fig. 17 is from the true one, in words."""
+    apart = []
+    for lam in paper.LAMBDAS:
+        scene = paper.scene("middle", lam)
+        shown = [within(curve, *VIEW) for curve in printed_level(scene)]
+        apart.append(farthest(shown, true_level(scene)))
+    x1, x2, x3 = paper.START_MIDDLE
+    start = 2 * x2**2 + printed_energy(paper.scene("middle", 100), x1, x3)
+    return (f"The fourth surface of the paper's list, (71) for x2 = 0 and G2 = {LEVEL}, is drawn in truth "
+            f"and, dashed, as printed: within a panel up to {listed(apart, '{:.2f}')} off for λ1 = "
+            f"{listed(paper.LAMBDAS, '{}')}. The start has G2 = {start:.2f} by the printed (71), "
+            f"not {LEVEL}.")
+
+
+def printed_path() -> np.ndarray:
+    """The motion of Table 3 by the printed (53) and (71), as far as |x2| <= `HIGH`: states (n, 3)."""
+    scene, (x1, x2, x3) = paper.scene("middle", 100), paper.START_MIDDLE
+    size, total = np.sqrt(x1**2 - x3**2), 2 * x2**2 + printed_energy(scene, x1, x3)
+    u = np.linspace(-1.0, 1.0, 20001)
+    first, third = size * np.cosh(u), size * np.sinh(u)
+    height = np.sqrt((total - printed_energy(scene, first, third)) / 2)
+    shown = height <= HIGH
+    half = np.stack([first[shown], height[shown], third[shown]], axis=-1)
+    return np.stack([half, half * [1, -1, 1]])
+
+
+def path_departure() -> str:
+    """How far the printed path of Fig. 16 is from the true motion, in words."""
+    true = _tube(paper.scene("middle", 100), paper.START_MIDDLE)
+    return (f"Dashed: the surface (71) with the printed G2 = {LEVEL} where it cuts the plane x2 = 0, and the "
+            f"motion of Table 3 by (53) and (71): this does not close, its x2 grows beyond bounds, and as "
+            f"far as |x2| = {HIGH:g} it is up to {farthest([printed_path()], [true]):.2f} away from the true "
+            f"motion.")
 
 
 def _equilibria(a, b, points=4000):
@@ -52,6 +135,7 @@ def surfaces(plt):
                      ("motion of Table 3", style.MEANING["this motion"]), ("start", style.MARKER["start"]),
                      ("periodic motions", {"color": style.SKY, "linewidth": 1.0}),
                           ("one figure-eight", EIGHT_LINE),
+                          ("as printed: (71)", PRINTED),
                      *((f"separatrix, {name}", {"color": colour, "linewidth": 8, "solid_capstyle": "butt"})
                        for name, colour in zip(names, LOOPS))], columns=4)
     return figure
@@ -84,6 +168,10 @@ def _nested(ax, scene):
             ax.plot(*_upright(_tube(scene, (1 / g - scene.a, height, g))), color=style.SKY, linewidth=1.0)
     ax.plot(*_upright(_tube(scene, paper.START_MIDDLE)), **style.MEANING["this motion"])
     ax.plot(*_upright(np.array([paper.START_MIDDLE])), **style.MARKER["start"])
+    for curve in printed_level(scene):
+        ax.plot(*within(curve, (-3, 3), (-3, 3)).T, 0.0, **PRINTED)
+    for half in printed_path():
+        ax.plot(*_upright(half), **PRINTED)
     style.name_space(ax, order=UPRIGHT)
     ax.view_init(32, -118)
 
@@ -125,11 +213,14 @@ def projections(plt):
                      (r"plane $x_1+b=x_3$ (periodic)", style.MEANING["dividing"]),
                      (r"plane $x_1+b=-x_3$ (spin-up)", style.MEANING["spin-up"]),
                      ("motion of Table 3", style.MEANING["this motion"]), ("start", style.MARKER["start"]),
-                     ("folds", style.MARKER["degenerate"]), (r"printed: $x_1=x_3$", PRINTED)])
+                     ("folds", style.MARKER["degenerate"]), (r"printed: $x_1=x_3$", LINE),
+                     (f"fourth surface: (71), $x_2=0$, $G_2={LEVEL}$", FOURTH),
+                          ("fourth surface as printed", PRINTED)], columns=5)
     return figure
 
 
-PRINTED = style.MEANING["printed"] | {"color": style.PURPLE}  # orange is the motion's
+LINE = style.MEANING["printed"] | {"color": style.PURPLE}  # orange is the motion's
+FOURTH = {"color": style.SKY, "linewidth": 1.8, "zorder": 1.5}  # below the plane that its ends tend to
 VIEW = ((-8.0, 4.5), (-6.25, 6.25))  # of x1 and x3, in every panel of Fig. 17
 
 
@@ -143,7 +234,10 @@ def _projection(ax, scene, draw_motion):
     ends = np.array([-20.0, 20.0])
     ax.plot(ends, ends + b, **style.MEANING["dividing"])
     ax.plot(ends, -ends - b, **style.MEANING["spin-up"])
-    ax.plot(ends, ends, **PRINTED)
+    ax.plot(ends, ends, **LINE)
+    for curves, look in ((true_level(scene), FOURTH), (printed_level(scene), PRINTED)):
+        for curve in curves:
+            ax.plot(*curve.T, **look)
     if draw_motion:
         states = _tube(scene, paper.START_MIDDLE)
         ax.plot(states[:, 0], states[:, 2], **style.MEANING["this motion"])

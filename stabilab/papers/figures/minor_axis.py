@@ -12,17 +12,21 @@ from ...show import style
 from ...show.plot.phase_plane import draw
 from . import paper
 from .figure import listed
+from .level import PRINTED, farthest
 
 # alpha = 2 theta: both wells and their saddles, no equilibrium at an edge; the plane repeats every 4 pi
 WINDOW = (-7.0, 8.4)
 PRINTED_FIG4 = {100: ((0.0, 6.2), (-3.0, 3.3)), 300: ((0.19, 6.15), (-3.1, 3.29)),
                 500: ((0.32, 5.8), (-3.13, 3.28))}
 REACH = 5.0           # largest circle drawn in Fig. 5, in radii of the outer fold circle
+CIRCLES, FOLD_RADIUS = (2.0, 4.0, 6.0), np.sqrt(2)  # printed ones of Fig. 5, about the origin
+FOLDS = np.array([(1.0, -1.0, 0.0), (-1.0, 1.0, 0.0)])  # where the text has saddle and centre merge
+NEAR = 2.0            # largest circle of the enlargement of Fig. 5, in the same radii
+FINE = (400, 801)     # of the sheets, to which distances are taken
 LEFT, RIGHT = style.MEANING["separatrix 2"], style.MEANING["separatrix"]
 COPY = RIGHT | {"linestyle": (0, (5, 2)), "linewidth": 1.1}
 LOOPS = [("left separatrix", LEFT), ("right separatrix", RIGHT), ("right separatrix, a turn earlier", COPY)]
-AS_PRINTED = style.MEANING["printed"] | {"color": style.GREEN, "linestyle": "--", "linewidth": 1.6}
-PRINTED_LINE = ("separatrices as printed: (26), (27)", AS_PRINTED)
+PRINTED_LINE = ("separatrices as printed: (26), (27)", PRINTED)
 POINTS = [("centre (stable)", style.MARKER["centre"]), ("saddle (unstable)", style.MARKER["saddle"])]
 
 
@@ -73,11 +77,12 @@ def _left(saddles, start):
 
 def _heights(lambda1=100):
     """(height by (25), as it is printed, true height) over alpha: x^2/2 + height is constant."""
-    def height(radius, wheel):
-        return lambda alpha: (radius**2 * np.cos(alpha) - 4 * radius * wheel * np.sin(alpha / 2) - 2 * alpha)
-
     scene, (x1, x2, _) = paper.scene("minor", lambda1), paper.START_MINOR
-    return (height(np.hypot(x1, x2), scene.b), height(np.hypot(x1 + scene.a, x2), scene.b - scene.a))
+    return (_height(np.hypot(x1, x2), scene.b), _height(np.hypot(x1 + scene.a, x2), scene.b - scene.a))
+
+
+def _height(radius, wheel):
+    return lambda alpha: radius**2 * np.cos(alpha) - 4 * radius * wheel * np.sin(alpha / 2) - 2 * alpha
 
 
 def _separatrix_by(height, alpha):
@@ -96,7 +101,7 @@ def _as_printed(ax):
     alpha = np.linspace(*WINDOW, 4001)
     for x in _separatrix_by(_heights()[0], alpha):
         for sign in (1, -1):
-            ax.plot(alpha, sign * x, **AS_PRINTED)
+            ax.plot(alpha, sign * x, **PRINTED)
 
 
 def departure() -> str:
@@ -196,26 +201,68 @@ def left_saddles() -> str:
     return listed(found, "{:.3f}").replace("-", "−")
 
 
+def printed_loops() -> dict:
+    """side -> loops by the printed (31), one for each of `CIRCLES`: states (n, 3). tan^-1(x1/x2) goes on
+    as an angle from the saddle, at which the print has sin alpha = -2/F^2."""
+    b = paper.scene("minor", 100).b
+    return {side: [_printed_loop(radius, b, turn) for radius in CIRCLES]
+            for side, turn in (("left", 0.0), ("right", 2 * np.pi))}
+
+
+def _printed_loop(radius, b, turn):
+    """The loop that hangs on alpha = turn - asin(2/F^2)."""
+    from scipy.optimize import brentq
+    height = _height(radius, b)
+    saddle = turn - np.arcsin(2 / radius**2)
+    room = lambda alpha: height(saddle) - height(alpha)
+    alpha = saddle + np.linspace(-2 * np.pi, 0.0, 4001)
+    low = int(np.argmax(room(alpha)))
+    ends = [float(brentq(room, alpha[low], edge)) for edge in
+            (alpha[0], alpha[low + int(np.argmin(room(alpha[low:])))])]
+    half = np.mean(ends) - np.ptp(ends) / 2 * np.cos(np.linspace(0, np.pi, 201))
+    x3 = np.sqrt(np.maximum(room(half), 0) / 2)
+    alpha, x3 = np.concatenate([half, half[::-1]]), np.concatenate([x3, -x3[::-1]])
+    return np.stack([radius * np.sin(alpha / 2), radius * np.cos(alpha / 2), x3], axis=-1)
+
+
+def surface_departure() -> str:
+    """How far the printed loops and folds of Fig. 5 are from the true surface of their side, in words."""
+    true = {_side(sheet): np.asarray(sheet.points) for sheet in sheets(shape=FINE).sheets}
+    loops = printed_loops()
+    words = [f"{listed([farthest([loop], [true[side]]) for loop in loops[side]], '{:.2f}')} on the {side}"
+             for side in SIDES]
+    folds = farthest([FOLDS], [points[:1, 0] for points in true.values()])
+    return (f"Dashed: the printed (31) on the circles of radius F = {listed(CIRCLES)} about the origin; "
+            f"these loops are up to {' and '.join(words)} away from the true surfaces. The printed folds, "
+            f"(1, −1, 0) and (−1, 1, 0) on the dashed circle of radius √2, are up to {folds:.2f} off.")
+
+
 def surfaces(plt):
-    """Fig. 5."""
+    """Fig. 5: the surfaces, and their folds from another side, enlarged."""
     figure = plt.figure(figsize=(10.4, 5.4), layout="constrained")
-    found = sheets()
-    names = {sheet.name: _side(sheet) for sheet in found.sheets}
-    for index, (elevation, azimuth) in enumerate(((24, -60), (40, 35))):
+    turn = np.linspace(0, 2 * np.pi, 181)
+    for index, (reach, circles, view) in enumerate(((REACH, len(CIRCLES), (24, -60)), (NEAR, 1, (40, 35)))):
         ax = figure.add_subplot(1, 2, index + 1, projection="3d")
-        for sheet in found.sheets:
+        ax.computed_zorder = False  # lines over the surfaces that they are on or beside
+        for sheet in sheets(reach=reach).sheets:
             p = np.asarray(sheet.points)
-            ax.plot_surface(p[..., 0], p[..., 1], p[..., 2], color=SIDES[names[sheet.name]], alpha=0.6,
+            ax.plot_surface(p[..., 0], p[..., 1], p[..., 2], color=SIDES[_side(sheet)], alpha=0.6,
                             rstride=2, cstride=3, linewidth=0.2, edgecolor="#333333", shade=False)
-            ax.plot(*np.asarray(sheet.saddle).T, **style.MEANING["unstable"])
-            ax.plot(*np.asarray(sheet.centre).T, **style.MEANING["stable"])
-        ax.view_init(elevation, azimuth)
+            ax.plot(*np.asarray(sheet.saddle).T, zorder=4, **style.MEANING["unstable"])
+            ax.plot(*np.asarray(sheet.centre).T, zorder=4, **style.MEANING["stable"])
+        for loops in printed_loops().values():
+            for loop in loops[:circles]:
+                ax.plot(*loop.T, zorder=5, **PRINTED)
+        ax.plot(FOLD_RADIUS * np.sin(turn), FOLD_RADIUS * np.cos(turn), 0 * turn, zorder=5, **PRINTED)
+        ax.view_init(*view)
         style.name_space(ax, 1.05)
-    figure.suptitle(r"Separatrix surfaces, torque on the minor axis, $\lambda_1=100$, from two sides")
+    figure.suptitle(r"Separatrix surfaces, torque on the minor axis, $\lambda_1=100$; "
+                    "right: the folds, enlarged")
     sides = [(f"{side} separatrix surface", {"color": colour, "linewidth": 8, "solid_capstyle": "butt"})
              for side, colour in SIDES.items()]
     style.legend(figure, [*sides, ("centres (stable)", style.MEANING["stable"]),
-                          ("saddles (unstable)", style.MEANING["unstable"])])
+                          ("saddles (unstable)", style.MEANING["unstable"]),
+                          (r"as printed: (31), and radius $\sqrt{2}$", PRINTED)], columns=3)
     return figure
 
 
@@ -251,30 +298,57 @@ def runs_exactness() -> str:
         f"at most")
 
 
+def circle_departure() -> str:
+    """How far the motion of Fig. 7 from the paper's start is from its printed circle (18), in words."""
+    x1, x2 = np.asarray(_stable_runs()[-1][1].states)[:, :2].T
+    radius = np.hypot(*paper.START_MINOR[:2])
+    return (f"Dashed: the printed circle (18) of the start, F = {radius:.2f} about the origin, from which "
+            f"this motion is up to {np.abs(np.hypot(x1, x2) - radius).max():.3f} away, and the circle F = "
+            f"√2, on which the text has it move: it stays {np.hypot(x1, x2).min():.2f} and more from the "
+            f"origin.")
+
+
 def stable_motions(plt):
-    """Fig. 7."""
-    figure = plt.figure(figsize=(8.4, 6.6), layout="constrained")
-    ax = figure.add_subplot(projection="3d")
-    scene, looks = paper.scene("minor", 100), {radius: {"color": shade, "linewidth": 1.3} for radius,
-                                               shade in zip(RADII, SHADES)}
+    """Fig. 7: the motions in space, and from above."""
+    figure = plt.figure(figsize=(11.4, 6.2), layout="constrained")
+    ax, above = figure.add_subplot(1, 2, 1, projection="3d"), figure.add_subplot(1, 2, 2)
+    looks = {radius: {"color": shade, "linewidth": 1.3} for radius, shade in zip(RADII, SHADES)}
     for radius, run in _stable_runs():
-        ax.plot(*np.asarray(run.states).T, **looks[radius] if radius else style.MEANING["this motion"])
+        states = np.asarray(run.states)
+        ax.plot(*states.T, **looks[radius] if radius else style.MEANING["this motion"])
+        above.plot(*states[:, :2].T, **looks[radius] if radius else style.MEANING["this motion"])
     ax.plot(*np.array([paper.START_MINOR]).T, **style.MARKER["start"])
-    for sign in (1, -1):
-        h = sign * np.geomspace(0.17, 5.0, 800)
-        x1 = -scene.b - 1 / h
-        stable = (x1 + scene.a) * (x1 + scene.b) > h * h
-        for kind, mask in (("stable", stable), ("unstable", ~stable)):
-            ax.plot(np.where(mask, x1, np.nan), np.where(mask, h, np.nan), 0 * h, **style.MEANING[kind])
+    above.plot(*paper.START_MINOR[:2], zorder=6, **style.MARKER["start"])
+    turn = np.linspace(0, 2 * np.pi, 361)
+    for radius in (FOLD_RADIUS, np.hypot(*paper.START_MINOR[:2])):
+        circle = radius * np.sin(turn), radius * np.cos(turn)
+        ax.plot(*circle, 0 * turn, **PRINTED)
+        above.plot(*circle, **PRINTED)
+    _hyperbola(ax, above)
     ax.view_init(28, -58)
-    style.name_space(ax, 1.15)
-    ax.set_title(r"Periodic motions on their circles of radius $A$ about $(-a, 0)$, $\lambda_1=100$")
+    style.name_space(ax, 1.0)
+    above.set(aspect="equal", xlabel="$x_1$", ylabel="$x_2$", title="from above")
+    figure.suptitle(r"Periodic motions on their circles of radius $A$ about $(-a, 0)$, $\lambda_1=100$")
     style.legend(figure, [("centres (stable)", style.MEANING["stable"]),
                           ("saddles (unstable)", style.MEANING["unstable"]),
                      ("motion from x(0) = (2.5, 4, 0.1)", style.MEANING["this motion"]),
                           ("start", style.MARKER["start"]),
-                     *((f"circle $A={radius:.4g}$", look) for radius, look in looks.items())], columns=3)
+                          (r"printed circles: (18), radius $\sqrt{2}$", PRINTED),
+                     *((f"circle $A={radius:.4g}$", look) for radius, look in looks.items())], columns=4)
     return figure
+
+
+def _hyperbola(*panels):
+    """Both branches of the equilibria, stable and unstable, in space and in the plane x3 = 0."""
+    a, b = paper.scene("minor", 100).a, paper.scene("minor", 100).b
+    for sign in (1, -1):
+        h = sign * np.geomspace(0.17, 5.0, 800)
+        x1 = -b - 1 / h
+        stable = (x1 + a) * (x1 + b) > h * h
+        for ax in panels:
+            for kind, mask in (("stable", stable), ("unstable", ~stable)):
+                line = np.where(mask, x1, np.nan), np.where(mask, h, np.nan), 0 * h
+                ax.plot(*line[:3 if ax.name == "3d" else 2], **style.MEANING[kind])
 
 
 def _bounded_starts(scene):

@@ -2,10 +2,13 @@
 what parts these."""
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 
 from ...show import style
 from . import paper
+from .level import POINTS, farthest, level_curves, within
 from .minor_axis import exactness as of_sheets
 from .minor_axis import sheets
 
@@ -13,6 +16,7 @@ SHAPE = (240, 241)
 REACH = 6.3           # radii of the outer fold circle: beyond the corners of the map
 LEVELS = np.linspace(0, 7.5, 16)
 SIZE, NEAR = 6.0, 2.1  # half a side of the map, and of the enlargement about the folds
+BEYOND = 8.0           # half a side of the square in which the fourth surface is traced
 
 
 def contour_map(plt):
@@ -32,11 +36,37 @@ def contour_map(plt):
                      ("fold circles", style.MEANING["fold"]),
                           (r"$(x_1+a)(x_1+b)=x_2^2$", style.MEANING["dividing"]),
                      ("edge of the stable regions", EDGE),
-                          (r"printed: $x_1+x_2=0$, radius $\sqrt{2}$", style.MEANING["printed"])], columns=3)
+                          (r"printed: $x_1+x_2=0$, radius $\sqrt{2}$", style.MEANING["printed"]),
+                          ("fourth surface: (30), $x_3=0$, $G_1=0$", FOURTH),
+                          ("fourth surface as printed", PRINTED_FOURTH)], columns=3)
     return figure
 
 
 EDGE = {"color": style.PURPLE, "linewidth": 1.4}
+FOURTH = {"color": style.SKY, "linewidth": 1.8}
+PRINTED_FOURTH = style.MEANING["printed"] | {"linestyle": "--", "linewidth": 1.6}
+
+
+@lru_cache(maxsize=1)
+def fourth_surface() -> dict:
+    """The fourth of the paper's surfaces, (30) for x3 = 0 and G1 = 0, as "printed" and "true": curves (n, 2).
+    tan^-1 is the principal value, which jumps at x2 = 0: there the curves end."""
+    a, b, found = paper.scene("minor", 100).a, paper.scene("minor", 100).b, {}
+    for name, shift, wheel in (("printed", 0.0, b), ("true", a, b - a)):
+        def energy(x1, x2, shift=shift, wheel=wheel):
+            X = x1 + shift
+            return x2**2 - X**2 - 4 * wheel * X - 4 * np.arctan(X / x2)
+        found[name] = [curve for half in ((0.0, BEYOND), (-BEYOND, -0.0))
+                       for curve in level_curves(energy, 0.0, (-BEYOND, BEYOND), half)]
+    return found
+
+
+def fourth_departure() -> str:
+    """How far the printed fourth surface is from the true one within the map, in words."""
+    found = fourth_surface()
+    shown = [within(curve, (-SIZE, SIZE), (-SIZE, SIZE)) for curve in found["printed"]]
+    return (f"The fourth surface of the paper's list, (30) for x3 = 0 and G1 = 0, is drawn in truth and, "
+            f"dashed, as printed: up to {farthest(shown, found['true']):.2f} off.")
 
 
 def _sheets():
@@ -44,8 +74,8 @@ def _sheets():
 
 
 def exactness() -> str:
-    """How far the vertices of the map are from the surface."""
-    return of_sheets(reach=REACH, shape=SHAPE)
+    """How far the vertices of the map are from the surface; how the fourth surface is traced."""
+    return f"{of_sheets(reach=REACH, shape=SHAPE)}; fourth surface: traced on grids of {POINTS} x {POINTS}"
 
 
 def _map(ax, scene, found, size):
@@ -62,6 +92,9 @@ def _map(ax, scene, found, size):
     for radius in _fold_radii(b - a):
         ax.plot(radius * np.sin(turn) - a, radius * np.cos(turn), **style.MEANING["fold"])
     ax.plot(np.sqrt(2) * np.sin(turn), np.sqrt(2) * np.cos(turn), **style.MEANING["printed"])
+    for name, look in (("true", FOURTH), ("printed", PRINTED_FOURTH)):
+        for curve in fourth_surface()[name]:
+            ax.plot(*curve.T, **look)
     ax.set(xlim=(-size, size), ylim=(-size, size), aspect="equal", xlabel="$x_1$", ylabel="$x_2$")
     return filled
 
