@@ -11,7 +11,7 @@ from .figures.catalogue import of_paper
 from .table import EXTREMES
 
 SCHEMA = "stabilab.papers/1"
-MODEL = "not drawn: a sketch of the model, with nothing to compute"
+MODEL = "a sketch, drawn from a case of the paper"
 
 
 @dataclass(frozen=True)
@@ -40,12 +40,10 @@ def _of_paper(paper: Any, group: Sequence[Any]) -> list[Item]:
             found.append(Item(paper.name, item, finding.row.says, finding.verdict,
                               f"stabilab audit {paper.name} --equation {name}"))
     figures = of_paper(paper.figures) if paper.figures else ()
-    if figures:
-        found.append(Item(paper.name, "figure 1", "the model", MODEL, ""))
     for figure in figures:
         claims = [f for f in group if figure.number in f.row.options.get("figures", ())]
         wrong = sum(f.verdict == "wrong" for f in claims)
-        verdict = "drawn from the exact equations" + (
+        verdict = MODEL if figure.number == 1 else "drawn from the exact equations" + (
             f"; {wrong} of {len(claims)} audited claims about it wrong" if claims else "")
         found.append(Item(paper.name, f"figure {figure.number}", figure.title, verdict, figure.command))
     return found + [_table(paper, finding) for finding in group if finding.row.equation.startswith("table-")]

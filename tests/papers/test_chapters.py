@@ -21,10 +21,10 @@ OTHERS = [row for name in ("charged", "cavity", "top") for row in figures.of_pap
 
 
 def test_every_figure_of_the_other_papers_is_on_record():
-    """Galal et al. charged body: Figs 2-24; liquid cavity: 2-13; Amer et al. 2023: 2-7 (Fig. 1 of each is a
+    """Galal et al. charged body: Figs 1-24; liquid cavity: 1-13; Amer et al. 2023: 1-7 (Fig. 1 of each is a
     sketch)."""
     for name, last in (("charged", 24), ("cavity", 13), ("top", 7)):
-        assert [row.number for row in figures.of_paper(name)] == list(range(2, last + 1))
+        assert [row.number for row in figures.of_paper(name)] == list(range(1, last + 1))
 
 
 def test_the_repository_keeps_a_small_picture_and_a_note_of_each():
@@ -38,7 +38,7 @@ def test_the_repository_keeps_a_small_picture_and_a_note_of_each():
 
 def test_a_figure_number_without_a_paper_belongs_to_the_constant_torque_paper():
     assert figures.figure(3).paper == "" and figures.figure(3, "top").file == "top-03.png"
-    with pytest.raises(InputError, match="figure 8: expected one of 2 to 7"):
+    with pytest.raises(InputError, match="figure 8: expected one of 1 to 7"):
         figures.figure(8, "top")
     with pytest.raises(InputError, match="constant-torque, charged, cavity, top"):
         figures.of_paper("tops")
@@ -198,7 +198,7 @@ def test_a_chapter_whose_case_is_missing_says_so_in_words(tmp_path, monkeypatch)
 
 @pytest.mark.slow
 def test_a_chapter_stands_in_the_report_with_claims_errors_and_variant(tmp_path, monkeypatch):
-    row = figures_top.FIGURES[4]
+    row = figures_top.FIGURES[5]
     monkeypatch.setattr(figures_top, "FIGURES", (row,))
     section = chapters.section("top", tmp_path)
     assert section["problem"] == "" and (tmp_path / section["sensible"]["file"]).is_file()

@@ -34,7 +34,7 @@ def test_a_difference_beyond_the_motions_range_is_so_many_times_it(size, told, m
 
 
 def test_words_name_quantity_value_size_and_time():
-    line = words(top.FIGURES[0])[0]
+    line = words(top.FIGURES[1])[0]
     assert line.startswith("p, l") and "rad/s" in line and "at t = " in line and not set("${}") & set(line)
 
 

@@ -18,6 +18,7 @@ from . import top as figures_top
 from .difference import words
 from .figure import Figure
 from .level import POINTS
+from .model import model_figure
 
 _LEVEL = "curves: level sets of the exact potential, in doubles"
 _LAW = ("x2² + x3² − 2(b−a)x1 falls by exactly 2(b−a)τ, so no motion is bounded and there is no equilibrium, "
@@ -37,6 +38,7 @@ _STARTED, _CAPTURED = (partial(major.exactness, start) for start in (paper.START
 
 
 FIGURES = (
+    model_figure("minor-axis-100"),
     Figure(2, "Trajectories for a torque on the minor axis",
            lambda: "Level curves of x²/2 + A² cos α − 4A(b−a) sin(α/2) − 2α on the "
            f"true circle (x1+a)² + x2² = A² with A = {minor.circle():.4f}. The paper draws F = 4.72 from x1² "

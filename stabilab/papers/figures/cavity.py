@@ -11,6 +11,7 @@ import numpy as np
 from ...theories.cavity.averaged import RTOL, polar
 from . import panels
 from .figure import Figure, listed
+from .model import model_figure
 
 PAPER = "Galal, Amer, Elneklawy, El-Kafly 2023, charged rigid body with a viscous liquid"
 SPAN, POINTS = 20.0, 2001
@@ -181,4 +182,4 @@ def _figures():
 
 NAMES = {"small": "λ3 = 0.1 to 0.2", "large": "λ3 = 15 to 25", "zeta": "family of ζ", "M3": "family of M3",
          "e": "family of e"}
-FIGURES = tuple(_figures())
+FIGURES = (model_figure("liquid-base", "cavity"), *_figures())

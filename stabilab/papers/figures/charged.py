@@ -14,6 +14,7 @@ from ...theories.charged.modes import horizon
 from ...theories.charged.modes import horizon as until
 from . import panels
 from .figure import Figure, listed
+from .model import model_figure
 
 PAPER = "Galal et al., charged rigid body with a gyrostatic moment (short form: Elneklawy)"
 SWEEP, SPAN, POINTS = "charged-sweep", 50.0, 2001
@@ -271,6 +272,7 @@ def _figures():
                      partial(draw, family=family, title=title), partial(_exactness, (family,), more),
                      "charged",
                      partial(_lines, family, draw.keywords["rows"], draw.keywords.get("circle", False)))
+    yield model_figure("charged-body", "charged")
     yield Figure(11, "Angular momentum across z1",
                  partial(_circle, "lambda3", "The print draws the small circle of a body that hardly "
                                                            "tilts."), circle, partial(_exactness, ("M1",)),

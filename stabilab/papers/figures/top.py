@@ -12,6 +12,7 @@ from ...theories.top.model import printed
 from ...theories.top.scaling import fast_top
 from . import panels
 from .figure import Figure
+from .model import model_figure
 
 PAPER = "Amer, Amer, Galal 2023, rigid body in a Newtonian field with a gyrostatic moment"
 SPAN, POINTS, ORDER = 1.3, 2601, 2
@@ -125,4 +126,4 @@ def _figures():
                      partial(_exactness, family, more), "top", partial(_lines, family, rows))
 
 
-FIGURES = tuple(_figures())
+FIGURES = (model_figure("top-lx30-lz30", "top"), *_figures())

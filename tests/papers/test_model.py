@@ -1,0 +1,121 @@
+"""Figure 1 of a paper shows what the scene of its case contains, and nothing else: data of the artists."""
+import re
+from dataclasses import replace
+from itertools import combinations
+
+import numpy as np
+import pytest
+from mpl_toolkits.mplot3d import proj3d
+
+from stabilab import Body, Charge, Scene, load
+from stabilab.papers.figures import model
+from stabilab.papers.figures.catalogue import figure
+from stabilab.papers.table import cases_folder
+from stabilab.physics.effects import REGISTRY
+from stabilab.show import style
+
+# paper -> what its own figure 1 shows besides the body, as each paper lists it in its problem's section
+CONTENTS = {
+    "constant-torque": {"momentum", "torque"},
+    "charged": {"momentum", "torque", "force", "charge", "field"},
+    "cavity": {"momentum", "torque", "charge", "field", "liquid", "resistance"},
+    "top": {"momentum", "weight", "fixed point", "attracting centre"}}
+CASES = {"constant-torque": "minor-axis-100", "charged": "charged-body", "cavity": "liquid-base",
+         "top": "top-lx30-lz30"}
+LABELS = set().union(*CONTENTS.values())
+
+
+@pytest.fixture
+def plt():
+    with style.drawing() as found:
+        yield found
+
+
+def drawn(plt, paper):
+    return figure(1, paper).draw(plt).axes[0]
+
+
+def labels(ax):
+    """The labels in words, without symbols and the names of the axes."""
+    found = {text.get_text().strip() for text in ax.texts}
+    return {word for word in LABELS for text in found if text.startswith(word)}, found
+
+
+@pytest.mark.parametrize("paper", CONTENTS)
+def test_the_model_has_what_the_paper_has_and_no_more(paper, plt):
+    words, texts = labels(drawn(plt, paper))
+    assert words == CONTENTS[paper]
+    assert {"axis 1", "axis 2", "axis 3"} <= texts and len(texts) == 3 + len(CONTENTS[paper])
+
+
+@pytest.mark.parametrize("paper", CONTENTS)
+def test_the_box_has_the_moments_of_the_body(paper, plt):
+    """A homogeneous box: D1 : D2 : D3 as the sums of the squares of the other two sides."""
+    (box,) = [part for part in drawn(plt, paper).collections if len(getattr(part, "_faces", ())) == 6]
+    corners = np.unique(np.round(np.concatenate(np.asarray(box._faces)), 12), axis=0)
+    sides = np.ptp(corners, axis=0)
+    assert len(corners) == 8 and sides.max() == pytest.approx(1)
+    moments = (sides**2).sum() - sides**2
+    D = np.array(load(cases_folder() / f"{CASES[paper]}.toml").physical.body.inertia)
+    assert moments / moments.max() == pytest.approx(D / D.max(), rel=1e-10)
+
+
+def arrows(ax):
+    """Directions of the arrows, those of one colour together: shafts from start to tip."""
+    found = {}
+    for part in ax.collections:
+        if type(part).__name__ == "Line3DCollection":
+            tip, start = part._segments3d[0]
+            found.setdefault(tuple(part.get_color()[0][:3]), []).append(np.subtract(tip, start))
+    return list(found.values())
+
+
+@pytest.mark.parametrize("paper, vectors", [
+    ("constant-torque", [(1, 0, 0), (0, 0, 1)]),
+    ("charged", [(0, 0, 1), (1, 0, 0), (0, 0, 1), (0, np.sin(0.37), np.cos(0.37))]),
+    ("cavity", [(0, 0, 1), (0, 0, -1), (0, np.sin(0.3), np.cos(0.3)), (-9.51, 0, -9)]),
+    ("top", [(1, 0, 1), (0.9999995, 0, 0.001)])])
+def test_arrows_point_as_the_vectors_of_the_paper(paper, vectors, plt):
+    """Data of the papers: lambda along 1, torque on the minor axis; eq. (13) ff. of the charged body; omega0
+    = (1, 0, 1) of the liquid; Table 1 of the top with gamma0'' = 0.001."""
+    found = [direction for group in arrows(drawn(plt, paper)) for direction in group[:1]]
+    assert len(found) == len(vectors)
+    for vector in vectors:
+        assert min(np.linalg.norm(d / np.linalg.norm(d) - np.divide(vector, np.linalg.norm(vector)))
+                   for d in found) < 1e-6
+
+
+def test_labels_do_not_lie_on_each_other(plt):
+    for paper in CONTENTS:
+        picture = figure(1, paper).draw(plt)
+        picture.draw_without_rendering()
+        boxes = [(text.get_text(), _extent(text, picture.axes[0])) for text in picture.axes[0].texts]
+        assert not [(a, b) for (a, one), (b, other) in combinations(boxes, 2) if one.overlaps(other)], paper
+        whole = picture.bbox
+        assert [text for text, box in boxes if box.x0 < whole.x0 or box.x1 > whole.x1 or box.y1 > whole.y1] == []
+
+
+def _extent(text, ax):
+    """Where a label stands in the picture: Matplotlib projects its place while it draws only."""
+    x, y, _ = proj3d.proj_transform(*text.get_position_3d(), ax.get_proj())
+    text.set_position((x, y))
+    return text.get_window_extent().padded(-1)
+
+
+def test_every_effect_has_a_part():
+    assert set(model.PARTS) == set(REGISTRY)
+
+
+def test_the_legend_and_the_caption_say_the_numbers_of_the_case(plt):
+    legend = [text.get_text() for text in figure(1, "charged").draw(plt).legends[0].get_texts()]
+    assert {"momentum of the wheel λ = (0, 0, 1.3) kg m²/s", "constant force f = (0, 0, 3) N"} <= set(legend)
+    assert re.search(r"the case charged-body.*the charge and the field", figure(1, "charged").caption)
+
+
+def test_the_charge_stands_at_its_arm_to_the_scale_of_a_body_with_a_mass(plt):
+    """D1 = m (b^2 + c^2)/12: a box of 12 kg with moments (5, 5, 2) measures 1 x 1 x 2 m."""
+    case = load(cases_folder() / "charged-body.toml")
+    case = replace(case, physical=Scene(Body((5, 5, 2), mass=12), Charge(1, 1, 0.8, 0.1)))
+    (ax,) = model.draw(plt, case).axes
+    (ball,) = [line for line in ax.lines if line.get_marker() == "o"]
+    assert np.ravel(ball.get_data_3d()) == pytest.approx([0, 0, 0.8 / 2])
