@@ -35,11 +35,12 @@ def test_a_difference_beyond_the_motions_range_is_so_many_times_it(size, told, m
 
 def test_words_name_quantity_value_size_and_time():
     line = words(top.FIGURES[1])[0]
-    assert line.startswith("p, l") and "rad/s" in line and "at t = " in line and not set("${}") & set(line)
+    assert line.startswith("p1, l") and "kg m²/s: " in line and "at t = " in line and not set("${}") & set(line)
 
 
 @pytest.mark.parametrize("label, text", [
-    (r"$\dot{p}$ (rad/s$^2$)", "dp/dt (rad/s²)"), (r"$\dot{\gamma}''$ (1/s)", "dγ''/dt (1/s)"),
+    (r"$\dot{p}$ (rad/s$^2$)", "dp/dt (rad/s²)"), (r"$\dot{\gamma}_1'$ (10$^3$/s)", "dγ1'/dt (10³/s)"),
+    (r"$\dot{\gamma}''$ (1/s)", "dγ''/dt (1/s)"),
     ("$M_3=-3$ N m", "M3=−3 N m"),
     (r"$\lambda_3=15$ kg m$^2$/s", "λ3=15 kg m²/s"), (r"$\gamma\,''$", "γ''"),
     (r"$\omega_1/\omega_3$", "ω1/ω3")])

@@ -92,7 +92,8 @@ def test_labels_do_not_lie_on_each_other(plt):
         boxes = [(text.get_text(), _extent(text, picture.axes[0])) for text in picture.axes[0].texts]
         assert not [(a, b) for (a, one), (b, other) in combinations(boxes, 2) if one.overlaps(other)], paper
         whole = picture.bbox
-        assert [text for text, box in boxes if box.x0 < whole.x0 or box.x1 > whole.x1 or box.y1 > whole.y1] == []
+        assert [text for text, box in boxes
+                if box.x0 < whole.x0 or box.x1 > whole.x1 or box.y1 > whole.y1] == []
 
 
 def _extent(text, ax):
@@ -108,7 +109,8 @@ def test_every_effect_has_a_part():
 
 def test_the_legend_and_the_caption_say_the_numbers_of_the_case(plt):
     legend = [text.get_text() for text in figure(1, "charged").draw(plt).legends[0].get_texts()]
-    assert {"momentum of the wheel λ = (0, 0, 1.3) kg m²/s", "constant force f = (0, 0, 3) N"} <= set(legend)
+    assert {"momentum of the wheel λ = (0, 0, 1.3) kg m²/s",
+            "constant force f = (0, 0, 3) N"} <= set(legend)
     assert re.search(r"the case charged-body.*the charge and the field", figure(1, "charged").caption)
 
 

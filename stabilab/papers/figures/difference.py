@@ -61,7 +61,7 @@ def _difference(row: panels.Row, column: panels.Column) -> Difference:
 
 LETTERS = {r"\\lambda": "λ", r"\\zeta": "ζ", r"\\psi": "ψ", r"\\phi": "φ", r"\\varphi": "φ", r"\\theta": "θ",
            r"\\omega": "ω", r"\\eta": "η", r"\\gamma": "γ",
-           r"\\ell": "l", r"\^\{-1\}": "⁻¹", r"\^2": "²", r"\\,": ""}
+           r"\\ell": "l", r"\^\{-1\}": "⁻¹", r"\^2": "²", r"\^3": "³", r"\\,": ""}
 
 
 def words(figure: Figure) -> list[str]:
@@ -82,7 +82,7 @@ def _words(d: Difference) -> str:
 def plain(label: str) -> str:
     """A label of Matplotlib as text: its letters in Unicode, without dollars and braces; a dot over a letter
     as d/dt, as primes belong to names; a hyphen as a minus."""
-    label = re.sub(r"\\dot\{(.*?)\}('*)", r"d\1\2/dt", label)
+    label = re.sub(r"\\dot\{(.*?)\}((?:_\w)?'*)", r"d\1\2/dt", label)
     for pattern, letter in LETTERS.items():
         label = re.sub(pattern, letter, label)
     return re.sub(r"[${}]|_(?=\w)", "", label).replace("-", "−")

@@ -383,8 +383,8 @@ def phase(part, component, label, unit):
         y = np.asarray(run.state[part])[:, component]
         return y, np.gradient(y, run.t, edge_order=2)
     letter = label.strip("$")
-    name = letter.rstrip("'")
-    dot = rf"$\dot{{{name}}}{letter[len(name):]}$"  # over the letter, not over its primes
+    name = letter.rstrip("'").split("_")[0]
+    dot = rf"$\dot{{{name}}}{letter[len(name):]}$"  # over the letter, not over its index and primes
     return Row(f"{label} ({unit})" if unit else label,
                f"{dot} ({unit + '/s' if unit else '1/s'})".replace("rad/s/s", r"rad/s$^2$"), pick)
 

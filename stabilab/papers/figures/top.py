@@ -18,9 +18,10 @@ PAPER = "Amer, Amer, Galal 2023, rigid body in a Newtonian field with a gyrostat
 SPAN, POINTS, ORDER = 1.3, 2601, 2
 REFERENCE = 15.0  # kg m^2: A0 of Table 1
 FAMILIES = {"lx": [(30, 30), (60, 30), (90, 30)], "lz": [(30, 30), (30, 60), (30, 90)]}
-SIX = [("omega", 0, "$p$", "rad/s"), ("omega", 1, "$q$", "rad/s"), ("omega", 2, "$r$", "rad/s"),
-       ("gamma", 0, r"$\gamma$", ""),
-       ("gamma", 1, r"$\gamma\,'$", ""), ("gamma", 2, r"$\gamma\,''$", "")]
+THOUSAND = "10$^3$"  # unit of gamma1: numbers that fit above a panel
+SIX = [("omega", 0, "$p_1$", ""), ("omega", 1, "$q_1$", ""), ("omega", 2, "$r_1$", ""),
+       ("gamma", 0, r"$\gamma_1$", THOUSAND), ("gamma", 1, r"$\gamma_1'$", THOUSAND),
+       ("gamma", 2, r"$\gamma_1''$", THOUSAND)]
 HISTORIES = tuple(panels.history(*row) for row in SIX)
 PLANES = tuple(panels.phase(*row) for row in SIX)
 ANGLES = tuple(panels.history("euler", i, name, "rad") for i,
@@ -31,8 +32,28 @@ def _columns(family, angles=False):
     for lx, lz in FAMILIES[family]:
         value, name = (lx, r"\ell_x") if family == "lx" else (lz, r"\ell_z")
         case = f"top-lx{lx}-lz{lz}"
-        runs = panels.motions(case, "", SPAN, POINTS, ORDER)
-        yield panels.Column(rf"${name}={value}$ kg m$^2$/s", _with_angles(case) if angles else runs)
+        yield panels.Column(rf"${name}={value}$ kg m$^2$/s", _with_angles(case) if angles else _scaled(case))
+
+
+def _units() -> tuple[np.ndarray, float]:
+    """The paper's units, its (4): c sqrt(gamma0'') of p1 and q1 and r0 of r1, rad/s; gamma0'' of gamma1."""
+    case = panels.sweep("top-lx30-lz30")[""]
+    top = fast_top(case.scene, {"omega": case.state, "gamma": case.blocks["gamma"]})
+    across, spin = top.epsilon * float(top.r0), float(top.r0)
+    return np.array([across, across, spin]), float(top.gamma[2])
+
+
+@lru_cache(maxsize=8)
+def _scaled(name):
+    """The runs of a case in the paper's variables p1, q1, r1, and gamma1, gamma1', gamma1'' in thousands;
+    times in s."""
+    rates, vertical = _units()
+
+    def scaled(state):
+        return state | {"omega": np.asarray(state["omega"]) / rates,
+                        "gamma": np.asarray(state["gamma"]) / (1000 * vertical)}
+    return {model: replace(run, state=scaled(run.state))
+            for model, run in panels.motions(name, "", SPAN, POINTS, ORDER).items()}
 
 
 @lru_cache(maxsize=8)
@@ -86,13 +107,21 @@ def _unit(family, more=""):
                     for s in printed), min(s["omega"][:, 2].min() for s in printed)
     return _fast(family,
                  f"The printed |gamma|, which is 1, reaches {length:.3g}; the printed r reaches {r:.3g} "
-                 f"rad/s. {more}")
+                 f"rad/s. {more}") + _variables()
 
 
 def _free(family):
     return _fast(family,
                  "The text calls the closed printed curves stable and free of chaos; the true curves do not "
-                 "close. ")
+                 "close. ") + (f"{_variables()} Rates are per second; the paper's dot, the rate in tau = "
+                               f"r0 t, is {1 / _units()[0][2]:g} s times these.")
+
+
+def _variables():
+    """The variables of Figs 2-5 and their units."""
+    (across, _, spin), vertical = _units()
+    return (f" Drawn in the paper's variables: p1 and q1 in units of c sqrt(gamma0'') = {across:.4g} rad/s, "
+            f"r1 of r0 = {spin:g} rad/s, gamma1, gamma1' and gamma1'' of gamma0'' = {vertical:g}.")
 
 
 def _nutation(family):
