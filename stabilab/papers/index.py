@@ -39,7 +39,7 @@ def _of_paper(paper: Any, group: Sequence[Any]) -> list[Item]:
             item = name if name.startswith("text") else f"({name})"
             found.append(Item(paper.name, item, finding.row.says, finding.verdict,
                               f"stabilab audit {paper.name} --equation {name}"))
-    figures = of_paper(paper.figures) if paper.figures else ()
+    figures = [row for row in of_paper(paper.figures) if not row.added] if paper.figures else []
     for figure in figures:
         claims = [f for f in group if figure.number in f.row.options.get("figures", ())]
         wrong = sum(f.verdict == "wrong" for f in claims)

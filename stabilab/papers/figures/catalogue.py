@@ -13,7 +13,7 @@ from . import charged as figures_charged
 from . import major_axis as major
 from . import middle_axis as middle
 from . import minor_axis as minor
-from . import minor_map, paper
+from . import minor_map, paper, without_wheel
 from . import top as figures_top
 from .difference import words
 from .figure import Figure
@@ -105,6 +105,8 @@ FIGURES = (
            f"folds is unstable. {middle.level_departure()}", middle.projections,
            "closed forms; motions: level sets of the exact potential; fourth surface as printed: traced on a "
            f"grid of {POINTS} x {POINTS}"),
+    Figure(18, "Without a wheel: λ1 = 0 (not in the paper)", without_wheel.words, without_wheel.draw,
+           without_wheel.exactness(), added=True),
 )
 NUMBERS = tuple(f.number for f in FIGURES)
 

@@ -13,7 +13,7 @@ class Figure:
     text or a function that forms it from what is drawn; paper: the short name under which the command knows
     it, "" for the constant-torque paper; lines: a function that gives the figure's lines (panels.Row,
     columns) where it sets printed curves beside the exact motion, of which `difference` tells how far they
-    part."""
+    part; added: the paper has no such figure, and its number comes after the paper's last."""
 
     number: int
     title: str
@@ -22,6 +22,7 @@ class Figure:
     exact: str | Callable[[], str]
     paper: str = ""
     lines: Callable | None = None
+    added: bool = False
 
     @property
     def caption(self) -> str:

@@ -224,10 +224,10 @@ def costs(cases, folder: Path) -> list[dict]:
 
 def _start(folder, found, nav, groups, audit, tools, cost, around):
     """The first page: the finest picture, and what is inside."""
-    first, last = figures.FIGURES[0].number, figures.FIGURES[-1].number
+    drawn = [row.number for row in figures.FIGURES if not row.added]
     words = {
-        "constant-torque.html": f"{paper.PAPER}: tables 1 to {len(found['tables'])}, figures {first} to "
-                                f"{last}, recomputed and corrected",
+        "constant-torque.html": f"{paper.PAPER}: tables 1 to {len(found['tables'])}, figures {drawn[0]} to "
+                                f"{drawn[-1]}, recomputed and corrected",
                                 "cases.html": "; ".join(
                                     f"{title[0].lower()}{title[1:]} ({some(number, 'case')})" for title,
                                     number in groups),
