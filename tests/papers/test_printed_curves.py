@@ -5,6 +5,7 @@ import re
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
+from scipy.optimize import minimize_scalar
 from scipy.spatial import cKDTree
 
 from stabilab.papers.figures.catalogue import figure
@@ -33,6 +34,35 @@ def to_nearest(points, others):
     """The distance of each column of `points` from the nearest column of `others`."""
     points, others = (found[:, np.isfinite(found).all(axis=0)] for found in (points, others))
     return cKDTree(others.T).query(points.T)[0]
+
+
+def printed_25(alpha, radius, wheel):
+    """The left side of (25) without x^2/2; in truth the same with A and b - a for F and b."""
+    return radius**2 * np.cos(alpha) - 4 * radius * wheel * np.sin(alpha / 2) - 2 * alpha
+
+
+def top_near(alpha, radius, wheel):
+    """The height of the saddle next to alpha."""
+    return -minimize_scalar(lambda v: -printed_25(v, radius, wheel), bounds=(alpha - 0.8, alpha + 0.8)).fun
+
+
+def test_dashed_separatrices_of_figures_2_and_3_obey_the_printed_26_and_27(plt):
+    printed, true = (np.hypot(2.5, 4), B), (np.hypot(2.5 + A, 4), B - A)
+    for number in (2, 3):
+        curves = dashed(figure(number).draw(plt).axes[0])
+        said = numbers(r"off by up to ([\d.]+) at α = ([-\d.]+) on the left one and ([\d.]+) at α = ([-\d.]+)",
+                       figure(number).caption.replace("−", "-"))
+        assert len(curves) == 4
+        for turn, (alpha, x), (off, place) in zip((0, 2 * np.pi), curves[::2], (said[:2], said[2:])):
+            seen = np.isfinite(x)
+            levels = [top_near(turn - 0.15, *constants) for constants in (printed, true)]
+            assert np.abs(x**2 / 2 + printed_25(alpha, *printed) - levels[0])[seen].max() < 1e-3
+            squares = [2 * (level - printed_25(alpha, *constants))
+                       for level, constants in zip(levels, (printed, true))]
+            both = seen & (squares[1] >= 0) & (squares[0] >= 0)
+            apart = np.abs(np.sqrt(squares[0][both]) - np.sqrt(squares[1][both]))
+            assert off == pytest.approx(apart.max(), abs=0.012)
+            assert place == pytest.approx(alpha[both][apart.argmax()], abs=0.006)
 
 
 def printed_31(x1, x2, x3, side):
