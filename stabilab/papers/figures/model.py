@@ -105,12 +105,12 @@ def _wheel(ax, case, effect, sides):
 
 
 def _torque(ax, case, effect, sides):
-    look = _arrow(ax, (0, 0, 0), _along(effect.vector, 0.85), "torque M", style.VERMILION)
+    look = _arrow(ax, (0, 0, 0), _along(effect.vector, 1.0), "torque M", style.VERMILION)
     return f"constant torque M = {_vector(effect.vector)} N m", look
 
 
 def _force(ax, case, effect, sides):
-    look = _arrow(ax, (0, 0, 0), _along(effect.vector, 1.0), "force f", style.GREEN)
+    look = _arrow(ax, (0, 0, 0), _along(effect.vector, 1.1), "force f", style.GREEN)
     return f"constant force f = {_vector(effect.vector)} N", look
 
 
