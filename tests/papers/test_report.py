@@ -14,6 +14,7 @@ from stabilab.papers.audit import findings_of
 from stabilab.papers.audit import page as audit_page
 from stabilab.papers.figures import catalogue as figures
 from stabilab.papers.report import chapters, report, whole
+from stabilab.show import style
 from stabilab.show.files import manifest
 from stabilab.show.report import html, own
 from stabilab.show.surface import render_probe
@@ -116,7 +117,7 @@ def everything(tmp_path_factory, hostile):
     patch.setattr(chapters, "CHAPTERS", ())
     patch.setattr(whole, "COSTS", (("What it costs <b>", "in time", _small_page),
                                    ("Nothing", "here", lambda cases, folder, **around: None)))
-    patch.setattr(whole, "audited_papers", lambda: ("charged-axisymmetric",))
+    patch.setattr(whole, "audited_papers", lambda: ("constant-torque-gyrostat", "charged-axisymmetric-short"))
     patch.setattr(whole, "findings_of", lambda name: findings_of(name, "13"))
     try:
         return _written(tmp_path_factory, "everything", [hostile], papers=True, precision=True, workers=1)
@@ -359,14 +360,14 @@ def test_a_fault_in_a_case_writes_nothing(tmp_path):
     assert {p.name for p in tmp_path.iterdir()} == {"bad.toml"}
 
 
-def _visit(page: Path, shot: Path, width=900):
-    """Open a page in headless Chromium with its software renderer; returns the console's lines."""
+def _visit(page: Path, shot: Path, width=900, place=""):
+    """Open a page at an anchor in headless Chromium with its software renderer; returns the console's lines."""
     run = subprocess.run(
         [CHROMIUM, "--headless", "--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader",
          "--enable-unsafe-swiftshader",
          "--allow-file-access-from-files", f"--window-size={width},5000", "--virtual-time-budget=20000",
          "--enable-logging=stderr",
-         f"--user-data-dir={shot.parent / 'profile'}", f"--screenshot={shot}", page.as_uri()],
+         f"--user-data-dir={shot.parent / 'profile'}", f"--screenshot={shot}", page.as_uri() + place],
         capture_output=True, text=True, timeout=240)
     return [line for line in run.stderr.splitlines() if "CONSOLE" in line]
 
@@ -376,10 +377,10 @@ def _visit(page: Path, shot: Path, width=900):
 def test_the_space_of_the_rates_draws_in_a_browser(tmp_path):
     from PIL import Image
     index = report.write([CASES / "minor-axis-100.toml"], tmp_path / "report")
-    assert _visit(index, tmp_path / "page.png") == []
+    assert _visit(index, tmp_path / "page.png", place="#space") == []  # which unfolds its section
     pixels = np.asarray(Image.open(tmp_path / "page.png").convert("RGB")).reshape(-1, 3).astype(int)
     # of the first sheet, in some light, and let through by the white behind it: neither changes the hue
-    sky = np.array([0x56, 0xB4, 0xE9])
+    sky = np.array([int(style.SKY[n:n + 2], 16) for n in (1, 3, 5)])
     hues, hue = pixels - pixels.min(axis=1, keepdims=True), sky - sky.min()
     share = hues @ hue / (np.linalg.norm(hues, axis=1) * np.linalg.norm(hue) + 1e-9)
     # lines of the page's own blue have no red

@@ -120,6 +120,11 @@ def page(findings, path, **around) -> Path:
                       counted=counted, **around)
 
 
+def anchor(paper: str, equation: str) -> str:
+    """The anchor of a row on the page of the audit: "constant-torque-gyrostat-30"."""
+    return f"{paper}-{re.sub(r'[^A-Za-z0-9-]+', '-', equation)}"
+
+
 def count(group) -> list[tuple[str, int]]:
     """(verdict, how many) in order."""
     found = Counter(f.verdict for f in group)
@@ -130,6 +135,7 @@ def _row(paper, finding):
     row = finding.row
     return {
         "equation": row.equation,
+        "anchor": anchor(paper.name, row.equation),
         "verdict": finding.verdict,
         "condition": _in_full(finding.condition),
         "says": row.says,

@@ -8,6 +8,7 @@ from ...physics.scene import torque_axis
 from ...show.report import html, own, precision_page
 from ...show.report.workers import Task, done
 from ...show.terminal.letters import some
+from ...theories.printed.claims import MAIN
 from .. import table
 from ..audit import findings_of
 from ..audit import page as audit_page
@@ -19,7 +20,7 @@ from ..figures import catalogue as figures
 from ..figures import paper
 from ..validation import comparison as validation
 from ..validation import validated
-from . import chapters
+from . import chapters, where
 
 TITLE = "Bounded motion and spin-up of a gyrostat under constant torque"
 FINEST = 5                   # number of the figure on the start page
@@ -93,6 +94,8 @@ def pages(cases, folder: Path, tell, wanted: own.Wanted, workers=None, **around)
     _papers(folder, found, nav)
     groups = _cases(cases, folder, found, nav, around)
     audit, tools = _audit(folder, found, nav), _validation(folder, found, nav)
+    where.index([found[f"audit of {name}"] for name in audited_papers()], folder, nav=nav, here="where.html")
+    where.hard_cases(folder, nav=nav, here="hard-cases.html")
     if cost:
         html.write(folder / "cost.html", "cost.html", title="What answers cost", pages=cost, nav=nav,
                    here="cost.html")
@@ -103,7 +106,8 @@ def pages(cases, folder: Path, tell, wanted: own.Wanted, workers=None, **around)
 def _nav(cost):
     rows = [("index.html", "Start"), ("constant-torque.html", "Constant torque"),
             *((f"{one.paper}.html", one.short) for one in chapters.CHAPTERS), ("cases.html", "Cases"),
-            ("audit.html", "Printed formulas"), ("validation.html", "Other tools")]
+            ("audit.html", "Printed formulas"), ("where.html", "Where is it?"),
+            ("hard-cases.html", "Hard cases"), ("validation.html", "Other tools")]
     rows += [("cost.html", "Cost")] if cost else []
     return [{"file": file, "title": title} for file, title in rows]
 
@@ -113,9 +117,12 @@ def _papers(folder, found, nav):
     from markupsafe import Markup
     # escaped cell by cell in table.py
     rows = [one | {"html": Markup(one["html"])} for one in found["tables"]]
+    main = found[f"audit of {MAIN}"]
+    drawn = [found[f"figure {row.number}"] | {"rows": where.of_figure(*main, row.number)}
+             for row in figures.FIGURES]
     html.write(folder / "constant-torque.html", "constant_torque.html", title="Constant torque",
-               paper=paper.PAPER, tables=rows, nav=nav, here="constant-torque.html",
-               figures=[found[f"figure {row.number}"] for row in figures.FIGURES])
+               paper=paper.PAPER, tables=rows, nav=nav, here="constant-torque.html", data=where.data(),
+               claims=where.claims(*main), figures=drawn)
     for one in chapters.CHAPTERS:
         html.write(folder / f"{one.paper}.html", "chapter.html", chapter=found[f"chapter {one.paper}"],
                    nav=nav, here=f"{one.paper}.html", title=one.title)
@@ -233,6 +240,10 @@ def _start(folder, found, nav, groups, audit, tools, cost, around):
                                     number in groups),
                                     "audit.html": f"every numbered equation of five papers, tried on the "
                                                   f"equations of motion: {audit}", "validation.html": tools,
+                                                  "where.html": "every equation, figure, table and claim of "
+                                                                "the five papers, with its place",
+                                                  "hard-cases.html": "where formulas that are right on paper "
+                                                                     "lose their digits",
                                                   "cost.html": "What accuracy, many states and each effect "
                                                                "cost, measured"}
     words |= {f"{one.paper}.html": f"{one.title}: {figures.PAPERS[one.paper]}" for one in chapters.CHAPTERS}

@@ -171,6 +171,7 @@ KEYS = dict.fromkeys(("name", "title", "source", "figures", "symbols", "formulas
 WORDS = {"equation", "kind", "says", "note", "because", "defines", "residual", "test", "system"}
 NAME = re.compile(r"[A-Za-z_]\w*")
 FOLDER = Path(__file__).parent / "papers"
+MAIN = "constant-torque-gyrostat"
 
 
 @dataclass(frozen=True)
@@ -379,8 +380,8 @@ def _located(place, read_it, text, symbols):
 
 
 def papers() -> tuple[str, ...]:
-    """Names of the papers on record, in order."""
-    return tuple(sorted(path.stem for path in FOLDER.glob("*.toml")))
+    """Names of the papers on record, the main one first."""
+    return tuple(sorted((path.stem for path in FOLDER.glob("*.toml")), key=lambda name: (name != MAIN, name)))
 
 
 def paper(name: str) -> Paper:
