@@ -13,7 +13,7 @@ from ...case.lines import KeyLines
 from ...case.table import Faults, Table
 from ...case.units import unit_of
 from ...caveat import Caveat
-from ...maps.axes import value_at
+from ...maps.axes import Key, Span, value_at
 from ...maps.columns import ENERGY, PACE, RATE, TIME, Column
 from ...maps.plan import Plan
 from ...orbit.result import Fate
@@ -157,11 +157,23 @@ def scale_axes(ax: Any, x: np.ndarray, y: np.ndarray | None = None) -> None:
 def own_value(plan: Plan, dimension: int) -> float | None:
     """The value that the case itself has along a dimension, in the unit of the axis."""
     axis = plan.axes[dimension]
-    path = axis.key.paths[0]
-    value = value_at(plan.data, path)
-    table = Table(path[:-1], {path[-1]: value}, Faults(KeyLines()))
+    return value_in(plan.data, axis.key, axis.unit)
+
+
+def value_in(data: Any, key: Key, unit: str) -> float | None:
+    """The value that a case file's data have of a key, in a unit; None where they have none."""
+    path = key.paths[0]
+    table = Table(path[:-1], {path[-1]: value_at(data, path)}, Faults(KeyLines()))
     exact = table.number(path[-1])
-    return None if exact is None else float(exact / unit_of(axis.unit).size) if axis.unit else float(exact)
+    return None if exact is None else float(exact / unit_of(unit).size) if unit else float(exact)
+
+
+def own_place(spans: Sequence[Span], data: Any) -> list[float] | None:
+    """Where the case itself lies in a diagram over ranges of its numbers; None where it is outside."""
+    at = [value_in(data, span.key, span.unit) for span in spans]
+    inside = [value for value, span in zip(at, spans)
+              if value is not None and float(span.low) <= value <= float(span.high)]
+    return inside if len(inside) == len(spans) else None
 
 
 def looks(data: Any, kind: str) -> dict[int, tuple[str, str]]:

@@ -12,12 +12,14 @@ from ....maps.bifurcation.family import CURVES, Diagram
 from ... import style
 from ...axes import axes_of
 from ...units import units_of
+from ..shades import own_place
 from .labels import rows_apart
 from .words import unit
 
 CROWD = 6.0  # a component that goes to infinity is cut at so many times what nine tenths of the points reach
 # of the values above the panel: points, rows at the most, inches of the figure beside the panel
 SIZE, ROWS, MARGIN = 7.5, 3, 1.2
+OWN = {"color": style.BLACK, "linewidth": 1.0, "linestyle": (0, (1, 2))}
 LOOKS = {"stable": ("stable", "stable"), "unstable": ("unstable", "unstable"),
          "border": ("fold", "stability changes"),
          "undecided": ("dividing", "undecided")}
@@ -75,6 +77,8 @@ def _panel(ax: Any, found: Diagram, rows: list[Branch], i: int, one: float) -> N
             word = "changes meet" if found.kind == BORDERS else " and ".join(event.kinds)
             ax.plot([event.value] * len(met), met, label=word, zorder=4, **style.MARKER["degenerate"])
     span = found.family.spans[0]
+    for own in own_place(found.family.spans, found.family.data) or ():
+        ax.axvline(own, label="the case itself", zorder=3, **OWN)
     ax.set_xlim(float(span.low), float(span.high))
     heights = sorted(abs(state[i] * one) for branch in rows for state in branch.states)
     if heights and heights[-1] > CROWD * (usual := heights[int(0.9 * (len(heights) - 1))]) > 0:

@@ -8,7 +8,7 @@ from typing import Any
 from ....maps.bifurcation.family import ENDLESS
 from ....maps.bifurcation.plane import Plane, rows
 from ... import style
-from ..shades import light
+from ..shades import light, own_place
 
 LOOKS = {"fold": "fold", "pitchfork": "crossing", "crossing": "crossing", "touch": "crossing",
          "infinity": "dividing", "axis": "separatrix",
@@ -46,6 +46,9 @@ def drawn(found: Plane, size: tuple[float, float] | None, plt: Any) -> Any:
                 **style.MEANING[LOOKS[wall.kinds[0]]])
     for cusp in found.cusps:
         ax.plot(*cusp.at, label="cusp", zorder=5, clip_on=False, **style.MARKER["degenerate"])
+    if own := own_place(found.family.spans, found.family.data):
+        ax.plot(*[[value] for value in own], label="the case itself", zorder=7, clip_on=False,
+                **style.MARKER["start"] | {"markeredgecolor": "white"})
     whole = float((first.high - first.low) * (second.high - second.low))
     for region in _regions(bands, float(second.high - second.low)):
         if sum(band["area"] for band in region) > SMALL * whole:
