@@ -27,6 +27,7 @@ QUESTIONS = {"span": "states over the span", "end": "state at the end", "extreme
              "period": "period"}
 PRICED = 2.0  # digits: over less, a price of one says nothing
 EPS = 2.0**-53
+WANTED = (3, 6, 9, 12, 15, 30)  # digits whose price is told
 
 
 @dataclass(frozen=True)
@@ -80,6 +81,16 @@ class Point:
 
 
 @dataclass(frozen=True)
+class Offer:
+    """What a method asks for digits that are wanted: its setting and the seconds of its fastest run."""
+
+    method: str
+    setting: str
+    value: float
+    seconds: float
+
+
+@dataclass(frozen=True)
 class FateAnswer:
     """One way to the fate: its word and the seconds it takes."""
 
@@ -95,9 +106,9 @@ class Precision:
     """All that was measured of a case.
 
     times (n,): where states are compared, as far as the reference agrees with itself; reference: without its
-    states in outputs; sensitivity: relative change of the state over the span per relative change of the
-    start, as one random (seeded) change in the last place shows it, None where not known. left_out: (method,
-    value, why).
+    states in outputs; reference_seconds: of both its runs; sensitivity: relative change of the state over
+    the span per relative change of the start, as one random (seeded) change in the last place shows it, None
+    where not known. left_out: (method, value, why).
     """
 
     case: Any
@@ -109,6 +120,7 @@ class Precision:
     sensitivity: float | None
     left_out: tuple[tuple, ...]
     effort: str
+    reference_seconds: float = math.nan
 
     @property
     def quick(self) -> bool:
@@ -135,6 +147,23 @@ class Precision:
         """The points that no other beats in both error and time, cheapest first. The batch stands apart: it
         needs several motions at once."""
         return pareto(p for p in self.of(question) if p.lanes == 1 and not p.parts)
+
+
+    def by_digits(self, question: str = "span") -> list[tuple[int, list[Offer]]]:
+        """(digits wanted, the cheapest offer of each method that reaches them, cheapest first), as far as any
+        method does; for the states, the digits of the reference by its own run."""
+        known = [p for p in self.of(question) if p.lanes == 1 and not p.parts]
+        rows = []
+        for digits in WANTED:
+            best: dict[str, Offer] = {}
+            for p in sorted((p for p in known if p.digits >= digits), key=lambda p: p.seconds):
+                best.setdefault(p.method, Offer(p.method, p.setting, p.value, p.seconds))
+            exact = self.reference.digits[0]
+            if question == "span" and len(self.reference.t) and digits <= exact and not best:
+                best["reference"] = Offer("reference", "digits", exact, self.reference_seconds)
+            if best:
+                rows.append((digits, list(best.values())))
+        return rows
 
 
 def pareto(points) -> list[Point]:
@@ -176,8 +205,10 @@ def precision(case, effort: str = "full", until: float | None = None, progress=N
     task, most = problem(case, TIMES), EFFORTS[effort]
     tell("reference")
     period = known_period(task)
+    began = time.perf_counter()
     exact = reference(case.scene, task.start, task.times, task.equations.blocks, period is not None,
                       most.work)
+    took = time.perf_counter() - began
     points: list[Point] = []
     left_out: list[Any] = []
     for method in (m for m in methods(task, most.every)
@@ -190,7 +221,7 @@ def precision(case, effort: str = "full", until: float | None = None, progress=N
     fates = tuple(FateAnswer(name, word, *timing) for name, call in fate_methods(task) for word,
                   *timing in [_timed(call, most)])
     return Precision(case, task, exact.t, exact, tuple(points), fates, _sensitivity(task, exact),
-                     tuple(left_out), effort)
+                     tuple(left_out), effort, took)
 
 
 def _timed(call, effort):

@@ -88,6 +88,9 @@ class Method:
     lanes: int = 1
 
 
+FINE = {"taylor": 2, "reduced": 1}  # a rung of these costs little: every so-manieth is taken at least
+
+
 def methods(task: Problem, every: int = 1) -> list[Method]:
     """Every method that applies to a motion. every: rungs of each ladder to take, the last always."""
     found = []
@@ -96,7 +99,7 @@ def methods(task: Problem, every: int = 1) -> list[Method]:
                   Method("taylor-batch", "rtol", TAYLOR_LADDER[1::2], _batch, LANES)]
     found += [Method(name, "rtol", SCIPY_LADDER, _scipy(name)) for name in SCIPY_METHODS]
     found += _reduced(task) + _models(task)
-    return [thinned(m, every) for m in found]
+    return [thinned(m, min(every, FINE.get(m.name, every))) for m in found]
 
 
 def thinned(method: Method, every: int) -> Method:

@@ -269,6 +269,27 @@ def test_csv_has_a_line_for_every_point(measured):
         assert (row["method"], float(row["error"]), float(row["seconds"])) == (p.method, p.error, p.seconds)
 
 
+def test_the_table_by_digits_has_the_cheapest_and_the_second_best_of_the_points(measured):
+    """By a search of its own through the points; 30 digits only the reference has, which is none of them."""
+    rows = {row["digits"]: row for row in shown.by_digits(measured)}
+    states = [p for p in measured.of("span") if p.lanes == 1 and not p.parts]
+    for digits in (3, 6, 9, 12):
+        times = {}
+        for p in states:
+            if p.digits >= digits:
+                times[p.method] = min(p.seconds, times.get(p.method, math.inf))
+        if not times:
+            assert rows[digits]["method"] == "reference"
+            continue
+        first, *others = sorted(times, key=times.__getitem__)
+        assert rows[digits]["method"] == first and rows[digits]["seconds"] == times[first]
+        assert (rows[digits]["second"] or {}).get("method") == (others[0] if others else None)
+        assert rows[digits]["relative"] == times[first] / rows[3]["seconds"]
+    assert rows[30]["method"] == "reference" and rows[30]["seconds"] == measured.reference_seconds > 0
+    assert shown.as_dict(measured)["by_digits"] == list(rows.values())
+    assert "second best" in shown.text(measured)
+
+
 def test_picture_shows_a_panel_a_question_and_a_line_a_method(measured):
     with shown.style.drawing() as plt:
         figure = shown.picture(plt, measured)
@@ -276,7 +297,7 @@ def test_picture_shows_a_panel_a_question_and_a_line_a_method(measured):
         assert len(visible) == len(measured.questions)
         drawn = [line for line in visible[0].lines if len(line.get_xdata())
                  and line.get_marker() not in ("None", None, "")]
-        assert len(drawn) == len({p.method for p in measured.of("span")}) + 1  # the front lies under them
+        assert len(drawn) == len({p.method for p in measured.of("span")}) + 2  # the front lies under them, the reference beside
         assert len(drawn[0].get_xdata()) == len(measured.front("span")) > 1
         assert "cores" in figure.legends[0].get_title().get_text()
 

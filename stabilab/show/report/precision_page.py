@@ -7,10 +7,12 @@ from ...cost import accuracy as measuring
 from ...errors import InputError
 from ...physics.equations import derive
 from ..text.cost.precision import write
-from ..text.cost.words import caption, duration, setting, words
+from ..text.cost.words import NAMES, by_digits, caption, duration, flat, so_many, words
 from . import html
 
-PRICED = (3, 6, 9, 12)  # digits of the table over all cases
+PRICED = (3, 6, 9, 12, 15)  # digits of the table over all cases
+SHORT = {"reduced": "closed form", "reference": "many digits"}
+FIRST = "minor-axis-100"  # the motion that the page begins with, where it was measured
 
 
 def page(cases, folder, tell=None, passed=(), **around) -> Path:
@@ -32,7 +34,9 @@ def page(cases, folder, tell=None, passed=(), **around) -> Path:
             continue
         seen.add(of)
         sections.append(section)
-    return html.write(folder / "precision.html", "precision.html", cases=sections, passed=passed,
+    drawn = [section for section in sections if section["picture"]]
+    first = next((section for section in drawn if section["name"] == FIRST), drawn[0] if drawn else None)
+    return html.write(folder / "precision.html", "precision.html", cases=sections, passed=passed, first=first,
                       machine=caption(), priced=PRICED, **around)
 
 
@@ -56,11 +60,26 @@ def _section(case, folder, effort):
     if effort == "brief":
         picture = f"precision/{write(found, folder / 'precision' / f'{case.name}.png').name}"
     write(found, folder / "precision" / f"{case.name}.csv")
-    front = found.front("span")
     return {"name": case.name, "title": case.title or case.name, "words": words(found), "picture": picture,
-            "csv": f"precision/{case.name}.csv",
+            "csv": f"precision/{case.name}.csv", "flat": flat(found), "times": len(found.reference.t),
             "command": f"stabilab precision {case.path}", "error": f"{found.reference.error.max():.0e}",
-            "prices": [next((f"{duration(p.seconds)}, {p.method}" for p in front if p.digits >= n), "–")
-                       for n in PRICED],
-            "front": [{"digits": f"{p.digits:.1f}", "method": p.method, "setting": setting(p)[2:],
-                       "time": duration(p.seconds)} for p in front]}, None
+            "prices": [_price(found, digits) for digits in PRICED],
+            "rows": [_row(row) for row in by_digits(found)]}, None
+
+
+def _price(found, digits) -> str:
+    """The cheapest time for so many digits, with the method where that is no Taylor series."""
+    offers = dict(found.by_digits()).get(digits)
+    if not offers:
+        return "–"
+    best = offers[0]
+    named = "" if best.method == "taylor" else f", {SHORT.get(best.method, best.method)}"
+    return duration(best.seconds) + named
+
+
+def _row(row) -> dict:
+    second = row["second"]
+    return {"digits": row["digits"], "method": NAMES.get(row["method"], row["method"]),
+            "time": duration(row["seconds"]), "relative": so_many(row["relative"], 3),
+            "second": "" if second is None else NAMES.get(second["method"], second["method"]),
+            "its": "" if second is None else duration(second["seconds"])}

@@ -8,7 +8,7 @@ from ...cost.accuracy import EPS, digit_price
 from ...errors import InputError
 from .. import style
 from ..terminal.letters import RAISED
-from ..text.cost.words import FORMULAS, caption, methods, price, title
+from ..text.cost.words import FORMULAS, NAMES, caption, methods, price, title
 
 LOOKS = {  # method -> how its line is drawn; the same in every picture
     "taylor": {"color": style.BLUE, "marker": "o"},
@@ -20,6 +20,7 @@ LOOKS = {  # method -> how its line is drawn; the same in every picture
     "LSODA": {"color": style.GREY, "marker": ">"},
     "reduced": {"color": style.GREEN, "marker": "P"},
     "balls": {"color": style.BLACK, "marker": "X", "linestyle": "none"},
+    "reference": {"color": style.BLACK, "marker": "h", "linestyle": "none"},
     "linear": {"color": style.BLACK, "marker": "1", "linestyle": "none"},
     "corrected": {"color": style.PURPLE, "marker": "x", "linestyle": "none"},
     "printed": {"color": style.ORANGE, "marker": "*", "linestyle": "none"},
@@ -50,7 +51,7 @@ def picture(plt, found, size=None):
     for ax in axes.flat[len(questions):]:
         ax.set_visible(False)
     looks = meanings(found, questions, size is None or size[0] >= usual[0])
-    style.legend(figure, looks, columns=(4 if columns == 2 else 2) if size is None
+    style.legend(figure, looks, columns=(3 if columns == 2 else 1) if size is None
                  else style.fitting([name for name, _ in looks], size[0]))
     figure.suptitle(f"{found.case.name}: what accuracy costs", fontsize=11 * style.share(), parse_math=False)
     if size is not None and style.share() < 1:
@@ -76,14 +77,15 @@ def meanings(found, questions=None, prices=True) -> list[tuple[str, dict]]:
     """Rows (name, look) of the legend: the methods that were measured, of some questions or of all, with the
     price of a digit or alone, and the front."""
     asked = [p.method for p in found.points if questions is None or p.question in questions]
-    methods_drawn = [(_legend(found, m) if prices else m, LOOKS[m]) for m in LOOKS if m in asked]
+    asked += ["reference"] * ("span" in (questions or found.questions))
+    methods_drawn = [(_legend(found, m) if prices else NAMES.get(m, m), LOOKS[m]) for m in LOOKS
+                     if m in asked]
     return [*methods_drawn, ("front: no single run beats it" if prices else "front", FRONT)]
 
 
 def _legend(found, method) -> str:
     factor = next((f for q in found.questions if (f := digit_price(found.of(q, method))) is not None), None)
-    name = (f"{method} (a motion of {found.of('span', method)[0].lanes})" if method == "taylor-batch"
-            else method)
+    name = NAMES.get(method, method)
     return name if factor is None else f"{name}: {price(factor)} a digit"
 
 
@@ -101,6 +103,14 @@ def panel(ax, found, question):
         ax.plot(x, y, markersize=5, linewidth=1.3, zorder=3, **LOOKS[method])
         if method in FORMULAS and points:
             ax.axvline(min(x), color=LOOKS[method]["color"], linewidth=0.8, linestyle=":", zorder=1)
+        for p in (points[0], points[-1]) if len(points) > 1 and points[0].setting == "rtol" else ():
+            ax.annotate(f"{p.value:.0e}".replace("e-0", "e-"), (_clipped(p.error), p.seconds), (0, 5),
+                        textcoords="offset points", ha="center", fontsize=6.5 * style.share(),
+                        color=LOOKS[method]["color"])
+    if question == "span":
+        ax.plot([LEAST], [found.reference_seconds], markersize=7, clip_on=False, **LOOKS["reference"])
+        ax.annotate(f"{found.reference.digits[0]} digits", (LEAST, found.reference_seconds), (-7, 0),
+                    textcoords="offset points", ha="right", va="center", fontsize=7 * style.share())
     if question in ("span", "end") and found.sensitivity is not None:
         ax.axvline(_clipped(found.sensitivity * EPS), color=style.GREY, linestyle="--", linewidth=0.9)
         ax.annotate("last place of the start", (_clipped(found.sensitivity * EPS), 0.98),

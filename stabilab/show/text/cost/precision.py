@@ -12,7 +12,7 @@ from ... import limiting, style
 from ...files import comma, endings
 from ...report.precision_picture import picture
 from ...terminal.letters import written
-from .words import caption, duration, methods, setting, title, words
+from .words import NAMES, by_digits, caption, duration, flat, methods, setting, title, words
 
 COLUMNS = ("case", "question", "method", "setting", "value", "error", "digits", "steps", "evaluations",
            "seconds", "slowest",
@@ -31,8 +31,21 @@ def text(found) -> str:
                   f"  {'method':<13}{'setting':<13}{'error':>8}{'digits':>8}{'steps':>8}{'rates':>8}"
                   f"{'time':>10}{'compile':>9}"]
         lines += [_line(p, id(p) in front) for p in found.of(question)]
+    lines += ["", *_by_digits(found)] * bool(found.by_digits())
     lines += [f"  left out: {line}" for line in _left_out(found)]
     return "\n".join([*lines, "", *told, "", caption()])
+
+
+def _by_digits(found):
+    """The table by digits wanted: the cheapest method, its time, that of fewest digits as one, the second."""
+    lines = [f"{'digits':>6}  {'cheapest':<40}{'time':>10}{'times 3 digits':>16}  second best"]
+    for row in by_digits(found):
+        second = row["second"]
+        other = "" if second is None else f"{NAMES.get(second['method'], second['method'])}: " + duration(
+            second["seconds"])
+        lines.append(f"{row['digits']:>6}  {NAMES.get(row['method'], row['method']):<40}"
+                     f"{duration(row['seconds']):>10}{row['relative']:>16.3g}  {other}".rstrip())
+    return [*lines, *filter(None, [flat(found)])]
 
 
 def _left_out(found):
@@ -67,6 +80,7 @@ def as_dict(found) -> dict:
             "sensitivity": found.sensitivity, "points": [_row(found, p) for p in found.points],
             "digit_price": {q: {m: digit_price(found.of(q, m)) for m in methods(found, q)}
                             for q in found.questions},
+            "by_digits": by_digits(found),
             "fates": [vars(f) for f in found.fates],
             "left_out": [{"method": m, "value": v, "reason": why} for m, v, why in found.left_out],
             "words": words(found)}

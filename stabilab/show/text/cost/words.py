@@ -9,6 +9,11 @@ from ....processes import machine, versions
 from ...terminal.letters import some, written
 
 FORMULAS = ("linear", "corrected", "printed", "averaged1", "averaged2", "lindstedt")
+NAMES = {"taylor": "Taylor series (heyoka)",
+         "taylor-batch": "Taylor series, four at once (heyoka)",
+         "reduced": "reduced equation, closed form", "balls": "ball arithmetic",
+         "reference": "series in many digits, twice"} | {
+             name: f"{name} (SciPy)" for name in SCIPY_METHODS}
 WANTED = (3, 6, 9, 12, 15)  # digits whose price the words tell
 SPAN = re.compile(r"(up to t = [\d.e+-]+ of [\d.e+-]*\d)")
 BLAMED = 20  # an error this many times the effect of the start's last place has other causes
@@ -81,6 +86,34 @@ def _moment(found):
     """The last time that is judged, with its unit."""
     last = f"{found.reference.t[-1]:.6g}"
     return f"τ = {last}" if found.case.variables == "scaled" else f"t = {last} s"
+
+
+def by_digits(found, question: str = "span") -> list[dict]:
+    """A row for all digits wanted that cost the same: the cheapest method, what it takes, how many times the
+    price of the fewest digits that is, and the second best."""
+    rows: list[dict] = []
+    offers = found.by_digits(question)
+    for digits, (best, *others) in offers:
+        relative = best.seconds / offers[0][1][0].seconds
+        rows.append({"digits": digits, "method": best.method, "setting": best.setting, "value": best.value,
+                     "seconds": best.seconds, "relative": relative,
+                     "second": None if not others else {"method": others[0].method,
+                                                        "setting": others[0].setting,
+                                                        "value": others[0].value,
+                                                        "seconds": others[0].seconds}})
+    return rows
+
+
+def flat(found) -> str:
+    """Why more digits cost a Taylor series little: it takes as many steps, of a higher order."""
+    points = found.of("span", "taylor")
+    if len(points) < 2 or not (points[0].steps and points[-1].steps):
+        return ""
+    first, last = points[0], points[-1]
+    order = [round(p.evaluations / p.steps) for p in (first, last)]
+    return (f"The Taylor series takes {first.steps} steps at rtol {first.value:.0e} and {last.steps} at "
+            f"{last.value:.0e}; its order rises from {order[0]} to {order[1]}: digits are bought with the "
+            f"order, which costs little.")
 
 
 def _merged(prices):
