@@ -8,11 +8,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 
 from stabilab.errors import InputError
 from stabilab.papers import audit
 from stabilab.papers.audit.checks import bound_of, decide, pairs, raw, system_of
 from stabilab.papers.audit.findings import domain_of, edits, examine, prove_systems, repairs
+from stabilab.papers.audit.special import trend
 from stabilab.theories.cavity import model as cavity
 from stabilab.theories.charged import model as charged
 from stabilab.theories.printed.claims import FormulaError, parse, read, sides
@@ -329,3 +331,33 @@ def test_formulas_that_plainly_differ_are_not_multiplied_out(monkeypatch):
     assert decide([((x + 1)**2, x**2 + 2)], {}, None, "seed").holds is False and not seen
     found = decide([((x + 1)**2, x**2 + 2*x + 1)], {}, None, "seed")
     assert found.holds and found.method == "symbols" and seen
+
+
+# counted by hand: steps of 1, 3, 2, 2
+@pytest.mark.parametrize("goes, missed", [("rises", 2), ("falls", 2), ("stays", 2)])
+def test_steps_that_do_not_go_as_said_are_counted(goes, missed):
+    assert trend.missed([1, 3, 2, 2], goes) == missed
+    assert trend.missed([1, 1 + 1e-12], goes) == (goes != "stays")  # rounding is no change
+
+
+def test_claims_about_the_major_axis_agree_with_an_independent_integrator():
+    """DOP853 on (41) typed in by hand, where the audit takes Taylor steps."""
+    def run(a, b, start):
+        return solve_ivp(lambda t, x: [1 + x[1] * x[2], -x[2] * (x[0] + a), x[1] * (x[0] + b)], (0, 15), start,
+                         "DOP853", np.linspace(0, 15, 15001), rtol=1e-11, atol=1e-12).y
+
+    least = [run(lam / 500, lam / 250, (4.5, 1.8, 3.4))[0].min() for lam in (100, 300, 500)]
+    assert np.diff(least).min() > 0.05  # text-fig8-3: it rises
+    assert run(0.6, 1.2, (0, -1, 5))[2].min() > 2  # text-fig12-4: captured until the figure ends
+    assert run(1, 2, (0, -1, 5))[2].min() < 0  # text-fig12-5
+    for equation, verdict in (("text-fig8-3", "wrong"), ("text-fig12-4", "wrong"), ("text-fig12-5", "holds")):
+        assert examine(PAPERS["constant-torque-gyrostat"],
+                       row_of("constant-torque-gyrostat", equation)).verdict == verdict
+
+
+def test_claims_of_the_loops_are_wrong_where_the_other_way_round_is_said():
+    """A claim that holds with its word turned round is not so: the arguments of a row reach its test."""
+    name = "constant-torque-gyrostat"
+    row = row_of(name, "text-fig4-loops-500")
+    turned = replace(row, options=row.options | {"with": {"lambda1": 500, "smaller": "right"}})
+    assert (examine(PAPERS[name], row).verdict, examine(PAPERS[name], turned).verdict) == ("holds", "wrong")

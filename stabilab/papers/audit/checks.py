@@ -268,11 +268,12 @@ CHECKS = {"holds": _holds, "order": _holds, "solves": _solves, "equilibrium": _e
 
 def residuals_of(row: Row):
     """(residual of the printed claim, of the corrected one) by the test that the row names, `module:test`, of
-    the modules in `special`."""
+    the modules in `special`, with the arguments that the row gives."""
     module, _, function = row.options["test"].partition(":")
     try:
         return tuple(abs(float(v))
-                     for v in import_module(f".special.{module}", __package__).TESTS[function]())
+                     for v in import_module(f".special.{module}", __package__).TESTS[function](
+                         **row.options.get("with", {})))
     except (ModuleNotFoundError, KeyError) as error:
         raise InputError(f"{row.place}: no function {row.options['test']!r} ({error})") from None
 

@@ -74,11 +74,15 @@ def counted(verdict: str, count: int) -> str:
     return one if count == 1 else many
 
 
-def figures_changed(row, paper: str) -> str:
-    """The command that draws the figures which a wrong formula changes, as printed and in truth; "" where it
-    changes none."""
-    numbers = " ".join(map(str, row.options.get("figures", ())))
-    return f"stabilab figures --paper {paper} {numbers}" if numbers and paper else ""
+def figures_of(finding, paper: str) -> tuple[str, str]:
+    """(words, command that draws) of the figures which a row is about; ("", "") where it is about none. A
+    wrong formula changes them: they are drawn as printed and in truth."""
+    numbers = " ".join(map(str, finding.row.options.get("figures", ())))
+    if not (numbers and paper):
+        return "", ""
+    changes = finding.verdict in ("wrong", "only-if") and not finding.row.equation.startswith("text")
+    words = "changes figures, drawn both ways with the size of the difference" if changes else "about figures"
+    return words, f"stabilab figures --paper {paper} {numbers}"
 
 
 def _paragraph(finding, width, paper=""):
@@ -97,8 +101,8 @@ def _paragraph(finding, width, paper=""):
                  + (f", residual {finding.residual:.2g}" if finding.verdict in ("wrong", "only-if") else ""))
     if finding.unit_fault and finding.verdict != "wrong":
         lines.append(f"units: {finding.unit_fault}")
-    if command := figures_changed(row, paper):
-        lines.append(f"changes figures, drawn both ways with the size of the difference by: {command}")
+    about, command = figures_of(finding, paper)
+    lines += [f"{about}, by: {command}"] if about else []
     wrapped = [textwrap.fill(lettered(line), width, subsequent_indent=" " * 15,
                              initial_indent=" " * (13 if n else 0)) for n, line in enumerate(lines)]
     return "\n".join(wrapped)
@@ -148,7 +152,7 @@ def _row(paper, finding):
         "method": finding.method,
         "unit_fault": finding.unit_fault,
         "residual": f"{finding.residual:.2g}" if finding.verdict in ("wrong", "only-if") else "",
-        "figures": figures_changed(row, paper.figures),
+        "figures": figures_of(finding, paper.figures),
         "note": row.options.get("note", ""),
     }
 

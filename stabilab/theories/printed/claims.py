@@ -151,6 +151,7 @@ ROW_KEYS = {
     "small",
     "order",
     "test",
+    "with",
     "defines",
     "because",
     "bound",

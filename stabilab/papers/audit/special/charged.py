@@ -3,10 +3,14 @@ the paper solves, with the paper's data."""
 from __future__ import annotations
 
 import math
+from functools import lru_cache
+
+import numpy as np
 
 from ....theories.charged.closed_form import solution
 from ....theories.charged.model import circle
 from ....theories.charged.modes import ChargedBody
+from .trend import side, trend
 
 FIELD = 100.0 * 1.02**2 * math.cos(0.37)  # H l^2 cos(sigma)
 STEPS = {"wheel": (1.3, 1.6, 1.9), "charge": (0.001, 0.003, 0.005), "torque": (4.0, 4.5, 5.0)}
@@ -44,8 +48,6 @@ def _proportion():
 
 def _circle():
     """Change of the largest |G1 + i G2| of (35) between M1 = 4 and 5; its departure from proportionality."""
-    import numpy as np
-
     period = 2 * math.pi / _body().spin
     widths = [float(np.hypot(*circle(_body(torque=M1), np.array(period / 2)))) for M1 in (4.0, 5.0)]
     return widths[1] / widths[0] - 1, widths[1] / widths[0] - 1.25
@@ -65,7 +67,52 @@ def _axial(names, good):
     return missed, largest
 
 
+@lru_cache
+def _run(parameter, value):
+    return solution(_body(**{parameter: value}), np.linspace(0, END, 10001))
+
+
+def _of(part, axis, measure, parameter, value) -> float:
+    """A measure of one component of the linear motion over the 50 s of the figures."""
+    run = _run(parameter, value)
+    x = getattr(run, part)[:, axis - 1]
+    rest = x - np.polyval(np.polyfit(run.t, x, 1), run.t)
+    return float({"amplitude": np.ptp(x) / 2, "end": x[-1], "growth": np.polyfit(run.t, x, 1)[0],
+                  "amplitude about its growth": np.ptp(rest) / 2, "least": x.min(),
+                  "turns": (np.diff(np.sign(np.diff(x))) != 0).sum()}[measure])
+
+
+def _trend(part, axis, measure, parameter, goes, truth=""):
+    """How a measure goes along the paper's values of a parameter, in the paper's linear model."""
+    pairs = [trend([_of(part, one, measure, parameter, value) for value in STEPS[parameter]], goes, truth)
+             for one in ([axis] if isinstance(axis, int) else axis)]
+    return tuple(map(sum, zip(*pairs)))
+
+
+def _circle_trend(parameter):
+    """How the radius of (35) goes: it holds neither wheel nor charge."""
+    period = 2 * math.pi / _body().spin
+    return trend([float(np.hypot(*circle(_body(**{parameter: value}), np.array(period / 2))))
+                  for value in STEPS[parameter]], "stays")
+
+
+def _pointing():
+    """Mean direction of the linear model's velocity at 1e5 s less M1/(D3 r0^2), as printed, and less M1/(r0
+    (D3 r0 + lambda3 - charge's moment)), relative."""
+    body = _body()
+    velocity = solution(body, np.linspace(0.9e5, 1e5, 2001)).velocity
+    seen = float((velocity[:, 1] / velocity[:, 2]).mean())
+    M1, D3, r0 = body.torque[0], body.inertia[2], body.spin
+    held = D3 * r0 + body.gyrostat - body.charge_moment
+    return seen / (M1 / (D3 * r0**2)) - 1, seen / (M1 / (r0 * held)) - 1
+
+
 TESTS = {
+    "trend": _trend,
+    "circle trend": _circle_trend,
+    "pointing": _pointing,
+    "side": lambda part, axis, parameter, lies: side(
+        min(_of(part, axis, "least", parameter, value) for value in STEPS[parameter]), lies),
     "wheel lowers": lambda: (_steps("wheel", lambda amplitude, wavelength: amplitude < 0 and wavelength < 0),
                              0),
     "charge wavelength": lambda: (_steps("charge", lambda amplitude, wavelength: wavelength < 0),

@@ -3,6 +3,9 @@ equations, with the paper's data."""
 from __future__ import annotations
 
 import math
+from functools import lru_cache
+
+import numpy as np
 
 from ....physics.effects.charge import Charge
 from ....physics.effects.constant_torque import ConstantTorque
@@ -12,6 +15,7 @@ from ....physics.effects.resistance import Resistance
 from ....physics.scene import Body, Scene
 from ....theories.cavity.averaged import averaged
 from ....theories.cavity.normal_form import constants
+from .trend import trend
 
 MOMENTS, EPS, DENSITY, P0 = (9.51, 9.3, 9.0), 0.1, 1250.0, 1.9
 START, END = (1.0, 0.0, 1.0), 20.0  # rad/s, s
@@ -19,11 +23,11 @@ WHEELS = ((0.1, 0.15, 0.2), (15.0, 20.0, 25.0))
 RESISTANCES = (1.5, 2.0, 2.5)
 
 
-def scene(wheel=0.1, charge=0.01, zeta=2.0) -> Scene:
+def scene(wheel=0.1, charge=0.01, zeta=2.0, torque=-6.0) -> Scene:
     """The paper's body, its unvaried data completed as in the cases."""
     return Scene(Body(MOMENTS), Gyrostat((0, 0, wheel)), Charge(charge, 100, 0.01, 0.3),
                  LiquidCavity(DENSITY, 1000, P0),
-                 Resistance(EPS**2 * zeta), ConstantTorque((0, 0, -6 * EPS**2)))
+                 Resistance(EPS**2 * zeta), ConstantTorque((0, 0, torque * EPS**2)))
 
 
 def _frequency(one: Scene) -> float:
@@ -72,4 +76,27 @@ def _charge():
                - 1), abs(_frequency(charged) / _frequency(instead) - 1)
 
 
-TESTS = {"mass": _mass, "wheel frequency": _wheel, "resistance": _resistance, "charge": _charge}
+STEPS = {"zeta": RESISTANCES, "torque": (-3.0, -6.0, -9.0), "wheel": WHEELS[1]}
+
+
+@lru_cache
+def _run(parameter, value):
+    return averaged(scene(**{parameter: value}), START, np.linspace(0, END, 401))
+
+
+def _trend(quantity, parameter, goes, truth=""):
+    """How amplitude or spin at 20 s, or the angle by which (p, q) has turned, goes along the paper's values.
+    """
+    return trend([abs(float(getattr(_run(parameter, value), quantity)[-1])) for value in STEPS[parameter]],
+                 goes, truth)
+
+
+def _turns_back(parameter):
+    """How many of the three motions have their largest phase at the end; how many have not."""
+    grown = sum(int(_run(parameter, value).phase.argmax()) == 400 for value in STEPS[parameter])
+    return grown, len(STEPS[parameter]) - grown
+
+
+TESTS = {"trend": _trend, "turns back": _turns_back,
+         "mass": _mass, "wheel frequency": _wheel,
+         "resistance": _resistance, "charge": _charge}

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 
 import numpy as np
 
@@ -11,6 +12,7 @@ from ....physics.coefficients import scaling
 from ....physics.scene import Body, ScaledGyrostat
 from .any_torque import major_axis_ideal
 from .constant_torque import middle_equilibria, misjudged
+from .trend import side, trend
 
 # Figs 8-11: ranges of x2 and x3 over tau in [0, 15] from (4.5, 1.8, 3.4); lambda1 -> ((x2), (x3)); printed in
 # the
@@ -30,6 +32,35 @@ def _ranges(table):
             states = np.asarray(run.states)[:, row]
             worst = max(worst, abs(states.min() - low), abs(states.max() - high))
     return worst
+
+
+STARTS = {"8": (4.5, 1.8, 3.4), "12": (0.0, -1.0, 5.0)}  # of Figs 8-11 and 12-15
+QUANTITIES = {"least x1": lambda x: x[:, 0].min(), "least x3": lambda x: x[:, 2].min(),
+              "width of x1": lambda x: np.ptp(x[:, 0]), "last x1": lambda x: x[-1, 0],
+              "sign changes of x2": lambda x: int((np.diff(np.sign(x[:, 1])) != 0).sum())}
+
+
+@lru_cache
+def _quantity(name, figure, lambda1, end=15):
+    """A quantity of the motion of Fig. 8 or 12 over tau in [0, end]."""
+    run = trajectory(ScaledGyrostat(lambda1 / 500, lambda1 / 250, (1, 0, 0)), STARTS[figure],
+                     np.linspace(0, end, 15001))
+    return float(QUANTITIES[name](np.asarray(run.states)))
+
+
+def _trend(quantity, figure, goes, truth="", wheels=(100, 300, 500)):
+    return trend([_quantity(quantity, figure, lam) for lam in wheels], goes, truth)
+
+
+def _side(quantity, figure, lambda1, lies):
+    return side(_quantity(quantity, figure, lambda1), lies)
+
+
+def _spins_up():
+    """How many of the motions of Fig. 8 do not gain 100 of x1, to 1 %, over tau from 300 to 400."""
+    gains = [_quantity("last x1", "8", lam, 400) - _quantity("last x1", "8", lam, 300)
+             for lam in (100, 300, 500)]
+    return sum(abs(gain - 100) > 1 for gain in gains), 0
 
 
 def _capture():
@@ -99,6 +130,11 @@ def _spin_plane_rate(c):
 TESTS = {
     "major equilibria": lambda: (major_axis_ideal("1/5", "2/5"), major_axis_ideal("1/5", "1/5")),
     "major stability": _major_rule,
+    "trend": _trend,
+    "side": _side,
+    "spin-up": _spins_up,
+    # least x2' in the plane x1 + b = -x3, 1 - c^2/4 at c = 0.2: a closed path needs 0; the plane is kept
+    "spin-up off the planes": lambda: (1 - 0.2**2 / 4, abs(1.3 * 2.5 + 1.3 * (-2.5 - 0.4 + 0.4))),
     "ranges": lambda: (_ranges(RANGES_PRINTED), _ranges(RANGES_TRUE)),
     "capture": _capture,
     "seconds": lambda: (1 - math.sqrt(1 / 12), _time_scale() - math.sqrt(12)),

@@ -3,6 +3,10 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+
+from ....answers.simulate import trajectory
+from ....physics.scene import ScaledGyrostat
 from .constant_torque import minor_equilibria, misjudged
 
 # Saddles and centres of Fig. 4 in alpha = 2 atan2(x1 + a, x2): lambda1 -> (left saddle, right saddle, left
@@ -31,13 +35,10 @@ def _fig4(table, pull: bool):
 def _fold_radius():
     """Circles x2^2 + (x1+a)^2 = A^2 that carry an equilibrium: smallest A found on the hyperbola, against the
     printed root of 2 and against the true smaller fold radius, for c = 0.2 (lambda1 = 100)."""
-    import numpy as np
     c = 0.2
     heights = np.concatenate([-np.geomspace(0.1, 10, 40001), np.geomspace(0.1, 10, 40001)])
     smallest = np.sqrt(np.min(heights**2 + (c + 1 / heights) ** 2))
-    folds = [h.real for h in np.roots([1, 0, 0, -c, -1]) if abs(h.imag) < 1e-12]
-    least = min(math.sqrt(h * h + h**6) for h in folds)
-    return smallest - math.sqrt(2), smallest - least
+    return smallest - math.sqrt(2), smallest - _fold_radius_of(c)
 
 
 def _line(x):
@@ -64,10 +65,8 @@ def _contact_points(shifted: bool):
     """x2 (x1 + b) + 1 at the merging points of saddle and centre, b = 0.4."""
     if not shifted:
         return (-1 + 0.4) * 1 + 1
-    import numpy as np
     c = 0.2
-    folds = [h.real for h in np.roots([1, 0, 0, -c, -1]) if abs(h.imag) < 1e-12]
-    slope = [(-1 / h) * (-1 / h - c) - h * h for h in folds]  # (x1+b)(x1+a) - x2^2 vanishes at a fold
+    slope = [(-1 / h) * (-1 / h - c) - h * h for h in _folds(c)]  # (x1+b)(x1+a) - x2^2 vanishes at a fold
     return max(abs(v) for v in slope)
 
 
@@ -121,10 +120,89 @@ def _loop_area(lam, side):
     return 2 * quad(lambda al: math.sqrt(max(square(al), 0.0)), end, saddle)[0]
 
 
-def _smaller_right_loop():
-    """By how much the order of the areas fails at lambda1 = 300: right below left, and left below right."""
-    left, right = (_loop_area(300, side) for side in (0, 1))
-    return max(0.0, right - left), max(0.0, left - right)
+def _loop_order(lambda1, smaller):
+    """By how much the order of the areas fails: the loop named ("left", "right") below the other, and above.
+    """
+    left, right = (_loop_area(lambda1, side) for side in (0, 1))
+    return (max(0.0, left - right), max(0.0, right - left))[::1 if smaller == "left" else -1]
+
+
+def _saddles():
+    """How many saddles less than two, or more, the circles of Fig. 4 carry; roots in tan(alpha/4)."""
+    found = []
+    for lam in FIG4_TRUE:
+        a, b = lam / 500, lam / 250
+        A = math.hypot(2.5 + a, 4)
+        found.append(sum(_is_saddle(h, b - a) for h in _heights(A, b - a)))
+    return sum(abs(number - 2) for number in found), 0
+
+
+def _heights(A, c):
+    """x2 of the equilibria on the circle of radius A: h^2 + (c + 1/h)^2 = A^2."""
+    roots = np.roots([1, 0, c * c - A * A, 2 * c, 1])
+    return [float(h.real) for h in roots if abs(h.imag) < 1e-9]
+
+
+def _is_saddle(h, c):
+    return h**4 - c * h - 1 > 0
+
+
+def _folds(c):
+    """x2 of the points at which saddle and centre merge: (left, right)."""
+    left, right = sorted((h.real for h in np.roots([1, 0, 0, -c, -1]) if abs(h.imag) < 1e-12), reverse=True)
+    return left, right
+
+
+def _fold_radius_of(c):
+    """Radius of the smallest circle that carries an equilibrium."""
+    return min(math.sqrt(h * h + h**6) for h in _folds(c))
+
+
+def _wells(A, c):
+    """x2 of the centres on the circle of radius A."""
+    return [h for h in _heights(A, c) if not _is_saddle(h, c)]
+
+
+def _stable_parts():
+    """How many more or fewer than two parts of the hyperbola are stable, lambda1 = 100."""
+    h = np.concatenate([np.linspace(-5, -1e-3, 5000), np.linspace(1e-3, 5, 5000)])
+    stable = np.concatenate([[False], (1 / h) * (1 / h + 0.2) > h * h, [False]])
+    stable = np.insert(stable, 5001, False)  # the two branches do not meet at h = 0
+    return abs(int((np.diff(stable.astype(int)) == 1).sum()) - 2), 0
+
+
+def _arc(inside):
+    """Turns of (x1 + a, x2) on its circle, A = 4.826, lambda1 = 100: short of one whole turn, and beyond.
+    inside: from (2.5, 4, 0.1), in a loop; else from (2.5, 4, 6)."""
+    run = trajectory(ScaledGyrostat(0.2, 0.4, (0, 0, 1)), (2.5, 4.0, 0.1 if inside else 6.0),
+                     np.linspace(0, 40, 8001))
+    x = np.asarray(run.states)
+    turns = float(np.ptp(np.unwrap(np.arctan2(x[:, 0] + 0.2, x[:, 1])))) / (2 * math.pi)
+    return (max(0.0, turns - 1), max(0.0, 1 - turns))[::1 if inside else -1]
+
+
+def _ways(lambda1):
+    """Share of motions outside the loops, from either direction, that turn the same way in the end: what a
+    claim of two ways denies; share of the others."""
+    scene = ScaledGyrostat(lambda1 / 500, lambda1 / 250, (0, 0, 1))
+    ends = [trajectory(scene, (2.5, 4.0, x3), (0.0, 60.0)).states[-1][2] for x3 in (-9.0, -7.0, 6.0, 8.0)]
+    up = sum(end > 0 for end in ends) / len(ends)
+    return up, 1 - up
+
+
+def _merging_sides():
+    """Distance of the point at which the left saddle and centre merge without a wheel, (17) with F^2 = 2 and
+    alpha = asin(-1), from (1, -1), and from (-1, 1)."""
+    x1, x2 = math.sqrt(2) * math.sin(-math.pi / 4), math.sqrt(2) * math.cos(-math.pi / 4)
+    return math.hypot(x1 - 1, x2 + 1), math.hypot(x1 + 1, x2 - 1)
+
+
+def _where_separatrices_end():
+    """Radius of the circle of a separatrix's end less that of its start, for the print's end on the circle
+    of radius sqrt(2), and for the saddles of the circle itself (lambda1 = 100)."""
+    A, c = math.hypot(2.7, 4), 0.2
+    ends = [math.hypot(h, c + 1 / h) for h in _heights(A, c) if _is_saddle(h, c)]
+    return A - math.sqrt(2), max(abs(end - A) for end in ends)
 
 
 TESTS = {
@@ -132,7 +210,19 @@ TESTS = {
     "fold radius": _fold_radius,
     "positions": lambda: (_fig4(FIG4_PRINTED, True), _fig4(FIG4_TRUE, False)),
     "repetition": lambda: (_repeated(1), _repeated(2)),
-    "loop areas": _smaller_right_loop,
+    "loop areas": _loop_order,
+    "two separatrices": _saddles,
+    "stable parts": _stable_parts,
+    "arc": _arc,
+    "ways": _ways,
+    # centres missing on a circle of radius 1.2 (lambda1 = 100); smallest circle with one less the fold's
+    "every radius": lambda: (1 - len(_wells(1.2, 0.2)), len(_wells(1.2, 0.2))),
+    # a centre inside the circle of Figs 2 and 3: by how much
+    "inside": lambda: (math.hypot(2.7, 4) - _fold_radius_of(0.2), 0),
+    # wells on the circle of radius sqrt(2), lambda1 = 100: 1, on the right, x2 < 0
+    "figure 7": lambda: (abs(sum(1 if h < 0 else 2 for h in _wells(math.sqrt(2), 0.2)) - 1), 0),
+    "merging sides": _merging_sides,
+    "end of a separatrix": _where_separatrices_end,
     "dividing line": _dividing,
     "figure 6 item 4": lambda: (_item4(), _loop_ends()),
     "merging": lambda: (_contact_points(False), _contact_points(True)),
