@@ -68,7 +68,6 @@ def made(path: Path, folder: Path) -> dict:
     from stabilab.show.plot import write
     from stabilab.show.plot.subject import subject
     from stabilab.show.terminal.letters import greek, written
-    from stabilab.show.text import law
     from stabilab.show.text.headline import headline
     case, *others = load_all(path)
     one = subject(case)
@@ -77,7 +76,7 @@ def made(path: Path, folder: Path) -> dict:
     first = f"The first of {1 + len(others)} combinations is drawn: " if others else ""
     return {"title": written(case.title), "source": written(case.source or ""), "group": group(case),
             "kind": which.default(one),
-            "answer": first + greek(law.warned(law.of_case(case), headline(case, one.motion)))}
+            "answer": first + greek(headline(case, one.motion))}
 
 
 def program() -> str:
