@@ -88,7 +88,7 @@ class Method:
     lanes: int = 1
 
 
-FINE = {"taylor": 2, "reduced": 1}  # a rung of these costs little: every so-manieth is taken at least
+FINE = {"taylor": 1, "reduced": 1}  # a rung of these costs little: every so-manieth is taken at least
 
 
 def methods(task: Problem, every: int = 1) -> list[Method]:

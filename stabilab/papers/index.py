@@ -26,8 +26,14 @@ class Item:
     place: str
 
 
+NAMED = ("data", "figure", "table")  # items whose verdict is in words
+# paper -> the case file that its data begin with
+DATA = {"constant-torque": "minor-axis-100", "charged": "charged-sweep", "cavity": "liquid-base",
+        "top": "top-lx30-lz30"}
+
+
 def items(findings: Sequence[tuple[Any, Sequence[Any]]]) -> list[Item]:
-    """Of (paper, findings of the audit) pairs: equations and claims in order, then figures, then tables."""
+    """Of (paper, findings of the audit) pairs: equations and claims in order, then data, figures, tables."""
     return [item for paper, group in findings for item in _of_paper(paper, group)]
 
 
@@ -39,6 +45,10 @@ def _of_paper(paper: Any, group: Sequence[Any]) -> list[Item]:
             item = name if name.startswith("text") else f"({name})"
             found.append(Item(paper.name, item, finding.row.says, finding.verdict,
                               f"stabilab audit {paper.name} --equation {name}"))
+    if paper.figures:
+        found.append(Item(paper.name, "data", "of its figures and tables", "in case files as it prints them; "
+                          "what it leaves out is completed there, and said",
+                          f"stabilab show cases/{DATA[paper.figures]}.toml"))
     figures = [row for row in of_paper(paper.figures) if not row.added] if paper.figures else []
     for figure in figures:
         claims = [f for f in group if figure.number in f.row.options.get("figures", ())]
@@ -80,8 +90,8 @@ def text(findings: Sequence[tuple[Any, Sequence[Any]]]) -> str:
 
 
 def _verdict(row: Item) -> str:
-    return row.verdict if row.item.startswith(("figure", "table")) else counted(row.verdict, 1)
+    return row.verdict if row.item.startswith(NAMED) else counted(row.verdict, 1)
 
 
 def _shown(row: Item) -> str:
-    return f" -> {row.place}" if row.item.startswith(("figure", "table")) and row.place else ""
+    return f" -> {row.place}" if row.item.startswith(NAMED) and row.place else ""

@@ -18,6 +18,7 @@ def test_every_equation_figure_and_table_has_a_verdict_and_a_place(stabilab, pap
     assert {f"({n})" for n in range(1, equations + 1)} <= {item.rstrip("abcd)") + ")" for item in numbered}
     assert {item for item in items if item.startswith("figure")} == {f"figure {n}" for n in range(1, figures + 1)}
     assert {item for item in items if item.startswith("table")} == {f"table {n}" for n in tables}
+    assert items["data"] == 1
     assert all(row["verdict"] for row in rows)
     assert all(row["place"] for row in rows)
 

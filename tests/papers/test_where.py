@@ -37,7 +37,7 @@ def folder(tmp_path_factory):
                data=where.data(), claims=where.claims(*found[0]),
                figures=[figure | {"number": row.number} for row in catalogue.of_paper(main)])
     for name in others:
-        chapter = {"id": name, "title": "", "about": "", "paper": "", "problem": "", "parameters": "", "claims": (),
+        chapter = {"id": name, "title": "", "about": "", "paper": "", "problem": "", "parameters": "D", "claims": (),
                    "compared": (), "sensible": None, "end": 1.0,
                    "figures": [figure | {"number": row.number} for row in catalogue.of_paper(name)]}
         html.write(out / f"{name}.html", "chapter.html", chapter=chapter)

@@ -12,7 +12,7 @@ from ...show.terminal.letters import written
 from ..audit.page import anchor, counted
 from ..figures import paper as constant_torque
 from ..figures.catalogue import FIRST
-from ..index import Item, items
+from ..index import NAMED, Item, items
 
 HARD = Path(__file__).with_name("hard-cases.md")  # a link to the page of the docs
 
@@ -22,7 +22,8 @@ def index(findings: Sequence[tuple[Any, Sequence[Any]]], folder: Path, **around:
     papers = []
     for paper, group in findings:
         rows = items([(paper, group)])
-        parts = {"equations": "(", "figures": "figure", "tables": "table", "claims of the text": "text"}
+        parts = {"equations": "(", "data": "data", "figures": "figure", "tables": "table",
+                 "claims of the text": "text"}
         papers.append({"name": paper.name, "title": paper.title, "parts": [
             (title, [_row(paper, row) for row in rows if row.item.startswith(begins)])
             for title, begins in parts.items()]})
@@ -30,7 +31,7 @@ def index(findings: Sequence[tuple[Any, Sequence[Any]]], folder: Path, **around:
 
 
 def _row(paper: Any, row: Item) -> dict[str, str]:
-    verdict = row.verdict if row.item.startswith(("figure", "table")) else counted(row.verdict, 1)
+    verdict = row.verdict if row.item.startswith(NAMED) else counted(row.verdict, 1)
     return {"item": row.item, "verdict": verdict, "says": written(row.says), "link": link(paper, row)}
 
 
@@ -40,6 +41,8 @@ def link(paper: Any, row: Item) -> str:
     kind, _, number = row.item.partition(" ")
     main = paper.figures == FIRST
     page = "constant-torque" if main else paper.figures
+    if kind == "data":
+        return f"{page}.html#data"
     if kind == "figure":
         return f"{page}.html#{'figure' if main else page}-{number}"
     if kind == "table" and main:

@@ -12,6 +12,7 @@ from . import html
 
 PRICED = (3, 6, 9, 12, 15)  # digits of the table over all cases
 SHORT = {"reduced": "closed form", "reference": "many digits"}
+ONE = (7.0, 5.8)  # inches of a picture of the states alone
 FIRST = "minor-axis-100"  # the motion that the page begins with, where it was measured
 
 
@@ -36,7 +37,9 @@ def page(cases, folder, tell=None, passed=(), **around) -> Path:
         sections.append(section)
     drawn = [section for section in sections if section["picture"]]
     first = next((section for section in drawn if section["name"] == FIRST), drawn[0] if drawn else None)
+    alone = (folder / "precision" / "states.png").is_file()
     return html.write(folder / "precision.html", "precision.html", cases=sections, passed=passed, first=first,
+                      opening="precision/states.png" if alone else first and first["picture"],
                       machine=caption(), priced=PRICED, **around)
 
 
@@ -57,6 +60,8 @@ def _section(case, folder, effort):
     if not found.questions:
         return None, found.reference.reason
     picture = None
+    if case.name == FIRST:
+        write(found, folder / "precision" / "states.png", ONE, most=1)
     if effort == "brief":
         picture = f"precision/{write(found, folder / 'precision' / f'{case.name}.png').name}"
     write(found, folder / "precision" / f"{case.name}.csv")

@@ -32,11 +32,11 @@ PANEL = (3.4, 2.6)  # inches that a panel needs at least
 NOTED = 1.5  # digits: stretches of the front at least so long have their price written on them
 
 
-def picture(plt, found, size=None):
+def picture(plt, found, size=None, most=None):
     """Time against error, both logarithmic: a panel per question, a line per method, the front as a grey
     band. size: (width, height) in inches; a figure of that size has as many of the questions, in their order,
-    as have room."""
-    questions = found.questions
+    as have room. most: of panels; where it is given the legend has the methods without their prices."""
+    questions = found.questions[:most]
     if not questions:
         raise InputError(f"{found.case.name}: nothing to draw: {found.reference.reason}")
     columns = min(2, len(questions))
@@ -50,7 +50,7 @@ def picture(plt, found, size=None):
         panel(ax, found, question)
     for ax in axes.flat[len(questions):]:
         ax.set_visible(False)
-    looks = meanings(found, questions, size is None or size[0] >= usual[0])
+    looks = meanings(found, questions, most is None and (size is None or size[0] >= usual[0]))
     style.legend(figure, looks, columns=(3 if columns == 2 else 1) if size is None
                  else style.fitting([name for name, _ in looks], size[0]))
     figure.suptitle(f"{found.case.name}: what accuracy costs", fontsize=11 * style.share(), parse_math=False)
@@ -91,7 +91,7 @@ def _legend(found, method) -> str:
 
 def panel(ax, found, question):
     """One question of a measurement on given axes: a line a method, the front as a grey band."""
-    ax.set(xscale="log", yscale="log", xlabel="largest relative error", ylabel="time (s)",
+    ax.set(xscale="log", yscale="log", xlabel="largest relative error", ylabel="processor time (s)",
            title=title(found, question))
     front = found.front(question)
     ax.plot([_clipped(p.error) for p in front], [p.seconds for p in front], zorder=1, **FRONT)

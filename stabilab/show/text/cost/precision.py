@@ -105,15 +105,16 @@ def _limits(found) -> str:
                          caveats_of(found.case.scene, validity=found.validity, file=found.case.caveats))
 
 
-def write(found, path) -> Path:
-    """The picture (.png, .svg, .pdf) or the points (.csv), whole or not at all."""
+def write(found, path, size=None, most=None) -> Path:
+    """The picture (.png, .svg, .pdf) or the points (.csv), whole or not at all. size, most: as of
+    `picture`."""
     path = checked(path)
     if endings.ending(path) == ".csv":
         with style.whole_file(path) as waiting:
             waiting.write_text(csv(found) + "\n", encoding="utf-8")
         return path
     with style.drawing() as plt:
-        return style.save(picture(plt, found), path)
+        return style.save(picture(plt, found, size, most), path)
 
 
 def checked(path) -> Path:
