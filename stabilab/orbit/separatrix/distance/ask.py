@@ -1,15 +1,17 @@
-"""The distance of a state from the separatrix: on circles, hyperbolas and parabolas.
+"""How far a state is from the separatrix: the smallest change of the three rates that reaches it, with a
+proof and a witness, on circles, hyperbolas and parabolas.
 
-Which points of a sheet part bounded motions from spin-up: those whose saddle no higher barrier stands beside.
+The separatrix is the set of states whose fate is to tend to a saddle of the reduced potential: the loops of
+all saddles, swept along the branches of saddles. Branch and bound over these sheets (`search`) brings a
+proved lower bound and a point of the separatrix together; what the number of boxes does not close is a
+bracket.
 
-On a circle under a torque the fate is that of the highest barrier within one turn ahead. A loop counts as far
-as no place between it and its saddle, and none ahead of the saddle, is higher than the saddle: there the
-sheet ends on the loop on which two barriers are as high, and the other barrier's sheet goes on. Where two
-sheets meet so, they form a notch that points into the bounded motions, and the nearest point may lie in it: a
-bound that uses both heights at once closes there.
-
-The distance from the separatrix of a scene whose orbits are circles or hyperbolas: its branches of saddles
-and their charts.
+Of a sheet only those points part bounded motions from spin-up whose saddle no higher barrier stands beside
+(`Shade`): on a circle under a torque the fate is that of the highest barrier within one turn ahead. A loop
+counts as far as no place between it and its saddle, and none ahead of the saddle, is higher than the saddle:
+there the sheet ends on the loop on which two barriers are as high, and the other barrier's sheet goes on.
+Where two sheets meet so, they form a notch that points into the bounded motions, and the nearest point may
+lie in it: a bound that uses both heights at once closes there.
 
 Without a torque the states of an invariant plane whose energy exceeds that of the resting centre tend to a
 rotation about the axis and are on the separatrix too: a flat piece, bounded by the loops' limit n^2 W^2/2 =
@@ -18,26 +20,15 @@ nearest point is on that limit, where the sheets end. With a torque no point of 
 sheets but the curve of each saddle on them: a sheet beside a plane keeps eta = eta* exp(-(n^2 W^2/2 +
 ...)/mu) > 0 at every rate W.
 
-Sheets of the separatrix of a body with two equal moments, where orbits are parabolas and the potential is a
-quartic.
-
-With D_k = D_i (p = 0, q = -kappa, rho = -q0) let q = kappa omega_j + rho and N = kappa omega_k + sigma. Then
-q grows by kappa a y along the orbit (a = p0), equilibria have q N = K := sigma rho - kappa m, and from a
-saddle (s, N), a N > s^2,
+With two equal moments orbits are parabolas and the potential is a quartic. With D_k = D_i (p = 0, q = -kappa,
+rho = -q0) let q = kappa omega_j + rho and N = kappa omega_k + sigma. Then q grows by kappa a y along the
+orbit (a = p0), equilibria have q N = K := sigma rho - kappa m, and from a saddle (s, N), a N > s^2,
 
     W^2 = 2 (V_saddle - V) = y^2 [a N - (s + kappa a y/2)^2],  kappa omega_k + sigma = N - kappa s y - kappa^2
     a y^2/2.
 
 So there is a separatrix wherever a is not zero: the valley of the quartic has a barrier between two wells for
 all |N| beyond the fold |a| |N|^3 = K^2. With D_j = D_i instead the two components change roles.
-
-How far a state is from the separatrix: the smallest change of the three rates that reaches it, with a proof
-and a witness.
-
-The separatrix is the set of states whose fate is to tend to a saddle of the reduced potential: the loops of
-all saddles, on a circle under a torque of those that no higher barrier stands beside (`shade`), swept along
-the branches of saddles. Branch and bound over these sheets (`search`) brings a proved lower bound and a point
-of the separatrix together; what the number of boxes does not close is told as a bracket.
 """
 from __future__ import annotations
 
