@@ -185,6 +185,7 @@ def true_fourth(a, b):
     return np.array(points).T
 
 
+@pytest.mark.slow
 def test_figure_17_has_the_fourth_surface_as_printed_and_how_far_it_is_off(plt):
     panels = figure(17).draw(plt).axes
     said = numbers(r"up to ([\d.]+), ([\d.]+) and ([\d.]+) off", figure(17).caption)

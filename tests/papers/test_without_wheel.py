@@ -70,6 +70,7 @@ def test_the_case_is_bounded_as_it_expects():
     assert np.abs(run.y[2]).max() < 4.5 and case.expect["fate"] == "bounded"
 
 
+@pytest.mark.slow
 def test_the_figure_is_no_item_of_the_paper():
     (findings,) = [findings_of("constant-torque-gyrostat")]
     found = [item.item for item in index.items([findings])]
