@@ -16,6 +16,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 POINTS = 1200
+ROOM = 0.6     # of the canonical angle, beyond a barrier that would stand outside
+CLOSE = 1e-6   # relative: by this a barrier is known by its margin
 ENERGY = style.MEANING["this motion"] | {"linestyle": "--", "linewidth": 1.2}
 
 
@@ -34,7 +36,11 @@ def potential(case: Any, state: Any = None, ax: Axes | None = None, units: str |
     scale, plane = measures(one, units), phase_plane(one.twin, one.state)
     across, up = plane.unit * scale.angle[1], float(plane.reduction.energy_unit)
     low, high = window(plane)
-    y, energy = np.linspace(low, high, POINTS), plane.W0**2 / 2
+    margin, energy = one.motion.margin_energy, plane.W0**2 / 2
+    barrier = _barrier(plane, margin, up, (low, high))
+    if barrier is not None:  # it may stand a turn ahead
+        low, high = min(low, barrier - ROOM), max(high, barrier + ROOM)
+    y = np.linspace(low, high, POINTS)
     with canvas.on(ax, size) as target:
         rows: list[tuple[str, dict[str, Any]]] = [("reduced potential", style.MEANING["separatrix"]),
                                                   ("energy of this motion", ENERGY)]
@@ -50,7 +56,8 @@ def potential(case: Any, state: Any = None, ax: Axes | None = None, units: str |
             if len(shown):
                 target.plot(across * shown, up * plane.height(shown), zorder=5, **style.MARKER[kind])
                 rows.append((name, style.MARKER[kind]))
-        _margin(target, one.motion, plane, (low, high), across, up, scale)
+        if barrier is not None:
+            _margin(target, margin, across * barrier, up * energy, " J" * bool(scale.size))
         target.set_xlim(*sorted((across * low, across * high)))
         i = plane.reduction.axis + 1
         target.set_xlabel(scale.label(rf"turn $\alpha_{i}$ about {one.axes.short(i)} from the start",
@@ -62,22 +69,21 @@ def potential(case: Any, state: Any = None, ax: Axes | None = None, units: str |
     return target
 
 
-def _margin(ax: Any, motion: Any, plane: PhasePlane, span: tuple[float, float], across: float, up: float,
-            scale: Any) -> None:
-    """An arrow from the energy to the barrier that the margin is of, where that is in the picture."""
-    margin, energy = motion.margin_energy, plane.W0**2 / 2
-    saddles = plane.repeated(plane.saddles, *span)
-    if not margin or not saddles:
-        return
-    above = {y: up * (float(plane.height(y)) - energy) for y in saddles}
-    barrier = min(above, key=lambda y: (round(abs(above[y] / margin - 1), 6), abs(y)))
-    if abs(above[barrier] - margin) > 1e-6 * abs(margin):
-        return
-    place = across * barrier
-    ax.annotate("", (place, up * energy + margin), (place, up * energy),
+def _barrier(plane: PhasePlane, margin: float | None, up: float, span: tuple[float, float]) -> float | None:
+    """Where the barrier stands that a margin in energy is of, up to a turn outside of the span; None where
+    there is none, or where the margin is of other motions (of a free body: with the same |H|)."""
+    turn = plane.land.turn if np.isfinite(plane.land.turn) else 0.0
+    above = {y: up * (float(plane.height(y)) - plane.W0**2 / 2)
+             for y in plane.repeated(plane.saddles, span[0] - turn, span[1] + turn)} if margin else {}
+    return min((y for y in above if abs(above[y] - margin) <= CLOSE * abs(margin)), key=abs, default=None)
+
+
+def _margin(ax: Any, margin: float, place: float, energy: float, unit: str) -> None:
+    """An arrow from the energy to the barrier."""
+    ax.annotate("", (place, energy + margin), (place, energy),
                 arrowprops={"arrowstyle": "<->", "color": style.VERMILION, "linewidth": 1.4})
-    size = number(abs(margin), SHORT) + " J" * bool(scale.size)
+    size = number(abs(margin), SHORT) + unit
     ax.annotate(f"margin {size}" if margin > 0 else f"{size} above the barrier",
-                (place, up * energy + margin / 2), (6, 0), textcoords="offset points", va="center",
+                (place, energy + margin / 2), (6, 0), textcoords="offset points", va="center",
                 color=style.VERMILION,
                 bbox={"facecolor": "white", "edgecolor": "none", "pad": 1.0, "alpha": 0.8})

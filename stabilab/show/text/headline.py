@@ -64,6 +64,11 @@ def look(motion: Motion) -> str:
 
 def fate_words(motion: Motion, units: Units) -> str:
     """The fate, its axis, how well it is known, and the condition that it rests on."""
+    return "".join(fate_parts(motion, units))
+
+
+def fate_parts(motion: Motion, units: Units) -> tuple[str, str, str]:
+    """The words of `fate_words` in parts: the fate; its axis and how well it is known; the condition."""
     fate = motion.fate.word
     words, where = WORDS[fate], limiting.condition(motion.caveats, units)
     if where:
@@ -72,7 +77,7 @@ def fate_words(motion: Motion, units: Units) -> str:
         words = REST
     about = (f" about {units.axes.whole(motion.axis)}, {'positive' if motion.sense > 0 else 'negative'} sense"
              if motion.axis else "")
-    return f"{words}{about}{known_as(motion)}{where}"
+    return words, about + known_as(motion), where
 
 
 def known_as(motion: Motion) -> str:

@@ -3,16 +3,13 @@ outcome."""
 from __future__ import annotations
 
 import math
-import re
 from typing import Any
 
 from ....orbit.result import Motion
 from ...terminal.letters import printed
 from ...text import law
-from ...text.headline import REST, STEADY, WORDS, cause, fate_words, largest, rate_and_height
+from ...text.headline import cause, fate_parts, largest, rate_and_height
 from ...units import SHORT, Units
-
-WORDS_OF_OUTCOME = re.compile("|".join(map(re.escape, [*WORDS.values(), "BOUNDED", STEADY, REST])))
 
 
 def tiles(motion: Motion, units: Units) -> list[tuple[str, str, str]]:
@@ -23,12 +20,11 @@ def tiles(motion: Motion, units: Units) -> list[tuple[str, str, str]]:
 
 
 def _outcome(motion, units):
-    words = fate_words(motion, units)
-    value = WORDS_OF_OUTCOME.match(words)[0]
+    value, about, condition = fate_parts(motion, units)
     if motion.fate.word == "undecided":
         note = cause(motion, units)
     else:
-        note = words[len(value):].split(":")[0].strip()  # what a tilt does stands beside it
+        note = f"{about}{condition.split(':')[0]}".strip()  # what a tilt does stands beside it
     return value.capitalize(), "; ".join(filter(None, ["by a law that does not hold"
                                                        * law.beyond(motion.validity), note]))
 
@@ -51,8 +47,9 @@ def _when(motion, units):
             f" ({found.level})" if never else f" before {units.time(float(found.low), SHORT)}"))
     if motion.fate.word == "spin-up":
         certain = motion.evidence.get("t_certificate")
-        return ("at once" if certain is None else units.time(float(certain), SHORT),
-                "" if certain is None else "from then on the spin-up is certain")
+        if certain is not None:
+            return units.time(float(certain), SHORT), "from then on the spin-up is certain"
+        return ("from the start", "the spin-up is certain") if motion.level == "exact" else ("not known", "")
     return ("never" if motion.fate.word in ("bounded", "equilibrium") else "not known"), ""
 
 
@@ -74,5 +71,4 @@ def _distance(motion, units):
         return height, "of energy, to the barrier"
     if motion.fate.word == "separatrix":
         return "none", "the smallest change decides"
-    because = units.words(motion.velocity_because).removeprefix("not known: ")
-    return "not known", because or "no separatrix stands ahead of this motion"
+    return "not known", units.words(motion.velocity_because).removeprefix("not known: ")
