@@ -81,16 +81,6 @@ class Point:
 
 
 @dataclass(frozen=True)
-class Offer:
-    """What a method asks for digits that are wanted: its setting and the seconds of its fastest run."""
-
-    method: str
-    setting: str
-    value: float
-    seconds: float
-
-
-@dataclass(frozen=True)
 class FateAnswer:
     """One way to the fate: its word and the seconds it takes."""
 
@@ -148,21 +138,14 @@ class Precision:
         needs several motions at once."""
         return pareto(p for p in self.of(question) if p.lanes == 1 and not p.parts)
 
-    def by_digits(self, question: str = "span") -> list[tuple[int, list[Offer]]]:
-        """(digits wanted, the cheapest offer of each method that reaches them, cheapest first), as far as any
-        method does; of the states also the reference, by its own runs, where fewer than two reach them."""
-        known = [p for p in self.of(question) if p.lanes == 1 and not p.parts]
-        rows = []
-        for digits in WANTED:
-            best: dict[str, Offer] = {}
-            for p in sorted((p for p in known if p.digits >= digits), key=lambda p: p.seconds):
-                best.setdefault(p.method, Offer(p.method, p.setting, p.value, p.seconds))
-            exact = self.reference.digits[0]
-            if question == "span" and len(self.reference.t) and digits <= exact and len(best) < 2:
-                best["reference"] = Offer("reference", "digits", exact, self.reference_seconds)
-            if best:
-                rows.append((digits, list(best.values())))
-        return rows
+    def cheapest(self, digits: float, question: str = "span") -> list[Point]:
+        """Of each method that has so many digits its cheapest point, cheapest first; without the batch and
+        what knows a part of the state only."""
+        best: dict[str, Point] = {}
+        for p in sorted(self.of(question), key=lambda p: p.seconds):
+            if p.digits >= digits and p.lanes == 1 and not p.parts:
+                best.setdefault(p.method, p)
+        return list(best.values())
 
 
 def pareto(points) -> list[Point]:

@@ -83,13 +83,14 @@ def text(findings: Sequence[tuple[Any, Sequence[Any]]]) -> str:
         rows = _of_paper(paper, group)
         wide = max(len(row.item) for row in rows)
         lines = [f"{paper.title}: {len(rows)} items; `stabilab audit {paper.name} --equation 30` shows one",
-                 *(f"  {row.item:<{wide}}  {_verdict(row)}{': ' * bool(row.says)}{written(row.says)}"
+                 *(f"  {row.item:<{wide}}  {verdict_words(row)}{': ' * bool(row.says)}{written(row.says)}"
                    f"{_shown(row)}" for row in rows)]
         parts.append("\n".join(lines))
     return "\n\n".join(parts)
 
 
-def _verdict(row: Item) -> str:
+def verdict_words(row: Item) -> str:
+    """The verdict as one says it."""
     return row.verdict if row.item.startswith(NAMED) else counted(row.verdict, 1)
 
 

@@ -103,10 +103,6 @@ def words() -> str:
             f"{named:.2f} away.")
 
 
-def exactness() -> str:
-    return "curves: level sets of the exact potential, in doubles; printed: its formulas"
-
-
 def draw(plt):
     """Phase plane of the start's circle, and the surfaces from above."""
     figure, (plane, above) = plt.subplots(1, 2, figsize=(11.4, 5.6), layout="constrained")

@@ -9,10 +9,10 @@ from typing import Any
 from ...physics.coefficients import shape_factors
 from ...show.report import html
 from ...show.terminal.letters import written
-from ..audit.page import anchor, counted
+from ..audit.page import anchor
 from ..figures import paper as constant_torque
 from ..figures.catalogue import FIRST
-from ..index import NAMED, Item, items
+from ..index import Item, items, verdict_words
 
 HARD = Path(__file__).with_name("hard-cases.md")  # a link to the page of the docs
 
@@ -31,8 +31,8 @@ def index(findings: Sequence[tuple[Any, Sequence[Any]]], folder: Path, **around:
 
 
 def _row(paper: Any, row: Item) -> dict[str, str]:
-    verdict = row.verdict if row.item.startswith(NAMED) else counted(row.verdict, 1)
-    return {"item": row.item, "verdict": verdict, "says": written(row.says), "link": link(paper, row)}
+    return {"item": row.item, "verdict": verdict_words(row), "says": written(row.says),
+            "link": link(paper, row)}
 
 
 def link(paper: Any, row: Item) -> str:

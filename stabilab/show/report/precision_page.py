@@ -7,11 +7,11 @@ from ...cost import accuracy as measuring
 from ...errors import InputError
 from ...physics.equations import derive
 from ..text.cost.precision import write
-from ..text.cost.words import NAMES, by_digits, caption, duration, flat, so_many, words
+from ..text.cost.words import DOUBLES, NAMES, by_digits, caption, duration, flat, so_many, words
 from . import html
 
-PRICED = (3, 6, 9, 12, 15)  # digits of the table over all cases
 SHORT = {"reduced": "closed form", "reference": "many digits"}
+STATES = "precision/states.png"
 ONE = (7.0, 5.8)  # inches of a picture of the states alone
 FIRST = "minor-axis-100"  # the motion that the page begins with, where it was measured
 
@@ -37,10 +37,9 @@ def page(cases, folder, tell=None, passed=(), **around) -> Path:
         sections.append(section)
     drawn = [section for section in sections if section["picture"]]
     first = next((section for section in drawn if section["name"] == FIRST), drawn[0] if drawn else None)
-    alone = (folder / "precision" / "states.png").is_file()
+    opening = first and (STATES if first["name"] == FIRST else first["picture"])
     return html.write(folder / "precision.html", "precision.html", cases=sections, passed=passed, first=first,
-                      opening="precision/states.png" if alone else first and first["picture"],
-                      machine=caption(), priced=PRICED, **around)
+                      opening=opening, machine=caption(), priced=DOUBLES, **around)
 
 
 def kind(case) -> tuple:
@@ -60,26 +59,25 @@ def _section(case, folder, effort):
     if not found.questions:
         return None, found.reference.reason
     picture = None
-    if case.name == FIRST:
-        write(found, folder / "precision" / "states.png", ONE, most=1)
     if effort == "brief":
+        if case.name == FIRST:
+            write(found, folder / STATES, ONE, most=1)
         picture = f"precision/{write(found, folder / 'precision' / f'{case.name}.png').name}"
     write(found, folder / "precision" / f"{case.name}.csv")
+    rows = {row["digits"]: row for row in by_digits(found)}
     return {"name": case.name, "title": case.title or case.name, "words": words(found), "picture": picture,
             "csv": f"precision/{case.name}.csv", "flat": flat(found), "times": len(found.reference.t),
             "command": f"stabilab precision {case.path}", "error": f"{found.reference.error.max():.0e}",
-            "prices": [_price(found, digits) for digits in PRICED],
-            "rows": [_row(row) for row in by_digits(found)]}, None
+            "prices": [_price(rows.get(digits)) for digits in DOUBLES],
+            "rows": list(map(_row, rows.values()))}, None
 
 
-def _price(found, digits) -> str:
-    """The cheapest time for so many digits, with the method where that is no Taylor series."""
-    offers = dict(found.by_digits()).get(digits)
-    if not offers:
+def _price(row) -> str:
+    """The cheapest time for some digits, with the method where that is no Taylor series."""
+    if row is None:
         return "–"
-    best = offers[0]
-    named = "" if best.method == "taylor" else f", {SHORT.get(best.method, best.method)}"
-    return duration(best.seconds) + named
+    named = "" if row["method"] == "taylor" else f", {SHORT.get(row['method'], row['method'])}"
+    return duration(row["seconds"]) + named
 
 
 def _row(row) -> dict:

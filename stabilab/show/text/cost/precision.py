@@ -31,7 +31,7 @@ def text(found) -> str:
                   f"  {'method':<13}{'setting':<13}{'error':>8}{'digits':>8}{'steps':>8}{'rates':>8}"
                   f"{'time':>10}{'compile':>9}"]
         lines += [_line(p, id(p) in front) for p in found.of(question)]
-    lines += ["", *_by_digits(found)] * bool(found.by_digits())
+    lines += ["", *_by_digits(found)] if by_digits(found) else []
     lines += [f"  left out: {line}" for line in _left_out(found)]
     return "\n".join([*lines, "", *told, "", caption()])
 

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import re
 
-from ....cost.accuracy import EPS, digit_price
+from ....cost.accuracy import EPS, WANTED, digit_price
 from ....integrate.trajectory import SCIPY_METHODS
 from ....processes import machine, versions
 from ...terminal.letters import some, written
@@ -14,7 +14,7 @@ NAMES = {"taylor": "Taylor series (heyoka)",
          "reduced": "reduced equation, closed form", "balls": "ball arithmetic",
          "reference": "series in many digits, twice"} | {
              name: f"{name} (SciPy)" for name in SCIPY_METHODS}
-WANTED = (3, 6, 9, 12, 15)  # digits whose price the words tell
+DOUBLES = WANTED[:-1]  # that a run in doubles may have
 SPAN = re.compile(r"(up to t = [\d.e+-]+ of [\d.e+-]*\d)")
 BLAMED = 20  # an error this many times the effect of the start's last place has other causes
 
@@ -40,20 +40,16 @@ def _reference_words(found) -> str:
 
 def _question_words(found, question):
     points = [p for p in found.of(question) if p.lanes == 1 and not p.parts]
-    prices = []
-    for digits in WANTED:
-        enough = [p for p in points if p.digits >= digits]
-        if enough:
-            prices.append((digits, min(enough, key=lambda p: p.seconds)))
+    prices = [(digits, enough[0]) for digits in DOUBLES if (enough := found.cheapest(digits, question))]
     head = title(found, question)
     if not prices:
-        yield f"{head}: no method has {WANTED[0]} digits."
+        yield f"{head}: no method has {DOUBLES[0]} digits."
         return
-    yield from _six(found, points, head)
+    yield from _six(found, question, head)
     parts = [f"{digits} digits cost {duration(p.seconds)} ({p.method}{setting(p)})" for digits,
              p in _merged(prices)]
     yield f"{head}: " + ", ".join(parts) + "." + _against(points, prices) + _digit_words(found, question)
-    missing = next((d for d in WANTED if d > prices[-1][0]), None)
+    missing = next((d for d in DOUBLES if d > prices[-1][0]), None)
     best = max(points, key=lambda p: p.digits)
     if missing:
         reached = f"{best.digits:.1f} ({best.method}{setting(best)})"
@@ -64,15 +60,12 @@ def _question_words(found, question):
 SIX = 6  # digits at which the methods are set side by side
 
 
-def _six(found, points, head):
+def _six(found, question, head):
     """What six digits cost by each method, cheapest first."""
-    enough = {}
-    for p in sorted(points, key=lambda p: p.seconds):
-        if p.digits >= SIX:
-            enough.setdefault(p.method, p)
+    enough = found.cheapest(SIX, question)
     if len(enough) > 1:
-        yield f"{head}: six digits cost " + ", ".join(f"{duration(p.seconds)} with {name}" for name,
-                                                      p in enough.items()) + "."
+        yield f"{head}: six digits cost " + ", ".join(f"{duration(p.seconds)} with {p.method}"
+                                                      for p in enough) + "."
 
 
 def title(found, question) -> str:
@@ -89,18 +82,21 @@ def _moment(found):
 
 
 def by_digits(found, question: str = "span") -> list[dict]:
-    """A row for all digits wanted that cost the same: the cheapest method, what it takes, how many times the
-    price of the fewest digits that is, and the second best."""
+    """A row for each number of digits that some method has: the cheapest method, how many times the price of
+    the first row that is, and the second best. Of the states the reference too stands for its digits, by its
+    own runs, where fewer than two methods have them."""
     rows: list[dict] = []
-    offers = found.by_digits(question)
-    for digits, (best, *others) in offers:
-        relative = best.seconds / offers[0][1][0].seconds
-        rows.append({"digits": digits, "method": best.method, "setting": best.setting, "value": best.value,
-                     "seconds": best.seconds, "relative": relative,
-                     "second": None if not others else {"method": others[0].method,
-                                                        "setting": others[0].setting,
-                                                        "value": others[0].value,
-                                                        "seconds": others[0].seconds}})
+    for digits in WANTED:
+        offers = [{"method": p.method, "setting": p.setting, "value": p.value, "seconds": p.seconds}
+                  for p in found.cheapest(digits, question)[:2]]
+        exact = found.reference.digits[0]
+        if question == "span" and len(found.reference.t) and digits <= exact and len(offers) < 2:
+            offers.append({"method": "reference", "setting": "digits", "value": exact,
+                           "seconds": found.reference_seconds})
+        if offers:
+            first = rows[0]["seconds"] if rows else offers[0]["seconds"]
+            rows.append({"digits": digits, **offers[0], "relative": offers[0]["seconds"] / first,
+                         "second": offers[1] if len(offers) > 1 else None})
     return rows
 
 
