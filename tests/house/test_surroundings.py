@@ -322,7 +322,7 @@ LIGHT_REPORT = ("from stabilab.papers import table\nfrom stabilab.papers.figures
                 "from stabilab.papers.report import chapters, report, whole\n"
                 "figures.FIGURES = (figures.figure(9),)\n"
                 "figures.NUMBERS = (9,)\nchapters.CHAPTERS = whole.COSTS = ()\nwhole.audited_papers = "
-                "lambda: ()\nreal = table.case_files\n"
+                "lambda: (whole.MAIN,)\nreal = table.case_files\n"
                 "report.table.case_files = lambda stems=('minor-axis-100',): "
                 "real(stems)\nprint(report.write(out='report', workers=1))\n")
 
