@@ -170,8 +170,8 @@ def test_of_curves_on_each_other_the_later_ones_are_broken_so_that_all_are_seen(
 def test_every_part_of_a_state_is_drawn_in_the_units_of_the_other_plots(units, unit, one):
     """Oracle: the states of `simulate`, in rad and s, at the ends."""
     case = load("charged-body-small-torque")
-    figure, found = stabilab.plot.state(case,
-                                        units=units), stabilab.simulate(case.scene, case.state, case.span,
+    figure, found = stabilab.plot.state(case, units=units,
+                                        span=case.span), stabilab.simulate(case.scene, case.state, case.span,
                                                                         case.blocks)
     panels = {re.sub(r" [−+] [\d.]+ \(\$10\^\{-\d+\}\$ ", " (",
                      ax.get_ylabel()): ax.get_lines()[0].get_ydata()[-1] for ax in figure.axes}
@@ -330,14 +330,14 @@ def test_the_axis_of_time_has_the_unit_of_the_period_whose_ends_are_marked():
     assert stabilab.plot.time(load("two-wheels-minor-axis"), span=(0, 3000)).get_xlabel() == "time (min)"
 
 
-def test_lines_of_a_title_end_with_clauses_and_a_legend_of_five_has_one_row():
+def test_lines_of_a_title_end_with_clauses_and_a_legend_of_six_has_one_row():
     """A line broke between "period" and its number; the second component stood below the first."""
     ax = stabilab.plot.time(load("middle-axis-equal-100"))
     lines_of_title = ax.get_title().split("\n")
     assert lines_of_title[1].endswith(" along x2;") and lines_of_title[2].endswith("period 3.117 τ")
     ax.figure.draw_without_rendering()
     (legend,) = ax.figure.legends
-    assert len({round(text.get_window_extent().y0) for text in legend.get_texts()}) == 1
+    assert np.ptp([text.get_window_extent().y0 for text in legend.get_texts()]) < 3  # px: bars reach lower
     assert ax.title.get_window_extent().x0 >= 0 and ax.title.get_window_extent().x1 <= ax.figure.bbox.width
     assert legend.get_window_extent().x0 >= 0 and legend.get_window_extent().x1 <= ax.figure.bbox.width
 
@@ -646,9 +646,9 @@ def test_a_film_of_a_spin_up_goes_on_for_as_long_as_its_pictures_show_each_step(
 
 
 def test_a_film_that_ends_before_its_span_says_so(tmp_path):
-    """cubesat-3u is followed for 5 min, in which it comes to spin too fast for a film; the body without a
-    torque is shown whole."""
-    for name, told in (("cubesat-3u", r"The first ([\d.]+) s of 5 min are shown\."),
+    """cubesat-3u is followed to four times the 16.95 s of its limit, in which it comes to spin too fast for a film;
+    the body without a torque is shown whole."""
+    for name, told in (("cubesat-3u", r"The first ([\d.]+) s of 67\.79 s are shown\."),
                        ("torque-free-body", "")):
         moving = stabilab.plot.attitude(load(name), frames=150)
         moving._draw_was_started = True

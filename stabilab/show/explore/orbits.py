@@ -15,6 +15,8 @@ another motion's.
 """
 from __future__ import annotations
 
+import math
+
 from ...answers.equilibria import equilibria
 from ...case.read import Case
 from ...equilibrium.result import Equilibria
@@ -26,7 +28,8 @@ from ...physics.effects.base import effect_words
 from ...physics.scene import AnyScene, QuadraticForm, Scene
 from . import orbits as other
 
-POINTS = 1200  # of a motion that is drawn
+POINTS, MOST = 1200, 6000  # of a motion that is drawn: at least, at most
+CLOSE = 0.25  # rad of turn from one to the next, where so many are enough
 NOT_YET = {"reason": "Keep still, and the equilibria are looked for.", "rows": []}
 TAKES = {"liquid_cavity": "the liquid", "resistance": "the medium"}  # energy away
 TURNS = {"newtonian_field": "the field", "gravity": "the weight"}  # acts by the attitude
@@ -76,7 +79,9 @@ def path(case: Case, until: float) -> Path:
 
     from ..plot.path import along
     from ..plot.subject import subject
-    t, rates = along(subject(case), np.linspace(0.0, until, POINTS))
+    turn = until * math.hypot(*case.state)
+    number = min(MOST, max(POINTS, math.ceil(turn / CLOSE)))
+    t, rates = along(subject(case), np.linspace(0.0, until, number))
     return t.tolist(), [(x, y, z) for x, y, z in rates.tolist()]
 
 
@@ -95,6 +100,6 @@ def line(case: Case, form: QuadraticForm | None, until: float, moving: bool) -> 
         return other.path(case, until)
     times, states = followed(form, case.state, until)
     known = parting(form, (times, states))
-    if known < len(times) and not moving and present("numpy"):
-        return other.path(case, times[-1])
+    if (known < len(times) or times[-1] < until) and not moving and present("numpy"):
+        return other.path(case, until)
     return times[:known], states[:known]

@@ -41,6 +41,7 @@ from ...orbit.separatrix.plain_sheets import PlainSheet
 from ...physics.scene import AnyScene
 from ...verify.numbers import shown
 from .. import style
+from ..spans import limit_time
 from ..units import Units
 
 TYPES = {"int16": "h", "float32": "f"}
@@ -247,7 +248,8 @@ def clicked(scene: AnyScene, state: tuple[float, ...], at: Any, units: Units) ->
 
 def over_time(bag: Bag, case: Case, motion: Motion | None, times: list[float], path: list[tuple[float, ...]],
               units: Units) -> dict[str, Any]:
-    """Rates over time with the least and greatest of each component over all time, where these are known."""
+    """Rates and their size over time with the least and greatest of each component over all time, where these
+    are known, and with the limits of the case."""
     name, one = units.times(times[-1])
     label, rate = units.rates
     symbol = "x" if units.scaled else "ω"
@@ -260,7 +262,21 @@ def over_time(bag: Bag, case: Case, motion: Motion | None, times: list[float], p
             else motion.period * one,
             "x": "time τ" if units.scaled else labelled("time", name),
             "y": labelled("x" if units.scaled else "rate", label),
-            "names": [f"{symbol}{n}" for n in (1, 2, 3)]}
+            "names": [*(f"{symbol}{n}" for n in (1, 2, 3)), f"|{symbol}|"],
+            "size": bag.add("float32", [math.hypot(*x) * rate for x in path]),
+            "limits": [float(v) * rate for v in _limits(case)],
+            "reached": None if motion is None or (at := limit_time(motion)) is None else at * one}
+
+
+def _limits(case: Case) -> list[Any]:
+    """The limits of a case that lines of this picture show: of |omega|, or of the components along principal
+    axes."""
+    if case.limits is None:
+        return []
+    if case.limits.rate is not None:
+        return [case.limits.rate]
+    as_given = case.frame is None or case.frame.as_given
+    return sorted({sign * v for v in case.limits.rates for sign in (1, -1)}) if as_given else []
 
 
 HALF = 4095      # of the box in a packed place

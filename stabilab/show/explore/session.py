@@ -27,16 +27,18 @@ from ...packages import explained, present
 from ...physics.coefficients import content, gyrostat_scene
 from ...physics.effects import effect_class
 from ...physics.scene import AnyScene, QuadraticForm, ScaledGyrostat, Scene
+from ...validation import reach_of
 from ...verify import verify
 from ...verify.form import about, parsed
 from ...verify.form import line as about_line
 from ...verify.numbers import Malformed
 from .. import limiting
+from ..spans import seen
 from ..terminal.letters import greek, lettered, written
 from ..terminal.motion import margins
 from ..text import frame, law
 from ..text.headline import headline, look
-from ..units import Units, but_for_rounding, units_of
+from ..units import SHORT, Units, but_for_rounding, units_of
 from . import orbits as other
 from . import parameters as controls
 from . import pictures as planes
@@ -90,7 +92,8 @@ GRADED = (48, 97)
 FARTHEST = 1e4  # times the fold's radius: how far a sheet is followed for a large box
 # of a piece of a curve of equilibria: to find what is in the box, and to draw it
 POINTS = {True: (16, 40), False: (40, 90)}
-TURNS = 60.0  # rad of turn at most that are drawn
+TURNS = {True: 240.0, False: 2400.0}  # rad of turn at most that are drawn
+FIRST = 60.0  # rad of turn that are drawn where nothing says how far
 FOLLOWED = "the torque is off the principal axes: keep still, and the motion is followed"
 WORKED_OUT = "keep still, and this motion is worked out"
 NO_ARRAYS = "this motion has to be followed, which needs NumPy, and that is not here"
@@ -156,13 +159,14 @@ class Session:
         twin = self._twin(case)
         at_rest = self._at_rest(case, twin, moving)
         form = None if twin is None else twin.quadratic()
-        times, path = self._once("line", (case.scene, case.state, case.span, moving),
-                                 lambda: line(case, form, _length(case, form), moving))
+        until, cut = _length(case, found, form, moving)
+        times, path = self._once("line", (case.scene, case.state, until, moving),
+                                 lambda: line(case, form, until, moving))
         picture = self._space(bag, case, twin, found, at_rest, path, asked.get("box"), moving)
         made = {"headline": greek(words), "fate": "undecided" if found is None else found.fate.word,
                 "look": "conditional" if found is None else look(found),
                 "moving": moving, "start": clicked,
-                "note": " ".join(filter(None, (note, self._swept, _law(found, self.units),
+                "note": " ".join(filter(None, (note, self._swept, cut, _law(found, self.units),
                                                    *limiting.beside(case.caveats, self.units)))),
                 "toml": case.text, "rows": self._axes
                 + ([] if found is None else tables.rows(case, found, self.units)), "space": picture,
@@ -287,13 +291,17 @@ def _capital(words: str) -> str:
     return words[:1].upper() + words[1:]
 
 
-def _length(case: Case, form: QuadraticForm | None = None) -> float:
-    """How far a motion is drawn: over the span of the case, so many radians of turn at most. form: its rates,
-    where they are quadratic."""
+def _length(case: Case, found: Motion | None, form: QuadraticForm | None, moving: bool) -> tuple[float, str]:
+    """(how far a motion is drawn, what is said where that is less than every other view shows): so many
+    radians of turn at most. form: its rates, where they are quadratic."""
     rate, torque = math.hypot(*case.state), math.hypot(*form.coefficients[3]) if form is not None else 0.0
-    natural = TURNS / max(rate, math.sqrt(torque)) if rate or torque else 1.0
-    span = None if case.span is None else max(case.span[1], -case.span[0])
-    return natural if span is None else min(span, 4 * natural)
+    radian = 1.0 / max(rate, math.sqrt(torque)) if rate or torque else 1.0
+    span, most = case.span or (0.0, FIRST * radian), TURNS[moving] * radian
+    wanted = abs(reach_of(span if found is None else seen(span, found, FIRST * radian)) or 0.0)
+    if wanted <= most or moving:
+        return min(wanted, most), ""
+    units = units_of(case)
+    return most, f"Its first {units.time(most, SHORT)} of {units.time(wanted, SHORT)} are drawn."
 
 
 def _without_tilt(scene: AnyScene) -> tuple[AnyScene, bool]:

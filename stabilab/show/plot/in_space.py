@@ -17,7 +17,7 @@ from ..surface.mesh import triangulate
 from . import subject as canvas
 from . import subject as which
 from .path import path, turning
-from .subject import DEFAULT_SPAN, Measures, Subject, measures, subject
+from .subject import Measures, Subject, measures, subject
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -395,10 +395,9 @@ def _path(one: Subject) -> np.ndarray:
     """The motion (n, 3): one period, or the span as far as a picture can show it; a spin-up until it has left
     the separatrix behind."""
     period = one.motion.period
-    low, high = (0.0,
-                 period) if period and one.case is None and one.span is None else one.span or DEFAULT_SPAN
+    low, high = one.seen
     if period:
-        high = min(high, low + period) if high > low else low + period
+        high = low + period
     _, omega = path(one, low, high)
     size = np.linalg.norm(omega, axis=1)
     if one.motion.velocity_witness is not None and one.motion.fate.word == "spin-up":

@@ -16,7 +16,7 @@ from ..text.headline import headline
 from . import subject as canvas
 from . import subject as which
 from .path import SEEN, SOLID, band, path, turning
-from .subject import DEFAULT_SPAN, Subject, measures, subject
+from .subject import Subject, measures, subject
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -34,8 +34,7 @@ ALIKE = 0.004  # of the height of all curves: no more than the width of a line
 THIN = 0.02  # of the height of all curves: as high as a few lines
 # dashes of a curve over one or two others: each leaves some of those below
 BROKEN = ((0, (6, 6)), (0, (3, 9)))
-PERIODS = 10  # a motion that repeats is shown for so many at most, unless a span is asked for
-BEYOND = 1.25  # of the time to the limit: how far the picture goes at least
+MARKED = 30  # ends of periods at most
 
 
 def time(case: Any, state: Any = None, ax: Axes | None = None, span: Any = None, units: str | None = None,
@@ -54,20 +53,19 @@ def time(case: Any, state: Any = None, ax: Axes | None = None, span: Any = None,
     one = subject(case, state, span)
     which.check("time", one)
     scale, reached = measures(one, units), _reached(one)
-    low, high = _span(one, span is not None, reached)
+    low, high = one.seen
     t, omega = path(one, low, high)
     turned = file_axes(one)
     omega = omega if turned is None else omega @ turned.T
     (time_unit, per_time), (rate_unit, per_rate) = scale.time(_measured(one, low, high)), scale.rate
     names = scale.names if turned is None else tuple(rf"$\omega_{axis}$" for axis in "xyz")
     with canvas.on(ax, size) as target:
-        height = (max(omega.max(), np.linalg.norm(omega, axis=1).max() if scale.size else -math.inf)
-                  - omega.min()) * per_rate
+        length = np.linalg.norm(omega, axis=1)
+        height = (max(omega.max(), length.max()) - omega.min()) * per_rate
         looks = told_apart(COMPONENTS, list(omega.T))
         rows = list(zip(names, looks))
-        if scale.size:
-            rows.insert(0, (scale.size, SIZE_LOOK))  # so wide that a component on it leaves its edges
-            _curve(target, t * per_time, np.linalg.norm(omega, axis=1) * per_rate, SIZE_LOOK, height)
+        rows.insert(0, (scale.size or "$|x|$", SIZE_LOOK))  # so wide that a component on it leaves its edges
+        _curve(target, t * per_time, length * per_rate, SIZE_LOOK, height)
         for values, look in zip(omega.T, looks):
             _curve(target, t * per_time, values * per_rate, look, height)
         rows += _extremes(target, one, per_rate) if turned is None else []
@@ -114,19 +112,6 @@ def _curve(ax, t, values, look, height):
         ax.fill_between(times, low, high, color=look["color"], alpha=0.45, linewidth=0.3)
 
 
-def _span(one: Subject, asked: bool, reached) -> tuple[float, float]:
-    """(from, to): what was asked for, else what is worth seeing."""
-    low, high = one.span or DEFAULT_SPAN
-    if asked:
-        return low, high
-    if reached is not None and math.isfinite(reached.high) and reached.high > 0:
-        return min(low, 0.0), max(BEYOND * float(reached.high), min(high, 4 * float(reached.high)))
-    period = one.motion.period
-    if one.span is None and period:
-        return 0.0, 3 * period
-    return low, min(high, low + PERIODS * period) if period else high
-
-
 def _extremes(ax, one, per_rate):
     """Dotted lines at the least and greatest value of each component; the row of the legend."""
     found = one.motion.extremes
@@ -136,14 +121,14 @@ def _extremes(ax, one, per_rate):
              if value is not None and math.isfinite(value)]
     for value, look in drawn:
         ax.axhline(value * per_rate, color=look["color"], zorder=1.5, **EXTREME)
-    return [("least and greatest for ever", {"color": style.GREY, **EXTREME})] if drawn else []
+    return [("extremes for ever", {"color": style.GREY, **EXTREME})] if drawn else []
 
 
 def _marked(one, low, high) -> bool:
     """Whether the ends of the periods are drawn: there are some, and not so many that they would be a grey
     ground."""
     period = one.motion.period
-    return bool(period) and period <= high - low <= 3 * PERIODS * period
+    return bool(period) and period <= high - low <= MARKED * period
 
 
 def _measured(one, low, high):
@@ -223,7 +208,7 @@ def state(case: Any, start: Any = None, span: Any = None, size: tuple[float, flo
     one = subject(case, start, span)
     which.check("state", one)
     scale = measures(one, units)
-    begin, end = one.span or DEFAULT_SPAN
+    begin, end = one.asked or (one.seen[0], max(*one.seen, *(one.span or ())))  # slow parts need all
     runs, _ = side_by_side(one, np.linspace(begin, end, POINTS))
     if span is None and (turns := _turns(runs["exact"].state["omega"])) > CROWDED:
         runs, _ = side_by_side(one, np.linspace(begin, begin + (end - begin) * CROWDED / turns, POINTS))

@@ -23,14 +23,13 @@ from ...physics.scene import AnyScene, Scene
 from ...physics.states import checked_states, start_of
 from ...unreduced.periodic import LEAST, crossed
 from ...validation import checked_scene, checked_span
-from .. import style
+from .. import spans, style
 from ..axes import PLAIN, Axes, axes_of
 from ..text import law
 from ..text.headline import outcome
 from ..units import SYSTEMS, Units, units_of
 
 # --- What a plot is of: a scene, one motion of it where there is one, and what a case says besides
-DEFAULT_SPAN = (0.0, 15.0)  # in the scene's time, where nothing else says how far
 
 
 @dataclass(frozen=True)
@@ -38,7 +37,8 @@ class Subject:
     """scene: as it was given; state: the three rates at t = 0 in the scene's variables (rad/s, or x), None
     without a motion; blocks: the rest of the state by name; span: (from, to) or None; heading: for titles,
     may be empty; case: where all this stands, or None; neighbours: how many motions a section shows beside
-    it; known: its motion, where that is worked out already."""
+    it; known: its motion, where that is worked out already; asked: the span that its pictures show, None for
+    what is worth seeing."""
 
     scene: AnyScene
     state: tuple[float, ...] | None
@@ -48,6 +48,7 @@ class Subject:
     case: Case | None = field(default=None, repr=False)
     neighbours: int = 0
     known: Motion | None = field(default=None, repr=False)
+    asked: tuple[float, ...] | None = None
 
     @property
     def physical(self) -> bool:
@@ -101,6 +102,11 @@ class Subject:
         found = motion(self.scene, (*self.state, *gamma), self.span, exact=self.exact_state)
         return found if self.case is None else law.judged(self.case, found)
 
+    @cached_property
+    def seen(self) -> tuple[float, ...]:
+        """(from, to): the span that its pictures show, in the scene's time."""
+        return self.asked or spans.seen(self.span, self.motion, spans.natural(self.scene, self.state))
+
 
 def subject(given: Any, state: Any = None, span: Any = None) -> Subject:
     """The subject of a Case or of a scene with a state: three rates, or a dict of blocks {"omega": ...,
@@ -110,12 +116,13 @@ def subject(given: Any, state: Any = None, span: Any = None) -> Subject:
     if isinstance(given, Subject):
         return given
     if isinstance(given, Case):
-        own = Subject(given.scene, given.state, given.blocks, ends or given.span, given.heading, given)
+        own = Subject(given.scene, given.state, given.blocks, ends or given.span, given.heading, given,
+                      asked=ends)
         return own if state is None else replace(own, case=None, **_blocks_of(given.scene, state))
     if not hasattr(given, "quadratic"):
         raise InputError(f"plot: expected a case (of stabilab.load) or a scene, got {given!r:.80}")
     start = {"state": None, "blocks": {}} if state is None else _blocks_of(given, state)
-    return Subject(checked_scene(given), span=ends, **start)
+    return Subject(checked_scene(given), span=ends, asked=ends, **start)
 
 
 def _blocks_of(scene: AnyScene, state: Any) -> dict[str, Any]:

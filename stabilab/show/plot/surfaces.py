@@ -146,7 +146,7 @@ def momentum_sphere(one: Subject) -> SurfaceLines:
     D = np.array([float(v) for v in scene.body.exact])
     wheel = np.array([float(v) for v in scene.vector("gyrostat")])
     period = one.motion.period
-    _, omega = path(one, 0.0, period or (max(one.span, key=abs) if one.span else 15.0))
+    _, omega = path(one, 0.0, period or max(one.seen, key=abs))
     way = omega * D + wheel
     size = float(np.linalg.norm(way[0]))
     energy = lambda H: (((H - wheel) ** 2) / (2 * D)).sum(axis=-1)

@@ -22,7 +22,7 @@ from ..units import SHORT, Units
 from . import in_space
 from . import subject as canvas
 from . import subject as which
-from .subject import DEFAULT_SPAN, Subject, measures, subject
+from .subject import Subject, measures, subject
 
 if TYPE_CHECKING:
     from matplotlib.animation import FuncAnimation
@@ -65,7 +65,7 @@ def turn(one: Subject, frames: int = FRAMES) -> Turn:
     reach at `STEP`."""
     if not 2 <= frames <= 5000:
         raise InputError(f"frames: expected 2 to 5000, got {frames!r:.40}")
-    low, high = one.span or DEFAULT_SPAN
+    low, high = one.seen
     (t, rotations, omega), whole = _reached(one, low, high, frames)
     scene: Any = one.scene  # physical: `which` refuses the others
     return Turn(t, rotations, omega, edges(scene.body.inertia), whole, abs(high - low))

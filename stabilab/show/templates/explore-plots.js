@@ -1,5 +1,5 @@
 // Flat pictures: axes with units, level curves of a potential, curves over time.
-const INK = {motion: "{{ style.ORANGE }}", separatrix: "{{ style.BLACK }}", level: "#B5B5B5", stable: "{{ style.BLUE }}", unstable: "{{ style.VERMILION }}", components: ["{{ style.BLUE }}", "{{ style.ORANGE }}", "{{ style.GREEN }}"]};
+const INK = {motion: "{{ style.ORANGE }}", separatrix: "{{ style.BLACK }}", level: "#B5B5B5", stable: "{{ style.BLUE }}", unstable: "{{ style.VERMILION }}", size: "{{ style.BLACK }}", limit: "{{ style.VERMILION }}", components: ["{{ style.BLUE }}", "{{ style.ORANGE }}", "{{ style.GREEN }}"]};
 
 function rounded(value) { return (Math.abs(value) < 1e5 ? String(+value.toPrecision(6) || 0) : value.toExponential().replace("e+", "e")).replace("-", "\u2212"); }
 
@@ -86,12 +86,15 @@ function periods({times, period}) {
 }
 
 function drawTime(canvas, data) {
-  const {times, rates, extremes} = data, all = rates.flatMap(row => [Math.min(...row), Math.max(...row)]);
+  const {times, rates, extremes, size, limits, reached} = data, all = [...rates, size, ...(limits.length ? [limits] : [])].flatMap(row => [Math.min(...row), Math.max(...row)]);
   let low = Math.min(...all), high = Math.max(...all); const room = high - low || Math.abs(high) || 1;
   for (const pair of extremes || []) for (const v of pair) if (v !== null && v > low - 0.6 * room && v < high + 0.6 * room) { low = Math.min(low, v); high = Math.max(high, v); }
   const pad = 0.06 * (high - low || 2 * room), art = picture(canvas, [times[0], times[times.length - 1]], [low - pad, high + pad], data.x, data.y);
   for (const t of periods(data)) line(art, [[t, low - pad], [t, high + pad]], "#999999", 0.9);
   (extremes || []).forEach((pair, n) => pair.forEach(v => v !== null && line(art, [[times[0], v], [times[times.length - 1], v]], INK.components[n], 1, [1, 3])));
+  line(art, Array.from(times, (t, i) => [t, size[i]]), INK.size, 2.4);
+  limits.forEach(v => line(art, [[times[0], v], [times[times.length - 1], v]], INK.limit, 1.5, [6, 4]));
+  if (reached !== null && reached <= times[times.length - 1]) line(art, [[reached, low - pad], [reached, high + pad]], INK.limit, 1.5);
   rates.forEach((row, n) => line(art, Array.from(times, (t, i) => [t, row[i]]), INK.components[n], 1.5));
   art.pen.restore();
 }

@@ -123,9 +123,10 @@ function show(answer) {
   const saddle = answer.plane && answer.plane.rests.some(one => one.saddle), centre = answer.plane && answer.plane.rests.some(one => !one.saddle);
   fill("plane-words", answer.plane ? `Orange: this motion;${saddle ? " black: separatrix;" : ""} grey: other energies${centre ? "; filled: centre" : ""}${saddle ? "; open: saddle" : ""}. Click to start a motion there.`
     : "This scene does not reduce to one degree of freedom, so it has no phase plane.", words => [signed(words)]);
-  const told = [answer.time.extremes ? "Dotted: least and greatest for ever." : "", periods(answer.time).length ? "Grey: whole periods." : ""].join(" ").trim();
+  const limited = answer.time.limits.length ? "Dashed: limit" + (answer.time.reached === null ? "." : ", reached at the upright line.") : "";
+  const told = [limited, answer.time.extremes ? "Dotted: least and greatest for ever." : "", periods(answer.time).length ? "Grey: whole periods." : ""].join(" ").trim();
   fill("time-words", [answer.time.names, told], ([names, words]) => [...names.map((name, n) => {
-    const mark = element("span", {textContent: `${name} `}); mark.style.color = INK.components[n]; mark.style.fontWeight = 600; return mark; }), words]);
+    const mark = element("span", {textContent: `${name} `}); mark.style.color = INK.components[n] || INK.size; mark.style.fontWeight = 600; return mark; }), words]);
   fill("facts", answer.rows, rows => rows.flatMap(([words, value]) => [element("dt", {textContent: words}), element("dd", {textContent: signed(value)})]));
   fill("equilibria-words", answer.equilibria.reason, words => [signed(words)]);
   fill("equilibria", answer.equilibria.rows, rows => rows.map(row => element("tr", {}, ...row.map(text => element("td", {textContent: signed(text)})))));

@@ -110,7 +110,7 @@ def test_every_axis_has_a_scale_and_every_line_is_named(page):
     drawn = page.run("""(() => {
       const told = [], brush = CanvasRenderingContext2D.prototype, real = brush.fillText, made = $("time").cloneNode(); document.body.append(made);
       brush.fillText = function (text, x) { told.push([text, this.textAlign, x, this.measureText(text).width]); real.apply(this, arguments); };
-      drawTime(made, {times: [0, 1], rates: [[8000, 34000], [0, 1], [0, 1]], x: "time", y: "rate"});
+      drawTime(made, {times: [0, 1], rates: [[8000, 34000], [0, 1], [0, 1]], size: [8000, 34000], limits: [], reached: null, x: "time", y: "rate"});
       brush.fillText = real; made.remove();
       return told; })()""")
     # right of the label, which stands upright at 12 and is 12 high

@@ -2,10 +2,8 @@
 """
 from __future__ import annotations
 
-import math
 from pathlib import Path
 
-from ....validation import reach_of
 from ...plot import subject as which
 from ...plot import to_file
 from ...plot.over_time import file_axes
@@ -28,10 +26,6 @@ SHOWN = {
               "and 10 %.")}
 OF_THE_FILE = "The rates along the axes of the file, about which its limits are."
 BRIEF = ("time", "phase", "state")  # on a page among many
-# of a motion that repeats, where the span of the case would crowd a picture of several motions
-PERIODS = 5.0
-CROWDED = 25.0
-NATURAL = 15.0   # units of the motion's own time, where the case gives no span
 
 
 def pictures(one, folder: Path, stem: str, deep: bool, units: str = "deg") -> list[dict]:
@@ -54,28 +48,11 @@ def pictures(one, folder: Path, stem: str, deep: bool, units: str = "deg") -> li
 def _later(one) -> str:
     """What a picture that ends before a spin-up begins has to say."""
     release = one.motion.evidence.get("release_time")
-    if release is None or one.case is None or one.span is None or release <= max(one.span):
+    if release is None or one.case is None or release <= max(one.seen):
         return ""
     units = units_of(one.case)
     told = printed(units.moment(release) if units.scaled else units.time(release))
     return f" The spin-up begins later: the turn reverses for the last time at {told}."
-
-
-def length(one, motion) -> float:
-    """How far to follow a motion that is drawn with others, in its own time."""
-    span = None if one.span is None else abs(reach_of(one.span))
-    if motion.period and (span is None or span > CROWDED * motion.period):
-        return PERIODS * motion.period
-    return span or natural(one.scene, one.state)
-
-
-def natural(scene, state) -> float:
-    """Some units of the time in which a torque or the rotation itself moves the body."""
-    if scene.variables == "scaled":
-        return NATURAL
-    torque = math.hypot(*(float(v) for v in scene.vector("constant_torque"))) if scene.plain else 0.0
-    rate = math.hypot(*state[:3])
-    return NATURAL * (math.sqrt(sum(scene.body.inertia) / 3 / torque) if torque else 1.0 / (rate or 1.0))
 
 
 def described(path: Path, caption: str) -> dict:

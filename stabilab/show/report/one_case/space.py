@@ -9,18 +9,19 @@ from __future__ import annotations
 
 import math
 from base64 import b64encode
+from dataclasses import replace
 
 import numpy as np
 
 from ....errors import StabilabError
 from ....orbit.result import Fate
 from ....orbit.separatrix.sheets import separatrix
+from ....validation import reach_of
 from ... import style
 from ...plot.path import along, angular, path, thinned
 from ...plot.subject import subject
 from ...surface.write import equilibrium_lines
 from ...terminal.letters import printed
-from . import pictures
 
 SHAPE = (48, 97)     # rows and columns of a sheet
 ROOM = 1.9           # half of the box, of the farthest point of the motion from its middle
@@ -82,11 +83,10 @@ def _reaching(scene, sheets, box, shape):
 def _curve(case, motion, beside_sheets):
     """(n, 3) rates along the motion; beside a separatrix a spin-up only while it is near where it began,
     which else would make it a dot."""
-    until = pictures.length(case, motion)
-    if motion.period:
-        until = min(until, 1.02 * motion.period)
+    one = replace(subject(case), known=motion)
+    until = 1.02 * motion.period if motion.period else abs(reach_of(one.seen))
     cut = beside_sheets and motion.fate is Fate.SPIN_UP
-    t, rates = along(one := subject(case), np.linspace(0.0, until, STEPS),
+    t, rates = along(one, np.linspace(0.0, until, STEPS),
                      drawn=(lambda states: _near(states, motion)) if cut else len)
     size = float(np.ptp(rates, axis=0).max())
     if not size or not angular(rates, 3 * SEEN * size):

@@ -2,6 +2,7 @@
 """
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -86,14 +87,15 @@ def _equations(case):
 def _picture(moved, keys, cases, units, path):
     """The size of the rates against time, all combinations in one panel: colour, dashes and width tell the
     values of the first three keys."""
-    until = max(pictures.length(case, found) for case, found in moved)
+    followed = [replace(subject(case), known=found) for case, found in moved]
+    until = max(max(one.seen) for one in followed)
     (unit, one), (clock, per) = units.rates, units.times(until)
     letter = "ω" if unit else "x"
     with style.drawing() as plt:
         figure, ax = plt.subplots(figsize=(9.0, 4.8), layout="constrained")
-        for case, found in moved:
-            t, states = along(subject(case), np.linspace(0.0, pictures.length(case, found), POINTS))
-            ax.plot(t * per, np.linalg.norm(states, axis=1) * one, **_look(_places(case)))
+        for each in followed:
+            t, states = along(each, np.linspace(0.0, until, POINTS))
+            ax.plot(t * per, np.linalg.norm(states, axis=1) * one, **_look(_places(each.case)))
         ax.set(xlim=(0.0, until * per), xlabel=f"time ({clock})" if unit else "τ",
                ylabel=f"|{letter}| ({unit})" if unit else f"|{letter}|")
         style.legend(figure, list(_legend(keys, cases)), columns=3)
