@@ -27,7 +27,7 @@ settings.load_profile("same")
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items):
     """One in n, and so that each of n values of another parameter comes up too: the 1st, then the 2nd of the
-    next n, and so on. Of the rows that are left every second is for the slow tests, the others for the long."""
+    next n, and so on. Of the rows that are left every fourth is for the slow tests, the others for the long."""
     seen, left = Counter(), Counter()
     for item in items:
         if mark := item.get_closest_marker("one_in"):
@@ -35,7 +35,7 @@ def pytest_collection_modifyitems(items):
             seen[item.path, item.originalname] += 1
             if place % n != place // n % n:
                 item.add_marker("slow")
-                if left[item.path, item.originalname] % 2:
+                if left[item.path, item.originalname] % 4:
                     item.add_marker("long")
                 left[item.path, item.originalname] += 1
 

@@ -34,7 +34,8 @@ COMMANDS = ("show {case}", "classify {case}", "fate {case}", "extremes {case}", 
             "simulate {case} --at 1")
 OTHERS = ("classify {case} --certify --out c.json", "fate {case} --digits 12", "extremes {case} --digits 12",
           "simulate {case} --at 1 --digits 6",
-          "compare {case}", "plot {case} --out p.png", "precision {case} --quick", "surface {case} --out s")
+          "compare {case}")
+DRAWING = "plot {case} --out p.png", "precision {case} --quick", "surface {case} --out s"
 
 # Runs each command line in turn in one process, with the package loaded anew for each, and prints what of it
 # was loaded.
@@ -116,6 +117,7 @@ def test_commands_load_only_the_effects_that_the_scene_names(tmp_path):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("command", (*COMMANDS, *OTHERS))
+@pytest.mark.parametrize("command", (*COMMANDS, *OTHERS, *(pytest.param(c, marks=pytest.mark.long)
+                                                           for c in DRAWING)))
 def test_command_loads_only_the_effects_that_any_scene_names(tmp_path, command):
     check(tmp_path, (command,), MANY)

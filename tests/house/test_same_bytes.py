@@ -108,7 +108,8 @@ def everything(tmp_path_factory):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", AROUND)
+@pytest.mark.parametrize("name", ["again", *(pytest.param(name, marks=pytest.mark.long)
+                                             for name in list(AROUND)[1:])])
 def test_every_file_is_the_same_in_two_runs(everything, tmp_path, name):
     """Pictures, meshes and manifests too."""
     assert {Path(path).suffix for path in everything} == {".txt", ".csv", ".md", ".tex", ".html", ".json",

@@ -83,7 +83,8 @@ def test_without_a_home_stdout_is_the_answer_alone(tmp_path):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("home", [{}, {"HOME": "/dev/null"}], ids=["none", "unwritable"])
+@pytest.mark.parametrize("home", [pytest.param({}, marks=pytest.mark.long), {"HOME": "/dev/null"}],
+                         ids=["none", "unwritable"])
 def test_without_a_home_no_command_lets_a_library_write(tmp_path, home):
     assert set(LINES) == {command.name or command.callback.__name__
                           for command in whole().registered_commands}

@@ -256,7 +256,9 @@ EDGED = {"trapped from the start": (EXAMPLE, (F(6), F(1), F(-1))), "trapped on t
 
 
 @pytest.mark.parametrize("name", ["trapped from the start",
-                                  *(pytest.param(n, marks=pytest.mark.slow) for n in list(EDGED)[1:])])
+                                  pytest.param("trapped on the way", marks=pytest.mark.slow),
+                                  *(pytest.param(n, marks=[pytest.mark.slow, pytest.mark.long])
+                                    for n in list(EDGED)[2:])])
 def test_what_is_accepted_ends_where_the_inequality_does(name):
     """Each number of the claim on its own, halved in to the edge of what is proved: on the one side of it the
     inequality holds, on the other it fails, by 60 digits of another code (`inequality_in_digits`) at the

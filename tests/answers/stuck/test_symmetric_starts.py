@@ -92,7 +92,8 @@ def agree(seed):
     return len(momenta), ran is not None, bool(ends)
 
 
-SLOW = [pytest.param(n, 100, marks=pytest.mark.slow) for n in range(0, 2000, 100)]
+SLOW = [pytest.param(n, 100, marks=[pytest.mark.slow, *[pytest.mark.long] * (n >= 800)])
+        for n in range(0, 2000, 100)]
 
 
 @pytest.mark.parametrize("first, many", [(0, 20), *SLOW])
