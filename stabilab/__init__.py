@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 from importlib import import_module
+from types import FunctionType
 from typing import TYPE_CHECKING, Any
 
 from .version import __version__ as __version__
@@ -20,6 +21,7 @@ if TYPE_CHECKING:  # what `_HOME` loads on first use, for editors and type check
     from .answers.simulate import trajectory as trajectory
     from .answers.stuck.ask import stuck as stuck
     from .answers.time_to import time_to as time_to
+    from .answers.when import when as when
     from .case.read import Case as Case
     from .case.read import load as load
     from .errors import InputError as InputError
@@ -27,6 +29,7 @@ if TYPE_CHECKING:  # what `_HOME` loads on first use, for editors and type check
     from .maps.bifurcation.ask import bifurcation as bifurcation
     from .orbit.result import Fate as Fate
     from .orbit.separatrix.sheets import separatrix as separatrix
+    from .papers.report.report import report as report
     from .physics.effects.body_force import BodyForce as BodyForce
     from .physics.effects.charge import Charge as Charge
     from .physics.effects.constant_torque import ConstantTorque as ConstantTorque
@@ -60,6 +63,7 @@ _HOME = {
     "spin_up": "unreduced.spin_up.follow",
     "separatrix": "orbit.separatrix.sheets", "stuck": "answers.stuck.ask",
     "time_to": "answers.time_to", "TimeTo": "answers.passage.run",
+    "when": "answers.when", "report": "papers.report.report",
     "trajectory": "answers.simulate", "ensemble": "integrate.ensemble",
     "simulate": "answers.simulate", "compare": "theories.comparison", "theory": "theories.theory",
     "Charge": "physics.effects.charge", "Resistance": "physics.effects.resistance",
@@ -77,7 +81,11 @@ def __getattr__(name: str) -> Any:
     if name in _HOME:
         home = import_module(f"{__name__}.{_HOME[name]}")
         # a room of its own: plot
-        return getattr(home, name) if hasattr(home, name) else import_module(f"{home.__name__}.{name}")
+        found = getattr(home, name) if hasattr(home, name) else import_module(f"{home.__name__}.{name}")
+        if isinstance(found, FunctionType) and name != "load":
+            found = import_module(f"{__name__}.public").of_any(found)
+        globals()[name] = found  # one and the same whenever it is used: it is pickled by its name
+        return found
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 

@@ -7,12 +7,12 @@ from fractions import Fraction
 
 from ..errors import InputError
 from ..numbers.exact import exact, floats, half_unit, sqrt_fraction
-from ..numbers.principal import IDENTITY, PrincipalAxes, fault_of, principal_axes, without_trace
+from ..numbers.principal import IDENTITY, PrincipalAxes, evened, fault_of, principal_axes
+from ..numbers.units import FORCE, INERTIA, half_digit, pi
 from ..numbers.vectors import Exact3, cross, dot
 from ..physics.effects import effect_class
-from ..physics.scene import ROUNDING, Body
+from ..physics.scene import ROUNDING, Body, along_principal_axes, slack_of
 from .table import Faults, Table, Written, described, plus_minus, states_uncertainty
-from .units import FORCE, INERTIA, in_dimension, pi, split
 
 # --- [body] of a case file: moments, a full tensor, or moments beside products of inertia; mass and centre
 # of mass
@@ -73,11 +73,7 @@ def _tensor(table: Table):
         table.fault("a full tensor has the products of inertia in it: keep one of them", "products")
         return None
     rows = table.matrix("inertia")
-    if rows is None:
-        return None
-    slack = ROUNDING * max(abs(v) for row in rows for v in row)
-    return [[(v + rows[j][i]) / 2 if abs(v - rows[j][i]) <= slack else v for j, v in enumerate(row)] for i,
-            row in enumerate(rows)]
+    return None if rows is None else evened(rows, ROUNDING)
 
 
 def _with_products(table: Table):
@@ -126,12 +122,7 @@ def _possible(table: Table, moments) -> bool:
 
 def _slack(table: Table) -> Fraction:
     """How far the digits of the tensor leave open by how much its largest moment exceeds the sum of the
-    others, kg m^2.
-
-    With half units e_ij of the entries that is at most e_11 + e_22 + e_33 + 2 max_i sum_(j != i) e_ij: the
-    trace changes by the first, and an eigenvalue of the tensor less half its trace by at most the largest sum
-    of a row (Gershgorin).
-    """
+    others, kg m^2."""
     inertia, products = table.data["inertia"], table.data.get("products", {})
     if isinstance(inertia[0], list):
         halves = [[_half(value) for value in row] for row in inertia]
@@ -139,7 +130,7 @@ def _slack(table: Table) -> Fraction:
         halves = [[_half(inertia[i]) if i == j else Fraction(0) for j in range(3)] for i in range(3)]
         for name, (i, j) in PAIRS.items():
             halves[i][j] = halves[j][i] = _half(products.get(name, 0))
-    return sum(halves[i][i] for i in range(3)) + 2 * max(sum(row) - row[i] for i, row in enumerate(halves))
+    return slack_of(halves)
 
 
 def _half(value: object) -> Fraction:
@@ -148,8 +139,7 @@ def _half(value: object) -> Fraction:
         return half_unit(value)
     if states_uncertainty(value):
         return plus_minus(value, INERTIA)[1]
-    number, unit = split(value) or (value, "")
-    return half_unit(number) * (in_dimension(unit, INERTIA).size if unit else 1)
+    return half_digit(value, INERTIA)
 
 
 # --- What a spacecraft carries, as a case file states it: [[thrusters]], [[wheels]] and [limits]
@@ -424,22 +414,13 @@ def turned_effects(top: Table, effects: list, frame: PrincipalAxes | None) -> li
     """The effects along principal axes; a fault for each that cannot be turned."""
     if frame is None or frame.as_given:
         return effects
-    turned = [effect.turned(frame) for effect in effects]
+    turned = along_principal_axes(effects, frame)
     for effect, found in zip(effects, turned):
         if found is None:
             top.fault(f"{OBLIQUE} {effect.name.replace('_', ' ')} is known along principal axes alone: give "
                       f"principal moments, and "
                       "the rest of the case along them", "effects", effect.name)
-    return _at_right_angles([effect for effect in turned if effect is not None])
-
-
-def _at_right_angles(effects: list) -> list:
-    """Momentum across the torque in the input frame is across it along irrational axes too: whether it is
-    decides what becomes of a motion."""
-    torque = next((e.exact for e in effects if e.name == "constant_torque"), None)
-    if torque is None:
-        return effects
-    return [type(e)(without_trace(e.exact, torque)) if e.name == "gyrostat" else e for e in effects]
+    return [effect for effect in turned if effect is not None]
 
 
 def judge_oblique(top: Table, frame: PrincipalAxes | None):

@@ -8,7 +8,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from ..errors import InputError
-from .units import ANGLE, ENERGY, NONE, RATE, TIME, quantity
+from ..numbers.units import ANGLE, ENERGY, NONE, RATE, TIME, quantity
 
 if TYPE_CHECKING:
     from .read import Case

@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import math
 import os
+from collections.abc import Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
@@ -17,6 +18,7 @@ from ..numbers.vectors import Exact3, Float3, dot
 from ..physics.coefficients import Scaling, to_scaled, torque_from_mu
 from ..physics.effects import REGISTRY, effect_class
 from ..physics.scene import Body, ScaledGyrostat, Scene, ordered
+from ..validation import came, checked_span
 from .body import (
     Limits,
     Thruster,
@@ -33,8 +35,10 @@ from .body import (
     wheels_of,
 )
 from .lines import key_lines
+from .questions import Questions
 from .source import combinations, parsed, place, source_text, swept
 from .table import Faults, Table, Uncertain, described, did_you_mean, dotted, expected
+from .write import data_of_scene, plain, text_of
 
 # --- Two keys for one thing: the attitude of a body says where the vertical is, inertial axis 3, and so
 # does its vertical
@@ -91,7 +95,7 @@ STAND_IN = Body((3, 2, 1))  # lets the faults of the effects show where the body
 
 
 @dataclass(frozen=True)
-class Case:
+class Case(Questions):
     """One case file.
 
     scene: the Scene (rad/s, s) or ScaledGyrostat (x, tau) in the variables of the case, which `variables`
@@ -113,7 +117,7 @@ class Case:
     caveats: what the file itself says that limits every answer.
     """
 
-    path: str
+    path: str = field(compare=False)
     title: str
     source: str
     scene: Scene | ScaledGyrostat
@@ -124,7 +128,7 @@ class Case:
     span: tuple[float, ...] | None = None
     expect: dict = field(default_factory=dict)
     blocks: dict = field(default_factory=dict)
-    text: str = field(default="", repr=False)
+    text: str = field(default="", repr=False, compare=False)
     variant: str = ""
     uncertain: tuple[Uncertain, ...] = ()
     mu: tuple | None = None
@@ -193,16 +197,45 @@ def blamed_on(case: Case):
                          else f"{case.place}: {error}") from None
 
 
-def load(path: str | os.PathLike[str]) -> Case:
-    """The case in the TOML file `path`. Raises CaseError, an InputError, with all faults of the file at once.
+def load(given: Any, state: Any = None, span: Any = None) -> Case:
+    """The case that is given: the path of a TOML file, such text itself (a string of more than one line), a
+    dict with the tables of a file, a case, or a scene, whose motion `state` and `span` are.
+
+    state, span: of a scene alone; three rates in its variables, or blocks by name ("omega", "gamma", ...),
+    and (from, to) in its time, or the end alone. Raises CaseError, an InputError, with all faults of a file
+    at once.
 
     The case is scaled where the file has [scaled], gives the motion as x, or gives no motion and the torque
     as mu (and the scaling is defined); else physical. Decimals are read exactly, the motion is rounded once.
     """
-    if not isinstance(path, (str, os.PathLike)):
-        raise InputError(f"load: expected the path of a case file, got {path!r:.80}")
-    path, text, data, faults = _read(path)
-    return _built(path, text, data, faults)
+    if hasattr(given, "quadratic"):
+        return read_text("scene", text_of(data_of_scene(given, state, checked_span(span))))
+    if state is not None or span is not None:
+        raise InputError("load: state and span are those of a scene; a case or a file has its own [motion]")
+    if isinstance(given, Case):
+        return given
+    if isinstance(given, Mapping):
+        return read_text("dict", text_of(plain(given)))
+    if isinstance(given, str) and "\n" in given:
+        return read_text("text", given)
+    if not isinstance(given, (str, os.PathLike)):
+        raise InputError(f"load: expected a case: the path of a case file, its text, a dict, or a scene; got "
+                         f"{came(given)}")
+    return _built(*_read(given))
+
+
+def text_of_case(case: Case) -> str:
+    """The text of a case file with this case: its own, with its comments, where that states it; of a
+    combination of a [sweep] and of a case with another motion the numbers alone."""
+    if not case.variant and case == replace(read_text(case.path, case.text), swept=case.swept):
+        return case.text
+    top = Table((), *parsed(case.path, case.text))
+    data = dict(combinations(top)).get(case.variant, top.data)
+    if case == replace(_built(case.path, case.text, data, top.faults, case.variant), swept=case.swept):
+        return text_of(data)
+    motion = {"omega": case.exact_state, **case.blocks} if case.state else None
+    return text_of(plain({"title": case.title, "source": case.source})
+                   | data_of_scene(case.scene, motion, case.span))
 
 
 def load_all(path) -> list[Case]:

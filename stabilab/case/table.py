@@ -15,9 +15,9 @@ from unicodedata import category
 
 from ..errors import InputError, Problem, printable
 from ..numbers.exact import exact
+from ..numbers.units import NONE, Dimension, dimension_of, in_dimension, quantity, split
 from ..numbers.vectors import Exact3
 from .lines import KeyLines
-from .units import NONE, Dimension, dimension_of, in_dimension, quantity, split
 
 # --- Uncertain numbers as a case file writes them: "2000 +- 20", "12.0 +- 3 %", "12 +- 0.5 N"
 _PLUS_MINUS = re.compile(r"([^±%]*?)(?:\+-|±)([^±%]*)(%?)([^±%]*)")

@@ -12,9 +12,9 @@ from typing import Any, NamedTuple
 
 from ..case.source import SWEPT
 from ..case.table import Written, states_uncertainty
-from ..case.units import NAMES, NONE, dimension_of, in_dimension, quantity, split
 from ..errors import InputError, printable
 from ..numbers.exact import exact
+from ..numbers.units import NAMES, NONE, dimension_of, in_dimension, quantity, split
 
 # --- The numbers of a case that a map varies, by name, and their values
 # --- The numbers of a case file by name: "effects.constant_torque.torque[3]", "wheels.pitch.speed",

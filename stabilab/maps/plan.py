@@ -27,8 +27,8 @@ from ..case.limit_options import StatedLimit, stated_limit
 from ..case.read import Case, read_text
 from ..case.source import parsed, source_text
 from ..case.table import Uncertain
-from ..case.units import NONE, TIME, quantity
 from ..errors import InputError, printable
+from ..numbers.units import NONE, TIME, quantity
 from ..physics.coefficients import effective
 from ..version import __version__
 from .atlas.pointed import Pointed, pointed_from

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from fractions import Fraction
@@ -79,8 +79,8 @@ def half_unit(value: object) -> Fraction:
     return Fraction(10) ** (int(power or 0) - len(digits.partition(".")[2])) / 2
 
 
-def exact_vector(values: Iterable[object], name: str) -> Exact3:
-    """Three exact numbers; InputError names `name` otherwise."""
+def exact_vector(values: Iterable[object], name: str, read: Callable[[Any], Fraction] = exact) -> Exact3:
+    """Three exact numbers, each as `read` takes it; InputError names `name` otherwise."""
     try:
         items = list(values) if not isinstance(values, (str, bytes, bytearray)) else None
     except TypeError:
@@ -89,7 +89,7 @@ def exact_vector(values: Iterable[object], name: str) -> Exact3:
         came = type(values).__name__ if items is None else f"{len(items)} of them"
         raise InputError(f"{name}: expected three numbers, got {came}")
     try:
-        return tuple(exact(v) for v in items)
+        return tuple(read(v) for v in items)
     except InputError as error:
         raise InputError(f"{name}: {error}") from None
 

@@ -86,6 +86,14 @@ def principal_axes(tensor: Sequence[Sequence[Number]]) -> PrincipalAxes:
         bits *= 2
 
 
+def evened(rows: Rows, share: Fraction) -> Rows:
+    """A 3 x 3 matrix with the mean of two entries across its diagonal that differ by no more than a share of
+    its largest entry, which is what rounding leaves."""
+    slack = share * max(abs(v) for row in rows for v in row)
+    return [[(v + rows[j][i]) / 2 if abs(v - rows[j][i]) <= slack else v for j, v in enumerate(row)] for i,
+            row in enumerate(rows)]
+
+
 def fault_of(rows: Rows) -> str | None:
     """What keeps a 3 x 3 tensor of rationals from being symmetric with positive principal moments, in words;
     None where nothing does."""

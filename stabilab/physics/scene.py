@@ -20,8 +20,10 @@ from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple, TypeAlias
 
 from ..caveat import Caveat
 from ..errors import InputError
-from ..numbers.exact import exact, exact_vector, floats, half_unit, sqrt_fraction
-from ..numbers.vectors import CYCLE, Exact3, Given, Number, Triple, dot
+from ..numbers.exact import exact, exact_vector, floats, sqrt_fraction
+from ..numbers.principal import PrincipalAxes, evened, principal_axes, without_trace
+from ..numbers.units import INERTIA, MASS, RATE, half_digit, in_si, vector_in_si
+from ..numbers.vectors import CYCLE, Exact3, Float3, Given, Number, Triple, dot
 from ..validation import Asked
 from .effects.base import Effect, effect_words
 
@@ -33,13 +35,26 @@ if TYPE_CHECKING:
 ROUNDING = Fraction(1, 1 << 48)  # of the largest moment: what a routine of eigenvalues in doubles leaves
 
 
+def slack_of(halves: Sequence[Sequence[Fraction]]) -> Fraction:
+    """How far half units e_ij of the entries of a tensor leave open by how much its largest moment exceeds
+    the sum of the others.
+
+    At most e_11 + e_22 + e_33 + 2 max_i sum_(j != i) e_ij: the trace changes by the first, and an eigenvalue
+    of the tensor less half its trace by at most the largest sum of a row (Gershgorin).
+    """
+    return sum((halves[i][i] for i in range(3)), Fraction(0)) + 2 * max(
+        sum(row, Fraction(0)) - row[i] for i, row in enumerate(halves))
+
+
 @dataclass(frozen=True)
 class Body(metaclass=Asked):
     """A rigid body seen from its principal axes 1, 2, 3.
 
     inertia: three principal moments of inertia about the centre of mass or a fixed point, kg m^2, in any
-    order, equal ones allowed; numbers or exact strings. `exact` keeps them unrounded. mass: kg, only where
-    the body also travels. slack: kg m^2, by how much rounding may let the largest moment exceed the sum of
+    order, equal ones allowed, or the whole tensor, 3 x 3, in any frame fixed in the body, whose principal
+    moments are then found, and its principal axes (`axes`); numbers, exact strings, or text with a unit
+    ("12 kg m^2"). `exact` keeps the moments unrounded. mass: kg, only where the body also travels. slack:
+    kg m^2, by how much rounding may let the largest moment exceed the sum of
     the other two, which those of no mass distribution do; None for half a unit of the last digit of each. A
     larger excess is a caveat of every answer: Euler's equations hold for any positive moments. Raises
     InputError for a moment that is not positive.
@@ -49,22 +64,45 @@ class Body(metaclass=Asked):
     mass: Given | None = None
     slack: Given | None = field(default=None, repr=False, compare=False)
     exact: Exact3 = field(init=False, repr=False)
+    axes: PrincipalAxes | None = field(init=False, repr=False, compare=False, default=None)
 
     def __post_init__(self) -> None:
-        moments = exact_vector(self.inertia, "inertia")
+        halves, moments = self._moments()
         for number, moment in enumerate(moments, 1):
             if moment <= 0:
                 raise InputError(
                     f"inertia: moment {number} is {float(moment):g}; principal moments are positive")
         if self.mass is not None:
-            mass = exact(self.mass, "mass")
+            mass = in_si(self.mass, MASS, "mass")
             if mass <= 0:
                 raise InputError(f"mass: expected a positive number of kg, got {float(mass):g}")
             object.__setattr__(self, "mass", float(mass))
-        slack = sum(map(half_unit, self.inertia)) if self.slack is None else exact(self.slack, "slack")
-        object.__setattr__(self, "slack", slack)
+        object.__setattr__(self, "slack", halves if self.slack is None else exact(self.slack, "slack"))
         object.__setattr__(self, "exact", moments)
         object.__setattr__(self, "inertia", floats(moments))
+
+    def _moments(self) -> tuple[Fraction, Exact3]:
+        """(how far the digits that were given leave the moments open, principal moments); keeps the axes of a
+        tensor."""
+        rows = list(self.inertia) if hasattr(self.inertia, "__iter__") else []
+        if isinstance(self.inertia, str) or len(rows) != 3 or not all(
+                hasattr(row, "__len__") and not isinstance(row, str) for row in rows):
+            moments = vector_in_si(self.inertia, INERTIA, "inertia")
+            return sum((half_digit(value, INERTIA) for value in self.inertia), Fraction(0)), moments
+        tensor = evened([vector_in_si(row, INERTIA, f"inertia: row {n}") for n, row in enumerate(rows, 1)],
+                        ROUNDING)
+        try:
+            axes = principal_axes(tensor)
+        except InputError as error:
+            raise InputError(f"inertia: {error}") from None
+        object.__setattr__(self, "axes", axes)
+        return slack_of([[half_digit(value, INERTIA) for value in row] for row in rows]), axes.moments
+
+    def turned(self, vector: Sequence[Given]) -> Float3:
+        """Components along the principal axes of a vector in the frame that the tensor was given in: an
+        angular velocity (rad/s, or text with its unit), say."""
+        given = vector_in_si(vector, RATE, "vector")
+        return floats(given if self.axes is None else self.axes.turned(given))
 
     @property
     def excess(self) -> Fraction:
@@ -204,12 +242,25 @@ def rests(form: QuadraticForm, state: Iterable[Number]) -> bool:
 ZERO3 = (Fraction(0),) * 3
 
 
+def along_principal_axes(effects: Sequence[Effect], frame: PrincipalAxes) -> list[Effect | None]:
+    """The effects along the principal axes, from the frame of the tensor; None for one that is known along
+    principal axes alone. Momentum across the torque in that frame is across it along irrational axes too:
+    whether it is decides what becomes of a motion."""
+    if frame.as_given:
+        return list(effects)
+    turned = [effect.turned(frame) for effect in effects]
+    torque: Any = next((effect for effect in turned if effect and effect.name == "constant_torque"), None)
+    return [type(effect)(without_trace(effect.exact, torque.exact))  # type: ignore[attr-defined, call-arg]
+            if effect and torque and effect.name == "gyrostat" else effect for effect in turned]
+
+
 @dataclass(frozen=True)
 class Scene(metaclass=Asked):
     """A body and its effects, each at most once. Effects not named here do not exist for any later step, and
     one of zero strength is not kept: it equals an absent one in every answer because it is absent.
 
-    Scene(body, effect, effect ...): vectors are along the body's principal axes, in kg, m, s. States are the
+    Scene(body, effect, effect ...): vectors are in the frame of the moments or the tensor that the body was
+    given by, in kg, m, s; the scene holds them along the principal axes. States are the
     rates about these axes, (..., 3) in rad/s; effects that need more of the state add blocks to it. Raises
     InputError for anything but a Body and effects, and for an effect named twice.
     """
@@ -236,6 +287,15 @@ class Scene(metaclass=Asked):
         for name in names:
             if names.count(name) > 1:
                 raise InputError(f"effect {name!r} is named twice; a scene holds each effect once")
+        if body.axes is not None:  # from here on all is along the principal axes
+            turned = along_principal_axes(flat, body.axes)
+            for effect, found in zip(flat, turned):
+                if found is None:
+                    raise InputError(
+                        f"scene: {effect_words(effect.name)} is known along principal axes alone: give the "
+                        "body by its principal moments, and the rest along its axes")
+            flat = tuple(effect for effect in turned if effect is not None)
+            body = Body(body.exact, body.mass, body.slack)
         object.__setattr__(self, "body", body)
         object.__setattr__(self, "effects", tuple(e for e in flat if e.acts))
 

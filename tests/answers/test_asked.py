@@ -14,9 +14,8 @@ OF_A_SCENE = {"equilibria": (), "fate": (STATE,), "fate_grid": ([[0.1], [0.2], [
               "ensemble": ([STATE], TIMES),
               "simulate": (STATE, TIMES), "derive": (), "validity": (STATE,), "chaos": (STATE,)}
 PLANE = {"x[1]": "0:1", "x[3]": "0:1"}
-# which take the path of a case file too
-OF_A_FILE = {"sweep": ({"x[1]": "0:1:2"},), "atlas": (), "basin": (PLANE,), "bifurcation": ({"x[1]": "0:1"},)}
-OF_A_CASE = {"stuck": (), "compare": (), "theory": ()} | OF_A_FILE
+OF_A_CASE = {"stuck": (), "compare": (), "theory": (), "when": (), "report": (),
+             "sweep": ({"x[1]": "0:1:2"},), "atlas": (), "basin": (PLANE,), "bifurcation": ({"x[1]": "0:1"},)}
 
 
 def test_every_public_function_of_a_scene_or_a_case_is_asked_here():
@@ -32,7 +31,7 @@ def test_every_public_function_of_a_scene_or_a_case_is_asked_here():
 @pytest.mark.parametrize("name", [*OF_A_SCENE, *OF_A_CASE])
 def test_what_is_no_scene_and_no_case_is_bad_input_that_says_what_is_expected(name, given):
     with pytest.raises(stabilab.InputError,
-                       match="x: no such file" if given == "x" and name in OF_A_FILE else "expected a"):
+                       match="x: no such file" if given == "x" else "expected a"):
         getattr(stabilab, name)(given, *(OF_A_SCENE | OF_A_CASE)[name])
 
 

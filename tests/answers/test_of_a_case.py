@@ -30,8 +30,8 @@ def test_a_case_stands_for_its_scene_its_start_and_its_span():
                                  stabilab.motion, stabilab.stuck,
                                  lambda given: stabilab.simulate(given, (1, 0, 0), [0.0, 1.0])])
 @pytest.mark.parametrize("wrong, named",
-                         [({"body": list(range(500))}, "type dict"), (np.zeros(300), "type ndarray"),
-                          ("cases/x.toml", "'cases/x.toml'")])
+                         [({"body": list(range(500))}, "body: expected a table [body], got a list"),
+                          (np.zeros(300), "type ndarray"), ("cases/x.toml", "cases/x.toml: no such file")])
 def test_a_wrong_type_is_named_and_never_shown_whole(ask, wrong, named):
     with pytest.raises(stabilab.InputError) as error:
         ask(wrong)

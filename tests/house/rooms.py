@@ -23,7 +23,7 @@ MAY: dict[str, str | None] = {
     "numbers": "", "physics": "numbers", "case": "physics numbers", "integrate": "physics numbers",
     "equilibrium": "physics numbers",
     "orbit": "physics numbers", "unreduced": "orbit equilibrium integrate physics numbers",
-    "answers": "unreduced orbit equilibrium integrate physics numbers",
+    "answers": "unreduced orbit equilibrium integrate case physics numbers",
     "theories": "answers integrate physics numbers",
     "maps": "answers orbit equilibrium case integrate physics numbers",
     "cost": "theories answers orbit integrate physics numbers", "verify": None,

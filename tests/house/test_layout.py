@@ -53,6 +53,8 @@ DOORS = {
     ("stabilab.equilibrium.liquid", "stabilab.numbers.krawczyk"): "loads numpy",
     ("stabilab.physics.coefficients", "stabilab.physics.law_limits"): "loaded for approximate laws alone",
     ("stabilab.physics.coefficients", "stabilab.physics.states"): "loads numpy",
+    ("stabilab.public", "stabilab.answers.chaos"): "loads numpy",
+    ("stabilab.public", "stabilab.physics.states"): "loads numpy",
     ("stabilab.show.explore.orbits", "stabilab.show.plot.path"): "loads numpy",
     ("stabilab.show.explore.orbits", "stabilab.show.plot.subject"): "loads numpy",
     ("stabilab.show.explore.session", "stabilab.answers.passage.of_case"): "loads numpy",

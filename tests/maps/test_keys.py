@@ -110,6 +110,6 @@ def test_a_key_ends_at_the_last_equals_sign_as_a_wheels_name_may_have_one():
 
 def test_the_unit_of_every_number_of_a_file_is_one_unit():
     """A table heads its columns with it: of a torque that is N m, whatever else has this dimension."""
-    from stabilab.case.units import DIMENSIONS, named
+    from stabilab.numbers.units import DIMENSIONS, named
     names = [named(dimension) for dimension in DIMENSIONS.values()]
     assert all(name.count("(") <= 1 and " or " not in name for name in names)

@@ -9,8 +9,8 @@ from pathlib import Path
 
 from ...answers.motion import motion
 from ...case.read import Case, blamed_on, load_all
-from ...case.units import NONE, TIME, quantity, split
 from ...errors import InputError, printable
+from ...numbers.units import NONE, TIME, quantity, split
 from ...show.progress import each
 from ...show.terminal import page, sweep
 from ...show.text import law

@@ -14,10 +14,10 @@ import numpy as np
 
 from ...case.limit_options import FILE_AXES, StatedLimit, stated_limit
 from ...case.read import Case, blamed_on, read_text
-from ...case.units import TORQUE, quantity
 from ...errors import InputError, printable
 from ...numbers.exact import sqrt_fraction
 from ...numbers.principal import NOTHING
+from ...numbers.units import TORQUE, quantity
 from ...numbers.vectors import Exact3, dot
 from ...orbit.result import Fate
 from ..axes import Key, axis_of

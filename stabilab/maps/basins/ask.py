@@ -30,8 +30,8 @@ from typing import Any
 import numpy as np
 
 from ...case.read import Case
-from ...case.units import split
 from ...errors import InputError, printable
+from ...numbers.units import split
 from ...orbit.result import Fate
 from ..columns import record
 from ..plan import Plan, packed, planned

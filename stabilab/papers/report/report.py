@@ -6,6 +6,7 @@ import os
 import sys
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
 from ...case.read import load_all
 from ...interrupt import undoing
@@ -62,6 +63,13 @@ def write(cases=None, out="report", progress=None, arguments=None, papers=False,
     if undecided is not None:
         undecided += [stem for (stem, _), (_, open_) in zip(own.entries(loaded), left) if open_]
     return out / "index.html"
+
+
+def report(case: Any, out: str | os.PathLike[str] = "report", precision: bool = False, certify: bool = False,
+           workers: int | None = None) -> Path:
+    """Write the pages on a case into the folder `out`, as `stabilab report` does; precision: what accuracy
+    costs as well; certify: a certificate, checked. Returns the path of index.html."""
+    return write([case], out, precision=precision, certify=certify, workers=workers)
 
 
 def of_all(cases):

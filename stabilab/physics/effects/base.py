@@ -7,7 +7,7 @@ fractions.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from fractions import Fraction
 from typing import Any, ClassVar
 
@@ -63,6 +63,12 @@ class Effect(metaclass=Asked):
         vector = table.vector(cls.keys[0]) if table.required(*cls.keys) else None
         made: Any = cls  # an effect of other keys reads them itself
         return None if vector is None else made(vector)
+
+    def written(self) -> dict[str, Any]:
+        """Its table in a case file: key to value, exact where the effect holds it so."""
+        values = [getattr(self, one.name) for one in fields(self) if one.init]
+        exact = getattr(self, "exact", None)  # of the only number or vector; else of what several make
+        return dict(zip(self.keys, values if exact is None or len(values) > 1 else [exact]))
 
     def parameters(self) -> dict[str, Fraction]:
         """Symbol name to exact value, in the order of declaration."""

@@ -6,7 +6,8 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any, ClassVar
 
-from ...numbers.exact import exact_vector, floats
+from ...numbers.exact import floats
+from ...numbers.units import FORCE, vector_in_si
 from ...numbers.vectors import Exact3, Given, Number, Triple
 from .base import Effect
 
@@ -25,7 +26,7 @@ class BodyForce(Effect):
     exact: Exact3 = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "exact", exact_vector(self.vector, "force"))
+        object.__setattr__(self, "exact", vector_in_si(self.vector, FORCE, "force"))
         object.__setattr__(self, "vector", floats(self.exact))
 
     @classmethod

@@ -8,6 +8,7 @@ from typing import Any, ClassVar
 
 from ...errors import InputError
 from ...numbers.exact import exact, precise
+from ...numbers.units import ANGLE, CHARGE, FLUX, LENGTH, in_si
 from ...numbers.vectors import Given, Number, Triple, cross
 from .base import Effect, Limit
 
@@ -35,16 +36,17 @@ class Charge(Effect):
     strength: float = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
-        scale = (exact(self.charge, "charge") * exact(self.field_strength, "field")
-                 * exact(self.arm, "arm") ** 2)
-        if not self.follows_attitude:
-            scale *= precise("cos", exact(self.angle, "angle"))
+        charge, arm = in_si(self.charge, CHARGE, "charge"), in_si(self.arm, LENGTH, "arm")
+        strength = in_si(self.field_strength, FLUX, "field")
+        angle = None if self.follows_attitude else in_si(self.angle, ANGLE, "angle")
+        scale = charge * strength * arm**2 * (1 if angle is None else precise("cos", angle))
         object.__setattr__(self, "exact", scale)
         if abs(scale) >= 2**1024:
             raise InputError("charge x field x arm^2 is larger than the largest double (about 1.8e308)")
         object.__setattr__(self, "strength", float(scale))
-        for name in ("charge", "field_strength", "arm", *(() if self.follows_attitude else ("angle",))):
-            object.__setattr__(self, name, float(exact(getattr(self, name))))
+        for name, value in (("charge", charge), ("field_strength", strength), ("arm", arm), ("angle", angle)):
+            if value is not None:
+                object.__setattr__(self, name, float(value))
 
     @classmethod
     def from_case(cls, table: Any, context: Any) -> Charge | None:

@@ -7,8 +7,9 @@ from fractions import Fraction
 from typing import Any, ClassVar
 
 from ...errors import InputError
-from ...numbers.exact import exact_vector, floats
+from ...numbers.exact import floats
 from ...numbers.principal import PrincipalAxes
+from ...numbers.units import TORQUE, vector_in_si
 from ...numbers.vectors import Exact3, Given, Number, Triple
 from .base import Effect
 
@@ -25,7 +26,7 @@ class ConstantTorque(Effect):
     exact: Exact3 = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "exact", exact_vector(self.vector, "torque"))
+        object.__setattr__(self, "exact", vector_in_si(self.vector, TORQUE, "torque"))
         object.__setattr__(self, "vector", floats(self.exact))
 
     @classmethod

@@ -6,8 +6,9 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any, ClassVar
 
-from ...numbers.exact import exact, exact_vector, floats
+from ...numbers.exact import exact, floats
 from ...numbers.principal import PrincipalAxes
+from ...numbers.units import FORCE, LENGTH, in_si, vector_in_si
 from ...numbers.vectors import Exact3, Float3, Given, Number, Triple, cross, dot
 from .base import Effect
 
@@ -26,7 +27,8 @@ class Gravity(Effect):
     exact: Exact3 = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
-        weight, centre = exact(self.weight, "weight"), exact_vector(self.centre_of_mass, "centre_of_mass")
+        weight = in_si(self.weight, FORCE, "weight")
+        centre = vector_in_si(self.centre_of_mass, LENGTH, "centre_of_mass")
         object.__setattr__(self, "exact", tuple(weight * c for c in centre))
         object.__setattr__(self, "weight", float(weight))
         object.__setattr__(self, "centre_of_mass", floats(centre))

@@ -6,8 +6,9 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import ClassVar
 
-from ...numbers.exact import exact_vector, floats
+from ...numbers.exact import floats
 from ...numbers.principal import PrincipalAxes
+from ...numbers.units import MOMENTUM, vector_in_si
 from ...numbers.vectors import Exact3, Given, Number, Triple
 from .base import Effect
 
@@ -29,7 +30,7 @@ class Gyrostat(Effect):
     exact: Exact3 = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "exact", exact_vector(self.moment, "momentum"))
+        object.__setattr__(self, "exact", vector_in_si(self.moment, MOMENTUM, "momentum"))
         object.__setattr__(self, "moment", floats(self.exact))
 
     def turned(self, frame: PrincipalAxes) -> Gyrostat:

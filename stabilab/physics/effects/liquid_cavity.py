@@ -9,8 +9,9 @@ from types import SimpleNamespace
 from typing import Any, ClassVar
 
 from ...errors import InputError
-from ...numbers.exact import exact, precise
+from ...numbers.exact import precise
 from ...numbers.principal import PrincipalAxes
+from ...numbers.units import DENSITY, LENGTH, LENGTH_7, VISCOSITY, in_si
 from ...numbers.vectors import Given, Number, Triple, cross, dot
 from .base import Effect, Limit
 
@@ -87,8 +88,8 @@ class LiquidCavity(Effect):
     exact: Fraction = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
-        density, viscosity, P0 = exact(self.density,
-                                       "density"), exact(self.viscosity, "viscosity"), exact(self.P0, "P0")
+        density, P0 = in_si(self.density, DENSITY, "density"), in_si(self.P0, LENGTH_7, "P0")
+        viscosity = in_si(self.viscosity, VISCOSITY, "viscosity")
         for name, value in (("density", density), ("viscosity", viscosity), ("P0", P0)):
             if value < 0 or (value == 0 and name == "viscosity"):
                 raise InputError(f"{name}: expected a positive number, got {float(value):g}")
@@ -99,10 +100,10 @@ class LiquidCavity(Effect):
             object.__setattr__(self, name, float(value))
 
     @classmethod
-    def of_sphere(cls, density: float, viscosity: float, radius: float,
+    def of_sphere(cls, density: Given, viscosity: Given, radius: Given,
                   law: str = "consistent") -> LiquidCavity:
         """The cavity as a sphere of this radius, m."""
-        length = exact(radius, "radius")
+        length = in_si(radius, LENGTH, "radius")
         if length < 0:
             raise InputError(f"radius: expected a positive number, got {float(length):g}")
         return cls(density, viscosity, 8 * precise("pi") * length**7 / 525, law)
@@ -122,6 +123,9 @@ class LiquidCavity(Effect):
             return None
         make = cls if shape == "P0" else cls.of_sphere
         return make(values["density"], values["viscosity"], values[shape], law)
+
+    def written(self) -> dict[str, Any]:
+        return {"density": self.density, "viscosity": self.viscosity, "P0": self.P0, "torque": self.law}
 
     def turned(self, frame: PrincipalAxes) -> LiquidCavity:
         return self

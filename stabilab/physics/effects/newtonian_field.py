@@ -7,8 +7,8 @@ from fractions import Fraction
 from typing import Any, ClassVar
 
 from ...errors import InputError
-from ...numbers.exact import exact
 from ...numbers.principal import PrincipalAxes
+from ...numbers.units import LENGTH, PER_SECOND_2, in_si
 from ...numbers.vectors import Given, Number, Triple, cross
 from .base import Effect, Limit
 
@@ -32,10 +32,10 @@ class NewtonianField(Effect):
     exact: Fraction = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "exact", exact(self.strength, "strength"))
+        object.__setattr__(self, "exact", in_si(self.strength, PER_SECOND_2, "strength"))
         object.__setattr__(self, "strength", float(self.exact))
         if self.distance is not None:
-            distance = float(exact(self.distance, "distance"))
+            distance = float(in_si(self.distance, LENGTH, "distance"))
             if distance <= 0:
                 raise InputError(f"distance: expected a positive number of m, got {distance:g}")
             object.__setattr__(self, "distance", distance)
@@ -75,6 +75,12 @@ class NewtonianField(Effect):
                       "the field's torque is the first term of a series in this number, so near a centre the "
                       "body does not move as computed",
                       "Amer et al. 2023, fast top: eq. (2)"),)
+
+    def written(self) -> dict[str, Any]:
+        if self.distance is None:
+            return {"strength": self.exact}
+        distance = Fraction(self.distance)
+        return {"lambda": self.exact * distance**3 / 3, "R": distance}
 
     def turned(self, frame: PrincipalAxes) -> NewtonianField:
         return self

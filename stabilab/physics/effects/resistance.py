@@ -7,8 +7,8 @@ from fractions import Fraction
 from typing import Any, ClassVar
 
 from ...errors import InputError
-from ...numbers.exact import exact
 from ...numbers.principal import PrincipalAxes
+from ...numbers.units import PER_SECOND, in_si
 from ...numbers.vectors import Given, Number, Triple
 from .base import Effect
 
@@ -27,7 +27,7 @@ class Resistance(Effect):
     exact: Fraction = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
-        value = exact(self.coefficient, "coefficient")
+        value = in_si(self.coefficient, PER_SECOND, "coefficient")
         if value < 0:
             raise InputError(f"coefficient: expected a number that is not negative, got {float(value):g}")
         object.__setattr__(self, "exact", value)

@@ -19,6 +19,7 @@ from ...answers.equilibria import equilibria
 from ...answers.kinds import KINDS, kind_of
 from ...answers.motion import motion
 from ...case.read import Case
+from ...case.write import data_of
 from ...equilibrium.result import Equilibria
 from ...errors import StabilabError
 from ...orbit.result import Motion
@@ -45,7 +46,7 @@ from . import pictures as planes
 from . import pictures as space
 from . import session as tables
 from .orbits import line
-from .parameters import changed, data_of
+from .parameters import changed
 from .pictures import Bag
 
 # --- The tables beside the pictures: what is known of the motion, and the equilibria

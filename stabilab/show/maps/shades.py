@@ -11,11 +11,11 @@ import numpy as np
 from ...answers.caveats import HOLDS, UNPHYSICAL, stated, unseen
 from ...case.lines import KeyLines
 from ...case.table import Faults, Table
-from ...case.units import unit_of
 from ...caveat import Caveat
 from ...maps.axes import Key, Span, value_at
 from ...maps.columns import ENERGY, PACE, RATE, TIME, Column
 from ...maps.plan import Plan
+from ...numbers.units import unit_of
 from ...orbit.result import Fate
 from .. import style
 

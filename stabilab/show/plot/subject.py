@@ -11,7 +11,7 @@ from typing import Any
 
 from ...answers.equilibria import equilibria
 from ...answers.motion import motion
-from ...case.read import Case
+from ...case.read import Case, load
 from ...errors import InputError, printable
 from ...orbit.far_states import far_exponent
 from ...orbit.reduction import reduce
@@ -109,9 +109,9 @@ class Subject:
 
 
 def subject(given: Any, state: Any = None, span: Any = None) -> Subject:
-    """The subject of a Case or of a scene with a state: three rates, or a dict of blocks {"omega": ...,
-    "gamma": ...}. A state or span given beside a case takes the place of the case's own. span: (from, to), or
-    the end alone. Raises InputError for anything else."""
+    """The subject of a Case, of what `load` makes one of, or of a scene with a state: three rates, or a dict
+    of blocks {"omega": ..., "gamma": ...}. A state or span given beside a case takes the place of the case's
+    own. span: (from, to), or the end alone. Raises InputError for anything else."""
     ends = checked_span(span)
     if isinstance(given, Subject):
         return given
@@ -120,7 +120,7 @@ def subject(given: Any, state: Any = None, span: Any = None) -> Subject:
                       asked=ends)
         return own if state is None else replace(own, case=None, **_blocks_of(given.scene, state))
     if not hasattr(given, "quadratic"):
-        raise InputError(f"plot: expected a case (of stabilab.load) or a scene, got {given!r:.80}")
+        return subject(load(given), state, span)
     start = {"state": None, "blocks": {}} if state is None else _blocks_of(given, state)
     return Subject(checked_scene(given), span=ends, asked=ends, **start)
 

@@ -8,7 +8,7 @@ from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
-from ...case.units import DIMENSIONS, NAMES
+from ...numbers.units import DIMENSIONS, NAMES
 from .. import limiting
 from ..text.headline import WORDS, known_as, rate_margin
 from ..units import SHORT, Units, but_for_rounding, number

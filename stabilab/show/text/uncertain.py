@@ -5,7 +5,7 @@ import math
 from dataclasses import replace
 from fractions import Fraction
 
-from ...case.units import unit_of_key
+from ...numbers.units import unit_of_key
 from ..terminal.letters import lettered
 from ..units import DIGITS, SI, Units
 from ..units import number as told

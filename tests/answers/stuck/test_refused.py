@@ -45,7 +45,7 @@ def test_all_thrusters_needs_one(stabilab, tmp_path):
 
 
 def test_python_is_told_what_a_case_is(tmp_path):
-    with pytest.raises(InputError, match="expected a case, as of stabilab.load"):
+    with pytest.raises(InputError, match="case.toml: no such file"):
         stuck("case.toml")
     (tmp_path / "own.toml").write_text(BODY + STUCK)
     with pytest.raises(InputError, match="expected angular_velocity"):

@@ -6,9 +6,10 @@ from pathlib import Path
 import pytest
 
 from stabilab.case.read import load, read_text
+from stabilab.case.write import data_of, exact_text, text_of
 from stabilab.errors import InputError
 from stabilab.show.explore import parameters as controls
-from stabilab.show.explore.parameters import changed, data_of, exact_text, text_of
+from stabilab.show.explore.parameters import changed
 from stabilab.show.units import units_of
 
 CASES = sorted((Path(__file__).parents[3] / "cases").glob("*.toml"))

@@ -4,9 +4,9 @@ from fractions import Fraction
 
 import pytest
 
-from stabilab.case import units
 from stabilab.case.table import plus_minus
 from stabilab.errors import InputError
+from stabilab.numbers import units
 
 
 @pytest.mark.parametrize("text, dimension, value",

@@ -8,14 +8,16 @@ which hold pi: these are good to 240 bits.
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 from fractions import Fraction
 from functools import lru_cache
-from typing import NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
 from ..errors import InputError
-from ..numbers.exact import exact, pi_in
+from .exact import exact, exact_vector, half_unit, pi_in
+from .vectors import Exact3
 
-Dimension = tuple  # exponents of m, kg, s, A, rad
+Dimension: TypeAlias = tuple[int, ...]  # exponents of m, kg, s, A, rad
 
 
 class UnknownUnit(InputError):
@@ -64,7 +66,8 @@ PER_SECOND, PER_SECOND_2, DENSITY, VISCOSITY = (0, 0, -1, 0,
                                                 0), (0, 0, -2, 0, 0), (-3, 1, 0, 0, 0), (2, 0, -1, 0, 0)
 # an energy has the dimension of a torque
 ATTRACTION, LENGTH_7, ENERGY = (3, 0, -2, 0, 0), (7, 0, 0, 0, 0), (2, 1, -2, 0, 0)
-NAMES = {NONE: "a number without a unit", LENGTH: "length (m)", MASS: "mass (kg)", TIME: "time (s)",
+NAMES: dict[Dimension, str] = {
+         NONE: "a number without a unit", LENGTH: "length (m)", MASS: "mass (kg)", TIME: "time (s)",
          ANGLE: "angle (rad)",
          RATE: "angular velocity (rad/s)", FORCE: "force (N)", TORQUE: "torque (N m)",
          MOMENTUM: "angular momentum (N m s)",
@@ -75,7 +78,8 @@ NAMES = {NONE: "a number without a unit", LENGTH: "length (m)", MASS: "mass (kg)
          (-1, 1, -2, 0, 0): "pressure (Pa)", (0, 0, -2, 0, 1): "angular acceleration (rad/s^2)",
          (1, 1, -1, 0, 0): "momentum (N s)"}
 
-DIMENSIONS = {  # of the numbers of a case file; one that is not here is a number without a unit
+# of the numbers of a case file; one that is not here is a number without a unit
+DIMENSIONS: dict[str, Dimension] = {
     "body.inertia": INERTIA, "body.products.xy": INERTIA, "body.products.xz": INERTIA,
     "body.products.yz": INERTIA,
     "body.mass": MASS, "body.centre_of_mass": LENGTH,
@@ -127,6 +131,26 @@ def quantity(text: str, wanted: Dimension) -> tuple[Fraction, bool]:
     return exact(value * unit.size), unit.exact or not value  # refuses what no double can hold
 
 
+def in_si(value: object, wanted: Dimension, name: str = "") -> Fraction:
+    """The number that is given, in SI units: alone, as of `exact`, or as text with its unit ("0.5 N m").
+    Raises InputError, whose words begin with `name`, where there is one."""
+    try:
+        return quantity(value, wanted)[0] if isinstance(value, str) else exact(value)
+    except InputError as error:
+        raise InputError(f"{name}: {error}" if name else str(error)) from None
+
+
+def vector_in_si(values: Iterable[object], wanted: Dimension, name: str) -> Exact3:
+    """Three numbers, each as of `in_si`."""
+    return exact_vector(values, name, lambda value: in_si(value, wanted))
+
+
+def half_digit(value: Any, wanted: Dimension) -> Fraction:
+    """Half a unit of the last digit of a number as it was written (see `half_unit`), in SI units."""
+    number, unit = (isinstance(value, str) and split(value)) or (value, "")
+    return half_unit(number) * (in_dimension(unit, wanted).size if unit else 1)
+
+
 def in_dimension(words: str, wanted: Dimension, text: str = "") -> Unit:
     """The unit, which must have the dimension that is wanted. Raises InputError with both dimensions
     otherwise."""
@@ -145,7 +169,8 @@ def in_dimension(words: str, wanted: Dimension, text: str = "") -> Unit:
 def unit_of(words: str) -> Unit:
     """The unit that a product of units makes. Raises InputError for a word that is none, with those that are
     accepted."""
-    size, dimension, is_exact, at, divided = Fraction(1), NONE, True, 0, False
+    size, is_exact, at, divided = Fraction(1), True, 0, False
+    dimension: Dimension = NONE
     while at < len(words):
         found = _FACTOR.match(words, at)
         if not found or (at == 0 and found[1]):
@@ -162,12 +187,12 @@ def unit_of(words: str) -> Unit:
     return Unit(size, dimension, is_exact)
 
 
-def dimension_of(path: tuple) -> Dimension:
+def dimension_of(path: tuple[Any, ...]) -> Dimension:
     """The dimension of the number at this path (list indices do not count)."""
     return DIMENSIONS.get(".".join(key for key in path if isinstance(key, str)), NONE)
 
 
-def unit_of_key(path: tuple) -> str:
+def unit_of_key(path: tuple[Any, ...]) -> str:
     """The SI unit of the number at this path; nothing where it has none."""
     return NAMES.get(dimension_of(path), "").partition("(")[2].rstrip(")")
 

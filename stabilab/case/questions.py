@@ -1,0 +1,82 @@
+"""The questions of the package as methods of a case: each is the public function of the same name, which
+stands above the cases and is therefore imported by name."""
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+
+class Questions:
+    """What a case can be asked; the arguments are those of the function of the same name in `stabilab`."""
+
+    def fate(self, *given: Any, **named: Any) -> Any:
+        """What becomes of the motion: see `stabilab.fate`."""
+        return _public("fate")(self, *given, **named)
+
+    def motion(self, *given: Any, **named: Any) -> Any:
+        """All that is known of the motion: see `stabilab.motion`."""
+        return _public("motion")(self, *given, **named)
+
+    def equilibria(self) -> Any:
+        """Every equilibrium with its stability: see `stabilab.equilibria`."""
+        return _public("equilibria")(self)
+
+    def period(self, *given: Any, **named: Any) -> Any:
+        """The period of the motion: see `stabilab.period`."""
+        return _public("period")(self, *given, **named)
+
+    def extremes(self, *given: Any, **named: Any) -> Any:
+        """The least and greatest value of each component: see `stabilab.extremes`."""
+        return _public("extremes")(self, *given, **named)
+
+    def simulate(self, times: Any = None, **named: Any) -> Any:
+        """The motion at the given times: see `stabilab.simulate`."""
+        return _public("simulate")(self, times=times, **named)
+
+    def attitude(self, *given: Any, **named: Any) -> Any:
+        """How the motion turns in space: see `stabilab.attitude`."""
+        return _public("attitude")(self, *given, **named)
+
+    def when(self, *given: Any, **named: Any) -> Any:
+        """When the motion first reaches a limit: see `stabilab.when`."""
+        return _public("when")(self, *given, **named)
+
+    def stuck(self, *given: Any, **named: Any) -> Any:
+        """What the stuck thrusters do, and what helps: see `stabilab.stuck`."""
+        return _public("stuck")(self, *given, **named)
+
+    @property
+    def plot(self) -> Plots:
+        """`case.plot.time()`, and the other kinds of `stabilab.plot`."""
+        return Plots(self)
+
+    def report(self, out: str | Path = "report", **named: Any) -> Path:
+        """Write the pages of a report into a folder: see `stabilab.report`."""
+        return _public("report")(self, out, **named)  # type: ignore[no-any-return]
+
+    def to_toml(self) -> str:
+        """The case as text that `stabilab.load` reads."""
+        return import_module("stabilab.case.read").text_of_case(self)  # type: ignore[no-any-return]
+
+
+class Plots:
+    """The kinds of `stabilab.plot`, each of this case."""
+
+    def __init__(self, case: Questions):
+        self._case = case
+
+    def __getattr__(self, kind: str) -> Any:
+        draw = getattr(_public("plot"), kind) if kind in self.__dir__() else None
+        if draw is None:
+            raise AttributeError(f"there is no plot {kind!r:.60}; there are {', '.join(self.__dir__())}")
+        return lambda *given, **named: draw(self._case, *given, **named)
+
+    def __dir__(self) -> list[str]:
+        return [kind for kind in _public("plot").__all__ if kind != "basin"]  # of a map, not of a case
+
+
+def _public(name: str) -> Any:
+    return getattr(import_module("stabilab"), name)
