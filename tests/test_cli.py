@@ -598,7 +598,7 @@ def test_every_command_has_help_with_an_example(stabilab):
     commands = [line.split()[0] for line in groups.splitlines() if line.startswith("  ")]
     assert code == 0 and set(commands) == {"atlas", "attitude", "audit", "basin", "bifurcation", "chaos",
                                            "classify",
-                                           "compare", "doctor", "explore", "extremes",
+                                           "compare", "doctor", "example", "explore", "extremes",
                                            "fate", "figures", "import", "period", "plot", "papers", "precision",
                                            "reference", "report", "rerun", "show",
                                            "simulate", "stuck", "surface", "sweep", "tables", "validate",

@@ -10,9 +10,10 @@ from importlib import import_module
 GROUPS = {
     "A case": ("load", "Case", "Body", "Scene", "ScaledGyrostat", "Gyrostat", "ConstantTorque", "Charge",
                "Resistance", "LiquidCavity", "NewtonianField",
-               "Gravity", "BodyForce"),
+               "Gravity", "BodyForce", "report"),
     "Questions about a motion": ("fate", "Fate", "fate_grid", "motion", "extremes", "period", "attitude",
-                                 "spin_up", "stuck", "chaos", "time_to", "TimeTo", "validity"),
+                                 "spin_up", "stuck", "chaos", "when", "time_to",
+                                 "TimeTo", "validity"),
     "Questions about all motions": ("equilibria", "separatrix"),
     "Many cases at once": ("sweep", "atlas", "basin", "bifurcation"),
     "Motions in time": ("trajectory", "ensemble", "simulate", "compare", "theory", "derive"),

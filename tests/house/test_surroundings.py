@@ -114,7 +114,7 @@ ANSWERED = {"csv": ("extremes", MINOR, "--csv"), "help": ("--help",), "version":
 SLOWER = {"classify": ("classify", MINOR), "json": ("classify", MINOR, "--json"),
           "help of a command": ("simulate", "--help"),
           "simulate": ("simulate", MINOR, "--at", "0,1"), "show": ("show", MINOR), "fate": ("fate", MINOR),
-          "period": ("period", MINOR), "doctor": ("doctor",), "compare": ("compare", CHARGED),
+          "period": ("period", MINOR), "doctor": ("doctor",), "example": ("example",), "compare": ("compare", CHARGED),
           "precision": ("precision", MINOR, "--quick", "--until", "1"),
           "surface": ("surface", MINOR, "--out", "s"),
           "plot": ("plot", MINOR), "tables": ("tables", "--out", "t"),

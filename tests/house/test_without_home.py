@@ -36,6 +36,7 @@ LINES = {
     "audit": ("audit", "constant-torque-gyrostat", "--equation", "17"), "validate": ("validate", "nesc"),
     "tables": ("tables", "--out", "t"),
     "figures": ("figures", "9", "--out", "f"), "rerun": ("rerun", "s"), "doctor": ("doctor",),
+    "example": ("example", "phone"),
     "import": ("import", "body.json"), "explore": ("explore", MINOR, "--static", "x"),
     "report": ("report", MINOR, "--out", "r"),
 }

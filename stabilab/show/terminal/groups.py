@@ -15,7 +15,7 @@ GROUPS = {
     "Many cases at once": ("many_cases", ("sweep", "atlas", "basin", "bifurcation")),
     "Proofs and checks": ("proofs", ("verify", "reference", "audit", "validate", "rerun")),
     "The papers": ("papers", ("papers", "tables", "figures")),
-    "Besides": ("besides", ("doctor",)),
+    "Besides": ("besides", ("example", "doctor")),
 }
 
 
