@@ -12,11 +12,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..case.quaternion import quaternion_blocks
 from ..errors import InputError
 from ..integrate.trajectory import SCIPY_METHODS, Trajectory, departures, integrated, watcher
 from ..orbit.flow.flow import axis_way, reduced_motion
-from ..physics.equations import Equations
-from ..physics.scene import AnyScene, Scene
+from ..physics.equations import Equations, rotation
+from ..physics.scene import ATTITUDES, AnyScene, Scene
 from ..physics.states import (
     angles,
     as_quaternion,
@@ -123,11 +124,11 @@ class Simulation(Shown, Compared):
     """States of one model at the asked-for times.
 
     t: (n,), s (tau when scaled); state: name -> (n, m): omega (x when scaled), gamma, angles (psi, phi,
-    theta, continuous from the start, rad) or quaternion (x, y, z, w), momentum (inertial, kg m^2/s),
-    velocity, position (inertial), and for averaged models amplitude, spin, phase (n,). model: "exact",
-    "linear", ...; the rest as of Trajectory. validity: of the scene's laws; what a formula assumes beyond
-    them stands in `reason`. error: name -> size, () or (m,), below which a component is not told from 0: what
-    a check of the digits showed, else the tolerance of the run; none where neither is known.
+    theta, continuous from the start, rad) or quaternion (x, y, z, w) or matrix (n, 3, 3), momentum (inertial,
+    kg m^2/s), velocity, position (inertial), and for averaged models amplitude, spin, phase (n,). model:
+    "exact", "linear", ...; the rest as of Trajectory. validity: of the scene's laws; what a formula assumes
+    beyond them stands in `reason`. error: name -> size, () or (m,), below which a component is not told from
+    0: what a check of the digits showed, else the tolerance of the run; none where neither is known.
     """
 
     t: np.ndarray
@@ -152,13 +153,16 @@ def errors_of(state: Mapping[str, np.ndarray], share: float) -> dict[str, np.nda
 
 def simulate(scene: Any, omega: Any = None, times: ArrayLike | None = None,
              blocks: Mapping[str, Sequence[float]] | None = None,
-             method: str | None = None, rtol: float | None = None) -> Simulation:
+             method: str | None = None, rtol: float | None = None,
+             attitude: str | None = None) -> Simulation:
     """The exact motion of a scene from angular velocity `omega` at the given times. A case stands for its
     scene; its own start holds where none is given, and the two ends of its span where no times are.
 
     blocks: the rest of the state at time 0 ("gamma", "velocity", "position": three numbers, "attitude": psi,
     phi, theta, rad, or a quaternion from body to space, scalar last, which is then told in place of angles);
-    those that the scene needs and blocks leaves out start at gamma = e3, zero angles, rest. method: None
+    those that the scene needs and blocks leaves out start at gamma = e3, zero angles, rest. attitude:
+    "quaternion" or "matrix" has the attitude of any body beside the rates, from where `blocks` say (or their
+    vertical, or no turn at all). method: None
     is "taylor", or Radau where the decay is so fast that an explicit method would crawl (the reason says so).
     Raises InputError as `trajectory` does.
     """
@@ -169,6 +173,9 @@ def simulate(scene: Any, omega: Any = None, times: ArrayLike | None = None,
     if times is None:
         raise InputError("times: expected times for a scene; a case without a span needs them too")
     times = checked_times(times)
+    if attitude is not None:
+        turning = simulate(scene, omega, times, _carried(scene, blocks or {}, attitude), method, rtol)
+        return turning if attitude == "quaternion" else in_matrices(turning)
     if scene.variables == "scaled":
         run = trajectory(scene, omega, times, "taylor" if method is None else method, rtol)
         return _simulation(run, {"x": run.states})
@@ -186,6 +193,29 @@ def simulate(scene: Any, omega: Any = None, times: ArrayLike | None = None,
         run = trajectory(scene, start, times, method, rtol)
         return _simulation(run, in_quaternions(scene, {name: run.block(name) for name in run.blocks}), why)
     return _with_attitude(scene, start, first, times, method, rtol, why)
+
+
+def _carried(scene: AnyScene, blocks: Mapping[str, Sequence[float]],
+             attitude: str) -> dict[str, Sequence[float]]:
+    """The blocks with an attitude as a quaternion."""
+    if attitude not in ATTITUDES:
+        raise InputError(f'attitude: expected "quaternion" or "matrix", got {attitude!r:.60}')
+    if scene.variables == "scaled":
+        raise InputError("attitude: scaled variables have no attitude: give a body and rates in rad/s")
+    return quaternion_blocks(blocks)
+
+
+def in_matrices(run: Simulation) -> Simulation:
+    """The run with its attitude as rotation matrices (n, 3, 3) in place of quaternions."""
+    q = np.roll(run.state["quaternion"], 1, axis=-1)
+    matrix: np.ndarray = np.moveaxis(np.array(rotation(np.moveaxis(q, -1, 0))), -1, 0)
+    # an entry is a quadratic form of the quaternion with the eigenvalues 1, -1: its slope is at most 2
+    error = {} if "quaternion" not in run.error else {
+        "matrix": np.full((3, 3), 2 * float(np.linalg.norm(run.error["quaternion"])))}
+    swapped = {("matrix" if name == "quaternion" else name): (matrix if name == "quaternion" else values)
+               for name, values in run.state.items()}
+    return replace(run, state=swapped,
+                   error={name: run.error[name] for name in swapped if name in run.error} | error)
 
 
 def in_quaternions(scene: Scene, state: dict[str, np.ndarray]) -> dict[str, np.ndarray]:

@@ -39,6 +39,8 @@ def simulate(
         attitude: Annotated[bool, typer.Option(
             "--attitude",
             help="The attitude as a quaternion and the angular momentum in space, too.")] = False,
+        matrix: Annotated[bool, typer.Option(
+            "--matrix", help="The same with the attitude as a rotation matrix.")] = False,
         out: Annotated[Path | None, typer.Option(
             metavar="FILE.nc|.csv", help="Write the states to a file.")] = None,
         json: Json = False, strict: Strict = False, units: UnitsOption = None):
@@ -50,7 +52,7 @@ def simulate(
     Example: stabilab simulate cases/major-axis-100.toml --at 0,5,10,15 --json
     """
     from ..commands.simulate import simulate as answer
-    answer(case, at, model, order, method, rtol, digits, angles, attitude, out, json, strict, units)
+    answer(case, at, model, order, method, rtol, digits, angles, attitude, matrix, out, json, strict, units)
 
 
 @commands.command()

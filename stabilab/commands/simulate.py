@@ -7,6 +7,7 @@ from functools import partial
 
 from ..answers.digits.checked import DEFAULT
 from ..answers.digits.run import best_reached, missed
+from ..answers.simulate import in_matrices
 from ..case.quaternion import with_quaternion
 from ..case.read import blamed_on
 from ..errors import InputError, ToleranceNotMet
@@ -23,14 +24,15 @@ from .common.cases import exact_times_asked, load_cases, one_by_one, say_repeate
 from .common.output import all_reached, hold_laws, say, say_laws, tell, write, write_each, write_json
 
 
-def simulate(case, at, model, order, method, rtol, digits, angles, attitude, out, json, strict, units):
+def simulate(case, at, model, order, method, rtol, digits, angles, attitude, matrix, out, json, strict,
+             units):
     """Follow the motion of a case, of every combination where it has a [sweep]."""
     loaded = load_cases([case], motion=True)
-    if attitude:
-        if model != "exact" or angles:
+    if attitude or matrix:
+        if model != "exact" or angles or (attitude and matrix):
             raise InputError(
-                "--attitude: the quaternion is that of the exact motion: give it without --model and "
-                "--angles")
+                f"--{'attitude' if attitude else 'matrix'}: the attitude is that of the exact motion, in one "
+                f"form: give it without --model, --angles and --{'matrix' if attitude else 'attitude'}")
         loaded = [with_quaternion(one) for one in loaded]
     systems = units_asked(loaded, units)
     say_repeated(loaded[0], at)
@@ -38,6 +40,8 @@ def simulate(case, at, model, order, method, rtol, digits, angles, attitude, out
         trajectory_files.checked(out)
     runs = [(one, *_followed(one, times_asked(one, at), model, method, rtol, order, digits))
             for one in one_by_one(loaded)]
+    if matrix:
+        runs = [(one, in_matrices(run), reached) for one, run, reached in runs]
     if angles:
         runs = [(one, _with_angles(one, run, model, order), reached) for one, run, reached in runs]
     if out:

@@ -150,12 +150,16 @@ PARTS = BLOCKS | {part.name: part for part in (
     Block("quaternion", ("qx", "qy", "qz", "qw"), "",
           "attitude as a unit quaternion, scalar last: turns components along the axes of the rates to "
           "inertial ones"),
+    Block("matrix", tuple(f"R{i}{j}" for i in (1, 2, 3) for j in (1, 2, 3)), "",
+          "attitude as a rotation matrix, row by row: turns components along the axes of the rates to "
+          "inertial ones"),
     Block("euler", ("precession psi", "nutation theta", "rotation phi"), "rad",
           "classical Euler angles of the vertical, continuous"),
     Block("momentum", ("H1", "H2", "H3"), "kg m^2/s", "angular momentum, inertial frame"),
     Block("amplitude", ("amplitude",), "rad/s", "amplitude of the transverse rate"),
     Block("spin", ("spin",), "rad/s", "averaged rate about axis 3"),
     Block("phase", ("phase",), "rad", "phase of the transverse rate"))}
+ATTITUDES = ("quaternion", "matrix")  # forms in which a run may tell the attitude, besides angles
 BRINGS = {"position": ("velocity", "attitude"), "velocity": ("attitude",)}  # what a block cannot do without
 
 

@@ -1,10 +1,12 @@
 """Exact motions with more blocks of state than the angular velocity, against equations typed in by hand in
 mpmath."""
+from pathlib import Path
+
 import mpmath as mp
 import numpy as np
 import pytest
 
-from stabilab import Body, ConstantTorque, Gyrostat, Scene
+from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene
 from stabilab.answers.simulate import simulate
 from stabilab.errors import InputError
 from stabilab.physics.effects import effect_class
@@ -174,3 +176,50 @@ def test_times_out_of_order_are_refused_with_an_attitude_as_without():
     for blocks in (None, {"attitude": (0.1, 0.2, 0.3)}):
         with pytest.raises(InputError, match="times: expected strictly increasing or strictly decreasing"):
             simulate(body, (1, 2, 3), [0, 2, 1], blocks)
+
+
+def test_any_body_has_its_attitude_as_quaternion_or_matrix():
+    """A steady spin w about axis 3 turns the body by w t about it: Rz(w t), and (0, 0, sin(w t/2), cos(w t/2))."""
+    times, rate = np.array([0.0, 1.0, 4.0]), 0.5
+    run = simulate(Scene(BODY), (0.0, 0.0, rate), times, attitude="matrix")
+    c, s, o = np.cos(rate * times), np.sin(rate * times), np.zeros(3)
+    expected = np.stack([[c, -s, o], [s, c, o], [o, o, o + 1]]).transpose(2, 0, 1)
+    assert run.state["matrix"].shape == (3, 3, 3) and np.abs(run.state["matrix"] - expected).max() < 1e-15
+    q = simulate(Scene(BODY), (0.0, 0.0, rate), times, attitude="quaternion").state["quaternion"]
+    assert np.abs(q - np.stack([o, o, np.sin(rate * times / 2), np.cos(rate * times / 2)], axis=1)).max() < 1e-15
+    assert run.to_xarray()["matrix"].dims == ("time", "inertial_axis", "axis")
+    assert list(run.to_pandas().columns[3:12]) == [f"R{i}{j}" for i in (1, 2, 3) for j in (1, 2, 3)]
+
+
+def test_a_matrix_turns_body_to_inertial_components_from_the_start_that_is_given():
+    """The angular momentum D omega is constant in space; the matrix brings it there, by numpy's product."""
+    run = simulate(Scene(BODY), (0.3, 0.4, 0.5), [0.0, 2.0, 30.0], {"attitude": (0.1, -0.2, 0.3)}, attitude="matrix")
+    H = np.einsum("nij,nj->ni", run.state["matrix"], run.state["omega"] * BODY.inertia)
+    assert np.abs(H - H[0]).max() < 1e-13 and np.abs(H - run.state["momentum"]).max() < 1e-13
+    (cz, sz), (cx, sx), (cy, sy) = ((np.cos(a), np.sin(a)) for a in (0.3, 0.1, -0.2))
+    turn = np.array([[cz, -sz, 0], [sz, cz, 0], [0, 0, 1]]) @ [[1, 0, 0], [0, cx, -sx], [0, sx, cx]] @ [
+        [cy, 0, sy], [0, 1, 0], [-sy, 0, cy]]  # Rz(theta) Rx(psi) Ry(phi)
+    assert np.abs(run.state["matrix"][0] - turn).max() < 1e-15
+
+
+def test_an_attitude_in_no_known_form_or_of_no_body_is_refused():
+    with pytest.raises(InputError, match='attitude: expected "quaternion" or "matrix", got \'euler\''):
+        simulate(Scene(BODY), (1, 0, 0), [0, 1], attitude="euler")
+    with pytest.raises(InputError, match="attitude: scaled variables have no attitude"):
+        simulate(ScaledGyrostat(0, 0, (1, 0, 0)), (1, 0, 0), [0, 1], attitude="matrix")
+
+
+@pytest.mark.parametrize("option, names", [("--attitude", "qx,qy,qz,qw"), ("--matrix", "R11,R12,R13,R21,R22,R23,R31,R32,R33")])
+def test_files_carry_the_attitude_with_units_in_their_header(stabilab, tmp_path, option, names):
+    xarray = pytest.importorskip("xarray")
+    case = Path(__file__).parents[2] / "cases" / "phone.toml"
+    assert stabilab("simulate", case, "--at", "0,1", option, "--out", tmp_path / "a.csv")[0] == 0
+    header, *rows = (tmp_path / "a.csv").read_text().splitlines()
+    assert header == ("t (s),omega1 (rad/s),omega2 (rad/s),omega3 (rad/s)," + names
+                      + ",H1 (kg m^2/s),H2 (kg m^2/s),H3 (kg m^2/s)")
+    assert stabilab("simulate", case, "--at", "0,1", option, "--out", tmp_path / "a.nc")[0] == 0
+    with xarray.open_dataset(tmp_path / "a.nc") as data:
+        part = data["quaternion" if option == "--attitude" else "matrix"]
+        assert np.ravel(part[1]).tolist() == [float(v) for v in rows[1].split(",")[4:4 + part[1].size]]
+        assert data["omega"].attrs["units"] == "rad/s" and part.attrs["units"] == "1"
+    assert stabilab("simulate", case, "--at", "0,1", "--attitude", "--matrix")[0] == 2

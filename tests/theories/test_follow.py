@@ -292,7 +292,7 @@ def test_a_run_that_reaches_none_of_the_times_ends_with_5_and_an_empty_table(sta
     case, out = CASES / "liquid-lambda3-0_2.toml", tmp_path / "run.csv"
     code, text, err = stabilab("simulate", case, "--model", "printed", "--at", "15,16", "--out", out)
     assert code == 5 and out.read_text().splitlines() == [
-        "s,omega1,omega2,omega3,amplitude,spin,phase"] and "no real value" in err
+        "t (s),omega1 (rad/s),omega2 (rad/s),omega3 (rad/s),amplitude (rad/s),spin (rad/s),phase (rad)"] and "no real value" in err
     code, text, err = stabilab("simulate", case, "--model", "printed", "--at", "15")
     assert code == 5 and "NOT FOLLOWED: the printed q has no real value at t = 15" in text
     assert "ω1 (deg/s)" in text and "Traceback" not in err

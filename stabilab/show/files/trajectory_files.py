@@ -5,6 +5,7 @@ from pathlib import Path
 
 from ...files import whole_file
 from ...packages import demand
+from ...physics.scene import PARTS
 from ...version import __version__
 from ..results.numbers import of_parts
 from ..text.answers import columns
@@ -29,7 +30,10 @@ def write(case, run, path) -> Path:
 
 def _csv(case, run, path):
     names, rows = columns(run)
-    path.write_text(comma.lines([(case.scene.time_unit, *names),
+    units = [unit for name in run.state for unit in [PARTS[name].unit] * len(PARTS[name].components)]
+    time = "tau" if case.variables == "scaled" else "t (s)"
+    named = [f"{name} ({unit})" if unit else name for name, unit in zip(names, units, strict=True)]
+    path.write_text(comma.lines([(time, *named),
                                  *((float(t), *row) for t, row in zip(run.t, rows))]), encoding="utf-8",
                     newline="")
 

@@ -45,14 +45,21 @@ def of_parts(parts: Mapping[str, Any], time: str = "time",
     """Parts of the state over time, with units and words; time: the name of their first dimension; errors: of
     their components, where known."""
     known = errors or {}
-    return {name: ((time, _across(name, np.asarray(values)))[:np.ndim(values)], np.asarray(values),
+    return {name: ((time, *_across(name, np.asarray(values))), np.asarray(values),
                    {"units": PARTS[name].unit or "1", "long_name": PARTS[name].words}
-                   | ({"error": known[name]} if name in known else {}))
+                   | ({"error": _in_a_row(known[name])} if name in known else {}))
             for name, values in parts.items()}
 
 
-def _across(name, values):
-    return "axis" if values.ndim < 2 or values.shape[-1] == 3 else f"{name}_component"
+def _in_a_row(error: Any) -> Any:
+    """As files take it: of a matrix row by row."""
+    return np.ravel(error) if np.ndim(error) > 1 else error
+
+
+def _across(name, values) -> tuple[str, ...]:
+    if values.ndim == 3:
+        return "inertial_axis", "axis"
+    return () if values.ndim < 2 else ("axis",) if values.shape[-1] == 3 else (f"{name}_component",)
 
 
 def _simulation(run):
@@ -282,7 +289,7 @@ def columns(found: Variables) -> list[tuple[str, np.ndarray]]:
         if not own:
             rows.append((name, array.reshape(-1)))
             continue
-        flat = array.reshape(-1, array.shape[-1])
+        flat = array.reshape(-1, array.shape[-1] if name != "matrix" else 9)
         known = PARTS[name].components if name in PARTS else ()
         names = known if len(known) == flat.shape[1] else [f"{name}{n + 1}" for n in range(flat.shape[1])]
         rows += [(one, flat[:, n]) for n, one in enumerate(names)]

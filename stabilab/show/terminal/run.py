@@ -7,7 +7,7 @@ from decimal import ROUND_CEILING, Decimal, localcontext
 
 import numpy as np
 
-from ...physics.scene import PARTS
+from ...physics.scene import ATTITUDES, PARTS
 from ..text import answers, frame
 from ..units import DIGITS, SHORT, Units
 from .letters import lettered, written
@@ -34,7 +34,7 @@ def text(case, run, units: Units, known: int | None = None, width: int | None = 
     notes = ([f"# {lettered(units.words(run.reason))}"] if run.reason and run.reason != "all times reached"
              else [])
     notes += [f"# {', '.join(PARTS[name].components)}: {PARTS[name].words}" for name in run.state
-              if name == "quaternion"]
+              if name in ATTITUDES]
     return "\n".join([f"{case.name}: {headline(case, run, units)}",
                       *_columns(head, cells, width, 13 if known is None else ALL + 7), how, *laws, *notes,
                       *(f"# {line.strip()}" for line in frame.note(case))])

@@ -4,7 +4,7 @@ from __future__ import annotations
 import math
 from dataclasses import asdict, replace
 
-from ...physics.scene import PARTS
+from ...physics.scene import ATTITUDES, PARTS
 from .. import limiting
 from ..axes import axes_of
 from ..files import comma
@@ -159,7 +159,7 @@ def simulation(case, run) -> dict:
             "t": run.t, "state": run.state, "error": run.error, "invariant_drift": run.invariant_drift,
             "counters": run.counters,
             "method": run.method, "rtol": run.rtol, "status": run.status, "reason": run.reason,
-            **({"quaternion": PARTS["quaternion"].words} if "quaternion" in run.state else {})
+            **{name: PARTS[name].words for name in ATTITUDES if name in run.state}
             } | frame.rows(case, run) | frame.key(case)
 
 
@@ -171,7 +171,7 @@ def columns(run) -> tuple[list[str], list[list[float]]]:
     for name, values in run.state.items():
         values = np.asarray(values, float)
         names += PARTS[name].components
-        parts.append(values.reshape(len(run.t), values.shape[-1] if values.ndim == 2 else 1))
+        parts.append(values.reshape(len(run.t), int(np.prod(values.shape[1:]))))
     return names, np.hstack(parts).tolist()
 
 
