@@ -14,6 +14,7 @@ from ..integrate.trajectory import Trajectory
 from ..numbers.constants import EPS
 from ..physics.scene import BLOCKS, AnyScene, slices
 from ..physics.states import equations_and_start, moved_row
+from ..representation import Shown
 from .simulate import trajectory
 
 SAMPLES = 16     # of a step of the run: between them a function is looked at for a change of its sign
@@ -23,7 +24,7 @@ WIDER = 4.0      # times the difference of the two runs that an error is said to
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Crossings:
+class Crossings(Shown):
     """Zeros of events along a motion, for each event in its order.
 
     t: a row (k,) of times an event, in the scene's time; states: (k, N) there; error: (k,) of the times, from
@@ -38,10 +39,6 @@ class Crossings:
     until: float
     status: str
     reason: str
-
-    def __repr__(self) -> str:
-        found = ", ".join(f"{len(row)} zero{'' if len(row) == 1 else 's'}" for row in self.t)
-        return f"Crossings({found} up to t = {self.until:.6g}, {self.status}; by changes of sign along a run)"
 
 
 def crossings(scene: AnyScene, start: Any, until: float, events: Any) -> Crossings:

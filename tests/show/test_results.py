@@ -31,6 +31,8 @@ RESULTS = {
     "Plane": lambda: stabilab.bifurcation(stabilab.load(CASES / "thruster-stuck-major-axis.toml"),
                                           {"torque[1]": "0.1:0.5", "momentum[2]": "0.1:0.5"}),
     "Chaos": lambda: stabilab.chaos(SCENE, STATES, until=40.0),
+    "Attitude": lambda: stabilab.attitude(SCENE, STATES[0]),
+    "Crossings": lambda: stabilab.when(SCENE, state=STATES[0], until=40, events=["omega1", lambda t, y: t - 1]),
     "Ensemble": lambda: stabilab.ensemble(SCENE, STATES, TIMES)}
 
 
@@ -160,3 +162,18 @@ def test_every_effect_can_be_had_from_the_package():
     from stabilab.physics.effects import REGISTRY
     assert {name for _,
             name in REGISTRY.values()} <= set(stabilab.__all__) and stabilab.InputError is errors.InputError
+
+
+def test_every_class_of_results_is_tried_here():
+    from stabilab.show.results.numbers import OF
+    from stabilab.show.results.words import SHORT
+    assert set(RESULTS) == set(OF) == set(SHORT)
+
+
+def test_tables_of_an_attitude_and_of_zeros_hold_their_numbers(results):
+    turn, found = results["Attitude"], results["Crossings"]
+    assert turn.to_xarray().attrs["rotation_period"] == turn.rotation_period
+    assert list(turn.to_pandas()["turn_axis"]) == list(turn.turn_axis)
+    table = found.to_pandas()
+    assert list(table["t"]) == [*found.t[0], *found.t[1]] and list(table["event"]) == [1] * len(found.t[0]) + [2]
+    assert repr(found).startswith(f"Crossings({len(found.t[0])} zeros, 1 zero up to t = 40, reached")

@@ -214,6 +214,30 @@ def _spin_up(found):
     return Variables(("axis",), values, AXIS, notes)
 
 
+def _attitude(found):
+    values = {"start": (("axis",), np.array(found.at[:3], float), {"units": "rad/s"}),
+              "momentum_direction": (("axis",), np.array(found.momentum_direction or (math.nan,) * 3, float),
+                                     {"long_name": "unit vector along the angular momentum at the start"}),
+              "turn_axis": (("axis",), np.array(found.turn_axis or (math.nan,) * 3, float),
+                            {"long_name": "about which one rotation period turns the body"})}
+    notes = {"fate": found.fate.word, "mode": found.mode, "momentum": found.momentum,
+             "rotation_period": found.rotation_period, "precession_period": found.precession_period,
+             "cone": found.cone, "turn_angle": found.turn_angle, "error": found.error,
+             "because": found.because}
+    return Variables(("axis",), values, AXIS,
+                     {name: value for name, value in notes.items() if value is not None})
+
+
+def _crossings(found):
+    events = np.concatenate([np.full(len(row), n) for n, row in enumerate(found.t, 1)])
+    values = {"event": (("zero",), events, {"long_name": "number of the event, in their order"}),
+              "t": (("zero",), np.concatenate(found.t), {}),
+              "error": (("zero",), np.concatenate(found.error), {"long_name": "of the time"}),
+              "state": (("zero", "component"), np.concatenate(found.states), {})}
+    return Variables(("zero",), values, {}, {"until": found.until, "status": found.status,
+                                             "reason": found.reason})
+
+
 def _chaos(found):
     labels = np.asarray(found.labels)
     dims, number = _dims(labels), lambda values, words: (_dims(labels), np.asarray(values, float),
@@ -255,7 +279,7 @@ def _plane(found):
 
 OF: dict[str, Callable[[Any], Variables]] = {
     "Simulation": _simulation, "Trajectory": _trajectory, "FateResult": _fates, "TimeTo": _times,
-    "Equilibria": _equilibria, "Motion": _motion,
+    "Equilibria": _equilibria, "Motion": _motion, "Attitude": _attitude, "Crossings": _crossings,
     "Chaos": _chaos, "Diagram": _diagram, "Ensemble": _ensemble, "Plane": _plane,
     "Separatrix": _separatrix, "Comparison": _comparison, "Stuck": _stuck, "SpinUp": _spin_up}
 

@@ -104,6 +104,17 @@ def _spin_up(found):
     return f"{found.fate.word}{about}, {found.level}; t = {found.t:.6g}, {_counted(found.steps, 'step')}"
 
 
+def _attitude(found):
+    parts = [found.mode or found.fate.word, _named("rotation period", found.rotation_period),
+             _named("precession period", found.precession_period)]
+    return "; ".join(filter(None, parts))
+
+
+def _crossings(found):
+    zeros = ", ".join(_counted(len(row), "zero") for row in found.t)
+    return f"{zeros} up to t = {found.until:.6g}, {found.status}; by changes of sign along a run"
+
+
 def _chaos(found):
     words = found.orders
     one = f", MEGNO {float(found.megno):.4g}" if np.ndim(found.megno) == 0 else ""
@@ -130,7 +141,8 @@ def _plane(found):
 
 
 SHORT = {
-    "Diagram": _diagram, "Plane": _plane, "Chaos": _chaos, "Ensemble": _ensemble,
+    "Attitude": _attitude, "Crossings": _crossings, "Diagram": _diagram, "Plane": _plane,
+    "Chaos": _chaos, "Ensemble": _ensemble,
     "Motion": _motion, "Equilibria": _equilibria, "FateResult": _fates, "TimeTo": _time_to,
     "Separatrix": _separatrix,
     "Comparison": _comparison, "Stuck": _stuck, "SpinUp": _spin_up,
