@@ -22,6 +22,7 @@ if TYPE_CHECKING:  # what `_HOME` loads on first use, for editors and type check
     from .answers.stuck.ask import stuck as stuck
     from .answers.time_to import time_to as time_to
     from .answers.when import when as when
+    from .case.examples import example as example
     from .case.read import Case as Case
     from .case.read import load as load
     from .errors import InputError as InputError
@@ -53,7 +54,7 @@ if TYPE_CHECKING:  # what `_HOME` loads on first use, for editors and type check
 
 # Public name -> module; loaded on first use so that light commands stay light.
 _HOME = {
-    "load": "case.read", "Case": "case.read",
+    "load": "case.read", "example": "case.examples", "Case": "case.read",
     "Body": "physics.scene", "Scene": "physics.scene", "ScaledGyrostat": "physics.scene",
     "Gyrostat": "physics.effects.gyrostat", "ConstantTorque": "physics.effects.constant_torque",
     "Fate": "orbit.result",

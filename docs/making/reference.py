@@ -8,8 +8,8 @@ from dataclasses import MISSING, fields, is_dataclass
 from importlib import import_module
 
 GROUPS = {
-    "A case": ("load", "Case", "Body", "Scene", "ScaledGyrostat", "Gyrostat", "ConstantTorque", "Charge",
-               "Resistance", "LiquidCavity", "NewtonianField",
+    "A case": ("load", "example", "Case", "Body", "Scene", "ScaledGyrostat", "Gyrostat", "ConstantTorque",
+               "Charge", "Resistance", "LiquidCavity", "NewtonianField",
                "Gravity", "BodyForce", "report"),
     "Questions about a motion": ("fate", "Fate", "fate_grid", "motion", "extremes", "period", "attitude",
                                  "spin_up", "stuck", "chaos", "when", "time_to",
@@ -29,6 +29,7 @@ ANSWERS = {"FateResult": "stabilab.orbit.fate.result", "Motion": "stabilab.orbit
            "SpinUp": "stabilab.unreduced.spin_up.result", "Trajectory": "stabilab.integrate.trajectory",
            "Simulation": "stabilab.answers.simulate",
            "Ensemble": "stabilab.integrate.ensemble", "Stuck": "stabilab.answers.stuck.result",
+           "Attitude": "stabilab.answers.attitude.result", "Crossings": "stabilab.answers.events",
            "Comparison": "stabilab.theories.comparison"}
 
 
@@ -59,6 +60,7 @@ def _entry(name, thing) -> str:
     kind = ("function" if not inspect.isclass(thing) else "exception" if issubclass(thing, Exception)
             else "class")
     members = "\n   :members:" if kind == "class" else ""
+    members += "\n   :inherited-members:" if thing.__name__ == "Case" else ""  # the questions it answers
     return f"```{{eval-rst}}\n.. auto{kind}:: {name}{members}\n```\n"
 
 

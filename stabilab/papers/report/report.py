@@ -68,7 +68,8 @@ def write(cases=None, out="report", progress=None, arguments=None, papers=False,
 def report(case: Any, out: str | os.PathLike[str] = "report", precision: bool = False, certify: bool = False,
            workers: int | None = None) -> Path:
     """Write the pages on a case into the folder `out`, as `stabilab report` does; precision: what accuracy
-    costs as well; certify: a certificate, checked. Returns the path of index.html."""
+    costs as well; certify: a certificate, checked. Returns the path of index.html. Raises
+    InputError where a package that draws is not installed."""
     return write([case], out, precision=precision, certify=certify, workers=workers)
 
 
