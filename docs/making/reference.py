@@ -44,7 +44,8 @@ def text() -> str:
             f"stabilab.__all__ only")
     parts = [
         "# Reference\n\nEvery public name of `import stabilab`. Arrays have their components in the last "
-        "place.\n"]
+        "place. Wherever a scene or a case is taken, the other one, the path of a case file, its text or a "
+        "dict with its tables will do, and text with a unit for a number ([From Python](python.md)).\n"]
     for title, names in GROUPS.items():
         parts.append(f"## {title}\n")
         parts += [_entry(f"stabilab.{name}", getattr(stabilab, name)) for name in names]

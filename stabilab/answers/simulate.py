@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..case.quaternion import quaternion_blocks
+from ..case.attitude import attitude_of
 from ..errors import InputError
 from ..integrate.trajectory import SCIPY_METHODS, Trajectory, departures, integrated, watcher
 from ..orbit.flow.flow import axis_way, reduced_motion
@@ -26,6 +26,7 @@ from ..physics.states import (
     checked_rtol,
     checked_times,
     equations_and_start,
+    quaternion,
     scalar_last,
     start_of,
     to_space,
@@ -193,6 +194,29 @@ def simulate(scene: Any, omega: Any = None, times: ArrayLike | None = None,
         run = trajectory(scene, start, times, method, rtol)
         return _simulation(run, in_quaternions(scene, {name: run.block(name) for name in run.blocks}), why)
     return _with_attitude(scene, start, first, times, method, rtol, why)
+
+
+def with_quaternion(case: Any) -> Any:
+    """The case with its own attitude, that of its vertical with theta = 0, or identity, as a unit quaternion
+    with its scalar last.
+
+    Raises InputError where the variables are scaled: a system without moments has no attitude.
+    """
+    if case.variables == "scaled":
+        raise InputError(
+            f"{case.place}: --attitude: scaled variables have no attitude: give the motion as "
+            f"angular_velocity, in rad/s")
+    return replace(case, blocks=quaternion_blocks(case.blocks))
+
+
+def quaternion_blocks(blocks: Mapping[str, Sequence[float]]) -> dict[str, Sequence[float]]:
+    """The blocks of a state with their attitude, that of their vertical with theta = 0, or identity, as a
+    unit quaternion with its scalar last; one that is given so stays."""
+    given, vertical = blocks.get("attitude"), blocks.get("gamma")
+    if given is not None and as_quaternion(given):
+        return dict(blocks)
+    turned = given or (attitude_of(vertical) if vertical else (0.0, 0.0, 0.0))
+    return {**blocks, "attitude": tuple(scalar_last(quaternion(*turned)).tolist())}
 
 
 def _carried(scene: AnyScene, blocks: Mapping[str, Sequence[float]],

@@ -17,8 +17,9 @@ from ..numbers.principal import PrincipalAxes
 from ..numbers.vectors import Exact3, Float3, dot
 from ..physics.coefficients import Scaling, to_scaled, torque_from_mu
 from ..physics.effects import REGISTRY, effect_class
-from ..physics.scene import Body, ScaledGyrostat, Scene, ordered
+from ..physics.scene import Body, ScaledGyrostat, Scene
 from ..validation import came, checked_span
+from .attitude import judge_attitude, vertical_of
 from .body import (
     Limits,
     Thruster,
@@ -34,52 +35,11 @@ from .body import (
     turned_motion,
     wheels_of,
 )
-from .lines import key_lines
+from .lines import KeyLines, key_lines
 from .questions import Questions
 from .source import combinations, parsed, place, source_text, swept
 from .table import Faults, Table, Uncertain, described, did_you_mean, dotted, expected
 from .write import data_of_scene, plain, text_of
-
-# --- Two keys for one thing: the attitude of a body says where the vertical is, inertial axis 3, and so
-# does its vertical
-SLACK = 1e-6  # of a component: a direction given to six decimals is consistent
-
-
-def vertical_of(psi, phi, theta=0.0) -> Float3:
-    """Inertial axis 3 in the body frame at 3-1-2 angles, rad: the third row of R = Rz(theta) Rx(psi) Ry(phi).
-    """
-    return (-math.cos(psi) * math.sin(phi), math.sin(psi), math.cos(psi) * math.cos(phi))
-
-
-def attitude_of(vertical) -> Float3:
-    """The angles psi, phi, theta = 0 at which inertial axis 3 is `vertical`, a unit vector, body frame."""
-    x, y, z = vertical
-    return math.atan2(y, math.hypot(x, z)), math.atan2(-x, z), 0.0
-
-
-def judge_attitude(table, given, scene):
-    """Note a vertical and an attitude of [motion] that contradict each other. given: the blocks that the file
-    gives; the zero angles that an attitude starts at where the file gives none count too."""
-    needed = ordered((*getattr(scene, "blocks", ()), *given))
-    if "gamma" not in given or "attitude" not in needed:
-        return
-    angles, vertical = given.get("attitude", (0.0, 0.0, 0.0)), given["gamma"]
-    if math.dist(vertical_of(*angles), vertical) <= SLACK:
-        return
-    if "attitude" not in given:
-        table.fault(f"attitude is missing: zero angles have the vertical [0, 0, 1], not "
-                    f"{_written(vertical)}; with theta = 0 that is "
-                    f"attitude = {_written(attitude_of(vertical))}", "vertical")
-        return
-    table.fault(f"contradicts attitude: the angles {_written(angles)} have the vertical "
-                f"{_written(vertical_of(*angles))} (inertial axis 3, "
-                f"body frame), got {_written(vertical)}; leave one of them as it is and make the other agree",
-                "vertical")
-
-
-def _written(vector) -> str:
-    return f"[{', '.join(f'{v + 0.0:.10g}' for v in vector)}]"
-
 
 # --- A case file: a body, its effects and one motion, read from TOML; every fault with file, line and key
 TABLES = ("title", "source", "body", "effects", "thrusters", "wheels", "limits", "scaled", "motion", "output",
@@ -209,19 +169,25 @@ def load(given: Any, state: Any = None, span: Any = None) -> Case:
     as mu (and the scaling is defined); else physical. Decimals are read exactly, the motion is rounded once.
     """
     if hasattr(given, "quadratic"):
-        return read_text("scene", text_of(data_of_scene(given, state, checked_span(span))))
+        return _made("scene", data_of_scene(given, state, checked_span(span)))
     if state is not None or span is not None:
         raise InputError("load: state and span are those of a scene; a case or a file has its own [motion]")
     if isinstance(given, Case):
         return given
     if isinstance(given, Mapping):
-        return read_text("dict", text_of(plain(given)))
+        return _made("dict", plain(given))
     if isinstance(given, str) and "\n" in given:
         return read_text("text", given)
     if not isinstance(given, (str, os.PathLike)):
         raise InputError(f"load: expected a case: the path of a case file, its text, a dict, or a scene; got "
                          f"{came(given)}")
     return _built(*_read(given))
+
+
+def _made(path: str, data: dict) -> Case:
+    """The case of tables that stand in no file, so that their faults have no lines."""
+    text = text_of(data)
+    return _built(path, text, parsed(path, text)[0], Faults(KeyLines()))
 
 
 def text_of_case(case: Case) -> str:

@@ -7,8 +7,7 @@ from functools import partial
 
 from ..answers.digits.checked import DEFAULT
 from ..answers.digits.run import best_reached, missed
-from ..answers.simulate import in_matrices
-from ..case.quaternion import with_quaternion
+from ..answers.simulate import in_matrices, with_quaternion
 from ..case.read import blamed_on
 from ..errors import InputError, ToleranceNotMet
 from ..show import reference as outside

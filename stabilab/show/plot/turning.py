@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...answers.simulate import simulate, trajectory
-from ...case.read import attitude_of
+from ...case.attitude import attitude_of
 from ...errors import InputError, RenderingUnavailable, printable
 from ...files import whole_file
 from ...physics.equations import rotation

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from ... import caveat
 from ...answers.caveats import caveats_of, limited
-from ...case.read import vertical_of
+from ...case.attitude import vertical_of
 from ...errors import printable
 from ...physics.coefficients import limits_of
 from .. import limiting
