@@ -145,8 +145,8 @@ def eigenvalues(m: Fraction, n: Fraction) -> tuple[complex, ...]:
 
 
 def ordered(values: Iterable[complex]) -> tuple[complex, ...]:
-    """Eigenvalues found in doubles, real ones first, then by size: the order in which LAPACK finds them depends
-    on the processor."""
+    """Eigenvalues found in doubles, real ones first, then by size: the order in which LAPACK finds them
+    depends on the processor."""
     return tuple(sorted(map(complex, values), key=lambda z: (z.imag != 0, abs(z), -z.real, -z.imag)))
 
 

@@ -390,7 +390,10 @@ def test_a_page_tells_scaled_numbers_as_x_and_a_law_that_needs_no_run_has_no_ste
 def test_moments_certificates_limits_and_the_reduced_energy_are_told_as_what_they_are(tmp_path):
     """The kinetic energy of the gyrostat is (2000·0.1² + 1500·0.2² + 1000·0.05²)/2 = 41.25 J; that of its
     reduced motion is another number."""
-    late = sections(load(CASES / "major-axis-spin3-100.toml"), tmp_path, "x", deep=False)
+    # so short a span that the release at tau = 60 is not followed
+    text = (CASES / "major-axis-spin3-100.toml").read_text(encoding="utf-8")
+    late = sections(read_text("late.toml", text.replace("tau = [0.0, 15.0]", "tau = [0.0, 1.0]")), tmp_path, "x",
+                    deep=False)
     facts = dict(late["facts"])
     assert late["pictures"][0]["caption"].endswith(
         f" The spin-up begins later: the turn reverses for the last time at "
