@@ -20,11 +20,13 @@ if TYPE_CHECKING:  # what `_HOME` loads on first use, for editors and type check
     from .answers.simulate import simulate as simulate
     from .answers.simulate import trajectory as trajectory
     from .answers.stuck.ask import stuck as stuck
+    from .answers.stuck.burn import burn as burn
     from .answers.time_to import time_to as time_to
     from .answers.when import when as when
     from .case.examples import example as example
     from .case.read import Case as Case
     from .case.read import load as load
+    from .case.read import load_burning as load_burning
     from .errors import InputError as InputError
     from .integrate.ensemble import ensemble as ensemble
     from .maps.bifurcation.ask import bifurcation as bifurcation
@@ -55,6 +57,7 @@ if TYPE_CHECKING:  # what `_HOME` loads on first use, for editors and type check
 # Public name -> module; loaded on first use so that light commands stay light.
 _HOME = {
     "load": "case.read", "example": "case.examples", "Case": "case.read",
+    "load_burning": "case.read", "burn": "answers.stuck.burn",
     "Body": "physics.scene", "Scene": "physics.scene", "ScaledGyrostat": "physics.scene",
     "Gyrostat": "physics.effects.gyrostat", "ConstantTorque": "physics.effects.constant_torque",
     "Fate": "orbit.result",

@@ -596,7 +596,7 @@ def test_every_command_has_help_with_an_example(stabilab):
     code, out, _ = stabilab("--help")
     groups = out.split("-h, --help")[1].partition("\n")[2]
     commands = [line.split()[0] for line in groups.splitlines() if line.startswith("  ")]
-    assert code == 0 and set(commands) == {"atlas", "attitude", "audit", "basin", "bifurcation", "chaos",
+    assert code == 0 and set(commands) == {"atlas", "attitude", "audit", "basin", "bifurcation", "burn", "chaos",
                                            "classify",
                                            "compare", "doctor", "example", "explore", "extremes",
                                            "fate", "figures", "import", "period", "plot", "papers", "precision",

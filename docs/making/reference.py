@@ -8,11 +8,11 @@ from dataclasses import MISSING, fields, is_dataclass
 from importlib import import_module
 
 GROUPS = {
-    "A case": ("load", "example", "Case", "Body", "Scene", "ScaledGyrostat", "Gyrostat", "ConstantTorque",
-               "Charge", "Resistance", "LiquidCavity", "NewtonianField",
+    "A case": ("load", "load_burning", "example", "Case", "Body", "Scene", "ScaledGyrostat", "Gyrostat",
+               "ConstantTorque", "Charge", "Resistance", "LiquidCavity", "NewtonianField",
                "Gravity", "BodyForce", "report"),
     "Questions about a motion": ("fate", "Fate", "fate_grid", "motion", "extremes", "period", "attitude",
-                                 "spin_up", "stuck", "chaos", "when", "time_to",
+                                 "spin_up", "stuck", "burn", "chaos", "when", "time_to",
                                  "TimeTo", "validity"),
     "Questions about all motions": ("equilibria", "separatrix"),
     "Many cases at once": ("sweep", "atlas", "basin", "bifurcation"),
@@ -30,6 +30,9 @@ ANSWERS = {"FateResult": "stabilab.orbit.fate.result", "Motion": "stabilab.orbit
            "Simulation": "stabilab.answers.simulate",
            "Ensemble": "stabilab.integrate.ensemble", "Stuck": "stabilab.answers.stuck.result",
            "Attitude": "stabilab.answers.attitude.result", "Crossings": "stabilab.answers.events",
+           "Burned": "stabilab.answers.stuck.burn",
+           "Closed": "stabilab.answers.stuck.burn",
+           "Latest": "stabilab.answers.stuck.burn",
            "Comparison": "stabilab.theories.comparison"}
 
 

@@ -12,6 +12,7 @@ from ..numbers.units import FORCE, INERTIA, half_digit, pi
 from ..numbers.vectors import Exact3, cross, dot
 from ..physics.effects import effect_class
 from ..physics.scene import ROUNDING, Body, along_principal_axes, slack_of
+from . import burns
 from .table import Faults, Table, Written, described, plus_minus, states_uncertainty
 
 # --- [body] of a case file: moments, a full tensor, or moments beside products of inertia; mass and centre
@@ -144,7 +145,8 @@ def _half(value: object) -> Fraction:
 
 # --- What a spacecraft carries, as a case file states it: [[thrusters]], [[wheels]] and [limits]
 ZERO3 = (Fraction(0),) * 3
-THRUSTER = ("name", "position", "direction", "force", "misalignment", "force_tolerance", "stuck")
+THRUSTER = ("name", "position", "direction", "force", "misalignment", "force_tolerance", "stuck",
+            *burns.KEYS)
 WHEEL = ("name", "axis", "momentum", "inertia", "speed")
 SAME = Fraction(1, 10**6)  # relative: momentum and inertia x speed given to six digits agree
 
@@ -154,7 +156,8 @@ class Thruster:
     """position: m, structural frame; direction: unit vector of the force on the body, input frame; force: N;
     misalignment: half-angle of the cone that the true direction lies in, rad, or None; force_tolerance:
     half-width, N, or None; stuck: whether it fires for ever; torque: about the centre of mass, N m, input
-    frame, of the force as stated; arm: from there to its position, m."""
+    frame, of the force as stated; arm: from there to its position, m; burn: when it fires, None where the
+    file does not say."""
 
     name: str
     position: Exact3
@@ -165,6 +168,7 @@ class Thruster:
     stuck: bool
     torque: Exact3
     arm: Exact3 = ZERO3
+    burn: burns.Burn | None = None
 
 
 @dataclass(frozen=True)
@@ -283,13 +287,14 @@ def _thruster(table: Table, otherwise: str, centre: Exact3) -> Thruster | None:
         table.fault(f"expected the half-angle of a cone below 90 deg, got "
                     f"{float(angle * 180 / pi()):.6g} deg; "
                     'a number alone is in rad, write "1 deg"', "misalignment")
+    burn = burns.burn_of(table)
     if not complete or None in (position, direction, force):
         return None
     raw, length = direction
     arm = tuple(p - c for p, c in zip(position, centre))
     torque = tuple(force * t / length for t in cross(arm, raw))
     return Thruster(name, position, tuple(v / length for v in raw), force, angle, tolerance, stuck, torque,
-                    arm)
+                    arm, burn)
 
 
 def _force(table: Table):

@@ -35,6 +35,7 @@ from .body import (
     turned_motion,
     wheels_of,
 )
+from .burns import KEYS, ONLY, Segment, segments
 from .lines import KeyLines, key_lines
 from .questions import Questions
 from .source import combinations, parsed, place, source_text, swept
@@ -204,6 +205,46 @@ def text_of_case(case: Case) -> str:
                    | data_of_scene(case.scene, motion, case.span))
 
 
+@dataclass(frozen=True)
+class Burning:
+    """A case whose thrusters fire on a schedule. craft: the case, its scene without the torque of these
+    thrusters; no question but `burn` may take it for the whole."""
+
+    craft: Case
+
+    def segments(self, until: Fraction | None = None) -> list[Segment]:
+        """From time 0 to the last closing, `until` at the latest: which thrusters fire, between exact times.
+        """
+        return segments([one.burn for one in self.craft.thrusters], until)
+
+
+def load_burning(path: str | os.PathLike[str]) -> Burning:
+    """The case in a file whose thrusters fire on a schedule (start, stop, period, duty, on_time, propellant,
+    mass_flow), for `burn`. Raises CaseError as `load` does."""
+    if not isinstance(path, (str, os.PathLike)):
+        raise InputError(f"load_burning: expected the path of a case file, got {path!r:.80}")
+    path, text, data, faults = _read(path)
+    return Burning(_built(path, text, data, faults, burning=True))
+
+
+def _judge_burns(top: Table, burning: bool):
+    """Note every thruster with a schedule where the question takes a constant torque; where it does not, that
+    there is none, and combinations of values."""
+    stated = top.data.get("thrusters")
+    found = [(Table(("thrusters", n), one, top.faults), keys)
+             for n, one in enumerate(stated if isinstance(stated, list) else ())
+             if isinstance(one, dict) and (keys := [key for key in KEYS if key in one])]
+    if not burning:
+        for table, keys in found:
+            table.fault(ONLY.format(", ".join(keys)), keys[0])
+        return
+    if not found:
+        top.fault('no thruster fires on a schedule: give one of [[thrusters]] start and stop, such as stop = '
+                  '"12 s"', *(["thrusters"] if "thrusters" in top else []))
+    if "sweep" in top:
+        top.fault("a burn takes one case at a time: take away [sweep]", "sweep")
+
+
 def load_all(path) -> list[Case]:
     """The case in the file, or, where it has [sweep], one case for every combination of the values there.
 
@@ -245,12 +286,13 @@ def _read(path):
     return path, text, *parsed(path, text)
 
 
-def _built(path, text, data, faults, variant="") -> Case:
+def _built(path, text, data, faults, variant="", burning=False) -> Case:
     top = Table((), data, faults)
     top.known(TABLES, "table or key")
     swept(top)  # notes the faults of [sweep]
     title, source = top.text("title"), top.text("source")
     craft = _craft(top)
+    _judge_burns(top, burning)
     physical, mu, frame = _physical(top, craft)
     scaled = _scaled(top)
     motion = _motion(top)

@@ -153,6 +153,26 @@ def stuck(
 
 
 @commands.command()
+def burn(
+        case: CaseFile,
+        stop: Annotated[str | None, typer.Option(
+            metavar="TIME", help='Close all thrusters then: "12 s". Default: as the file says.')] = None,
+        below: Annotated[str | None, typer.Option(
+            metavar="RATE",
+            help='Find the latest closing time that keeps |ω| below this for ever: "30 deg/s".')] = None,
+        units: UnitsOption = None, json: Json = False, strict: StrictFate = False):
+    """Say what a burn leaves, and by when it must be closed.
+
+    Of thrusters with start, stop, pulses or propellant in the file: rates at closing, the free motion after
+    it, its largest rate.
+
+    Example: stabilab burn ascent.toml --stop "12 s" --below "30 deg/s"
+    """
+    from ..commands.stuck import burn as answer
+    answer(case, stop, below, units, json, strict)
+
+
+@commands.command()
 def chaos(
         cases: CaseFiles,
         until: Annotated[str | None, typer.Option(

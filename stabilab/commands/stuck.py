@@ -1,16 +1,21 @@
-"""`stabilab stuck`: what a thruster stuck open does, how soon, and what helps."""
+"""`stabilab stuck`: what a thruster stuck open does, how soon, and what helps; `burn`: what thrusters that
+fire on a schedule leave, and by when they must close."""
 from __future__ import annotations
 
 from functools import partial
 
 from ..answers.stuck.ask import stuck as ask
-from ..case.read import blamed_on
+from ..answers.stuck.burn import burn as left_by
+from ..case.read import blamed_on, load_burning
+from ..errors import InputError
+from ..numbers.units import RATE, TIME, quantity
 from ..show.files import endings
 from ..show.progress import told
 from ..show.stuck_picture import draw
+from ..show.text import burn as burns
 from ..show.text import stuck as shown
-from .common.cases import load_cases, tell_all, units_asked
-from .common.output import hold_laws, leave_undecided, say_written, write, write_json, written
+from .common.cases import load_cases, tell_all, tell_radians, units_asked
+from .common.output import either, hold_laws, leave_undecided, say_written, write, write_json, written
 
 
 def stuck(case, all_thrusters, units, why, out, json, csv, strict):
@@ -36,3 +41,28 @@ def stuck(case, all_thrusters, units, why, out, json, csv, strict):
     say_written(drawn)
     leave_undecided(strict, any(row.fate == "undecided" for found in answers for row in found.rows))
     hold_laws(strict, (), loaded)
+
+
+def burn(path, stop, below, units, json, strict):
+    """Answer one case."""
+    burning = load_burning(path)
+    case = burning.craft
+    system = units_asked([case], units)[0]
+    tell_radians(system, below=below)
+    asked = {name: _number(text, dimension, name)
+             for name, text, dimension in (("stop", stop, TIME), ("below", below, RATE))}
+    with blamed_on(case):
+        found = left_by(burning, **asked)
+    either(json, lambda: burns.as_dict(case, found), lambda: burns.text(case, found, system))
+    open_ = found.latest is not None and found.latest.level == "undecided"
+    leave_undecided(strict, open_ or found.closed.motion.fate.word == "undecided")
+
+
+def _number(text, dimension, option):
+    """An exact number of the command line, in SI. Raises InputError that names the option."""
+    if text is None:
+        return None
+    try:
+        return quantity(text.strip(), dimension)[0]
+    except InputError as error:
+        raise InputError(f"--{option}: {error}") from None

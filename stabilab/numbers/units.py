@@ -64,6 +64,7 @@ RATE, FORCE, TORQUE, MOMENTUM = (0, 0, -1, 0, 1), (1, 1, -2, 0, 0), (2, 1, -2, 0
 INERTIA, VELOCITY, CHARGE, FLUX = (2, 1, 0, 0, 0), (1, 0, -1, 0, 0), (0, 0, 1, 1, 0), (0, 1, -2, -1, 0)
 PER_SECOND, PER_SECOND_2, DENSITY, VISCOSITY = (0, 0, -1, 0,
                                                 0), (0, 0, -2, 0, 0), (-3, 1, 0, 0, 0), (2, 0, -1, 0, 0)
+MASS_FLOW = (0, 1, -1, 0, 0)
 # an energy has the dimension of a torque
 ATTRACTION, LENGTH_7, ENERGY = (3, 0, -2, 0, 0), (7, 0, 0, 0, 0), (2, 1, -2, 0, 0)
 NAMES: dict[Dimension, str] = {
@@ -74,7 +75,7 @@ NAMES: dict[Dimension, str] = {
          INERTIA: "moment of inertia (kg m^2)", VELOCITY: "velocity (m/s)", CHARGE: "charge (C)",
          FLUX: "magnetic flux density (T)",
          PER_SECOND: "rate (1/s)", DENSITY: "density (kg/m^3)", VISCOSITY: "kinematic viscosity (m^2/s)",
-         (2, 1, -3, 0, 0): "power (W)",
+         MASS_FLOW: "mass flow (kg/s)", (2, 1, -3, 0, 0): "power (W)",
          (-1, 1, -2, 0, 0): "pressure (Pa)", (0, 0, -2, 0, 1): "angular acceleration (rad/s^2)",
          (1, 1, -1, 0, 0): "momentum (N s)"}
 
@@ -85,6 +86,8 @@ DIMENSIONS: dict[str, Dimension] = {
     "body.mass": MASS, "body.centre_of_mass": LENGTH,
     "thrusters.position": LENGTH, "thrusters.force": FORCE, "thrusters.force_tolerance": FORCE,
     "thrusters.misalignment": ANGLE,
+    "thrusters.start": TIME, "thrusters.stop": TIME, "thrusters.period": TIME, "thrusters.on_time": TIME,
+    "thrusters.propellant": MASS, "thrusters.mass_flow": MASS_FLOW,
     "wheels.momentum": MOMENTUM, "wheels.inertia": INERTIA, "wheels.speed": RATE,
     "limits.rate": RATE, "motion.angular_velocity": RATE, "motion.span": TIME, "motion.attitude": ANGLE,
     "motion.velocity": VELOCITY, "motion.position": LENGTH, "expect.period": TIME,

@@ -16,6 +16,10 @@ MINOR, OFF, CHARGED, STUCK = (CASES / f"{name}.toml" for name in (
     "minor-axis-100", "off-axis-two", "charged-body", "thruster-stuck-major-axis"))
 
 BODY = '{"IHubPntBc_B": [12, 0, 0, 0, 9, 0, 0, 0, 5], "omega_BN_BInit": [0.1, 0, 0]}'
+BURN = """body.inertia = [12, 9, 5]
+motion.angular_velocity = [0.01, 0, 0]
+thrusters = [{position = [1, 0, 0], direction = [0, 1, 0], force = 0.1, stop = "30 s"}]
+"""
 MEASURED = {"precision": lambda answer: answer.splitlines()[-1]}  # times of this machine
 # command -> a light line of it; in this order, as some read what others wrote
 LINES = {
@@ -24,6 +28,7 @@ LINES = {
     "chaos": ("chaos", OFF), "plot": ("plot", MINOR, "--out", "o.png"),
     "classify": ("classify", MINOR, "--certify", "--out", "c.json"), "period": ("period", MINOR, "--json"),
     "when": ("when", OFF, "--rate", "3 rad/s"),
+    "burn": ("burn", "burn.toml", "--below", "2 deg/s"),
     "attitude": ("attitude", OFF), "papers": ("papers", "liquid-cavity", "--json"),
     "stuck": ("stuck", STUCK), "surface": ("surface", MINOR, "--out", "s"), "show": ("show", MINOR),
     "compare": ("compare", CHARGED),
@@ -68,6 +73,7 @@ def said(folder, lines, **home):
     this."""
     folder.mkdir()
     (folder / "body.json").write_text(BODY, encoding="utf-8")
+    (folder / "burn.toml").write_text(BURN, encoding="utf-8")
     done = subprocess.run([sys.executable, "-c", PROGRAM,
                            json.dumps([list(map(str, line)) for line in lines]), json.dumps(str(OFF))],
                           cwd=folder,

@@ -1,0 +1,350 @@
+"""Burns: what is left when thrusters close, and by when they must close.
+
+While it fires a thruster's torque is constant in the body, so that a burn is a chain of motions under
+constant torques, each started where the one before ended, at switching times that are exact.
+
+After the last closing a body without wheels moves freely. With D1 <= D2 <= D3, on one polhode (constant
+kinetic energy and angular momentum) omega1^2 and omega3^2 are linear in omega2^2, and so is
+
+    |omega|^2 = g^2 - (D2 - D1)(D3 - D2)/(D1 D3) omega2^2,
+    g^2 = omega1^2 + D2 (D1 + D3 - D2)/(D1 D3) omega2^2 + omega3^2,
+
+whose factor is not negative. Every polhode passes omega2 = 0 but for a rest at the middle axis, so that g,
+constant on it, is its largest |omega| over all time. Closed at t, the body never turns faster than g(t), and
+|omega(t)| <= g(t): the latest closing time for a limit L is the first root of g^2 = L^2 along the burn, one
+crossing of a quadratic form (`answers.passage`).
+"""
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+
+from ...caveat import Caveat
+from ...errors import InputError
+from ...numbers.exact import exact
+from ...numbers.vectors import Exact3, Float3
+from ...orbit.result import Motion
+from ...physics.effects.constant_torque import ConstantTorque
+from ...physics.scene import Scene
+from ...physics.states import moved_row
+from ...validation import came
+from ..attitude.ask import of_motion
+from ..attitude.result import Attitude
+from ..motion import motion
+from ..passage.limit import AXES, Limit
+from ..passage.run import ROUNDING, WIDER, Found, largest_rate, run_once
+from ..simulate import trajectory
+from ..time_to import of_one
+
+RUN_STEPS = 1_000_000  # of one segment
+LOOKS = 2000  # closing times looked at after the first that is too late
+MOVED = 2.0  # places by which the start of the second run is moved
+
+
+@dataclass(frozen=True)
+class Switch:
+    """time: s; firing: names of the thrusters that fire from then on; torque: theirs, N m; rates: rad/s;
+    vectors along the principal axes."""
+
+    time: float
+    firing: tuple[str, ...]
+    torque: Float3
+    rates: Float3
+
+
+@dataclass(frozen=True)
+class Closed:
+    """What is left when the last thruster closes at `time`, s; vectors along the principal axes.
+
+    rates: rad/s, known to `error` (rad/s, by a second run from a start moved in its last places); momentum: N
+    m s; energy: J, kinetic, of the body; largest_rate: of the motion that follows, over all time, rad/s, None
+    where it is not known; largest_before: |omega| at the most up to then; motion, attitude: of what follows
+    (attitude None where a torque is left); fired: s, and used: kg (None without a mass flow), of every
+    thruster in the order of the file.
+    """
+
+    time: float
+    rates: Float3
+    error: float
+    momentum: Float3
+    energy: float
+    largest_rate: float | None
+    largest_before: float
+    motion: Motion = field(repr=False)
+    attitude: Attitude | None = field(repr=False)
+    fired: tuple[float, ...]
+    used: tuple[float | None, ...]
+
+
+@dataclass(frozen=True)
+class Latest:
+    """The latest closing time that keeps |omega| below `limit`, rad/s, up to it and for ever after: between
+    low and high, s. Both inf: no closing is too late. high NaN: not known, but any up to low is early enough.
+
+    level: "exact", "proved" (the motion enclosed), "run" (roots along runs in machine precision, wider by
+    what a second run shows) or "undecided"; because: how it is known. again: (from, to), s, of later closing
+    times after which the free motion stays below the limit again, though the burn has passed it or would
+    have left such a motion in between; seen at 2,000 closing times, no proof.
+    """
+
+    limit: float
+    low: float
+    high: float
+    level: str
+    because: str
+    again: tuple[tuple[float, float], ...] = ()
+
+
+@dataclass(frozen=True)
+class Burned:
+    """thrusters: names, in the order of the file; switches: in order of time; closed: what is left after the
+    last closing; latest: where a limit was asked for, else None; closed_latest: what is left where they close
+    at its lower end, else None."""
+
+    thrusters: tuple[str, ...]
+    switches: tuple[Switch, ...]
+    closed: Closed
+    latest: Latest | None = None
+    closed_latest: Closed | None = None
+    caveats: tuple[Caveat, ...] = ()
+
+
+def burn(burning: Any, stop: Any = None, below: Any = None) -> Burned:
+    """What thrusters that fire on a schedule leave behind.
+
+    burning: what `stabilab.load_burning` gives. stop: s, all close then, if not before; below: rad/s, asks
+    for the latest closing time that keeps |omega| below it for ever. Numbers, exact where they are text
+    ("0.1"). Raises InputError for times and limits that are none, for scenes with other effects than wheels
+    and a constant torque, and for `below` where a wheel or a constant torque stays.
+    """
+    if not hasattr(burning, "segments"):
+        raise InputError("burn: expected a case whose thrusters fire on a schedule, as stabilab.load_burning "
+                         f"gives it, got {came(burning)}")
+    last, limit = (None if v is None else _positive(v, name) for v, name in ((stop, "stop"),
+                                                                              (below, "below")))
+    chain = _Chain(burning, last)
+    if limit is not None and not chain.free:
+        raise InputError("below: the largest rate after closing is known in closed form for a body without "
+                         "wheels on which no torque stays; ask what one closing time leaves, with stop")
+    links, craft = list(chain.links()), burning.craft
+    switches = tuple(Switch(float(one.begin), one.firing, one.torque, tuple(one.start.tolist()))
+                     for one in links)
+    result = Burned(tuple(t.name for t in craft.thrusters), switches, chain.closed(links),
+                    caveats=craft.caveats)
+    if limit is None:
+        return result
+    latest = _latest(chain.base, links, limit)
+    if not 0 < latest.low < math.inf:
+        return replace(result, latest=latest)
+    early = _Chain(burning, Fraction(latest.low))
+    return replace(result, latest=latest, closed_latest=early.closed(list(early.links())))
+
+
+@dataclass(frozen=True)
+class _Link:
+    """One motion of the chain; start, end: states of the run and of the second one, (3,) each."""
+
+    begin: Fraction
+    length: Fraction
+    firing: tuple[str, ...]
+    torque: Float3
+    scene: Scene
+    start: np.ndarray
+    second: np.ndarray
+    end: np.ndarray
+    second_end: np.ndarray
+    exact: Exact3 | None
+
+
+class _Chain:
+    """The scenes of a burn, one after the other, up to its last closing."""
+
+    def __init__(self, burning: Any, stop: Fraction | None) -> None:
+        case = burning.craft
+        if case.physical is None or case.state is None or case.variables != "physical":
+            raise InputError("a burn is followed from a start in rad/s: give [motion] angular_velocity")
+        if not case.physical.plain:
+            raise InputError("a burn is known of a body with wheels and torques constant in the body; this "
+                             "scene has other effects")
+        self.case, self.base = case, case.physical
+        self.until = stop if stop is not None else self._end(case)
+        self.segments = burning.segments(self.until)
+        self.torques = [case.frame.turned(t.torque) for t in case.thrusters]
+        self.free = not any(self.base.vector("gyrostat")) and not any(self.base.vector("constant_torque"))
+
+    @staticmethod
+    def _end(case: Any) -> Fraction | None:
+        """Where burns without an end are closed: at the end of the motion's span."""
+        if not any(t.burn is not None and t.burn.endless for t in case.thrusters):
+            return None
+        if case.span is None:
+            raise InputError('a thruster has neither stop nor propellant: give one, or --stop "12 s", or a '
+                             "span in [motion]")
+        return Fraction(case.span[1])
+
+    def scene(self, firing: Sequence[int]) -> Scene:
+        """With the torques of these thrusters added to what acts anyway."""
+        torque = [sum(parts, Fraction(0)) for parts in zip(
+            self.base.vector("constant_torque"), *(self.torques[n] for n in firing))]
+        others = [one for one in self.base.effects if one.name != "constant_torque"]
+        return Scene(self.base.body, *others, *([ConstantTorque(tuple(torque))] if any(torque) else []))
+
+    def links(self) -> Iterator[_Link]:
+        given = self.case.exact_state
+        state = np.array(self.case.state, float)
+        second = moved_row(state, MOVED) if state.any() else state
+        for number, (begin, end, firing) in enumerate(self.segments):
+            scene = self.scene(firing)
+            after, after_second = (_end_of(scene, one, end - begin) for one in (state, second))
+            yield _Link(begin, end - begin, tuple(self.case.thrusters[n].name for n in firing),
+                        tuple(float(m) for m in scene.vector("constant_torque")), scene, state, second, after,
+                        after_second, given if number == 0 else None)
+            state, second = after, after_second
+
+    def closed(self, links: Sequence[_Link]) -> Closed:
+        """What is left after the last of them."""
+        body, wheel = self.base.body, [float(v) for v in self.base.vector("gyrostat")]
+        state = links[-1].end if links else np.array(self.case.state, float)
+        error = WIDER * float(np.abs(state - links[-1].second_end).max()) if links else 0.0
+        error = max(error, ROUNDING * float(np.abs(state).max()))
+        rates = tuple(state.tolist())
+        found = motion(self.base, rates)
+        before = max((largest_rate(one.scene, one.start.tolist(), float(one.length), RUN_STEPS)[0]
+                      for one in links), default=math.hypot(*rates))
+        quiet = not any(self.base.vector("constant_torque"))
+        stop = self.until
+        fired = [sum((b - a for a, b in t.burn.windows(stop)), Fraction(0)) if t.burn else Fraction(0)
+                 for t in self.case.thrusters]
+        used = [None if t.burn is None or t.burn.mass_flow is None else float(t.burn.mass_flow * time)
+                for t, time in zip(self.case.thrusters, fired)]
+        last = links[-1].begin + links[-1].length if links else Fraction(0)
+        return Closed(float(last), rates, error,
+                      tuple(d * w + l for d, w, l in zip(body.inertia, rates, wheel)),
+                      sum(d * w * w for d, w in zip(body.inertia, rates)) / 2,
+                      largest_after(self.base, rates) if self.free else found.largest, before, found,
+                      of_motion(self.base, rates, found) if quiet else None,
+                      tuple(map(float, fired)), tuple(used))
+
+
+def _end_of(scene: Scene, state: np.ndarray, length: Fraction) -> np.ndarray:
+    run = trajectory(scene, state, (0.0, float(length)), laws=False)
+    if run.status == "stopped":
+        raise InputError(f"state: the burn cannot be followed: {run.reason}")
+    return np.asarray(run.states[-1], float)
+
+
+def _weights(scene: Scene) -> Exact3:
+    """Of the squares of the rates in g^2."""
+    D = scene.body.exact
+    least, middle, greatest = sorted(range(3), key=lambda i: D[i])
+    weight = D[middle] * (D[least] + D[greatest] - D[middle]) / (D[least] * D[greatest])
+    found = [Fraction(1)] * 3
+    found[middle] = weight
+    return tuple(found)
+
+
+def largest_after(scene: Scene, rates: Sequence[float]) -> float:
+    """The largest |omega|, rad/s, over all time of the free motion of a body without wheels through these
+    rates; of a rest at the middle axis, of the motions next to it."""
+    return math.sqrt(sum(float(c) * w * w for c, w in zip(_weights(scene), rates)))
+
+
+def _latest(base: Scene, links: Sequence[_Link], below: Fraction) -> Latest:
+    """The first root of g = below along the chain."""
+    size = float(below)
+    words = f"largest |omega| after closing = {size:.10g} rad/s"
+    limit = Limit("rate", ((tuple(zip(_weights(base), AXES)), below**2),), words)
+    if links and limit.reached_by(links[0].exact or links[0].start.tolist()):
+        return Latest(size, 0.0, 0.0, "exact", f"{words}: the motion before the burn reaches it already")
+    proof = True  # everything up to here is proved
+    for one in links:
+        if not one.firing:
+            continue  # g is constant where nothing fires
+        found = _first(one, limit, proof)
+        if found is not None:
+            low, high = _outward(one.begin, found.low, found.high)
+            again = _again(base, links, high, size) if math.isfinite(high) else ()
+            return Latest(size, low, high, found.level, found.words, again)
+        proof = False
+    burns = [one for one in links if one.firing]
+    level = "proved" if len(burns) <= 1 and all(one.exact for one in burns) else "run"
+    return Latest(size, math.inf, math.inf, level, f"{words}: never, whenever the thrusters close")
+
+
+def _outward(begin: Fraction, low: float, high: float) -> tuple[float, float]:
+    """Two times of a link as times of the chain, rounded outward."""
+    first = float(begin + Fraction(low))
+    last = float(begin + Fraction(high)) if math.isfinite(high) else math.nan
+    if not begin:
+        return first, last
+    return math.nextafter(first, -math.inf), math.nextafter(last, math.inf)
+
+
+def _first(link: _Link, limit: Limit, proof: bool) -> Found | None:
+    """The first crossing within a link, None where there is none."""
+    start, end = link.start.tolist(), float(link.length)
+    if proof:
+        given = link.exact or tuple(map(Fraction, start))
+        found = of_one(link.scene, start, given, limit, link.length)
+        level = found.level if link.exact else "run"  # the start itself is rounded
+        if math.isfinite(found.high):
+            return _blurred(link, limit, replace(found, level=level))
+        return None if found.low >= end * (1 - ROUNDING) else replace(found, level="undecided")
+    time, until = run_once(link.scene, start, limit, end)
+    if math.isfinite(time):
+        return _blurred(link, limit, Found(time, time, "run", f"{limit.words}: roots along runs in machine "
+                                                              "precision, the error from a second one"))
+    return None if until >= end * (1 - ROUNDING) else Found(until, math.nan, "undecided",
+                                                            f"{limit.words}: the run stopped")
+
+
+def _blurred(link: _Link, limit: Limit, found: Found) -> Found:
+    """Wider by what a second run shows, where the start of the link is the end of a run."""
+    if link.exact:
+        return found
+    end = float(link.length)
+    times = [run_once(link.scene, one.tolist(), limit, end)[0] for one in (link.start, link.second)]
+    if not all(map(math.isfinite, times)):
+        return Found(0.0, math.nan, "undecided", f"{limit.words}: nearer to a switch, or to a mere touch, "
+                                                 "than runs in doubles can tell")
+    blur = WIDER * abs(times[0] - times[1]) + ROUNDING * (found.high + float(link.begin))
+    return replace(found, low=max(0.0, found.low - blur), high=found.high + blur)
+
+
+def _again(base: Scene, links: Sequence[_Link], after: float, size: float) -> tuple[tuple[float, float], ...]:
+    """Intervals of closing times after `after` at which g is below the limit again."""
+    weights = np.array([float(c) for c in _weights(base)])
+    last = links[-1]
+    end = float(last.begin + last.length)
+    times, sizes = [], []
+    for one in links:
+        length, begin = float(one.length), float(one.begin)
+        if begin + length <= after:
+            continue
+        count = max(3, math.ceil(LOOKS * length / max(end - after, length)))
+        steps = np.linspace(0.0, length, count)
+        run = trajectory(one.scene, one.start, steps, laws=False)
+        times += (begin + np.asarray(run.t)).tolist()
+        sizes += np.sqrt(np.asarray(run.states) ** 2 @ weights).tolist()
+    found: list[tuple[float, float]] = []
+    inside = False
+    for time, value in zip(times, sizes):
+        if time > after and value < size:
+            found = [*found[:-1], (found[-1][0], time)] if inside else [*found, (time, time)]
+        inside = time > after and value < size
+    return tuple(found)
+
+
+def _positive(value: Any, name: str) -> Fraction:
+    try:
+        number = exact(value)
+    except InputError as error:
+        raise InputError(f"{name}: {error}") from None
+    if number <= 0:
+        raise InputError(f"{name}: expected a positive number, got {float(number):.10g}")
+    return number

@@ -1,0 +1,232 @@
+"""Burns: what is left at closing and the latest closing time, against runs of Euler's equations by SciPy's
+DOP853, written here, which share no code with the package."""
+import math
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+from stabilab.answers.stuck.burn import largest_after
+
+import stabilab
+from stabilab.case.burns import Burn, segments
+
+CASE = """body.inertia = {inertia}
+motion.angular_velocity = {rates}
+motion.span = [0, {span}]
+"""
+
+
+def case_of(folder, inertia, rates, thrusters, span=100.0, more=""):
+    """The case of thrusters, each (torque, keys of its schedule)."""
+    text = CASE.format(inertia=inertia, rates=rates, span=span) + more
+    for torque, keys in thrusters:  # a force of size 1 at a place across it, so that arm x force is the torque
+        torque = np.array(torque)
+        arm = np.cross(np.eye(3)[np.argmin(np.abs(torque))], torque)
+        arm /= np.linalg.norm(arm)
+        force = np.cross(torque, arm)  # arm x (torque x arm) = torque, the arm of length 1 across it
+        text += (f"[[thrusters]]\nposition = {arm.tolist()}\ndirection = {force.tolist()}\n"
+                 f"force = {float(np.linalg.norm(force))!r}\n{keys}\n")
+    path = folder / "burn.toml"
+    path.write_text(text)
+    return path
+
+
+def euler(D, torque, lam=(0.0, 0.0, 0.0)):
+    D, torque, lam = map(np.array, (D, torque, lam))
+    return lambda t, w: (torque - np.cross(w, D * w + lam)) / D
+
+
+def run(D, torque, w, length, lam=(0.0, 0.0, 0.0), dense=False):
+    found = solve_ivp(euler(D, torque, lam), (0, length), w, method="DOP853", rtol=1e-13, atol=1e-15,
+                      dense_output=dense)
+    return found if dense else found.y[:, -1]
+
+
+def largest(D, w):
+    """|omega| at the most of the free motion from w, by sampling a long run: some periods."""
+    found = run(D, (0, 0, 0), w, 600 / np.linalg.norm(w), dense=True)
+    return np.linalg.norm(found.sol(np.linspace(0, found.t[-1], 60_000)), axis=0).max()
+
+
+def random_body(rng):
+    a, b = rng.uniform(1, 3, 2)
+    D = rng.permutation([a, b, abs(a - b) + (a + b - abs(a - b)) * rng.uniform(0.1, 0.9)])
+    return [float(f"{v:.6g}") for v in D], [float(f"{v:.6g}") for v in rng.normal(0, 0.05, 3)]
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_the_largest_rate_of_a_free_body_is_that_of_a_long_run(seed):
+    D, w = random_body(np.random.default_rng(seed))
+    found = largest_after(stabilab.Scene(stabilab.Body(D)), w)
+    assert found == pytest.approx(largest(D, w), rel=2e-6)  # the oracle samples a maximum: second order
+
+
+def check_latest(folder, seed):
+    """The latest closing time of a random burn: a step before it every run stays below, a step after one
+    does not."""
+    rng = np.random.default_rng(seed)
+    D, w = random_body(rng)
+    torque = [float(f"{v:.6g}") for v in rng.normal(0, 0.02, 3)]
+    begun = largest_after(stabilab.Scene(stabilab.Body(D)), w)
+    limit = float(f"{begun * rng.uniform(1.2, 4):.8g}")
+    found = stabilab.burn(stabilab.load_burning(case_of(folder, D, w, [(torque, "stop = 2000")])),
+                          below=repr(limit))
+    latest = found.latest
+    assert latest.level in ("proved", "run") and 0 < latest.low <= latest.high < 2000
+    assert latest.high - latest.low < 1e-9 * latest.high
+    step = 1e-7 * latest.high
+    before, after = (run(D, torque, w, t) for t in (latest.low - step, latest.high + step))
+    assert least_square(D, before) < limit**2 < least_square(D, after)
+    assert largest(D, before) < limit  # by a run of the free motion
+    assert largest(D, after) == pytest.approx(limit, rel=1e-5)
+    along = run(D, torque, w, latest.low, dense=True)
+    assert np.linalg.norm(along.sol(np.linspace(0, latest.low, 5000)), axis=0).max() <= limit * (1 + 1e-9)
+    assert found.closed_latest.largest_rate == pytest.approx(limit, rel=1e-9)
+
+
+def least_square(D, w):
+    """g^2 by the plane omega2 = 0 of the polhode: two linear equations for the squares of the other two,
+    written here from energy and momentum."""
+    D = np.array(D)
+    one, _, three = np.argsort(D)
+    T2, H2 = D @ w**2, D**2 @ w**2
+    squares = np.linalg.solve([[D[one], D[three]], [D[one] ** 2, D[three] ** 2]], [T2, H2])
+    return squares.sum()
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_the_latest_closing_time_parts_runs_that_stay_below_from_runs_that_do_not(tmp_path, seed):
+    check_latest(tmp_path, seed)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(3, 100))
+def test_the_latest_closing_times_of_a_hundred_burns(tmp_path, seed):
+    check_latest(tmp_path, seed)
+
+
+def test_pulses_and_propellant_are_those_of_a_piecewise_run(tmp_path):
+    """The pulses of two thrusters are written out here by hand: A fires 0.5 s of every 2 s from t = 1 on, for
+    1.25 s in all (0.5 g at 0.4 g/s); B from 2.25 s to 4 s."""
+    D, w, lam = [3.0, 2.0, 1.5], [0.01, -0.02, 0.03], (0.3, -0.1, 0.2)
+    a, b = [0.05, 0.02, -0.04], [-0.01, 0.08, 0.03]
+    path = case_of(tmp_path, D, w, [
+        (a, 'start = "1 s"\nperiod = "2 s"\nduty = 0.25\npropellant = "0.5 g"\nmass_flow = "0.4 g/s"'),
+        (b, 'start = "2.25 s"\nstop = "4 s"')],
+        more="".join(f"[[wheels]]\naxis = {np.eye(3)[n].tolist()}\nmomentum = {lam[n]}\n" for n in range(3)))
+    found = stabilab.burn(stabilab.load_burning(path))
+    spans = [(1, ()), (0.5, (a,)), (0.75, ()), (0.75, (b,)), (0.5, (a, b)), (0.5, (b,)), (1, ()), (0.25, (a,))]
+    state = np.array(w)
+    for length, firing in spans:
+        state = run(D, np.sum([*firing, (0, 0, 0)], axis=0), state, length, lam)
+    assert found.closed.time == 5.25 and found.closed.fired == (1.25, 1.75)
+    assert found.closed.used[0] == pytest.approx(0.0005, rel=1e-15) and found.closed.used[1] is None
+    assert np.abs(found.closed.rates - state).max() < 1e-13
+    assert [one.time for one in found.switches] == [0, 1, 1.5, 2.25, 3, 3.5, 4, 5]
+    assert found.closed.motion.fate == stabilab.Fate.BOUNDED
+    assert found.closed.largest_rate == pytest.approx(found.closed.motion.largest, rel=1e-12)
+
+
+def test_the_angular_momentum_in_space_grows_by_the_integral_of_the_torque(tmp_path):
+    """With the attitude R of an own run, R H(T) - H(0) = int R M dt."""
+    D, w, torque = np.array([3.0, 2.0, 1.5]), [0.1, -0.2, 0.3], [0.05, 0.02, -0.04]
+    path = case_of(tmp_path, D.tolist(), w, [(torque, "start = 1\nstop = 8")])
+    found = stabilab.burn(stabilab.load_burning(path)).closed
+
+    def rate(t, y):
+        omega, R = y[:3], y[3:12].reshape(3, 3)
+        M = np.array(torque) * (t > 1)
+        skew = np.array([[0, -omega[2], omega[1]], [omega[2], 0, -omega[0]], [-omega[1], omega[0], 0]])
+        return np.concatenate([(M - np.cross(omega, D * omega)) / D, (R @ skew).ravel(), R @ M])
+    y = np.concatenate([w, np.eye(3).ravel(), np.zeros(3)])
+    for begin, end in ((0, 1), (np.nextafter(1, 2), 8)):
+        y = solve_ivp(rate, (begin, end), y, method="DOP853", rtol=1e-13, atol=1e-15).y[:, -1]
+    grown = y[3:12].reshape(3, 3) @ found.momentum - D * w
+    assert np.abs(grown - y[12:]).max() < 1e-11
+
+
+def test_a_pulsed_burn_s_latest_closing_lies_in_a_pulse_and_parts_the_runs(tmp_path):
+    D, w, torque, limit = [3.0, 2.0, 1.5], [0.01, -0.02, 0.03], [0.05, 0.02, -0.04], 0.15
+    path = case_of(tmp_path, D, w, [(torque, "start = 3\nstop = 60\nperiod = 2\non_time = 0.5")])
+    latest = stabilab.burn(stabilab.load_burning(path), below=limit).latest
+    assert latest.level == "run" and latest.high - latest.low < 1e-11
+    assert (latest.low - 3) % 2 < 0.5 and (latest.high - 3) % 2 < 0.5
+
+    def closed_at(end):
+        state, t = run(D, (0, 0, 0), w, 3.0), 3.0
+        while t < end:
+            state = run(D, torque, state, min(0.5, end - t))
+            if t + 0.5 >= end:
+                return state
+            state = run(D, (0, 0, 0), state, min(1.5, end - t - 0.5))
+            t += 2.0
+    assert least_square(D, closed_at(latest.low - 1e-9)) < limit**2 < least_square(
+        D, closed_at(latest.high + 1e-9))
+
+
+def test_a_braking_burn_is_below_the_limit_again_later(tmp_path):
+    """A torque about one axis against the second of two burns: up to 0.2 rad/s and back to 0.05 rad/s."""
+    path = case_of(tmp_path, [3.0, 2.0, 1.5], [0, 0, 0.05], [([0, 0, 0.15], "stop = 1.5"),
+                                                             ([0, 0, -0.15], "start = 2\nstop = 3.5")])
+    latest = stabilab.burn(stabilab.load_burning(path), below="0.1").latest
+    assert latest.low <= 0.5 <= latest.high  # 0.05 + 0.1 t
+    (begin, end), = latest.again
+    assert begin == pytest.approx(3.0, abs=0.01) and end == 3.5
+
+
+def test_a_limit_that_no_closing_reaches_and_one_that_is_passed_at_the_start(tmp_path):
+    path = case_of(tmp_path, [3.0, 2.0, 1.5], [0, 0, 0.05], [([0, 0, 0.15], "stop = 1.5")])
+    burning = stabilab.load_burning(path)
+    assert stabilab.burn(burning, below=1).latest.low == math.inf
+    assert stabilab.burn(burning, below="0.05").latest.high == 0.0
+    assert stabilab.burn(burning, stop="1").closed.rates == pytest.approx((0, 0, 0.15), abs=1e-16)
+
+
+def test_switching_times_are_exact():
+    third = Fraction(1, 3)
+    burn = Burn(third, None, third, third / 10, Fraction(1), Fraction(7))
+    windows = list(burn.windows())
+    assert sum(b - a for a, b in windows) == Fraction(1, 7) and windows[2][0] == 1
+    assert [one.firing for one in segments([burn, None])][:3] == [(), (0,), ()]
+
+
+@pytest.mark.parametrize("keys, key, words", [
+    ("start = 5\nstop = 3", "stop", "stops at 3 s and starts at 5 s"),
+    ('propellant = "1 kg"', "propellant", "add mass_flow"),
+    ("stop = 9\nperiod = 2\nduty = 1.5", "duty", "above 0 and at most 1"),
+    ("stop = 9\nperiod = 2\nduty = 0", "duty", "above 0 and at most 1"),
+    ("stop = 9\nperiod = 2\non_time = 3", "on_time", "at most the period"),
+    ("stop = 9\nperiod = 2", "period", "add duty"), ("stop = 9\nduty = 0.5", "duty", "add period"),
+    ("start = -1\nstop = 9", "start", "not negative"), ("stop = 9\nstuck = true", "stuck", "fires for ever"),
+    ("stop = 9e9\nperiod = 2\nduty = 0.5", "period", "more than the 10000")])
+def test_a_burn_that_cannot_be_is_one_fault_with_its_line_and_a_cure(tmp_path, keys, key, words):
+    path = case_of(tmp_path, [3.0, 2.0, 1.5], [0, 0, 0.05], [([0, 0, 0.15], keys)])
+    line = next(n for n, text in enumerate(path.read_text().split("\n"), 1) if text.startswith(f"{key} ="))
+    with pytest.raises(stabilab.InputError) as caught:
+        stabilab.load_burning(path)
+    assert str(caught.value).startswith(f"{path}:{line}: thrusters.{key}: ") and words in str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
+def test_questions_of_a_constant_torque_refuse_a_burn_and_name_the_command(tmp_path):
+    path = case_of(tmp_path, [3.0, 2.0, 1.5], [0, 0, 0.05], [([0, 0, 0.15], "stop = 9")])
+    with pytest.raises(stabilab.InputError, match=r"thrusters\.stop: .*`stabilab burn`"):
+        stabilab.load(path)
+    for ask in (stabilab.fate, stabilab.stuck, stabilab.simulate, stabilab.motion, stabilab.equilibria):
+        with pytest.raises(stabilab.InputError, match="expected a"):
+            ask(stabilab.load_burning(path))
+
+
+def test_what_burn_cannot_answer_it_says(tmp_path):
+    wheel = "[[wheels]]\naxis = [1, 0, 0]\nmomentum = 1\n"
+    path = case_of(tmp_path, [3.0, 2.0, 1.5], [0, 0, 0.05], [([0, 0, 0.15], "stop = 9")], more=wheel)
+    with pytest.raises(stabilab.InputError, match="below: .*without wheels"):
+        stabilab.burn(stabilab.load_burning(path), below=1)
+    with pytest.raises(stabilab.InputError, match="stop: expected a positive number"):
+        stabilab.burn(stabilab.load_burning(path), stop=-1)
+    with pytest.raises(stabilab.InputError, match="load_burning"):
+        stabilab.burn(path)
+    path.write_text("body.inertia = [3, 2, 1.5]\nmotion.angular_velocity = [0, 0, 1]\n")
+    with pytest.raises(stabilab.InputError, match="no thruster fires on a schedule"):
+        stabilab.load_burning(path)
