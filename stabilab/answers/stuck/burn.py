@@ -134,8 +134,9 @@ def burn(burning: Any, stop: Any = None, below: Any = None) -> Burned:
     links, craft = list(chain.links()), burning.craft
     switches = tuple(Switch(float(one.begin), one.firing, one.torque, tuple(one.start.tolist()))
                      for one in links)
-    result = Burned(tuple(t.name for t in craft.thrusters), switches, chain.closed(links),
-                    caveats=craft.caveats)
+    closed = chain.closed(links)
+    result = Burned(tuple(t.name for t in craft.thrusters), switches, closed,
+                    caveats=(*craft.caveats, *_granted(craft, closed)))
     if limit is None:
         return result
     latest = _latest(chain.base, links, limit)
@@ -229,6 +230,21 @@ class _Chain:
                       largest_after(self.base, rates) if self.free else found.largest, before, found,
                       of_motion(self.base, rates, found) if quiet else None,
                       tuple(map(float, fired)), tuple(used))
+
+
+def _granted(craft: Any, closed: Closed) -> Iterator[Caveat]:
+    """What the answer takes for granted of the thrusters."""
+    if spent := sum(used or 0.0 for used in closed.used):
+        mass = craft.physical.body.mass
+        share = f" of {float(mass):.6g} kg" if mass else ""
+        yield Caveat("burn", f"mass, inertia and centre of mass stay as the file gives them while "
+                             f"{spent:.4g} kg{share} leave the body")
+    loose = [t.name for t in craft.thrusters if t.burn and (t.misalignment or t.force_tolerance)]
+    if loose:
+        yield Caveat("burn", f"force and direction of {', '.join(loose)} count as stated, without "
+                             "misalignment and tolerance")
+    for note in craft.notes:
+        yield Caveat("burn", note)
 
 
 def _end_of(scene: Scene, state: np.ndarray, length: Fraction) -> np.ndarray:

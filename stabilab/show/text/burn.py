@@ -102,7 +102,7 @@ def _turning(one, units: Units) -> str:
 
 
 def _of_closed(case, found, one, units: Units):
-    yield row("closed at", units.time(one.time))
+    yield row("last closing", units.time(one.time))
     yield row("rates then", f"{units.vector(in_file(case, one.rates), units.rates)}, known to "
                             f"{units.rate(one.error, 2)}")
     yield row("angular momentum", f"{number(math.hypot(*one.momentum), DIGITS)} N m s, "
