@@ -6,9 +6,9 @@ from fractions import Fraction
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
-from stabilab.answers.stuck.burn import largest_after
 
 import stabilab
+from stabilab.answers.stuck.burn import largest_after
 from stabilab.case.burns import Burn, segments
 
 CASE = """body.inertia = {inertia}
