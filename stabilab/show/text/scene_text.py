@@ -74,7 +74,7 @@ def _head(case) -> str:
     rows += _scaled(case)
     units = units_of(case)
     rows += [f"  motion from {units.vector(case.state[:3], units.rates, DIGITS)}"] if case.state else []
-    rows += [f"  good to 240 bits, as their unit holds pi: {', '.join(case.inexact)}"] if case.inexact else []
+    rows += [f"  to 72 digits, as π is in the unit: {', '.join(case.inexact)}"] if case.inexact else []
     rows += [f"  note: {note}" for note in case.notes]
     return "\n".join(rows) + "\n"
 

@@ -199,20 +199,22 @@ def _margins(row, units) -> str:
         because = next((row.margins[name].because for name in ("wheel", "rate", "torque")
                         if name in row.margins), "")
         return f"margin: none: {lettered(units.words(because))}" if because else ""
-    told = [" or ".join(f"{_span(name, m, units)} of {WORDS[name]}" for name, m in known.items()
+    ends = {name: _ends(name, m, units) for name, m in known.items()}
+    told = [" or ".join(f"{ends[name][0]} of {WORDS[name]}" for name, m in known.items()
                         if (m.beyond or name == "torque") == beyond) for beyond in (True, False)]
-    return "; ".join(words + sizes for words,
-                     sizes in zip(("the fate changes with ",
-                                   "only on a separatrix the fate is another, nearest "), told) if sizes)
+    changes = [words + sizes for words, sizes in zip(
+        ("the fate changes with ", "only on a separatrix the fate is another, nearest "), told) if sizes]
+    return "; ".join([*changes, *(f"from {back} of {WORDS[name]} on it is as now again"
+                                  for name, (_, back) in ends.items() if back)])
 
 
-def _span(name, margin, units) -> str:
-    """The size of a margin; with the size at which the fate turns back, where that is soon."""
+def _ends(name, margin, units) -> tuple[str, str]:
+    """(the size of a margin, the size at which the fate turns back, where that is soon)."""
     if margin.until is None or not margin.size < margin.until < SOON * margin.size:
-        return amount(name, margin.size, units, SHORT)
+        return amount(name, margin.size, units, SHORT), ""
     unit, one = _unit(name, units)
     low, high = _bracket(margin.size * one, margin.until * one)
-    return f"{low} to {high} {unit}, and no more,"
+    return f"{low} {unit}", f"{high} {unit}"
 
 
 def amount(name, size, units, digits=DIGITS) -> str:

@@ -41,17 +41,12 @@ def csv(answers) -> str:
 
 
 def text(case, limit, found, units: Units) -> str:
-    """The answer in one line with its two ends, how far these are apart, and the reason; `as_dict` has all
-    digits of the ends."""
+    """The answer in one line with its two ends, and the reason; `as_dict` has all digits of the ends."""
     low, high = float(found.low), float(found.high)
     parts = [_answer(limit, found, low, high, units), limiting.tilted(found.caveats, units)]
-    lines = [f"{printable(case.name)}: {'; '.join(filter(None, parts))}"]
-    if math.isfinite(high) and high > 0:
-        apart = f"{units.time(high - low, 2)} apart" if high > low else "the same number"
-        lines.append(f"  its two ends are {apart}; --json tells all digits")
     # the limit stands above, in the units asked for
     reason = re.sub(r"^[^:]* = [^:]*: ", "", str(found.words))
-    return "\n".join([*lines, f"  {lettered(units.words(reason))}"])
+    return f"{printable(case.name)}: {'; '.join(filter(None, parts))}\n  {lettered(units.words(reason))}"
 
 
 def swept(answers, units: Units):
