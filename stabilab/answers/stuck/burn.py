@@ -62,10 +62,10 @@ class Closed:
     """What is left when the last thruster closes at `time`, s; vectors along the principal axes.
 
     rates: rad/s, known to `error` (rad/s, by a second run from a start moved in its last places); momentum: N
-    m s; energy: J, kinetic, of the body; largest_rate: of the motion that follows, over all time, rad/s, None
-    where it is not known; largest_before: |omega| at the most up to then; motion, attitude: of what follows
-    (attitude None where a torque is left); fired: s, and used: kg (None without a mass flow), of every
-    thruster in the order of the file.
+    m s, with the wheels'; energy: J, kinetic, of the body; largest_rate: of the motion that follows, over all
+    time, rad/s, None where it is not known; largest_before: |omega| at the most up to then, likewise; motion,
+    attitude: of what follows (attitude None where a torque is left); fired: s, and used: kg (None without a
+    mass flow), of every thruster in the order of the file; None of one without a schedule.
     """
 
     time: float
@@ -74,10 +74,10 @@ class Closed:
     momentum: Float3
     energy: float
     largest_rate: float | None
-    largest_before: float
+    largest_before: float | None
     motion: Motion = field(repr=False)
     attitude: Attitude | None = field(repr=False)
-    fired: tuple[float, ...]
+    fired: tuple[float | None, ...]
     used: tuple[float | None, ...]
 
 
@@ -215,11 +215,13 @@ class _Chain:
         error = max(error, ROUNDING * float(np.abs(state).max()))
         rates = tuple(state.tolist())
         found = motion(self.base, rates)
-        before = max((largest_rate(one.scene, one.start.tolist(), float(one.length), RUN_STEPS)[0]
-                      for one in links), default=math.hypot(*rates))
+        runs = [(one, *largest_rate(one.scene, one.start.tolist(), float(one.length), RUN_STEPS))
+                for one in links]
+        whole = all(reached >= float(one.length) * (1 - ROUNDING) for one, _, reached in runs)
+        before = max((size for _, size, _ in runs), default=math.hypot(*rates)) if whole else None
         quiet = not any(self.base.vector("constant_torque"))
         stop = self.until
-        fired = [sum((b - a for a, b in t.burn.windows(stop)), Fraction(0)) if t.burn else Fraction(0)
+        fired = [t.burn and sum((b - a for a, b in t.burn.windows(stop)), Fraction(0))
                  for t in self.case.thrusters]
         used = [None if t.burn is None or t.burn.mass_flow is None else float(t.burn.mass_flow * time)
                 for t, time in zip(self.case.thrusters, fired)]
@@ -229,7 +231,7 @@ class _Chain:
                       sum(d * w * w for d, w in zip(body.inertia, rates)) / 2,
                       largest_after(self.base, rates) if self.free else found.largest, before, found,
                       of_motion(self.base, rates, found) if quiet else None,
-                      tuple(map(float, fired)), tuple(used))
+                      tuple(None if v is None else float(v) for v in fired), tuple(used))
 
 
 def _granted(craft: Any, closed: Closed) -> Iterator[Caveat]:

@@ -85,10 +85,14 @@ def _of_latest(found, units: Units):
     latest, early = found.latest, found.closed_latest
     if early is not None:
         yield row("closed then", f"{_turning(early, units)}; largest rate before "
-                                 f"{units.rate(early.largest_before)}")
+                                 f"{_rate(early.largest_before, units)}")
     for begin, end in latest.again:
         yield row("below it again", f"closed between {units.time(begin)} and {units.time(end)} (seen at 2000 "
                                     "times, no proof)")
+
+
+def _rate(value, units: Units) -> str:
+    return "not known" if value is None else units.rate(value)
 
 
 def _turning(one, units: Units) -> str:
@@ -108,8 +112,10 @@ def _of_closed(case, found, one, units: Units):
     yield row("angular momentum", f"{number(math.hypot(*one.momentum), DIGITS)} N m s, "
                                   f"({', '.join(number(v, DIGITS) for v in in_file(case, one.momentum))})")
     yield row("energy", units.energy(one.energy))
-    yield row("largest rate before", units.rate(one.largest_before))
+    yield row("largest rate before", _rate(one.largest_before, units))
     yield row("after it", _turning(one, units))
     for name, fired, used in zip(found.thrusters, one.fired, one.used):
+        if fired is None:
+            continue
         mass = "" if used is None else f", {number(used, DIGITS)} kg of propellant"
         yield row(name, f"fired {units.time(fired)}{mass}")

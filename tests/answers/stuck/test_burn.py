@@ -218,6 +218,22 @@ def test_questions_of_a_constant_torque_refuse_a_burn_and_name_the_command(tmp_p
             ask(stabilab.load_burning(path))
 
 
+def test_a_stuck_thruster_beside_a_burn_goes_on_after_it(tmp_path):
+    """Both about axis 3: 0.05 + (0.15 + 0.03) t/1.5 up to 3 s, then 0.03/1.5 for ever."""
+    path = case_of(tmp_path, [3.0, 2.0, 1.5], [0, 0, 0.05], [([0, 0, 0.15], "stop = 3"),
+                                                             ([0, 0, 0.03], "stuck = true")])
+    closed = stabilab.burn(stabilab.load_burning(path)).closed
+    assert closed.rates == pytest.approx((0, 0, 0.05 + 0.18 / 1.5 * 3), abs=1e-15)
+    assert closed.motion.fate == stabilab.Fate.SPIN_UP and closed.attitude is None
+    assert closed.fired == (3.0, None) and closed.largest_rate is None
+
+
+def test_a_closing_before_the_start_leaves_the_motion_as_it_was(tmp_path):
+    path = case_of(tmp_path, [3.0, 2.0, 1.5], [0.1, 0.2, 0.05], [([0, 0, 0.15], "start = 5\nstop = 9")])
+    closed = stabilab.burn(stabilab.load_burning(path), stop=2).closed
+    assert closed.rates == (0.1, 0.2, 0.05) and closed.fired == (0.0,)
+
+
 def test_what_burn_cannot_answer_it_says(tmp_path):
     wheel = "[[wheels]]\naxis = [1, 0, 0]\nmomentum = 1\n"
     path = case_of(tmp_path, [3.0, 2.0, 1.5], [0, 0, 0.05], [([0, 0, 0.15], "stop = 9")], more=wheel)
