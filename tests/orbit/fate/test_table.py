@@ -345,4 +345,4 @@ def test_tables_hold_however_nearly_equal_two_moments_are(gap):
 
 def test_the_grid_is_a_public_name():
     assert "fate_grid" in stabilab.__all__ and "fate_grid" in dir(
-        stabilab) and stabilab.fate_grid is fate_grid
+        stabilab) and stabilab.fate_grid.__wrapped__ is fate_grid
