@@ -290,6 +290,24 @@ def test_the_start_page_leads_to_every_other_and_every_page_back(everything):
     assert "Table 4" in (folder / "constant-torque.html").read_text(encoding="utf-8")
 
 
+def test_the_start_page_leads_by_question_with_the_answers_of_the_pages(tmp_path):
+    """The hero and the questions are made from what the pages of the cases say."""
+    cases = [stabilab.load(CASES / f"{name}.toml") for name in ("minor-axis-100", "upper-stage", "cubesat-3u")]
+    page = lambda title, look, tiles: {"case": {
+        "title": title, "look": look, "headline": f"{title}!", "tiles": tiles,
+        "pictures": [{"kind": "time", "file": "t.png", "size": [1, 1]}]}}
+    told = [("outcome", "Spins up", "about z"), ("when", "16.95 s", "until the limit"), ("largest", "1", ""),
+            ("to another", "0.58", "the smallest change of the rates to the separatrix")]
+    found = {"case minor-axis-100": page("Minor, lambda1", "conditional", told),
+             "case upper-stage": page("Stage", "changes", told), "case cubesat-3u": page("Cube", "changes", told)}
+    hero = whole._hero(cases, found)
+    assert (hero["title"], hero["file"]) == ("Cube", "cases/cubesat-3u.html")  # it has a wheel
+    first, edge, *_, papers = whole._questions(cases, found, hero, "3 hold", [])
+    assert first["words"] == "outcome: Spins up about z; when: 16.95 s until the limit; largest: 1"
+    assert edge["words"] == "Minor, λ1: 0.58, the smallest change of the rates to the separatrix"
+    assert papers["words"] == "of their equations and claims 3 hold" and whole._hero(cases[:1], found) is None
+
+
 def test_a_report_on_cases_alone_reads_none_of_the_papers(alone, several, hostile):
     (run,) = manifest.read(alone.parent)
     assert [row["path"] for row in run["inputs"]] == [str(hostile)]

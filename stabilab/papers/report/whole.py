@@ -7,7 +7,7 @@ from pathlib import Path
 from ...physics.scene import torque_axis
 from ...show.report import html, own, precision_page
 from ...show.report.workers import Task, done
-from ...show.terminal.letters import some
+from ...show.terminal.letters import some, written
 from ...theories.printed.claims import MAIN
 from .. import table
 from ..audit import findings_of
@@ -99,7 +99,7 @@ def pages(cases, folder: Path, tell, wanted: own.Wanted, workers=None, **around)
     if cost:
         html.write(folder / "cost.html", "cost.html", title="What answers cost", pages=cost, nav=nav,
                    here="cost.html")
-    _start(folder, found, nav, groups, audit, tools, cost, around)
+    _start(cases, folder, found, nav, groups, audit, tools, cost, around)
     return [(made["beyond"], made["open"]) for name, made in found.items() if name.startswith("case ")]
 
 
@@ -141,6 +141,12 @@ GROUPS = (("Constant torque along a principal axis",
           ("Other effects", lambda case: True))
 
 
+# look of the answer -> title
+OUTCOMES = {"changes": "Spins up, or reaches its limit",
+            "conditional": "Bounded on a condition, or undecided",
+            "bounded": "Bounded for ever", "": "Sweeps, and cases without a motion"}
+
+
 def _acts(scene):
     return any(scene.quadratic().m)
 
@@ -155,17 +161,19 @@ def group(case) -> str:
 
 
 def _cases(cases, folder, found, nav, around):
-    """A page a case, and the page that lists them in groups; (title, number) of the groups."""
-    rows: dict[str, list] = {title: [] for title, _ in GROUPS}
-    for stem, members in own.entries(cases):
+    """A page a case, and the page that lists them by outcome, those of one kind of scene side by side;
+    (title, number) of the groups."""
+    order = [title for title, _ in GROUPS]
+    rows: dict[str, list] = {look: [] for look in OUTCOMES}
+    for stem, _ in sorted(own.entries(cases), key=lambda one: order.index(group(one[1][0]))):
         made = found[f"case {stem}"]
         own.write(made, folder / own.FOLDER / f"{stem}.html", "", nav=nav, up="../", below="cases.html",
                   **own.of_one(made, around))
         row = own.listed(stem, made)
-        rows[group(members[0])].append(row | {"file": f"{own.FOLDER}/{row['file']}"})
-    groups = [{"title": title, "rows": listed} for title, listed in rows.items() if listed]
-    html.write(folder / "cases.html", "list.html", title="Cases", groups=groups, nav=nav, here="cases.html",
-               **around)
+        rows["" if "sweep" in made else row["look"]].append(row | {"file": f"{own.FOLDER}/{row['file']}"})
+    groups = [{"title": title, "rows": rows[look]} for look, title in OUTCOMES.items() if rows[look]]
+    html.write(folder / "cases.html", "list.html", title="Cases by outcome", groups=groups, nav=nav,
+               here="cases.html", **around)
     return [(one["title"], len(one["rows"])) for one in groups]
 
 
@@ -229,8 +237,55 @@ def costs(cases, folder: Path) -> list[dict]:
     return [{"title": title, "words": words, "file": path.name} for title, words, path in made if path]
 
 
-def _start(folder, found, nav, groups, audit, tools, cost, around):
-    """The first page: the finest picture, and what is inside."""
+def _hero(cases, found) -> dict | None:
+    """The answer to a stuck thruster that the start page begins with: of a spacecraft with wheels, if one is
+    among the cases."""
+    craft = [(stem, members[0]) for stem, members in own.entries(cases)
+             if len(members) == 1 and members[0].thrusters]
+    for stem, _ in sorted(craft, key=lambda one: not one[1].wheels):
+        made = found[f"case {stem}"]["case"]
+        picture = next((one for one in made["pictures"] if one["kind"] == "time"), None)
+        if picture:
+            picture = picture | {"file": f"{own.FOLDER}/{picture['file']}"}
+            short = "; ".join(f"{name}: {value} {note}".strip() for name, value, note in made["tiles"][:3])
+            return {"file": f"{own.FOLDER}/{stem}.html", "title": made["title"], "headline": made["headline"],
+                    "look": made["look"], "picture": picture,
+                    "short": short}
+    return None
+
+
+def _edge(cases, found) -> tuple[str, str] | None:
+    """(what is said, page) of the first bounded motion under a torque whose distance from the separatrix is
+    known."""
+    for stem, members in own.entries(cases):
+        made = found[f"case {stem}"]
+        if "sweep" not in made and made["case"]["look"] == "conditional" and members[0].scene.plain:
+            *_, (_, value, note) = made["case"]["tiles"] or [("", "", "")]
+            if note.startswith("the smallest change"):
+                return f"{written(made['case']['title'])}: {value}, {note}", f"{own.FOLDER}/{stem}.html"
+    return None
+
+
+def _questions(cases, found, hero, audit, cost) -> list[dict]:
+    """(question, its answer, where more of it stands) of what the report answers."""
+    edge = _edge(cases, found)
+    rows = [("My thruster is stuck: what happens, how soon, how large?", hero["short"], hero["file"])
+            ] if hero else []
+    rows += [("How far is it from the edge, the separatrix?", *edge)] if edge else []
+    rows += [("What does accuracy cost in time?", "; ".join(page["words"] for page in cost), "cost.html")
+             ] if cost else []
+    rows += [("Where do formulas that are right on paper lose their digits?",
+              "hard cases, each with what a plain evaluation gives and what is done instead",
+             "hard-cases.html"),
+             ("What do the five papers say, and what is so?", f"of their equations and claims {audit}",
+              "where.html")]
+    return [{"question": question, "words": words, "file": file} for question, words, file in rows]
+
+
+def _start(cases, folder, found, nav, groups, audit, tools, cost, around):
+    """The first page: a stuck thruster as it is answered, the questions, the finest picture, and what is
+    inside."""
+    hero = _hero(cases, found)
     drawn = [row.number for row in figures.FIGURES if not row.added]
     words = {
         "constant-torque.html": f"{paper.PAPER}: tables 1 to {len(found['tables'])}, figures {drawn[0]} to "
@@ -250,4 +305,4 @@ def _start(folder, found, nav, groups, audit, tools, cost, around):
     cards = [page | {"words": words[page["file"]]} for page in nav if page["file"] != "index.html"]
     picture = found.get(f"figure {FINEST}") or found[f"figure {figures.FIGURES[0].number}"]
     html.write(folder / "index.html", "start.html", title=TITLE, picture=picture, cards=cards, nav=nav,
-               here="index.html", **around)
+               hero=hero, questions=_questions(cases, found, hero, audit, cost), here="index.html", **around)

@@ -66,7 +66,8 @@ def _largest(motion, units):
 def _distance(motion, units):
     rate, height = rate_and_height(motion, units)
     if rate:
-        return rate, f"the smallest change of the rates to the separatrix{f'; {height}' * bool(height)}"
+        told = f"; in energy {height}" if height else ""
+        return rate, f"the smallest change of the rates to the separatrix{told}"
     if height:
         return height, "of energy, to the barrier"
     if motion.fate.word == "separatrix":
