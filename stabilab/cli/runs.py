@@ -72,8 +72,8 @@ def plot(
             metavar="N", help="Dots an inch of a .png; default: 110.")] = None,
         until: Annotated[str | None, typer.Option(
             metavar="TIME", help='Draw up to this time: "10 min".')] = None,
-        neighbours: Annotated[int, typer.Option(
-            metavar="N", help="Of a section: so many motions beside this one.")] = 0,
+        neighbours: Annotated[int | None, typer.Option(
+            metavar="N", help="Of a section: so many motions beside this one; default: 6.")] = None,
         units: UnitsOption = None, strict: Strict = False):
     """Draw a case: rates over time, phase plane, separatrix, more.
 

@@ -123,6 +123,14 @@ def test_axes_have_the_two_other_rates_in_the_units_asked_for():
 
 
 @pytest.mark.slow
+def test_a_section_has_neighbours_unless_none_are_asked_for():
+    case = load("torque-free-body")
+    usual, alone = stabilab.plot.section(case, passages=5), stabilab.plot.section(case, passages=5, neighbours=0)
+    assert len(np.unique(dots(usual, SKY).round(4), axis=0)) == 6 and not len(dots(alone, SKY))
+    plt.close("all")
+
+
+@pytest.mark.slow
 def test_a_periodic_motion_passes_at_one_place_once_a_period_and_neighbours_each_at_theirs():
     """A motion that reduces to one degree of freedom and is bounded repeats; its period by the integral of
     the reduced motion."""

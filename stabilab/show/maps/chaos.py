@@ -70,6 +70,10 @@ def _map(figure: Any, ax: Any, beside: Any, one: Subject, until: float) -> None:
     states = np.full((GRID, GRID, 3), plane.level)
     states[..., plane.across[0]], states[..., plane.across[1]] = x[:, None] / scale.rate[1], y / scale.rate[1]
     found = chaos(one.twin, states, until)
+    if len(labels := set(found.labels.ravel().tolist())) == 1:
+        _alone(figure, ax, beside, f"of {found.labels.size} motions from this plane, each followed for "
+                                   f"{number(until)} {one.scene.time_unit}, all are {Order(*labels).word}")
+        return
     extent = (*limits[0], *limits[1])
     leaving = np.where(found.labels == Order.SPIN_UP, 1.0, np.nan)
     ax.grid(False)
@@ -92,6 +96,15 @@ def _map(figure: Any, ax: Any, beside: Any, one: Subject, until: float) -> None:
     if np.isfinite(leaving).any():
         handles, words = [*handles, Patch(facecolor=light(style.VERMILION))], [*words, "spins up"]
     figure.legend(handles, words, loc="outside lower center", ncols=5)
+
+
+def _alone(figure: Any, ax: Any, beside: Any, words: str) -> None:
+    """The section on a figure of its own, with a sentence in place of a map of one colour."""
+    from matplotlib.gridspec import GridSpec
+    ax.remove()
+    figure.set_size_inches(SIZE[0] * 0.6, SIZE[1])
+    beside.set_subplotspec(GridSpec(1, 1, figure=figure)[0])
+    beside.set_title(f"{beside.get_title()}\n{words}", wrap=True)
 
 
 # --- Whether a motion is regular or chaotic, in words, JSON and CSV: the label, how it is known, MEGNO over

@@ -168,7 +168,7 @@ THIS, OTHER = DOT | {"color": style.ORANGE, "markersize": 7}, DOT | {"color": st
 STAYS, LEAVES = DOT | {"color": style.SKY}, DOT | {"color": style.VERMILION, "marker": "x", "markersize": 3.5}
 MIDDLE = style.MARKER["centre"]
 PASSAGES, MOST = 300, 20_000
-FAN = 500       # neighbours at most
+FAN, USUAL = 500, 6  # neighbours: at most, and where no number is asked for
 BESIDE = 150    # passages of each neighbour, if it does not leave
 ROUND = 1000    # passages, at most, for the sake of going round
 GONE = 3        # times the farthest of this motion's passages: a neighbour that far has left
@@ -178,7 +178,7 @@ MARGIN, CLOSE = 0.08, 0.01
 
 def section(case: Any, states: Any = None, ax: Axes | None = None, units: str | None = None,
             size: tuple[float, float] | None = None,
-            legend: bool = True, neighbours: int = 0, passages: int | None = None) -> Axes:
+            legend: bool = True, neighbours: int | None = None, passages: int | None = None) -> Axes:
     """Draw the Poincaré section of a motion, and return the axes.
 
     case: a Case, or a scene with `states`: three rates, or (n, 3) of several motions, the first of which is
@@ -186,14 +186,14 @@ def section(case: Any, states: Any = None, ax: Axes | None = None, units: str | 
     the two other rates, in deg/s (units="si": rad/s; scaled scenes have x). Each passage is a root of a
     Taylor series. A periodic motion is one point, one on a torus fills closed curves, one that leaves
     scatters. passages: how many of this motion (None: 300, or about an elliptic periodic motion as many as go
-    round it); of one that spins up, those before that is certain. neighbours: how many motions beside it,
-    from the middle to twice as far. Where it stays in an island about an elliptic periodic motion, that is
-    marked. Raises InputError for a body with a liquid, in a medium or in a field, a motion at rest, and one
-    that spins up before it has passed any plane often enough.
+    round it); of one that spins up, those before that is certain. neighbours: how many motions beside it
+    (None: six), from the middle to twice as far. Where it stays in an island about an elliptic periodic
+    motion, that is marked. Raises InputError for a body with a liquid, in a medium or in a field, a motion at
+    rest, and one that spins up before it has passed any plane often enough.
     """
     one, rest = _motions(case, states)
     which.check("section", one)
-    fan = neighbours or one.neighbours
+    fan = next((n for n in (neighbours, one.neighbours) if n is not None), USUAL)
     _check("neighbours", fan, 0, FAN)
     _check("passages", PASSAGES if passages is None else passages, 1, MOST)
     scale, until = measures(one, units), which.certain_from(one)

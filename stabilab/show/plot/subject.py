@@ -37,8 +37,8 @@ class Subject:
     """scene: as it was given; state: the three rates at t = 0 in the scene's variables (rad/s, or x), None
     without a motion; blocks: the rest of the state by name; span: (from, to) or None; heading: for titles,
     may be empty; case: where all this stands, or None; neighbours: how many motions a section shows beside
-    it; known: its motion, where that is worked out already; asked: the span that its pictures show, None for
-    what is worth seeing."""
+    it, None for the usual number; known: its motion, where that is worked out already; asked: the span that
+    its pictures show, None for what is worth seeing."""
 
     scene: AnyScene
     state: tuple[float, ...] | None
@@ -46,7 +46,7 @@ class Subject:
     span: tuple[float, ...] | None
     heading: str = ""
     case: Case | None = field(default=None, repr=False)
-    neighbours: int = 0
+    neighbours: int | None = None
     known: Motion | None = field(default=None, repr=False)
     asked: tuple[float, ...] | None = None
 

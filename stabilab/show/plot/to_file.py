@@ -40,15 +40,15 @@ DRAWN: dict[str, Callable[..., Any]] = {
 
 def write(case: Any, path: str | Path, kind: str | None = None, size: tuple[float, float] | None = None,
           dpi: float | None = None, units: str | None = None,
-          span: Any = None, neighbours: int = 0) -> Path:
+          span: Any = None, neighbours: int | None = None) -> Path:
     """Draw a case (or a Subject) and write the picture to `path` (.png, .svg, .pdf; of an attitude .html,
     .gif, .mp4), whole or not at all; returns the path.
 
     kind: one of `which.KINDS`; None: the one that says most of the case. size: (width, height) in inches;
     dpi: dots an inch of a .png. units: "deg" or "si", None for those of the case. span: in place of the
-    case's own. neighbours: of a section, how many motions are shown beside it. The same input gives the same
-    bytes (but for "budget", whose times are measured). Raises InputError for another ending, and where the
-    case has no such plot: it names those that there are.
+    case's own. neighbours: of a section, how many motions are shown beside it, None for six. The same input
+    gives the same bytes (but for "budget", whose times are measured). Raises InputError for another ending,
+    and where the case has no such plot: it names those that there are.
     """
     one = replace(subject(case, span=span), neighbours=neighbours)
     chosen = checked(path, one, kind)
