@@ -70,7 +70,7 @@ def atlas(
             metavar="SIZE", help='Size of the torque: "1 N m". Default: that of the case.')] = None,
         wheel: Annotated[str | None, typer.Option(
             metavar="[AXIS=]VALUES",
-            help='Wheel momenta beside each of which all directions are asked: "0:2:5" along '
+            help='Wheel momenta beside each of which all directions are mapped: "0:2:5" along '
                  'the wheel of the case, "z=-2:2:5" (x, y, z of the file, or 1, 2, 3). Default: as in '
                  "the case.")] = None,
         level: Annotated[int, typer.Option(

@@ -145,7 +145,7 @@ def explore(
             metavar="DIR",
             help="With --static: a folder with Pyodide and python-flint's wheel, to be copied "
                  "in. Without: loaded from where they are published.")] = None):
-    """Move a case by hand: sliders, and the verdict follows.
+    """Move a case with sliders, and the verdict follows.
 
     Separatrix, equilibria, motion, phase plane and rates over time; the verdict changes as you drag. The page
     is served to this machine alone, under an address with a random token, until Ctrl-C.
