@@ -218,12 +218,15 @@ class Burning:
         return segments([one.burn for one in self.craft.thrusters], until)
 
 
-def load_burning(path: str | os.PathLike[str]) -> Burning:
-    """The case in a file whose thrusters fire on a schedule (start, stop, period, duty, on_time, propellant,
-    mass_flow), for `burn`. Raises CaseError as `load` does."""
-    if not isinstance(path, (str, os.PathLike)):
-        raise InputError(f"load_burning: expected the path of a case file, got {path!r:.80}")
-    path, text, data, faults = _read(path)
+def load_burning(given: str | os.PathLike[str]) -> Burning:
+    """The case in a file, or in a text of several lines, whose thrusters fire on a schedule (start, stop,
+    period, duty, on_time, propellant, mass_flow), for `burn`. Raises CaseError as `load` does."""
+    if not isinstance(given, (str, os.PathLike)):
+        raise InputError(f"load_burning: expected the path of a case file, or its text, got {came(given)}")
+    if isinstance(given, str) and "\n" in given:
+        data, faults = parsed("text", given)
+        return Burning(_built("text", given, data, faults, burning=True))
+    path, text, data, faults = _read(given)
     return Burning(_built(path, text, data, faults, burning=True))
 
 

@@ -7,8 +7,7 @@ from functools import partial
 from ..answers.stuck.ask import stuck as ask
 from ..answers.stuck.burn import burn as left_by
 from ..case.read import blamed_on, load_burning
-from ..errors import InputError
-from ..numbers.units import RATE, TIME, quantity
+from ..numbers.units import RATE, TIME, in_si
 from ..show.files import endings
 from ..show.progress import told
 from ..show.stuck_picture import draw
@@ -49,20 +48,10 @@ def burn(path, stop, below, units, json, strict):
     case = burning.craft
     system = units_asked([case], units)[0]
     tell_radians(system, below=below)
-    asked = {name: _number(text, dimension, name)
-             for name, text, dimension in (("stop", stop, TIME), ("below", below, RATE))}
+    asked = {name: in_si(text.strip(), dimension, f"--{name}")
+             for name, text, dimension in (("stop", stop, TIME), ("below", below, RATE)) if text is not None}
     with blamed_on(case):
         found = left_by(burning, **asked)
     either(json, lambda: burns.as_dict(case, found), lambda: burns.text(case, found, system))
     open_ = found.latest is not None and found.latest.level == "undecided"
     leave_undecided(strict, open_ or found.closed.motion.fate.word == "undecided")
-
-
-def _number(text, dimension, option):
-    """An exact number of the command line, in SI. Raises InputError that names the option."""
-    if text is None:
-        return None
-    try:
-        return quantity(text.strip(), dimension)[0]
-    except InputError as error:
-        raise InputError(f"--{option}: {error}") from None

@@ -20,13 +20,15 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
+from os import PathLike
 from typing import Any
 
 import numpy as np
 
+from ...case.read import load_burning
 from ...caveat import Caveat
 from ...errors import InputError
-from ...numbers.exact import exact
+from ...numbers.units import RATE, TIME, Dimension, in_si
 from ...numbers.vectors import Exact3, Float3
 from ...orbit.result import Motion
 from ...physics.effects.constant_torque import ConstantTorque
@@ -117,16 +119,19 @@ class Burned:
 def burn(burning: Any, stop: Any = None, below: Any = None) -> Burned:
     """What thrusters that fire on a schedule leave behind.
 
-    burning: what `stabilab.load_burning` gives. stop: s, all close then, if not before; below: rad/s, asks
-    for the latest closing time that keeps |omega| below it for ever. Numbers, exact where they are text
-    ("0.1"). Raises InputError for times and limits that are none, for scenes with other effects than wheels
-    and a constant torque, and for `below` where a wheel or a constant torque stays.
+    burning: the path or the text of a case file, or what `stabilab.load_burning` gives. stop: s, all close
+    then, if not before; below: rad/s, asks for the latest closing time that keeps |omega| below it for ever.
+    Numbers, or text with a unit ("12 s", "30 deg/s"). Raises InputError for times and limits that are none,
+    for scenes with other effects than wheels and a constant torque, and for `below` where a wheel or a
+    constant torque stays.
     """
+    if isinstance(burning, (str, PathLike)):
+        burning = load_burning(burning)
     if not hasattr(burning, "segments"):
-        raise InputError("burn: expected a case whose thrusters fire on a schedule, as stabilab.load_burning "
-                         f"gives it, got {came(burning)}")
-    last, limit = (None if v is None else _positive(v, name) for v, name in ((stop, "stop"),
-                                                                              (below, "below")))
+        raise InputError("burn: expected the path of a case whose thrusters fire on a schedule, its text, or "
+                         f"what stabilab.load_burning gives; got {came(burning)}")
+    last = None if stop is None else _positive(stop, TIME, "stop")
+    limit = None if below is None else _positive(below, RATE, "below")
     chain = _Chain(burning, last)
     if limit is not None and not chain.free:
         raise InputError("below: the largest rate after closing is known in closed form for a body without "
@@ -358,11 +363,8 @@ def _again(base: Scene, links: Sequence[_Link], after: float, size: float) -> tu
     return tuple(found)
 
 
-def _positive(value: Any, name: str) -> Fraction:
-    try:
-        number = exact(value)
-    except InputError as error:
-        raise InputError(f"{name}: {error}") from None
+def _positive(value: Any, unit: Dimension, name: str) -> Fraction:
+    number = in_si(value, unit, name)
     if number <= 0:
         raise InputError(f"{name}: expected a positive number, got {float(number):.10g}")
     return number

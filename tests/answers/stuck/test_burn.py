@@ -2,6 +2,7 @@
 DOP853, written here, which share no code with the package."""
 import math
 from fractions import Fraction
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -10,6 +11,7 @@ from scipy.integrate import solve_ivp
 import stabilab
 from stabilab.answers.stuck.burn import largest_after
 from stabilab.case.burns import Burn, segments
+from stabilab.errors import InputError
 
 CASE = """body.inertia = {inertia}
 motion.angular_velocity = {rates}
@@ -241,8 +243,17 @@ def test_what_burn_cannot_answer_it_says(tmp_path):
         stabilab.burn(stabilab.load_burning(path), below=1)
     with pytest.raises(stabilab.InputError, match="stop: expected a positive number"):
         stabilab.burn(stabilab.load_burning(path), stop=-1)
-    with pytest.raises(stabilab.InputError, match="load_burning"):
-        stabilab.burn(path)
     path.write_text("body.inertia = [3, 2, 1.5]\nmotion.angular_velocity = [0, 0, 1]\n")
     with pytest.raises(stabilab.InputError, match="no thruster fires on a schedule"):
         stabilab.load_burning(path)
+
+
+def test_a_burn_takes_a_path_or_a_text_and_text_with_units(tmp_path):
+    path = case_of(tmp_path, [3.0, 2.0, 1.5], [0.1, 0.0, 0.2], [([0, 0, 0.05], "stop = 20")])
+    text = Path(path).read_text(encoding="utf-8")
+    one, other = stabilab.burn(path, stop=12), stabilab.burn(text, stop="0.2 min")
+    assert one.closed.rates == other.closed.rates and one.closed.time == 12
+    with pytest.raises(InputError, match="stop: expected time"):
+        stabilab.burn(path, stop="3 deg")
+    with pytest.raises(InputError, match="expected the path of a case"):
+        stabilab.burn(3)
