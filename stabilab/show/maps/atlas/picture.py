@@ -119,7 +119,7 @@ def _points(ax: Any, atlas: Atlas, wheel: int, plain: bool) -> None:
                 linestyle="none", clip_on=False, zorder=3)
         pole = on_axis and point.number >= 4  # its name stands left of it: thrusters have theirs on the right
         right = place[0] <= flat.ACROSS * 0.75 and not pole
-        label = _label(atlas, point, plain)
+        label = _label(atlas, n, plain)
         at, wide = place * scale, 0.62 * size * len(label)
         for side, up in ((right, 3 if place[1] > -flat.UP * 0.98 else -9), (right, -11), (not right, 3),
                          (not right, -11)):
@@ -133,9 +133,13 @@ def _points(ax: Any, atlas: Atlas, wheel: int, plain: bool) -> None:
                     ha="left" if side else "right", fontweight="normal" if on_axis else "bold")
 
 
-def _label(atlas: Atlas, point: Any, plain: bool) -> str:
-    """The name of a direction; of an axis with its place among the moments, where there is room."""
-    if point.level != AXES or plain:
+def _label(atlas: Atlas, n: int, plain: bool) -> str:
+    """The name of the n-th direction that has one; of an axis with its place among the moments, where there
+    is room; of another with what the motion does there, which on a border no colour says."""
+    point = atlas.named[n]
+    if point.level != AXES:
+        return f"{shown_name(atlas, point)}: {does(atlas, n).replace('-', '−')}"
+    if plain:
         return shown_name(atlas, point)
     axes, number = axes_of(atlas.asked.case), point.number // 2 + 1
     return " ".join(filter(None,

@@ -64,6 +64,7 @@ def test_names_of_directions_that_are_one_stand_apart():
     plt.close(figure)
     assert not [name for name in names + legend
                 if "-" in name] and {"−x major", "+y intermediate", "−z minor"} < set(names)
+    assert any(name.startswith("torque of the case: ") for name in names)
     assert len(boxes) == 7 and not [1 for n,
                                     box in enumerate(boxes) for other in boxes[:n] if box.overlaps(other)]
 
