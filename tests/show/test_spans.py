@@ -40,6 +40,18 @@ def test_pictures_and_explorer_show_the_same_span(one):
     assert row(header["time"]["size"]) == pytest.approx(np.linalg.norm(rates, axis=0), rel=1e-5)
 
 
+@pytest.mark.parametrize("name", ["minor-axis-100", "thruster-stuck-major-axis", "middle-axis-spin-up",
+                                  "torque-free-body"])
+def test_a_case_without_a_span_has_one_span_in_every_view_too(name):
+    lines = stabilab.load(f"cases/{name}.toml").text.splitlines()
+    case = stabilab.load("\n".join(line for line in lines if not line.startswith(("span =", "tau ="))) + "\n")
+    assert case.span is None
+    header, numbers = unframed(Session(case).answer({}))
+    told = header["time"]["times"]
+    last = float(np.frombuffer(numbers, "<f4", told["count"], told["from"])[-1])
+    assert any(last == pytest.approx(subject(case).seen[1] * unit) for unit in (1, 1 / 60, 1 / 3600))
+
+
 def test_a_span_that_is_asked_for_is_shown_as_it_is():
     case = stabilab.load("cases/minor-axis-100.toml")
     assert subject(case, span=(0.0, 0.5)).seen == (0.0, 0.5)

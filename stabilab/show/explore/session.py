@@ -34,7 +34,7 @@ from ...verify.form import about, parsed
 from ...verify.form import line as about_line
 from ...verify.numbers import Malformed
 from .. import limiting
-from ..spans import seen
+from ..spans import natural, seen
 from ..terminal.letters import greek, lettered, written
 from ..terminal.motion import margins
 from ..text import frame, law
@@ -94,7 +94,6 @@ FARTHEST = 1e4  # times the fold's radius: how far a sheet is followed for a lar
 # of a piece of a curve of equilibria: to find what is in the box, and to draw it
 POINTS = {True: (16, 40), False: (40, 90)}
 TURNS = {True: 240.0, False: 2400.0}  # rad of turn at most that are drawn
-FIRST = 60.0  # rad of turn that are drawn where nothing says how far
 FOLLOWED = "the torque is off the principal axes: keep still, and the motion is followed"
 WORKED_OUT = "keep still, and this motion is worked out"
 NO_ARRAYS = "this motion has to be followed, which needs NumPy, and that is not here"
@@ -297,8 +296,9 @@ def _length(case: Case, found: Motion | None, form: QuadraticForm | None, moving
     radians of turn at most. form: its rates, where they are quadratic."""
     rate, torque = math.hypot(*case.state), math.hypot(*form.coefficients[3]) if form is not None else 0.0
     radian = 1.0 / max(rate, math.sqrt(torque)) if rate or torque else 1.0
-    span, most = case.span or (0.0, FIRST * radian), TURNS[moving] * radian
-    wanted = abs(reach_of(span if found is None else seen(span, found, FIRST * radian)) or 0.0)
+    most, alone = TURNS[moving] * radian, natural(case.scene, case.state)
+    span = case.span or (0.0, alone) if found is None else seen(case.span, found, alone)
+    wanted = abs(reach_of(span))
     if wanted <= most or moving:
         return min(wanted, most), ""
     units = units_of(case)
