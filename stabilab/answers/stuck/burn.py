@@ -20,6 +20,8 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
+from itertools import groupby
+from operator import itemgetter
 from os import PathLike
 from typing import Any
 
@@ -354,13 +356,9 @@ def _again(base: Scene, links: Sequence[_Link], after: float, size: float) -> tu
         run = trajectory(one.scene, one.start, steps, laws=False)
         times += (begin + np.asarray(run.t)).tolist()
         sizes += np.sqrt(np.asarray(run.states) ** 2 @ weights).tolist()
-    found: list[tuple[float, float]] = []
-    inside = False
-    for time, value in zip(times, sizes):
-        if time > after and value < size:
-            found = [*found[:-1], (found[-1][0], time)] if inside else [*found, (time, time)]
-        inside = time > after and value < size
-    return tuple(found)
+    looks = [(time, value < size) for time, value in zip(times, sizes) if time > after]
+    inside = [[time for time, _ in group] for below, group in groupby(looks, key=itemgetter(1)) if below]
+    return tuple((group[0], group[-1]) for group in inside)
 
 
 def _positive(value: Any, unit: Dimension, name: str) -> Fraction:

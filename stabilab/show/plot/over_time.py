@@ -7,8 +7,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ...answers.time_to import time_of_case
-from ...case.limit_options import stated_limit
 from ...theories.comparison import side_by_side
 from .. import style
 from ..text import comparison
@@ -52,7 +50,7 @@ def time(case: Any, state: Any = None, ax: Axes | None = None, span: Any = None,
     """
     one = subject(case, state, span)
     which.check("time", one)
-    scale, reached = measures(one, units), _reached(one)
+    scale = measures(one, units)
     low, high = one.seen
     t, omega = path(one, low, high)
     turned = file_axes(one)
@@ -70,7 +68,7 @@ def time(case: Any, state: Any = None, ax: Axes | None = None, span: Any = None,
             _curve(target, t * per_time, values * per_rate, look, height)
         rows += _extremes(target, one, per_rate) if turned is None else []
         rows += _periods(target, one, low, high, per_time, scale)
-        rows += _limits(target, one, reached, t, omega, (time_unit, per_time), scale.rate)
+        rows += _limits(target, one, t, omega, (time_unit, per_time), scale.rate)
         target.set_xlim(t[0] * per_time, t[-1] * per_time)
         target.margins(y=0.06)
         target.set_xlabel(scale.label("time", time_unit) if scale.size else time_unit)
@@ -150,14 +148,6 @@ def _periods(ax, one, low, high, per_time, scale):
     return [(words, PERIOD)]
 
 
-def _reached(one: Subject):
-    """When the limit of the case is first reached (`TimeTo`); None without a limit."""
-    if one.case is None or one.case.limits is None:
-        return None
-    limit = stated_limit(one.case)
-    return time_of_case(one.case, limit.ask, limit.until)
-
-
 def file_axes(one: Subject):
     """Rows that turn rates to the axes of the file, where limits are about those and they are not the
     principal ones."""
@@ -168,10 +158,11 @@ def file_axes(one: Subject):
     return np.array([[float(v) for v in axis] for axis in case.frame.axes]).T
 
 
-def _limits(ax, one, reached, t, omega, time_unit, rate_unit):
+def _limits(ax, one, t, omega, time_unit, rate_unit):
     """Dashed lines at the limits, a point where one is reached first; the rows of the legend."""
-    if reached is None:
+    if one.motion.first is None:
         return []
+    _, reached = one.motion.first
     (second, per_time), (name, per_rate) = time_unit, rate_unit
     rate, rates = one.case.limits.rate, [float(v) for v in one.case.limits.rates or ()]
     same = len(set(rates)) == 1
