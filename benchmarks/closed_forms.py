@@ -51,22 +51,7 @@ def against_linear_model(span, name, count=TIMES, rounds=7) -> Row:
     return Row(f"charged body, {count} times over {name}, {span * VALUES['r0'] / (2 * np.pi):.3g} turns",
                f"{each(timed.ours)}",
                f"{each(timed.theirs)} heyoka, {raw.steps} steps", timed.ratio, (timed.low, timed.high),
-               errors, 100.0, _note(one, times, raw))
-
-
-def _note(one, times, raw) -> str:
-    if times[-1] > 1e3:
-        return ("what belongs to the body alone is formed beforehand, as heyoka's code is; the closed forms "
-                "cost the same for any "
-                f"span, heyoka its {raw.steps} steps")
-    return (f"heyoka takes {raw.steps} steps; times before {_late(one):.3g} s cost the closed forms some ten "
-            f"microseconds each "
-            "(divided differences)")
-
-
-def _late(one) -> float:
-    from stabilab.theories.charged.closed_form import fractions
-    return fractions(one).wide
+               errors, note=f"the closed forms cost the same for any span, heyoka its {raw.steps} steps")
 
 
 def _errors(times, *answers):

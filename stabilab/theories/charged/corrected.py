@@ -9,7 +9,7 @@ In p and q that keeps a and replaces b = zeta2 r0 + Lambda/D2 by zeta2 r0 + Lamb
 zeta2/zeta1: exact for D1 = D2 and for Lambda = 0, otherwise a wrong frequency W for sqrt(ab), and a phase
 error that grows with t and does not shrink with the amplitude. `corrected` is this model, solved without
 further error: what the paper means where its integrals for velocity and displacement are misprinted.
-`axisymmetric_printed` follows the print itself.
+`model.printed` follows the print itself.
 """
 from __future__ import annotations
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from stabilab.errors import InputError
-from stabilab.theories.charged.closed_form import BEYOND, WITHIN, fractions, solution
+from stabilab.theories.charged.closed_form import BEYOND, WITHIN, solution
 from stabilab.theories.charged.corrected import corrected
 from stabilab.theories.charged.mean_pointing import pointing, spin_drift
 from stabilab.theories.charged.model import MISPRINTS, circle, formulas, printed
@@ -151,13 +151,9 @@ def test_equal_transverse_moments_make_the_papers_model_exact():
     body = ChargedBody((8.7, 8.7, 11.1), 0.283, 1.3, 0.29, (4.0, 1.0), (0.1, 0.2), (0.1, 0.2, 0.3),
                        (1.0, 2.0, 3.0), 10.0)
     t = np.linspace(0, 50, 501)
-    exact, paper, early = solution(body, t), corrected(body, t), t < fractions(body).wide
-    assert 0 < early.sum() < len(t)
+    exact, paper = solution(body, t), corrected(body, t)
     for part in ("omega", "angles", "velocity", "position"):
-        one, other = getattr(paper, part), getattr(exact, part)
-        np.testing.assert_array_equal(one[early], other[early])  # bit for bit
-        # late times come by partial fractions, which round otherwise
-        np.testing.assert_allclose(one, other, rtol=1e-14, atol=1e-14)
+        np.testing.assert_array_equal(getattr(paper, part), getattr(exact, part))  # bit for bit
     # (33) against the balance of momentum
     np.testing.assert_allclose(paper.momentum, exact.momentum, atol=1e-13)
 
@@ -390,59 +386,3 @@ def test_questions_without_an_answer_are_refused():
     assert printed(typed(spin=0.0), 1.0, ["omega"]).angles is None  # (11) does not divide by r0
     with pytest.raises(InputError, match="r0 = 0"):
         circle(typed(spin=0.0), 1.0)
-
-
-# -- late times: partial fractions, formed once per body
-
-
-def bodies_with_a_late_time(count, seed=5):
-    """Values of stable bodies at the time from which on the fractions are used."""
-    rng = np.random.default_rng(seed)
-    while count:
-        v = (START | dict(zip(("D1", "D2", "D3"), rng.uniform(7, 9, 3)))
-             | dict(zip(("r0", "lambda3", "k"), rng.normal(size=3) * (1, 3, 1))))
-        v |= dict(zip(("M1", "M2", "p0", "q0"), rng.normal(size=4)), t=1.0)
-        if (late := fractions(body_of(v))) is not None:
-            yield v | dict(t=late.wide), late
-            count -= 1
-
-
-def test_the_first_late_time_keeps_every_digit():
-    for v, _ in bodies_with_a_late_time(12):
-        for sign in (1, -1):
-            values = v | dict(t=sign * v["t"])
-            assert worst(values, twelve(solution(body_of(values), values["t"]))) <= ALLOWED
-
-
-def test_partial_fractions_lose_digits_before_their_time():
-    """What they are kept from: terms of the size of those at late times, whose sum is but the motion of an
-    instant."""
-    v, late = next(bodies_with_a_late_time(1))
-    v |= dict(t=v["t"] * 1e-6)
-    rates, angles, momentum, velocity, position = late(np.array([v["t"]]))[:, 0]
-    assert worst(v, [*rates[:2], *angles[:2], *momentum[:2], *velocity, *position]) > 10 * ALLOWED
-
-
-def test_start_early_and_late_times_come_in_the_order_asked_for():
-    (v, late), = bodies_with_a_late_time(1)
-    body, t = body_of(v), np.array([[3 * late.wide, 0.0], [0.01 * late.wide, -2 * late.wide]])
-    together = solution(body, t)
-    assert together.omega.shape == together.position.shape == (2, 2, 3)
-    for i in np.ndindex(2, 2):
-        alone = solution(body_of(v), t[i])
-        for part in ("omega", "angles", "momentum", "velocity", "position"):
-            np.testing.assert_allclose(getattr(together, part)[i], getattr(alone, part), rtol=1e-14,
-                                       atol=1e-14)
-    np.testing.assert_array_equal(together.angles[0, 1], body.attitude)
-    np.testing.assert_array_equal(together.position[0, 1], body.position)
-
-
-def test_late_times_of_a_body_without_mass_have_no_place():
-    run = solution(ChargedBody((8.7, 8.6, 11.1), 0.283, 1.3, 0.29, (4.0, 1.0)), np.array([0.0, 1e5]))
-    assert run.velocity is None and run.position is None and np.isfinite(run.momentum).all()
-
-
-def test_rates_beyond_all_measure_have_no_late_time():
-    for size in (1e-60, 1e60):
-        late = fractions(ChargedBody((8.7, 8.7, 11.1), size, 0.0, 0.0))
-        assert np.isposinf(late.wide)
