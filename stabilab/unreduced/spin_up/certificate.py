@@ -35,14 +35,15 @@ from __future__ import annotations
 import math
 from functools import cached_property, lru_cache
 from types import ModuleType
+from typing import NamedTuple
 
 import numpy as np
 
 from ...integrate.quadratic_series import in_unit
 from . import fixed_kernel, moving_kernel
 from .centres import FixedCentre, MovingCentre, Terms, moving_centre, sizes
+from .compiled import functions
 from .form import forms_of
-from .lanes import WIDE, functions
 from .symmetric import equatorial
 
 # Orders of energy and amplitude. About the fixed centre: tested always (what (0, 2) decides they decide as
@@ -79,34 +80,38 @@ class Certifier:
         return None if fired[0] else tuple(found[:, 0].tolist())
 
 
-class Gathered:
-    """Sums of sizes and of majorants of a quantity by degree (rows) and power, without the outer rows and
-    columns of zeros, in rows of eight.
+class Gathered(NamedTuple):
+    """Sums of sizes and of majorants of a quantity by degree (rows) and power (columns from n = first on),
+    without the outer rows and columns of zeros."""
 
-    first: index n of the first column; wide: how many times eight columns there are. Row d wide + c of a
-    table holds the columns first + 8 c on of row d.
-    """
+    first: int
+    sums: np.ndarray
+    most: np.ndarray
 
-    def __init__(self, sums, most):
+    @classmethod
+    def of(cls, c, m) -> Gathered:
+        """Of coefficients c[j, k, n] and their majorants m."""
+        degree = np.add.outer(*[np.arange(c.shape[0])] * 2)
+        sums, most = np.zeros((2, 2 * c.shape[0], c.shape[2]))
+        np.add.at(sums, degree, np.abs(c) + fixed_kernel.ROUNDING * m)
+        np.add.at(most, degree, m)
         degrees, columns = np.flatnonzero(most.any(axis=1)), np.flatnonzero(most.any(axis=0))
-        rows, self.first, self.end = (degrees[-1] + 1, columns[0],
-                                      columns[-1] + 1) if columns.size else (1, 0, 1)
-        self.wide = -(-(self.end - self.first) // WIDE)
-        self.sums, self.most = self.in_rows(sums[:rows]), self.in_rows(most[:rows])
+        rows, first, end = (degrees[-1] + 1, columns[0], columns[-1] + 1) if columns.size else (1, 0, 1)
+        return cls(first, *(np.ascontiguousarray(table[:rows, first:end]) for table in (sums, most)))
 
     def tails(self):
         """The sums for integrals of the factors over all greater x: X^(1 - n) gives z^(2 - n)/(n - 2), and
         infinity where it does not fall faster than 1/X."""
-        fall = self.first + np.arange(WIDE * self.wide).reshape(self.wide, -1) - 2.0
-        fall = np.tile(fall, (len(self.sums) // self.wide, 1))
+        fall = self.first + np.arange(self.sums.shape[1]) - 2.0
         return np.where(fall > 0, self.sums / np.where(fall > 0, fall, 1.0),
                         np.where(self.sums > 0, np.inf, 0.0))
 
-    def in_rows(self, table):
-        """The columns of a table as rows of eight."""
-        filled = np.zeros((len(table), WIDE * self.wide))
-        filled[:, :self.end - self.first] = table[:, self.first:self.end]
-        return filled.reshape(-1, WIDE)
+    def terms(self, c):
+        """(powers of zeta and of its conjugate (2, m), coefficients (m, columns)) of a quantity's terms with
+        j >= k, doubled for their conjugates."""
+        j, k = np.nonzero(np.tril((c != 0).any(axis=2)))
+        columns = slice(self.first, self.first + self.sums.shape[1])
+        return np.stack([j, k]), np.where(j == k, 1.0, 2.0)[:, None] * c[j, k, columns]
 
 
 class FixedCertifier(Certifier):
@@ -115,42 +120,24 @@ class FixedCertifier(Certifier):
     kernel = fixed_kernel
 
     def __init__(self, field: FixedCentre, orders: tuple[int, int], fast: bool = False):
-        f, make = field.form, functions(fixed_kernel, fast)
+        f = field.form
         top, powers = max(orders) + 8, max(orders) + 5
         made = [np.zeros((top, top, powers), kind) for _ in range(4) for kind in (complex, float)]
         added_e, most_e, rate_e, rise_e, added_b, most_b, rate_b, rise_b = made
         numbers, rest = np.array([f.D1, f.M1, f.gam, f.h]), np.array([f.mu, f.kap], complex)
         with np.errstate(all="ignore"):
-            make["tables"](np.array(orders), f.om, f.drag, numbers, rest, *made)
-            e, b = _gathered(make, added_e, most_e), _gathered(make, added_b, most_b)
-            r, k = _gathered(make, rate_b, rise_b), _gathered(make, rate_e, rise_e)
-            values = *_parts(make, added_e, e), *_parts(make, added_b, b)
-        self.top, self.rows = top, max(q.wide for q in (e, b, r, k))
-        spans = np.array([[q.first for q in (e, b, r, k)], [q.wide for q in (e, b, r, k)]])
+            functions(fixed_kernel, fast)["tables"](np.array(orders), f.om, f.drag, numbers, rest, *made)
+            e, b = Gathered.of(added_e, most_e), Gathered.of(added_b, most_b)
+            r, k = Gathered.of(rate_b, rise_b), Gathered.of(rate_e, rise_e)
+            tails = r.tails()
+        self.top, self.columns = top, max(q.sums.shape[1] for q in (e, b, r, k))
         frame = np.array([*f.turn, f.shift, *f.centre, *f.scale], float)
-        self.numbers = (np.array(f.order), frame, f.D1, f.M1, f.drag,
-                        *values, e.sums, e.most, b.sums, b.most, r.tails(), k.sums, spans)
+        self.numbers = (np.array(f.order), frame, f.D1, f.M1, f.drag, *e.terms(added_e), *b.terms(added_b),
+                        e.sums, e.most, b.sums, b.most, tails, k.sums,
+                        np.array([q.first for q in (e, b, r, k)]))
 
     def work(self):
-        table = np.zeros((2, self.rows, WIDE))
-        return np.zeros(self.top, complex), table[0], table[1], np.zeros(6)
-
-
-def _gathered(make, c, m) -> Gathered:
-    sums, most = np.zeros((2, 2 * c.shape[0], c.shape[2]))
-    make["gather"](c, m, True, sums)
-    make["gather"](c, m, False, most)
-    return Gathered(sums, most)
-
-
-def _parts(make, c, gathered: Gathered):
-    """(powers of zeta and of its conjugate (2, m), real and imaginary parts) of a quantity's terms in the
-    columns of its sums."""
-    top, _, powers = c.shape
-    m = top * (top + 1) // 2
-    made = np.zeros((2, m), np.int64), np.zeros((m, powers)), np.zeros((m, powers))
-    m = make["parts"](c, *made)
-    return np.ascontiguousarray(made[0][:, :m]), gathered.in_rows(made[1][:m]), gathered.in_rows(made[2][:m])
+        return np.zeros(self.top, complex), *np.zeros((2, self.columns)), np.zeros(6)
 
 
 class MovingCertifier(Certifier):

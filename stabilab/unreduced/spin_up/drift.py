@@ -38,10 +38,9 @@ from math import factorial
 import numpy as np
 
 from . import steps as kernel
-from .lanes import WIDE, functions
+from .compiled import functions
 
 STEP_ERROR = 2.0**-52  # units of rounding by which a step may move a motion: a Taylor polynomial of 20 terms
-BROADEST = 256  # motions side by side where nothing is compiled
 STILL = 2.0**-8  # rates per size (or per natural unit) below which no delay is told from a change
 FAR = 2.0**-6    # changes beyond this share of the size, or delays of so many radians, tell no growth
 LOST = 2.0**-30  # what lies across a motion is taken to be no less, relative to the change
@@ -69,28 +68,25 @@ class Runs:
         with np.errstate(all="ignore"):
             functions(kernel, self.fast)[name](*arguments)
 
-    def _work(self, n):
-        """Arrays to work in, for n motions."""
-        wide = WIDE if self.fast else min(n, BROADEST)
-        count = 3 * (kernel.ORDER + 1)
-        return [np.empty((rows, wide)) for rows in (12, 12, count, count, 8)]
+    def _work(self):
+        """Arrays to work in."""
+        return [np.empty(shape) for shape in ((kernel.ORDER + 1, 3), (kernel.ORDER + 1, 3), (4, 3), 2)]
 
     def advance(self, rows, steps: int, t_max: float, pause: float = 0.0):
         """Carry the given rows (indices) on by so many steps, or to t_max; a row that has not passed the time
         `pause` stops there."""
         self.steps_done += steps
-        twins, work = self.twins, self._work(len(rows))
+        twins = self.twins
         changes = twins.growth, twins.most, twins.ahead, twins.blur
-        starts = np.empty((work[0].shape[1], 3))
         self._call("advance", self.coefficients, rows, steps, t_max, pause, STEP_ERROR, self.states,
-                   self.times, *changes, self.met, self.steps, self.rounded, starts, *work, *np.empty((2, 3)))
+                   self.times, *changes, self.met, self.steps, self.rounded, *self._work(),
+                   *np.empty((3, 3)))
 
     def carried(self, states, spans, most: int):
         """(states, times) of motions from states (m, 3) after spans (m,) of time, forth or back, or after the
         most steps."""
         out, times = np.empty_like(states), np.empty_like(spans)
-        states, work = np.ascontiguousarray(states), self._work(len(states))
-        self._call("carry", self.coefficients, states, spans, most, out, times, *work)
+        self._call("carry", self.coefficients, states, spans, most, out, times, *self._work())
         return out, times
 
     def measure(self, rows, out):

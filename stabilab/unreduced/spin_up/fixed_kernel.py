@@ -18,13 +18,11 @@ every term left falls as X^-2 or faster. The weight (which does not stand among 
 (|zeta|^2/X)', whose mean part -m* |zeta|^2/(D1 X^2) cancels that of -X' R/(om X^2) up to rounding (which the
 sums hold): the flow keeps volume, so its mean does.
 
-The search has its tables in rows of eight (`lanes`). numba's cache on disk watches this file alone.
+numba's cache on disk watches this file alone.
 """
 from __future__ import annotations
 
 import math
-
-from .lanes import load, spread, store, times_plus
 
 ROUNDING = 2.0**-32     # of coefficients over their majorants, as `elimination.ROUNDING`
 # rounding of the terms' values, of their majorant: four times that of the coefficients alone
@@ -108,119 +106,82 @@ def tables(orders, om, drag, numbers, rest, added_e, most_e, rate_e, rise_e, add
     eliminate(rate_b, rise_b, added_b, most_b, orders[1], om, numbers, rest)
 
 
-def gather(c, m, by_size, out):
-    """Sums over the terms of a degree: |c| + ROUNDING m (by_size) or m, into out[degree, n]."""
-    top, powers = c.shape[0], c.shape[2]
-    for j in range(top):
-        for k in range(top):
-            for n in range(powers):
-                if m[j, k, n] != 0:
-                    out[j + k, n] += abs(c[j, k, n]) + ROUNDING * m[j, k, n] if by_size else m[j, k, n]
+def columns(table, A, row):
+    """Sum of table[d, n] A^d over d, into row[n]."""
+    for n in range(table.shape[1]):
+        result = 0.0
+        for d in range(table.shape[0] - 1, -1, -1):
+            result = result * A + table[d, n]
+        row[n] = result
 
 
-def columns(table, wide, A, row):
-    """Sum of table[d, n] A^d over d into row[n], eight n at a time: degree d of a table stands in its rows d
-    wide to d wide + wide - 1."""
-    size, last = spread(A), table.shape[0] - wide
-    for c in range(wide):
-        result = load(table, last + c)
-        for d in range(last - wide, -1, -wide):
-            result = times_plus(result, size, load(table, d + c))
-        store(row, c, result)
-
-
-def total(table, wide, first, A, over, shift, row):
-    """Sum of table[d, n - first] A^d z^(1 - n - shift), over = 1/z."""
-    columns(table, wide, A, row)
-    return falling(row, wide, over, first + shift - 1)
-
-
-def falling(row, wide, over, first):
-    """Sum of row[n] over^(first + n): eight at once, by pairs, so that no product waits for more than three
-    others."""
+def falling(row, count, over, first):
+    """Sum of row[n] over^(first + n), n < count."""
     result = 0.0
-    second = over * over
-    fourth = second * second
-    for c in range(wide - 1, -1, -1):
-        low = (row[c, 0] + row[c, 1] * over) + (row[c, 2] + row[c, 3] * over) * second
-        high = (row[c, 4] + row[c, 5] * over) + (row[c, 6] + row[c, 7] * over) * second
-        result = result * (fourth * fourth) + (low + high * fourth)
+    for n in range(count - 1, -1, -1):
+        result = result * over + row[n]
     for _ in range(first):
         result *= over
     return result / over if first < 0 else result  # -1 at the least
 
 
-def value_of(weights, real, imaginary, wide, first, zeta, x, powers, row):
-    """The value of a quantity whose terms come with their conjugates: (real + i imaginary)[m, n - first] of
-    zeta^j zeta*^k, weights (2, m): j, k."""
+def total(table, first, A, over, shift, row):
+    """Sum of table[d, n - first] A^d z^(1 - n - shift), over = 1/z."""
+    columns(table, A, row)
+    return falling(row, table.shape[1], over, first + shift - 1)
+
+
+def value_of(weights, terms, first, zeta, x, powers, row):
+    """The value of a quantity whose terms come with their conjugates: terms[m, n - first] of zeta^j zeta*^k,
+    weights (2, m): j, k."""
     powers[0] = 1
     for j in range(1, powers.size):
         powers[j] = powers[j - 1] * zeta
-    for c in range(wide):
-        result = spread(0.0)
-        for m in range(weights.shape[1]):
-            factor = powers[weights[0, m]] * powers[weights[1, m]].conjugate()
-            result = times_plus(load(real, m * wide + c), spread(factor.real), result)
-            result = times_plus(load(imaginary, m * wide + c), spread(-factor.imag), result)
-        store(row, c, result)
-    return falling(row, wide, 1 / x, first - 1)
+    count = terms.shape[1]
+    for n in range(count):
+        row[n] = 0.0
+    for m in range(weights.shape[1]):
+        factor = powers[weights[0, m]] * powers[weights[1, m]].conjugate()
+        for n in range(count):
+            row[n] += terms[m, n].real * factor.real - terms[m, n].imag * factor.imag
+    return falling(row, count, 1 / x, first - 1)
 
 
-def blurred(weights, real, imaginary, sums, majorant, wide, first, zeta, size, x, low, dx, powers, row):
+def blurred(weights, terms, sums, majorant, first, zeta, size, x, low, dx, powers, row):
     """(value, blur) of a quantity at a place known within dx and within size - |zeta|."""
-    value = value_of(weights, real, imaginary, wide, first, zeta, x, powers, row)
+    value = value_of(weights, terms, first, zeta, x, powers, row)
     over = 1 / low
-    inner = total(sums, wide, first, abs(zeta), over, 0, row)
-    most = total(sums, wide, first, size, over, 0, row)
-    for c in range(wide):
-        for n in range(8):
-            row[c, n] *= abs(8 * c + n + first - 1.0)
-    moved = falling(row, wide, over, first) * dx
-    return value, (most - inner) + moved * (1
-                                            + SLACK) + SLACK * most + COEFFICIENT * total(
-                                                majorant, wide, first, size, over, 0, row)
+    inner = total(sums, first, abs(zeta), over, 0, row)
+    most = total(sums, first, size, over, 0, row)
+    for n in range(sums.shape[1]):
+        row[n] *= abs(n + first - 1.0)
+    moved = falling(row, sums.shape[1], over, first) * dx
+    return value, ((most - inner) + moved * (1 + SLACK) + SLACK * most
+                   + COEFFICIENT * total(majorant, first, size, over, 0, row))
 
 
-def parts(c, weights, real, imaginary):
-    """The terms with j >= k, doubled for their conjugates, one pair (j, k) that occurs to a row; returns how
-    many."""
-    m = 0
-    for j in range(c.shape[0]):
-        for k in range(j + 1):
-            if (c[j, k] != 0).any():
-                weights[0, m], weights[1, m] = j, k
-                times = 1.0 if j == k else 2.0
-                for n in range(c.shape[2]):
-                    real[m, n], imaginary[m, n] = times * c[j, k, n].real, times * c[j, k, n].imag
-                m += 1
-    return m
-
-
-def search(x, zeta, dx, dz, D1, M1, drag, weights_e, real_e, imaginary_e, weights_b, real_b, imaginary_b,
-           e_sums, e_most, b_sums,
-           b_most, r_tails, k_sums, spans, powers, kept, row, out):
+def search(x, zeta, dx, dz, D1, M1, drag, weights_e, terms_e, weights_b, terms_b, e_sums, e_most, b_sums,
+           b_most, r_tails, k_sums, firsts, powers, kept, row, out):
     """Whether the inequality holds at one place, and its constants A, z, eta, z_up, eta_up, k in out (6,):
-    see `certificate`. spans (2, 4): of the quantities e, b, r, k the index n of the first column, and how
-    many times eight columns there are. r_tails: for the integrals of the factors over all greater X. kept,
-    row (most of these, 8): for work."""
+    see `certificate`. firsts (4,): of the quantities e, b, r, k the index n of the first column. r_tails: for
+    the integrals of the factors over all greater X. kept, row (most of their columns,): for work."""
     low, top = x - dx, x + dx
     if not (low > 0 and dx < x / 8):
         return False
-    first_e, first_b, first_r, first_k = spans[0, 0], spans[0, 1], spans[0, 2], spans[0, 3]
-    wide_e, wide_b, wide_r, wide_k = spans[1, 0], spans[1, 1], spans[1, 2], spans[1, 3]
+    first_e, first_b, first_r, first_k = firsts[0], firsts[1], firsts[2], firsts[3]
+    count_e = e_sums.shape[1]
     size = abs(zeta) * (1 + SLACK) + dz
-    if not total(k_sums, wide_k, first_k, size, 1 / low, 1, row) < M1 + min(0.0, drag) / low:
+    if not total(k_sums, first_k, size, 1 / low, 1, row) < M1 + min(0.0, drag) / low:
         return False  # necessary, for k grows with A and as z falls: nothing else need be looked at
-    value, blur = blurred(weights_e, real_e, imaginary_e, e_sums, e_most, wide_e, first_e, zeta, size, x, low,
-                          dx, powers, row)
+    value, blur = blurred(weights_e, terms_e, e_sums, e_most, first_e, zeta, size, x, low, dx, powers, row)
     energy, energy_up = value - blur, value + blur
     A, z, growth, amplitude = size * GROWTH, low / GROWTH, 1e-6, 0.0
     for number in range(PASSES):
         step = min(1e-2, growth)  # ever faster past a slow approach
         growth *= 4
-        columns(e_sums, wide_e, A, kept)
+        columns(e_sums, A, kept)
         for _ in range(2):  # the equation for z is nearly linear
-            need = (max(falling(kept, wide_e, 1 / z, first_e - 1) - energy, 0.0) * (GROWTH + step)
+            need = (max(falling(kept, count_e, 1 / z, first_e - 1) - energy, 0.0) * (GROWTH + step)
                     + 1e-7 * low * low)
             z = low - 2 * need / (D1 * (low + (z if z > 0 else low)))
             if not z > 0:
@@ -228,24 +189,24 @@ def search(x, zeta, dx, dz, D1, M1, drag, weights_e, real_e, imaginary_e, weight
         if not z < low:
             return False
         over = 1 / z
-        k = total(k_sums, wide_k, first_k, A, over, 1, row)
+        k = total(k_sums, first_k, A, over, 1, row)
         eta = M1 + min(0.0, drag) / z - k - SLACK * (M1 + k)
         least = 1 + min(0.0, drag) / (M1 * z) - SLACK
         if not (eta > 0 and least > 0):
             return False
         if number == 0:  # its value costs most, and half of the searches end before
-            value, blur = blurred(weights_b, real_b, imaginary_b, b_sums, b_most, wide_b, first_b, zeta, size,
-                                  x, low, dx, powers, row)
+            value, blur = blurred(weights_b, terms_b, b_sums, b_most, first_b, zeta, size, x, low, dx, powers,
+                                  row)
             mean = drag / M1
             weight = 1 + mean / x + abs(mean) * (dx / (low * low) + BLUR / x) + BLUR
             amplitude = weight * size * size * (1 + SLACK) + value + blur
-        F = (amplitude + total(b_sums, wide_b, first_b, A, over, 0, row)
-             + total(r_tails, wide_r, first_r, A, over, -1, row) * D1 / eta)
+        F = (amplitude + total(b_sums, first_b, A, over, 0, row)
+             + total(r_tails, first_r, A, over, -1, row) * D1 / eta)
         F /= least
         if not F < 1e100:
             return False
         if F * (1 + SLACK) < A * A and size < A:
-            e = falling(kept, wide_e, over, first_e - 1)
+            e = falling(kept, count_e, over, first_e - 1)
             gained = D1 * (low - z) * (low + z) / 2
             if gained * (1 - SLACK) - SLACK * D1 * low * low * 2.0**-8 > e - energy:
                 out[0], out[1], out[2], out[5] = A, z * (1 - SLACK), eta, k
@@ -256,9 +217,9 @@ def search(x, zeta, dx, dz, D1, M1, drag, weights_e, real_e, imaginary_e, weight
     return False
 
 
-def decide(rows, states, reach, fired, number, found, order, frame, D1, M1, drag, weights_e, real_e,
-           imaginary_e, weights_b, real_b, imaginary_b, e_sums,
-           e_most, b_sums, b_most, r_tails, k_sums, spans, powers, kept, row, constants):
+def decide(rows, states, reach, fired, number, found, order, frame, D1, M1, drag, weights_e, terms_e,
+           weights_b, terms_b, e_sums, e_most, b_sums, b_most, r_tails, k_sums, firsts, powers, kept, row,
+           constants):
     """Ask for those of rows that no test has fired for: fired (n,) becomes `number`, found (6, n) the
     constants, where the inequality holds for the whole ball of radius reach (n,) about the state. order (3,),
     frame (8,): turn, shift, centre, scale of the form."""
@@ -274,9 +235,8 @@ def decide(rows, states, reach, fired, number, found, order, frame, D1, M1, drag
         size = abs(w1) + abs(w2) + abs(w3) + abs(frame[4]) + abs(frame[5])
         zeta = complex(frame[6] * (w2 - frame[4]), frame[7] * (w3 - frame[5]))
         if search(x, zeta, BLUR * (abs(w1) + abs(frame[3])) + near, most * (BLUR * size + near), D1, M1, drag,
-                  weights_e, real_e, imaginary_e, weights_b,
-                  real_b, imaginary_b, e_sums, e_most, b_sums, b_most, r_tails, k_sums, spans, powers, kept,
-                  row, constants):
+                  weights_e, terms_e, weights_b, terms_b, e_sums, e_most, b_sums, b_most, r_tails, k_sums,
+                  firsts, powers, kept, row, constants):
             fired[n] = number
             for i in range(6):
                 found[i, n] = constants[i]

@@ -25,9 +25,9 @@ from ...physics.states import checked_states
 from ...validation import checked_scene
 from ..enclosure.run import proved
 from .certificate import Tests, natural, tests_of
+from .compiled import loaded, stored
 from .drift import Leaps, Runs
 from .form import island_words, recurs, seen
-from .lanes import loaded, stored
 from .result import SpinUp, Trap
 from .symmetric import exactly
 

@@ -81,13 +81,13 @@ def test_values_at_the_start_lie_within_their_blur():
     state[form.axis], state[form.order[1]] = form.sense * 9.7, 0.7
     (x, zeta), dx = form.place(state.tolist()), 2.0**-46
     given = test.numbers[5:]
-    quantities, spans = ((given[0:3], given[6:8]), (given[3:6], given[8:10])), given[-1]
+    quantities, firsts = ((given[0:2], given[4:6]), (given[2:4], given[6:8])), given[-1]
     powers, _, row, _ = test.work()
     with mpmath.workdps(40):
         X, z = fine.place([mpmath.mpf(v) for v in state.tolist()])
         ((added, _), _), ((of_amplitude, _), _) = corrected(fine, (12, 14), kind=object)
         for n, ((terms, sums), exact) in enumerate(zip(quantities, (added, of_amplitude))):
-            place = int(spans[1, n]), int(spans[0, n]), zeta, abs(zeta) + dx, x, x - dx, dx
+            place = int(firsts[n]), zeta, abs(zeta) + dx, x, x - dx, dx
             middle, blur = fixed_kernel.blurred(*terms, *sums, *place, powers, row)
             assert abs(mpmath.re(value(exact, X, z)) - middle) <= blur < 1e-6
 

@@ -1,22 +1,14 @@
-"""Taylor steps and the operations on lanes, compiled and as they are written, against runs by other
-formulas."""
-import os
-import subprocess
-import sys
-from pathlib import Path
-
+"""Taylor steps, compiled and as they are written, against runs by other formulas."""
 import numpy as np
 import pytest
 
 from stabilab import Body, ConstantTorque, Gyrostat, Scene
 from stabilab.unreduced.spin_up import centres as elimination
 from stabilab.unreduced.spin_up import drift as runs
-from stabilab.unreduced.spin_up import fixed_kernel, lanes, moving_kernel, steps
+from stabilab.unreduced.spin_up import fixed_kernel, moving_kernel, steps
 from stabilab.unreduced.spin_up.drift import Runs
 
 from .scenes import EXAMPLE, numba, rates_of, run
-
-ROOT = Path(__file__).parents[3]
 
 
 def states(seed, n):
@@ -65,69 +57,22 @@ def test_steps_beside_a_saddle_stay_short_though_the_state_hardly_leaves_it(smal
 
 
 @numba
-def test_vectors_are_as_numpy_has_them():
-    """Compiled operations on eight doubles against their plain meaning, to the last bit: what a process has
-    compiled is in no answer."""
+def test_compiled_steps_are_the_plain_ones():
+    """To the last bit: what a process has compiled is in no answer."""
     starts = states(6, 11)
     plain, compiled = Runs(EXAMPLE, starts), Runs(EXAMPLE, starts, fast=True)
     for one in (plain, compiled):
         one.advance(np.arange(11), 12, 1e300, 0.05)
     assert np.array_equal(plain.states, compiled.states) and np.array_equal(plain.times, compiled.times)
     assert np.array_equal(plain.twins.growth, compiled.twins.growth)
-    columns = np.array([0.0, 1.0, 2.0**-30, 3.7, 1e150, 64.0, 1.5, 1e-300])
-    for name in ("logarithm", "power_of_two", "size"):
-        assert np.array_equal(applied(name, columns + 1.0), getattr(lanes, name)(columns + 1.0))
-    powers = np.array([-900.0, -3.5, 0.0, 0.25, 1.0, 9.75, 77.0, 101.5])
-    assert np.array_equal(applied("two_to", powers),
-                          lanes.two_to(powers)) and np.allclose(lanes.two_to(powers), 2.0**powers, rtol=0.004)
 
 
-def applied(name, row):
-    """An operation of `lanes.vectors` on one row."""
-    from numba import njit
-    load, store, function = (lanes.vectors()[key] for key in ("load", "store", name))
-
-    @njit
-    def once(table):
-        store(table, 1, function(load(table, 0)))
-    table = np.array([row, row])
-    once(table)
-    return table[1]
-
-
-HALVES = """
-from stabilab.unreduced.spin_up.lanes import load, plus, store
-
-
-def first(rows):
-    return load(rows, 0)
-
-
-def doubled(rows):
-    store(rows, 0, plus(first(rows), first(rows)))
-"""
-ASKED = """
-import numpy as np, halves
-from stabilab.numbers.numba_door import compiled
-from stabilab.unreduced.spin_up import lanes
-rows = np.arange(8.0).reshape(1, 8)
-compiled(halves, (), **lanes.vectors())["doubled"](rows)
-print(rows.tolist())
-"""
-
-
-@pytest.mark.slow
-@numba
-def test_lanes_that_are_partly_kept_on_disk_are_those_that_are_compiled_anew(tmp_path):
-    """A process that was killed, or asked for less, keeps some functions: the others, compiled beside them by
-    the next one, take their values."""
-    (tmp_path / "halves.py").write_text(HALVES)
-    environment = {**os.environ, "NUMBA_CACHE_DIR": str(tmp_path / "kept"),
-                   "PYTHONPATH": os.pathsep.join([str(tmp_path), str(ROOT)])}
-    for _ in range(2):
-        done = subprocess.run([sys.executable, "-c", ASKED], env=environment, capture_output=True, text=True)
-        assert done.stdout == f"{[[2.0 * n for n in range(8)]]}\n", done.stderr
-        outer = list(tmp_path.glob("kept/*/halves.doubled-*"))
-        assert outer and list(tmp_path.glob("kept/*/halves.first-*"))
-        for path in outer:
-            path.unlink()
+def test_powers_of_two_are_exact_and_others_near():
+    """Against the functions of the library."""
+    for power in (-900, -3, 0, 1, 77, 1000):
+        assert steps.logarithm(2.0**power) == power and steps.two_to(float(power)) == 2.0**power
+    for x in (1.1, 3.7, 1e-290, 1e150):
+        assert -0.09 <= steps.logarithm(x) - np.log2(x) <= 0
+    for y in (-900.3, -3.5, 0.25, 9.75, 101.5):
+        assert steps.two_to(y) == pytest.approx(2.0**y, rel=0.004)
+    assert steps.logarithm(np.inf) == steps.logarithm(np.nan) == 1024
