@@ -5,29 +5,29 @@ import tracemalloc
 
 from stabilab import fate
 
-from .rows import SCENE, Row, numba_available, random_states
+from .rows import SCENE, Row, random_states
 
 MOST = 3  # input included
 
 
 def rows(small=False) -> list[Row]:
     size = 6000 if small else 1_000_000
-    return [fate_map(size, fast) for fast in ((False, True) if numba_available() else (False,))]
+    return [fate_map(size)]
 
 
-def fate_map(size=1_000_000, fast=False) -> Row:
+def fate_map(size=1_000_000) -> Row:
     """Peak of a fate map: its input (n, 3), its result and all work arrays."""
     states = random_states(size)
-    fate(SCENE, states, fast=fast)  # tables and machine code are made once
+    fate(SCENE, states)  # the table is made once
     tracemalloc.start()
     try:
-        answer = fate(SCENE, states, fast=fast)
+        answer = fate(SCENE, states)
         peak = states.nbytes + tracemalloc.get_traced_memory()[1]
     finally:
         tracemalloc.stop()
     kept = sum(getattr(answer, name).nbytes for name in ("labels", "margins", "axis", "sense", "reasons"))
     ratio = MOST * states.nbytes / peak
-    return Row(f"memory of a fate map of {size} states, {'numba' if fast else 'NumPy'}",
+    return Row(f"memory of a fate map of {size} states",
                f"{peak / 1e6:.3g} MB peak, input included",
                f"{MOST} x {states.nbytes / 1e6:.3g} MB of input", ratio, (ratio, ratio),
                f"peak is {peak / states.nbytes:.2f} times the input, the result alone "

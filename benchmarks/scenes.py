@@ -20,7 +20,7 @@ from stabilab.show.surface.mesh import triangulate
 
 from .contestants import BatchFate, SceneEvents, TurningTimes
 from .random_scenes import Drawn, drawn
-from .rows import Row, numba_available
+from .rows import Row
 
 SCENES = 200
 STATES = 20_000     # of ours; theirs are asked of `SAMPLE` of them
@@ -35,7 +35,7 @@ ROUNDS = 3
 PATIENCE = 1.5      # s for a call: of slower questions fewer states are asked
 LONG = 0.05         # s
 CELLS = 256         # of Flying Edges along each side
-WANTED = {"fate, NumPy": 100, "fate, numba": 400, "extremes": 5, "period": 2,
+WANTED = {"fate": 100, "extremes": 5, "period": 2,
           "separatrix surfaces": 5}
 
 
@@ -105,15 +105,13 @@ def _scene(one: Drawn, small, told):
     scene, states = one.scene, one.states(600 if small else STATES)
     name = f"number {one.number}, {one.name}"
     at = time.process_time()
-    decided = fate(scene, states, fast=False)
+    decided = fate(scene, states)
     found.append(Measured("first call of fate less the next", name, time.process_time() - at, float("nan")))
     size = (states**2).sum(axis=1)
     clear = np.abs(decided.margins) > CLEAR * size
     part = states[clear][:8 if small else SAMPLE]
     theirs = _pace(BatchFate(scene), part, rounds)
-    for way in ways():
-        ours = _pace(lambda x, way=way: fate(scene, x, fast=way == "numba"), states, rounds)
-        found.append(Measured(f"fate, {way}", name, ours, theirs))
+    found.append(Measured("fate", name, _pace(lambda x: fate(scene, x), states, rounds), theirs))
     found[0] = Measured(found[0].question, name, max(found[0].ours - found[1].ours * len(states), 1e-6),
                         float("nan"))
     bounded = decided.labels == Fate.BOUNDED
@@ -142,11 +140,6 @@ def _enough(one, held):
         more = one.states(STATES, again)
         found.append(more[fate(one.scene, more).labels == Fate.BOUNDED])
     return np.concatenate(found)
-
-
-def ways():
-    """NumPy alone, and with numba."""
-    return ("NumPy", "numba") if numba_available() else ("NumPy",)
 
 
 def _patient(call, states, rounds) -> float:

@@ -53,12 +53,6 @@ def twins(module: ModuleType, make: Callable[[str, FunctionType], Any], variant:
     return names
 
 
-def compiled_function(function: FunctionType) -> Any:
-    """One function compiled, kept on disk where there is a place for it."""
-    from numba import njit
-    return _kept(lambda cache: njit(cache=cache, error_model="numpy")(function))
-
-
 def _kept(make: Callable[[bool], Any]) -> Any:
     """make(True), or make(False) where numba finds no folder that it may write to: then each process compiles
     anew."""

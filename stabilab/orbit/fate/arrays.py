@@ -41,10 +41,10 @@ from ..one_orbit import Orbit
 from ..potential import derivatives_on_parabola
 from ..reduction import reduce
 from ..result import Fate
+from .by_table import label_by_table
 from .one_state import Reason, decide, free_margin, free_middle, is_free, margin_at_rest
 from .result import FateResult, empty_columns, in_chunks, write_row
-from .table import barrier_table, label_by_table
-from .table_numba import compiled_loops
+from .table import barrier_table
 
 SURE = 16  # times the estimate of rounding: so far from zero a margin's sign is certain
 # times that estimate a margin exceeds it, or many digits are asked: so it keeps nine of its own, near a
@@ -233,14 +233,14 @@ def fates(scene, states, fast=None) -> FateResult:
     """Fates and margins of states (n, 3) of a scene with an orbit, or of a free body: `answers.fate` for one
     shape.
 
-    From `TABLE_FROM` states on the barriers come from the scene's table (`fast`: whether compiled), and what
-    it leaves open from the general formula. States whose squares may leave the range of doubles are decided
+    From `TABLE_FROM` states on the barriers come from the scene's table, and what it leaves open from the
+    general formula; `fast` is not needed. States whose squares may leave the range of doubles are decided
     one at a time, each in its own unit.
     """
     reduction = reduce(scene)
     far = rows_beyond_doubles(scene, states) if reduction is not None else np.zeros(len(states), bool)
     if not far.any():
-        return _ordinary(scene, states, fast)
+        return _ordinary(scene, states)
     out, precise = empty_columns(len(states)), int(far.sum())
     if not far.all():
         near = in_chunks(labeller(scene), states[~far])
@@ -263,12 +263,12 @@ def rows_beyond_doubles(scene, states):
     return far if far.all() or in_doubles(scene) else np.ones(len(states), bool)
 
 
-def _ordinary(scene, states, fast) -> FateResult:
+def _ordinary(scene, states) -> FateResult:
     label, table = labeller(scene), barrier_table(scene) if len(states) >= TABLE_FROM else None
     if table is None:
         return in_chunks(label, states)
     out = empty_columns(len(states))
-    rest = label_by_table(table, states, out, compiled_loops(len(states), fast))
+    rest = label_by_table(table, states, out)
     open_ones = in_chunks(label, states[rest])
     for name, column in out.items():
         column[rest] = getattr(open_ones, name)

@@ -1,26 +1,18 @@
-"""Fates of large arrays: the table of barriers and its compiled loops against the oracle and the general
-formula."""
+"""Fates of large arrays: the table of barriers against the oracle and the general formula."""
 from __future__ import annotations
 
 import importlib
-import math
-import os
-import subprocess
-import sys
 import tracemalloc
 from functools import lru_cache
 
-import mpmath as mp
 import numpy as np
 import pytest
 
 import stabilab
 from stabilab.answers.fate import fate_grid
 from stabilab.errors import InputError
-from stabilab.numbers import numba_door
-from stabilab.orbit.fate import table_kernel as barrier_heights
-from stabilab.orbit.fate import table_numba as fast_fate
-from stabilab.orbit.fate.table import barrier_table, canonical, circle_heights, label_by_table
+from stabilab.orbit.fate.by_table import canonical, circle_heights, label_by_table
+from stabilab.orbit.fate.table import barrier_table
 from tests.oracles import energy
 from tests.oracles.pairs import WORDS, brink, physical, random_body, random_problem, scaled
 from tests.orbit.fate.test_fate import ELLIPTIC, FAMILIES, axis_of, sample
@@ -29,19 +21,12 @@ module = importlib.import_module("stabilab.orbit.fate.arrays")
 TABLED = [name for name in FAMILIES if barrier_table(FAMILIES[name][0]) is not None]
 EASY = ["minor scaled +", "minor physical, other sign", "middle scaled -, |c| above the cusp",
         "major physical, other sign"]
-ways = pytest.mark.parametrize("fast", [False, True], ids=["numpy", "numba"])
 
 
 @pytest.fixture
 def tables_always(monkeypatch):
     """Small arrays take the way of large ones."""
     monkeypatch.setattr(module, "TABLE_FROM", 0)
-
-
-def available(fast):
-    if fast:
-        pytest.importorskip("numba")
-    return fast
 
 
 def general(scene, states):
@@ -73,11 +58,10 @@ def hard_states(name):
 
 
 @pytest.mark.one_in(4)
-@ways
 @pytest.mark.parametrize("name", [n for n in ELLIPTIC if "a=b" not in n])
-def test_labels_next_to_the_separatrix_equal_the_oracle(name, fast, tables_always):
+def test_labels_next_to_the_separatrix_equal_the_oracle(name, tables_always):
     states, expected = hard_states(name)
-    result = stabilab.fate(FAMILIES[name][0], states, fast=available(fast))
+    result = stabilab.fate(FAMILIES[name][0], states)
     np.testing.assert_array_equal(result.labels, expected)
     assert result.precise >= 2  # 1e-15 of the speed is less than the rounding of the energy's terms
 
@@ -97,12 +81,11 @@ def test_the_sign_of_a_table_s_margin_alone_mislabels_next_to_the_separatrix():
 
 
 @pytest.mark.one_in(2)
-@ways
 @pytest.mark.parametrize("name", EASY)
-def test_labels_and_margins_of_random_states_equal_the_oracle(name, fast, tables_always):
+def test_labels_and_margins_of_random_states_equal_the_oracle(name, tables_always):
     scene, problem = FAMILIES[name]
     states = sample(name, 15)
-    result = stabilab.fate(scene, states, fast=available(fast))
+    result = stabilab.fate(scene, states)
     weight = float(problem.weight[axis_of(problem)])
     for state, label, got in zip(states.tolist(), result.labels, result.margins):
         assert label == WORDS[energy.label(problem, tuple(state), digits=60)]
@@ -132,20 +115,8 @@ def test_the_table_answers_as_the_general_formula_and_leaves_little_to_it(name):
     assert np.all(np.abs(fast["margins"][finite] - slow["margins"][finite]) <= 1e-12 * terms)
 
 
-@pytest.mark.parametrize("name", FAMILIES)
-def test_numba_and_numpy_give_the_same_bytes(name):
-    pytest.importorskip("numba")
-    scene, _ = FAMILIES[name]
-    states = sample(name, 7001)
-    one, other = (stabilab.fate(scene, states, fast=fast) for fast in (False, True))
-    for column in ("labels", "margins", "axis", "sense", "reasons"):
-        assert getattr(one, column).tobytes() == getattr(other, column).tobytes(), column
-    assert one.precise == other.precise
-
-
 @pytest.mark.one_in(2)
-@ways
-def test_labels_of_random_bodies_over_twelve_decades_equal_the_oracle(fast, tables_always):
+def test_labels_of_random_bodies_over_twelve_decades_equal_the_oracle(tables_always):
     rng = np.random.default_rng(11)
     for n in range(15):
         axis, size, rate = n % 3, 10.0 ** rng.uniform(-6, 6), 10.0 ** rng.uniform(-6, 6)
@@ -159,28 +130,26 @@ def test_labels_of_random_bodies_over_twelve_decades_equal_the_oracle(fast, tabl
                           10.0 ** rng.uniform(-15, -3))) is not None:
             states = np.concatenate([states, [near]])
         expected = [WORDS[energy.label(problem, tuple(s))] for s in states.tolist()]
-        np.testing.assert_array_equal(stabilab.fate(scene, states, fast=available(fast)).labels, expected)
+        np.testing.assert_array_equal(stabilab.fate(scene, states).labels, expected)
 
 
 @pytest.mark.slow
-@ways
 @pytest.mark.parametrize("seed", range(40))
-def test_a_hundred_thousand_states_of_random_scenes_answer_as_the_general_formula(seed, fast):
+def test_a_hundred_thousand_states_of_random_scenes_answer_as_the_general_formula(seed):
     rng = np.random.default_rng(seed)
     scene, _ = random_problem(rng, seed % 3) if seed % 2 else random_problem(rng, 1 + seed % 4 // 2, "scaled")
     states = rng.normal(size=(50_000, 3)) * 10.0 ** rng.uniform(-2, 2)
-    np.testing.assert_array_equal(stabilab.fate(scene, states, fast=available(fast)).labels,
+    np.testing.assert_array_equal(stabilab.fate(scene, states).labels,
                                   general(scene, states)["labels"])
 
 
-@ways
-def test_equilibria_and_centres_in_a_large_array_are_recognised(fast):
+def test_equilibria_and_centres_in_a_large_array_are_recognised():
     """X1 = 0, X2 = -1/b is an equilibrium of the scaled minor-axis system (rates by hand); the axis X1 = -a,
     X2 = 0 is the centre of every circle: pure spin."""
     scene = scaled(0.25, 0.5, (0, 0, 1))[0]
     states = sample("minor scaled +", 6000)
     states[17], states[5999] = (0.0, -2.0, 0.0), (-0.25, 0.0, 0.3)
-    result = stabilab.fate(scene, states, fast=available(fast))
+    result = stabilab.fate(scene, states)
     assert result.labels[17] == stabilab.Fate.EQUILIBRIUM and result.axis[17] == result.sense[17] == 0
     assert result.labels[5999] == stabilab.Fate.SPIN_UP and result.margins[5999] == -np.inf
 
@@ -193,23 +162,20 @@ NEARLY_EQUAL = [((0.544, 2.2, 2.199), (-1.021, 2.296, 0), (0, 0, -0.0843)),
                 ((1.0 + 2.0**-16, 1.0, 0.5), (0.4, 0, 0.3), (0, 0.02, 0))]
 
 
-@ways
 @pytest.mark.parametrize("body", NEARLY_EQUAL)
-def test_margins_on_wide_hyperbolas_are_answered_by_the_table_in_twofold_numbers(body, fast, tables_always):
+def test_margins_on_wide_hyperbolas_keep_twelve_digits(body, tables_always):
     """Of nearly equal moments heights are sums of terms a thousand and more times as large: a third of the
-    rows used to take the general formula."""
+    rows take the general formula."""
     scene, problem = physical(*body)
     rng, axis = np.random.default_rng(3), axis_of(problem)
     states = rng.normal(size=(2000, 3)) * 10.0 ** rng.uniform(-1, 1, (2000, 1))
-    result, half_weight = stabilab.fate(scene, states,
-                                        fast=available(fast)), 0.5 * float(problem.weight[axis])
-    assert len(label_by_table(barrier_table(scene), states, module.empty_columns(2000))) <= 2
+    result, half_weight = stabilab.fate(scene, states), 0.5 * float(problem.weight[axis])
     height = result.margins + half_weight * states[:, axis] ** 2
     high = rng.permutation(np.nonzero(np.isfinite(height) & (height > 0))[0])[:8]
     near = states[high]
     near[:, axis] = np.sqrt(height[high] / half_weight) * (1 + 10.0 ** -np.arange(2, 2 + len(high)))
     for state in [*near, *states[rng.permutation(np.nonzero(np.isfinite(height))[0])[:12]]]:
-        got = stabilab.fate(scene, np.array([state] * 5), fast=available(fast)).margins[0]
+        got = stabilab.fate(scene, np.array([state] * 5)).margins[0]
         exact, kinetic = float(energy.margin(problem, tuple(state.tolist()),
                                              digits=60)), half_weight * state[axis] ** 2
         assert abs(got - exact) <= 1e-12 * (abs(exact + kinetic) + kinetic), state
@@ -227,7 +193,7 @@ def test_a_fate_map_takes_less_memory_than_three_times_its_input():
     stabilab.fate(scene, states[:6000])
     tracemalloc.start()
     try:
-        stabilab.fate(scene, states, fast=False)
+        stabilab.fate(scene, states)
         peak = tracemalloc.get_traced_memory()[1]
     finally:
         tracemalloc.stop()
@@ -272,51 +238,6 @@ def test_a_grid_of_a_scene_without_a_table_has_the_labels_of_its_states():
 def test_grid_axes_that_are_not_three_rows_of_finite_numbers_are_refused(axes):
     with pytest.raises(InputError):
         fate_grid(FAMILIES["minor scaled +"][0], axes)
-
-
-def test_angle_and_logarithm_are_right_to_rounding():
-    """Against mpmath at 40 digits."""
-    rng = np.random.default_rng(0)
-    x, z = rng.normal(size=(2, 300)) * 10.0 ** rng.uniform(-8, 8, (2, 300))
-    got, logs = barrier_heights.angle(x, z), barrier_heights.logarithm(*np.frexp(np.abs(x)))
-    with mp.workdps(40):
-        for a, b, g, l in zip(x.tolist(), z.tolist(), got, logs):
-            assert abs(g - mp.atan2(a, b)) <= 4e-16 * math.pi
-            assert abs(l - mp.log(abs(a))) <= 4e-16 * max(1, abs(l))
-
-
-def run(code, **env):
-    return subprocess.run([sys.executable, "-c", code], capture_output=True, text=True,
-                          env={**os.environ, **env})
-
-
-def test_small_arrays_never_load_numba():
-    code = ("import sys, numpy as np, stabilab; s = stabilab.ScaledGyrostat(0.2, 0.4, (0, 0, 1));"
-            "stabilab.fate(s, np.ones((20_000, 3))); sys.exit('numba' in sys.modules)")
-    assert run(code).returncode == 0
-
-
-def test_without_numba_large_arrays_are_answered_by_numpy_and_asking_for_numba_is_refused(monkeypatch):
-    scene, states = FAMILIES["minor scaled +"][0], sample("minor scaled +", 6000)
-    expected = stabilab.fate(scene, states, fast=False).margins
-    monkeypatch.setattr(numba_door, "installed", lambda: False)
-    monkeypatch.setattr(fast_fate, "LOADED", 0)
-    fast_fate._loops.cache_clear()
-    monkeypatch.setattr(fast_fate, "LARGE", 0)
-    np.testing.assert_array_equal(stabilab.fate(scene, states).margins, expected)
-    with pytest.raises(InputError, match="pip install numba"):
-        stabilab.fate(scene, states, fast=True)
-
-
-@pytest.mark.slow
-def test_compiled_loops_work_where_no_folder_can_be_written():
-    pytest.importorskip("numba")
-    code = ("import numpy as np, stabilab; s = stabilab.ScaledGyrostat(0.2, 0.4, (0, 0, 1));"
-            "x = np.random.default_rng(0).normal(size=(6000, 3)) * 3;"
-            "a, b = (stabilab.fate(s, x, fast=f) for f in (True, False)); print(a.margins.tobytes() == "
-            "b.margins.tobytes())")
-    done = run(code, NUMBA_CACHE_DIR="/proc/no/such/folder")
-    assert done.stdout.strip() == "True", done.stderr
 
 
 @pytest.mark.one_in(2)
