@@ -27,55 +27,26 @@ EPS = float(np.finfo(float).eps)
 TURN = 2 * math.pi
 
 
-class Plain:
-    """Functions of one float."""
-
-    sin, cos, sinh, cosh, sqrt, expm1 = math.sin, math.cos, math.sinh, math.cosh, math.sqrt, math.expm1
-
-    @staticmethod
-    def over(sine, t):
-        """sin(t)/t."""
-        return sine / t if t else 1.0
-
-    @staticmethod
-    def rest(t):
-        """1 - sin(t)/t."""
-        return _sinc_series(t * t) if -0.7 < t < 0.7 else 1 - math.sin(t) / t
-
-    @staticmethod
-    def growth(t):
-        """(exp(t) - 1)/t."""
-        return math.expm1(t) / t if t else 1.0
-
-    @staticmethod
-    def growth_rest(t):
-        """(exp(t) - 1)/t - 1."""
-        return _growth_series(t) if -0.7 < t < 0.7 else math.expm1(t) / t - 1
+def over(sine, t):
+    """sine/t, 1 at t = 0; sine = sin(t)."""
+    return np.where(t == 0, 1.0, sine / np.where(t == 0, 1.0, t))
 
 
-class Arrays:
-    """The same functions of arrays."""
+def _rest(t):
+    """1 - sin(t)/t."""
+    small = np.abs(t) < 0.7
+    return np.where(small, _sinc_series(np.where(small, t * t, 0.0)), 1 - over(np.sin(t), t))
 
-    sin, cos, sinh, cosh, sqrt, expm1 = np.sin, np.cos, np.sinh, np.cosh, np.sqrt, np.expm1
 
-    @staticmethod
-    def over(sine, t):
-        return sine / t if np.count_nonzero(t) == t.size else sine / np.where(t == 0, 1.0, t) + (t == 0)
+def _growth(t):
+    """(exp(t) - 1)/t."""
+    return over(np.expm1(t), t)
 
-    @staticmethod
-    def rest(t):
-        direct = 1 - Arrays.over(np.sin(t), t)
-        small = np.abs(t) < 0.7
-        return np.where(small, _sinc_series(np.where(small, t * t, 0.0)), direct) if small.any() else direct
 
-    @staticmethod
-    def growth(t):
-        return np.expm1(t) / np.where(t == 0, 1.0, t) + (t == 0)
-
-    @staticmethod
-    def growth_rest(t):
-        small = np.abs(t) < 0.7
-        return np.where(small, _growth_series(np.where(small, t, 0.0)), Arrays.growth(t) - 1)
+def _growth_rest(t):
+    """(exp(t) - 1)/t - 1."""
+    small = np.abs(t) < 0.7
+    return np.where(small, _growth_series(np.where(small, t, 0.0)), _growth(t) - 1)
 
 
 def _sinc_series(t2):
@@ -109,14 +80,14 @@ class Spot:
     axes: tuple
     spin: tuple
 
-    def energy(self, y, f):
+    def energy(self, y):
         """W^2/2 at offset y of a motion that passes here."""
-        return self.kinetic + y * self.share(0.0, y, f)
+        return self.kinetic + y * self.share(0.0, y)
 
-    def state(self, y, w, f):
+    def state(self, y, w):
         """(omega_1, omega_2, omega_3) at offset y with rate W."""
         out, (i, j, k) = [None] * 3, self.axes
-        out[j], out[k] = self.components(y, f)
+        out[j], out[k] = self.components(y)
         out[i] = self.spin[0] * w - self.spin[1]
         return out
 
@@ -142,22 +113,22 @@ class OnCircle(Spot):
     def terms(self):
         return abs(self.shape[1])
 
-    def share(self, a, d, f):
+    def share(self, a, d):
         mu, bend, p, q = self.shape
         b, middle = a + d, a + 0.5 * d
-        half, low, left, right = f.sin(0.5 * d), f.sin(0.5 * middle), f.sin(0.5 * a), f.sin(0.5 * b)
-        sinc = f.over(half, 0.5 * d)
+        half, low, left, right = np.sin(0.5 * d), np.sin(0.5 * middle), np.sin(0.5 * a), np.sin(0.5 * b)
+        sinc = over(half, 0.5 * d)
         u_a, u_b, u_middle = 2 * left * left, 2 * right * right, 2 * low * low
-        bent = (f.sin(middle) * sinc * (bend - p * (u_a + u_b) + q * f.sin(b))
+        bent = (np.sin(middle) * sinc * (bend - p * (u_a + u_b) + q * np.sin(b))
                 + q * u_a * (1 - u_middle) * sinc)
         if mu:
-            bent = bent + mu * (f.rest(0.5 * d) + u_middle * sinc)
+            bent = bent + mu * (_rest(0.5 * d) + u_middle * sinc)
         return bent + self.force * (1 - u_middle) * sinc if self.force else bent
 
-    def components(self, y, f):
+    def components(self, y):
         jx, jz, kx, kz = self.curve
-        half = f.sin(0.5 * y)
-        s, b = f.sin(y), 2 * half * half
+        half = np.sin(0.5 * y)
+        s, b = np.sin(y), 2 * half * half
         return self.base[0] + (jz * s - jx * b), self.base[1] - (kx * s + kz * b)
 
 
@@ -172,16 +143,16 @@ class OnHyperbola(Spot):
     def terms(self):
         return sum(s * s * abs(u) for s, u in zip((1, -1, 2, -2), self.shape))
 
-    def share(self, a, d, f):
+    def share(self, a, d):
         total = self.force
         for s, u in zip((1, -1, 2, -2), self.shape):
             if u:
-                total = total - s * u * (f.expm1(s * a) * f.growth(s * d) + f.growth_rest(s * d))
+                total = total - s * u * (np.expm1(s * a) * _growth(s * d) + _growth_rest(s * d))
         return total
 
-    def components(self, y, f):
+    def components(self, y):
         jx, je, kx, ke = self.curve  # times xi/2 and eta/2
-        up, down = f.expm1(y), f.expm1(-y)
+        up, down = np.expm1(y), np.expm1(-y)
         return self.base[0] + (jx * up + je * down), self.base[1] + (kx * up - ke * down)
 
 
@@ -196,13 +167,13 @@ class OnParabola(Spot):
     def terms(self):
         return abs(self.shape[0])
 
-    def share(self, a, d, f):
+    def share(self, a, d):
         f1, f2, f3 = self.shape
         b = a + d
         return (self.force + f1 / 2 * (a + b) + f2 / 3 * (a * a + a * b + b * b)
                 + f3 / 4 * (a + b) * (a * a + b * b))
 
-    def components(self, y, f):
+    def components(self, y):
         ju, jb, kv, ka = self.curve
         return self.base[0] + y * (ju + jb * y), self.base[1] + y * (kv + ka * y)
 
@@ -360,21 +331,6 @@ class Rule:
         self.near = np.where(k < part, np.cos(0.5 * phi) ** 2, -np.cos(0.5 * back) ** 2)
 
 
-class EvenPhase:
-    """phi(psi) - psi as a sine series, from phi - psi at the samples of a `Rule`; settled: it is as long as
-    doubles need."""
-
-    def __init__(self, rule, slow, mean):
-        psi = rule.phi + rule.sines @ slow / mean
-        top = rule.k[1: 2 * len(rule.k) // 3]
-        series = np.cos(np.multiply.outer(top, psi)) @ rule.weights * (2 / top)
-        self.settled = _settled(series)
-        self.sines = _kept(series)
-
-    def __call__(self, psi, f):
-        return psi + f.sin(psi) * _clenshaw(self.sines, 2 * f.cos(psi))[0]
-
-
 class Phase:
     """phi(psi) - psi as a Fourier series from samples of dt/dphi over a turn of phi; settled: it is as long
     as doubles need."""
@@ -396,10 +352,10 @@ class Phase:
         self.sines, self.cosines = (-2 * series.imag[:kept]).tolist(), (2 * series.real[:kept]).tolist()
         self.to_psi = lambda phi: phi + _lead(slow, phi) - _lead(slow, 0.0)
 
-    def __call__(self, psi, f):
-        twice = 2 * f.cos(psi)
+    def __call__(self, psi):
+        twice = 2 * np.cos(psi)
         one, two = _clenshaw(self.cosines, twice)
-        return psi + f.sin(psi) * _clenshaw(self.sines, twice)[0] + self.constant + (0.5 * twice * one - two)
+        return psi + np.sin(psi) * _clenshaw(self.sines, twice)[0] + self.constant + (0.5 * twice * one - two)
 
 
 def _settled(series) -> bool:

@@ -33,7 +33,7 @@ import numpy as np
 
 from ...errors import InputError
 from .periodic import Motion
-from .profile import EPS, TURN, Arrays, Plain
+from .profile import EPS, TURN
 
 POINTS = 16
 FIXED = TURN / 8  # longest panel
@@ -55,19 +55,19 @@ class Passing:
         # about the spot panels shrink, and keep their digits
         self.cuts = (lo, 0.0, hi) if lo < 0 < hi else (lo, hi)
 
-    def energy(self, x, f):
-        return self.kinetic + x * self.spot.share(0.0, x, f)
+    def energy(self, x):
+        return self.kinetic + x * self.spot.share(0.0, x)
 
     def rate(self, x):
         """dt/dx."""
-        return 1 / np.sqrt(2 * self.energy(x, Arrays))
+        return 1 / np.sqrt(2 * self.energy(x))
 
     def offset(self, x):
         return x
 
-    def at(self, x, f):
+    def at(self, x):
         """(offset, W)."""
-        return x, f.sqrt(2 * self.energy(x, f))
+        return x, np.sqrt(2 * self.energy(x))
 
     def x_of(self, y, w):
         return y
@@ -82,18 +82,18 @@ class Turning:
         reach = math.sqrt(max(sense * (far - a), 0.0))
         self.cuts = (0.0, reach) if sense > 0 else (-reach, 0.0)
 
-    def _share(self, x, f):
-        return 2 * self.sense * self.spot.share(self.a, self.sense * x * x, f)
+    def _share(self, x):
+        return 2 * self.sense * self.spot.share(self.a, self.sense * x * x)
 
     def rate(self, x):
-        return 2 / np.sqrt(self._share(x, Arrays))
+        return 2 / np.sqrt(self._share(x))
 
-    def at(self, x, f):
-        return self.a + self.sense * x * x, abs(x) * f.sqrt(self._share(x, f))
+    def at(self, x):
+        return self.a + self.sense * x * x, np.abs(x) * np.sqrt(self._share(x))
 
     def x_of(self, y, w):
         """From the rate, which keeps its digits next to the turning point."""
-        share = self._share(math.sqrt(max(self.sense * (y - self.a), 0.0)), Plain)
+        share = self._share(math.sqrt(max(self.sense * (y - self.a), 0.0)))
         return self.sense * abs(w) / math.sqrt(share)
 
 
@@ -138,10 +138,9 @@ def turning_offset(spot, sense, reach=None) -> float | None:
     rising = spot.kinetic < 0
 
     def beyond(t):
-        try:
-            value = spot.energy(sense * t, Plain)
-        except OverflowError:
-            value = -math.inf
+        with np.errstate(all="ignore"):
+            value = float(spot.energy(sense * t))
+        value = -math.inf if math.isnan(value) or value == math.inf else value
         return value, (value > 0) == rising
 
     if reach is None:
@@ -156,7 +155,7 @@ def turning_offset(spot, sense, reach=None) -> float | None:
     for _ in range(200):
         value, past = beyond(t)
         low, high = (low, t) if past else (t, high)
-        slope = sense * spot.share(sense * t, 0.0, Plain) if math.isfinite(value) else 0.0
+        slope = float(sense * spot.share(sense * t, 0.0)) if math.isfinite(value) else 0.0
         new = t - value / slope if slope else low
         if not low < new < high:
             new = 0.5 * (low + high)
@@ -192,14 +191,13 @@ def clenshaw(c, x):
     return x * one - two + c[0]
 
 
-def inverted(integral, rate, half, wanted, f):
+def inverted(integral, rate, half, wanted):
     """xi in [-1, 1] at which half * (the integral's series) = wanted; coefficients as of `clenshaw`."""
-    whole = half * sum(integral)
-    xi = 2 * wanted / whole - 1
+    xi = 2 * wanted / (half * sum(integral)) - 1
     for _ in range(NEWTON):
         step = (half * clenshaw(integral, xi) - wanted) / (half * clenshaw(rate, xi))
-        new = min(max(xi - step, -1.0), 1.0) if f is Plain else np.clip(xi - step, -1, 1)
-        moved = abs(new - xi) if f is Plain else np.abs(new - xi).max(initial=0.0)
+        new = np.clip(xi - step, -1, 1)
+        moved = np.abs(new - xi).max(initial=0.0)
         xi = new
         if moved <= 1e-8:  # the next step would square that
             return xi
@@ -224,7 +222,6 @@ class Panels:
         ends = np.cumsum(self.half * self.integrals.sum(axis=1))
         self.total = float(ends[-1])
         self.starts = np.concatenate([[0.0], ends[:-1]])
-        self._starts = self.starts.tolist()
 
     def _cut(self, passage, adaptive):
         """(low ends, half lengths, dt/dx (n, points), its coefficients (n, points)) of a passage's panels, in
@@ -278,21 +275,11 @@ class Panels:
         passage, low = self.chain[0], self.low[0]
         return np.maximum(x + (time - self._integral(passage, low, x)) / passage.rate(x), low)
 
-    def at(self, t):
-        """(spot, offset, W) at one time in [0, total]."""
-        n = max(bisect_right(self._starts, t) - 1, 0)
-        half, low = float(self.half[n]), float(self.low[n])
-        xi = inverted(self.integrals[n].tolist(), self.rates[n].tolist(), half, t - self._starts[n], Plain)
-        passage, x = self.chain[self.owner[n]], low + half * (1 + xi)
-        if n == 0 and xi < EARLY:
-            x = float(self._sharpened(np.array([x]), t)[0])
-        return (passage.spot, *passage.at(x, Plain))
-
     def follow(self, times, signs):
         """(states (n, 3) at times in [0, total], W times the signs; offsets of their places (n,))."""
         n = np.maximum(np.searchsorted(self.starts, times, side="right") - 1, 0)
         half, out, offsets = self.half[n], np.empty((len(times), 3)), np.empty(len(times))
-        xi = inverted(self.integrals[n].T, self.rates[n].T, half, times - self.starts[n], Arrays)
+        xi = inverted(self.integrals[n].T, self.rates[n].T, half, times - self.starts[n])
         x, owner = self.low[n] + half * (1 + xi), np.array(self.owner)[n]
         early = np.nonzero((n == 0) & (xi < EARLY))[0]
         if len(early):
@@ -300,8 +287,8 @@ class Panels:
         for number, passage in enumerate(self.chain):
             mine = owner == number
             if mine.any():
-                y, w = passage.at(x[mine], Arrays)
-                out[mine] = np.array(passage.spot.state(y, w * signs[mine], Arrays)).T
+                y, w = passage.at(x[mine])
+                out[mine] = np.array(passage.spot.state(y, w * signs[mine])).T
                 offsets[mine] = passage.at_zero + y
         return out, offsets
 
@@ -406,17 +393,6 @@ class SpinUp(Motion):
         within = lengths[:n].sum() + self.late.half[n] * clenshaw(integral[n].tolist(), xi)
         return self.run_up + self._turns_take(turns) + float(within)
 
-    @classmethod
-    def from_here(cls, spot, w, work, points=POINTS):
-        """The spin-up of a state with rate w > 0 that no hill slows down much, told from the state on, its
-        `spot`."""
-        motion = cls.__new__(cls)
-        motion.w, motion.work, motion.from_rest, motion.sense = w, work, False, 1.0
-        motion.early, motion.run_up, motion.start = None, 0.0, 0.0
-        motion._whole_turn([Passing(spot, spot.kinetic, 0.0, TURN)], points)
-        motion.evaluations = motion.late.evaluations
-        return motion
-
     # --- many turns on
     def _turns_take(self, turns):
         if turns <= self.steep:
@@ -433,40 +409,6 @@ class SpinUp(Motion):
             return bisect_right(self.table, left) - 1
         root = ((left - self.table[-1]) / self.unit + self.passed) / (2 * TURN)
         return max(math.floor(root * root + 0.5 - self.level), self.steep)
-
-    def _since(self, turns, left):
-        """(time since so many turns were done, dt/dx at the nodes of the turn after, times at its panels'
-        ends)."""
-        rates = self._rates(turns)
-        ends = np.cumsum(rates.ravel() * self.weights)[self.late.points - 1::self.late.points].tolist()
-        return left - self._turns_take(turns) if turns else left, rates, ends
-
-    def _late(self, left):
-        """(spot, offset, W) at a time after the run-up."""
-        turns = self._turns(left)
-        within, rates, ends = self._since(turns, left)
-        if within < 0 or within >= ends[-1]:
-            turns = float(self._settled(np.array([left]), np.array([float(turns)]))[0])
-            within, rates, ends = self._since(turns, left)
-        within = min(max(within, 0.0), ends[-1])
-        n = min(bisect_right(ends, within), len(ends) - 1)
-        _, _, forward, integral = rule(self.late.points)
-        half = float(self.late.half[n])
-        within -= ends[n - 1] if n else 0.0
-        xi = inverted((rates[n] @ integral).tolist(), (rates[n] @ forward).tolist(), half, within, Plain)
-        passage = self.late.chain[self.late.owner[n]]
-        y = float(self.late.low[n]) + half * (1 + xi)
-        energy = passage.energy(y, Plain) + turns * self.work
-        return passage.spot, y, math.sqrt(2 * energy)
-
-    def at(self, t):
-        time = self.start + self.sense * t
-        sign = self.sense if time >= 0 else -self.sense
-        if time < 0 and not self.from_rest:
-            raise InputError(BEFORE)
-        spot, y, w = (self.early.at(abs(time)) if self.early and abs(time) < self.early.total
-                      else self._late(abs(time) - self.run_up))
-        return spot.state(y, w * sign, Plain)
 
     def follow(self, times):
         passed = self.start + self.sense * times
@@ -491,14 +433,14 @@ class SpinUp(Motion):
         within = within - np.where(n > 0, ends[rows, n - 1], 0.0)
         mine, (_, _, forward, integral) = rates.reshape(len(left), -1, points)[rows, n], rule(points)
         half = late.half[n]
-        xi = inverted((mine @ integral).T, (mine @ forward).T, half, within, Arrays)
+        xi = inverted((mine @ integral).T, (mine @ forward).T, half, within)
         x, owner = late.low[n] + half * (1 + xi), np.array(late.owner)[n]
         out, way = np.empty((len(left), 3)), np.empty(len(left))
         for number, passage in enumerate(late.chain):
             here = owner == number
             if here.any():
-                w = np.sqrt(2 * (passage.energy(x[here], Arrays) + turns[here] * self.work))
-                out[here] = np.array(passage.spot.state(x[here], w * signs[here], Arrays)).T
+                w = np.sqrt(2 * (passage.energy(x[here]) + turns[here] * self.work))
+                out[here] = np.array(passage.spot.state(x[here], w * signs[here])).T
                 way[here] = passage.at_zero + x[here] + TURN * turns[here]
         return out, way
 
