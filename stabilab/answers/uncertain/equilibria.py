@@ -31,7 +31,7 @@ from ...physics.scene import QuadraticForm
 from ..equilibria import equilibria
 from .box import Box, Numbers, Point, present
 from .branch_and_bound import Parts, Proof, branch_and_bound, importance, whole
-from .result import FEWER, UNKNOWN, Answer, Over, bracketed, by_sample, by_trial, confirmed, nearest_in_box
+from .result import FEWER, UNKNOWN, Answer, Look, Over, bracketed, by_sample, by_trial, nearest_change
 
 
 class Condition(NamedTuple):
@@ -150,18 +150,17 @@ def _line(r: Reduction) -> list[Condition]:
 def equilibria_over(box: Box) -> Over:
     """What the box does to the equilibria: their kind, number, and verdicts. See `uncertain.uncertain`."""
     box = _without_state(box)
-    answer = partial(signature_at, box)
-    here = answer(np.zeros(len(box.places)))
+    look = lambda point: (signature_at(box, point), np.nan)
+    here, _ = look(np.zeros(len(box.places)))
     if not box.places:
         return Over("holds", here, "no uncertain number has a part in the equilibria", proved=np.inf)
     if box.frame is not None:
-        return by_sample(box, here, lambda point: (answer(point), np.nan),
-                         "within the uncertainties the principal axes turn with the tensor, and no "
-                                                                           "proof follows that turn")
+        return by_sample(box, here, look, "within the uncertainties the principal axes turn with the tensor, "
+                                          "and no proof follows that turn")
     try:
-        return _by_conditions(box, here, answer)
+        return _by_conditions(box, here, look)
     except Unknown as unknown:
-        return by_trial(box, here, answer, str(unknown))
+        return by_trial(box, here, look, str(unknown))
 
 
 def _without_state(box: Box) -> Box:
@@ -186,7 +185,7 @@ def signature(found: Any) -> str:
     return f"{found.kind}: {'; '.join(parts)}" if parts else found.kind
 
 
-def _by_conditions(box: Box, here: Any, answer: Answer) -> Over:
+def _by_conditions(box: Box, here: Any, look: Look) -> Over:
     n = len(box.places)
     all_of = partial(_conditions, box)
     first = all_of(np.zeros((1, n)), np.zeros((1, n)))
@@ -206,9 +205,9 @@ def _by_conditions(box: Box, here: Any, answer: Answer) -> Over:
         return Over("holds", here, "the uncertain numbers have no part in the equilibria", proved=np.inf)
     if 0 in signs:
         vanishing = "; ".join(c.what for c, sign in zip(first, signs) if not sign)
-        return by_trial(box, here, answer, f"at the middle itself {vanishing}")
-    change = nearest_in_box(codes, int(codes(np.zeros((1, n)))[0]), n)
-    change = change and confirmed(change, lambda p: answer(p) or here, here)
+        return by_trial(box, here, look, f"at the middle itself {vanishing}")
+    answer: Answer = lambda point: look(point)[0]
+    change = nearest_change(box, codes, answer, here)
     strict, passing = partial(_proof, all_of, box, first, signs), [c for c in first if c.passes]
     found = bracketed(box, here, answer, change, partial(strict, passes=True),
                       "no quantity that they hang on changes its sign within the box")

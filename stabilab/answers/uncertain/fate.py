@@ -34,22 +34,32 @@ from ..kinds import kind_of
 from .box import Box, Numbers, Point, box_of, present
 from .branch_and_bound import Family, Proof, orbit_of, prove
 from .equilibria import equilibria_over
-from .result import UNKNOWN, Answer, Over, Witness, bracketed, by_sample, by_trial, confirmed, nearest_in_box
+from .result import (
+    STRETCHES,
+    UNKNOWN,
+    Answer,
+    Look,
+    Over,
+    Witness,
+    bracketed,
+    by_sample,
+    by_trial,
+    nearest_change,
+)
 
 UNBOUNDED = "unbounded"
-TIE_STRETCHES = (1e-6, 1e-3, 1.0)
 
 
 def fate_over(box: Box) -> Over | None:
     """What becomes of the motion over the box; None where the box has no state. See `uncertain.uncertain`."""
     if "state" not in box.middle:
         return None
-    answer, look = partial(verdict_at, box), partial(verdict_and_margin, box)
+    look = partial(look_at, box)
+    answer: Answer = lambda point: look(point)[0]
     if box.frame is not None:
         return by_sample(box, answer(np.zeros(len(box.places))), look,
                          "within the uncertainties the principal axes turn with the tensor, and no proof "
-                         "follows "
-                                                                       "that turn")
+                         "follows that turn")
     numbers = _root(box)
     form = box.rates(numbers)
     acting = [i for i in range(3) if present(form.m[i])]
@@ -60,51 +70,36 @@ def fate_over(box: Box) -> Over | None:
         axes = " and ".join(str(i + 1) for i in acting)
         return by_sample(box, here, look,
                          f"the torque may act about axes {axes} together, off the principal axes, where "
-                         f"motions are "
-                                            "followed one by one: the middle's answer is no proof for "
-                                            "the box")
+                         "motions are followed one by one: the middle's answer is no proof for the box")
     reduction = reduction_about(form, acting[0])
     if reduction is None:
-        return _under_law(box, here, answer, numbers, form, acting[0])
+        return _under_law(box, look, numbers, form, acting[0])
     signs = _signs(reduction)
     if signs is None:
-        return by_trial(box, here, answer,
-                        "two of the moments of inertia may be equal within the box, where the geometry of "
-                                           "the motion changes from circles to hyperbolas: no proof is "
-                                           "at hand", look)
+        return by_trial(box, here, look, "two of the moments of inertia may be equal within the box, where "
+                                         "the geometry of the motion changes from circles to hyperbolas: no "
+                                         "proof is at hand")
     if signs[0] * signs[1] >= 0:
-        return _between_walls(box, here, answer, reduction, numbers, signs)
+        return _between_walls(box, here, look, reduction, numbers, signs)
     return _on_circles(box, here, answer, Family(box, acting[0], signs))
 
 
-def verdict_at(box: Box, point: Point) -> str | None:
-    """The fate at a point of the box, by the ordinary exact code; None where there is no such body."""
-    try:
-        scene, state = box.at(point)
-    except InputError:
-        return None
-    reduction = reduce(scene)
-    if kind_of(scene) == "growth":
-        return UNBOUNDED  # about which axis is a question for a run, not for the law
-    if reduction is None:
-        one = fate(scene, np.array(state))
-        return words(Fate(int(one.labels)), int(one.axis), int(one.sense))
-    # asked of boxes that have a state
-    found = fate_of(scene, Orbit(reduction, state))  # type: ignore[arg-type]
-    return words(found.label, found.axis, found.sense)
-
-
-def verdict_and_margin(box: Box, point: Point) -> tuple[str | None, float]:
-    """(fate at a point of the box as of `verdict_at`, barrier minus energy, NaN where the motion has none).
-    """
+def look_at(box: Box, point: Point) -> tuple[str | None, float]:
+    """(fate at a point of the box by the ordinary exact code, None where there is no such body; barrier minus
+    energy, NaN where the motion has none)."""
     try:
         scene, state = box.at(point)
     except InputError:
         return None, np.nan
     if kind_of(scene) == "growth":
-        return UNBOUNDED, np.nan
-    one = fate(scene, np.array(state))
-    return words(Fate(int(one.labels)), int(one.axis), int(one.sense)), float(one.margins)
+        return UNBOUNDED, np.nan  # about which axis is a question for a run, not for the law
+    reduction = reduce(scene)
+    if reduction is None:
+        one = fate(scene, np.array(state))
+        return words(Fate(int(one.labels)), int(one.axis), int(one.sense)), float(one.margins)
+    # asked of boxes that have a state
+    found = fate_of(scene, Orbit(reduction, state))  # type: ignore[arg-type]
+    return words(found.label, found.axis, found.sense), found.margin
 
 
 def words(label: Fate, axis: int, sense: int) -> str:
@@ -145,11 +140,10 @@ def _on_circles(box: Box, here: Any, answer: Answer, family: Family) -> Over:
             return Proof(None, 0)
         return prove(family, claim, senses, stretch, most)
 
-    middle = int(codes(np.zeros((1, len(box.places))))[0])
-    if here == Fate.SEPARATRIX.word or (middle == 0) != (claim == "bounded"):
+    steady = int(codes(np.zeros((1, len(box.places))))[0]) == 0
+    if here == Fate.SEPARATRIX.word or steady != (claim == "bounded"):
         return _tie(box, here, answer, _against_gradient(family))
-    change = nearest_in_box(codes, middle, len(box.places), _against_gradient(family))
-    change = change and confirmed(change, lambda p: answer(p) or here, here)
+    change = nearest_change(box, codes, answer, here, _against_gradient(family))
     return bracketed(box, here, answer, change, attempt,
                      REASONS[Reason.BELOW_BARRIER if claim == "bounded" else Reason.ABOVE_BARRIER])
 
@@ -158,7 +152,7 @@ def _tie(box: Box, here: Any, answer: Answer, corners: Sequence[np.ndarray]) -> 
     """The middle lies on the separatrix (or at rest on a saddle): what lies on either side."""
     because, n = "the middle lies on the separatrix itself", len(box.places)
     sides: dict[str, Any] = {}
-    for stretch in TIE_STRETCHES:
+    for stretch in STRETCHES:
         for direction in (*corners, *np.eye(n), *-np.eye(n)):
             word = answer(direction * stretch)
             if word not in (None, Fate.SEPARATRIX.word):
@@ -192,21 +186,20 @@ def _against_gradient(family: Family) -> tuple[np.ndarray, np.ndarray]:
 # -- hyperbolas and parabolas
 
 
-def _between_walls(box: Box, here: Any, answer: Answer, r: Reduction, numbers: Numbers, signs: Any) -> Over:
+def _between_walls(box: Box, here: Any, look: Look, r: Reduction, numbers: Numbers, signs: Any) -> Over:
     """The potential grows on both sides: bounded, but for a set of measure zero."""
     state = numbers["state"]
     if here != Fate.BOUNDED.word:
         flat = not signs[0] * signs[1] and _flat(r, state) or _spins(r, state)
         if flat and here.startswith("spin-up") and int(np.ravel(sign_over(r.m))[0]):
             return Over("holds", here, REASONS[Reason.PURE_SPIN], proved=1.0)
-        return by_trial(box, here, answer,
-                        "the middle lies on a set of measure zero, and no proof covers what is around it",
-                        partial(verdict_and_margin, box))
+        return by_trial(box, here, look,
+                        "the middle lies on a set of measure zero, and no proof covers what is around it")
     if not signs[0] * signs[1]:
         return Over("holds", here, REASONS[Reason.WALLS], proved=1.0,
                     but="where the force is the same all along the parabola, nothing holds the spin back")
     if _certain_plane(r, state):
-        return by_sample(box, here, partial(verdict_and_margin, box),
+        return by_sample(box, here, look,
                          "every motion of the box lies on an invariant plane Q = 0, where a "
                          "barrier decides, and the plane's motions are not followed over a box")
     with np.errstate(all="ignore"):
@@ -243,18 +236,20 @@ def _certain_plane(r: Reduction, state: Sequence[Number]) -> bool:
 # -- no reduction
 
 
-def _under_law(box: Box, here: Any, answer: Answer, numbers: Numbers, form: QuadraticForm, axis: int) -> Over:
+def _under_law(box: Box, look: Look, numbers: Numbers, form: QuadraticForm, axis: int) -> Over:
     """A gyrostatic moment along the torque: |H|^2/2 - D_i T grows at the rate lambda_i M_i."""
     along = numbers["momentum"][axis] if box.variables == "physical" else -form.sigma[1] - form.rho[2]
     if int(np.ravel(sign_over(along * form.m[axis]))[0]):
         return Over("holds", UNBOUNDED,
                     f"{REASONS[Reason.UNBOUNDED_LAW]}; the axis it ends about is not followed over the box",
                     proved=1.0)
-    whether = lambda point: (found := answer(point)) and (UNBOUNDED if found.startswith("spin-up") else found)
-    return by_trial(box, whether(np.zeros(len(box.places))), whether,
+
+    def whether(point: Point) -> tuple[str | None, float]:
+        word, _ = look(point)
+        return UNBOUNDED if word and word.startswith("spin-up") else word, np.nan
+    return by_trial(box, whether(np.zeros(len(box.places)))[0], whether,
                     f"the gyrostatic moment along axis {axis + 1}, the torque's, may vanish or not: where it "
-                    f"does not, there is "
-                    "no reduction to one degree of freedom, and no motion is bounded")
+                    "does not, there is no reduction to one degree of freedom, and no motion is bounded")
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,6 @@ answer.
 """
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from itertools import product
@@ -27,7 +26,7 @@ CORNERS, CHUNK = 256, 4096
 HALVINGS, ROUNDS, NEAREST = 14, 4, 16
 # points (m, n) of a box -> what is known there as an int each, (m,)
 Codes: TypeAlias = Callable[[np.ndarray], np.ndarray]
-# one point of a box -> what the ordinary exact code answers there
+# one point of a box -> what the ordinary exact code answers there, None where there is no such body
 Answer: TypeAlias = Callable[[np.ndarray], Any]
 UNKNOWN = -9          # the code of a point where there is no body, or nothing is known
 PARTS, FEWER = 60_000, 2_500  # of the box: for the question asked, and for each try to prove more
@@ -37,7 +36,8 @@ SMALLER = (0.3, 0.15, 0.05, 0.01, 0.001)  # tried where even the first of these 
 # points of the box drawn at random where motions can only be followed one by one
 SAMPLE, TIRED, SEED = 64, 4, 20261122
 UNDECIDED = "undecided"  # as the signature of equilibria begins and ends where nothing is known of them
-Look: TypeAlias = Callable[[Point], tuple[str | None, float]]
+Look: TypeAlias = Callable[[Point], tuple[str | None, float]]  # the answer, and a margin in energy or NaN
+STRETCHES = (1e-6, 1e-3, 1.0)  # at which single points are tried
 FARTHER = (2.0, 5.0, 10.0, 30.0, MOST)
 
 
@@ -59,6 +59,14 @@ def rays(n: int, favoured: Iterable[np.ndarray] = ()) -> np.ndarray:
         corners = rng.choice((-1.0, 1.0), (CORNERS, n))
     single = np.concatenate([np.eye(n), -np.eye(n)])
     return np.unique(np.concatenate([*(np.reshape(f, (-1, n)) for f in favoured), single, corners]), axis=0)
+
+
+def nearest_change(box: Box, codes: Codes, answer: Answer, here: Any,
+                   favoured: Iterable[np.ndarray] = ()) -> Change | None:
+    """The nearest change found of the codes that the answer confirms. here: the answer at the middle."""
+    n = len(box.places)
+    found = nearest_in_box(codes, int(codes(np.zeros((1, n)))[0]), n, favoured)
+    return found and confirmed(found, answer, here)
 
 
 def nearest_in_box(codes: Codes, here: int, n: int, favoured: Iterable[np.ndarray] = (),
@@ -119,18 +127,19 @@ def _moved(direction: np.ndarray) -> np.ndarray:
 def confirmed(change: Change, answer: Answer, here: Any, halvings: int = 20) -> Change | None:
     """The change with its stretch settled by answer(point), of any kind, that differs from `here`; None where
     the answer is still `here` a thousandth farther."""
+    other = lambda stretch: answer(change.direction * stretch) not in (None, here)
     end = next((end for end in (change.stretch * (1 + push) for push in (0.0, 1e-9, 1e-6, 1e-4, 1e-3))
-                if answer(change.direction * end) != here), None)
+                if other(end)), None)
     if end is None:
         return None
     start = min(change.before, end)
-    if answer(change.direction * start) != here:
+    if other(start):
         start = 0.0
     for _ in range(halvings):
         middle = 0.5 * (start + end)
         if middle in (start, end) or end - start <= 1e-6 * end:
             break
-        start, end = (start, middle) if answer(change.direction * middle) != here else (middle, end)
+        start, end = (start, middle) if other(middle) else (middle, end)
     return Change(change.direction, end, start)
 
 
@@ -253,22 +262,21 @@ def _of_point(point: Point, answer: Answer, here: str) -> Change | None:
     return Change(np.array(point) / size, size, 0.0)
 
 
-def by_trial(box: Box, here: Any, answer: Answer, because: str, look: Look | None = None) -> Over:
+def by_trial(box: Box, here: Any, look: Look, because: str) -> Over:
     """Where no proof is at hand: what single points of the box say, by the ordinary code, and where these
     agree, samples."""
     n = len(box.places)
+    answer: Answer = lambda point: look(point)[0]
     trial = np.concatenate([np.eye(n), -np.eye(n), np.ones((1, n)), -np.ones((1, n))])
-    stretches = (1e-6, 1e-3, 1.0)
-    for stretch in stretches:
+    for stretch in STRETCHES:
         for direction in trial:
-            there = answer(direction * stretch)
-            if there not in (None, here, "undecided"):
-                found = confirmed(Change(direction, stretch, 0.0), lambda p: answer(p) or here, here)
+            if answer(direction * stretch) not in (None, here, UNDECIDED):
+                found = confirmed(Change(direction, stretch, 0.0), answer, here)
                 point = direction * (found.stretch if found else stretch)
                 sides = tuple(Witness(answer(p), box.values(p)) for p in (np.zeros(n), point))
                 return Over("depends", here, because, changes_at=float(np.abs(point).max()), witnesses=sides)
-    tried = len(trial) * len(stretches)
-    return by_sample(box, here, look or (lambda point: (answer(point), math.nan)),
+    tried = len(trial) * len(STRETCHES)
+    return by_sample(box, here, look,
                      f"{because}; {tried} other points of the box, tried one by one, do as the middle does")
 
 

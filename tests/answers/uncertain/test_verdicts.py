@@ -10,7 +10,7 @@ from scipy.integrate import solve_ivp
 
 from stabilab.answers.uncertain.box import box_of
 from stabilab.answers.uncertain.equilibria import signature_at
-from stabilab.answers.uncertain.fate import uncertain, verdict_at
+from stabilab.answers.uncertain.fate import look_at, uncertain
 from stabilab.case.read import load
 from stabilab.errors import CaseError
 from stabilab.numbers.affine import Affine, root
@@ -413,7 +413,7 @@ def test_a_body_in_scaled_variables_is_the_box_of_its_physical_numbers(tmp_path)
     assert case.variables == "scaled" and [name for name, _ in box.places].count("inertia") == 3
     scene, state = box.at(np.zeros(len(box.places)))
     assert scene == case.scene and state == case.state
-    assert verdict_at(box, np.zeros(len(box.places))) == "bounded"
+    assert look_at(box, np.zeros(len(box.places)))[0] == "bounded"
     numbers = box.numbers(np.zeros((1, 7)), np.zeros((1, 7)))
     form, exact = box.rates(numbers), case.scene.quadratic()
     assert form.rho[2].low[0] <= float(exact.rho[2]) <= form.rho[2].high[0]
