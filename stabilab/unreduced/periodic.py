@@ -26,6 +26,8 @@ from typing import Any
 
 import numpy as np
 
+from ..numbers.constants import EPS
+from ..numbers.roots import held_newton
 from ..numbers.vectors import CYCLE
 from .spin_up.form import Centre, centres
 
@@ -148,7 +150,8 @@ def in_the_middle(scene: Any, state: Any) -> Periodic | None:
     for section in sections(states):
         places: list[np.ndarray] = []
         for count in RETURNS:
-            places += passages(scene, places[-1] if places else states[-1], section, count - len(places))
+            places += [*returns(scene, places[-1] if places else states[-1], section,
+                                count - len(places))[1]]
             orbit = periodic(scene, np.mean(places, axis=0), section) if len(places) == count else None
             if orbit is not None and orbit.elliptic:
                 return orbit
@@ -162,15 +165,6 @@ def sections(states: np.ndarray) -> list[Section]:
     swings = [np.count_nonzero(np.diff(np.signbit(states[:, n] - middle[n]))) * states[:, n].std()
               for n in range(3)]
     return [Section(axis, float(middle[axis]), 1) for axis in np.argsort(swings)[::-1].tolist()]
-
-
-def passages(scene: Any, state: Any, section: Section, count: int) -> list[np.ndarray]:
-    """The next passages of a section, fewer than `count` where there are no more in STEPS steps."""
-    places: list[np.ndarray] = []
-    while len(places) < count and (found := passage(scene, places[-1] if places else state, section,
-                                                    linear=False)) is not None:
-        places.append(found[1])
-    return places
 
 
 def continued(scenes: Any, known: Periodic) -> Periodic | None:
@@ -269,20 +263,13 @@ def _rising(values: np.ndarray, low: float = 0.0, high: float = 1.0) -> tuple[fl
 
 
 def _root(row, low: float, high: float) -> float:
-    """The zero in [low, high] of a polynomial that rises through zero there: halving, then Newton's method in
-    the bracket."""
-    h, t = high, (low + high) / 2
+    """The zero in [low, high] of a polynomial that rises through zero there."""
     slope = row[1:] * np.arange(1, len(row))
-    for _ in range(200):
-        value = float(np.polynomial.polynomial.polyval(t, row))
-        low, high = (t, high) if value < 0 else (low, t)
-        fast = float(np.polynomial.polynomial.polyval(t, slope))
-        ahead = t - value / fast if fast > 0 else math.nan
-        ahead = ahead if low < ahead < high else (low + high) / 2
-        if abs(ahead - t) <= 1e-16 * h:
-            return ahead
-        t = ahead
-    return t
+
+    def look(t: float) -> tuple[float, float, bool | None]:
+        value, rate = (float(np.polynomial.polynomial.polyval(t, c)) for c in (row, slope))
+        return value, rate, value > 0 if value else None
+    return held_newton(look, low, high, 0.5, EPS)
 
 
 LEAST = 5         # passages, for a plane to show anything

@@ -9,7 +9,7 @@ which the inequality holds, told as the blur of the clock, and nothing else.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -258,7 +258,8 @@ def spin_up_many(scene, states, t_max: float | None = None, budget: int | None =
     # of all states of the scene or of none
     closed = bool(len(states)) and exactly(covered, states[0].tolist()) is not None
     if closed or not tests or not (np.abs(states) / FARTHEST < unit).all():
-        return _one_by_one(scene, states, t_max=t_max, budget=budget, fast=fast, proof=proof)
+        return _of_rows(scene, (spin_up(scene, state, t_max, budget, fast=fast, proof=proof)
+                                for state in states.tolist()))
     plain = _plain_steps(len(states), fast)
     found = chase(own, tests, states / unit, NATURAL_TIMES if t_max is None else t_max * unit,
                   BUDGET if budget is None else budget,
@@ -270,32 +271,18 @@ def spin_up_many(scene, states, t_max: float | None = None, budget: int | None =
                   axes[found.fired].astype(np.int8), senses[found.fired].astype(np.int8),
                   good.astype(np.int8), found.t / unit, found.steps, found.condition, found.states * unit,
                   scene, unit, found, ())
-    if not good.all() and reduce(covered) is not None:
-        return _with_rows(out, tuple(kept_by_law(covered, state, out.row(number)) for number,
-                                     state in enumerate(states.tolist())))
-    return _proved(scene, states, out, not plain) if proof else out
+    by_law = not good.all() and reduce(covered) is not None
+    if not by_law and not proof:
+        return out
+    return _of_rows(scene, (kept_by_law(covered, state, out.row(number)) if by_law
+                            else proved(scene, state, out.row(number), fast=not plain)
+                            for number, state in enumerate(states.tolist())))
 
 
-def _with_rows(found: SpinUps, rows) -> SpinUps:
-    """The answers with these rows in place of what a run found."""
-    return replace(found, fate=np.array([row.fate for row in rows], np.int8),
-                   level=np.array([LEVELS.index(row.level) for row in rows], np.int8),
-                   chased=None, exact=rows)
-
-
-def _proved(scene, states, found: SpinUps, fast: bool) -> SpinUps:
-    rows = tuple(proved(scene, state, found.row(number), fast=fast) for number,
-                 state in enumerate(states.tolist()))
-    columns = {name: np.array([getattr(row, name) for row in rows]) for name in ("t", "state")}
-    return replace(found, level=np.array([LEVELS.index(row.level) for row in rows], np.int8), t=columns["t"],
-                   states=columns["state"].reshape(-1, 3),
-                   chased=None, exact=rows)
-
-
-def _one_by_one(scene, states, **limits):
-    rows = tuple(spin_up(scene, state, **limits) for state in states.tolist())
-    columns = [np.array([getattr(row, name) for row in rows]) for name in ("fate", "axis", "sense")]
-    return SpinUps(*(column.astype(np.int8) for column in columns),
-                   np.array([LEVELS.index(row.level) for row in rows], np.int8),
-                   *(np.array([getattr(row, name) for row in rows])
-                     for name in ("t", "steps", "condition", "state")), scene, 1.0, None, rows)
+def _of_rows(scene, given: Iterable[SpinUp]) -> SpinUps:
+    """Columns of answers that were found one by one."""
+    rows = tuple(given)
+    kinds = np.array([(row.fate, row.axis, row.sense, LEVELS.index(row.level)) for row in rows], np.int8)
+    columns = [np.array([getattr(row, name) for row in rows]) for name in ("t", "steps", "condition")]
+    states = np.array([row.state for row in rows], float).reshape(-1, 3)
+    return SpinUps(*kinds.reshape(-1, 4).T, *columns, states, scene, 1.0, None, rows)

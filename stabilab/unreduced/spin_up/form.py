@@ -45,6 +45,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
+from ...equilibrium.gyrostat import gyrostat_equilibria
 from ...numbers.vectors import Number
 from ...orbit.far_states import in_range
 
@@ -247,36 +248,11 @@ def _between(scene, state, recurrence):
 
 
 def _equilibria(scene):
-    """The two equilibria of a scene with a wheel, or none: M.w = 0 and M.Dw = -M.l leave a line, and one
-    quadratic on it."""
+    """The two equilibria of a scene with a wheel, (3,) each; none where there are not two."""
     if scene.variables == "scaled" or not any(scene.vector("gyrostat")):
         return ()
-    D, l, M = ([float(v) for v in vector]
-               for vector in (scene.body.exact, scene.vector("gyrostat"), scene.vector("constant_torque")))
-    DM = [d * m for d, m in zip(D, M)]
-    along = _cross(M, DM)
-    square = _dot(along, along)
-    if not square:
-        return ()
-    base = [-_dot(M, l) * v / square for v in _cross(along, M)]  # M.base = 0, DM.base = -M.l
-    # along M: (w x (Dw + l)).M = M.M with w = base + s along
-    H = lambda w: [d * v + e for d, v, e in zip(D, w, l)]
-    c = _dot(_cross(base, H(base)), M) - _dot(M, M)
-    a = _dot(_cross(along, [d * v for d, v in zip(D, along)]), M)
-    b = _dot(_cross(along, H(base)), M) + _dot(_cross(base, [d * v for d, v in zip(D, along)]), M)
-    disc = b * b - 4 * a * c
-    if not a or disc <= 0:
-        return ()
-    return tuple([v + s * u for v, u in zip(base, along)]
-                 for s in ((-b - math.sqrt(disc)) / (2 * a), (-b + math.sqrt(disc)) / (2 * a)))
-
-
-def _dot(a, b):
-    return sum(x * y for x, y in zip(a, b))
-
-
-def _cross(a, b):
-    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+    points = gyrostat_equilibria(scene).points
+    return tuple(point.at for point in points) if len(points) == 2 else ()
 
 
 @dataclass(frozen=True)
