@@ -22,9 +22,12 @@ docs/mathematics/spin-up.md.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
+from dataclasses import dataclass
 from fractions import Fraction
 
 from ...numbers.exact import sqrt_fraction
+from ...numbers.vectors import dot
 from ...orbit.result import Fate
 from .centres import MovingCentre
 from .result import WIDER, SpinUp, SteadyTrap
@@ -37,70 +40,100 @@ def axis_of_symmetry(D) -> int | None:
     return found[0] if len(found) == 1 else None
 
 
-def exactly(scene, state) -> SpinUp | None:
-    """The fate of a state where a closed solution tells it; None elsewhere. state: three floats, at their
-    word."""
+@dataclass(frozen=True)
+class Closed:
+    """A closed solution, in exact numbers (roots to 240 bits). law: its name; direction: of the growth, any
+    length, None where the motion is bounded; gain: the rate grows at least so fast along it; most: what is
+    across it, or the whole rate of a bounded motion, is never larger; cause: words."""
+
+    law: str
+    direction: Sequence[Fraction] | None
+    gain: Fraction | None
+    most: Fraction
+    cause: str
+
+    @property
+    def about(self) -> tuple[int, int]:
+        """(axis 1, 2, 3, sense) of the growth; (0, 1) where it is along none, (0, 0) where bounded."""
+        along = [n for n, v in enumerate(self.direction or ()) if v]
+        if len(along) != 1:
+            return 0, int(bool(along))
+        return along[0] + 1, 1 if self.direction[along[0]] > 0 else -1
+
+
+def closed(scene, state) -> Closed | None:
+    """The closed solution from a state, three exact numbers; None where the scene has none."""
     if scene.variables == "scaled":
         return None
     D, l, M = scene.body.exact, scene.vector("gyrostat"), scene.vector("constant_torque")
+    x = [Fraction(v) for v in state]
     if not any(M):
-        return _answer(Fate.BOUNDED, state, "without a torque the energy is constant and the motion bounded")
+        return Closed("free", None, None, sqrt_fraction(dot(D, [v * v for v in x]) / min(D)),
+                      "without a torque the energy is constant and the motion bounded")
     if D[0] == D[1] == D[2]:
-        return _sphere(D[0], l, M, state)
+        return _sphere(D[0], l, M, x)
     i = axis_of_symmetry(D)
-    if i is None or l[(i + 1) % 3] or l[(i + 2) % 3]:
-        return None
-    return _about_the_axis(i, D, l, M, state) if M[i] else _across_the_axis(i, D, l, M, state)
+    return None if i is None or l[(i + 1) % 3] or l[(i + 2) % 3] else _symmetric(i, D, l, M, x)
 
 
-def _answer(fate, state, cause, direction=None, axis=0, sense=0, trap=None):
-    return SpinUp(fate, axis, sense, direction, "exact", trap, 0.0, tuple(map(float, state)), 0, cause, 1.0)
-
-
-def _sphere(D, l, M, state):
+def _sphere(D, l, M, x):
     if not any(l):
-        return _grows(M, state, "a sphere without a wheel: the rate grows along the torque")
-    along = sum(a * b for a, b in zip(l, M))
+        return Closed("sphere", M, _size(M) / D, _across(x, M),
+                      "a sphere without a wheel: the rate grows along the torque")
+    along, across = dot(l, M), _across(x, l) + 2 * _across(M, l) / _size(l)
     if not along:
-        return _answer(Fate.BOUNDED, state,
-                       "a sphere with a wheel across the torque: the rate goes round the wheel's momentum")
-    return _grows([along * v for v in l], state,
+        return Closed("sphere", None, None, across + abs(dot(x, l)) / _size(l),
+                      "a sphere with a wheel across the torque: the rate goes round the wheel's momentum")
+    return Closed("sphere", [v if along > 0 else -v for v in l], abs(along) / _size(l) / D, across,
                   "a sphere with a wheel: the rate grows along the wheel's momentum, by the torque's "
                   "component there")
 
 
-def _grows(vector, state, cause):
-    size = sqrt_fraction(sum(Fraction(v) ** 2 for v in vector))
-    direction = tuple(float(v / size) for v in vector)
-    axes = [n for n in range(3) if abs(direction[n]) == 1]
-    sense = 0 if not axes else int(direction[axes[0]])
-    return _answer(Fate.SPIN_UP, state, cause, direction, axes[0] + 1 if axes else 0, sense if axes else 1)
-
-
-def _about_the_axis(i, D, l, M, state):
-    j, k = (i + 1) % 3, (i + 2) % 3
-    d, sense = abs(D[i] - D[j]), 1 if M[i] > 0 else -1
-    most = (math.hypot(state[j], state[k]) + 8 * math.hypot(*(float(M[n] / D[j]) for n in (j, k)))
-            * math.sqrt(D[i] * D[j] / (d * abs(M[i]))))
-    most *= 1 + WIDER
-    start, gain = sense * state[i], float(abs(M[i]) / D[i])
-    bounded = [(-most, most)] * 3
-    bounded[i] = (start, math.inf) if sense > 0 else (-math.inf, -start)
-    direction = tuple(float(sense * (n == i)) for n in range(3))
-    return _answer(Fate.SPIN_UP, state,
-                   "the axis of symmetry bears a torque and there is no transverse wheel: the spin about it "
-                   "is linear in time",
-                   direction, i + 1, sense, SteadyTrap(i + 1, sense, float(start), gain, tuple(bounded)))
-
-
-def _across_the_axis(i, D, l, M, state):
-    if Fraction(state[i]) + l[i] / (D[i] - D[(i + 1) % 3]):
-        return _answer(Fate.BOUNDED, state,
-                       "the spin about the axis of symmetry is constant and turns the transverse "
-                       "torque round")
-    return _grows(M, state,
+def _symmetric(i, D, l, M, x):
+    j, law, flat = (i + 1) % 3, "axis of symmetry", [v * (n != i) for n, v in enumerate(M)]
+    push, cone = _size(flat) / D[j], _size([v * (n != i) for n, v in enumerate(x)])
+    if M[i]:
+        turning = abs(D[i] - D[j]) * abs(M[i]) / (D[i] * D[j])  # of the turn's own rate
+        return Closed(law, [Fraction((n == i) * (1 if M[i] > 0 else -1)) for n in range(3)],
+                      abs(M[i]) / D[i], cone + 8 * push / sqrt_fraction(turning),
+                      "the axis of symmetry bears a torque and there is no transverse wheel: the spin about "
+                      "it is linear in time")
+    turn = ((D[i] - D[j]) * x[i] + l[i]) / D[j]
+    if turn:
+        return Closed(law, None, None, cone + 2 * push / abs(turn) + abs(x[i]),
+                      "the spin about the axis of symmetry is constant and turns the transverse torque round")
+    return Closed(law, flat, push, _across(x, flat),
                   "the spin about the axis of symmetry stays where the transverse rate stands still: it "
                   "grows along the transverse torque")
+
+
+def _size(vector):
+    return sqrt_fraction(Fraction(dot(vector, vector)))
+
+
+def _across(vector, along):
+    """The size of the part of a vector across another."""
+    return sqrt_fraction(Fraction(dot(vector, vector))
+                         - Fraction(dot(vector, along)) ** 2 / dot(along, along))
+
+
+def exactly(scene, state) -> SpinUp | None:
+    """The fate of a state where a closed solution tells it; None elsewhere. state: three floats, at their
+    word."""
+    found = closed(scene, state)
+    if found is None:
+        return None
+    (axis, sense), direction, trap = found.about, None, None
+    if found.direction:
+        size = _size(found.direction)
+        direction = tuple(float(v / size) for v in found.direction)
+    if found.law == "axis of symmetry" and axis - 1 == axis_of_symmetry(scene.body.exact):
+        most, start = float(found.most) * (1 + WIDER), float(sense * state[axis - 1])
+        bounded = [(-most, most)] * 3
+        bounded[axis - 1] = (start, math.inf) if sense > 0 else (-math.inf, -start)
+        trap = SteadyTrap(axis, sense, start, float(found.gain), tuple(bounded))
+    return SpinUp(Fate.SPIN_UP if direction else Fate.BOUNDED, axis, sense, direction, "exact", trap, 0.0,
+                  tuple(map(float, state)), 0, found.cause, 1.0)
 
 
 def equatorial(scene) -> MovingCentre | None:
