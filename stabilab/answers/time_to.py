@@ -21,7 +21,7 @@ from .passage.enclosed import STEPS as BAND_STEPS
 from .passage.enclosed import WORK, banded, enclosed
 from .passage.limit import Limit, asked
 from .passage.never import after_a_period, by_clock, earliest, never, never_bounded
-from .passage.run import Found, TimeTo, by_run, by_run_of
+from .passage.run import Found, TimeTo, by_run
 
 LATER = 1e-6  # of the time that a run finds: the enclosure goes on for so long after it
 
@@ -150,8 +150,8 @@ def _beyond_integers(scene: AnyScene, state: Any, start: Any, limit: Limit, end:
     """The work allowed in integers is done, and the limit is not reached before `known`: a run follows longer
     ways, which compiled steps enclose, and the clock tells of the longest."""
     last = math.inf if end is None else float(end)
-    run, steps = by_run_of(scene, state, limit, last)
-    if steps <= bands and (run.high == run.high or run.low >= last * (1 - LATER)):
+    run = by_run(scene, state, limit, last)
+    if run.steps <= bands and (run.high == run.high or run.low >= last * (1 - LATER)):
         band = banded(scene, start, limit, run.high * (1 + LATER) if run.high == run.high else last, bands)
         if band is not None and band.high < math.inf:
             return Found(band.low, band.high, "proved",

@@ -19,7 +19,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..physics.states import equations_and_start
-from ..physics.to_numpy import form, lambdified, to_numpy
+from ..physics.to_numpy import lambdified, to_numpy
 from .quadratic_series import in_unit, mass_unit, own_unit
 from .to_heyoka import TAYLOR_TOLERANCE, heyoka_available, taylor_events
 from .trajectory import FALLBACK_RTOL, STEP_LIMIT, floor, root_between, sign_changes, stand_in
@@ -168,25 +168,14 @@ class FirstRoot:
     steps: int
 
 
-def first_root(equations, state, expressions, t_max: float, steps: int,
-               tolerance: float = TAYLOR_TOLERANCE) -> FirstRoot:
-    """The first time in (0, t_max] at which one of the expressions (SymPy, in the equations' state and
-    rationals) is zero.
+def root_of(forms, rate, state, t_max: float, steps: int, tolerance: float = TAYLOR_TOLERANCE) -> FirstRoot:
+    """The first time in (0, t_max] at which one of the expressions of a form is zero, which stand behind its
+    rates.
 
-    state: (N,) at time 0; steps: after so many the run is given up.
+    rate: of a list of floats; state: (N,) at time 0; steps: after so many the run is given up.
     """
-    system, state = to_numpy(equations), np.asarray(state, float)
     with np.errstate(all="ignore"):
-        changes = np.asarray(system(state), float)
-    return root_of(form(equations, (*equations.rhs, *expressions)), system.rate, state, changes, t_max, steps,
-                   tolerance)
-
-
-def root_of(forms, rate, state, changes, t_max: float, steps: int,
-            tolerance: float = TAYLOR_TOLERANCE) -> FirstRoot:
-    """The same of a form, the rates first and then the expressions; rate: of a list of floats; changes: (N,)
-    the rates at time 0."""
-    longest = _longest(np.asarray(changes, float), state)
+        longest = _longest(np.asarray(rate(state.tolist()), float), state)
     if heyoka_available():
         return _by_taylor(forms, state, t_max, steps, tolerance, longest)
     return _by_scipy(forms, rate, state, t_max, steps, tolerance)

@@ -28,17 +28,17 @@ place says how well it is known.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
-from functools import cached_property, lru_cache
+from functools import cached_property, lru_cache, partial
 from itertools import combinations_with_replacement
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ...caveat import Caveat
-from ...integrate.events import SUBSAMPLES, first_root, root_of
+from ...integrate.events import SUBSAMPLES, FirstRoot, root_of
 from ...integrate.quadratic_series import in_unit, mass_unit, own_unit
 from ...integrate.to_heyoka import TAYLOR_TOLERANCE, heyoka_available, taylor_events
 from ...integrate.trajectory import stand_in
@@ -47,7 +47,7 @@ from ...physics.coefficients import limits_of
 from ...physics.equations import Equations, derive, rotation
 from ...physics.scene import AnyScene, Scene
 from ...physics.states import equations_and_start, moved_row, to_space
-from ...physics.to_numpy import Form, to_numpy
+from ...physics.to_numpy import Form, form, to_numpy
 from ...representation import Compared, Shown
 from .limit import Limit
 
@@ -90,12 +90,13 @@ class TimeTo(Shown, Compared):
 
 @dataclass(frozen=True)
 class Found:
-    """The answer of one motion; fields as of `TimeTo`, plain numbers."""
+    """The answer of one motion; fields as of `TimeTo`, plain numbers; steps: that its run took."""
 
     low: float
     high: float
     level: str
     words: str
+    steps: int = 0
 
 
 DRIFT_ROUNDING = 1e-9  # of the limit's square: far beyond the rounding of these lines
@@ -202,37 +203,33 @@ MOVED = 2.0  # places by which the second run's start is moved
 WIDER = 4.0  # times what the two runs differ by
 ROUNDING = 2.0**-50  # relative, of a time that both find alike
 CHUNK = 256  # steps between two looks at what was found
+FARTHEST = 10**300  # squares of rates that no run in doubles reaches
 PRODUCTS = tuple(combinations_with_replacement(range(3), 2))  # of two rates
 
 
-def by_run(scene: AnyScene, start: Any, limit: Limit, t_max: float = math.inf, steps: int = STEPS) -> Found:
+def by_run(scene: AnyScene, start: Any, limit: Limit, t_max: float = math.inf, steps: int = STEPS,
+           beside: np.ndarray | None = None) -> Found:
     """The first crossing of the motion of any scene. start: numbers or blocks, as `trajectory` takes them;
-    t_max: the scene's time."""
-    return by_run_of(scene, start, limit, t_max, steps)[0]
-
-
-def by_run_of(scene: AnyScene, start: Any, limit: Limit, t_max: float = math.inf,
-              steps: int = STEPS) -> tuple[Found, int]:
-    """The same, and the steps that the first run took."""
-    equations, state, unit, expressions = _asked(scene, start, limit)
+    t_max: the scene's time; beside: the state from which the second run starts (None: moved in the start's
+    last place)."""
+    search, state, unit = _search(scene, start, limit)
     end = t_max * unit if math.isfinite(t_max) else 1e300
-    one = first_root(equations, state, expressions, end, steps)
+    one = search(state, end, steps)
     words = f"{limit.words}: roots along a run in machine precision"
     if one.t is None:
         far = "t_max" if one.ended else f"{steps} steps"
         low = one.until * (1 - ROUNDING) / unit
         because = f"{words}: not reached by t = {one.until / unit:.6g} {scene.time_unit} ({far})"
-        return Found(low, math.nan, "run", because), one.steps
-    two = first_root(equations, moved_row(state, MOVED), expressions, end, 2 * steps, 4 * TAYLOR_TOLERANCE)
+        return Found(low, math.nan, "run", because, one.steps)
+    second = moved_row(state, MOVED) if beside is None else beside / unit
+    two = search(second, end, 2 * steps, 4 * TAYLOR_TOLERANCE)
     if two.t is None:
         return Found(0.0, math.nan, "undecided",
                      f"{words} find it at {one.t / unit:.6g} {scene.time_unit}, a second run from a start "
-                     f"moved in its "
-                                                 "last place does not: more than a run in doubles "
-                                                 "can tell"), one.steps
+                     "moved in its last place does not: more than a run in doubles can tell", one.steps)
     blur = WIDER * abs(one.t - two.t) + ROUNDING * one.t
     return Found(max(0.0, one.t - blur) / unit, (one.t + blur) / unit, "run",
-                 f"{words}, the error from a second one"), one.steps
+                 f"{words}, the error from a second one", one.steps)
 
 
 def run_once(scene: AnyScene, state: Sequence[float], limit: Limit, t_max: float = math.inf,
@@ -242,17 +239,22 @@ def run_once(scene: AnyScene, state: Sequence[float], limit: Limit, t_max: float
 
     scene: wheel and torque; state: three floats; t_max: the scene's time.
     """
-    if limit.kind == "tilt":
-        equations, start, unit, expressions = _asked(scene, state, limit)
-        found = first_root(equations, start, expressions, t_max * unit if math.isfinite(t_max) else 1e300,
-                           steps)
-    else:
-        own, unit, start = _in_own_unit(scene, state)
-        forms, rate = _quadratic(own, limit.parts, Fraction(unit) ** 2), own.quadratic().rate
-        found = root_of(forms, rate, start, rate(start.tolist()),
-                        t_max * unit if math.isfinite(t_max) else 1e300, steps)
+    search, start, unit = _search(scene, state, limit)
+    found = search(start, t_max * unit if math.isfinite(t_max) else 1e300, steps)
     until = t_max if found.t is None and found.ended and math.isfinite(t_max) else found.until / unit
     return (math.inf, until) if found.t is None else (found.t / unit, math.inf)
+
+
+def _search(scene: AnyScene, start: Any, limit: Limit) -> tuple[Callable[..., FirstRoot], np.ndarray, float]:
+    """(search(state, end, steps, tolerance) for the first crossing in the motion's own unit of rates, the
+    start in it, that unit)."""
+    if limit.kind == "tilt" or not scene.plain:
+        equations, state, unit, expressions = _asked(scene, start, limit)
+        forms, rate = form(equations, (*equations.rhs, *expressions)), to_numpy(equations).rate
+    else:
+        own, unit, state = _in_own_unit(scene, start)
+        forms, rate = _quadratic(own, limit.parts, Fraction(unit) ** 2), own.quadratic().rate
+    return partial(root_of, forms, rate), state, unit
 
 
 def largest_rate(scene: AnyScene, state: Sequence[float], until: float, budget: int) -> tuple[float, float]:
@@ -305,7 +307,7 @@ def _quadratic(scene: AnyScene, parts: Sequence[Any] = (), square: Fraction = Fr
     numbers = [*sum(zip(*scene.quadratic().coefficients), ())]
     for terms, most in parts:
         numbers += ([float(sum(c * a[i] * a[j] * (1 + (i != j)) for c, a in terms)) for i, j in PRODUCTS]
-                    + [float(most / square)])
+                    + [float(min(most / square, FARTHEST))])
     return Form(state, expressions, symbols, tuple(numbers))
 
 

@@ -41,7 +41,7 @@ from ..attitude.ask import of_motion
 from ..attitude.result import Attitude
 from ..motion import motion
 from ..passage.limit import AXES, Limit
-from ..passage.run import ROUNDING, WIDER, Found, largest_rate, run_once
+from ..passage.run import ROUNDING, WIDER, Found, by_run, largest_rate
 from ..simulate import trajectory
 from ..time_to import of_one
 
@@ -286,16 +286,14 @@ def _latest(base: Scene, links: Sequence[_Link], below: Fraction) -> Latest:
     limit = Limit("rate", ((tuple(zip(_weights(base), AXES)), below**2),), words)
     if links and limit.reached_by(links[0].exact or links[0].start.tolist()):
         return Latest(size, 0.0, 0.0, "exact", f"{words}: the motion before the burn reaches it already")
-    proof = True  # everything up to here is proved
     for one in links:
         if not one.firing:
             continue  # g is constant where nothing fires
-        found = _first(one, limit, proof)
+        found = _first(one, limit)
         if found is not None:
             low, high = _outward(one.begin, found.low, found.high)
             again = _again(base, links, high, size) if math.isfinite(high) else ()
             return Latest(size, low, high, found.level, found.words, again)
-        proof = False
     burns = [one for one in links if one.firing]
     level = "proved" if len(burns) <= 1 and all(one.exact for one in burns) else "run"
     return Latest(size, math.inf, math.inf, level, f"{words}: never, whenever the thrusters close")
@@ -310,35 +308,16 @@ def _outward(begin: Fraction, low: float, high: float) -> tuple[float, float]:
     return math.nextafter(first, -math.inf), math.nextafter(last, math.inf)
 
 
-def _first(link: _Link, limit: Limit, proof: bool) -> Found | None:
-    """The first crossing within a link, None where there is none."""
-    start, end = link.start.tolist(), float(link.length)
-    if proof:
-        given = link.exact or tuple(map(Fraction, start))
-        found = of_one(link.scene, start, given, limit, link.length)
-        level = found.level if link.exact else "run"  # the start itself is rounded
-        if math.isfinite(found.high):
-            return _blurred(link, limit, replace(found, level=level))
-        return None if found.low >= end * (1 - ROUNDING) else replace(found, level="undecided")
-    time, until = run_once(link.scene, start, limit, end)
-    if math.isfinite(time):
-        return _blurred(link, limit, Found(time, time, "run", f"{limit.words}: roots along runs in machine "
-                                                              "precision, the error from a second one"))
-    return None if until >= end * (1 - ROUNDING) else Found(until, math.nan, "undecided",
-                                                            f"{limit.words}: the run stopped")
-
-
-def _blurred(link: _Link, limit: Limit, found: Found) -> Found:
-    """Wider by what a second run shows, where the start of the link is the end of a run."""
-    if link.exact:
+def _first(link: _Link, limit: Limit) -> Found | None:
+    """The first crossing within a link, None where there is none: proved from an exact start, else by runs
+    from the ends of those before."""
+    start = link.start.tolist()
+    found = (of_one(link.scene, start, link.exact, limit, link.length) if link.exact
+             else by_run(link.scene, start, limit, float(link.length), RUN_STEPS, link.second))
+    if math.isfinite(found.high):
         return found
-    end = float(link.length)
-    times = [run_once(link.scene, one.tolist(), limit, end)[0] for one in (link.start, link.second)]
-    if not all(map(math.isfinite, times)):
-        return Found(0.0, math.nan, "undecided", f"{limit.words}: nearer to a switch, or to a mere touch, "
-                                                 "than runs in doubles can tell")
-    blur = WIDER * abs(times[0] - times[1]) + ROUNDING * (found.high + float(link.begin))
-    return replace(found, low=max(0.0, found.low - blur), high=found.high + blur)
+    whole = found.low >= float(link.length) * (1 - 2 * ROUNDING)
+    return None if whole else replace(found, level="undecided")
 
 
 def _again(base: Scene, links: Sequence[_Link], after: float, size: float) -> tuple[tuple[float, float], ...]:
