@@ -130,8 +130,20 @@ EXPECTED = (
     'expected start:stop:count such as "0:30:31 deg/s", start:stop:count:log, or a list such as "1, 2, 5"')
 
 
+class _Varied:
+    """What an axis and a span share."""
+
+    key: Key
+    unit: str
+
+    @property
+    def shown_unit(self) -> str:
+        """The unit of the values in words: "1" where they have none."""
+        return self.unit or si_unit(self.key.paths[0]) or "1"
+
+
 @dataclass(frozen=True)
-class Axis:
+class Axis(_Varied):
     """key: the number that varies; values: doubles in `unit`, in order; unit: as it was written, "" for the
     SI unit (or none) of the key."""
 
@@ -149,11 +161,6 @@ class Axis:
         of = dimension_of(self.key.paths[0])
         return (tuple(float(quantity(self.written(n), of)[0]) for n in range(len(self.values))) if self.unit
                 else self.values)
-
-    @property
-    def shown_unit(self) -> str:
-        """The unit of the values in words: "1" where they have none."""
-        return self.unit or si_unit(self.key.paths[0]) or "1"
 
 
 def si_unit(path: tuple[Any, ...]) -> str:
@@ -203,17 +210,17 @@ def _listed(text: str) -> tuple[list[float], str]:
     return [_double(value) for value in values], unit
 
 
-def _with_one_unit(words: list[str], unit: str, text: str) -> tuple[list[Fraction], str]:
+def _with_one_unit(words: list[str], unit: str, text: str,
+                   expected: str = EXPECTED) -> tuple[list[Fraction], str]:
     """The numbers, and the one unit that any of them has."""
     parts = [split(word.strip()) for word in words]
     if None in parts:
-        raise InputError(f'{EXPECTED}, got "{printable(text)[:60]}"')
+        raise InputError(f'{expected}, got "{printable(text)[:60]}"')
     # none is None
-    units = {own for _, own in parts if own} | ({unit} if unit else set())  # type: ignore[misc]
+    units = dict.fromkeys(own for own in (*(own for _, own in parts), unit) if own)  # type: ignore[misc]
     if len(units) > 1:
-        raise InputError(
-            f'expected one unit, at the end, got {" and ".join(sorted(map(printable, units)))} in '
-            f'"{printable(text)[:60]}"')
+        raise InputError(f'expected one unit, at the end, got {" and ".join(map(printable, units))} in '
+                         f'"{printable(text)[:60]}"')
     return [exact(number) for number, _ in parts], next(iter(units), "")  # type: ignore[misc]
 
 
@@ -258,7 +265,7 @@ EXPECTED_RANGE = 'expected from:to such as "0:0.5 N m"'
 
 
 @dataclass(frozen=True)
-class Span:
+class Span(_Varied):
     """key: the number that varies; low < high: its ends in `unit`, exact; unit: as it was written, "" for the
     SI unit (or none) of the key."""
 
@@ -266,11 +273,6 @@ class Span:
     low: Fraction
     high: Fraction
     unit: str = ""
-
-    @property
-    def shown_unit(self) -> str:
-        """The unit of the values in words: "1" where they have none."""
-        return self.unit or si_unit(self.key.paths[0]) or "1"
 
     @property
     def label(self) -> str:
@@ -325,12 +327,7 @@ def _range_of_text(text: str) -> tuple[Fraction, Fraction, str]:
         raise InputError(
             f'{EXPECTED_RANGE}, got "{printable(text)[:60]}": a diagram is exact and has no number of steps '
             f'(stabilab sweep has)')
-    read = [split(part.strip()) for part in parts]
-    if len(read) != 2 or read[0] is None or read[1] is None:
+    if len(parts) != 2:
         raise InputError(f'{EXPECTED_RANGE}, got "{printable(text)[:60]}"')
-    (low, first), (high, second) = read[0], read[1]
-    if first and second and first != second:
-        raise InputError(
-            f'expected one unit, at the end, got {printable(first)} and {printable(second)} in '
-            f'"{printable(text)[:60]}"')
-    return exact(low), exact(high), second or first
+    (low, high), unit = _with_one_unit(parts, "", text, EXPECTED_RANGE)
+    return low, high, unit

@@ -59,15 +59,8 @@ def case_of(plan: Plan, scene: int) -> Case:
     data = copy.deepcopy(plan.data)
     places = np.unravel_index(scene, [plan.shape[n] for n in plan.outer]) if plan.outer else ()
     for dimension, at in zip(plan.outer, places):
-        _put_all(data, puts(plan, dimension, int(at)))
-    return with_data(plan.path, plan.text, data)
-
-
-def case_at(plan: Plan, index: tuple[int, ...]) -> Case:
-    """The case of one point, told by its place along every dimension."""
-    data = copy.deepcopy(plan.data)
-    for dimension, at in enumerate(index):
-        _put_all(data, puts(plan, dimension, at))
+        for path, value in puts(plan, dimension, int(at)):
+            put(data, path, value)
     return with_data(plan.path, plan.text, data)
 
 
@@ -79,11 +72,6 @@ def puts(plan: Plan, dimension: int, at: int) -> Puts:
         return [(path, text if axis.unit else Written(text)) for path in axis.key.paths]
     row = plan.sampled.values(at, at + 1)[0].tolist()
     return [(path, Written(repr(value))) for key, value in zip(plan.sampled.keys, row) for path in key.paths]
-
-
-def _put_all(data, rows: Puts) -> None:
-    for path, value in rows:
-        put(data, path, value)
 
 
 def states_of(plan: Plan, case: Case, low: int, high: int) -> np.ndarray:

@@ -150,15 +150,6 @@ def middles(level: int, numbers: np.ndarray) -> np.ndarray:
     return directions(places(level, numbers))
 
 
-def outlines(level: int, numbers: np.ndarray, pieces: int = 4) -> np.ndarray:
-    """(n, 3 * pieces, 3): directions along the edges of cells, each edge in so many pieces."""
-    at = corners(level, numbers) / 2.0**level
-    share = (np.arange(pieces) / pieces)[:, None]
-    ways = [at[:, n, None] * (1 - share) + at[:, (n + 1) % 3, None] * share for n in range(3)]
-    flat = np.concatenate(ways, axis=1)
-    return directions(flat.reshape(-1, 3)).reshape(len(at), 3 * pieces, 3)
-
-
 # --- The points of one round of an atlas: a case with its torque turned to a direction and, on request,
 # with another wheel momentum
 AXES, THRUSTERS, OWN = -1, -2, -3  # in the place of a level: directions with a name, exactly as they are

@@ -7,7 +7,7 @@ import pytest
 import stabilab
 from stabilab import sweep
 from stabilab.errors import InputError
-from stabilab.maps.parts import case_at
+from stabilab.maps.parts import case_of
 from stabilab.maps.plan import planned
 from stabilab.maps.run import changes
 from stabilab.show import style
@@ -42,8 +42,10 @@ def test_the_boundary_of_states_lies_where_the_margin_of_the_energy_is_zero():
 
 
 def _of(plan, row):
-    case = case_at(plan, tuple(map(int, row)))
-    return case.scene, list(case.state)
+    case = case_of(plan, int(row[0]))
+    state = list(case.state)
+    state[0], state[2] = plan.axes[1].si[row[1]], plan.axes[2].si[row[2]]
+    return case.scene, state
 
 
 def test_pieces_of_the_boundary_close_a_circle():
