@@ -40,10 +40,10 @@ def closed_motion(scene: AnyScene, state: Sequence[Fraction]) -> dict[str, Any] 
     found = closed(scene, state)
     if found is None:
         return None
-    claims = {"law": found.law, "direction": found.direction and list(map(str, found.direction)),
+    growth, (axis, sense) = found.direction, found.about
+    claims = {"law": found.law, "direction": None if growth is None else [str(v) for v in growth],
               "gain": found.gain and str(found.gain * (1 - ROOM)), "most": str(found.most * (1 + ROOM))}
-    axis, sense = found.about
-    return {"fate": (Fate.SPIN_UP if found.direction else Fate.BOUNDED).word, "axis": axis, "sense": sense,
+    return {"fate": (Fate.SPIN_UP if growth else Fate.BOUNDED).word, "axis": axis, "sense": sense,
             "closed": claims}
 
 

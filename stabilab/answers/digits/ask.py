@@ -139,10 +139,15 @@ def _judged(question: str, values: Any, balls: Any, digits: int) -> Told:
         return Told(question, values, digits, digits_of(error), "formulas",
                     f"formulas in doubles, {error:.1e} from ball arithmetic")
     width = max(_width(balls), 10.0**-wanted)  # the balls of a period are narrower than its two rules agree
-    held = digits_of(width, wanted)
-    return Told(question, _floats(balls), digits, held if digits > MOST else min(held, MOST + 0.95), "balls",
-                f"ball arithmetic: the number is within {width:.0e}",
-                _decimals(balls, digits) if digits > MOST else None)
+    return _of_balls(question, balls, digits, digits_of(width, wanted), "balls",
+                     f"ball arithmetic: the number is within {width:.0e}")
+
+
+def _of_balls(question: str, balls: Any, digits: int, held: float, method: str, because: str) -> Told:
+    """The balls as floats, and written out where more digits are asked for than these have. held: digits."""
+    more = digits > MOST
+    return Told(question, _floats(balls), digits, held if more else min(held, MOST + 0.95), method, because,
+                _decimals(balls, digits) if more else None)
 
 
 def _balls(question: str, orbit: Orbit, label: Fate, digits: int) -> Any:
@@ -231,11 +236,8 @@ def _by_return(question: str, scene: AnyScene, known: Any, digits: int, state: A
         if digits <= MOST and error <= 10.0**-digits:
             because = f"the return of a run in doubles, {error:.1e} from that of a Taylor series in {pair}"
             return Told(question, values, digits, digits_of(error), "run", because)
-        best = digits_of(own, 31.0)
-        return Told(question, _floats(found), digits, best if digits > MOST else min(best, MOST + 0.95),
-                    "many digits",
-                    f"the return of a Taylor series in {pair}, {own:.0e} apart",
-                    _decimals(found, digits) if digits > MOST else None)
+        return _of_balls(question, found, digits, digits_of(own, 31.0), "many digits",
+                         f"the return of a Taylor series in {pair}, {own:.0e} apart")
 
 
 def _by_small_loop(question: str, form: QuadraticForm, values: Any, digits: int, state: Any) -> Told:
@@ -254,11 +256,8 @@ def _by_small_loop(question: str, form: QuadraticForm, values: Any, digits: int,
         if digits <= MOST and (gap := max(_gap(values, found[1]), error)) <= 10.0**-digits:
             return Told(question, values, digits, digits_of(gap), "run",
                         f"its series from the start in many digits, {gap:.1e} apart")
-        held = digits_of(error, more)
-        return Told(question, _floats(found[1]), digits, held if digits > MOST else min(held, MOST + 0.95),
-                    "many digits",
-                    f"two runs of its series from the start, {error:.0e} apart",
-                    _decimals(found[1], digits) if digits > MOST else None)
+        return _of_balls(question, found[1], digits, digits_of(error, more), "many digits",
+                         f"two runs of its series from the start, {error:.0e} apart")
 
 
 def _over_span(scene: AnyScene, state: Any, span: Any, known: Motion, digits: int, exact: Exact3 | None,
@@ -316,11 +315,8 @@ def _many_digits(equations: Equations, start: Sequence[Number], length: float, d
                 return None
             error = max(_balls_apart(now, before), 10.0**-n) if before else 1.0
             if before and error <= 10.0**-digits:
-                held = digits_of(error, n)
-                return Told("extremes", _floats(now), digits,
-                            held if digits > MOST else min(held, MOST + 0.95), "many digits",
-                            f"Taylor series over the span in two precisions, {error:.0e} apart",
-                            _decimals(now, digits) if digits > MOST else None)
+                return _of_balls("extremes", now, digits, digits_of(error, n), "many digits",
+                                 f"Taylor series over the span in two precisions, {error:.0e} apart")
             before = now
     return None
 

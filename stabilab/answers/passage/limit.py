@@ -67,6 +67,17 @@ class Limit:
                 and all(max(c for c, _ in terms) * Fraction(rate) ** 2 < most for terms, most in self.parts))
 
 
+def along_axes(terms: Iterable[Any]) -> list[float] | None:
+    """Three weights of the squares of the rates; None where a direction is not a principal axis."""
+    weights = [0.0, 0.0, 0.0]
+    for c, vector in terms:
+        entries = [n for n, v in enumerate(vector) if v]
+        if len(entries) != 1:
+            return None
+        weights[entries[0]] += float(c * vector[entries[0]] ** 2)
+    return weights
+
+
 def _below(terms: Iterable[Any], sizes: list[float], most: Fraction) -> bool:
     """Whether sum c (a . omega)^2 stays below a value for rates of these sizes: in exact numbers, as squares
     of doubles may be none."""

@@ -35,7 +35,7 @@ from ..extremes import extremes, period
 from ..fate import fate
 from ..kinds import kind_of
 from ..motion import motion
-from .limit import Limit
+from .limit import Limit, along_axes
 from .run import Found
 
 # the certificate is asked for again at these shares of the earliest time, where it is narrower
@@ -52,7 +52,7 @@ def by_clock(scene: AnyScene, state: Float3, limit: Limit, followed: float, reac
     own time on; where that is later than `followed` the lower end stays there. reached: how far a run came.
     found: what `spin_up` says of the motion, where it was asked already.
     """
-    if not _along_axes(limit):
+    if limit.kind == "tilt" or None in [along_axes(terms) for terms, _ in limit.parts]:
         return None
     found = found or spin_up(scene, state)
     if found.fate != Fate.SPIN_UP or not found.axis or found.trap is None:
@@ -68,11 +68,6 @@ def by_clock(scene: AnyScene, state: Float3, limit: Limit, followed: float, reac
         f"{limit.words}: by the clock of the spin-up about axis {found.axis}, {found.level} from t = "
         f"{found.t:.6g} {scene.time_unit} on")
     return Found(low, max(times[1], low), found.level, words)
-
-
-def _along_axes(limit: Limit) -> bool:
-    return (limit.kind != "tilt" and all(_axis(vector) is not None for terms, _ in limit.parts for _,
-                                         vector in terms))
 
 
 def _narrower(scene: AnyScene, state: Float3, limit: Limit, found: Any, times: Any, reached: float) -> Any:
@@ -94,9 +89,7 @@ def _times(found: Any, limit: Limit) -> Any:
     """(earliest, latest) of all parts, or None where none of them grows with the spin."""
     bounds, spin, times = found.trap.bounds(), found.axis - 1, []
     for terms, most in limit.parts:
-        weights = [0.0, 0.0, 0.0]
-        for c, vector in terms:
-            weights[cast(int, _axis(vector))] += float(c)  # each is along an axis: asked above
+        weights = cast(list[float], along_axes(terms))  # asked above
         across = sum(c * max(abs(low), abs(high)) ** 2 for n,
                      (c, (low, high)) in enumerate(zip(weights, bounds)) if n != spin and c)
         if not weights[spin]:
@@ -108,11 +101,6 @@ def _times(found: Any, limit: Limit) -> Any:
         early = found.trap.clock(math.sqrt(rest / weights[spin]))[0] if rest > 0 else 0.0
         times.append((early, late))
     return (min(t for t, _ in times), min(t for _, t in times)) if times else None
-
-
-def _axis(vector: Sequence[Number]) -> int | None:
-    entries = [n for n, v in enumerate(vector) if v]
-    return entries[0] if len(entries) == 1 else None
 
 
 SLACK = 1e-9  # relative: extremes and periods are known to 1e-11

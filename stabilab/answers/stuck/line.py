@@ -122,10 +122,8 @@ class Family:
 
     @property
     def momentum_unit(self) -> float:
-        """A size that wheel momenta of this motion are measured by: that of the body's own, and of what its
-        torque makes of it."""
-        weight = max(self.body.inertia)
-        return weight * max(math.hypot(*map(float, self.state)), math.sqrt(abs(float(self.torque)) / weight))
+        """A size that wheel momenta of this motion are measured by."""
+        return own_momentum(self.body, self.state, abs(float(self.torque)))
 
     def turned(self, vector: Sequence[Fraction]) -> Exact3:
         """A vector along the scene's axes, along those of the family."""
@@ -137,6 +135,12 @@ class Family:
             return tuple(vector)
         return tuple(sum((self.turn.rotation[i][j] * Fraction(vector[i]) for i in range(3)), Fraction(0))
                      for j in range(3))
+
+
+def own_momentum(body: Body, state: Sequence[Number], torque: float) -> float:
+    """The size of a body's own momentum, N m s, and of what a torque of this size, N m, makes of it."""
+    weight = max(body.inertia)
+    return weight * max(math.hypot(*map(float, state)), math.sqrt(torque / weight))
 
 
 def family_of(scene: Scene, state: Sequence[Fraction]) -> Family | None:

@@ -64,9 +64,7 @@ def _rate(scenario: Scenario, motion: Motion, family: Family | None) -> Margin:
         return Margin(motion.margin_velocity, direction, because)
     until = _rate_again(family, change, Fraction(motion.margin_velocity))
     if until is not None and until < math.inf:
-        because = (
-            f"{because}; from {until:.6g} rad/s along the same line on it "
-            f"{_again(family.fate() in STEADY)}".removeprefix("; "))
+        because = f"{because}{_again(until, 'rad/s', family.fate() in STEADY)}".removeprefix("; ")
     return Margin(motion.margin_velocity, direction, because, until)
 
 
@@ -86,8 +84,9 @@ def _rate_again(family: Family, change: Sequence[Number], size: Fraction) -> flo
     return until if abs(first - size) <= CLOSE * size else None
 
 
-def _again(steady: bool) -> str:
-    return f"{'is bounded' if steady else 'spins up'} again"
+def _again(until: float, unit: str, steady: bool) -> str:
+    return (f"; from {until:.6g} {unit} along the same line on it {'is bounded' if steady else 'spins up'} "
+            "again")
 
 
 def _walled(family: Family | None) -> bool:
@@ -143,7 +142,7 @@ def _torque(scenario: Scenario, family: Family, steady: bool) -> Margin:
     words = ("of a torque that stays on its axis" if family.torque + change
              else "to no torque at all: along this axis any torque spins it up")
     if abs(change) < until < math.inf:
-        words += f"; from {until:.6g} N m along the same line on it {_again(steady)}"
+        words += _again(until, "N m", steady)
     direction = _direction(scenario, family, {family.axis: 1 if change > 0 else -1})
     return Margin(float(abs(change)), direction, words, until)
 
@@ -181,7 +180,7 @@ def _wheel(scenario: Scenario, family: Family, steady: bool) -> Margin:
                     "the body's own")
     words = "of a wheel momentum that stays across the torque, the least found over its directions"
     if until < math.inf:
-        words += f"; from {until:.6g} N m s along the same line on it {_again(steady)}"
+        words += _again(until, "N m s", steady)
     return Margin(size, _direction(scenario, family, {j: step[j], k: step[k]}), words, until)
 
 

@@ -16,7 +16,7 @@ from ...orbit.reduction import Reduction
 from ...physics.scene import Scene, rests
 from ..caveats import STEADY
 from .fate import PATIENCE, Scenario, first_time, limit_in, time_under
-from .line import EVERY, INF, Family, Intervals, Line, candidates, family_of, pieces
+from .line import EVERY, INF, Family, Intervals, Line, candidates, family_of, own_momentum, pieces
 
 Answer: TypeAlias = tuple[Intervals, str]  # and because
 Bracket: TypeAlias = tuple[float, float]
@@ -163,8 +163,9 @@ def delayed(scenario: Scenario, torque: Sequence[Fraction], axis: Exact3, now: F
     if scenario.limit is None or time is None or time[0] <= 0:
         return None
     others = [w - now * a for w, a in zip(scenario.wheel, axis)]
-    reach = RANGE * abs(float(now)) or _own(scenario, torque)
-
+    # of a wheel at rest: up to the momentum of the body itself
+    reach = (RANGE * abs(float(now))
+             or own_momentum(scenario.body, scenario.start, math.hypot(*map(float, torque))))
     limit = limit_in(scenario)
 
     def until(s: Number) -> float:
@@ -184,9 +185,3 @@ def delayed(scenario: Scenario, torque: Sequence[Fraction], axis: Exact3, now: F
     if gain is not None and gain <= 0:
         return None
     return s, told, gain, (-reach, reach), told is None or not longest < told[0] * (1 - SAME)
-
-
-def _own(scenario: Scenario, torque: Sequence[Fraction]) -> float:
-    """For a wheel at rest: the momentum of the body itself, and of what its torque makes of it."""
-    weight = max(scenario.body.inertia)
-    return weight * max(math.hypot(*scenario.start), math.sqrt(math.hypot(*map(float, torque)) / weight))
