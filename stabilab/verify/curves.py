@@ -22,10 +22,10 @@ from .numbers import (
     fraction,
     numbers,
     q,
-    real_zeros,
     word,
 )
 from .rates import AHEAD, characteristic
+from .roots import TOO_LARGE, TooLarge, Work, real_roots
 
 
 def dot(a, b):
@@ -167,7 +167,7 @@ def drift(rates, J, m):
 def leaves_fold(J, zero):
     """At a simple zero of m on a line of equilibria where J^2 is not zero: z' = y, y' = w, w' = b z y + ...,
     b = -dm/dz."""
-    whole = zero.order == 1 and any(entry % zero.factor != 0 for row in product(J, J) for entry in row)
+    whole = any(entry % zero.polynomial != 0 for row in product(J, J) for entry in row)
     return ("unstable",
             "m changes sign on a line of equilibria: z ~ 12/(b t^2) leaves the point") if whole else None
 
@@ -275,17 +275,22 @@ def check_curve(rates, curve, note):
              "the Jacobian's determinant does not vanish along it" if n != 0
              else "three zero eigenvalues all along")
         return
-    pole = lambda z: curve.bottom % z.factor == 0
-    marks = real_zeros(m * curve.bottom)
-    inner = [z for z in marks if not pole(z)]
+    try:
+        _check_verdicts(_Along(rates, curve, J, m), note)
+    except TooLarge:
+        note(f"{curve.claim}: verdicts", "not checked", TOO_LARGE)
+
+
+def _check_verdicts(along, note):
+    """Findings on every piece and fold."""
+    curve, m = along.curve, along.m
+    marks = real_roots(m * curve.bottom, along.work)
+    inner = [z for z in marks if curve.bottom % z.polynomial != 0]
     if len(curve.segments) != len(marks) + 1 or len(curve.folds) != len(inner):
         note(curve.claim, "refuted",
              f"m has {len(inner)} zeros and the curve {len(marks) - len(inner)} poles: {len(marks) + 1} "
-             f"pieces "
-                                     f"and {len(inner)} folds, not {len(curve.segments)} and "
-                                     f"{len(curve.folds)}")
+             f"pieces and {len(inner)} folds, not {len(curve.segments)} and {len(curve.folds)}")
         return
-    along = _Along(rates, curve, J, m)
     bounds = [None, *marks, None]
     signs = [_sign_between(m, low, high) for low, high in zip(bounds, bounds[1:])]
     for number, (piece, sign) in enumerate(zip(curve.segments, signs)):
@@ -310,9 +315,7 @@ def _check_piece(along, note, where, piece, bounds, sign):
 
 def _check_fold(along, note, zero, fold, signs):
     ends, linear, verdict = fold
-    claim = (
-        f"{along.curve.claim}: fold near t = {brief((zero.low + zero.high) / 2)}: linear {linear}, verdict "
-        f"{verdict}")
+    claim = f"{along.curve.claim}: fold near t = {brief(sum(ends) / 2)}: linear {linear}, verdict {verdict}"
     if not _agrees(ends, zero) or linear != "degenerate":
         note(claim, "refuted", "m vanishes elsewhere, or does vanish here")
     else:
@@ -333,7 +336,7 @@ class _Along:
     the line."""
 
     def __init__(self, rates, curve, J, m):
-        self.rates, self.curve, self.J, self.m = rates, curve, J, m
+        self.rates, self.curve, self.J, self.m, self.work = rates, curve, J, m, Work()
         self.direction = reducing_direction(rates, curve) if rates.torque else None
         self.settled = not rates.torque or self.direction is not None
 
@@ -344,7 +347,7 @@ class _Along:
         low, high = bounds
         k = drift(self.rates, self.J, self.m) if self.curve.straight else 0
         # those of m bound the piece
-        others = [z for z in real_zeros(k) if self.m % z.factor != 0] if k != 0 else []
+        others = [z for z in real_roots(k, self.work) if self.m % z.polynomial != 0] if k != 0 else []
         if k == 0 or any((low is None or low.before(z)) and (high is None or z.before(high)) for z in others):
             return None
         return "unstable", "a slow drift along the line of equilibria, of one sense all along the piece"
@@ -353,12 +356,13 @@ class _Along:
         """The verdict at a zero of m between pieces with these signs of m."""
         minors = [self.J[a][c] * self.J[b][d] - self.J[a][d] * self.J[b][c] for a, b in PAIRS for c,
                   d in PAIRS]
-        if all(v % zero.factor == 0 for v in minors):
+        if all(v % zero.polynomial == 0 for v in minors):
             return self._crossing(zero)
         if self.settled:
             both = signs == [1, 1]
             return "stable" if both else "unstable", f"m is {'' if both else 'not '}positive on both sides"
-        return leaves_fold(self.J, zero) if self.curve.straight else None
+        simple = self.m.derivative() % zero.polynomial != 0
+        return leaves_fold(self.J, zero) if self.curve.straight and simple else None
 
     def _crossing(self, zero):
         if zero.low != zero.high:

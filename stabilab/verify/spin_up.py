@@ -26,6 +26,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 from operator import mul
 
+from flint import arb, arb_mat
+
 from .inequality import MOST_ORDER, Inequality, MovingInequality, Unsuited
 from .normal_form import equator, form_about, moving_form
 from .numbers import (
@@ -64,8 +66,7 @@ class Way:
             start = [ball(v) for v in state]
             self.centre = [v.mid() for v in start]
             self.box = [v.rad() for v in start]
-            one, zero = ball(1), ball(0)
-            self.P = [[one if i == j else zero for j in range(3)] for i in range(3)]
+            self.P = arb_mat([[int(i == j) for j in range(3)] for i in range(3)])
         with working(LINEAR_BITS):
             self.coarse = _in_balls(rates)
 
@@ -80,8 +81,7 @@ class Way:
 
     def _reach(self):
         """c + P E less c: balls about zero."""
-        return [sum((self.P[i][j] * _about_zero(self.box[j]) for j in range(3)), _nothing())
-                for i in range(3)]
+        return (self.P * _column(map(_about_zero, self.box))).entries()
 
     def _step(self, t):
         a = _series(self.numbers, self.centre, self.order)
@@ -108,20 +108,18 @@ class Way:
         else:
             raise Lost(f"no step closes at t = {brief(self.t)}: the set is too wide")
         end = [_value(row, length) + _about_zero(bound) for row, bound in zip(a, tail[1])]
-        self._carry(end, [[ends[j][i] for j in range(3)] for i in range(3)])
+        self._carry(end, arb_mat(ends).transpose())
         self.t, self.steps = self.t + h, self.steps + 1
 
     def _carry(self, end, J):
         """The set at the end of a step: its centre a ball, J the derivative over the set."""
-        product = [[sum((J[i][k] * self.P[k][j] for k in range(3)), _nothing()) for j in range(3)]
-                   for i in range(3)]
-        self.centre, self.P = [v.mid() for v in end], [[v.mid() for v in row] for row in product]
-        E = [_about_zero(v) for v in self.box]
-        left = [v - v.mid() + sum(((product[i][j] - self.P[i][j]) * E[j] for j in range(3)), _nothing())
-                for i, v in enumerate(end)]
-        inverse = _inverse(self.P)
-        self.box = [(E[i] + sum((inverse[i][j] * left[j] for j in range(3)), _nothing())).abs_upper()
-                    for i in range(3)]
+        product, E = J * self.P, _column(map(_about_zero, self.box))
+        self.centre, self.P = [v.mid() for v in end], product.mid()
+        left = _column(v - v.mid() for v in end) + (product - self.P) * E
+        try:
+            self.box = [v.abs_upper() for v in (E + self.P.inv() * left).entries()]
+        except ZeroDivisionError:
+            raise Lost("the set's directions have become parallel") from None
         if not all(v.is_finite() for v in (*self.box, *self.centre)):
             raise Lost(f"the set has no bounds any more at t = {brief(self.t)}")
 
@@ -150,13 +148,15 @@ def _in_balls(rates):
 
 
 def _nothing():
-    from flint import arb
     return arb()
+
+
+def _column(values):
+    return arb_mat([[v] for v in values])
 
 
 def _about_zero(reach):
     """The ball of all numbers within `reach`."""
-    from flint import arb
     return arb(0, reach.abs_upper())
 
 
@@ -253,16 +253,6 @@ def _value(row, h):
     for c in row[-2::-1]:
         total = total * h + c
     return total
-
-
-def _inverse(P):
-    """The inverse of an exact 3 x 3 matrix, entries as balls."""
-    minor = lambda i, j: (P[(i + 1) % 3][(j + 1) % 3] * P[(i + 2) % 3][(j + 2) % 3]
-                          - P[(i + 1) % 3][(j + 2) % 3] * P[(i + 2) % 3][(j + 1) % 3])
-    determinant = sum((P[0][j] * minor(0, j) for j in range(3)), _nothing())
-    if 0 in determinant:
-        raise Lost("the set's directions have become parallel")
-    return [[minor(j, i) / determinant for j in range(3)] for i in range(3)]
 
 
 # --- What a certificate says of a spin-up, read and judged

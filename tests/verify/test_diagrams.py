@@ -14,11 +14,11 @@ from flint import fmpq_poly
 from stabilab.commands.maps import bifurcation as command
 from stabilab.errors import InputError
 from stabilab.verify import verify
-from stabilab.verify.diagram.algebra import MOST, Work
-from stabilab.verify.diagram.check import Between, Root, check_diagram, roots
+from stabilab.verify.diagram.check import Between, check_diagram
 from stabilab.verify.diagram.claims import claims_of
 from stabilab.verify.diagram.equations import System, count_at, critical
 from stabilab.verify.numbers import Malformed
+from stabilab.verify.roots import MOST, Root, Work, roots
 from tests.shared import CASES
 from tests.verify.diagrams import certified, drawn, forgeries
 

@@ -1,5 +1,5 @@
-"""Zeros that the checker tells apart: however close two irrational ones lie, up to the bits it is willing to
-take. Oracle: squares of integers."""
+"""Zeros that the checker tells apart: however close two irrational ones lie, up to the halvings and the work
+it is willing to take. Oracle: squares of integers."""
 from __future__ import annotations
 
 from fractions import Fraction
@@ -7,9 +7,15 @@ from math import isqrt
 
 import pytest
 
-from stabilab.verify.numbers import MOST_BITS, Malformed, real_zeros
+from stabilab.verify import roots
+from stabilab.verify.numbers import Malformed
+from stabilab.verify.roots import TooLarge, Work, real_roots
 
 flint = pytest.importorskip("flint")
+
+
+def real_zeros(polynomial):
+    return real_roots(polynomial, Work())
 
 
 def squares(*values):
@@ -28,7 +34,7 @@ def test_zeros_of_two_factors_come_rising_and_apart_however_close_they_lie(apart
     # sqrt of the value lies in the bracket: its ends' squares lie on both sides
     for zero, value in zip(zeros, (far, near, near, far)):
         ends = sorted(end * end for end in (zero.low, zero.high))
-        assert ends[0] <= value <= ends[1] and zero.order == 1
+        assert ends[0] <= value <= ends[1]
     assert all(a.before(b) and not b.before(a) for a, b in ((zeros[0], zeros[1]), (zeros[2], zeros[3])))
     # enclosed apart from each other, so that their brackets may overlap
     lesser, larger = real_zeros(squares(near))[1], real_zeros(squares(far))[1]
@@ -55,11 +61,14 @@ def test_a_rational_zero_is_exact_and_lies_within_its_own_bounds():
     assert not zero.within(third + Fraction(1, 10**40), Fraction(1))
 
 
-def test_what_the_most_bits_do_not_tell_apart_is_refused_with_the_reason():
-    hair = Fraction(1, 1 << 2 * MOST_BITS)
-    with pytest.raises(Malformed, match=f"zeros of m that {MOST_BITS} bits do not tell apart"):
-        real_zeros(squares(2, 2 + hair))
-    (_, zero), bits = real_zeros(squares(2)), 2 * MOST_BITS
-    end = Fraction(isqrt(2 << 2 * bits), 1 << bits)
-    with pytest.raises(Malformed, match=f"a zero of m that {MOST_BITS} bits do not tell"):
+def test_what_the_most_halvings_do_not_tell_apart_is_refused_with_the_reason(monkeypatch):
+    monkeypatch.setattr(roots, "HALVINGS", 100)
+    _, zero = real_zeros(squares(2))
+    end = Fraction(isqrt(2 << 400), 1 << 200)
+    with pytest.raises(Malformed, match="a bracket whose end 100 halvings do not tell from a zero"):
         zero.within(end, Fraction(2))
+
+
+def test_zeros_that_ask_for_too_much_work_are_given_up():
+    with pytest.raises(TooLarge):
+        real_zeros(squares(2, 2 + Fraction(1, 1 << 20_000)))

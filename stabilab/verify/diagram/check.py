@@ -1,136 +1,18 @@
 """The claims of a diagram against what trace forms count: at every value where they degenerate, and once
 between any two of these.
-
-Real zeros of polynomials in t are isolated by Sturm's sequences.
 """
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
 from flint import fmpq_poly
 
-from ..numbers import Malformed, brief, exact_sign, fraction, q
-from .algebra import MOST, TooLarge, Work
+from ..numbers import brief, exact_sign, q
+from ..roots import TOO_LARGE, Root, TooLarge, Work, roots, sign_at
 from .claims import Claims, Event
 from .equations import Count, Equations, System, count_at, critical, in_unknowns
-
-HALVINGS = 20_000  # of one bracket; two zeros of polynomials of a certificate are farther apart
-
-
-def sequence(f, work: Work) -> list:
-    """Sturm's sequence of a polynomial without double zeros."""
-    out = [f, f.derivative()]
-    while out[-1].degree() > 0:
-        work.division(out[-2], out[-1])
-        rest = -(out[-2] % out[-1])
-        if rest == 0:
-            break
-        out.append(rest / abs(rest.leading_coefficient()))
-    return out
-
-
-def sign_at(f, at: Fraction, work: Work) -> int:
-    """The sign of a polynomial at a rational number."""
-    work.value(f, at)
-    return exact_sign(f(q(at)))
-
-
-def changes(chain: Sequence, at: Fraction, work: Work) -> int:
-    """Changes of sign of a sequence at a place."""
-    signs = [s for f in chain if (s := sign_at(f, at, work))]
-    return sum(a != b for a, b in zip(signs, signs[1:]))
-
-
-class Root:
-    """A real zero of an irreducible polynomial: the only one in (low, high), or the rational number low =
-    high itself."""
-
-    def __init__(self, polynomial, low: Fraction, high: Fraction, work: Work):
-        self.polynomial, self.low, self.high, self.work = polynomial, low, high, work
-        self.rising = 0 if low == high else sign_at(polynomial, high, work)
-
-    @property
-    def rational(self) -> bool:
-        return self.low == self.high
-
-    def halve(self) -> None:
-        """Half the bracket; a zero that is rational has none."""
-        if not self.rational:
-            middle = (self.low + self.high) / 2
-            if sign_at(self.polynomial, middle, self.work) == self.rising:
-                self.high = middle
-            else:
-                self.low = middle
-
-    def sign(self, f) -> int:
-        """The sign of a polynomial at the zero."""
-        if self.rational:
-            return sign_at(f, self.low, self.work)
-        self.work.division(f, self.polynomial)
-        f = f % self.polynomial
-        if f == 0:
-            return 0
-        self.work.common(f, f)
-        chain = sequence(f / f.gcd(f.derivative()), self.work) if f.degree() > 0 else []
-        for _ in range(HALVINGS):
-            if not chain or (sign_at(chain[0], self.low, self.work)
-                             and changes(chain, self.low, self.work) == changes(chain, self.high, self.work)):
-                return sign_at(f, self.high, self.work)
-            self.halve()
-        raise Malformed(f"a sign that {HALVINGS} halvings do not tell")
-
-    def within(self, low: Fraction, high: Fraction) -> bool:
-        """Whether the zero lies in [low, high]."""
-        for _ in range(HALVINGS):
-            if low <= self.low and self.high <= high:
-                return True
-            if self.high < low or high < self.low or (not self.rational
-                                                      and (self.high == low or high == self.low)):
-                return False
-            self.halve()
-        raise Malformed(f"a bracket whose end {HALVINGS} halvings do not tell from a zero")
-
-
-def roots(polynomials: Iterable, low: Fraction, high: Fraction, work: Work) -> list[Root]:
-    """The different real zeros in [low, high] of polynomials that are not zero, rising, their brackets apart
-    from one another and from the ends."""
-    factors = {}
-    for p in polynomials:
-        if p.degree() > 0:
-            work.factors(p)
-            factors |= {str(f / f.leading_coefficient()): f / f.leading_coefficient() for f,
-                        _ in p.factor()[1]}
-    found = [root for f in factors.values() for root in _of(f, low, high, work)]
-    for _ in range(HALVINGS):
-        found.sort(key=lambda root: (root.low, root.high))
-        near = {n for n, (a, b) in enumerate(zip(found, found[1:])) if a.high >= b.low}
-        near |= ({n + 1 for n in near} | {n for n, root in enumerate(found) if not root.rational
-                                          and (root.low == low or root.high == high)})
-        if not near:
-            return found
-        for n in near:
-            found[n].halve()
-    raise Malformed(f"two values that {HALVINGS} halvings do not tell apart")
-
-
-def _of(f, low: Fraction, high: Fraction, work: Work) -> list[Root]:
-    if f.degree() == 1:
-        exact = -fraction(f[0] / f[1])
-        return [Root(f, exact, exact, work)] if low <= exact <= high else []
-    chain, out = sequence(f, work), []
-    todo = [(low, high, changes(chain, low, work), changes(chain, high, work))]
-    while todo:
-        a, b, first, last = todo.pop()
-        if first - last == 1:
-            out.append(Root(f, a, b, work))
-        elif first - last > 1:
-            c = (a + b) / 2
-            middle = changes(chain, c, work)
-            todo += [(a, c, first, middle), (c, b, middle, last)]
-    return out
 
 
 class Between:
@@ -163,9 +45,7 @@ def check_diagram(claims: Claims, note, work: Work | None = None) -> None:
         _check(claims, note, work or Work())
     except TooLarge:
         parts = f"{len(claims.pieces)} pieces and {len(claims.events)} events"
-        note(parts, "not checked",
-             f"too large: degrees and digits ask for more than {MOST:,} operations on bits, and a file from "
-             f"a stranger is given no more")
+        note(parts, "not checked", TOO_LARGE)
 
 
 def _check(claims: Claims, note, work: Work) -> None:

@@ -14,7 +14,8 @@ from typing import Any
 from flint import fmpq_mpoly, fmpq_mpoly_ctx, fmpq_poly
 
 from ..rates import AHEAD
-from .algebra import Basis, Polynomial, Ratio, Residue, Work, characteristic, rank_and_signature
+from ..roots import Work
+from .algebra import Basis, Polynomial, Ratio, Residue, characteristic, rank_and_signature
 from .claims import Claims
 
 
