@@ -10,6 +10,8 @@ from __future__ import annotations
 
 from fractions import Fraction
 
+from flint import fmpq_poly
+
 from .numbers import (
     LINEAR,
     VERDICT,
@@ -129,7 +131,6 @@ TERMS = 6
 def on_own_orbit(rates, x, e):
     """By the first coefficient of the force F along dx/dalpha = J(x) e: odd and negative a strict minimum of
     the potential."""
-    from flint import fmpq_poly
     base = turned(rates.jacobian([Fraction(0)] * 3), e)
     series = [list(x)]
     for n in range(TERMS):
@@ -203,7 +204,6 @@ class Curve:
             raise Malformed(f"{where}.numerators: expected three lists of coefficients")
         tops = [numbers(r, f"{where}.numerators[{i}]") for i, r in enumerate(rows)]
         bottom = numbers(field(table, "denominator", where), f"{where}.denominator")
-        from flint import fmpq_poly
         self.tops, self.bottom = [fmpq_poly([q(c) for c in row])
                                   for row in tops], fmpq_poly([q(c) for c in bottom])
         if self.bottom == 0:

@@ -10,6 +10,8 @@ from fractions import Fraction
 from functools import partial
 from math import isqrt
 
+from flint import fmpq_poly
+
 from .curves import (
     Curve,
     Plane,
@@ -145,7 +147,6 @@ def _line(rates):
 def _common_factor(rates, foot, v) -> list[Fraction]:
     """Coefficients, lowest first, of the greatest common divisor of the rates on the line; [] where all
     vanish."""
-    from flint import fmpq_poly
     line = [fmpq_poly([q(f), q(d)]) for f, d in zip(foot, v)]
     total = fmpq_poly([])
     for p in rates.at(line):

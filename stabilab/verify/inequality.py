@@ -56,6 +56,8 @@ from collections import defaultdict
 from dataclasses import dataclass
 from operator import add
 
+from flint import acb
+
 from .normal_form import MovingForm
 from .numbers import ball
 
@@ -157,19 +159,16 @@ def compared(greater, less, words: str):
 
 
 def _i():
-    from flint import acb
     return acb(0, 1)
 
 
 def conjugate(c):
     """c*."""
-    from flint import acb
     return acb(c.real, -c.imag)
 
 
 def _spin_rate(form):
     """X' as terms."""
-    from flint import acb
     half, i = ball(1) / 2, _i()
     return {(0, 0, 0): acb(ball(form.M)), (2, 0, 0): -i * form.g * half, (0, 2, 0): i * form.g * half,
             (1, 0, 0): conjugate(form.kap) * half,

@@ -5,6 +5,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
 
+from flint import ctx
+
 from .numbers import (
     SPLIT,
     Malformed,
@@ -38,7 +40,6 @@ class Facts:
     None), extremes."""
 
     def __init__(self, orbit):
-        from flint import ctx
         self.orbit, self.bits = orbit, ctx.prec
         circle, sense = orbit.kind < 0, exact_sign(orbit.tilt)
         self.ends, self.round = None, False
@@ -531,7 +532,6 @@ class _Proof:
 
     def facts(self) -> Facts:
         """At the working precision. Raises Open where it does not do."""
-        from flint import ctx
         if ctx.prec not in self._known:
             self._known[ctx.prec] = Facts(self.orbit)
         return self._known[ctx.prec]

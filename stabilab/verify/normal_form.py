@@ -45,6 +45,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
+from flint import acb, arb
+
 from .numbers import ball, q
 
 
@@ -67,7 +69,6 @@ class Form:
 
     def place(self, state):
         """(X, zeta) of three balls."""
-        from flint import acb
         x1, x2, x3 = (state[n] * s for n, s in zip(self.order, self.signs))
         return x1 + self.shift, acb(x2 - ball(self.centre[0]), self.q * (x3 - ball(self.centre[1])))
 
@@ -85,7 +86,6 @@ def turned(rates, axis: int, sense: int):
 def form_about(rates, axis: int, sense: int) -> Form | None:
     """The form about an axis (0, 1, 2) in a sense (+1, -1); None where the spin about it does not turn the
     other two."""
-    from flint import acb
     order, signs, (k1, k2, k3), (r1, r2, r3), (s1, s2, s3), (m1, m2, m3) = turned(rates, axis, sense)
     if not k2 * k3 < 0:
         return None
@@ -120,7 +120,6 @@ class MovingForm:
 
     def place(self, state):
         """(x, zeta) of three balls where P and Q are positive there; zeta is not finite else."""
-        from flint import acb
         x, x2, x3 = (sum((a * v for a, v in zip(row, state)), ball(0)) for row in self.rows)
         P, Q = self.at(x)
         w = (Q / P).root(4)
@@ -174,7 +173,6 @@ def equator(rates) -> MovingForm | None:
 
 def _form(rows, kappa, rho, sigma, m) -> MovingForm | None:
     """From the coefficients in the frame: flint's rationals, or balls where they are none."""
-    from flint import acb, arb
     (k1, k2, k3), (r1, r2, r3), (s1, s2, s3), (m1, m2, m3) = kappa, rho, sigma, m
     tau = -1 if k2 > 0 else 1
     P, Q, N2, N3 = (-tau * k2, -tau * s2), (tau * k3, tau * r3), (-tau * s3, -tau * m3), (tau * r2, tau * m2)
@@ -225,5 +223,4 @@ def _beside(line, other):
 
 
 def _balls(terms):
-    from flint import acb, arb
     return {key: acb(arb(c)) for key, c in terms.items()}

@@ -14,6 +14,8 @@ from contextlib import contextmanager
 from fractions import Fraction
 from threading import RLock
 
+from flint import arb, ctx, fmpq
+
 # --- Exact numbers, brackets and balls as a certificate writes them
 # of a whole number, and of an exponent's value: Python's own limit; longer is an attack, not a certificate
 DIGITS = 4300
@@ -102,7 +104,6 @@ def brief(value: Fraction) -> str:
 
 def q(value: Fraction):
     """flint's rational."""
-    from flint import fmpq
     value = Fraction(value)
     return fmpq(value.numerator, value.denominator)
 
@@ -114,7 +115,6 @@ def fraction(value) -> Fraction:
 
 def ball(value):
     """The ball of an exact number at the working precision."""
-    from flint import arb
     return arb(q(value))
 
 
@@ -178,7 +178,6 @@ def zeros(f, df, low: Fraction, high: Fraction, at_low=False, at_high=False, pur
     listed. purse: pays for the cells.
     """
     purse = purse or Purse(CELLS)
-    from flint import ctx
     found, stack = [], [(low, high)]
     smallest = (high - low) / 2**ctx.prec
     while stack:
@@ -222,7 +221,6 @@ def _multiple(multiple, bend, a, b, at_end):
 def narrowed(f, df, a: Fraction, b: Fraction):
     """The ball of the one zero of a function that is monotone on [a, b] and changes sign there: interval
     Newton."""
-    from flint import ctx
     x = hull(a, b)
     for _ in range(4 * ctx.prec.bit_length() + 40):
         centre = x.mid()

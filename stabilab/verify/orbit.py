@@ -15,6 +15,8 @@ from fractions import Fraction
 from functools import lru_cache
 from types import SimpleNamespace
 
+from flint import acb, arb, ctx, fmpq_poly, fmpz_poly
+
 from .numbers import (
     CELLS,
     Malformed,
@@ -239,13 +241,11 @@ class Orbit:
     @property
     def balls(self):
         """The constants as balls at the working precision."""
-        from flint import ctx
         return _balls(self, ctx.prec)
 
     @property
     def turn(self):
         """One turn of a circle in alpha."""
-        from flint import arb
         return 2 * arb.pi() / self.balls.n
 
     @property
@@ -314,7 +314,6 @@ class Orbit:
     def _chord(self):
         """(w, u, v): that place is (u, v)/w."""
         du, dv = self.u0 - self.cu, self.v0 - self.cv
-        from flint import fmpq_poly
         t = fmpq_poly([0, 1])
         # the line of slope t through the state meets the conic again at (u, v)/w
         w = q(self.q) - q(self.p) * t * t
@@ -327,7 +326,6 @@ class Orbit:
         if self.kind >= 0 or self.touches():
             return []
         force, places = self._along_chords(), []
-        from flint import arb
         w, u, v = ([arb(c) for c in row.coeffs()] for row in self._chord())
         for factor, order in force.factor()[1]:
             if order > 1:
@@ -347,7 +345,6 @@ class Orbit:
 
     def _offset(self, u, v):
         """alpha of a place on a circle, within half a turn."""
-        from flint import arb
         g = self.balls
         det, u, v = g.du * g.sv - g.dv * g.su, u - g.cu, v - g.cv
         return arb.atan2((g.du * v - g.dv * u) / det, (u * g.sv - v * g.su) / det) / g.n
@@ -445,7 +442,6 @@ def _shift(rates, axis):
 
 def _real_roots(factor):
     """The real roots of an irreducible polynomial with rational coefficients, as balls."""
-    from flint import fmpz_poly
     whole = fmpz_poly([int(c * factor.denom()) for c in factor.coeffs()])
     return [root.real for root, _ in whole.complex_roots() if root.imag == 0]
 
@@ -473,7 +469,6 @@ def round_once(orbit, goal):
 
 def _integral(orbit, low, high, goal):
     """int dalpha / sqrt(2 (E - U)) where E - U is positive."""
-    from flint import acb
 
     def integrand(z, analytic):
         # mean-value form: U's terms cancel, and over a wide ball their sum alone would be far too wide
@@ -487,7 +482,6 @@ def _integral(orbit, low, high, goal):
 
 def _rsqrt(w, analytic):
     """1/sqrt(w); not a number where the ball meets the branch cut and analyticity is asked for."""
-    from flint import acb
     if analytic and not w.real > 0 and 0 in w.imag:
         return acb("nan")
     return w.rsqrt()

@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 
+from flint import arb_mat
+
 from .numbers import Malformed, above, ball, below, field, hull, number, numbers, q, sign, working
 
 # --- The rates of the three components, from the numbers of a scene: x_i' = kappa x_j x_k + rho x_k + sigma
@@ -101,7 +103,6 @@ BITS, MOST_BITS = 128, 1 << 14
 def only_zero(rates, box):
     """(sign of m, sign of n) at the one zero in the box of three brackets, or None where the test does not
     close."""
-    from flint import arb_mat
     bits = BITS
     while bits <= MOST_BITS:
         with working(bits):
