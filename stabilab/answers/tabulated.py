@@ -19,7 +19,7 @@ from typing import Any
 from ..errors import InputError
 from ..integrate.integer_flow import IntegerFlow
 from ..integrate.reference import GUARD, Recursion, one_run
-from ..numbers.balls import working
+from ..numbers.balls import narrowed, working
 from ..numbers.vectors import CYCLE
 from ..physics.coefficients import effective
 from ..physics.scene import AnyScene, QuadraticForm
@@ -68,7 +68,6 @@ UNEVEN = Fraction(4871, 10000)  # where intervals are divided, lest a symmetric 
 # digits below the motion's own size: a rate, or its derivative, that stays so small over a piece counts as
 # zero there
 NOTHING = 25
-ROUNDS = 60  # of Newton's method
 # bits beyond the digits; most of a run, for its bound of the error is formed in doubles
 SPARE, MOST_BITS = 12, 900
 WORK = 40_000_000  # multiplications of a run
@@ -158,29 +157,14 @@ def _roots(curve: _Curve, i: int, order: int, first: bool) -> tuple[list[Any], b
             if 0 in low or 0 in high:
                 return found, False
             if (low > 0) != (high > 0):
-                found.append(_closer(curve, i, order, box))
+                slope = lambda s: curve.derivative(i, order + 1, s) * _ball(curve.piece.length)
+                found.append(narrowed(lambda s: curve.derivative(i, order, s), slope, box))
         elif boxes > MOST_BOXES:
             return found, False
         else:
             middle = a + (b - a) * UNEVEN
             left += [(a, middle), (middle, b)]
     return found, True
-
-
-def _closer(curve: _Curve, i: int, order: int, box: Any) -> Any:
-    """The root in a box on which the slope has a sign, by interval Newton as long as it narrows."""
-    from flint import arb
-    scale = _ball(curve.piece.length)
-    for _ in range(ROUNDS):
-        middle = arb(box.mid())
-        new = middle - curve.derivative(i, order, middle) / (curve.derivative(i, order + 1, box) * scale)
-        if not new.overlaps(box):
-            break
-        narrower = new.intersection(box)
-        if not narrower.rad() < box.rad() * 0.9:
-            break
-        box = narrower
-    return box
 
 
 def tabulated(scene: Any, start: Sequence[Any], exact: Sequence[Fraction], times: Sequence[Fraction],

@@ -21,6 +21,7 @@ T = TypeVar("T")
 DOUBLE_BITS = 53
 FIRST_BITS = 64  # of a first try, which settles ordinary motions
 START_BITS = 128
+NARROWINGS = 60  # of a ball about a root, at most
 APART_BITS = 256  # roots that so many bits do not tell apart would cost flint's iteration a long time
 
 
@@ -205,6 +206,22 @@ def _narrowed(factor: fmpq_poly, a: fmpq, b: fmpq, bits: int) -> tuple[fmpq, fmp
             return a, b
         a, b = first, last
     return a, b
+
+
+def narrowed(value: Callable[[arb], arb], slope: Callable[[arb], arb], root: arb) -> arb:
+    """A narrower ball about the one zero of a function that a ball holds: Newton's step from its middle, the
+    slope that of the whole ball, as long as that narrows it."""
+    for _ in range(NARROWINGS):
+        middle, rate = root.mid(), slope(root)
+        if rate.contains(0):
+            return root
+        step = middle - value(middle) / rate
+        if not step.overlaps(root):
+            return root
+        before, root = root, step.intersection(root)
+        if not root.rad() < before.rad() / 2:
+            return root
+    return root
 
 
 def fraction(value: fmpq) -> Fraction:

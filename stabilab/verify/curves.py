@@ -354,8 +354,8 @@ class _Along:
 
     def fold(self, zero, signs):
         """The verdict at a zero of m between pieces with these signs of m."""
-        minors = [self.J[a][c] * self.J[b][d] - self.J[a][d] * self.J[b][c] for a, b in PAIRS for c,
-                  d in PAIRS]
+        minors = [self.J[a][c] * self.J[b][d] - self.J[a][d] * self.J[b][c]
+                  for a, b in PAIRS for c, d in PAIRS]
         if all(v % zero.polynomial == 0 for v in minors):
             return self._crossing(zero)
         if self.settled:

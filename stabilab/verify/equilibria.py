@@ -10,14 +10,16 @@ from fractions import Fraction
 from functools import partial
 from math import isqrt
 
-from flint import fmpq_poly
+from flint import fmpq_mat, fmpq_poly
 
 from .curves import (
     Curve,
     Plane,
     check_curve,
     check_plane,
+    cross,
     curve_of,
+    dot,
     identically_zero,
     judged,
     leaves_double_root,
@@ -116,29 +118,15 @@ def whole_line(kind, points, curves, places):
 
 def _rank(rows):
     """Rank of rows of fractions."""
-    rows, rank = [list(r) for r in rows], 0
-    for column in range(len(rows[0])):
-        pivot = next((r for r in rows[rank:] if r[column]), None)
-        if pivot is None:
-            continue
-        rows.remove(pivot)
-        rows.insert(rank, pivot)
-        for i in range(rank + 1, len(rows)):
-            factor = rows[i][column] / pivot[column]
-            rows[i] = [a - factor * b for a, b in zip(rows[i], pivot)]
-        rank += 1
-    return rank
+    return fmpq_mat([[q(v) for v in row] for row in rows]).rank()
 
 
 def _line(rates):
     """(foot, direction) of the line where the two conditions meet."""
     (a, ca), (b, cb) = rates.conditions
-    v = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-    size = sum(c * c for c in v)
+    v = cross(a, b)
     # the foot of the line: x = (ca (v x b) + cb (a x v)) / |v|^2 with a . x = -ca, b . x = -cb
-    vb = [v[1] * b[2] - v[2] * b[1], v[2] * b[0] - v[0] * b[2], v[0] * b[1] - v[1] * b[0]]
-    av = [a[1] * v[2] - a[2] * v[1], a[2] * v[0] - a[0] * v[2], a[0] * v[1] - a[1] * v[0]]
-    foot = [(ca * s + cb * t) / size for s, t in zip(vb, av)]
+    foot = [(ca * s + cb * t) / dot(v, v) for s, t in zip(cross(v, b), cross(a, v))]
     if any(sum(n * x for n, x in zip(normal, foot)) + c for normal, c in rates.conditions):
         raise ArithmeticError("the foot of the line where the two conditions meet is not on both")
     return foot, v

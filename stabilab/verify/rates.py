@@ -108,7 +108,7 @@ def only_zero(rates, box):
         with working(bits):
             x = [hull(a, b) for a, b in box]
             for _ in range(60):
-                new = _krawczyk(rates, x, arb_mat)
+                new = _krawczyk(rates, x)
                 if new is None or not all(b.contains_interior(a) for a, b in zip(new, x)):
                     break
                 x = new
@@ -124,15 +124,14 @@ def _in_bracket(x, ends) -> bool:
     return ends[0] <= below(x) and above(x) <= ends[1]
 
 
-def _krawczyk(rates, x, arb_mat):
+def _krawczyk(rates, x):
     """K(x) = c - Y f(c) + (1 - Y J(x)) (x - c); None where the middle Jacobian cannot be inverted."""
     centre = [v.mid() for v in x]
     J = arb_mat(rates.jacobian(x))
     try:
-        Y = arb_mat(rates.jacobian(centre)).inv()
+        Y = arb_mat(rates.jacobian(centre)).inv().mid()
     except ZeroDivisionError:
         return None
-    Y = arb_mat([[Y[i, j].mid() for j in range(3)] for i in range(3)])
     f = arb_mat([[v] for v in rates.at(centre)])
     rest = arb_mat([[int(i == j) for j in range(3)] for i in range(3)]) - Y * J
     step = rest * arb_mat([[v - c] for v, c in zip(x, centre)]) - Y * f

@@ -22,7 +22,7 @@ from typing import Any, NamedTuple, TypeAlias
 
 from flint import acb_poly, arb, arb_poly, fmpq, fmpq_poly, fmpz, nmod_poly
 
-from ...numbers.balls import Unclear, fraction, rational, real_roots_of, settled, working
+from ...numbers.balls import Unclear, fraction, narrowed, rational, real_roots_of, settled, working
 
 Element: TypeAlias = Any  # a polynomial of the algebraic number, over the rationals or modulo a prime
 FieldPoly: TypeAlias = list  # of fmpq_poly
@@ -207,26 +207,8 @@ def real_balls(f: arb_poly) -> list[arb]:
     except ValueError:
         raise Unclear from None
     # conjugates are roots as well, so a ball that meets the real axis and no other root holds a real one
-    return [_sharpened(f, root.real) for root in roots if root.imag.contains(0)]
-
-
-def _sharpened(f: arb_poly, root: arb) -> arb:
-    """A narrower ball about a simple root, by Newton's method over balls (the part of the step that the ball
-    does not hold has no root)."""
     slope = f.derivative()
-    for _ in range(60):
-        middle = root.mid()
-        rate = slope(root)
-        if rate.contains(0):
-            return root
-        step = middle - f(middle) / rate
-        if not step.overlaps(root):
-            return root
-        new = step.intersection(root)
-        if not new.rad() < root.rad() / 2:
-            return new
-        root = new
-    return root
+    return [narrowed(f, slope, root.real) for root in roots if root.imag.contains(0)]
 
 
 @dataclass(frozen=True)
