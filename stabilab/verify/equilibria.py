@@ -8,7 +8,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
-from math import isqrt
 
 from flint import fmpq_mat, fmpq_poly
 
@@ -25,8 +24,8 @@ from .curves import (
     leaves_double_root,
     plane_of,
 )
-from .numbers import LINEAR, VERDICT, Malformed, bracket, brief, entries, exact_sign, field, q, word
-from .rates import characteristic, excluded, only_zero
+from .numbers import LINEAR, VERDICT, Malformed, bracket, brief, entries, exact_sign, field, fraction, q, word
+from .rates import characteristic, excluded
 
 
 # --- Where the two conditions meet in a line: the exact zeros of the rates on it, and whether the boxes
@@ -48,21 +47,23 @@ class Place:
         """Whether it lies in the box of three closed brackets, by exact signs."""
         return all(self._side(i, low) >= 0 >= self._side(i, high) for i, (low, high) in enumerate(box))
 
+    def signs(self, rates) -> tuple[int, int]:
+        """(sign of m, sign of n) there, exactly: both are polynomials in the surd."""
+        surd = [fmpq_poly([q(m), q(r)]) for m, r in zip(self.middle, self.reach)]
+        rest = (v % fmpq_poly([-q(self.root), 0, 1]) for v in characteristic(rates.jacobian(surd)))
+        m, n = (self._sign(fraction(v[0]), fraction(v[1])) for v in rest)
+        return m, n
+
     def _side(self, i, end) -> int:
         """Sign of x_i - end."""
-        plain, surd = self.middle[i] - end, self.reach[i]
+        return self._sign(self.middle[i] - end, self.reach[i])
+
+    def _sign(self, plain, surd) -> int:
+        """Sign of plain + surd sqrt(root)."""
         one, two = exact_sign(plain), exact_sign(surd) * exact_sign(self.root)
         if one * two >= 0:
             return one or two
         return one * exact_sign(plain * plain - surd * surd * self.root)
-
-    def box(self, bits):
-        """Three brackets about it, of so many bits."""
-        top, bottom = self.root.numerator, self.root.denominator
-        shift = bits + abs(top.bit_length() - bottom.bit_length())
-        below, step = Fraction(isqrt((top << 2 * shift) // bottom), 1 << shift), Fraction(1, 1 << shift)
-        ends = below - step, below + 2 * step
-        return [tuple(sorted(m + r * e for e in ends)) for m, r in zip(self.middle, self.reach)]
 
 
 @dataclass(frozen=True)
@@ -325,11 +326,8 @@ def _passes_every_s(D, lam, curve) -> bool:
     return any(lam[i] and limit == q(D[i]) for i in range(3))
 
 
-# --- Are these all the equilibria, and are the verdicts on them right? Exact algebra for how many,
-# Krawczyk's test for where
+# --- Are these all the equilibria, and are the verdicts on them right?
 KINDS = ("none", "points", "curves", "all")
-# of the boxes about an exact zero, where the box claimed is too wide for Krawczyk's test
-BITS = (128, 512, 2048, 8192)
 
 
 @dataclass(frozen=True)
@@ -402,18 +400,11 @@ def _check_box(rates, point, places, note):
     if len(held) != 1:
         note(point.claim, "refuted", f"the box holds {len(held)} zeros of the rates, not one")
         return
-    signs = only_zero(rates, point.box)
-    note(point.claim, "proved", "Krawczyk's test: one and only one equilibrium in the box" if signs
-         else "it holds one of the exact zeros of the rates")
+    note(point.claim, "proved", "it holds one of the exact zeros of the rates, and no other")
     if held[0].rational:
         _judge(rates, point, held[0].rational, note)
-        return
-    signs = signs or next(filter(None, (only_zero(rates, held[0].box(bits)) for bits in BITS)), None)
-    if signs:
-        _say(point, *signs, None, note)
     else:
-        note(f"{point.claim}: linear {point.linear}, verdict {point.verdict}", "not checked",
-             f"the signs of m and n are not known with {BITS[-1]} bits")
+        _say(point, *held[0].signs(rates), None, note)
 
 
 def _judge(rates, point, x, note):

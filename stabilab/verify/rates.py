@@ -1,13 +1,10 @@
-"""The rates of a gyrostat from the certificate's numbers, and equilibria proved unique in a box by Krawczyk's
-operator."""
+"""The rates of a gyrostat from the certificate's numbers."""
 from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
 
-from flint import arb_mat
-
-from .numbers import Malformed, above, ball, below, field, hull, number, numbers, q, sign, working
+from .numbers import Malformed, ball, field, hull, number, numbers, q, sign
 
 # --- The rates of the three components, from the numbers of a scene: x_i' = kappa x_j x_k + rho x_k + sigma
 # x_j + m
@@ -94,48 +91,6 @@ def characteristic(J):
     m = -(J[0][1] * J[1][0] + J[0][2] * J[2][0] + J[1][2] * J[2][1])
     n = -(J[0][1] * J[1][2] * J[2][0] + J[0][2] * J[1][0] * J[2][1])
     return m, n
-
-
-# --- Krawczyk's test: one and only one zero of the rates in a box, and the signs of m and n there
-BITS, MOST_BITS = 128, 1 << 14
-
-
-def only_zero(rates, box):
-    """(sign of m, sign of n) at the one zero in the box of three brackets, or None where the test does not
-    close."""
-    bits = BITS
-    while bits <= MOST_BITS:
-        with working(bits):
-            x = [hull(a, b) for a, b in box]
-            for _ in range(60):
-                new = _krawczyk(rates, x)
-                if new is None or not all(b.contains_interior(a) for a, b in zip(new, x)):
-                    break
-                x = new
-                m, n = (sign(v) for v in characteristic(rates.jacobian(x)))
-                if n is not None and (n or m is not None) and all(map(_in_bracket, x, box)):
-                    return m, n
-        bits *= 4
-    return None
-
-
-def _in_bracket(x, ends) -> bool:
-    """Whether the ball lies in the bracket itself: the ball that holds a bracket is a little wider."""
-    return ends[0] <= below(x) and above(x) <= ends[1]
-
-
-def _krawczyk(rates, x):
-    """K(x) = c - Y f(c) + (1 - Y J(x)) (x - c); None where the middle Jacobian cannot be inverted."""
-    centre = [v.mid() for v in x]
-    J = arb_mat(rates.jacobian(x))
-    try:
-        Y = arb_mat(rates.jacobian(centre)).inv().mid()
-    except ZeroDivisionError:
-        return None
-    f = arb_mat([[v] for v in rates.at(centre)])
-    rest = arb_mat([[int(i == j) for j in range(3)] for i in range(3)]) - Y * J
-    step = rest * arb_mat([[v - c] for v, c in zip(x, centre)]) - Y * f
-    return [centre[i] + step[i, 0] for i in range(3)]
 
 
 def excluded(rates, box) -> bool:

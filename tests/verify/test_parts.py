@@ -209,7 +209,7 @@ def test_a_period_needs_two_ends_apart_and_a_force_at_each():
             period.period_of(unknown, ends, 48)
 
 
-def test_a_box_too_wide_for_krawczyk_is_judged_by_the_exact_zeros_in_it():
+def test_a_box_of_any_width_is_judged_by_the_exact_zeros_in_it():
     # by hand: x = (t, -1, 1) + ..., two zeros a sign apart; test_random_scenes compares them with elimination
     # in fractions
     made = certificate(ScaledGyrostat(0, 0, (1, 2, 1)))
