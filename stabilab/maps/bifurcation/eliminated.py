@@ -16,8 +16,8 @@ from typing import Any, NamedTuple
 
 from flint import arb, fmpq_mpoly, fmpq_poly
 
+from ...numbers.algebraic import Algebraic, Powers
 from ...numbers.balls import Unclear, evaluated, rational, real_roots_of
-from .algebraic import Algebraic, Powers
 from .equations import LEANS, Conics, OnLine, common_divisor
 from .family import Family
 

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from flint import fmpq, fmpq_poly
 
-from stabilab.maps.bifurcation.algebraic import field_gcd
+from stabilab.numbers.algebraic import field_gcd
 
 ROOT_TWO = fmpq_poly([-2, 0, 1])
 

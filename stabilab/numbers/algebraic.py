@@ -22,11 +22,11 @@ from typing import Any, NamedTuple, TypeAlias
 
 from flint import acb_poly, arb, arb_poly, fmpq, fmpq_poly, fmpz, nmod_poly
 
-from ...numbers.balls import Unclear, fraction, narrowed, rational, real_roots_of, settled, working
+from .balls import Unclear, fraction, narrowed, rational, real_roots_of, settled, working
 
 Element: TypeAlias = Any  # a polynomial of the algebraic number, over the rationals or modulo a prime
-FieldPoly: TypeAlias = list  # of fmpq_poly
-Powers: TypeAlias = list  # of (square-free FieldPoly, how often it counts)
+FieldPoly: TypeAlias = list[Any]  # of fmpq_poly
+Powers: TypeAlias = list[tuple[Any, int]]  # (square-free FieldPoly, how often it counts)
 
 FIRST = 1 << 61  # they are below
 
@@ -227,7 +227,7 @@ def cuts(polynomials: Iterable[fmpq_poly], low: Fraction, high: Fraction) -> lis
     return settled(lambda digits: _ordered(list(unique.values()), low, high))
 
 
-def _ordered(polynomials, low, high) -> list[Cut]:
+def _ordered(polynomials: Sequence[fmpq_poly], low: Fraction, high: Fraction) -> list[Cut]:
     found: list[tuple[arb, Algebraic]] = []
     for f in polynomials:
         for index, (ball, _) in enumerate(real_roots_of(f)):
