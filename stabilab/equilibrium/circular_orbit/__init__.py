@@ -1,0 +1,1 @@
+"""Equilibria of a satellite with wheels on a circular orbit, in the orbital frame: all of them, exactly."""

@@ -1,0 +1,213 @@
+"""Equilibria on a circular orbit: how many, where, and how stable."""
+from fractions import Fraction
+from math import pi, sqrt
+
+import numpy as np
+import pytest
+import sympy
+
+from stabilab.equilibrium.circular_orbit.result import yaw_pitch_roll
+from stabilab.equilibrium.circular_orbit.solve import orbit_equilibria
+from stabilab.integrate.trajectory import integrated
+from stabilab.physics.circular_orbit import Satellite, orbital_equations
+from tests.equilibrium.orbit import newton
+
+
+def satellite(moments, momentum, rate_squared=1):
+    return Satellite(tuple(map(Fraction, moments)), tuple(map(Fraction, momentum)), Fraction(rate_squared))
+
+
+def random_satellite(seed):
+    """Moments of a possible body, momenta of up to five times those at which the number changes."""
+    rng = np.random.default_rng(seed)
+    x, y, z = (Fraction(int(v), 1000) for v in rng.integers(50, 1000, 3))
+    size = 5 * 10.0 ** rng.uniform(-2, 0)
+    momentum = [Fraction(int(v), 10**6) for v in 1e6 * size * rng.normal(size=3)]
+    for axis in range(3):
+        if seed % 4 == axis:  # some wheels in a principal plane
+            momentum[axis] = Fraction(0)
+    return satellite((y + z, z + x, x + y), momentum)
+
+
+def frames(points):
+    return np.array([(one.velocity, one.normal, one.vertical) for one in points])
+
+
+def agrees(one):
+    """Count, places, and eigenvalues as Newton's method and differences find them."""
+    moments, momentum = ([float(v) for v in row] for row in (one.moments, one.momentum))
+    found, other = orbit_equilibria(one), newton.equilibria(moments, momentum, 1.0)
+    ours = frames(found.points)
+    assert found.kind == "points" and len(ours) == len(other)
+    for point, frame in zip(found.points, ours):
+        assert np.abs(other - frame).max(axis=(1, 2)).min() < 1e-7
+        eigenvalues = newton.growth(moments, momentum, 1.0, frame)
+        if point.linear == "unstable":
+            assert eigenvalues.real.max() > 1e-4
+        else:
+            assert eigenvalues.real.max() < 1e-4  # differences are good to 1e-9 and roots of them to 3e-5
+        for z in point.eigenvalues:
+            assert np.abs(eigenvalues - z).min() < 1e-4
+
+
+@pytest.mark.parametrize("seed", [*range(40), *(pytest.param(n, marks=pytest.mark.slow) for n in range(40, 500))])
+def test_newtons_method_from_many_starts_finds_the_same_equilibria(seed):
+    agrees(random_satellite(seed))
+
+
+def test_without_a_wheel_there_are_24_and_4_of_them_stable():
+    # Likins and Roberson 1966: all principal axes along the orbital frame; Beletskii: the stable ones have the
+    # largest moment along the normal and the smallest along the vertical
+    found = orbit_equilibria(satellite((3, 2, 1), (0, 0, 0)))
+    assert (found.kind, len(found.points), found.count("stable")) == ("points", 24, 4)
+    for one in found.points[:4]:
+        assert np.abs(one.normal[0]) == 1 and np.abs(one.vertical[2]) == 1 and one.minimum
+
+
+def test_librations_have_the_frequencies_of_delp_and_debra():
+    # pitch n sqrt(3 (I_roll - I_yaw)/I_pitch); roll and yaw: the quartic with sigma's, from DeBra and Delp 1961
+    roll, pitch, yaw = 0.6, 0.9, 0.5
+    n = sqrt(1.21e-6)
+    found = orbit_equilibria(satellite(("0.6", "0.9", "0.5"), (0, 0, 0), "1.21e-6")).points[0]
+    a, b = (pitch - yaw) / roll, (pitch - roll) / yaw
+    linear, constant = 1 + 3 * a + a * b, 4 * a * b
+    roots = [sqrt((linear + s * sqrt(linear**2 - 4 * constant)) / 2) for s in (-1, 1)]
+    expected = sorted([sqrt(3 * (roll - yaw) / pitch), *roots])
+    assert found.frequencies == pytest.approx([n * v for v in expected], rel=1e-14)
+
+
+@pytest.mark.parametrize("axis", (0, 1, 2))
+def test_a_wheel_along_an_axis_leaves_8_at_last(axis):
+    # a wheel that outweighs everything: its momentum along or against the normal, the other axes in the orbital
+    # frame four ways each
+    momentum = [0, 0, 0]
+    momentum[axis] = 100
+    found = orbit_equilibria(satellite((3, 2, "1.5"), momentum))
+    assert len(found.points) == 8 and {abs(one.normal[axis]) for one in found.points} == {1.0}
+
+
+def test_at_a_fold_exactly_the_merged_equilibrium_counts_once_and_has_a_zero_eigenvalue():
+    # in the plane across axis 3 the balance is (B - A) x y = p y - q x on x^2 + y^2 = 1: two roots merge on the
+    # astroid p^(2/3) + q^(2/3) = (A - B)^(2/3); (27, 64, 125) lies on it
+    merged = orbit_equilibria(satellite((225, 100, 200), (27, 64, 0)))
+    less = orbit_equilibria(satellite((225, 100, 200), ("26.999", "63.999", 0)))
+    more = orbit_equilibria(satellite((225, 100, 200), ("27.001", "64.001", 0)))
+    assert len(less.points) - len(merged.points) == len(merged.points) - len(more.points) == 2
+    assert [sum(0 in one.eigenvalues for one in found.points) for found in (less, merged, more)] == [0, 2, 0]
+
+
+def test_the_least_dynamic_potential_is_stable_though_it_is_flat():
+    # at h = (A - B) n along the largest axis A the minimum splits; the dynamic potential still has one there
+    found = orbit_equilibria(satellite((3, 2, 1), (0, 1, 0)))
+    (first, second), rest = found.points[:2], found.points[2:]
+    assert first.linear == "degenerate" and first.verdict == "stable"
+    assert "less than at any other" in first.because and len(first.frequencies) == 2
+    assert min(one.potential for one in rest) > first.potential == second.potential
+
+
+def test_a_curve_of_equilibria_at_one_wheel_momentum_of_three_different_moments():
+    # with h^2 = 4 n^2 (B - A)(B - C) along B the vertical may move with (A - s)(C - s) = 3 p^2, by hand
+    found = orbit_equilibria(satellite((30, 55, 51), (0, 20, 0)))
+    assert found.kind == "curves" and "common factor" in found.reason and len(found.points) == 8
+    for one in found.families:
+        (pull,) = newton.torque(np.array([30., 55, 51]), np.array([0, 20., 0]), 1.0, frames([one]))
+        assert np.abs(pull).max() < 1e-12
+
+
+@pytest.mark.parametrize("moments, momentum, words, verdicts", [
+    ((2, 2, 2), (0, 0, 0), "", []),
+    # Likins, Pringle: an axis of symmetry along the vertical, normal, or along the velocity
+    ((3, 3, 1), (0, 0, 0), "along the vertical", ["stable"] * 2 + ["unstable"] * 4),
+    # the same with a wheel: 16 n^2 (C - A)^2 > h^2, conical; h^2 < n^2 (C - A)^2, hyperbolic
+    ((3, 3, 1), (0, 0, "0.5"), "across the velocity", ["stable"] * 2 + ["unstable"] * 4),
+    # a sphere turns with its wheel normal to the orbit; the other way up by gyroscopic stability
+    ((2, 2, 2), (1, 2, 2), "normal to the orbit", ["stable", "undecided"]),
+])
+def test_bodies_with_equal_moments_have_families(moments, momentum, words, verdicts):
+    found = orbit_equilibria(satellite(moments, momentum))
+    assert found.kind == ("curves" if verdicts else "all") and not found.points
+    assert [one.verdict for one in found.families] == verdicts
+    assert all(words in one.family for one in found.families[:1])
+    for one in found.families:
+        assert newton.torque(*map(np.array, ([float(v) for v in moments], [float(v) for v in momentum])), 1.0,
+                             frames([one])) == pytest.approx(np.zeros((1, 3)), abs=1e-14)
+
+
+@pytest.mark.parametrize("gap", ("1e-3", "1e-9", "1e-15"))
+def test_nearly_equal_moments_have_24_and_equal_ones_a_family(gap):
+    near = orbit_equilibria(satellite((3, 3 - Fraction(gap), 1), (0, 0, 0)))
+    assert (near.kind, len(near.points), near.count("stable")) == ("points", 24, 4)
+    assert orbit_equilibria(satellite((3, 3, 1), (0, 0, 0))).kind == "curves"
+
+
+def test_a_tiny_wheel_moves_the_24_by_its_share():
+    found = orbit_equilibria(satellite((3, 2, 1), ("1e-9", "2e-9", "1e-9")))
+    assert (len(found.points), found.count("stable")) == (24, 4)
+    assert np.abs(np.abs(frames(found.points)).max(axis=2) - 1).max() < 1e-15  # cos of an angle of 1e-9
+
+
+def test_the_jacobi_integral_is_one_in_symbols():
+    equations = orbital_equations(satellite((3, 2, 1), (1, 2, 3)))
+    for law in equations.balances:
+        assert sympy.expand(equations.derivative(law.quantity)) == 0
+
+
+def quaternion_of(one):
+    """Unit quaternion, scalar first, from the body to the orbital frame: the eigenvector of Bar-Itzhack."""
+    r = np.array((one.velocity, one.normal, one.vertical))
+    k = np.array([[r[0, 0] - r[1, 1] - r[2, 2], r[1, 0] + r[0, 1], r[2, 0] + r[0, 2], r[2, 1] - r[1, 2]],
+                  [r[1, 0] + r[0, 1], r[1, 1] - r[0, 0] - r[2, 2], r[2, 1] + r[1, 2], r[0, 2] - r[2, 0]],
+                  [r[2, 0] + r[0, 2], r[2, 1] + r[1, 2], r[2, 2] - r[0, 0] - r[1, 1], r[1, 0] - r[0, 1]],
+                  [r[2, 1] - r[1, 2], r[0, 2] - r[2, 0], r[1, 0] - r[0, 1], np.trace(r)]])
+    x, y, z, w = np.linalg.eigh(k)[1][:, -1]
+    return np.array([w, x, y, z])
+
+
+def run_from(one, body, moved, times):
+    rate = float(body.rate)
+    start = np.array([*(rate * np.array(one.normal)), *quaternion_of(one)])
+    start[:3] += moved * rate
+    return integrated(orbital_equations(body), start, times)
+
+
+def test_runs_keep_the_jacobi_integral_and_librate_with_the_frequencies():
+    body = satellite((60, 90, 50), ("0.01", "0.03", "0.005"), "1.21e-6")
+    one = orbit_equilibria(body).points[0]
+    assert one.verdict == "stable"
+    count, orbits = 2**14, 400
+    times = np.linspace(0, orbits * 2 * pi / float(body.rate), count, endpoint=False)
+    run = run_from(one, body, np.array([1e-6, 2e-6, -1e-6]), times)
+    assert run.invariant_drift["Jacobi"] < 1e-13
+    spectrum = np.abs(np.fft.rfft((run.states[:, :3] - run.states[:, :3].mean(axis=0))
+                                  * np.hanning(count)[:, None], axis=0)).sum(axis=1)
+    peaks = [n for n in range(2, len(spectrum) - 2) if spectrum[n] == spectrum[n - 2:n + 3].max()
+             and spectrum[n] > 1e-3 * spectrum.max()]
+    cycles = [f * times[-1] / 2 / pi for f in one.frequencies]
+    assert len(peaks) == 3
+    assert np.abs(np.array(peaks) - cycles).max() < 1  # a line of the spectrum
+
+
+@pytest.mark.parametrize("seed", (3, 7, 19))
+def test_long_runs_stay_at_stable_equilibria_and_leave_unstable_ones(seed):
+    body = random_satellite(seed)
+    found = orbit_equilibria(body)
+    for one in found.points[:2] + found.points[-2:]:
+        run = run_from(one, body, np.array([1e-7, 1e-7, -1e-7]), np.linspace(0, 300, 50))
+        away = np.abs(run.states[:, :3] - np.array(one.normal)).max()
+        assert away < 1e-4 if one.verdict == "stable" else away > 1e-4
+
+
+def test_yaw_pitch_and_roll_turn_the_flight_frame_to_the_body():
+    def about(axis, angle):
+        c, s = np.cos(angle), np.sin(angle)
+        i, j = ((1, 2), (2, 0), (0, 1))[axis]
+        r = np.eye(3)
+        r[i, i] = r[j, j] = c
+        r[i, j], r[j, i] = s, -s
+        return r
+    yaw, pitch, roll = 0.7, -0.4, 2.1
+    body = about(0, roll) @ about(1, pitch) @ about(2, yaw)  # components of that frame's axes in its columns
+    assert yaw_pitch_roll(body[:, 0], -body[:, 1], -body[:, 2]) == pytest.approx((yaw, pitch, roll), abs=1e-15)
+    straight = about(0, roll) @ about(1, pi / 2) @ about(2, yaw)
+    found = yaw_pitch_roll(straight[:, 0], -straight[:, 1], -straight[:, 2])
+    assert found == pytest.approx((yaw - roll, pi / 2, 0.0), abs=1e-12)
