@@ -33,7 +33,7 @@ from ...numbers.balls import rational, real_roots_of, working
 from ...numbers.vectors import CYCLE, Exact3, Number, Triple, cross, dot
 from ...physics.circular_orbit import Satellite
 
-Matrix: TypeAlias = tuple[tuple[int, int, int], ...]
+Matrix: TypeAlias = tuple[tuple[int, ...], ...]
 DIRECTIONS = 60  # of elimination that are tried
 
 
@@ -103,7 +103,7 @@ def across(satellite: Satellite, axes: Sequence[Exact3], k: int) -> Iterator[Lin
     h, (i, j) = satellite.momentum, CYCLE[k]
     if dot(h, axes[k]):
         return
-    moments = [dot(axis, _turned(satellite.moments, axis)) / dot(axis, axis) for axis in axes]
+    moments = [dot(axis, turned_by(satellite.moments, axis)) / dot(axis, axis) for axis in axes]
     parts = [dot(h, axis) / dot(axis, axis) for axis in axes]
     one = fmpq_poly([1])
     for polynomial, x, y in plane(moments[i], moments[j], parts[i], parts[j], dot(axes[i], axes[i]),
@@ -138,7 +138,8 @@ def _rooted(polynomial: fmpq_poly, of_root: Any) -> Iterator[tuple[fmpq_poly, fm
         yield factor, x % factor, y % factor
 
 
-def _turned(moments: Sequence[Number], v: Triple) -> Triple:
+def turned_by(moments: Sequence[Number], v: Triple) -> Triple:
+    """I v."""
     return tuple(d * x for d, x in zip(moments, v))
 
 
@@ -146,14 +147,17 @@ def forms(satellite: Satellite, X: Triple, scale: Number = 1) -> tuple[Number, N
     """(F, G) at X, for a momentum whose square is `scale` times that of the satellite's."""
     A, h = (tuple(map(rational, row)) for row in (satellite.moments, satellite.momentum))
     n2 = rational(satellite.rate_squared)
-    N, square = cross(X, _turned(A, X)), dot(X, X)
+    N, square = cross(X, turned_by(A, X)), dot(X, X)
     return (16 * n2 * dot(N, N) - scale * dot(h, X)**2 * square,
-            4 * n2 * dot(N, _turned(A, cross(X, N))) + scale * dot(h, X) * dot(h, N) * square)
+            4 * n2 * dot(N, turned_by(A, cross(X, N))) + scale * dot(h, X) * dot(h, N) * square)
 
 
-def directions() -> Iterator[Matrix]:
-    """Matrices M for X = M (u, v, 1), in no particular position."""
-    return (((3 + k, 1, 2), (-1, 2 + k, 3), (2, -3 - k, 1 + k * k)) for k in range(DIRECTIONS))
+def directions(satellite: Satellite) -> Iterator[Matrix]:
+    """Matrices M for X = M (u, v, 1): the principal axes, the middle one last, so that no real u belongs to
+    the four points that count twice; then such in no particular position."""
+    first, middle, last = sorted(range(3), key=lambda n: satellite.moments[n])
+    yield tuple(tuple(int(n == m) for m in (first, last, middle)) for n in range(3))
+    yield from (((3 + k, 1, 2), (-1, 2 + k, 3), (2, -3 - k, 1 + k * k)) for k in range(DIRECTIONS))
 
 
 def plane_of(matrix: Matrix, u: Number, v: Number) -> Triple:
@@ -166,9 +170,11 @@ def _oblique(satellite: Satellite) -> tuple[list[Line], tuple[fmpq_mpoly, Matrix
     if not any(satellite.momentum):
         return [], None  # F is N . N alone
     ring = fmpq_mpoly_ctx.get(("u", "v"), Ordering.lex)
-    for matrix in directions():
+    for matrix in directions(satellite):
         X = plane_of(matrix, *ring.gens())
         F, G = forms(satellite, X)
+        if F.total_degree() < 4 or G.total_degree() in range(5):  # G may be zero
+            continue  # all points at infinity are on one of them
         common = F.gcd(G)
         curve = None if common.is_constant() else (common, matrix)
         lines = _eliminated(satellite, matrix, F / common, G / common, common)
@@ -210,7 +216,7 @@ def line_through(satellite: Satellite, number: Algebraic, X: Triple) -> Line | N
     along, square = number.reduced(dot(h, X)), number.reduced(dot(X, X))
     if along == 0:
         return None
-    N = tuple(map(number.reduced, cross(X, _turned(A, X))))
+    N = tuple(map(number.reduced, cross(X, turned_by(A, X))))
     across = tuple(4 * rational(satellite.rate_squared) * number.reduced(c) for c in cross(X, N))
     return Line(number.polynomial, X, across, number.reduced(along * square))
 

@@ -1,22 +1,23 @@
 """All equilibria of a satellite on a circular orbit, with their stability."""
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from math import hypot, sqrt
 from typing import Any, NamedTuple
 
 from flint import arb, fmpq_poly
 
-from ...numbers.balls import rational, working
+from ...numbers.balls import Digits, Unclear, rational, settled
 from ...numbers.vectors import cross, dot
 from ...physics.circular_orbit import Satellite
 from .elimination import Line, isolated
 from .families import Family, along_curve, symmetry, turned
 from .result import OrbitEquilibria, OrbitEquilibrium
-from .stability import FLAT, Signs, signs_at, verdict_of
+from .stability import FLAT, Signs, coefficients, signs_at, verdict_of
 
-BITS = 256  # of the numbers behind the doubles of an answer
+BITS = 256  # of the numbers behind the doubles of an answer, at first
+NOTHING, ENOUGH = 2.0**-150, 2.0**-100  # of a number of the size of 1; of a ball's width, relative
 ORDER = ("stable", "undecided", "unstable")
 EVERY = "all moments are equal and there is no wheel momentum: no torque acts, every attitude is an " \
         "equilibrium"
@@ -87,20 +88,25 @@ def _solved(satellite: Satellite, line: Line, family: Family | None = None) -> l
 
 
 def _attitude(satellite: Satellite, line: Line, index: int, family: Family | None) -> _Solved:
-    signs, cubic = signs_at(satellite, line, index, family is not None)
+    signs = signs_at(satellite, line, index, family is not None)
     linear, verdict, because = verdict_of(signs, family is not None)
     axis = None if family is None or family.axis is None else tuple(map(float, family.axis))
-    with working(BITS):
-        X, omega, reciprocal = line.at(line.roots(BITS)[index])
+    size = rational(satellite.rate_squared * max(satellite.moments))
+
+    def asked(digits: Digits) -> _Solved:
+        X, omega, reciprocal = line.at(line.roots(digits.bits)[index])
         scale, rate = arb(reciprocal).sqrt(), arb(rational(satellite.rate_squared)).sqrt()
         up, normal = tuple(v * scale for v in X), tuple(w / rate for w in omega)
-        squares, potential = _squares(cubic, signs.discriminant >= 0), _potential(satellite, up, omega)
+        potential = _potential(satellite, up, omega)
+        _, cubic = coefficients(satellite, omega, X, reciprocal)
+        squares = _squares(satellite, cubic, signs)
         return _Solved(OrbitEquilibrium(
             _doubles(cross(normal, up)), _doubles(normal), _doubles(up), linear, verdict, because,
             signs.minimum, _eigenvalues(squares),
             tuple(sorted(sqrt(-m.real) for m in squares if not m.imag and m.real < 0)),
-            _doubles([potential])[0], family.words if family else "",
+            _doubles([potential / size])[0] * float(size), family.words if family else "",
             axis and tuple(v / hypot(*axis) for v in axis)), signs, potential)
+    return settled(asked, BITS)
 
 
 def _potential(satellite: Satellite, up: tuple[arb, ...], omega: tuple[arb, ...]) -> arb:
@@ -111,13 +117,29 @@ def _potential(satellite: Satellite, up: tuple[arb, ...], omega: tuple[arb, ...]
 
 
 def _doubles(values: Iterable[arb]) -> tuple[float, ...]:
-    return tuple(0.0 if value.contains(0) else float(value.mid()) for value in values)
+    """Numbers of the size of 1 as doubles; below `NOTHING` they are zero. Unclear of a ball that is too wide.
+    """
+    return tuple(float(v.mid()) for v in map(_narrow, values))
 
 
-def _squares(cubic: list[arb], real: bool) -> list[complex]:
-    """The squares of the eigenvalues, 1/s^2; real: whether all are."""
-    roots: list[Any] = fmpq_poly([arb(c).mid().fmpq() for c in reversed(cubic)]).complex_roots()
-    return [complex(float(root.real.mid()), 0.0 if real or root.imag.is_zero() else float(root.imag.mid()))
+def _narrow(value: arb) -> arb:
+    """The ball's middle, where it has more digits than a double or is as good as zero."""
+    if abs(value) < NOTHING:
+        return arb(0)
+    if not value.rad() < ENOUGH * abs(value):
+        raise Unclear
+    return value.mid()
+
+
+def _squares(satellite: Satellite, cubic: Sequence[arb], signs: Signs) -> list[complex]:
+    """The squares of the eigenvalues, 1/s^2: real ones exactly real, the one of a zero determinant zero."""
+    n2, product = rational(satellite.rate_squared), cubic[0]
+    scaled = [_narrow(arb(c) / product / n2**k) for k, c in enumerate(cubic)]
+    if not signs.determinant:
+        scaled[3] = arb(0)
+    roots: list[Any] = fmpq_poly([c.fmpq() for c in reversed(scaled)]).complex_roots()
+    real, size = signs.discriminant >= 0, float(n2)
+    return [complex(float(root.real.mid()) * size, 0.0 if real else float(root.imag.mid()) * size)
             for root, times in roots for _ in range(times)]
 
 

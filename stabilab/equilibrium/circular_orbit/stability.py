@@ -22,7 +22,7 @@ family: where K is positive definite across it, the Jacobi integral has a strict
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from flint import arb, fmpq_poly
 
@@ -97,13 +97,13 @@ def coefficients(satellite: Satellite, omega: Triple, X: Triple, reciprocal: Num
     K = [[-A[3 - i - j] * (pull * X[i] * X[j] - omega[i] * omega[j]) - H[j] * omega[i]
           + pull * A[j] * X[i] * X[j] if i != j else 0 for j in range(3)] for i in range(3)]
     for i, (j, k) in enumerate(CYCLE):
-        K[i][i] = (turning - H[i] * omega[i] - A[j] * omega[k]**2 - A[k] * omega[j]**2
-                   + pull * (A[i] * X[i]**2 - drawn + A[j] * X[k]**2 + A[k] * X[j]**2))
+        K[i][i] = (turning - H[i] * omega[i] - A[j] * omega[k] * omega[k] - A[k] * omega[j] * omega[j]
+                   + pull * (A[i] * X[i] * X[i] - drawn + A[j] * X[k] * X[k] + A[k] * X[j] * X[j]))
     minor = [K[j][j] * K[k][k] - K[j][k] * K[k][j] for j, k in CYCLE]
     det = K[0][0] * minor[0] + K[0][1] * (K[1][2] * K[2][0] - K[1][0] * K[2][2]) \
         + K[0][2] * (K[1][0] * K[2][1] - K[1][1] * K[2][0])
-    c2 = sum((K[i][i] * A[j] * A[k] for i, (j, k) in enumerate(CYCLE)), A[0] * g[0]**2 + A[1] * g[1]**2
-             + A[2] * g[2]**2)
+    # no powers: flint knows none of a ball about zero
+    c2 = sum((K[i][i] * A[j] * A[k] for i, (j, k) in enumerate(CYCLE)), dot([d * v for d, v in zip(A, g)], g))
     c1 = sum(d * m for d, m in zip(A, minor)) + sum(g[i] * K[i][j] * g[j] for i in range(3) for j in range(3))
     return ((K[0][0] + K[1][1] + K[2][2], sum(minor), det), (A[0] * A[1] * A[2], c2, c1, det))
 
@@ -113,25 +113,23 @@ def deciding(minors: Sequence[Number], cubic: Sequence[Number], family: bool) ->
     a, b, c, d = cubic
     if family:
         return (*minors[:2], 0 * d, c, b, b * b - 4 * a * c)
-    return (*minors, c, b, 18 * a * b * c * d - 4 * b**3 * d + b * b * c * c - 4 * a * c**3
+    return (*minors, c, b, 18 * a * b * c * d - 4 * b * b * b * d + b * b * c * c - 4 * a * c * c * c
             - 27 * a * a * d * d)
 
 
-def signs_at(satellite: Satellite, line: Line, index: int, family: bool = False) -> tuple[Signs, Any]:
-    """(exact signs at the real root of this index, the cubic c3, c2, c1, c0 in balls)."""
+def signs_at(satellite: Satellite, line: Line, index: int, family: bool = False) -> Signs:
+    """The exact signs at the real root of this index."""
     vanishing: list[bool] = []
 
-    def asked(digits: Digits) -> tuple[Signs, Any]:
+    def asked(digits: Digits) -> Signs:
         X, omega, reciprocal = line.at(line.roots(digits.bits)[index])
-        minors, cubic = coefficients(satellite, omega, X, reciprocal)
-        values = deciding(minors, cubic, family)
+        values = deciding(*coefficients(satellite, omega, X, reciprocal), family)
         if any(arb(v).contains(0) for v in values) and not vanishing:
             if digits.bits < 4 * START_BITS:
                 raise Unclear  # more digits cost less than exact zeros
             vanishing.extend(_vanish(satellite, line, family))
         known = vanishing or [False] * len(values)
-        found = [0 if zero else _sign(arb(v)) for v, zero in zip(values, known)]
-        return Signs(*found), [*cubic[:3], cubic[3] if found[2] else arb(0)]
+        return Signs(*(0 if zero else _sign(arb(v)) for v, zero in zip(values, known)))
     return settled(asked, 2 * START_BITS)
 
 
@@ -144,5 +142,5 @@ def _sign(value: arb) -> int:
 def _vanish(satellite: Satellite, line: Line, family: bool) -> list[bool]:
     """Which of the deciding numbers are zero, exactly, at every root alike."""
     X, omega, reciprocal = line.exact
-    minors, cubic = coefficients(satellite, omega, X, reciprocal)
-    return [(fmpq_poly([0]) + v) % line.polynomial == 0 for v in deciding(minors, cubic, family)]
+    values = deciding(*coefficients(satellite, omega, X, reciprocal), family)
+    return [(fmpq_poly([0]) + v) % line.polynomial == 0 for v in values]
