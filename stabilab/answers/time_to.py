@@ -119,29 +119,29 @@ def of_one(scene: AnyScene, state: Any, start: Any, limit: Limit, end: Fraction 
     before = earliest(scene, start, limit)
     if last is not None and before > last:
         return after_a_period(limit) if last is not end else Found(
-            _down(last), math.nan, "proved",
+            down(last), math.nan, "proved",
             f"{limit.words}: not reached by the end of the search: the torque could not bring the energy for "
             f"it sooner")
     proof = enclosed(scene, start, limit, last, work, before)
     if proof.high is not None:
-        return Found(_down(proof.low), _up(proof.high), "proved",
+        return Found(down(proof.low), up(proof.high), "proved",
                      f"{limit.words}: the motion enclosed, its first crossing by roots")
     if proof.done:
         return _at_the_end(proof, limit, last is not end, scene.time_unit)
-    return _beyond_integers(scene, state, start, limit, end, max(_down(proof.until), _down(before)),
+    return _beyond_integers(scene, state, start, limit, end, max(down(proof.until), down(before)),
                             bands if work else 0, spun)
 
 
 def _at_the_end(proof: Any, limit: Limit, whole: Any, unit: Any) -> Found:
     """The search reached its end, and no crossing is sure."""
     if proof.low is not None:
-        return Found(_down(proof.low), math.nan, "proved",
+        return Found(down(proof.low), math.nan, "proved",
                      f"{limit.words}: touched at t = {float(proof.low):.10g} {unit} as closely as "
                      f"{2.0**-50:.0e}: "
                                                            "whether it is reached cannot be told")
     if whole:
         return after_a_period(limit)
-    return Found(_down(proof.until), math.nan, "proved",
+    return Found(down(proof.until), math.nan, "proved",
                  f"{limit.words}: not reached by the end of the search, the motion enclosed")
 
 
@@ -177,11 +177,11 @@ def _of_any(scene: AnyScene, state: Any, limit: Limit, end: Fraction | None) -> 
             or by_run(scene, state, limit, math.inf if end is None else float(end)))
 
 
-def _down(value: Any) -> float:
+def down(value: Any) -> float:
     near = float(value)
     return near if near <= value else math.nextafter(near, -math.inf)
 
 
-def _up(value: Any) -> float:
+def up(value: Any) -> float:
     near = float(value)
     return near if near >= value else math.nextafter(near, math.inf)

@@ -69,7 +69,7 @@ class IntegerFlow:
     """
 
     def __init__(self, form, weights, start, bits: int, unit: Fraction = Fraction(1), direction=None):
-        self.bits, self.order, self.work = bits, 6 + int(0.35 * bits), 0
+        self.bits, self.order, self.work, self.unit = bits, 6 + int(0.35 * bits), 0, unit
         self.kappa, self.rho, self.sigma, self.m = (_rounded(row, bits, by) for row, by in (
             (form.kappa, 1), (form.rho, unit), (form.sigma, unit), (form.m, unit * unit)))
         self.x = _rounded(start, bits, unit) + _rounded(direction or (), bits)
@@ -85,26 +85,35 @@ class IntegerFlow:
         self.turns = math.sqrt(sum(float(v) ** 2 for v in direction)) * MORE if direction else 0.0
         self.now, self.h = Fraction(0), FIRST / max(1.0, max(abs(v) for v in self.x[:3]) / (1 << bits))
 
-    def step(self) -> Piece:
-        """The next piece."""
+    def turn_on(self, form):
+        """From here on the constant torque of this form acts, of the same body and wheels."""
+        self.m = _rounded(form.m, self.bits, self.unit * self.unit)
+
+    def step(self, until: Fraction | None = None) -> Piece:
+        """The next piece; until: the own time, exact, beyond which it does not go."""
         while True:
             ticks = max(1, int(self.h * (1 << CLOCK)))
-            rows, products = self._series(ticks)
+            length = Fraction(ticks, 1 << CLOCK)
+            cut = until is not None and self.now + length >= until
+            if cut:
+                length = until - self.now
+            rows, products = self._series(length)
             top = max(abs(row[-1]).bit_length() for row in rows)
             if top <= 2 * SLACK or ticks == 1:
                 break
             self.h *= 0.5 ** max(1.0, (top - SLACK) / self.order)
-        h = ticks / (1 << CLOCK)
+        h = float(length)
         sizes = [sum(map(abs, row)) for row in rows]
         self._widen(rows, products, sizes, h)
         radius = math.ceil(self.error / self.least * MORE)
         radii = ([math.ceil(self.error / math.sqrt(q) * MORE) for q in self.q]
                  + [self.turned] * (len(rows) - 3))
-        piece = Piece(self.now, Fraction(ticks, 1 << CLOCK), self.bits, rows, radii, sizes)
+        piece = Piece(self.now, length, self.bits, rows, radii, sizes)
         if radius.bit_length() > 900:
             raise OverflowError("the error has grown beyond the range of doubles")
         self.x, self.now = [sum(row) for row in rows], self.now + piece.length
-        self.h = h * min(LONGER, 2.0 ** ((SLACK - top) / self.order))
+        if not cut:  # a short last piece says nothing of the next one's length
+            self.h = h * min(LONGER, 2.0 ** ((SLACK - top) / self.order))
         return piece
 
     def forget(self, bits: int):
@@ -118,9 +127,9 @@ class IntegerFlow:
         return (pairs + [(3 + a, b) for j, k in CYCLE for a, b in ((j, k), (k, j))] if len(self.x) > 3
                 else pairs)
 
-    def _series(self, ticks):
+    def _series(self, length):
         """(coefficients of each component times the step's powers, those of every product)."""
-        bits, shift = self.bits, self.bits + CLOCK
+        bits, h, over = self.bits, length.numerator, length.denominator
         rows, pairs = [[v] for v in self.x], self._pairs()
         products = [[] for _ in pairs]
         for n in range(self.order):
@@ -129,9 +138,9 @@ class IntegerFlow:
             new = []
             for i, (j, k) in enumerate(CYCLE):
                 rate = self.kappa[i] * products[i][n] + self.rho[i] * rows[k][n] + self.sigma[i] * rows[j][n]
-                new.append(((rate + (self.m[i] << bits if n == 0 else 0)) * ticks >> shift) // (n + 1))
+                new.append(((rate + (self.m[i] << bits if n == 0 else 0)) * h // (over << bits)) // (n + 1))
             for i in range(len(rows) - 3):
-                new.append(((products[3 + 2 * i][n] - products[4 + 2 * i][n]) * ticks >> CLOCK) // (n + 1))
+                new.append(((products[3 + 2 * i][n] - products[4 + 2 * i][n]) * h // over) // (n + 1))
             for row, value in zip(rows, new):
                 row.append(value)
         self.work += self.order * (self.order + 8) // 2 * len(pairs)
@@ -188,7 +197,7 @@ def _tail(first, second, order, bits):
     return (total >> bits) + 1
 
 
-SHORT = 56  # a step below 2^-56 of the piece has arrived
+SHORT = 72  # a step below 2^-72 of the piece has arrived: a crossing lies between neighbouring doubles
 WIDE = 20  # up to 2^-20 of the piece behind the lower end the upper one is looked for at once
 SHORTER = 1.0 - 2.0**-30  # less than what rounding adds to a step's length
 

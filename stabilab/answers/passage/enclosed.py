@@ -42,20 +42,22 @@ class Enclosed:
 
 def enclosed(scene: AnyScene, start: Sequence[Number], limit: Limit, t_max: Fraction | None = None,
              work: int = WORK,
-             earliest: Fraction = Fraction(0)) -> Enclosed:
+             earliest: Fraction = Fraction(0), later: Sequence[tuple[Fraction, AnyScene]] = ()) -> Enclosed:
     """The first crossing of the motion of a plain scene from three rationals, proved; or until when there is
     none.
 
     t_max: None where only the work is to end the search. earliest: a time before which it is known not to
-    happen: a way that would not come so far with the work is given up soon. A first attempt, at few bits, is
-    carried on beyond what its bits can prove, to learn how many it takes.
+    happen: a way that would not come so far with the work is given up soon. later: times, in order, from
+    which on another scene holds, of the same body and wheels. A first attempt, at few bits, is carried on
+    beyond what its bits can prove, to learn how many it takes.
     """
-    form, unit = scene.quadratic(), own_unit(scene, start)
+    form, unit = scene.quadratic(), max(own_unit(one, start) for one in (scene, *(one for _, one in later)))
     weights = (Fraction(1), Fraction(2), Fraction(1)) if scene.variables == "scaled" else scene.body.exact
+    switches = [(time * unit, one.quadratic()) for time, one in later]
     bits, best, spent = FIRST_BITS, Enclosed(None, None, Fraction(0), False, 0), 0
     while True:
         attempt = _Attempt(IntegerFlow(form, weights, start, bits, unit, limit.direction), limit, unit, t_max,
-                           earliest)
+                           earliest, switches)
         found = attempt.run(work - spent)
         spent += attempt.flow.work
         best = found if found.high is not None or found.until > best.until or found.done else best
@@ -79,8 +81,8 @@ class _Attempt:
     None otherwise."""
 
     def __init__(self, flow: IntegerFlow, limit: Limit, unit: Fraction, t_max: Fraction | None,
-                 earliest: Fraction) -> None:
-        self.flow, self.unit = flow, unit
+                 earliest: Fraction, switches: Sequence[tuple[Fraction, Any]]) -> None:
+        self.flow, self.unit, self.switches = flow, unit, [*switches]
         self.needs: int | None = None
         self.end = None if t_max is None else t_max * unit
         self.earliest = (earliest if t_max is None else min(earliest, t_max)) * unit
@@ -99,11 +101,13 @@ class _Attempt:
                 proving, searches = False, [Search(one, exactly=False) for one in self.thresholds]
             before = flow.work
             try:
-                piece = flow.step()
+                piece = flow.step(self.switches[0][0] if self.switches else None)
             except OverflowError:  # the error of one step is beyond doubles: what was proved before stays
                 return self._answer(until, False)
             hit = [search.take(piece) for search in searches]
             now, shorter, length = flow.now, length, float(piece.length)
+            if self.switches and now == self.switches[0][0]:
+                flow.turn_on(self.switches.pop(0)[1])
             if flow.work * TRIED > work and length < STEADY * shorter and self._hopeless(
                 piece, flow.work - before, work - flow.work):
                 return self._answer(until, False)

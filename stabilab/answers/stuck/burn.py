@@ -40,10 +40,11 @@ from ...validation import came
 from ..attitude.ask import of_motion
 from ..attitude.result import Attitude
 from ..motion import motion
+from ..passage.enclosed import enclosed
 from ..passage.limit import AXES, Limit
 from ..passage.run import ROUNDING, WIDER, Found, by_run, largest_rate
 from ..simulate import trajectory
-from ..time_to import of_one
+from ..time_to import down, of_one, up
 
 RUN_STEPS = 1_000_000  # of one segment
 LOOKS = 2000  # closing times looked at after the first that is too late
@@ -90,8 +91,9 @@ class Latest:
     """The latest closing time that keeps |omega| below `limit`, rad/s, up to it and for ever after: between
     low and high, s. Both inf: no closing is too late. high NaN: not known, but any up to low is early enough.
 
-    level: "exact", "proved" (the motion enclosed), "run" (roots along runs in machine precision, wider by
-    what a second run shows) or "undecided"; because: how it is known. again: (from, to), s, of later closing
+    level: "exact", "proved" (the motion enclosed over all switches; low and high are neighbouring doubles but
+    for the longest burns), "run" (roots along runs in machine precision, wider by what a second run shows) or
+    "undecided"; because: how it is known. again: (from, to), s, of later closing
     times after which the free motion stays below the limit again, though the burn has passed it or would
     have left such a motion in between; seen at 2,000 closing times, no proof.
     """
@@ -286,17 +288,38 @@ def _latest(base: Scene, links: Sequence[_Link], below: Fraction) -> Latest:
     limit = Limit("rate", ((tuple(zip(_weights(base), AXES)), below**2),), words)
     if links and limit.reached_by(links[0].exact or links[0].start.tolist()):
         return Latest(size, 0.0, 0.0, "exact", f"{words}: the motion before the burn reaches it already")
+    found = (_enclosed(links, limit) if len(links) > 1 else None) or _along(links, limit)
+    if math.isinf(found.low):
+        return Latest(size, math.inf, math.inf, found.level, f"{words}: never, whenever the thrusters close")
+    again = _again(base, links, found.high, size) if math.isfinite(found.high) else ()
+    return Latest(size, found.low, found.high, found.level, found.words, again)
+
+
+def _enclosed(links: Sequence[_Link], limit: Limit) -> Found | None:
+    """The first crossing along the chain, proved; None where the work does not reach it."""
+    first, last = links[0], links[-1]
+    if not first.exact:
+        return None
+    proof = enclosed(first.scene, first.exact, limit, last.begin + last.length,
+                     later=[(one.begin, one.scene) for one in links[1:]])
+    words = f"{limit.words}: the chain of motions enclosed, its first crossing by roots"
+    if proof.high is not None and proof.low is not None:
+        return Found(down(proof.low), up(proof.high), "proved", words)
+    return Found(math.inf, math.inf, "proved", words) if proof.done and proof.low is None else None
+
+
+def _along(links: Sequence[_Link], limit: Limit) -> Found:
+    """The first crossing link by link, the first of them enclosed; inf where there is none."""
     for one in links:
         if not one.firing:
             continue  # g is constant where nothing fires
         found = _first(one, limit)
         if found is not None:
             low, high = _outward(one.begin, found.low, found.high)
-            again = _again(base, links, high, size) if math.isfinite(high) else ()
-            return Latest(size, low, high, found.level, found.words, again)
+            return replace(found, low=low, high=high)
     burns = [one for one in links if one.firing]
     level = "proved" if len(burns) <= 1 and all(one.exact for one in burns) else "run"
-    return Latest(size, math.inf, math.inf, level, f"{words}: never, whenever the thrusters close")
+    return Found(math.inf, math.inf, level, limit.words)
 
 
 def _outward(begin: Fraction, low: float, high: float) -> tuple[float, float]:

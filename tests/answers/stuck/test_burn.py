@@ -4,6 +4,7 @@ import math
 from fractions import Fraction
 from pathlib import Path
 
+import mpmath as mp
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
@@ -12,6 +13,7 @@ import stabilab
 from stabilab.answers.stuck.burn import largest_after
 from stabilab.case.burns import Burn, segments
 from stabilab.errors import InputError
+from tests.oracles import model, taylor
 
 CASE = """body.inertia = {inertia}
 motion.angular_velocity = {rates}
@@ -65,40 +67,61 @@ def test_the_largest_rate_of_a_free_body_is_that_of_a_long_run(seed):
 
 
 def check_latest(folder, seed):
-    """The latest closing time of a random burn: a step before it every run stays below, a step after one
-    does not."""
+    """The latest closing time of a random burn, pulsed in every second one: at the double that is given the
+    free motion stays below the limit, at the next double it does not, by Taylor series in 40 digits of
+    another code (`tests.oracles.taylor`); and nothing before it passes the limit, by a run of DOP853."""
     rng = np.random.default_rng(seed)
     D, w = random_body(rng)
     torque = [float(f"{v:.6g}") for v in rng.normal(0, 0.02, 3)]
     begun = largest_after(stabilab.Scene(stabilab.Body(D)), w)
-    limit = float(f"{begun * rng.uniform(1.2, 4):.8g}")
-    found = stabilab.burn(stabilab.load_burning(case_of(folder, D, w, [(torque, "stop = 2000")])),
-                          below=repr(limit))
-    latest = found.latest
-    assert latest.level in ("proved", "run") and 0 < latest.low <= latest.high < 2000
-    assert latest.high - latest.low < 1e-9 * latest.high
-    step = 1e-7 * latest.high
-    before, after = (run(D, torque, w, t) for t in (latest.low - step, latest.high + step))
-    assert least_square(D, before) < limit**2 < least_square(D, after)
-    assert largest(D, before) < limit  # by a run of the free motion
-    assert largest(D, after) == pytest.approx(limit, rel=1e-5)
-    along = run(D, torque, w, latest.low, dense=True)
-    assert np.linalg.norm(along.sol(np.linspace(0, latest.low, 5000)), axis=0).max() <= limit * (1 + 1e-9)
-    assert found.closed_latest.largest_rate == pytest.approx(limit, rel=1e-9)
+    limit = f"{begun * rng.uniform(1.2, 4):.8g}"
+    pulses = "start = 1\nperiod = 4\non_time = 3\n" if seed % 2 else ""
+    burning = stabilab.load_burning(case_of(folder, D, w, [(torque, f"{pulses}stop = 2000")]))
+    exactly = burning.craft.thrusters[0].torque  # of arm and force as the file has them, in all digits
+    assert np.abs(np.array(exactly, float) - torque).max() < 1e-15
+    found = stabilab.burn(burning, below=limit)
+    low, high = found.latest.low, found.latest.high
+    assert found.latest.level == "proved" and high == math.nextafter(low, math.inf) < 2000
+    with mp.workdps(40):
+        D, state, most = [Fraction(repr(v)) for v in D], [Fraction(repr(v)) for v in w], mp.mpf(limit) ** 2
+        for length, firing in spans(Fraction(low), bool(seed % 2)):
+            before = state
+            state = taylor_end(D, exactly if firing else (0, 0, 0), before, length)
+        later = taylor_end(D, exactly, before, length + Fraction(high) - Fraction(low))
+        assert firing and least_square(D, state) < most <= least_square(D, later)
+    D, size = list(map(float, D)), float(limit)
+    assert largest(D, list(map(float, state))) == pytest.approx(size, rel=1e-5)  # the run is sampled
+    state = np.array(w)
+    for length, firing in spans(Fraction(low), bool(seed % 2)):
+        along = run(D, np.array(torque) * firing, state, float(length), dense=True)
+        assert np.linalg.norm(along.sol(np.linspace(0, float(length), 500)), axis=0).max() < size * (1 + 1e-9)
+        state = along.y[:, -1]
+    assert found.closed_latest.largest_rate == pytest.approx(size, rel=1e-9)
+
+
+def spans(end, pulsed):
+    """(length, whether it fires) up to a time: one burn from 0 on, or from 1 s on 3 s of every 4 s."""
+    if not pulsed:
+        return [(end, True)]
+    edges = [Fraction(0), *(Fraction(n) for n in range(1, 2000) if n % 4 in (0, 1) and n < end), end]
+    return [(b - a, a % 4 == 1) for a, b in zip(edges, edges[1:])]
+
+
+def taylor_end(D, torque, w, length):
+    return taylor.integrate(model.physical(D, torque=torque), w, [length], digits=40)[0]
 
 
 def least_square(D, w):
     """g^2 by the plane omega2 = 0 of the polhode: two linear equations for the squares of the other two,
     written here from energy and momentum."""
-    D = np.array(D)
-    one, _, three = np.argsort(D)
-    T2, H2 = D @ w**2, D**2 @ w**2
-    squares = np.linalg.solve([[D[one], D[three]], [D[one] ** 2, D[three] ** 2]], [T2, H2])
-    return squares.sum()
+    D = [mp.mpf(d.numerator) / d.denominator for d in map(Fraction, D)]
+    (one, _, three), T2 = sorted(D), sum(d * v**2 for d, v in zip(D, w))
+    H2 = sum(d**2 * v**2 for d, v in zip(D, w))
+    return ((three**2 - one**2) * T2 - (three - one) * H2) / (one * three * (three - one))
 
 
 @pytest.mark.parametrize("seed", range(3))
-def test_the_latest_closing_time_parts_runs_that_stay_below_from_runs_that_do_not(tmp_path, seed):
+def test_the_latest_closing_time_is_the_last_double_that_stays_below(tmp_path, seed):
     check_latest(tmp_path, seed)
 
 
@@ -152,7 +175,7 @@ def test_a_pulsed_burn_s_latest_closing_lies_in_a_pulse_and_parts_the_runs(tmp_p
     D, w, torque, limit = [3.0, 2.0, 1.5], [0.01, -0.02, 0.03], [0.05, 0.02, -0.04], 0.15
     path = case_of(tmp_path, D, w, [(torque, "start = 3\nstop = 60\nperiod = 2\non_time = 0.5")])
     latest = stabilab.burn(stabilab.load_burning(path), below=limit).latest
-    assert latest.level == "run" and latest.high - latest.low < 1e-11
+    assert latest.level == "proved" and latest.high == math.nextafter(latest.low, math.inf)
     assert (latest.low - 3) % 2 < 0.5 and (latest.high - 3) % 2 < 0.5
 
     def closed_at(end):
