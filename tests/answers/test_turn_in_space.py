@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
+from scipy.special import ellipk
 
 import stabilab
 
@@ -174,3 +175,69 @@ def test_the_answer_in_json_is_in_the_frame_of_the_file(stabilab, tmp_path):
         assert other[key] == pytest.approx(one[key], rel=1e-12)
     for key in ("momentum_direction", "turn_axis"):
         np.testing.assert_allclose(other[key], turn @ np.array(one[key]), atol=1e-12)
+
+
+def top_of(A, C, wheel, arm):
+    return stabilab.Scene(stabilab.Body((A, A, C)), stabilab.Gyrostat((0, 0, wheel)),
+                          stabilab.Gravity(abs(arm), (0, 0, math.copysign(1, arm))))
+
+
+def top_run(A, C, wheel, arm, start, end):
+    """(leans, azimuth of the axis that was passed at the end) by Euler's and Poisson's equations as they
+    stand."""
+    D, c, sign = np.array([A, A, C]), np.array([0, 0, arm]), -math.copysign(1, arm)
+
+    def rates(_, y):
+        w, gamma = y[:3], y[3:6]
+        azimuth = (w @ gamma - w[2] * gamma[2]) / (1 - gamma[2] ** 2)
+        return [*(np.cross(D * w + [0, 0, wheel], w) + np.cross(c, gamma)) / D, *np.cross(gamma, w), azimuth]
+    y = solve_ivp(rates, (0, end), [*start, 0.0], "DOP853", rtol=1e-12, atol=1e-14,
+                  t_eval=np.linspace(0, end, 20_001)).y
+    return np.arccos(np.clip(sign * y[5], -1, 1)), y[6, -1]
+
+
+@pytest.mark.parametrize("seeds", [range(6), pytest.param(range(6, 60), marks=pytest.mark.slow)], ids=str)
+def test_tops_nutate_and_precess_as_followed_ones(seeds):
+    for seed in seeds:
+        rng = np.random.default_rng(seed)
+        A, C, arm, wheel = rng.uniform(1, 3), rng.uniform(0.5, 2), 2 * rng.normal(), seed % 2 * rng.normal()
+        gamma = rng.normal(size=3)
+        start = [*rng.normal(size=3), *gamma / np.linalg.norm(gamma)]
+        found = stabilab.attitude(top_of(A, C, wheel, arm), start)
+        leans, azimuth = top_run(A, C, wheel, arm, start, found.nutation_period)
+        assert found.mode == "heavy top"
+        assert leans[-1] == pytest.approx(leans[0], abs=1e-9)
+        assert found.lean[0] <= leans.min() + 1e-9 and found.lean[1] >= leans.max() - 1e-9
+        assert found.lean == pytest.approx((leans.min(), leans.max()), abs=1e-6)  # of 20,000 samples
+        assert found.precession_period == pytest.approx(2 * math.pi * found.nutation_period / abs(azimuth), rel=1e-9)
+
+
+def test_special_tops():
+    """Steady precession at W: A W^2 cos = C w3 W - P; a sleeping top; one on the separatrix of the sleeping
+    top (kappa = a, eps = beta: Landau & Lifshitz, section 35); a plane pendulum's 4 K(sin^2(lean/2))."""
+    A, C, arm, lean, rate = 2.0, 1.0, -3.0, 60, 0.5
+    gamma = (math.sqrt(0.75), 0, 0.5)  # up - gamma, along the arm
+    spin = (-arm + A * rate**2 * 0.5) / (C * rate)  # the rate about the upward vertical, cos 60 deg
+    w = rate * np.array(gamma)
+    steady = stabilab.attitude(top_of(A, C, 0, arm), [w[0], 0, spin, *gamma])
+    assert steady.lean == pytest.approx([math.radians(lean)] * 2, abs=1e-7)
+    assert steady.precession_period == pytest.approx(2 * math.pi / rate, rel=1e-7)
+    asleep = stabilab.attitude(top_of(A, C, 0, arm), [0, 0, 9.0, 0, 0, 1.0])
+    assert (asleep.mode, asleep.lean, asleep.precession_period) == ("steady", None, None)
+    assert asleep.rotation_period == pytest.approx(2 * math.pi / 9)
+    awake = stabilab.attitude(top_of(A, C, 0, arm), [0, 1.0, 1.0, 0, 0, 1.0])  # it passes through the vertical
+    assert awake.lean[0] == 0 and awake.precession_period is None and "vertical" in awake.because
+    # at gamma = (1, 0, 0): kappa = w1 = a = C w3/A, eps = w1^2 + w2^2 = beta = 2 |P|/A = 3
+    between = stabilab.attitude(top_of(A, C, 0, arm), [1.0, 2**0.5, 2.0, 1.0, 0, 0])
+    assert between.mode in ("separatrix", "heavy top")  # 2^(1/2) is rounded
+    exact = stabilab.attitude(top_of(A, C, 0, -2.5), [1.5, 0.5, 3.0, 1.0, 0, 0])  # 2.25 + 0.25 = 2 2.5/2
+    assert (exact.mode, exact.nutation_period) == ("separatrix", None)
+    pendulum = stabilab.attitude(top_of(A, C, 0, -arm), [0, 0, 0, 0.6, 0, 0.8])
+    assert pendulum.lean == pytest.approx((math.pi - math.asin(0.6), math.pi), rel=1e-12)
+    m = math.sin(math.asin(0.6) / 2) ** 2  # of the swing to both sides; the lean takes one of them
+    assert pendulum.nutation_period == pytest.approx(2 * ellipk(m) / math.sqrt(abs(arm) / A), rel=1e-14)
+
+
+def test_a_top_whose_centre_of_mass_is_off_its_axis_is_refused(stabilab):
+    code, out, err = stabilab("attitude", "cases/top-lx30-lz30.toml")
+    assert (code, out) == (2, "") and "heavy symmetric top" in err

@@ -14,7 +14,7 @@ that H goes round, c the other one with an extreme moment, b the intermediate ax
     mean rate = (H/D_a) [1 - (H^2 - 2T D_a)/(H^2 - D_a^2 A^2) Pi(n, m)/K(m)]
     n = -m D_a^2 A^2/(H^2 - D_a^2 A^2)
 
-in exact fractions and balls. Motions with wheels and under a torque: `followed`.
+in exact fractions and balls. Motions with wheels and under a torque: `followed`; heavy tops: `top`.
 """
 from __future__ import annotations
 
@@ -25,24 +25,23 @@ from fractions import Fraction
 from typing import Any
 
 from ...errors import InputError
-from ...numbers.balls import Digits, Unclear, settled
+from ...numbers.balls import Digits, settled
 from ...numbers.vectors import dot
 from ...orbit.result import Fate, Motion
 from ...physics.scene import Scene
 from ...validation import is_case, scene_and_state
 from ..caveats import limited
 from ..motion import motion
-from .result import LONG, SEPARATRIX, SHORT, STEADY, Attitude, turned
-
-FREE_ERROR = 1e-15  # relative, of numbers from balls
+from .result import CLOSED_ERROR, LONG, SEPARATRIX, SHORT, STEADY, Attitude, rounded, turned
+from .top import axis_of_top, of_top
 
 
 def attitude(scene: Any, state: Any = None) -> Attitude:
-    """How the motion from `state` (three rates, rad/s) turns in space.
+    """How the motion from `state` (three rates, rad/s; of a top followed by the vertical) turns in space.
 
-    scene: a Scene of a body, wheels and a constant torque, or a case, whose own start holds where none is
-    given. Raises InputError for scaled variables, which have no attitude, for other effects, and as `motion`
-    does.
+    scene: a Scene of a body, wheels and a constant torque, or of a heavy symmetric top, or a case, whose own
+    start holds where none is given. Raises InputError for scaled variables, which have no attitude, for other
+    effects, and as `motion` does.
     """
     exact, case = None, scene if is_case(scene) and state is None else None
     if case is not None:
@@ -51,12 +50,16 @@ def attitude(scene: Any, state: Any = None) -> Attitude:
     if scene.variables == "scaled":
         raise InputError("attitude: scaled variables have no attitude: give body, wheel and torque, and the "
                          "motion as angular_velocity, in rad/s")
-    if not scene.plain:
-        raise InputError("attitude: it is known of a body with wheels and a torque constant in the body; "
-                         f"this scene also has {', '.join(sorted(_others(scene)))}")
+    axis = None if scene.plain else axis_of_top(scene)
+    if not scene.plain and axis is None:
+        raise InputError("attitude: it is known of a body with wheels and a torque constant in the body, and "
+                         f"of a heavy symmetric top; this scene also has {', '.join(sorted(_others(scene)))}")
     exact = exact or tuple(Fraction(v) for v in state[:3])
     found = motion(scene, state, brief=True, exact=exact)
-    return of_motion(scene, exact, found if case is None else limited(found, scene, case))
+    found = found if case is None else limited(found, scene, case)
+    if axis is None:
+        return of_motion(scene, exact, found)
+    return of_top(scene, axis, (*exact, *map(Fraction, found.at[3:])), _at_start(scene, exact, found))
 
 
 def of_motion(scene: Scene, omega: Sequence[float | Fraction], found: Motion) -> Attitude:
@@ -78,7 +81,7 @@ def of_motion(scene: Scene, omega: Sequence[float | Fraction], found: Motion) ->
 def _physical(case: Any) -> tuple[Any, Any, Any]:
     """(scene, state, exact state) of a case; of one in scaled variables that states its body, in SI."""
     if case.variables != "scaled" or not case.physical or not case.scaling or case.state is None:
-        return case.scene, case.state, case.exact_state
+        return case.scene, case.start, case.exact_state
     rates = [r * Fraction(x) for r, x in zip(case.scaling.rate, case.exact_state or case.state)]
     return case.physical, tuple(map(float, rates)), rates
 
@@ -103,7 +106,7 @@ def _at_start(scene: Scene, omega: Sequence[Fraction], found: Motion) -> Attitud
 def _steady(base: Attitude, omega: Sequence[Fraction]) -> Attitude:
     rate = math.hypot(*map(float, omega))
     return replace(base, mode=STEADY, rotation_period=2 * math.pi / rate if rate else None,
-                   error=FREE_ERROR if rate else None,
+                   error=CLOSED_ERROR if rate else None,
                    because="the body turns steadily about one axis" if rate else "the body is at rest")
 
 
@@ -125,19 +128,12 @@ def _of_free_body(D: Sequence[Fraction], omega: Sequence[Fraction], base: Attitu
         period = 4 * whole / ball(speed).sqrt()
         rate = ball(H2).sqrt() * (1 - ball((H2 - T2 * D[a]) / across) * third / whole) / ball(D[a])
         turns = rate * period / (2 * numbers.pi())
-        return _rounded(period), _rounded(2 * numbers.pi() / rate), _rounded(turns - int(float(turns)))
+        return rounded(period), rounded(2 * numbers.pi() / rate), rounded(turns - int(float(turns)))
 
     period, precession, turn = settled(periods)
     shares = [D[a] ** 2 * square / H2 for square in (A2, A2 * (1 - m))]  # cos^2 of the angle, greatest first
     least_angle, greatest_angle = (math.atan2(math.sqrt(1 - share), math.sqrt(share)) for share in shares)
     words = f"no torque: the angular momentum goes round the {'long' if long else 'short'} axis in the body"
     return turned(replace(base, mode=LONG if long else SHORT, rotation_period=period,
-                          precession_period=precession, cone=(least_angle, greatest_angle), error=FREE_ERROR,
-                          because=words), turn)
-
-
-def _rounded(ball: Any) -> float:
-    """A ball as a double, where it is narrow enough for one."""
-    if not (ball.rad() <= abs(ball.mid()) * 2.0**-54):
-        raise Unclear
-    return float(ball.mid())
+                          precession_period=precession, cone=(least_angle, greatest_angle),
+                          error=CLOSED_ERROR, because=words), turn)

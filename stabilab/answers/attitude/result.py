@@ -3,13 +3,18 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from typing import Any
 
 from ...caveat import Caveat
+from ...numbers.balls import Unclear
 from ...numbers.vectors import Float3
 from ...orbit.result import Fate
 from ...representation import Shown
 
-LONG, SHORT, SEPARATRIX, STEADY = "long-axis", "short-axis", "separatrix", "steady"
+LONG, SHORT, SEPARATRIX, STEADY, TOP = "long-axis", "short-axis", "separatrix", "steady", "heavy top"
+
+
+CLOSED_ERROR = 1e-15  # relative, of numbers from balls
 
 
 @dataclass(frozen=True, repr=False)
@@ -17,10 +22,13 @@ class Attitude(Shown):
     """How one motion turns in space; vectors along the principal axes of the scene.
 
     mode: "long-axis" or "short-axis" (which the angular momentum goes round, seen from the body; without
-    a torque), "separatrix", "steady", or None. rotation_period: of the rates, s; of a steady rotation, of
-    a turn. precession_period: mean, of that axis about the angular momentum, s. momentum: |H| at the
-    start, N m s; momentum_direction: unit vector along it at the start. cone: (least, greatest) angle
-    between the axis, in the direction that is nearer, and the angular momentum over all time, rad.
+    a torque), "heavy top", "separatrix", "steady", or None. rotation_period: of the rates, s; of a steady
+    rotation, of a turn. precession_period: mean, of that axis about the angular momentum, s. momentum: |H| at
+    the start, N m s; momentum_direction: unit vector along it at the start. cone: (least, greatest) angle
+    between the axis, in the direction that is nearer, and the angular momentum over all time, rad. Of a
+    heavy top precession_period is that of its axis about the vertical; lean: (least, greatest) angle between
+    the upward vertical and the direction from its fixed point to its centre of mass, rad; nutation_period:
+    from one least lean to the next, s.
     turn_angle (rad, 0 to pi), turn_axis: the rotation that takes the attitude at the start to that one
     rotation period later; the axis is the same in body and space. What the motion does not have is None,
     and `because` says why. error: relative, of the periods and the turn.
@@ -36,10 +44,19 @@ class Attitude(Shown):
     rotation_period: float | None = None
     precession_period: float | None = None
     cone: tuple[float, float] | None = None
+    lean: tuple[float, float] | None = None
+    nutation_period: float | None = None
     turn_angle: float | None = None
     turn_axis: Float3 | None = None
     error: float | None = None
     caveats: tuple[Caveat, ...] = ()
+
+
+def rounded(ball: Any) -> float:
+    """A ball as a double; raises Unclear where it is too wide for one."""
+    if not (ball.rad() <= abs(ball.mid()) * 2.0**-54):
+        raise Unclear
+    return float(ball.mid())
 
 
 def turned(found: Attitude, turns: float) -> Attitude:

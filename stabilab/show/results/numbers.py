@@ -222,6 +222,7 @@ def _attitude(found):
                             {"long_name": "about which one rotation period turns the body"})}
     notes = {"fate": found.fate.word, "mode": found.mode, "momentum": found.momentum,
              "rotation_period": found.rotation_period, "precession_period": found.precession_period,
+             "nutation_period": found.nutation_period, "lean": found.lean,
              "cone": found.cone, "turn_angle": found.turn_angle, "error": found.error,
              "because": found.because}
     return Variables(("axis",), values, AXIS,

@@ -106,6 +106,7 @@ def _spin_up(found):
 
 def _attitude(found):
     parts = [found.mode or found.fate.word, _named("rotation period", found.rotation_period),
+             _named("nutation period", found.nutation_period),
              _named("precession period", found.precession_period)]
     return "; ".join(filter(None, parts))
 

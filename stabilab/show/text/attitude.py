@@ -7,7 +7,7 @@ from ..units import DIGITS, Units, number
 from . import frame
 
 HEADS = {"long-axis": "LONG-AXIS MODE", "short-axis": "SHORT-AXIS MODE", "separatrix": "ON THE SEPARATRIX",
-         "steady": "STEADY ROTATION"}
+         "steady": "STEADY ROTATION", "heavy top": "HEAVY TOP"}
 
 
 def as_dict(cases, found) -> dict:
@@ -21,6 +21,7 @@ def row_of(case, one) -> dict:
     return {"at": one.at, "fate": one.fate.word, "rotation_period": one.rotation_period,
             "precession_period": one.precession_period, "mode": one.mode, "momentum": one.momentum,
             "momentum_direction": in_file(case, one.momentum_direction), "cone": one.cone,
+            "lean": one.lean, "nutation_period": one.nutation_period,
             "turn_angle": one.turn_angle, "turn_axis": in_file(case, one.turn_axis), "error": one.error,
             "because": one.because} | limiting.key(case, one.caveats)
 
@@ -41,6 +42,10 @@ def text(case, found, units: Units) -> str:
         low, high = (units.angle(angle) for angle in found.cone)
         named = (found.mode or "").partition("-")[0]
         lines.append(row("cone", f"{low} to {high} between it and the {named} axis"))
+    if found.lean is not None:
+        low, high = (units.angle(angle) for angle in found.lean)
+        lines.append(row("lean", f"{low} to {high} from the upward vertical" if low != high else
+                         f"{low} from the upward vertical, always"))
     if found.turn_angle is not None:
         about = f" about {_vector(case, found.turn_axis)}" if found.turn_axis else ""
         lines.append(row("turn after one period", units.angle(found.turn_angle) + about))
@@ -63,6 +68,8 @@ def _answer(found, units):
     yield HEADS.get(found.mode, "ROTATION PERIOD KNOWN" if found.rotation_period else "NO ROTATION PERIOD")
     if found.rotation_period is not None:
         yield f"rotation period {units.time(found.rotation_period)}"
+    if found.nutation_period is not None:
+        yield f"nutation period {units.time(found.nutation_period)}"
     if found.precession_period is not None:
         yield f"mean precession period {units.time(found.precession_period)}"
 
