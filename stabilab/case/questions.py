@@ -62,6 +62,20 @@ class Questions:
         return import_module("stabilab.case.read").text_of_case(self)  # type: ignore[no-any-return]
 
 
+class BurningQuestions:
+    """What a case whose thrusters fire on a schedule can be asked."""
+
+    def burn(self, **named: Any) -> Any:
+        """What the burn leaves, and by when it must close: see `stabilab.burn`."""
+        return _public("burn")(self, **named)
+
+    def simulate(self, times: Any = None, attitude: str | None = None) -> Any:
+        """The motion at the given times, over all switches: see `stabilab.simulate`; attitude: as there."""
+        burns = import_module("stabilab.answers.stuck.chain")
+        times = import_module("stabilab.public").in_numbers("times", times)
+        return burns.simulate_burn(self, times, attitude)
+
+
 class Plots:
     """The kinds of `stabilab.plot`, each of this case."""
 

@@ -37,7 +37,7 @@ from .body import (
 )
 from .burns import KEYS, ONLY, Segment, segments
 from .lines import KeyLines, key_lines
-from .questions import Questions
+from .questions import BurningQuestions, Questions
 from .source import combinations, parsed, place, source_text, swept
 from .table import Faults, Table, Uncertain, described, did_you_mean, dotted, expected
 from .write import data_of_scene, plain, text_of
@@ -206,9 +206,9 @@ def text_of_case(case: Case) -> str:
 
 
 @dataclass(frozen=True)
-class Burning:
+class Burning(BurningQuestions):
     """A case whose thrusters fire on a schedule. craft: the case, its scene without the torque of these
-    thrusters; no question but `burn` may take it for the whole."""
+    thrusters; no question but these may take it for the whole."""
 
     craft: Case
 
@@ -216,6 +216,12 @@ class Burning:
         """From time 0 to the last closing, `until` at the latest: which thrusters fire, between exact times.
         """
         return segments([one.burn for one in self.craft.thrusters], until)
+
+
+def fires_on_schedule(path: str | os.PathLike[str]) -> bool:
+    """Whether a thruster of this case file has a start, stop, pulses or propellant."""
+    *_, data, faults = _read(path)
+    return bool(_scheduled(data, faults))
 
 
 def load_burning(given: str | os.PathLike[str]) -> Burning:
@@ -233,10 +239,7 @@ def load_burning(given: str | os.PathLike[str]) -> Burning:
 def _judge_burns(top: Table, burning: bool):
     """Note every thruster with a schedule where the question takes a constant torque; where it does not, that
     there is none, and combinations of values."""
-    stated = top.data.get("thrusters")
-    found = [(Table(("thrusters", n), one, top.faults), keys)
-             for n, one in enumerate(stated if isinstance(stated, list) else ())
-             if isinstance(one, dict) and (keys := [key for key in KEYS if key in one])]
+    found = _scheduled(top.data, top.faults)
     if not burning:
         for table, keys in found:
             table.fault(ONLY.format(", ".join(keys)), keys[0])
@@ -246,6 +249,14 @@ def _judge_burns(top: Table, burning: bool):
                   '"12 s"', *(["thrusters"] if "thrusters" in top else []))
     if "sweep" in top:
         top.fault("a burn takes one case at a time: take away [sweep]", "sweep")
+
+
+def _scheduled(data: dict, faults: Faults) -> list[tuple[Table, list[str]]]:
+    """(table, keys of its schedule) of every thruster that has one."""
+    stated = data.get("thrusters")
+    return [(Table(("thrusters", n), one, faults), keys)
+            for n, one in enumerate(stated if isinstance(stated, list) else ())
+            if isinstance(one, dict) and (keys := [key for key in KEYS if key in one])]
 
 
 def load_all(path) -> list[Case]:

@@ -8,7 +8,8 @@ from functools import partial
 from ..answers.digits.checked import DEFAULT
 from ..answers.digits.run import best_reached, missed
 from ..answers.simulate import in_matrices, with_quaternion
-from ..case.read import blamed_on
+from ..answers.stuck.chain import simulate_burn
+from ..case.read import blamed_on, fires_on_schedule, load_burning
 from ..errors import InputError, ToleranceNotMet
 from ..show import reference as outside
 from ..show.files import trajectory_files
@@ -26,7 +27,11 @@ from .common.output import all_reached, hold_laws, say, say_laws, tell, write, w
 def simulate(case, at, model, order, method, rtol, digits, angles, attitude, matrix, out, json, strict,
              units):
     """Follow the motion of a case, of every combination where it has a [sweep]."""
-    loaded = load_cases([case], motion=True)
+    burning = load_burning(case) if fires_on_schedule(case) else None
+    if burning is not None and (model != "exact" or angles or not method is rtol is order is digits is None):
+        raise InputError(f"{case}: its thrusters fire on a schedule, so that it is followed from switch to "
+                         "switch: give it without --model, --order, --method, --rtol, --digits and --angles")
+    loaded = [burning.craft] if burning else load_cases([case], motion=True)
     if attitude or matrix:
         if model != "exact" or angles or (attitude and matrix):
             raise InputError(
@@ -37,8 +42,13 @@ def simulate(case, at, model, order, method, rtol, digits, angles, attitude, mat
     say_repeated(loaded[0], at)
     if out:
         trajectory_files.checked(out)
-    runs = [(one, *_followed(one, times_asked(one, at), model, method, rtol, order, digits))
-            for one in one_by_one(loaded)]
+    if burning is not None:
+        with blamed_on(loaded[0]):
+            turning = "quaternion" if attitude or matrix else None
+            runs = [(loaded[0], simulate_burn(burning, times_asked(loaded[0], at), turning), None)]
+    else:
+        runs = [(one, *_followed(one, times_asked(one, at), model, method, rtol, order, digits))
+                for one in one_by_one(loaded)]
     if matrix:
         runs = [(one, in_matrices(run), reached) for one, run, reached in runs]
     if angles:

@@ -22,21 +22,17 @@ from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from itertools import groupby
 from operator import itemgetter
-from os import PathLike
 from typing import Any
 
 import numpy as np
 
-from ...case.read import load_burning
 from ...caveat import Caveat
 from ...errors import InputError
 from ...numbers.units import RATE, TIME, Dimension, in_si
 from ...numbers.vectors import Exact3, Float3
 from ...orbit.result import Motion
-from ...physics.effects.constant_torque import ConstantTorque
 from ...physics.scene import Scene
 from ...physics.states import moved_row
-from ...validation import came
 from ..attitude.ask import of_motion
 from ..attitude.result import Attitude
 from ..motion import motion
@@ -45,6 +41,7 @@ from ..passage.limit import AXES, Limit
 from ..passage.run import ROUNDING, WIDER, Found, by_run, largest_rate
 from ..simulate import trajectory
 from ..time_to import down, of_one, up
+from .chain import Chain
 
 RUN_STEPS = 1_000_000  # of one segment
 LOOKS = 2000  # closing times looked at after the first that is too late
@@ -129,21 +126,16 @@ def burn(burning: Any, stop: Any = None, below: Any = None) -> Burned:
     for scenes with other effects than wheels and a constant torque, and for `below` where a wheel or a
     constant torque stays.
     """
-    if isinstance(burning, (str, PathLike)):
-        burning = load_burning(burning)
-    if not hasattr(burning, "segments"):
-        raise InputError("burn: expected the path of a case whose thrusters fire on a schedule, its text, or "
-                         f"what stabilab.load_burning gives; got {came(burning)}")
     last = None if stop is None else _positive(stop, TIME, "stop")
     limit = None if below is None else _positive(below, RATE, "below")
-    chain = _Chain(burning, last)
+    chain = Chain(burning, last)
     if limit is not None and not chain.free:
         raise InputError("below: the largest rate after closing is known in closed form for a body without "
                          "wheels on which no torque stays; ask what one closing time leaves, with stop")
-    links, craft = list(chain.links()), burning.craft
+    links, craft = list(_links(chain)), chain.case
     switches = tuple(Switch(float(one.begin), one.firing, one.torque, tuple(one.start.tolist()))
                      for one in links)
-    closed = chain.closed(links)
+    closed = _closed(chain, links)
     result = Burned(tuple(t.name for t in craft.thrusters), switches, closed,
                     caveats=(*craft.caveats, *_granted(craft, closed)))
     if limit is None:
@@ -151,8 +143,8 @@ def burn(burning: Any, stop: Any = None, below: Any = None) -> Burned:
     latest = _latest(chain.base, links, limit)
     if not 0 < latest.low < math.inf:
         return replace(result, latest=latest)
-    early = _Chain(burning, Fraction(latest.low))
-    return replace(result, latest=latest, closed_latest=early.closed(list(early.links())))
+    early = Chain(burning, Fraction(latest.low))
+    return replace(result, latest=latest, closed_latest=_closed(early, list(_links(early))))
 
 
 @dataclass(frozen=True)
@@ -171,76 +163,42 @@ class _Link:
     exact: Exact3 | None
 
 
-class _Chain:
-    """The scenes of a burn, one after the other, up to its last closing."""
+def _links(chain: Chain) -> Iterator[_Link]:
+    given = chain.case.exact_state
+    state = np.array(chain.case.state, float)
+    second = moved_row(state, MOVED) if state.any() else state
+    for begin, length, firing, scene in chain.pieces():
+        after, after_second = (_end_of(scene, one, length) for one in (state, second))
+        yield _Link(begin, length, firing, tuple(float(m) for m in scene.vector("constant_torque")), scene,
+                    state, second, after, after_second, given if not begin else None)
+        state, second = after, after_second
 
-    def __init__(self, burning: Any, stop: Fraction | None) -> None:
-        case = burning.craft
-        if case.physical is None or case.state is None or case.variables != "physical":
-            raise InputError("a burn is followed from a start in rad/s: give [motion] angular_velocity")
-        if not case.physical.plain:
-            raise InputError("a burn is known of a body with wheels and torques constant in the body; this "
-                             "scene has other effects")
-        self.case, self.base = case, case.physical
-        self.until = stop if stop is not None else self._end(case)
-        self.segments = burning.segments(self.until)
-        self.torques = [case.frame.turned(t.torque) for t in case.thrusters]
-        self.free = not any(self.base.vector("gyrostat")) and not any(self.base.vector("constant_torque"))
 
-    @staticmethod
-    def _end(case: Any) -> Fraction | None:
-        """Where burns without an end are closed: at the end of the motion's span."""
-        if not any(t.burn is not None and t.burn.endless for t in case.thrusters):
-            return None
-        if case.span is None:
-            raise InputError('a thruster has neither stop nor propellant: give one, or --stop "12 s", or a '
-                             "span in [motion]")
-        return Fraction(case.span[1])
-
-    def scene(self, firing: Sequence[int]) -> Scene:
-        """With the torques of these thrusters added to what acts anyway."""
-        torque = [sum(parts, Fraction(0)) for parts in zip(
-            self.base.vector("constant_torque"), *(self.torques[n] for n in firing))]
-        others = [one for one in self.base.effects if one.name != "constant_torque"]
-        return Scene(self.base.body, *others, *([ConstantTorque(tuple(torque))] if any(torque) else []))
-
-    def links(self) -> Iterator[_Link]:
-        given = self.case.exact_state
-        state = np.array(self.case.state, float)
-        second = moved_row(state, MOVED) if state.any() else state
-        for number, (begin, end, firing) in enumerate(self.segments):
-            scene = self.scene(firing)
-            after, after_second = (_end_of(scene, one, end - begin) for one in (state, second))
-            yield _Link(begin, end - begin, tuple(self.case.thrusters[n].name for n in firing),
-                        tuple(float(m) for m in scene.vector("constant_torque")), scene, state, second, after,
-                        after_second, given if number == 0 else None)
-            state, second = after, after_second
-
-    def closed(self, links: Sequence[_Link]) -> Closed:
-        """What is left after the last of them."""
-        body, wheel = self.base.body, [float(v) for v in self.base.vector("gyrostat")]
-        state = links[-1].end if links else np.array(self.case.state, float)
-        error = WIDER * float(np.abs(state - links[-1].second_end).max()) if links else 0.0
-        error = max(error, ROUNDING * float(np.abs(state).max()))
-        rates = tuple(state.tolist())
-        found = motion(self.base, rates)
-        runs = [(one, *largest_rate(one.scene, one.start.tolist(), float(one.length), RUN_STEPS))
-                for one in links]
-        whole = all(reached >= float(one.length) * (1 - ROUNDING) for one, _, reached in runs)
-        before = max((size for _, size, _ in runs), default=math.hypot(*rates)) if whole else None
-        quiet = not any(self.base.vector("constant_torque"))
-        stop = self.until
-        fired = [t.burn and sum((b - a for a, b in t.burn.windows(stop)), Fraction(0))
-                 for t in self.case.thrusters]
-        used = [None if t.burn is None or t.burn.mass_flow is None else float(t.burn.mass_flow * time)
-                for t, time in zip(self.case.thrusters, fired)]
-        last = links[-1].begin + links[-1].length if links else Fraction(0)
-        return Closed(float(last), rates, error,
-                      tuple(d * w + l for d, w, l in zip(body.inertia, rates, wheel)),
-                      sum(d * w * w for d, w in zip(body.inertia, rates)) / 2,
-                      largest_after(self.base, rates) if self.free else found.largest, before, found,
-                      of_motion(self.base, rates, found) if quiet else None,
-                      tuple(None if v is None else float(v) for v in fired), tuple(used))
+def _closed(chain: Chain, links: Sequence[_Link]) -> Closed:
+    """What is left after the last of them."""
+    body, wheel = chain.base.body, [float(v) for v in chain.base.vector("gyrostat")]
+    state = links[-1].end if links else np.array(chain.case.state, float)
+    error = WIDER * float(np.abs(state - links[-1].second_end).max()) if links else 0.0
+    error = max(error, ROUNDING * float(np.abs(state).max()))
+    rates = tuple(state.tolist())
+    found = motion(chain.base, rates)
+    runs = [(one, *largest_rate(one.scene, one.start.tolist(), float(one.length), RUN_STEPS))
+            for one in links]
+    whole = all(reached >= float(one.length) * (1 - ROUNDING) for one, _, reached in runs)
+    before = max((size for _, size, _ in runs), default=math.hypot(*rates)) if whole else None
+    quiet = not any(chain.base.vector("constant_torque"))
+    stop = chain.until
+    fired = [t.burn and sum((b - a for a, b in t.burn.windows(stop)), Fraction(0))
+             for t in chain.case.thrusters]
+    used = [None if t.burn is None or t.burn.mass_flow is None else float(t.burn.mass_flow * time)
+            for t, time in zip(chain.case.thrusters, fired)]
+    last = links[-1].begin + links[-1].length if links else Fraction(0)
+    return Closed(float(last), rates, error,
+                  tuple(d * w + l for d, w, l in zip(body.inertia, rates, wheel)),
+                  sum(d * w * w for d, w in zip(body.inertia, rates)) / 2,
+                  largest_after(chain.base, rates) if chain.free else found.largest, before, found,
+                  of_motion(chain.base, rates, found) if quiet else None,
+                  tuple(None if v is None else float(v) for v in fired), tuple(used))
 
 
 def _granted(craft: Any, closed: Closed) -> Iterator[Caveat]:

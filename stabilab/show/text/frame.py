@@ -80,7 +80,7 @@ def note(case) -> list[str]:
 def silent(case) -> list[str]:
     """A line where there are thrusters and none of them acts: whoever described them asks what they do."""
     thrusters = getattr(case, "thrusters", ())
-    if not thrusters or any(one.stuck for one in thrusters):
+    if not thrusters or any(one.stuck or one.burn for one in thrusters):
         return []
     return [
         f"  no thruster fires: stuck = true in a table [[thrusters]] makes one act for ever "

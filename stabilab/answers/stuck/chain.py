@@ -1,0 +1,125 @@
+"""The chain of motions of a burn: while thrusters fire their torque is constant in the body, and each motion
+starts where the one before ended, at switching times that are exact."""
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from fractions import Fraction
+from os import PathLike
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ...case.read import load_burning
+from ...errors import InputError
+from ...physics.effects.constant_torque import ConstantTorque
+from ...physics.scene import Scene
+from ...physics.states import checked_times
+from ...validation import came
+from ..simulate import Simulation, in_matrices, quaternion_blocks, simulate
+
+
+class Piece(NamedTuple):
+    """begin, length: s, exact; firing: names of the thrusters that fire; scene: with their torque."""
+
+    begin: Fraction
+    length: Fraction
+    firing: tuple[str, ...]
+    scene: Scene
+
+
+class Chain:
+    """The scenes of a burn, one after the other, up to its last closing, at `stop` (s) at the latest. base:
+    the scene without the thrusters, which holds from then on; free: whether that is a body without wheels on
+    which no torque acts."""
+
+    def __init__(self, burning: Any, stop: Fraction | None = None) -> None:
+        if isinstance(burning, (str, PathLike)):
+            burning = load_burning(burning)
+        if not hasattr(burning, "segments"):
+            raise InputError("burn: expected the path of a case whose thrusters fire on a schedule, its "
+                             f"text, or what stabilab.load_burning gives; got {came(burning)}")
+        case = burning.craft
+        if case.physical is None or case.state is None or case.variables != "physical":
+            raise InputError("a burn is followed from a start in rad/s: give [motion] angular_velocity")
+        if not case.physical.plain:
+            raise InputError("a burn is known of a body with wheels and torques constant in the body; this "
+                             "scene has other effects")
+        self.case, self.base = case, case.physical
+        self.until = stop if stop is not None else self._end(case)
+        self.segments = burning.segments(self.until)
+        self.torques = [case.frame.turned(t.torque) for t in case.thrusters]
+        self.free = not any(self.base.vector("gyrostat")) and not any(self.base.vector("constant_torque"))
+
+    @staticmethod
+    def _end(case: Any) -> Fraction | None:
+        """Where burns without an end are closed: at the end of the motion's span."""
+        if not any(t.burn is not None and t.burn.endless for t in case.thrusters):
+            return None
+        if case.span is None:
+            raise InputError('a thruster has neither stop nor propellant: give one, or --stop "12 s", or a '
+                             "span in [motion]")
+        return Fraction(case.span[1])
+
+    def pieces(self) -> Iterator[Piece]:
+        """In order of time; none where nothing ever fires."""
+        for begin, end, firing in self.segments:
+            names = tuple(self.case.thrusters[n].name for n in firing)
+            yield Piece(begin, end - begin, names, self._scene(firing))
+
+    def _scene(self, firing: Sequence[int]) -> Scene:
+        """With the torques of these thrusters added to what acts anyway."""
+        torque = [sum(parts, Fraction(0)) for parts in zip(
+            self.base.vector("constant_torque"), *(self.torques[n] for n in firing))]
+        others = [one for one in self.base.effects if one.name != "constant_torque"]
+        return Scene(self.base.body, *others, *([ConstantTorque(tuple(torque))] if any(torque) else []))
+
+
+def simulate_burn(burning: Any, times: Any = None, attitude: str | None = None) -> Simulation:
+    """The motion at the given times, from 0 on, while thrusters fire on their schedule and after it.
+
+    burning: as of `burn`; times: (n,), increasing, s; None: the two ends of the span of the case; attitude:
+    as of `simulate`. Each piece between two switches is followed from where the one before ended. Raises
+    InputError as `burn` and `simulate` do, for times before 0, and where no times are known.
+    """
+    chain = Chain(burning)
+    case = chain.case
+    if times is None and case.span is None:
+        raise InputError("times: expected times for a burn whose case has no span")
+    times = checked_times(case.span if times is None else times)
+    if times[0] < 0 or times[0] > times[-1]:
+        raise InputError("times: a burn is followed from 0 on: give increasing times that are not negative")
+    pieces = list(chain.pieces())
+    closed = pieces[-1].begin + pieces[-1].length if pieces else Fraction(0)
+    after = Piece(closed, max(Fraction(times[-1]) - closed, Fraction(0)), (), chain.base)
+    omega, found = case.state, []
+    blocks = {} if attitude is None else quaternion_blocks(case.blocks)
+    for piece in [*pieces, after]:
+        end = piece.begin + piece.length
+        inside = [t for t in times.tolist() if piece.begin <= t and (t < end or piece is after)]
+        local = [float(Fraction(t) - piece.begin) for t in inside]
+        run = simulate(piece.scene, omega, np.unique([0.0, *local, float(piece.length)]), blocks)
+        if run.status != "reached":
+            raise InputError(f"state: the burn cannot be followed: {run.reason}")
+        keep = np.searchsorted(run.t, local)
+        found.append(replace(run, t=np.array(inside), state={n: v[keep] for n, v in run.state.items()}))
+        if times[-1] < end:
+            break
+        omega = tuple(run.state["omega"][-1])
+        blocks = {"attitude": tuple(run.state["quaternion"][-1])} if "quaternion" in run.state else {}
+    whole = _joined(found)
+    return in_matrices(whole) if attitude == "matrix" else whole
+
+
+def _joined(runs: Sequence[Simulation]) -> Simulation:
+    """The pieces as one run: laws and errors are those of the worst, work is the sum."""
+    first, last = runs[0], runs[-1]
+    most = lambda rows: {name: np.maximum.reduce([row[name] for row in rows if name in row])
+                         for name in {name: None for row in rows for name in row}}
+    return replace(
+        last, t=np.concatenate([run.t for run in runs]),
+        state={name: np.concatenate([run.state[name] for run in runs]) for name in first.state},
+        invariant_drift={name: float(v) for name, v in most([run.invariant_drift for run in runs]).items()},
+        counters={name: sum(run.counters.get(name, 0) for run in runs) for name in first.counters},
+        error=most([run.error for run in runs]),
+        reason=f"{last.reason}; thrusters switch at exact times")

@@ -1,0 +1,77 @@
+"""The motion over the switches of a burn, against Euler's equations by DOP853, written out piece by piece."""
+import json
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+from scipy.spatial.transform import Rotation
+
+import stabilab
+from stabilab.errors import InputError
+from tests.answers.stuck.test_burn import case_of
+
+D, START, LAM = np.array([3.0, 2.0, 1.5]), [0.1, -0.2, 0.3], np.array([0.3, -0.1, 0.2])
+ONE, TWO = np.array([0.05, 0.02, -0.04]), np.array([-0.01, 0.08, 0.03])
+TIMES = [0.0, 0.5, 1.0, 2.25, 3.0, 3.3, 4.0, 7.5]
+# pulses of 0.5 s from 1 s and 3 s on; the other from 2.25 s to 4 s
+PIECES = [(1, 0 * ONE), (0.5, ONE), (0.75, 0 * ONE), (0.75, TWO), (0.5, ONE + TWO), (0.5, TWO), (3.5, 0 * ONE)]
+
+
+@pytest.fixture
+def burning(tmp_path):
+    wheels = "".join(f"[[wheels]]\naxis = {np.eye(3)[n].tolist()}\nmomentum = {LAM[n]}\n" for n in range(3))
+    return case_of(tmp_path, D.tolist(), START, [(ONE, "start = 1\nstop = 4\nperiod = 2\non_time = 0.5"),
+                                                 (TWO, "start = 2.25\nstop = 4")], more=wheels)
+
+
+def written_out():
+    """(rates, matrices from body to space) at TIMES."""
+    y, begin, found = np.concatenate([START, np.eye(3).ravel()]), 0.0, {}
+    for length, torque in PIECES:
+        def rate(_, y, torque=torque):
+            w, C = y[:3], y[3:].reshape(3, 3)
+            cross = [[0, -w[2], w[1]], [w[2], 0, -w[0]], [-w[1], w[0], 0]]
+            return np.concatenate([(torque - np.cross(w, D * w + LAM)) / D, (C @ cross).ravel()])
+        run = solve_ivp(rate, (0, length), y, method="DOP853", rtol=1e-13, atol=1e-15, dense_output=True)
+        found |= {t: run.sol(t - begin) for t in TIMES if begin <= t <= begin + length}
+        y, begin = run.y[:, -1], begin + length
+    rows = np.array([found[t] for t in TIMES])
+    return rows[:, :3], rows[:, 3:].reshape(-1, 3, 3)
+
+
+@pytest.mark.parametrize("form", [None, "quaternion", "matrix"])
+def test_the_motion_over_switches_is_that_of_its_pieces(burning, form):
+    run = stabilab.load_burning(burning).simulate(TIMES, attitude=form)
+    rates, matrices = written_out()
+    assert run.t.tolist() == TIMES and run.status == "reached"
+    assert run.state["omega"] == pytest.approx(rates, abs=1e-12)
+    if form:
+        turned = (Rotation.from_quat(run.state["quaternion"]).as_matrix() if form == "quaternion"
+                  else run.state["matrix"])
+        assert turned == pytest.approx(matrices, abs=1e-11)
+
+
+def test_the_end_of_the_run_is_what_the_burn_leaves(burning):
+    given = stabilab.load_burning(burning)
+    closed = given.burn().closed
+    assert given.simulate(["0 s", "4 s"]).state["omega"][-1] == pytest.approx(closed.rates, abs=1e-15)
+
+
+def test_the_command_follows_a_schedule_from_switch_to_switch(stabilab, burning):
+    at = ",".join(map(str, TIMES))
+    code, out, _ = stabilab("simulate", burning, "--at", at, "--json", "--matrix")
+    state = json.loads(out)["state"]
+    rates, matrices = written_out()
+    assert code == 0 and np.array(state["omega"]) == pytest.approx(rates, abs=1e-12)
+    assert np.array(state["matrix"]) == pytest.approx(matrices, abs=1e-11)
+    code, out, _ = stabilab("simulate", burning)
+    assert code == 0 and "thrusters switch at exact times" in out and "no thruster fires" not in out
+    for more in (["--digits", "5"], ["--method", "RK45"], ["--model", "linear"]):
+        code, out, err = stabilab("simulate", burning, *more)
+        assert (code, out, err.count("\n")) == (2, "", 1) and "from switch to switch" in err
+
+
+@pytest.mark.parametrize("times", [[-1.0, 2.0], [2.0, 1.0]])
+def test_a_burn_is_followed_forward_from_its_start(burning, times):
+    with pytest.raises(InputError, match="times: a burn is followed from 0 on"):
+        stabilab.load_burning(burning).simulate(times)
