@@ -3,7 +3,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from ..case.limit_options import stated_limit
+from ..case.limit_options import StatedLimit, stated_limit
 from ..errors import InputError
 from ..numbers.units import NONE, TIME, in_si
 from ..physics.states import start_of
@@ -29,10 +29,16 @@ def when(case: Any, states: Any = None, rate: Any = None, component: Any = None,
     if events is not None:
         given = any(one is not None for one in (rate, component, energy, tilt))
         return _crossings(case, states, events, until, given)
-    limit = stated_limit(case, *map(_text, (rate, component, energy, tilt, until)))
+    limit = limit_stated(case, rate, component, energy, tilt, until)
     if states is None:
         return limited_time(case, limit.ask, limit.until)
     return time_to(case.scene, states, **limit.ask, t_max=limit.until)
+
+
+def limit_stated(case: Any, rate: Any = None, component: Any = None, energy: Any = None, tilt: Any = None,
+                 until: Any = None) -> StatedLimit:
+    """The limit that these arguments of `when` state."""
+    return stated_limit(case, *map(_text, (rate, component, energy, tilt, until)))
 
 
 def _crossings(case: Any, state: Any, events: Any, until: Any, limited: bool) -> Crossings:

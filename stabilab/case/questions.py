@@ -75,6 +75,13 @@ class BurningQuestions:
         times = import_module("stabilab.public").in_numbers("times", times)
         return burns.simulate_burn(self, times, attitude)
 
+    def when(self, **limit: Any) -> Any:
+        """When the motion first reaches a limit, over all switches: rate, component, energy, tilt, until as
+        of `stabilab.when`."""
+        case = self.craft  # type: ignore[attr-defined]
+        stated = import_module("stabilab.answers.when").limit_stated(case, **limit)
+        return import_module("stabilab.answers.stuck.chain").time_of_burn(self, stated.ask, stated.until)
+
 
 class Plots:
     """The kinds of `stabilab.plot`, each of this case."""

@@ -5,8 +5,9 @@ from dataclasses import replace
 
 from ..answers.caveats import of_law
 from ..answers.passage.of_case import limited_time
+from ..answers.stuck.chain import time_of_burn
 from ..case.limit_options import stated_limit
-from ..case.read import blamed_on
+from ..case.read import blamed_on, fires_on_schedule, load_burning
 from ..show.text import answers, law
 from ..show.text import when as shown
 from .common.cases import load_cases, one_by_one, tell_all, tell_radians, units_asked
@@ -15,13 +16,19 @@ from .common.output import hold_laws, leave_undecided, write
 
 def when(cases, limits, units, json, csv, strict):
     """Answer every case. limits: what is to be reached and by when, by the names of the options."""
-    loaded, answered = load_cases(cases, motion=True), []
+    paths, answered = list(map(str, cases)), []
+    burns = {path: load_burning(path) for path in paths if fires_on_schedule(path)}
+    loaded = [*(one.craft for one in burns.values()),
+              *load_cases([path for path in paths if path not in burns], motion=True)]
+    loaded.sort(key=lambda case: paths.index(case.path))
     systems = units_asked(loaded, units)
     tell_radians(systems[0], **{name: limits.get(name) for name in ("rate", "component", "tilt")})
     for case in one_by_one(loaded):
         limit = stated_limit(case, **limits)
         with blamed_on(case):
-            answered.append((case, limit, limited_time(case, limit.ask, limit.until)))
+            found = (time_of_burn(burns[case.path], limit.ask, limit.until) if case.path in burns
+                     else limited_time(case, limit.ask, limit.until))
+            answered.append((case, limit, found))
     laws = [law.until(case, found.validity, float(found.high)) for case, _, found in answered]
     answered = [(case, limit, replace(found, caveats=(*found.caveats, *of_law(held))))
                 for (case, limit, found), held in zip(answered, laws)]

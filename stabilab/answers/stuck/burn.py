@@ -36,12 +36,11 @@ from ...physics.states import moved_row
 from ..attitude.ask import of_motion
 from ..attitude.result import Attitude
 from ..motion import motion
-from ..passage.enclosed import enclosed
-from ..passage.limit import AXES, Limit
+from ..passage.limit import Limit
 from ..passage.run import ROUNDING, WIDER, Found, by_run, largest_rate
 from ..simulate import trajectory
 from ..time_to import down, of_one, up
-from .chain import Chain
+from .chain import Chain, limit_after, weights_of_largest
 
 RUN_STEPS = 1_000_000  # of one segment
 LOOKS = 2000  # closing times looked at after the first that is too late
@@ -140,7 +139,7 @@ def burn(burning: Any, stop: Any = None, below: Any = None) -> Burned:
                     caveats=(*craft.caveats, *_granted(craft, closed)))
     if limit is None:
         return result
-    latest = _latest(chain.base, links, limit)
+    latest = _latest(chain, links, limit)
     if not 0 < latest.low < math.inf:
         return replace(result, latest=latest)
     early = Chain(burning, Fraction(latest.low))
@@ -223,43 +222,29 @@ def _end_of(scene: Scene, state: np.ndarray, length: Fraction) -> np.ndarray:
     return np.asarray(run.states[-1], float)
 
 
-def _weights(scene: Scene) -> Exact3:
-    """Of the squares of the rates in g^2."""
-    D = scene.body.exact
-    least, middle, greatest = sorted(range(3), key=lambda i: D[i])
-    weight = D[middle] * (D[least] + D[greatest] - D[middle]) / (D[least] * D[greatest])
-    found = [Fraction(1)] * 3
-    found[middle] = weight
-    return tuple(found)
-
-
 def largest_after(scene: Scene, rates: Sequence[float]) -> float:
     """The largest |omega|, rad/s, over all time of the free motion of a body without wheels through these
     rates; of a rest at the middle axis, of the motions next to it."""
-    return math.sqrt(sum(float(c) * w * w for c, w in zip(_weights(scene), rates)))
+    return math.sqrt(sum(float(c) * w * w for c, w in zip(weights_of_largest(scene), rates)))
 
 
-def _latest(base: Scene, links: Sequence[_Link], below: Fraction) -> Latest:
+def _latest(chain: Chain, links: Sequence[_Link], below: Fraction) -> Latest:
     """The first root of g = below along the chain."""
-    size = float(below)
-    words = f"largest |omega| after closing = {size:.10g} rad/s"
-    limit = Limit("rate", ((tuple(zip(_weights(base), AXES)), below**2),), words)
+    base, size = chain.base, float(below)
+    limit = limit_after(base, below)
+    words = limit.words
     if links and limit.reached_by(links[0].exact or links[0].start.tolist()):
         return Latest(size, 0.0, 0.0, "exact", f"{words}: the motion before the burn reaches it already")
-    found = (_enclosed(links, limit) if len(links) > 1 else None) or _along(links, limit)
+    found = (_enclosed(chain, limit) if len(links) > 1 else None) or _along(links, limit)
     if math.isinf(found.low):
         return Latest(size, math.inf, math.inf, found.level, f"{words}: never, whenever the thrusters close")
     again = _again(base, links, found.high, size) if math.isfinite(found.high) else ()
     return Latest(size, found.low, found.high, found.level, found.words, again)
 
 
-def _enclosed(links: Sequence[_Link], limit: Limit) -> Found | None:
+def _enclosed(chain: Chain, limit: Limit) -> Found | None:
     """The first crossing along the chain, proved; None where the work does not reach it."""
-    first, last = links[0], links[-1]
-    if not first.exact:
-        return None
-    proof = enclosed(first.scene, first.exact, limit, last.begin + last.length,
-                     later=[(one.begin, one.scene) for one in links[1:]])
+    proof = chain.enclosed(limit)
     words = f"{limit.words}: the chain of motions enclosed, its first crossing by roots"
     if proof.high is not None and proof.low is not None:
         return Found(down(proof.low), up(proof.high), "proved", words)
@@ -303,7 +288,7 @@ def _first(link: _Link, limit: Limit) -> Found | None:
 
 def _again(base: Scene, links: Sequence[_Link], after: float, size: float) -> tuple[tuple[float, float], ...]:
     """Intervals of closing times after `after` at which g is below the limit again."""
-    weights = np.array([float(c) for c in _weights(base)])
+    weights = np.array([float(c) for c in weights_of_largest(base)])
     last = links[-1]
     end = float(last.begin + last.length)
     times, sizes = [], []

@@ -2,6 +2,7 @@
 starts where the one before ended, at switching times that are exact."""
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from fractions import Fraction
@@ -12,11 +13,17 @@ import numpy as np
 
 from ...case.read import load_burning
 from ...errors import InputError
+from ...numbers.units import RATE, in_si
+from ...numbers.vectors import Exact3
 from ...physics.effects.constant_torque import ConstantTorque
 from ...physics.scene import Scene
 from ...physics.states import checked_times
 from ...validation import came
+from ..passage.enclosed import Enclosed, enclosed
+from ..passage.limit import AXES, Limit, asked
+from ..passage.run import TimeTo
 from ..simulate import Simulation, in_matrices, quaternion_blocks, simulate
+from ..time_to import down, up
 
 
 class Piece(NamedTuple):
@@ -67,12 +74,36 @@ class Chain:
             names = tuple(self.case.thrusters[n].name for n in firing)
             yield Piece(begin, end - begin, names, self._scene(firing))
 
+    def enclosed(self, limit: Limit, end: Fraction | None = None) -> Enclosed:
+        """The first crossing of a limit by `end` (s; None: by the last closing), proved over all switches, or
+        until when there is none."""
+        pieces = list(self.pieces())
+        closed = pieces[-1].begin + pieces[-1].length if pieces else Fraction(0)
+        scenes = [*((piece.begin, piece.scene) for piece in pieces), (closed, self.base)]
+        start = self.case.exact_state or tuple(map(Fraction, self.case.state))
+        return enclosed(scenes[0][1], start, limit, closed if end is None else end, later=scenes[1:])
+
     def _scene(self, firing: Sequence[int]) -> Scene:
         """With the torques of these thrusters added to what acts anyway."""
         torque = [sum(parts, Fraction(0)) for parts in zip(
             self.base.vector("constant_torque"), *(self.torques[n] for n in firing))]
         others = [one for one in self.base.effects if one.name != "constant_torque"]
         return Scene(self.base.body, *others, *([ConstantTorque(tuple(torque))] if any(torque) else []))
+
+
+def weights_of_largest(scene: Scene) -> Exact3:
+    """Of the squares of the rates in g^2, the square of the largest |omega| of a free motion (see `burn`)."""
+    D = scene.body.exact
+    least, middle, greatest = sorted(range(3), key=lambda i: D[i])
+    found = [Fraction(1)] * 3
+    found[middle] = D[middle] * (D[least] + D[greatest] - D[middle]) / (D[least] * D[greatest])
+    return tuple(found)
+
+
+def limit_after(scene: Scene, below: Fraction) -> Limit:
+    """g = below, rad/s: closed then, |omega| reaches this limit in the free motion that follows."""
+    return Limit("rate", ((tuple(zip(weights_of_largest(scene), AXES)), below**2),),
+                 f"largest |omega| after closing = {float(below):.10g} rad/s")
 
 
 def simulate_burn(burning: Any, times: Any = None, attitude: str | None = None) -> Simulation:
@@ -109,6 +140,38 @@ def simulate_burn(burning: Any, times: Any = None, attitude: str | None = None) 
         blocks = {"attitude": tuple(run.state["quaternion"][-1])} if "quaternion" in run.state else {}
     whole = _joined(found)
     return in_matrices(whole) if attitude == "matrix" else whole
+
+
+def time_of_burn(burning: Any, ask: dict[str, Any], until: Fraction | None = None) -> TimeTo:
+    """The first time at which the motion of a burn reaches a limit, over all switches and after them.
+
+    ask: the one limit, by its name as of `time_to`; until: s, the time at which the search ends; None: the
+    end of the span of the case, or the last closing, whichever is later, unless the free motion after the
+    burn surely stays below the limit for ever. Proved as far as the work reaches.
+    """
+    chain = Chain(burning)
+    case, limit = chain.case, asked(chain.base, **ask)
+    if until is None and limit.kind == "rate" and chain.free:
+        after = chain.enclosed(limit_after(chain.base, in_si(ask["rate"], RATE, "rate")))
+        if after.done and after.low is None:
+            return _first(chain, limit, math.inf, math.inf, "never: neither while thrusters fire nor after")
+    if until is None:
+        ends = [piece.begin + piece.length for piece in chain.pieces()]
+        until = max([*ends, *([Fraction(case.span[1])] if case.span else [])], default=Fraction(0))
+    found = chain.enclosed(limit, until)
+    low = down(found.until if found.low is None else found.low)
+    words = "the motion enclosed over all switches"
+    if limit.reached_by(case.exact_state or case.state):
+        return _first(chain, limit, 0.0, 0.0, "reached already at the start")
+    if found.high is not None and found.low is not None:
+        return _first(chain, limit, low, up(found.high), words)
+    return _first(chain, limit, low, math.nan, f"{words}, and it is not reached before {low:.10g} s")
+
+
+def _first(chain: Chain, limit: Limit, low: float, high: float, because: str) -> TimeTo:
+    level, words = np.array("proved"), np.array(f"{limit.words}: {because}")
+    return TimeTo(np.array(low), np.array(high), level, words, limit.words, chain.base,
+                  np.array(chain.case.state), caveats=chain.case.caveats)
 
 
 def _joined(runs: Sequence[Simulation]) -> Simulation:
