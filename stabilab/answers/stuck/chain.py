@@ -169,8 +169,9 @@ def time_of_burn(burning: Any, ask: dict[str, Any], until: Fraction | None = Non
 
 
 def _first(chain: Chain, limit: Limit, low: float, high: float, because: str) -> TimeTo:
-    level, words = np.array("proved"), np.array(f"{limit.words}: {because}")
-    return TimeTo(np.array(low), np.array(high), level, words, limit.words, chain.base,
+    scalar = lambda value, kind: np.array(value, kind)[()]  # as `time_to` has it
+    return TimeTo(scalar(low, float), scalar(high, float), scalar("proved", object),
+                  scalar(f"{limit.words}: {because}", object), limit.words, chain.base,
                   np.array(chain.case.state), caveats=chain.case.caveats)
 
 
