@@ -41,6 +41,7 @@ if TYPE_CHECKING:  # what `_HOME` loads on first use, for editors and type check
     from .physics.effects.liquid_cavity import LiquidCavity as LiquidCavity
     from .physics.effects.newtonian_field import NewtonianField as NewtonianField
     from .physics.effects.resistance import Resistance as Resistance
+    from .physics.effects.viscous_damper import ViscousDamper as ViscousDamper
     from .physics.equations import derive as derive
     from .physics.law_limits import validity as validity
     from .physics.scene import Body as Body
@@ -73,7 +74,7 @@ _HOME = {
     "Charge": "physics.effects.charge", "Resistance": "physics.effects.resistance",
     "LiquidCavity": "physics.effects.liquid_cavity",
     "NewtonianField": "physics.effects.newtonian_field", "Gravity": "physics.effects.gravity",
-    "BodyForce": "physics.effects.body_force",
+    "BodyForce": "physics.effects.body_force", "ViscousDamper": "physics.effects.viscous_damper",
     "derive": "physics.equations", "validity": "physics.law_limits",
     "plot": "show", "sweep": "show.maps.dataset", "atlas": "show.maps.atlas.dataset",
     "basin": "show.maps.basins.dataset", "bifurcation": "maps.bifurcation.ask", "InputError": "errors",

@@ -13,7 +13,8 @@ from .numbers.units import ANGLE, LENGTH, NONE, RATE, TIME, VELOCITY, Dimension,
 
 STARTS = ("state", "states", "omega")  # arguments that are states at time 0
 TIMES = ("times", "span", "until", "t_max", "follow", "end")
-BLOCKS = {"omega": RATE, "attitude": ANGLE, "velocity": VELOCITY, "position": LENGTH}  # of a state in blocks
+BLOCKS = {"omega": RATE, "attitude": ANGLE, "velocity": VELOCITY, "position": LENGTH,
+          "damper": RATE}  # of a state in blocks
 THEMSELVES = ("equilibria", "fate", "motion", "attitude", "extremes", "period", "simulate")  # take a case
 TEXTS = ("when", "sweep", "atlas", "basin", "bifurcation")  # read text with units themselves
 

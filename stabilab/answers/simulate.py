@@ -247,7 +247,7 @@ def in_quaternions(scene: Scene, state: dict[str, np.ndarray]) -> dict[str, np.n
     q = state.pop("attitude")
     first = {name: state.pop(name) for name in ("omega", "gamma") if name in state}
     return (first | {"quaternion": scalar_last(q),
-                     "momentum": to_space(q, body_momentum(scene, first["omega"]))} | state)
+                     "momentum": to_space(q, body_momentum(scene, first | state))} | state)
 
 
 def _simulation(run: Trajectory, state: dict[str, np.ndarray], *why: str) -> Simulation:
@@ -305,9 +305,9 @@ def _with_attitude(scene: Scene, start: Any, first: Any, times: np.ndarray, meth
                          else ordered_times[np.isin(ordered_times, run.t)])
     at = at if len(times) < 2 or times[0] < times[-1] else at[::-1]
     state = {name: run.block(name)[at] for name in run.blocks if name != "attitude"}
+    momentum = to_space(q[at], body_momentum(scene, state))
     state = {"omega": state.pop("omega"), **({"gamma": state.pop("gamma")} if "gamma" in state else {}),
-             "angles": path[at], "momentum": to_space(q[at], body_momentum(scene, run.block("omega")[at])),
-             **state}
+             "angles": path[at], "momentum": momentum, **state}
     return _simulation(replace(run, t=run.t[at]), state, why, doubtful)
 
 

@@ -443,13 +443,15 @@ def judge_oblique(top: Table, frame: PrincipalAxes | None):
 
 
 def turned_motion(motion, frame: PrincipalAxes | None):
-    """[motion] with its angular velocity and vertical along principal axes."""
+    """[motion] with its angular velocity, vertical and damper along principal axes."""
     if frame is None or frame.as_given or motion.state_key == "x":
         return motion
     state = motion.exact and frame.turned(motion.exact)
     try:
-        vertical = {"gamma": floats(frame.turned(motion.exact_vertical))} if motion.exact_vertical else {}
-        return replace(motion, exact=state, state=state and floats(state), blocks=motion.blocks | vertical)
+        turned = {"gamma": floats(frame.turned(motion.exact_vertical))} if motion.exact_vertical else {}
+        if "damper" in motion.blocks:
+            turned["damper"] = floats(frame.turned(tuple(map(Fraction, motion.blocks["damper"]))))
+        return replace(motion, exact=state, state=state and floats(state), blocks=motion.blocks | turned)
     except OverflowError:
         motion.table.fault("exceeds the largest double (about 1.8e308) along the principal axes",
                            motion.state_key)

@@ -48,7 +48,8 @@ TABLES = ("title", "source", "body", "effects", "thrusters", "wheels", "limits",
 SYSTEMS = ("deg", "si")  # of units in which text is printed
 STATES, SPANS = ("angular_velocity", "x"), ("span", "tau")
 # key: block
-BLOCKS = {"attitude": "attitude", "vertical": "gamma", "velocity": "velocity", "position": "position"}
+BLOCKS = {"attitude": "attitude", "vertical": "gamma", "velocity": "velocity", "position": "position",
+          "damper": "damper"}
 UNIT_SLACK = 1e-6  # a vertical given to six decimals counts as a unit vector and stays as it is
 MIDDLES = Caveat("uncertain",
                  "of the middles of the uncertain numbers; stabilab fate says what their box does")
@@ -63,10 +64,10 @@ class Case(Questions):
     names ("physical" or "scaled"); physical: the Scene in kg m^2, N m, or None where the file gives [scaled];
     scaling: the change between the two, None where it is undefined. state: three components at time 0 in the
     case's variables, body frame, or None; blocks: the other blocks of the state by name ("gamma", "velocity",
-    "position" as three numbers, "attitude" as psi, phi, theta of the 3-1-2 sequence, rad), where the file
-    gives them; span: (from, to) in the case's time or None; expect: facts the case's test asserts; text: the
-    source. uncertain: the numbers given with an uncertainty, whose middles everything else holds; mu: the
-    dimensionless torque where the file gives it for a body. decimals: those of the state as they were
+    "position", "damper" as three numbers, "attitude" as psi, phi, theta of the 3-1-2 sequence, rad), where
+    the file gives them; span: (from, to) in the case's time or None; expect: facts the case's test asserts;
+    text: the source. uncertain: the numbers given with an uncertainty, whose middles everything else holds;
+    mu: the dimensionless torque where the file gives it for a body. decimals: those of the state as they were
     written, before the one rounding to doubles (`exact_state`).
 
     A file gives vectors in its own frame; scene, state and vertical are along the principal axes, which
@@ -493,6 +494,9 @@ def _judge_blocks(motion: _Motion, scene):
     for key in ("velocity", "position"):
         if key in given and scene is not None and scene.body.mass is None:
             table.fault("motion through space needs the mass of the body: give body.mass in kg", key)
+    if "damper" in given and scene is not None and "damper" not in scene.blocks:
+        table.fault("no damper turns in this body: give [effects.viscous_damper], or take the key away",
+                    "damper")
     if motion.state is not None and scene is not None and "gamma" in scene.blocks and "gamma" not in given:
         angles = given.get("attitude")
         told = (f"; the attitude given has [{', '.join(f'{v:.10g}' for v in vertical_of(*angles))}]" if angles

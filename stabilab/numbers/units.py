@@ -102,6 +102,8 @@ DIMENSIONS: dict[str, Dimension] = {
     "effects.liquid_cavity.density": DENSITY, "effects.liquid_cavity.viscosity": VISCOSITY,
     "effects.liquid_cavity.P0": LENGTH_7,
     "effects.liquid_cavity.radius": LENGTH,
+    "effects.viscous_damper.inertia": INERTIA, "effects.viscous_damper.coefficient": MOMENTUM,
+    "motion.damper": RATE,
 }
 
 # compiled where a unit is read

@@ -5,6 +5,9 @@ Equations of motion of a scene: rates, torque by torque, and the balance laws th
     D omega' = (D omega + h) x omega + tau,     h, tau: momenta and torques of the effects, each once
     T' = omega . tau  (effects that do work),   (|H|^2 / 2)' = H . tau,   H = D omega + h
 
+A part that turns inside the body (`effects.base.Part`) has its moment taken off D on the left, its friction's
+torque on the right, and its own share of T and of H.
+
 Everything here is a SymPy value; numbers enter at `to_numpy`.
 """
 from __future__ import annotations
@@ -167,9 +170,16 @@ def _derived(scene: Scene, names: tuple[str, ...]) -> Equations:
     zero = (Integer(0),) * 3
 
     torques, carried, outer, working, potential = {"inertia": motion.inertial}, zero, zero, zero, Integer(0)
+    inside, loss, moments = Integer(0), Integer(0), D
+    relative = zero
     for effect in scene.effects:
         momentum, torque = effect.momentum(p) or zero, effect.torque_along(motion, p) or zero
         torques[effect.name] = add_terms(cross(momentum, motion.omega), torque)
+        if (part := effect.part(motion, p)) is not None:
+            torques[effect.name] = add_terms(torques[effect.name], part.torque)
+            moments = tuple(d - part.inertia for d in moments)
+            relative = add_terms(relative, part.momentum)
+            inside, loss = inside + part.energy, loss + part.loss
         carried, outer = add_terms(carried, momentum), add_terms(outer, torque)
         stored = effect.potential(motion, p)
         potential += stored or 0
@@ -180,16 +190,18 @@ def _derived(scene: Scene, names: tuple[str, ...]) -> Equations:
             raise InputError("velocity and position need the mass of the body: give body.mass in kg")
         parameters["mass"] = exact(scene.body.mass)
         symbols |= _symbols(("mass",), positive=True)
-    rates = {"omega": tuple(total / d for total, d in zip(reduce(add_terms, torques.values()), D))}
+    motion.change = tuple(total / d for total, d in zip(reduce(add_terms, torques.values()), moments))
+    rates = {"omega": motion.change}
     rates |= {name: rate(scene, motion, symbols | p) for name, rate in KINEMATICS.items() if name in blocks}
     state, rhs = (tuple(v for name in names for v in part[name]) for part in (blocks, rates))
-    inertia = D + (Integer(1),) * (len(state) - 3)
-    energy, H = dot(motion.spin, motion.omega) / 2, add_terms(motion.spin, carried)
+    inertia = moments + (Integer(1),) * (len(state) - 3)
+    energy = dot(motion.spin, motion.omega) / 2 + inside
+    H = reduce(add_terms, (carried, relative), motion.spin)
     balances = [
         Balance("energy", "work and energy: T' = omega . (torques that do work)" if potential == 0 else
                 "work and energy: (T + potential)' = omega . (other torques that do work)",
                 energy + potential,
-                dot(motion.omega, working)),
+                dot(motion.omega, working) - loss),
         Balance("momentum", "angular momentum: (|H|^2/2)' = H . (outer torques)", dot(H, H) / 2,
                 dot(H, outer))]
     if "gamma" in blocks:
@@ -229,6 +241,8 @@ class MotionView:
     gamma: Triple
     attitude: tuple[Symbolic, ...]
     velocity: Triple
+    damper: Triple
+    change: Triple  # omega', once it is known
 
     def __init__(self, scene: Scene, blocks: Mapping[str, tuple[Symbolic, ...]], D: Triple,
                  symbols: Symbols) -> None:
@@ -276,11 +290,20 @@ def _acceleration(scene: Scene, motion: MotionView, symbols: Symbols) -> Triple:
     return tuple(dot(row, total) / symbols["mass"] for row in rotation(motion.attitude))
 
 
+def _inside(scene: Scene, motion: MotionView, symbols: Symbols) -> Triple:
+    """The rates of a part that turns inside the body."""
+    parts = [part for effect in scene.effects if (part := effect.part(motion, symbols)) is not None]
+    if not parts:
+        raise InputError("state: damper is a block of a scene with a viscous damper, which this one has not")
+    return parts[0].rate(motion.change)
+
+
 KINEMATICS = {
     "gamma": lambda scene, motion, symbols: cross(motion.gamma, motion.omega),
     "attitude": _quaternion_rate,
     "velocity": _acceleration,
     "position": lambda scene, motion, symbols: motion.velocity,
+    "damper": _inside,
 }
 
 

@@ -141,7 +141,9 @@ BLOCKS = {block.name: block for block in (
     Block("gamma", ("gamma1", "gamma2", "gamma3"), "", "unit vector fixed in space, body frame"),
     Block("attitude", ("q0", "q1", "q2", "q3"), "", "quaternion from body to space"),
     Block("velocity", ("v1", "v2", "v3"), "m/s", "velocity, inertial frame"),
-    Block("position", ("x1", "x2", "x3"), "m", "position, inertial frame"))}
+    Block("position", ("x1", "x2", "x3"), "m", "position, inertial frame"),
+    Block("damper", ("sigma1", "sigma2", "sigma3"), "rad/s",
+          "angular velocity of the damper's sphere relative to the body, body frame"))}
 ORDER = tuple(BLOCKS)
 # what a run may show: the blocks, and what is formed from them
 PARTS = BLOCKS | {part.name: part for part in (
@@ -300,6 +302,9 @@ class Scene(metaclass=Asked):
                         "body by its principal moments, and the rest along its axes")
             flat = tuple(effect for effect in turned if effect is not None)
             body = Body(body.exact, body.mass, body.slack)
+        for effect in flat:
+            if why := effect.refused_by(body):
+                raise InputError(f"scene: {effect_words(effect.name)}: {why}")
         object.__setattr__(self, "body", body)
         object.__setattr__(self, "effects", tuple(e for e in flat if e.acts))
 

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -71,13 +72,16 @@ def unwrapped(wrapped: np.ndarray, start: np.ndarray) -> np.ndarray:
     return wrapped - 2 * np.pi * np.cumsum(turns, axis=0)
 
 
-def body_momentum(scene: Scene, omega: np.ndarray) -> np.ndarray:
-    """D omega + momenta carried inside, body frame: (..., 3)."""
+def body_momentum(scene: Scene, state: Mapping[str, np.ndarray]) -> np.ndarray:
+    """D omega + momenta carried inside, body frame: (..., 3). state: the blocks (..., 3) by name."""
+    omega, motion = state["omega"], SimpleNamespace(**{k: np.moveaxis(v, -1, 0) for k, v in state.items()})
     total = np.asarray(scene.body.inertia) * omega
     for effect in scene.effects:
         values = {name: float(v) for name, v in effect.parameters().items()}
         carried = effect.momentum(values)
         total = total if carried is None else total + np.array(carried)
+        part = effect.part(motion, values) if set(effect.needs) <= set(state) else None
+        total = total if part is None else total + np.stack(part.momentum, axis=-1)
     return total
 
 
@@ -107,7 +111,7 @@ def three_numbers(state: Any, name: str = "state") -> np.ndarray:
     return array
 
 REST = {"gamma": (0.0, 0.0, 1.0), "attitude": (1.0, 0.0, 0.0, 0.0), "velocity": (0.0,) * 3,
-        "position": (0.0,) * 3}
+        "position": (0.0,) * 3, "damper": (0.0,) * 3}
 
 
 def equations_and_start(scene: AnyScene, state: Any) -> tuple[Equations, np.ndarray]:

@@ -17,7 +17,8 @@ EFFECTS = {
     "charge": "charge = 0.1\nfield = 1\narm = 1\nangle = 0.3",
     "resistance": "coefficient = 0.1", "liquid_cavity": "density = 1\nviscosity = 1\nradius = 0.1",
     "newtonian_field": "strength = 0.5",
-    "gravity": "weight = 1\ncentre_of_mass = [0.1, 0, 0]", "body_force": "force = [1, 0, 0]"}
+    "gravity": "weight = 1\ncentre_of_mass = [0.1, 0, 0]", "body_force": "force = [1, 0, 0]",
+    "viscous_damper": "inertia = 0.1\ncoefficient = 0.5"}
 GAMMA = ("newtonian_field", "gravity")
 PAIRS = (("gyrostat", "constant_torque"), ("charge", "constant_torque"), ("liquid_cavity", "resistance"))
 ROUND, SLOW_START = "[12, 5, 5]", MOTION.replace("0.1, 0.05, 0.02", "1e-9, 2e-9, 3e-9")

@@ -408,5 +408,5 @@ def _with_angles(case: Any, times: np.ndarray, parts: dict[str, np.ndarray]) -> 
         return None
     found = np.where(gaps[0] <= gaps[1], *ways)
     first = {name: parts.pop(name) for name in ("omega", "gamma") if name in parts}
-    return (first | {"angles": found, "momentum": to_space(q, body_momentum(case.scene, first["omega"]))}
+    return (first | {"angles": found, "momentum": to_space(q, body_momentum(case.scene, first | parts))}
             | parts)

@@ -130,15 +130,23 @@ def _charge(ax, case, effect, sides):
             f"{effect.field_strength:g} T, σ {angle}", look)
 
 
-def _liquid(ax, case, effect, sides):
-    """The cavity: a ball within the box."""
+def _ball(ax, sides, word):
+    """A ball within the box, with a word at it; its look in the legend."""
     turn, up = np.meshgrid(np.linspace(0, 2 * np.pi, 41), np.linspace(0, np.pi, 21))
     ball = 0.3 * sides.min() * np.array([np.sin(up) * np.cos(turn), np.sin(up) * np.sin(turn), np.cos(up)])
     ax.plot_surface(*ball, color=style.SKY, alpha=0.45, linewidth=0, shade=False, zorder=3)
-    ax.text(0.0, 0.3 * sides.min(), 0.0, " liquid", color=style.BLUE, ha="left", va="bottom", **LETTERS)
+    ax.text(0.0, 0.3 * sides.min(), 0.0, f" {word}", color=style.BLUE, ha="left", va="bottom", **LETTERS)
+    return {"color": style.SKY, "marker": "o", "markersize": 10, "linestyle": "none", "alpha": 0.6}
+
+
+def _liquid(ax, case, effect, sides):
     return (f"cavity of liquid: ρ = {effect.density:g} kg/m³, ν = {effect.viscosity:g} m²/s, P0 = "
-            f"{effect.P0:g} m⁷",
-            {"color": style.SKY, "marker": "o", "markersize": 10, "linestyle": "none", "alpha": 0.6})
+            f"{effect.P0:g} m⁷", _ball(ax, sides, "liquid"))
+
+
+def _damper(ax, case, effect, sides):
+    return (f"damper: sphere of {effect.inertia:g} kg m² in a fluid of {effect.coefficient:g} N m s",
+            _ball(ax, sides, "damper"))
 
 
 def _resistance(ax, case, effect, sides):
@@ -183,4 +191,4 @@ PARTS: dict[str, tuple[str, Callable]] = {  # effect -> its words in the caption
     "body_force": ("the constant force", _force), "charge": ("the charge and the field", _charge),
     "liquid_cavity": ("the cavity of liquid", _liquid), "resistance": ("the resistance", _resistance),
     "gravity": ("fixed point, centre of mass and weight", _weight),
-    "newtonian_field": ("the attracting centre", _attraction)}
+    "newtonian_field": ("the attracting centre", _attraction), "viscous_damper": ("the damper", _damper)}

@@ -11,6 +11,7 @@ REGISTRY: dict[str, tuple[str, str]] = {
     "charge": ("charge", "Charge"),
     "resistance": ("resistance", "Resistance"),
     "liquid_cavity": ("liquid_cavity", "LiquidCavity"),
+    "viscous_damper": ("viscous_damper", "ViscousDamper"),
     "newtonian_field": ("newtonian_field", "NewtonianField"),
     "gravity": ("gravity", "Gravity"),
     "body_force": ("body_force", "BodyForce"),

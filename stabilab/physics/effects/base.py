@@ -39,6 +39,24 @@ class Limit:
 
 
 @dataclass(frozen=True)
+class Part:
+    """A part that turns inside the body, whose block of the state is the effect's own.
+
+    inertia: its moment about any axis, kg m^2, held by the moments of the body; momentum: N m s, and energy:
+    J, what its motion adds to those of the body with the part at rest in it; torque: on the rest of the body,
+    N m, body frame, at the rates of the block alone; loss: W, what friction takes; rate: omega' -> rates of
+    the block.
+    """
+
+    inertia: Number
+    momentum: Triple
+    energy: Number
+    torque: Triple
+    loss: Number
+    rate: Callable[[Triple], Triple]
+
+
+@dataclass(frozen=True)
 class Effect(metaclass=Asked):
     """Base of every effect. `name` is its table in a case file; `keys` its keys there."""
 
@@ -83,6 +101,10 @@ class Effect(metaclass=Asked):
         """Up to where its law may be used in this scene."""
         return ()
 
+    def refused_by(self, body: Any) -> str:
+        """Why it cannot act on this body, and what to do; empty where it can."""
+        return ""
+
     def turned(self, frame: PrincipalAxes) -> Effect | None:
         """The same effect along the principal axes of `frame` (numbers.principal), from the frame that a case
         gives it in; None where it cannot be turned. An effect that is alike in every frame is itself."""
@@ -101,6 +123,10 @@ class Effect(metaclass=Asked):
         (`omega`, `gamma`), the principal moments `D`, and `undisturbed()`, the first and second rate of omega
         along the motion without the small effects."""
         return self.torque(motion.omega, p)
+
+    def part(self, motion: Any, p: Mapping[str, Number]) -> Part | None:
+        """What turns inside the body as a state of its own."""
+        return None
 
     def potential(self, motion: Any, p: Mapping[str, Number]) -> Number | None:
         """Potential energy, J, whose fall is the work of the torque; None where it has none."""

@@ -4,7 +4,8 @@ from __future__ import annotations
 from ...physics.equations import Equations, Symbolic
 
 # parameters whose names are products
-PRODUCTS = {"Mgx": "M g x_c", "Mgy": "M g y_c", "Mgz": "M g z_c", "eHl2": "e H l^2"}
+PRODUCTS = {"Mgx": "M g x_c", "Mgy": "M g y_c", "Mgz": "M g z_c", "eHl2": "e H l^2",
+            "kd": "k_d", "cd": "c_d"}
 WORDS = ("mass",)  # parameters whose names are words
 
 
@@ -15,7 +16,7 @@ def lines(equations: Equations) -> tuple[str, ...]:
 
 
 def _left(d: Symbolic, x: Symbolic) -> str:
-    return str(x) if d == 1 else f"{d} {x}"
+    return str(x) if d == 1 else f"({d}) {x}" if d.is_Add else f"{d} {x}"
 
 
 def right_side(equations: Equations, i: int) -> Symbolic:
@@ -32,7 +33,8 @@ def right_side(equations: Equations, i: int) -> Symbolic:
 
 def latex(equations: Equations) -> str:
     """The equations of motion as a LaTeX align* environment."""
-    rows = [rf"{'' if d == 1 else tex(d) + ' '}\dot{{{tex(x)}}} &= {tex(right_side(equations, i))}"
+    factor = lambda d: "" if d == 1 else rf"\left({tex(d)}\right) " if d.is_Add else f"{tex(d)} "
+    rows = [rf"{factor(d)}\dot{{{tex(x)}}} &= {tex(right_side(equations, i))}"
             for i, (d, x) in enumerate(zip(equations.inertia, equations.state))]
     return "\\begin{align*}\n" + " \\\\\n".join(rows) + "\n\\end{align*}"
 
