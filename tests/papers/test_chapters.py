@@ -86,8 +86,8 @@ def test_a_model_that_stays_near_the_exact_motion_is_shown_whole():
 def test_the_panel_says_how_far_a_cut_model_goes():
     from stabilab.show import style
     with style.drawing() as plt:
-        figure = panels.draw_lines(plt, "", [(ROW, [_column(np.sin, np.exp)])])
-        words = [text.get_text() for text in figure.axes[1].texts]
+        (figure,) = panels.draw_lines(plt, "", [(ROW, [_column(np.sin, np.exp)])])
+        words = [text.get_text() for text in figure.axes[0].texts]
     assert words == [f"cut: reaches {math.exp(10):.0f}"]
 
 
@@ -96,7 +96,7 @@ def test_a_plane_says_of_which_of_its_two_quantities_a_cut_curve_goes_so_far():
     plane = panels.Row("$v_1$ (m/s)", "$v_2$ (m/s)", lambda run: (run[1], -run[1] - 1))
     with style.drawing() as plt:
         words = [text.get_text()
-                 for ax in panels.draw_lines(plt, "", [(plane, [_column(np.sin, np.exp)])]).axes
+                 for ax in panels.draw_lines(plt, "", [(plane, [_column(np.sin, np.exp)])])[0].axes
                  for text in ax.texts]
     assert words == [f"cut: $v_1$ to {math.exp(10):.0f}, $v_2$ to −{math.exp(10) + 1:.0f}"]
 
@@ -107,7 +107,7 @@ def test_a_curve_that_leaves_a_panel_on_both_sides_tells_both_ends(over_time, to
     from stabilab.show import style
     sideways = panels.Row("x", "y", lambda run: (run[1], run[1] * 0 + np.clip(run[1], -0.5, 9)))
     with style.drawing() as plt:
-        figure = panels.draw_lines(plt, "",
+        (figure,) = panels.draw_lines(plt, "",
                                    [(ROW if over_time else sideways,
                                      [_column(np.sin, lambda t: 1 + 21 * np.cos(np.pi * t))])])
         words = [text.get_text() for ax in figure.axes for text in ax.texts]
@@ -119,9 +119,9 @@ def test_words_on_cuts_without_room_side_by_side_stand_one_above_the_other():
     run = ({"exact": (t := np.linspace(0, 10, 101), np.sin(t))}
            | {name: (t, 1e4 * np.cos(t)) for name in ("linear", "corrected", "printed")})
     with style.drawing() as plt:
-        figure = panels.draw_lines(plt, "", [(ROW, [panels.Column("heading", run)])])
+        (figure,) = panels.draw_lines(plt, "", [(ROW, [panels.Column("heading", run)] * 3)])
         figure.canvas.draw()
-        ax = figure.axes[1]
+        ax = figure.axes[0]
         boxes = [text.get_window_extent() for text in ax.texts]
         assert len(boxes) == 3 and all(low.y1 <= high.y0 + 1 for low, high in zip(boxes, boxes[1:]))
         assert ax.title.get_window_extent().y0 >= boxes[-1].y1 - 1
@@ -130,12 +130,23 @@ def test_words_on_cuts_without_room_side_by_side_stand_one_above_the_other():
 def test_where_a_printed_curve_leaves_its_panel_it_is_also_shown_whole():
     from stabilab.show import style
     with style.drawing() as plt:
-        cut = panels.draw_lines(plt, "", [(ROW, [_column(np.sin, np.exp)])])
-        near = panels.draw_lines(plt, "", [(ROW, [_column(np.sin, lambda t: 2 * np.sin(t))])])
-        (curve,) = cut.axes[0].lines
-        assert len(cut.axes) == 2 and len(near.axes) == 1 and "alone" in cut.axes[0].get_title()
+        (cut,) = panels.draw_lines(plt, "", [(ROW, [_column(np.sin, np.exp)])])
+        (near,) = panels.draw_lines(plt, "", [(ROW, [_column(np.sin, lambda t: 2 * np.sin(t))])])
+        (curve,) = cut.axes[1].lines
+        assert len(cut.axes) == 2 and len(near.axes) == 1 and "alone" in cut.axes[1].get_title()
         np.testing.assert_array_equal(curve.get_ydata(), np.exp(np.linspace(0, 10, 101)))
-        assert cut.axes[0].get_ylim()[1] > math.exp(10)
+        assert cut.axes[1].get_ylim()[1] > math.exp(10)
+
+
+def test_a_figure_of_more_than_six_panels_is_divided():
+    from stabilab.show import style
+    columns = [_column(np.sin, np.cos)] * 3
+    with style.drawing() as plt:
+        made = panels.draw_lines(plt, "Histories", [(ROW, columns)] * 3)
+        assert [len(part.axes) for part in made] == [6, 3]
+        assert [part.get_suptitle() for part in made] == ["Histories (1 of 2)", "Histories (2 of 2)"]
+        row = figures.Figure(9, "", "", lambda plt: made, "", "top")
+        assert list(row.pictures(plt)) == ["top-09.png", "top-09-2.png"]
 
 
 def test_printed_curves_of_the_velocity_are_the_printed_formulas():

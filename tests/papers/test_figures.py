@@ -59,7 +59,7 @@ def test_separatrix_surfaces_are_named_as_in_the_phase_plane(plt):
 
 
 def test_a_curve_that_ends_within_a_panel_is_marked_and_the_panel_says_why(plt):
-    panels = figure(2, "cavity").draw(plt).axes
+    panels = [ax for part in figure(2, "cavity").draw(plt) for ax in part.axes]
     for ax, run in zip(panels, (runs["printed"] for runs in cavity.runs_of("small"))):
         ends = [line for line in ax.lines if line.get_marker() == "X"]
         words = " ".join(text.get_text() for text in ax.get_legend().get_texts()) if ax.get_legend() else ""
@@ -68,15 +68,16 @@ def test_a_curve_that_ends_within_a_panel_is_marked_and_the_panel_says_why(plt):
 
 
 def test_a_panel_without_a_model_says_why(plt):
-    headings = [ax.get_title().replace("\n", " ") for ax in figure(11, "cavity").draw(plt).axes[:3]]
+    headings = [ax.get_title().replace("\n", " ") for ax in figure(11, "cavity").draw(plt)[0].axes[:3]]
     assert ["averaging needs small" in heading
             for heading in headings] == [False, False, True] and "averaged, second order" in headings[2]
 
 
 def test_words_on_cut_curves_stand_side_by_side(plt):
     drawn = figure(5, "top").draw(plt)
-    drawn.draw_without_rendering()
-    rows = [[text.get_window_extent() for text in ax.texts] for ax in drawn.axes]
+    for part in drawn:
+        part.draw_without_rendering()
+    rows = [[text.get_window_extent() for text in ax.texts] for part in drawn for ax in part.axes]
     # rows whose printed and corrected curves both leave the panel
     assert sum(len(boxes) > 1 for boxes in rows) >= 5
     assert not [1 for boxes in rows for n,
@@ -84,8 +85,7 @@ def test_words_on_cut_curves_stand_side_by_side(plt):
 
 
 def test_every_line_looks_as_the_legend_says(plt):
-    for row in (figure(2, "top"), figure(2, "charged")):
-        drawn = row.draw(plt)
+    for drawn in (*figure(2, "top").draw(plt), *figure(2, "charged").draw(plt)):
         legend = {(h.get_color(), h.get_linestyle(), h.get_linewidth())
                   for h in drawn.legends[0].legend_handles}
         assert {(line.get_color(), line.get_linestyle(), line.get_linewidth()) for ax in drawn.axes
@@ -110,10 +110,11 @@ def _model(name):
 
 
 def test_no_colour_of_a_figure_means_two_things(plt):
-    """In the column of printed curves alone the shades are those of the model that they show beside it; no
+    """In the panels of printed curves alone the shades are those of the model that they show beside it; no
     other line has their hue."""
     for row in (figure(3, "cavity"), figure(18, "charged"), figure(6, "top")):
-        named = [(_model(name), _hue(colour)) for name, colour in _named(row.draw(plt))]
+        rows = {one for part in row.draw(plt) for one in _named(part)}
+        named = [(_model(name), _hue(colour)) for name, colour in rows]
         assert sum(model == "printed" for model, _ in named) == 4
         for model, hue in named:
             assert [other for other, at in named if other != model and None not in (hue, at)
@@ -124,11 +125,11 @@ def test_no_colour_of_a_figure_means_two_things(plt):
 
 
 @pytest.mark.parametrize("name, number", [("cavity", n) for n in (2, 3, 11, 13)])
-def test_a_caption_speaks_of_a_column_of_printed_curves_only_where_one_may_stand(name, number, plt):
+def test_a_caption_speaks_of_panels_of_printed_curves_only_where_these_may_stand(name, number, plt):
     row = figure(number, name)
-    alone = any("alone" in ax.get_title() for ax in row.draw(plt).axes)
-    assert alone <= ("the first column has them alone" in row.caption)
-    assert (number not in (11, 13) or "column" not in row.caption)
+    alone = any("alone" in ax.get_title() for part in row.draw(plt) for ax in part.axes)
+    assert alone <= ("the last panels have them alone" in row.caption)
+    assert (number not in (11, 13) or "panels" not in row.caption)
 
 
 @pytest.mark.parametrize("plain, letters", [

@@ -25,7 +25,7 @@ def rates(t, state, momentum):
                                             (3, [(30, 30), (30, 60), (30, 90)])])
 def test_exact_curves_are_the_motion_in_the_papers_variables(number, values):
     with style.drawing() as plt:
-        panels = np.reshape(figure(number, "top").draw(plt).axes[:24], (6, 4))[:, 1:]
+        panels = np.reshape([part.axes for part in figure(number, "top").draw(plt)[:3]], (6, 3))
         exact = [[next(line.get_data() for line in ax.lines if line.get_color() == style.BLACK) for ax in row]
                  for row in panels]
         labels = [row[0].get_ylabel() for row in panels]
@@ -44,7 +44,7 @@ def test_exact_curves_are_the_motion_in_the_papers_variables(number, values):
 
 def test_phase_planes_have_rates_a_second_and_the_caption_says_all_factors():
     with style.drawing() as plt:
-        panels = np.reshape(figure(4, "top").draw(plt).axes[:24], (6, 4))[:, 1:]
+        panels = np.reshape([part.axes for part in figure(4, "top").draw(plt)[:3]], (6, 3))
         x, rate = next(line.get_data() for line in panels[2][0].lines if line.get_color() == style.BLACK)
     t = np.linspace(0, 1.3, len(x))
     assert x[0] == pytest.approx(1) and np.abs(np.gradient(x, t)[1:-1] - rate[1:-1]).max() < 1e-6

@@ -142,22 +142,22 @@ def chosen(numbers=None, paper_name: str | None = None) -> list[Figure]:
 
 
 def write(numbers=None, out="figures", progress=None, paper_name: str | None = None) -> list[Path]:
-    """Draw figures into the folder `out`: figure-NN.png (charged-NN.png, ... for the other papers) and,
-    beside it, a text with the caption, command, version and tolerance; which: see `chosen`. progress(words)
-    is called before each. Returns the pictures' paths."""
-    return [_write(row, Path(out), progress) for row in chosen(numbers, paper_name)]
+    """Draw figures into the folder `out`: figure-NN.png (charged-NN.png, ... for the other papers), of more
+    than six panels also figure-NN-2.png, ..., and beside it a text with the caption, command, version and
+    tolerance; which: see `chosen`. progress(words) is called before each. Returns the pictures' paths."""
+    return [path for row in chosen(numbers, paper_name) for path in _write(row, Path(out), progress)]
 
 
 def _write(row, out, progress):
     if progress:
         progress(f"figure {row.number}{f' ({row.paper})' if row.paper else ''}")
     with style.drawing() as plt:
-        path = style.save(row.draw(plt), out / row.file)
+        paths = [style.save(drawn, out / name) for name, drawn in row.pictures(plt).items()]
     apart = [f"printed curve against exact motion, largest difference at equal times: {line}"
              for line in words(row)]
-    with style.whole_file(path.with_suffix(".txt")) as waiting:
+    with style.whole_file(paths[0].with_suffix(".txt")) as waiting:
         waiting.write_text("\n".join([f"Figure {row.number} of {PAPERS[row.paper or FIRST]}: "
                                       f"{row.title}\n\n{row.caption}\n", f"made by: {row.command}",
                                       f"stabilab {__version__}", f"tolerance: {row.tolerance}", *apart, ""]),
                            encoding="utf-8")
-    return path
+    return paths

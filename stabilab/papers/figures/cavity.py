@@ -106,7 +106,7 @@ def _done(words="", own=False):
             f"{float(liquid.P0):g} m^7 means "
             f"{liquid_mass(liquid) / 1000:.2g} t of liquid in a body of {float(body):g} kg m^2. Models are "
             f"drawn to where they leave the exact "
-            f"motion's range{'' if own else '; where printed ones do, the first column has them alone'}.")
+            f"motion's range{'' if own else '; where printed ones do, the last panels have them alone'}.")
 
 
 def _real(family):

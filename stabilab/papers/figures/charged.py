@@ -60,9 +60,7 @@ def _lines(family, rows, circle=False):
 def _family(plt, family, rows, title, circle=False):
     words = {"printed": "as printed: (35)" if circle else "as printed: (33)"} if rows is MOMENTUM else {}
     return panels.draw_lines(plt, f"{title}, {OTHERS[family]}", _lines(family, rows, circle), words=words,
-                             mark_words="tilt reaches 0.1 rad",
-                             # room for the words on three cuts
-                             width=4.1 if rows in (VELOCITY, PLACE) else 3.5)
+                             mark_words="tilt reaches 0.1 rad")
 
 
 def _without(column, model):
@@ -89,7 +87,7 @@ def _circle_lines():
 def circle(plt):
     """Fig. 11: the momentum across the axis, by (35) and in truth, over three spans of time."""
     return panels.draw_lines(plt, rf"Angular momentum across the axis $z_1$: {OTHERS['M1']}, $M_1=4$ N m",
-                             _circle_lines(), height=3.4,
+                             _circle_lines(), height=2.35,
                              words={"printed": "as printed: (35), a circle"}, own=True)
 
 
@@ -212,7 +210,7 @@ def _pointing():
 
 _NAMED = "The paper writes omega1, omega2, omega3 for the velocity v1, v2, v3. "
 _CUT = (
-    "Models are drawn to where they leave the exact motion's range; the first column has the printed "
+    "Models are drawn to where they leave the exact motion's range; the last panels have the printed "
     "curves alone")
 _THIN = _CUT + ", thin those with corrected integrals where they differ."
 

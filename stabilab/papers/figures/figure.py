@@ -9,11 +9,12 @@ from ...show.terminal.letters import written
 
 @dataclass(frozen=True)
 class Figure:
-    """One figure: draw(plt) -> matplotlib figure; words: the caption, exact: how exact the curves are, each a
-    text or a function that forms it from what is drawn; paper: the short name under which the command knows
-    it, "" for the constant-torque paper; lines: a function that gives the figure's lines (panels.Row,
-    columns) where it sets printed curves beside the exact motion, of which `difference` tells how far they
-    part; added: the paper has no such figure, and its number comes after the paper's last."""
+    """One figure: draw(plt) -> matplotlib figure, or a list of those over which it is divided; words: the
+    caption, exact: how exact the curves are, each a text or a function that forms it from what is drawn;
+    paper: the short name under which the command knows it, "" for the constant-torque paper; lines: a
+    function that gives the figure's lines (panels.Row, columns) where it sets printed curves beside the exact
+    motion, of which `difference` tells how far they part; added: the paper has no such figure, and its number
+    comes after the paper's last."""
 
     number: int
     title: str
@@ -35,6 +36,12 @@ class Figure:
     @property
     def file(self) -> str:
         return f"{self.paper or 'figure'}-{self.number:02d}.png"
+
+    def pictures(self, plt) -> dict:
+        """File name -> matplotlib figure: figure-NN.png, and figure-NN-2.png, ... where it is divided."""
+        drawn = self.draw(plt)
+        parts = drawn if isinstance(drawn, list) else [drawn]
+        return {self.file.replace(".", f"-{n}." if n > 1 else "."): part for n, part in enumerate(parts, 1)}
 
     @property
     def command(self) -> str:

@@ -3,7 +3,8 @@ parameter.
 
 In every panel the exact motion and the models of it. Limits come from the exact motion: a model that runs out
 of them is drawn to where it leaves the panel, which says how far it goes. Where a printed curve leaves a
-panel, a first column shows the printed curves alone and whole, as the paper's figure does.
+panel, one of the last panels shows the printed curves alone and whole, as the paper's figure does. More
+panels than six are divided among several pictures.
 """
 from __future__ import annotations
 
@@ -39,9 +40,8 @@ END = {"marker": "X", "markersize": 7, "linestyle": "none", "zorder": 5}
 WIDE = 3.0  # a model may stretch the axis to this many times the exact motion's range; beyond that it is cut
 TALL = 1.45  # a plane of one scale, against a history
 MARGIN = 0.06
-# width of the column of printed curves alone, against the others; of all columns then
-NARROW, SHRUNK = 0.95, 0.85
-# Of the values of a parameter in the column of printed curves alone: shades of the hue that stands for the
+PANELS = 6  # of a picture at most
+# Of the values of a parameter in a panel of printed curves alone: shades of the hue that stands for the
 # model beside it, so that no colour means two
 # things in a picture, and a dash each, the sparser over the fuller, so that curves that agree are all seen.
 DASHES = ((":", 2.3), ("--", 2.2), ("-", 2.1))
@@ -52,7 +52,7 @@ BESIDE = tuple({"color": c, "linewidth": 0.8, "linestyle": s, "zorder": z - 0.5}
 # of the words on cuts, where they have room side by side
 CORNERS = ((1.0, "right"), (0.0, "left"), (0.5, "center"))
 # inches of a letter of these words, of what stands beside a panel; letters where room is short
-LETTER, BESIDE_PANEL, SMALL = 0.062, 0.75, 0.88
+LETTER, BESIDE_PANEL, SMALL = 0.07, 0.75, 0.88
 LINE = 13  # points from a line of such words to the next
 # in the legend where the words of a panel leave it out for want of room
 ENDS = "above a panel: from where to where a curve goes that is cut"
@@ -120,61 +120,70 @@ def exactness(runs) -> str:
         f"at most")
 
 
-def draw_lines(plt, title, lines, width=3.5, height=2.05, words=None, mark_words="", own=False):
-    """The figure of lines (Row, [Column, ...]). A line shares its limits, unless each panel has its own; then
-    no column of printed curves is made, whose limits are shared."""
+def draw_lines(plt, title, lines, width=3.5, height=2.05, words=None, mark_words="", own=False) -> list:
+    """The figures of lines (Row, [Column, ...]), of at most PANELS panels each. A line shares its limits,
+    unless each panel has its own; the last panels show printed curves alone that leave the limits shared."""
     words, count = WORDS | (words or {}), len(lines[0][1])
-    heights = [height * (TALL if row.equal and len(lines) > 1 else 1) for row, _ in lines]
-    alone = not own and any(_leaves(row, columns) for row, columns in lines)
-    room = (width * (SHRUNK if alone else 1) - BESIDE_PANEL) / LETTER
-    told = [[_words(row, _cuts(row, c, _window(row, [c] if own else columns)), room) for c in columns]
-            for row, columns in lines]
-    stacked = [max(_height(words) for words in line) - 1 for line in told]
-    size = (width * (count + NARROW * alone) * (SHRUNK if alone else 1),
-            1 + sum(heights) + sum(stacked) * LINE / 72)
-    figure, axes = plt.subplots(len(lines), count + alone, figsize=size, layout="constrained", squeeze=False,
-                                height_ratios=heights)
-    for i, ((row, columns), line, more, above) in enumerate(zip(lines, axes, stacked, told)):
-        headed = not i or [c.heading for c in columns] != [c.heading for c in lines[i - 1][1]]
-        if alone:
-            _printed_alone(line[0], row, columns, headed, words["printed"])
-        shared = _window(row, columns)
-        for column, ax, cuts in zip(columns, line[int(alone):], above):
-            _panel(ax, row, column, _window(row, [column]) if own else shared)
-            _tell_cuts(ax, cuts)
-            if headed:
+    whole = [(row, columns, None) for row, columns in lines if not own and _leaves(row, columns)]
+    cells = [[(row, columns, c) for c in columns] for row, columns in lines]
+    cells += [whole[n:n + count] for n in range(0, len(whole), count)]
+    each = max(1, PANELS // count)
+    parts = [cells[n:n + each] for n in range(0, len(cells), each)]
+    numbers = [f" ({n} of {len(parts)})" for n in range(1, len(parts) + 1)] if len(parts) > 1 else [""]
+    return [_picture(plt, title + number, part, (width * count, height), words, mark_words, own)
+            for number, part in zip(numbers, parts)]
+
+
+def _picture(plt, title, lines, size, words, mark_words, own):
+    """A figure of lines of cells (Row, all columns of its line, its own or None for printed curves alone)."""
+    width, height = size
+    heights, count = [height * (TALL if line[0][0].equal else 1) for line in lines], max(map(len, lines))
+    told = [[_words(row, _cuts(row, c, _window(row, [c] if own else columns)) if c else [],
+                    (width / count - BESIDE_PANEL) / LETTER) for row, columns, c in line] for line in lines]
+    stacked = [max(map(_height, line)) - 1 for line in told]
+    figure, axes = plt.subplots(len(lines), count, squeeze=False, layout="constrained", height_ratios=heights,
+                                figsize=(width, 1 + sum(heights) + sum(stacked) * LINE / 72))
+    headings = [[f"{words['printed']}, alone" if c is None else c.heading for *_, c in line]
+                for line in lines]
+    for i, (line, more) in enumerate(zip(lines, stacked)):
+        for ax in axes[i, len(line):]:
+            ax.remove()
+        for j, (ax, (row, columns, column), cuts) in enumerate(zip(axes[i], line, told[i])):
+            if column is None:
+                _printed_alone(ax, row, columns)
+            else:
+                _panel(ax, row, column, _window(row, [column] if own else columns))
+                _tell_cuts(ax, cuts)
+                ax.tick_params(labelleft=own or not j)
+                if not i:
+                    _ending(ax, column)
+            if not i or headings[i] != headings[i - 1][:len(line)]:
+                refused = "" if column is None else _refused(column, words)
                 # above the words on cuts
-                ax.set_title(column.heading + _refused(column, words), pad=14 + LINE * more,
-                             fontsize=8 if column.refused else None)
-            if not i:
-                _ending(ax, column)
-            ax.tick_params(labelleft=own or column is columns[0])
-        for ax in line:
-            if not row.over_time or i + 1 == len(lines) or not lines[i + 1][0].over_time:
+                ax.set_title(headings[i][j] + refused, pad=14 + LINE * more, fontsize=8 if refused else None)
+            if not row.over_time or i + 1 == len(lines) or not lines[i + 1][0][0].over_time:
                 ax.set_xlabel(row.xlabel)
-        for ax in line[:1 + alone]:
-            ax.set_ylabel(row.ylabel)
+            if not j or column is None:
+                ax.set_ylabel(row.ylabel)
     # numbers at the ends of axes, headings below labels
-    figure.get_layout_engine().set(w_pad=0.09, h_pad=0.04 if _headings(lines) < 2 else 0.12)
+    figure.get_layout_engine().set(w_pad=0.09, h_pad=0.04 if len(set(map(tuple, headings))) < 2 else 0.12)
     figure.suptitle(title, fontsize=11)
-    everything = [column for _, columns in lines for column in columns]
-    entries = [(words[name], LOOKS[name]) for name in ("exact", *ORDER)
-               if any(name in c.runs for c in everything)]
-    if mark_words and any(column.mark is not None
-                          for column in everything) and any(row.over_time for row, _ in lines):
-        entries.append((mark_words, style.MEANING["crossing"]))
-    if alone:
-        entries += [(f"alone: {c.heading}", look) for c, look in zip(lines[0][1], ALONE)]
-        entries += [("alone, thin: corrected integrals", BESIDE[1])] * ("corrected" in lines[0][1][0].runs)
-    if any(short for line in told for _, short, _ in line):
-        entries.append((ENDS, {"linestyle": "none"}))
-    style.legend(figure, entries)
+    style.legend(figure, _entries(lines, words, mark_words)
+                 + [(ENDS, {"linestyle": "none"})] * any(short for line in told for _, short, _ in line))
     return figure
 
 
-def _headings(lines) -> int:
-    """How many lines of panels have headings of their own."""
-    return len(dict.fromkeys(tuple(c.heading for c in columns) for _, columns in lines))
+def _entries(lines, words, mark_words) -> list:
+    """The rows of the legend of `_picture`."""
+    cells = [cell for line in lines for cell in line]
+    shown = [(row, c) for row, _, c in cells if c is not None]
+    rows = [(words[name], LOOKS[name]) for name in ("exact", *ORDER) if any(name in c.runs for _, c in shown)]
+    if mark_words and any(c.mark is not None and row.over_time for row, c in shown):
+        rows.append((mark_words, style.MEANING["crossing"]))
+    alone = next((columns for _, columns, c in cells if c is None), ())
+    rows += [(f"alone: {c.heading}", look) for c, look in zip(alone, ALONE)]
+    thin = any("corrected" in c.runs for c in alone)
+    return rows + [("alone, thin: corrected integrals", BESIDE[1])] * thin
 
 
 def _refused(column, words) -> str:
@@ -215,7 +224,7 @@ def _leaves(row, columns) -> bool:
                (low, high) in zip(xy, limits))
 
 
-def _printed_alone(ax, row, columns, headed, words):
+def _printed_alone(ax, row, columns):
     """The printed curves of all columns in one panel, whole, in limits of their own: what a reader of the
     paper knows."""
     for model, looks in (("printed", ALONE), ("corrected", BESIDE)):
@@ -228,8 +237,6 @@ def _printed_alone(ax, row, columns, headed, words):
         ax.set_aspect("equal", adjustable="datalim")
     elif row.over_time:
         ax.set_xlim(*_window(row, columns)[0])
-    if headed:
-        ax.set_title(f"{words}, alone", pad=14)
 
 
 def _panel(ax, row, column, limits):

@@ -77,8 +77,7 @@ def _lines(family, rows):
 
 def _family(plt, family, rows, title):
     other = r"$\ell_z=30$" if family == "lx" else r"$\ell_x=30$"
-    return panels.draw_lines(plt, f"{title}, {other} kg m$^2$/s", _lines(family, rows), width=3.1,
-                             height=1.38,
+    return panels.draw_lines(plt, f"{title}, {other} kg m$^2$/s", _lines(family, rows),
                              words={"lindstedt": "corrected expansion, order 2"})
 
 
@@ -98,7 +97,7 @@ def _fast(family, more=""):
             f"{np.interp(0.1, run.t, r):.2g} rad/s in "
             f"0.1 s, and no expansion in 1/r0 follows, corrected or not (its terms grow). {more}Models are "
             f"drawn to where they leave "
-            "the exact motion's range; the first column has the printed curves alone.")
+            "the exact motion's range; the last panels have the printed curves alone.")
 
 
 def _unit(family, more=""):

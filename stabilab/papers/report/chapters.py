@@ -16,6 +16,7 @@ from ...errors import StabilabError
 from ...physics.equations import derive
 from ...physics.scene import PARTS
 from ...show import style
+from ...show.report.html import picture
 from ...show.terminal.letters import written
 from ...show.text import comparison
 from ...show.text.cost.words import so_many
@@ -26,6 +27,8 @@ from ..figures import catalogue as figures
 from ..figures import panels
 from ..figures.difference import words
 from . import claims
+
+FOLDER = "figures/"  # of a report
 
 
 @dataclass(frozen=True)
@@ -101,15 +104,10 @@ def section(name: str, folder: Path, tell=lambda words: None) -> dict:
     """The chapter on a paper: plain data, its figures drawn into `folder`/figures. tell(words) is called
     before each step."""
     chapter = next(chapter for chapter in CHAPTERS if chapter.paper == name)
-    rows = figures.of_paper(chapter.paper)
-    drawn = figures.write(None, folder / "figures", tell, chapter.paper)
     made = {"id": chapter.paper, "title": chapter.title, "paper": figures.PAPERS[chapter.paper],
             "about": written(chapter.about), "problem": "",
                "claims": [], "compared": [], "sensible": None, "parameters": "", "end": chapter.end,
-               "figures": [{"number": row.number, "title": row.title, "caption": row.caption,
-                            "tolerance": row.tolerance, "differences": words(row),
-                            "command": row.command, "file": f"figures/{path.name}", "size": size(path)}
-                           for row, path in zip(rows, drawn)]}
+               "figures": [drawn(row, folder, tell) for row in figures.of_paper(chapter.paper)]}
     try:
         tell(f"chapter {chapter.paper}: comparisons")
         made["parameters"] = _parameters(panels.sweep(chapter.compared[0][0])[chapter.compared[0][1]])
@@ -121,6 +119,14 @@ def section(name: str, folder: Path, tell=lambda words: None) -> dict:
     except StabilabError as error:  # no such case yet, or a motion that cannot be run: the chapter says so
         made["problem"] = str(error)
     return made
+
+
+def drawn(row, folder: Path, tell=None) -> dict:
+    """What a page says of a figure, whose pictures are drawn into `folder`/figures; rows: of the audit."""
+    path, *more = figures.write([row.number], folder / FOLDER, tell, row.paper or None)
+    return picture(path, FOLDER, id=f"{row.paper or 'figure'}-{row.number}", number=row.number,
+                   title=row.title, caption=row.caption, tolerance=row.tolerance, differences=words(row),
+                   command=row.command, rows=(), more=[FOLDER + part.name for part in more])
 
 
 def _parameters(case):
@@ -157,16 +163,7 @@ def _sensible(chapter, folder):
     runs, _ = side_by_side(case, np.linspace(0.0, chapter.window, 1001))
     with style.drawing() as plt:
         path = style.save(comparison.picture(plt, case, runs, chapter.parts, units=SI),
-                          folder / "figures" / f"{chapter.paper}-sensible.png")
-    return {"case": case.name, "title": written(case.title), "why": written(chapter.why),
-            "end": chapter.sensible_end, "rows": _errors(case, None, found),
-            "parameters": _parameters(case), "file": f"figures/{path.name}", "size": size(path),
-            "path": f"cases/{case.name}.toml"}
-
-
-def size(path) -> list[int]:
-    """Width and height of a picture: the page does not jump while it loads."""
-    from PIL import Image
-    with Image.open(path) as image:
-        return list(image.size)
-
+                          folder / FOLDER / f"{chapter.paper}-sensible.png")
+    return picture(path, FOLDER, case=case.name, title=written(case.title), why=written(chapter.why),
+                   end=chapter.sensible_end, rows=_errors(case, None, found), parameters=_parameters(case),
+                   path=f"cases/{case.name}.toml")

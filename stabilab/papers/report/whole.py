@@ -50,11 +50,7 @@ def tables(folder: Path) -> list[dict]:
 
 def figure(number: int, folder: Path) -> dict:
     """A figure of the constant-torque paper, and what the page says of it."""
-    (path,) = figures.write([number], folder / "figures")
-    row = figures.figure(number)
-    return {"number": row.number, "title": row.title, "caption": row.caption, "tolerance": row.tolerance,
-            "command": row.command,
-            "file": f"figures/{path.name}", "size": chapters.size(path)}
+    return chapters.drawn(figures.figure(number), folder)
 
 
 def chapter(name: str, folder: Path) -> dict:
@@ -246,11 +242,9 @@ def _hero(cases, found) -> dict | None:
         made = found[f"case {stem}"]["case"]
         picture = next((one for one in made["pictures"] if one["kind"] == "time"), None)
         if picture:
-            picture = picture | {"file": f"{own.FOLDER}/{picture['file']}"}
             short = "; ".join(f"{name}: {value} {note}".strip() for name, value, note in made["tiles"][:3])
             return {"file": f"{own.FOLDER}/{stem}.html", "title": made["title"], "headline": made["headline"],
-                    "look": made["look"], "picture": picture,
-                    "short": short}
+                    "look": made["look"], "picture": picture, "folder": f"{own.FOLDER}/", "short": short}
     return None
 
 

@@ -230,10 +230,15 @@ def _check(name: str, value: Any, least: int, most: int) -> None:
         raise InputError(f"{name}: expected a whole number from {least} to {most}, got {value!r:.40}")
 
 
+def _all_repeat(one: Subject) -> bool:
+    """Whether every bounded motion off a separatrix is periodic: one degree of freedom, or no torque."""
+    return reduce(one.twin) is not None or which.free(one)
+
+
 def _may_have_an_island(one: Subject) -> bool:
     """Whether no integral of motion is known, and the motion is not known to leave: where there is one,
     periodic motions are never isolated."""
-    return one.motion.fate == Fate.UNDECIDED and reduce(one.twin) is None and not which.free(one)
+    return one.motion.fate == Fate.UNDECIDED and not _all_repeat(one)
 
 
 def plane_of(one: Subject, until: float) -> tuple[Periodic | None, Section]:
@@ -314,7 +319,7 @@ def _passed(one: Subject, times: np.ndarray, places: np.ndarray, until: float, s
     if len(places) > 1 and one_place(places):
         return [
             f"all {len(places)} passages at one place: periodic, {_time(float(times[1] - times[0]), scale)}",
-            turn]
+            turn or "a dot for each motion: all that stay bounded here are periodic" * _all_repeat(one)]
     passed = f"{len(places)} passages in {_time(float(times[-1]), scale)}"
     if math.isfinite(until):
         passed += f", until spin-up about {one.axes.short(one.motion.axis)} is certain"

@@ -23,6 +23,7 @@ from .turning import ENDINGS, film
 
 LEAST, MOST, SHARP = 1.0, 60.0, 1200  # inches of a side, dots an inch
 PIXELS = 20_000  # of a side: what Matplotlib draws
+TELEPHONE = (4.6, 4.4)  # inches: letters of 8.5 points have 9.5 px where the picture has 370
 
 # kind -> figure(subject, units, size, plt)
 DRAWN: dict[str, Callable[..., Any]] = {
@@ -40,15 +41,16 @@ DRAWN: dict[str, Callable[..., Any]] = {
 
 def write(case: Any, path: str | Path, kind: str | None = None, size: tuple[float, float] | None = None,
           dpi: float | None = None, units: str | None = None,
-          span: Any = None, neighbours: int | None = None) -> Path:
+          span: Any = None, neighbours: int | None = None, narrow: str | Path | None = None) -> Path:
     """Draw a case (or a Subject) and write the picture to `path` (.png, .svg, .pdf; of an attitude .html,
     .gif, .mp4), whole or not at all; returns the path.
 
     kind: one of `which.KINDS`; None: the one that says most of the case. size: (width, height) in inches;
     dpi: dots an inch of a .png. units: "deg" or "si", None for those of the case. span: in place of the
-    case's own. neighbours: of a section, how many motions are shown beside it, None for six. The same input
-    gives the same bytes (but for "budget", whose times are measured). Raises InputError for another ending,
-    and where the case has no such plot: it names those that there are.
+    case's own. neighbours: of a section, how many motions are shown beside it, None for six. narrow: a file
+    for the same picture as a telephone shows it, without its title, of kind "time". The same input gives the
+    same bytes (but for "budget", whose times are measured). Raises InputError for another ending, and where
+    the case has no such plot: it names those that there are.
     """
     one = replace(subject(case, span=span), neighbours=neighbours)
     chosen = checked(path, one, kind)
@@ -62,7 +64,24 @@ def write(case: Any, path: str | Path, kind: str | None = None, size: tuple[floa
         figure = DRAWN[chosen](one, units, size, plt)
         if size is not None:
             figure.set_size_inches(*size)
-        return style.save(figure, path, dpi)
+        made = style.save(figure, path, dpi)
+        if narrow is not None:
+            style.save(narrowed(figure), narrow, dpi)
+        return made
+
+
+def narrowed(figure: Any) -> Any:
+    """The figure of one plot, changed: so narrow that its letters have 9 px on a telephone, its title left to
+    the page."""
+    (ax,) = figure.axes
+    ax.set_title("")
+    figure.set_size_inches(*TELEPHONE)
+    for legend in list(figure.legends):
+        names = [text.get_text() for text in legend.get_texts()]
+        legend.remove()
+        figure.legend(legend.legend_handles, names, loc="outside lower center",
+                      ncols=style.fitting(names, TELEPHONE[0]))
+    return figure
 
 
 def checked(path: str | Path, one: Subject, kind: str | None) -> str:

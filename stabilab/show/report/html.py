@@ -95,6 +95,15 @@ def css(fate: str) -> str:
     return {"stable": "bounded", "asymptotically stable": "bounded", "unstable": "spin-up"}.get(fate, fate)
 
 
+def picture(path: Path, folder: str = "", narrow: Path | None = None, /, **words) -> dict:
+    """What a page says of a picture: its name within a folder, and its size in pixels, so that the page does
+    not jump while it loads; narrow: the same one for a telephone."""
+    from PIL import Image
+    with Image.open(path) as image:
+        size = list(image.size)
+    return {"file": folder + path.name, "size": size, "narrow": narrow and picture(narrow, folder), **words}
+
+
 def render(template: str, **values) -> str:
     """The HTML of a template. nav: rows {file, title} of the pages beside it, here: its own file, below: that
     of the page among them that it belongs to, up: how it reaches their folder."""

@@ -9,6 +9,7 @@ from ...plot import to_file
 from ...plot.over_time import file_axes
 from ...terminal.letters import printed
 from ...units import units_of
+from ..html import picture
 
 # kind -> (title, caption)
 SHOWN = {
@@ -39,9 +40,10 @@ def pictures(one, folder: Path, stem: str, deep: bool, units: str = "deg") -> li
                 caption = OF_THE_FILE
             if kind == "time":
                 caption += _later(one)
-            made = to_file.write(one, folder / f"{stem}-{kind}.png", kind, units=units)
-            found.append(described(made, caption) | {"kind": kind, "title": title,
-                                                     "command": f"stabilab plot {one.path} --kind {kind}"})
+            narrow = None if found or kind != "time" else folder / f"{stem}-{kind}-narrow.png"
+            made = to_file.write(one, folder / f"{stem}-{kind}.png", kind, units=units, narrow=narrow)
+            found.append(picture(made, "", narrow, caption=caption, kind=kind, title=title,
+                                 command=f"stabilab plot {one.path} --kind {kind}"))
     return found
 
 
@@ -53,10 +55,3 @@ def _later(one) -> str:
     units = units_of(one.case)
     told = printed(units.moment(release) if units.scaled else units.time(release))
     return f" The spin-up begins later: the turn reverses for the last time at {told}."
-
-
-def described(path: Path, caption: str) -> dict:
-    """What a page says of a picture."""
-    from PIL import Image
-    with Image.open(path) as image:
-        return {"file": path.name, "size": list(image.size), "caption": caption}

@@ -18,7 +18,7 @@ from ...terminal.sweep import fates, key_columns, of_motions
 from ...text.headline import look
 from ...text.law import judged, lines_of
 from ...units import units_of
-from . import pictures
+from .. import html
 from .page import equations
 
 STYLES = ("-", "--", ":", "-.")
@@ -99,8 +99,8 @@ def _picture(moved, keys, cases, units, path):
         ax.set(xlim=(0.0, until * per), xlabel=f"time ({clock})" if unit else "τ",
                ylabel=f"|{letter}| ({unit})" if unit else f"|{letter}|")
         style.legend(figure, list(_legend(keys, cases)), columns=3)
-        return pictures.described(style.save(figure, path),
-                                  f"The size of the rates, |{letter}|, of every combination.")
+        return html.picture(style.save(figure, path),
+                            caption=f"The size of the rates, |{letter}|, of every combination.")
 
 
 def _look(places):
