@@ -1,7 +1,7 @@
 """The gallery: every case of the repository with its picture, its answer in one line, its file and the
 commands that give these.
 
-The page `gallery.md` has the pictures in groups, those with a constant torque first; a page a group has the
+The page `gallery.md` begins with questions, then has all pictures by outcome; a page an outcome has the
 rest. Pictures and answers take half a minute, so they are kept beside a hash of the case and of the whole
 program, and made again when either has changed.
 """
@@ -19,8 +19,17 @@ FOLDER = "gallery"
 SHARP = 75  # dots an inch: a picture as wide as the text, some 20 kB
 HEAD = """# Cases
 
-Each picture is a case file of the folder `cases/`: a body, what acts on it, and one motion. A click leads to
-the answer, the file and the commands.
+## By question
+
+"""
+# question, the page that answers it, the case that is drawn above it
+QUESTIONS = (("My thruster is stuck open: what happens, how soon, how large?", "stuck", "geostationary-22n"),
+             ("How far is the motion from the separatrix?", "distance", "minor-axis-100"),
+             ("What does accuracy cost in time?", "cost", "toutatis"),
+             ("Where do formulas that are right on paper lose their digits?", "hard-cases", "top-fast"),
+             ("What do the five papers say, and what is so?", "audit", "charged-body"))
+ABOUT = """Each picture below is a case file of the folder `cases/`: a body, what acts on it, and one motion.
+A click leads to the answer, the file and the commands.
 
 """
 LEAD = (
@@ -31,9 +40,10 @@ LEAD = (
 def write(docs: Path, cases: list[Path] | None = None) -> list[str]:
     """Write gallery.md, gallery/<group>.md and gallery/<case>.png; the names of all cases, in the order of
     the pages. cases: None for all."""
-    from stabilab.papers.report.whole import GROUPS
+    from stabilab.papers.report.whole import OUTCOMES
     entries = [entry(path, docs / FOLDER) for path in cases or sorted((ROOT / "cases").glob("*.toml"))]
-    grouped = {title: [one for one in entries if one["group"] == title] for title, _ in GROUPS}
+    grouped = {title: sorted((one for one in entries if one["group"] == title), key=lambda one: one["scene"])
+               for title in OUTCOMES.values()}
     grouped = {title: rows for title, rows in grouped.items() if rows}
     page(docs / "gallery.md", overview(grouped))
     known = ({f"{slug(title)}.md" for title in grouped}
@@ -60,21 +70,23 @@ def entry(path: Path, folder: Path) -> dict:
 
 
 def made(path: Path, folder: Path) -> dict:
-    """Title, source, group, answer and kind of picture of a case, whose picture is drawn. Of a sweep the
-    first combination is drawn."""
+    """Title, source, outcome, number of its kind of scene, answer and kind of picture of a case, which is
+    drawn. Of a sweep the first combination is drawn."""
     from stabilab.case.read import load_all
-    from stabilab.papers.report.whole import group
+    from stabilab.papers.report.whole import GROUPS, OUTCOMES, group
     from stabilab.show.plot import subject as which
     from stabilab.show.plot import write
     from stabilab.show.plot.subject import subject
     from stabilab.show.terminal.letters import greek, written
-    from stabilab.show.text.headline import headline
+    from stabilab.show.text.headline import headline, look
     case, *others = load_all(path)
     one = subject(case)
     folder.mkdir(parents=True, exist_ok=True)
     write(one, folder / f"{path.stem}.png", dpi=SHARP)
     first = f"The first of {1 + len(others)} combinations is drawn: " if others else ""
-    return {"title": written(case.title), "source": written(case.source or ""), "group": group(case),
+    return {"title": written(case.title), "source": written(case.source or ""),
+            "scene": [title for title, _ in GROUPS].index(group(case)),
+            "group": OUTCOMES["" if others or case.state is None else look(one.motion)],
             "kind": which.default(one),
             "answer": first + greek(headline(case, one.motion))}
 
@@ -89,21 +101,27 @@ def program() -> str:
 
 def overview(grouped: dict[str, list[dict]]) -> str:
     """The page of all pictures."""
-    parts = [HEAD]
+    held = {one["name"]: one for rows in grouped.values() for one in rows}
+    asked = [card(f"{page}.html", held[name], words) for words, page, name in QUESTIONS if name in held]
+    parts = [HEAD, *cards(asked), ABOUT]
     for title, rows in grouped.items():
-        parts.append(f"## [{title}]({FOLDER}/{slug(title)}.md)\n\n```{{raw}} html\n<div class=\"cases\">")
-        parts += [card(one, slug(title)) for one in rows]
-        parts.append("</div>\n```\n")
+        parts.append(f"## [{title}]({FOLDER}/{slug(title)}.md)\n")
+        parts += cards(card(f"{FOLDER}/{slug(title)}.html#{one['name'].replace('_', '-')}", one, one["name"])
+                       for one in rows)
     pages = "\n".join(f"{FOLDER}/{slug(title)}" for title in grouped)
     return "\n".join(parts) + f"\n```{{toctree}}\n:hidden:\n\n{pages}\n```\n"
 
 
-def card(one: dict, where: str) -> str:
-    """A picture that leads to its case."""
+def cards(made) -> list[str]:
+    """Cards beside each other."""
+    return ['```{raw} html\n<div class="cases">', *made, "</div>\n```\n"]
+
+
+def card(where: str, one: dict, words: str) -> str:
+    """The picture of a case above some words; both lead to a place."""
     alt = html.escape(f"{one['title']}: {one['answer']}", quote=True)
-    return (f'<a href="{FOLDER}/{where}.html#{one["name"].replace("_", "-")}" title="{alt}"><img '
-            f'loading="lazy" src="_images/{one["name"]}.png" alt="{alt}">'
-            f'<span>{one["name"]}</span></a>')
+    return (f'<a href="{where}" title="{alt}"><img loading="lazy" src="_images/{one["name"]}.png" '
+            f'alt="{alt}"><span>{html.escape(words)}</span></a>')
 
 
 def section(one: dict) -> str:

@@ -76,22 +76,25 @@ def test_every_public_class_says_its_units_or_what_it_stands_for():
             assert any(unit in inspect.getdoc(thing) for unit in units), name
 
 
-def test_every_case_stands_in_the_gallery_under_a_group(tmp_path, monkeypatch):
-    from stabilab.papers.report.whole import GROUPS
+def test_every_case_stands_in_the_gallery_under_its_outcome_below_the_questions(tmp_path, monkeypatch):
+    from stabilab.papers.report.whole import OUTCOMES
+    outcomes = list(OUTCOMES.values())
 
     def undrawn(path, folder):
         folder.mkdir(exist_ok=True)
         (folder / f"{path.stem}.png").touch()
-        return {"title": path.stem, "source": "", "group": GROUPS[len(path.stem) % len(GROUPS)][0],
+        return {"title": path.stem, "source": "", "scene": 0, "group": outcomes[len(path.stem) % 4],
                 "kind": "time", "answer": "none"}
 
     monkeypatch.setattr(gallery, "made", undrawn)
     assert sorted(gallery.write(tmp_path)) == STEMS
     page = (tmp_path / "gallery.md").read_text(encoding="utf-8")
     titles = re.findall(r"^## \[(.*)\]\((.*)\)$", page, re.M)
-    assert titles[0][0] == "Constant torque along a principal axis" and len(titles) >= 6
+    assert [title for title, _ in titles] == outcomes
     held = [name for _, path in titles
             for name in re.findall(r"^## (.*)$", (tmp_path / path).read_text(encoding="utf-8"), re.M)]
+    asked = re.findall(r'<a href="([\w-]+)\.html" ', page[:page.index(titles[0][0])])
+    assert len(asked) == 5 and all((ROOT / f"docs/{guide}.md").exists() for guide in asked)
     assert sorted(held) == STEMS and all(f'src="_images/{name}.png"' in page for name in held)
 
 
@@ -100,7 +103,7 @@ def test_a_case_of_the_gallery_has_picture_answer_file_and_commands_and_is_kept_
     folder = tmp_path / gallery.FOLDER
     (minor,) = [path for path in CASES if path.stem == "minor-axis-100"]
     gallery.write(tmp_path, [minor])
-    page = (folder / "constant-torque-along-a-principal-axis.md").read_text(encoding="utf-8")
+    page = (folder / "bounded-on-a-condition-or-undecided.md").read_text(encoding="utf-8")
     assert "BOUNDED only while the torque is exactly along x3" in page and minor.read_text(
         encoding="utf-8") in page
     assert "stabilab plot cases/minor-axis-100.toml --kind phase" in page and "λ1 = 100" in page
@@ -114,7 +117,8 @@ def test_a_case_of_the_gallery_has_picture_answer_file_and_commands_and_is_kept_
                                                   encoding="utf-8")
     drawn = []
     monkeypatch.setattr(gallery, "made", lambda path, folder: drawn.append(path)
-                        or {"title": "", "source": "", "group": "No torque", "kind": "", "answer": ""})
+                        or {"title": "", "source": "", "scene": 0, "group": "Bounded for ever", "kind": "",
+                            "answer": ""})
     gallery.write(tmp_path, [changed])
     assert drawn == [changed]
 

@@ -22,7 +22,7 @@ from stabilab.show.surface import render_probe
 CASES = Path(__file__).parents[2] / "cases"
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
 HOSTILE = '<script>alert("title")</script> & "more"'
-VOID = {"meta", "link", "img", "br", "hr", "input"}
+VOID = {"meta", "link", "img", "br", "hr", "input", "source"}
 SWEEP = """
 title = "two torques"
 [body]
@@ -48,8 +48,8 @@ class Page(HTMLParser):
 
     def handle_starttag(self, tag, attrs):
         self.scripts += tag == "script" and ("type", "application/json") not in attrs
-        self.links += [v for k, v in attrs if k in ("src", "href")]
-        self.loads += [v for k, v in attrs if k in ("src", "data", "poster", "action") or k == "href"
+        self.links += [v for k, v in attrs if k in ("src", "srcset", "href")]
+        self.loads += [v for k, v in attrs if k in ("src", "srcset", "data", "poster", "action") or k == "href"
                        and tag != "a"]
         self.ids += [v for k, v in attrs if k == "id"]
         if tag not in VOID:

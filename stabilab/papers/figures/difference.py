@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...show.text.comparison import short
 from ...show.text.cost.words import share
 from . import panels
 from .figure import Figure
@@ -76,7 +77,7 @@ def _words(d: Difference) -> str:
     if d.status != "compared":
         return head + d.reason
     part = f" ({share(d.share)} the exact motion's range)" if d.share is not None else ""
-    return f"{head}{panels.plain(d.largest)}{unit}{part} at t = {d.at:.3g} s"
+    return f"{head}{short(d.largest)}{unit}{part} at t = {d.at:.3g} s"
 
 
 def plain(label: str) -> str:

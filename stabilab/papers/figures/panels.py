@@ -36,7 +36,6 @@ LOOKS: dict[str, dict] = {
 # Of words: darker, to be read
 INK = ({name: look["color"] for name, look in LOOKS.items()}
        | {"linear": style.BLUE, "lindstedt": style.BLUE, "corrected": "#9C4A7B", "printed": "#946300"})
-END = {"marker": "X", "markersize": 7, "linestyle": "none", "zorder": 5}
 WIDE = 3.0  # a model may stretch the axis to this many times the exact motion's range; beyond that it is cut
 TALL = 1.45  # a plane of one scale, against a history
 MARGIN = 0.06
@@ -198,16 +197,11 @@ def _ending(ax, column):
     """In the panel, where curves leave room: which model ends early, and why."""
     from matplotlib.lines import Line2D
     rows = [(f"ends at {run.t[-1]:.3g} s: {run.reason.split(' at t = ')[0]}",
-             END | {"color": LOOKS[name]["color"]})
-            for name, run in column.runs.items() if _stops(run)]
+             comparison.END | {"color": LOOKS[name]["color"]})
+            for name, run in column.runs.items() if comparison.stops(run)]
     if rows:
         ax.legend([Line2D([], [], **look) for _, look in rows], [fill(text, 34) for text, _ in rows],
                   fontsize=7.5, loc="best")
-
-
-def _stops(run) -> bool:
-    """Whether a run ends before the last time that was asked for."""
-    return getattr(run, "status", "reached") != "reached"
 
 
 def _picked(row, columns, model) -> list:
@@ -245,8 +239,8 @@ def _panel(ax, row, column, limits):
             continue
         x, y = picked
         ax.plot(*_clipped(x, y, limits), **LOOKS[name])
-        if _stops(column.runs[name]) and len(x):
-            ax.plot(x[-1:], y[-1:], color=LOOKS[name]["color"], **END)
+        if comparison.stops(column.runs[name]) and len(x):
+            ax.plot(x[-1:], y[-1:], color=LOOKS[name]["color"], **comparison.END)
     if column.mark is not None and row.over_time:
         ax.axvline(column.mark, **style.MEANING["crossing"])
     ax.set_xlim(*limits[0])
@@ -281,7 +275,7 @@ def _cuts(row, column, limits) -> list:
 def _beyond(values, low, high) -> str:
     """How far values go beyond one end, or from where to where beyond both; empty where they stay between
     them."""
-    ends = [plain(end) for end, out in ((np.nanmin(values), np.nanmin(values) < low),
+    ends = [comparison.short(end) for end, out in ((np.nanmin(values), np.nanmin(values) < low),
                                         (np.nanmax(values), np.nanmax(values) > high)) if out]
     return " to ".join(ends)
 
@@ -324,11 +318,6 @@ def _tell_cuts(ax, words):
         ax.annotate(text, (x, 1.01), (0, 0 if beside else LINE * n), xycoords="axes fraction",
                     textcoords="offset points", color=INK[name], ha=side,
                     va="bottom", ma=side, linespacing=1.25, fontsize=8.6 * (SMALL if short else 1))
-
-
-def plain(value) -> str:
-    """Three digits without a power of ten where that reads better."""
-    return (f"{value:.0f}" if 1000 <= abs(value) < 1e5 else f"{value:.3g}").replace("-", "−")
 
 
 def _bare(label) -> str:

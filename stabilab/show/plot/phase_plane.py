@@ -40,7 +40,8 @@ def phase(case: Any, state: Any = None, ax: Axes | None = None, units: str | Non
     case: a Case, or a scene with `state`. Across: the turn about the axis of the torque since the start; up:
     the rate about it. The reduced potential decides all lines: this motion, the separatrices through the
     saddles, and the motions of other energies at the same value of the invariant. units: "deg" or "si".
-    Raises InputError where the motion has no such plane; it names the kinds of plot that there are.
+    A figure of its own has a second plane where the motion is too small to be seen in the first. Raises
+    InputError where the motion has no such plane; it names the kinds of plot that there are.
     """
     one = subject(case, state)
     which.check("phase", one)
@@ -48,7 +49,7 @@ def phase(case: Any, state: Any = None, ax: Axes | None = None, units: str | Non
     i = plane.reduction.axis
     with canvas.on(ax, size) as target:
         factors = {"scale": plane.unit * scale.angle[1], "rate_scale": scale.rate[1]}
-        small = _small(plane)
+        small = ax is None and _small(plane)
         draw(target, plane, start=not small, **factors)
         if small:
             _enlarged(target, plane, factors)
@@ -67,8 +68,7 @@ def phase(case: Any, state: Any = None, ax: Axes | None = None, units: str | Non
 RESTING = 1e-4
 # of the picture's height: a motion below it is shown enlarged, in a window so much larger than itself
 SMALL, AROUND = 0.07, 1.6
-INSET = (0.34, 0.34)  # of the axes: width and height of that window
-NUMBERS = (0.065, 0.06)  # of the axes: the room of its numbers, left and below
+BESIDE_IT = 0.4  # of the plane's width: that of the window
 # of the largest W: more of it at its ends has a motion that leaves the picture; at a turning point rounding
 # of the place leaves some 1e-6
 CLOSED = 1e-3
@@ -83,24 +83,16 @@ def _small(plane) -> bool:
 
 
 def _enlarged(ax, plane, factors):
-    """A window with this motion alone and its start, on a ground of its own."""
-    from matplotlib.patches import Rectangle
+    """A window beside the plane, where it hides no curve: this motion alone and its start."""
     ys, Ws = motion_curve(plane, *window(plane))
-    right = plane.unit * (ys[0] + ys[-1]) < plane.unit * sum(window(plane))  # the emptier side
-    (wide, tall), (left, below) = INSET, NUMBERS
-    at = (0.64 if right else 0.01 + left, 0.62)
-    ax.add_patch(Rectangle((at[0] - left, at[1] - below), wide + left + 0.01, tall + below + 0.02,
-                           transform=ax.transAxes,
-                           facecolor="white", edgecolor=style.GREY, linewidth=0.8, zorder=4.5))
-    inset = ax.inset_axes((*at, *INSET))
+    columns = ax.figure.add_gridspec(1, 2, width_ratios=(1, BESIDE_IT))
+    ax.set_subplotspec(columns[0])
+    inset = ax.figure.add_subplot(columns[1], box_aspect=1)
     middle, half = (ys[0] + ys[-1]) / 2, AROUND * (ys[-1] - ys[0]) / 2
     draw(inset, plane, span=(middle - half, middle + half), levels=14, top=AROUND * float(Ws.max()),
          **factors)
-    inset.tick_params(labelsize=7)
-    # they stand on the lines of the picture
-    for label in (*inset.get_xticklabels(), *inset.get_yticklabels()):
-        label.set_bbox({"facecolor": "white", "edgecolor": "none", "pad": 0.8})
-    inset.set_in_layout(False)  # it lies inside; the layout would keep room for it below
+    inset.tick_params(labelsize="small")
+    inset.set_title("enlarged", fontsize="small")
     ax.indicate_inset_zoom(inset, edgecolor=style.BLACK)
 
 

@@ -132,21 +132,21 @@ def picture(plt, case, runs, parts=("omega",), size=None, units: Units | None = 
                          for name, run in runs.items() if part in run.state}, looks)
             _no_rounding(ax, float(np.abs(runs["exact"].state[part]).max(initial=0.0)) * one)
             for name, run in runs.items():
-                if _ends(run) and part in run.state and len(run.t):
+                if stops(run) and part in run.state and len(run.t):
                     ax.plot(run.t[-1] * second, run.state[part][-1][column] * one, color=LOOKS[name]["color"],
                             scalex=False, scaley=False, **END)
             ax.set_ylabel(_labelled(ax, NAMES[part][column], written(unit)))
     for ax in axes[-1]:
         ax.set_xlabel(f"$t$ ({written(clock)})")
     figure.suptitle(style.literal(case.heading), fontsize=10 * style.share(), wrap=True)
-    rows = [(WORDS[name] + (f", ends at {run.t[-1] * second:.3g} {written(clock)}" if _ends(run)
+    rows = [(WORDS[name] + (f", ends at {run.t[-1] * second:.3g} {written(clock)}" if stops(run)
                             and len(run.t) else ""), _in_legend(looks[name]))
             for name, run in runs.items()]
     style.legend(figure, rows, columns=style.fitting([words for words, _ in rows], figure.get_figwidth()))
     return figure
 
 
-def _ends(run) -> bool:
+def stops(run) -> bool:
     """Whether a run ends before the last time that was asked for."""
     return getattr(run, "status", "reached") != "reached"
 
@@ -209,7 +209,7 @@ def _tell_cut(ax, models):
     low, high = ax.get_ylim()
     brief = ax.figure.get_figwidth() < BRIEF * style.share()
     for (name, values), (x, side) in zip(models, ((0.0, "left"), (1.0, "right"), (0.5, "center"))):
-        ends = [_short(end) for end,
+        ends = [short(end) for end,
                 out in ((values.min(), values.min() < low), (values.max(), values.max() > high)) if out]
         told = f"to {ends[0]}" if len(ends) == 1 else " to ".join(ends)
         ax.text(x, 1.01, "cut" if brief else f"cut: {told}", color=DARK.get(name, LOOKS[name]["color"]),
@@ -217,7 +217,8 @@ def _tell_cut(ax, models):
                 fontsize=(7.5 if len(models) < 3 else 6.8) * style.share(), transform=ax.transAxes)
 
 
-def _short(value) -> str:
+def short(value) -> str:
+    """Three digits without a power of ten where that reads better."""
     return (f"{value:.0f}" if 1000 <= abs(value) < 1e5 else f"{value:.3g}").replace("-", "−")
 
 
