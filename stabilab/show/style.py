@@ -25,6 +25,7 @@ LOOK = {"bounded": BLUE, "changes": VERMILION, "conditional": ORANGE}  # of a he
 MEANING = {  # what a line or a point stands for -> how it is drawn
     "stable": {"color": BLUE, "linestyle": "-", "linewidth": 2.0},
     "unstable": {"color": VERMILION, "linestyle": "--", "linewidth": 1.8},
+    "undecided": {"color": GREY, "linestyle": ":", "linewidth": 2.0},
     "separatrix": {"color": BLACK, "linestyle": "-", "linewidth": 1.9},
     "separatrix 2": {"color": PURPLE, "linestyle": "-", "linewidth": 1.9},
     "bounded": {"color": BLUE, "linestyle": "-", "linewidth": 1.4},
@@ -42,12 +43,18 @@ MARKER = {
                "markeredgewidth": 1.6,
                "markersize": 6.5, "linestyle": "none"},
     "degenerate": {"marker": "D", "color": GREEN, "markersize": 6, "linestyle": "none"},
+    "undecided": {"marker": "D", "markerfacecolor": "white", "markeredgecolor": GREY,
+                  "markeredgewidth": 1.8, "color": GREY, "markersize": 6, "linestyle": "none"},
     "start": {"marker": "s", "color": BLACK, "markersize": 5, "linestyle": "none"},
     "turning": {"marker": "^", "color": GREEN, "markersize": 6, "linestyle": "none"},
 }
 EQUILIBRIA = {"stable": "stable equilibria", "unstable": "unstable equilibria",
-              "degenerate": "degenerate equilibria",
               "undecided": "equilibria of undecided stability"}  # kind -> its words in a legend
+SPACE = {  # words of a legend -> how that is drawn in the space of rates
+    "this motion": MEANING["this motion"], "start": MARKER["start"],
+    "nearest point of the separatrix": {"marker": "o", "color": YELLOW, "markeredgecolor": BLACK,
+                                        "markersize": 6, "linestyle": "none"},
+    **{words: MEANING[kind] for kind, words in EQUILIBRIA.items()}}
 SHEETS = (SKY, ORANGE, GREEN, PURPLE, YELLOW, BLUE, VERMILION)  # surfaces, in order
 # surfaces beside a motion, which is orange, and their nearest point, a yellow ball
 BESIDE = (SKY, GREEN, PURPLE, "#B59A6A")
@@ -75,16 +82,8 @@ RC: dict[Any, Any] = {  # of Matplotlib
 
 
 def kind_of(part: Any) -> str:
-    """Which of EQUILIBRIA an equilibrium or a piece of a curve of them is: as its verdict has it, which a
-    linear centre in a field does not decide."""
-    if part.linear == "stable" and part.verdict == "undecided":
-        return "undecided"
-    return part.linear if part.linear in EQUILIBRIA else "degenerate"
-
-
-def colour_of(kind: str) -> str:
-    """The colour of one of EQUILIBRIA."""
-    return GREY if kind == "undecided" else str(MEANING["fold" if kind == "degenerate" else kind]["color"])
+    """Which of EQUILIBRIA an equilibrium or a piece of a curve of them is: as its verdict has it."""
+    return next(kind for kind in ("undecided", "unstable", "stable") if kind in part.verdict)
 
 
 def quiet_matplotlib() -> None:

@@ -20,7 +20,9 @@ from stabilab.papers.figures import catalogue as figures
 from stabilab.papers.figures import paper
 from stabilab.show import style
 from stabilab.show.plot import to_file as plane
+from stabilab.show.plot.subject import subject
 from stabilab.show.surface import mesh, render_probe
+from stabilab.show.surface import picture as drawing
 from stabilab.show.surface import write as surface
 
 CASES = Path(__file__).parents[2] / "cases"
@@ -360,45 +362,39 @@ def test_surface_points_lie_on_the_level_of_their_saddle(tmp_path):
         assert np.ptp(energy, axis=1).max() < 1e-11 * scale
 
 
-def test_a_surface_picture_names_the_axes_of_its_case(tmp_path, monkeypatch):
+def test_a_surface_picture_names_the_axes_of_its_case(tmp_path):
     """Expected by eye: the largest, middle and least moment of the file, its principal axes where it is
     turned, the paper's letters."""
-    drawn = []
-    monkeypatch.setattr(surface, "probe", lambda: render_probe.Renderer(True, "none"))
-    monkeypatch.setattr(surface, "draw", lambda scene, found, meshes, path,
-                        names: (drawn.append(tuple(names)), path)[1])
     text = ("[body]\ninertia = {}\n[effects.gyrostat]\nmomentum = [0.8, 0, "
             "0]\n[effects.constant_torque]\ntorque = {}\n"
             "[motion]\nangular_velocity = [0.1, 0.05, 0.02]\n")
     plain, turned = tmp_path / "plain.toml", tmp_path / "turned.toml"
     plain.write_text(text.format("[12, 9, 5]", "[0, 0, 0.02]"))
     turned.write_text(text.format("[[12, 0, 0], [0, 7, 2], [0, 2, 7]]", "[0, 0.02, -0.02]"))
-    for given in (*map(load, (plain, turned, CASES / "minor-axis-100.toml")), paper.scene("minor", 100)):
-        surface.write(given, tmp_path, shape=(12, 25))
-    assert drawn == [("x (major)", "y (intermediate)", "z (minor)"), ("major", "intermediate", "minor"),
-                     ("x1", "x2", "x3"), ("x1", "x2", "x3")]
+    named = [drawing.of(subject(given)).names for given in
+             (*map(load, (plain, turned, CASES / "minor-axis-100.toml")), paper.scene("minor", 100))]
+    assert named == [("ω₁, x (major) (deg/s)", "ω₂, y (intermediate) (deg/s)", "ω₃, z (minor) (deg/s)"),
+                     ("ω₁, major (deg/s)", "ω₂, intermediate (deg/s)", "ω₃, minor (deg/s)"),
+                     ("x₁", "x₂", "x₃"), ("x₁", "x₂", "x₃")]
 
 
 @pytest.mark.slow
-def test_in_a_surface_picture_the_colours_of_equilibria_are_theirs_alone_and_no_label_floats_over_a_sheet():
+def test_in_a_surface_picture_everything_is_drawn_and_the_box_holds_the_surface():
     if not render_probe.probe().available:
         pytest.skip(render_probe.probe().words)
-    from stabilab.orbit.separatrix.sheets import separatrix
-    scene = paper.scene("minor", 100)
-    found = separatrix(scene, shape=(12, 25))
-    stage = surface.plotter(scene, found, [mesh.triangulate(sheet) for sheet in found.sheets],
-                            scene.components)
+    case = load(CASES / "minor-axis-100.toml")
+    found = drawing.of(subject(case))
+    stage = drawing.plotter(found)
     try:
-        theirs = {tuple(int(style.MEANING[kind]["color"][i:i + 2], 16) for i in (1, 3, 5))
-                  for kind in ("stable", "unstable", "fold")}
-        coloured = {name for name, actor in stage.actors.items() if hasattr(actor, "prop")
-                    and tuple(actor.prop.color.int_rgb) in theirs}
-        assert coloured and all(name.startswith("line ") for name in coloured)
-        # labels at points of space
-        assert "vtkActor2D" not in {type(actor).__name__ for actor in stage.actors.values()}
-        box, sheets = stage.renderer.cube_axes_actor.bounds, np.concatenate(
-            [sheet.points.reshape(-1, 3) for sheet in found.sheets])
-        assert all(box[2 * i] < sheets[:, i].min() and sheets[:, i].max() < box[2 * i + 1] for i in range(3))
+        drawn = {tuple(actor.prop.color.int_rgb) for actor in stage.actors.values() if hasattr(actor, "prop")}
+        kinds = ("this motion", "start", "nearest point of the separatrix", "stable equilibria",
+                 "unstable equilibria")
+        assert {tuple(int(style.SPACE[words]["color"][i:i + 2], 16) for i in (1, 3, 5))
+                for words in kinds} < drawn and set(kinds) < set(found.legend)
+        places = np.concatenate([sheet.points for _, sheet in found.sheets])
+        low, high = found.box.low, found.box.high
+        assert len(found.arrows) == 3
+        assert (places.min(axis=0) < high).all() and (places.max(axis=0) > low).all()
     finally:
         stage.close()
 

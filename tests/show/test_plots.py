@@ -533,9 +533,9 @@ def test_a_motion_in_space_has_its_shadows_on_the_walls_and_arrows_along_the_flo
 
 def test_triangles_cut_by_a_box_keep_the_area_inside():
     """A square of side 4 in the plane z = 0 across a box of side 2 about the origin leaves 4 of its area."""
-    from stabilab.show.plot.in_space import Box
+    from stabilab.show.plot.in_space import between, clipped
     corners = np.array([[-2, -2, 0], [2, -2, 0], [2, 2, 0], [-2, 2, 0]], float)
-    inside = Box.of(np.full(3, -1.0), np.full(3, 1.0)).clipped(corners[[[0, 1, 2], [0, 2, 3]]])
+    inside = clipped(between(np.full(3, -1.0), np.full(3, 1.0)), corners[[[0, 1, 2], [0, 2, 3]]])
     area = (np.linalg.norm(np.cross(inside[:, 1] - inside[:, 0], inside[:, 2] - inside[:, 0]),
                            axis=1).sum() / 2)
     assert area == pytest.approx(4) and np.abs(inside).max() <= 1 + 1e-12

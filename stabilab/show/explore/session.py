@@ -12,6 +12,7 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Callable, Sequence
+from functools import partial
 from itertools import groupby
 from typing import Any
 
@@ -23,7 +24,7 @@ from ...case.write import data_of
 from ...equilibrium.result import Equilibria
 from ...errors import StabilabError
 from ...orbit.result import Motion
-from ...orbit.separatrix.plain_sheets import REACH, PlainSheet, plain_separatrix
+from ...orbit.separatrix.plain_sheets import REACH, PlainSheet
 from ...packages import explained, present
 from ...physics.coefficients import content, gyrostat_scene
 from ...physics.effects import effect_class
@@ -34,6 +35,7 @@ from ...verify.form import about, parsed
 from ...verify.form import line as about_line
 from ...verify.numbers import Malformed
 from .. import limiting
+from ..space import PLACES, Box, box_of, curves_of, data, marks_of, near_part, nearest, sheets_of, space
 from ..spans import natural, seen
 from ..terminal.letters import greek, lettered, written
 from ..terminal.motion import margins
@@ -43,7 +45,6 @@ from ..units import SHORT, Units, but_for_rounding, units_of
 from . import orbits as other
 from . import parameters as controls
 from . import pictures as planes
-from . import pictures as space
 from . import session as tables
 from .orbits import line
 from .parameters import changed
@@ -87,12 +88,9 @@ def equilibrium_rows(found: Equilibria, units: Units) -> dict[str, Any]:
             "rows": told[:MOST] + ([[f"and {more} more", ""]] if more > 0 else [])}
 
 
-# rows of a sheet, and columns of half of it: while the hand moves, and when it rests
-PLAIN = {True: (18, 17), False: (40, 33)}
-GRADED = (48, 97)
-FARTHEST = 1e4  # times the fold's radius: how far a sheet is followed for a large box
+PLAIN = (18, 17)  # rows of a sheet, and columns of half of it, while the hand moves
 # of a piece of a curve of equilibria: to find what is in the box, and to draw it
-POINTS = {True: (16, 40), False: (40, 90)}
+POINTS = {True: (16, 40), False: PLACES}
 TURNS = {True: 240.0, False: 2400.0}  # rad of turn at most that are drawn
 FOLLOWED = "the torque is off the principal axes: keep still, and the motion is followed"
 WORKED_OUT = "keep still, and this motion is worked out"
@@ -223,43 +221,30 @@ class Session:
         return found
 
     def _space(self, bag, case, twin, found, at_rest, path, asked, moving):
-        near, (bare, ghost) = space.near_part(path,
-                                              found), (None, False) if twin is None else _without_tilt(twin)
-        marks = space.marks_of(case.state, found, at_rest)
-        box = space.box_of(asked,
-                           [*near, *(m["at"] for m in marks if m["kind"].startswith(("start", "nearest")))],
-                           moving or ghost)
+        near, (bare, ghost) = near_part(path, found), (None, False) if twin is None else _without_tilt(twin)
+        marks = marks_of(case.state, found, at_rest)
+        rests = [] if moving else nearest(at_rest, near)
+        box = box_of(near, marks + rests, reaching=True, asked=asked, kept=moving or ghost)
         sheets, words = ((), other.why(case.scene)) if bare is None else self._sheets(bare, box, moving)
-        shown = [(number, sheet) for number, sheet in enumerate(sheets) if space.seen(sheet, box)]
-        if ghost:
-            words = ("No separatrix is known for a torque off the axes"
-                     + (": the surface drawn is that of the torque without its tilt" if shown else ""))
         names = [planes.labelled(component.replace("omega", "ω"), self.units.rates[0])
                  for component in case.scene.components]
-        number = POINTS[moving]
-        rests = self._once("lines", (case.scene, box, number, at_rest is None),
-                           lambda: space.lines(at_rest, box, *number))
-        made = space.drawn_space(bag, box, names, self.units.rates[1], shown, rests, near, marks, ghost)
-        return made | {"words": words, "box": {"middle": box.middle, "half": box.half}}
+        curves = self._once("curves", (case.scene, box, moving, at_rest is None),
+                            lambda: curves_of(at_rest, box, *POINTS[moving]))
+        drawn = space(names, self.units.rates[1], box, sheets, near, marks, curves, words,
+                      " without the tilt" * ghost)
+        if ghost:
+            words = ("No separatrix is known for a torque off the axes"
+                     + (": the surface drawn is that of the torque without its tilt" if drawn.sheets else ""))
+        return data(drawn, partial(bag.add, "int16")) | {
+            "words": words, "box": {"middle": box.middle, "half": box.half}}
 
-    def _sheets(self, scene: AnyScene, box: space.Box, moving: bool) -> tuple[Sequence[PlainSheet], str]:
+    def _sheets(self, scene: AnyScene, box: Box, moving: bool) -> tuple[Sequence[PlainSheet], str]:
         """(sheets as far as the box reaches, what they part or why there are none)."""
-        needed = box.farthest
-
-        def reaching():
-            reach = self._kept.get("reach", (None, REACH))[1]
-            found, words = _surface(scene, reach, moving)
-            far = max((abs(v) for sheet in found for p in sheet.points for v in p), default=0.0)
-            wanted = min(reach * 1.3 * needed / far, FARTHEST) if far else reach
-            if far and (far < needed or far > 8 * needed) and wanted > 1.01:
-                self._kept["reach"] = (None, wanted)
-                found, words = _surface(scene, wanted, moving)
-            return found, words
-        try:
-            found, words = self._once("sheets", (scene, box, moving), reaching)
-        except StabilabError as error:
-            return (), f"No separatrix: {error}"
-        return (found, _capital(words)) if found else ((), f"No separatrix: {words}")
+        reach = self._kept.get("reach", (None, REACH))[1]
+        found, words, far = self._once("sheets", (scene, box, moving), lambda: sheets_of(
+            scene, box, plain=PLAIN if moving else None, reach=reach))
+        self._kept["reach"] = (None, far)
+        return found, _capital(words)
 
     def _once(self, name: str, key: Any, make: Callable[[], Any]) -> Any:
         """What `make` gave for this key the last time, or gives now."""
@@ -267,17 +252,6 @@ class Session:
         if kept is None or kept[0] != key:
             kept = self._kept[name] = (key, make())
         return kept[1]
-
-
-def _surface(scene: AnyScene, reach: float, moving: bool) -> tuple[Sequence[PlainSheet], str]:
-    """The separatrix: coarse in plain floats for a moving hand, graded by NumPy, where that is here, for one
-    that rests."""
-    if moving or not present("numpy"):
-        return plain_separatrix(scene, reach, *PLAIN[moving])
-    from ...orbit.separatrix.sheets import separatrix
-    found = separatrix(scene, reach=reach, shape=GRADED)
-    return [PlainSheet(sheet.name, *sheet.points.shape[:2], sheet.points.reshape(-1, 3).tolist())
-            for sheet in found.sheets], found.reason
 
 
 def _law(found: Motion | None, units: Units) -> str:

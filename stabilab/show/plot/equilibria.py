@@ -8,9 +8,10 @@ import numpy as np
 from ...answers.equilibria import equilibria as all_of
 from ...errors import InputError
 from .. import style
+from ..space import Box
 from . import in_space
 from . import subject as canvas
-from .in_space import CURVES, FOLD, POINTS, Rest, disc, meanings, rest_states
+from .in_space import CURVES, FOLD, POINTS, Rest, disc, holds, inside, meanings, rest_states
 from .subject import Subject, measures, subject
 
 if TYPE_CHECKING:
@@ -61,25 +62,25 @@ def equilibria(case: Any, state: Any = None, ax: Axes | None = None, units: str 
     return target
 
 
-def _box(rest: Rest, one: Subject) -> in_space.Box:
+def _box(rest: Rest, one: Subject) -> Box:
     """What to show: all points and folds, the start, and of curves as much again."""
     marks = [np.zeros(3), *(at for _, at in rest.points), *rest.folds,
              *([np.array(one.state)] if one.state is not None else [])]
     near = [np.linalg.norm(points, axis=1).min() for _, points in rest.curves if len(points)]
     size = max([*(float(np.abs(mark).max()) for mark in marks), *near], default=0.0) or 1.0
     reach = size * (BEYOND if rest.curves or rest.planes else 1.1)
-    return in_space.Box(np.array([[-reach] * 3, [reach] * 3]), 1.0)
+    return Box((0.0,) * 3, (reach,) * 3)
 
 
 def _flat_axis(rest: Rest, box) -> int | None:
     """The axis across which all equilibria lie in one plane; None where they do not, or lie on one line."""
     if rest.planes:
         return None
-    places = np.concatenate([*(points[box.holds(points)] for _, points in rest.curves),
+    places = np.concatenate([*(points[holds(box, points)] for _, points in rest.curves),
                              *(at[None] for _, at in rest.points)])
     if len(places) < 3:
         return None
-    flat = [axis for axis in range(3) if np.ptp(places[:, axis]) < FLAT * box.half]
+    flat = [axis for axis in range(3) if np.ptp(places[:, axis]) < FLAT * box.half[0]]
     return flat[0] if len(flat) == 1 else None
 
 
@@ -88,15 +89,15 @@ def _constant(rest: Rest, axis: int) -> float:
 
 
 def _in_space(ax, rest, box, per_rate, labels):
-    in_units = in_space.Box(np.stack([box.low, box.high]) * per_rate, 1.0)
+    in_units = box.scaled(per_rate)
     for kind, spanning in rest.planes:
-        in_space.polygon(ax, disc(spanning, box.half * per_rate), CURVES[kind]["color"], 0.3)
+        in_space.polygon(ax, disc(spanning, box.half[0] * per_rate), CURVES[kind]["color"], 0.3)
     for kind, points in rest.curves:
-        in_space.line(ax, box.inside(points) * per_rate, CURVES[kind])
+        in_space.line(ax, inside(box, points) * per_rate, CURVES[kind])
     in_space.depth(ax, in_units, np.empty((0, 3)), [at * per_rate for _, at in rest.points])
     for kind, at in rest.points:
         in_space.line(ax, at[None] * per_rate, POINTS[kind])
-    in_space.line(ax, rest.folds[box.holds(rest.folds)] * per_rate, FOLD)
+    in_space.line(ax, rest.folds[holds(box, rest.folds)] * per_rate, FOLD)
     for axis in range(3):
         ends = np.zeros((2, 3))
         ends[:, axis] = in_units.low[axis], in_units.high[axis]
@@ -107,7 +108,7 @@ def _in_space(ax, rest, box, per_rate, labels):
 def _in_plane(ax, rest, box, per_rate, labels, flat):
     first, second = (n for n in range(3) if n != flat)
     for kind, points in rest.curves:
-        shown = box.inside(points)[:, [first, second]] * per_rate
+        shown = inside(box, points)[:, [first, second]] * per_rate
         ax.plot(*shown.T, **CURVES[kind])
     for kind, at in rest.points:
         ax.plot(at[first] * per_rate, at[second] * per_rate, zorder=5, **POINTS[kind])

@@ -1,7 +1,8 @@
-"""The space of rates: box, equilibria, separatrix and the motion."""
+"""The space of rates by Matplotlib: three-dimensional axes, and the plot of a motion."""
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -9,23 +10,34 @@ import numpy as np
 
 from ...answers.equilibria import equilibria
 from ...equilibrium.result import Equilibria, EquilibriumCurve
-from ...orbit.reduction import reduce
-from ...orbit.separatrix.sheets import separatrix
+from ...errors import StabilabError
 from .. import style
 from ..sampling import spread
-from ..surface.mesh import triangulate
+from ..space import (
+    SHAPE,
+    VIEWS,
+    WHOLE,
+    Box,
+    Space,
+    box_of,
+    curves_of,
+    marks_of,
+    near_part,
+    nearest,
+    sheets_of,
+)
+from ..space import space as drawn_in
 from . import subject as canvas
 from . import subject as which
-from .path import path, turning
+from .path import path, thinned
 from .subject import Measures, Subject, measures, subject
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 
-# --- Three-dimensional axes: a box about what is drawn, its labels, and what of curves and surfaces lies
-# inside it
-VIEW = (22, -55)  # degrees: elevation, azimuth
+# --- Three-dimensional axes: their labels, and what of curves and surfaces lies inside of their box
+VIEW = VIEWS[0]  # degrees: elevation, azimuth
 ZOOM = 0.98  # leaves room for the labels
 PALE = 0.75  # share of its colour that a surface has
 LIGHT = np.array([0.35, -0.55, 0.76])
@@ -35,46 +47,29 @@ ROOMY = 3.8  # inches: axes that are smaller have fewer ticks
 # each other
 TICKS, SEEN = 5, 0.45
 FLATTEST = 0.75  # of the longest side of a box whose sides are in different scales
-MARGIN = 1.08  # of a box about the things in it
 
 
-class Box:
-    """A cube about points (n, 3), somewhat larger: low, high (3,)."""
+def between(low: np.ndarray, high: np.ndarray) -> Box:
+    """The box between two corners."""
+    return Box(tuple((low + high) / 2), tuple((high - low) / 2))
 
-    def __init__(self, points: np.ndarray, margin: float = MARGIN):
-        low, high = points.min(axis=0), points.max(axis=0)
-        half = margin * float((high - low).max()) / 2 or 0.1 * float(np.abs(points).max()) or 1.0
-        self.low, self.high = (low + high) / 2 - half, (low + high) / 2 + half
 
-    @classmethod
-    def of(cls, low: np.ndarray, high: np.ndarray) -> Box:
-        """The box between two corners, not a cube."""
-        box = cls.__new__(cls)
-        box.low, box.high = np.asarray(low, float), np.asarray(high, float)
-        return box
+def holds(box: Box, points: np.ndarray) -> np.ndarray:
+    """(...,) whether points (..., 3) lie inside."""
+    return np.asarray((np.abs(points - box.middle) <= box.half).all(axis=-1))
 
-    @property
-    def centre(self) -> np.ndarray:
-        return (self.low + self.high) / 2
 
-    @property
-    def half(self) -> float:
-        return float((self.high - self.low).max()) / 2
+def inside(box: Box, line: np.ndarray) -> np.ndarray:
+    """The line (n, 3) with gaps where it leaves."""
+    return np.where(holds(box, np.asarray(line))[:, None], line, np.nan)
 
-    def holds(self, points: np.ndarray) -> np.ndarray:
-        """(...,) whether points (..., 3) lie inside."""
-        return ((points >= self.low) & (points <= self.high)).all(axis=-1)
 
-    def inside(self, line: np.ndarray) -> np.ndarray:
-        """The line (n, 3) with gaps where it leaves."""
-        return np.where(self.holds(line)[:, None], line, np.nan)
-
-    def clipped(self, triangles: np.ndarray) -> np.ndarray:
-        """The parts of triangles (n, 3, 3) that lie inside, as triangles."""
-        for axis in range(3):
-            triangles = _cut(triangles, triangles[..., axis] - self.low[axis])
-            triangles = _cut(triangles, self.high[axis] - triangles[..., axis])
-        return triangles
+def clipped(box: Box, triangles: np.ndarray) -> np.ndarray:
+    """The parts of triangles (n, 3, 3) that lie inside, as triangles."""
+    for axis in range(3):
+        triangles = _cut(triangles, triangles[..., axis] - box.low[axis])
+        triangles = _cut(triangles, box.high[axis] - triangles[..., axis])
+    return triangles
 
 
 def _cut(triangles, height):
@@ -167,10 +162,10 @@ def furnish(ax: Any, box: Box, labels: tuple[str, ...], view: tuple[float, float
     ax.tick_params(labelsize=8 * small, pad=3.5 * small)
     # letters have a least size, their number has none
     roomy = min(small, min(ax.bbox.width, ax.bbox.height) / ax.figure.dpi / ROOMY)
-    lengths = box.high - box.low
+    lengths = np.array(box.half)
     sides = np.maximum(lengths / lengths.max(), FLATTEST)
-    for axis, seen in zip((ax.xaxis, ax.yaxis, ax.zaxis), sides / sides.max() * _seen(view)):
-        axis.set_major_locator(MaxNLocator(max(2, min(TICKS, round(TICKS * roomy * seen / SEEN)))))
+    for axis, share in zip((ax.xaxis, ax.yaxis, ax.zaxis), sides / sides.max() * _seen(view)):
+        axis.set_major_locator(MaxNLocator(max(2, min(TICKS, round(TICKS * roomy * share / SEEN)))))
         axis.set_pane_color((1, 1, 1, 1))
     # the longest side as of a cube
     ax.set_box_aspect(sides, zoom=ZOOM * (1 - (1 - small) / 3) * float(np.linalg.norm(sides)) / math.sqrt(3))
@@ -187,26 +182,17 @@ SHADOW = {"color": "#BDBDBD", "linewidth": 0.9, "zorder": 0.5}
 DROP = {"color": style.GREY, "linewidth": 0.7, "linestyle": (0, (2, 2)), "zorder": 0.6}
 
 
-def depth(ax: Any, box: Box, path: np.ndarray, points: np.ndarray) -> None:
+def depth(ax: Any, box: Box, path: np.ndarray, points: Iterable[Any],
+          view: tuple[float, float] = VIEW) -> None:
     """What shows where things are in depth: the shadows of a path (n, 3) on the three walls behind it, and a
-    line from each of the points (m, 3) down to the floor."""
-    for axis, wall in ((0, box.low[0]), (1, box.high[1]), (2, box.low[2])):
+    line from each of the points down to the floor."""
+    for axis, toward in enumerate(sight(view)):
         shadow = np.array(path, float)
+        wall = (box.low if toward > 0 else box.high)[axis]
         shadow[:, axis] = wall + 0 * shadow[:, axis]  # gaps stay gaps
         line(ax, shadow, SHADOW)
     for point in points:
         line(ax, np.array([point, [*point[:2], box.low[2]]]), DROP)
-
-
-def arrows(ax: Any, box: Box, path: np.ndarray, look: dict[str, Any], shares: tuple[float, ...]) -> None:
-    """The direction of a motion (n, 3), at shares of the length of its path."""
-    steps = np.diff(path, axis=0)
-    length = np.concatenate([[0.0], np.cumsum(np.linalg.norm(steps, axis=1))])
-    if not np.isfinite(length[-1]) or length[-1] == 0:
-        return
-    for n in np.searchsorted(length, np.array(shares) * length[-1]).clip(1, len(steps)) - 1:
-        ax.quiver(*path[n], *steps[n], length=0.11 * box.half, normalize=True, color=look["color"],
-                  linewidth=look["linewidth"], arrow_length_ratio=0.95, pivot="middle", zorder=8)
 
 
 # --- What a plot of a surface with motions on it is made of, and which of its lines lie in front
@@ -268,18 +254,9 @@ def levels(x: np.ndarray, y: np.ndarray, height: np.ndarray, values: Any) -> lis
 
 
 # --- Equilibria as curves and points to draw, and how each verdict looks
-CURVES: dict[str, dict[str, Any]] = {
-    "stable": {"color": style.BLUE, "linestyle": "-", "linewidth": 2.0},
-    "unstable": {"color": style.VERMILION, "linestyle": "--", "linewidth": 1.8},
-    "undecided": {"color": style.GREY, "linestyle": ":", "linewidth": 2.0}}
-POINTS: dict[str, dict[str, Any]] = {
-    "stable": {"marker": "o", "color": style.BLUE, "markersize": 7, "linestyle": "none"},
-    "unstable": {"marker": "o", "markerfacecolor": "white", "markeredgecolor": style.VERMILION,
-                 "markeredgewidth": 1.8, "markersize": 7.5,
-                 "linestyle": "none"},
-    "undecided": {"marker": "D", "markerfacecolor": "white", "markeredgecolor": style.GREY,
-                  "markeredgewidth": 1.8, "markersize": 6.5,
-                  "linestyle": "none"}}
+CURVES: dict[str, Look] = {kind: style.MEANING[kind] for kind in style.EQUILIBRIA}
+POINTS: dict[str, Look] = {kind: style.MARKER[mark] for kind, mark in zip(
+    style.EQUILIBRIA, ("centre", "saddle", "undecided"))}
 FOLD: dict[str, Any] = {"marker": "D", "color": style.GREEN, "markersize": 6, "linestyle": "none"}
 TURN = np.linspace(0, 2 * np.pi, 73)
 
@@ -300,20 +277,15 @@ def rest_states(found: Equilibria, number: int = 600) -> Rest:
     curves, planes, folds = [], [], []
     for curve in found.curves:
         if curve.name.startswith("plane"):
-            verdicts = [segment.verdict for segment in curve.segments]
-            planes.append((simple(max(verdicts, key=verdicts.count)), plane_of(curve)))
+            kinds = [style.kind_of(segment) for segment in curve.segments]
+            planes.append((max(kinds, key=kinds.count), plane_of(curve)))
             continue
         folds += [fold[:3] for fold in curve.folds]
         for segment in curve.segments:
             points = np.array([curve.point(float(t))[:3] for t in spread(*segment.t, number)], float)
-            curves.append((simple(segment.verdict), points[np.isfinite(points).all(axis=1)]))
-    return Rest(curves, planes, [(simple(p.verdict), np.array(p.at[:3], float)) for p in found.points],
+            curves.append((style.kind_of(segment), points[np.isfinite(points).all(axis=1)]))
+    return Rest(curves, planes, [(style.kind_of(p), np.array(p.at[:3], float)) for p in found.points],
                 np.array(folds, float).reshape(-1, 3))
-
-
-def simple(verdict: str) -> str:
-    """"stable", "unstable" or "undecided" of the verdicts in words."""
-    return "undecided" if verdict == "undecided" else "unstable" if "unstable" in verdict else "stable"
 
 
 def plane_of(curve: EquilibriumCurve) -> np.ndarray:
@@ -339,16 +311,8 @@ def meanings(rest: Rest, words: str = "equilibria") -> list[tuple[str, dict[str,
 
 
 # --- A motion in the space of rates, beside the separatrix
-NEAR = 3.0  # times the motion's own size: a separatrix so near is in the picture
-AWAY = 2.5  # times the largest rate beside the separatrix: a spin-up is followed so far
-TURNS = 60  # of a component: more would fill the picture
-# of the sheets, as of `separatrix`; beyond the box, so that none ends inside
-REACH, FARTHEST, BEYOND = 4.0, 400.0, 2.5
-# the first shape, how much finer the second may be, triangles to aim at
-COARSE, FINEST, FACETS = (40, 57), 10.0, 12_000
-COLOURS = (style.SKY, style.GREEN, style.PURPLE, style.YELLOW)  # of sheets; orange is the motion's
-ROUND = 0.06  # of the motion's size, about a motion that is a point
-ARROWS = (0.12, 0.45, 0.8)  # where the path has them, shares of its length
+FINE, MOST = 1e-3, 6000  # of the motion's size: how near a line with fewer points stays to it; points
+FACETS = (96, 129)  # rows and columns of a sheet: those that are in front are told by their middles
 
 
 def space(case: Any, state: Any = None, ax: Axes | None = None, span: Any = None, units: str | None = None,
@@ -356,113 +320,91 @@ def space(case: Any, state: Any = None, ax: Axes | None = None, span: Any = None
           legend: bool = True) -> Axes:
     """Draw a motion in the space of rates, and return the (three-dimensional) axes.
 
-    The box is that of the motion, widened to the nearest point of the separatrix where that is no farther
-    than some times the motion's own size; otherwise the title says how far away it is. Sheets of the
+    The box is that of the motion, widened to the nearest point of the separatrix and to equilibria where
+    these are no farther than some times the motion's own size; otherwise the title says how far away the
+    separatrix is. Where the motion hardly goes along an axis, that has a scale of its own. Sheets of the
     separatrix and curves of equilibria are drawn as far as they lie in the box; a spin-up is followed until
     it has left the separatrix behind. Scenes without a separatrix show the motion and the equilibria. span:
     as of `time`.
     """
     one = subject(case, state, span)
     which.check("space", one)
-    scale, omega = measures(one, units), _path(one)
-    box, words = _box(one, omega, scale)
-    rest = rest_states(equilibria(one.scene)) if one.twin.plain else Rest([], [], [], np.zeros((0, 3)))
-    sheets = _sheets(one, box)
-    in_units = Box(np.stack([box.low, box.high]) * scale.rate[1], 1.0)
+    scale = measures(one, units)
+    found = space_of(one, (scale.label(name, scale.rate[0]) for name in scale.names), scale.rate[1],
+                     shape=FACETS)
     with canvas.on(ax, size, space=True) as target:
-        rows: list[tuple[str, dict]] = [("this motion", style.MEANING["this motion"]),
-                                        ("start", style.MARKER["start"])]
-        colours = [COLOURS[number % len(COLOURS)] for number in range(len(sheets))]
-        facets(target,
-               [(triangles * scale.rate[1], colour) for (_, triangles), colour in zip(sheets, colours)])
-        rows += [(f"separatrix, {name}" if len(sheets) > 1 else "separatrix", {"facecolor": pale(colour)})
-                 for (name, _), colour in zip(sheets, colours)]
-        rows += _rest(target, rest, box, scale.rate[1])
-        drawn = box.inside(omega) * scale.rate[1]
-        spots = [at for _, at in rest.points if box.holds(at)]
-        depth(target, in_units, drawn, np.array([omega[0], *spots]) * scale.rate[1])
-        line(target, drawn, style.MEANING["this motion"], zorder=8)
-        arrows(target, in_units, drawn, style.MEANING["this motion"], ARROWS)
-        line(target, omega[:1] * scale.rate[1], style.MARKER["start"], zorder=9)
-        furnish(target, in_units, tuple(scale.label(name, scale.rate[0]) for name in scale.names))
-        canvas.title(target, one.heading, canvas.answer(one, scale), words)
+        draw(target, found)
+        canvas.title(target, one.heading, canvas.answer(one, scale), away(one, found, scale))
         if legend:
-            canvas.legend(target, rows, ax is None)
+            canvas.legend(target, rows(found), ax is None)
     return target
 
 
+def space_of(one: Subject, names: Iterable[str], rate: float, known: Equilibria | None = None,
+             shape: tuple[int, int] = SHAPE, most: float = WHOLE, reaching: bool = False) -> Space:
+    """What is drawn of a subject. names, rate: as of `Space`; known: its equilibria, where these are worked
+    out already; shape: of the sheets; most, reaching: as of `box_of`."""
+    moved = one.motion if one.state is not None else None
+    if known is None:
+        try:
+            known = equilibria(one.scene)
+        except StabilabError:
+            known = None
+    line = [] if moved is None else near_part(_path(one).tolist(), moved)
+    marks = marks_of(one.state, moved, known)
+    near = nearest(known, line) if line else []
+    box = box_of(line, marks + near, sheets_of(one.twin)[0], most, reaching)
+    surface, words, _ = sheets_of(one.twin, box, shape)
+    return drawn_in(names, rate, box, surface, line, marks, curves_of(known, box), words)
+
+
+def draw(ax: Any, found: Space) -> None:
+    """Draw a space on three-dimensional axes, in the unit of its labels."""
+    per, box = found.rate, found.box.scaled(found.rate)
+    facets(ax, [(clipped(box, per * grid_triangles(np.reshape(sheet.points, (sheet.rows, sheet.columns, 3)))),
+                 colour) for colour, sheet in found.sheets])
+    for words, places in found.curves:
+        line(ax, inside(box, per * np.array(places)), style.SPACE[words], zorder=6)
+    path = inside(box, per * np.array(found.path)) if found.path else np.empty((0, 3))
+    depth(ax, box, path, [per * np.array(at) for _, at in found.marks], found.view)
+    line(ax, path, style.MEANING["this motion"], zorder=8)
+    for at, step in found.arrows:
+        ax.quiver(*(per * np.array(at)), *(per * np.array(step)), color=style.ORANGE, linewidth=2.2,
+                  arrow_length_ratio=0.95, pivot="middle", zorder=8)
+    for words, at in reversed(found.marks):  # the start above all
+        line(ax, per * np.array([at]), _marker(words), zorder=9)
+    furnish(ax, box, found.names, found.view)
+
+
+def _marker(words: str) -> Look:
+    return next((POINTS[kind] for kind, name in style.EQUILIBRIA.items() if name == words),
+                style.SPACE[words])
+
+
+def rows(found: Space) -> list[tuple[str, Look]]:
+    """Rows of a legend: words and look."""
+    surfaces = {sheet.name for _, sheet in found.sheets}
+    curves = {words for words, _ in found.curves} | {"this motion"}
+    return [(words, {"facecolor": pale(colour)} if words in surfaces
+             else style.SPACE[words] if words in curves else _marker(words))
+            for words, colour in found.legend.items()]
+
+
+def away(one: Subject, found: Space, scale: Measures) -> str:
+    """Where the separatrix is if it is not in the picture."""
+    if (one.state is None or one.motion.velocity_witness is None or one.motion.margin_velocity is None
+            or found.box.holds(one.motion.velocity_witness)):
+        return ""
+    return (f"the separatrix is {one.motion.margin_velocity * scale.rate[1]:.4g} {scale.rate[0]} away, "
+            f"outside of this picture".replace("  ", " "))
+
+
 def _path(one: Subject) -> np.ndarray:
-    """The motion (n, 3): one period, or the span as far as a picture can show it; a spin-up until it has left
-    the separatrix behind."""
+    """The motion (n, 3): one period, or the span as far as a picture can show it."""
     period = one.motion.period
     low, high = one.seen
-    if period:
-        high = low + period
-    _, omega = path(one, low, high)
-    size = np.linalg.norm(omega, axis=1)
-    if one.motion.velocity_witness is not None and one.motion.fate.word == "spin-up":
-        far = np.nonzero(size > AWAY * max(size[0], float(np.linalg.norm(one.motion.velocity_witness))))[0]
-        omega = omega[:far[0] + 1] if len(far) else omega
-    turns = max(range(3), key=lambda n: turning(omega[:, n]))
-    at = _turns(omega[:, turns])
-    return omega[:at[TURNS]] if len(at) > TURNS else omega
-
-
-def _turns(values) -> np.ndarray:
-    """Where a curve turns."""
-    steps = np.sign(np.diff(values))
-    return np.nonzero(steps[1:] * steps[:-1] < 0)[0] + 1
-
-
-def _box(one: Subject, omega: np.ndarray, scale: Measures) -> tuple[Box, str]:
-    """The box of the picture, and where the separatrix is if it is not in it."""
-    size = float(np.ptp(omega, axis=0).max()) or ROUND * float(np.abs(omega).max()) or 1.0
-    own = Box(np.concatenate([omega, omega[:1] + size / 2, omega[:1] - size / 2]) if np.ptp(omega) == 0
-              else omega)
-    witness = one.motion.velocity_witness
-    if witness is None or one.motion.margin_velocity is None:
-        return own, ""
-    away = float(np.abs(np.array(witness) - own.centre).max())
-    if away > NEAR * own.half:
-        return (own,
-                f"the separatrix is {one.motion.margin_velocity * scale.rate[1]:.4g} {scale.rate[0]} away, "
-                f"outside of this picture".replace("  ", " "))
-    around = np.array(witness) + np.array([[-0.5], [0.5]]) * own.half
-    return Box(np.concatenate([omega, around])), ""
-
-
-def _sheets(one: Subject, box: Box) -> list[tuple[str, np.ndarray]]:
-    """(name, triangles (n, 3, 3)) of the sheets of the separatrix inside the box; as fine as the box asks
-    for."""
-    if not one.twin.plain or reduce(one.twin) is None:
-        return []
-    first = separatrix(one.twin, reach=REACH, shape=COARSE)
-    if not first.sheets:
-        return []
-    least = min(float(np.abs(sheet.points).max()) for sheet in first.sheets)
-    reach = min(FARTHEST, max(REACH, BEYOND * REACH * float(np.abs([box.low, box.high]).max()) / least))
-    made = _inside(one, box, reach, COARSE)
-    number = sum(len(triangles) for _, triangles in made)
-    finer = min(FINEST, math.sqrt(FACETS / max(number, 1)))
-    return made if finer <= 1 else _inside(one, box, reach, tuple(int(finer * n) for n in COARSE))
-
-
-def _inside(one, box, reach, shape):
-    meshes = [(sheet.name, triangulate(sheet))
-              for sheet in separatrix(one.twin, reach=reach, shape=shape).sheets]
-    pieces = [(name, box.clipped(mesh.points[mesh.triangles])) for name, mesh in meshes]
-    return [(name, triangles) for name, triangles in pieces if len(triangles)]
-
-
-def _rest(ax, rest: Rest, box: Box, per_rate: float):
-    """The equilibria inside the box; rows of the legend for those."""
-    curves = [(kind, points) for kind, points in rest.curves if box.holds(points).any()]
-    points = [(kind, at) for kind, at in rest.points if box.holds(at)]
-    folds = rest.folds[box.holds(rest.folds)]
-    for kind, curve in curves:
-        line(ax, box.inside(curve) * per_rate, CURVES[kind], zorder=6)
-    for kind, at in points:
-        line(ax, at[None] * per_rate, POINTS[kind], zorder=7)
-    if len(folds):
-        line(ax, folds * per_rate, FOLD, zorder=7)
-    return meanings(Rest(curves, [], points, folds))
+    _, omega = path(one, low, low + period if period else high)
+    near = FINE * (float(np.ptp(omega, axis=0).max()) or 1.0)
+    while len(line := thinned(omega, near)) > MOST:
+        near *= 2
+    return line

@@ -1,7 +1,6 @@
 """The motion that a picture follows, and what pictures cost."""
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
@@ -114,16 +113,6 @@ def band(t: np.ndarray, values: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.
     first = np.clip(np.searchsorted(t, edges[:-1]), 0, len(t) - 1)
     least, most = np.minimum.reduceat(values, first), np.maximum.reduceat(values, first)
     return 0.5 * (edges[:-1] + edges[1:]), least, most
-
-
-def angular(points: np.ndarray, near: float) -> bool:
-    """Whether a line through points (n, d) shows corners: it bends by more than a tenth of a right angle in a
-    place whose both sides are longer than `near`."""
-    way = np.diff(points, axis=0)
-    size = np.linalg.norm(way, axis=1)
-    long = (size[1:] > near) & (size[:-1] > near)
-    return bool((long & ((way[1:] * way[:-1]).sum(axis=1) < math.cos(0.05 * math.pi) * size[1:]
-                         * size[:-1])).any())
 
 
 def thinned(points: np.ndarray, near: float) -> np.ndarray:

@@ -9,21 +9,21 @@ from ...answers.equilibria import equilibria
 from ...orbit.phase_plane import PhasePlane, motion_curve, phase_plane, window
 from .. import style
 from ..sampling import spread
+from ..space import Box
 from . import in_space
 from . import subject as canvas
 from . import subject as which
 from .in_space import (
     CURVES,
     POINTS,
-    Box,
     SurfaceLines,
+    between,
     disc,
     facing,
     grid_triangles,
     levels,
     plane_of,
     sight,
-    simple,
 )
 from .path import path
 from .phase_plane import SMALL, highest, ways
@@ -55,7 +55,7 @@ def cylinder(one: Subject, units: str | None) -> SurfaceLines:
     spread = np.ptp(surface.reshape(-1, 3), axis=0)
     pad = (0.04 * spread.max() if spread.min() > 0.04 * spread.max()
            else np.maximum(0.04 * spread, 0.1 * spread.max()))
-    box = Box.of(surface.min(axis=(0, 1)) - pad, surface.max(axis=(0, 1)) + pad)
+    box = between(surface.min(axis=(0, 1)) - pad, surface.max(axis=(0, 1)) + pad)
     words = f"the rates across {one.axes.short(axis + 1)} stay on a {plane.land.base}"
     found = SurfaceLines(grid_triangles(surface), box, view,
                          tuple(scale.label(name, scale.rate[0]) for name in scale.names), words)
@@ -158,7 +158,7 @@ def momentum_sphere(one: Subject) -> SurfaceLines:
     height = energy(ball)
     rest, circles = _rest(one, D, wheel, size)
     view = facing(way.mean(axis=0) if np.linalg.norm(way.mean(axis=0)) > 0.05 * size else way[0])
-    found = SurfaceLines(grid_triangles(ball[::6, ::8]), Box(np.array([[-size] * 3, [size] * 3])), view,
+    found = SurfaceLines(grid_triangles(ball[::6, ::8]), Box((0.0,) * 3, (1.08 * size,) * 3), view,
                          tuple(rf"$H_{n}$ (kg m$^2$/s)" for n in (1, 2, 3)),
                          f"sphere of the angular momentum, |H| = {size:.5g} kg m²/s")
     flat = float(np.ptp(height)) <= SAME * float(np.abs(height).max())
@@ -211,10 +211,10 @@ def _rest(one, D, wheel, size):
     for curve in equilibria(one.twin).curves:
         if curve.name.startswith("plane"):
             if not wheel.any():
-                circles.append((simple(curve.segments[0].verdict), disc(plane_of(curve), size)))
+                circles.append((style.kind_of(curve.segments[0]), disc(plane_of(curve), size)))
             continue
         for segment in curve.segments:
-            found += [(simple(segment.verdict), np.array(curve.point(t), float) * D + wheel)
+            found += [(style.kind_of(segment), np.array(curve.point(t), float) * D + wheel)
                       for t in _roots(excess(curve), *segment.t)]
     return found, circles
 

@@ -24,10 +24,10 @@ function spaceView(canvas, {glass = 1, near = 1} = {}) {
       pixel = vec4(colour * light, glass); }`));
   gl.linkProgram(program); gl.useProgram(program);
   const uniforms = {}, where = name => uniforms[name] ??= gl.getUniformLocation(program, name);
-  let parts = [], buffers = [], shapes = [];
+  let parts = [], buffers = [], shapes = [], first = null, now = {turn: 0, lift: 0, near};
   const filled = (target, values) => { const buffer = gl.createBuffer(); buffers.push(buffer); gl.bindBuffer(target, buffer); gl.bufferData(target, values, gl.STATIC_DRAW); };
 
-  function add(points, triangles, colour, flatly) {
+  function add(points, triangles, colour, flatly, wall = null) {  // wall: [axis, side], drawn where that is behind
     const normals = new Float32Array(points.length);
     for (let i = 0; i < triangles.length; i += 3) {
       const [a, b, c] = [0, 1, 2].map(k => 3 * triangles[i + k]), u = [0, 1, 2].map(k => points[b + k] - points[a + k]), v = [0, 1, 2].map(k => points[c + k] - points[a + k]);
@@ -41,7 +41,7 @@ function spaceView(canvas, {glass = 1, near = 1} = {}) {
       if (place >= 0) { gl.enableVertexAttribArray(place); gl.vertexAttribPointer(place, 3, gl.FLOAT, false, 0, 0); }
     }
     filled(gl.ELEMENT_ARRAY_BUFFER, new Uint32Array(triangles));
-    parts.push({vertices, count: triangles.length, colour: rgb(colour), flatly});
+    parts.push({vertices, count: triangles.length, colour: rgb(colour), flatly, wall});
   }
 
   function sheet({at, rows, columns, colour}) {
@@ -53,8 +53,8 @@ function spaceView(canvas, {glass = 1, near = 1} = {}) {
     add(places(at), triangles, colour, 0);
   }
 
-  function tube(points, radius, colour) {
-    const sides = 6, ring = [], triangles = [], count = points.length / 3;
+  function tube(points, radius, colour, wall = null, sides = 6) {
+    const ring = [], triangles = [], count = points.length / 3;
     for (let i = 0; i < count; i++) {
       const p = k => [0, 1, 2].map(j => points[3 * Math.min(Math.max(k, 0), count - 1) + j]), a = p(i - 1), b = p(i + 1);
       let t = [0, 1, 2].map(j => b[j] - a[j]); const size = Math.hypot(...t) || 1; t = t.map(v => v / size);
@@ -68,7 +68,19 @@ function spaceView(canvas, {glass = 1, near = 1} = {}) {
         triangles.push(x, y, x + sides, y, y + sides, x + sides);
       }
     }
-    if (count > 1) add(new Float32Array(ring), triangles, colour, 0.25);
+    if (count > 1) add(new Float32Array(ring), triangles, colour, wall ? 1 : 0.25, wall);
+  }
+
+  function shadows(points) {  // of a path on each wall of the box
+    for (const axis of [0, 1, 2]) for (const side of [-1, 1]) tube(points.map((v, i) => i % 3 === axis ? 0.999 * side : v), 0.005, "#BDBDBD", [axis, side], 3);
+  }
+
+  function arrow(at, step, colour) {  // a cone along the motion
+    const size = Math.hypot(...step), t = step.map(v => v / size), least = t.map(Math.abs).indexOf(Math.min(...t.map(Math.abs))), e = [0, 1, 2].map(j => +(j === least));
+    const cross = (x, y) => [x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]], u = cross(t, e).map(v => v / Math.hypot(...cross(t, e))), w = cross(t, u);
+    const sides = 12, points = at.map((v, j) => v + 0.6 * step[j]), triangles = [];
+    for (let s = 0; s < sides; s++) { const a = 2 * Math.PI * s / sides; points.push(...at.map((v, j) => v - 0.4 * step[j] + 0.5 * size * (Math.cos(a) * u[j] + Math.sin(a) * w[j]))); triangles.push(0, 1 + s, 1 + (s + 1) % sides); }
+    add(new Float32Array(points), triangles, colour, 0.25);
   }
 
   function ball([x, y, z], radius, colour) {
@@ -85,21 +97,24 @@ function spaceView(canvas, {glass = 1, near = 1} = {}) {
   const edges = [[0, 1], [1, 2], [2, 3], [3, 0], [4, 5], [5, 6], [6, 7], [7, 4], [0, 4], [1, 5], [2, 6], [3, 7]];
   function show(given) {
     data = given;
+    if (!first) { first = {turn: data.view[1] * Math.PI / 180, lift: data.view[0] * Math.PI / 180, near}; now = {...first}; }
     parts.forEach(part => gl.deleteVertexArray(part.vertices)); buffers.forEach(buffer => gl.deleteBuffer(buffer));
     parts = []; buffers = []; shapes = [];
     data.sheets.forEach(sheet);
     data.curves.forEach(c => tube(places(c.at), c.kind === "this motion" ? 0.013 : 0.011, c.colour));
-    data.points.forEach(p => ball(p.at, 0.03, p.colour));
+    data.points.forEach(p => { ball(p.at, 0.03, p.colour); tube([...p.at, ...p.at.slice(0, 2), -0.999], 0.003, "#7A7A7A"); });
+    for (const motion of data.curves.filter(c => c.kind === "this motion")) {
+      shadows(places(motion.at)); data.arrows.forEach(([at, step]) => arrow(at, step, motion.colour));
+    }
     edges.forEach(([a, b]) => tube([...corner[a], ...corner[b]], 0.0025, "#999999"));
     shapes = [...data.points.map(p => [p.kind, [p.at]]), ...[...data.curves, ...data.sheets].map(c => [c.kind || c.name, c.at])];
     draw();
   }
 
-  const first = {turn: -0.95, lift: 0.42, near}; let now = {...first};
   const rim = 0.93;  // of half the box: up to here numbers stand, the corners are crowded
-  function step({half, middle}) {  // the largest round number of which every axis shows three multiples
-    const ten = 10 ** Math.floor(Math.log10(half)), shown = (m, every) => Math.floor((m + rim * half) / every) - Math.ceil((m - rim * half) / every) + 1;
-    return ten * [10, 5, 2, 1, 0.5, 0.2].find(k => middle.every(m => shown(m, k * ten) >= 3));
+  function step(half, middle) {  // the largest round number of which an axis shows three multiples
+    const ten = 10 ** Math.floor(Math.log10(half)), shown = every => Math.floor((middle + rim * half) / every) - Math.ceil((middle - rim * half) / every) + 1;
+    return ten * [10, 5, 2, 1, 0.5, 0.2].find(k => shown(k * ten) >= 3);
   }
   function look() {
     const {turn, lift, near} = now, ct = Math.cos(turn), st = Math.sin(turn), cl = Math.cos(lift), sl = Math.sin(lift);
@@ -121,7 +136,7 @@ function spaceView(canvas, {glass = 1, near = 1} = {}) {
     gl.viewport(0, 0, width, height); gl.clearColor(1, 1, 1, 1); gl.enable(gl.DEPTH_TEST); gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
     gl.uniformMatrix4fv(where("view"), false, seen.matrix); gl.uniform3fv(where("eye"), seen.eye);
     gl.enable(gl.BLEND); gl.blendFuncSeparate(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA, gl.ONE, gl.ONE);
-    for (const part of [...parts.filter(one => one.flatly), ...parts.filter(one => !one.flatly)]) {
+    for (const part of [...parts.filter(one => one.flatly), ...parts.filter(one => !one.flatly)].filter(({wall}) => !wall || wall[1] * seen.eye[wall[0]] < 0)) {
       const clear = glass < 1 && !part.flatly;  // a surface: after all else, and hiding nothing behind it
       gl.depthMask(!clear); gl.uniform1f(where("glass"), clear ? glass : 1);
       gl.uniform3fv(where("colour"), part.colour); gl.uniform1f(where("flatly"), part.flatly); gl.bindVertexArray(part.vertices);
@@ -140,23 +155,23 @@ function spaceView(canvas, {glass = 1, near = 1} = {}) {
       const edge = edges.reduce((a, b) => out(b) > out(a) ? b : a), [mx, my] = at(edge(0));
       const ends = [at(edge(-1)), at(edge(1))], [ex, ey] = [ends[1][0] - ends[0][0], ends[1][1] - ends[0][1]], size = Math.hypot(ex, ey) || 1;
       const side = Math.sign(-ey * (mx - middle[0]) + ex * (my - middle[1])) || 1, away = [-side * ey / size, side * ex / size];  // across the edge, outwards
-      const every = step(data), low = data.middle[k] - data.half, high = data.middle[k] + data.half;
+      const half = data.half[k], every = step(half, data.middle[k]), low = data.middle[k] - half, high = data.middle[k] + half;
       pen.fillStyle = "#333"; pen.font = `${small}px sans-serif`; let widest = 0;
       for (let v = Math.ceil(low / every) * every; v <= high; v += every) {
-        if (Math.abs(v - data.middle[k]) > rim * data.half) continue;
-        const [x, y] = at(edge((v - data.middle[k]) / data.half));
+        if (Math.abs(v - data.middle[k]) > rim * half) continue;
+        const [x, y] = at(edge((v - data.middle[k]) / half));
         const told = String(+v.toPrecision(6) || 0).replace("-", "\u2212"), wide = pen.measureText(told).width;
         widest = Math.max(widest, wide);
         pen.fillText(told, x + (8 * sharp + wide / 2) * away[0], y + 16 * sharp * away[1]);
       }
       pen.fillStyle = "#000"; pen.font = `600 ${small * 1.1}px sans-serif`;
-      const half = pen.measureText(data.names[k]).width / 2 + 4;
-      let [tx, ty] = [mx + (18 * sharp + widest + half) * away[0], my + 44 * sharp * away[1]];
-      if (tx < half || tx > canvas.width - half) {  // no room beside the numbers: beyond the upper end of the edge
+      const room = pen.measureText(data.names[k]).width / 2 + 4;
+      let [tx, ty] = [mx + (18 * sharp + widest + room) * away[0], my + 44 * sharp * away[1]];
+      if (tx < room || tx > canvas.width - room) {  // no room beside the numbers: beyond the upper end of the edge
         const end = ends[0][1] < ends[1][1] ? ends[0] : ends[1];
-        [tx, ty] = [end[0] + half * 0.5 * away[0], end[1] - 16 * sharp];
+        [tx, ty] = [end[0] + room * 0.5 * away[0], end[1] - 16 * sharp];
       }
-      pen.fillText(data.names[k], Math.min(Math.max(tx, half), canvas.width - half), Math.min(Math.max(ty, small), canvas.height - small));
+      pen.fillText(data.names[k], Math.min(Math.max(tx, room), canvas.width - room), Math.min(Math.max(ty, small), canvas.height - small));
     }
   }
   const held = new Map(); let apart = 0;
@@ -174,7 +189,7 @@ function spaceView(canvas, {glass = 1, near = 1} = {}) {
         if (off < 14 && (!best || cost < best.cost)) { best = {cost, p}; words = name; }
       }
     }
-    if (best) view.onpick(best.p.map((v, k) => data.middle[k] + data.half * v), words);
+    if (best) view.onpick(best.p.map((v, k) => data.middle[k] + data.half[k] * v), words);
   }
   canvas.addEventListener("keydown", e => {
     const way = {ArrowLeft: [0.12, 0, 1], ArrowRight: [-0.12, 0, 1], ArrowUp: [0, -0.12, 1], ArrowDown: [0, 0.12, 1], "+": [0, 0, 1.15], "=": [0, 0, 1.15], "-": [0, 0, 1 / 1.15]}[e.key];
@@ -191,7 +206,7 @@ function spaceView(canvas, {glass = 1, near = 1} = {}) {
     draw();
   });
   canvas.addEventListener("wheel", e => { if (!e.ctrlKey && !held.size && document.activeElement !== canvas) return; e.preventDefault(); now.near = Math.min(8, Math.max(0.4, now.near * Math.exp(-e.deltaY / 500))); draw(); }, {passive: false});
-  canvas.tabIndex = 0; canvas.addEventListener("dblclick", () => { now = {...first}; draw(); });
+  canvas.tabIndex = 0; canvas.addEventListener("dblclick", () => { if (first) now = {...first}; draw(); });
   window.addEventListener("resize", draw);
   return view;
 }

@@ -141,7 +141,7 @@ def test_the_phase_plane_is_reached_by_the_keyboard(page):
 def test_a_click_on_an_equilibrium_starts_there(page):
     place = page.run("""(() => { const best = shown.space.curves.find(c => c.kind.startsWith('stable')), all = Array.from(best.at);
       for (let i = 0; i < all.length; i += 3) { const p = all.slice(i, i + 3).map(v => v / 4095); if (p.every(v => Math.abs(v) < 0.9)) return p; } })()""")
-    wanted = page.run(f"{json.dumps(place)}.map((v, k) => shown.space.middle[k] + v * shown.space.half)")
+    wanted = page.run(f"{json.dumps(place)}.map((v, k) => shown.space.middle[k] + v * shown.space.half[k])")
     next_answer(page, lambda: page.run(f"view.onpick({json.dumps(wanted)}, 'stable equilibria')"))
     assert page.run("Number(fields.start0.field.value)") == pytest.approx(wanted[0], rel=1e-5, abs=1e-5)
     said = page.run(HEADLINE)

@@ -1,0 +1,369 @@
+"""What every view draws in the space of the rates: a box, the separatrix, equilibria, a motion with its start
+and its direction, and from where it is seen; Matplotlib, VTK and a page only draw it.
+
+Places are rates in the scene's variables. All of it does without NumPy, as a browser does.
+"""
+from __future__ import annotations
+
+import math
+import sys
+from array import array
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, replace
+from itertools import accumulate
+from typing import Any
+
+from ..equilibrium.result import Equilibria
+from ..errors import InputError, StabilabError
+from ..orbit.result import Fate, Motion
+from ..orbit.separatrix.plain_sheets import REACH, PlainSheet, plain_separatrix
+from ..packages import present
+from ..physics.scene import AnyScene
+from . import style
+
+NEAR = 2.0     # times the motion's own size: a separatrix or an equilibrium so near is in the picture
+ROOM = 1.25    # of a box about the things in it
+SMALL = 0.22   # of a box: a motion that fills less gets a box of its own
+# of the longest side: an axis along which less happens has a scale of its own, of which that fills a share
+THIN, FILLED, EVEN = 0.3, 0.6, 1e-6
+WHOLE = 1.6    # times the box of the motion: a surface no larger is shown whole
+LATEST = 3.0   # times its first size, up to which a motion that spins up is drawn
+FARTHEST = 1e4  # times the fold's radius: how far a sheet is followed for a large box
+ARROWS, ARROW = (0.12, 0.45, 0.8), 0.11  # where: shares of the path; how long: of half of the box
+SHAPE = (48, 97)  # rows and columns of a sheet
+# places on a piece of a curve of equilibria: to find what is in the box, and to draw it
+PLACES = (40, 90)
+VIEWS = tuple((up, round_) for up in (22, 33) for round_ in (-55, -35, 35, 55))  # deg: elevation, azimuth
+BETTER = 1.25  # times as broad as from the first side: from there the path is seen
+HALF, BEYOND = 4095, 8.0  # half of the box in numbers of a page; what is farther off is moved in
+
+Point = Sequence[float]
+
+
+@dataclass(frozen=True)
+class Box:
+    """A box of rates: its middle and half of its edges."""
+
+    middle: tuple[float, ...]
+    half: tuple[float, ...]
+
+    @property
+    def low(self) -> tuple[float, ...]:
+        """Its lower corner."""
+        return tuple(m - h for m, h in zip(self.middle, self.half))
+
+    @property
+    def high(self) -> tuple[float, ...]:
+        """Its upper corner."""
+        return tuple(m + h for m, h in zip(self.middle, self.half))
+
+    @property
+    def farthest(self) -> float:
+        """Of all its places, the largest component."""
+        return max(abs(m) + h for m, h in zip(self.middle, self.half))
+
+    def share(self, at: Point) -> list[float]:
+        """A place in halves of the edges from the middle."""
+        return [(float(v) - m) / h for v, m, h in zip(at, self.middle, self.half)]
+
+    def holds(self, at: Point, room: float = 1.0) -> bool:
+        """Whether a place is inside a box so many times as large."""
+        return all(abs(v) <= room for v in self.share(at))
+
+    def scaled(self, per: float) -> Box:
+        """The same in another unit."""
+        return Box(tuple(per * v for v in self.middle), tuple(per * v for v in self.half))
+
+
+@dataclass(frozen=True)
+class Space:
+    """names: labels of the axes, in a unit of which `rate` make one of the scene's; sheets: (colour, sheet)
+    of the separatrix; curves and marks: (words of the legend, places or place); path: of the motion; arrows:
+    (place, step) along it; view: elevation and azimuth of the eye, deg; words: what the separatrix parts, or
+    why none is drawn."""
+
+    names: tuple[str, ...]
+    rate: float
+    box: Box
+    sheets: tuple[tuple[str, PlainSheet], ...]
+    curves: tuple[tuple[str, list[Point]], ...]
+    marks: tuple[tuple[str, Point], ...]
+    path: list[Point]
+    arrows: tuple[tuple[Point, Point], ...]
+    view: tuple[float, float]
+    words: str
+
+    @property
+    def legend(self) -> dict[str, str]:
+        """Words and colour of all that is drawn, each once."""
+        kinds = [MOTION] * bool(self.path) + [words for words, _ in (*self.marks, *self.curves)]
+        return ({words: str(style.SPACE[words]["color"]) for words in kinds}
+                | {sheet.name: colour for colour, sheet in self.sheets})
+
+
+MOTION, NEAREST = "this motion", "nearest point of the separatrix"
+
+
+def space(names: Iterable[str], rate: float, box: Box, sheets: Iterable[PlainSheet],
+          path: list[Point], marks: Iterable[tuple[str, Point]],
+          curves: Iterable[tuple[str, list[Point]]], words: str, more: str = "") -> Space:
+    """What is drawn in a box. sheets: those that come into it are drawn, in the colours of their numbers;
+    more: behind their names; words: of the separatrix."""
+    shares = [box.share(at) for at in path]
+    shown = [(style.BESIDE[n % len(style.BESIDE)],
+              replace(sheet, name=f"{sheet.name.capitalize()} of the separatrix{more}"))
+             for n, sheet in enumerate(sheets) if _comes_in(sheet, box)]
+    return Space(tuple(names), rate, box, tuple(shown), tuple(curves),
+                 tuple((kind, at) for kind, at in marks if box.holds(at)), path, _arrows(path, shares),
+                 _view(shares), words)
+
+
+def _comes_in(sheet: PlainSheet, box: Box) -> bool:
+    """Whether more of a sheet is in a box than its crest, the saddles at the ends of its rows, along which it
+    meets its neighbour."""
+    return any(0 < n % sheet.columns < sheet.columns - 1 and box.holds(at)
+               for n, at in enumerate(sheet.points))
+
+
+def near_part(path: list[Point], motion: Motion | None) -> list[Point]:
+    """A motion that spins up as long as it is near where it began; all of it of any other, also where that
+    goes far and comes back."""
+    if motion is not None and motion.fate is not Fate.SPIN_UP or not path:
+        return path
+    size = max(math.hypot(*x) for x in path[:max(2, len(path) // 20)])
+    if motion is not None and motion.margin_velocity is not None and math.isfinite(motion.margin_velocity):
+        size = max(size, motion.margin_velocity)
+    late = (next((n for n, x in enumerate(path) if math.hypot(*x) > LATEST * size), len(path)) if size
+            else len(path))
+    return path[:late + 1] if late > 20 else path
+
+
+def box_of(path: list[Point], marks: Iterable[tuple[str, Point]], sheets: Iterable[PlainSheet] = (),
+           most: float = WHOLE, reaching: bool = False, asked: Any = None, kept: bool = False) -> Box:
+    """A box about a motion and the marks near it, and about the sheets where that is no more than so many
+    times as large. reaching: to the nearest point of the separatrix, however far it is. asked: that of the
+    picture before (middle and half of the edges), which stays while the motion is inside and, unless it is
+    kept, fills a part of it."""
+    start = [at for words, at in marks if words == "start"]
+    shown = [*path, *start] or [at for _, at in marks]
+    around = [(min(v), max(v)) for s in sheets for v in zip(*s.points)]
+    surface: list[Point] = [v for n in range(0, len(around), 3) for v in zip(*around[n:n + 3])]
+    if not shown:
+        return _about(surface or [(1.0,) * 3, (-1.0,) * 3])
+    if asked is not None:
+        box, own = _given(asked), _about(shown)
+        if all(box.holds(p) for p in shown) and (
+                kept or any(a > SMALL * b for a, b in zip(own.half, box.half))):
+            return box
+    own = _cube(shown)
+    near = [at for words, at in marks if reaching and words == NEAREST or own.holds(at, NEAR)]
+    box, whole = _about([*shown, *near]), _about([*shown, *near, *surface])
+    return whole if max(whole.half) <= most * max(box.half) else box
+
+
+def _cube(points: list[Point]) -> Box:
+    """The cube about points."""
+    sides = [(min(v), max(v)) for v in zip(*points)]
+    half = max(b - a for a, b in sides) / 2 or 0.06 * max(abs(v) for pair in sides for v in pair) or 1.0
+    return Box(tuple((a + b) / 2 for a, b in sides), (half,) * 3)
+
+
+def _about(points: list[Point]) -> Box:
+    """A box with some room: a cube, but along an axis on which little happens."""
+    cube = _cube(points)
+    halves = [(max(v) - min(v)) / 2 for v in zip(*points)]
+    longest = cube.half[0]
+    return Box(cube.middle, tuple(
+        ROOM * (own / FILLED if EVEN * longest < own < THIN * longest else longest) for own in halves))
+
+
+def _given(asked: Any) -> Box:
+    """The box of a request."""
+    try:
+        numbers = [float(v) for v in (*asked["middle"], *asked["half"])]
+    except (KeyError, OverflowError, TypeError, ValueError):
+        numbers = []
+    if len(numbers) != 6 or not all(map(math.isfinite, numbers)) or not min(numbers[3:]) > 0:
+        raise InputError(f"box: expected a middle and half of the edges, three numbers each, got "
+                         f"{asked!r:.80}")
+    return Box(tuple(numbers[:3]), tuple(numbers[3:]))
+
+
+def marks_of(start: Point | None, motion: Motion | None,
+             found: Equilibria | None) -> list[tuple[str, Point]]:
+    """Start, nearest point of the separatrix, isolated equilibria."""
+    marks: list[tuple[str, Point]] = [] if start is None else [("start", tuple(start[:3]))]
+    if motion is not None and motion.velocity_witness is not None:
+        marks.append((NEAREST, motion.velocity_witness))
+    return marks + [(style.EQUILIBRIA[style.kind_of(point)], point.at[:3])
+                    for point in (found.points if found is not None else ())]
+
+
+def nearest(found: Equilibria | None, path: list[Point]) -> list[tuple[str, Point]]:
+    """Of each curve of equilibria that comes near a motion the nearest place, as a mark for its box."""
+    own = _cube(path)
+    wide = Box(own.middle, tuple(NEAR * h for h in own.half))
+    return [(words, min(places, key=lambda at: math.dist(at, own.middle)))
+            for words, places in curves_of(found, wide, PLACES[0], PLACES[0])]
+
+
+def _arrows(path: list[Point], shares: list[list[float]]) -> tuple[tuple[Point, Point], ...]:
+    """(place, step) at shares of the length of a path, steps as long as arrows are drawn; none on a path that
+    they would hide."""
+    if not path or max(max(v) - min(v) for v in zip(*shares)) < 3 * ARROW:
+        return ()
+    steps = [math.dist(a, b) for a, b in zip(shares, shares[1:])]
+    length = [0.0, *accumulate(steps)]
+    found = []
+    for share in ARROWS if math.isfinite(length[-1]) else ():
+        n = next(n for n, far in enumerate(length[1:]) if far >= share * length[-1])
+        if all(abs(v) <= 1 for v in shares[n]):
+            ends = list(zip(path[n], path[n + 1]))
+            found.append((tuple((a + b) / 2 for a, b in ends), tuple(ARROW * (b - a) / steps[n]
+                                                                     for a, b in ends)))
+    return tuple(found)
+
+
+def _view(shares: list[list[float]]) -> tuple[float, float]:
+    """From where a path is seen at its broadest; the first of VIEWS where others are hardly better."""
+    points = shares[::max(1, len(shares) // 200)]
+    if len(points) < 3:
+        return VIEWS[0]
+    breadth = {view: _breadth([across(at, view) for at in points]) for view in VIEWS}
+    best = max(VIEWS, key=lambda view: breadth[view])
+    return best if breadth[best] > BETTER * breadth[VIEWS[0]] else VIEWS[0]
+
+
+def across(at: Point, view: tuple[float, float]) -> tuple[float, float]:
+    """How far a place is to the right and up, seen from a side."""
+    up, turn = map(math.radians, view)
+    near = at[0] * math.cos(turn) + at[1] * math.sin(turn)
+    return at[1] * math.cos(turn) - at[0] * math.sin(turn), at[2] * math.cos(up) - near * math.sin(up)
+
+
+def _breadth(flat: list[tuple[float, float]]) -> float:
+    """The lesser of the two mean squares about the middle of points in a plane."""
+    number = len(flat)
+    x, y = (sum(v) / number for v in zip(*flat))
+    xx, yy, xy = (sum(v) / number for v in zip(*(((a - x) ** 2, (b - y) ** 2, (a - x) * (b - y))
+                                                 for a, b in flat)))
+    return (xx + yy) / 2 - math.hypot((xx - yy) / 2, xy)
+
+
+# --- The separatrix and the curves of equilibria, as far as the box reaches
+def sheets_of(scene: AnyScene, box: Box | None = None, shape: tuple[int, int] = SHAPE,
+              plain: tuple[int, int] | None = None,
+              reach: float = REACH) -> tuple[Sequence[PlainSheet], str, float]:
+    """(sheets of the separatrix as far as a box reaches, or as `reach` says; what they part, or why there are
+    none; the reach that was enough). plain: the shape of coarse ones in plain floats, None for graded ones of
+    `shape` by NumPy."""
+    try:
+        found, words = _surface(scene, reach, shape, plain)
+        far = max((abs(v) for sheet in found for p in sheet.points for v in p), default=0.0)
+        if box is not None and far and not box.farthest <= far <= 8 * box.farthest:
+            wanted = min(reach * 1.3 * box.farthest / far, FARTHEST)
+            if wanted > 1.01:
+                reach = wanted
+                found, words = _surface(scene, reach, shape, plain)
+    except StabilabError as error:
+        found, words = (), str(error)
+    return found, words if found else f"no separatrix is drawn: {words}", reach
+
+
+def _surface(scene, reach, shape, plain) -> tuple[Sequence[PlainSheet], str]:
+    if plain is not None or not present("numpy"):
+        return plain_separatrix(scene, reach, *(plain or (40, 33)))
+    from ..orbit.separatrix.sheets import separatrix
+    found = separatrix(scene, reach=reach, shape=shape)
+    return [PlainSheet(sheet.name, *sheet.points.shape[:2], sheet.points.reshape(-1, 3).tolist())
+            for sheet in found.sheets], found.reason
+
+
+def curves_of(found: Equilibria | None, box: Box, coarse: int = PLACES[0],
+              fine: int = PLACES[1]) -> list[tuple[str, list[Point]]]:
+    """(words, places) of the pieces of the curves of equilibria that come into the box, looked for at
+    `coarse` places of each piece and drawn through `fine`."""
+    out: list[tuple[str, list[Point]]] = []
+    for curve in found.curves if found is not None else ():
+        for segment in curve.segments:
+            for low, high in _inside(curve, _spread(*segment.t, coarse), box):
+                places = [_place(curve, low + (high - low) * n / fine) for n in range(fine + 1)]
+                out.append((style.EQUILIBRIA[style.kind_of(segment)],
+                            [at for at in places if at is not None]))
+    return [(words, places) for words, places in out if any(map(box.holds, places))]
+
+
+def _place(curve: Any, t: float) -> Point | None:
+    """The rates at a place of a curve (a field adds the vertical behind them); None at an end that belongs to
+    it no more."""
+    try:
+        return curve.point(t)[:3]
+    except InputError:
+        return None
+
+
+def _inside(curve: Any, ts: list[float], box: Box) -> list[tuple[float, float]]:
+    """The runs of parameters whose places are in or near the box, each one step longer."""
+    near = [at is not None and box.holds(at, 1.05) for at in (_place(curve, t) for t in ts)]
+    near = [near[n] or any(near[max(0, n - 1):n + 2]) for n in range(len(ts))]
+    runs, first = [], None
+    for n, inside in enumerate([*near, False]):
+        if inside and first is None:
+            first = n
+        if not inside and first is not None:
+            if n - 1 > first:
+                runs.append((ts[first], ts[n - 1]))
+            first = None
+    return runs
+
+
+def _spread(low: float, high: float, number: int) -> list[float]:
+    """Parameters inside (low, high), dense at both ends, geometric towards infinite ones; `show.sampling`
+    does so in arrays."""
+    if math.isfinite(low) and math.isfinite(high):
+        return [low + (high - low) * (1 - math.cos(1e-3 + (math.pi - 2e-3) * n / (number - 1))) / 2
+                for n in range(number)]
+    away = [10 ** (-4 + 8 * n / (number - 1)) for n in range(number)]
+    if math.isfinite(low):
+        return [low + v * max(1.0, abs(low)) for v in away]
+    if math.isfinite(high):
+        return [high - v * max(1.0, abs(high)) for v in reversed(away)]
+    return [*(-v for v in reversed(away)), *away]
+
+
+# --- For the script of a page
+def data(drawn: Space, row: Callable[[bytes], Any]) -> dict[str, Any]:
+    """What `space.js` takes: places as whole numbers of 16 bits (the low byte first), HALF for half of the
+    box, each list of them as `row` packs it."""
+    box, packed = drawn.box, lambda places: row(_packed(places, drawn.box))
+    curves = [*drawn.curves, *([(MOTION, drawn.path)] if drawn.path else [])]
+    return {"names": drawn.names, "middle": box.scaled(drawn.rate).middle,
+            "half": box.scaled(drawn.rate).half, "view": drawn.view,
+            "sheets": [{"name": sheet.name, "colour": colour, "rows": sheet.rows, "columns": sheet.columns,
+                        "at": packed(sheet.points)} for colour, sheet in drawn.sheets],
+            "curves": [{"kind": words, "colour": style.SPACE[words]["color"], "at": packed(places)}
+                       for words, places in curves],
+            "points": [{"kind": words, "colour": style.SPACE[words]["color"], "at": _round(box.share(at))}
+                       for words, at in drawn.marks],
+            "arrows": [[_round(box.share(at)), _round([v / h for v, h in zip(step, box.half)])]
+                       for at, step in drawn.arrows],
+            "legend": list(drawn.legend.items())}
+
+
+def _packed(points: Iterable[Point], box: Box) -> bytes:
+    far = int(BEYOND * HALF)
+    (a, b, c), (p, q, r) = box.middle, (HALF / h for h in box.half)
+    return packed("h", (min(max(round(v), -far), far) for x, y, z in points
+                        for v in ((x - a) * p, (y - b) * q, (z - c) * r)))
+
+
+def packed(kind: str, values: Iterable[float]) -> bytes:
+    """Numbers of a kind of `array`, the low byte first."""
+    made = array(kind, values)
+    if sys.byteorder == "big":
+        made.byteswap()
+    return made.tobytes()
+
+
+def _round(values: Iterable[float]) -> list[float]:
+    return [round(v, 5) for v in values]
