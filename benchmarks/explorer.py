@@ -16,7 +16,7 @@ CASES = Path(__file__).parents[1] / "cases"
 NAMES = ("thruster-stuck-major-axis", "minor-axis-100", "middle-axis-double-well", "cubesat-3u")
 FOLLOWED = ("liquid-sensible", "top-fast")  # bodies of other effects
 UPDATE, ANALYSIS = 100.0, 10.0  # ms: of all, and of the verdict
-WHAT = "the rest: equilibria with proofs, separatrix of 18 x 33 places a sheet, motion, phase plane"
+WHAT = "the rest: equilibria with proofs, separatrix of 18 x 33 places a branch, motion, phase plane"
 
 
 def rows(small=False) -> list[Row]:

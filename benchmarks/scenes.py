@@ -168,12 +168,12 @@ def _time_of(call) -> float:
 
 
 def _surface(scene, name, rounds, cells):
-    """The mesh of the separatrix at the error of Flying Edges on a grid of margins in the box that the sheets
-    fill."""
+    """The mesh of the separatrix at the error of Flying Edges on a grid of margins in the box that its
+    branches fill."""
     whole = separatrix(scene, accuracy=None, shape=(12, 17))
-    if not whole.sheets:
+    if not whole.branches:
         return []
-    points = np.concatenate([sheet.points.reshape(-1, 3) for sheet in whole.sheets])
+    points = np.concatenate([branch.points.reshape(-1, 3) for branch in whole.branches])
     axes = [np.linspace(low, high, cells) for low, high in zip(points.min(axis=0), points.max(axis=0))]
     at = time.process_time()
     theirs = _contour(scene, axes)
@@ -184,7 +184,7 @@ def _surface(scene, name, rounds, cells):
 
 
 def _mesh(scene, accuracy):
-    return [triangulate(sheet) for sheet in separatrix(scene, accuracy=accuracy).sheets]
+    return [triangulate(branch) for branch in separatrix(scene, accuracy=accuracy).branches]
 
 
 def _contour(scene, axes):

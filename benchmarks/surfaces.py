@@ -10,7 +10,7 @@ from .rows import SCENE, A, Row
 from .timing import side_by_side
 
 HALF = 6.0        # of the side of the cube that the grid of margins fills
-REACH = 5.6       # with it the sheets go beyond every corner of the cube's section
+REACH = 5.6       # with it the branches go beyond every corner of the cube's section
 ACCURACY = 3e-3   # largest distance of our facets from the surface
 NOTE = ("ours holds meshing too. What limits it is the number of calls: some hundred of NumPy on arrays of a "
         "thousand numbers "
@@ -52,7 +52,7 @@ def against_flying_edges(cells=512, rounds=7, sample=200_000, checked=24) -> lis
 
 
 def _mesh():
-    return [triangulate(sheet) for sheet in separatrix(SCENE, reach=REACH, accuracy=ACCURACY).sheets]
+    return [triangulate(branch) for branch in separatrix(SCENE, reach=REACH, accuracy=ACCURACY).branches]
 
 
 def _contour(grid):

@@ -31,7 +31,7 @@ if TYPE_CHECKING:  # what `_HOME` loads on first use, for editors and type check
     from .integrate.ensemble import ensemble as ensemble
     from .maps.bifurcation.ask import bifurcation as bifurcation
     from .orbit.result import Fate as Fate
-    from .orbit.separatrix.sheets import separatrix as separatrix
+    from .orbit.separatrix.branches import separatrix as separatrix
     from .papers.report.report import report as report
     from .physics.effects.body_force import BodyForce as BodyForce
     from .physics.effects.charge import Charge as Charge
@@ -66,7 +66,7 @@ _HOME = {
     "fate": "answers.fate", "fate_grid": "answers.fate", "motion": "answers.motion",
     "attitude": "answers.attitude.ask", "extremes": "answers.extremes", "period": "answers.extremes",
     "spin_up": "unreduced.spin_up.follow",
-    "separatrix": "orbit.separatrix.sheets", "stuck": "answers.stuck.ask",
+    "separatrix": "orbit.separatrix.branches", "stuck": "answers.stuck.ask",
     "time_to": "answers.time_to", "TimeTo": "answers.passage.run",
     "when": "answers.when", "report": "papers.report.report",
     "trajectory": "answers.simulate", "ensemble": "integrate.ensemble",

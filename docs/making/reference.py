@@ -25,7 +25,7 @@ ANSWERS = {"FateResult": "stabilab.orbit.fate.result", "Motion": "stabilab.orbit
            "EquilibriumPoint": "stabilab.equilibrium.result",
            "EquilibriumCurve": "stabilab.equilibrium.result",
            "CurveSegment": "stabilab.equilibrium.result", "Separatrix": "stabilab.orbit.separatrix.result",
-           "Sheet": "stabilab.orbit.separatrix.result",
+           "Branch": "stabilab.orbit.separatrix.result",
            "SpinUp": "stabilab.unreduced.spin_up.result", "Trajectory": "stabilab.integrate.trajectory",
            "Simulation": "stabilab.answers.simulate",
            "Ensemble": "stabilab.integrate.ensemble", "Stuck": "stabilab.answers.stuck.result",

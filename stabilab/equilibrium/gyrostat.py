@@ -535,9 +535,8 @@ def _torque_free(p: Pencil) -> Equilibria:
     if not any(p.lam) and len(set(p.D)) == 1:
         return Equilibria("all",
                           "no torque, no gyrostatic moment and three equal moments: every rate of rotation "
-                          "is constant, "
-                                 "so every state is an equilibrium, stable in the sense that it stays where "
-                                 "it is put")
+                          "is constant, so every state is an equilibrium, and stable: it stays where "
+                          "it is put")
     exact, planes = torque_free_curves(p)
     curves = (*(curve_with_verdicts(p.form, c) for c in exact), *planes)
     return Equilibria("curves",

@@ -41,7 +41,7 @@ FOLLOWED = "over all time, or over the span of the case where no law holds and t
 ANSWERS: dict[str, tuple[Column, ...]] = {
     "fate": (Column("fate", "i1", "", "what becomes of the motion",
                     (*(fate.word for fate in Fate), "no_case")),
-             Column("spin_axis", "i1", "", "axis of a spin-up with its sense as a sign",
+             Column("spin_axis", "i1", "", "axis of a spin-up with the direction of spin as its sign",
                     note="0 where there is none, or it lies between equal moments")),
     "level": (Column("level", "i1", "", "how well the fate is known", LEVELS, note="-1: no case"),),
     "reason": (Column("reason", "i1", "", "why the fate is known",

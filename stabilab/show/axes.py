@@ -24,6 +24,11 @@ IN_FILE = " in the file's frame"
 RANKS = ("major", "intermediate", "minor")
 
 
+def direction(sign: int) -> str:
+    """Of a spin about its axis, by the sign of its rate."""
+    return f"{'positive' if sign > 0 else 'negative'} direction"
+
+
 @dataclass(frozen=True)
 class Axes:
     """letters: of the axes of the file or of the paper, "" of a full tensor; words: which axis each one is by
@@ -40,7 +45,7 @@ class Axes:
         return f"{letter} ({word})" if letter and word else letter or word
 
     def signed(self, number: int, sense: int) -> str:
-        """With its sense, where there is no room for more: "+z", "-minor"; nothing for the number 0."""
+        """With the direction of spin, where there is no room for more: "+z", "-minor"; nothing for the number 0."""
         if not number:
             return ""
         letter, word = self.letters[number - 1], self.words[number - 1]

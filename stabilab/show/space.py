@@ -16,7 +16,7 @@ from typing import Any
 from ..equilibrium.result import Equilibria
 from ..errors import InputError, StabilabError
 from ..orbit.result import Fate, Motion
-from ..orbit.separatrix.plain_sheets import REACH, PlainSheet, plain_separatrix
+from ..orbit.separatrix.plain_branches import REACH, PlainBranch, plain_separatrix
 from ..packages import present
 from ..physics.scene import AnyScene
 from . import style
@@ -28,9 +28,9 @@ SMALL = 0.22   # of a box: a motion that fills less gets a box of its own
 THIN, FILLED, EVEN = 0.3, 0.6, 1e-6
 WHOLE = 1.6    # times the box of the motion: a surface no larger is shown whole
 LATEST = 3.0   # times its first size, up to which a motion that spins up is drawn
-FARTHEST = 1e4  # times the fold's radius: how far a sheet is followed for a large box
+FARTHEST = 1e4  # times the fold's radius: how far a branch is followed for a large box
 ARROWS, ARROW = (0.12, 0.45, 0.8), 0.11  # where: shares of the path; how long: of half of the box
-SHAPE = (48, 97)  # rows and columns of a sheet
+SHAPE = (48, 97)  # rows and columns of a branch
 # places on a piece of a curve of equilibria: to find what is in the box, and to draw it
 PLACES = (40, 90)
 VIEWS = tuple((up, round_) for up in (22, 33) for round_ in (-55, -35, 35, 55))  # deg: elevation, azimuth
@@ -77,7 +77,7 @@ class Box:
 
 @dataclass(frozen=True)
 class Space:
-    """names: labels of the axes, in a unit of which `rate` make one of the scene's; sheets: (colour, sheet)
+    """names: labels of the axes, in a unit of which `rate` make one of the scene's; branches: (colour, branch)
     of the separatrix; curves and marks: (words of the legend, places or place); path: of the motion; arrows:
     (place, step) along it; view: elevation and azimuth of the eye, deg; words: what the separatrix parts, or
     why none is drawn."""
@@ -85,7 +85,7 @@ class Space:
     names: tuple[str, ...]
     rate: float
     box: Box
-    sheets: tuple[tuple[str, PlainSheet], ...]
+    branches: tuple[tuple[str, PlainBranch], ...]
     curves: tuple[tuple[str, list[Point]], ...]
     marks: tuple[tuple[str, Point], ...]
     path: list[Point]
@@ -98,31 +98,31 @@ class Space:
         """Words and colour of all that is drawn, each once."""
         kinds = [MOTION] * bool(self.path) + [words for words, _ in (*self.marks, *self.curves)]
         return ({words: str(style.SPACE[words]["color"]) for words in kinds}
-                | {sheet.name: colour for colour, sheet in self.sheets})
+                | {branch.name: colour for colour, branch in self.branches})
 
 
 MOTION, NEAREST = "this motion", "nearest point of the separatrix"
 
 
-def space(names: Iterable[str], rate: float, box: Box, sheets: Iterable[PlainSheet],
+def space(names: Iterable[str], rate: float, box: Box, branches: Iterable[PlainBranch],
           path: list[Point], marks: Iterable[tuple[str, Point]],
           curves: Iterable[tuple[str, list[Point]]], words: str, more: str = "") -> Space:
-    """What is drawn in a box. sheets: those that come into it are drawn, in the colours of their numbers;
+    """What is drawn in a box. branches: those that come into it are drawn, in the colours of their numbers;
     more: behind their names; words: of the separatrix."""
     shares = [box.share(at) for at in path]
     shown = [(style.BESIDE[n % len(style.BESIDE)],
-              replace(sheet, name=f"{sheet.name.capitalize()} of the separatrix{more}"))
-             for n, sheet in enumerate(sheets) if _comes_in(sheet, box)]
+              replace(branch, name=f"{branch.name.capitalize()} of the separatrix{more}"))
+             for n, branch in enumerate(branches) if _comes_in(branch, box)]
     return Space(tuple(names), rate, box, tuple(shown), tuple(curves),
                  tuple((kind, at) for kind, at in marks if box.holds(at)), path, _arrows(path, shares),
                  _view(shares), words)
 
 
-def _comes_in(sheet: PlainSheet, box: Box) -> bool:
-    """Whether more of a sheet is in a box than its crest, the saddles at the ends of its rows, along which it
+def _comes_in(branch: PlainBranch, box: Box) -> bool:
+    """Whether more of a branch is in a box than its crest, the saddles at the ends of its rows, along which it
     meets its neighbour."""
-    return any(0 < n % sheet.columns < sheet.columns - 1 and box.holds(at)
-               for n, at in enumerate(sheet.points))
+    return any(0 < n % branch.columns < branch.columns - 1 and box.holds(at)
+               for n, at in enumerate(branch.points))
 
 
 def near_part(path: list[Point], motion: Motion | None) -> list[Point]:
@@ -138,15 +138,15 @@ def near_part(path: list[Point], motion: Motion | None) -> list[Point]:
     return path[:late + 1] if late > 20 else path
 
 
-def box_of(path: list[Point], marks: Iterable[tuple[str, Point]], sheets: Iterable[PlainSheet] = (),
+def box_of(path: list[Point], marks: Iterable[tuple[str, Point]], branches: Iterable[PlainBranch] = (),
            most: float = WHOLE, reaching: bool = False, asked: Any = None, kept: bool = False) -> Box:
-    """A box about a motion and the marks near it, and about the sheets where that is no more than so many
+    """A box about a motion and the marks near it, and about the branches where that is no more than so many
     times as large. reaching: to the nearest point of the separatrix, however far it is. asked: that of the
     picture before (middle and half of the edges), which stays while the motion is inside and, unless it is
     kept, fills a part of it."""
     start = [at for words, at in marks if words == "start"]
     shown = [*path, *start] or [at for _, at in marks]
-    around = [(min(v), max(v)) for s in sheets for v in zip(*s.points)]
+    around = [(min(v), max(v)) for s in branches for v in zip(*s.points)]
     surface: list[Point] = [v for n in range(0, len(around), 3) for v in zip(*around[n:n + 3])]
     if not shown:
         return _about(surface or [(1.0,) * 3, (-1.0,) * 3])
@@ -251,15 +251,15 @@ def _breadth(flat: list[tuple[float, float]]) -> float:
 
 
 # --- The separatrix and the curves of equilibria, as far as the box reaches
-def sheets_of(scene: AnyScene, box: Box | None = None, shape: tuple[int, int] = SHAPE,
+def branches_of(scene: AnyScene, box: Box | None = None, shape: tuple[int, int] = SHAPE,
               plain: tuple[int, int] | None = None,
-              reach: float = REACH) -> tuple[Sequence[PlainSheet], str, float]:
-    """(sheets of the separatrix as far as a box reaches, or as `reach` says; what they part, or why there are
+              reach: float = REACH) -> tuple[Sequence[PlainBranch], str, float]:
+    """(branches of the separatrix as far as a box reaches, or as `reach` says; what they part, or why there are
     none; the reach that was enough). plain: the shape of coarse ones in plain floats, None for graded ones of
     `shape` by NumPy."""
     try:
         found, words = _surface(scene, reach, shape, plain)
-        far = max((abs(v) for sheet in found for p in sheet.points for v in p), default=0.0)
+        far = max((abs(v) for branch in found for p in branch.points for v in p), default=0.0)
         if box is not None and far and not box.farthest <= far <= 8 * box.farthest:
             wanted = min(reach * 1.3 * box.farthest / far, FARTHEST)
             if wanted > 1.01:
@@ -270,13 +270,13 @@ def sheets_of(scene: AnyScene, box: Box | None = None, shape: tuple[int, int] = 
     return found, words if found else f"no separatrix is drawn: {words}", reach
 
 
-def _surface(scene, reach, shape, plain) -> tuple[Sequence[PlainSheet], str]:
+def _surface(scene, reach, shape, plain) -> tuple[Sequence[PlainBranch], str]:
     if plain is not None or not present("numpy"):
         return plain_separatrix(scene, reach, *(plain or (40, 33)))
-    from ..orbit.separatrix.sheets import separatrix
+    from ..orbit.separatrix.branches import separatrix
     found = separatrix(scene, reach=reach, shape=shape)
-    return [PlainSheet(sheet.name, *sheet.points.shape[:2], sheet.points.reshape(-1, 3).tolist())
-            for sheet in found.sheets], found.reason
+    return [PlainBranch(branch.name, *branch.points.shape[:2], branch.points.reshape(-1, 3).tolist())
+            for branch in found.branches], found.reason
 
 
 def curves_of(found: Equilibria | None, box: Box, coarse: int = PLACES[0],
@@ -339,8 +339,8 @@ def data(drawn: Space, row: Callable[[bytes], Any]) -> dict[str, Any]:
     curves = [*drawn.curves, *([(MOTION, drawn.path)] if drawn.path else [])]
     return {"names": drawn.names, "middle": box.scaled(drawn.rate).middle,
             "half": box.scaled(drawn.rate).half, "view": drawn.view,
-            "sheets": [{"name": sheet.name, "colour": colour, "rows": sheet.rows, "columns": sheet.columns,
-                        "at": packed(sheet.points)} for colour, sheet in drawn.sheets],
+            "branches": [{"name": branch.name, "colour": colour, "rows": branch.rows, "columns": branch.columns,
+                        "at": packed(branch.points)} for colour, branch in drawn.branches],
             "curves": [{"kind": words, "colour": style.SPACE[words]["color"], "at": packed(places)}
                        for words, places in curves],
             "points": [{"kind": words, "colour": style.SPACE[words]["color"], "at": _round(box.share(at))}

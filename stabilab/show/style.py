@@ -161,7 +161,7 @@ def write_small(image, path) -> None:
     import numpy as np
     from PIL import Image
     image = image.convert("RGB")
-    ours = [[int(c[i:i + 2], 16) for i in (1, 3, 5)] for c in (BLACK, "#FFFFFF", *SHEETS, GREY)]
+    ours = [[int(c[i:i + 2], 16) for i in (1, 3, 5)] for c in (BLACK, "#FFFFFF", *BRANCHES, GREY)]
     common = np.reshape(image.quantize(256 - len(ours), dither=Image.Dither.NONE).getpalette(), (-1, 3))
     palette = np.vstack([ours, common])[:256].astype(np.int32)
     parts = np.asarray(image).astype(np.int32)

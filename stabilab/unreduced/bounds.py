@@ -118,7 +118,7 @@ def _liquid(parts: Content, omega, T0) -> tuple[Fate, str, dict]:
     return (Fate.BOUNDED,
             f"{words} and tends to a permanent rotation of its |H|: about axis {first + 1} (largest moment) "
             f"but for a set of measure zero; "
-            "which sense is undecided, since its energy is not below that of rotation about the next axis",
+            "in which direction is undecided, since its energy is not below that of rotation about the next axis",
             bounds)
 
 

@@ -132,7 +132,7 @@ def growth(scene, state, t_max: float) -> Growth:
             i = int(share.argmax())
         if i is not None and abs(stages[-1][0][i]) == 1:
             words = (
-                f"it alone keeps its sense and grows; least rate in the last half of the run "
+                f"it alone grows without a change of sign; least rate in the last half of the run "
                 f"{stages[-1][1][i]:.4g}")
             return Growth(i + 1, int(stages[-1][0][i]), t, words, steps)
         span = min(t, t_max - t)

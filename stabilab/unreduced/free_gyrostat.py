@@ -29,9 +29,9 @@ from ..physics.states import equilibrium_mask, three_numbers
 from .evidence import STEP_BUDGET
 from .near_rest import beside_rest, small_loop
 
-NOT_SHEETS = (
+NO_BRANCHES = (
     "not known: the separatrix of a free gyrostat whose moment has no zero component is known by its energy "
-    "on each momentum sphere, not as sheets")
+    "on each momentum sphere, not as branches")
 # Two points of a closed orbit are the same where they agree to this share of the orbit's size.
 SAME_POINT = 1e-9
 
@@ -196,7 +196,7 @@ def motion(scene, state, span=None, exact=None, brief: bool = False) -> Motion:
     state = three_floats(state)
     given = exact or state
     decided = free_fate(scene, given)
-    fields: dict[str, Any] = {"velocity_because": NOT_SHEETS}
+    fields: dict[str, Any] = {"velocity_because": NO_BRANCHES}
     if decided.label == Fate.SEPARATRIX:
         fields = {"margin_velocity": 0.0, "velocity_bounds": (0.0, 0.0), "velocity_witness": state}
     elif has_no_saddle(scene):

@@ -29,7 +29,7 @@ from .spin_up.follow import LEVELS, SpinUps, spin_up, spin_up_many
 from .spin_up.result import SpinUp
 
 __all__ = ["extremes", "fates", "motion", "periods"]
-NO_SHEETS = "not known: the torque is off the principal axes, and no separatrix is known there"
+NO_BRANCHES = "not known: the torque is off the principal axes, and no separatrix is known there"
 PATIENCE = 600_000  # steps for which a motion is followed where nobody says how long: seconds
 AS_WRITTEN = 120  # times fewer steps where numba is not installed
 ENDLESS = 10**9     # steps where the caller names a time
@@ -49,12 +49,12 @@ def motion(scene, state, span=None, exact=None, brief: bool = False, follow: flo
     if rests(scene.quadratic(), exact or state):
         decided = at_rest(scene, OneFate(Fate.UNDECIDED, Reason.OFF_AXIS, math.nan))
         return Motion(**judged(state, decided), margin_energy=finite(decided.margin),
-                      extremes=tuple((v, v) for v in state), velocity_because=NO_SHEETS)
+                      extremes=tuple((v, v) for v in state), velocity_because=NO_BRANCHES)
     start = list(exact or state) if proof else state
     found = spin_up(scene, start, **_limits(follow), tell=tell, proof=proof)
     decided = OneFate(found.fate, REASON[found.level], math.nan, found.axis, found.sense)
     bounds = bounds_for_ever(scene, start, found)
-    fields = {**judged(state, decided), "velocity_because": NO_SHEETS, "level": found.level,
+    fields = {**judged(state, decided), "velocity_because": NO_BRANCHES, "level": found.level,
               "cause": found.cause, "bounds": bounds,
               "extremes": bounds, "extremes_over": "all time, as bounds" if bounds
               else NO_SPAN.format(unit=scene.time_unit)}

@@ -350,7 +350,7 @@ class _Along:
         others = [z for z in real_roots(k, self.work) if self.m % z.polynomial != 0] if k != 0 else []
         if k == 0 or any((low is None or low.before(z)) and (high is None or z.before(high)) for z in others):
             return None
-        return "unstable", "a slow drift along the line of equilibria, of one sense all along the piece"
+        return "unstable", "a slow drift along the line of equilibria, in one direction all along the piece"
 
     def fold(self, zero, signs):
         """The verdict at a zero of m between pieces with these signs of m."""

@@ -82,7 +82,7 @@ class Inequality:
 
     def __init__(self, form, orders):
         if not form.M > 0:
-            raise Unsuited("the torque's component does not have the sense of the spin")
+            raise Unsuited("the torque's component does not have the direction of the spin")
         if not (0 <= orders[0] <= MOST_ORDER and 1 <= orders[1] <= MOST_ORDER):
             raise Unsuited(f"orders up to {MOST_ORDER} are worked out here")
         self.form, self.M = form, ball(form.M)
@@ -213,7 +213,7 @@ class MovingInequality:
 
     def __init__(self, form: MovingForm, orders):
         if not form.M > 0:
-            raise Unsuited("the torque's component does not have the sense of the spin")
+            raise Unsuited("the torque's component does not have the direction of the spin")
         if not max(orders) <= MOST_MOVING_ORDER:
             raise Unsuited(f"about the moving centre orders up to {MOST_MOVING_ORDER} are worked out")
         self.form = form

@@ -360,7 +360,7 @@ def _judged(rates, claims, way):
         form = make(rates, claims.axis - 1, claims.sense)
         if form is None or not form.M > 0:
             why = ("the spin there does not turn the other two" if form is None
-                   else "the torque's component does not have the sense of the spin")
+                   else "the torque's component does not have the direction of the spin")
             return [(_trap(claims), "refuted", why)], ("not checked", why)
         inequality = inequality_of(form, claims.orders)
     found, states = [], {}

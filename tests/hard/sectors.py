@@ -84,7 +84,7 @@ def separatrix_above_the_cusp(c):
         g = g[abs(g.imag) < 1e-9].real
         return (g ** 4 + c * g + 1 < 0).any()
     naive = "yes" if any(has_saddle(v) for v in np.arange(-3000, 3001) / 1000) else "no"
-    ours = "yes" if len(stabilab.separatrix(scaled(0.0, c, (0, 1, 0))[0]).sheets) else "no"
+    ours = "yes" if len(stabilab.separatrix(scaled(0.0, c, (0, 1, 0))[0]).branches) else "no"
     return Verdict(f"c = {c:g}, above the cusp 1.75477", "is there a separatrix?",
                    "a scan of the invariant in steps of 1e-3", naive, ours,
                    "yes" if c > 4 * 3 ** -0.75 else "no")

@@ -29,7 +29,7 @@ UNITS_A_STEP = 8  # roundings of three components, their rates and the sum of th
 EPS = float(np.finfo(float).eps)
 WRONG = math.inf
 NO_QUESTION = (0.0, "")
-ROWS_AND_COLUMNS = (7, 17)  # of a sheet whose places are asked
+ROWS_AND_COLUMNS = (7, 17)  # of a branch whose places are asked
 # times a place: so far from the centre of its conic, ten times as far as the program asks for, the way there
 # costs it no digits
 FAR_CENTRE = 1e3
@@ -349,24 +349,24 @@ def _twin(scene, problem, state, name, other, image, order, signs, rate, unit):
 
 
 def surfaces(scene, problem, state):
-    """Places of the separatrix' sheets against the reduced potential in many digits: each has the energy of a
+    """Places of the separatrix' branches against the reduced potential in many digits: each has the energy of a
     saddle on its own orbit, up to what a few roundings of the place, measured from the centre of its conic,
     and of the potential's terms do to that."""
     acting = [i for i in range(3) if problem.m[i]]
     if not acting:
         return NO_QUESTION  # without a torque the axis of the reduction is a choice
     found = [NO_QUESTION]
-    for sheet in stabilab.separatrix(scene, shape=ROWS_AND_COLUMNS).sheets:
-        rows, columns, _ = sheet.points.shape
+    for branch in stabilab.separatrix(scene, shape=ROWS_AND_COLUMNS).branches:
+        rows, columns, _ = branch.points.shape
         for row, column in ((1, columns // 2), (rows // 2, columns // 4), (rows - 1, columns - 2)):
-            found.append(off_surface(problem, acting[0], sheet, row, column))
+            found.append(off_surface(problem, acting[0], branch, row, column))
     return worst(*found)
 
 
-def off_surface(problem, axis, sheet, row, column):
-    point, (j, k) = tuple(sheet.points[row, column].tolist()), CYCLE[axis]
+def off_surface(problem, axis, branch, row, column):
+    point, (j, k) = tuple(branch.points[row, column].tolist()), CYCLE[axis]
     if not all(map(math.isfinite, point)):
-        return WRONG, f"{sheet.name}, row {row}: {point}"
+        return WRONG, f"{branch.name}, row {row}: {point}"
     # of omega_j, omega_k
     centre = abs(float(problem.sigma[k] / problem.kappa[k])), abs(float(problem.rho[j] / problem.kappa[j]))
     asymptotes = (abs(problem.rho[axis] / problem.kappa[axis])
@@ -388,7 +388,7 @@ def off_surface(problem, axis, sheet, row, column):
         return NO_QUESTION
     shaken = float(sum(abs(other - gap) for other in moved)) + EPS * terms
     return float(gap) / (ROUNDINGS
-                         * shaken), f"{sheet.name}, row {row}, column {column}: {point} is {float(gap):.3g} off in energy; rounding: {shaken:.3g}"
+                         * shaken), f"{branch.name}, row {row}, column {column}: {point} is {float(gap):.3g} off in energy; rounding: {shaken:.3g}"
 
 
 DISAGREEMENTS = {f.__name__: f for f in (certified, oracle, tables, one_state, methods, twins, surfaces)}

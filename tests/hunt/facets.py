@@ -48,30 +48,30 @@ def problem_of(knobs):
 
 def facets(scene, problem, state):
     share, reach, _ = state
-    rough = stabilab.separatrix(scene, reach=reach, shape=(24, 33)).sheets
+    rough = stabilab.separatrix(scene, reach=reach, shape=(24, 33)).branches
     if not rough or not any(scene.vector("gyrostat")):
         return NO_QUESTION
-    accuracy = share * max(np.abs(sheet.points - sheet.points.mean(axis=(0, 1))).max() for sheet in rough)
+    accuracy = share * max(np.abs(branch.points - branch.points.mean(axis=(0, 1))).max() for branch in rough)
     body = homoclinic.Gyrostat(*(tuple(map(float, v))
                                  for v in (scene.body.inertia, scene.vector("gyrostat"),
                                            scene.vector("constant_torque"))))
-    sheets = stabilab.separatrix(scene, reach=reach, accuracy=accuracy).sheets
+    branches = stabilab.separatrix(scene, reach=reach, accuracy=accuracy).branches
     return worst(NO_QUESTION,
-                 *_judged(body, sheets, accuracy, np.random.default_rng(list(np.array(state).tobytes())),
+                 *_judged(body, branches, accuracy, np.random.default_rng(list(np.array(state).tobytes())),
                           f"accuracy {accuracy!r}"))
 
 
-def _judged(body, sheets, accuracy, rng, words):
-    limit = max(np.abs(body.invariant(sheet.saddle)).max() for sheet in sheets)
+def _judged(body, branches, accuracy, rng, words):
+    limit = max(np.abs(body.invariant(branch.saddle)).max() for branch in branches)
     lobes = homoclinic.lobes(body, 2 * limit)
-    for sheet in sheets:
-        allowed = ESTIMATED * max(accuracy, sheet.error)
-        for place, where in _places(body, sheet, rng):
+    for branch in branches:
+        allowed = ESTIMATED * max(accuracy, branch.error)
+        for place, where in _places(body, branch, rng):
             yield _off(body, lobes, place,
-                       allowed) / allowed, f"{sheet.name}, {where}, {place.tolist()}: {words}, told {sheet.error:.3g}"
-    corner = np.concatenate([mesh.points[mesh.triangles] for mesh in map(triangulate, sheets)])
+                       allowed) / allowed, f"{branch.name}, {where}, {place.tolist()}: {words}, told {branch.error:.3g}"
+    corner = np.concatenate([mesh.points[mesh.triangles] for mesh in map(triangulate, branches)])
     allowed, least = ESTIMATED * max(accuracy,
-                                     *(sheet.error for sheet in sheets)), 0.0 if body.closed else 1e-3 * limit
+                                     *(branch.error for branch in branches)), 0.0 if body.closed else 1e-3 * limit
     for lobe in homoclinic.lobes(body, 0.5 * limit):  # farther out the rim where `reach` cuts strays more
         t = rng.uniform(lobe.stretch.low, lobe.stretch.high, LOOKS)
         # nearer to a plane the oracle's doubles lose the invariant
@@ -81,18 +81,18 @@ def _judged(body, sheets, accuracy, rng, words):
             yield distance_to_facets(place, corner) / allowed, f"no facet near {place.tolist()}: {words}"
 
 
-def _places(body, sheet, rng):
+def _places(body, branch, rng):
     """Mid-points of edges and centres of facets, with words: those that look worst, some at random, some of
     the first and the last row, of the saddles and of the far ends."""
-    p = sheet.points
-    kept = np.flatnonzero(~beside_a_plane(body, sheet))
+    p = branch.points
+    kept = np.flatnonzero(~beside_a_plane(body, branch))
     p, half = p[kept[0]:kept[-1] + 1] if len(kept) else p[:0], p.shape[1] // 2
     if len(p) < 3:
         return
     down, across = 0.5 * (p[1:] + p[:-1]), 0.5 * (p[:, 1:] + p[:, :-1])
     first = p[:-1, :half], p[1:, 1:half + 1]
     other = p[1:, :half], p[:-1, 1:half + 1]
-    one, two = (first, other) if sheet.cut > 0 else (other, first)
+    one, two = (first, other) if branch.cut > 0 else (other, first)
     centres = (one[0] + one[1] + two[0]) / 3
     within = np.concatenate([v.reshape(-1, 3)
                              for v in (down[:, :half + 1], across[:, :half], 0.5 * (one[0] + one[1]),

@@ -16,7 +16,7 @@ SWITCH = 1e-3  # s, after which another thread has its turn
 
 
 def threads(scene, problem, state):
-    """Fates, extremes, periods and sheets, by NumPy and compiled, of a large array in the state's
+    """Fates, extremes, periods and branches, by NumPy and compiled, of a large array in the state's
     neighbourhood."""
     rng = np.random.default_rng(2)
     # few beside a separatrix, which would go one by one
@@ -41,7 +41,7 @@ QUESTIONS = {
     "extremes": lambda scene, states, fast: [stabilab.extremes(scene, states[::500], fast=fast)],
     "period": lambda scene, states, fast: [stabilab.period(scene, states[::500], fast=fast)],
     "separatrix": lambda scene, states,
-    fast: [sheet.points for sheet in stabilab.separatrix(scene, shape=(9, 17)).sheets],
+    fast: [branch.points for branch in stabilab.separatrix(scene, shape=(9, 17)).branches],
 }
 
 

@@ -271,7 +271,7 @@ def loop_places(body: Gyrostat, places, ends, shares, sign):
 
 @dataclass(frozen=True)
 class Lobe:
-    """The loops of a stretch of saddles on one side of them, with w_i of the sign `way`: a sheet's half, or a
+    """The loops of a stretch of saddles on one side of them, with w_i of the sign `way`: a branch's half, or a
     quarter of it."""
 
     stretch: Stretch

@@ -89,9 +89,9 @@ def test_units_are_those_that_are_asked_for(own):
     ("minor-axis-100",
      r"BOUNDED only while the torque is exactly along x3; largest rate \|x\| = 6.345 \(4.626 about x1\); "
      r"margin \S+ in x, 1.632 in energy; period 1.804 tau"),
-    ("middle-axis-spin-up", r"SPINS UP about x2, positive sense; about the other axes at most \S+"),
+    ("middle-axis-spin-up", r"SPINS UP about x2, positive direction; about the other axes at most \S+"),
     ("off-axis-two",
-     r"SPINS UP about z \(minor axis\), positive sense \(certified\); about the other axes at most "
+     r"SPINS UP about z \(minor axis\), positive direction \(certified\); about the other axes at most "
      r"\S+ deg/s"),
     ("torque-free-body",
      r"BOUNDED for ever; largest rate \|omega\| = 33.57 deg/s \(28.65 deg/s about [yz]\); "
@@ -101,7 +101,7 @@ def test_units_are_those_that_are_asked_for(own):
     ("charged-body-attitude",
      r"UNDECIDED; [^;]+; largest rate \|omega\| at most \S+ deg/s \(\S+ deg/s about y\) within 0 to 50 s"),
     ("upper-stage",
-     r"SPINS UP about the minor axis, \(1.000, 0.007, -0.004\) in the file's frame, positive sense "
+     r"SPINS UP about the minor axis, \(1.000, 0.007, -0.004\) in the file's frame, positive direction "
      r"\(certified\); "
      r"about the other axes at most \S+ deg/s"),
     ("sphere-wheel",

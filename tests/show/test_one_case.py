@@ -90,7 +90,7 @@ def test_the_tiles_have_the_outcome_when_the_largest_rate_and_the_distance(tmp_p
 
 def test_a_torque_off_the_axes_is_certified_and_has_no_margins(tmp_path):
     page = _sections("off-axis-two", tmp_path)
-    assert page["headline"].startswith("SPINS UP about z (minor axis), positive sense (certified)") and [
+    assert page["headline"].startswith("SPINS UP about z (minor axis), positive direction (certified)") and [
         one["kind"] for one in page["pictures"]] == ["time"]
     assert page["sensitivity"]["rows"] == [] and "no separatrix is known" in page["sensitivity"]["reason"]
     assert "no end" in page["extremes"][2]["within"]
@@ -166,16 +166,16 @@ def test_a_thinned_line_is_near_every_point_that_it_leaves_out():
     assert 40 < len(few) < 160 and 1 - np.linalg.norm(middles, axis=1).min() < 1.01e-3
 
 
-def test_the_sheets_of_the_space_are_those_of_the_separatrix():
+def test_the_branches_of_the_space_are_those_of_the_separatrix():
     """Oracle: the energy of the minor axis derived by hand, x3^2/2 - theta - X^2/2 - c X, is that of its
     saddle all along each loop."""
     case = stabilab.load(MINOR)
     _, found = _space(case)
     drawn, scene = found["drawn"], case.scene
-    assert drawn["sheets"]
-    for sheet in drawn["sheets"]:
-        places = _places(sheet["at"])
-        p = (places * drawn["half"] + drawn["middle"]).reshape(sheet["rows"], sheet["columns"], 3)
+    assert drawn["branches"]
+    for branch in drawn["branches"]:
+        places = _places(branch["at"])
+        p = (places * drawn["half"] + drawn["middle"]).reshape(branch["rows"], branch["columns"], 3)
         # rows of which nothing was moved in
         inside = (np.abs(places) < 8).all(axis=1).reshape(p.shape[:2]).all(axis=1)
         X, x2, x3 = p[inside, :, 0] + scene.a, p[inside, :, 1], p[inside, :, 2]
@@ -198,7 +198,7 @@ def test_the_first_line_of_a_page_says_what_the_uncertain_numbers_change_and_the
     """The file's 1.7 +- 0.02 rad/s are 97.403 +- 1.1459 deg/s by hand."""
     page = sections(load(CASES / "uncertain-separatrix.toml"), tmp_path, "x", deep=False)
     assert page["headline"].endswith(
-        "; BUT within the uncertainties also spin-up about the z axis, positive sense") and page[
+        "; BUT within the uncertainties also spin-up about the z axis, positive direction") and page[
             "fate"] == "undecided"
     told = page["uncertain"]
     assert "motion.angular_velocity[3] = 97.4028 ± 1.14592 deg/s" in told and "20 ± 0.2 kg m²" in told
@@ -465,11 +465,11 @@ def test_a_page_of_a_sweep_begins_with_the_answer_of_the_commands_and_tells_the_
     assert law.of_cases(load_all(path)) == found["law"] and "27 of 27 combinations" in found["law"]
 
 
-def test_the_legend_of_the_space_names_no_sheet_of_which_the_box_holds_only_the_crest():
+def test_the_legend_of_the_space_names_no_branch_of_which_the_box_holds_only_the_crest():
     """The two loops of a double well meet in its saddles, of which those in the box of this motion, in the
     left well, belong to both."""
     names = [name for name, _ in _space(load(CASES / "middle-axis-double-well.toml"))[1]["legend"]]
-    assert "Sheet 1, left loop of the separatrix" in names and not any("right loop" in name for name in names)
+    assert "Branch 1, left loop of the separatrix" in names and not any("right loop" in name for name in names)
     assert "unstable equilibria" in names and "nearest point of the separatrix" in names
 
 

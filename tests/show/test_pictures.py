@@ -14,7 +14,7 @@ from PIL import Image
 from stabilab import errors, load
 from stabilab.case.read import read_text
 from stabilab.orbit import phase_plane as phase
-from stabilab.orbit.separatrix.result import Sheet
+from stabilab.orbit.separatrix.result import Branch
 from stabilab.papers import table
 from stabilab.papers.figures import catalogue as figures
 from stabilab.papers.figures import paper
@@ -220,14 +220,14 @@ def test_every_figure_can_be_drawn(number, tmp_path):
 
 
 def cone(rows=41, columns=81):
-    """A sheet with known geometry: circles of radius r at height r, from the fold (r = 0) to r = 1."""
+    """A branch with known geometry: circles of radius r at height r, from the fold (r = 0) to r = 1."""
     r, turn = np.linspace(0, 1, rows)[:, None], np.linspace(0, 2 * np.pi, columns)[None, :]
     points = np.stack(np.broadcast_arrays(r * np.cos(turn), r * np.sin(turn), r), -1).copy()
     points[:, -1] = points[:, 0]
     residual = np.full((rows, columns), 1e-17)
     residual[-1, 3] = 3e-16
     centre = points.mean(1)
-    return Sheet("cone", points, residual, points[:, 0], centre, r[:, 0])
+    return Branch("cone", points, residual, points[:, 0], centre, r[:, 0])
 
 
 def test_the_mesh_is_one_disc_without_degenerate_triangles():
@@ -245,7 +245,7 @@ def test_stl_and_glb_hold_every_triangle():
     data = mesh.stl([made])
     assert struct.unpack("<I",
                          data[80:84])[0] == len(made.triangles) and len(data) == 84 + 50 * len(made.triangles)
-    data = mesh.glb([made], style.SHEETS)
+    data = mesh.glb([made], style.BRANCHES)
     magic, version, length = struct.unpack("<4sII", data[:12])
     size, kind = struct.unpack("<II", data[12:20])
     document = json.loads(data[20:20 + size])
@@ -276,7 +276,7 @@ def test_vtp_keeps_doubles_and_point_arrays(tmp_path):
     made = mesh.triangulate(cone())
     data = pyvista.read(surface.write_meshes([made, made], tmp_path, "two")[0])
     assert data.points.dtype == np.float64 and np.array_equal(data.points[:len(made.points)], made.points)
-    assert set(np.unique(data.point_data["sheet"])) == {0, 1} and data.point_data["residual"].max() == 3e-16
+    assert set(np.unique(data.point_data["branch"])) == {0, 1} and data.point_data["residual"].max() == 3e-16
 
 
 # -- rendering --
@@ -306,7 +306,7 @@ def test_without_gl_the_meshes_are_written_and_the_cure_is_named(no_gl, tmp_path
 def test_a_scene_without_separatrix_is_answered_with_the_reason_and_no_file(tmp_path):
     """For |b - a| < 1.7548 a torque on the middle axis leaves no saddle (docstring of figure 16)."""
     summary = surface.write(paper.scene("middle", 100), tmp_path / "none")
-    assert summary["schema"] == "stabilab.surface/1" and summary["sheets"] == [] and summary["files"] == []
+    assert summary["schema"] == "stabilab.surface/2" and summary["branches"] == [] and summary["files"] == []
     assert "no separatrix" in summary["reason"] and not list(tmp_path.iterdir())
 
 
@@ -345,16 +345,16 @@ def test_the_summary_counts_what_the_mesh_holds(tmp_path):
     data = pyvista.read(tmp_path / "surface.vtp")
     assert (data.n_points, data.n_cells) == (summary["vertices"], summary["triangles"])
     assert summary["largest_residual"] == data.point_data["residual"].max() < 1e-12
-    assert json.loads((tmp_path / "surface.json").read_text())["sheets"] == summary["sheets"]
+    assert json.loads((tmp_path / "surface.json").read_text())["branches"] == summary["branches"]
 
 
 def test_surface_points_lie_on_the_level_of_their_saddle(tmp_path):
     """Oracle: the energy of the minor axis derived by hand, x3^2/2 - theta - X^2/2 - c X, continuous along
     each loop."""
-    from stabilab.orbit.separatrix.sheets import separatrix
+    from stabilab.orbit.separatrix.branches import separatrix
     scene = paper.scene("minor", 100)
-    for sheet in separatrix(scene, shape=(12, 41)).sheets:
-        p = np.asarray(sheet.points)
+    for branch in separatrix(scene, shape=(12, 41)).branches:
+        p = np.asarray(branch.points)
         X, x2, x3 = p[..., 0] + scene.a, p[..., 1], p[..., 2]
         theta = np.unwrap(np.arctan2(X, x2), axis=1)
         energy = x3**2 / 2 - theta - X**2 / 2 - (scene.b - scene.a) * X
@@ -391,7 +391,7 @@ def test_in_a_surface_picture_everything_is_drawn_and_the_box_holds_the_surface(
                  "unstable equilibria")
         assert {tuple(int(style.SPACE[words]["color"][i:i + 2], 16) for i in (1, 3, 5))
                 for words in kinds} < drawn and set(kinds) < set(found.legend)
-        places = np.concatenate([sheet.points for _, sheet in found.sheets])
+        places = np.concatenate([branch.points for _, branch in found.branches])
         low, high = found.box.low, found.box.high
         assert len(found.arrows) == 3
         assert (places.min(axis=0) < high).all() and (places.max(axis=0) > low).all()

@@ -65,7 +65,7 @@ def test_the_lines_of_a_stuck_thruster_of_models_and_of_a_spin_up_have_their_num
     """Beside the fields themselves."""
     row, found = results["Stuck"].rows[0], results["SpinUp"]
     assert all(words in repr(results["Stuck"]) for words in (row.fate, f"{row.time_to_limit[0]:.6g}"))
-    assert f"spin-up about axis {found.axis}, sense {found.sense:+d}, {found.level}" in repr(found)
+    assert f"spin-up about axis {found.axis}, {'positive' if found.sense > 0 else 'negative'} direction, {found.level}" in repr(found)
     assert "3 times; largest error of a part's size: linear " in repr(results["Comparison"])
 
 

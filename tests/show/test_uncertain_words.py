@@ -43,7 +43,7 @@ def test_the_first_line_says_whether_the_answer_holds_for_all_that_the_numbers_m
     for command in ("fate", "classify"):
         assert first(command,
                      "uncertain-separatrix").endswith(
-                         "; BUT within the uncertainties also spin-up about the z axis, positive sense")
+                         "; BUT within the uncertainties also spin-up about the z axis, positive direction")
         assert first(command,
                      "uncertain-minor-axis").endswith(
                          "; the fate is the same for all that the uncertain numbers may be")

@@ -266,7 +266,7 @@ def test_a_charge_of_constant_angle_is_judged_as_the_gyrostat_that_turns_alike()
     np.testing.assert_array_equal(stabilab.fate(charged, states).labels, stabilab.fate(twin, states).labels)
     np.testing.assert_array_equal(stabilab.extremes(charged, states), stabilab.extremes(twin, states))
     np.testing.assert_array_equal(stabilab.period(charged, states), stabilab.period(twin, states))
-    assert len(stabilab.separatrix(charged).sheets) == len(stabilab.separatrix(twin).sheets)
+    assert len(stabilab.separatrix(charged).branches) == len(stabilab.separatrix(twin).branches)
 
 
 @pytest.mark.parametrize("command", [["classify"], ["fate"], ["when", "--tilt", "z = 20 deg"],

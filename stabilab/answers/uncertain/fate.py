@@ -107,7 +107,7 @@ def words(label: Fate, axis: int, sense: int) -> str:
     if label == Fate.EQUILIBRIUM:
         return Fate.BOUNDED.word
     if label == Fate.SPIN_UP and axis:
-        return f"spin-up about axis {axis}, {'positive' if sense > 0 else 'negative'} sense"
+        return f"spin-up about axis {axis}, {'positive' if sense > 0 else 'negative'} direction"
     return label.word
 
 

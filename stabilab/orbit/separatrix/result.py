@@ -14,8 +14,8 @@ AGREE = 1e-9  # relative: nearer than that, lower bound and witness are one numb
 
 
 @dataclass(frozen=True, eq=False)
-class Sheet(Compared):
-    """One sheet of the separatrix as a parametric grid.
+class Branch(Compared):
+    """One branch of the separatrix as a parametric grid.
 
     points: (n, m, 3) array; row r is the homoclinic curve at one value of the invariant, rows run from the
     fold outward, columns run once around the loop from the saddle (column 0) back to the saddle (column -1).
@@ -38,10 +38,10 @@ class Sheet(Compared):
 
 @dataclass(frozen=True, repr=False)
 class Separatrix(Shown):
-    """Every sheet of the separatrix inside the asked-for range; reason says why there is none or what bounds
+    """Every branch of the separatrix inside the range; reason says why there is none or what bounds
     it."""
 
-    sheets: tuple[Sheet, ...]
+    branches: tuple[Branch, ...]
     reason: str
 
 

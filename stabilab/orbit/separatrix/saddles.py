@@ -1,6 +1,6 @@
 """Saddles that a surface hangs on, and why a scene has none.
 
-The branches of saddles, each from its fold outward: the edges along which the sheets of a separatrix hang.
+The branches of saddles, each from its fold outward: the edges along which the branches of a separatrix hang.
 
 In plain floats; a branch gives its places for floats and arrays alike.
 """
@@ -111,20 +111,20 @@ NO_REDUCTION = (
 
 
 def what_it_parts(potential, sense: int) -> str:
-    """Of a scene with sheets."""
+    """Of a scene with a separatrix."""
     if potential.walled:
         return (
-            "both sides of each sheet are bounded: it parts oscillations about one centre from those "
+            "both sides of each branch are bounded: it parts oscillations about one centre from those "
             "around two")
     if sense == 0:
-        return ("both sides of each sheet are bounded: inside motions oscillate about a centre, outside "
+        return ("both sides of each branch are bounded: inside motions oscillate about a centre, outside "
                 "about more of "
                 "them or right round the axis")
-    return "each sheet bounds the motions that oscillate about the centres inside it"
+    return "each branch bounds the motions that oscillate about the centres inside it"
 
 
 def why_none(conic, sense: int) -> str:
-    """Of a scene on circles or hyperbolas without sheets."""
+    """Of a scene on circles or hyperbolas without one."""
     if conic.pieces or conic.lines:
         return ("no equilibrium is a saddle of the reduced potential, each orbit has a single well, and "
                 "there is no "
@@ -137,7 +137,7 @@ def why_none(conic, sense: int) -> str:
 
 
 def why_parabolic(reduction) -> str:
-    """Of a scene on parabolas: no sheets are drawn of it."""
+    """Of a scene on parabolas: no branches are drawn of it."""
     bent = reduction.kappa or reduction.rho or reduction.sigma
     if reduction.sense == 0:
         told = "no torque acts, and every motion is bounded"
@@ -145,4 +145,4 @@ def why_parabolic(reduction) -> str:
         told = "all motions are bounded by walls on both sides, except pure spin about the torque"
     else:
         told = "nothing turns the body out of the torque's way, and every motion spins up"
-    return f"parabolic reduction ({reduction.geometry.where}): {told}; no sheet bounds a spin-up"
+    return f"parabolic reduction ({reduction.geometry.where}): {told}; no branch bounds a spin-up"

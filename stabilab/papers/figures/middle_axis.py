@@ -8,20 +8,20 @@ from ...show import style
 from . import paper
 from .figure import listed
 from .level import PRINTED, farthest, level_curves, within
-from .minor_axis import exactness as of_sheets
-from .minor_axis import sheets
+from .minor_axis import branches
+from .minor_axis import exactness as of_branches
 
 LAMBDA_BEYOND = 1250  # c = b - a = 2.5, beyond the cusp 1.7548: there a figure-eight separatrix does exist
 LEVEL = 3.93          # printed for Fig. 17
 HIGH = 1.6            # |x2| of the printed path of Fig. 16
 CUSP = 4 * 3**-0.75
-# the sheets of Fig. 16
+# the branches of Fig. 16
 EIGHT = {"lambda1": LAMBDA_BEYOND, "reach": None, "shape": (60, 121), "axis": "middle"}
 
 
 def exactness() -> str:
     """How far the vertices of Fig. 16 are from their surface."""
-    return of_sheets(**EIGHT)
+    return of_branches(**EIGHT)
 
 
 def printed_energy(scene, x1, x3):
@@ -143,7 +143,7 @@ def surfaces(plt):
 
 EIGHT_LINE = {"color": style.BLACK, "linewidth": 2.2}  # of the two loops of one saddle
 LOOPS = (style.SKY, style.YELLOW, style.GREY, style.PURPLE)  # colours of the parts of the figure-eight
-# of each part, and the width of its mesh: the small loop of sheet 1 stands within that of sheet 2
+# of each part, and the width of its mesh: the small loop of branch 1 stands within that of branch 2
 OPAQUE, THIN = (1.0, 0.6, 0.45, 0.6), (0.1, 0.3, 0.1, 0.3)
 
 
@@ -178,22 +178,22 @@ def _nested(ax, scene):
 
 def _figure_eight(ax):
     """The four parts of the separatrix; their names."""
-    found = sheets(**EIGHT)
-    ax.computed_zorder = False  # short lines of equilibria over the sheets that would hide them
-    for sheet, colour, opaque, thin, order in zip(found.sheets, LOOPS, OPAQUE, THIN, FROM_BEHIND):
-        ax.plot_surface(*_upright(sheet.points), color=colour, alpha=opaque, rstride=4, cstride=6,
+    found = branches(**EIGHT)
+    ax.computed_zorder = False  # short lines of equilibria over the branches that would hide them
+    for branch, colour, opaque, thin, order in zip(found.branches, LOOPS, OPAQUE, THIN, FROM_BEHIND):
+        ax.plot_surface(*_upright(branch.points), color=colour, alpha=opaque, rstride=4, cstride=6,
                         linewidth=thin, edgecolor="#333333", shade=False,
                         zorder=order)
-        ax.plot(*_upright(sheet.saddle), zorder=6, **style.MEANING["unstable"])
-        ax.plot(*_upright(sheet.centre), zorder=6, **style.MEANING["stable"])
-    _one_eight(ax, *found.sheets[:2])
+        ax.plot(*_upright(branch.saddle), zorder=6, **style.MEANING["unstable"])
+        ax.plot(*_upright(branch.centre), zorder=6, **style.MEANING["stable"])
+    _one_eight(ax, *found.branches[:2])
     style.name_space(ax, 0.98, order=UPRIGHT)
     ax.view_init(26, -20)  # onto both loops: from other sides one hides the other
-    return [sheet.name for sheet in found.sheets]
+    return [branch.name for branch in found.branches]
 
 
 def _one_eight(ax, left, right):
-    """The two loops of one saddle, in the middle of a sheet: the surfaces are made of such eights."""
+    """The two loops of one saddle, in the middle of a branch: the surfaces are made of such eights."""
     row = len(left.saddle) // 2
     other = int(np.abs(right.saddle - left.saddle[row]).sum(axis=1).argmin())
     for points in (left.points[row], right.points[other]):

@@ -7,7 +7,7 @@ import numpy as np
 
 from ...answers.simulate import trajectory
 from ...orbit.phase_plane import motion_curve, phase_plane
-from ...orbit.separatrix.sheets import separatrix
+from ...orbit.separatrix.branches import separatrix
 from ...show import style
 from ...show.plot.phase_plane import draw
 from . import paper
@@ -22,7 +22,7 @@ REACH = 5.0           # largest circle drawn in Fig. 5, in radii of the outer fo
 CIRCLES, FOLD_RADIUS = (2.0, 4.0, 6.0), np.sqrt(2)  # printed ones of Fig. 5, about the origin
 FOLDS = np.array([(1.0, -1.0, 0.0), (-1.0, 1.0, 0.0)])  # where the text has saddle and centre merge
 NEAR = 2.0            # largest circle of the enlargement of Fig. 5, in the same radii
-FINE = (400, 801)     # of the sheets, to which distances are taken
+FINE = (400, 801)     # of the branches, to which distances are taken
 LEFT, RIGHT = style.MEANING["separatrix 2"], style.MEANING["separatrix"]
 COPY = RIGHT | {"linestyle": (0, (5, 2)), "linewidth": 1.1}
 LOOPS = [("left separatrix", LEFT), ("right separatrix", RIGHT), ("right separatrix, a turn earlier", COPY)]
@@ -176,14 +176,14 @@ def wheel_effect(plt):
     return figure
 
 
-def sheets(lambda1=100, reach=REACH, shape=(60, 121), axis="minor"):
+def branches(lambda1=100, reach=REACH, shape=(60, 121), axis="minor"):
     """The separatrix of the paper's scene."""
     return separatrix(paper.scene(axis, lambda1), reach=reach, shape=shape)
 
 
 def exactness(*arguments, **options) -> str:
-    """How far vertices of the sheets are from their surface; arguments as of `sheets`."""
-    off = max(float(np.max(sheet.residual)) for sheet in sheets(*arguments, **options).sheets)
+    """How far vertices of the branches are from their surface; arguments as of `branches`."""
+    off = max(float(np.max(branch.residual)) for branch in branches(*arguments, **options).branches)
     return f"vertices within {off:.1e} of the surface, relative to the size of the terms of the energy"
 
 
@@ -227,7 +227,7 @@ def _printed_loop(radius, b, turn):
 
 def surface_departure() -> str:
     """How far the printed loops and folds of Fig. 5 are from the true surface of their side, in words."""
-    true = {_side(sheet): np.asarray(sheet.points) for sheet in sheets(shape=FINE).sheets}
+    true = {_side(branch): np.asarray(branch.points) for branch in branches(shape=FINE).branches}
     loops = printed_loops()
     words = [f"{listed([farthest([loop], [true[side]]) for loop in loops[side]], '{:.2f}')} on the {side}"
              for side in SIDES]
@@ -244,12 +244,12 @@ def surfaces(plt):
     for index, (reach, circles, view) in enumerate(((REACH, len(CIRCLES), (24, -60)), (NEAR, 1, (40, 35)))):
         ax = figure.add_subplot(1, 2, index + 1, projection="3d")
         ax.computed_zorder = False  # lines over the surfaces that they are on or beside
-        for sheet in sheets(reach=reach).sheets:
-            p = np.asarray(sheet.points)
-            ax.plot_surface(p[..., 0], p[..., 1], p[..., 2], color=SIDES[_side(sheet)], alpha=0.6,
+        for branch in branches(reach=reach).branches:
+            p = np.asarray(branch.points)
+            ax.plot_surface(p[..., 0], p[..., 1], p[..., 2], color=SIDES[_side(branch)], alpha=0.6,
                             rstride=2, cstride=3, linewidth=0.2, edgecolor="#333333", shade=False)
-            ax.plot(*np.asarray(sheet.saddle).T, zorder=4, **style.MEANING["unstable"])
-            ax.plot(*np.asarray(sheet.centre).T, zorder=4, **style.MEANING["stable"])
+            ax.plot(*np.asarray(branch.saddle).T, zorder=4, **style.MEANING["unstable"])
+            ax.plot(*np.asarray(branch.centre).T, zorder=4, **style.MEANING["stable"])
         for loops in printed_loops().values():
             for loop in loops[:circles]:
                 ax.plot(*loop.T, zorder=5, **PRINTED)
@@ -269,10 +269,10 @@ def surfaces(plt):
 SIDES = {"left": style.SKY, "right": style.YELLOW}
 
 
-def _side(sheet) -> str:
+def _side(branch) -> str:
     """The paper's name of a surface: the left loop of the phase plane has alpha in (-2 pi, 0), where x1 + a <
     0 about its centre."""
-    return "left" if float(np.asarray(sheet.centre)[-1, 0]) < 0 else "right"
+    return "left" if float(np.asarray(branch.centre)[-1, 0]) < 0 else "right"
 
 
 # of the circles of Fig. 7; the fourth is that of the paper's start

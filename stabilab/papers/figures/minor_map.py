@@ -9,8 +9,8 @@ import numpy as np
 from ...show import style
 from . import paper
 from .level import POINTS, farthest, level_curves, within
-from .minor_axis import exactness as of_sheets
-from .minor_axis import sheets
+from .minor_axis import branches
+from .minor_axis import exactness as of_branches
 
 SHAPE = (240, 241)
 REACH = 6.3           # radii of the outer fold circle: beyond the corners of the map
@@ -22,7 +22,7 @@ BEYOND = 8.0           # half a side of the square in which the fourth surface i
 def contour_map(plt):
     """Fig. 6: the map, and its middle enlarged."""
     figure, axes = plt.subplots(1, 2, figsize=(11.4, 6.2), layout="constrained")
-    scene, found = paper.scene("minor", 100), _sheets()
+    scene, found = paper.scene("minor", 100), _branches()
     for ax, size in zip(axes, (SIZE, NEAR)):
         heights = _map(ax, scene, found, size)
     axes[0].set_title(r"Height $x_3>0$ of the separatrix surfaces, $\lambda_1=100$")
@@ -69,23 +69,23 @@ def fourth_departure() -> str:
             f"dashed, as printed: up to {farthest(shown, found['true']):.2f} off.")
 
 
-def _sheets():
-    return sheets(reach=REACH, shape=SHAPE)
+def _branches():
+    return branches(reach=REACH, shape=SHAPE)
 
 
 def exactness() -> str:
     """How far the vertices of the map are from the surface; how the fourth surface is traced."""
-    return f"{of_sheets(reach=REACH, shape=SHAPE)}; fourth surface: traced on grids of {POINTS} x {POINTS}"
+    return f"{of_branches(reach=REACH, shape=SHAPE)}; fourth surface: traced on grids of {POINTS} x {POINTS}"
 
 
 def _map(ax, scene, found, size):
     """One panel, `size` to all sides of the origin; the filled contours are returned."""
     a, b = scene.a, scene.b
-    for sheet in found.sheets:
-        upper, triangles = _upper(np.asarray(sheet.points))
+    for branch in found.branches:
+        upper, triangles = _upper(np.asarray(branch.points))
         filled = ax.tricontourf(upper[:, 0], upper[:, 1], triangles, upper[:, 2], levels=LEVELS, cmap="Greys",
                                 antialiased=True, extend="max")
-        ax.plot(*np.asarray(_outline(np.asarray(sheet.points)))[:, :2].T, **EDGE)
+        ax.plot(*np.asarray(_outline(np.asarray(branch.points)))[:, :2].T, **EDGE)
     _hyperbola(ax, a, b)
     _dividing(ax, a, b)
     turn = np.linspace(0, 2 * np.pi, 361)
@@ -100,7 +100,7 @@ def _map(ax, scene, found, size):
 
 
 def _upper(points):
-    """Upper half (x3 >= 0) of a sheet as vertices and triangles of its grid."""
+    """Upper half (x3 >= 0) of a branch as vertices and triangles of its grid."""
     n, m, _ = points.shape
     columns = [j for j in range(m) if np.all(points[:, j, 2] >= -1e-12)]
     part = points[:, columns]
@@ -116,7 +116,7 @@ def _upper(points):
 
 
 def _outline(points):
-    """The line of saddles inward, then the far ends of the loops outward: where a sheet meets the plane x3 =
+    """The line of saddles inward, then the far ends of the loops outward: where a branch meets the plane x3 =
     0."""
     return np.concatenate([points[::-1, 0], points[:, points.shape[1] // 2]])
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 import numpy as np
 
 from ...orbit.phase_plane import phase_plane
-from ...orbit.separatrix.sheets import separatrix
+from ...orbit.separatrix.branches import separatrix
 from ...show import style
 from . import panels
 from .level import PRINTED, farthest
@@ -53,9 +53,9 @@ def true_separatrices() -> dict:
 
 
 def true_surfaces() -> dict:
-    """side -> its sheet of the separatrix; the left one has x1 < 0 about its centre."""
-    sheets = separatrix(_case().scene, reach=REACH).sheets
-    return {"left" if np.asarray(sheet.centre)[-1, 0] < 0 else "right": sheet for sheet in sheets}
+    """side -> its branch of the separatrix; the left one has x1 < 0 about its centre."""
+    branches = separatrix(_case().scene, reach=REACH).branches
+    return {"left" if np.asarray(branch.centre)[-1, 0] < 0 else "right": branch for branch in branches}
 
 
 def printed_ends(side) -> np.ndarray:
@@ -80,10 +80,10 @@ def departures() -> tuple[float, float, float, float]:
     energy = max(float(np.abs(printed_energy(radius, alpha, side) - x**2 / 2).max()) / radius**2
                  for side, (alpha, x) in true_separatrices().items())
     surface, fold, named = 0.0, 0.0, 0.0
-    for side, sheet in true_surfaces().items():
-        x1, x2, x3 = np.moveaxis(np.asarray(sheet.points), -1, 0)
+    for side, branch in true_surfaces().items():
+        x1, x2, x3 = np.moveaxis(np.asarray(branch.points), -1, 0)
         surface = max(surface, float(np.abs(printed_31(x1, x2, x3, side) / (x1**2 + x2**2)).max()))
-        place = np.asarray(sheet.saddle)[:1]
+        place = np.asarray(branch.saddle)[:1]
         fold = max(fold, abs(float(np.hypot(*place[0, :2])) - np.sqrt(2)))
         named = max(named, farthest([NAMED[side]], [place]))
     return energy, surface, fold, named
@@ -116,13 +116,13 @@ def draw(plt):
     plane.set(xlim=WINDOW, xlabel=r"$\alpha = 2\,\mathrm{atan2}(x_1,\ x_2)$", ylabel=r"$x = 2\,x_3$",
               title=rf"on the circle of the start, $F={radius:.4f}$")
     turn = np.linspace(0, 2 * np.pi, 361)
-    for side, sheet in true_surfaces().items():
-        points = np.asarray(sheet.points)
+    for side, branch in true_surfaces().items():
+        points = np.asarray(branch.points)
         edge = np.concatenate([points[::-1, 0], points[:, points.shape[1] // 2]])
         above.plot(*edge[:, :2].T, **TRUE[side])
         above.plot(*printed_ends(side).T, **PRINTED)
-        above.plot(*np.asarray(sheet.centre)[:, :2].T, **style.MEANING["stable"])
-        above.plot(*np.asarray(sheet.saddle)[:1, :2].T, zorder=6, **style.MARKER["degenerate"])
+        above.plot(*np.asarray(branch.centre)[:, :2].T, **style.MEANING["stable"])
+        above.plot(*np.asarray(branch.saddle)[:1, :2].T, zorder=6, **style.MARKER["degenerate"])
     above.plot(np.sqrt(2) * np.sin(turn), np.sqrt(2) * np.cos(turn), **PRINTED)
     above.set(xlim=(-6, 6), ylim=(-6, 6), aspect="equal", xlabel="$x_1$", ylabel="$x_2$",
               title="from above: where the surfaces meet $x_3=0$")

@@ -24,7 +24,7 @@ from ...case.write import data_of
 from ...equilibrium.result import Equilibria
 from ...errors import StabilabError
 from ...orbit.result import Motion
-from ...orbit.separatrix.plain_sheets import REACH, PlainSheet
+from ...orbit.separatrix.plain_branches import REACH, PlainBranch
 from ...packages import explained, present
 from ...physics.coefficients import content, gyrostat_scene
 from ...physics.effects import effect_class
@@ -35,7 +35,7 @@ from ...verify.form import about, parsed
 from ...verify.form import line as about_line
 from ...verify.numbers import Malformed
 from .. import limiting
-from ..space import PLACES, Box, box_of, curves_of, data, marks_of, near_part, nearest, sheets_of, space
+from ..space import PLACES, Box, box_of, curves_of, data, marks_of, near_part, nearest, branches_of, space
 from ..spans import natural, seen
 from ..terminal.letters import greek, lettered, written
 from ..terminal.motion import margins
@@ -88,7 +88,7 @@ def equilibrium_rows(found: Equilibria, units: Units) -> dict[str, Any]:
             "rows": told[:MOST] + ([[f"and {more} more", ""]] if more > 0 else [])}
 
 
-PLAIN = (18, 17)  # rows of a sheet, and columns of half of it, while the hand moves
+PLAIN = (18, 17)  # rows of a branch, and columns of half of it, while the hand moves
 # of a piece of a curve of equilibria: to find what is in the box, and to draw it
 POINTS = {True: (16, 40), False: PLACES}
 TURNS = {True: 240.0, False: 2400.0}  # rad of turn at most that are drawn
@@ -225,23 +225,23 @@ class Session:
         marks = marks_of(case.state, found, at_rest)
         rests = [] if moving else nearest(at_rest, near)
         box = box_of(near, marks + rests, reaching=True, asked=asked, kept=moving or ghost)
-        sheets, words = ((), other.why(case.scene)) if bare is None else self._sheets(bare, box, moving)
+        branches, words = ((), other.why(case.scene)) if bare is None else self._branches(bare, box, moving)
         names = [planes.labelled(component.replace("omega", "ω"), self.units.rates[0])
                  for component in case.scene.components]
         curves = self._once("curves", (case.scene, box, moving, at_rest is None),
                             lambda: curves_of(at_rest, box, *POINTS[moving]))
-        drawn = space(names, self.units.rates[1], box, sheets, near, marks, curves, words,
+        drawn = space(names, self.units.rates[1], box, branches, near, marks, curves, words,
                       " without the tilt" * ghost)
         if ghost:
             words = ("No separatrix is known for a torque off the axes"
-                     + (": the surface drawn is that of the torque without its tilt" if drawn.sheets else ""))
+                     + (": the surface drawn is that of the torque without its tilt" if drawn.branches else ""))
         return data(drawn, partial(bag.add, "int16")) | {
             "words": words, "box": {"middle": box.middle, "half": box.half}}
 
-    def _sheets(self, scene: AnyScene, box: Box, moving: bool) -> tuple[Sequence[PlainSheet], str]:
-        """(sheets as far as the box reaches, what they part or why there are none)."""
+    def _branches(self, scene: AnyScene, box: Box, moving: bool) -> tuple[Sequence[PlainBranch], str]:
+        """(branches as far as the box reaches, what they part or why there are none)."""
         reach = self._kept.get("reach", (None, REACH))[1]
-        found, words, far = self._once("sheets", (scene, box, moving), lambda: sheets_of(
+        found, words, far = self._once("branches", (scene, box, moving), lambda: branches_of(
             scene, box, plain=PLAIN if moving else None, reach=reach))
         self._kept["reach"] = (None, far)
         return found, _capital(words)

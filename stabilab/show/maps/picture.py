@@ -259,7 +259,7 @@ def _map(ax, data, whole, kind, moving, limits) -> Any:
     elif kind in COUNTS:
         levels = np.arange(limits[0], limits[1] + 2) - 0.5
         colours = ListedColormap([light(colour, 0.6)
-                                  for colour in (style.GREY, *style.SHEETS)][:max(2, len(levels) - 1)])
+                                  for colour in (style.GREY, *style.BRANCHES)][:max(2, len(levels) - 1)])
         options |= {"cmap": colours,
                     "norm": BoundaryNorm(levels if len(levels) > 2 else [*levels, levels[-1] + 1], colours.N)}
     else:

@@ -24,7 +24,7 @@ from ..space import (
     marks_of,
     near_part,
     nearest,
-    sheets_of,
+    branches_of,
 )
 from ..space import space as drawn_in
 from . import subject as canvas
@@ -312,7 +312,7 @@ def meanings(rest: Rest, words: str = "equilibria") -> list[tuple[str, dict[str,
 
 # --- A motion in the space of rates, beside the separatrix
 FINE, MOST = 1e-3, 6000  # of the motion's size: how near a line with fewer points stays to it; points
-FACETS = (96, 129)  # rows and columns of a sheet: those that are in front are told by their middles
+FACETS = (96, 129)  # rows and columns of a branch: those that are in front are told by their middles
 
 
 def space(case: Any, state: Any = None, ax: Axes | None = None, span: Any = None, units: str | None = None,
@@ -322,7 +322,7 @@ def space(case: Any, state: Any = None, ax: Axes | None = None, span: Any = None
 
     The box is that of the motion, widened to the nearest point of the separatrix and to equilibria where
     these are no farther than some times the motion's own size; otherwise the title says how far away the
-    separatrix is. Where the motion hardly goes along an axis, that has a scale of its own. Sheets of the
+    separatrix is. Where the motion hardly goes along an axis, that has a scale of its own. Branches of the
     separatrix and curves of equilibria are drawn as far as they lie in the box; a spin-up is followed until
     it has left the separatrix behind. Scenes without a separatrix show the motion and the equilibria. span:
     as of `time`.
@@ -343,7 +343,7 @@ def space(case: Any, state: Any = None, ax: Axes | None = None, span: Any = None
 def space_of(one: Subject, names: Iterable[str], rate: float, known: Equilibria | None = None,
              shape: tuple[int, int] = SHAPE, most: float = WHOLE, reaching: bool = False) -> Space:
     """What is drawn of a subject. names, rate: as of `Space`; known: its equilibria, where these are worked
-    out already; shape: of the sheets; most, reaching: as of `box_of`."""
+    out already; shape: of the branches; most, reaching: as of `box_of`."""
     moved = one.motion if one.state is not None else None
     if known is None:
         try:
@@ -353,16 +353,16 @@ def space_of(one: Subject, names: Iterable[str], rate: float, known: Equilibria 
     line = [] if moved is None else near_part(_path(one).tolist(), moved)
     marks = marks_of(one.state, moved, known)
     near = nearest(known, line) if line else []
-    box = box_of(line, marks + near, sheets_of(one.twin)[0], most, reaching)
-    surface, words, _ = sheets_of(one.twin, box, shape)
+    box = box_of(line, marks + near, branches_of(one.twin)[0], most, reaching)
+    surface, words, _ = branches_of(one.twin, box, shape)
     return drawn_in(names, rate, box, surface, line, marks, curves_of(known, box), words)
 
 
 def draw(ax: Any, found: Space) -> None:
     """Draw a space on three-dimensional axes, in the unit of its labels."""
     per, box = found.rate, found.box.scaled(found.rate)
-    facets(ax, [(clipped(box, per * grid_triangles(np.reshape(sheet.points, (sheet.rows, sheet.columns, 3)))),
-                 colour) for colour, sheet in found.sheets])
+    facets(ax, [(clipped(box, per * grid_triangles(np.reshape(branch.points, (branch.rows, branch.columns, 3)))),
+                 colour) for colour, branch in found.branches])
     for words, places in found.curves:
         line(ax, inside(box, per * np.array(places)), style.SPACE[words], zorder=6)
     path = inside(box, per * np.array(found.path)) if found.path else np.empty((0, 3))
@@ -383,7 +383,7 @@ def _marker(words: str) -> Look:
 
 def rows(found: Space) -> list[tuple[str, Look]]:
     """Rows of a legend: words and look."""
-    surfaces = {sheet.name for _, sheet in found.sheets}
+    surfaces = {branch.name for _, branch in found.branches}
     curves = {words for words, _ in found.curves} | {"this motion"}
     return [(words, {"facecolor": pale(colour)} if words in surfaces
              else style.SPACE[words] if words in curves else _marker(words))

@@ -7,14 +7,14 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ...errors import StabilabError
-from ...orbit.separatrix.sheets import separatrix
+from ...orbit.separatrix.branches import separatrix
 from ..surface import write as surface
 from ..text import law
 from . import html
 from .one_case import page, sweep
 from .workers import Task, done
 
-SHAPE = (48, 97)  # rows and columns of a sheet of a mesh: smooth to the eye, 1.5 MB of meshes a scene
+SHAPE = (48, 97)  # rows and columns of a branch of a mesh: smooth to the eye, 1.5 MB of meshes a scene
 FOLDER = "cases"  # inside that of the report: pages of many cases, pictures and meshes of all
 
 
@@ -58,15 +58,15 @@ def section(stem, cases, folder, wanted) -> dict:
 
 
 def surface_of(case, stem: str, folder: Path) -> dict | None:
-    """The separatrix as meshes, which need no renderer: names of the files, counts and what the sheets part;
-    None where the case has no separatrix, whose reason its own section gives."""
+    """The separatrix as meshes, which need no renderer: names of the files, counts and what the branches
+    part; None where the case has no separatrix, whose reason its own section gives."""
     try:
         found = separatrix(case.scene, shape=SHAPE)
     except StabilabError:
         return None
-    if not found.sheets:
+    if not found.branches:
         return None
-    meshes = [surface.triangulate(sheet) for sheet in found.sheets]
+    meshes = [surface.triangulate(branch) for branch in found.branches]
     summary = surface.summarise(case, found, meshes)
     files = surface.write_meshes(meshes, folder, stem)
     return {"title": case.heading, "reason": found.reason, "triangles": summary["triangles"],

@@ -98,7 +98,7 @@ def _fates(found):
               "margin": (dims, found.margins,
                          energy | {"long_name": "height of the barrier ahead less the energy"}),
               "spin_axis": (dims, found.axis, {"long_name": "axis of a spin-up, else 0"}),
-              "sense": (dims, found.sense, {}),
+              "spin_direction": (dims, found.sense, {}),
               "level": (dims, np.asarray(found.levels, dtype=object),
                         {"long_name": "how well the fate is known"}),
               "because": (dims, np.asarray(found.because, dtype=object), {})}
@@ -139,7 +139,7 @@ def _motion(m):
               "least": (("axis",), ends[:, 0], {"long_name": f"over {m.extremes_over}"}),
               "greatest": (("axis",), ends[:, 1], {"long_name": f"over {m.extremes_over}"})}
     notes = {"fate": m.fate.word, "level": m.level, "because": m.because, "spin_axis": m.axis,
-             "sense": m.sense, "margin_energy": m.margin_energy,
+             "spin_direction": m.sense, "margin_energy": m.margin_energy,
              "margin_rate": m.margin_velocity, "period": m.period, **m.invariants}
     if m.energy_integral is not None:
         notes |= {m.energy_integral.name: m.energy_integral.value,
@@ -149,16 +149,17 @@ def _motion(m):
 
 
 def _separatrix(found):
-    rows = np.concatenate([np.full(s.points.shape[:2], n).reshape(-1) for n, s in enumerate(found.sheets, 1)]
+    rows = np.concatenate([np.full(s.points.shape[:2], n).reshape(-1)
+                           for n, s in enumerate(found.branches, 1)]
                           or [np.zeros(0, int)])
-    points = np.concatenate([s.points.reshape(-1, 3) for s in found.sheets] or [np.zeros((0, 3))])
-    residual = np.concatenate([s.residual.reshape(-1) for s in found.sheets] or [np.zeros(0)])
+    points = np.concatenate([s.points.reshape(-1, 3) for s in found.branches] or [np.zeros((0, 3))])
+    residual = np.concatenate([s.residual.reshape(-1) for s in found.branches] or [np.zeros(0)])
     values = {"at": (("point", "axis"), points,
-                     {"long_name": "a point of the separatrix, sheet by sheet and row by row"}),
-              "sheet": (("point",), rows, {}),
+                     {"long_name": "a point of the separatrix, branch by branch and row by row"}),
+              "branch": (("point",), rows, {}),
               "residual": (("point",), residual,
                            {"long_name": "distance from the surface in energy, relative"})}
-    shapes = "; ".join(f"{s.name}: {s.points.shape[0]} x {s.points.shape[1]}" for s in found.sheets)
+    shapes = "; ".join(f"{s.name}: {s.points.shape[0]} x {s.points.shape[1]}" for s in found.branches)
     return Variables(("point",), values, AXIS, {"reason": found.reason, "grids": shapes})
 
 
@@ -208,7 +209,7 @@ def _spin_up(found):
     values = {"state": (("axis",), np.array(found.state, float), {"long_name": "rates at time t"}),
               "direction": (("axis",), np.array(along, float),
                             {"long_name": "along which the rate grows; NaN: undecided"})}
-    notes = {"fate": found.fate.word, "level": found.level, "spin_axis": found.axis, "sense": found.sense,
+    notes = {"fate": found.fate.word, "level": found.level, "spin_axis": found.axis, "spin_direction": found.sense,
              "t": found.t, "steps": found.steps,
              "cause": found.cause, "condition": found.condition}
     return Variables(("axis",), values, AXIS, notes)

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from ...orbit.result import Fate
+from ..axes import direction
 
 
 def short(result: Any) -> str:
@@ -17,7 +18,7 @@ def short(result: Any) -> str:
 
 
 def _motion(m):
-    spin = f" about axis {m.axis}, sense {m.sense:+d}" if m.axis else ""
+    spin = f" about axis {m.axis}, {direction(m.sense)}" if m.axis else ""
     parts = [m.fate.word + spin + ("" if m.level in ("exact", "undecided") else f", {m.level}"),
              _named("margin in energy", m.margin_energy),
              _named("in rate", m.margin_velocity), _named("period", m.period),
@@ -70,8 +71,8 @@ def _time_to(found):
 
 
 def _separatrix(found):
-    return ("; ".join(f"{s.name}, {s.points.shape[0]} x {s.points.shape[1]} points" for s in found.sheets)
-            or f"no sheets: {found.reason}")
+    return ("; ".join(f"{s.name}, {s.points.shape[0]} x {s.points.shape[1]} points" for s in found.branches)
+            or f"no branches: {found.reason}")
 
 
 def _comparison(found):
@@ -100,7 +101,7 @@ def _stuck(found):
 
 
 def _spin_up(found):
-    about = f" about axis {found.axis}, sense {found.sense:+d}" if found.axis else ""
+    about = f" about axis {found.axis}, {direction(found.sense)}" if found.axis else ""
     return f"{found.fate.word}{about}, {found.level}; t = {found.t:.6g}, {_counted(found.steps, 'step')}"
 
 

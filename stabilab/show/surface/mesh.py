@@ -12,7 +12,7 @@ import numpy as np
 
 @dataclass(frozen=True)
 class Mesh:
-    """Triangles of one sheet: points (n, 3) doubles, triangles (t, 3) indices, residual (n,) at the points.
+    """Triangles of one branch: points (n, 3) doubles, triangles (t, 3) indices, residual (n,) at the points.
     """
 
     name: str
@@ -21,14 +21,14 @@ class Mesh:
     residual: np.ndarray
 
 
-def triangulate(sheet) -> Mesh:
-    """The mesh of a sheet. Points of the grid that coincide (a row shrunk to the fold; columns 0 and -1 at
+def triangulate(branch) -> Mesh:
+    """The mesh of a branch. Points of the grid that coincide (a row shrunk to the fold; columns 0 and -1 at
     the saddle) become one vertex, and triangles that lost a corner or their area are dropped."""
-    points, residual = np.asarray(sheet.points, float), np.abs(np.asarray(sheet.residual, float))
+    points, residual = np.asarray(branch.points, float), np.abs(np.asarray(branch.residual, float))
     tip, closed = bool((points[0] == points[0, 0]).all()), bool((points[:, 0] == points[:, -1]).all())
     kept = np.s_[int(tip):, :points.shape[1] - int(closed)]
     if _coincide(points, kept):
-        return _merged(sheet, points + 0.0, residual)  # -0.0 and 0.0 are one place, here and below
+        return _merged(branch, points + 0.0, residual)  # -0.0 and 0.0 are one place, here and below
     if closed:
         np.maximum(residual[:, 0], residual[:, -1], out=residual[:, 0])
     rest = points[kept]
@@ -38,7 +38,7 @@ def triangulate(sheet) -> Mesh:
     values[int(tip):].reshape(rest.shape[:2])[:] = residual[kept]
     if tip:
         vertices[0], values[0] = points[0, 0] + 0.0, residual[0].max()
-    return Mesh(sheet.name, vertices, _plain_triangles(*points.shape[:2], tip, closed, sheet.cut), values)
+    return Mesh(branch.name, vertices, _plain_triangles(*points.shape[:2], tip, closed, branch.cut), values)
 
 
 def _coincide(points, kept) -> bool:
@@ -63,15 +63,15 @@ def _same(a, b) -> bool:
                      & (a[..., first - 2] == b[..., first - 2])).any())
 
 
-def _merged(sheet, points, residual) -> Mesh:
+def _merged(branch, points, residual) -> Mesh:
     """The mesh where any points may coincide."""
     vertices, where = np.unique(points.reshape(-1, 3), axis=0, return_inverse=True)
-    triangles = _triangles(where.reshape(points.shape[:2]), sheet.cut)
+    triangles = _triangles(where.reshape(points.shape[:2]), branch.cut)
     corner = vertices[triangles]
     area = np.linalg.norm(np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0]), axis=1)
     largest = np.zeros(len(vertices))
     np.maximum.at(largest, where.ravel(), residual.ravel())
-    return Mesh(sheet.name, vertices, triangles[area > 0], largest)
+    return Mesh(branch.name, vertices, triangles[area > 0], largest)
 
 
 @lru_cache(maxsize=32)
@@ -89,7 +89,7 @@ def _plain_triangles(rows, columns, tip, closed, cut):
 
 
 def _triangles(where, cut):
-    """(t, 3) triangles of a grid of vertex numbers (n, m), cut as the sheet says, without those that lost a
+    """(t, 3) triangles of a grid of vertex numbers (n, m), cut as the branch says, without those that lost a
     corner."""
     a, b, c, d = where[:-1, :-1], where[1:, :-1], where[:-1, 1:], where[1:, 1:]
     along = np.stack([np.stack([a, b, d], -1), np.stack([a, d, c], -1)], axis=2)
@@ -123,7 +123,7 @@ def stl(meshes) -> bytes:
 
 
 def glb(meshes, colours) -> bytes:
-    """glTF 2.0 binary: one node a sheet, with normals and a two-sided material (single precision)."""
+    """glTF 2.0 binary: one node a branch, with normals and a two-sided material (single precision)."""
     document: dict = {"asset": {"version": "2.0", "generator": "stabilab"}, "scene": 0,
                       "scenes": [{"name": "separatrix"}]}
     binary = bytearray()

@@ -20,7 +20,7 @@ SIZE = (7.6, 8.0)  # inches of the whole picture
 AWAY, ANGLE = 9.0, 25.0  # of the eye, in halves of the box; deg of what it sees
 TICKS = 5
 GLASS = 0.75  # of a surface: what is behind it is seen
-FACETS = (96, 129)  # rows and columns of a sheet
+FACETS = (96, 129)  # rows and columns of a branch
 LINE, THIN, GRID, BALL = 0.014, 0.005, 0.002, 0.034  # radii, of half of the box
 SHADOW = "#BDBDBD"
 
@@ -69,12 +69,12 @@ def plotter(found: Space) -> Any:
         for inside, run in groupby(points, lambda at: bool(np.abs(at).max() <= 1)):
             if inside and len(places := np.array(list(run))) > 1:
                 stage.add_mesh(pyvista.lines_from_points(places).tube(radius=radius), color=colour)
-    for n, (colour, sheet) in enumerate(found.sheets):
-        grid = np.moveaxis(share(sheet.points).reshape(sheet.rows, sheet.columns, 3), 2, 0)
+    for n, (colour, branch) in enumerate(found.branches):
+        grid = np.moveaxis(share(branch.points).reshape(branch.rows, branch.columns, 3), 2, 0)
         surface = pyvista.StructuredGrid(*(part[..., None] for part in grid)).extract_surface(
             algorithm="dataset_surface")
         stage.add_mesh(surface.clip_box((-1, 1) * 3, invert=False), color=colour, ambient=0.35, diffuse=0.7,
-                       specular=0.1, opacity=GLASS, name=f"sheet {n}")
+                       specular=0.1, opacity=GLASS, name=f"branch {n}")
     for words, places in found.curves:
         tube(share(places), LINE, style.SPACE[words]["color"])
     path, toward = share(found.path or np.empty((0, 3))), sight(found.view)

@@ -8,13 +8,13 @@ from ..terminal.letters import some
 
 
 def text(summary: dict[str, Any], out: Path) -> str:
-    """The answer in a line, a line a sheet, and the files; why there is no surface where there is none.
+    """The answer in a line, a line a branch, and the files; why there is no surface where there is none.
     summary: of `write.summarise`."""
-    name, sheets = summary["case"], summary["sheets"]
-    if not sheets:
+    name, branches = summary["case"], summary["branches"]
+    if not branches:
         return f"{name}: no surface to write: {summary['reason']}"
-    lines = [f"{name}: {some(len(sheets), 'separatrix surface')}; {summary['reason']}"]
-    lines += [f"  {sheet['name']}: {sheet['triangles']} triangles, every vertex within "
-              f"{sheet['largest_residual']:.1e} of the surface (relative)"
-              for sheet in sheets]
+    lines = [f"{name}: {some(len(branches), 'separatrix surface')}; {summary['reason']}"]
+    lines += [f"  {branch['name']}: {branch['triangles']} triangles, every vertex within "
+              f"{branch['largest_residual']:.1e} of the surface (relative)"
+              for branch in branches]
     return "\n".join([*lines, *(f"  {out / file}" for file in summary["files"])])

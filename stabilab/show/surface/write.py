@@ -1,4 +1,4 @@
-"""The separatrix as files: meshes of every sheet, a summary and a picture."""
+"""The separatrix as files: meshes of every branch, a summary and a picture."""
 from __future__ import annotations
 
 import json
@@ -9,7 +9,7 @@ import numpy as np
 
 from ...case.read import blamed_on
 from ...errors import RenderingUnavailable, printable
-from ...orbit.separatrix.sheets import separatrix
+from ...orbit.separatrix.branches import separatrix
 from ...packages import present
 from .. import style
 from ..files import endings, manifest
@@ -19,7 +19,7 @@ from . import picture as drawing
 from .mesh import Mesh, glb, stl, triangulate
 from .render_probe import probe
 
-SCHEMA = "stabilab.surface/1"
+SCHEMA = "stabilab.surface/2"
 
 
 def write(case, out, reach=None, shape=None, picture=True, arguments=None) -> dict:
@@ -38,9 +38,9 @@ def write(case, out, reach=None, shape=None, picture=True, arguments=None) -> di
 def write_all(cases, out, reach=None, shape=None, picture=True, arguments=None) -> list[dict]:
     """Write the separatrices of cases (or scenes) into the folder `out` and return a summary of each.
 
-    NAME.vtp (double precision, point arrays "sheet" and "residual"), NAME.glb and NAME.stl (single precision,
-    as those formats are), NAME.json (the summary), NAME.png and manifest.json (arguments: of the command
-    line, for it); NAME is that of the case. A case that was read from a text has no file among the manifest's
+    NAME.vtp (double precision, point arrays "branch" and "residual"), NAME.glb and NAME.stl (single
+    precision, as those formats are), NAME.json (the summary), NAME.png and manifest.json (arguments: of the
+    command line, for it); NAME is that of the case. A case that was read from a text has no file among the manifest's
     inputs. A case without a separatrix has no files; its summary gives the reason. Where no case has one,
     nothing is written. Raises RenderingUnavailable (with the summaries as its attribute `summaries`), after
     the meshes are written, where this machine cannot draw.
@@ -74,7 +74,7 @@ def _found(case, reach, shape):
     """(separatrix, its meshes) of a case or scene."""
     with blamed_on(case) if hasattr(case, "scene") else nullcontext():
         found = separatrix(_scene(case)[0], reach=reach, **({"shape": shape} if shape else {}))
-    return found, [triangulate(sheet) for sheet in found.sheets]
+    return found, [triangulate(branch) for branch in found.branches]
 
 
 def _write(case, meshes, folder, renderer, summary):
@@ -96,20 +96,20 @@ def _scene(case):
 
 
 def summarise(case, found, meshes) -> dict:
-    """Counts and the largest residual, sheet by sheet and in all; plain JSON values."""
+    """Counts and the largest residual, branch by branch and in all; plain JSON values."""
     scene, name = _scene(case)
     rows = []
-    for sheet, mesh in zip(found.sheets, meshes):
-        invariant = np.asarray(sheet.invariant, float)
-        rows.append({"name": sheet.name, "rows": int(sheet.points.shape[0]),
-                     "columns": int(sheet.points.shape[1]),
+    for branch, mesh in zip(found.branches, meshes):
+        invariant = np.asarray(branch.invariant, float)
+        rows.append({"name": branch.name, "rows": int(branch.points.shape[0]),
+                     "columns": int(branch.points.shape[1]),
                      "vertices": len(mesh.points), "triangles": len(mesh.triangles),
                      "largest_residual": float(mesh.residual.max(initial=0.0)),
                      "invariant": [float(invariant.min()), float(invariant.max())],
                      "bounds": [[float(v) for v in pair]
                                 for pair in zip(mesh.points.min(0), mesh.points.max(0))]})
     return {"schema": SCHEMA, "case": getattr(case, "name", name), "variables": scene.variables,
-            "components": list(scene.components), "sheets": rows,
+            "components": list(scene.components), "branches": rows,
             "vertices": sum(r["vertices"] for r in rows),
             "triangles": sum(r["triangles"] for r in rows),
             "largest_residual": max((r["largest_residual"] for r in rows), default=0.0),
@@ -119,7 +119,7 @@ def summarise(case, found, meshes) -> dict:
 def write_meshes(meshes: list[Mesh], out: Path, name: str) -> list[Path]:
     """NAME.vtp (where vtk is installed), NAME.glb, NAME.stl; none of them needs GL. Returns their paths."""
     out.mkdir(parents=True, exist_ok=True)
-    writers = {"glb": lambda path: path.write_bytes(glb(meshes, style.SHEETS)),
+    writers = {"glb": lambda path: path.write_bytes(glb(meshes, style.BRANCHES)),
                "stl": lambda path: path.write_bytes(stl(meshes))}
     if present("vtkmodules"):
         writers = {"vtp": lambda path: _write_vtp(meshes, path), **writers}
@@ -141,7 +141,7 @@ def _write_vtp(meshes, path):
 
 
 def polydata(meshes):
-    """All sheets in one vtkPolyData: double-precision points, point arrays "sheet" (int32) and "residual"
+    """All branches in one vtkPolyData: double-precision points, point arrays "branch" (int32) and "residual"
     (float64)."""
     from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
     from vtkmodules.vtkCommonCore import vtkPoints
@@ -149,7 +149,7 @@ def polydata(meshes):
     points = np.concatenate([m.points for m in meshes] or [np.zeros((0, 3))])
     shifts = np.cumsum([0, *(len(m.points) for m in meshes)])
     triangles = np.concatenate([m.triangles + s for m, s in zip(meshes, shifts)] or [np.zeros((0, 3), int)])
-    arrays = {"sheet": np.concatenate([np.full(len(m.points), i, np.int32) for i, m in enumerate(meshes)]
+    arrays = {"branch": np.concatenate([np.full(len(m.points), i, np.int32) for i, m in enumerate(meshes)]
                                       or [np.zeros(0, np.int32)]),
               "residual": np.concatenate([m.residual for m in meshes] or [np.zeros(0)])}
     data, where, cells = vtkPolyData(), vtkPoints(), vtkCellArray()

@@ -44,7 +44,7 @@ function spaceView(canvas, {glass = 1, near = 1} = {}) {
     parts.push({vertices, count: triangles.length, colour: rgb(colour), flatly, wall});
   }
 
-  function sheet({at, rows, columns, colour}) {
+  function branch({at, rows, columns, colour}) {
     const triangles = [];
     for (let r = 0; r + 1 < rows; r++) for (let c = 0; c + 1 < columns; c++) {
       const a = r * columns + c, b = a + columns;
@@ -100,14 +100,14 @@ function spaceView(canvas, {glass = 1, near = 1} = {}) {
     if (!first) { first = {turn: data.view[1] * Math.PI / 180, lift: data.view[0] * Math.PI / 180, near}; now = {...first}; }
     parts.forEach(part => gl.deleteVertexArray(part.vertices)); buffers.forEach(buffer => gl.deleteBuffer(buffer));
     parts = []; buffers = []; shapes = [];
-    data.sheets.forEach(sheet);
+    data.branches.forEach(branch);
     data.curves.forEach(c => tube(places(c.at), c.kind === "this motion" ? 0.013 : 0.011, c.colour));
     data.points.forEach(p => { ball(p.at, 0.03, p.colour); tube([...p.at, ...p.at.slice(0, 2), -0.999], 0.003, "#7A7A7A"); });
     for (const motion of data.curves.filter(c => c.kind === "this motion")) {
       shadows(places(motion.at)); data.arrows.forEach(([at, step]) => arrow(at, step, motion.colour));
     }
     edges.forEach(([a, b]) => tube([...corner[a], ...corner[b]], 0.0025, "#999999"));
-    shapes = [...data.points.map(p => [p.kind, [p.at]]), ...[...data.curves, ...data.sheets].map(c => [c.kind || c.name, c.at])];
+    shapes = [...data.points.map(p => [p.kind, [p.at]]), ...[...data.curves, ...data.branches].map(c => [c.kind || c.name, c.at])];
     draw();
   }
 
@@ -185,7 +185,7 @@ function spaceView(canvas, {glass = 1, near = 1} = {}) {
       const points = Array.isArray(row) ? row : Array.from(places(row)).reduce((all, v, i) => { if (i % 3) all[all.length - 1].push(v); else all.push([v]); return all; }, []);
       for (const p of points) {
         if (p.some(v => Math.abs(v) > 1)) continue;
-        const [a, b, , w] = seen.of(p), off = Math.hypot(wide * (0.5 + a / w / 2) - x, high * (0.5 - b / w / 2) - y), cost = off + 12 * w + (name.startsWith("Sheet") ? 8 : 0);
+        const [a, b, , w] = seen.of(p), off = Math.hypot(wide * (0.5 + a / w / 2) - x, high * (0.5 - b / w / 2) - y), cost = off + 12 * w + (name.startsWith("Branch") ? 8 : 0);
         if (off < 14 && (!best || cost < best.cost)) { best = {cost, p}; words = name; }
       }
     }

@@ -9,7 +9,7 @@ from decimal import ROUND_CEILING, ROUND_FLOOR, Decimal, localcontext
 from typing import TYPE_CHECKING
 
 from .. import limiting
-from ..axes import PLAIN, axes_of
+from ..axes import PLAIN, axes_of, direction
 from ..terminal.letters import lettered
 from ..units import SHORT, SPAN, Units, number, units_of
 from . import law
@@ -75,8 +75,7 @@ def fate_parts(motion: Motion, units: Units) -> tuple[str, str, str]:
         words = words.removesuffix(" for ever")
     if fate == "equilibrium" and not any(motion.at[:3]):
         words = REST
-    about = (f" about {units.axes.whole(motion.axis)}, {'positive' if motion.sense > 0 else 'negative'} sense"
-             if motion.axis else "")
+    about = f" about {units.axes.whole(motion.axis)}, {direction(motion.sense)}" if motion.axis else ""
     return words, about + known_as(motion), where
 
 

@@ -15,7 +15,7 @@ from stabilab.answers.uncertain.result import bracketed
 from stabilab.case.read import load
 from tests.answers.uncertain.test_verdicts import BODY, case_of, sampled
 
-SPIN_2 = "spin-up about axis 2, positive sense"
+SPIN_2 = "spin-up about axis 2, positive direction"
 
 
 def fate_of(folder, **numbers):

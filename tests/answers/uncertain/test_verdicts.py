@@ -257,11 +257,11 @@ def test_a_wheel_along_the_torque_leaves_nothing_bounded_and_may_not_vanish(tmp_
 def test_off_the_axes_the_fate_is_sampled_and_says_why(tmp_path):
     over = uncertain(case_of(tmp_path, torque='0, "0 +- 0.1", 1', state="0, 0, 1"))
     assert over.fate.answer == "sampled" and "off the principal axes" in over.fate.because
-    assert "no proof for the box; of 64 sampled points (seed 20261122) all: spin-up about axis 3, positive sense" in over.fate.because
+    assert "no proof for the box; of 64 sampled points (seed 20261122) all: spin-up about axis 3, positive direction" in over.fate.because
     assert over.fate.samples.counts == {
         over.fate.verdict: 64} and over.fate.samples.otherwise == pytest.approx(1 - 0.05**(1 / 64))
     assert [one.kind for one in over.caveats] == ["samples"]
-    assert over.fate.verdict == "spin-up about axis 3, positive sense"
+    assert over.fate.verdict == "spin-up about axis 3, positive direction"
 
 
 def test_moments_that_may_be_equal_are_no_ground_for_a_proof(tmp_path):
@@ -281,7 +281,7 @@ def test_moments_that_may_be_equal_are_no_ground_for_a_proof(tmp_path):
 def test_a_torque_of_either_sign_cannot_say_which_way_a_body_spins_up(tmp_path):
     over = uncertain(case_of(tmp_path, torque='0, 0, "0.1 +- 0.2"', state="0, 0, 1")).fate
     assert over.answer == "depends" and {w.verdict for w in over.witnesses} == {
-        "spin-up about axis 3, positive sense", "spin-up about axis 3, negative sense"}
+        "spin-up about axis 3, positive direction", "spin-up about axis 3, negative direction"}
     assert over.changes_at == pytest.approx(0.5, rel=1e-3)
 
 

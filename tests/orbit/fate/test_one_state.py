@@ -68,6 +68,6 @@ def test_no_vertex_of_a_fine_mesh_is_nearer_than_the_distance_from_the_separatri
     scene = SCENES["hyperbola with saddles"]
     distance = distance_of(reduce(scene), state).upper
     vertices = np.concatenate([s.points.reshape(-1, 3)
-                               for s in stabilab.separatrix(scene, reach=12, shape=(160, 201)).sheets])
+                               for s in stabilab.separatrix(scene, reach=12, shape=(160, 201)).branches])
     nearest = np.linalg.norm(vertices[np.isfinite(vertices).all(axis=1)] - np.array(state), axis=1).min()
     assert distance <= nearest * (1 + 1e-9)

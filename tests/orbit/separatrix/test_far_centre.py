@@ -49,7 +49,7 @@ def test_places_keep_the_digits_of_their_own_size_however_far_the_centre_is(name
     """To first order; a unit in the last place of the components moves a place by as much."""
     scene, body = scene_of(name)
     asked = 0
-    for sheet in stabilab.separatrix(scene, shape=(9, 17)).sheets:
+    for sheet in stabilab.separatrix(scene, shape=(9, 17)).branches:
         for row, column in ((1, 8), (2, 3), (4, 8), (5, 2), (8, 8), (8, 15)):
             place = sheet.points[row, column]
             if np.abs(sheet.points[row]).max() < 1e-3 * np.abs(body.coefficients()[2:]).max():
@@ -63,7 +63,7 @@ def test_places_keep_the_digits_of_their_own_size_however_far_the_centre_is(name
 @scenes
 def test_saddles_and_centres_are_equilibria_to_the_digits_of_their_own_size(name):
     scene, body = scene_of(name)
-    for sheet in stabilab.separatrix(scene, shape=(9, 17)).sheets:
+    for sheet in stabilab.separatrix(scene, shape=(9, 17)).branches:
         for states in (sheet.saddle, sheet.centre):
             small = states[np.abs(sheet.points).max(axis=(1, 2)) < 1e-3
                            * np.abs(body.coefficients()[2:]).max()]
@@ -144,8 +144,8 @@ def test_sheets_of_random_nearly_equal_moments_lie_on_the_surface_and_their_face
     for name, (moments, wheel, torque) in nearly_equal(20).items():
         scene, body, rng = *scene_of(name, moments, wheel, torque), np.random.default_rng(1)
         accuracy = (3e-4 * max(np.abs(sheet.points - sheet.points.mean(axis=(0, 1))).max()
-                               for sheet in stabilab.separatrix(scene, shape=(9, 17)).sheets))
-        for sheet in stabilab.separatrix(scene, accuracy=accuracy).sheets:
+                               for sheet in stabilab.separatrix(scene, shape=(9, 17)).branches))
+        for sheet in stabilab.separatrix(scene, accuracy=accuracy).branches:
             assert sheet.error <= accuracy, name
             half, centre = sheet.points.shape[1] // 2, np.abs(body.coefficients()[2:]).max()
             for row, column in zip(rng.integers(1, len(sheet.points), 4), rng.integers(1, half + 1, 4)):
@@ -171,7 +171,7 @@ def test_sheets_of_random_nearly_equal_moments_lie_on_the_surface_and_their_face
 def test_facets_of_nearly_equal_moments_stray_by_no_more_than_asked():
     """At mid-points of edges, to first order."""
     scene, body = scene_of("slow wheel, moments equal to 1e-15")
-    sheets = stabilab.separatrix(scene, accuracy=1.0).sheets
+    sheets = stabilab.separatrix(scene, accuracy=1.0).branches
     for sheet in sheets:
         assert sheet.error <= 1.0
         middles = 0.5 * (sheet.points[2:, 3:20] + sheet.points[1:-1, 3:20])

@@ -42,14 +42,14 @@ def largest_stray(scene, sheets, exact=2) -> float:
                                             pytest.param("minor physical", 3e-2, marks=pytest.mark.slow)])
 def test_facets_stay_within_the_accuracy_asked_for_and_not_far_below(name, accuracy):
     scene = SCENES[name]
-    sheets = stabilab.separatrix(scene, accuracy=accuracy).sheets
+    sheets = stabilab.separatrix(scene, accuracy=accuracy).branches
     assert 0.5 * accuracy < max(sheet.error for sheet in sheets) <= accuracy
     assert 0.3 * accuracy <= largest_stray(scene, sheets) <= accuracy
 
 
 def test_cells_grow_like_the_inverse_of_the_accuracy():
     """A flat facet of size h strays by a multiple of h^2; how rows and columns share that is chosen anew."""
-    coarse, fine = (stabilab.separatrix(SCENES["minor a<b"], accuracy=a).sheets[0] for a in (3e-3, 3e-5))
+    coarse, fine = (stabilab.separatrix(SCENES["minor a<b"], accuracy=a).branches[0] for a in (3e-3, 3e-5))
     flat = [sheet.error * np.prod(sheet.points.shape[:2]) for sheet in (coarse, fine)]
     assert 0.8**2 < flat[1] / flat[0] < 1.3**2 and fine.error < 0.015 * coarse.error
 
@@ -67,7 +67,7 @@ def test_random_scenes_take_few_places_and_their_sheets_keep_shapes_of_their_own
                         u: counted.append(s.size * u.shape[1]) or loops(land, parts, s, u))
     # of Flying Edges at 256^3 there
     accuracy = {51: 1.05e-3, 177: 0.142, 32: 1.705e-2, 88: 1.765e-3, 33: 6.64e-3, 98: 5.23e-4}[number]
-    sheets = stabilab.separatrix(drawn(number + 1)[number].scene, accuracy=accuracy).sheets
+    sheets = stabilab.separatrix(drawn(number + 1)[number].scene, accuracy=accuracy).branches
     assert sum(counted) < most and max(sheet.error for sheet in sheets) <= accuracy
     # alike enough to be computed as one
     assert len({sheet.points.shape for sheet in sheets}) > 1 or number == 98
@@ -76,7 +76,7 @@ def test_random_scenes_take_few_places_and_their_sheets_keep_shapes_of_their_own
 def test_planes_of_a_free_body_need_the_smallest_grid_only():
     """Euler's top parts at two planes."""
     free = stabilab.Scene(stabilab.Body((3, 2, 1)))
-    for sheet in stabilab.separatrix(free, accuracy=1e-6).sheets:
+    for sheet in stabilab.separatrix(free, accuracy=1e-6).branches:
         assert sheet.points.shape == (3, 5, 3) and sheet.error < 1e-12
 
 
@@ -113,7 +113,7 @@ def test_wells_from_the_cubic_of_a_circle_are_those_of_the_equilibrium_conic(ine
 @pytest.mark.parametrize("cut", [1, -1])
 def test_both_cuts_of_a_grid_give_a_mesh_of_the_same_outline_and_the_mirror_image_of_itself(cut):
     from dataclasses import replace
-    sheet = replace(stabilab.separatrix(SCENES["minor a<b"], shape=(6, 9)).sheets[0], cut=cut)
+    sheet = replace(stabilab.separatrix(SCENES["minor a<b"], shape=(6, 9)).branches[0], cut=cut)
     mesh = triangulate(sheet)
     triangles = {frozenset(map(tuple, np.round(corner, 9) + 0.0)) for corner in mesh.points[mesh.triangles]}
     mirrored = {frozenset(map(tuple, np.round(corner * [1, 1, -1], 9) + 0.0))
@@ -125,7 +125,7 @@ def test_both_cuts_of_a_grid_give_a_mesh_of_the_same_outline_and_the_mirror_imag
 
 def test_a_grid_without_repeated_points_gives_the_mesh_that_merging_gives():
     from stabilab.show.surface.mesh import _merged
-    sheet = stabilab.separatrix(SCENES["minor a<b"], shape=(12, 17)).sheets[0]
+    sheet = stabilab.separatrix(SCENES["minor a<b"], shape=(12, 17)).branches[0]
     plain, merged = triangulate(sheet), _merged(sheet, sheet.points + 0.0, np.abs(sheet.residual))
     corners = lambda mesh: sorted(map(sorted, mesh.points[mesh.triangles].tolist()))
     assert len(plain.points) == len(merged.points) and corners(plain) == corners(merged)

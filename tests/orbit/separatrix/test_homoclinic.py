@@ -45,11 +45,11 @@ def test_a_loop_beside_the_centre_of_its_hyperbola_ends_where_the_potential_is_b
     """mu = 3e-7 and c = 18.5: equilibria stand 1e9 to 1 and 1 to 1e9 in exp(y). The saddle's height and the
     potential at 50 digits are the check."""
     scene, problem = scaled(3.1287795379262113, 21.64743733428723, (0, 3.2175766464241995e-07, 0))
-    sheets = stabilab.separatrix(scene, shape=(7, 9)).sheets
-    assert {sheet.name for sheet in sheets} >= {"sheet 2, left loop", "sheet 2, right loop"}
-    for sheet in sheets:
+    branches = stabilab.separatrix(scene, shape=(7, 9)).branches
+    assert {branch.name for branch in branches} >= {"branch 2, left loop", "branch 2, right loop"}
+    for branch in branches:
         for row in (1, 2, 4):
-            size, words = off_surface(problem, 1, sheet, row, 4)
+            size, words = off_surface(problem, 1, branch, row, 4)
             assert size <= 1, words
 
 

@@ -9,7 +9,7 @@ from scipy.integrate import solve_ivp
 from stabilab.orbit.reduction import reduce
 from stabilab.orbit.separatrix.distance.ask import distance_of
 from tests.oracles.pairs import physical
-from tests.orbit.separatrix.test_sheets import random_scene
+from tests.orbit.separatrix.test_branches import random_scene
 
 
 def images_agree(number, seed):

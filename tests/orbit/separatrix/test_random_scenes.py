@@ -23,12 +23,12 @@ EPS = 2.0**-52
 def surface(number):
     """(oracle's gyrostat, sheets, accuracy, generator); skips scenes without a separatrix."""
     one = drawn(number + 1)[number]
-    rough = separatrix(one.scene, shape=(24, 33)).sheets
+    rough = separatrix(one.scene, shape=(24, 33)).branches
     if not rough:
         pytest.skip("no saddle")
     accuracy = SHARE * max(np.abs(sheet.points - sheet.points.mean(axis=(0, 1))).max() for sheet in rough)
     body = homoclinic.Gyrostat(one.moments, one.wheel, one.torque)
-    return body, separatrix(one.scene, accuracy=accuracy).sheets, accuracy, np.random.default_rng(number)
+    return body, separatrix(one.scene, accuracy=accuracy).branches, accuracy, np.random.default_rng(number)
 
 
 def beside_a_plane(body, sheet):
@@ -81,7 +81,7 @@ def test_rows_of_a_long_hyperbola_whose_steps_grow_tenfold_stray_by_no_more_than
     scene = stabilab.Scene(stabilab.Body(body.inertia), stabilab.Gyrostat(body.wheel),
                            stabilab.ConstantTorque(body.torque))
     accuracy = 13.185715550973878
-    sheet = separatrix(scene, 2.2623282727111005, accuracy=accuracy).sheets[-1]
+    sheet = separatrix(scene, 2.2623282727111005, accuracy=accuracy).branches[-1]
     far = sheet.points[1:9, sheet.points.shape[1] // 2]
     assert max(float(homoclinic.in_digits(body, place.tolist()))
                for place in 0.5 * (far[1:] + far[:-1])) <= 1.05 * accuracy
@@ -113,7 +113,7 @@ def test_no_row_of_a_long_hyperbola_is_missing_where_its_saddle_has_a_loop(numbe
     for the last one's, which may lie on an invariant plane; equilibria stand up to e^20 apart there."""
     one = drawn(number + 1)[number]
     body, sheets = homoclinic.Gyrostat(one.moments, one.wheel,
-                                       one.torque), separatrix(one.scene, shape=(9, 17)).sheets
+                                       one.torque), separatrix(one.scene, shape=(9, 17)).branches
     for branch in sorted({sheet.name.split(",")[0] for sheet in sheets}):
         drawn_here = [sheet for sheet in sheets if sheet.name.split(",")[0] == branch]
         saddles = max((sheet.saddle for sheet in drawn_here), key=len)[1:-1]

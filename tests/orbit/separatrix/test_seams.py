@@ -39,7 +39,7 @@ def test_facets_keep_to_the_surface_on_few_rows_and_columns(name):
     """The distance from the surface is that of `fate`, by a search over all saddles that knows of no grid;
     other sheets stand where no fate changes."""
     scene, accuracy = SEAMS[name]
-    sheets = separatrix(scene, accuracy=accuracy).sheets
+    sheets = separatrix(scene, accuracy=accuracy).branches
     assert max(sheet.error for sheet in sheets) <= accuracy
     # without the cut, or a new grading, two million
     assert all(np.prod(sheet.points.shape[:2]) < 25_000 for sheet in sheets)
@@ -56,7 +56,7 @@ def test_a_sheet_that_bends_where_few_rows_look_is_graded_anew():
     """As above, at the edge of a rod's sheet: without, the largest grids of two million places strayed by
     0.44."""
     scene, accuracy = BENDS["rod"]
-    sheet = separatrix(scene, accuracy=accuracy).sheets[0]
+    sheet = separatrix(scene, accuracy=accuracy).branches[0]
     mesh = triangulate(sheet)
     corner = mesh.points[mesh.triangles[np.random.default_rng(3).permutation(len(mesh.triangles))[:24]]]
     assert sheet.error <= accuracy and np.prod(sheet.points.shape[:2]) < 25_000
@@ -66,7 +66,7 @@ def test_a_sheet_that_bends_where_few_rows_look_is_graded_anew():
 @pytest.mark.parametrize("name", SEAMS)
 def test_the_parts_of_a_sheet_meet_in_the_second_saddle(name):
     scene, accuracy = SEAMS[name]
-    first, second = (sheet for sheet in separatrix(scene, accuracy=accuracy).sheets if "part" in sheet.name)
+    first, second = (sheet for sheet in separatrix(scene, accuracy=accuracy).branches if "part" in sheet.name)
     assert (first.name[-6:], second.name[-6:]) == ("part 1", "part 2")
     shorter, longer = first.points[-1], second.points[0]
     far_end = shorter[len(shorter) // 2]

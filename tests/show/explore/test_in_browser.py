@@ -75,7 +75,7 @@ def test_the_verdict_in_the_browser_is_that_of_the_program(page):
 
 
 def test_sliders_move_verdict_and_surface(page):
-    mesh = "JSON.stringify(shown.space.sheets.map(s => Array.from(s.at)))"
+    mesh = "JSON.stringify(shown.space.branches.map(s => Array.from(s.at)))"
     said, drawn = page.run(HEADLINE), page.run(mesh)
     for _ in page.drag("#size", (0.75, 0.9)):
         page.until(ANSWERED)

@@ -17,7 +17,7 @@ pytestmark = pytest.mark.skipif(CHROMIUM is None, reason="Chromium is not instal
 HEADLINE, ANSWERS = ("document.querySelector('#headline').textContent",
                      "Number(document.documentElement.dataset.answers || 0)")
 RESTS = "document.documentElement.dataset.moving === 'false'"
-MESH = "JSON.stringify(shown.space.sheets.map(s => Array.from(s.at.slice(0, 3000))))"
+MESH = "JSON.stringify(shown.space.branches.map(s => Array.from(s.at.slice(0, 3000))))"
 
 
 @pytest.fixture(scope="module")

@@ -61,7 +61,7 @@ def test_axes_are_those_of_the_file_that_was_opened_also_of_a_changed_case():
     minor = f"the minor axis, ({', '.join(f'{v:.3f}' for v in axes[:, 0] * np.sign(axes[1, 0]))})"
     for changes in ({}, {"wheel": ["0.6", None, None]}):
         told, _ = ask(Session(case), **changes)
-        assert f"SPINS UP about {minor} in the file's frame, negative sense" in told["headline"]
+        assert f"SPINS UP about {minor} in the file's frame, negative direction" in told["headline"]
         assert told["rows"][0][0] == "axes" and told["rows"][0][1].endswith(
             f"; ω3 about {minor} in the file's frame")
 
@@ -80,7 +80,7 @@ def test_a_moving_hand_gets_the_same_fate_without_the_search_for_the_separatrix(
     whole, brief = ask(session)[0], ask(session, moving=True)[0]
     assert whole["fate"] == brief["fate"] == "bounded" and "margin, rate" in str(
         whole["rows"]) and "margin, rate" not in str(brief["rows"])
-    assert sum(s["rows"] for s in brief["space"]["sheets"]) < sum(s["rows"] for s in whole["space"]["sheets"])
+    assert sum(s["rows"] for s in brief["space"]["branches"]) < sum(s["rows"] for s in whole["space"]["branches"])
 
 
 def test_a_tilted_torque_is_undecided_while_the_hand_moves_and_followed_when_it_rests():
@@ -88,11 +88,11 @@ def test_a_tilted_torque_is_undecided_while_the_hand_moves_and_followed_when_it_
         "torque": {"axis": 1, "size": "0.02", "tilt": "2", "azimuth": "0"}}
     box = ask(session)[0]["space"]["box"]
     told = ask(session, moving=True, box=box, **tilted)[0]
-    assert told["space"]["box"] == box and told["space"]["sheets"] and told[
+    assert told["space"]["box"] == box and told["space"]["branches"] and told[
         "headline"] == f"UNDECIDED so far: {FOLLOWED}"
     assert told["fate"] == "undecided" and told["plane"] is None
     assert "without its tilt" in told["space"]["words"]
-    assert all(s["name"].endswith("without the tilt") for s in told["space"]["sheets"])
+    assert all(s["name"].endswith("without the tilt") for s in told["space"]["branches"])
     assert ask(session, **tilted)[0]["fate"] == "spin-up"
 
 
@@ -118,9 +118,9 @@ def test_the_drawn_surface_is_the_separatrix():
     middle, half = np.array(space["middle"]) * per_degree, np.array(space["half"]) * per_degree
     # the same scene, farther out and finer; every drawn place inside the box lies on one of its facets' size
     exact = np.concatenate([s.points.reshape(-1, 3)
-                            for s in separatrix(case.scene, reach=60.0, shape=(400, 401)).sheets])
-    for sheet in space["sheets"]:
-        places = row(numbers, sheet["at"]).reshape(-1, 3) / 4095
+                            for s in separatrix(case.scene, reach=60.0, shape=(400, 401)).branches])
+    for branch in space["branches"]:
+        places = row(numbers, branch["at"]).reshape(-1, 3) / 4095
         inside = middle + half * places[(np.abs(places) < 1).all(axis=1)][::17]
         assert len(inside) and max(np.linalg.norm(exact - p, axis=1).min() for p in inside) < 0.04 * half.max()
 
@@ -186,7 +186,7 @@ def test_numbers_of_any_size_are_drawn_or_refused_in_words(size, refused):
                                            ("top-fast", "the weight and the field act by the attitude")])
 def test_a_body_with_other_effects_is_shown_and_the_page_says_what_is_not_there(name, because):
     told, _ = ask(Session(case_of(name)), moving=True)
-    assert told["fate"] == "bounded" and told["plane"] is None and told["space"]["sheets"] == []
+    assert told["fate"] == "bounded" and told["plane"] is None and told["space"]["branches"] == []
     assert told["space"]["words"].startswith("No separatrix and no phase plane: ") and because in told[
         "space"]["words"]
 
@@ -267,13 +267,13 @@ def test_no_two_things_in_space_have_one_colour():
     assert len(legend) >= 8 and len({colour for _, colour in legend}) == len(legend)
 
 
-def test_a_sheet_keeps_its_colour_while_others_come_into_the_box_and_go():
+def test_a_branch_keeps_its_colour_while_others_come_into_the_box_and_go():
     session = Session(case_of("thruster-stuck-major-axis"))
     near, far = (dict(ask(session, **asked)[0]["space"]["legend"])
                  for asked in ({}, {"start": ["49.8", "118.5", "-53.6"]}))
-    sheets = [{name: colour for name, colour in legend.items() if name.startswith("Sheet")}
+    branches = [{name: colour for name, colour in legend.items() if name.startswith("Branch")}
               for legend in (near, far)]
-    assert 0 < len(sheets[0]) < len(sheets[1]) and sheets[0].items() <= sheets[1].items()
+    assert 0 < len(branches[0]) < len(branches[1]) and branches[0].items() <= branches[1].items()
 
 
 def test_a_tensor_that_is_not_diagonal_is_refused_beside_a_liquid_with_what_to_do():

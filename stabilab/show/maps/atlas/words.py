@@ -382,7 +382,7 @@ def json(atlas: Atlas, units: Units) -> str:
     wheels = [{"momentum": momentum, "unit": asked.unit, "vector": list(map(float, vector))}
               for momentum, vector in zip(asked.momenta or (None,) * len(asked.wheels), asked.wheels)]
     axes = axes_of(asked.case)
-    shares = [{"fate": Fate(fate).word, **axes.key(abs(axis)), "sense": (axis > 0) - (axis < 0) or None,
+    shares = [{"fate": Fate(fate).word, **axes.key(abs(axis)), "spin_direction": (axis > 0) - (axis < 0) or None,
                "island": ISLANDS[island], "share": share}
               for (fate, axis, island), _, share in kinds(atlas)]
     limit = asked.stated_limit

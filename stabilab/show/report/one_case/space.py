@@ -18,5 +18,5 @@ def space(case, motion, found_equilibria, units) -> dict:
                      reaching=True)
     drawn = data(found, lambda places: b64encode(places).decode("ascii"))
     return {"drawn": drawn, "legend": drawn["legend"], "reason": printed(units.words(found.words)),
-            "clipped": any(max(map(abs, found.box.share(at))) > 1 + 1e-9 for _, sheet in found.sheets
-                           for at in sheet.points)}
+            "clipped": any(max(map(abs, found.box.share(at))) > 1 + 1e-9 for _, branch in found.branches
+                           for at in branch.points)}

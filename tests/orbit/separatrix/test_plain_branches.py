@@ -1,25 +1,25 @@
-"""Sheets in plain floats: the sheets of the arrays, and every place lies on the separatrix."""
+"""Sheets in plain floats: the branches of the arrays, and every place lies on the separatrix."""
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from stabilab import load, separatrix, trajectory
-from stabilab.orbit.separatrix.plain_sheets import plain_separatrix
+from stabilab.orbit.separatrix.plain_branches import plain_separatrix
 
 CASES = [path for path in sorted((Path(__file__).parents[3] / "cases").glob("*.toml"))
          if load(path).scene.plain]
 
 
 @pytest.mark.parametrize("path", CASES, ids=lambda p: p.stem)
-def test_there_are_the_sheets_of_the_arrays_and_their_words(path):
+def test_there_are_the_branches_of_the_arrays_and_their_words(path):
     scene = load(path).scene
     found, words = plain_separatrix(scene, rows=6, half=5)
     arrays = separatrix(scene, shape=(6, 9))
-    assert words == arrays.reason and [sheet.name
-                                       for sheet in found] == [sheet.name for sheet in arrays.sheets]
-    for sheet in found:
-        assert len(sheet.points) == sheet.rows * sheet.columns and sheet.columns == 9 and sheet.rows > 1
+    assert words == arrays.reason and [branch.name
+                                       for branch in found] == [branch.name for branch in arrays.branches]
+    for branch in found:
+        assert len(branch.points) == branch.rows * branch.columns and branch.columns == 9 and branch.rows > 1
 
 
 @pytest.mark.one_in(3)
@@ -30,8 +30,8 @@ def test_the_motion_from_every_place_all_but_rests_at_a_saddle(name):
     equilibrium, where the rates stand still."""
     scene = load(f"cases/{name}.toml").scene
     form = scene.quadratic()
-    for sheet in plain_separatrix(scene)[0]:
-        for point in sheet.points[len(sheet.points) // 2 + 3::97]:
+    for branch in plain_separatrix(scene)[0]:
+        for point in branch.points[len(branch.points) // 2 + 3::97]:
             size = np.linalg.norm(point)
             states = trajectory(scene, point, np.linspace(0, 200 / size, 6000)[1:], laws=False).states
             speeds = (np.linalg.norm(form.rate(state)) for state in states.tolist())
@@ -39,8 +39,8 @@ def test_the_motion_from_every_place_all_but_rests_at_a_saddle(name):
 
 
 def test_a_row_runs_once_round_its_loop_and_the_first_is_the_fold():
-    sheet, *_ = plain_separatrix(load("cases/minor-axis-100.toml").scene, rows=5, half=7)[0]
-    rows = np.array(sheet.points).reshape(sheet.rows, sheet.columns, 3)
+    branch, *_ = plain_separatrix(load("cases/minor-axis-100.toml").scene, rows=5, half=7)[0]
+    rows = np.array(branch.points).reshape(branch.rows, branch.columns, 3)
     assert np.ptp(rows[0],
                   axis=0).max() < 1e-6 and np.allclose(rows[1:, 0],
                                                        rows[1:, -1]) and np.ptp(rows[-1], axis=0).min() > 0.1

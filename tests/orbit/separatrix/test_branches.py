@@ -14,7 +14,7 @@ from stabilab.answers.motion import motion
 from stabilab.errors import InputError
 from stabilab.orbit.reduction import reduce
 from stabilab.orbit.separatrix.distance.ask import distance_of
-from stabilab.orbit.separatrix.plain_sheets import plain_separatrix
+from stabilab.orbit.separatrix.plain_branches import plain_separatrix
 from tests.oracles import energy
 from tests.oracles.pairs import PAPER_BODY, WORDS, physical, scaled
 from tests.shared import SCALED_MINOR
@@ -42,7 +42,7 @@ scenes = pytest.mark.parametrize("name", SCENES)
 @pytest.fixture(scope="module")
 def sheets():
     """Every scene's sheets, computed once."""
-    return {name: stabilab.separatrix(scene).sheets for name, (scene, _) in SCENES.items()}
+    return {name: stabilab.separatrix(scene).branches for name, (scene, _) in SCENES.items()}
 
 
 def excess(problem, vertex, digits=60):
@@ -208,7 +208,7 @@ def test_loops_next_to_an_open_plane_close_to_rounding_as_reported():
     """Their energy is known to eps |x|^2/|C| only, but the surface is so steep there that the vertices lie on
     it."""
     scene, c = scaled(0.0, 2.5, (0, 1, 0))[0], mp.mpf("2.5")
-    right = [sheet for sheet in stabilab.separatrix(scene).sheets if "right" in sheet.name]
+    right = [sheet for sheet in stabilab.separatrix(scene).branches if "right" in sheet.name]
     assert len(right) == 2
     for sheet in right:
         assert abs(sheet.invariant[-1]) < 1e-5 * np.sum(sheet.points[-1, 61] ** 2)
@@ -272,7 +272,7 @@ def test_minor_axis_sheets_start_at_the_folds_of_the_quartic(a, b, sign):
     roots = sorted(float(mp.re(r)) for r in mp.polyroots([1, 0, 0, -sign * c, -1]) if abs(mp.im(r)) < 1e-12)
     expected = sorted((-b - sign / h, h) for h in roots)
     got = sorted({(round(float(s.saddle[0, 0]), 9), round(float(s.saddle[0, 1]), 9))
-                  for s in stabilab.separatrix(scene).sheets})
+                  for s in stabilab.separatrix(scene).branches})
     np.testing.assert_allclose(got, expected, atol=1e-6)
 
 
@@ -282,7 +282,7 @@ def test_the_middle_axis_has_no_separatrix_up_to_the_cusp(c, sign):
     assert abs(c) < CUSP
     scene, _ = scaled(0.0, c, (0, sign, 0))
     found = stabilab.separatrix(scene)
-    assert found.sheets == () and found.reason
+    assert found.branches == () and found.reason
 
 
 @pytest.mark.parametrize("c", [1.7549, -1.76, 2.5, -10.0])
@@ -291,8 +291,8 @@ def test_the_middle_axis_has_a_figure_eight_beyond_the_cusp(c):
     assert abs(c) > CUSP
     scene, _ = scaled(0.0, c, (0, 1, 0))
     found = stabilab.separatrix(scene)
-    assert len(found.sheets) >= 2
-    names = [s.name for s in found.sheets]
+    assert len(found.branches) >= 2
+    names = [s.name for s in found.branches]
     assert len(set(names)) == len(names)
 
 
@@ -304,12 +304,12 @@ def test_scenes_without_a_sheet_say_why_instead_of_failing(inertia, momentum, to
     found = stabilab.separatrix(scene)
     assert found.reason
     if any(torque):
-        assert found.sheets == ()
+        assert found.branches == ()
 
 
 def test_shape_sets_rows_and_columns():
     scene, _ = SCENES["minor a<b"]
-    for sheet in stabilab.separatrix(scene, shape=(7, 21)).sheets:
+    for sheet in stabilab.separatrix(scene, shape=(7, 21)).branches:
         assert sheet.points.shape == (7, 21, 3)
 
 
@@ -329,7 +329,7 @@ def test_without_torque_no_surface_comes_twice(name):
     vertices would be met again."""
     inertia, momentum = FREE[name]
     scene, _ = physical(inertia, momentum, (0, 0, 0))
-    found = stabilab.separatrix(scene, shape=(24, 33)).sheets
+    found = stabilab.separatrix(scene, shape=(24, 33)).branches
     assert len(found) >= 2
     for one in found:
         row = len(one.points) // 2
@@ -346,7 +346,7 @@ def test_without_torque_no_surface_comes_twice(name):
 def _row_at(scene, sheet, level):
     """(n, 3) dense polyline of a sheet's row at one value of the invariant: its grid, refined, at the nearest
     row."""
-    fine = next(s for s in stabilab.separatrix(scene, shape=(400, 129)).sheets if s.name == sheet.name)
+    fine = next(s for s in stabilab.separatrix(scene, shape=(400, 129)).branches if s.name == sheet.name)
     return fine.points[np.argmin(np.abs(fine.invariant - level))]
 
 
@@ -354,7 +354,7 @@ def test_sheets_of_the_free_body_are_its_two_planes_through_the_middle_axis():
     """Euler's top: |H|^2 = 2 T D2 gives D1(D1 - D2) w1^2 = D3(D2 - D3) w3^2, two planes, cut into two halves
     each by the middle axis; a sheet holds the two halves about one end of a centre's axis, so two sheets
     cover both planes once."""
-    found = stabilab.separatrix(stabilab.Scene(stabilab.Body((3, 2, 1))), shape=(24, 33)).sheets
+    found = stabilab.separatrix(stabilab.Scene(stabilab.Body((3, 2, 1))), shape=(24, 33)).branches
     assert len(found) == 2
     for sheet in found:
         w1, _, w3 = np.moveaxis(sheet.points, -1, 0)
@@ -371,8 +371,8 @@ def test_distance_next_to_a_fold_is_that_of_a_dense_cloud_of_vertices(spread):
     them."""
     scene, _ = SCENES["minor a<b"]
     cloud = np.concatenate([sheet.points.reshape(-1, 3) for reach in (1.02, 1.3) for sheet in
-                            stabilab.separatrix(scene, reach=reach, shape=(300, 401)).sheets])
-    fold = stabilab.separatrix(scene).sheets[0].saddle[0]
+                            stabilab.separatrix(scene, reach=reach, shape=(300, 401)).branches])
+    fold = stabilab.separatrix(scene).branches[0].saddle[0]
     states = fold + spread * np.random.default_rng(20).normal(size=(4, 3))
     margins = stabilab.fate(scene, states).velocity_margins
     nearest = np.array([np.linalg.norm(cloud - state, axis=1).min() for state in states])
@@ -391,7 +391,7 @@ def test_no_vertex_is_nearer_than_the_distance_says(name, rows):
     nothing to the search; those where the margin in energy is not zero part a well from a wider one that a
     higher barrier closes, and there no fate changes."""
     scene, problem = SCENES[name]
-    sheets = stabilab.separatrix(scene, shape=(rows, rows + 101)).sheets
+    sheets = stabilab.separatrix(scene, shape=(rows, rows + 101)).branches
     cloud = np.concatenate([sheet.points.reshape(-1, 3) for sheet in sheets])
     rng = np.random.default_rng(21)
     states = [sheet.saddle[int(share * rows)] + 0.05 * rng.normal(size=3) for sheet in sheets
@@ -413,7 +413,7 @@ def test_distance_reaches_a_loop_that_a_second_barrier_is_about_to_open():
     scene, _ = physical((3.0, 2.0, 1.5), (0.4, -0.7, 0), (0, 0, 0.3))
     state = np.array([-0.12794675, 1.19927972, 0.0])
     cloud = np.concatenate([sheet.points.reshape(-1, 3)
-                            for sheet in stabilab.separatrix(scene, reach=5.6, shape=(700, 801)).sheets])
+                            for sheet in stabilab.separatrix(scene, reach=5.6, shape=(700, 801)).branches])
     nearest = np.linalg.norm(cloud - state, axis=1).min()
     assert nearest * (1 - 1e-3) < stabilab.fate(scene, state).velocity_margins <= nearest
 
@@ -540,7 +540,7 @@ def test_moments_almost_equal_give_a_bracket_where_the_search_cannot_close(inert
 def test_the_loops_of_a_free_hyperbola_keep_the_energy_and_the_momentum_of_their_saddle():
     D, wheel = np.array([9.0, 5.0, 4.0]), np.array([4.0, 0.0, 1.0])
     scene = Scene(Body((9, 5, 4)), Gyrostat((4, 0, 1)))
-    sheets = stabilab.separatrix(scene, shape=(7, 17)).sheets
+    sheets = stabilab.separatrix(scene, shape=(7, 17)).branches
     assert sheets
     for sheet in sheets:
         for row in sheet.points.reshape(-1, *sheet.points.shape[-2:]):
@@ -555,7 +555,7 @@ def test_a_mesh_that_cannot_be_made_is_refused_and_a_parabola_has_none():
         with pytest.raises(InputError):
             stabilab.separatrix(SCALED_MINOR, **wrong)
     found = stabilab.separatrix(Scene(Body((2, 2, 1)), ConstantTorque((1, 0, 0))))
-    assert not found.sheets and "parabolic" in found.reason
+    assert not found.branches and "parabolic" in found.reason
 
 
 @pytest.mark.parametrize("scene, words", [  # what there is none of, by hand

@@ -1,11 +1,12 @@
 """The separatrix as surfaces: for each value of the invariant the homoclinic loop of each saddle, an exact
 curve.
 
-A sheet sweeps one branch of saddles outward from its fold, where the loop shrinks to a point. On a circle the
-loop runs from its saddle against the torque and back; on a hyperbola (and without torque) each saddle has a
-loop on either side: a figure eight. The lower of two saddles on a circle may have a second loop there too,
-towards the torque, where the higher one turns it back: that parts a well from one twice as wide, no fate
-changes at it, and it is not drawn.
+A branch of the separatrix (a sheet, in what measures distances from it) sweeps one branch of saddles
+outward from its fold, where the loop shrinks to a point. On a circle the loop runs from its saddle against
+the torque and back; on a hyperbola (and without torque) each saddle has a loop on either side: a figure
+eight. The lower of two saddles on a circle may have a second loop there too, towards the torque, where the
+higher one turns it back: that parts a well from one twice as wide, no fate changes at it, and it is not
+drawn.
 
 Without torque the potential is periodic, so a saddle may see another one at its own height ahead (or itself,
 one turn on). The loop then runs from saddle to saddle and back, and the saddle at its far end sees the same
@@ -22,7 +23,7 @@ from ..far_states import in_range
 from ..landscape import landscape_in_doubles
 from .grid import grid, grids_within
 from .homoclinic_arrays import residual
-from .result import Separatrix, Sheet
+from .result import Branch, Separatrix
 from .saddles import NO_REDUCTION, limit_of, saddle_branches, what_it_parts, why_none, why_parabolic
 
 SHAPE = (96, 129)  # fine enough for pictures
@@ -30,18 +31,18 @@ SHAPE = (96, 129)  # fine enough for pictures
 
 def separatrix(scene: AnyScene, reach: float | None = None, shape: tuple[int, int] | None = None,
                accuracy: float | None = None, fast: bool = False) -> Separatrix:
-    """Every sheet of the separatrix of a scene with an elliptic or hyperbolic reduction.
+    """Every branch of the separatrix of a scene with an elliptic or hyperbolic reduction.
 
-    reach: how far out the sheets go, as a multiple of the radius sqrt|Q| of the outermost fold (default 4;
+    reach: how far out the branches go, as a multiple of the radius sqrt|Q| of the outermost fold (default 4;
     where there is no fold, of the smallest saddle's); must exceed 1. shape: (rows, columns) of each grid, at
     least (3, 5), an even number of columns becomes the next odd one (default (96, 129)). accuracy: in place
-    of a shape, the largest distance allowed between the sheets and the flat facets of their meshes, in the
-    unit of the points: each grid gets as few rows and columns as that needs (in a sheet, its rim where
-    `reach` cuts it off may stray by ten times as much), a sheet whose loops reach a second saddle as high
-    comes in two parts that meet there, and every sheet tells as `error` what its facets were found to reach
-    (more than asked for only where the largest grids, of 1025 rows, still bend as much). fast: accepted for
+    of a shape, the largest distance allowed between the branches and the flat facets of their meshes, in the
+    unit of the points: each grid gets as few rows and columns as that needs (of a branch, its rim where
+    `reach` cuts it off may stray by ten times as much), a branch whose loops reach a second saddle as high
+    comes in two parts that meet there, and every branch has as `error` what its facets were found to reach
+    (more than that only where the largest grids, of 1025 rows, still bend as much). fast: accepted for
     one version more, without effect. Points are in the scene's variables. A scene without saddles gives no
-    sheets and the reason. Raises InputError for a shape, reach or accuracy out of range.
+    branches and the reason. Raises InputError for a shape, reach or accuracy out of range.
     """
     _check(reach, shape, accuracy)
     scene = effective(scene)
@@ -62,7 +63,7 @@ def _separatrix(scene, reach, shape, accuracy) -> Separatrix:
     rows, columns = shape or SHAPE
     half = None if accuracy else (rows, columns // 2 + 1)
     made = _by_arrays(land, strips, half, accuracy)
-    return Separatrix(tuple(_sheets(land, made)), what_it_parts(land.potential, land.sense))
+    return Separatrix(tuple(_branches(land, made)), what_it_parts(land.potential, land.sense))
 
 
 def _check(reach, shape, accuracy):
@@ -80,7 +81,7 @@ def _check(reach, shape, accuracy):
     if accuracy is not None and not (isinstance(accuracy, (int, float, np.integer, np.floating))
                                      and 0 < accuracy < np.inf):
         raise InputError(
-            f"accuracy: expected a distance above 0 in the unit of the sheet's points, got {accuracy!r:.80}")
+            f"accuracy: expected a distance above 0 in the unit of the points, got {accuracy!r:.80}")
 
 
 def _by_arrays(land, strips, shape, accuracy):
@@ -102,8 +103,8 @@ def _by_arrays(land, strips, shape, accuracy):
     return out
 
 
-def _sheets(land, made):
-    """A Sheet of every strip, or part of one, in which loops close."""
+def _branches(land, made):
+    """A Branch of every strip, or part of one, in which loops close."""
     words = dict(land.conic.sides(land.sense))
     for number, branch in enumerate(dict.fromkeys(one[0].branch for one in made), 1):
         kept = [one for one in made if one[0].branch is branch and np.count_nonzero(one[6]) > 1]
@@ -111,6 +112,6 @@ def _sheets(land, made):
         for part, points, off, saddle, centre, invariant, found, cut, error in kept:
             rows = found if not found.all() else slice(None)
             side, piece = words[part.side] if several else "", f", part {part.number}" if part.number else ""
-            name = f"sheet {number}{side}{piece}"
-            yield Sheet(name, points[rows], off[rows], saddle[rows], centre[rows], invariant[rows],
-                        float(error), cut)
+            name = f"branch {number}{side}{piece}"
+            yield Branch(name, points[rows], off[rows], saddle[rows], centre[rows], invariant[rows],
+                         float(error), cut)

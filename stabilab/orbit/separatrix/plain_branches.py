@@ -1,7 +1,7 @@
-"""The sheets of a separatrix in plain floats: coarse, for a hand that moves, and for a browser without NumPy.
+"""The branches of a separatrix in plain floats: coarse, while a slider moves and in a browser without NumPy.
 
-Saddles, loops and heights are those of `sheets`, which grades its rows and columns by the bend; here rows are
-dense towards the fold and columns towards both ends of a loop.
+Saddles, loops and heights are those of `branches`, which grades its rows and columns by the bend; here rows
+are dense towards the fold and columns towards both ends of a loop.
 """
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ from .circle import SHARED
 from .homoclinic import loop_end
 from .saddles import NO_REDUCTION, limit_of, saddle_branches, what_it_parts, why_none, why_parabolic
 
-REACH = 4.0  # as of `sheets.separatrix`
+REACH = 4.0  # as of `branches.separatrix`
 POLISH = 3   # Newton steps of a saddle along its orbit
 
 
 @dataclass(frozen=True)
-class PlainSheet:
+class PlainBranch:
     """points: rows x columns places, row by row from the fold outward, each once round a loop from the saddle
     back to it."""
 
@@ -34,8 +34,8 @@ class PlainSheet:
 
 
 def plain_separatrix(scene: AnyScene, reach: float = REACH, rows: int = 20,
-                     half: int = 21) -> tuple[tuple[PlainSheet, ...], str]:
-    """(sheets, what they part or why there are none) of a scene; reach: as of `separatrix`; half: columns
+                     half: int = 21) -> tuple[tuple[PlainBranch, ...], str]:
+    """(branches, what they part or why there are none) of a scene; reach: as of `separatrix`; half: columns
     from the saddle to the far end of a loop."""
     r = reduce(effective(scene))
     if r is None:
@@ -51,7 +51,7 @@ def plain_separatrix(scene: AnyScene, reach: float = REACH, rows: int = 20,
     for number, branch in enumerate(branches, 1):
         strips = [(word, points) for side,
                   word in conic.sides(r.sense) if len(points := _strip(r, pot, branch, side, rows, half)) > 1]
-        found += [PlainSheet(f"sheet {number}{word if len(strips) > 1 else ''}", len(points), 2 * half - 1,
+        found += [PlainBranch(f"branch {number}{word if len(strips) > 1 else ''}", len(points), 2 * half - 1,
                              sum(points, [])) for word, points in strips]
     return tuple(found), what_it_parts(pot, r.sense) if found else why_none(conic, r.sense)
 
