@@ -72,7 +72,7 @@ def certified_spin_up(scene: AnyScene, state: Sequence[Any]) -> tuple[dict[str, 
         box = _box(course, later, state)
         if box is None:
             return (None,
-                    f"{found.fate.word}: {found.cause}; its way was not enclosed up to t = {later:.6g} in "
+                    f"{found.fate.word}: {found.cause}; it was not enclosed up to t = {later:.6g} in "
                     f"{STEPS} validated steps")
         inequality = _holding(tests_of(own), ways, box, unit)
         if inequality:

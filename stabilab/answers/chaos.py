@@ -68,18 +68,18 @@ class Chaos(Shown):
     def because(self) -> str:
         """Of one motion: how the label is known."""
         if np.shape(self.labels):
-            raise InputError("because: is told of one motion; ask for one state")
+            raise InputError("because: expected one motion, got several: give one state")
         label, after = int(self.labels), f"{self.times[-1] / self.turn:,.0f} turns"
         if label == Order.SPIN_UP:
             return "its fate is spin-up: it does not come back, and chaos is a property of motions that do"
         if label == Order.UNDECIDED:
-            return ("its numbers leave the doubles" if not np.isfinite(self.megno) else
+            return ("its numbers exceed the range of doubles" if not np.isfinite(self.megno) else
                     f"after {after} MEGNO is {_shown(float(self.megno))}, neither near 2 nor growing with "
                     f"time: follow it for longer")
         before = f"{_shown(self.history[-2])} at half that time"
         if label == Order.REGULAR and not self.megno < FLAT:
-            return (f"it is an equilibrium (every rate stays as it is), whatever becomes of its neighbours: "
-                    f"of them MEGNO tells, "
+            return (f"it is an equilibrium (every rate stays as it is), whatever becomes of its neighbours, "
+                    f"which MEGNO measures: "
                     f"{_shown(float(self.megno))} after {after}")
         if label == Order.REGULAR:
             return (

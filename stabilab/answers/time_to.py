@@ -137,8 +137,8 @@ def _at_the_end(proof: Any, limit: Limit, whole: Any, unit: Any) -> Found:
     if proof.low is not None:
         return Found(down(proof.low), math.nan, "proved",
                      f"{limit.words}: touched at t = {float(proof.low):.10g} {unit} as closely as "
-                     f"{2.0**-50:.0e}: "
-                                                           "whether it is reached cannot be told")
+                     f"{2.0**-50:.0e}:  whether it is "
+                     f"reached is not known")
     if whole:
         return after_a_period(limit)
     return Found(down(proof.until), math.nan, "proved",

@@ -502,8 +502,8 @@ def _judge_blocks(motion: _Motion, scene):
         told = (f"; the attitude given has [{', '.join(f'{v:.10g}' for v in vertical_of(*angles))}]" if angles
                 else "")
         table.fault(
-            f"vertical is missing: an effect of this scene asks where the vertical is (a direction, body "
-            f"frame){told}")
+            f"vertical is missing: an effect of this scene needs it (a direction, body frame)"
+            f"{told}")
     judge_attitude(table, given, scene)
 
 

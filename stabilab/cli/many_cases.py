@@ -79,7 +79,7 @@ def atlas(
             metavar="N", help="How often cells along a boundary are cut in four.")] = 2,
         rate: Annotated[str | None, typer.Option(
             metavar="RATE",
-            help="Limit whose time is asked, as of stabilab when; default: that of [limits].")] = None,
+            help="Limit for the answer when, as of stabilab when; default: that of [limits].")] = None,
         component: Component = None, energy: Energy = None, tilt: TiltBy = None, until: Until = None,
         no_time: Annotated[bool, typer.Option(
             "--no-time", help="Leave out the time to a limit, which takes most of the work.")] = False,

@@ -14,7 +14,7 @@ commands = typer.Typer()
 
 @commands.command()
 def show(case: CaseFile):
-    """Show the equations of motion and the laws that hold.
+    """Show the equations of motion and their first integrals.
 
     Text and LaTeX; the laws are those of this very scene.
 

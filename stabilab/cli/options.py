@@ -24,7 +24,7 @@ Follow = Annotated[str | None, typer.Option(
          "principal axes), with a unit or in the time of the case. Default: a second of work.")]
 Prove = Annotated[bool, typer.Option(
     "--certify",
-    help="Enclose the way of a motion that has to be followed, so that its fate is proved; classify "
+    help="Enclose a motion that has to be followed, so that its fate is proved; classify "
          "--certify writes the proof down.")]
 Tilt = Annotated[str | None, typer.Option(
     metavar="ANGLE",

@@ -57,7 +57,7 @@ class Ensemble(Shown, Compared):
         if limits is None:
             return None
         return limits.along(self.scene, {name: self.states[..., part] for name,
-                                         part in slices(self.scene.blocks).items()}, "at the times told")
+                                         part in slices(self.scene.blocks).items()}, "at the times given")
 
     @property
     def status(self) -> str:

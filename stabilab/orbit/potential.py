@@ -202,7 +202,7 @@ class Hyperbola:
 
     e = 1
     kind = "hyperbolic"
-    where = "the middle axis"
+    where = "the intermediate axis"
     rank = 1
     centred = walled = True
 

@@ -219,7 +219,7 @@ def split(parts: Content, state: Any) -> tuple[Float3, Float3 | None]:
         return omega, None
     if not gamma:
         raise InputError(
-            "state: an effect of this scene asks where the vertical is: give gamma too (six numbers, or a "
+            "state: an effect of this scene needs the vertical: give gamma too (six numbers, or a "
             "dict of blocks)")
     return omega, gamma
 

@@ -45,7 +45,7 @@ class Axes:
         return f"{letter} ({word})" if letter and word else letter or word
 
     def signed(self, number: int, sense: int) -> str:
-        """With the direction of spin, where there is no room for more: "+z", "-minor"; nothing for the number 0."""
+        """With the direction as a sign, where there is no room for more: "+z", "-minor"; nothing for 0."""
         if not number:
             return ""
         letter, word = self.letters[number - 1], self.words[number - 1]

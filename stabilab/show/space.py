@@ -77,10 +77,10 @@ class Box:
 
 @dataclass(frozen=True)
 class Space:
-    """names: labels of the axes, in a unit of which `rate` make one of the scene's; branches: (colour, branch)
-    of the separatrix; curves and marks: (words of the legend, places or place); path: of the motion; arrows:
-    (place, step) along it; view: elevation and azimuth of the eye, deg; words: what the separatrix parts, or
-    why none is drawn."""
+    """names: labels of the axes, in a unit of which `rate` make one of the scene's; branches: (colour,
+    branch) of the separatrix; curves and marks: (words of the legend, places or place); path: of the motion;
+    arrows: (place, step) along it; view: elevation and azimuth of the eye, deg; words: what the separatrix
+    parts, or why none is drawn."""
 
     names: tuple[str, ...]
     rate: float
@@ -119,8 +119,8 @@ def space(names: Iterable[str], rate: float, box: Box, branches: Iterable[PlainB
 
 
 def _comes_in(branch: PlainBranch, box: Box) -> bool:
-    """Whether more of a branch is in a box than its crest, the saddles at the ends of its rows, along which it
-    meets its neighbour."""
+    """Whether more of a branch is in a box than its crest, the saddles at the ends of its rows, along which
+    it meets its neighbour."""
     return any(0 < n % branch.columns < branch.columns - 1 and box.holds(at)
                for n, at in enumerate(branch.points))
 
@@ -254,9 +254,9 @@ def _breadth(flat: list[tuple[float, float]]) -> float:
 def branches_of(scene: AnyScene, box: Box | None = None, shape: tuple[int, int] = SHAPE,
               plain: tuple[int, int] | None = None,
               reach: float = REACH) -> tuple[Sequence[PlainBranch], str, float]:
-    """(branches of the separatrix as far as a box reaches, or as `reach` says; what they part, or why there are
-    none; the reach that was enough). plain: the shape of coarse ones in plain floats, None for graded ones of
-    `shape` by NumPy."""
+    """(branches of the separatrix as far as a box reaches, or as `reach` says; what they part, or why there
+    are none; the reach that was enough). plain: the shape of coarse ones in plain floats, None for graded
+    ones of `shape` by NumPy."""
     try:
         found, words = _surface(scene, reach, shape, plain)
         far = max((abs(v) for branch in found for p in branch.points for v in p), default=0.0)
@@ -339,8 +339,8 @@ def data(drawn: Space, row: Callable[[bytes], Any]) -> dict[str, Any]:
     curves = [*drawn.curves, *([(MOTION, drawn.path)] if drawn.path else [])]
     return {"names": drawn.names, "middle": box.scaled(drawn.rate).middle,
             "half": box.scaled(drawn.rate).half, "view": drawn.view,
-            "branches": [{"name": branch.name, "colour": colour, "rows": branch.rows, "columns": branch.columns,
-                        "at": packed(branch.points)} for colour, branch in drawn.branches],
+            "branches": [{"name": one.name, "colour": colour, "rows": one.rows, "columns": one.columns,
+                          "at": packed(one.points)} for colour, one in drawn.branches],
             "curves": [{"kind": words, "colour": style.SPACE[words]["color"], "at": packed(places)}
                        for words, places in curves],
             "points": [{"kind": words, "colour": style.SPACE[words]["color"], "at": _round(box.share(at))}

@@ -55,7 +55,7 @@ SPACE = {  # words of a legend -> how that is drawn in the space of rates
     "nearest point of the separatrix": {"marker": "o", "color": YELLOW, "markeredgecolor": BLACK,
                                         "markersize": 6, "linestyle": "none"},
     **{words: MEANING[kind] for kind, words in EQUILIBRIA.items()}}
-SHEETS = (SKY, ORANGE, GREEN, PURPLE, YELLOW, BLUE, VERMILION)  # surfaces, in order
+BRANCHES = (SKY, ORANGE, GREEN, PURPLE, YELLOW, BLUE, VERMILION)  # surfaces, in order
 # surfaces beside a motion, which is orange, and their nearest point, a yellow ball
 BESIDE = (SKY, GREEN, PURPLE, "#B59A6A")
 SERIES = (BLUE, ORANGE, GREEN, PURPLE, VERMILION)               # one curve each for a list of parameters

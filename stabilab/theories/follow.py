@@ -59,4 +59,4 @@ def follow(case, times, model: str = "exact", method: str | None = None, rtol: f
     if limits is None or "omega" not in run.state or not len(run.t):
         return run
     known = {"gamma": vertical(run.state["angles"])} if "angles" in run.state else {}
-    return replace(run, validity=limits.along(case.scene, known | run.state, "at the times told"))
+    return replace(run, validity=limits.along(case.scene, known | run.state, "at the times given"))

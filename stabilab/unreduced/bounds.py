@@ -118,7 +118,7 @@ def _liquid(parts: Content, omega, T0) -> tuple[Fate, str, dict]:
     return (Fate.BOUNDED,
             f"{words} and tends to a permanent rotation of its |H|: about axis {first + 1} (largest moment) "
             f"but for a set of measure zero; "
-            "in which direction is undecided, since its energy is not below that of rotation about the next axis",
+            "the direction is undecided, since its energy is not below that of rotation about the next axis",
             bounds)
 
 
@@ -157,7 +157,7 @@ def _directed(parts: Content, omega, gamma) -> tuple[Fate, str, dict]:
                 {"energy": T0 + V0})
     if not any(parts.M):
         rate = sqrt(max(0.0, 2 * (T0 + V0 - floor) / least))
-        kept = "falls (the medium takes 2 c T)" if parts.c else "is kept"
+        kept = "falls (the medium takes 2 c T)" if parts.c else "is constant"
         end = "; it tends to rest (LaSalle)" if parts.c else ""
         return (Fate.BOUNDED,
                 f"|gamma| = 1 bounds the potential energy from below and the sum of kinetic and potential "

@@ -32,7 +32,7 @@ def verdict(off):
     exact = "unstable" if problem.rate(x) == [0, 0, 0] and determinant(J) != 0 else "none"
     found = np.linalg.eigvals(np.array(J, float)).real.max()
     point, = stabilab.equilibria(stabilab.ScaledGyrostat(a, b, (off, 1, 0))).points
-    return Verdict(f"torque {off:g} rad off the middle axis", "stability of its equilibrium",
+    return Verdict(f"torque {off:g} rad off the intermediate axis", "stability of its equilibrium",
                    "`max Re < 1e-9` of computed eigenvalues", "stable" if found < 1e-9 else "unstable",
                    point.verdict, exact)
 
@@ -53,7 +53,7 @@ def growth_rate(off):
     naive = float(np.linalg.eigvals(J).real.max())
     point, = stabilab.equilibria(stabilab.ScaledGyrostat(a, b, (off, 1, 0))).points
     ours = max(z.real for z in point.eigenvalues)
-    return numbers(f"torque {off:g} rad off the middle axis", "growth rate of its equilibrium",
+    return numbers(f"torque {off:g} rad off the intermediate axis", "growth rate of its equilibrium",
                    "eigenvalues of a matrix with entries of order 1", naive, ours, ask, (off,))
 
 

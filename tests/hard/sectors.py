@@ -19,7 +19,7 @@ def off_the_plane(C):
     ask = lambda b: energy.extremes(model.scaled(0, b, (0, 1, 0)), (1, 0, -1), digits=digits)[1][1]
     ours = float(stabilab.extremes(scaled(0.0, tiny, (0, 1, 0))[0], np.array([1.0, 0.0, -1.0]))[1, 1])
     rounded = (1.0 + tiny) ** 2 - 1.0  # zero in doubles: on the plane, where the motion spins up
-    return numbers(f"C = {C:g}, middle axis", "largest x2", "x1 + b rounds: on the plane, spin-up for ever",
+    return numbers(f"C = {C:g}, intermediate axis", "largest x2", "x1 + b rounds: on the plane, spin-up for ever",
                    math.inf if rounded == 0 else math.nan, ours, ask, (tiny,))
 
 

@@ -1,15 +1,26 @@
-"""The pages that a user reads and the help of the commands use the field's words, none of our own."""
+"""Pages, help and answers use the field's words (`docs/glossary.md`), none of our own."""
+import gzip
+import json
 import re
 from pathlib import Path
 
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
-# words that stood for: reported, page or part, the user's pointer, exactly as written, compared with
+# words that stood for: reported, page or part, the user's pointer, exactly as written, compared with, direction
+# of spin, branch of the separatrix
 OURS = re.compile(r"\b(told|houses?|doors?|your hand|the hand|(?:moving|resting) hand|at its word|"
-                  r"held against|holds against)\b", re.IGNORECASE)
+                  r"held against|holds against|(?:positive|negative|its|which) sense|sense of (?:the )?spin|"
+                  r"(?<!data )sheets?|certificate fires)\b", re.IGNORECASE)
+# of answers also: trajectory, stays on, is constant, needs, intermediate axis, and a key of JSON
+SAID = re.compile(OURS.pattern + r"|\b(sense|the way there|its way|keeps? to|kept|is asked of|at hand|"
+                  r"laws kept|margin: none|middle axis|the fate changes)\b", re.IGNORECASE)
 MADE = ("changelog.md", "readme.md", "contributing.md", "results.md")  # of other files
 PAGES = [ROOT / "README.md", *(page for page in sorted((ROOT / "docs").glob("*.md")) if page.name not in MADE)]
+# what every command says of all cases, which test_recorded compares with what it says now
+RECORDS = sorted(path for path in (ROOT / "tests/recorded").glob("*.json.gz")
+                 if path.name not in ("audit.json.gz", "certificates.json.gz"))  # of papers; keys of a format
+NAME = re.compile(r"middle-axis-?[\w-]*")  # of a case
 
 
 def prose(text):
@@ -18,13 +29,32 @@ def prose(text):
     return re.sub(r"`[^`\n]*`", "", re.sub(r"\]\([^)]*\)", "]", text))
 
 
+def ours(text, words=OURS):
+    return [found[0] for found in words.finditer(NAME.sub("", text))]
+
+
 @pytest.mark.parametrize("page", PAGES, ids=[page.stem for page in PAGES])
 def test_a_page_has_none_of_our_own_words(page):
-    assert OURS.findall(prose(page.read_text(encoding="utf-8"))) == []
+    assert ours(prose(page.read_text(encoding="utf-8"))) == []
 
 
 def test_the_help_of_every_command_has_none_of_our_own_words(stabilab):
     from stabilab.show.terminal.groups import GROUPS
     for _, names in GROUPS.values():
         for name in names:
-            assert OURS.findall(stabilab(name, "--help")[1]) == [], name
+            assert ours(stabilab(name, "--help")[1]) == [], name
+
+
+@pytest.mark.parametrize("record", RECORDS, ids=[path.name.split(".")[0] for path in RECORDS])
+def test_the_answers_about_all_cases_have_none_of_our_own_words(record):
+    for command, said in json.loads(gzip.decompress(record.read_bytes())).items():
+        assert ours(json.dumps(said, ensure_ascii=False), SAID) == [], command
+
+
+@pytest.mark.parametrize("command", [("surface", "--out", "{}"), ("attitude",), ("fate", "--why"), ("chaos",)],
+                         ids=lambda command: command[0])
+@pytest.mark.parametrize("case", ["phone", "upper-stage", "wheel-and-thruster"])
+def test_the_answers_that_are_not_recorded_have_none_either(stabilab, tmp_path, command, case):
+    name, *options = command
+    *_, out, err = stabilab(name, ROOT / f"cases/{case}.toml", *(one.format(tmp_path) for one in options))
+    assert ours(out + err, SAID) == []

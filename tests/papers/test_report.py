@@ -263,7 +263,7 @@ def test_the_page_of_a_case_has_all_that_applies_to_it(alone):
                   "What would change the fate", "Equations of motion", "<math display", "Certificate",
                   "How it was made", stabilab.__version__):
         assert words in text, words
-    assert "in scaled variables; a stuck thruster is asked of a body" in text  # and what does not
+    assert "in scaled variables; for a stuck thruster give the body" in text  # and what does not
 
 
 def test_the_certificate_of_a_page_is_proved_by_the_other_code(alone):

@@ -325,6 +325,6 @@ def test_a_charge_is_judged_by_the_attitude_that_a_case_gives_in_every_question(
     assert late.startswith("BEYOND THE LAW; by that law: ") and late.split("\n")[1].startswith("law: charge: ")
     assert stabilab("when", path, "--rate", "100 deg/s", "--strict")[0] == 3
     _, modelled, _ = stabilab("simulate", path, "--at", "0,0.5", "--model", "corrected")
-    assert "within the law" in modelled.split("\n")[0] and "0.0726 at the times told" in modelled
+    assert "within the law" in modelled.split("\n")[0] and "0.0726 at the times given" in modelled
     _, unknown, _ = stabilab("fate", CASES / "liquid-base.toml")
     assert "it needs the attitude, which is not given" in unknown

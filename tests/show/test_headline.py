@@ -55,7 +55,8 @@ def test_a_bounded_motion_is_told_with_the_rate_and_the_period_that_a_run_has(ow
     line = headline(case, told(case))
     found = re.fullmatch(r"BOUNDED only while the torque is exactly along z \(minor axis\); largest rate "
                          r"\|omega\| = "
-                         r"(\S+) deg/s \((\S+) deg/s about ([xyz])\); margin (\S+) deg/s \((\S+) J\); period "
+                         r"(\S+) deg/s \((\S+) deg/s about ([xyz])\); (\S+) deg/s from the separatrix \((\S+) J\); "
+                         r"period "
                          r"(\S+) s", line)
     t, rates = followed(START, 40)
     largest = np.abs(rates).max(axis=1)
@@ -72,7 +73,7 @@ def test_the_margin_as_a_rate_is_where_the_fate_of_a_run_changes(own):
     """From the state of the motion to the nearest one on the separatrix: 1 % nearer the run stays bounded, 1
     % farther it leaves."""
     found = told(own())
-    margin = float(re.search(r"margin (\S+) deg/s", headline(own(), found))[1])
+    margin = float(re.search(r"(\S+) deg/s from the separatrix", headline(own(), found))[1])
     step = np.array(found.velocity_witness) - START
     assert margin == pytest.approx(math.degrees(np.linalg.norm(step)), rel=5e-4)
     ends = [np.abs(followed(START + share * step, 400)[1]).max() for share in (0.99, 1.01)]
@@ -82,20 +83,20 @@ def test_the_margin_as_a_rate_is_where_the_fate_of_a_run_changes(own):
 def test_units_are_those_that_are_asked_for(own):
     case = own()
     assert headline(case, told(case), DEG) == headline(case, told(case))
-    assert "largest rate |omega| = 0.1329 rad/s (0.1025 rad/s about x); margin 0.1689 rad/s (0.5089 J); period 32.84 s" in headline(case, told(case), SI)
+    assert "largest rate |omega| = 0.1329 rad/s (0.1025 rad/s about x); 0.1689 rad/s from the separatrix (0.5089 J); period 32.84 s" in headline(case, told(case), SI)
 
 
 @pytest.mark.parametrize("name, words", [
     ("minor-axis-100",
      r"BOUNDED only while the torque is exactly along x3; largest rate \|x\| = 6.345 \(4.626 about x1\); "
-     r"margin \S+ in x, 1.632 in energy; period 1.804 tau"),
+     r"\S+ from the separatrix in x, 1.632 in energy; period 1.804 tau"),
     ("middle-axis-spin-up", r"SPINS UP about x2, positive direction; about the other axes at most \S+"),
     ("off-axis-two",
      r"SPINS UP about z \(minor axis\), positive direction \(certified\); about the other axes at most "
      r"\S+ deg/s"),
     ("torque-free-body",
      r"BOUNDED for ever; largest rate \|omega\| = 33.57 deg/s \(28.65 deg/s about [yz]\); "
-     r"margin \S+ deg/s \(0.0075 J\); period 33.33 s"),
+     r"\S+ deg/s from the separatrix \(0.0075 J\); period 33.33 s"),
     ("liquid-base", r"BEYOND THE LAW; by that law: BOUNDED for ever; \|omega\| at most 82.17 deg/s"),
     ("top-fast", r"BOUNDED for ever; \|omega\| at most 8627 deg/s"),
     ("charged-body-attitude",
@@ -145,7 +146,7 @@ def test_open_bounds_of_a_margin_are_told_as_two_numbers(own):
     case = own()
     open_ = replace(told(case), velocity_because="the search ended", velocity_bounds=(0.1, 0.2))
     # 0.1 and 0.2 rad/s, rounded outward
-    assert margin(open_, units_of(case)) == "margin 5.729 to 11.46 deg/s (0.5089 J)"
+    assert margin(open_, units_of(case)) == "5.729 to 11.46 deg/s from the separatrix (0.5089 J)"
 
 
 @pytest.mark.parametrize("low, high, words",

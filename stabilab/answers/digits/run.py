@@ -392,7 +392,7 @@ def _many_digits(case: Any, times: np.ndarray, asked: int) -> Reached | None:
 def _validity(scene: AnyScene, blocks: Any) -> Validity | None:
     """Of the laws at the times asked for; None where all are exact."""
     limits = limits_of(scene)
-    return limits.along(scene, blocks, "at the times told") if limits else None
+    return limits.along(scene, blocks, "at the times given") if limits else None
 
 
 def _with_angles(case: Any, times: np.ndarray, parts: dict[str, np.ndarray]) -> dict[str, np.ndarray] | None:

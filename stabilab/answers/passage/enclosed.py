@@ -8,6 +8,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import Any
 
 from ...integrate.integer_flow import IntegerFlow, Piece, Search
 from ...numbers.exact import sqrt_fraction

@@ -87,11 +87,11 @@ def scenario_of(case: Any) -> Scenario:
         raise InputError(f"stuck: expected a case, as of stabilab.load(...), got {came(case)}")
     if case.variables == "scaled" or case.physical is None:
         raise InputError(
-            "the motion is in scaled variables; a stuck thruster is asked of a body in kg m^2 and "
+            "the motion is in scaled variables; for a stuck thruster give the body in kg m^2 and "
             "angular_velocity in rad/s")
     if case.state is None:
         raise InputError(
-            "motion: expected angular_velocity in [motion]; a stuck thruster is asked of a motion")
+            "motion: expected angular_velocity in [motion]; what a stuck thruster does depends on it")
     case.scene.quadratic()  # says which effect is not covered
     case = case if case.frame else replace(case, frame=PrincipalAxes(case.scene.body.exact, IDENTITY, True))
     axes = case.frame

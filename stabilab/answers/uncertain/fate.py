@@ -78,7 +78,7 @@ def fate_over(box: Box) -> Over | None:
     if signs is None:
         return by_trial(box, here, look, "two of the moments of inertia may be equal within the box, where "
                                          "the geometry of the motion changes from circles to hyperbolas: no "
-                                         "proof is at hand")
+                                         "proof is known")
     if signs[0] * signs[1] >= 0:
         return _between_walls(box, here, look, reduction, numbers, signs)
     return _on_circles(box, here, answer, Family(box, acting[0], signs))

@@ -155,11 +155,11 @@ def _own_torque(case: Case) -> bool:
 def _judge(case: Case) -> None:
     if case.variables == "scaled" or case.physical is None:
         raise InputError(f"{case.place}: is in scaled variables, whose torque has no direction in space: an "
-                         f"atlas is asked of a body in kg m^2 with "
+                         f"atlas needs a body in kg m^2 with "
                          "angular_velocity in rad/s")
     if case.state is None:
         raise InputError(
-            f"{case.place}: motion: expected angular_velocity in [motion]; an atlas tells what becomes of a "
+            f"{case.place}: motion: expected angular_velocity in [motion]; an atlas shows what becomes of a "
             f"motion")
     with blamed_on(case):
         case.scene.quadratic()  # says which effect is not covered

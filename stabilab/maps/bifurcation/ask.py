@@ -35,8 +35,8 @@ def bifurcation(case: Case | str | os.PathLike[str], vary: Mapping[str, Any] | S
     try:
         return with_connections(diagram(family, curve)) if len(family.spans) == 1 else plane(family, curve)
     except Unclear:
-        raise InputError(f"{family.case.place}: undecided: no number of bits told what happens at one value "
-                         f"of this range, where the equations degenerate: "
+        raise InputError(f"{family.case.place}: undecided: what happens at one value of this "
+                         f"range is open at any number of bits, where the equations degenerate: "
                          "divide the range, or move its ends") from None
 
 

@@ -37,7 +37,7 @@ from .family import CURVES, ENDLESS, Diagram, Event, Family, Piece, State
 
 BORDER = ("border", "m = 0 on the curve of equilibria: stability changes here")
 SMALL = 1e-17  # radius of a ball over one plus its size
-CROSSES = ("undecided", "the curve that the motion keeps to crosses itself here")
+CROSSES = ("undecided", "the curve that the motion stays on crosses itself here")
 
 
 def ball_form(family: Family, values: list) -> tuple[QuadraticForm, list[arb]]:

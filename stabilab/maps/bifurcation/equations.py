@@ -171,7 +171,7 @@ def common_divisor(parts: Iterable[fmpq_mpoly]) -> fmpq_mpoly:
 
 
 WHAT = {ISOLATED: "isolated equilibria (torque off the principal axes)",
-        LEAF: "equilibria on the curve that the motion keeps to, all branches of it",
+        LEAF: "equilibria on the curve that the motion stays on, all branches of it",
         BORDERS: "points where stability changes along the curve of equilibria"}
 
 MORE = "stabilab classify tells their stability at one value"

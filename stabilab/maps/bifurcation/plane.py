@@ -219,8 +219,8 @@ def plane(family: Family, borders: bool = False) -> Plane:
     kind, what, system, notes = chosen(family, borders)
     if system is None:
         raise InputError(
-            f"{family.case.place}: {what}: vary one number, and the curves are told in words; over two there "
-            f"is nothing to draw")
+            f"{family.case.place}: {what}: vary one number, and the curves are described in words; over two "
+            f"there is nothing to draw")
     eliminated = Eliminated(family, system)
     curves = eliminated.critical
     found = cuts(_projected(family, curves), family.spans[0].low, family.spans[0].high)

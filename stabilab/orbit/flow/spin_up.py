@@ -300,7 +300,7 @@ MOST_TURNS = 2.0**50
 CHUNK = 256
 # kinetic energies of a turn that differ by less than 2 FLAT turns' work: FEW points are right to 1e-17
 FLAT, FEW = 4.0, 20
-BEFORE = "this motion is told from its state on: ask reduced_motion for it with backwards=True"
+BEFORE = "this motion is given from its state on: call reduced_motion with backwards=True"
 
 
 @lru_cache(maxsize=1)

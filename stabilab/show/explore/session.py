@@ -35,7 +35,7 @@ from ...verify.form import about, parsed
 from ...verify.form import line as about_line
 from ...verify.numbers import Malformed
 from .. import limiting
-from ..space import PLACES, Box, box_of, curves_of, data, marks_of, near_part, nearest, branches_of, space
+from ..space import PLACES, Box, box_of, branches_of, curves_of, data, marks_of, near_part, nearest, space
 from ..spans import natural, seen
 from ..terminal.letters import greek, lettered, written
 from ..terminal.motion import margins
@@ -234,7 +234,8 @@ class Session:
                       " without the tilt" * ghost)
         if ghost:
             words = ("No separatrix is known for a torque off the axes"
-                     + (": the surface drawn is that of the torque without its tilt" if drawn.branches else ""))
+                     + (": the surface drawn is that of the torque without its tilt" if drawn.branches
+                        else ""))
         return data(drawn, partial(bag.add, "int16")) | {
             "words": words, "box": {"middle": box.middle, "half": box.half}}
 

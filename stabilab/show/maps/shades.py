@@ -184,7 +184,7 @@ def looks(data: Any, kind: str) -> dict[int, tuple[str, str]]:
     words = str(data[kind].attrs["flag_meanings"]).split()
     present = np.unique(np.asarray(data[kind])).tolist()
     colours = [*style.SERIES, *style.BRANCHES]
-    return {value: (words[value].replace("_", " ") if value >= 0 else "not told",
+    return {value: (words[value].replace("_", " ") if value >= 0 else "not known",
                     style.GREY if value < 0 else colours[n % len(colours)])
             for n, value in enumerate(present)}
 

@@ -20,11 +20,11 @@ from ..space import (
     Box,
     Space,
     box_of,
+    branches_of,
     curves_of,
     marks_of,
     near_part,
     nearest,
-    branches_of,
 )
 from ..space import space as drawn_in
 from . import subject as canvas
@@ -361,8 +361,8 @@ def space_of(one: Subject, names: Iterable[str], rate: float, known: Equilibria 
 def draw(ax: Any, found: Space) -> None:
     """Draw a space on three-dimensional axes, in the unit of its labels."""
     per, box = found.rate, found.box.scaled(found.rate)
-    facets(ax, [(clipped(box, per * grid_triangles(np.reshape(branch.points, (branch.rows, branch.columns, 3)))),
-                 colour) for colour, branch in found.branches])
+    grids = [(colour, np.reshape(one.points, (one.rows, one.columns, 3))) for colour, one in found.branches]
+    facets(ax, [(clipped(box, per * grid_triangles(points)), colour) for colour, points in grids])
     for words, places in found.curves:
         line(ax, inside(box, per * np.array(places)), style.SPACE[words], zorder=6)
     path = inside(box, per * np.array(found.path)) if found.path else np.empty((0, 3))

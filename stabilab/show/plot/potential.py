@@ -83,7 +83,7 @@ def _margin(ax: Any, margin: float, place: float, energy: float, unit: str) -> N
     ax.annotate("", (place, energy + margin), (place, energy),
                 arrowprops={"arrowstyle": "<->", "color": style.VERMILION, "linewidth": 1.4})
     size = number(abs(margin), SHORT) + unit
-    ax.annotate(f"margin {size}" if margin > 0 else f"{size} above the barrier",
+    ax.annotate(f"margin in energy {size}" if margin > 0 else f"{size} above the barrier",
                 (place, energy + margin / 2), (6, 0), textcoords="offset points", va="center",
                 color=style.VERMILION,
                 bbox={"facecolor": "white", "edgecolor": "none", "pad": 1.0, "alpha": 0.8})

@@ -209,8 +209,8 @@ def _spin_up(found):
     values = {"state": (("axis",), np.array(found.state, float), {"long_name": "rates at time t"}),
               "direction": (("axis",), np.array(along, float),
                             {"long_name": "along which the rate grows; NaN: undecided"})}
-    notes = {"fate": found.fate.word, "level": found.level, "spin_axis": found.axis, "spin_direction": found.sense,
-             "t": found.t, "steps": found.steps,
+    notes = {"fate": found.fate.word, "level": found.level, "spin_axis": found.axis,
+             "spin_direction": found.sense, "t": found.t, "steps": found.steps,
              "cause": found.cause, "condition": found.condition}
     return Variables(("axis",), values, AXIS, notes)
 

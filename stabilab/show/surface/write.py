@@ -40,10 +40,10 @@ def write_all(cases, out, reach=None, shape=None, picture=True, arguments=None) 
 
     NAME.vtp (double precision, point arrays "branch" and "residual"), NAME.glb and NAME.stl (single
     precision, as those formats are), NAME.json (the summary), NAME.png and manifest.json (arguments: of the
-    command line, for it); NAME is that of the case. A case that was read from a text has no file among the manifest's
-    inputs. A case without a separatrix has no files; its summary gives the reason. Where no case has one,
-    nothing is written. Raises RenderingUnavailable (with the summaries as its attribute `summaries`), after
-    the meshes are written, where this machine cannot draw.
+    command line, for it); NAME is that of the case. A case that was read from a text has no file among the
+    inputs of the manifest. A case without a separatrix has no files; its summary gives the reason. Where no
+    case has one, nothing is written. Raises RenderingUnavailable (with the summaries as its
+    attribute `summaries`), after the meshes are written, where this machine cannot draw.
     """
     out = endings.folder(out)
     named = [(case, _scene(case)[1]) for case in cases]

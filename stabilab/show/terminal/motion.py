@@ -22,7 +22,7 @@ QUANTITIES = {
     "followed_until": ("followed until", "moment"), "release_time": ("last reversal of the turn", "reversal"),
     "release_estimate": ("barrier gone by about", "moment"), "rate_end": ("rates at the end", "rates"),
     "energy_trend": ("the energy", ""), "certificate": ("how it is certified", ""),
-    "steps": ("steps of the run", ""), "invariant_drift": ("exact laws kept to", ""),
+    "steps": ("steps of the run", ""), "invariant_drift": ("first integrals vary by", ""),
     "steps_followed": ("steps of the certified run", ""),
     "small_change_grew": ("a small change grew by a factor of", "")}
 MEANINGS = {  # of a word among them
@@ -126,7 +126,7 @@ def why(case, motion, units: Units, proofs: bool) -> list[str]:
     """
     lines = [f"why: {reason(motion.because, units)}"]
     if proofs and motion.velocity_because:
-        rate = "" if motion.velocity_bounds else "margin, rate unknown: "
+        rate = "" if motion.velocity_bounds else "margin, rate: "
         lines.append(f"  {rate}{reason(motion.velocity_because, units)}")
     if proofs:
         lines += [row(*fact) for fact in constants(motion, units)]

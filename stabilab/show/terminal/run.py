@@ -48,11 +48,11 @@ def zero_within(error: float) -> str:
 
 
 def headline(case, run, units: Units) -> str:
-    """How far the motion was followed, its size at both ends, and how well the laws of motion are kept."""
+    """How far the motion was followed, its size at both ends, and by how much first integrals vary."""
     if not len(run.t):
         return f"NOT FOLLOWED: {run.reason}"
     reached = "followed to" if run.status == "reached" else "STOPPED at"
-    kept = f"; laws of motion kept to {max(run.invariant_drift.values()):.2g}" if run.invariant_drift else ""
+    kept = f"; first integrals vary by {max(run.invariant_drift.values()):.2g}" if run.invariant_drift else ""
     return f"{reached} {units.time(float(run.t[-1]), SHORT)}{_sizes(run, units)}{kept}"
 
 

@@ -137,7 +137,8 @@ def fate(case, motion, told) -> dict:
     margin = motion.margin_energy if told.values is None else told.values
     return {"schema": "stabilab.fate/2", "case": case.name, "variables": case.variables, "at": motion.at,
             "fate": motion.fate.word,
-            **axes_of(case).key(motion.axis), "spin_direction": motion.sense or None, "because": motion.because,
+            **axes_of(case).key(motion.axis), "spin_direction": motion.sense or None,
+            "because": motion.because,
             "margin": margin,
             "digits": digits(told),
             "tilt": when.tilt_dict(motion.tilt)} | followed(motion) | _around(case, motion)

@@ -147,11 +147,11 @@ def span_words(over: str, units: Units) -> str:
 def margin(motion: Motion, units: Units) -> str:
     """The distance to the separatrix as a rate, and the energy to the barrier."""
     rate, height = rate_and_height(motion, units)
-    if motion.fate.word == "spin-up":
-        return f"{rate} from the separatrix" + (f" ({height})" if height else "") if rate else height
-    if units.scaled and rate and height:  # two numbers without units are told apart by names
-        return f"margin {rate} in x, {height} in energy"
-    return f"margin {with_height(rate, height)}" if rate or height else ""
+    if units.scaled and rate and height:  # two numbers without units are known by names
+        return f"{rate} from the separatrix in x, {height} in energy"
+    if rate:
+        return f"{rate} from the separatrix" + (f" ({height})" if height else "")
+    return f"{height} below the barrier" if height and motion.margin_energy > 0 else height
 
 
 def rate_and_height(motion: Motion, units: Units) -> tuple[str, str]:
@@ -162,11 +162,6 @@ def rate_and_height(motion: Motion, units: Units) -> tuple[str, str]:
         return "", ""
     return rate, "" if energy is None else units.energy(abs(energy),
                                                         SHORT) + (" above the barrier" if energy < 0 else "")
-
-
-def with_height(rate: str, height: str) -> str:
-    """The distance with the energy in parentheses, or the one that is known."""
-    return f"{rate} ({height})" if rate and height else rate or height
 
 
 def rate_margin(motion: Motion, units: Units, digits: int) -> str:

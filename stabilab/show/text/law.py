@@ -158,7 +158,7 @@ def _of_alike(group, cases, units: Units = SI) -> str:
     words = _told(found, replace(units, axes=axes_of(case)))
     if not case.variant:
         return f"{words} ({printable(case.name)})"
-    farthest = "" if found.value is None else ", the farthest of them told"
+    farthest = "" if found.value is None else ", the farthest of them given"
     of = sum(other.path == case.path for other in cases)
     return (
         f"{words} ({printable(case.name.removesuffix(case.variant))}: {len(group)} of {of} "

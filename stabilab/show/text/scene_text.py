@@ -58,7 +58,9 @@ def _whole(case, equations, own) -> str:
     answer = (
         f"{case.name}: a {'scaled gyrostat' if case.variables == 'scaled' else 'body with ' + effects}; laws "
         f"known of this scene: {len(own)}")
-    return "\n".join([answer, *parts, "", "Laws of this scene", *(_laws(own, axes) or ["  none is known"])])
+    return "\n".join([answer, *parts, "",
+                      "Laws of this scene: first integrals, and what changes at a known rate",
+                      *(_laws(own, axes) or ["  none is known"])])
 
 
 def _head(case) -> str:

@@ -199,12 +199,13 @@ def _margins(row, units) -> str:
     if not known:
         because = next((row.margins[name].because for name in ("wheel", "rate", "torque")
                         if name in row.margins), "")
-        return f"margin: none: {lettered(units.words(because))}" if because else ""
+        return f"no distance to a separatrix: {lettered(units.words(because))}" if because else ""
     ends = {name: _ends(name, m, units) for name, m in known.items()}
     told = [" or ".join(f"{ends[name][0]} of {WORDS[name]}" for name, m in known.items()
                         if (m.beyond or name == "torque") == beyond) for beyond in (True, False)]
     changes = [words + sizes for words, sizes in zip(
-        ("the fate changes with ", "only on a separatrix the fate is another, nearest "), told) if sizes]
+        ("the outcome changes with ", "only on a separatrix the outcome is another, nearest "), told)
+        if sizes]
     return "; ".join([*changes, *(f"from {back} of {WORDS[name]} on it is as now again"
                                   for name, (_, back) in ends.items() if back)])
 

@@ -218,7 +218,7 @@ def with_euler_angles(case, run, model: str = "exact", order: int | None = None)
     """
     if "gamma" not in run.state:
         raise InputError("angles: psi, theta, phi of the vertical need gamma in the state: an effect that "
-                         "asks for it (gravity, "
+                         "needs it (gravity, "
                          "newtonian_field, a charge with angle = \"attitude\"), or vertical in [motion]")
     if not len(run.t):
         return replace(run, state=run.state | {"euler": np.empty((0, 3))})

@@ -273,14 +273,14 @@ def proved(scene, state, found: SpinUp, steps: int | None = None, bits: int | No
         if reached is None:
             return replace(found,
                            cause=f"{found.cause}; not proved: after {way.steps} validated steps, at t = "
-                                 f"{way.t:.6g}, the way is {way.why}")
+                                 f"{way.t:.6g}, the motion is {way.why}")
         middle, near = reached
         constants = test.constants(middle / unit, near / unit * WIDER, fast)
         if constants:
             # six constants
             trap = Trap(before.field, before.form, before.orders, *constants, unit, way.t)  # type: ignore[call-arg]
             words = (found.cause.replace("is certified", "is proved")
-                     + f"; the way there is enclosed, within {near:.2g}{rates} at t = {way.t:.6g}")
+                     + f"; the motion up to there is enclosed, within {near:.2g}{rates} at t = {way.t:.6g}")
             return replace(found, level="proved", trap=trap, t=way.t, state=tuple(middle.tolist()),
                            cause=words)
         if not found.t:

@@ -197,9 +197,8 @@ def _no_form(scene):
         return (
             "the torque has no component about the axis of symmetry and no spin-up in the equator has a "
             "certificate: nothing to test")
-    return ("the torque has no component about the major or the minor axis (it lies along the middle axis, "
-            "if anywhere): no certificate of "
-            "spin-up exists about that axis, and nothing was followed")
+    return ("the torque has no component about the major or the minor axis (it lies along the intermediate "
+            "axis, if anywhere): no certificate of spin-up exists about that axis, and nothing was followed")
 
 
 def _look(form, state, unit):

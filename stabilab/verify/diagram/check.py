@@ -94,9 +94,9 @@ def _system(claims: Claims, equations: Equations, note) -> System | None:
         return System(2, [one, equations.across(axis, equations.m)], endless=equations.torque(axis))
     law = equations.kept(axis)
     if law is None:
-        note("the curve that a motion keeps to", "refuted", "no law of this form is constant")
+        note("the curve that a motion stays on", "refuted", "no law of this form is constant")
         return None
-    note("the curve that a motion keeps to", "proved",
+    note("the curve that a motion stays on", "proved",
          "the rate of its law along every motion vanishes identically")
     law = equations.rise(law, claims.start)
     return System(2, [one, equations.across(axis, law)], [equations.across(axis, equations.m)])

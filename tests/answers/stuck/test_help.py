@@ -109,8 +109,8 @@ def test_about_the_middle_axis_no_change_of_rate_is_said_to_change_the_fate(aske
     _, craft.start, first = craft.run(200.0, limit=False, rtol=1e-8)
     assert craft.run(200.0, limit=False, rtol=1e-8)[2] < 1.01 * first
     code, out, _ = stabilab("stuck", tmp_path / "own.toml")
-    assert code == 0 and "only on a separatrix the fate is another, nearest " in out
-    assert "the fate changes with" not in out
+    assert code == 0 and "only on a separatrix the outcome is another, nearest " in out
+    assert "the outcome changes with" not in out
 
 
 def test_off_the_axes_no_margin_is_told(asked):

@@ -127,7 +127,7 @@ def test_a_wheel_along_the_torque_keeps_nothing_bounded_but_at_one_momentum():
 def test_a_torque_on_the_middle_axis_is_borne_with_any_momentum():
     found, because = intervals(scene(D, (0, 0, 0), (0, "0.02", 0)), START,
                                (Fraction(1), Fraction(0), Fraction(0)))
-    assert found == ((-INF, INF),) and "middle axis" in because
+    assert found == ((-INF, INF),) and "intermediate axis" in because
 
 
 def test_a_sphere_is_bounded_where_the_wheels_are_across_the_torque():

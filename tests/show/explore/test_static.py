@@ -65,7 +65,7 @@ def test_the_archive_answers_and_checks_with_python_flint_alone(tmp_path):
     assert run.returncode == 0, run.stderr
     headline, status, loaded = run.stdout.splitlines()
     assert headline.startswith(
-        "BOUNDED only while the torque is exactly along x (major axis)") and "margin 74.4 deg/s" in headline
+        "BOUNDED only while the torque is exactly along x (major axis)") and "74.4 deg/s from the separatrix" in headline
     assert (status, loaded) == ("proved", "[]")
 
 

@@ -33,7 +33,7 @@ def test_the_first_line_tells_the_shares_and_the_others_the_boundary(minor):
         "minor-axis-100: 2 kinds of motion in this plane: 57.5 % spin-up about +x3, 42.5 % bounded (± ")
     assert "the exact separatrix passes through each" in rest[0] and "that of a smooth line" in rest[
         1] and " ± " in rest[1] and "known as exact" in rest[2]
-    assert f"{len(minor.records):,} states asked, of 28,497" in rest[3]
+    assert f"{len(minor.records):,} states computed, of 28,497" in rest[3]
 
 
 def test_json_has_what_the_words_say_and_a_command_that_asks_the_same(minor):

@@ -94,7 +94,7 @@ def test_two_fates_share_the_states_of_a_symmetric_body_with_a_transverse_wheel(
 
 def test_torque_along_the_middle_axis_is_undecided_at_once_and_says_why():
     answer = spin_up(scene_of((3, 2, 1.5), (0, 0, 0), (0, 1, 0)), (1, 2, 3))
-    assert answer.level == "undecided" and answer.steps == 0 and "middle axis" in answer.cause
+    assert answer.level == "undecided" and answer.steps == 0 and "intermediate axis" in answer.cause
 
 
 def test_torque_near_the_middle_axis_is_decided_about_an_extremal_one():

@@ -151,7 +151,7 @@ def rim() -> np.ndarray:
 
 
 # --- What an atlas says in words, the answer first, and as CSV and JSON of every cell
-SCHEMA = "stabilab.atlas/1"
+SCHEMA = "stabilab.atlas/2"
 ROWS = 12  # wheel momenta that are told one by one
 
 
@@ -382,8 +382,8 @@ def json(atlas: Atlas, units: Units) -> str:
     wheels = [{"momentum": momentum, "unit": asked.unit, "vector": list(map(float, vector))}
               for momentum, vector in zip(asked.momenta or (None,) * len(asked.wheels), asked.wheels)]
     axes = axes_of(asked.case)
-    shares = [{"fate": Fate(fate).word, **axes.key(abs(axis)), "spin_direction": (axis > 0) - (axis < 0) or None,
-               "island": ISLANDS[island], "share": share}
+    shares = [{"fate": Fate(fate).word, **axes.key(abs(axis)),
+               "spin_direction": (axis > 0) - (axis < 0) or None, "island": ISLANDS[island], "share": share}
               for (fate, axis, island), _, share in kinds(atlas)]
     limit = asked.stated_limit
     cells = {"wheel": atlas.leaves.wheel, "level": atlas.leaves.level, "number": atlas.leaves.number,

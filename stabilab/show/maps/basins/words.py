@@ -36,7 +36,7 @@ def text(found: Basins) -> str:
     lines += [f"  {line}" for line in (*_boundary(found), _known(found))]
     full = (mesh.cells[0] << mesh.depth) + 1, (mesh.cells[1] << mesh.depth) + 1
     lines.append(
-        f"  {len(mesh.keys):,} states asked, of {full[0] * full[1]:,} of the grid of finest cells "
+        f"  {len(mesh.keys):,} states computed, of {full[0] * full[1]:,} of the grid of finest cells "
         f"({full[0]:,} x {full[1]:,})")
     lines += (limiting.lines(caveats_of(found.plan.case, found.records), units_of(found.plan.case))
               + law.beside(found.plan.case))

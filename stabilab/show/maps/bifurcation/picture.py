@@ -32,8 +32,8 @@ def write(found: Diagram, out: str | Path, size: tuple[float, float] | None = No
     if found.kind == CURVES:
         what = axes_of(found.family.case).sentence(found.what).partition(";")[0]
         raise InputError(
-            f"{found.family.case.place}: {what}: these are told in words, and no branches are there to draw: "
-            f"leave --out away")
+            f"{found.family.case.place}: {what}: these are described in words, and there are no branches to "
+            f"draw: leave out --out")
     return style.write(out, lambda plt: drawn(found, size, plt), dpi)
 
 
