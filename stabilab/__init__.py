@@ -48,9 +48,9 @@ if TYPE_CHECKING:  # what `_HOME` loads on first use, for editors and type check
     from .physics.scene import ScaledGyrostat as ScaledGyrostat
     from .physics.scene import Scene as Scene
     from .show import plot as plot
-    from .show.maps.atlas.dataset import atlas as atlas
-    from .show.maps.basins.dataset import basin as basin
-    from .show.maps.dataset import sweep as sweep
+    from .show.maps.atlas import atlas as atlas
+    from .show.maps.basins import basin as basin
+    from .show.maps.sweep import sweep as sweep
     from .theories.comparison import compare as compare
     from .theories.theory import theory as theory
     from .unreduced.spin_up.follow import spin_up as spin_up
@@ -76,8 +76,8 @@ _HOME = {
     "NewtonianField": "physics.effects.newtonian_field", "Gravity": "physics.effects.gravity",
     "BodyForce": "physics.effects.body_force", "ViscousDamper": "physics.effects.viscous_damper",
     "derive": "physics.equations", "validity": "physics.law_limits",
-    "plot": "show", "sweep": "show.maps.dataset", "atlas": "show.maps.atlas.dataset",
-    "basin": "show.maps.basins.dataset", "bifurcation": "maps.bifurcation.ask", "InputError": "errors",
+    "plot": "show", "sweep": "show.maps.sweep", "atlas": "show.maps.atlas",
+    "basin": "show.maps.basins", "bifurcation": "maps.bifurcation.ask", "InputError": "errors",
 }
 __all__ = [*_HOME, "__version__"]
 

@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     import pandas
     import xarray
 
-ROOM = "stabilab.show.results"
+SHOWN = "stabilab.show.results"
 
 
 def same(one: Any, other: Any) -> bool:
@@ -48,21 +48,17 @@ class Shown:
     xarray and pandas hold them."""
 
     def __repr__(self) -> str:
-        return _room("words").short(self)
+        return import_module(SHOWN).short(self)
 
     def _repr_html_(self) -> str:
-        return _room("numbers").html(self)
+        return import_module(SHOWN).html(self)
 
     def to_xarray(self) -> xarray.Dataset:
         """All numbers with their dimensions, units and words. Needs xarray; InputError names it where it is
         not installed."""
-        return _room("numbers").dataset(self)
+        return import_module(SHOWN).dataset(self)
 
     def to_pandas(self) -> pandas.DataFrame:
         """All numbers as a table: a row a time, a state, an equilibrium or a component. Needs pandas, as
         `to_xarray` needs xarray."""
-        return _room("numbers").frame(self)
-
-
-def _room(part: str) -> Any:
-    return import_module(f"{ROOM}.{part}")
+        return import_module(SHOWN).frame(self)

@@ -11,10 +11,9 @@ from ..case.read import blamed_on, load
 from ..errors import RenderingUnavailable, printable
 from ..show import limiting
 from ..show.files import endings
-from ..show.maps import chaos as chaos_picture
-from ..show.maps import chaos as chaos_words
+from ..show.maps import chaos as chaos_shown
 from ..show.maps import picture
-from ..show.maps.atlas import to_file as atlas_files
+from ..show.maps import to_file as map_files
 from ..show.plot import to_file
 from ..show.surface import words
 from ..show.surface.write import write_all
@@ -77,8 +76,8 @@ def plot(case, kind, out, size, dpi, until, neighbours, units, strict):
 
 def _of_file(case, target, kind, size, dpi, units):
     """The picture of what a sweep or an atlas wrote."""
-    if atlas_files.is_atlas(case):
-        return atlas_files.redrawn(case, target, kind, size, dpi, units)
+    if map_files.is_atlas(case):
+        return map_files.redrawn(case, target, kind, size, dpi, units)
     return picture.write(case, target, kind, size, dpi, units)
 
 
@@ -91,16 +90,16 @@ def chaos(cases, until, out, csv, json, strict):
         with blamed_on(case):
             rows.append((case, ask_chaos(case.scene, row_of(case.scene, case.state, case.blocks),
                                          time_asked(until, case, "until"))))
-    drawn = written(out, [(case, partial(chaos_picture.write, case, found)) for case, found in rows])
+    drawn = written(out, [(case, partial(chaos_shown.write, case, found)) for case, found in rows])
     laws = [law.of_case(case) for case in loaded]
     if json:
-        write(chaos_words.json(rows, laws))
+        write(chaos_shown.json(rows, laws))
     elif csv:
-        write(chaos_words.csv(rows, laws))
+        write(chaos_shown.csv(rows, laws))
     else:
-        texts = [partial(chaos_words.text, [row]) for row in rows]
+        texts = [partial(chaos_shown.text, [row]) for row in rows]
         tell_all(loaded, texts, laws, [""] * len(rows), False, "\n",
-                 lambda of: chaos_words.swept([rows[n] for n in of]), units_asked(loaded, None))
+                 lambda of: chaos_shown.swept([rows[n] for n in of]), units_asked(loaded, None))
     say_written(drawn)
     leave_undecided(strict, any(int(found.labels) == Order.UNDECIDED for _, found in rows))
     hold_laws(strict, laws, loaded)

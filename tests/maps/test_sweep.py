@@ -21,7 +21,7 @@ from stabilab.maps.parts import answered
 from stabilab.maps.plan import from_json, planned
 from stabilab.maps.run import run
 from stabilab.orbit.result import Fate
-from stabilab.show.maps import words
+from stabilab.show.maps import sweep as words
 from tests.shared import CASES
 
 
@@ -228,7 +228,7 @@ def test_a_map_killed_after_a_refinement_goes_on_by_its_command_or_says_how_it_i
     assert stabilab(*line)[0] == 0
     whole = Path("map.nc").read_bytes()
     with monkeypatch.context() as killed:  # before its file is written
-        killed.setattr("stabilab.show.maps.dataset.write", lambda *_: 1 / 0)
+        killed.setattr("stabilab.show.maps.sweep.write", lambda *_: 1 / 0)
         assert stabilab(*line)[0] == 1
     left = sorted(path.name for path in Path().glob("*.parts"))
     assert {"map.nc.1.parts", "map.nc.parts"} <= set(left)

@@ -165,9 +165,8 @@ def test_every_effect_can_be_had_from_the_package():
 
 
 def test_every_class_of_results_is_tried_here():
-    from stabilab.show.results.numbers import OF
-    from stabilab.show.results.words import SHORT
-    assert set(RESULTS) == set(OF) == set(SHORT)
+    from stabilab.show.results import KINDS
+    assert set(RESULTS) == set(KINDS)
 
 
 def test_tables_of_an_attitude_and_of_zeros_hold_their_numbers(results):

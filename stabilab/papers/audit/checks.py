@@ -18,21 +18,15 @@ from importlib import import_module
 from itertools import combinations
 
 from ...errors import InputError
+from ...physics.effects import effect_class
 from ...physics.equations import derive
 from ...physics.scene import Body, Scene
 from ...theories.printed.claims import FormulaError, Paper, Row, parse, sides
 from ...theories.printed.evaluate import Evaluator, Undefined, points, precise, settled
 
-# effect -> (module, class, arguments that leave no parameter zero)
-EFFECTS = {
-    "gyrostat": ("gyrostat", "Gyrostat", ((2, 3, 5),)),
-    "constant_torque": ("constant_torque", "ConstantTorque", ((2, 3, 5),)),
-    "charge": ("charge", "Charge", (2, 3, 5, "1/2")),
-    "gravity": ("gravity", "Gravity", (7, (2, 3, 5))),
-    "newtonian_field": ("newtonian_field", "NewtonianField", (3,)),
-    "liquid_cavity": ("liquid_cavity", "LiquidCavity", (2, 3, 5)),
-    "resistance": ("resistance", "Resistance", (2,)),
-}
+# effect -> arguments that leave no parameter zero
+EFFECTS = {"gyrostat": ((2, 3, 5),), "constant_torque": ((2, 3, 5),), "charge": (2, 3, 5, "1/2"),
+           "gravity": (7, (2, 3, 5)), "newtonian_field": (3,), "liquid_cavity": (2, 3, 5), "resistance": (2,)}
 
 
 @dataclass(frozen=True)
@@ -118,19 +112,13 @@ def _scene(data, place):
     for effect in data["effects"]:
         if effect not in EFFECTS:
             raise InputError(f"{place}: unknown effect {effect!r}; known are {', '.join(EFFECTS)}")
-        module, kind, arguments = EFFECTS[effect]
-        effects.append(getattr(import_module(f"...physics.effects.{module}", __package__), kind)(*arguments))
+        effects.append(effect_class(effect)(*EFFECTS[effect]))
     return Scene(Body((7, 6, 4)), *effects)
 
 
 def _put(expression, values):
-    return (expression.subs({s: v for s, v in expression_symbols(expression, values)}) if values
-            else expression)
-
-
-def expression_symbols(expression, values):
-    """(symbol, value) of those of the named symbols that stand in the expression."""
-    return [(s, values[s.name]) for s in expression.free_symbols if s.name in values]
+    """The expression with values in the place of symbols by their names."""
+    return expression.subs({s: values[s.name] for s in expression.free_symbols if s.name in values})
 
 
 def _read(paper, place, text):
@@ -349,28 +337,20 @@ def _largest_term(value, expression):
 
 def free(pairs, domain, bound, system, fixed=None):
     """Symbols that need a value, in order of their names."""
-    found, waiting, done = set(), [e for pair in pairs for e in pair] + list(domain), set()
-    if system is not None and any(e.has(*_rates()) for e in waiting):
-        waiting += list(system.rates)
-    while waiting:
-        for s in waiting.pop().free_symbols:
-            if s.name in bound:
-                if s.name not in done:
-                    done.add(s.name)
-                    waiting.append(bound[s.name])
-            elif fixed and s.name in fixed:
-                if s.name not in done:
-                    done.add(s.name)
-                    waiting.append(fixed[s.name])
-            else:
-                found.add(s)
-    return sorted(found, key=lambda s: s.name)
-
-
-def _rates():
     import sympy as sp
 
-    return (sp.Function("rate"),)
+    found, waiting, done = set(), [e for pair in pairs for e in pair] + list(domain), set()
+    if system is not None and any(e.has(sp.Function("rate")) for e in waiting):
+        waiting += list(system.rates)
+    meant = {**(fixed or {}), **bound}
+    while waiting:
+        for s in waiting.pop().free_symbols:
+            if s.name not in meant:
+                found.add(s)
+            elif s.name not in done:
+                done.add(s.name)
+                waiting.append(meant[s.name])
+    return sorted(found, key=lambda s: s.name)
 
 
 def _apart(left, right, bound, system, chosen):

@@ -19,43 +19,15 @@ from itertools import islice
 from ...errors import InputError
 from ...theories.printed.claims import Paper, Row, parse
 from ...theories.printed.evaluate import Evaluator, Undefined, points, settled
-from .checks import (
-    Decision,
-    bound_of,
-    condition_of,
-    decide,
-    free,
-    number,
-    order,
-    raw,
-    residual,
-    singles,
-    stated,
-    system_of,
-    tested,
-)
-from .checks import (
-    pairs as pairs_of,
-)
+from . import checks
 from .units import unit_fault
 
 MOST_EDITS = 900
 KEEP = 3
-TWINS = {
-    "sin": ("cos", "tan", "sinh"),
-    "cos": ("sin", "cosh"),
-    "sinh": ("cosh", "tanh", "sin"),
-    "cosh": ("sinh", "cos"),
-    "tan": ("cot", "sin", "tanh"),
-    "asin": ("acos",),
-    "acos": ("asin",),
-    "asinh": ("acosh", "atanh"),
-    "atan": ("atanh",),
-    "atanh": ("asinh", "atan"),
-    "tanh": ("tan", "sinh"),
-    "re": ("im",),
-    "im": ("re",),
-}
+TWINS = {name: tuple(others.split()) for name, others in {
+    "sin": "cos tan sinh", "cos": "sin cosh", "tan": "cot sin tanh", "asin": "acos", "acos": "asin",
+    "atan": "atanh", "sinh": "cosh tanh sin", "cosh": "sinh cos", "tanh": "tan sinh", "asinh": "acosh atanh",
+    "atanh": "asinh atan", "re": "im", "im": "re"}.items()}
 
 
 def repairs(paper: Paper, row: Row, printed, system, bound, domain, fixed=None) -> tuple[str, ...]:
@@ -95,16 +67,16 @@ class _Trial:
         try:
             if self.row.kind == "holds" and not self._near(printed):
                 return False
-            pairs = pairs_of(self.paper, self.row, printed, self.system, self.bound)
+            pairs = checks.pairs(self.paper, self.row, printed, self.system, self.bound)
             if all(left == right for left, right in pairs):
                 return False  # an edit that leaves nothing to be said
-            found = [residual(pairs, mpmath.fp, point, self.bound, self.system, self.fixed)
+            found = [checks.residual(pairs, mpmath.fp, point, self.bound, self.system, self.fixed)
                      for point in self.points]
         except (InputError, TypeError, AttributeError, KeyError):
             return False
         if any(r is None or r > 1e-7 for r in found):
             return False
-        return (decide(pairs, self.bound, self.system, self.row.equation, self.domain, self.fixed,
+        return (checks.decide(pairs, self.bound, self.system, self.row.equation, self.domain, self.fixed,
                        symbolic=False).holds is True)
 
     def _near(self, printed):
@@ -261,8 +233,8 @@ def audit(paper: Paper, equation: str | None = None, search: bool = True,
 def prove_systems(paper: Paper) -> None:
     """Every system stated by rates follows from its parent; InputError names one that does not."""
     bound = {name: parse(text, paper.symbols) for name, text in paper.definitions.items()}
-    for name, parent, pairs in stated(paper):
-        decision = decide(pairs, bound, parent, name, domain_of(paper, (), pairs, bound, parent))
+    for name, parent, pairs in checks.stated(paper):
+        decision = checks.decide(pairs, bound, parent, name, domain_of(paper, (), pairs, bound, parent))
         if not decision.holds:
             raise InputError(
                 f"{paper.name}, systems.{name}: its rates do not follow from those of its parent "
@@ -274,9 +246,9 @@ def domain_of(paper: Paper, texts, pairs, bound, system) -> list:
     """What is positive at the points tried: the row's own domain, and of the paper's all that speaks of
     symbols of these pairs."""
     own = [parse(text, paper.symbols) for text in texts]
-    standing = set(free(pairs, own, bound, system))
+    standing = set(checks.free(pairs, own, bound, system))
     shared = [parse(text, paper.symbols) for text in paper.domain]
-    return own + [d for d in shared if set(free([(d, d)], (), bound, None)) <= standing]
+    return own + [d for d in shared if set(checks.free([(d, d)], (), bound, None)) <= standing]
 
 
 def examine(paper: Paper, row: Row, search: bool = True) -> Finding:
@@ -286,16 +258,17 @@ def examine(paper: Paper, row: Row, search: bool = True) -> Finding:
         return Finding(row, row.kind, "", "", words, float("nan"), float("nan"),
                        unit_fault=unit_fault(paper, row))
     if row.kind == "number":
-        return Finding(row, *number(paper, row))
+        return Finding(row, *checks.number(paper, row))
     if row.kind == "test":
-        return Finding(row, *tested(row))
+        return Finding(row, *checks.tested(row))
     return _formula(paper, row, search)
 
 
 def _formula(paper, row, search):
-    system, printed, bound = system_of(paper, row.system,
-                                       row.place), raw(paper, row.printed), bound_of(paper, row)
-    domain = domain_of(paper, row.domain, pairs_of(paper, row, printed, system, bound), bound, system)
+    system = checks.system_of(paper, row.system, row.place)
+    printed, bound = checks.raw(paper, row.printed), checks.bound_of(paper, row)
+    pairs = checks.pairs(paper, row, printed, system, bound)
+    domain = domain_of(paper, row.domain, pairs, bound, system)
     fault, decision = unit_fault(paper, row), _decided(paper, row, printed, system, bound, domain)
     if decision.holds is None:
         raise InputError(f"{row.place}: {decision.method}")
@@ -305,11 +278,9 @@ def _formula(paper, row, search):
                        unit_fault=fault)
     (condition, how), (fixes, under) = ("", ""), ((), "")
     if search and row.kind == "order":
-        condition, how = _order_condition(paper, row, pairs_of(paper, row, printed, system, bound), system,
-                                          bound, domain)
+        condition, how = _order_condition(paper, row, pairs, system, bound, domain)
     elif search:
-        condition, how = condition_of(paper, row, pairs_of(paper, row, printed, system, bound), bound, system,
-                                      domain)
+        condition, how = checks.condition_of(paper, row, pairs, bound, system, domain)
         fixes, under = _fixes(paper, row, printed, system, bound, domain, condition)
     correction, corrected_residual = _corrected(paper, row, system, domain)
     method = (decision.method + (f"; {how} under the condition" if condition else "")
@@ -322,8 +293,8 @@ def _formula(paper, row, search):
 
 def _order_condition(paper, row, pairs, system, bound, domain):
     """The first single condition under which the remainder is of the claimed order."""
-    for words, fixed in singles(paper, row, pairs, bound, system, domain):
-        decision = order(paper, row, pairs, bound | fixed, system)
+    for words, fixed in checks.singles(paper, row, pairs, bound, system, domain):
+        decision = checks.order(paper, row, pairs, bound | fixed, system)
         if row.options["small"] not in fixed and decision.holds:
             return words, decision.method
     return "", ""
@@ -334,8 +305,8 @@ def _corrected(paper, row, system, domain):
     check as well."""
     if not row.corrected:
         return "", float("nan")
-    better = _decided(paper, row, raw(paper, row.corrected), system, bound_of(paper, row, corrected=True),
-                      domain)
+    better = _decided(paper, row, checks.raw(paper, row.corrected), system,
+                      checks.bound_of(paper, row, corrected=True), domain)
     if not better.holds:
         raise InputError(
             f"{row.place}: the corrected formula fails the check as well ({better.method}, residual "
@@ -355,18 +326,18 @@ def _fixes(paper, row, printed, system, bound, domain, condition):
     fixes = repairs(paper, row, printed, system, bound, domain)
     if fixes or (condition and " and " not in condition):
         return fixes, ""
-    for words, fixed in singles(paper, row, pairs_of(paper, row, printed, system, bound), bound, system,
-                                domain):
+    pairs = checks.pairs(paper, row, printed, system, bound)
+    for words, fixed in checks.singles(paper, row, pairs, bound, system, domain):
         if words in (condition
                      or words) and (fixes := repairs(paper, row, printed, system, bound, domain, fixed)):
             return tuple(f"{fix} (where {words})" for fix in fixes), f" where {words}"
     return (), ""
 
 
-def _decided(paper, row, formulas, system, bound, domain) -> Decision:
-    pairs = pairs_of(paper, row, formulas, system, bound)
-    return (order(paper, row, pairs, bound, system) if row.kind == "order"
-            else decide(pairs, bound, system, row.equation, domain))
+def _decided(paper, row, formulas, system, bound, domain) -> checks.Decision:
+    pairs = checks.pairs(paper, row, formulas, system, bound)
+    return (checks.order(paper, row, pairs, bound, system) if row.kind == "order"
+            else checks.decide(pairs, bound, system, row.equation, domain))
 
 
 def key(equation: str):

@@ -20,11 +20,8 @@ def unit_fault(paper: Paper, row: Row) -> str:
     units = {name: dimension(words) for name, words in paper.units.items()}
     bound = bound_of(paper, row)
     try:
-        for name in bound:
-            if name not in units:
-                units[name] = None
-        for name in [n for n, u in units.items() if u is None]:
-            units[name] = unit_of(bound[name], {k: v for k, v in units.items() if v is not None}, time) or {}
+        for name in [n for n in bound if n not in units]:
+            units[name] = unit_of(bound[name], units, time) or {}
         for left, right in raw(paper, row.printed):
             unit_of(sp.Add(left, -right, evaluate=False), units, time)
     except UnitFault as fault:
@@ -39,19 +36,9 @@ def _time_of(paper, data):
 
 
 # --- Whether the terms of a formula have one unit: dimensions carried through a SymPy tree
-BASE = {
-    "m": {"m": 1},
-    "kg": {"kg": 1},
-    "s": {"s": 1},
-    "A": {"A": 1},
-    "rad": {},
-    "1": {},
-    "N": {"kg": 1, "m": 1, "s": -2},
-    "J": {"kg": 1, "m": 2, "s": -2},
-    "C": {"A": 1, "s": 1},
-    "T": {"kg": 1, "s": -2, "A": -1},
-    "W": {"kg": 1, "m": 2, "s": -3},
-}
+BASE = {"m": {"m": 1}, "kg": {"kg": 1}, "s": {"s": 1}, "A": {"A": 1}, "rad": {}, "1": {},
+        "N": {"kg": 1, "m": 1, "s": -2}, "J": {"kg": 1, "m": 2, "s": -2}, "W": {"kg": 1, "m": 2, "s": -3},
+        "C": {"A": 1, "s": 1}, "T": {"kg": 1, "s": -2, "A": -1}}
 
 
 class UnitFault(Exception):
@@ -113,18 +100,13 @@ def unit_of(expression, units: dict, time: dict):
             unit = visit(e.args[0])
             return unit and times({}, unit, Fraction(int(e.args[1].p), int(e.args[1].q)))
         name = e.func.__name__
-        if name == "rate":
-            n = int(e.args[1]) if len(e.args) > 1 else 1
+        if name in ("rate", "diff", "integral", "mean", "at", "conjugate", "re", "im", "Abs"):
             unit = visit(e.args[0])
-            return unit if unit is None else times(unit, time, -n)
-        if name == "diff":
-            unit = visit(e.args[0])
-            return unit if unit is None else times(unit, visit(e.args[1]) or {}, -1)
-        if name == "integral":
-            unit = visit(e.args[0])
-            return unit if unit is None else times(unit, visit(e.args[1]) or {})
-        if name in ("mean", "at", "conjugate", "re", "im", "Abs"):
-            return visit(e.args[0])
+            if unit is None or name not in ("rate", "diff", "integral"):
+                return unit
+            if name == "rate":
+                return times(unit, time, -int(e.args[1]) if len(e.args) > 1 else -1)
+            return times(unit, visit(e.args[1]) or {}, -1 if name == "diff" else 1)
         if name == "atan2":
             first, second = map(visit, e.args)
             if None not in (first, second) and first != second:

@@ -7,7 +7,7 @@ from ...files import whole_file
 from ...packages import demand
 from ...physics.scene import PARTS
 from ...version import __version__
-from ..results.numbers import of_parts
+from ..results import of_parts
 from ..text.answers import columns
 from . import comma, endings
 

@@ -19,21 +19,8 @@ from ..plot import basins as basin_picture
 from ..plot.to_file import check_size
 from ..terminal.letters import written
 from ..units import Units, units_of
-from .basins import dataset as basin_data
-from .shades import (
-    FATES,
-    FLAGS,
-    SAMPLE,
-    dimensions,
-    flag_legend,
-    label,
-    light,
-    looks,
-    own_value,
-    scale_axes,
-    short_label,
-    spoken_key,
-)
+from . import basins as basin_data
+from . import shades
 
 if TYPE_CHECKING:
     import xarray
@@ -48,28 +35,29 @@ TOGETHER = (("margin",), ("distance",), ("least", "greatest"), ("period",), ("wh
 def curves(data: Any, plan: Any, kind: str, along: str, size: Any, plt: Any) -> Any:
     """The figure: a panel for each question; of a column other than the fate, the panel that it is in alone.
     """
-    panels = [[name for name in names if name in data] for names in TOGETHER if kind in (*FLAGS, *names)]
+    panels = [[name for name in names if name in data] for names in TOGETHER
+              if kind in (*shades.FLAGS, *names)]
     panels = ([names for names in panels if names and np.isfinite(np.asarray(data[names[0]], float)).any()]
               or [[]])
     figure, axes = plt.subplots(len(panels), 1, sharex=True, squeeze=False, layout="constrained",
                                 figsize=size or (8, 1.4 + 2.2 * len(panels)))
-    x, behind = np.asarray(data[along]), kind if kind in FLAGS else "fate"
+    x, behind = np.asarray(data[along]), kind if kind in shades.FLAGS else "fate"
     order = np.argsort(x)
     for ax, names in zip(axes[:, 0], panels):
         if behind in data:
-            _bands(ax, x[order], np.asarray(data[behind])[order], looks(data, behind))
+            _bands(ax, x[order], np.asarray(data[behind])[order], shades.looks(data, behind))
         _lines(ax, data, x, order, names)
         ax.set_xlim(x.min(), x.max())
-        scale_axes(ax, x)
-    axes[-1, 0].set_xlabel(label(data, along))
+        shades.scale_axes(ax, x)
+    axes[-1, 0].set_xlabel(shades.label(data, along))
     axes[0, 0].set_title(style.literal(data.attrs.get("title", "")), loc="left", wrap=True)
-    own = own_value(plan,
+    own = shades.own_value(plan,
                     next(n for n, axis in enumerate(plan.axes)
                          if axis.key.name == data[along].attrs["long_name"]))
     if own is not None and x.min() <= own <= x.max():
         for ax in axes[:, 0]:
             ax.axvline(own, color=style.BLACK, linewidth=0.8, linestyle=":", label="the case itself")
-    _legend(figure, flag_legend(data, behind) if behind in data else [], axes[:, 0])
+    _legend(figure, shades.flag_legend(data, behind) if behind in data else [], axes[:, 0])
     return figure
 
 
@@ -78,8 +66,8 @@ def _bands(ax, x, flags, look):
     edges = np.concatenate([[x[0]], 0.5 * (x[1:] + x[:-1]), [x[-1]]])
     cuts = [0, *(np.flatnonzero(np.diff(flags)) + 1), len(flags)]
     for first, last in zip(cuts, cuts[1:]):
-        ax.axvspan(edges[first], edges[last], facecolor=light(look[int(flags[first])][1], 0.22), linewidth=0,
-                   zorder=0)
+        ax.axvspan(edges[first], edges[last], facecolor=shades.light(look[int(flags[first])][1], 0.22),
+                   linewidth=0, zorder=0)
 
 
 def _lines(ax, data, x, order, names):
@@ -95,7 +83,7 @@ def _lines(ax, data, x, order, names):
         elif values.ndim == 1:
             # two may be one line
             ax.plot(x[order], values, color=style.SERIES[n], linestyle=(0, (6, 6)) if n else "-",
-                    label=short_label(data, name))
+                    label=shades.short_label(data, name))
         else:
             for i, axis in enumerate(data["axis"].attrs.get("names", "axis 1; axis 2; axis 3").split("; ")):
                 ax.plot(x[order], values[:, i], color=style.SERIES[i], linestyle="--" if n else "-",
@@ -160,33 +148,33 @@ def fields(data: Any, plan: Any, kind: str, moving: list[str], panels: list[dict
             rows |= _boundary(ax, here, plan, moving, _index(data, plan, place))
             if "margin" in here and len(panels) == 1:
                 rows |= _levels(ax, here, moving)
-        scale_axes(ax, np.asarray(here[moving[0]]), np.asarray(here[moving[1]]))
+        shades.scale_axes(ax, np.asarray(here[moving[0]]), np.asarray(here[moving[1]]))
         rows |= _own(ax, here, plan, moving) if not place else {}
         if place:
-            ax.set_title(
-                ",\n".join(
-                    f"{spoken_key(data, name)} = {float(data[name][n]):.4g} {_unit(data, name)}".strip()
-                    for name, n in place.items()))
+            ax.set_title(",\n".join(
+                f"{shades.spoken_key(data, name)} = {float(data[name][n]):.4g} {_unit(data, name)}".strip()
+                for name, n in place.items()))
     for ax in axes.flat[len(panels):]:
         ax.set_visible(False)
     for ax in (axes.flat[n] for n in range(len(panels)) if n + across >= len(panels)):
-        ax.set_xlabel(label(data, moving[0]))
+        ax.set_xlabel(shades.label(data, moving[0]))
         ax.xaxis.set_tick_params(labelbottom=True)
     for ax in axes[:, 0]:
-        ax.set_ylabel(label(data, moving[1]))
+        ax.set_ylabel(shades.label(data, moving[1]))
     figure.suptitle(style.literal(str(data.attrs.get("title", ""))) + _of_all(data, panels), fontsize=10.5,
                     wrap=True)
-    if kind not in FLAGS:
+    if kind not in shades.FLAGS:
         rows |= _blank(data, kind)
         of_axes = (f", {'least' if kind == 'least' else 'greatest'} of the three axes"
                    if "axis" in data[kind].dims else "")
-        bar = figure.colorbar(shown, ax=axes, label=label(data, kind) + of_axes)
+        bar = figure.colorbar(shown, ax=axes, label=shades.label(data, kind) + of_axes)
         if kind in COUNTS:
             numbers = [n for n in range(int(limits[0]), int(limits[1]) + 1) if n >= 0
                        or (np.asarray(data[kind]) == n).any()]
             bar.set_ticks(numbers, labels=[WITHOUT.get(n, str(n)) for n in numbers])
             bar.ax.tick_params(length=0)
-    handles = [*(flag_legend(data, kind) if kind in FLAGS else []), *((h, w) for w, h in rows.items())]
+    handles = [*(shades.flag_legend(data, kind) if kind in shades.FLAGS else []),
+               *((h, w) for w, h in rows.items())]
     if handles:
         figure.legend(*zip(*handles), loc="outside lower center", ncols=min(4, len(handles)))
     return figure
@@ -230,7 +218,7 @@ def _own(ax, data, plan, moving) -> dict[str, Any]:
     """The case's own place on the map, where it is on it."""
     from matplotlib.lines import Line2D
     keys = [axis.key.name for axis in plan.axes]
-    at = [own_value(plan, keys.index(data[name].attrs["long_name"])) for name in moving[:2]]
+    at = [shades.own_value(plan, keys.index(data[name].attrs["long_name"])) for name in moving[:2]]
     ends = [(float(data[name].min()), float(data[name].max())) for name in moving[:2]]
     if any(value is None or not low <= value <= high for value, (low, high) in zip(at, ends)):
         return {}
@@ -251,14 +239,14 @@ def _map(ax, data, whole, kind, moving, limits) -> Any:
     dims = [d for d in data[kind].dims if d != "axis"]
     values = values_of(data, kind) if dims == moving[:2] else values_of(data, kind).T
     options: dict[str, Any] = {"shading": "nearest", "rasterized": True}
-    if kind in FLAGS:
-        look = looks(whole, kind)
-        options |= {"cmap": ListedColormap([light(colour) for _, colour in look.values()]), "vmin": -0.5,
-                    "vmax": len(look) - 0.5}
+    if kind in shades.FLAGS:
+        look = shades.looks(whole, kind)
+        options |= {"cmap": ListedColormap([shades.light(colour) for _, colour in look.values()]),
+                    "vmin": -0.5, "vmax": len(look) - 0.5}
         values = np.searchsorted(list(look), values)
     elif kind in COUNTS:
         levels = np.arange(limits[0], limits[1] + 2) - 0.5
-        colours = ListedColormap([light(colour, 0.6)
+        colours = ListedColormap([shades.light(colour, 0.6)
                                   for colour in (style.GREY, *style.BRANCHES)][:max(2, len(levels) - 1)])
         options |= {"cmap": colours,
                     "norm": BoundaryNorm(levels if len(levels) > 2 else [*levels, levels[-1] + 1], colours.N)}
@@ -384,38 +372,38 @@ def _histograms(data, plan, kind, size, plt):
         values = np.asarray(data[name])
         finite = np.isfinite(values)
         edges = np.histogram_bin_edges(values[finite], BINS)
-        for fate, (words, colour) in FATES.items():
+        for fate, (words, colour) in shades.FATES.items():
             of = finite & (np.asarray(data["fate"]) == fate) if "fate" in data else finite
             if of.any():
                 told = f"{words}: {of.sum():,}" if "fate" in data else None
-                ax.hist(values[of], edges, facecolor=light(colour), edgecolor=colour, linewidth=0.6,
+                ax.hist(values[of], edges, facecolor=shades.light(colour), edgecolor=colour, linewidth=0.6,
                         label=told)
             if "fate" not in data:
                 break
-        ax.set_xlabel(short_label(data, name))
+        ax.set_xlabel(shades.short_label(data, name))
         ax.set_ylabel("samples")
         if "fate" in data:
             ax.legend(loc="best")
-    axes[0, 0].set_title(f"{style.literal(data.attrs.get('title', ''))}: {data.sizes[SAMPLE]:,} samples",
-                         loc="left", wrap=True)
+    title, count = style.literal(data.attrs.get("title", "")), data.sizes[shades.SAMPLE]
+    axes[0, 0].set_title(f"{title}: {count:,} samples", loc="left", wrap=True)
     return figure
 
 
 def _shares(data, moving, size, plt):
     figure, ax = plt.subplots(layout="constrained", figsize=size or (8, 4.5))
-    x, fates = np.asarray(data[moving[0]]), np.asarray(data["fate"].transpose(moving[0], SAMPLE))
+    x, fates = np.asarray(data[moving[0]]), np.asarray(data["fate"].transpose(moving[0], shades.SAMPLE))
     base = np.zeros(len(x))
-    for fate, (words, colour) in FATES.items():
+    for fate, (words, colour) in shades.FATES.items():
         share = 100 * (fates == fate).mean(axis=1)
         if share.any():
-            ax.fill_between(x, base, base + share, facecolor=light(colour), edgecolor=colour, linewidth=0.6,
-                            label=words)
+            ax.fill_between(x, base, base + share, facecolor=shades.light(colour), edgecolor=colour,
+                            linewidth=0.6, label=words)
             base = base + share
     ax.set_xlim(x.min(), x.max())
     ax.set_ylim(0, 100)
-    scale_axes(ax, x)
-    ax.set_xlabel(label(data, moving[0]))
-    ax.set_ylabel(f"share of {data.sizes[SAMPLE]:,} samples (%)")
+    shades.scale_axes(ax, x)
+    ax.set_xlabel(shades.label(data, moving[0]))
+    ax.set_ylabel(f"share of {data.sizes[shades.SAMPLE]:,} samples (%)")
     ax.set_title(style.literal(data.attrs.get("title", "")), loc="left", wrap=True)
     figure.legend(loc="outside lower center", ncols=4)
     return figure
@@ -428,17 +416,17 @@ def _share_map(data, moving, size, plt):
             "xarray.open_dataset(...).isel(...)")
     figure, ax = plt.subplots(layout="constrained", figsize=size or (7.2, 6.0))
     x, y = (np.asarray(data[name]) for name in moving)
-    share = 100 * (np.asarray(data["fate"].transpose(*moving, SAMPLE)) == Fate.SPIN_UP).mean(axis=-1)
+    share = 100 * (np.asarray(data["fate"].transpose(*moving, shades.SAMPLE)) == Fate.SPIN_UP).mean(axis=-1)
     drawn = ax.pcolormesh(x, y, share.T, shading="nearest", cmap="cividis", vmin=0, vmax=100, rasterized=True)
     ax.grid(False)
     ax.contour(x, y, share.T, levels=[5, 50, 95], colors=style.BLACK,
                linewidths=(0.6, 1.2, 0.6)) if min(share.shape) > 1 else None
     figure.colorbar(drawn,
-                    label=f"share of {data.sizes[SAMPLE]:,} samples that spins up (%); lines at 5, 50 "
+                    label=f"share of {data.sizes[shades.SAMPLE]:,} samples that spins up (%); lines at 5, 50 "
                           f"and 95 %")
-    scale_axes(ax, x, y)
-    ax.set_xlabel(label(data, moving[0]))
-    ax.set_ylabel(label(data, moving[1]))
+    shades.scale_axes(ax, x, y)
+    ax.set_xlabel(shades.label(data, moving[0]))
+    ax.set_ylabel(shades.label(data, moving[1]))
     ax.set_title(style.literal(data.attrs.get("title", "")), loc="left", wrap=True)
     return figure
 
@@ -557,7 +545,7 @@ def read(path: Path, words: str) -> xarray.Dataset:
 def differing(data: xarray.Dataset, plan: Plan) -> str:
     """What of a data set is not as the sweep made it, "" where all is: a part of a sweep would have its
     boundary drawn elsewhere."""
-    dims = dimensions(plan)
+    dims = shades.dimensions(plan)
     for name, axis in zip(dims, plan.axes):
         same = (name in data.coords and data[name].attrs.get("long_name") == axis.key.name
                 and np.array_equal(data[name].values, np.array(axis.values)))
@@ -587,14 +575,14 @@ def chosen(data: xarray.Dataset, kind: str | None) -> str:
 def dimensions_of(data: xarray.Dataset) -> list[str]:
     """The dimensions that vary, but for samples."""
     name = next(iter(data.data_vars))
-    return [str(d) for d in data[name].dims if d not in (SAMPLE, "axis")]
+    return [str(d) for d in data[name].dims if d not in (shades.SAMPLE, "axis")]
 
 
 def drawn(data: xarray.Dataset, plan: Plan, kind: str, size: tuple[float, float] | None, plt: Any) -> Any:
     """The figure of a column: curves, a map, small maps, or how samples spread."""
     moving = [name for name in dimensions_of(data) if data.sizes[name] > 1]
     data = data.isel({name: 0 for name in dimensions_of(data) if name not in moving})
-    if SAMPLE in data.sizes:
+    if shades.SAMPLE in data.sizes:
         return spread(data, plan, kind, moving, size, plt)
     if len(moving) < 2:
         if not moving:

@@ -70,12 +70,7 @@ def unit(plan: Plan, column: Column) -> str:
             if plan.case.variables == "physical" else "1")
 
 
-def meanings(column: Column) -> str:
-    """The flags as NetCDF lists them, a word each."""
-    return " ".join(flag.replace(" ", "_") or "none" for flag in column.flags)
-
-
-def limiting(case: Any, records: Any) -> list[Caveat]:
+def limits_of(case: Any, records: Any) -> list[Caveat]:
     """What limits the answers of a map: what the file says itself, on what its points rest, a limit that was
     not looked at."""
     found, numbers = [*case.caveats,
@@ -116,14 +111,17 @@ def spinning(axis: int) -> tuple[float, float, float]:
     return light(style.SPIN[abs(axis)], 0.4 if axis < 0 else 0.9)
 
 
+def with_unit(name: str, unit: str) -> str:
+    """A name with its unit behind it; "1" is none."""
+    return name if unit == "1" else f"{name} ({unit})"
+
+
 def label(data: Any, name: str) -> str:
     """The name of a dimension or column with its unit; of a dimension as few of its last words as tell it
     from the others of the sweep."""
     attrs = data[name].attrs
-    words, unit = drawn(spoken_key(data,
-                                   name)) if name in data.dims else str(
-                                       attrs.get("long_name", name)), attrs.get("units", "1")
-    return words if unit == "1" else f"{words} ({unit})"
+    words = drawn(spoken_key(data, name)) if name in data.dims else str(attrs.get("long_name", name))
+    return with_unit(words, attrs.get("units", "1"))
 
 
 def spoken_key(data: Any, name: str) -> str:
@@ -135,8 +133,7 @@ def spoken_key(data: Any, name: str) -> str:
 
 def short_label(data: Any, name: str) -> str:
     """The same for a narrow place: a column by its own name."""
-    unit = data[name].attrs.get("units", "1")
-    return name.replace("_", " ") + ("" if unit == "1" else f" ({unit})")
+    return with_unit(name.replace("_", " "), data[name].attrs.get("units", "1"))
 
 
 def is_log(values: np.ndarray) -> bool:

@@ -12,7 +12,7 @@ from ...maps.basins.ask import BOUNDED, NO_AXIS, UNDECIDED, Basins
 from ...packages import demand
 from .. import style
 from ..files import endings
-from ..maps.basins.words import basin_name, cells_of
+from ..maps.basins import basin_name, cells_of
 from ..maps.shades import dimensions, drawn, light, own_value, said, spinning
 from . import subject as canvas
 

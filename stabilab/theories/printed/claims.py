@@ -10,36 +10,16 @@ import re
 import tomllib
 from dataclasses import dataclass, field
 from functools import lru_cache
+from operator import add, mul, sub, truediv
 from pathlib import Path
 
 from ...errors import InputError
 
-FUNCTIONS = (
-    "sin",
-    "cos",
-    "tan",
-    "cot",
-    "sec",
-    "sinh",
-    "cosh",
-    "tanh",
-    "exp",
-    "log",
-    "sqrt",
-    "asin",
-    "acos",
-    "atan",
-    "atan2",
-    "asinh",
-    "atanh",
-    "conjugate",
-    "re",
-    "im",
-    "Abs",
-    "sign",
-)
+FUNCTIONS = ("sin cos tan cot sec sinh cosh tanh exp log sqrt asin acos atan atan2 asinh atanh "
+             "conjugate re im Abs sign").split()
 # rate(f[, n]) along the motion, diff(f, s), mean(f, angle), integral(f, s, a, b), at(f, s, value)
 OPERATORS = ("rate", "diff", "mean", "integral", "at")
+OPERATIONS = {ast.Add: add, ast.Sub: sub, ast.Mult: mul, ast.Div: truediv, ast.Pow: pow}
 
 
 class FormulaError(InputError):
@@ -95,17 +75,8 @@ def _build(node, text, symbols):
                 return -visit(inner) if isinstance(node.op, ast.USub) else visit(inner)
             case ast.BinOp(left=left, op=op, right=right):
                 a, b = visit(left), visit(right)
-                match op:
-                    case ast.Add():
-                        return a + b
-                    case ast.Sub():
-                        return a - b
-                    case ast.Mult():
-                        return a * b
-                    case ast.Div():
-                        return a / b
-                    case ast.Pow():
-                        return a**b
+                if type(op) in OPERATIONS:
+                    return OPERATIONS[type(op)](a, b)
             case ast.Call(func=ast.Name(id=name), args=args, keywords=[]):
                 if name not in functions:
                     fault(f"unknown function {name!r} (known: {', '.join(functions)})", node)
@@ -134,42 +105,12 @@ KINDS = {  # kind -> keys that a row of it needs besides `equation` and `printed
     "definition": ("defines",),
     "not-checkable": ("because",),
 }
-ROW_KEYS = {
-    "equation",
-    "kind",
-    "says",
-    "printed",
-    "corrected",
-    "system",
-    "where",
-    "corrected_where",
-    "domain",
-    "variable",
-    "speed",
-    "start",
-    "value",
-    "small",
-    "order",
-    "test",
-    "with",
-    "defines",
-    "because",
-    "bound",
-    "note",
-    "solve",
-    "conditions",
-    "residual",
-    "verdict",
-    "figures",
-    "units",
-    "repair",
-}
-
-
-KEYS = dict.fromkeys(("name", "title", "source", "figures", "symbols", "formulas", "definitions", "systems",
-                      "conditions", "domain", "row"))
-# of a row: no formulas
-WORDS = {"equation", "kind", "says", "note", "because", "defines", "residual", "test", "system"}
+# of a row: fields of `Row`, then options
+OWN = "equation kind says printed corrected system where corrected_where domain".split()
+ROW_KEYS = {*OWN, *("variable speed start value small order test with defines because bound note solve "
+                    "conditions residual verdict figures units repair").split()}
+KEYS = "name title source figures symbols formulas definitions systems conditions domain row".split()
+WORDS = set("equation kind says note because defines residual test system".split())  # of a row: no formulas
 NAME = re.compile(r"[A-Za-z_]\w*")
 FOLDER = Path(__file__).parent / "papers"
 MAIN = "constant-torque-gyrostat"
@@ -221,8 +162,8 @@ def read(path: Path) -> Paper:
     """The paper of a file. InputError with file, row and position for what cannot be read."""
     path, data = Path(path), _data(path)
     symbols, units, formulas, definitions = _vocabulary(data, path.name)
-    rows = tuple(_row(_expanded(row, formulas), n, path.name, symbols) for n,
-                 row in enumerate(data.get("row", ()), 1))
+    rows = tuple(_row(_expanded(row, formulas), n, path.name, symbols)
+                 for n, row in enumerate(data.get("row", ()), 1))
     seen: dict = {}
     for row in rows:
         if row.equation in seen:
@@ -230,20 +171,9 @@ def read(path: Path) -> Paper:
                 f"{row.place}: equation {row.equation} has a row already ({seen[row.equation]}): give each "
                 f"its own name, as 18-a")
         seen[row.equation] = row.place
-    paper = Paper(
-        data.get("name", path.stem),
-        data.get("title", path.stem),
-        symbols,
-        units,
-        definitions,
-        formulas,
-        data.get("systems", {}),
-        tuple(data.get("conditions", ())),
-        _tuple(data.get("domain", ())),
-        rows,
-        data.get("source", ""),
-        data.get("figures", ""),
-    )
+    paper = Paper(data.get("name", path.stem), data.get("title", path.stem), symbols, units, definitions,
+                  formulas, data.get("systems", {}), tuple(data.get("conditions", ())),
+                  _tuple(data.get("domain", ())), rows, data.get("source", ""), data.get("figures", ""))
     for table, texts in (("formulas", formulas), ("definitions", definitions)):
         for name, text in texts.items():
             _located(f"{path.name}, {table}.{name}", parse, text, symbols)
@@ -298,7 +228,7 @@ def _data(path):
         raise InputError(f"cannot read {path}: {error.strerror}") from None
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         raise InputError(f"{path.name}: no TOML: {error}") from None
-    if unknown := set(data) - KEYS.keys():
+    if unknown := set(data) - set(KEYS):
         raise InputError(
             f"{path.name}: unknown keys {', '.join(sorted(unknown))}; known are {', '.join(KEYS)}")
     return data
@@ -343,6 +273,7 @@ def _row(data, number, file, symbols) -> Row:
             f"{place}: unknown keys {', '.join(sorted(unknown))}; known are {', '.join(sorted(ROW_KEYS))}")
     printed, corrected = (_tuple(data.get(key, ())) for key in ("printed", "corrected"))
     where, corrected_where = data.get("where", {}), data.get("corrected_where", {})
+    domain = _tuple(data.get("domain", ()))
     for name in (*where, *corrected_where):
         symbols.setdefault(name, _symbol(name, ""))
     if kind in ("holds", "solves", "equilibrium", "order"):
@@ -350,23 +281,11 @@ def _row(data, number, file, symbols) -> Row:
             raise InputError(f'{place}: nothing printed: give printed = "left = right"')
         for text in (*printed, *corrected):
             _located(place, sides, text, symbols)
-    for text in (*where.values(), *corrected_where.values(), *_tuple(data.get("domain", ()))):
+    for text in (*where.values(), *corrected_where.values(), *domain):
         _located(place, parse, text, symbols)
-    known = {"equation", "kind", "says", "printed", "corrected", "system", "where", "corrected_where",
-             "domain"}
-    return Row(
-        str(data["equation"]),
-        kind,
-        printed,
-        corrected,
-        data.get("says", ""),
-        data.get("system"),
-        where,
-        corrected_where,
-        _tuple(data.get("domain", ())),
-        {key: value for key, value in data.items() if key not in known},
-        place,
-    )
+    return Row(str(data["equation"]), kind, printed, corrected, data.get("says", ""), data.get("system"),
+               where, corrected_where, domain,
+               {key: value for key, value in data.items() if key not in OWN}, place)
 
 
 def _tuple(value):

@@ -15,8 +15,8 @@ from stabilab.maps import run as machinery
 from stabilab.maps.atlas.pointed import neighbours
 from stabilab.maps.atlas.run import asked, drawn, kinds_of
 from stabilab.orbit.result import Fate
-from stabilab.show.maps.atlas import dataset as atlas_files
-from stabilab.show.maps.atlas import words as atlas_words
+from stabilab.show.maps import atlas as atlas_files
+from stabilab.show.maps import atlas as atlas_words
 from stabilab.show.units import units_of
 from tests.shared import CASES
 

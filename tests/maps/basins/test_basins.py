@@ -8,7 +8,7 @@ from stabilab.errors import InputError
 from stabilab.maps.basins import ask
 from stabilab.maps.basins import ask as mesh
 from stabilab.maps.basins.ask import BOUNDED, UNDECIDED, basins
-from stabilab.show.maps.basins.dataset import basin, dataset
+from stabilab.show.maps.basins import basin, dataset
 from tests.shared import CASES
 
 MINOR, PLANE = CASES / "minor-axis-100.toml", {"x[1]": "-4:4:12", "x[3]": "-3:3.1:11"}

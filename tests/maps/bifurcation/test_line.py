@@ -12,7 +12,7 @@ import stabilab
 from stabilab.errors import InputError
 from stabilab.maps.bifurcation.diagram import branches
 from stabilab.maps.bifurcation.family import ENDLESS
-from stabilab.show.maps.bifurcation import words as diagram_words
+from stabilab.show.maps import bifurcation as diagram_words
 from tests.oracles import elimination as by_hand
 from tests.shared import CASES
 

@@ -9,7 +9,8 @@ import pytest
 import stabilab
 from stabilab.errors import InputError
 from stabilab.maps.bifurcation.family import ENDLESS
-from stabilab.show.maps.bifurcation import picture, words
+from stabilab.show.maps import bifurcation as words
+from stabilab.show.maps import bifurcation_picture as picture
 from tests.maps.bifurcation.test_line import written
 
 FREE, START = (0, 0, 0), ("0.1", "0.05", "0.02")

@@ -11,8 +11,8 @@ import pytest
 
 import stabilab
 from stabilab.errors import InputError
+from stabilab.show.maps import basins, to_file
 from stabilab.show.maps import picture as pictures
-from stabilab.show.maps.basins import dataset, words, write
 from stabilab.show.plot import basins as picture
 from tests.shared import CASES
 
@@ -28,7 +28,7 @@ def minor():
 
 
 def test_the_first_line_tells_the_shares_and_the_others_the_boundary(minor):
-    first, *rest = words.text(minor).splitlines()
+    first, *rest = basins.text(minor).splitlines()
     assert first.startswith(
         "minor-axis-100: 2 kinds of motion in this plane: 57.5 % spin-up about +x3, 42.5 % bounded (± ")
     assert "the exact separatrix passes through each" in rest[0] and "that of a smooth line" in rest[
@@ -37,22 +37,22 @@ def test_the_first_line_tells_the_shares_and_the_others_the_boundary(minor):
 
 
 def test_json_has_what_the_words_say_and_a_command_that_asks_the_same(minor):
-    told = json.loads(words.json(minor))
+    told = json.loads(basins.json(minor))
     assert told["schema"] == "stabilab.basin/1" and told["complete"] and told["states_asked"] == len(
         minor.records)
     assert {row["basin"]: row["share"]
-            for row in told["basins"]} == {words.basin_name(minor, k): v for k, v in minor.shares.items()}
+            for row in told["basins"]} == {basins.basin_name(minor, k): v for k, v in minor.shares.items()}
     assert len(told["boundary"]["corners"]) == told["boundary"]["cells"] == len(
         told["boundary"]["separatrix"])
     assert told["box_dimension"]["value"] == minor.dimension.value and told["axes"][0]["cells"] == 11
     vary = dict(word.removeprefix("--vary=").split("=")
                 for word in told["command"].replace("'", "").split()[3:5])
     again = stabilab.basin(MINOR, vary, depth=int(told["command"].rpartition("=")[2]))
-    assert words.json(again) == words.json(minor)
+    assert basins.json(again) == basins.json(minor)
 
 
 def test_csv_has_a_line_for_each_cell_and_its_cells_cover_the_plane(minor):
-    rows = list(csv.reader(io.StringIO(words.csv(minor))))
+    rows = list(csv.reader(io.StringIO(basins.csv(minor))))
     assert rows[0] == ["motion.x[1] from", "motion.x[1] to", "motion.x[3] from", "motion.x[3] to", "depth",
                        "basin", "caveats"]
     areas = [(float(b) - float(a)) * (float(d) - float(c)) for a, b, c, d, *_ in rows[1:]]
@@ -64,9 +64,9 @@ def test_csv_has_a_line_for_each_cell_and_its_cells_cover_the_plane(minor):
 
 def test_a_file_holds_the_basins_and_plot_draws_it(minor, tmp_path):
     path = tmp_path / "basin.nc"
-    write.write(minor, write.checked([path]).data)
-    again = dataset.opened(pictures.loaded(path))
-    assert words.text(again) == words.text(minor) and np.array_equal(again.separatrix(), minor.separatrix())
+    to_file.write_basins(minor, to_file.data_of(to_file.checked([path])))
+    again = basins.opened(pictures.loaded(path))
+    assert basins.text(again) == basins.text(minor) and np.array_equal(again.separatrix(), minor.separatrix())
     one, two = pictures.write(path, tmp_path / "one.png"), picture.write(minor, tmp_path / "two.png")
     assert one.read_bytes() == two.read_bytes() and one.read_bytes().startswith(b"\x89PNG")
     with pytest.raises(InputError, match="one picture"):
@@ -74,7 +74,7 @@ def test_a_file_holds_the_basins_and_plot_draws_it(minor, tmp_path):
 
 
 def test_a_file_that_was_changed_is_refused(minor, tmp_path):
-    made = dataset.dataset(minor)
+    made = basins.dataset(minor)
     for name, value in (("fate", made.fate * 0), ("cell", made.cell * 0 + 10**6),
                         ("cell_depth", made.cell_depth * 0)):
         made.assign({name: value}).to_netcdf(tmp_path / f"{name}.nc", engine="scipy")
@@ -106,4 +106,4 @@ def test_files_are_judged_before_the_work():
     for paths, told in (((MINOR.with_suffix(".txt"),), "ends in"),
                         ((MINOR.with_name("a.nc"), MINOR.with_name("b.nc")), "one data set")):
         with pytest.raises(InputError, match=told):
-            write.checked(paths)
+            to_file.data_of(to_file.checked(paths))

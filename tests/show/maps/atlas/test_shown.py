@@ -13,9 +13,8 @@ import stabilab
 from stabilab.case.read import read_text
 from stabilab.errors import InputError
 from stabilab.maps.atlas.run import asked, drawn
-from stabilab.show.maps.atlas import dataset, picture, to_file, words
-from stabilab.show.maps.atlas import picture as page
-from stabilab.show.maps.atlas import words as flat
+from stabilab.show.maps import atlas as atlas_words
+from stabilab.show.maps import atlas_picture, to_file
 from stabilab.show.units import DEG
 from tests.browser import CHROMIUM, Browser
 from tests.maps.atlas.test_atlas import case_of
@@ -41,7 +40,7 @@ def found():
 
 
 def test_the_first_line_has_shares_of_the_sphere_and_the_shortest_time(found):
-    first, *rest = words.text(found, DEG).splitlines()
+    first, *rest = atlas_words.text(found, DEG).splitlines()
     shares = {}
     for axis, share in zip(found.records["spin_axis"].tolist(), found.share.tolist()):
         shares[abs(axis)] = shares.get(abs(axis), 0) + share / 2  # two wheels
@@ -56,7 +55,7 @@ def test_names_of_directions_that_are_one_stand_apart():
     """The torque of the case lies on axis 2 here: its name stood over that of the axis."""
     import matplotlib.pyplot as plt
     with drawn(asked(case_of(torque=(0.0, 1.0, 0.0)), level=0, refine=0), workers=1) as atlas:
-        figure = picture.drawn(atlas, DEG, ("fate",), None, plt)
+        figure = atlas_picture.drawn(atlas, DEG, ("fate",), None, plt)
     figure.canvas.draw()
     boxes, names = [label.get_window_extent()
                     for label in figure.axes[0].texts], [label.get_text() for label in figure.axes[0].texts]
@@ -70,26 +69,26 @@ def test_names_of_directions_that_are_one_stand_apart():
 
 
 def test_json_and_csv_hold_every_cell(found):
-    told = json.loads(words.json(found, DEG))
+    told = json.loads(atlas_words.json(found, DEG))
     assert told["schema"] == "stabilab.atlas/2" and len(told["cells"]["share"]) == len(found.records) == len(
         told["cells"]["direction"])
     assert sum(told["cells"]["share"]) == pytest.approx(2)
     assert sum(one["share"] for one in told["shares"]) == pytest.approx(1)
-    rows = list(csv.DictReader(io.StringIO(words.csv(found))))
+    rows = list(csv.DictReader(io.StringIO(atlas_words.csv(found))))
     assert len(rows) == len(found.records) + len(found.named)
     assert float(rows[-1]["when_low (s)"]) == found.records["when_low"][-1] and rows[0]["name"] == "+x"
 
 
 def test_a_file_holds_the_atlas_and_opens_as_a_data_set(found, tmp_path):
-    path = to_file.write(found, tmp_path / "sky.nc", DEG)
+    path = to_file.write_atlas(found, tmp_path / "sky.nc", DEG)
     data = xarray.open_dataset(path).load()
     assert data.share.sum() == pytest.approx(2) and data.corners.shape == (len(found.records), 3, 3)
     assert data.when_low.units == "s"
-    again = dataset.atlas_of(data, path)
-    assert words.text(again, DEG) == words.text(found, DEG) and to_file.is_atlas(path)
-    assert to_file.write(again, tmp_path / "two.nc", DEG).read_bytes() == path.read_bytes()
+    again = atlas_words.atlas_of(data, path)
+    assert atlas_words.text(again, DEG) == atlas_words.text(found, DEG) and to_file.is_atlas(path)
+    assert to_file.write_atlas(again, tmp_path / "two.nc", DEG).read_bytes() == path.read_bytes()
     with pytest.raises(InputError, match="was it changed"):
-        dataset.atlas_of(data.isel(cell=slice(0, 5)), path)
+        atlas_words.atlas_of(data.isel(cell=slice(0, 5)), path)
 
 
 def test_python_gives_the_data_set(tmp_path):
@@ -102,37 +101,37 @@ def test_python_gives_the_data_set(tmp_path):
 def test_the_map_keeps_areas_and_comes_back():
     turn, up = np.meshgrid(np.linspace(-3, 3, 41), np.linspace(-1.4, 1.4, 31))
     d = np.stack([np.cos(up) * np.cos(turn), np.cos(up) * np.sin(turn), np.sin(up)], axis=-1).reshape(-1, 3)
-    at = flat.on_sheet(d)
-    back, inside = flat.off_sheet(*at.T)
+    at = atlas_picture.on_sheet(d)
+    back, inside = atlas_picture.off_sheet(*at.T)
     assert inside.all() and back == pytest.approx(d, abs=1e-12)
     step = 1e-5  # quadrature of one small square: the area of its image is that of the square on the sphere
     for one in d[::97]:
         east = np.cross([0, 0, 1], one) / np.linalg.norm(np.cross([0, 0, 1], one))
         north = np.cross(one, east)
-        ends = flat.on_sheet(np.stack([one + step * east, one - step * east, one + step * north,
+        ends = atlas_picture.on_sheet(np.stack([one + step * east, one - step * east, one + step * north,
                                        one - step * north]))
         a, b = (ends[0] - ends[1]) / (2 * step), (ends[2] - ends[3]) / (2 * step)
         assert abs(a[0] * b[1] - a[1] * b[0]) == pytest.approx(1, rel=1e-6)
 
 
 def test_pictures_show_what_is_asked_and_refuse_others(found, tmp_path, monkeypatch):
-    monkeypatch.setattr(picture, "PIXELS", 200)
-    sizes = [picture.write_picture(found, tmp_path / f"{kind}.png", DEG, kind, dpi=50).stat().st_size
+    monkeypatch.setattr(atlas_picture, "PIXELS", 200)
+    sizes = [atlas_picture.write_picture(found, tmp_path / f"{kind}.png", DEG, kind, dpi=50).stat().st_size
              for kind in (None, "equilibria")]
     assert sizes[0] > 1.5 * sizes[1] > 5_000  # two maps for each wheel, and one
     with pytest.raises(InputError, match="plot margin: this atlas has fate, when, equilibria, level"):
-        picture.write_picture(found, tmp_path / "no.png", DEG, "margin")
+        atlas_picture.write_picture(found, tmp_path / "no.png", DEG, "margin")
     with pytest.raises(InputError, match="expected a name that ends in"):
         to_file.checked([tmp_path / "sky.txt"])
 
 
 def test_the_page_needs_no_network_and_escapes_names(found, tmp_path):
-    text = page.write_page(found, tmp_path / "sky.html", DEG).read_text(encoding="utf-8")
+    text = atlas_picture.write_page(found, tmp_path / "sky.html", DEG).read_text(encoding="utf-8")
     assert "http" not in text.replace("http://www.w3.org", "") and "A <1>" not in text.partition("</pre>")[0]
 
 
 def test_the_page_has_the_minus_of_a_book_and_round_times_in_its_legend(found, tmp_path):
-    text = page.write_page(found, tmp_path / "sky.html", DEG).read_text(encoding="utf-8")
+    text = atlas_picture.write_page(found, tmp_path / "sky.html", DEG).read_text(encoding="utf-8")
     (lead,) = re.findall(r'<p class="lead">(.*?)</p>', text, re.S)
     assert "−" in lead and not re.search(r"-[\d.]", lead)
     (head, none), *marks = json.loads(re.search(r'id="atlas-data">(.*?)</script>', text,
@@ -148,14 +147,14 @@ def test_the_page_has_the_minus_of_a_book_and_round_times_in_its_legend(found, t
     (3.0, 3.4, [3.0, 3.1, 3.2, 3.3, 3.4]),
     (3.011, 3.012, [3.01]), (1, 1e6, None)])
 def test_marks_are_round_and_few(least, most, marks):
-    found = page._marks(least, most)
+    found = atlas_picture._marks(least, most)
     assert found == marks if marks else 4 <= len(found) <= 8 and all(np.log10(found) % 1 == 0)
 
 
 @pytest.mark.slow
 @pytest.mark.skipif(CHROMIUM is None, reason="Chromium is not installed")
 def test_a_narrow_page_has_names_to_be_read_and_a_tap_is_answered(found, tmp_path):
-    path = page.write_page(found, tmp_path / "sky.html", DEG)
+    path = atlas_picture.write_page(found, tmp_path / "sky.html", DEG)
     with Browser(tmp_path / "profile", width=400, flags=["--host-resolver-rules=MAP * ~NOTFOUND"]) as browser:
         browser.open(path.as_uri())
         browser.until("window.atlas")
@@ -175,7 +174,7 @@ def test_a_narrow_page_has_names_to_be_read_and_a_tap_is_answered(found, tmp_pat
 @pytest.mark.skipif(CHROMIUM is None, reason="Chromium is not installed")
 def test_the_pages_pointer_tells_the_cell_that_python_finds(found, tmp_path):
     from stabilab.maps.atlas.pointed import places_of
-    path = page.write_page(found, tmp_path / "sky.html", DEG)
+    path = atlas_picture.write_page(found, tmp_path / "sky.html", DEG)
     directions = np.random.default_rng(3).normal(size=(300, 3))
     directions /= np.linalg.norm(directions, axis=1)[:, None]
     own = np.flatnonzero(found.leaves.wheel == 1)

@@ -8,8 +8,9 @@ import pytest
 import stabilab
 from stabilab.commands import maps
 from stabilab.errors import InputError
-from stabilab.show.maps.bifurcation import picture, plane_picture, plane_words, words
-from stabilab.show.maps.bifurcation.labels import GAP, GLYPH, rows_apart
+from stabilab.show.maps import bifurcation as words
+from stabilab.show.maps import bifurcation_picture as picture
+from stabilab.show.maps.bifurcation_picture import GAP, GLYPH, rows_apart
 from tests.shared import CASES
 
 MINOR = CASES / "wheel-and-thruster.toml"
@@ -26,7 +27,7 @@ def plane():
 
 
 def test_the_first_line_is_the_answer(line, plane):
-    first, second = (told.splitlines()[0] for told in (words.text(line), plane_words.text(plane)))
+    first, second = (told.splitlines()[0] for told in (words.text(line), words.text(plane)))
     assert first == ("wheel-and-thruster: 4 equilibria for 0 ≤ torque[3] < 1084.686668 N m, 2 for "
                      "1084.686668 < torque[3] < 1281.113057, none above: "
                      "folds at 1084.686668 and 1281.113057 N m")
@@ -45,7 +46,7 @@ def test_an_event_in_json_is_a_root_of_its_polynomial(line):
 
 
 def test_curves_of_a_plane_in_json_are_zero_at_its_cusps(plane):
-    told = json.loads(plane_words.json(plane))
+    told = json.loads(words.json(plane))
     (curve,), (cusp,) = told["curves"], told["cusps"]
     terms = [int(term["coefficient"]) * cusp["at"][0]**term["powers"][0] * cusp["at"][1]**term["powers"][1]
              for term in curve]
@@ -64,14 +65,14 @@ def test_every_point_of_the_csv_is_an_equilibrium(line):
 @pytest.mark.one_in(4)
 @pytest.mark.parametrize("ending", [".png", ".svg", ".pdf"])
 def test_pictures_are_the_same_bytes_each_time(line, plane, tmp_path, ending):
-    for number, (draw, found) in enumerate(((picture, line), (plane_picture, plane))):
+    for number, (draw, found) in enumerate(((picture, line), (picture, plane))):
         first, second = (draw.write(found, tmp_path / f"{number}-{n}{ending}").read_bytes() for n in (1, 2))
         assert first == second and len(first) > 3000
 
 
 def test_a_picture_says_what_it_counts_and_shows_a_cusp_on_its_edge_whole(line, plane):
     from matplotlib import pyplot
-    figures = [picture.drawn(line, None, pyplot), plane_picture.drawn(plane, None, pyplot)]
+    figures = [picture.drawn(line, None, pyplot), picture.drawn(plane, None, pyplot)]
     try:
         assert "number of equilibria" in figures[0].get_suptitle() and "number of equilibria" in figures[
             1].axes[0].get_title(loc="left")

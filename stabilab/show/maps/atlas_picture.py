@@ -1,4 +1,9 @@
-"""An atlas as a picture and as a page."""
+"""An atlas as a picture and as a page.
+
+The sphere of directions on a sheet: Hammer's map, on which areas are kept, turned so that no principal axis
+lies on its rim. Axis 3 points up. Axes 1 and 2 stand 45 degrees left and right of the middle, so all six
+directions of the axes lie inside; the rim is half way from -1 to -2.
+"""
 from __future__ import annotations
 
 from pathlib import Path
@@ -6,20 +11,67 @@ from typing import Any
 
 import numpy as np
 
-from ....errors import InputError, printable
-from ....maps.atlas.pointed import AXES, DEEPEST, places_of
-from ....maps.atlas.run import Atlas
-from ....maps.columns import ISLANDS, LEVELS, LIMIT_LEVELS
-from ....packages import demand
-from ... import style
-from ...axes import axes_of
-from ...report import html
-from ...units import SHORT, Units
-from ..shades import light
-from ..words import COUNTS
-from . import words as flat
-from .words import answer, does, in_time, kind_colour, kind_words, kinds, limit_words, shown_name, wheel_words
-from .words import text as in_words
+from ...errors import InputError, printable
+from ...maps.atlas.pointed import AXES, DEEPEST, places_of
+from ...maps.atlas.run import Atlas
+from ...maps.columns import ISLANDS, LEVELS, LIMIT_LEVELS
+from ...packages import demand
+from .. import style
+from ..axes import axes_of
+from ..report import html
+from ..units import SHORT, Units
+from .atlas import answer, does, in_time, kind_colour, kind_words, kinds, limit_words, shown_name, wheel_words
+from .atlas import text as in_words
+from .shades import light
+from .sweep import COUNTS
+
+# --- The map of the sphere
+ACROSS, UP = 2 * np.sqrt(2), np.sqrt(2)  # half the width and half the height of the map
+MIDDLE = np.pi / 4  # longitude, from axis 1 towards axis 2, of the map's middle
+
+
+def on_sheet(directions: np.ndarray) -> np.ndarray:
+    """(n, 2): where directions (n, 3) lie on the map."""
+    directions = np.asarray(directions, float)
+    size = np.linalg.norm(directions, axis=1)
+    turn = np.arctan2(directions[:, 1], directions[:, 0]) - MIDDLE
+    turn = (turn + np.pi) % (2 * np.pi) - np.pi
+    sine = directions[:, 2] / size
+    cosine = np.sqrt(np.maximum(1 - sine**2, 0.0))
+    root = np.sqrt(1 + cosine * np.cos(turn / 2))
+    return np.stack([ACROSS * cosine * np.sin(turn / 2) / root, UP * sine / root], axis=1)
+
+
+def off_sheet(x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """((n, 3) directions of places on the map, (n,) whether they lie on it)."""
+    inside = (x / ACROSS) ** 2 + (y / UP) ** 2 <= 1
+    root = np.sqrt(np.maximum(1 - (x / 4) ** 2 - (y / 2) ** 2, 0.5))
+    turn = 2 * np.arctan2(root * x, 2 * (2 * root**2 - 1)) + MIDDLE
+    sine = np.clip(root * y, -1, 1)
+    cosine = np.sqrt(1 - sine**2)
+    return np.stack([cosine * np.cos(turn), cosine * np.sin(turn), sine], axis=-1), inside
+
+
+def pieces(directions: np.ndarray) -> list[np.ndarray]:
+    """A line of directions on the map, cut where it leaves over the rim."""
+    at = on_sheet(directions)
+    breaks = np.flatnonzero(np.abs(np.diff(at[:, 0])) > ACROSS) + 1
+    return np.split(at, breaks)
+
+
+def circle(axis: int) -> np.ndarray:
+    """(n, 3): the principal plane across an axis, 0 to 2."""
+    turn = np.linspace(0, 2 * np.pi, 721)
+    out = np.zeros((len(turn), 3))
+    out[:, (axis + 1) % 3], out[:, (axis + 2) % 3] = np.cos(turn), np.sin(turn)
+    return out
+
+
+def rim() -> np.ndarray:
+    """(n, 2): the outline of the map."""
+    turn = np.linspace(0, 2 * np.pi, 361)
+    return np.stack([ACROSS * np.cos(turn), UP * np.sin(turn)], axis=1)
+
 
 # --- An atlas as a picture: the map of fates and that of times, with axes and thrusters; a row of both for
 # each wheel momentum
@@ -83,22 +135,22 @@ def _wheels(atlas: Atlas) -> list[int]:
 def _map(ax: Any, atlas: Atlas, wheel: int, kind: str, times: Any, plain: bool) -> None:
     x, y = np.meshgrid((np.arange(PIXELS) + 0.5) / PIXELS * 2 - 1,
                        (np.arange(PIXELS // 2) + 0.5) / (PIXELS // 2) * 2 - 1)
-    directions, inside = flat.off_sheet(x.ravel() * flat.ACROSS, y.ravel() * flat.UP)
+    directions, inside = off_sheet(x.ravel() * ACROSS, y.ravel() * UP)
     image = np.ones((len(inside), 4))
     image[~inside, 3] = 0
     image[inside, :3] = colours(atlas, kind,
                                 times)[atlas.leaves.holding(wheel, places_of(directions[inside]))]
-    ends = (-flat.ACROSS, flat.ACROSS, -flat.UP, flat.UP)
+    ends = (-ACROSS, ACROSS, -UP, UP)
     ax.imshow(image.reshape(PIXELS // 2, PIXELS, 4), origin="lower", extent=ends, interpolation="antialiased",
               interpolation_stage="rgba")
     ax.set_aspect("equal")
     ax.axis("off")
-    ax.set_xlim(-flat.ACROSS * 1.04, flat.ACROSS * 1.04)
-    ax.set_ylim(-flat.UP * 1.1, flat.UP * 1.1)
+    ax.set_xlim(-ACROSS * 1.04, ACROSS * 1.04)
+    ax.set_ylim(-UP * 1.1, UP * 1.1)
     for axis in range(3):
-        for piece in flat.pieces(flat.circle(axis)):
+        for piece in pieces(circle(axis)):
             ax.plot(*piece.T, color=style.BLACK, linewidth=0.5, alpha=0.5)
-    ax.plot(*flat.rim().T, color=style.BLACK, linewidth=0.9)
+    ax.plot(*rim().T, color=style.BLACK, linewidth=0.9)
     _points(ax, atlas, wheel, plain)
 
 
@@ -110,18 +162,18 @@ def _points(ax: Any, atlas: Atlas, wheel: int, plain: bool) -> None:
     size, taken = 8 if plain else 9, []
     # points of a unit of the sheet, roughly
     scale = (ax.figure.get_figwidth() * 72 * 0.9
-             / (ax.get_subplotspec().get_gridspec().ncols * 2.08 * flat.ACROSS))
-    for n, place in zip(here, flat.on_sheet(atlas.named_directions[here])):
+             / (ax.get_subplotspec().get_gridspec().ncols * 2.08 * ACROSS))
+    for n, place in zip(here, on_sheet(atlas.named_directions[here])):
         point = atlas.named[n]
         on_axis = point.level == AXES
         ax.plot(*place, marker="o" if on_axis else "*", markersize=4 if on_axis else 10, color="white",
                 markeredgecolor=style.BLACK, markeredgewidth=0.9,
                 linestyle="none", clip_on=False, zorder=3)
         pole = on_axis and point.number >= 4  # its name stands left of it: thrusters have theirs on the right
-        right = place[0] <= flat.ACROSS * 0.75 and not pole
+        right = place[0] <= ACROSS * 0.75 and not pole
         label = _label(atlas, n, plain)
         at, wide = place * scale, 0.62 * size * len(label)
-        for side, up in ((right, 3 if place[1] > -flat.UP * 0.98 else -9), (right, -11), (not right, 3),
+        for side, up in ((right, 3 if place[1] > -UP * 0.98 else -9), (right, -11), (not right, 3),
                          (not right, -11)):
             left = at[0] + (5 if side else -5 - wide)
             box = (left, left + wide, at[1] + up, at[1] + up + size)
@@ -165,22 +217,37 @@ def _known(atlas: Atlas) -> np.ndarray:
 
 def colours(atlas: Atlas, kind: str, times: Any) -> np.ndarray:
     """(n, 3): red, green and blue of every cell, 0 to 1."""
-    records = atlas.records
-    out = np.empty((len(records), 3))
-    if kind == "fate":
-        for (fate, axis, island), rows, _ in kinds(atlas):
-            out[rows] = kind_colour(fate, axis, island)
-    elif kind == "when":
-        import matplotlib
-        scale, _, one = times
-        known = _known(atlas)
-        out[:] = np.where(np.isinf(records["when_low"])[:, None], NEVER, UNKNOWN)
-        out[known] = matplotlib.colormaps["cividis_r"](scale(records["when_low"][known] * one))[:, :3]
-    else:
-        values = records[kind]
-        for n, value in enumerate(np.unique(values)):
-            out[values == value] = COUNTED[(int(value) if value >= 0 else n) % len(COUNTED)]
+    if kind != "when":
+        which, _, of, _ = classes(atlas, kind)
+        return np.array(of)[which]
+    import matplotlib
+    scale, _, one = times
+    known, low = _known(atlas), atlas.records["when_low"]
+    out = np.where(np.isinf(low)[:, None], NEVER, UNKNOWN)
+    out[known] = matplotlib.colormaps["cividis_r"](scale(low[known] * one))[:, :3]
     return out
+
+
+# of values that are counted or have a word each
+SAID = {"level": lambda v: f"the fate is {LEVELS[v]}" if v else "the fate is undecided",
+        "equilibria": lambda v: COUNTS.get(v) or f"{v} equilibri{'um' if v == 1 else 'a'}",
+        "island": lambda v: ("no island is suspected", "a bounded island may exist",
+                             "a bounded island is seen")[v]}
+
+
+def classes(atlas: Atlas, kind: str) -> tuple[np.ndarray, list[str], list[Any], list[str]]:
+    """((n,) of which class each cell is; of each class its words, its colour, and how a legend tells it)."""
+    if kind == "fate":
+        found, which = kinds(atlas), np.zeros(len(atlas.records), int)
+        for n, (_, rows, _) in enumerate(found):
+            which[rows] = n
+        words = [kind_words(atlas, *key) for key, _, _ in found]
+        return which, words, [kind_colour(*key) for key, _, _ in found], [
+            f"{word}: {100 * share:.3g} %" for word, (_, _, share) in zip(words, found)]
+    present, which = np.unique(atlas.records[kind], return_inverse=True)
+    words = [SAID[kind](int(value)) for value in present]
+    return which.ravel(), words, [COUNTED[(int(value) if value >= 0 else n) % len(COUNTED)]
+                                  for n, value in enumerate(present)], words
 
 
 def _explained(figure: Any, axes: list[Any], atlas: Atlas, kind: str, times: Any, units: Units) -> None:
@@ -201,17 +268,9 @@ def _explained(figure: Any, axes: list[Any], atlas: Atlas, kind: str, times: Any
         rows = [(NEVER, "never", np.isinf(low)), (UNKNOWN, "time not known", ~known & ~np.isinf(low))]
         handles = [(Patch(facecolor=colour, edgecolor=style.GREY), words) for colour, words,
                    cells in rows if cells.any()]
-    elif kind == "fate":
-        handles = [(Patch(facecolor=kind_colour(*key), edgecolor=style.GREY),
-                    f"{kind_words(atlas, *key)}: {100 * share:.3g} %")
-                   for key, _, share in kinds(atlas)]
     else:
-        values = atlas.records[kind]
-        words = {"equilibria": lambda v: COUNTS.get(v) or f"{v} equilibri{'um' if v == 1 else 'a'}",
-                 "level": lambda v: LEVELS[v]}[kind]
-        handles = [(Patch(facecolor=COUNTED[(int(value) if value >= 0 else n) % len(COUNTED)],
-                          edgecolor=style.GREY), words(int(value)))
-                   for n, value in enumerate(np.unique(values))]
+        _, _, of, told = classes(atlas, kind)
+        handles = [(Patch(facecolor=colour, edgecolor=style.GREY), words) for colour, words in zip(of, told)]
     if handles:
         axes[-1].legend(*zip(*handles), loc="upper center", bbox_to_anchor=(0.5, 0.0),
                         ncols=min(2, len(handles)), borderaxespad=0.2)
@@ -257,34 +316,16 @@ def _drawn(atlas: Atlas, units: Units, momenta: list[str]) -> dict[str, Any]:
 
 def _tables(atlas: Atlas, units: Units) -> dict[str, tuple[np.ndarray, dict[str, Any]]]:
     """name -> ((n,) which entry each cell has, the entries: words, colours, what the legend tells)."""
-    records = atlas.records
-    fates, which = kinds(atlas), np.zeros(len(records), int)
-    for n, (_, rows, _) in enumerate(fates):
-        which[rows] = n
-    words = [kind_words(atlas, *key) for key, _, _ in fates]
-    colours = [_bytes(kind_colour(*key)) for key, _, _ in fates]
-    legend = [[f"{word}: {100 * share:.3g} %", colour]
-              for word, colour, (_, _, share) in zip(words, colours, fates)]
-    told = {"fate": (which, {"words": words, "colours": colours, "legend": legend})}
-    if atlas.asked.stated_limit is not None:
-        told["when"] = _shaded(atlas, units)
-    told["level"] = _flags(records["level"],
-                           lambda v: f"the fate is {LEVELS[v]}" if v else "the fate is undecided")
-    told["equilibria"] = _flags(records["equilibria"],
-                                lambda v: COUNTS.get(v) or f"{v} equilibri{'um' if v == 1 else 'a'}")
-    told["island"] = _flags(records["island"],
-                            lambda v: ("no island is suspected", "a bounded island may exist",
-                                       "a bounded island is seen")[v])
+    told = {}
+    for kind in TITLES:
+        if kind != "when":
+            which, words, of, legend = classes(atlas, kind)
+            shades = list(map(_bytes, of))
+            told[kind] = which, {"words": words, "colours": shades,
+                                 "legend": [list(pair) for pair in zip(legend, shades)]}
+        elif atlas.asked.stated_limit is not None:
+            told[kind] = _shaded(atlas, units)
     return told
-
-
-def _flags(values: np.ndarray, words: Any) -> tuple[np.ndarray, dict[str, Any]]:
-    present, which = np.unique(values, return_inverse=True)
-    told = [words(int(value)) for value in present]
-    colours = [_bytes(COUNTED[(int(value) if value >= 0 else n) % len(COUNTED)]) for n,
-               value in enumerate(present)]
-    return which.ravel(), {"words": told, "colours": colours,
-                           "legend": [list(pair) for pair in zip(told, colours)]}
 
 
 def _shaded(atlas: Atlas, units: Units) -> tuple[np.ndarray, dict[str, Any]]:

@@ -1,22 +1,42 @@
-"""Basins in words: what share of the plane each has, how far its boundary was followed and how rough it is;
-CSV and JSON."""
+"""Basins in words, as CSV and JSON: what share of the plane each has, how far its boundary was followed and
+how rough it is; as a data set of xarray with the states asked, the cells and the boundary; and the public
+question."""
 from __future__ import annotations
 
 import math
-from typing import Any
+import os
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ....errors import printable
-from ....maps.basins.ask import BOUNDED, NO_AXIS, UNDECIDED, Basins, leaves
-from ....maps.columns import LEVELS
-from ... import limiting
-from ...axes import axes_of
-from ...files import comma
-from ...text import law
-from ...text.answers import as_json
-from ...units import units_of
-from ..shades import limiting as caveats_of
+from ...case.read import Case
+from ...errors import printable
+from ...maps.basins.ask import (
+    BOUNDED,
+    DEPTH,
+    NO_AXIS,
+    UNDECIDED,
+    Basins,
+    Mesh,
+    basins,
+    dimension,
+    label_of,
+    leaves,
+)
+from ...maps.columns import ANSWERS, CAVEATS, LEVELS, record
+from ...maps.plan import from_json
+from .. import limiting
+from ..axes import axes_of
+from ..files import comma
+from ..text import law
+from ..text.answers import as_json
+from ..units import units_of
+from .shades import limits_of, with_unit
+from .sweep import checked, column_in, finished, origin, write
+
+if TYPE_CHECKING:
+    import xarray
 
 SCHEMA = "stabilab.basin/1"
 SMOOTH = 0.1  # of the dimension: less than this above 1 is told as smooth where the uncertainty allows
@@ -38,7 +58,7 @@ def text(found: Basins) -> str:
     lines.append(
         f"  {len(mesh.keys):,} states computed, of {full[0] * full[1]:,} of the grid of finest cells "
         f"({full[0]:,} x {full[1]:,})")
-    lines += (limiting.lines(caveats_of(found.plan.case, found.records), units_of(found.plan.case))
+    lines += (limiting.lines(limits_of(found.plan.case, found.records), units_of(found.plan.case))
               + law.beside(found.plan.case))
     if mesh.full:
         lines.append(
@@ -120,14 +140,14 @@ def csv(found: Basins) -> str:
     """A line for each cell: its ends along both axes, its depth, and what its states do, or that it is on a
     boundary."""
     cells = cells_of(found)
-    heads = [f"{axis.key.name} {end}" + ("" if axis.shown_unit == "1" else f" ({axis.shown_unit})")
+    heads = [with_unit(f"{axis.key.name} {end}", axis.shown_unit)
              for axis in found.plan.axes for end in ("from", "to")]
     values = [np.array(axis.values) for axis in found.plan.axes]
     columns = [values[n][cells[name] + more].tolist() for n,
                name in enumerate(("first", "second")) for more in (0, cells["width"])]
     words = ["boundary" if mixed else basin_name(found, label) for mixed,
              label in zip(cells["mixed"].tolist(), cells["label"].tolist())]
-    told = [limiting.cell(found.plan.case, caveats_of(found.plan.case, found.records))] * len(words)
+    told = [limiting.cell(found.plan.case, limits_of(found.plan.case, found.records))] * len(words)
     return comma.lines([[*heads, "depth", "basin", "caveats"],
                         *zip(*columns, cells["depth"].tolist(), words, told)])
 
@@ -140,7 +160,7 @@ def json(found: Basins) -> str:
     axes = [{"key": axis.key.name, "unit": axis.shown_unit, "from": axis.values[0], "to": axis.values[-1],
              "cells": cells, "finest_cell": step}
             for axis, cells, step in zip(found.plan.axes, mesh.cells, found.steps)]
-    return as_json(limiting.key(found.plan.case, caveats_of(found.plan.case, found.records)) | {
+    return as_json(limiting.key(found.plan.case, limits_of(found.plan.case, found.records)) | {
         "schema": SCHEMA, "case": found.plan.case.name, "variables": found.plan.case.variables,
         "command": command(found), "axes": axes,
         "depth": mesh.depth, "complete": not mesh.full, "states_asked": len(mesh.keys),
@@ -156,7 +176,6 @@ def json(found: Basins) -> str:
 
 def command(found: Basins) -> str:
     """A command that asks the same."""
-    import os
     import shlex
     rows = [f"--vary={axis.key.name}={axis.values[0]!r}:{axis.values[-1]!r}:{cells + 1}{_spacing(found, n)} "
             f"{axis.unit}".strip()
@@ -174,3 +193,82 @@ def undecided(found: Basins) -> bool:
     return UNDECIDED in found.shares
 
 
+# --- As a data set
+
+
+def basin(case: Case | str | os.PathLike[str], vary: Mapping[str, str], depth: int = DEPTH,
+          out: str | os.PathLike[str] | None = None,
+          workers: int | None = 1, scheduler: str | None = None, follow: str | None = None) -> Basins:
+    """The basins of a plane of initial states: what becomes of the motions from there, with cells that get
+    smaller towards the boundary.
+
+    case: a Case, or the path of a case file. vary: two rates of the initial state with their ranges,
+    {"angular_velocity[1]": "-60:60 deg/s", ...}, the others as in the case; "-60:60:33 deg/s" for 33 places
+    along the coarse grid. depth: how often a cell is halved whose corners have different fates. out: a .nc
+    file, whose parts outlive a killed run; workers, scheduler: as of `stabilab.sweep`; the bytes are the same
+    whoever computes them. follow: how long motions are followed that only a run decides, "200 s": those in
+    bounded islands are undecided however long. The answer has shares, boundary, dimension and, where the
+    scene reduces, `separatrix()`: the exact boundary. `stabilab.plot.basin` draws it. Raises InputError for
+    what is no plane of states.
+    """
+    path = None if out is None else checked(out)
+    with basins(case, vary, depth, path, workers, scheduler, follow) as found:
+        if path is not None:
+            write(dataset(found), path)
+        return found
+
+
+def dataset(found: Basins) -> xarray.Dataset:
+    """The states asked with their fates, the cells that are not split, and how many cells of each depth the
+    boundary has."""
+    mesh, rough, cells = found.mesh, found.dimension, cells_of(found)
+    places = mesh.places(mesh.keys)
+    words = {"fate": ANSWERS["fate"][0], "spin_axis": ANSWERS["fate"][1], "level": ANSWERS["level"][0],
+             "caveats": CAVEATS}
+    values: dict[str, Any] = {f"coordinate{n + 1}": (("state",), np.array(axis.values)[places[n]],
+                                                     {"long_name": axis.key.name, "units": axis.shown_unit})
+                              for n, axis in enumerate(found.plan.axes)}
+    values |= {name: column_in(("state",), column, found.records, "1") for name, column in words.items()}
+    values["place"] = (("state", "axis"), np.stack(places, axis=1).astype(np.int32),
+                       {"long_name": "place of a state on the grid of finest cells, from 0"})
+    values["cell"] = (("cell", "axis"), np.stack([cells["first"], cells["second"]], axis=1).astype(np.int32),
+                      {"long_name": "place of a cell's lower corner on the grid of finest cells"})
+    values["cell_depth"] = (("cell",), cells["depth"].astype(np.int8),
+                            {"long_name": "how often its coarse cell was halved"})
+    values["on_boundary"] = (("cell",), cells["mixed"].astype(np.int8),
+                             {"long_name": "whether the corners of a cell have different fates"})
+    values["boundary_cells"] = (("depth",), np.array(rough.counts, np.int32),
+                                {"long_name": "cells of a depth that hold a piece of the boundary"})
+    case = found.plan.case
+    depths = {"depth": (("depth",), np.array(rough.depths, np.int8), {"long_name": "depth of refinement"})}
+    return finished(values, depths, {
+        **origin(case, command(found)), "case_variables": case.variables, "case": found.plan.text,
+        "basin": found.plan.as_json(brief=True),
+        "caveats": limiting.cell(case, limits_of(case, found.records)),
+        "coarse_cells": np.array(mesh.cells, np.int32), "depth_asked": np.int32(found.asked),
+        "depth_reached": np.int32(mesh.depth), "complete": np.int8(not mesh.full),
+        "box_dimension": rough.value, "box_dimension_uncertainty": rough.uncertainty,
+        "box_dimension_because": rough.reason})
+
+
+def opened(data: xarray.Dataset) -> Basins:
+    """The basins that a data set holds. Raises KeyError or ValueError for one that was changed."""
+    plan = from_json(data.attrs["basin"])
+    cells, depth = tuple(int(n) for n in data.attrs["coarse_cells"]), int(data.attrs["depth_reached"])
+    records = np.zeros(data.sizes["state"], record(plan.answers))
+    for name in ("fate", "spin_axis", "level", "caveats"):
+        records[name] = data[name].values
+    records["valid"] = 1
+    mesh = Mesh(cells, depth, full=not int(data.attrs["complete"]))  # type: ignore[arg-type]  # two of them
+    place, lower = data["place"].values.astype(np.int64), data["cell"].values.astype(np.int64)
+    mesh.keys, mesh.labels = place[:, 0] * mesh.width + place[:, 1], label_of(records)
+    own = data["cell_depth"].values.astype(np.int64)
+    for n in range(depth + 1):
+        here = lower[own == n] >> depth - n
+        mesh.leaves.append(np.sort(mesh.number(n, here[:, 0], here[:, 1])))
+    found = Basins(plan, mesh, records, int(data.attrs["depth_asked"]))
+    counts = tuple(int(n) for n in data["boundary_cells"].values)
+    if (plan.shape != tuple((n << depth) + 1 for n in cells) or len(LEVELS) <= records["level"].max()
+            or dimension(counts).counts != found.dimension.counts):
+        raise ValueError("changed")
+    return found

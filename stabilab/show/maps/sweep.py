@@ -1,28 +1,36 @@
 """A sweep in words: the answer in a line, what is behind it, a table where it is short; CSV and JSON of every
-point."""
+point; a data set of xarray, and a NetCDF file with units, words and provenance."""
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from typing import Any
+import os
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ...case.read import Case
 from ...errors import printable
-from ...maps.columns import CAVEATS, ENDLESS, NO_CASE, NONE, OPEN, TIME, Column, columns_of
-from ...maps.plan import Plan
-from ...maps.run import Swept
+from ...files import whole_file
+from ...maps.columns import CAVEATS, ENDLESS, NO_CASE, NONE, OPEN, TIME, VALID, Column, columns_of
+from ...maps.plan import Plan, planned
+from ...maps.run import Swept, run
 from ...orbit.result import Fate
+from ...packages import demand
+from ...version import __version__
 from .. import limiting
 from ..axes import Axes, axes_of
-from ..files import comma
+from ..files import comma, endings
 from ..terminal import page
 from ..terminal.letters import greek
 from ..text import law
 from ..text.answers import Endless, as_json
 from ..units import Unit, units_of
-from .shades import SAMPLE, said, unit
-from .shades import limiting as caveats_of
+from .shades import SAMPLE, dimensions, limits_of, names, said, unit, with_unit
+
+if TYPE_CHECKING:
+    import xarray
 
 SCHEMA = "stabilab.sweep/1"
 ROWS = 40  # points of a table
@@ -47,7 +55,7 @@ def text(found: Swept) -> str:
     """The answer first; then what else was asked, in ranges; a table of the points where there are few."""
     plan = found.plan
     lines = [f"{plan.case.name}: {_answer(found)}", *_details(found)]
-    lines += limiting.lines(caveats_of(plan.case, found.records), units_of(plan.case)) + law.beside(plan.case)
+    lines += limiting.lines(limits_of(plan.case, found.records), units_of(plan.case)) + law.beside(plan.case)
     if found.broken:
         told = (f"{found.broken:,} points are no case; the first" if found.broken > 1
                 else "one point is no case")
@@ -150,12 +158,11 @@ def undecided(found: Swept) -> bool:
 def heads(found: Swept) -> list[str]:
     """What the cells of `rows` are: keys with their units, then columns with theirs."""
     plan = found.plan
-    told = lambda name, of: name if of == "1" else f"{name} ({of})"
-    keys = [told(axis.key.name, axis.shown_unit) for axis in plan.axes]
-    keys += ([SAMPLE, *(told(key.name, plan.sampled.unit(n)) for n, key in enumerate(plan.sampled.keys))]
+    keys = [with_unit(axis.key.name, axis.shown_unit) for axis in plan.axes]
+    keys += ([SAMPLE, *(with_unit(key.name, plan.sampled.unit(n)) for n, key in enumerate(plan.sampled.keys))]
              if plan.sampled else [])
     for column in columns_of(plan.answers)[1:]:
-        keys += [told(f"{column.name}{n}", unit(plan, column))
+        keys += [with_unit(f"{column.name}{n}", unit(plan, column))
                  for n in (("1", "2", "3") if column.shape else ("",))]
     return keys
 
@@ -195,7 +202,7 @@ def json(found: Swept) -> str:
         told["samples"] = {"count": plan.sampled.count, "seed": plan.sampled.seed,
                            "keys": [key.name for key in plan.sampled.keys],
                            "values": plan.sampled.values(0, plan.sampled.count).tolist()}
-    told |= limiting.key(plan.case, caveats_of(plan.case, found.records))
+    told |= limiting.key(plan.case, limits_of(plan.case, found.records))
     return as_json(told | {"no_case": {"points": found.broken, "because": found.why}, "columns": columns})
 
 
@@ -245,3 +252,117 @@ def _cell(value: Any, one: float, kind: str, axes: Axes) -> str:
     if math.isinf(value) and kind in INFINITE:
         return INFINITE[kind][value > 0][-1]
     return "not known" if math.isnan(value) else f"{value * one + 0.0:.6g}"
+
+
+# --- As a data set
+ENDING = (".nc",)
+
+
+def sweep(case: Case | str | os.PathLike[str], vary: Mapping[str, Any] | None = None,
+          samples: int | None = None, seed: int = 1, answer: Any = None,
+          out: str | os.PathLike[str] | None = None, workers: int | None = 1, scheduler: str | None = None,
+          follow: str | None = None,
+          **limit: str | None) -> xarray.Dataset:
+    """Answers over ranges of a case's numbers, labelled by what varies.
+
+    case: a Case, or the path of a case file. vary: name of a number -> the values it takes, "0:30:31 deg/s",
+    "0.1:10:21:log", or numbers in SI units; names such as "motion.angular_velocity[1]", "wheels.pitch.speed",
+    or their ends where these are unique. samples, seed: as many random points of the box of the case's
+    uncertain numbers, one more dimension. answer: names of `maps.columns.ANSWERS`; None: fate, level and
+    margin. limit: rate, component, energy, tilt or until, as the options of `stabilab when`, for the answer
+    "when". out: a .nc file, written in chunks that outlive a killed run; follow: how long motions are
+    followed that only a run decides, "200 s"; workers: processes, None for one a core; scheduler: address of
+    a Dask scheduler. The bytes are the same whoever computes them. Raises InputError for what cannot be
+    varied or asked.
+    """
+    demand("xarray")
+    plan, path = planned(case, vary or {}, samples, seed, answer, follow,
+                         **limit), None if out is None else checked(out)
+    with run(plan, path, workers, scheduler) as found:
+        made = dataset(found)
+        if path is not None:
+            write(made, path)
+        return made
+
+
+def checked(path: str | os.PathLike[str]) -> Path:
+    """The path, if a data set can be written to it; InputError otherwise."""
+    demand("xarray", "scipy")
+    return endings.file(path, ENDING)
+
+
+def write(made: xarray.Dataset, path: Path) -> Path:
+    """Write a data set as NetCDF 3: every reader knows it, and it holds neither time nor machine. Whole or
+    not at all."""
+    # in memory first: a full disk then says so in plain words
+    content = bytes(made.to_netcdf(engine="scipy"))
+    with whole_file(path) as waiting:
+        waiting.write_bytes(content)
+    return path
+
+
+def dataset(found: Swept) -> xarray.Dataset:
+    """The records with their dimensions, units and words."""
+    plan, dims = found.plan, dimensions(found.plan)
+    values = {column.name: _variable(found, column, dims) for column in columns_of(plan.answers)
+              if column is not VALID or found.broken}
+    coordinates = {name: ((name,), np.array(axis.values),
+                          {"long_name": axis.key.name, "units": axis.shown_unit}) for name,
+                   axis in zip(dims, plan.axes)}
+    if plan.sampled:
+        coordinates |= _sampled(plan, dims)
+    if any("axis" in one[0] for one in values.values()):
+        told = "; ".join(map(axes_of(plan.case).name, (1, 2, 3)))
+        coordinates["axis"] = (("axis",), np.array([1, 2, 3], np.int8),
+                               {"long_name": "principal axis", "names": told})
+    return finished(values, coordinates, _attributes(found))
+
+
+def finished(values: dict[str, Any], coordinates: dict[str, Any],
+             attributes: dict[str, Any]) -> xarray.Dataset:
+    """The data set, in which no value stands for one that is missing."""
+    import xarray
+    made = xarray.Dataset(values, coordinates, attributes)
+    for variable in made.variables.values():
+        variable.encoding["_FillValue"] = None
+    return made
+
+
+def _variable(found: Swept, column: Any, dims: list[str]) -> tuple[Any, ...]:
+    across = ["axis"] if column.shape else []
+    return column_in((*dims, *across), column, found.records, unit(found.plan, column))
+
+
+def column_in(dims: Any, column: Column, records: np.ndarray, of: str) -> tuple[Any, np.ndarray, dict]:
+    """A column of answers with its dimensions, its words, unit (`of`) and flags."""
+    words: dict[str, Any] = {"long_name": column.words} | ({"units": of} if column.kind == "f8" else {})
+    if column.flags:
+        words |= {"flag_values": np.arange(len(column.flags), dtype=np.int8),
+                  "flag_meanings": " ".join(flag.replace(" ", "_") or "none" for flag in column.flags)}
+    if column.note:
+        words |= {"comment": column.note}
+    return dims, np.ascontiguousarray(records[column.name]).astype(column.kind), words
+
+
+def _sampled(plan: Plan, dims: list[str]) -> dict[str, Any]:
+    of = plan.sampled
+    rows, keys = of.values(0, of.count), [key.name for key in of.keys]
+    labels = names([*(axis.key.name for axis in plan.axes), *keys])[len(plan.axes):]
+    columns = {label: ((SAMPLE,), rows[:, n], {"long_name": keys[n], "units": of.unit(n)}) for n,
+               label in enumerate(labels)}
+    return {SAMPLE: ((SAMPLE,), np.arange(of.count, dtype=np.int32),
+                     {"long_name": "number of a random point"}), **columns}
+
+
+def _attributes(found: Swept) -> dict[str, Any]:
+    plan, case = found.plan, found.plan.case
+    broken = {"no_case": f"{found.broken} points: {printable(found.why)}"} if found.broken else {}
+    return {**origin(case, plan.command), "case_variables": case.variables, "case": plan.text,
+            "sweep": plan.as_json(brief=True),
+            "caveats": limiting.cell(case, limits_of(case, found.records)), **broken}
+
+
+def origin(case: Case, command: str) -> dict[str, Any]:
+    """Where a data set comes from: its attributes by the conventions CF."""
+    return {"Conventions": "CF-1.11", "title": case.title or case.name, "source": f"stabilab {__version__}",
+            "references": case.source, "history": command}

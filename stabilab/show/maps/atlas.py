@@ -1,31 +1,34 @@
-"""An atlas in words: names of directions and fates, their colours, text and CSV.
-
-The sphere of directions on a sheet: Hammer's map, on which areas are kept, turned so that no principal axis
-lies on its rim.
-
-Axis 3 points up. Axes 1 and 2 stand 45 degrees left and right of the middle, so all six directions of the
-axes lie inside; the rim is half way from -1 to -2.
-"""
+"""An atlas in words: names of directions and fates, their colours, text, CSV and JSON; as a data set of
+xarray and a NetCDF file, from which it can be drawn again; and the public question."""
 from __future__ import annotations
 
 import math
-from typing import Any
+import os
+from itertools import repeat
+from json import dumps, loads
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ....errors import printable
-from ....maps.atlas.pointed import AXES, OWN, THRUSTERS, Point, area
-from ....maps.atlas.run import Atlas
-from ....maps.columns import ISLANDS, LEVELS, LIMIT_LEVELS, columns_of
-from ....orbit.result import Fate
-from ... import limiting, style
-from ...axes import axes_of
-from ...files import comma
-from ...text.answers import Endless, as_json
-from ...units import SHORT, Units
-from ..shades import FATES, light, spinning, unit
-from ..shades import limiting as caveats_of
-from ..words import COUNTS
+from ...case.read import Case, read_text
+from ...errors import InputError, printable
+from ...maps.atlas.pointed import AXES, OWN, THRUSTERS, Leaves, Point, area, corners, directions
+from ...maps.atlas.run import LEVEL, REFINE, Asked, Atlas, asked, drawn
+from ...maps.columns import ISLANDS, LEVELS, LIMIT_LEVELS, columns_of, record
+from ...orbit.result import Fate
+from ...packages import demand
+from .. import limiting, style
+from ..axes import axes_of
+from ..files import comma
+from ..text.answers import Endless, as_json
+from ..units import SHORT, Units
+from .shades import FATES, light, limits_of, spinning, unit, with_unit
+from .sweep import COUNTS, checked, column_in, finished, origin, write
+
+if TYPE_CHECKING:
+    import xarray
+
 
 # --- How directions, axes and fates of an atlas are named, and the colour of each fate
 # of undecided cells: where one may exist, where one is seen
@@ -103,53 +106,6 @@ def direction_words(vector: Any) -> str:
             + ")")
 
 
-ACROSS, UP = 2 * np.sqrt(2), np.sqrt(2)  # half the width and half the height of the map
-MIDDLE = np.pi / 4  # longitude, from axis 1 towards axis 2, of the map's middle
-
-
-def on_sheet(directions: np.ndarray) -> np.ndarray:
-    """(n, 2): where directions (n, 3) lie on the map."""
-    directions = np.asarray(directions, float)
-    size = np.linalg.norm(directions, axis=1)
-    turn = np.arctan2(directions[:, 1], directions[:, 0]) - MIDDLE
-    turn = (turn + np.pi) % (2 * np.pi) - np.pi
-    sine = directions[:, 2] / size
-    cosine = np.sqrt(np.maximum(1 - sine**2, 0.0))
-    root = np.sqrt(1 + cosine * np.cos(turn / 2))
-    return np.stack([ACROSS * cosine * np.sin(turn / 2) / root, UP * sine / root], axis=1)
-
-
-def off_sheet(x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """((n, 3) directions of places on the map, (n,) whether they lie on it)."""
-    inside = (x / ACROSS) ** 2 + (y / UP) ** 2 <= 1
-    root = np.sqrt(np.maximum(1 - (x / 4) ** 2 - (y / 2) ** 2, 0.5))
-    turn = 2 * np.arctan2(root * x, 2 * (2 * root**2 - 1)) + MIDDLE
-    sine = np.clip(root * y, -1, 1)
-    cosine = np.sqrt(1 - sine**2)
-    return np.stack([cosine * np.cos(turn), cosine * np.sin(turn), sine], axis=-1), inside
-
-
-def pieces(directions: np.ndarray) -> list[np.ndarray]:
-    """A line of directions on the map, cut where it leaves over the rim."""
-    at = on_sheet(directions)
-    breaks = np.flatnonzero(np.abs(np.diff(at[:, 0])) > ACROSS) + 1
-    return np.split(at, breaks)
-
-
-def circle(axis: int) -> np.ndarray:
-    """(n, 3): the principal plane across an axis, 0 to 2."""
-    turn = np.linspace(0, 2 * np.pi, 721)
-    out = np.zeros((len(turn), 3))
-    out[:, (axis + 1) % 3], out[:, (axis + 2) % 3] = np.cos(turn), np.sin(turn)
-    return out
-
-
-def rim() -> np.ndarray:
-    """(n, 2): the outline of the map."""
-    turn = np.linspace(0, 2 * np.pi, 361)
-    return np.stack([ACROSS * np.cos(turn), UP * np.sin(turn)], axis=1)
-
-
 # --- What an atlas says in words, the answer first, and as CSV and JSON of every cell
 SCHEMA = "stabilab.atlas/2"
 ROWS = 12  # wheel momenta that are told one by one
@@ -157,7 +113,7 @@ ROWS = 12  # wheel momenta that are told one by one
 
 def text(atlas: Atlas, units: Units) -> str:
     """The answer in the first line; then what is behind it."""
-    told = limiting.lines(caveats_of(atlas.asked.case, _all(atlas)), units)
+    told = limiting.lines(limits_of(atlas.asked.case, _all(atlas)), units)
     return "\n".join([f"{atlas.asked.case.name}: {answer(atlas, units)}", *told, *_wheels(atlas, units),
                       *_details(atlas, units), *_named(atlas, units)])
 
@@ -346,23 +302,19 @@ def csv(atlas: Atlas) -> str:
     """A line for each direction with a name, then one for each cell."""
     plan = atlas.asked.plan(())
     columns = columns_of(atlas.asked.answers)[1:]
-    told = lambda column: column.name if unit(plan,
-                                              column) == "1" else f"{column.name} ({unit(plan, column)})"
     heads = ["name", "wheel", "level", "number", "share", *(f"direction{n}" for n in (1, 2, 3)),
-             *(f"file_{n}" for n in "xyz"), *map(told, columns)]
-    rows = [[point_name(atlas, point), _momentum(atlas, point.wheel), "", "", "", *direction, *of_file,
-             *_cells(columns, record)]
-            for point, direction, of_file,
-            record in zip(atlas.named, atlas.named_directions.tolist(),
-                          atlas.in_file(atlas.named_directions).tolist(),
-                                                         atlas.named_records)]
+             *(f"file_{n}" for n in "xyz"),
+             *(with_unit(column.name, unit(plan, column)) for column in columns)]
     leaves = atlas.leaves
-    for wheel, level, number, share, direction, of_file, record in zip(
-            leaves.wheel.tolist(), leaves.level.tolist(), leaves.number.tolist(), atlas.share.tolist(),
-            atlas.directions.tolist(),
-            atlas.in_file(atlas.directions).tolist(), atlas.records):
-        rows.append(["", _momentum(atlas, wheel), level, number, share, *direction, *of_file,
-                     *_cells(columns, record)])
+    points = zip((point_name(atlas, point) for point in atlas.named), (point.wheel for point in atlas.named),
+                 repeat(("", "", "")))
+    cells = zip(repeat(""), leaves.wheel.tolist(),
+                zip(leaves.level.tolist(), leaves.number.tolist(), atlas.share.tolist()))
+    rows = [[name, _momentum(atlas, wheel), *about, *direction, *of_file, *_cells(columns, answered)]
+            for first, directions, records in ((points, atlas.named_directions, atlas.named_records),
+                                               (cells, atlas.directions, atlas.records))
+            for (name, wheel, about), direction, of_file, answered in zip(
+                first, directions.tolist(), atlas.in_file(directions).tolist(), records)]
     return comma.lines([heads, *rows])
 
 
@@ -411,7 +363,7 @@ def json(atlas: Atlas, units: Units) -> str:
                   if column.kind == "f8"},
         "cells": cells | {column.name: _plain(atlas.records[column.name])
                           for column in columns_of(asked.answers)[1:]}}
-    return as_json(told | limiting.key(asked.case, caveats_of(asked.case, _all(atlas))))
+    return as_json(told | limiting.key(asked.case, limits_of(asked.case, _all(atlas))))
 
 
 def _as_dict(asked: Any, record: Any) -> dict[str, Any]:
@@ -426,3 +378,116 @@ def _words(values: list[Any]) -> list[Any]:
 
 def _plain(values: np.ndarray) -> list[Any]:
     return _words(values.tolist())
+
+
+# --- As a data set
+
+
+def atlas(case: Case | str | os.PathLike[str], torque: Any = None, wheel: str | None = None,
+          level: int = LEVEL, refine: int = REFINE,
+          certify: bool = False, follow: str | None = None, out: str | os.PathLike[str] | None = None,
+          workers: int | None = 1, scheduler: str | None = None,
+          timed: bool = True, **limit: str | None) -> xarray.Dataset:
+    """What becomes of a case's motion under a torque of every direction: cells of equal area on the sphere,
+    smaller ones along the boundaries.
+
+    case: a Case, or the path of a case file. torque: its size, "1 N m"; None: that of the case. wheel:
+    momenta beside each of which all directions are asked, "0:2:5" along the wheel of the case, or "z=0:2:5";
+    None: the case's own. level: 8 4^level cells at first; refine: how often those along a boundary are cut in
+    four. limit: rate, component, energy, tilt or until, as the options of `stabilab when`; without any, that
+    of [limits] of the case, if it has one; timed: whether that time is asked. certify: prove what can be.
+    follow: how long motions are followed that only a run decides. out: a .nc file; workers and scheduler: as
+    of `stabilab.sweep`; the numbers are the same whoever computes them. Raises InputError for what cannot be
+    asked.
+    """
+    demand("xarray")
+    plan, path = asked(case, torque, wheel, level, refine, certify, follow, timed,
+                       **limit), None if out is None else checked(out)
+    with drawn(plan, path, workers, scheduler) as found:
+        made = dataset(found)
+        if path is not None:
+            write(made, path)
+        return made
+
+
+def dataset(found: Atlas) -> xarray.Dataset:
+    """The cells with directions, corners, shares and answers; directions with a name beside them."""
+    whole = lambda column, words: ("cell", column.astype(np.int32), {"long_name": words})
+    leaves = found.leaves
+    values: dict[str, Any] = {"wheel": whole(leaves.wheel, "number of the wheel momentum"),
+                              "number": whole(leaves.number, "number of the cell at its depth"),
+                              "depth": whole(leaves.level,
+                                             "depth of the cell: 8 4^depth of them make the sphere")}
+    values["share"] = ("cell", found.share, {"long_name": "share of the sphere", "units": "1"})
+    values["direction"] = (("cell", "axis"), found.directions,
+                           {"long_name": "middle of the cell along the principal axes", "units": "1"})
+    values["direction_in_file"] = (("cell", "axis"), found.in_file(found.directions),
+                                   {"long_name": "the same in the frame of the file", "units": "1"})
+    values["corners"] = (("cell", "corner", "axis"), _corners(found.leaves),
+                         {"long_name": "corners of the cell along the principal axes", "units": "1"})
+    plan, columns = found.asked.plan(()), columns_of(found.asked.answers)[1:]
+    values |= {column.name: column_in("cell", column, found.records, unit(plan, column))
+               for column in columns}
+    values["point_direction"] = (("point", "axis"), found.named_directions,
+                                 {"long_name": "direction with a name, along the principal axes",
+                                  "units": "1"})
+    values["point_wheel"] = ("point", np.array([point.wheel for point in found.named], np.int32),
+                             {"long_name": "number of the wheel momentum"})
+    values |= {f"point_{column.name}": column_in("point", column, found.named_records, unit(plan, column))
+               for column in columns}
+    coordinates = {"axis": ("axis", np.array([1, 2, 3], np.int8), {"long_name": "principal axis"}),
+                   "point": ("point", [point_name(found, point) for point in found.named],
+                             {"long_name": "name of the direction"})}
+    vectors = np.array([[float(v) for v in wheel] for wheel in found.asked.wheels])
+    values["wheel_momentum"] = (("wheels", "axis"), vectors,
+                                {"long_name": "momentum of the wheel along the principal axes",
+                                 "units": "N m s"})
+    return finished(values, coordinates, _attributes(found))
+
+
+def _corners(leaves: Leaves) -> np.ndarray:
+    out = np.empty((len(leaves.level), 3, 3))
+    for level in np.unique(leaves.level):
+        rows = leaves.level == level
+        out[rows] = directions(corners(int(level),
+                                       leaves.number[rows]).reshape(-1, 3) / 2.0**level).reshape(-1, 3, 3)
+    return out
+
+
+def _attributes(found: Atlas) -> dict[str, Any]:
+    of = found.asked
+    told = {"path": os.path.basename(of.path), "options": dict(of.options), "level": of.level,
+            "refine": of.refine, "certify": of.certify,
+            "limit": dict(of.limit), "timed": of.timed, "computed": found.asked_points}
+    return {**origin(of.case, of.command), "torque": float(of.torque), "case": of.text, "atlas": dumps(told),
+            "caveats": limiting.cell(of.case, limits_of(of.case, found.records))}
+
+
+def atlas_of(data: xarray.Dataset, path: Path) -> Atlas:
+    """The atlas that a data set of `dataset` holds. Raises InputError for one that was changed."""
+    try:
+        told = loads(data.attrs["atlas"])
+        of = asked(read_text(told["path"], data.attrs["case"]), **told["options"], level=told["level"],
+                   refine=told["refine"], certify=told["certify"],
+                   timed=told.get("timed", True), **told["limit"])
+        leaves = Leaves(*(data[name].values.astype(np.int64) for name in ("wheel", "depth", "number")))
+        found = Atlas(of, leaves, _records(data, of, "cell"), of.named, _records(data, of, "point"),
+                      told["computed"], 0)
+        complete = (len(found.named_records) == len(found.named)
+                    and abs(found.share.sum() - len(of.wheels)) < 1e-9)
+    except Exception:  # of any kind: what stands there is none, or of another version
+        complete = False
+    if not complete:
+        raise InputError(
+            f"{printable(str(path))}: what it says of its atlas cannot be read: was it changed, or made by "
+            f"another version?")
+    return found
+
+
+def _records(data: xarray.Dataset, of: Asked, dimension: str) -> np.ndarray:
+    out = np.zeros(data.sizes[dimension], record(of.answers))
+    out["valid"] = 1
+    for column in columns_of(of.answers)[1:]:
+        name = f"point_{column.name}" if dimension == "point" else column.name
+        out[column.name] = data[name].values
+    return out

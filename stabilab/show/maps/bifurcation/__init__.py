@@ -1,1 +1,0 @@
-"""A diagram of equilibria in words, numbers and pictures."""

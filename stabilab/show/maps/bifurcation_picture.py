@@ -1,0 +1,223 @@
+"""A diagram of equilibria over one number or over two as a picture."""
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from ...errors import InputError
+from ...maps.bifurcation.diagram import Branch, branches
+from ...maps.bifurcation.equations import BORDERS
+from ...maps.bifurcation.family import CURVES, ENDLESS, Diagram
+from ...maps.bifurcation.plane import Plane
+from ...maps.bifurcation.plane import rows as arcs_of
+from .. import style
+from ..axes import axes_of
+from ..units import units_of
+from .shades import light, own_place, with_unit
+
+CROWD = 6.0  # a component that goes to infinity is cut at so many times what nine tenths of the points reach
+# of the values above the panel: points, rows at the most, inches of the figure beside the panel
+SIZE, ROWS, MARGIN = 7.5, 3, 1.2
+OWN = {"color": style.BLACK, "linewidth": 1.0, "linestyle": (0, (1, 2))}
+LOOKS = {"stable": ("stable", "stable"), "unstable": ("unstable", "unstable"),
+         "border": ("fold", "stability changes"),
+         "undecided": ("dividing", "undecided")}
+
+
+def write(found: Diagram | Plane, out: str | Path, size: tuple[float, float] | None = None,
+          dpi: float | None = None) -> Path:
+    """Draw the diagram and write the picture; returns its path. Raises InputError where equilibria form
+    curves for every value."""
+    if isinstance(found, Diagram) and found.kind == CURVES:
+        what = axes_of(found.family.case).sentence(found.what).partition(";")[0]
+        raise InputError(
+            f"{found.family.case.place}: {what}: these are described in words, and there are no branches to "
+            f"draw: leave out --out")
+    return style.write(out, lambda plt: drawn(found, size, plt), dpi)
+
+
+def drawn(found: Diagram | Plane, size: tuple[float, float] | None, plt: Any) -> Any:
+    """The figure."""
+    figure, ax, columns = (_line(found, size, plt) if isinstance(found, Diagram)
+                           else _plane(found, size, plt))
+    handles, words = ax.get_legend_handles_labels()
+    kept = dict(zip(words, handles))
+    if kept:
+        figure.legend(kept.values(), kept.keys(), loc="outside lower center", ncols=columns)
+    return figure
+
+
+def _line(found: Diagram, size: tuple[float, float] | None, plt: Any) -> tuple[Any, Any, int]:
+    """The figure over one number: a panel for each component that moves, branches stable or not, events
+    marked; the panel and the columns of the legend."""
+    rows = branches(found)
+    moving = ([i for i in range(3) if any(abs(state[i]) > 0 for branch in rows for state in branch.states)]
+              or [0])
+    figure, axes = plt.subplots(len(moving), 1, sharex=True, squeeze=False, layout="constrained",
+                                figsize=size or (8, 1.4 + 2.6 * len(moving)))
+    units = units_of(found.family.case)
+    for ax, i in zip(axes[:, 0], moving):
+        _panel(ax, found, rows, i, units.rates[1])
+        ax.set_ylabel(f"$x_{i + 1}$" if units.scaled else rf"$\omega_{i + 1}$ ({units.rates[0]})")
+    span = found.family.spans[0]
+    axes[-1, 0].set_xlabel(with_unit(span.label, span.shown_unit))
+    _counts(axes[0, 0], found)
+    case = found.family.case
+    counted = "changes of stability" if found.kind == BORDERS else "equilibria"
+    figure.suptitle(f"{style.literal(case.title or case.name)}\nin bold: the number of {counted}", x=0.02,
+                    ha="left", fontsize=10.5, wrap=True)
+    return figure, axes[0, 0], 5
+
+
+def _panel(ax: Any, found: Diagram, rows: list[Branch], i: int, one: float) -> None:
+    """The component i over the range; one: how many of the axis' unit make one of the case's variables."""
+    for branch in rows:
+        look, word = LOOKS[branch.verdict]
+        ax.plot(branch.values, [state[i] * one for state in branch.states], label=word, **style.MEANING[look])
+    for event in found.connections:
+        ax.axvline(event.value, label="connection: two saddles at one height", zorder=1,
+                   **style.MEANING["separatrix"] | {"linewidth": 1.2})
+    for event in found.events:
+        ax.axvline(event.value, color=style.GREY, linewidth=0.7, linestyle=":", zorder=0)
+        met = [state.at[i] * one for state in event.states if state.times > 1]
+        if met:
+            word = "changes meet" if found.kind == BORDERS else " and ".join(event.kinds)
+            ax.plot([event.value] * len(met), met, label=word, zorder=4, **style.MARKER["degenerate"])
+    span = found.family.spans[0]
+    for own in own_place(found.family.spans, found.family.data) or ():
+        ax.axvline(own, label="the case itself", zorder=3, **OWN)
+    ax.set_xlim(float(span.low), float(span.high))
+    heights = sorted(abs(state[i] * one) for branch in rows for state in branch.states)
+    if heights and heights[-1] > CROWD * (usual := heights[int(0.9 * (len(heights) - 1))]) > 0:
+        ax.set_ylim(-1.5 * usual, 1.5 * usual)
+
+
+def _counts(ax: Any, found: Diagram) -> None:
+    """How many there are in each piece, and the values between, above the first panel."""
+    span = found.family.spans[0]
+    whole = float(span.high) - float(span.low)
+    for piece in found.pieces:
+        if piece.high - piece.low > 0.03 * whole:
+            ax.annotate(str(piece.count) if piece.count >= 0 else "curves",
+                        (0.5 * (piece.low + piece.high), 1.0), xycoords=("data", "axes fraction"),
+                        xytext=(0, 3), textcoords="offset points", ha="center", va="bottom", fontsize=9,
+                        fontweight="bold")
+    shown = sorted((event.value, f"{event.value + 0.0:.5g}") for event in (*found.events, *found.connections)
+                   if event.value not in (float(span.low), float(span.high)))
+    wide = 72 * (ax.figure.get_figwidth() - MARGIN) / whole
+    places = [wide * (value - float(span.low)) for value, _ in shown]
+    for (value, told), row in zip(shown, rows_apart(places, [told for _, told in shown], SIZE, ROWS)):
+        if row is not None:
+            ax.annotate(told, (value, 1.0), xycoords=("data", "axes fraction"),
+                        xytext=(0, 16 + 1.3 * SIZE * row), textcoords="offset points",
+                        ha="center", va="bottom", fontsize=SIZE)
+
+
+GLYPH = 0.64  # width of a digit of the house's font over the size of the font
+GAP = 4.0  # points between two labels of a row
+
+
+def rows_apart(places: Sequence[float], texts: Sequence[str], size: float, rows: int) -> list[int | None]:
+    """The row (0 is the lowest) of each text, centred at a rising place and in a font of so many points, such
+    that no two of a row meet.
+
+    places: in points. None where no row has room.
+    """
+    ends = [-float("inf")] * rows
+    out: list[int | None] = []
+    for place, text in zip(places, texts):
+        half = 0.5 * GLYPH * size * len(text)
+        row = next((n for n, end in enumerate(ends) if place - half >= end + GAP), None)
+        if row is not None:
+            ends[row] = place + half
+        out.append(row)
+    return out
+
+
+# --- Over two numbers
+
+CURVE_LOOKS = {"fold": "fold", "pitchfork": "crossing", "crossing": "crossing", "touch": "crossing",
+         "infinity": "dividing", "axis": "separatrix",
+         "curve": "separatrix"}
+TOLD = {"fold": "fold", "pitchfork": "pitchfork", "crossing": "branches cross", "touch": "branches touch",
+        "infinity": "an equilibrium at infinity",
+        "axis": "torque on a principal axis", "curve": "curve of equilibria"}
+FILLS = {0: "#FFFFFF", 1: light(style.YELLOW, 0.25), 2: light(style.SKY, 0.28), 3: light(style.PURPLE, 0.3),
+         4: light(style.BLUE, 0.38),
+         ENDLESS: light(style.GREY, 0.3)}
+OTHER = light(style.ORANGE, 0.35)
+SMALL = 0.004  # of the whole: regions below bear no number
+
+
+def _plane(found: Plane, size: tuple[float, float] | None, plt: Any) -> tuple[Any, Any, int]:
+    """The figure over two numbers: the curves at which equilibria change, the number in each region, cusps.
+    """
+    first, second = found.family.spans
+    figure, ax = plt.subplots(layout="constrained", figsize=size or (8, 6))
+    bands = [band for strip in found.strips for band in _bands(found, strip) if band["p"]]
+    for band in bands:
+        ax.fill_between(band["p"], band["low"], band["high"], facecolor=FILLS.get(band["count"], OTHER),
+                        linewidth=0, zorder=0)
+    for strip in found.strips:
+        values, arcs = arcs_of(found, strip)
+        for arc, row in zip(strip.arcs, arcs):
+            ax.plot(values, row, label=TOLD[arc.kinds[0]], **style.MEANING[CURVE_LOOKS[arc.kinds[0]]])
+    for wall in found.walls:
+        ax.plot([wall.value] * 2, [wall.low, wall.high], label=TOLD[wall.kinds[0]],
+                **style.MEANING[CURVE_LOOKS[wall.kinds[0]]])
+    for cusp in found.cusps:
+        ax.plot(*cusp.at, label="cusp", zorder=5, clip_on=False, **style.MARKER["degenerate"])
+    if own := own_place(found.family.spans, found.family.data):
+        ax.plot(*[[value] for value in own], label="the case itself", zorder=7, clip_on=False,
+                **style.MARKER["start"] | {"markeredgecolor": "white"})
+    whole = float((first.high - first.low) * (second.high - second.low))
+    for region in _regions(bands, float(second.high - second.low)):
+        if sum(band["area"] for band in region) > SMALL * whole:
+            best = max(region, key=lambda band: band["area"])
+            n = max(range(len(best["p"])),
+                    key=lambda n: (best["high"][n] - best["low"][n])
+                    * min(best["p"][n] - best["p"][0], best["p"][-1] - best["p"][n]))
+            ax.text(best["p"][n], 0.5 * (best["low"][n] + best["high"][n]),
+                    "curves" if best["count"] == ENDLESS else str(best["count"]), ha="center",
+                    va="center", fontsize=13, fontweight="bold", zorder=6)
+    ax.set_xlim(float(first.low), float(first.high))
+    ax.set_ylim(float(second.low), float(second.high))
+    for told, span in ((ax.set_xlabel, first), (ax.set_ylabel, second)):
+        told(with_unit(span.label, span.shown_unit))
+    case = found.family.case
+    shown = "changes of stability" if found.kind == "borders" else "number of equilibria"
+    ax.set_title(f"{style.literal(case.title or case.name)}\n{shown}", loc="left", wrap=True)
+    return figure, ax, 4
+
+
+def _bands(found: Plane, strip: Any) -> list[dict[str, Any]]:
+    """The cells of a strip between neighbouring arcs, along it; a curve on an end of the range has no cell
+    beyond it."""
+    second = found.family.spans[1]
+    values, arcs = arcs_of(found, strip)
+    ends = (float(second.low), float(second.high))
+    inner = [row for row, event in zip(arcs, strip.line.events) if event.value not in ends]
+    edges = [[ends[0]] * len(values), *inner, [ends[1]] * len(values)]
+    out = []
+    for low, high, piece in zip(edges, edges[1:], strip.line.pieces):
+        area = sum(0.5 * (high[n] - low[n] + high[n + 1] - low[n + 1]) * (values[n + 1] - values[n])
+                   for n in range(len(values) - 1))
+        out.append({"p": values, "low": low, "high": high, "count": piece.count, "area": area})
+    return out
+
+
+def _regions(bands: list[dict[str, Any]], height: float) -> list[list[dict[str, Any]]]:
+    """Cells that touch across the end of a strip and have one number, together."""
+    groups: list[list[dict[str, Any]]] = [[band] for band in bands]
+    for a in bands:
+        for b in bands:
+            meet = (a["p"] is not b["p"] and abs(a["p"][-1] - b["p"][0]) <= 1e-6
+                    * (a["p"][-1] - a["p"][0] + b["p"][-1] - b["p"][0]))
+            overlap = min(a["high"][-1], b["high"][0]) - max(a["low"][-1], b["low"][0])
+            if meet and a["count"] == b["count"] and overlap > 1e-3 * height:
+                one, other = (next(g for g in groups if any(band is x for x in g)) for band in (a, b))
+                if one is not other:
+                    one.extend(other)
+                    groups.remove(other)
+    return groups

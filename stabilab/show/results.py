@@ -1,0 +1,511 @@
+"""Results as they show themselves: in a line, in a notebook, and as numbers for xarray and pandas."""
+from __future__ import annotations
+
+import math
+import re
+from collections import Counter
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field
+from html import escape
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..orbit.result import Fate
+from ..packages import demand
+from ..physics.scene import PARTS
+from .axes import direction
+from .terminal.letters import MINUS
+
+if TYPE_CHECKING:
+    import pandas
+    import xarray
+
+MOST = 10  # rows of a page
+EXPONENT = re.compile(r"(?<=\de)-(?=\d)")
+
+
+@dataclass(frozen=True)
+class Variables:
+    """index: names of the dimensions that count times, states, equilibria; values: name -> (dimensions,
+    array, attributes); coordinates: dimension -> (labels, attributes); attributes: of the whole."""
+
+    index: tuple[str, ...]
+    values: Mapping[str, tuple[tuple[str, ...], Any, dict[str, str]]]
+    coordinates: Mapping[str, tuple[Any, dict[str, str]]] = field(default_factory=dict)
+    attributes: Mapping[str, Any] = field(default_factory=dict)
+
+
+AXIS: dict[str, tuple[Any, dict[str, str]]] = {"axis": ([1, 2, 3], {"long_name": "principal axis"})}
+
+
+def variables(result: Any) -> Variables:
+    """Those of a result."""
+    return KINDS[type(result).__name__][1](result)
+
+
+def short(result: Any) -> str:
+    """The line of a result: its kind, and what it answers in a few words."""
+    name = type(result).__name__
+    return f"{name}({KINDS[name][0](result)})"
+
+
+# --- Cells and words that the kinds below have in common
+
+
+def _texts(dims: tuple[str, ...], values: Iterable[Any], **words: str):
+    return dims, np.array(list(values), dtype=object), words
+
+
+def _numbers(dims: tuple[str, ...], values: Iterable[Any], **words: str):
+    """Numbers, NaN for None."""
+    return dims, np.array([np.nan if v is None else v for v in values], float), words
+
+
+def _along_axes(values: Any, **words: str):
+    """A vector along the principal axes, NaN where there is none."""
+    return ("axis",), np.array(values or (math.nan,) * 3, float), words
+
+
+def _known(notes: Mapping[str, Any]) -> dict[str, Any]:
+    return {name: value for name, value in notes.items() if value is not None}
+
+
+def _dims(array) -> tuple[str, ...]:
+    return ("state",) if array.ndim == 1 else tuple(f"state_{n + 1}" for n in range(array.ndim))
+
+
+def _named(words, value):
+    return "" if value is None else f"{words} {value:.6g}"
+
+
+def _counted(number, word):
+    return f"{number} {word}" + ("" if number == 1 else "s")
+
+
+def _shares(words):
+    return ", ".join(f"{number} {word}" for word, number in Counter(words).items())
+
+
+def _about(found) -> str:
+    return f" about axis {found.axis}, {direction(found.sense)}" if found.axis else ""
+
+
+# --- Each kind of result: its line, its numbers
+
+
+def of_parts(parts: Mapping[str, Any], time: str = "time",
+             errors: Mapping[str, Any] | None = None) -> dict[str, Any]:
+    """Parts of the state over time, with units and words; time: the name of their first dimension; errors: of
+    their components, where known, of a matrix row by row as files take it."""
+    known = errors or {}
+    return {name: ((time, *_across(name, np.asarray(values))), np.asarray(values),
+                   {"units": PARTS[name].unit or "1", "long_name": PARTS[name].words}
+                   | ({"error": np.ravel(known[name]) if np.ndim(known[name]) > 1 else known[name]}
+                      if name in known else {}))
+            for name, values in parts.items()}
+
+
+def _across(name, values) -> tuple[str, ...]:
+    if values.ndim == 3:
+        return "inertial_axis", "axis"
+    return () if values.ndim < 2 else ("axis",) if values.shape[-1] == 3 else (f"{name}_component",)
+
+
+def _run_words(run, parts, method):
+    span = f", {run.t[0]:.6g} to {run.t[-1]:.6g}" if len(run.t) else ""
+    return (f"{_counted(len(run.t), 'time')}{span}; {', '.join(parts)}; {method}, "
+            f"{run.status if run.status == 'reached' else run.reason}")
+
+
+def _simulation_words(run):
+    return _run_words(run, run.state, f"{run.model}, {run.method}" if run.model != "exact" else run.method)
+
+
+def _simulation(run):
+    notes = {f"departure_from_{name}": value for name, value in run.invariant_drift.items()}
+    return Variables(("time",), of_parts(run.state, errors=run.error),
+                     {"time": (run.t, {"units": "1" if "x" in run.state else "s"}), **AXIS},
+                     {"model": run.model, "method": run.method, "status": run.status, "reason": run.reason}
+                     | notes)
+
+
+def _trajectory_words(run):
+    return _run_words(run, run.blocks, run.method)
+
+
+def _trajectory(run):
+    """Of scaled scenes, too: a trajectory does not know its unit of time."""
+    parts = of_parts({name: run.block(name) for name in run.blocks})
+    plain = {name: (dims, values, {"long_name": words["long_name"]})
+             for name, (dims, values, words) in parts.items()}
+    return Variables(("time",), plain, {"time": (run.t, {}), **AXIS},
+                     {"method": run.method, "status": run.status, "reason": run.reason})
+
+
+def _fates_words(found):
+    words = [Fate(int(label)).word for label in found.labels.reshape(-1)]
+    return (f"{words[0]}: {found.because}" if found.labels.ndim == 0
+            else f"{_counted(len(words), 'state')}: {_shares(words)}")
+
+
+def _fates(found):
+    dims, labels = _dims(found.labels), np.asarray(found.labels)
+    rate, energy = ("1", "1") if found.scene.variables == "scaled" else ("rad/s", "J")
+    words = np.array([Fate(int(label)).word for label in labels.reshape(-1)],
+                     dtype=object).reshape(labels.shape)
+    values = {"start": ((*dims, "axis"), found.states, {"units": rate, "long_name": "rates at t = 0"}),
+              "fate": (dims, words, {}),
+              "margin": (dims, found.margins,
+                         {"units": energy, "long_name": "height of the barrier ahead less the energy"}),
+              "spin_axis": (dims, found.axis, {"long_name": "axis of a spin-up, else 0"}),
+              "spin_direction": (dims, found.sense, {}),
+              "level": (dims, np.asarray(found.levels, dtype=object),
+                        {"long_name": "how well the fate is known"}),
+              "because": (dims, np.asarray(found.because, dtype=object), {})}
+    return Variables(dims, values, AXIS)
+
+
+def _time_to_words(found):
+    low, high = found.low, found.high
+    if getattr(low, "ndim", 0):
+        levels = _shares(map(str, found.level.reshape(-1)))
+        return f"{found.quantity}: {_counted(low.size, 'state')}, {levels}"
+    when = ("never" if low == math.inf else f"not before {low:.6g}" if math.isnan(high)
+            else f"{low:.9g} to {high:.9g}")
+    return f"{found.quantity}: {when}, {found.level}"
+
+
+def _time_to(found):
+    low = np.asarray(found.low)
+    dims, states = _dims(low), np.asarray(found.states)
+    unit = {"units": "1" if found.scene.variables == "scaled" else "s"}
+    values = {"start": ((*dims, "axis" if states.shape[-1] == 3 else "component"), states, {}),
+              "low": (dims, low, unit),
+              "high": (dims, np.asarray(found.high), unit),
+              "level": (dims, np.asarray(found.level, dtype=object), {}),
+              "words": (dims, np.asarray(found.words, dtype=object), {})}
+    return Variables(dims, values, AXIS if states.shape[-1] == 3 else {}, {"quantity": found.quantity})
+
+
+def _equilibria_words(found):
+    pieces = [segment.verdict for curve in found.curves for segment in curve.segments]
+    told = [f"{_counted(len(found.points), 'point')} ({_shares(p.verdict for p in found.points)})"
+            if found.points else "",
+            f"{_counted(len(found.curves), 'curve')}, their pieces: {_shares(pieces)}" if found.curves
+            else ""]
+    return "; ".join([found.kind, *filter(None, told)])
+
+
+def _equilibria(found):
+    rows = ([("", p) for p in found.points]
+            + [(curve.name, p) for curve in found.curves for p in curve.samples])
+    at = np.array([p.at for _, p in rows], float).reshape(len(rows), -1)
+    across = "axis" if at.shape[1] == 3 else "component"
+    of = {name: _texts(("point",), (getattr(p, name) for _, p in rows))
+          for name in ("verdict", "linear", "because")}
+    values = {"at": (("point", across), at,
+                     {"long_name": "the equilibrium; of a curve, samples spread over every piece"}),
+              "verdict": of["verdict"], "linear": of["linear"],
+              "curve": _texts(("point",), (name for name, _ in rows)), "because": of["because"]}
+    return Variables(("point",), values, AXIS if across == "axis" else {},
+                     {"kind": found.kind, "reason": found.reason})
+
+
+def _motion_words(m):
+    parts = [m.fate.word + _about(m) + ("" if m.level in ("exact", "undecided") else f", {m.level}"),
+             _named("margin in energy", m.margin_energy),
+             _named("in rate", m.margin_velocity), _named("period", m.period),
+             "" if m.extremes is None else f"extremes over {m.extremes_over}"]
+    return "; ".join(filter(None, parts))
+
+
+def _motion(m):
+    over = {"long_name": f"over {m.extremes_over}"}
+    values = {"start": _along_axes(m.at[:3])} | {
+        name: _numbers(("axis",), (pair[end] for pair in m.extremes or ((None, None),) * 3), **over)
+        for end, name in enumerate(("least", "greatest"))}
+    notes = {"fate": m.fate.word, "level": m.level, "because": m.because, "spin_axis": m.axis,
+             "spin_direction": m.sense, "margin_energy": m.margin_energy,
+             "margin_rate": m.margin_velocity, "period": m.period, **m.invariants}
+    if m.energy_integral is not None:
+        notes |= {m.energy_integral.name: m.energy_integral.value,
+                  f"{m.energy_integral.name}s": m.energy_integral.on_separatrix}
+    return Variables(("axis",), values, AXIS, _known(notes))
+
+
+def _separatrix_words(found):
+    return ("; ".join(f"{s.name}, {s.points.shape[0]} x {s.points.shape[1]} points" for s in found.branches)
+            or f"no branches: {found.reason}")
+
+
+def _separatrix(found):
+    rows = np.concatenate([np.full(s.points.shape[:2], n).reshape(-1)
+                           for n, s in enumerate(found.branches, 1)]
+                          or [np.zeros(0, int)])
+    points = np.concatenate([s.points.reshape(-1, 3) for s in found.branches] or [np.zeros((0, 3))])
+    residual = np.concatenate([s.residual.reshape(-1) for s in found.branches] or [np.zeros(0)])
+    values = {"at": (("point", "axis"), points,
+                     {"long_name": "a point of the separatrix, branch by branch and row by row"}),
+              "branch": (("point",), rows, {}),
+              "residual": (("point",), residual,
+                           {"long_name": "distance from the surface in energy, relative"})}
+    shapes = "; ".join(f"{s.name}: {s.points.shape[0]} x {s.points.shape[1]}" for s in found.branches)
+    return Variables(("point",), values, AXIS, {"reason": found.reason, "grids": shapes})
+
+
+def _comparison_words(found):
+    worst = {}
+    for d in found.departures:
+        share = d.largest / d.scale if d.scale else math.inf if d.largest else 0.0
+        worst[d.model] = max(worst.get(d.model, 0.0), share)
+    models = ([f"{model} {share:.2g}" for model, share in worst.items()]
+              + [f"{model} refused" for model in found.refused])
+    return (f"{_counted(len(found.t), 'time')}; largest error of a part's size: "
+            f"{', '.join(models) or 'no model'}")
+
+
+def _comparison(found):
+    dims, rows = ("departure",), found.departures
+    firsts = {f"first_{100 * level:g}_percent":
+              _numbers(dims, (d.first[level] for d in rows),
+                       long_name=f"time of the first error of {100 * level:g} % of the scale; NaN: none")
+              for level in (rows[0].first if rows else ())}
+    values = {"model": _texts(dims, (d.model for d in rows)), "part": _texts(dims, (d.part for d in rows)),
+              "largest": _numbers(dims, (d.largest for d in rows),
+                                  long_name="largest error while the model runs"),
+              "scale": _numbers(dims, (d.scale for d in rows),
+                                long_name="largest exact component over the span"), **firsts}
+    return Variables(dims, values, {}, {f"refused_{model}": why for model, why in found.refused.items()})
+
+
+def _stuck_words(found):
+    head = found.rows[0]
+    low, high = head.time_to_limit or (None, None)
+    when = ("" if low is None else f", limit in {low:.6g} s" if f"{low:.6g}" == f"{high:.6g}"
+            else f", limit in {low:.6g} to {high:.6g} s")
+    first = (f"{' and '.join(head.thrusters) or 'torque'}: "
+             f"{head.fate}{f' about axis {head.axis}' if head.axis else ''}{when}")
+    return (first if len(found.rows) == 1
+            else f"{_counted(len(found.rows), 'row')} ({_shares(row.fate for row in found.rows)}), the first "
+                 f"{first}")
+
+
+def _stuck(found):
+    dims, rows = ("row",), found.rows
+    ends = [row.time_to_limit or (None, None) for row in rows]
+    margins = {f"margin_{name}": _numbers(dims, (row.margins[name].size if name in row.margins else None
+                                                 for row in rows), units=unit)
+               for name, unit in (("rate", "rad/s"), ("wheel", "N m s"), ("torque", "N m"))}
+    values = {"thrusters": _texts(dims, ("+".join(row.thrusters) for row in rows)),
+              "fate": _texts(dims, (row.fate for row in rows)),
+              "level": _texts(dims, (row.level for row in rows)),
+              "spin_axis": _numbers(dims, (row.axis or 0 for row in rows), units="1"),
+              "limit_low": _numbers(dims, (low for low, _ in ends), units="s"),
+              "limit_high": _numbers(dims, (high for _, high in ends), units="s"),
+              "largest_rate": _numbers(dims, (row.largest_rate for row in rows), units="rad/s"), **margins,
+              "torque": (("row", "axis"), np.array([row.torque for row in rows], float),
+                         {"units": "N m", "long_name": "in the frame of the file"}),
+              "because": _texts(dims, (row.because for row in rows))}
+    return Variables(dims, values, {"axis": ([1, 2, 3], {"long_name": "axis of the file"})},
+                     {"case": found.case})
+
+
+def _spin_up_words(found):
+    return (f"{found.fate.word}{_about(found)}, {found.level}; t = {found.t:.6g}, "
+            f"{_counted(found.steps, 'step')}")
+
+
+def _spin_up(found):
+    values = {"state": _along_axes(found.state, long_name="rates at time t"),
+              "direction": _along_axes(found.direction,
+                                       long_name="along which the rate grows; NaN: undecided")}
+    notes = {"fate": found.fate.word, "level": found.level, "spin_axis": found.axis,
+             "spin_direction": found.sense, "t": found.t, "steps": found.steps, "cause": found.cause,
+             "condition": found.condition}
+    return Variables(("axis",), values, AXIS, notes)
+
+
+def _attitude_words(found):
+    parts = [found.mode or found.fate.word, _named("rotation period", found.rotation_period),
+             _named("nutation period", found.nutation_period),
+             _named("precession period", found.precession_period)]
+    return "; ".join(filter(None, parts))
+
+
+def _attitude(found):
+    values = {"start": _along_axes(found.at[:3], units="rad/s"),
+              "momentum_direction": _along_axes(
+                  found.momentum_direction, long_name="unit vector along the angular momentum at the start"),
+              "turn_axis": _along_axes(
+                  found.turn_axis, long_name="about which one rotation period turns the body")}
+    notes = {"fate": found.fate.word} | {name: getattr(found, name) for name in (
+        "mode", "momentum", "rotation_period", "precession_period", "nutation_period", "lean", "cone",
+        "turn_angle", "error", "because")}
+    return Variables(("axis",), values, AXIS, _known(notes))
+
+
+def _crossings_words(found):
+    zeros = ", ".join(_counted(len(row), "zero") for row in found.t)
+    return f"{zeros} up to t = {found.until:.6g}, {found.status}; by changes of sign along a run"
+
+
+def _crossings(found):
+    events = np.concatenate([np.full(len(row), n) for n, row in enumerate(found.t, 1)])
+    values = {"event": (("zero",), events, {"long_name": "number of the event, in their order"}),
+              "t": (("zero",), np.concatenate(found.t), {}),
+              "error": (("zero",), np.concatenate(found.error), {"long_name": "of the time"}),
+              "state": (("zero", "component"), np.concatenate(found.states), {})}
+    return Variables(("zero",), values, {}, {"until": found.until, "status": found.status,
+                                             "reason": found.reason})
+
+
+def _chaos_words(found):
+    words = found.orders
+    one = f", MEGNO {float(found.megno):.4g}" if np.ndim(found.megno) == 0 else ""
+    if not len(found.times):
+        return _shares(words)
+    return f"{_counted(len(words), 'state')}: {_shares(words)}{one}; followed to {found.times[-1]:.6g}"
+
+
+def _chaos(found):
+    labels = np.asarray(found.labels)
+    words = {"megno": "MEGNO at the last time", "lyapunov": "rate at which neighbours part",
+             "lyapunov_error": "how far it moved last"}
+    values = {"order": (_dims(labels), np.array(found.orders, dtype=object).reshape(labels.shape), {})} | {
+        name: (_dims(labels), np.asarray(getattr(found, name), float), {"long_name": told})
+        for name, told in words.items()}
+    return Variables(_dims(labels), values)
+
+
+def _ensemble_words(found):
+    ended = f"; {len(found.stopped)} stopped" if found.stopped else ""
+    return (f"{_counted(len(found.states), 'motion')} at {_counted(len(found.t), 'time')}; "
+            f"{found.method}{ended}")
+
+
+def _ensemble(found):
+    values = {"last": (("motion", "component"), found.states[:, -1], {"long_name": "state at the last time"}),
+              "reached": (("motion",), found.reached[:, -1],
+                          {"long_name": "whether the motion went on so far"})}
+    return Variables(("motion",), values, {}, {"method": found.method, "rtol": found.rtol})
+
+
+def _diagram_words(found):
+    counts = ", ".join(str(piece.count) for piece in found.pieces)
+    return f"{found.what}: {counts}; {len(found.events)} events, {len(found.connections)} connections"
+
+
+def _diagram(found):
+    number = lambda name: (("piece",), np.array([getattr(piece, name) for piece in found.pieces]), {})
+    stable = [sum(state.verdict == "stable" for state in piece.states) for piece in found.pieces]
+    values = {"low": number("low"), "high": number("high"), "equilibria": number("count"),
+              "stable": (("piece",), np.array(stable), {})}
+    return Variables(("piece",), values, {},
+                     {"what": found.what,
+                      "events": [event.value for event in (*found.events, *found.connections)]})
+
+
+def _plane_words(found):
+    counts = ((found.strips, "strip"), (found.walls, "wall"), (found.cusps, "cusp"))
+    return f"{found.what}: {', '.join(_counted(len(rows), word) for rows, word in counts)}"
+
+
+def _plane(found):
+    number = lambda name: (("strip",), np.array([getattr(strip, name) for strip in found.strips]), {})
+    counts = (", ".join(str(piece.count) for piece in strip.line.pieces) for strip in found.strips)
+    values = {"low": number("low"), "high": number("high"), "equilibria": _texts(("strip",), counts)}
+    return Variables(("strip",), values, {},
+                     {"what": found.what, "walls": [wall.value for wall in found.walls],
+                      "cusps": len(found.cusps)})
+
+
+# class of a result -> (its line, its numbers)
+KINDS: dict[str, tuple[Callable[[Any], str], Callable[[Any], Variables]]] = {
+    "Simulation": (_simulation_words, _simulation), "Trajectory": (_trajectory_words, _trajectory),
+    "FateResult": (_fates_words, _fates), "TimeTo": (_time_to_words, _time_to),
+    "Equilibria": (_equilibria_words, _equilibria), "Motion": (_motion_words, _motion),
+    "Attitude": (_attitude_words, _attitude), "Crossings": (_crossings_words, _crossings),
+    "Chaos": (_chaos_words, _chaos), "Ensemble": (_ensemble_words, _ensemble),
+    "Diagram": (_diagram_words, _diagram), "Plane": (_plane_words, _plane),
+    "Separatrix": (_separatrix_words, _separatrix), "Comparison": (_comparison_words, _comparison),
+    "Stuck": (_stuck_words, _stuck), "SpinUp": (_spin_up_words, _spin_up)}
+
+
+# --- Any kind: as a data set, a table, a page
+
+
+def dataset(result: Any) -> xarray.Dataset:
+    """The numbers of a result with their dimensions, units and words."""
+    demand("xarray")
+    import xarray
+    found = variables(result)
+    return xarray.Dataset(dict(found.values),
+                          {name: ((name,), *one) for name, one in found.coordinates.items()},
+                          dict(found.attributes))
+
+
+def frame(result: Any) -> pandas.DataFrame:
+    """The numbers of a result as a table; a column for every component, what belongs to the whole in `attrs`.
+    """
+    demand("pandas")
+    import pandas
+    found = variables(result)
+    made = pandas.DataFrame({name: values for name, values in columns(found)}, index=_index(found))
+    made.attrs = dict(found.attributes)
+    return made
+
+
+def columns(found: Variables) -> list[tuple[str, np.ndarray]]:
+    """(name, values in one row of cells) of every component: "omega1", "omega2", ..."""
+    rows = []
+    for name, (dims, values, _) in found.values.items():
+        array, own = np.asarray(values), dims[len(found.index):]
+        if not own:
+            rows.append((name, array.reshape(-1)))
+            continue
+        flat = array.reshape(-1, array.shape[-1] if name != "matrix" else 9)
+        known = PARTS[name].components if name in PARTS else ()
+        names = known if len(known) == flat.shape[1] else [f"{name}{n + 1}" for n in range(flat.shape[1])]
+        rows += [(one, flat[:, n]) for n, one in enumerate(names)]
+    return rows
+
+
+def _index(found: Variables) -> Any:
+    """Times or axes where they are known, else numbers; several dimensions of states as pandas counts them.
+    """
+    import pandas
+    shape = next(iter(found.values.values()))[1].shape[:len(found.index)]
+    if not found.index:
+        return pandas.RangeIndex(1)
+    if len(found.index) > 1:
+        return pandas.MultiIndex.from_product([range(size) for size in shape], names=list(found.index))
+    name, = found.index
+    return pandas.Index(found.coordinates[name][0] if name in found.coordinates else range(shape[0]),
+                        name=name)
+
+
+def html(result: Any) -> str:
+    """The line of a result, and its first rows; what is in it is text and never a tag."""
+    found = variables(result)
+    rows = columns(found)
+    index = found.index[0] if len(found.index) == 1 else ""
+    labels = found.coordinates[index][0] if index in found.coordinates else range(len(rows[0][1]))
+    head = "".join(f"<th>{escape(name)}</th>" for name in (index, *(name for name, _ in rows)))
+    number = len(rows[0][1])
+    body = "".join(
+        f"<tr><th>{_cell(labels[n])}</th>{''.join(f'<td>{_cell(values[n])}</td>' for _, values in rows)}</tr>"
+        for n in range(min(MOST, number)))
+    more = f"<p>and {number - MOST} more</p>" if number > MOST else ""
+    return (f"<div><p><b>{_text(short(result))}</b></p><table><thead><tr>{head}</tr></thead>"
+            f"<tbody>{body}</tbody></table>{more}</div>")
+
+
+def _cell(value: Any) -> str:
+    return (f"{float(value) + 0.0:.6g}".replace("-", "−") if isinstance(value, (float, np.floating))
+            else _text(str(value)))
+
+
+def _text(words: str) -> str:
+    """Words as text; the minus of a number as print has it, the hyphens of words as they are."""
+    return escape(EXPONENT.sub("−", MINUS.sub("−", words)))

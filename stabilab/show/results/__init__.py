@@ -1,1 +1,0 @@
-"""Results as they show themselves: in a line, in a notebook, as data sets and tables."""
