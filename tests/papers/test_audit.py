@@ -14,7 +14,7 @@ from stabilab.errors import InputError
 from stabilab.papers import audit
 from stabilab.papers.audit.checks import bound_of, decide, pairs, raw, system_of
 from stabilab.papers.audit.findings import domain_of, edits, examine, prove_systems, repairs
-from stabilab.papers.audit.special import trend
+from stabilab.papers.audit.special import constant_torque as trend
 from stabilab.theories.cavity import model as cavity
 from stabilab.theories.charged import model as charged
 from stabilab.theories.printed.claims import FormulaError, parse, read, sides

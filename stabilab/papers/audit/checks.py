@@ -255,8 +255,11 @@ CHECKS = {"holds": _holds, "order": _holds, "solves": _solves, "equilibrium": _e
 
 
 def residuals_of(row: Row):
-    """(residual of the printed claim, of the corrected one) by the test that the row names, `module:test`, of
-    the modules in `special`, with the arguments that the row gives."""
+    """(residual of the printed claim, of the corrected one): two formulas of numbers, or the test that the
+    row names, `module:test`, of the modules in `special`, with the arguments that the row gives."""
+    if isinstance(row.options["test"], list):
+        value = Evaluator(precise(30), {}, {}, None)
+        return tuple(abs(float(value(parse(text, {})))) for text in row.options["test"])
     module, _, function = row.options["test"].partition(":")
     try:
         return tuple(abs(float(v))

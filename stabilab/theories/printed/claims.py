@@ -101,7 +101,7 @@ KINDS = {  # kind -> keys that a row of it needs besides `equation` and `printed
     "equilibrium": (),  # the printed point is at rest
     "number": ("value",),  # an expression has the printed value
     "order": ("small", "order"),  # left - right is of this order in a small symbol
-    "test": ("test",),  # a named function of the package decides: module:function, two residuals
+    "test": ("test",),  # two residuals decide, as formulas or by a function of the package, module:function
     "definition": ("defines",),
     "not-checkable": ("because",),
 }

@@ -10,13 +10,11 @@ from ....physics.scene import ScaledGyrostat
 from .constant_torque import minor_equilibria, misjudged
 
 # Saddles and centres of Fig. 4 in alpha = 2 atan2(x1 + a, x2): lambda1 -> (left saddle, right saddle, left
-# centre,
-# right centre); printed, and roots of 1 + A cos(alpha/2) (A sin(alpha/2) + c) = 0.
+# centre, right centre); printed, and roots of 1 + A cos(alpha/2) (A sin(alpha/2) + c) = 0.
 FIG4_PRINTED = {100: (0.0, 6.2, -3.0, 3.3), 300: (0.19, 6.15, -3.1, 3.29), 500: (0.32, 5.8, -3.13, 3.28)}
 FIG4_TRUE = {100: (-0.16926911783859, 6.28019631200926, -3.05188202440815, 3.22414013741707),
              300: (-0.31754628012639, 6.44213532039449, -3.05286555265963, 3.21146181957111),
              500: (-0.45279697640931, 6.58903191561815, -3.05425914964370, 3.20120951761444)}
-G1_PRINTED = 2.54
 
 
 def _fig4(table, pull: bool):
@@ -61,13 +59,10 @@ def _stability_after_13():
             misjudged(lambda x: (x[0] + 0.2) * (x[0] + 0.4) > x[1] ** 2, points, 0.2, 0.4))
 
 
-def _contact_points(shifted: bool):
-    """x2 (x1 + b) + 1 at the merging points of saddle and centre, b = 0.4."""
-    if not shifted:
-        return (-1 + 0.4) * 1 + 1
-    c = 0.2
-    slope = [(-1 / h) * (-1 / h - c) - h * h for h in _folds(c)]  # (x1+b)(x1+a) - x2^2 vanishes at a fold
-    return max(abs(v) for v in slope)
+def _merging():
+    """x2 (x1 + b) + 1 at the printed merging point of saddle and centre, b = 0.4; at the true ones
+    (x1 + b)(x1 + a) - x2^2, which vanishes at a fold."""
+    return (-1 + 0.4) * 1 + 1, max(abs((-1 / h) * (-1 / h - 0.2) - h * h) for h in _folds(0.2))
 
 
 def _circle(alpha):
@@ -190,13 +185,6 @@ def _ways(lambda1):
     return up, 1 - up
 
 
-def _merging_sides():
-    """Distance of the point at which the left saddle and centre merge without a wheel, (17) with F^2 = 2 and
-    alpha = asin(-1), from (1, -1), and from (-1, 1)."""
-    x1, x2 = math.sqrt(2) * math.sin(-math.pi / 4), math.sqrt(2) * math.cos(-math.pi / 4)
-    return math.hypot(x1 - 1, x2 + 1), math.hypot(x1 + 1, x2 - 1)
-
-
 def _where_separatrices_end():
     """Radius of the circle of a separatrix's end less that of its start, for the print's end on the circle
     of radius sqrt(2), and for the saddles of the circle itself (lambda1 = 100)."""
@@ -221,9 +209,8 @@ TESTS = {
     "inside": lambda: (math.hypot(2.7, 4) - _fold_radius_of(0.2), 0),
     # wells on the circle of radius sqrt(2), lambda1 = 100: 1, on the right, x2 < 0
     "figure 7": lambda: (abs(sum(1 if h < 0 else 2 for h in _wells(math.sqrt(2), 0.2)) - 1), 0),
-    "merging sides": _merging_sides,
     "end of a separatrix": _where_separatrices_end,
     "dividing line": _dividing,
     "figure 6 item 4": lambda: (_item4(), _loop_ends()),
-    "merging": lambda: (_contact_points(False), _contact_points(True)),
+    "merging": _merging,
 }
