@@ -63,7 +63,7 @@ def test_classify_answers_once_per_case_with_the_documented_keys(fifth):
     from stabilab.case.read import load_all
     assert list(classified(fifth)) == [case.name for path in CASES[fifth::5] for case in load_all(path)]
     for answer in classified(fifth).values():
-        assert answer["schema"] == "stabilab.classify/2" and answer["variables"] in ("scaled", "physical")
+        assert answer["schema"] == "stabilab.classify/1" and answer["variables"] in ("scaled", "physical")
         assert {"kind", "reason", "points", "curves"} <= answer["equilibria"].keys()
         assert {"at", "fate", "axis", "because", "margin", "period", "extremes",
                 "invariants"} <= answer["motion"].keys()
@@ -199,7 +199,7 @@ def test_spin_up_off_the_axes_is_the_first_line_with_its_certificate(stabilab):
     assert code == 0 and not err and out.startswith(
         "off-axis-two: SPINS UP about z (minor axis), positive direction (certified); ")
     told = strict_json(stabilab("fate", OFF_AXIS, "--json")[1])[0]
-    assert (told["fate"], told["level"], told["axis"], told["spin_direction"]) == ("spin-up", "certified", 3, 1)
+    assert (told["fate"], told["level"], told["axis"], told["sense"]) == ("spin-up", "certified", 3, 1)
     assert told["t"] > 0 and "certified" in told["cause"] and told["bounds"][2][
         1] is None and None not in told["bounds"][0]
     assert "bounds for all times" in stabilab("extremes", OFF_AXIS)[1]
@@ -401,7 +401,7 @@ def test_surface_without_a_renderer_writes_the_meshes_and_ends_with_4(stabilab, 
     assert {p.name for p in tmp_path.iterdir()} == {f"{MINOR.stem}.{end}"
                                                     for end in ("vtp", "glb", "stl",
                                                                 "json")} | {"manifest.json"}
-    assert strict_json((tmp_path / f"{MINOR.stem}.json").read_text())["branches"]
+    assert strict_json((tmp_path / f"{MINOR.stem}.json").read_text())["sheets"]
 
 
 # -- [sweep]
@@ -526,7 +526,7 @@ def test_a_file_without_sweep_gives_one_object(stabilab):
 def test_a_scene_without_a_separatrix_is_an_answer_and_no_file(stabilab, tmp_path):
     code, out, err = stabilab("surface", ROOT / "cases/middle-axis-100.toml", "--out", tmp_path / "none",
                               "--json")
-    assert code == 0 and strict_json(out)["files"] == [] and strict_json(out)["branches"] == []
+    assert code == 0 and strict_json(out)["files"] == [] and strict_json(out)["sheets"] == []
     assert "middle-axis-100: no surface to write: " in err and not list(tmp_path.iterdir())
 
 

@@ -43,7 +43,7 @@ def surface(case, out, json, strict):
         tell("\n".join(law.first(held, words.text(summary, out), caveats=one.caveats) for one, summary,
                        held in zip(loaded, summaries, laws)))
     for one, summary in zip(loaded, summaries if json else ()):
-        if not summary["branches"]:
+        if not summary["sheets"]:
             say(f"{one.name}: no surface to write: {summary['reason']}")
     if unavailable:
         raise unavailable

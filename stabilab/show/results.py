@@ -159,7 +159,7 @@ def _fates(found):
               "margin": (dims, found.margins,
                          {"units": energy, "long_name": "height of the barrier ahead less the energy"}),
               "spin_axis": (dims, found.axis, {"long_name": "axis of a spin-up, else 0"}),
-              "spin_direction": (dims, found.sense, {}),
+              "sense": (dims, found.sense, {}),
               "level": (dims, np.asarray(found.levels, dtype=object),
                         {"long_name": "how well the fate is known"}),
               "because": (dims, np.asarray(found.because, dtype=object), {})}
@@ -226,7 +226,7 @@ def _motion(m):
         name: _numbers(("axis",), (pair[end] for pair in m.extremes or ((None, None),) * 3), **over)
         for end, name in enumerate(("least", "greatest"))}
     notes = {"fate": m.fate.word, "level": m.level, "because": m.because, "spin_axis": m.axis,
-             "spin_direction": m.sense, "margin_energy": m.margin_energy,
+             "sense": m.sense, "margin_energy": m.margin_energy,
              "margin_rate": m.margin_velocity, "period": m.period, **m.invariants}
     if m.energy_integral is not None:
         notes |= {m.energy_integral.name: m.energy_integral.value,
@@ -247,7 +247,7 @@ def _separatrix(found):
     residual = np.concatenate([s.residual.reshape(-1) for s in found.branches] or [np.zeros(0)])
     values = {"at": (("point", "axis"), points,
                      {"long_name": "a point of the separatrix, branch by branch and row by row"}),
-              "branch": (("point",), rows, {}),
+              "sheet": (("point",), rows, {}),
               "residual": (("point",), residual,
                            {"long_name": "distance from the surface in energy, relative"})}
     shapes = "; ".join(f"{s.name}: {s.points.shape[0]} x {s.points.shape[1]}" for s in found.branches)
@@ -321,7 +321,7 @@ def _spin_up(found):
               "direction": _along_axes(found.direction,
                                        long_name="along which the rate grows; NaN: undecided")}
     notes = {"fate": found.fate.word, "level": found.level, "spin_axis": found.axis,
-             "spin_direction": found.sense, "t": found.t, "steps": found.steps, "cause": found.cause,
+             "sense": found.sense, "t": found.t, "steps": found.steps, "cause": found.cause,
              "condition": found.condition}
     return Variables(("axis",), values, AXIS, notes)
 

@@ -52,7 +52,7 @@ NO_NUMBERS = (None, "x", b"1", [], (1, 2), {}, [None] * 3, 1j, float("nan"), "1/
 
 @pytest.mark.parametrize("made", MADE, ids=lambda one: one.__name__)
 def test_a_scene_s_parts_called_with_other_arguments_than_they_take_say_what_they_take(made):
-    assert len(MADE) == 11
+    assert len(MADE) == 12
     expected = (
         rf"^{made.__name__}: .*; expected "
         rf"{made.__name__}\(.*{[*inspect.signature(made.__init__).parameters][-1]}.*\)$")

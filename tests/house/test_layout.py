@@ -58,7 +58,7 @@ DOORS = {
     ("stabilab.show.explore.orbits", "stabilab.show.plot.path"): "loads numpy",
     ("stabilab.show.explore.orbits", "stabilab.show.plot.subject"): "loads numpy",
     ("stabilab.show.explore.session", "stabilab.answers.passage.of_case"): "loads numpy",
-    ("stabilab.show.space", "stabilab.orbit.separatrix.sheets"): "loads numpy",
+    ("stabilab.show.space", "stabilab.orbit.separatrix.branches"): "loads numpy",
     ("stabilab.show.terminal.completion", "stabilab.show.plot.subject"): "loads numpy",
     ("stabilab.show.text.law", "stabilab.answers.passage.of_case"): "loads numpy",
     ("stabilab.show.text.law", "stabilab.answers.simulate"): "loads numpy",

@@ -147,7 +147,7 @@ def test_surfaces_and_formulas_differ_in_their_last_places_only(tmp_path, name):
     for case in ("minor-axis-100", "middle-axis-double-well"):
         one, two = (pyvista.read(tmp_path / side / "s" / f"{case}.vtp") for side in ("one", "two"))
         assert one.n_points > 1000 and np.array_equal(one.faces, two.faces)
-        assert np.array_equal(one["branch"], two["branch"])
+        assert np.array_equal(one["sheet"], two["sheet"])
         assert np.abs(one.points - two.points).max() <= POINTS_APART * np.abs(one.points).max()
     for file in ("run.csv", "errors.csv"):
         one, two = (np.genfromtxt(tmp_path / side / file, delimiter=",", skip_header=1)

@@ -71,7 +71,7 @@ def file_of(tmp_path, J, along, speed=1.0):
 def agrees(told, axes, grows, word):
     """Whether the numbers, name and direction of spin of a JSON object are those of the run."""
     along = np.array(told["axis_direction"])
-    assert told["spin_direction"] * along @ grows > 0.999, (told, grows)
+    assert told["sense"] * along @ grows > 0.999, (told, grows)
     assert word in told["axis_name"] and np.array_equal(axes[told["axis"] - 1], along)
 
 
@@ -95,7 +95,7 @@ def test_every_command_names_the_axis_along_which_a_run_grows(stabilab, tmp_path
     agrees(row, np.array(stuck["principal"]["axes"]), grows, word)
     assert fate["axis"] == row["axis"] == classified["motion"]["axis"] and np.array_equal(
         axes, stuck["principal"]["axes"])
-    assert row["direction"] == pytest.approx(grows, abs=0.05) and stuck["schema"] == "stabilab.stuck/3"
+    assert row["direction"] == pytest.approx(grows, abs=0.05) and stuck["schema"] == "stabilab.stuck/2"
     letter = "xyz"[np.abs(grows).argmax()]
     texts = [shown.text(case, found, units_of(case)),
              *(stabilab(command, path)[1] for command in ("fate", "classify"))]
@@ -111,7 +111,7 @@ def test_every_command_names_the_axis_along_which_a_run_grows(stabilab, tmp_path
                     "negative": -1}[seen[4]] * np.array(seen.groups()[:3], float) @ grows > 0.998
     cells = dict(zip(*(line.split(",") for line in shown.csv([(case, found)]).splitlines())))
     assert (cells["axis"], cells["axis_name"],
-            cells["spin_direction"]) == (str(row["axis"]), row["axis_name"], str(row["spin_direction"]))
+            cells["sense"]) == (str(row["axis"]), row["axis_name"], str(row["sense"]))
 
 
 @pytest.mark.slow
@@ -146,7 +146,7 @@ def test_a_full_tensor_of_the_catalogue_is_named_with_its_direction(stabilab, tm
     for told in (fate, stuck["rows"][0]):
         along = np.array(told["axis_direction"])
         assert abs(along @ eigenvectors[told["axis"] - 1]) == pytest.approx(1, abs=1e-12)
-        assert told["spin_direction"] * along @ grows > 0.95
+        assert told["sense"] * along @ grows > 0.95
     assert fate["axis"] == stuck["rows"][0]["axis"] and fate["axis_name"] == RANKS[fate["axis"] - 1]
     assert "about axis" not in stabilab("fate",
                                         path)[1] + stabilab("stuck", path)[1] + stabilab("show", path)[1]

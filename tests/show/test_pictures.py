@@ -276,7 +276,7 @@ def test_vtp_keeps_doubles_and_point_arrays(tmp_path):
     made = mesh.triangulate(cone())
     data = pyvista.read(surface.write_meshes([made, made], tmp_path, "two")[0])
     assert data.points.dtype == np.float64 and np.array_equal(data.points[:len(made.points)], made.points)
-    assert set(np.unique(data.point_data["branch"])) == {0, 1} and data.point_data["residual"].max() == 3e-16
+    assert set(np.unique(data.point_data["sheet"])) == {0, 1} and data.point_data["residual"].max() == 3e-16
 
 
 # -- rendering --
@@ -306,7 +306,7 @@ def test_without_gl_the_meshes_are_written_and_the_cure_is_named(no_gl, tmp_path
 def test_a_scene_without_separatrix_is_answered_with_the_reason_and_no_file(tmp_path):
     """For |b - a| < 1.7548 a torque on the middle axis leaves no saddle (docstring of figure 16)."""
     summary = surface.write(paper.scene("middle", 100), tmp_path / "none")
-    assert summary["schema"] == "stabilab.surface/2" and summary["branches"] == [] and summary["files"] == []
+    assert summary["schema"] == "stabilab.surface/1" and summary["sheets"] == [] and summary["files"] == []
     assert "no separatrix" in summary["reason"] and not list(tmp_path.iterdir())
 
 
@@ -345,7 +345,7 @@ def test_the_summary_counts_what_the_mesh_holds(tmp_path):
     data = pyvista.read(tmp_path / "surface.vtp")
     assert (data.n_points, data.n_cells) == (summary["vertices"], summary["triangles"])
     assert summary["largest_residual"] == data.point_data["residual"].max() < 1e-12
-    assert json.loads((tmp_path / "surface.json").read_text())["branches"] == summary["branches"]
+    assert json.loads((tmp_path / "surface.json").read_text())["sheets"] == summary["sheets"]
 
 
 def test_surface_points_lie_on_the_level_of_their_saddle(tmp_path):

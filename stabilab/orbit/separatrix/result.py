@@ -44,6 +44,11 @@ class Separatrix(Shown):
     branches: tuple[Branch, ...]
     reason: str
 
+    @property
+    def sheets(self) -> tuple[Branch, ...]:
+        """The branches, by the name that they had before."""
+        return self.branches
+
 
 class Apart(NamedTuple):
     """The distance of a state from the separatrix lies in [lower, upper]; witness: a point of it (three

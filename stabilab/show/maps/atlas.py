@@ -107,7 +107,7 @@ def direction_words(vector: Any) -> str:
 
 
 # --- What an atlas says in words, the answer first, and as CSV and JSON of every cell
-SCHEMA = "stabilab.atlas/2"
+SCHEMA = "stabilab.atlas/1"
 ROWS = 12  # wheel momenta that are told one by one
 
 
@@ -335,7 +335,7 @@ def json(atlas: Atlas, units: Units) -> str:
               for momentum, vector in zip(asked.momenta or (None,) * len(asked.wheels), asked.wheels)]
     axes = axes_of(asked.case)
     shares = [{"fate": Fate(fate).word, **axes.key(abs(axis)),
-               "spin_direction": (axis > 0) - (axis < 0) or None, "island": ISLANDS[island], "share": share}
+               "sense": (axis > 0) - (axis < 0) or None, "island": ISLANDS[island], "share": share}
               for (fate, axis, island), _, share in kinds(atlas)]
     limit = asked.stated_limit
     cells = {"wheel": atlas.leaves.wheel, "level": atlas.leaves.level, "number": atlas.leaves.number,

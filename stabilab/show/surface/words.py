@@ -10,7 +10,7 @@ from ..terminal.letters import some
 def text(summary: dict[str, Any], out: Path) -> str:
     """The answer in a line, a line a branch, and the files; why there is no surface where there is none.
     summary: of `write.summarise`."""
-    name, branches = summary["case"], summary["branches"]
+    name, branches = summary["case"], summary["sheets"]
     if not branches:
         return f"{name}: no surface to write: {summary['reason']}"
     lines = [f"{name}: {some(len(branches), 'separatrix surface')}; {summary['reason']}"]

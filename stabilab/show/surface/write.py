@@ -19,7 +19,7 @@ from . import picture as drawing
 from .mesh import Mesh, glb, stl, triangulate
 from .render_probe import probe
 
-SCHEMA = "stabilab.surface/2"
+SCHEMA = "stabilab.surface/1"
 
 
 def write(case, out, reach=None, shape=None, picture=True, arguments=None) -> dict:
@@ -38,7 +38,7 @@ def write(case, out, reach=None, shape=None, picture=True, arguments=None) -> di
 def write_all(cases, out, reach=None, shape=None, picture=True, arguments=None) -> list[dict]:
     """Write the separatrices of cases (or scenes) into the folder `out` and return a summary of each.
 
-    NAME.vtp (double precision, point arrays "branch" and "residual"), NAME.glb and NAME.stl (single
+    NAME.vtp (double precision, point arrays "sheet" and "residual"), NAME.glb and NAME.stl (single
     precision, as those formats are), NAME.json (the summary), NAME.png and manifest.json (arguments: of the
     command line, for it); NAME is that of the case. A case that was read from a text has no file among the
     inputs of the manifest. A case without a separatrix has no files; its summary gives the reason. Where no
@@ -109,7 +109,7 @@ def summarise(case, found, meshes) -> dict:
                      "bounds": [[float(v) for v in pair]
                                 for pair in zip(mesh.points.min(0), mesh.points.max(0))]})
     return {"schema": SCHEMA, "case": getattr(case, "name", name), "variables": scene.variables,
-            "components": list(scene.components), "branches": rows,
+            "components": list(scene.components), "sheets": rows,
             "vertices": sum(r["vertices"] for r in rows),
             "triangles": sum(r["triangles"] for r in rows),
             "largest_residual": max((r["largest_residual"] for r in rows), default=0.0),
@@ -141,7 +141,7 @@ def _write_vtp(meshes, path):
 
 
 def polydata(meshes):
-    """All branches in one vtkPolyData: double-precision points, point arrays "branch" (int32) and "residual"
+    """All branches in one vtkPolyData: double-precision points, point arrays "sheet" (int32) and "residual"
     (float64)."""
     from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
     from vtkmodules.vtkCommonCore import vtkPoints
@@ -149,7 +149,7 @@ def polydata(meshes):
     points = np.concatenate([m.points for m in meshes] or [np.zeros((0, 3))])
     shifts = np.cumsum([0, *(len(m.points) for m in meshes)])
     triangles = np.concatenate([m.triangles + s for m, s in zip(meshes, shifts)] or [np.zeros((0, 3), int)])
-    arrays = {"branch": np.concatenate([np.full(len(m.points), i, np.int32) for i, m in enumerate(meshes)]
+    arrays = {"sheet": np.concatenate([np.full(len(m.points), i, np.int32) for i, m in enumerate(meshes)]
                                       or [np.zeros(0, np.int32)]),
               "residual": np.concatenate([m.residual for m in meshes] or [np.zeros(0)])}
     data, where, cells = vtkPolyData(), vtkPoints(), vtkCellArray()

@@ -50,7 +50,7 @@ def plain(value):
 
 def classification(case, equilibria, motion) -> dict:
     """One object of `stabilab classify --json`."""
-    return {"schema": "stabilab.classify/2", "case": case.name, "variables": case.variables,
+    return {"schema": "stabilab.classify/1", "case": case.name, "variables": case.variables,
             "equilibria": {"kind": equilibria.kind, "reason": equilibria.reason,
                            "points": [_point(case, p) | _input(case, p.at) for p in equilibria.points],
                            "curves": [_curve(case, c) for c in equilibria.curves]},
@@ -86,7 +86,7 @@ def _motion(case, m) -> dict:
                        "witness": m.velocity_witness, "because": m.velocity_because or None},
             "period": m.period, "extremes": m.extremes, "invariants": m.invariants,
             "energy_integral": None if m.energy_integral is None else asdict(m.energy_integral),
-            "spin_direction": m.sense or None, "extremes_over": m.extremes_over, "evidence": m.evidence,
+            "sense": m.sense or None, "extremes_over": m.extremes_over, "evidence": m.evidence,
             "tilt": when.tilt_dict(m.tilt)} | followed(m)
 
 
@@ -135,9 +135,9 @@ def _with(motion, told):
 def fate(case, motion, told) -> dict:
     """One object of `stabilab fate --json`; margin: barrier minus energy, null where none stands ahead."""
     margin = motion.margin_energy if told.values is None else told.values
-    return {"schema": "stabilab.fate/2", "case": case.name, "variables": case.variables, "at": motion.at,
+    return {"schema": "stabilab.fate/1", "case": case.name, "variables": case.variables, "at": motion.at,
             "fate": motion.fate.word,
-            **axes_of(case).key(motion.axis), "spin_direction": motion.sense or None,
+            **axes_of(case).key(motion.axis), "sense": motion.sense or None,
             "because": motion.because,
             "margin": margin,
             "digits": digits(told),

@@ -18,7 +18,7 @@ from .headline import REST, STEADY
 from .when import tilt_dict
 
 CSV = ("case", "thrusters", "torque_x", "torque_y", "torque_z", "torque_1", "torque_2", "torque_3", "fate",
-       "level", "axis", "axis_name", "spin_direction", "limit", "time_low", "time_high", "largest_rate",
+       "level", "axis", "axis_name", "sense", "limit", "time_low", "time_high", "largest_rate",
        "margin_rate",
        "margin_wheel", "margin_torque", "caveats")
 WORDS = {"rate": "rate", "wheel": "wheel momentum", "torque": "torque"}
@@ -32,7 +32,7 @@ SOON = 2  # times a margin: the fate is back before a change as great
 def as_dict(case, found) -> dict:
     """One object of `stabilab stuck --json`: SI units, rates in rad/s; axes are numbered as in "principal".
     """
-    return {"schema": "stabilab.stuck/3", "case": found.case, "rows": [_row(row, case) for row in found.rows],
+    return {"schema": "stabilab.stuck/2", "case": found.case, "rows": [_row(row, case) for row in found.rows],
             "principal": {"moments": list(found.principal.moments),
                           "axes": [list(axis) for axis in found.principal.axes]}}
 
@@ -40,7 +40,7 @@ def as_dict(case, found) -> dict:
 def _row(row, case) -> dict:
     return {"thrusters": list(row.thrusters), "torque": row.torque, "torque_principal": row.torque_principal,
             "fate": row.fate, "level": row.level,
-            **axes_of(case).key(row.axis), "spin_direction": row.sense, "limit": row.limit,
+            **axes_of(case).key(row.axis), "sense": row.sense, "limit": row.limit,
             "time_to_limit": row.time_to_limit, "largest_rate": row.largest_rate,
             "margin": _margin_sizes(row),
             "wheel_intervals": [{"wheel": w.wheel,

@@ -150,7 +150,7 @@ def test_commands_tell_digits_and_write_out_what_doubles_cannot_hold(stabilab):
     code, out, err = stabilab("period", path, "--digits", "30")
     assert code == 0 and answer["digits"]["decimals"] in out and "digits: ball" in out and not err
     answer = json.loads(stabilab("fate", path, "--json")[1])[0]
-    assert answer["schema"] == "stabilab.fate/2" and answer["fate"] == "bounded" and answer["digits"][
+    assert answer["schema"] == "stabilab.fate/1" and answer["fate"] == "bounded" and answer["digits"][
         "reached"] >= 10
     rows = stabilab("extremes", path, "--digits", "20", "--csv")[1].splitlines()
     assert len(rows) == 4 and all(len(cell.strip("-").replace(".", "")) >= 19 for row in rows[1:]

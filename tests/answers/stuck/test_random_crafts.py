@@ -31,7 +31,7 @@ def asked(stabilab, tmp_path):
 def test_every_field_off_the_axes_is_that_of_a_run(asked, n):
     found, craft = asked(anywhere(np.random.default_rng([13, n]), n))
     moments, axes = (np.array(found["principal"][name]) for name in ("moments", "axes"))
-    assert found["schema"] == "stabilab.stuck/3"
+    assert found["schema"] == "stabilab.stuck/2"
     assert np.cross(axes[0], axes[1]) == pytest.approx(axes[2], abs=1e-14)
     assert axes @ axes.T == pytest.approx(np.eye(3), abs=1e-14)
     assert axes @ craft.J @ axes.T == pytest.approx(np.diag(moments), abs=1e-12 * moments.max())
@@ -47,10 +47,10 @@ def test_every_field_off_the_axes_is_that_of_a_run(asked, n):
             np.ravel(craft.limit), rel=1e-14)
         assert set(row["margin"]) == {"rate", "wheel",
                                       "torque"} and len(row["wheel_intervals"]) == craft.wheels
-        assert (row["axis"] in (1, 2, 3) and row["spin_direction"] in (1, -1)) or (row["axis"] is row["spin_direction"] is None)
+        assert (row["axis"] in (1, 2, 3) and row["sense"] in (1, -1)) or (row["axis"] is row["sense"] is None)
         if row["axis"]:
             assert row["fate"] == "spin-up" and row["direction"] == pytest.approx(
-                row["spin_direction"] * axes[row["axis"] - 1], abs=1e-12)
+                row["sense"] * axes[row["axis"] - 1], abs=1e-12)
         if row["time_to_limit"]:
             low, high = row["time_to_limit"]
             t, _, largest = craft.run(high * 1.001, M)

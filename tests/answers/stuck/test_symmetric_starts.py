@@ -103,7 +103,7 @@ def test_no_momentum_contradicts_energy_or_a_run(first, many):
 
 
 @pytest.mark.parametrize("inertia, torque, where", [
-    ((12, 9, 5), (0, "0.02", 0), "middle axis"), ((9, 9, 5), ("0.02", 0, 0), "between two equal moments"),
+    ((12, 9, 5), (0, "0.02", 0), "intermediate axis"), ((9, 9, 5), ("0.02", 0, 0), "between two equal moments"),
     ((9, 9, 9), (0, "0.02", 0), "three equal moments")])
 @pytest.mark.parametrize("spin", [0, "0.3"])
 def test_a_pure_spin_that_no_wall_holds_is_bounded_with_any_momentum_but_none(inertia, torque, where, spin):

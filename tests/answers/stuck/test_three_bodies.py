@@ -76,10 +76,10 @@ def test_json_has_the_documented_keys_and_the_numbers_of_python(stabilab):
     from stabilab import load, stuck
     code, out, _ = stabilab("stuck", BODIES["cubesat-3u"], "--json")
     answer, row = json.loads(out), stuck(load(BODIES["cubesat-3u"])).rows[0]
-    assert code == 0 and answer["schema"] == "stabilab.stuck/3" and set(answer["principal"]) == {
+    assert code == 0 and answer["schema"] == "stabilab.stuck/2" and set(answer["principal"]) == {
         "moments", "axes"}
     (told,) = answer["rows"]
-    assert {"thrusters", "torque", "torque_principal", "fate", "level", "axis", "spin_direction", "limit",
+    assert {"thrusters", "torque", "torque_principal", "fate", "level", "axis", "sense", "limit",
             "time_to_limit", "largest_rate", "margin",
             "wheel_intervals", "because"} <= set(told)
     assert told["thrusters"] == ["A1"] and told["time_to_limit"] == list(row.time_to_limit) and set(

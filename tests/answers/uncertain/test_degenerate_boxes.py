@@ -39,7 +39,7 @@ def test_where_a_moment_is_not_positive_there_is_no_verdict(tmp_path):
     box = box_of(case_of(tmp_path, inertia='"20 +- 0.4", 10, "10.9 +- 0.4"', state="0, 0, 1"))
     assert look_at(box, np.array([1.0, -30.0]))[0] is None  # 10.9 - 12 < 0
     # 21.2 > 10 + 9.7: Euler's equations hold all the same
-    assert look_at(box, np.array([3.0, -3.0]))[0] == "spin-up about axis 3, positive sense"
+    assert look_at(box, np.array([3.0, -3.0]))[0] == "spin-up about axis 3, positive direction"
 
 
 @pytest.mark.parametrize("inertia, axis", [("20, 15, 10", 2), ("20, 20, 10", 1)])
@@ -88,7 +88,7 @@ def test_rest_on_a_saddle_is_bounded_and_nothing_around_it_is(tmp_path):
     assert over.verdict == "bounded" and over.answer == "undecided" and "only one side" in over.because
     box = box_of(case_of(tmp_path, torque="0, 0, 5", state='0.5, -2, "0 +- 0.1"'))
     assert {look_at(box, np.array([p]))[0]
-            for p in (-1, -1e-6, 1e-9, 1)} == {"spin-up about axis 3, positive sense"}
+            for p in (-1, -1e-6, 1e-9, 1)} == {"spin-up about axis 3, positive direction"}
     assert fate_of(tmp_path, torque="0, 0, 5", state='"0.5 +- 0.1", -2, 0').answer == "depends"
 
 

@@ -70,7 +70,7 @@ def test_names_of_directions_that_are_one_stand_apart():
 
 def test_json_and_csv_hold_every_cell(found):
     told = json.loads(atlas_words.json(found, DEG))
-    assert told["schema"] == "stabilab.atlas/2" and len(told["cells"]["share"]) == len(found.records) == len(
+    assert told["schema"] == "stabilab.atlas/1" and len(told["cells"]["share"]) == len(found.records) == len(
         told["cells"]["direction"])
     assert sum(told["cells"]["share"]) == pytest.approx(2)
     assert sum(one["share"] for one in told["shares"]) == pytest.approx(1)
