@@ -5,34 +5,29 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
 
-from flint import ctx
+from flint import arb, ctx
 
 from .numbers import (
-    SPLIT,
     Malformed,
     Open,
-    Spent,
     above,
     ball,
     below,
     bracket,
     exact_sign,
     field,
-    hull,
     narrowed,
     numbers,
     shown,
     sign,
     word,
     working,
-    zeros,
 )
 from .orbit import ClosedClaims, Orbit, check_closed, closed_of, period_of, round_once
 from .spin_up import SpinUpClaims, check_spin_up, spin_up_of
 
 # --- What is proved of one orbit: walls, turning points, highest barriers and deepest wells, each enclosed
-WINDOWS = 24  # doublings of the reach of alpha in search of a wall: 2^24 e-foldings
-FAR = 2**WINDOWS - 1  # where they end
+WINDOWS, REACH = 24, Fraction(1013, 1009)  # doublings of the reach of alpha in search of a wall
 
 
 class Facts:
@@ -104,61 +99,53 @@ class Facts:
 
 def _turning(orbit, side):
     """The turning point on one side as a ball; None where the motion passes every barrier of a circle's next
-    turn."""
+    turn, or no wall stands on a hyperbola or a parabola."""
     if orbit.y0 == 0 and exact_sign(orbit.F0) == -side:
         return ball(0)
-    inner, low, windows = None, Fraction(0), WINDOWS
-    reach = Fraction(1013, 1009)  # windows end where no force of small numbers vanishes, and not before FAR
-    if orbit.kind < 0:
-        reach, windows = orbit.past_a_turn, 1
-        if exact_sign(orbit.tilt) == -side:  # each turn behind is higher: skip those that are surely too low
-            low, windows = side * _turns_below(orbit, side) * below(orbit.turn), 4
-            inner = ball(low) if low else None
-    for _ in range(windows):
-        for spot in _spots(orbit, low, low + side * reach):
-            over = sign(orbit.excess(spot))
-            if over is None:
-                raise Open
-            if over > 0:
-                return _crossing(orbit, inner, spot)
-            inner = spot
-        low += side * reach
-        end = sign(orbit.excess(ball(low)))
-        if end is None:
-            raise Open
-        if end > 0:
-            return _crossing(orbit, inner, ball(low))
-        reach *= 2 if orbit.kind >= 0 else 1
+    inner, circle = None, orbit.kind < 0
+    against = circle and exact_sign(orbit.tilt) == -side
+    spots = _ahead(orbit, side)
+    if against:  # each turn behind is higher: skip those that are surely too low
+        turns = _turns_below(orbit, spots)
+        inner = side * turns * orbit.turn if turns else None
+        spots = [spot + side * n * orbit.turn for n in range(turns, turns + 4) for spot in spots]
+    for spot in spots:
+        if _over(orbit, spot):
+            return _crossing(orbit, inner, spot)
+        inner = spot
+    if circle and (spots or not against):
+        return None
+    # from here on the potential is monotone
+    end, reach = Fraction(0) if inner is None else above(inner) if side > 0 else below(inner), REACH
+    for _ in range(WINDOWS):
+        if _over(orbit, ball(end + side * reach)):
+            return _crossing(orbit, inner, ball(end + side * reach))
+        reach *= 2
     return None
 
 
-def _spots(orbit, start: Fraction, end: Fraction):
-    """The zeros of the force from start to end where it changes sign, in that order; without one at alpha = 0
-    itself."""
-    if orbit.touches():
-        return []
-    low, high = sorted((start, end))
-    folds, turn = orbit.folds(), below(orbit.turn) if orbit.kind < 0 else 1
-    at_zero = orbit.F0 == 0
-    multiple = [(spot + n * orbit.turn, order) for spot,
-                order in folds for n in range(int(low // turn) - 1, int(high // turn) + 2)]
-    found = zeros(orbit.force, orbit.force_slope, low, high, at_zero and low == 0, at_zero and high == 0,
-                  orbit.purse,
-                  multiple, orbit.force_bend)
-    return found if end > start else found[::-1]
+def _ahead(orbit, side):
+    """The places on one side where the force changes sign, the nearest first: of one turn of a circle."""
+    far = ball(orbit.past_a_turn) if orbit.kind < 0 else arb("inf")
+    return orbit.spots(ball(0), far) if side > 0 else orbit.spots(-far, ball(0))[::-1]
 
 
-def _turns_below(orbit, side) -> int:
-    """How many whole turns behind hold no barrier that reaches the energy, less one."""
-    turn = orbit.past_a_turn
+def _over(orbit, place) -> bool:
+    """Whether the potential is above the energy."""
+    over = sign(orbit.excess(place))
+    if over is None:
+        raise Open
+    return over > 0
+
+
+def _turns_below(orbit, spots) -> int:
+    """How many whole turns behind hold no barrier that reaches the energy, less one. spots: of the first."""
     highest = orbit.excess(ball(0))
-    for spot in _spots(orbit, Fraction(0), side * turn):
+    for spot in spots:
         highest = highest.max(orbit.excess(spot))
-    highest = highest.max(orbit.excess(ball(side * turn)))
     if not highest < 0:
         return 0
-    turns = below(-highest / (ball(abs(orbit.tilt)) * orbit.turn))
-    return max(int(turns) - 1, 0)
+    return max(int(below(-highest / (ball(abs(orbit.tilt)) * orbit.turn))) - 1, 0)
 
 
 def _crossing(orbit, inner, outer):
@@ -173,39 +160,23 @@ def _crossing(orbit, inner, outer):
     # from rest a well comes first, so neither is zero
     if None in (lo_sign, hi_sign) or lo_sign * hi_sign >= 0:
         raise Open
-    return _single(orbit.excess, df, low, high)
-
-
-def _single(f, df, a, b):
-    """The zero of a function known to be monotone on [a, b], with a change of sign: halving, then interval
-    Newton."""
-    left = sign(f(ball(a)))
-    for _ in range(2000):
-        if sign(df(hull(a, b))):
-            return narrowed(f, df, a, b)
-        c = a + (b - a) * SPLIT
-        middle = sign(f(ball(c)))
-        if not middle:
-            raise Open
-        a, b = (c, b) if middle == left else (a, c)
-    raise Open
+    return narrowed(orbit.excess, df, low, high)
 
 
 def _lowest(orbit, left, right):
-    """Least U - E on [left, right], as a ball (negative)."""
-    best = [orbit.excess(ball(0))]
-    for low, high in ((below(left), Fraction(0)), (Fraction(0), above(right))):
-        if low < high:
-            best += [orbit.excess(z) for z in _spots(orbit, low, high)]
-    total = best[0]
-    for value in best[1:]:
-        total = total.min(value)
+    """Least U - E on [left, right], which holds the start, as a ball (negative)."""
+    if orbit.kind < 0 and orbit.tilt:  # wells further back than one turn are higher
+        turn = ball(orbit.past_a_turn)
+        left, right = (left.max(right - turn), right) if orbit.tilt > 0 else (left, right.min(left + turn))
+    total = orbit.excess(ball(0))
+    for spot in orbit.spots(left, right):
+        total = total.min(orbit.excess(spot))
     return total
 
 
 def _heights_round(orbit):
     """(greatest, least) U - E on the whole circle without torque."""
-    values = [orbit.excess(ball(0)), *map(orbit.excess, _spots(orbit, Fraction(0), orbit.past_a_turn))]
+    values = [orbit.excess(ball(0)), *map(orbit.excess, _ahead(orbit, 1))]
     most = least = values[0]
     for value in values[1:]:
         most, least = most.max(value), least.min(value)
@@ -214,25 +185,18 @@ def _heights_round(orbit):
 
 def _ranges(orbit, left, right):
     """((low, high) of u, (low, high) of v) on [left, right]."""
-    low, high = below(left), above(right)
-    # u or v may turn just where the motion does: no ball would tell the sign of its slope there
-    room = (high - low) / 1024
     out = []
     for which in (0, 1):
-        f = lambda x, w=which: orbit.slopes(x)[w]
-        # u'' = p (q u + q0), v'' = q (p v + p0)
-        df = lambda x, w=which: ball(orbit.p if w == 0 else orbit.q) * orbit.slopes(x)[1 - w]
         values = [orbit.place(left)[which], orbit.place(right)[which]]
-        if not orbit.constant(which):
-            for z in zeros(f, df, low - room, high + room, purse=orbit.purse):
-                if z < left or z > right:
-                    continue
-                value = orbit.place(z)[which]
-                for end, there in ((left, values[0]), (right, values[1])):
-                    # beside the end by less than its own width: inside or not makes no difference
-                    if z.overlaps(end):
-                        value = value.union(there)
-                values.append(value)
+        for z in [] if orbit.constant(which) else orbit.turns_of(which, right):
+            if z < left or z > right:
+                continue
+            value = orbit.place(z)[which]
+            for end, there in ((left, values[0]), (right, values[1])):
+                # beside the end by less than its own width: inside or not makes no difference
+                if z.overlaps(end):
+                    value = value.union(there)
+            values.append(value)
         least = most = values[0]
         for value in values[1:]:
             least, most = least.min(value), most.max(value)
@@ -253,15 +217,10 @@ def _slowest_ahead(orbit, sense):
     """The least sense * y over the future of a motion that spins up."""
     if exact_sign(orbit.y0) * sense < 0:
         behind = _behind(orbit, sense)
-        if orbit.kind < 0:  # wells further back than one turn are higher
-            back = ball(-sense) * orbit.turn
-            behind = behind.max(back) if sense > 0 else behind.min(back)
         low, high = (behind, ball(0)) if sense > 0 else (ball(0), behind)
         return -(-2 * _lowest(orbit, low, high)).sqrt()
     slowest = ball(orbit.E)
-    # the force has its last sign from there on
-    ahead = orbit.past_a_turn if orbit.kind < 0 else Fraction(FAR)
-    for spot in _spots(orbit, Fraction(0), sense * ahead):
+    for spot in _ahead(orbit, sense):
         slowest = slowest.min(-orbit.excess(spot))
     return (2 * slowest).sqrt()
 
@@ -291,11 +250,9 @@ def _released(orbit, ends):
         return "spin-up", "x_j and x_k stay constant, and so does the force"
     side = -1 if ends[0] is None else 1
     if orbit.kind > 0 and orbit.decays() == side == exact_sign(orbit.tilt):
-        # the windows reached no wall; from their end on, the place stays so near its centre that the force is
-        # the tilt
-        if sign(orbit.force_beyond(FAR)) == side:
-            return ("spin-up",
-                    "a plane that decays in the direction of the torque; no barrier on it reaches the energy")
+        # behind its last change of sign the force has that of the tilt, to which it tends
+        return ("spin-up",
+                "a plane that decays in the direction of the torque; no barrier on it reaches the energy")
     raise Open
 
 
@@ -482,8 +439,6 @@ def at_rising_precision(question, least=None, most=None):
         with working(bits):
             try:
                 return question()
-            except Spent:
-                return None
             except Open:
                 bits *= 2
     return None

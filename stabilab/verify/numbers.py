@@ -1,4 +1,4 @@
-"""Numbers of certificates read exactly, balls and their precision, zeros of a function on an interval.
+"""Numbers of certificates read exactly, balls and their precision, the zero of a monotone function.
 
 python-flint's working precision, for one thread at a time.
 
@@ -141,81 +141,12 @@ def working(bits: int):
         yield
 
 
-# --- All zeros of a function on an interval, enclosed: cells without a zero, and cells where the function
-# is monotone
-CELLS = 20_000  # for one orbit: some ten seconds; scenes of the tests take up to a few thousand
-SPLIT = Fraction(489, 1000)  # off the middle: a zero is less often where a cell is cut
+# --- The zero of a function on an interval where it is monotone
+SPLIT = Fraction(489, 1000)  # off the middle: a zero is less often where an interval is cut
 
 
 class Open(Exception):
     """Not decided at this precision."""
-
-
-class Spent(Exception):
-    """Not decided with as much work as one question may take: more bits would not help."""
-
-
-class Purse:
-    """How many cells may still be looked at for one question, over all intervals and precisions."""
-
-    def __init__(self, cells):
-        self.cells = cells
-
-    def spend(self):
-        """One cell. Raises `Spent` when there are none left."""
-        if not self.cells:
-            raise Spent
-        self.cells -= 1
-
-
-def zeros(f, df, low: Fraction, high: Fraction, at_low=False, at_high=False, purse=None, multiple=(),
-          bend=None):
-    """Balls that hold one zero of f each, rising, and no zero on (low, high) is elsewhere but those of even
-    order in `multiple`.
-
-    multiple: (ball, order) of zeros of higher order, by algebra, all of them; bend: then, the derivative of
-    an order over a ball. at_low, at_high: f is known to vanish exactly at that end; such a zero is not
-    listed. purse: pays for the cells.
-    """
-    purse = purse or Purse(CELLS)
-    found, stack = [], [(low, high)]
-    smallest = (high - low) / 2**ctx.prec
-    while stack:
-        a, b = stack.pop()
-        purse.spend()
-        if b - a < smallest:
-            raise Open
-        cell = hull(a, b)
-        if sign(f(cell)):
-            continue
-        if not sign(df(cell)):
-            at_end = at_low and a == low or at_high and b == high
-            known = _multiple(multiple, bend, a, b, at_end)
-            if known:  # that derivative has one sign, so nothing else vanishes
-                if known[1] % 2 and not at_end:
-                    found.append(known[0])
-                continue
-            c = a + (b - a) * SPLIT
-            stack += [(c, b), (a, c)]
-            continue
-        if (at_low and a == low) or (at_high and b == high):
-            continue  # monotone: the zero at the end is the only one
-        ends = sign(f(ball(a))), sign(f(ball(b)))
-        if None in ends or 0 in ends:
-            raise Open
-        if ends[0] != ends[1]:
-            found.append(narrowed(f, df, a, b))
-    return found
-
-
-def _multiple(multiple, bend, a, b, at_end):
-    """The (ball, order) of the only zero of a cell, if it is one of higher order: within it, or at its end
-    zero, where f is known to vanish."""
-    for spot, order in multiple:
-        inside = a < below(spot) and above(spot) < b or at_end and 0 in (a, b) and 0 in spot
-        if inside and order < 4 and sign(bend(hull(a, b), order)):
-            return spot, order
-    return None
 
 
 def narrowed(f, df, a: Fraction, b: Fraction):
@@ -240,7 +171,7 @@ def narrowed(f, df, a: Fraction, b: Fraction):
 def _bisected(f, df, a, b):
     """Halve the bracket until Newton's step may be tried again."""
     left = sign(f(ball(a)))
-    for _ in range(200):
+    for _ in range(2000):
         c = a + (b - a) * SPLIT
         middle = sign(f(ball(c)))
         if not left or not middle:

@@ -18,10 +18,8 @@ from types import SimpleNamespace
 from flint import acb, arb, ctx, fmpq_poly, fmpz_poly
 
 from .numbers import (
-    CELLS,
     Malformed,
     Open,
-    Purse,
     above,
     ball,
     below,
@@ -206,7 +204,7 @@ class Orbit:
         if shift is None:
             raise ValueError("no reduction about this axis")
         j, k = AHEAD[axis]
-        self.axis, self.j, self.k, self.s, self._touches, self.purse = axis, j, k, shift, None, Purse(CELLS)
+        self.axis, self.j, self.k, self.s = axis, j, k, shift
         self.p, self.p0, self.q, self.q0 = rates.kappa[j], rates.rho[j], rates.kappa[k], rates.sigma[k]
         self.kappa, self.rho, self.sigma, self.m = (c[axis]
                                                     for c in (rates.kappa, rates.rho, rates.sigma, rates.m))
@@ -270,7 +268,8 @@ class Orbit:
         if self.kind == 0:
             return _poly(g.us, alpha), _poly(g.vs, alpha)
         if g.decays:  # one exponential, without the difference of two large ones
-            return self._on_plane((-g.decays * g.n * alpha).exp())
+            e = (-g.decays * g.n * alpha).exp()
+            return g.cu + g.du * e, g.cv + g.dv * e
         angle = g.n * alpha
         s, c = (angle.sin(), angle.cos()) if self.kind < 0 else (angle.sinh(), angle.cosh())
         return g.cu + g.du * c + g.su * s, g.cv + g.dv * c + g.sv * s
@@ -286,24 +285,36 @@ class Orbit:
             return 0
         return -exact_sign(a * du) or -exact_sign(b * dv)
 
-    def touches(self) -> bool:
-        """Whether the force has only zeros of even order on its conic, or on a plane of a hyperbola: it never
-        changes sign."""
-        if not self.kind:
-            return False
-        if self._touches is None:
-            self._touches = self._even_zeros()
-        return self._touches
+    def spots(self, left, right) -> list:
+        """The places between two, balls, where the force changes sign, rising; the state's own is none of
+        them. Raises Open where one is not told from an end."""
+        found = _spots(self, ctx.prec)
+        if self.kind < 0:
+            first, last = (int(end // below(self.turn)) for end in (below(left), above(right)))
+            found = [spot + n * self.turn for n in range(first - 1, last + 2) for spot in found]
+        near = [spot for spot in found if not (spot.is_zero() or spot < left or spot > right)]
+        if not all(spot > left and spot < right for spot in near):
+            raise Open
+        return near
 
-    def _even_zeros(self) -> bool:
-        cu, cv, du, dv = self.cu, self.cv, self.u0 - self.cu, self.v0 - self.cv
-        if self.decays():  # a quadratic in the exponential
-            bend, slope = self.kappa * du * dv, self.kappa * (cu * dv
-                                                              + cv * du) + self.rho * dv + self.sigma * du
-            return (slope * slope
-                    == 4 * bend * (self.kappa * cu * cv + self.rho * cv + self.sigma * cu + self.m))
-        force = self._along_chords()
-        return force != 0 and all(order % 2 == 0 for _, order in force.factor()[1])
+    def _zeros(self):
+        """All zeros of the force: (polynomial, place of a root of it as a ball, None where that is not of the
+        orbit; places besides, each with its order)."""
+        if self.kind == 0:
+            return fmpq_poly([q(c) for c in self.Fs]), lambda root: root, []
+        g, cu, cv, du, dv = self.balls, self.cu, self.cv, self.u0 - self.cu, self.v0 - self.cv
+        if g.decays:  # a quadratic in the exponential
+            slope = self.kappa * (cu * dv + cv * du) + self.rho * dv + self.sigma * du
+            constant = self.kappa * cu * cv + self.rho * cv + self.sigma * cu + self.m
+            return (fmpq_poly([q(c) for c in (constant, slope, self.kappa * du * dv)]),
+                    lambda root: None if root <= 0 else -root.log() / (g.decays * g.n), [])
+        force, rows = self._along_chords(), [[arb(c) for c in row.coeffs()] for row in self._chord()]
+
+        def place(root):
+            w, u, v = (_poly(row, root) for row in rows)
+            return self._offset(u / w, v / w)
+        beyond = 4 - force.degree()  # the line of no finite slope
+        return force, place, [(self._offset(ball(self.u0), ball(2 * cv - self.v0)), beyond)] if beyond else []
 
     def _along_chords(self):
         """The force where the line of slope t through the state meets the conic again, times w^2 of `_chord`:
@@ -320,38 +331,33 @@ class Orbit:
         step = -2 * (q(self.q * du) - q(self.p * dv) * t)
         return w, q(self.u0) * w + step, q(self.v0) * w + t * step
 
-    def folds(self) -> list:
-        """[(ball, order)] of the places alpha, within half a turn of the state, where the force vanishes to
-        second or third order exactly; on a circle."""
-        if self.kind >= 0 or self.touches():
-            return []
-        force, places = self._along_chords(), []
-        w, u, v = ([arb(c) for c in row.coeffs()] for row in self._chord())
-        for factor, order in force.factor()[1]:
-            if order > 1:
-                places += [(_poly(u, root) / _poly(w, root), _poly(v, root) / _poly(w, root), order)
-                           for root in _real_roots(factor)]
-        if force.degree() < 3:  # the line of no finite slope
-            places.append((ball(self.u0), ball(2 * self.cv - self.v0), 4 - force.degree()))
-        found = [(self._offset(u, v), order) for u, v, order in places]
-        if any(0 in spot for spot, _ in found) and (self.F0 or self._slope_here()):
-            raise Open
-        return found
-
-    def _slope_here(self):
-        """F' at the state, exactly."""
-        du, dv = self.p * self.v0 + self.p0, self.q * self.u0 + self.q0
-        return self.kappa * (du * self.v0 + self.u0 * dv) + self.rho * dv + self.sigma * du
-
     def _offset(self, u, v):
-        """alpha of a place on a circle, within half a turn."""
-        g = self.balls
-        det, u, v = g.du * g.sv - g.dv * g.su, u - g.cu, v - g.cv
-        return arb.atan2((g.du * v - g.dv * u) / det, (u * g.sv - v * g.su) / det) / g.n
+        """alpha of a place on the conic: on a circle within a turn, None on a hyperbola's other branch."""
+        g, u, v = self.balls, u - self.balls.cu, v - self.balls.cv
+        if self.kind > 0:  # (u, v)' = (p v, q u): this combination goes like exp(n alpha)
+            ratio = (u + g.p / g.n * v) / (g.du + g.p / g.n * g.dv)
+            if not ratio > 0 and not ratio < 0:
+                raise Open
+            return ratio.log() / g.n if ratio > 0 else None
+        det = g.du * g.sv - g.dv * g.su
+        return _angle((g.du * v - g.dv * u) / det, (u * g.sv - v * g.su) / det) / g.n
 
-    def _on_plane(self, e):
+    def turns_of(self, which, right) -> list:
+        """Where u (0) or v (1), which is not constant, is stationary: on a circle on the last turn before a
+        place."""
         g = self.balls
-        return g.cu + g.du * e, g.cv + g.dv * e
+        if self.kind == 0:
+            _, slope, bend = (self.us, self.vs)[which]
+            return [ball(-slope / (2 * bend))] if bend else []
+        d, s = ((g.du, g.su), (g.dv, g.sv))[which]
+        if self.kind > 0:
+            far, slope = ((self.u0 - self.cu, self.p * self.v0 + self.p0),
+                          (self.v0 - self.cv, self.q * self.u0 + self.q0))[which]
+            crossed = slope**2 < self.p * self.q * far**2  # |s| < |d|: d sinh + s cosh vanishes
+            return [((d - s) / (d + s)).log() / (2 * g.n)] if crossed else []
+        half, first = self.turn / 2, _angle(s, d) / g.n
+        last = int((above(right) - below(first)) // below(half)) + 1
+        return [first + n * half for n in range(last - 3, last + 1)]
 
     def slopes(self, alpha):
         """(du/dalpha, dv/dalpha)."""
@@ -360,24 +366,11 @@ class Orbit:
 
     def force(self, alpha):
         """F = y'."""
-        return _poly(self.balls.Fs, alpha) if self.kind == 0 else self._force_at(*self.place(alpha))
-
-    def _force_at(self, u, v):
         g = self.balls
+        if self.kind == 0:
+            return _poly(g.Fs, alpha)
+        u, v = self.place(alpha)
         return g.kappa * u * v + g.rho * v + g.sigma * u + g.m
-
-    def force_beyond(self, far):
-        """The force on a decaying plane of a hyperbola, over all |alpha| >= far in the direction of the
-        decay."""
-        return self._force_at(*self._on_plane((-self.balls.n * far).exp().union(ball(0))))
-
-    def force_bend(self, alpha, order):
-        """The second or third derivative of F; (u, v)'' is (p v', q u')."""
-        g, (u, v), (u1, v1) = self.balls, self.place(alpha), self.slopes(alpha)
-        u2, v2, u3, v3 = g.p * v1, g.q * u1, g.p * g.q * u1, g.p * g.q * v1
-        if order == 2:
-            return g.kappa * (u2 * v + 2 * u1 * v1 + u * v2) + g.rho * v2 + g.sigma * u2
-        return g.kappa * (u3 * v + 3 * u2 * v1 + 3 * u1 * v2 + u * v3) + g.rho * v3 + g.sigma * u3
 
     def force_slope(self, alpha):
         """dF/dalpha."""
@@ -416,6 +409,30 @@ def _balls(orbit, bits):
     g.cv, g.dv, g.sv = ball(o.cv), ball(o.v0 - o.cv), ball(o.q * o.u0 + o.q0) / g.n
     g.half_a, g.half_b, g.c, g.d = ball(o.a / 2), ball(o.b / 2), ball(o.c), ball(o.d)
     return g
+
+
+@lru_cache(maxsize=16)
+def _spots(orbit, bits):
+    """Where the force changes sign, balls of so many bits, rising: on a circle from 0 to a turn, exactly 0
+    for the state itself. The force may vanish to any order: an even one changes no sign."""
+    force, place, found = orbit._zeros()
+    if force == 0:
+        raise Open
+    w = orbit._chord()[0] if orbit.kind and not orbit.balls.decays else fmpq_poly([1])
+    found = found + [(place(root), order) for factor, order in force.factor()[1] if w % factor != 0
+                     for root in _real_roots(factor)]
+    found = [(spot, order) for spot, order in found if spot is not None]
+    here = [0 in spot for spot, _ in found]
+    if not all(spot.is_finite() for spot, _ in found) or sum(here) != (orbit.F0 == 0):
+        raise Open
+    spots = [arb(0) if 0 in spot else spot + orbit.turn if orbit.kind < 0 and spot < 0 else spot
+             for spot, order in found if order % 2]
+    return sorted(spots, key=lambda spot: below(spot))
+
+
+def _angle(y, x):
+    """atan2(y, x), from -pi/2 to 3 pi/2 where the cut is near."""
+    return arb.atan2(y, x) if not (0 in y and not x > 0) else arb.pi() + arb.atan2(-y, -x)
 
 
 def _poly(coefficients, alpha):

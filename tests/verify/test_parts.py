@@ -13,8 +13,7 @@ from stabilab.verify import equilibria as complete
 from stabilab.verify import motion, verify
 from stabilab.verify import orbit as period
 from stabilab.verify.curves import curve_of, judged
-from stabilab.verify.motion import _single
-from stabilab.verify.numbers import Malformed, Open, above, ball, below, hull, narrowed, zeros
+from stabilab.verify.numbers import Malformed, Open, above, ball, below, hull, narrowed
 from stabilab.verify.rates import Rates
 from stabilab.verify.roots import Work, real_roots
 
@@ -26,23 +25,6 @@ def holds(value, exact):
     return below(value) <= exact <= above(value) and above(value) - below(value) < F(1, 10**9)
 
 
-def test_all_zeros_of_a_cubic_are_enclosed_and_its_end_is_left_out():
-    f, df = (lambda x: x * (x - 1) * (x + 2)), (lambda x: 3 * x * x + 2 * x - 2)
-    found = zeros(f, df, F(-3), F(3))
-    assert len(found) == 3 and all(map(holds, found, (-2, 0, 1)))
-    assert [holds(z, 1) for z in zeros(f, df, ZERO, F(3), at_low=True)] == [True]
-    assert [holds(z, -2) for z in zeros(f, df, F(-3), ZERO, at_high=True)] == [True]
-
-
-@pytest.mark.parametrize("f, df, low, high", [
-    (lambda x: x * x, lambda x: 2 * x, F(-1), F(2)),    # touches zero: no cell ever shows a sign
-    (lambda x: x - 1, lambda x: x * 0 + 1, ONE, F(2)),  # zero at an end that was not announced
-])
-def test_zeros_that_cannot_be_enclosed_are_said_to_be_open(f, df, low, high):
-    with pytest.raises(Open):
-        zeros(f, df, low, high)
-
-
 def test_newton_halves_where_the_slope_vanishes_and_gives_up_where_there_is_no_zero():
     assert holds(narrowed(lambda x: x**3 - ball(F(1, 8)), lambda x: 3 * x * x, F(-1), F(2)), F(1, 2))
     with pytest.raises(Open):
@@ -51,7 +33,7 @@ def test_newton_halves_where_the_slope_vanishes_and_gives_up_where_there_is_no_z
         with pytest.raises(Open):
             narrowed(lambda x: x**3, lambda x: 3 * x * x, low, F(2))
     with pytest.raises(Open):
-        _single(lambda x: x * 0, lambda x: x, F(-1), F(2))
+        narrowed(lambda x: x * 0, lambda x: x, F(-1), F(2))
 
 
 def test_real_zeros_of_polynomials_are_apart_and_rational_ones_exact():
