@@ -13,10 +13,11 @@ from typing import Any
 
 import numpy as np
 
-from ..answers.digits.run import ladder, reduced
+from ..answers.digits.run import ladder
 from ..errors import InputError
 from ..integrate.to_heyoka import TAYLOR_TOLERANCE, heyoka, heyoka_available, heyoka_form, to_taylor
 from ..integrate.trajectory import ATOL_SHARE, SCIPY_METHODS
+from ..orbit.flow.flow import reduced_motion
 from ..physics.equations import Equations
 from ..physics.scene import slices
 from ..physics.states import equations_and_start, quaternion, start_of
@@ -178,8 +179,10 @@ def _reduced(task) -> list[Method]:
 
     def prepare(task, nodes):
         def run(times):
-            orbit = reduced(task.scene, task.start, nodes)  # its series too belong to the cost of an answer
-            return Answer({"omega": orbit.at(times)}, None, orbit.counts)
+            # its series belong to the cost of an answer
+            orbit = reduced_motion(task.scene, task.start, nodes)
+            counts = orbit.evaluations
+            return Answer({"omega": orbit.states(times)}, None, counts)
         return run
     return [Method("reduced", "nodes", rungs, prepare)]
 

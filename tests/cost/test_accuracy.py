@@ -15,12 +15,13 @@ import pytest
 from stabilab import load
 from stabilab.answers.digits import run as precision_digits
 from stabilab.answers.digits import run as precision_front
-from stabilab.answers.digits.run import FrontPoint, candidates, ladder, reduced, simulate_to
+from stabilab.answers.digits.run import FrontPoint, candidates, ladder, simulate_to
 from stabilab.cost import accuracy as measuring
 from stabilab.cost.accuracy import Point, digit_price, pareto, precision
 from stabilab.cost.methods import methods, problem
 from stabilab.errors import InputError, ToleranceNotMet
 from stabilab.integrate.reference import Recursion, reference, relative_errors
+from stabilab.orbit.flow.flow import reduced_motion
 from stabilab.physics.effects.gyrostat import Gyrostat
 from stabilab.physics.equations import derive
 from stabilab.physics.scene import Body, Scene
@@ -136,19 +137,18 @@ def test_reduced_form_gives_the_state_at_any_time_without_a_step(name):
     one = case(name)
     task = problem(one, 6)
     exact = reference(one.scene, task.start, task.times)
-    errors = [relative_errors(reduced(one.scene, task.start, n).at(exact.t), exact.states, exact.rest,
+    errors = [relative_errors(reduced_motion(one.scene, task.start, n).states(exact.t), exact.states, exact.rest,
                               exact.slices).max()
               for n in ladder(one.scene, task.start)]
     assert errors[-1] < 3e-14 and errors[0] > errors[-1] or max(errors) < 1e-14
 
 
 def test_reduced_form_costs_the_same_at_a_thousand_times_the_time():
-    near, far = (reduced(FREE.scene, FREE.state, 128) for _ in range(2))
-    near.at([7.0])
-    folded = far.at([7.0 + 1000 * far.period])
+    near, far = (reduced_motion(FREE.scene, FREE.state, 128) for _ in range(2))
+    first, folded = near.states([7.0]), far.states([7.0 + 1000 * far.period])
     # a late time costs no more; its error is the period's, a thousand times
-    assert far.counts <= near.counts + 3
-    assert np.abs(folded - near.at([7.0])).max() < 1e-10
+    assert far.evaluations <= near.evaluations + 3
+    assert np.abs(folded - first).max() < 1e-10
 
 
 def test_reduced_form_declines_what_it_is_not_set_up_for():

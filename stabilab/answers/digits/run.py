@@ -117,20 +117,6 @@ SAMPLES = (8, 16, 32, 64, 128, 256, 512)  # of the phase over a turn, for motion
 POINTS = (2, 4, 6, 8, 12, 16)  # of Gauss's rule on each panel of a spin-up
 
 
-class Reduced:
-    """The motion with at(times) -> states (n, 3), its period, and `counts`: evaluations of the integrand in
-    its preparation."""
-
-    def __init__(self, motion: Any) -> None:
-        self.at, self.period, self.counts = motion.states, motion.period, motion.evaluations
-
-
-def reduced(scene: AnyScene, state: Any, nodes: int) -> Reduced:
-    """At a resolution of `nodes` samples a turn (motions that repeat) or points a panel (spin-up). Raises
-    InputError where the motion has no reduced form."""
-    return Reduced(reduced_motion(scene, state, nodes))
-
-
 def ladder(scene: AnyScene, state: Any) -> tuple[int, ...]:
     """Resolutions worth trying for this motion."""
     if reduced_motion(scene, state).period == 0:
@@ -341,9 +327,10 @@ def _integrated(case: Any, times: np.ndarray, method: str, rtol: float | None) -
 def _reduced(case: Any, times: np.ndarray, method: str, nodes: float) -> Simulation:
     if case.blocks or case.scene.blocks != ("omega",) or (times < 0).any():
         raise InputError("the reduced form gives the rate alone, from time 0 on")
-    orbit = reduced(case.scene, case.state, int(nodes))
-    return Simulation(times, {_first(case): orbit.at(times)}, "exact", REDUCED_FORM, None,
-                      counters={"evaluations": int(orbit.counts)},
+    orbit = reduced_motion(case.scene, case.state, int(nodes))
+    counters = {"evaluations": int(orbit.evaluations)}  # of the integrand in its preparation
+    return Simulation(times, {_first(case): orbit.states(times)}, "exact", REDUCED_FORM, None,
+                      counters=counters,
                       reason=f"time as an integral over the reduced coordinate, {int(nodes)} nodes")
 
 
