@@ -10,6 +10,7 @@ from .version import __version__ as __version__
 if TYPE_CHECKING:  # what `_HOME` loads on first use, for editors and type checkers
     from .answers.attitude.ask import attitude as attitude
     from .answers.chaos import chaos as chaos
+    from .answers.circular_orbit.ask import circular_orbit as circular_orbit
     from .answers.equilibria import equilibria as equilibria
     from .answers.extremes import extremes as extremes
     from .answers.extremes import period as period
@@ -27,6 +28,7 @@ if TYPE_CHECKING:  # what `_HOME` loads on first use, for editors and type check
     from .case.read import Case as Case
     from .case.read import load as load
     from .case.read import load_burning as load_burning
+    from .case.read import load_orbiting as load_orbiting
     from .errors import InputError as InputError
     from .integrate.ensemble import ensemble as ensemble
     from .maps.bifurcation.ask import bifurcation as bifurcation
@@ -59,6 +61,7 @@ if TYPE_CHECKING:  # what `_HOME` loads on first use, for editors and type check
 _HOME = {
     "load": "case.read", "example": "case.examples", "Case": "case.read",
     "load_burning": "case.read", "burn": "answers.stuck.burn",
+    "load_orbiting": "case.read", "circular_orbit": "answers.circular_orbit.ask",
     "Body": "physics.scene", "Scene": "physics.scene", "ScaledGyrostat": "physics.scene",
     "Gyrostat": "physics.effects.gyrostat", "ConstantTorque": "physics.effects.constant_torque",
     "Fate": "orbit.result",

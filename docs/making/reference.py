@@ -8,13 +8,13 @@ from dataclasses import MISSING, fields, is_dataclass
 from importlib import import_module
 
 GROUPS = {
-    "A case": ("load", "load_burning", "example", "Case", "Body", "Scene", "ScaledGyrostat", "Gyrostat",
-               "ConstantTorque", "Charge", "Resistance", "LiquidCavity", "NewtonianField",
-               "Gravity", "BodyForce", "report"),
+    "A case": ("load", "load_burning", "load_orbiting", "example", "Case", "Body", "Scene",
+               "ScaledGyrostat", "Gyrostat", "ConstantTorque", "Charge", "Resistance", "LiquidCavity",
+               "NewtonianField", "Gravity", "BodyForce", "report"),
     "Questions about a motion": ("fate", "Fate", "fate_grid", "motion", "extremes", "period", "attitude",
                                  "spin_up", "stuck", "burn", "chaos", "when", "time_to",
                                  "TimeTo", "validity"),
-    "Questions about all motions": ("equilibria", "separatrix"),
+    "Questions about all motions": ("equilibria", "circular_orbit", "separatrix"),
     "Many cases at once": ("sweep", "atlas", "basin", "bifurcation"),
     "Motions in time": ("trajectory", "ensemble", "simulate", "compare", "theory", "derive"),
     "Errors": ("InputError",),
@@ -33,6 +33,10 @@ ANSWERS = {"FateResult": "stabilab.orbit.fate.result", "Motion": "stabilab.orbit
            "Burned": "stabilab.answers.stuck.burn",
            "Closed": "stabilab.answers.stuck.burn",
            "Latest": "stabilab.answers.stuck.burn",
+           "CircularOrbit": "stabilab.answers.circular_orbit.ask",
+           "OrbitEquilibria": "stabilab.equilibrium.circular_orbit.result",
+           "OrbitEquilibrium": "stabilab.equilibrium.circular_orbit.result",
+           "MomentumSpan": "stabilab.equilibrium.circular_orbit.momenta",
            "Comparison": "stabilab.theories.comparison"}
 
 

@@ -37,14 +37,15 @@ from .body import (
 )
 from .burns import KEYS, ONLY, Segment, segments
 from .lines import KeyLines, key_lines
+from .orbit import judge_orbit, rate_squared
 from .questions import BurningQuestions, Questions
 from .source import combinations, parsed, place, source_text, swept
 from .table import Faults, Table, Uncertain, described, did_you_mean, dotted, expected
 from .write import data_of_scene, plain, text_of
 
 # --- A case file: a body, its effects and one motion, read from TOML; every fault with file, line and key
-TABLES = ("title", "source", "body", "effects", "thrusters", "wheels", "limits", "scaled", "motion", "output",
-          "expect", "sweep")
+TABLES = ("title", "source", "body", "effects", "thrusters", "wheels", "limits", "circular_orbit", "scaled",
+          "motion", "output", "expect", "sweep")
 SYSTEMS = ("deg", "si")  # of units in which text is printed
 STATES, SPANS = ("angular_velocity", "x"), ("span", "tau")
 # key: block
@@ -228,13 +229,34 @@ def fires_on_schedule(path: str | os.PathLike[str]) -> bool:
 def load_burning(given: str | os.PathLike[str]) -> Burning:
     """The case in a file, or in a text of several lines, whose thrusters fire on a schedule (start, stop,
     period, duty, on_time, propellant, mass_flow), for `burn`. Raises CaseError as `load` does."""
+    return Burning(_built(*_stated(given, "load_burning"), burning=True))
+
+
+def _stated(given: Any, name: str) -> tuple[Any, str, dict, Faults]:
+    """(path, text, data, faults) of a path, or of a text of several lines."""
     if not isinstance(given, (str, os.PathLike)):
-        raise InputError(f"load_burning: expected the path of a case file, or its text, got {came(given)}")
+        raise InputError(f"{name}: expected the path of a case file, or its text, got {came(given)}")
     if isinstance(given, str) and "\n" in given:
-        data, faults = parsed("text", given)
-        return Burning(_built("text", given, data, faults, burning=True))
-    path, text, data, faults = _read(given)
-    return Burning(_built(path, text, data, faults, burning=True))
+        return "text", given, *parsed("text", given)
+    return _read(given)
+
+
+@dataclass(frozen=True)
+class Orbiting:
+    """A satellite on a circular orbit. craft: the case, whose scene is without the gravity gradient; no
+    question but `circular_orbit` may take it for the whole. rate_squared: of the orbit, 1/s^2."""
+
+    craft: Case
+    rate_squared: Fraction
+
+
+def load_orbiting(given: str | os.PathLike[str]) -> Orbiting:
+    """The case in a file, or in a text of several lines, that has [circular_orbit] (rate, period, altitude or
+    radius), for `circular_orbit`. Raises CaseError as `load` does."""
+    path, text, data, faults = _stated(given, "load_orbiting")
+    craft = _built(path, text, data, faults, orbiting=True)
+    # it has no fault, or the case had not been built
+    return Orbiting(craft, rate_squared(Table(("circular_orbit",), data["circular_orbit"], faults)))
 
 
 def _judge_burns(top: Table, burning: bool):
@@ -301,7 +323,7 @@ def _read(path):
     return path, text, *parsed(path, text)
 
 
-def _built(path, text, data, faults, variant="", burning=False) -> Case:
+def _built(path, text, data, faults, variant="", burning=False, orbiting=False) -> Case:
     top = Table((), data, faults)
     top.known(TABLES, "table or key")
     swept(top)  # notes the faults of [sweep]
@@ -309,6 +331,7 @@ def _built(path, text, data, faults, variant="", burning=False) -> Case:
     craft = _craft(top)
     _judge_burns(top, burning)
     physical, mu, frame = _physical(top, craft)
+    judge_orbit(top, physical.effects if physical else (), orbiting)
     scaled = _scaled(top)
     motion = _motion(top)
     judge_oblique(top, frame)

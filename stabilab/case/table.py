@@ -84,6 +84,7 @@ HOMES = {word: home for home, words in {
     "[motion]": ("angular_velocity", "omega", "span", "vertical", "attitude", "start", "initial", "state"),
     "[body]": ("inertia", "moments", "products", "mass", "centre_of_mass"),
     "[limits]": ("rate", "limit"),
+    "[circular_orbit]": ("altitude", "radius", "period", "orbit"),
     "[output]": ("units",),
     "[[wheels]], or as [effects.gyrostat]": ("momentum", "wheel", "gyrostat"),
     "[effects.constant_torque]": ("torque", "constant_torque"),

@@ -173,6 +173,24 @@ def burn(
 
 
 @commands.command()
+def orbit(
+        case: CaseFile,
+        up_to: Annotated[str | None, typer.Option(
+            "--up-to", metavar="MOMENTUM",
+            help='Also count equilibria as the momentum of the wheels grows to this: "2 N m s".')] = None,
+        units: UnitsOption = None, json: Json = False, strict: StrictFate = False):
+    """Find all equilibria of a satellite on a circular orbit.
+
+    Of a file with [circular_orbit]: attitudes at rest in the orbital frame under the gravity gradient, with
+    their stability and librations.
+
+    Example: stabilab orbit geos.toml --up-to "10 N m s"
+    """
+    from ..commands.orbit.circular import orbit as answer
+    answer(case, up_to, units, json, strict)
+
+
+@commands.command()
 def chaos(
         cases: CaseFiles,
         until: Annotated[str | None, typer.Option(

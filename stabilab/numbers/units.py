@@ -89,6 +89,8 @@ DIMENSIONS: dict[str, Dimension] = {
     "thrusters.start": TIME, "thrusters.stop": TIME, "thrusters.period": TIME, "thrusters.on_time": TIME,
     "thrusters.propellant": MASS, "thrusters.mass_flow": MASS_FLOW,
     "wheels.momentum": MOMENTUM, "wheels.inertia": INERTIA, "wheels.speed": RATE,
+    "circular_orbit.rate": RATE, "circular_orbit.period": TIME, "circular_orbit.altitude": LENGTH,
+    "circular_orbit.radius": LENGTH,
     "limits.rate": RATE, "motion.angular_velocity": RATE, "motion.span": TIME, "motion.attitude": ANGLE,
     "motion.velocity": VELOCITY, "motion.position": LENGTH, "expect.period": TIME,
     "effects.gyrostat.momentum": MOMENTUM, "effects.constant_torque.torque": TORQUE,

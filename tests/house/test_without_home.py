@@ -20,6 +20,7 @@ BURN = """body.inertia = [12, 9, 5]
 motion.angular_velocity = [0.01, 0, 0]
 thrusters = [{position = [1, 0, 0], direction = [0, 1, 0], force = 0.1, stop = "30 s"}]
 """
+ORBIT = "body.inertia = [3, 2, 1]\ncircular_orbit.altitude = '700 km'\n"
 MEASURED = {"precision": lambda answer: answer.splitlines()[-1]}  # times of this machine
 # command -> a light line of it; in this order, as some read what others wrote
 LINES = {
@@ -29,6 +30,7 @@ LINES = {
     "classify": ("classify", MINOR, "--certify", "--out", "c.json"), "period": ("period", MINOR, "--json"),
     "when": ("when", OFF, "--rate", "3 rad/s"),
     "burn": ("burn", "burn.toml", "--below", "2 deg/s"),
+    "orbit": ("orbit", "orbit.toml"),
     "attitude": ("attitude", OFF), "papers": ("papers", "liquid-cavity", "--json"),
     "stuck": ("stuck", STUCK), "surface": ("surface", MINOR, "--out", "s"), "show": ("show", MINOR),
     "compare": ("compare", CHARGED),
@@ -74,6 +76,7 @@ def said(folder, lines, **home):
     folder.mkdir()
     (folder / "body.json").write_text(BODY, encoding="utf-8")
     (folder / "burn.toml").write_text(BURN, encoding="utf-8")
+    (folder / "orbit.toml").write_text(ORBIT, encoding="utf-8")
     done = subprocess.run([sys.executable, "-c", PROGRAM,
                            json.dumps([list(map(str, line)) for line in lines]), json.dumps(str(OFF))],
                           cwd=folder,

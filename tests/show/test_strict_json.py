@@ -49,6 +49,7 @@ CASES = {
               "= 0.1\n" + MOTION.format(rates=[0.1, 0, 0.2])}
 CASES["burn"] = CRAFT.split("[[wheels]]")[0].replace("stuck = true", 'stop = "90 s"') + MOTION.format(
     rates=[0.1, 0.05, 0.02])
+CASES["orbit"] = BODY.split("[effects")[0].format() + "[circular_orbit]\naltitude = '700 km'\n"
 CASES["charged"] = (Path(__file__).parents[2]
                     / "cases" / "charged-body-small-torque.toml").read_text(encoding="utf-8")
 MANY = ["bounded", "spin-up", "no saddle", "off the axes", "at rest", "beyond doubles"]
@@ -65,7 +66,7 @@ ASKED = {"classify": ([], [*MANY, "liquid"]),
                     "motion.angular_velocity[3]=-1:1:3", "--depth", "1"], ["bounded"]),
          "atlas": (["--level", "0", "--refine", "0"], ["bounded"]), "chaos": (["--until", "5"], ["bounded"]),
          "bifurcation": (["--vary", "torque[3]=-1:1"], ["bounded", "off the axes"]),
-         "burn": (["--below", "0.3 rad/s"], ["burn"]), "attitude": ([], MANY), "reference": (["--at", "0,1", "--digits", "12"], ["bounded"]), "stuck": ([], ["craft"]),
+         "burn": (["--below", "0.3 rad/s"], ["burn"]), "orbit": ([], ["orbit"]), "attitude": ([], MANY), "reference": (["--at", "0,1", "--digits", "12"], ["bounded"]), "stuck": ([], ["craft"]),
          "verify": ([], ["certificate"]),
          "audit": (["constant-torque-gyrostat", "--equation", "17"], [None]), "validate": ([], [None]),
          "papers": (["liquid-cavity"], [None])}

@@ -60,9 +60,10 @@ def yaw_pitch_roll(velocity: Float3, normal: Float3, vertical: Float3) -> Float3
     """Yaw, pitch and roll, rad, of the sequence 3-2-1 from the frame (velocity, against the orbit normal,
     down) to the body; where the pitch is a right angle only yaw and roll together are determined: the roll is
     0."""
-    rows = [(v, -n, -up) for v, n, up in zip(velocity, normal, vertical)]  # body axes in that frame
+    # body axes in that frame, without zeros of negative sign, which would be half turns backwards
+    rows = [(0.0 + v, 0.0 - n, 0.0 - up) for v, n, up in zip(velocity, normal, vertical)]
     (xx, xy, xz), (yx, yy, yz), (_, _, zz) = rows
     across = hypot(xx, xy)
     if across < 1e-9:  # rounding alone turns yaw and roll there
-        return atan2(-yx, yy) + 0.0, atan2(-xz, across), 0.0
-    return atan2(xy, xx) + 0.0, atan2(-xz, across) + 0.0, atan2(yz, zz) + 0.0
+        return atan2(0.0 - yx, yy), atan2(0.0 - xz, across), 0.0
+    return atan2(xy, xx), atan2(0.0 - xz, across), atan2(yz, zz)

@@ -1,0 +1,1 @@
+"""A satellite on a circular orbit: its equilibria in the orbital frame."""

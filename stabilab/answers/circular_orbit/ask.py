@@ -1,0 +1,81 @@
+"""The equilibria of a satellite with wheels on a circular orbit; their number over the wheels' momentum."""
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from os import PathLike
+from typing import Any
+
+from ...case.read import load_orbiting
+from ...caveat import Caveat
+from ...equilibrium.circular_orbit.momenta import MomentumSpan, spans
+from ...equilibrium.circular_orbit.result import OrbitEquilibria
+from ...equilibrium.circular_orbit.solve import orbit_equilibria
+from ...errors import InputError
+from ...numbers.exact import sqrt_fraction
+from ...numbers.units import MOMENTUM, in_si
+from ...numbers.vectors import Float3, dot
+from ...physics.circular_orbit import Satellite
+from ...validation import came
+
+MIDDLES = Caveat("uncertain", "of the middles of the uncertain numbers")
+ROUNDED = "numbers that are irrational ({}) are taken to 240 bits"
+
+
+@dataclass(frozen=True)
+class CircularOrbit:
+    """A satellite on a circular orbit; vectors along its principal axes.
+
+    rate: of the orbit, rad/s; period: s. moments: kg m^2; momentum: of the wheels, N m s. equilibria: in the
+    orbital frame, all of them. spans: where the wheels' momentum was varied along its direction, intervals of
+    it, N m s, with the number of equilibria in each (see `MomentumSpan`); None where it was not.
+    """
+
+    rate: float
+    period: float
+    moments: Float3
+    momentum: Float3
+    equilibria: OrbitEquilibria
+    spans: tuple[MomentumSpan, ...] | None = None
+    caveats: tuple[Caveat, ...] = ()
+
+
+def circular_orbit(orbiting: Any, up_to: Any = None) -> CircularOrbit:
+    """Every equilibrium, in the orbital frame, of a satellite with wheels on a circular orbit, with its
+    stability and its librations.
+
+    orbiting: the path or the text of a case file with [circular_orbit], or what `stabilab.load_orbiting`
+    gives. up_to: N m s, or text with a unit: the wheels' momentum is varied from 0 to there along the
+    direction that it has, too. Raises InputError for what is no such case, for a momentum that is not
+    positive, and for `up_to` of a satellite without one.
+    """
+    if isinstance(orbiting, (str, PathLike)):
+        orbiting = load_orbiting(orbiting)
+    if not hasattr(orbiting, "rate_squared"):
+        raise InputError(f"circular_orbit: expected a case file, its text, or what stabilab.load_orbiting "
+                         f"gives, got {came(orbiting)}")
+    case = orbiting.craft
+    satellite = Satellite(case.physical.body.exact, case.physical.vector("gyrostat"), orbiting.rate_squared)
+    equilibria = orbit_equilibria(satellite)
+    irrational = [*case.inexact, *(["principal axes"] if case.frame and not case.frame.exact else [])]
+    if irrational:
+        words = ROUNDED.format(", ".join(irrational))
+        equilibria = replace(equilibria, reason=f"{equilibria.reason}; {words}")
+    rate = math.sqrt(orbiting.rate_squared)
+    return CircularOrbit(rate, 2 * math.pi / rate, tuple(map(float, satellite.moments)),
+                         tuple(map(float, satellite.momentum)), equilibria,
+                         None if up_to is None else _varied(satellite, in_si(up_to, MOMENTUM, "up_to")),
+                         tuple(MIDDLES if one.kind == "uncertain" else one for one in case.caveats))
+
+
+def _varied(satellite: Satellite, up_to: Fraction) -> tuple[MomentumSpan, ...]:
+    """The spans in N m s."""
+    if up_to <= 0:
+        raise InputError(f"up_to: expected a positive momentum, got {float(up_to):.10g} N m s")
+    size = sqrt_fraction(dot(satellite.momentum, satellite.momentum))
+    if not size:
+        raise InputError("up_to: the wheels have no momentum, which is varied along its direction: add "
+                         "[[wheels]] or [effects.gyrostat] to the case")
+    return tuple(replace(one, low=one.low * float(size), high=one.high * float(size))
+                 for one in spans(satellite, up_to / size))

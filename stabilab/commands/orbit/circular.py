@@ -1,0 +1,23 @@
+"""`stabilab orbit`: the equilibria of a satellite on a circular orbit."""
+from __future__ import annotations
+
+from ...answers.circular_orbit.ask import circular_orbit
+from ...case.read import blamed_on, load_orbiting
+from ...numbers.units import MOMENTUM, in_si
+from ...show.text import circular_orbit as shown
+from ..common.cases import units_asked
+from ..common.output import either, hold_laws, leave_undecided
+
+
+def orbit(path, up_to, units, json, strict):
+    """Answer one case."""
+    orbiting = load_orbiting(path)
+    case = orbiting.craft
+    system = units_asked([case], units)[0]
+    most = None if up_to is None else in_si(up_to.strip(), MOMENTUM, "--up-to")
+    with blamed_on(case):
+        found = circular_orbit(orbiting, most)
+    either(json, lambda: shown.as_dict(case, found), lambda: shown.text(case, found, system))
+    every = (*found.equilibria.points, *found.equilibria.families)
+    leave_undecided(strict, any(one.verdict == "undecided" for one in every))
+    hold_laws(strict, (), [case])
