@@ -255,6 +255,8 @@ def load_orbiting(given: str | os.PathLike[str]) -> Orbiting:
     radius), for `circular_orbit`. Raises CaseError as `load` does."""
     path, text, data, faults = _stated(given, "load_orbiting")
     craft = _built(path, text, data, faults, orbiting=True)
+    if "period" in data["circular_orbit"]:  # its rate holds pi
+        craft = replace(craft, inexact=(*craft.inexact, "circular_orbit.period"))
     # it has no fault, or the case had not been built
     return Orbiting(craft, rate_squared(Table(("circular_orbit",), data["circular_orbit"], faults)))
 

@@ -54,8 +54,8 @@ def text(case, found, units: Units) -> str:
         lines += [row("family", one.family), *_lines(case, found, one, units, "one of it")]
     for span in found.spans or ():
         kind = "families" if span.families else "equilibria"
-        lines.append(row(f"{number(span.low, DIGITS)} to {number(span.high, DIGITS)} N m s",
-                         f"{span.count} {kind}, {span.minima} of them stable (Lyapunov)"))
+        lines.append(row("momentum", f"{number(span.low, DIGITS)} to {number(span.high, DIGITS)} N m s: "
+                                     f"{span.count} {kind}, {span.minima} of them stable (Lyapunov)"))
     reasons = dict.fromkeys((one.verdict, one.because) for one in (*result.points, *result.families))
     lines += [f"why: {result.reason}", *(f"  {verdict}: {because}" for verdict, because in reasons),
               f"assumed: {ASSUMED}"]

@@ -152,6 +152,31 @@ def test_the_jacobi_integral_is_one_in_symbols():
         assert sympy.expand(equations.derivative(law.quantity)) == 0
 
 
+def test_the_dynamic_potential_and_the_linear_motion_follow_from_the_equations_of_motion():
+    """In symbols: the torque at rest in the orbital frame is the slope of the dynamic potential, and the part of
+    the rates linear in a small turn s gives I s'' + g x s' + K s = 0."""
+    I, h, a2, a3, s, v = (sympy.Matrix(sympy.symbols(f"{name}1:4")) for name in ("D", "h", "b", "c", "s", "v"))
+    n, e = sympy.symbols("n e")
+    D = sympy.diag(*I)
+
+    def potential(normal, up):
+        return (3 * n**2 * up.dot(D * up) - n**2 * normal.dot(D * normal)) / 2 - n * h.dot(normal)
+
+    def torque(w, up):
+        return (D * w + h).cross(w) + 3 * n**2 * up.cross(D * up)
+    moved = [a + e * a.cross(s) for a in (a2, a3)]  # the body turns by e s
+    slope = sympy.diff(potential(*moved), e).subs(e, 0)
+    assert sympy.expand(slope + s.dot(torque(n * a2, a3))) == 0
+    w = n * a2
+    g = I.dot(sympy.ones(3, 1)) * w - 2 * D * w - h
+    cross = lambda u: sympy.Matrix([[0, -u[2], u[1]], [u[2], 0, -u[0]], [-u[1], u[0], 0]])
+    K = cross(w) * D * cross(w) - cross(D * w + h) * cross(w) + 3 * n**2 * (
+        cross(D * a3) * cross(a3) - cross(a3) * D * cross(a3))
+    # omega = s' + n a2, turned, and its rate s'' + n a2 x s' in the body
+    linear = sympy.diff(torque(w + e * (v + w.cross(s)), a3 + e * a3.cross(s)), e).subs(e, 0)
+    assert (linear - D * w.cross(v) + g.cross(v) + K * s).expand() == sympy.zeros(3, 1)
+
+
 def quaternion_of(one):
     """Unit quaternion, scalar first, from the body to the orbital frame: the eigenvector of Bar-Itzhack."""
     r = np.array((one.velocity, one.normal, one.vertical))
