@@ -12,7 +12,7 @@ import math
 from functools import lru_cache
 from pathlib import Path
 
-from tests.hard import bodies, charged, circles, late, liquid, off_axis, sectors, top
+from tests.hard import bodies, charged, circles, late, liquid, off_axis, orbit, sectors, top
 from tests.hard.row import Row, Verdict
 
 PAGE = Path(__file__).parents[1] / "docs" / "hard-cases.md"
@@ -66,6 +66,9 @@ CASES = [
     ("top", top.exact_resonance, ["240"], []),
     ("top", top.tilted, [], [(0.8, 0.0, 0.6), (1.0, 0.0, 0.0)]),
     ("top", top.upright, [], [1e-7]),
+    ("orbit", orbit.wheel_by_a_pitchfork, [1e-12], []),
+    ("orbit", orbit.wheel_beyond_a_pitchfork, [1e-14, 1e-20], []),
+    ("orbit", orbit.nearly_equal_moments, [1e-14], []),
 ]
 ROWS = [(about, case, number, slow) for about, case, quick, long in CASES
         for slow, some in ((False, quick), (True, long)) for number in some]

@@ -20,8 +20,8 @@ def turned(frames, turns):
     return frames * np.cos(angle) - np.cross(axis, frames) * np.sin(angle) + along * (1 - np.cos(angle))
 
 
-def equilibria(moments, momentum, rate, starts=800, seed=1):
-    """(m, 3, 3) different ones that Newton's method reaches."""
+def equilibria(moments, momentum, rate, starts=1500, seed=1):
+    """(m, 3, 3) different ones that Newton's method reaches, and those a half turn from them."""
     moments, momentum = np.asarray(moments, float), np.asarray(momentum, float)
     q = np.random.default_rng(seed).normal(size=(starts, 4))
     a, b, c, d = (q / np.linalg.norm(q, axis=1)[:, None]).T
@@ -39,7 +39,8 @@ def equilibria(moments, momentum, rate, starts=800, seed=1):
         frames = turned(frames, move * np.minimum(1, 0.5 / np.where(size > 0, size, 1)))
     good = frames[np.linalg.norm(torque(moments, momentum, rate, frames), axis=1) < 1e-11 * scale]
     found = []
-    for frame in good:
+    # a half turn about the orbit normal leaves the equations alone
+    for frame in np.concatenate([good, good * np.array([-1, 1, -1])[:, None]]):
         if all(np.abs(frame - other).max() > 1e-5 for other in found):
             found.append(frame)
     return np.array(found)
