@@ -88,13 +88,16 @@ def period(cases: CaseFiles, json: Json = False, digits: Digits = None, strict: 
 
 
 @commands.command()
-def attitude(cases: CaseFiles, json: Json = False, strict: StrictFate = False, units: UnitsOption = None):
+def attitude(cases: CaseFiles, json: Json = False, digits: Annotated[int | None, typer.Option(
+        metavar="N",
+        help="Write the periods to N digits (1 to 50); exit 5 where they are not reached.")] = None,
+        strict: StrictFate = False, units: UnitsOption = None):
     """Find rotation and precession periods, and the turn in space.
 
     Example: stabilab attitude cases/torque-free-body.toml
     """
     from ..commands.questions import attitude as answer
-    answer(cases, json, strict, units)
+    answer(cases, json, digits, strict, units)
 
 
 @commands.command()

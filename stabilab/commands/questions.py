@@ -79,13 +79,13 @@ def _told(question, case, motion, digits):
     return found
 
 
-def attitude(cases, json, strict, units):
+def attitude(cases, json, digits, strict, units):
     """How each motion turns in space: answer every case, every combination where it has a [sweep]."""
     loaded, found = load_cases(cases, motion=True), []
     systems = [DEG if system.scaled else system for system in units_asked(loaded, units)]  # all is in SI here
     for case in one_by_one(loaded):
         with blamed_on(case):
-            found.append(turning(case))
+            found.append(turning(case, digits=digits))
     if json:
         write(answers.as_json(attitudes.as_dict(loaded, found)))
     else:

@@ -342,6 +342,7 @@ def _attitude(found):
     notes = {"fate": found.fate.word} | {name: getattr(found, name) for name in (
         "mode", "momentum", "rotation_period", "precession_period", "nutation_period", "lean", "cone",
         "turn_angle", "error", "because")}
+    notes |= {f"{name} written out": text for name, text in (found.decimals or {}).items()}
     return Variables(("axis",), values, AXIS, _known(notes))
 
 

@@ -3,6 +3,7 @@ they stand, no code in common with the program's."""
 import json
 import math
 
+import mpmath as mp
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
@@ -10,6 +11,8 @@ from scipy.spatial.transform import Rotation
 from scipy.special import ellipk
 
 import stabilab
+from stabilab import attitude
+from stabilab.errors import ToleranceNotMet
 
 LONG = [pytest.mark.slow, pytest.mark.long]
 
@@ -241,3 +244,39 @@ def test_special_tops():
 def test_a_top_whose_centre_of_mass_is_off_its_axis_is_refused(stabilab):
     code, out, err = stabilab("attitude", "cases/top-lx30-lz30.toml")
     assert (code, out) == (2, "") and "heavy symmetric top" in err
+
+
+def test_periods_to_many_digits_are_those_of_jacobi_functions(stabilab):
+    """Of Toutatis: 4 K(m)/lambda, and the mean over a period of the rate of precession, (omega.h - omega_3
+    h_3)/(1 - h_3^2), of Jacobi's functions in mpmath, by the trapezoidal rule: no integral of the third kind."""
+    with mp.workdps(50):
+        D = [mp.mpf(v) for v in ("3.22", "3.09", "1")]
+        w = [mp.mpf(v) * mp.pi / 180 for v in ("0.00042859", "0", "0.00113602")]
+        T2, H2 = (mp.fsum(d**n * v**2 for d, v in zip(D, w)) for n in (1, 2))
+        speed = mp.sqrt((D[1] - D[2]) * (H2 - T2 * D[0]) / (D[0] * D[1] * D[2]) * -1)
+        m = (D[0] - D[1]) * (H2 - T2 * D[2]) / ((D[1] - D[2]) * (T2 * D[0] - H2))
+        period, count = 4 * mp.ellipk(m) / speed, 60
+        rates = []
+        for n in range(count):
+            u = 4 * mp.ellipk(m) * n / count
+            squares = [w[0] ** 2 * mp.ellipfun("cn", u, m=m) ** 2, None, w[2] ** 2 * mp.ellipfun("dn", u, m=m) ** 2]
+            squares[1] = (T2 - D[0] * squares[0] - D[2] * squares[2]) / D[1]
+            across = D[0] ** 2 * squares[0] + D[1] ** 2 * squares[1]
+            rates.append(mp.sqrt(H2) * (D[0] * squares[0] + D[1] * squares[1]) / across)
+        precession = 2 * mp.pi * count / mp.fsum(rates)
+        code, out, _ = stabilab("attitude", "cases/toutatis.toml", "--digits", "30", "--json")
+        found = json.loads(out)["rows"][0]["decimals"]
+        assert code == 0 and len(found["rotation_period"].replace(".", "")) == 31
+        for name, value in (("rotation_period", period), ("precession_period", precession)):
+            assert abs(mp.mpf(found[name]) / value - 1) < mp.mpf(10) ** -30
+
+
+def test_digits_that_a_followed_motion_does_not_have_are_missed_by_exit_5(stabilab):
+    code, out, err = stabilab("attitude", "cases/torque-free-gyrostat.toml", "--digits", "30")
+    assert (code, out) == (5, "") and "11.0 reached" in err
+    code, out, _ = stabilab("attitude", "cases/torque-free-gyrostat.toml", "--digits", "10")
+    assert code == 0 and "relative error" in out
+    code, out, err = stabilab("attitude", "cases/torque-free-body.toml", "--digits", "51")
+    assert code == 2 and "1 to 50" in err
+    with pytest.raises(ToleranceNotMet):
+        attitude(scene_of((3, 2, 1), (0.1, 0, 0.2)), (0.3, 0.2, 0.1), digits=20)

@@ -24,25 +24,28 @@ from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
-from ...errors import InputError
+from ...errors import InputError, ToleranceNotMet
 from ...numbers.balls import Digits, settled
 from ...numbers.vectors import dot
 from ...orbit.result import Fate, Motion
 from ...physics.scene import Scene
 from ...validation import is_case, scene_and_state
 from ..caveats import limited
+from ..digits.checked import MOST_DECIMALS, checked_digits, digits_of
 from ..motion import motion
-from .result import CLOSED_ERROR, LONG, SEPARATRIX, SHORT, STEADY, Attitude, rounded, turned
+from .result import LONG, SEPARATRIX, SHORT, Attitude, narrow, steady, turned, with_periods
 from .top import axis_of_top, of_top
 
 
-def attitude(scene: Any, state: Any = None) -> Attitude:
+def attitude(scene: Any, state: Any = None, digits: int | None = None) -> Attitude:
     """How the motion from `state` (three rates, rad/s; of a top followed by the vertical) turns in space.
 
     scene: a Scene of a body, wheels and a constant torque, or of a heavy symmetric top, or a case, whose own
-    start holds where none is given. Raises InputError for scaled variables, which have no attitude, for other
-    effects, and as `motion` does.
+    start holds where none is given. digits: 1 to 50, of the periods, which are then written out too. Raises
+    InputError for scaled variables, which have no attitude, for other effects, and as `motion` does;
+    ToleranceNotMet where the periods of a motion that is followed have fewer digits.
     """
+    digits = None if digits is None else checked_digits(digits, MOST_DECIMALS)
     exact, case = None, scene if is_case(scene) and state is None else None
     if case is not None:
         scene, state, exact = _physical(case)
@@ -58,24 +61,31 @@ def attitude(scene: Any, state: Any = None) -> Attitude:
     found = motion(scene, state, brief=True, exact=exact)
     found = found if case is None else limited(found, scene, case)
     if axis is None:
-        return of_motion(scene, exact, found)
-    return of_top(scene, axis, (*exact, *map(Fraction, found.at[3:])), _at_start(scene, exact, found))
+        return of_motion(scene, exact, found, digits)
+    start = (*exact, *map(Fraction, found.at[3:]))
+    return of_top(scene, axis, start, _at_start(scene, exact, found), digits)
 
 
-def of_motion(scene: Scene, omega: Sequence[float | Fraction], found: Motion) -> Attitude:
-    """How a motion that is known turns in space; omega: its rates at the start, each taken exactly."""
+def of_motion(scene: Scene, omega: Sequence[float | Fraction], found: Motion, digits: int | None = None
+              ) -> Attitude:
+    """How a motion that is known turns in space; omega: its rates at the start, taken exactly; digits: as
+    `attitude` has it."""
     exact = [Fraction(w) for w in omega]
     base = _at_start(scene, exact, found)
     if found.fate == Fate.EQUILIBRIUM:
-        return _steady(base, exact)
+        return steady(base, exact, digits)
     if found.fate == Fate.SEPARATRIX:
         return replace(base, mode=SEPARATRIX, because="the motion is on a separatrix and does not repeat")
     if found.period is None:
         return replace(base, because=f"the motion is not known to repeat: {found.because}")
     if in_closed_form(scene):
-        return _of_free_body(scene.body.exact, exact, base)
+        return _of_free_body(scene.body.exact, exact, base, digits)
     from .followed import followed
-    return followed(scene, base, found, found.period)
+    answer = followed(scene, base, found, found.period)
+    if digits is not None and answer.error is not None and answer.error > 0.1**digits:
+        raise ToleranceNotMet(f"attitude: {digits} digits asked for, {digits_of(answer.error):.1f} reached "
+                              "(with wheels or a torque the motion is followed); ask for fewer")
+    return answer
 
 
 def _physical(case: Any) -> tuple[Any, Any, Any]:
@@ -103,14 +113,8 @@ def _at_start(scene: Scene, omega: Sequence[Fraction], found: Motion) -> Attitud
     return Attitude(found.at[:3], found.fate, None, size, along, "", caveats=found.caveats)
 
 
-def _steady(base: Attitude, omega: Sequence[Fraction]) -> Attitude:
-    rate = math.hypot(*map(float, omega))
-    return replace(base, mode=STEADY, rotation_period=2 * math.pi / rate if rate else None,
-                   error=CLOSED_ERROR if rate else None,
-                   because="the body turns steadily about one axis" if rate else "the body is at rest")
-
-
-def _of_free_body(D: Sequence[Fraction], omega: Sequence[Fraction], base: Attitude) -> Attitude:
+def _of_free_body(D: Sequence[Fraction], omega: Sequence[Fraction], base: Attitude,
+                  digits: int | None) -> Attitude:
     """A body without wheels, by Jacobi's solution; see the module text."""
     least, b, greatest = sorted(range(3), key=lambda i: D[i])
     T2 = dot(D, [w * w for w in omega])
@@ -122,18 +126,18 @@ def _of_free_body(D: Sequence[Fraction], omega: Sequence[Fraction], base: Attitu
     speed = A2 * (D[c] - D[a]) * (D[b] - D[a]) / (D[b] * D[c])
     across = H2 - D[a] ** 2 * A2  # least square of the momentum across the axis
 
-    def periods(numbers: Digits) -> tuple[float, float, float]:
+    def periods(numbers: Digits) -> list[Any]:
         ball = numbers.ball
         whole, third = numbers.elliptic(ball(-m * D[a] ** 2 * A2 / across), ball(m))
         period = 4 * whole / ball(speed).sqrt()
         rate = ball(H2).sqrt() * (1 - ball((H2 - T2 * D[a]) / across) * third / whole) / ball(D[a])
         turns = rate * period / (2 * numbers.pi())
-        return rounded(period), rounded(2 * numbers.pi() / rate), rounded(turns - int(float(turns)))
+        return [narrow(one, digits) for one in (period, 2 * numbers.pi() / rate, turns - int(float(turns)))]
 
     period, precession, turn = settled(periods)
     shares = [D[a] ** 2 * square / H2 for square in (A2, A2 * (1 - m))]  # cos^2 of the angle, greatest first
     least_angle, greatest_angle = (math.atan2(math.sqrt(1 - share), math.sqrt(share)) for share in shares)
     words = f"no torque: the angular momentum goes round the {'long' if long else 'short'} axis in the body"
-    return turned(replace(base, mode=LONG if long else SHORT, rotation_period=period,
-                          precession_period=precession, cone=(least_angle, greatest_angle),
-                          error=CLOSED_ERROR, because=words), turn)
+    found = replace(base, mode=LONG if long else SHORT, cone=(least_angle, greatest_angle), because=words)
+    found = with_periods(found, {"rotation_period": period, "precession_period": precession}, digits)
+    return turned(found, float(turn.mid()))

@@ -2,12 +2,14 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from fractions import Fraction
 from typing import Any
 
 from ...caveat import Caveat
-from ...numbers.balls import Unclear
-from ...numbers.vectors import Float3
+from ...numbers.balls import Unclear, settled
+from ...numbers.vectors import Float3, dot
 from ...orbit.result import Fate
 from ...representation import Shown
 
@@ -32,6 +34,7 @@ class Attitude(Shown):
     turn_angle (rad, 0 to pi), turn_axis: the rotation that takes the attitude at the start to that one
     rotation period later; the axis is the same in body and space. What the motion does not have is None,
     and `because` says why. error: relative, of the periods and the turn.
+    decimals: where digits were asked for, the periods by name, s, written out to them.
     caveats: all that limits the answer.
     """
 
@@ -49,14 +52,34 @@ class Attitude(Shown):
     turn_angle: float | None = None
     turn_axis: Float3 | None = None
     error: float | None = None
+    decimals: Mapping[str, str] | None = None
     caveats: tuple[Caveat, ...] = ()
 
 
-def rounded(ball: Any) -> float:
-    """A ball as a double; raises Unclear where it is too wide for one."""
-    if not (ball.rad() <= abs(ball.mid()) * 2.0**-54):
+def narrow(ball: Any, digits: int | None = None) -> Any:
+    """The ball; raises Unclear where it is too wide for a double, or for so many digits."""
+    if not (ball.rad() <= abs(ball.mid()) * min(2.0**-54, 0.1 ** ((digits or 0) + 2))):
         raise Unclear
-    return float(ball.mid())
+    return ball
+
+
+def with_periods(found: Attitude, periods: Mapping[str, Any], digits: int | None) -> Attitude:
+    """With these periods, balls (or None) by the names of their fields, written out where digits are asked
+    for."""
+    known = {name: ball for name, ball in periods.items() if ball is not None}
+    values: dict[str, Any] = {name: float(ball.mid()) for name, ball in known.items()}
+    if digits is not None:
+        values["decimals"] = {name: ball.mid().str(digits + 1, radius=False) for name, ball in known.items()}
+    return replace(found, **values, error=CLOSED_ERROR)
+
+
+def steady(base: Attitude, omega: Sequence[Fraction], digits: int | None) -> Attitude:
+    """Of rates that stay as they are."""
+    if not any(omega):
+        return replace(base, mode=STEADY, because="the body is at rest")
+    turn = settled(lambda numbers: narrow(2 * numbers.pi() / numbers.ball(dot(omega, omega)).sqrt(), digits))
+    return with_periods(replace(base, mode=STEADY, because="the body turns steadily about one axis"),
+                        {"rotation_period": turn}, digits)
 
 
 def turned(found: Attitude, turns: float) -> Attitude:

@@ -19,7 +19,6 @@ u is between -g and g. Exact fractions and balls.
 """
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import replace
 from fractions import Fraction
@@ -28,7 +27,7 @@ from typing import Any
 from ...numbers.balls import Digits, Unclear, settled
 from ...numbers.vectors import CYCLE, dot
 from ...physics.scene import Scene
-from .result import CLOSED_ERROR, SEPARATRIX, STEADY, TOP, Attitude, rounded
+from .result import SEPARATRIX, TOP, Attitude, narrow, steady, with_periods
 
 UPRIGHT = "the axis passes through the vertical, where it has no precession"
 
@@ -46,23 +45,24 @@ def axis_of_top(scene: Any) -> int | None:
     return along[0] if D[j] == D[k] and not wheel[j] and not wheel[k] else None
 
 
-def of_top(scene: Scene, axis: int, start: Sequence[Fraction], base: Attitude) -> Attitude:
-    """base: what is known at the start, three rates and the vertical."""
+def of_top(scene: Scene, axis: int, start: Sequence[Fraction], base: Attitude, digits: int | None = None
+           ) -> Attitude:
+    """base: what is known at the start, three rates and the vertical; digits: of the periods."""
     top = _Top(scene, axis, start)
-    least, greatest, nutation, precession = settled(top.answer)
     if top.vertical:
-        rate = abs(float(start[axis]))
-        return replace(base, mode=STEADY, rotation_period=2 * math.pi / rate if rate else None,
-                       error=CLOSED_ERROR, because="the axis stands on the vertical")
+        return replace(steady(base, start[:3], digits), because="the axis stands on the vertical")
+    balls: list[Any] = settled(
+        lambda numbers: [None if one is None else narrow(one, digits) for one in top.answer(numbers)])
+    least, greatest, nutation, precession = balls
     words = "the lean goes to and fro between two roots of Lagrange's cubic"
     if top.steady:
         words = "the axis keeps its lean and precesses about the vertical"
-    elif nutation is None:
+    elif least is None:
         return replace(base, mode=SEPARATRIX, because="the axis comes ever closer to the vertical and does "
                                                       "not come back")
-    return replace(base, mode=TOP, lean=(least, greatest), nutation_period=nutation,
-                   precession_period=precession, error=CLOSED_ERROR,
-                   because=words if precession is not None else f"{words}; {UPRIGHT}")
+    found = replace(base, mode=TOP, lean=(float(least.mid()), float(greatest.mid())),
+                    because=words if precession is not None else f"{words}; {UPRIGHT}")
+    return with_periods(found, {"nutation_period": nutation, "precession_period": precession}, digits)
 
 
 class _Top:
@@ -90,26 +90,25 @@ class _Top:
         self.down = tie and sign <= 0
         self.up = tie and sign >= 0 and eps > 0 and eps**2 > beta**2 * self.square
 
-    def answer(self, numbers: Digits) -> tuple[float, float, float | None, float | None]:
-        """(least, greatest lean, nutation period, precession period); None what it does not have."""
+    def answer(self, numbers: Digits) -> tuple[Any, Any, Any, Any]:
+        """(least, greatest lean, nutation period, precession period) in balls; None what it does not have."""
         g, a, kappa = numbers.ball(self.square).sqrt(), numbers.ball(self.a), numbers.ball(self.kappa)
         if self.steady:
-            u = numbers.ball(self.u)
-            lean = 0.0 if self.vertical and self.u > 0 else math.pi if self.vertical else _lean(u / g)
-            rate = None if self.vertical else g * (kappa - a * u) / (g * g - u * u)
-            turns = rate is not None and self.kappa != self.a * self.u
-            return lean, lean, None, _period(numbers, rate) if turns else None
+            u, turns = numbers.ball(self.u), self.kappa != self.a * self.u
+            rate = g * (kappa - a * u) / (g * g - u * u)
+            return _lean(u / g), _lean(u / g), None, _period(numbers, rate) if turns else None
         roots = [(root, many) for root, many in numbers.real_roots(self.cubic) for _ in range(many)]
         if len(roots) < 3:
             raise Unclear
         (low, _), (high, many), (far, _) = roots
         if many > 1:
-            return 0.0, 0.0, None, None
+            return None, None, None, None
         low, high = -g if self.down else low, g if self.up else high
         swing, m = high - low, (high - low) / (far - low)
-        ends = 0.0 if self.up else _lean(high / g), math.pi if self.down else _lean(low / g)
+        ends = (numbers.ball(0) if self.up else _lean(high / g),
+                numbers.pi() if self.down else _lean(low / g))
         whole, _ = numbers.elliptic(numbers.ball(0), m)
-        nutation = rounded(4 * whole / (numbers.ball(self.beta) * (far - low)).sqrt())
+        nutation = 4 * whole / (numbers.ball(self.beta) * (far - low)).sqrt()
         if self.up or self.down:
             return *ends, nutation, None
         ahead = numbers.elliptic(swing / (g - low), m)[1] / (whole * (g - low))
@@ -117,10 +116,10 @@ class _Top:
         return *ends, nutation, _period(numbers, ((kappa - a * g) * ahead + (kappa + a * g) * behind) / 2)
 
 
-def _period(numbers: Digits, rate: Any) -> float:
-    return rounded(2 * numbers.pi() / abs(rate))
+def _period(numbers: Digits, rate: Any) -> Any:
+    return 2 * numbers.pi() / abs(rate)
 
 
-def _lean(cosine: Any) -> float:
+def _lean(cosine: Any) -> Any:
     """Its angle, without loss where it is near one."""
-    return rounded(2 * ((1 - cosine) / 2).sqrt().asin())
+    return 2 * ((1 - cosine) / 2).sqrt().asin()

@@ -23,7 +23,7 @@ def row_of(case, one) -> dict:
             "momentum_direction": in_file(case, one.momentum_direction), "cone": one.cone,
             "lean": one.lean, "nutation_period": one.nutation_period,
             "turn_angle": one.turn_angle, "turn_axis": in_file(case, one.turn_axis), "error": one.error,
-            "because": one.because} | limiting.key(case, one.caveats)
+            "decimals": one.decimals, "because": one.because} | limiting.key(case, one.caveats)
 
 
 def in_file(case, vector):
@@ -49,7 +49,9 @@ def text(case, found, units: Units) -> str:
     if found.turn_angle is not None:
         about = f" about {_vector(case, found.turn_axis)}" if found.turn_axis else ""
         lines.append(row("turn after one period", units.angle(found.turn_angle) + about))
-    if found.error is not None:
+    for name, digits in (found.decimals or {}).items():
+        lines.append(row(name.replace("_", " "), f"{digits} s"))
+    if found.error is not None and found.decimals is None:
         lines.append(row("relative error", f"at most {found.error:.0e}"))
     words = "\n".join([*lines, f"why: {reason(found.because, units)}", *frame.note(case)])
     return limiting.noted(found.caveats, words, units)
