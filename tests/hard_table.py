@@ -12,7 +12,7 @@ import math
 from functools import lru_cache
 from pathlib import Path
 
-from tests.hard import bodies, charged, circles, late, liquid, off_axis, orbit, sectors, top
+from tests.hard import bodies, burns, charged, circles, late, liquid, off_axis, orbit, sectors, top
 from tests.hard.row import Row, Verdict
 
 PAGE = Path(__file__).parents[1] / "docs" / "hard-cases.md"
@@ -69,6 +69,7 @@ CASES = [
     ("orbit", orbit.wheel_by_a_pitchfork, [1e-12], []),
     ("orbit", orbit.wheel_beyond_a_pitchfork, [1e-14, 1e-20], []),
     ("orbit", orbit.nearly_equal_moments, [1e-14], []),
+    ("burn", burns.closing, [0.5], [1.0]),
 ]
 ROWS = [(about, case, number, slow) for about, case, quick, long in CASES
         for slow, some in ((False, quick), (True, long)) for number in some]
