@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
 from typing import Any, ClassVar, TypeAlias, cast
@@ -28,7 +28,7 @@ from .caveats import STEADY
 from .extremes import extremes
 from .fate import fate
 from .kinds import kind_of
-from .passage.limit import asked
+from .passage.limit import Limit, asked
 from .passage.run import run_once, stays_below
 from .time_to import time_to
 
@@ -36,6 +36,7 @@ DEGREE = math.pi / 180  # taken where nothing states an angle
 AZIMUTHS, REFINED = 12, 4  # looked at round the edge of the cone; halvings of the interval about the nearest
 EDGE = [2 * math.pi * n / AZIMUTHS for n in range(AZIMUTHS)]
 STEPS = 60_000  # of a run at one azimuth
+SIDES, FEW = 6, 20_000  # directions of a cone that is one of many, and steps of a run at one
 WORK = 8_000_000  # multiplications for a proof of the shortest time
 TWICE = 2.0  # times the largest rate of the bounded motion: the limit where none is stated
 UP = 1 + 1e-12  # more than the rounding of a few doubles
@@ -283,6 +284,42 @@ def spread(scene: Scene, state: Any, cone: Cone, ask: dict[str, Any] | None,
     return Spread(cone.angle, cone.words, len(torques) + 4 * REFINED, limit.least_rate(), first,
                   last if all_of_them and math.isfinite(last[1]) else None,
                   levels.pop() if len(levels) == 1 else "run", min(ends))
+
+
+@dataclass(frozen=True)
+class ByAngle:
+    """Of cones of torques of half-angles (n,), rad: earliest, latest: (n,) s, of the times at which runs at
+    their edges reach the limit, inf where one does not within its steps; not_before: (n,) s, before which no
+    torque of the cone reaches it (proved), 0 where nothing is. limit: what is reached; of: what is tilted."""
+
+    angles: np.ndarray
+    earliest: np.ndarray
+    latest: np.ndarray
+    not_before: np.ndarray
+    limit: Limit
+    of: str
+
+
+def by_angle(scene: Scene, state: Any, angles: np.ndarray, case: Any = None,
+             ask: dict[str, Any] | None = None) -> ByAngle:
+    """The time to a limit against the tilt of the torque, by runs at SIDES directions round each cone.
+
+    scene: a body with wheels under a constant torque; angles: (n,) rad; case: whose stuck thrusters are
+    tilted, where they state a misalignment; ask: the limit, by its name as of `time_to`, None for twice the
+    largest rate of a bounded motion.
+    """
+    limit, cone = asked(scene, **(ask or _twice_the_largest(scene, state))), cone_of(scene, case, DEGREE)
+    if case is not None and any(t.stuck and t.misalignment for t in case.thrusters):
+        cone = cone_of(scene, case)
+    rows = []
+    for angle in angles:
+        wider = replace(cone, angle=angle, parts=tuple((*part[:3], angle) for part in cone.parts))
+        times = [run_once(tilted(scene, wider.at(azimuth)), state, limit, steps=FEW)[0]
+                 for azimuth in EDGE[::len(EDGE) // SIDES]]
+        sure = stays_below(scene, state, limit.least_rate(), *wider.reach()) if torque_axis(scene) else 0.0
+        rows.append((min(times), max(times), sure))
+    earliest, latest, not_before = np.array(rows).T
+    return ByAngle(angles, earliest, latest, not_before, limit, cone.words)
 
 
 def nearest_round(value: Callable[[float], float], tried: Tried) -> Tried:

@@ -60,8 +60,8 @@ def plot(
         case: CaseFile,
         kind: Annotated[str | None, typer.Option(
             metavar="KIND", autocompletion=completion.kinds,
-            help="time, phase, sphere, space, section, equilibria, budget, state or attitude "
-                 "(moves). Default: the one that says most of the case.")] = None,
+            help="time, phase, potential, sphere, space, section, equilibria, budget, tilt, wheel, body, "
+                 "state or attitude (moves). Default: the one that says most of the case.")] = None,
         out: Annotated[Path | None, typer.Option(
             metavar="FILE.png|.svg|.pdf",
             help="Picture to write; default: CASE.png in the current folder. Of an attitude "

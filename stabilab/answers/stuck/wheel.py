@@ -3,7 +3,7 @@ momentum that delays the limit most."""
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from fractions import Fraction
 from typing import Any, TypeAlias
 
@@ -162,17 +162,8 @@ def delayed(scenario: Scenario, torque: Sequence[Fraction], axis: Exact3, now: F
     """
     if scenario.limit is None or time is None or time[0] <= 0:
         return None
-    others = [w - now * a for w, a in zip(scenario.wheel, axis)]
-    # of a wheel at rest: up to the momentum of the body itself
-    reach = (RANGE * abs(float(now))
-             or own_momentum(scenario.body, scenario.start, math.hypot(*map(float, torque))))
-    limit = limit_in(scenario)
-
-    def until(s: Number) -> float:
-        wheel = [w + Fraction(float(s)) * a for w, a in zip(others, axis)]
-        return first_time(scenario, limit, torque, wheel, PATIENCE * time[0])
-    places = np.linspace(-reach, reach, PLACES)
-    times = [until(s) for s in places]
+    others, reach, until = _runs(scenario, torque, axis, now, time)
+    places, times = times_over(scenario, torque, axis, now, time)
     best = int(np.argmax(times))
     s, longest = float(places[best]), times[best]
     if math.isfinite(times[best]):
@@ -185,3 +176,27 @@ def delayed(scenario: Scenario, torque: Sequence[Fraction], axis: Exact3, now: F
     if gain is not None and gain <= 0:
         return None
     return s, told, gain, (-reach, reach), told is None or not longest < told[0] * (1 - SAME)
+
+
+def times_over(scenario: Scenario, torque: Sequence[Fraction], axis: Exact3, now: Fraction,
+               time: Bracket) -> tuple[np.ndarray, np.ndarray]:
+    """(momenta (n,) of a wheel, N m s; times (n,) at which runs with them come to the limit, s, inf where not
+    within PATIENCE times that of now). Arguments as of `delayed`."""
+    _, reach, until = _runs(scenario, torque, axis, now, time)
+    places = np.linspace(-reach, reach, PLACES)
+    return places, np.array([until(s) for s in places])
+
+
+def _runs(scenario: Scenario, torque: Sequence[Fraction], axis: Exact3, now: Fraction, time: Bracket
+          ) -> tuple[list[Fraction], float, Callable[[Number], float]]:
+    """(momentum of the other wheels, the range of this one's, the time of a run with it)."""
+    others = [w - now * a for w, a in zip(scenario.wheel, axis)]
+    # of a wheel at rest: up to the momentum of the body itself
+    reach = (RANGE * abs(float(now))
+             or own_momentum(scenario.body, scenario.start, math.hypot(*map(float, torque))))
+    limit = limit_in(scenario)
+
+    def until(s: Number) -> float:
+        wheel = [w + Fraction(float(s)) * a for w, a in zip(others, axis)]
+        return first_time(scenario, limit, torque, wheel, PATIENCE * time[0])
+    return others, reach, until

@@ -1,5 +1,6 @@
 """Plots of a case or a scene: each takes Matplotlib axes and returns them; `write` makes a file."""
 from .basins import basin as basin
+from .body import body as body
 from .equilibria import equilibria as equilibria
 from .in_space import space as space
 from .over_time import state as state
@@ -10,7 +11,9 @@ from .phase_plane import section as section
 from .potential import potential as potential
 from .surfaces import sphere as sphere
 from .to_file import write as write
+from .to_limit import tilt as tilt
+from .to_limit import wheel as wheel
 from .turning import attitude as attitude
 
-__all__ = ["attitude", "basin", "budget", "equilibria", "phase", "potential", "section", "space", "sphere",
-           "state", "time", "write"]
+__all__ = ["attitude", "basin", "body", "budget", "equilibria", "phase", "potential", "section", "space",
+           "sphere", "state", "tilt", "time", "wheel", "write"]

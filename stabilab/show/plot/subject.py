@@ -19,7 +19,7 @@ from ...orbit.result import Fate, Motion
 from ...packages import demand
 from ...physics.coefficients import effective
 from ...physics.effects.base import effect_words
-from ...physics.scene import AnyScene, Scene
+from ...physics.scene import AnyScene, Scene, torque_axis
 from ...physics.states import checked_states, start_of
 from ...unreduced.periodic import LEAST, crossed
 from ...validation import checked_scene, checked_span
@@ -153,10 +153,16 @@ KINDS = {
     "budget": "what accuracy costs in time",
     "state": "every part of the state over time, the analytic models beside the exact motion",
     "attitude": "the body as it turns, as an animation",
+    "tilt": "the time to the limit against the tilt of the torque",
+    "wheel": "how much later the limit is reached with another momentum of a wheel",
+    "body": "the body as the box of its moments, with thrusters, wheels and what else acts on it",
 }
 FAR = (
     "rates, torque or wheel are so large or so small that their squares leave the range of doubles: choose "
     "other units")
+
+
+NO_BODY = "scaled variables have no body: give the case in physical units"
 
 
 def why_not(kind: str, one: Subject) -> str:
@@ -165,6 +171,8 @@ def why_not(kind: str, one: Subject) -> str:
         return f"there is no such kind; expected one of {', '.join(KINDS)}"
     if kind == "equilibria":
         return _equilibria(one)
+    if kind == "body":
+        return "" if bodily(one) is not None else NO_BODY
     if one.state is None:
         return ("it needs a motion: add [motion] with angular_velocity or x" if one.case is not None
                 else "it needs a state: three rates at t = 0")
@@ -190,6 +198,30 @@ def default(one: Subject) -> str:
     """The kind that says most of a subject: its plane where it reduces, all parts of a longer state, else the
     rates over time."""
     return next(kind for kind in ("phase", "state", "time", "equilibria") if not why_not(kind, one))
+
+
+def _tilt(one: Subject) -> str:
+    if not isinstance(one.scene, Scene) or not one.scene.plain:
+        return "it is drawn of a body with wheels and a torque alone"
+    if not any(one.scene.vector("constant_torque")):
+        return "no constant torque acts"
+    limited = one.case is not None and one.case.limits is not None
+    if not limited and not (one.motion.fate == Fate.BOUNDED and torque_axis(one.scene)):
+        return "the case states no limit to be reached: add [limits]"
+    return _far(one)
+
+
+def _wheel(one: Subject) -> str:
+    if not one.physical or not one.scene.plain:
+        return "it is drawn of a body with wheels and a torque alone"
+    if one.case is None or not one.case.wheels:
+        return "the case has no wheel of its own: describe it in a table [[wheels]]"
+    return "the motion is not known to reach a limit" if spans.limit_time(one.motion) is None else _far(one)
+
+
+def bodily(one: Subject) -> Any:
+    """The scene with the body of a subject; None where there are scaled variables alone."""
+    return one.case.physical if one.case is not None else one.scene if one.physical else None
 
 
 def _equilibria(one: Subject) -> str:
@@ -274,7 +306,8 @@ def _beyond(one: Subject) -> str:
 
 
 _REASONS = {"phase": _phase, "potential": _phase, "sphere": _sphere, "state": _state, "attitude": _attitude,
-            "budget": _budget, "time": _far, "space": _far, "section": _section}
+            "budget": _budget, "tilt": _tilt, "wheel": _wheel, "time": _far, "space": _far,
+            "section": _section}
 
 
 # --- The units of the axes of a plot: name and factor of rates, times and angles, and the names of

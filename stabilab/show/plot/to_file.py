@@ -11,6 +11,7 @@ from ...packages import demand
 from .. import style
 from ..files import endings
 from . import subject as which
+from .body import body
 from .equilibria import equilibria
 from .in_space import space
 from .over_time import state, time
@@ -19,6 +20,7 @@ from .phase_plane import phase, section
 from .potential import potential
 from .subject import Subject, subject
 from .surfaces import sphere
+from .to_limit import tilt, wheel
 from .turning import ENDINGS, film
 
 LEAST, MOST, SHARP = 1.0, 60.0, 1200  # inches of a side, dots an inch
@@ -35,6 +37,9 @@ DRAWN: dict[str, Callable[..., Any]] = {
     "section": lambda one, units, size, plt: section(one, units=units, size=size).figure,
     "equilibria": lambda one, units, size, plt: equilibria(one, units=units, size=size).figure,
     "budget": lambda one, units, size, plt: budget(one, plt, size),
+    "tilt": lambda one, units, size, plt: tilt(one, units=units, size=size).figure,
+    "wheel": lambda one, units, size, plt: wheel(one, units=units, size=size).figure,
+    "body": lambda one, units, size, plt: body(one, units=units, size=size).figure,
     "state": lambda one, units, size, plt: state(one, units=units, size=size),
 }
 

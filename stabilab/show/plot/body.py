@@ -1,0 +1,250 @@
+"""The body as the box of its moments, with what acts on it: a sketch of a case."""
+from __future__ import annotations
+
+from collections.abc import Callable
+from itertools import product
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from .. import style
+from ..axes import PLAIN
+from . import subject as canvas
+from . import subject as which
+from .subject import Subject, measures, subject
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+# of eight corners
+FACES = ((0, 1, 3, 2), (4, 5, 7, 6), (0, 1, 5, 4), (2, 3, 7, 6), (0, 2, 6, 4), (1, 3, 7, 5))
+VIEW = (20, 38)  # degrees: elevation, azimuth
+RIGHTWARD = np.array([-np.sin(np.radians(VIEW[1])), np.cos(np.radians(VIEW[1])), 1e-6])  # in the picture
+LETTERS = {"fontsize": 11, "zorder": 12}
+FARTHEST = 0.75  # of the longest side of the box: a thruster that is farther out stands there
+SIZE = (7.2, 7.0)  # inches
+
+
+def body(case: Any, state: Any = None, ax: Axes | None = None, units: str | None = None,
+         size: tuple[float, float] | None = None, legend: bool = True, bare: bool = False) -> Axes:
+    """Draw the body of a case as a box with its principal moments, its longest side 1, along the principal
+    axes, and return the (three-dimensional) axes.
+
+    Every effect of the scene is drawn, the rates at the start, the thrusters and wheels of the case, and the
+    axes of its file where these are others. Directions and proportions are those of the case, lengths of
+    arrows are not. bare: the body and the effects alone, axes by number. Raises InputError for scaled
+    variables.
+    """
+    one = subject(case, state)
+    which.check("body", one)
+    scene = which.bodily(one)
+    sides = box_sides(scene.body.inertia)
+    with canvas.on(ax, size or SIZE, space=True) as target:
+        target.computed_zorder = False
+        _box(target, sides, PLAIN if bare else one.axes)
+        rows = [(f"{BOX}: D = {_vector(scene.body.inertia)} kg m²",
+                 {"color": style.GREY, "linewidth": 8, "alpha": 0.4, "solid_capstyle": "butt"})]
+        rows += [PARTS[effect.name][1](target, one, effect, sides) for effect in scene.effects]
+        if not bare and one.physical:
+            rows += _start(target, one) + ([] if one.case is None else _craft(target, one.case, sides))
+        target.set(xlim=(-0.8, 0.8), ylim=(-0.8, 0.8), zlim=(-0.7, 0.9))
+        target.set_axis_off()
+        target.view_init(*VIEW)
+        target.set_box_aspect((1, 1, 1), zoom=1.25)
+        if not bare:
+            canvas.title(target, one.heading)
+        if legend:
+            style.legend(target.figure, rows, columns=1)
+    return target
+
+
+def _start(ax: Any, one: Subject) -> list[tuple[str, dict[str, Any]]]:
+    """The axis about which the body turns at the start."""
+    if one.state is None or not any(one.state):
+        return []
+    unit, per = measures(one).rate
+    look = _arrow(ax, (0, 0, 0), _along(one.state, 0.85), r"$\omega$", style.ORANGE, 1.8)
+    return [(f"rates at the start ω = {_vector(per * np.array(one.state))} {unit}", look)]
+
+
+def _craft(ax: Any, case: Any, sides: np.ndarray) -> list[tuple[str, dict[str, Any]]]:
+    """Thrusters and wheels where the case has them, and the axes of its file; rows of the legend."""
+    turn = np.eye(3) if case.frame is None else np.array([[float(v) for v in row] for row in case.frame.axes])
+    principal = lambda vector: turn @ np.array([float(v) for v in vector])
+    arms = [principal(one.arm) for one in case.thrusters]
+    per_metre = _per_metre(case.scene.body, arms, sides)
+    rows = []
+    for one, arm in zip(case.thrusters, arms):
+        place = per_metre * arm
+        place *= min(1.0, FARTHEST / max(float(np.linalg.norm(place)), 1e-12))
+        colour = style.PURPLE if one.stuck else style.GREY
+        ax.plot(*np.array([np.zeros(3), place]).T, color=style.GREY, linewidth=0.8, linestyle=":", zorder=5)
+        ax.plot(*place[:, None], marker="o", color=colour, markersize=6, zorder=9)
+        look = _arrow(ax, place, 0.3 * principal(one.direction), one.name, colour, 2.0)
+        stuck = ", stuck" * one.stuck
+        rows.append((f"force of {one.name} on the body, {float(one.force):.4g} N{stuck}", look))
+    for one in case.wheels if len(case.wheels) > 1 else ():
+        turning = np.sign(float(one.momentum) or 1.0) * principal(one.axis)
+        look = _arrow(ax, (0, 0, 0), 0.4 * turning, one.name, style.SKY, 1.6)
+        rows.append((f"momentum of {one.name}, {float(one.momentum):.4g} N m s", look))
+    if case.frame is not None and not case.frame.as_given:
+        for letter, axis in zip("xyz", turn.T):
+            ax.plot(*np.array([-0.72 * axis, 0.72 * axis]).T, color=style.BROWN, linewidth=1.0,
+                    linestyle="--", zorder=4)
+            ax.text(*(0.76 * axis), letter, color=style.BROWN, **LETTERS)
+        rows.append(("axes of the file", {"color": style.BROWN, "linewidth": 1.0, "linestyle": "--"}))
+    return rows
+
+
+def _per_metre(body: Any, arms: list[np.ndarray], sides: np.ndarray) -> float:
+    """How long a metre is in the picture: as the mass has it; without one the farthest thruster is at the
+    corner of the box."""
+    D = np.array(body.inertia, float)
+    if body.mass:
+        return float(sides.max() / np.sqrt(6 * (D.sum() - 2 * D).max() / body.mass))
+    farthest = max((float(np.linalg.norm(arm)) for arm in arms), default=0.0)
+    return float(np.linalg.norm(sides)) / 2 / farthest if farthest else 1.0
+
+
+def box_sides(inertia) -> np.ndarray:
+    """Sides of the homogeneous box with these moments, the longest 1: D_i is in proportion to the sum of the
+    squares of the other two."""
+    D = np.array(inertia, float)
+    sides = np.sqrt(np.maximum(D.sum() - 2 * D, 0.0))
+    return sides / sides.max()
+
+
+def _box(ax, sides, axes):
+    """The box, its edges, and the principal axes, which come out of it."""
+    from mpl_toolkits.mplot3d.art3d import Poly3DCollection
+    corners = np.array(list(product((-0.5, 0.5), repeat=3))) * sides
+    ax.add_collection3d(Poly3DCollection([corners[list(face)] for face in FACES], facecolor=style.GREY,
+                                         edgecolor="#444444", alpha=0.16, linewidth=0.9))
+    for i in range(3):
+        line = np.outer((-1.0, 1.0), np.eye(3)[i]) * (sides[i] / 2 + 0.22)
+        ax.plot(*line.T, color=style.GREY, linewidth=0.9, linestyle="-.")
+        ax.text(*line[1], f" {axes.label(i + 1)} ", color="#444444", ha="left" if i == 1 else "right",
+                va="bottom", fontsize=9.5)
+
+
+def _arrow(ax, start, direction, label, colour, width=2.4, side=""):
+    """An arrow with its label beside the tip, above it, or below it where the arrow points to the left; its
+    look in a legend."""
+    start, direction = np.array(start, float), np.array(direction, float)
+    ax.quiver(*start, *direction, color=colour, linewidth=width, arrow_length_ratio=0.13, zorder=8)
+    left = direction @ RIGHTWARD < 0
+    if label:
+        ax.text(*(start + direction), f"{label}  " if left else f"  {label}", color=colour,
+                ha=side or ("right" if left else "left"), va="top" if left else "bottom", **LETTERS)
+    return {"color": colour, "linewidth": width}
+
+
+def _along(vector, length):
+    """The vector at another length."""
+    return length * np.array(vector, float) / np.linalg.norm(vector)
+
+
+def _vector(values) -> str:
+    return f"({', '.join(f'{float(v):.4g}' for v in values)})".replace("-", "−")
+
+
+def _wheel(ax, one, effect, sides):
+    """The rotor as a ring about its axis, and its momentum."""
+    axis = _along(effect.moment, 1.0)
+    across = np.linalg.svd(axis[None])[2][1:]
+    turn = np.linspace(0, 2 * np.pi, 91)
+    ring = 0.2 * (np.outer(np.cos(turn), across[0]) + np.outer(np.sin(turn), across[1]))
+    ax.plot(*ring.T, color=style.BLUE, linewidth=3.0, zorder=7)
+    look = _arrow(ax, (0, 0, 0), 0.55 * axis, r"momentum $\lambda$", style.BLUE, 3.2)
+    return f"momentum of the wheel λ = {_vector(effect.moment)} kg m²/s", look
+
+
+def _torque(ax, one, effect, sides):
+    look = _arrow(ax, (0, 0, 0), _along(effect.vector, 1.0), "torque M", style.VERMILION)
+    return f"constant torque M = {_vector(effect.vector)} N m", look
+
+
+def _force(ax, one, effect, sides):
+    look = _arrow(ax, (0, 0, 0), _along(effect.vector, 1.1), "force f", style.GREEN)
+    return f"constant force f = {_vector(effect.vector)} N", look
+
+
+def _charge(ax, one, effect, sides):
+    """The charge on axis 3, at its arm where the mass tells the size of the box, and lines of the field."""
+    body = which.bodily(one).body
+    mass, D = body.mass, np.array(body.inertia)
+    longest = np.sqrt(6 * (D.sum() - 2 * D).max() / mass) if mass else 2 * effect.arm / sides[2]
+    place = np.array([0.0, 0.0, effect.arm / longest])
+    field = (one.blocks.get("gamma", (0, 0, 1)) if effect.follows_attitude
+             else (0.0, np.sin(effect.angle), np.cos(effect.angle)))
+    ax.plot(*place[:, None], marker="o", color=style.ORANGE, markersize=11, linestyle="none", zorder=9)
+    ax.text(*place, "charge e  ", color=style.ORANGE, ha="right", va="bottom", **LETTERS)
+    for shift, label in ((-0.85, ""), (0.75, "field H")):
+        look = _arrow(ax, (0.0, shift, -0.3), _along(field, 0.75), label, style.PURPLE, 1.6)
+    angle = "of the attitude" if effect.follows_attitude else f"= {effect.angle:g} rad"
+    return (f"charge e = {effect.charge:g} C on axis 3 at l = {effect.arm:g} m, field H = "
+            f"{effect.field_strength:g} T, σ {angle}", look)
+
+
+def _ball(ax, sides, word):
+    """A ball within the box, with a word at it; its look in the legend."""
+    turn, up = np.meshgrid(np.linspace(0, 2 * np.pi, 41), np.linspace(0, np.pi, 21))
+    ball = 0.3 * sides.min() * np.array([np.sin(up) * np.cos(turn), np.sin(up) * np.sin(turn), np.cos(up)])
+    ax.plot_surface(*ball, color=style.SKY, alpha=0.45, linewidth=0, shade=False, zorder=3)
+    ax.text(0.0, 0.3 * sides.min(), 0.0, f" {word}", color=style.BLUE, ha="left", va="bottom", **LETTERS)
+    return {"color": style.SKY, "marker": "o", "markersize": 10, "linestyle": "none", "alpha": 0.6}
+
+
+def _liquid(ax, one, effect, sides):
+    return (f"cavity of liquid: ρ = {effect.density:g} kg/m³, ν = {effect.viscosity:g} m²/s, P0 = "
+            f"{effect.P0:g} m⁷", _ball(ax, sides, "liquid"))
+
+
+def _damper(ax, one, effect, sides):
+    return (f"damper: sphere of {effect.inertia:g} kg m² in a fluid of {effect.coefficient:g} N m s",
+            _ball(ax, sides, "damper"))
+
+
+def _resistance(ax, one, effect, sides):
+    """Against the momentum of the body at the start."""
+    look = {"color": style.BLACK, "linewidth": 1.6}
+    if one.state is not None and np.any(one.state):
+        spin = -np.array(which.bodily(one).body.inertia) * one.state
+        look = _arrow(ax, (0, 0, 0), _along(spin, 0.8), r"resistance $-cD\omega$", style.BLACK, 1.6)
+    return f"resistance −c Dω, c = {effect.coefficient:g} 1/s, at the start", look
+
+
+def _down(one: Subject):
+    return np.array(one.blocks.get("gamma", (0.0, 0.0, -1.0)), float)
+
+
+def _weight(ax, one, effect, sides):
+    """The fixed point, the centre of mass and its weight."""
+    centre = _along(effect.centre_of_mass, 0.45) if np.any(effect.centre_of_mass) else np.zeros(3)
+    ax.plot([0], [0], [0], zorder=9, marker="s", color=style.BLACK, markersize=8, linestyle="none")
+    ax.text(0.0, 0.0, 0.0, "  fixed point O", color=style.BLACK, ha="left", va="bottom", **LETTERS)
+    ax.plot(*np.array([np.zeros(3), centre]).T, color=style.BLACK, linewidth=1.0, linestyle=":", zorder=8)
+    ax.plot(*centre[:, None], zorder=9, marker="o", color=style.VERMILION, markersize=7, linestyle="none")
+    look = _arrow(ax, centre, 0.5 * _down(one), "weight Mg", style.VERMILION, side="left")
+    return (f"weight Mg = {effect.weight:g} N at the centre of mass {_vector(effect.centre_of_mass)} m", look)
+
+
+def _attraction(ax, one, effect, sides):
+    """The attracting centre, far along gamma."""
+    place = 1.15 * _down(one)
+    ax.plot(*np.array([np.zeros(3), place]).T, color=style.GREEN, linewidth=1.2, linestyle="--", zorder=5)
+    ax.plot(*place[:, None], marker="*", color=style.GREEN, markersize=15, linestyle="none", zorder=9)
+    ax.text(*place + [0.0, 0.0, -0.07], "attracting centre", color=style.GREEN, ha="center", va="top",
+            **LETTERS)
+    away = "" if effect.distance is None else f", R = {effect.distance:g} m away"
+    return (f"attracting centre{away}: N = {effect.strength:.3g} 1/s²",
+            {"color": style.GREEN, "marker": "*", "markersize": 10, "linestyle": "--", "linewidth": 1.2})
+
+
+BOX = "box with the body's principal moments"
+PARTS: dict[str, tuple[str, Callable]] = {  # effect -> its words in the caption, and what draws it
+    "gyrostat": ("the momentum of its wheel", _wheel), "constant_torque": ("the constant torque", _torque),
+    "body_force": ("the constant force", _force), "charge": ("the charge and the field", _charge),
+    "liquid_cavity": ("the cavity of liquid", _liquid), "resistance": ("the resistance", _resistance),
+    "gravity": ("fixed point, centre of mass and weight", _weight),
+    "newtonian_field": ("the attracting centre", _attraction), "viscous_damper": ("the damper", _damper)}

@@ -1,0 +1,103 @@
+"""The time to a limit against the tilt of a torque and the momentum of a wheel, and the body as a sketch."""
+from pathlib import Path
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+import stabilab
+from stabilab import errors
+from stabilab.answers.passage.of_case import limit_of
+from stabilab.answers.tilt import by_angle
+
+CASES = Path(__file__).parents[2] / "cases"
+
+
+@pytest.fixture(autouse=True)
+def closed():
+    yield
+    plt.close("all")
+
+
+def load(name):
+    return stabilab.load(CASES / f"{name}.toml")
+
+
+def first_at(case, torque, limit):
+    """s, by SciPy's DOP853 on Euler's equations written out here."""
+    D, wheel = (np.array([float(v) for v in row])
+                for row in (case.scene.body.exact, case.scene.vector("gyrostat")))
+    over = lambda t, w: np.linalg.norm(w) - limit
+    over.terminal = True
+    run = solve_ivp(lambda t, w: (np.cross(D * w + wheel, w) + torque) / D, (0, 500), case.state, "DOP853",
+                    rtol=1e-10, atol=1e-13, events=over, max_step=1.0)
+    return run.t_events[0][0]
+
+
+def test_the_earliest_and_the_latest_time_under_a_tilted_force_are_those_of_its_six_directions():
+    """cubesat-3u: the force of its thruster turned by 2 deg about six directions, the arm as the case has it."""
+    case, angle = load("cubesat-3u"), np.radians(2.0)
+    (thruster,) = case.thrusters
+    axes = np.array([[float(v) for v in row] for row in case.frame.axes])
+    force, arm = (np.array([float(v) for v in row]) for row in (thruster.direction, thruster.arm))
+    first = np.cross(np.eye(3)[np.argmin(np.abs(force))], force)
+    first /= np.linalg.norm(first)
+    times = []
+    for turn in np.arange(6) * np.pi / 3:
+        aside = np.cos(turn) * first + np.sin(turn) * np.cross(force, first)
+        tilted = float(thruster.force) * (np.cos(angle) * force + np.sin(angle) * aside)
+        times.append(first_at(case, axes @ np.cross(arm, tilted), np.radians(60)))
+    found = by_angle(case.scene, case.state, np.array([angle]), case, limit_of(case))
+    assert found.earliest[0] == pytest.approx(min(times), rel=1e-5)
+    assert found.latest[0] == pytest.approx(max(times), rel=1e-5)
+
+
+def test_a_bounded_motion_is_lost_after_a_time_like_one_over_the_tilt_and_not_before_what_is_proved():
+    """The drift of the integrals is of first order in the tilt (docstring of answers.tilt): a tenth of it
+    takes ten times as long."""
+    case = load("thruster-stuck-major-axis")
+    found = by_angle(case.scene, case.state, np.radians([0.3, 3.0]))
+    assert found.earliest[0] / found.earliest[1] == pytest.approx(10, rel=0.1)
+    assert (0 < found.not_before).all() and (found.not_before < found.earliest).all()
+
+
+@pytest.mark.slow
+def test_the_best_momentum_of_a_wheel_is_that_of_stuck_and_now_is_no_gain():
+    case = load("cubesat-3u")
+    ax = stabilab.plot.wheel(case)
+    (answer,) = stabilab.stuck(case).rows[0].wheels
+    momenta, gain = ax.get_lines()[0].get_data()
+    assert momenta[np.nanargmax(gain)] == answer.best and np.nanmax(gain) == pytest.approx(answer.gain)
+    # a run with the momentum of the case, by SciPy
+    now = first_at(case, np.array([float(v) for v in case.scene.vector("constant_torque")]), np.radians(60))
+    assert f"now: {now:.4g} s" in [text.get_text() for text in ax.figure.legends[0].get_texts()]
+
+
+@pytest.mark.parametrize("kind, name, words", [
+    ("tilt", "phone", "no constant torque acts"), ("tilt", "off-axis-two", "states no limit"),
+    ("tilt", "minor-axis-100", "a body with wheels"), ("wheel", "two-wheels-minor-axis", "the case has no wheel"),
+    ("wheel", "top-fast", "a body with wheels")])
+def test_a_plot_that_a_case_does_not_have_is_refused_with_the_reason(kind, name, words):
+    with pytest.raises(errors.InputError, match=words):
+        getattr(stabilab.plot, kind)(load(name))
+
+
+def test_scaled_variables_alone_have_no_body():
+    with pytest.raises(errors.InputError, match="scaled variables have no body"):
+        stabilab.plot.body(stabilab.ScaledGyrostat(0.5, 1, (0, 1, 0)), (1, 2, 3))
+
+
+def test_the_body_has_its_thrusters_at_their_arms_and_the_axes_of_its_file():
+    """geostationary-22n: arms (0.938, 0.888, -1.26) m and (-0.962, 0.888, -1.26) m from the centre of mass,
+    by hand; both as far out as the picture goes or nearer, in the directions of the arms."""
+    case = load("geostationary-22n")
+    ax = stabilab.plot.body(case)
+    places = [np.ravel(line.get_data_3d()) for line in ax.get_lines() if line.get_marker() == "o"]
+    turn = np.array([[float(v) for v in row] for row in case.frame.axes])
+    for place, arm in zip(places, ((0.938, 0.888, -1.26), (-0.962, 0.888, -1.26)), strict=True):
+        along = turn @ np.array(arm)
+        assert place @ along == pytest.approx(np.linalg.norm(place) * np.linalg.norm(arm))
+    assert {"x", "y", "z", "major", "minor"} <= {text.get_text().strip() for text in ax.texts}
+    names = [text.get_text() for text in ax.figure.legends[0].get_texts()]
+    assert "force of R3 on the body, 22 N, stuck" in names and "axes of the file" in names
