@@ -589,6 +589,18 @@ def test_the_box_turns_as_a_body_that_keeps_its_momentum_in_space():
     assert found.edges == pytest.approx([THINNEST, math.sqrt(0.5), 1.0])
 
 
+def test_a_film_has_the_momentum_that_stays_without_a_torque_and_the_share_of_the_limit():
+    """Without a torque the momentum of body and wheel rests in space; cubesat-3u is at 60 deg/s, its limit,
+    after 16.95 s (SciPy's DOP853 in test_to_limit)."""
+    from stabilab.show.plot.turning import turn
+    free = turn(subject.subject(load("torque-free-gyrostat")), 150)
+    assert np.abs(free.momentum - free.momentum[0]).max() < 1e-11 * np.abs(free.momentum).max()
+    assert [letter for letter, *_ in free.arrows] == ["H"] and free.share is None
+    found = turn(subject.subject(load("cubesat-3u"), span=20.0), 400)
+    assert float(np.interp(1.0, found.share, found.t)) == pytest.approx(16.95, abs=0.01)
+    assert [letter for letter, *_ in found.arrows] == ["H", "M"]
+
+
 def test_the_vertical_of_a_top_stands_upright_in_space_all_the_time():
     """R gamma is the third axis of space, with gamma of a run of its own equations (Poisson), which know no
     attitude."""

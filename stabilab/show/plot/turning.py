@@ -43,8 +43,9 @@ FACES = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (
 @dataclass(frozen=True)
 class Turn:
     """t: (n,) s; rotations: (n, 3, 3) from body to space; omega: (n, 3) rad/s; edges: (3,) half edges of the
-    box, the longest 1; whole: whether the span that was asked for is shown to its end; asked: its length,
-    s."""
+    box, the longest 1; whole: whether the span that was asked for is shown to its end; asked: its length, s;
+    momentum: (n, 3) of body and wheels in space, N m s; torque: (3,) the constant one, N m, body; share: (n,)
+    of the limit of the case, None without one."""
 
     t: np.ndarray
     rotations: np.ndarray
@@ -52,6 +53,22 @@ class Turn:
     edges: np.ndarray
     whole: bool
     asked: float
+    momentum: np.ndarray
+    torque: np.ndarray
+    share: np.ndarray | None
+
+    @property
+    def arrows(self) -> list[tuple[str, str, np.ndarray]]:
+        """(letter, colour, (n, 3) in space) of momentum and torque, the longest as long as is drawn."""
+        found = (("H", style.BLACK, self.momentum), ("M", style.PURPLE, self.rotations @ self.torque))
+        return [(letter, colour, OUT * rows / np.linalg.norm(rows, axis=1).max())
+                for letter, colour, rows in found if rows.any()]
+
+    @property
+    def words(self) -> str:
+        """What the arrows are."""
+        told = {"H": "H: angular momentum of body and wheels", "M": "M: torque"}
+        return "; ".join(told[letter] for letter, *_ in self.arrows)
 
     def part(self, units: Units) -> str:
         """What is said of a film that ends before its span."""
@@ -68,7 +85,23 @@ def turn(one: Subject, frames: int = FRAMES) -> Turn:
     low, high = one.seen
     (t, rotations, omega), whole = _reached(one, low, high, frames)
     scene: Any = one.scene  # physical: `which` refuses the others
-    return Turn(t, rotations, omega, edges(scene.body.inertia), whole, abs(high - low))
+    vector = lambda name: (np.array([float(v) for v in scene.vector(name)])
+                           if scene.effect(name) is not None else np.zeros(3))
+    momentum = np.einsum("nij,nj->ni", rotations, omega * np.array(scene.body.inertia) + vector("gyrostat"))
+    return Turn(t, rotations, omega, edges(scene.body.inertia), whole, abs(high - low), momentum,
+                vector("constant_torque"), _share(one, omega))
+
+
+def _share(one, omega):
+    """(n,) how much of the limit of a case rates (n, 3) have reached; None without one."""
+    limits = None if one.case is None else one.case.limits
+    if limits is None:
+        return None
+    if limits.rate is not None:
+        return np.linalg.norm(omega, axis=1) / float(limits.rate)
+    parts = [(np.array([float(v) for v in axis]), float(most))
+             for axis, most in limits.components(one.case.frame)]
+    return np.max([np.abs(omega @ axis) / most for axis, most in parts], axis=0)
 
 
 def _reached(one, low, high, frames):
@@ -132,11 +165,13 @@ def page(one, found: Turn, scale, path) -> Path:
             "faces": FACES,
             "colours": [style.VERMILION, style.GREEN, style.BLUE],
             "names": [one.axes.label(n) for n in (1, 2, 3)], "tip": int(np.argmax(np.abs(found.omega[0]))),
-            "real": float(abs(found.t[-1] - found.t[0]))}
+            "real": float(abs(found.t[-1] - found.t[0])),
+            "arrows": [[letter, colour, rows.round(4).tolist()] for letter, colour, rows in found.arrows],
+            "share": None if found.share is None else found.share.round(4).tolist()}
     # nothing of it ends the script
     text = json.dumps(data, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
     return html.write(path, "attitude.html", title=printable(one.heading or "Attitude"), data=text,
-                      part=found.part(scale.system))
+                      part=found.part(scale.system), arrows=found.words)
 
 
 # --- The body's box as it turns, as an animation of Matplotlib
@@ -159,8 +194,9 @@ def attitude(case: Any, state: Any = None, ax: Any = None, span: Any = None, fra
 
     The box is the even one with the body's moments of inertia; its faces and axes have the colours of the
     principal axes, and the line is the way of the tip of the axis about which the body turns most at the
-    start. The start has the attitude of the case, else one that holds its vertical upright, else body and
-    space are aligned. Where the span would need more pictures than `frames` at 15 degrees each, its first
+    start. Arrows: angular momentum and constant torque; the bar: how much of the limit of the case the rates
+    have reached. The start has the attitude of the case, else one that holds its vertical upright, else body
+    and space are aligned. Where the span would need more pictures than `frames` at 15 degrees each, its first
     part is shown. Raises InputError for scaled variables.
     """
     from matplotlib.animation import FuncAnimation
@@ -218,7 +254,10 @@ def _stage(ax, found: Turn, one, scale):
              for n, colour in enumerate(COLOURS, 1)]
     now = ax.text2D(0.5, 0.97, "", transform=ax.transAxes, ha="center")
     canvas.title(ax, one.heading)
-    ax.text2D(0.5, -0.02, found.part(scale.system), transform=ax.transAxes, ha="center", fontsize="small")
+    ax.text2D(0.5, -0.02, "\n".join(filter(None, (found.words, found.part(scale.system)))),
+              transform=ax.transAxes, ha="center", va="top", fontsize="small")
+    gauge = _gauge(ax) if found.share is not None else None
+    pointers: list[Any] = []
     ways = [ax.plot([], [], [], color=style.GREY, linewidth=0.9, zorder=order)[0]
             for order in (BEHIND, BEFORE)]
     tips = found.rotations[:, :, int(np.argmax(np.abs(found.omega[0])))] * OUT
@@ -246,11 +285,36 @@ def _stage(ax, found: Turn, one, scale):
         gone = tips[:frame + 1]
         for way, shown in zip(ways, (gone @ eye <= 0, gone @ eye > 0)):
             way.set_data_3d(*np.where(_with_ends(shown)[:, None], gone, np.nan).T)
+        for artist in pointers:
+            artist.remove()
+        pointers[:] = [ax.quiver(0, 0, 0, *rows[frame], color=colour, linewidth=2.0, arrow_length_ratio=0.12,
+                                 zorder=BEFORE + 1) for _, colour, rows in found.arrows]
+        pointers.extend(ax.text(*(1.12 * rows[frame]), letter, color=colour, weight="bold", path_effects=halo,
+                                zorder=BEFORE + 1) for letter, colour, rows in found.arrows)
+        if gauge is not None:
+            gauge(float(found.share[frame]))
         now.set_text(f"{found.t[frame] * per:.4g} {unit}, |ω| = {rates[frame]:.4g} {scale.rate[0]}")
         return [box, *axes, *names, *ways, now]
 
     draw(0)
     return draw
+
+
+def _gauge(ax):
+    """A bar for the limit; gauge(share) fills it."""
+    from matplotlib.lines import Line2D
+    low, high, height = 0.3, 0.7, 0.94
+    look = {"transform": ax.transAxes, "solid_capstyle": "butt", "linewidth": 7}
+    bar = Line2D([low, low], [height] * 2, color=style.BLUE, **look)
+    ax.add_artist(Line2D([low, high], [height] * 2, color="#DDDDDD", **look))
+    ax.add_artist(bar)
+    told = ax.text2D(high + 0.02, height, "", transform=ax.transAxes, va="center", fontsize="small")
+
+    def fill(share):
+        bar.set_xdata([low, low + (high - low) * min(share, 1.0)])
+        bar.set_color(style.BLUE if share < 1 else style.VERMILION)
+        told.set_text(f"{100 * share:.0f} % of the limit")
+    return fill
 
 
 def _eye(ax) -> np.ndarray:
