@@ -46,7 +46,7 @@ from .write import data_of_scene, plain, text_of
 # --- A case file: a body, its effects and one motion, read from TOML; every fault with file, line and key
 TABLES = ("title", "source", "body", "effects", "thrusters", "wheels", "limits", "circular_orbit", "scaled",
           "motion", "output", "expect", "sweep")
-SYSTEMS = ("deg", "si")  # of units in which text is printed
+SYSTEMS = ("deg", "deg/day", "rpm", "rev/s", "si")  # of units in which text is printed
 STATES, SPANS = ("angular_velocity", "x"), ("span", "tau")
 # key: block
 BLOCKS = {"attitude": "attitude", "vertical": "gamma", "velocity": "velocity", "position": "position",
@@ -364,7 +364,7 @@ def _units(output: Table | None) -> str:
     wanted = output.text("units").lower()
     if wanted and wanted not in SYSTEMS:
         output.fault(
-            f"expected {' or '.join(SYSTEMS)} (deg/s and min, or rad/s and s), got {described(wanted)}",
+            f"expected {', '.join(SYSTEMS)} (deg/s and min, or rad/s and s), got {described(wanted)}",
             "units")
     return wanted
 

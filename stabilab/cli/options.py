@@ -31,8 +31,9 @@ Tilt = Annotated[str | None, typer.Option(
     help='What a tilt of the torque by up to so much, "1 deg", does to a motion that a torque on an '
          "axis keeps bounded. By itself where the case states a misalignment or [limits].")]
 UnitsOption = Annotated[str | None, typer.Option(
-    "--units", metavar="deg|si", autocompletion=completion.units,
-    help="deg/s and min, or rad/s and s, in text. Default: [output] units of the case, else deg.")]
+    "--units", metavar="UNIT", autocompletion=completion.units,
+    help="Of rates in text: deg (deg/s), deg/day, rpm, rev/s, or si (rad/s, and all times in s). Default: "
+         "[output] units of the case, else deg; deg/day for a free body below 0.01 deg/s.")]
 Si = Annotated[bool, typer.Option("--si", hidden=True, help="The same as --units si.")]
 Why = Annotated[bool, typer.Option("--why", "-v", help="With proofs, derivations and algebra.")]
 Strict = Annotated[bool, typer.Option(

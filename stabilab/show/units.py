@@ -1,4 +1,4 @@
-"""The units that people read: deg/s and minutes, or SI; one home for text, pictures and reports."""
+"""The units that people read: deg/s, deg/day, rpm or rev/s and minutes, or SI: for text and pictures."""
 from __future__ import annotations
 
 import math
@@ -29,7 +29,7 @@ OF_RATES = re.compile(r"\((-?\d[-+.\de]*(?:, -?\d[-+.\de]*)+)\) rad/s(?![\w^])")
 
 @dataclass(frozen=True)
 class Units:
-    """A system of units: `name` is "deg", "si", or "scaled" for dimensionless variables.
+    """A system of units: `name` is a key of `SYSTEMS`, or "scaled" for dimensionless variables.
 
     `rates` and `angles` are units; `ladder` has the units of time, each with the number of seconds from which
     it is used; `axes` names the axes of the case that is told.
@@ -121,9 +121,9 @@ class Units:
     def _turned(self, digits: int, found: re.Match[str]) -> str:
         """One number of radians, or "1 to 2" of them, by a time or its square, in these units."""
         first, between, last, per = found.groups(default="")
-        name, one = self.angles
+        name, one = self.rates if per == "/s" else (self.angles[0] + per, self.angles[1])
         before = f"{number(float(first) * one, digits)}{between}" if first else ""
-        return before + self.told(float(last), (name + per, one), digits)
+        return before + self.told(float(last), (name, one), digits)
 
     def of(self, unit: str) -> Unit:
         """The unit in which numbers of this SI unit are told."""
@@ -140,17 +140,27 @@ CLOCK = ((172800.0, ("day", 1 / 86400)), (7200.0, ("h", 1 / 3600)), (120.0, ("mi
 DEG = Units("deg", ("deg/s", TURN), ("deg", TURN), CLOCK)
 SI = Units("si", ("rad/s", 1.0), ("rad", 1.0), ((0.0, ("s", 1.0)),))
 SCALED = Units("scaled", ("", 1.0), ("rad", 1.0), ((0.0, ("tau", 1.0)),))
-SYSTEMS = {"deg": DEG, "si": SI}
+SYSTEMS = {"deg": DEG, "deg/day": replace(DEG, name="deg/day", rates=("deg/day", 86400 * TURN)),
+           "rpm": replace(DEG, name="rpm", rates=("rpm", 30 / math.pi)),
+           "rev/s": replace(DEG, name="rev/s", rates=("rev/s", 0.5 / math.pi)), "si": SI}
+SLOW = math.radians(0.01)  # rad/s: below it a rate in deg/s begins with zeros
 
 
 def units_of(case: Case, asked: str | None = None) -> Units:
-    """The units for a case: those asked for, else those of its [output], else degrees. A scaled case has
-    none."""
+    """The units for a case: those asked for, else those of its [output], else those that suit. A scaled case
+    has none."""
     named = asked.lower() if isinstance(asked, str) else asked
     if named is not None and named not in SYSTEMS:
-        raise InputError(f"--units: expected {' or '.join(SYSTEMS)}, got {asked!r:.40}")
-    system = SCALED if case.variables == "scaled" else SYSTEMS[named or case.units or "deg"]
+        raise InputError(f"--units: expected {', '.join(SYSTEMS)}, got {asked!r:.40}")
+    system = SCALED if case.variables == "scaled" else SYSTEMS[named or case.units or suited(case)]
     return replace(system, axes=axes_of(case))
+
+
+def suited(case: Case) -> str:
+    """deg/day for a body that turns slowly and freely, such as an asteroid; else degrees per second."""
+    slow = case.state is not None and 0 < math.hypot(*case.state[:3]) < SLOW
+    free = all(effect.name == "gyrostat" for effect in case.scene.effects)
+    return "deg/day" if slow and free else "deg"
 
 
 PARAMETERS = (("lambda", "N m s"), ("D", "kg m^2"), ("M", "N m"), ("mass", "kg"), ("f", "N"), ("k", "N m s"),

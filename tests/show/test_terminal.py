@@ -176,7 +176,7 @@ def test_a_shell_completes_case_files_and_names(tmp_path):
     (tmp_path / "mine.txt").write_text("")
     (tmp_path / "more").mkdir()
     for line, offered in (("stabilab classify m", ["mine.toml", "more/"]),
-                          ("stabilab fate mine.toml --units ", ["deg", "si"])):
+                          ("stabilab fate mine.toml --units ", ["deg", "deg/day", "rpm", "rev/s", "si"])):
         words = line.split(" ")
         run = subprocess.run([sys.executable, "-c", PROGRAM], capture_output=True, text=True, cwd=tmp_path,
                              env=os.environ | {

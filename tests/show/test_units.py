@@ -82,18 +82,36 @@ def test_a_case_remembers_its_units_and_an_option_overrides_them(stabilab, tmp_p
     path.write_text(CASE + '[output]\nunits = "si"\n')
     assert units_of(load(path)).name == SI.name and "(0.1, 0.05, 0.02) rad/s" in stabilab("classify", path)[1]
     assert "(5.72958, 2.86479, 1.14592) deg/s" in stabilab("classify", path, "--units", "deg")[1]
-    code, out, err = stabilab("classify", path, "--units", "rpm")
-    assert code == 2 and not out and "--units: expected deg or si, got 'rpm'" in err
+    code, out, err = stabilab("classify", path, "--units", "grad")
+    assert code == 2 and not out and "--units: expected deg, deg/day, rpm, rev/s, si, got 'grad'" in err
 
 
 @pytest.mark.parametrize("line, words",
-                         [('units = "rpm"', "expected deg or si"), ("units = 3", "expected a text in quotes"),
+                         [('units = "grad"', "expected deg, deg/day, rpm, rev/s, si"), ("units = 3", "expected a text in quotes"),
                                          ('unit = "si"', "did you mean units")])
 def test_units_of_a_case_that_are_none_are_a_fault_with_its_line(stabilab, tmp_path, line, words):
     path = tmp_path / "own.toml"
     path.write_text(CASE + f"[output]\n{line}\n")
     code, out, err = stabilab("classify", path)
     assert code == 2 and not out and f"{path}:8: output.unit" in err and words in err
+
+
+@pytest.mark.parametrize("units, one", [("deg/day", 86400 * 180 / math.pi), ("rpm", 60 / math.tau),
+                                        ("rev/s", 1 / math.tau)])  # by the definition of each
+def test_rates_are_printed_in_any_unit_that_is_asked_for(stabilab, tmp_path, units, one):
+    path = tmp_path / "own.toml"
+    path.write_text(CASE)
+    start = ", ".join(f"{rate * one:.6g}" for rate in (0.1, 0.05, 0.02))
+    code, out, _ = stabilab("classify", path, "--units", units)
+    assert code == 0 and f"({start}) {units}" in out and " deg/s" not in out and " rad/s" not in out
+    path.write_text(CASE + f'[output]\nunits = "{units}"\n')
+    assert stabilab("classify", path)[1] == out and units_of(load(path)).name == units
+
+
+def test_a_free_body_that_turns_slowly_is_in_degrees_per_day_and_with_a_torque_in_degrees_per_second():
+    """Toutatis: 0.0012 deg/s."""
+    assert units_of(load("cases/toutatis.toml")).name == "deg/day"
+    assert units_of(load("cases/geostationary-22n.toml")).name == units_of(load("cases/phone.toml")).name == "deg"
 
 
 def test_a_scaled_case_has_no_units():

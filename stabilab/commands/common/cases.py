@@ -14,7 +14,7 @@ from ...numbers.units import NONE, TIME, quantity, split
 from ...show.progress import each
 from ...show.terminal import page, sweep
 from ...show.text import law
-from ...show.units import DEG, DIGITS, Units, number, units_of
+from ...show.units import DEG, DIGITS, SCALED, SI, Units, number, units_of
 from ...streams import Progress
 from .output import say
 
@@ -50,7 +50,7 @@ def units_asked(cases: Iterable[Case], asked: str | None) -> list[Units]:
 def tell_radians(units: Units, **options: str | None) -> None:
     """A message on every angle or rate that came without a unit, where answers are told in degrees: whoever
     types 1 may mean a degree."""
-    if units.name != DEG.name:
+    if units.name in (SI.name, SCALED.name):
         return
     for option, text in options.items():
         found = split((text or "").rpartition("=")[2].strip())

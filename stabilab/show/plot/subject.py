@@ -27,7 +27,7 @@ from .. import spans, style
 from ..axes import PLAIN, Axes, axes_of
 from ..text import law
 from ..text.headline import outcome
-from ..units import SYSTEMS, Units, units_of
+from ..units import SYSTEMS, Units, suited, units_of
 
 # --- What a plot is of: a scene, one motion of it where there is one, and what a case says besides
 
@@ -337,13 +337,13 @@ class Measures:
 
 
 def measures(one: Subject, units: str | None = None) -> Measures:
-    """Those of a subject: units "deg" (deg/s, deg; seconds, minutes or hours) or "si" (rad/s, rad, s), None
-    for those of the case, else "deg"; scaled scenes have none."""
+    """Those of a subject: units "deg" (deg/s, deg; seconds, minutes or hours), "deg/day", "rpm", "rev/s" or
+    "si" (rad/s, rad, s), None for those of the case, else those that suit; scaled scenes have none."""
     if units is not None and units not in SYSTEMS:
         raise InputError(f"units: expected one of {', '.join(SYSTEMS)}, got {units!r:.40}")
     if not one.physical:
         return Measures(("", 1.0), ("", 1.0), ("$x_1$", "$x_2$", "$x_3$"), "", None)
-    found = SYSTEMS[units or (one.case is not None and one.case.units) or "deg"]
+    found = SYSTEMS[units or ("deg" if one.case is None else one.case.units or suited(one.case))]
     return Measures(found.rates, found.angles, (r"$\omega_1$", r"$\omega_2$", r"$\omega_3$"), r"$|\omega|$",
                     found)
 

@@ -32,7 +32,7 @@ def _among(*words: str):
     return offered
 
 
-units = _among("deg", "si")
+units = _among("deg", "deg/day", "rpm", "rev/s", "si")
 models = _among("exact", "linear", "corrected", "printed", "averaged1", "averaged2", "lindstedt")
 methods = _among("taylor", "reduced", "DOP853", "RK45", "RK23", "Radau", "BDF", "LSODA")
 papers = _among("constant-torque", "charged", "cavity", "top")
