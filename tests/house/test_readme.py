@@ -157,9 +157,9 @@ def follow(text, folder, wanted):
 
 
 def prepared(text, folder):
-    """The page's files in the folder, beside the cases."""
+    """The page's files in the folder, beside the cases and `my.toml` of the README."""
     shutil.copytree(ROOT / "cases", folder / "cases", dirs_exist_ok=True)
-    for path, content in files(text).items():
+    for path, content in (files(README.read_text(encoding="utf-8")) | files(text)).items():
         (folder / path).parent.mkdir(parents=True, exist_ok=True)
         (folder / path).write_text(content)
     return text, folder
