@@ -271,7 +271,7 @@ def _judge_burns(top: Table, burning: bool):
         return
     if not found:
         top.fault('no thruster fires on a schedule: give one of [[thrusters]] start and stop, such as stop = '
-                  '"12 s"', *(["thrusters"] if "thrusters" in top else []))
+                  '"12 s", in place of stuck', *(["thrusters"] if "thrusters" in top else []))
     if "sweep" in top:
         top.fault("a burn takes one case at a time: take away [sweep]", "sweep")
 

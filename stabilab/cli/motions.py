@@ -36,12 +36,12 @@ def classify(
                  "does not hold.")] = False,
         certify: Annotated[bool, typer.Option(
             "--certify",
-            help="Prove the answer in exact numbers and balls, and write it as a certificate "
+            help="Prove the answer in exact numbers and ball arithmetic, and write it as a certificate "
                  "that `stabilab verify` checks.")] = False,
         out: Annotated[Path, typer.Option(
             metavar="FILE.json", help="Where the certificate goes.")] = Path("certificate.json"),
         follow: Follow = None, tilt: Tilt = None, units: UnitsOption = None, why: Why = False):
-    """Find the equilibria, their stability, and the motion's fate.
+    """Find equilibria, their stability, and what becomes of the motion.
 
     Example: stabilab classify cases/minor-axis-100.toml --json
     """
@@ -53,9 +53,10 @@ def classify(
 def fate(cases: CaseFiles, json: Json = False, digits: Digits = None, strict: Strict = False,
          follow: Follow = None, tilt: Tilt = None,
          certify: Prove = False, units: UnitsOption = None, why: Why = False):
-    """Say what becomes of each motion, and by how much.
+    """Say whether each motion stays bounded or spins up.
 
-    Digits are those of the margin in energy; the label itself is certain.
+    And how far it is from the separatrix. Digits are those of that distance in energy; the outcome itself is
+    certain.
 
     Example: stabilab fate cases/minor-axis-100.toml --digits 30
     """
@@ -145,8 +146,8 @@ def stuck(
         json: Json = False, csv: Csv = False, strict: StrictFate = False):
     """Say what a thruster stuck open does, how soon, what helps.
 
-    Fate, axis, time to the limit of [limits], margins; wheel momenta that keep the motion bounded, thrusters
-    that help.
+    Outcome, axis, time to the limit of [limits], the least change that brings another outcome; wheel momenta
+    that keep the motion bounded, thrusters that help.
 
     Example: stabilab stuck cases/upper-stage.toml
     """

@@ -1,4 +1,4 @@
-"""Into a case: its equations and laws, its models and methods compared, and a case from another program's
+"""More about a case: its equations, its models and methods compared, and a case from another program's
 file."""
 from __future__ import annotations
 

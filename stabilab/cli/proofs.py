@@ -65,7 +65,7 @@ def audit(
         json: Json = False,
         out: Annotated[Path | None, typer.Option(
             "--html", metavar="FILE.html", help="Write a page with the formulas typeset.")] = None):
-    """Hold published formulas against the equations of motion.
+    """Check published formulas against the equations of motion.
 
     Each row: holds, holds only under a condition, wrong (with what is right), definition, or not checkable.
 
@@ -83,7 +83,7 @@ def validate(
         json: Json = False,
         out: Annotated[Path | None, typer.Option(
             "--html", metavar="FILE.html", help="Write a page with the table.")] = None):
-    """Hold other tools' published numbers against ours.
+    """Compare other tools' published numbers with ours.
 
     Ours with proved digits, theirs, the difference, and its cause. Exits with 5 where a difference is not
     explained.

@@ -46,8 +46,7 @@ def simulate(
         json: Json = False, strict: Strict = False, units: UnitsOption = None):
     """Follow a motion in time.
 
-    Says how far the run departs from the laws of motion; with --model also what the theory says of the
-    motion.
+    Says by how much first integrals vary along the run; with --model also what the theory says of the motion.
 
     Example: stabilab simulate cases/major-axis-100.toml --at 0,5,10,15 --json
     """

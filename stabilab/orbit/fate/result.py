@@ -52,6 +52,11 @@ class FateResult(Shown, Compared):
         return iter((self.labels, self.margins))
 
     @property
+    def outcome(self):
+        """The labels in words, "bounded" or "spin-up": a string for one state, an object array otherwise."""
+        return np.array([fate.word for fate in Fate], dtype=object)[self.labels]
+
+    @property
     def because(self):
         """The reason in words: a string for one state, an object array otherwise."""
         words = np.array([_told(*one)

@@ -11,11 +11,11 @@ GROUPS = {
                                ("classify", "fate", "extremes", "period", "attitude", "when", "stuck",
                                 "burn", "orbit", "chaos")),
     "Runs and pictures": ("runs", ("simulate", "plot", "surface", "report", "explore")),
-    "Into a case": ("one_case", ("show", "compare", "precision", "import")),
+    "More about a case": ("one_case", ("show", "compare", "precision", "import")),
     "Many cases at once": ("many_cases", ("sweep", "atlas", "basin", "bifurcation")),
     "Proofs and checks": ("proofs", ("verify", "reference", "audit", "validate", "rerun")),
     "The papers": ("papers", ("papers", "tables", "figures")),
-    "Besides": ("besides", ("example", "doctor")),
+    "Help to begin": ("besides", ("example", "doctor")),
 }
 
 

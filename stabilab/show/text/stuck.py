@@ -199,7 +199,7 @@ def _margins(row, units) -> str:
     if not known:
         because = next((row.margins[name].because for name in ("wheel", "rate", "torque")
                         if name in row.margins), "")
-        return f"no distance to a separatrix: {lettered(units.words(because))}" if because else ""
+        return f"no distance to a separatrix, as {lettered(units.words(because))}" if because else ""
     ends = {name: _ends(name, m, units) for name, m in known.items()}
     told = [" or ".join(f"{ends[name][0]} of {WORDS[name]}" for name, m in known.items()
                         if (m.beyond or name == "torque") == beyond) for beyond in (True, False)]

@@ -84,6 +84,13 @@ def test_labels_equal_tight_integration(name):
             assert WORDS[brute.label(problem, state)] == label, state
 
 
+def test_outcomes_are_the_words_of_the_labels_in_their_shape():
+    scene = stabilab.ScaledGyrostat("1/5", "2/5", (0, 0, 1))  # the two starts of docs/start.md
+    found = stabilab.fate(scene, [[[2.5, 4, 0.1]], [[2.5, 4, 9]]])
+    assert found.outcome.tolist() == [["bounded"], ["spin-up"]] and found.outcome.shape == found.labels.shape
+    assert stabilab.fate(scene, [2.5, 4, 0.1]).outcome == "bounded"
+
+
 @pytest.mark.one_in(3)
 @pytest.mark.parametrize("side", [-1, +1])
 @pytest.mark.parametrize("sense", [-1, +1])
