@@ -10,7 +10,7 @@ from importlib import import_module
 GROUPS = {
     "A case": ("load", "load_burning", "load_orbiting", "example", "Case", "Body", "Scene",
                "ScaledGyrostat", "Gyrostat", "ConstantTorque", "Charge", "Resistance", "LiquidCavity",
-               "NewtonianField", "Gravity", "BodyForce", "report"),
+               "NewtonianField", "Gravity", "BodyForce", "ViscousDamper", "report"),
     "Questions about a motion": ("fate", "Fate", "fate_grid", "motion", "extremes", "period", "attitude",
                                  "spin_up", "stuck", "burn", "chaos", "when", "time_to",
                                  "TimeTo", "validity"),

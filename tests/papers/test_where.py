@@ -35,11 +35,13 @@ def folder(tmp_path_factory):
     main, others = catalogue.FIRST, [name for name in catalogue.PAPERS if name != catalogue.FIRST]
     html.write(out / "constant-torque.html", "constant_torque.html", title="", paper="", tables=tables,
                data=where.data(), claims=where.claims(*found[0]),
-               figures=[figure | {"number": row.number} for row in catalogue.of_paper(main)])
+               figures=[figure | {"number": row.number, "id": f"figure-{row.number}"}
+                        for row in catalogue.of_paper(main)])
     for name in others:
         chapter = {"id": name, "title": "", "about": "", "paper": "", "problem": "", "parameters": "D", "claims": (),
                    "compared": (), "sensible": None, "end": 1.0,
-                   "figures": [figure | {"number": row.number} for row in catalogue.of_paper(name)]}
+                   "figures": [figure | {"number": row.number, "id": f"{name}-{row.number}"}
+                               for row in catalogue.of_paper(name)]}
         html.write(out / f"{name}.html", "chapter.html", chapter=chapter)
     where.hard_cases(out)
     return out

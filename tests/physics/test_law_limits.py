@@ -297,7 +297,7 @@ def test_combinations_of_a_file_that_leave_one_limit_are_one_line():
     from stabilab.show.text import law
     cases = load_all(CASES / "charged-sweep.toml")
     (line,) = law.of_cases(cases).splitlines()
-    assert line.endswith("(charged-sweep: 27 of 27 combinations, the farthest of them told)") and "2.07" in line
+    assert line.endswith("(charged-sweep: 27 of 27 combinations, the farthest of them given)") and "2.07" in line
 
 
 def test_one_reason_of_several_cases_is_one_line_that_names_them():
@@ -309,7 +309,7 @@ def test_a_table_of_a_sweep_has_one_line_on_a_law_and_says_of_how_many_combinati
     _, out, err = stabilab("extremes", CASES / "charged-sweep.toml", "--csv")
     assert len(out.splitlines()) == 82 and out.count("BEYOND THE LAW: ") == 81 and not err
     line = law.of_cases(load_all(CASES / "charged-sweep.toml"))
-    assert line.count("BEYOND THE LAW") == 1 and "(charged-sweep: 27 of 27 combinations, the farthest of them told)" in line
+    assert line.count("BEYOND THE LAW") == 1 and "(charged-sweep: 27 of 27 combinations, the farthest of them given)" in line
     farthest = max(row["validity"]["value"] for row in json.loads(stabilab("extremes", CASES / "charged-sweep.toml", "--json")[1]))
     assert f"with the attitude, {farthest:.3g} along" in line
     _, _, err = stabilab("simulate", CASES / "liquid-base.toml", "--out", tmp_path / "run.csv")

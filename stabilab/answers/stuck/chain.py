@@ -15,7 +15,7 @@ from ...case.read import load_burning
 from ...errors import InputError
 from ...numbers.units import RATE, in_si
 from ...numbers.vectors import Exact3
-from ...physics.effects.constant_torque import ConstantTorque
+from ...physics.effects import effect_class
 from ...physics.scene import Scene
 from ...physics.states import checked_times
 from ...validation import came
@@ -87,8 +87,9 @@ class Chain:
         """With the torques of these thrusters added to what acts anyway."""
         torque = [sum(parts, Fraction(0)) for parts in zip(
             self.base.vector("constant_torque"), *(self.torques[n] for n in firing))]
-        others = [one for one in self.base.effects if one.name != "constant_torque"]
-        return Scene(self.base.body, *others, *([ConstantTorque(tuple(torque))] if any(torque) else []))
+        effects = [one for one in self.base.effects if one.name != "constant_torque"]
+        effects += [effect_class("constant_torque")(tuple(torque))] if any(torque) else []
+        return Scene(self.base.body, *effects)
 
 
 def weights_of_largest(scene: Scene) -> Exact3:

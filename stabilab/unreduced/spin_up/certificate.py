@@ -129,12 +129,11 @@ class FixedCertifier(Certifier):
             functions(fixed_kernel, fast)["tables"](np.array(orders), f.om, f.drag, numbers, rest, *made)
             e, b = Gathered.of(added_e, most_e), Gathered.of(added_b, most_b)
             r, k = Gathered.of(rate_b, rise_b), Gathered.of(rate_e, rise_e)
-            tails = r.tails()
+            tails, terms = r.tails(), (*e.terms(added_e), *b.terms(added_b))
         self.top, self.columns = top, max(q.sums.shape[1] for q in (e, b, r, k))
         frame = np.array([*f.turn, f.shift, *f.centre, *f.scale], float)
-        self.numbers = (np.array(f.order), frame, f.D1, f.M1, f.drag, *e.terms(added_e), *b.terms(added_b),
-                        e.sums, e.most, b.sums, b.most, tails, k.sums,
-                        np.array([q.first for q in (e, b, r, k)]))
+        self.numbers = (np.array(f.order), frame, f.D1, f.M1, f.drag, *terms, e.sums, e.most, b.sums, b.most,
+                        tails, k.sums, np.array([q.first for q in (e, b, r, k)]))
 
     def work(self):
         return np.zeros(self.top, complex), *np.zeros((2, self.columns)), np.zeros(6)

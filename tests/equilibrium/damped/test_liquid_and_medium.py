@@ -126,7 +126,7 @@ def test_liquid_carries_a_motion_of_low_energy_to_the_predicted_rotation():
 def test_liquid_turns_a_body_over_from_its_smallest_moment():
     state = (1e-3, 1e-3, 1.0)
     told = motion(scene(LIQUID), state)
-    assert told.fate == Fate.BOUNDED and "which sense is undecided" in told.because
+    assert told.fate == Fate.BOUNDED and "the direction is undecided" in told.because
     end = trajectory(scene(LIQUID), state, [40000.0]).states[-1]
     assert np.abs(end[1:]).max() < 1e-3 * abs(end[0])
 

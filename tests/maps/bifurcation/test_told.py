@@ -79,7 +79,7 @@ def test_a_sphere_with_a_wheel_keeps_one_stable_equilibrium_on_the_curve_of_the_
 def test_curves_are_not_drawn_and_two_ranges_of_them_are_refused(tmp_path):
     found = told(tmp_path, (9, 8, 5), (1, 0, 0), FREE, {"momentum[1]": "-1:1"})
     assert "other curves at 0" in words.text(found) and '"words": "line along omega1' in words.json(found)
-    with pytest.raises(InputError, match="told in words"):
+    with pytest.raises(InputError, match="described in words"):
         picture.write(found, tmp_path / "diagram.png")
     with pytest.raises(InputError, match="vary one number"):
         told(tmp_path, (9, 8, 5), (1, 0, 0), FREE, {"momentum[1]": "-1:1", "momentum[2]": "-1:1"})
