@@ -20,6 +20,7 @@ from ...physics.circular_orbit import Satellite
 from ...validation import came
 
 MIDDLES = Caveat("uncertain", "of the middles of the uncertain numbers")
+MOST = Fraction(10)**50
 ROUNDED = "numbers that are irrational ({}) are taken to 240 bits"
 
 
@@ -57,6 +58,10 @@ def circular_orbit(orbiting: Any, up_to: Any = None) -> CircularOrbit:
                          f"gives, got {came(orbiting)}")
     case = orbiting.craft
     satellite = Satellite(case.physical.body.exact, case.physical.vector("gyrostat"), orbiting.rate_squared)
+    if not _in_range(satellite):
+        raise InputError("circular_orbit: the rate of the orbit, a moment, two of them over each other, or "
+                         "the momentum over moment and rate, are beyond 1e50 or below 1e-50: are the units "
+                         "right?")
     equilibria = orbit_equilibria(satellite)
     irrational = [*case.inexact, *(["principal axes"] if case.frame and not case.frame.exact else [])]
     if irrational:
@@ -67,6 +72,14 @@ def circular_orbit(orbiting: Any, up_to: Any = None) -> CircularOrbit:
                          tuple(map(float, satellite.momentum)), equilibria,
                          None if up_to is None else _varied(satellite, in_si(up_to, MOMENTUM, "up_to")),
                          tuple(MIDDLES if one.kind == "uncertain" else one for one in case.caveats))
+
+
+def _in_range(satellite: Satellite) -> bool:
+    """Whether the numbers of the answer are doubles by far."""
+    least, greatest = min(satellite.moments), max(satellite.moments)
+    share = dot(satellite.momentum, satellite.momentum) / satellite.rate_squared / least**2
+    return (MOST**-2 < satellite.rate_squared < MOST**2 and greatest < MOST * least
+            and MOST**-1 < greatest < MOST and share < MOST**2)
 
 
 def _varied(satellite: Satellite, up_to: Fraction) -> tuple[MomentumSpan, ...]:

@@ -73,6 +73,21 @@ def test_what_is_no_case_on_an_orbit_is_bad_input(given):
         package.circular_orbit(given)
 
 
+@pytest.mark.parametrize("old, new", [('altitude = "800 km"', "rate = 1e-90"), ("1.3 N m s", "1e90 N m s"),
+                                      ("85", "1e-70")])
+def test_numbers_far_beyond_those_of_satellites_are_bad_input(old, new):
+    with pytest.raises(InputError, match="are the units"):
+        package.circular_orbit(PLAIN.replace(old, new))
+
+
+@pytest.mark.parametrize("old, new", [('altitude = "800 km"', "rate = 1e-30"), ("1.3 N m s", "1e20 N m s"),
+                                      ("1.3 N m s", "1e-20 N m s"), ("85", "1e-20")])
+def test_numbers_of_very_different_sizes_have_an_answer(old, new):
+    found = package.circular_orbit(PLAIN.replace(old, new)).equilibria
+    assert len(found.points) in (8, 16, 24) and found.count("stable") in (2, 4)
+    assert all(len(one.frequencies) == 3 and min(one.frequencies) > 0 for one in found.points[:2])
+
+
 def test_uncertain_numbers_and_irrational_ones_are_said():
     found = package.circular_orbit(PLAIN.replace("2530,", '"2530 +- 10",').replace('altitude = "800 km"',
                                                                                    'period = "100 min"'))

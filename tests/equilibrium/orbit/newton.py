@@ -1,6 +1,7 @@
-"""Equilibria on a circular orbit by Newton's method from many starts, and the linear motion by differences of
-the equations of motion; in doubles, shares no code with the package."""
+"""Equilibria on a circular orbit by Newton's method from many starts, the linear motion by differences of the
+equations of motion, and runs by SciPy; in doubles, shares no code with the package."""
 import numpy as np
+from scipy.integrate import solve_ivp
 
 RIGHT = np.eye(3)
 
@@ -61,3 +62,21 @@ def growth(moments, momentum, rate, frame):
     steps = 1e-6 * np.eye(6)
     jacobian = np.stack([(rates(e) - rates(-e)) / 2e-6 for e in steps], axis=1)
     return np.linalg.eigvals(jacobian)
+
+
+def run(moments, momentum, rate, omega, frame, times):
+    """(angular velocities (n, 3), frames (n, 3, 3)) at the times, the direction cosines themselves followed."""
+    def cross(u, v):
+        return [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]]
+
+    def rates(_, x):
+        x = x.tolist()
+        omega, rows = x[:3], (x[3:6], x[6:9], x[9:])
+        spin, up = [d * w + h for d, w, h in zip(moments, omega, momentum)], rows[2]
+        pull = cross(up, [3 * rate**2 * d * c for d, c in zip(moments, up)])
+        relative = [w - rate * c for w, c in zip(omega, rows[1])]
+        return [(a + b) / d for a, b, d in zip(cross(spin, omega), pull, moments)] + [
+            v for row in rows for v in cross(row, relative)]
+    found = solve_ivp(rates, (0, times[-1]), np.concatenate([omega, np.ravel(frame)]), "DOP853", times,
+                      rtol=1e-11, atol=1e-13)
+    return found.y[:3].T, found.y[3:].T.reshape(-1, 3, 3)
