@@ -11,6 +11,7 @@ if TYPE_CHECKING:  # what `_HOME` loads on first use, for editors and type check
     from .answers.attitude.ask import attitude as attitude
     from .answers.chaos import chaos as chaos
     from .answers.circular_orbit.ask import circular_orbit as circular_orbit
+    from .answers.dissipation.ask import flat_spin as flat_spin
     from .answers.equilibria import equilibria as equilibria
     from .answers.extremes import extremes as extremes
     from .answers.extremes import period as period
@@ -62,6 +63,7 @@ _HOME = {
     "load": "case.read", "example": "case.examples", "Case": "case.read",
     "load_burning": "case.read", "burn": "answers.stuck.burn",
     "load_orbiting": "case.read", "circular_orbit": "answers.circular_orbit.ask",
+    "flat_spin": "answers.dissipation.ask",
     "Body": "physics.scene", "Scene": "physics.scene", "ScaledGyrostat": "physics.scene",
     "Gyrostat": "physics.effects.gyrostat", "ConstantTorque": "physics.effects.constant_torque",
     "Fate": "orbit.result",

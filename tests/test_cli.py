@@ -599,7 +599,7 @@ def test_every_command_has_help_with_an_example(stabilab):
     assert code == 0 and set(commands) == {"atlas", "attitude", "audit", "basin", "bifurcation", "burn", "chaos",
                                            "classify",
                                            "compare", "doctor", "example", "explore", "extremes",
-                                           "fate", "figures", "import", "orbit", "period", "plot", "papers", "precision",
+                                           "fate", "figures", "flat-spin", "import", "orbit", "period", "plot", "papers", "precision",
                                            "reference", "report", "rerun", "show",
                                            "simulate", "stuck", "surface", "sweep", "tables", "validate",
                                            "verify", "when"}

@@ -12,7 +12,7 @@ GROUPS = {
                "ScaledGyrostat", "Gyrostat", "ConstantTorque", "Charge", "Resistance", "LiquidCavity",
                "NewtonianField", "Gravity", "BodyForce", "ViscousDamper", "report"),
     "Questions about a motion": ("fate", "Fate", "fate_grid", "motion", "extremes", "period", "attitude",
-                                 "spin_up", "stuck", "burn", "chaos", "when", "time_to",
+                                 "spin_up", "stuck", "burn", "flat_spin", "chaos", "when", "time_to",
                                  "TimeTo", "validity"),
     "Questions about all motions": ("equilibria", "circular_orbit", "separatrix"),
     "Many cases at once": ("sweep", "atlas", "basin", "bifurcation"),
@@ -37,6 +37,8 @@ ANSWERS = {"FateResult": "stabilab.orbit.fate.result", "Motion": "stabilab.orbit
            "OrbitEquilibria": "stabilab.equilibrium.circular_orbit.result",
            "OrbitEquilibrium": "stabilab.equilibrium.circular_orbit.result",
            "MomentumSpan": "stabilab.equilibrium.circular_orbit.momenta",
+           "FlatSpin": "stabilab.answers.dissipation.result",
+           "Span": "stabilab.answers.dissipation.result",
            "Comparison": "stabilab.theories.comparison"}
 
 

@@ -122,9 +122,13 @@ class Case(Questions):
 
     @property
     def start(self) -> tuple[float, ...] | None:
-        """The state at time 0, followed by the vertical (gamma) where an effect of the scene needs it."""
-        vertical = self.blocks["gamma"] if self.state and "gamma" in self.scene.blocks else ()
-        return None if self.state is None else (*self.state, *vertical)
+        """The state at time 0, followed by the vertical (gamma) where an effect of the scene needs it, and by
+        the rates of a damper where it has one."""
+        if self.state is None:
+            return None
+        vertical = self.blocks["gamma"] if "gamma" in self.scene.blocks else ()
+        damper = self.blocks.get("damper", (0.0,) * 3) if "damper" in self.scene.blocks else ()
+        return (*self.state, *vertical, *damper)
 
     @property
     def name(self) -> str:

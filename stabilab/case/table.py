@@ -75,6 +75,7 @@ class Written(str):
 
 
 UNCERTAIN = {("body", "inertia"), ("effects", "gyrostat", "momentum"),
+             ("effects", "viscous_damper", "inertia"), ("effects", "viscous_damper", "coefficient"),
              ("effects", "constant_torque", "torque"),
              ("effects", "constant_torque", "mu"), ("motion", "angular_velocity"), ("motion", "x"),
              ("scaled", "a"), ("scaled", "b"), ("scaled", "mu")}  # the keys whose numbers may be uncertain
@@ -246,7 +247,7 @@ class Table:
         """The middle of an uncertain number, which is noted."""
         if self.path + keys[:1] not in UNCERTAIN or len(keys) > 2:
             raise InputError(f"takes no uncertainty, got {described(text)}; one may stand in inertia, "
-                             f"momentum, torque, mu, "
+                             f"coefficient of a damper, momentum, torque, mu, "
                              "a, b, angular_velocity and x")
         path = self.path + keys
         middle, half, sharp = plus_minus(text, dimension_of(path))

@@ -176,6 +176,26 @@ def burn(
     answer(case, stop, below, units, json, strict)
 
 
+@commands.command(name="flat-spin")
+def flat_spin(
+        case: CaseFile,
+        within: Annotated[str, typer.Option(
+            metavar="ANGLE",
+            help="Nutation angle from which the tumble counts, and to which it settles.")] = "5 deg",
+        units: UnitsOption = None, json: Json = False,
+        strict: Annotated[bool, typer.Option(
+            "--strict", help="Exit with 3 where the outcome is undecided.")] = False):
+    """Say when a spin that loses energy tumbles, and how it ends.
+
+    Of a free body with a damper or a liquid: the direction of the major axis, the time at the separatrix, the
+    final rate, and by how much the start decides.
+
+    Example: stabilab flat-spin cases/explorer-1-damped.toml
+    """
+    from ..commands.dissipation.flat_spin import flat_spin as answer
+    answer(case, within, units, json, strict)
+
+
 @commands.command()
 def orbit(
         case: CaseFile,

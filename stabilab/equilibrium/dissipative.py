@@ -28,6 +28,7 @@ from ..numbers.polynomial import Poly, real_roots
 from ..numbers.vectors import CYCLE, dot
 from ..physics.coefficients import Content
 from ..physics.scene import euler_form
+from .damper import damped_equilibria
 from .field_balance import Field, blocks, rotations_at
 from .field_states import around
 from .liquid import balanced_equilibria, liquid_equilibria
@@ -205,6 +206,8 @@ OPEN = ("undecided",
 def dissipative_equilibria(parts: Content) -> Equilibria:
     """Equilibria of the angular velocity with resistance, a liquid or both, a wheel, a constant charge and a
     torque."""
+    if parts.inside:
+        return damped_equilibria(parts)
     if not parts.kappa:
         return resisted_equilibria(parts)
     if parts.unproved_loss:
@@ -218,6 +221,8 @@ def dissipative_equilibria(parts: Content) -> Equilibria:
 
 def held_in_a_field(parts: Content) -> Equilibria:
     """Equilibria of a body in a field that a liquid or a medium takes energy from."""
+    if parts.inside:
+        return Equilibria("undecided", "undecided: equilibria with a damper are known of a free body alone")
     if parts.kappa:
         return Equilibria("undecided",
                           "undecided: where the body carries a liquid, the torque of a field or of a turning "

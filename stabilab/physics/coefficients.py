@@ -37,13 +37,15 @@ from .effects.base import Effect
 from .scene import ZERO3, AnyScene, Body, ScaledGyrostat, Scene
 
 KNOWN = {"gyrostat", "constant_torque", "charge", "resistance", "liquid_cavity", "newtonian_field", "gravity",
-         "body_force"}
+         "body_force", "viscous_damper"}
 ZERO = Fraction(0)
 
 
 @dataclass(frozen=True)
 class Content:
-    """The coefficients of the equations above, exact. printed: the liquid's torque is the printed one."""
+    """The coefficients of the equations above, exact. printed: the liquid's torque is the printed one;
+    inside, friction: of a damper, the moment of inertia of its sphere, which turns relative to the body, and
+    the coefficient of its fluid."""
 
     D: Exact3
     Lambda: Exact3
@@ -54,6 +56,8 @@ class Content:
     s: Exact3 = ZERO3
     N: Fraction = ZERO
     E: Fraction = ZERO
+    inside: Fraction = ZERO
+    friction: Fraction = ZERO
     charged: bool = False
     forced: bool = False
 
@@ -64,8 +68,9 @@ class Content:
 
     @property
     def dissipative(self) -> bool:
-        """Whether a liquid or a medium takes energy."""
-        return bool(self.c or (self.kappa and len(set(self.D)) + any(self.Lambda) + self.directed > 1))
+        """Whether a liquid, a medium or a damper takes energy."""
+        return bool(self.c or self.inside
+                    or (self.kappa and len(set(self.D)) + any(self.Lambda) + self.directed > 1))
 
     @property
     def unproved_loss(self) -> str:
@@ -110,6 +115,8 @@ def content(scene: AnyScene) -> Content | None:
             numbers["charged"] = bool(charge.exact)
     if liquid is not None:
         numbers |= {"kappa": liquid.exact, "printed": liquid.law == "printed"}
+    if (damper := scene.effect("viscous_damper")) is not None:
+        numbers |= dict(zip(("inside", "friction"), damper.exact))
     for name, key in (("resistance", "c"), ("newtonian_field", "N"), ("gravity", "s")):
         if (effect := scene.effect(name)) is not None:
             numbers[key] = effect.exact
@@ -191,7 +198,8 @@ def liquid_torque(parts: Content, w: Sequence[Number]) -> Triple:
 
 
 def at_rest(parts: Content, omega: Sequence[Number], gamma: Sequence[Number] | None) -> bool:
-    """Whether every rate vanishes exactly (not asked with a liquid in a field)."""
+    """Whether every rate vanishes exactly (not asked with a liquid in a field), a damper at rest in the body.
+    """
     return not (parts.kappa and gamma) and not any(v for block in rates(parts, omega, gamma) for v in block)
 
 
@@ -211,6 +219,7 @@ def split(parts: Content, state: Any) -> tuple[Float3, Float3 | None]:
         rows = [state.get("omega", ()), state.get("gamma", ())]
     else:
         row = _row(state)
+        row = row[:-3] if parts.inside and len(row) > 3 + 3 * parts.directed else row
         rows = [row[:3], row[3:]]
     omega, gamma = (_row(row) if len(row) else () for row in rows)
     if len(omega) != 3 or len(gamma) not in (0, 3):
@@ -222,6 +231,12 @@ def split(parts: Content, state: Any) -> tuple[Float3, Float3 | None]:
             "state: an effect of this scene needs the vertical: give gamma too (six numbers, or a "
             "dict of blocks)")
     return omega, gamma
+
+
+def relative(parts: Content, state: Any) -> Float3:
+    """The rates of a damper relative to the body, rad/s: those of the state, zero where it has none."""
+    rows = state.get("damper", ()) if isinstance(state, dict) else _row(state)[3 + 3 * parts.directed:]
+    return _row(rows) if parts.inside and len(rows) else (0.0,) * 3
 
 
 def _row(values: Any) -> tuple[float, ...]:

@@ -15,7 +15,7 @@ from ..equilibrium.liquid import trap
 from ..numbers.vectors import dot
 from ..orbit.fate.one_state import REASONS, Reason
 from ..orbit.result import Fate, Motion
-from ..physics.coefficients import Content, at_rest, content, split
+from ..physics.coefficients import Content, at_rest, content, relative, split
 
 
 def motion(scene, state, span=None, exact=None, brief: bool = False) -> Motion:
@@ -27,24 +27,28 @@ def motion(scene, state, span=None, exact=None, brief: bool = False) -> Motion:
     if parts is None:
         scene.quadratic()  # says which effect it is
     omega, gamma = split(parts, state)
-    at = omega + (gamma or ())
+    sigma = relative(parts, state)
+    at = omega + (gamma or ()) + (sigma if parts.inside else ())
     seen = {}
     if span is not None:
         from .over_span import seen_over
-        seen = seen_over(scene, omega, gamma, span)
-    if at_rest(parts, exact or omega, gamma):
+        seen = seen_over(scene, {"omega": omega} | ({"gamma": gamma} if gamma else {})
+                         | ({"damper": sigma} if parts.inside else {}), span)
+    if at_rest(parts, exact or omega, gamma) and not any(sigma):
         fields: dict[str, Any] = {"fate": Fate.EQUILIBRIUM, "because": REASONS[Reason.AT_REST],
                   "extremes": tuple((w, w) for w in omega)}
     else:
-        fate, because, bounds = judged(parts, omega, gamma)
+        fate, because, bounds = judged(parts, omega, gamma, sigma)
         fields = {**seen, "fate": fate, "because": because, "invariants": bounds}
     because = f"{fields['because']}; {parts.note}" if parts.note else fields["because"]
     level = "undecided" if fields["fate"] == Fate.UNDECIDED else "exact"
     return Motion(at=at, **{**fields, "because": because, "level": level})
 
 
-def judged(parts: Content, omega, gamma) -> tuple[Fate, str, dict]:
-    """(fate, proof in words, the numbers in it)."""
+def judged(parts: Content, omega, gamma, sigma=(0.0,) * 3) -> tuple[Fate, str, dict]:
+    """(fate, proof in words, the numbers in it); sigma: rates of a damper relative to the body."""
+    if parts.inside:
+        return _damped(parts, omega, sigma)
     if parts.unproved_loss:
         return Fate.UNDECIDED, parts.unproved_loss, {}
     if gamma:
@@ -60,6 +64,24 @@ def judged(parts: Content, omega, gamma) -> tuple[Fate, str, dict]:
                 "order in the rates, "
                 "vanishes about the principal axes: no bound is proved", {})
     return _liquid(parts, omega, T0)
+
+
+def _damped(parts: Content, omega, sigma) -> tuple[Fate, str, dict]:
+    """A damper alone, or with wheels: |H| stays, the energy falls."""
+    if any(parts.M) or parts.c or parts.kappa or parts.directed:
+        return (Fate.UNDECIDED,
+                "undecided: no bound is proved for a damper beside a torque, a medium, a liquid or a field",
+                {})
+    k = parts.inside
+    w, s = tuple(map(Fraction, omega)), tuple(map(Fraction, sigma))
+    H = tuple(d * x + l + k * y for d, x, l, y in zip(parts.D, w, parts.Lambda, s))
+    twice = sum(d * x * x for d, x in zip(parts.D, w)) + k * (2 * dot(w, s) + dot(s, s))
+    if not any(parts.Lambda):
+        return _permanent(parts, H, twice, "the damper")
+    words = ("the damper keeps |H| and takes energy at every rotation that is not permanent (LaSalle), so "
+             "the motion is bounded and tends to permanent rotations of its |H|")
+    return Fate.BOUNDED, words, {"energy": float(twice / 2), "momentum": sqrt(float(dot(H, H))),
+                                 "rate_bound": sqrt(float(twice / (min(parts.D) - k)))}
 
 
 def _resisted(parts: Content, T0) -> tuple[Fate, str, dict]:
@@ -98,17 +120,26 @@ def _liquid(parts: Content, omega, T0) -> tuple[Fate, str, dict]:
                 "this torque changes the angular momentum",
                 {"energy": T0, "rate_bound": sqrt(2 * T0 / float(min(parts.D)))})
     w = tuple(map(Fraction, omega))
-    square, twice = sum((d * x) ** 2 for d, x in zip(parts.D, w)), sum(d * x * x for d, x in zip(parts.D, w))
-    size, order = sqrt(float(square)), sorted(range(3), key=lambda i: -parts.D[i])
-    bounds = {"energy": T0, "momentum": size, "rate_bound": size / float(min(parts.D))}
+    return _permanent(parts, tuple(d * x for d, x in zip(parts.D, w)),
+                      sum(d * x * x for d, x in zip(parts.D, w)), "the liquid")
+
+
+def _permanent(parts: Content, H, twice, what: str) -> tuple[Fate, str, dict]:
+    """A free body of angular momentum H and kinetic energy twice/2 from which something takes energy."""
+    square, order = dot(H, H), sorted(range(3), key=lambda i: -parts.D[i])
+    size = sqrt(float(square))
+    # without a damper |omega| <= |H|/(least moment); with it T >= (least moment - k) |omega|^2/2
+    bound = (sqrt(float(twice / (min(parts.D) - parts.inside))) if parts.inside
+             else size / float(min(parts.D)))
+    bounds = {"energy": float(twice) / 2, "momentum": size, "rate_bound": bound}
     words = (
-        "the liquid keeps |H| and takes energy at every rotation that is not permanent (LaSalle), so the "
+        f"{what} keeps |H| and takes energy at every rotation that is not permanent (LaSalle), so the "
         "motion is bounded")
     first, second = order[:2]
     if parts.D[first] == parts.D[second]:
         return Fate.BOUNDED, words + " and tends to permanent rotations of its |H|", bounds
     final = [0.0] * 3
-    final[first] = size / float(parts.D[first]) * (1 if w[first] > 0 else -1)
+    final[first] = size / float(parts.D[first]) * (1 if H[first] > 0 else -1)
     if twice * parts.D[second] < square:
         place = ", ".join(f"{v:.12g}" for v in final)
         return (Fate.BOUNDED,

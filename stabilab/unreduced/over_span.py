@@ -14,10 +14,9 @@ from ..validation import reach_of
 STIFF = 1e5  # fastest decay times span beyond which a search for extremes would take minutes
 
 
-def seen_over(scene, omega, gamma, span) -> dict:
+def seen_over(scene, start, span) -> dict:
     """Extremes as roots of the rates from the start to the end of the span, and how the energy went; empty
-    where the decay is too fast."""
-    start = {"omega": omega} | ({"gamma": gamma} if gamma else {})
+    where the decay is too fast. start: its blocks by name."""
     turning = Scene(scene.body, *(e for e in scene.effects if e.name != "body_force"))
     equations, state = equations_and_start(turning, start)
     system, length = to_numpy(equations), reach_of(span)

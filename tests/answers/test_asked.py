@@ -14,7 +14,7 @@ OF_A_SCENE = {"equilibria": (), "fate": (STATE,), "fate_grid": ([[0.1], [0.2], [
               "ensemble": ([STATE], TIMES),
               "simulate": (STATE, TIMES), "derive": (), "validity": (STATE,), "chaos": (STATE,)}
 PLANE = {"x[1]": "0:1", "x[3]": "0:1"}
-OF_A_CASE = {"stuck": (), "compare": (), "theory": (), "when": (), "report": (),
+OF_A_CASE = {"stuck": (), "flat_spin": (), "compare": (), "theory": (), "when": (), "report": (),
              "sweep": ({"x[1]": "0:1:2"},), "atlas": (), "basin": (PLANE,), "bifurcation": ({"x[1]": "0:1"},)}
 
 

@@ -12,6 +12,7 @@ from stabilab.cli import whole
 
 ROOT = Path(__file__).parents[2]
 CASES = ROOT / "cases"
+DAMPED = CASES / "rahn-barba.toml"
 MINOR, OFF, CHARGED, STUCK = (CASES / f"{name}.toml" for name in (
     "minor-axis-100", "off-axis-two", "charged-body", "thruster-stuck-major-axis"))
 
@@ -32,6 +33,7 @@ LINES = {
     "burn": ("burn", "burn.toml", "--below", "2 deg/s"),
     "orbit": ("orbit", "orbit.toml"),
     "attitude": ("attitude", OFF), "papers": ("papers", "liquid-cavity", "--json"),
+    "flat-spin": ("flat-spin", DAMPED),
     "stuck": ("stuck", STUCK), "surface": ("surface", MINOR, "--out", "s"), "show": ("show", MINOR),
     "compare": ("compare", CHARGED),
     "precision": ("precision", MINOR, "--quick", "--until", "1", "--json"),

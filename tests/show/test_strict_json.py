@@ -47,6 +47,9 @@ CASES = {
     + MOTION.format(rates=["1e160", 0, 0]),
     "liquid": "[body]\ninertia = [12, 9, 5]\n[effects.liquid_cavity]\ndensity = 1\nviscosity = 1\nradius "
               "= 0.1\n" + MOTION.format(rates=[0.1, 0, 0.2])}
+for name, rates in (("damped", "[0.3, 0, 1]"), ("damped at rest", "[0, 0, 1]")):
+    CASES[name] = ("[body]\ninertia = [3, 2, 1]\n[effects.viscous_damper]\ninertia = 0.1\ncoefficient = 0.1\n"
+                   f"[motion]\nangular_velocity = {rates}\nspan = [0, 5]\n")
 CASES["burn"] = CRAFT.split("[[wheels]]")[0].replace("stuck = true", 'stop = "90 s"') + MOTION.format(
     rates=[0.1, 0.05, 0.02])
 CASES["orbit"] = BODY.split("[effects")[0].format() + "[circular_orbit]\naltitude = '700 km'\n"
@@ -66,6 +69,7 @@ ASKED = {"classify": ([], [*MANY, "liquid"]),
                     "motion.angular_velocity[3]=-1:1:3", "--depth", "1"], ["bounded"]),
          "atlas": (["--level", "0", "--refine", "0"], ["bounded"]), "chaos": (["--until", "5"], ["bounded"]),
          "bifurcation": (["--vary", "torque[3]=-1:1"], ["bounded", "off the axes"]),
+         "flat-spin": ([], ["damped", "damped at rest"]),
          "burn": (["--below", "0.3 rad/s"], ["burn"]), "orbit": ([], ["orbit"]), "attitude": ([], MANY), "reference": (["--at", "0,1", "--digits", "12"], ["bounded"]), "stuck": ([], ["craft"]),
          "verify": ([], ["certificate"]),
          "audit": (["constant-torque-gyrostat", "--equation", "17"], [None]), "validate": ([], [None]),

@@ -56,7 +56,7 @@ def tell_radians(units: Units, **options: str | None) -> None:
         found = split((text or "").rpartition("=")[2].strip())
         if found is None or found[1]:
             continue
-        unit, degrees = ("rad", "deg") if option == "tilt" else ("rad/s", "deg/s")
+        unit, degrees = ("rad", "deg") if option in ("tilt", "within") else ("rad/s", "deg/s")
         with suppress(InputError):  # of a number that none can be: told where it is used
             taken = number(float(quantity(found[0], NONE)[0]) * DEG.rates[1], DIGITS)
             say(f'--{option}: {found[0]} alone is in {unit}: {taken} {degrees}; for degrees write '

@@ -9,7 +9,7 @@ from typer.core import TyperGroup
 GROUPS = {
     "Answers about a motion": ("motions",
                                ("classify", "fate", "extremes", "period", "attitude", "when", "stuck",
-                                "burn", "orbit", "chaos")),
+                                "burn", "flat-spin", "orbit", "chaos")),
     "Runs and pictures": ("runs", ("simulate", "plot", "surface", "report", "explore")),
     "More about a case": ("one_case", ("show", "compare", "precision", "import")),
     "Many cases at once": ("many_cases", ("sweep", "atlas", "basin", "bifurcation")),

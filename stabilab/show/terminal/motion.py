@@ -42,7 +42,7 @@ def row(name: str, words: str) -> str:
 
 def table(case, motion, units: Units) -> list[str]:
     """The start, the extremes, the bounds for all times, margins and period, a line each."""
-    return [row("start", state(motion.at, units)), *extreme_lines(case, motion, units),
+    return [row("start", state(motion.at, units, case.scene.blocks)), *extreme_lines(case, motion, units),
             *bound_lines(case, motion, units),
             *(row(name, words) for name, words in margins(motion, units))]
 
@@ -72,10 +72,13 @@ def energy_integral(motion, units: Units) -> list[tuple[str, str]]:
     return [(f"energy integral {found.name}", words)]
 
 
-def state(at, units: Units) -> str:
-    """The rates of a state with their unit; the vertical after them, where it is part of the state."""
-    vertical = f", gamma = {units.vector(at[3:], ('', 1.0))}" if len(at) > 3 else ""
-    return units.vector(at[:3], units.rates) + vertical
+def state(at, units: Units, blocks=("omega", "gamma")) -> str:
+    """The rates of a state with their unit; the vertical, and the rates of a damper, after them, where they
+    are part of it. blocks: of the scene."""
+    rest = at[3:]
+    vertical = f", gamma = {units.vector(rest[:3], ('', 1.0))}" if rest and "gamma" in blocks else ""
+    damper = f", sigma = {units.vector(rest[-3:], units.rates)}" if rest and "damper" in blocks else ""
+    return units.vector(at[:3], units.rates) + vertical + damper
 
 
 def energy_margin(value, tell) -> str:

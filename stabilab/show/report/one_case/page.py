@@ -104,7 +104,8 @@ def facts(case, motion, units) -> list[tuple[str, str]]:
     """(what, its value) of everything known of the motion, in the order in which one asks."""
     validity, axes, words = motion.validity, frame.rows_of_axes(case), units.words
     found = [("law", words(validity.words))] if validity is not None and validity.held else []
-    found += [("start", f"{state(motion.at, units)} at {'tau' if units.scaled else 't'} = 0")]
+    at = state(motion.at, units, case.scene.blocks)
+    found += [("start", f"{at} at {'tau' if units.scaled else 't'} = 0")]
     found += [("because", words(motion.because.removeprefix("undecided: ")))]
     explained = EXPLAINED | ({"margin, rate": ""} if motion.velocity_because else {})
     found += [(name, told + explained.get(name, "")) for name, told in margins(motion, units)]

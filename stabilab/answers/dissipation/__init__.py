@@ -1,0 +1,1 @@
+"""What internal dissipation does to a body that spins freely."""

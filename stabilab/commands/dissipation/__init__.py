@@ -1,0 +1,1 @@
+"""Commands on what internal dissipation does to a spin."""

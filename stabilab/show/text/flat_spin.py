@@ -1,0 +1,78 @@
+"""What internal dissipation makes of a spin: as text and as JSON."""
+from __future__ import annotations
+
+import math
+
+from .. import limiting
+from ..axes import Axes, axes_of
+from ..terminal.motion import reason, row
+from ..units import DIGITS, Units, number
+from .attitude import in_file
+
+NAMES = {"phase": "phase", "nutation": "nutation angle", "damping": "strength of the damping"}
+PAST = "past at the start"
+
+
+def as_dict(case, found) -> dict:
+    """The object of `stabilab flat-spin --json`: SI units, vectors in the frame of the file. Times: [s, error
+    in s], null where past at the start or not reached."""
+    return {"schema": "stabilab.flat_spin/1", "case": case.name, "outcome": found.outcome,
+            "level": found.level, "because": found.because, "minor_axis": found.minor,
+            "momentum": found.momentum, "final_rate": found.final_rate,
+            "final_rates": found.rates and in_file(case, found.rates), "energy": found.energy,
+            "final_energy": found.final_energy, "energy_lost": found.lost, "within": found.within,
+            "leaves": _time(found.leaves), "crosses": _time(found.crosses), "settles": _time(found.settles),
+            "passage": found.passage, "growth_time": found.growth, "decay_time": found.decay,
+            "changes": {one.name: [_end(one.down), _end(one.up)] for one in found.spans},
+            "steps": found.steps} | axes_of(case).key(found.axis) | limiting.key(case, found.caveats)
+
+
+def _time(one) -> list[float] | None:
+    return one and [one.at, one.error]
+
+
+def _end(value: float) -> float | None:
+    """null: no change was found."""
+    return value if math.isfinite(value) else None
+
+
+def text(case, found, units: Units) -> str:
+    """The answer first, then when, the numbers, what changes the outcome and why; without its caveats."""
+    within = units.angle(found.within, 4)
+    lines = [f"{case.name}: {_headline(found, axes_of(case), units)}"]
+    rates = "" if found.rates is None else f": {units.vector(in_file(case, found.rates), units.rates)}"
+    lines.append(row("final rate", f"{units.rate(found.final_rate)}{rates}"))
+    lines.append(row("energy", f"{units.energy(found.energy)}, of which {number(found.lost, DIGITS)} J are "
+                               f"lost in the end"))
+    for name, one in ((f"nutation over {within}", found.leaves), ("separatrix crossed", found.crosses),
+                      (f"within {within}", found.settles)):
+        if one is not None:
+            lines.append(row(name, f"t = {units.time(one.at)}, known to {units.time(one.error, 1)}"))
+    if found.passage is not None:
+        lines.append(row("passage", units.time(found.passage)))
+    for name, one in (("growth", found.growth), ("decay", found.decay)):
+        if one is not None:
+            lines.append(row(f"nutation {name}", f"time constant {units.time(one)}, by eigenvalues"))
+    for one in found.spans:
+        size = ((lambda v: units.angle(v, 3)) if one.name == "phase"
+                else lambda v: f"{number(100 * v, 3)} %")
+        ends = [f"{sign}{size(v)}" for sign, v in (("-", one.down), ("+", one.up)) if math.isfinite(v)]
+        lines.append(row("outcome changes at", f"{' and '.join(ends)} of {NAMES[one.name]}" if ends else
+                         f"no change of {NAMES[one.name]} that was looked at"))
+    if found.steps:
+        lines.append(row("cost", f"{found.steps} steps"))
+    return "\n".join([*lines, f"why: {reason(found.because, units)}"])
+
+
+def _headline(found, axes: Axes, units: Units) -> str:
+    name = axes.name(found.axis)
+    if found.outcome == "undecided":
+        one = found.crosses
+        when = "" if one is None else f", separatrix crossed at {units.moment(one.at)}"
+        return f"UNDECIDED: +{name} or -{name}{when}"
+    if found.outcome.startswith("across"):
+        return f"FLAT SPIN about an axis across {axes.name(found.minor)}"
+    sign = "+" if found.outcome.startswith("positive") else "-"
+    when = ("the separatrix is past at the start" if found.crosses is None
+            else f"separatrix crossed at {units.moment(found.crosses.at)}")
+    return f"FLAT SPIN about {sign}{name}, {when}"
