@@ -23,10 +23,9 @@ equal parts; in the nutation angle, or in the strength of the damper, the bands 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from fractions import Fraction
-from functools import cached_property, partial, reduce
+from functools import reduce
 from operator import getitem
 from typing import Any
 
@@ -36,30 +35,19 @@ from ...case.read import with_data
 from ...case.source import parsed
 from ...caveat import Caveat
 from ...errors import InputError
-from ...integrate.trajectory import root_between
-from ...numbers.exact import sqrt_fraction
 from ...numbers.units import ANGLE, in_si
-from ...numbers.vectors import cross, dot
-from ...physics.effects.base import effect_words
-from ...physics.scene import Scene, slices
-from ...physics.states import body_momentum, equations_and_start, moved_row, start_of
-from ...physics.to_numpy import to_numpy
+from ...numbers.vectors import dot
+from ...physics.states import moved_row
 from ...validation import checked_case
 from ..caveats import of_law
-from ..simulate import trajectory
-from .result import ACROSS, NEGATIVE, POSITIVE, UNDECIDED, FlatSpin, Span, Time
+from .result import ACROSS, NEGATIVE, POSITIVE, UNDECIDED, FlatSpin, Time
+from .spans import SPAN_STEPS, side_of, spans_of
+from .spinner import Run, Spinner
 
-TAKE = ("viscous_damper", "liquid_cavity")  # energy, and keep the angular momentum
 LEAST = math.radians(0.01)  # of `within`: below, the energy in doubles does not tell the angle any more
-STEPS = 20_000_000  # of a run
-SPAN_STEPS = 6_000_000  # of all runs that look for changes of the outcome
-POINTS = 200  # of a part of a run
 DRAWN = 32  # motions from the box of uncertain numbers
 SECOND_RTOL, MOVED = 1e-13, 2.0  # of the second run: its tolerance; last places by which its start is moved
 WIDER = 4.0  # times what two runs differ by
-HALVINGS = 7  # of an interval with one change of the outcome: it is known to 1 %
-RUNS = 12  # for one change, about
-FINEST = 2.0**-30  # of the first change tried: a closer one is the second run's
 
 
 def flat_spin(case: Any, within: Any = "5 deg") -> FlatSpin:
@@ -75,7 +63,7 @@ def flat_spin(case: Any, within: Any = "5 deg") -> FlatSpin:
     if not LEAST <= angle < math.pi / 2:
         raise InputError('within: expected an angle from 0.01 deg to below 90 deg, such as "5 deg", got '
                          f"{math.degrees(angle):.6g} deg")
-    found = _answered(_Spinner.of(case), angle)
+    found = _answered(Spinner.of(case), angle)
     found = replace(found, caveats=(*(one for one in case.caveats if one.kind != "uncertain"),
                                     *found.caveats))
     return _over_the_box(case, found) if case.uncertain and found.outcome in (POSITIVE, NEGATIVE) else found
@@ -84,17 +72,18 @@ def flat_spin(case: Any, within: Any = "5 deg") -> FlatSpin:
 def _over_the_box(case: Any, found: FlatSpin) -> FlatSpin:
     """With what uncertain numbers do: undecided where motions drawn from their box end in both directions."""
     draws, ends = np.random.default_rng(1), {POSITIVE: 0, NEGATIVE: 0}
-    for _ in range(DRAWN):
+    drawn = max(4, min(DRAWN, SPAN_STEPS // max(1, found.steps)))
+    for _ in range(drawn):
         data = parsed(case.path, case.text)[0]
         for one in case.uncertain:
             *tables, last = one.path
             share = Fraction(draws.uniform(-1, 1))
             reduce(getitem, tables, data)[last] = str(one.middle + one.half * share)
-        spinner = _Spinner.of(with_data(case.path, case.text, data))
-        side = (1 if spinner.momentum[found.axis - 1] > 0 else -1) if found.crosses is None else _side(
+        spinner = Spinner.of(with_data(case.path, case.text, data))
+        side = (1 if spinner.momentum[found.axis - 1] > 0 else -1) if found.crosses is None else side_of(
             spinner, spinner.start, found.crosses.at)
         ends[POSITIVE if side > 0 else NEGATIVE] += 1
-    told = (f"of {DRAWN} motions drawn from their box {ends[POSITIVE]} end about the positive and "
+    told = (f"of {drawn} motions drawn from their box {ends[POSITIVE]} end about the positive and "
             f"{ends[NEGATIVE]} about the negative side of axis {found.axis}")
     if all(ends.values()):
         return replace(found, outcome=UNDECIDED, level="undecided", rates=None,
@@ -103,149 +92,10 @@ def _over_the_box(case: Any, found: FlatSpin) -> FlatSpin:
         "uncertain", f"uncertain numbers: {told}; samples, no proof")))
 
 
-@dataclass(frozen=True)
-class _Spinner:
-    """A scene and its start, one row; order: axes of the greatest, the intermediate and the least moment."""
-
-    scene: Scene
-    start: np.ndarray
-    omega: tuple[Fraction, ...]
-    sigma: tuple[Fraction, ...]
-    order: tuple[int, int, int]
-
-    @classmethod
-    def of(cls, case: Any) -> _Spinner:
-        scene = case.scene
-        if case.state is None or case.variables != "physical":
-            raise InputError("flat-spin: give the start as [motion] angular_velocity, in rad/s")
-        names = [effect.name for effect in scene.effects]
-        others = [effect_words(name) for name in names if name not in TAKE]
-        if others or not names:
-            raise InputError(
-                f"flat-spin: it is known of a free body; this one has {', '.join(others)} besides" if others
-                else "flat-spin: nothing takes energy here, and a rigid body turns about its minor axis for "
-                     "ever: give [effects.viscous_damper], with inertia and coefficient")
-        D = scene.body.exact
-        if D[0] == D[1] == D[2]:
-            raise InputError("flat-spin: all moments are equal: every axis is a major axis")
-        if 2 * max(D) > sum(D) and "liquid_cavity" in names:
-            raise InputError("flat-spin: a liquid takes energy for the moments of a rigid body alone, and no "
-                             "rigid body has these")
-        start = equations_and_start(scene, start_of(scene, case.state, case.blocks))[1]
-        sigma = case.blocks.get("damper", (0.0,) * 3) if "damper" in scene.blocks else (0.0,) * 3
-        found = cls(scene, start, tuple(case.exact_state), tuple(map(Fraction, sigma)),
-                    tuple(sorted(range(3), key=lambda i: -D[i])))  # type: ignore[arg-type]
-        if not any(found.momentum):
-            raise InputError("state: the angular momentum is zero, so that the body comes to rest; give an "
-                             "angular_velocity")
-        return found
-
-    @cached_property
-    def inside(self) -> Fraction:
-        """The moment of inertia of what turns inside the body."""
-        damper = self.scene.effect("viscous_damper")
-        return damper.exact[0] if damper else Fraction(0)
-
-    @cached_property
-    def momentum(self) -> tuple[Fraction, ...]:
-        """H, exact."""
-        return tuple(d * w + self.inside * s
-                     for d, w, s in zip(self.scene.body.exact, self.omega, self.sigma))
-
-    @cached_property
-    def energy(self) -> Fraction:
-        """T, exact."""
-        return (sum(d * w * w for d, w in zip(self.scene.body.exact, self.omega)) / 2
-                + self.inside * (dot(self.omega, self.sigma) + dot(self.sigma, self.sigma) / 2))
-
-    @cached_property
-    def moments(self) -> tuple[Fraction, Fraction, Fraction]:
-        """D1 >= D2 >= D3."""
-        D = self.scene.body.exact
-        return tuple(D[i] for i in self.order)  # type: ignore[return-value]
-
-    @cached_property
-    def inverses(self) -> tuple[float, float, float]:
-        return tuple(float(1 / d) for d in self.moments)  # type: ignore[return-value]
-
-    @cached_property
-    def ratio(self) -> Fraction:
-        """2 T/|H|^2 at the start, exact: between 1/D1 and 1/D3 but for what turns inside."""
-        return 2 * self.energy / dot(self.momentum, self.momentum)
-
-    @cached_property
-    def permanent(self) -> bool:
-        """Whether nothing changes."""
-        return not any(self.sigma) and not any(cross(self.momentum, self.omega))
-
-    def ratios(self, states: np.ndarray) -> np.ndarray:
-        """2 T/|H|^2 of states (..., N)."""
-        laws = to_numpy(self.scene).invariants(states)
-        return laws["energy"] / laws["momentum"]
-
-    def direction(self, state: np.ndarray) -> int:
-        """The sign of H along the major axis."""
-        blocks = {name: state[part] for name, part in slices(self.scene.blocks).items()}
-        return int(np.sign(body_momentum(self.scene, blocks)[self.order[0]]))
-
-    def major_level(self, angle: float) -> float:
-        """2 T/|H|^2 at which the polhode goes from the major axis (two greatest moments equal: from their
-        plane) by an angle."""
-        one, two, three = self.inverses
-        return one + math.sin(angle) ** 2 * float(1 / self.moments[1 if two > one else 2]
-                                                  - 1 / self.moments[0])
-
-    def minor_level(self, angle: float) -> float:
-        """The same of the minor axis."""
-        return self.inverses[2] - math.sin(angle) ** 2 * float(1 / self.moments[2] - 1 / self.moments[1])
-
-
-class _Run:
-    """A motion followed forward, from one level of 2 T/|H|^2 to the next."""
-
-    def __init__(self, spinner: _Spinner, state: np.ndarray, rtol: float | None) -> None:
-        self.spinner, self.state, self.rtol = spinner, state, rtol
-        self.t, self.steps, self.why, self.validity = 0.0, 0, "", None
-        self.length = 100 / float(np.linalg.norm(state[:3]))
-
-    def _over(self, state: np.ndarray, times: np.ndarray) -> Any:
-        return trajectory(self.spinner.scene, state, times, rtol=self.rtol, laws=False)
-
-    def falls(self, level: float) -> float | None:
-        """The time at which the level is reached; None, with why, where the run ends before."""
-        while self.steps < STEPS:
-            times = np.linspace(0.0, self.length, POINTS + 1)
-            run = self._over(self.state, times)
-            if run.status != "reached":
-                self.why = run.reason
-                return None
-            taken = max(1, run.counters["steps"])
-            self.steps, self.validity = self.steps + taken, run.validity
-            below = np.nonzero(self.spinner.ratios(run.states) < level)[0]
-            if below.size:
-                return self._land(run.states, times, max(0, int(below[0]) - 1), level)
-            self.t, self.state = self.t + self.length, run.states[-1]
-            self.length *= min(2.0, max(0.1, (STEPS - self.steps) / taken))
-        ahead = float(self.spinner.ratios(self.state)) - level
-        self.why = (f"{self.steps} steps, to t = {self.t:.6g} s, were not enough: 2 T/|H|^2 is still "
-                    f"{ahead:.3g}/(kg m^2) above the level")
-        return None
-
-    def _land(self, states: np.ndarray, times: np.ndarray, at: int, level: float) -> float:
-        """The root between two times of a part, and the state there."""
-        state = states[at]
-        here = lambda t: self._over(state, np.array([t])).states[-1] if t else state
-        height = lambda y: float(self.spinner.ratios(y)) - level
-        span = float(times[min(at + 1, len(times) - 1)] - times[at])
-        t = root_between(height, here, 0.0, span) if height(state) > 0 else 0.0
-        self.t, self.state = self.t + float(times[at]) + t, here(t)
-        return self.t
-
-
-def _answered(spinner: _Spinner, angle: float) -> FlatSpin:
+def _answered(spinner: Spinner, angle: float) -> FlatSpin:
     D1, D2, D3 = spinner.moments
-    size, axis = float(sqrt_fraction(dot(spinner.momentum, spinner.momentum))), spinner.order[0]
-    growth, decay = _constants(spinner, size)
+    size, axis = spinner.size, spinner.order[0]
+    growth, decay = spinner.constants
     blank = FlatSpin(
         UNDECIDED, "", "undecided", axis + 1, spinner.order[2] + 1, size, size / float(D1), None,
         float(spinner.energy), float(dot(spinner.momentum, spinner.momentum) / (2 * D1)), angle,
@@ -271,7 +121,7 @@ def _ended(found: FlatSpin, direction: int) -> FlatSpin:
     return replace(found, outcome=POSITIVE if direction > 0 else NEGATIVE, rates=rates)
 
 
-def _at_rest(spinner: _Spinner, found: FlatSpin) -> FlatSpin:
+def _at_rest(spinner: Spinner, found: FlatSpin) -> FlatSpin:
     """A permanent rotation: of the greatest moment it stays for ever; any other is unstable."""
     D1, D2, _ = spinner.moments
     if spinner.ratio * D1 == 1:
@@ -288,15 +138,15 @@ def _at_rest(spinner: _Spinner, found: FlatSpin) -> FlatSpin:
         "angle"))
 
 
-def _timed(spinner: _Spinner, found: FlatSpin, angle: float) -> FlatSpin:
+def _timed(spinner: Spinner, found: FlatSpin, angle: float) -> FlatSpin:
     """The times of a motion that goes on, by two runs."""
     D1, D2, D3 = spinner.moments
     levels = {"leaves": spinner.minor_level(angle) if D2 > D3 else math.inf,
               "crosses": spinner.inverses[1] if D1 > D2 else math.inf, "settles": spinner.major_level(angle)}
     ratio = float(spinner.ratio)
     ahead = {name: level for name, level in levels.items() if ratio >= level}
-    runs = [_Run(spinner, spinner.start, None),
-            _Run(spinner, moved_row(spinner.start, MOVED), SECOND_RTOL)]
+    runs = [Run(spinner, spinner.start, None),
+            Run(spinner, moved_row(spinner.start, MOVED), SECOND_RTOL)]
     seen: list[dict[str, float]] = [{}, {}]
     directions = [0, 0]
     for n, run in enumerate(runs):
@@ -331,118 +181,4 @@ def _timed(spinner: _Spinner, found: FlatSpin, angle: float) -> FlatSpin:
              f"axis; a second run, from a start moved by {MOVED:.0f} in its last place with tolerance "
              f"{SECOND_RTOL:.0e}, agrees")
     return replace(_ended(found, directions[0]), level="run", because=words,
-                   spans=_spans(spinner, directions[0], found))
-
-
-def _constants(spinner: _Spinner, size: float) -> tuple[float | None, float | None]:
-    """Time constants of the nutation near the minor and the major axis, s, by eigenvalues."""
-    one, two, three = spinner.inverses
-
-    def slowest(place: int, still: int) -> float:
-        """The largest real part of the eigenvalues at the rotation about an axis, but for those that are
-        zero."""
-        at = np.zeros(len(spinner.start))
-        at[spinner.order[place]] = size / float(spinner.moments[place])
-        values = sorted(np.linalg.eigvals(to_numpy(spinner.scene).jacobian(at)), key=abs)[still:]
-        largest = max(value.real for value in values)
-        return largest if abs(largest) > 1e-13 * max(map(abs, values)) else 0.0
-    minor = slowest(2, 1) if three > two else 0.0
-    major = slowest(0, 2 if one == two else 1)
-    return 1 / minor if minor > 0 else None, -1 / major if major < 0 else None
-
-
-# --- By how much the start may change
-def _spans(spinner: _Spinner, direction: int, found: FlatSpin) -> tuple[Span, ...]:
-    """The bands of one outcome about the start, where the motion begins about the minor axis."""
-    one, two, three = spinner.inverses
-    parts = slices(spinner.scene.blocks)
-    omega = spinner.start[parts["omega"]]
-    D = np.array(spinner.scene.body.inertia)
-    L = D * omega
-    i, j, k = spinner.order
-    weight = np.sqrt([three - one, three - two])
-    across = weight * L[[i, j]]
-    room = float(np.sqrt(weight[1] ** 2 * (L @ L) / max(across @ across, 1e-300)))  # times nutation
-    if found.crosses is None or room <= 1 or not L[k]:
-        return ()
-    until = found.crosses.at
-
-    def moved(angle: float = 0.0, share: float = 0.0) -> np.ndarray:
-        """The start turned along its polhode by an angle, its nutation greater by a share."""
-        c, s = math.cos(angle), math.sin(angle)
-        turn = np.array([[c, -s], [s, c]])
-        new, state = L.copy(), spinner.start.copy()
-        new[[i, j]] = (1 + share) * (turn @ across) / weight
-        new[k] = math.copysign(math.sqrt(max(0.0, L @ L - new[i] ** 2 - new[j] ** 2)), L[k])
-        state[parts["omega"]] = new / D
-        if "damper" in parts:
-            sigma = spinner.start[parts["damper"]].copy()
-            sigma[[i, j]] = turn @ sigma[[i, j]]
-            state[parts["damper"]] = sigma
-        return state
-
-    def flips(state: np.ndarray, scene: Scene | None = None) -> bool:
-        other = spinner if scene is None else replace(spinner, scene=scene)
-        return _side(other, state, until) != direction
-
-    steps = found.steps
-    tried: list[tuple[str, Callable[[float], bool], float, float]] = [
-        ("phase", lambda s: flips(moved(angle=s)), math.pi / 16, math.pi),
-        ("nutation", lambda s: flips(moved(share=s)), 0.0, 0.99 * (room - 1)),
-        ("damping", lambda s: flips(spinner.start, _stronger(spinner.scene, s)), 0.0, 1.0)]
-    turns = max(1.0, until * float(np.linalg.norm(omega)) / math.pi)
-    spans: list[Span] = []
-    for name, flipped, first, most in tried:
-        if steps * RUNS * (1 if name == "phase" else 2) > SPAN_STEPS:
-            continue
-        first = first or min(most, 1.0) / turns
-        up = _edge(flipped, first, most)
-        down = math.pi - up if name == "phase" else _edge(partial(_reversed, flipped), first, min(most, 0.99))
-        spans.append(Span(name, down, up))
-    return tuple(spans)
-
-
-def _reversed(flips: Callable[[float], bool], s: float) -> bool:
-    return flips(-s)
-
-
-def _stronger(scene: Scene, share: float) -> Scene:
-    """The scene whose damper, inertia and coefficient, or liquid is stronger by a share."""
-    more = 1 + Fraction(share)
-    damper, liquid, changed = scene.effect("viscous_damper"), scene.effect("liquid_cavity"), []
-    if damper is not None:
-        changed.append(type(damper)(*(value * more for value in damper.exact)))
-    if liquid is not None:
-        changed.append(replace(liquid, P0=Fraction(liquid.P0) * more))
-    return Scene(scene.body, *changed)
-
-
-def _side(spinner: _Spinner, state: np.ndarray, until: float) -> int:
-    """The side on which a motion is past the separatrix."""
-    run, times = _Run(spinner, state, None), np.array([1.02 * until])
-    for _ in range(60):
-        state = run._over(state, times).states[-1]
-        if float(spinner.ratios(state)) < spinner.inverses[1]:
-            return spinner.direction(state)
-        times = times * 0.05 if times[0] > until else times * 1.5
-    return 0
-
-
-def _edge(flips: Callable[[float], bool], first: float, most: float) -> float:
-    """The smallest change of which the outcome is another, to 1 %; inf where there is none up to `most`.
-    Bands of one outcome are about equally wide, so that doubling the change passes over none."""
-    low = high = min(first, most)
-    if flips(high):
-        while flips(low := high / 2):
-            high = low
-            if high < FINEST * first:
-                return high
-    else:
-        while not flips(high := min(2 * low, most)):
-            if high >= most:
-                return math.inf
-            low = high
-    for _ in range(HALVINGS):
-        middle = (low + high) / 2
-        low, high = (low, middle) if flips(middle) else (middle, high)
-    return (low + high) / 2
+                   spans=spans_of(spinner, directions[0], found))

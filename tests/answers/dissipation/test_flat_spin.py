@@ -7,7 +7,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from stabilab import Body, ConstantTorque, InputError, LiquidCavity, Scene, ViscousDamper, flat_spin, load
-from stabilab.answers.dissipation import ask
+from stabilab.answers.dissipation import spans, spinner
 
 RAHN_BARBA = """[body]
 inertia = [2000, 1500, 1000]
@@ -25,7 +25,7 @@ def case(rates="0.1224, 0, 2.99"):
 
 @pytest.fixture
 def no_search(monkeypatch):
-    monkeypatch.setattr(ask, "SPAN_STEPS", 0)
+    monkeypatch.setattr(spans, "SPAN_STEPS", 0)
 
 
 # --- Brute force, sharing no code: the attitude of the body as a quaternion and the angular momentum of the
@@ -124,7 +124,7 @@ def test_the_spacecraft_of_rahn_and_barba_tumbles_as_two_bodies_in_space_do():
 def test_the_outcome_changes_where_it_is_said_to(name, no_search):
     """One side and the other of the upper end, by brute force."""
     D, k, c, w = np.array([2000.0, 1500, 1000]), 18.0, 30.0, np.array([0.1224, 0, 2.99])
-    ask.SPAN_STEPS = 10**7
+    spans.SPAN_STEPS = 10**7
     span = next(span for span in flat_spin(case()).spans if span.name == name)
     one, two = 1 / 1000 - 1 / 2000, 1 / 1000 - 1 / 1500
 
@@ -258,6 +258,6 @@ def test_a_slow_tumble_says_what_it_cost(no_search):
 
 
 def test_a_run_that_does_not_reach_the_separatrix_is_undecided(no_search, monkeypatch):
-    monkeypatch.setattr(ask, "STEPS", 500)
+    monkeypatch.setattr(spinner, "STEPS", 500)
     found = flat_spin(case())
     assert found.outcome == "undecided" and "were not enough" in found.because
