@@ -10,8 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import replace
 from fractions import Fraction
-
-import numpy as np
+from typing import Any
 
 from ..numbers.vectors import CYCLE
 from ..physics.coefficients import Content
@@ -43,12 +42,14 @@ def _curve(parts: Content, curve: EquilibriumCurve) -> EquilibriumCurve:
 
 
 def _point(parts: Content, point: EquilibriumPoint) -> EquilibriumPoint:
+    import numpy as np
     return replace(point, eigenvalues=ordered(np.linalg.eigvals(jacobian(parts, point.at))),
                    because=_of_damper(point.because))
 
 
-def jacobian(parts: Content, omega: Iterable[float]) -> np.ndarray:
-    """(6, 6) at a permanent rotation, of (omega, sigma)."""
+def jacobian(parts: Content, omega: Iterable[float]) -> Any:
+    """(6, 6) array at a permanent rotation, of (omega, sigma)."""
+    import numpy as np
     w, D, k = list(omega), [float(d) for d in parts.D], float(parts.inside)
     c = float(parts.friction)
     found = np.zeros((6, 6))

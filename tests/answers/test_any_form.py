@@ -25,7 +25,7 @@ OF_A_SCENE = {"equilibria": {}, "fate": {}, "motion": {}, "extremes": {}, "perio
 START = {"fate": "states", "motion": "state", "extremes": "states", "period": "states", "spin_up": "state",
          "validity": "states", "chaos": "states", "simulate": "omega", "trajectory": "state", "attitude": "state",
          "ensemble": "states", "time_to": "states"}
-OF_A_CASE = {"stuck": {}, "compare": {}, "theory": {}, "when": {"rate": "0.6"},
+OF_A_CASE = {"stuck": {}, "flat_spin": {}, "compare": {}, "theory": {}, "when": {"rate": "0.6"},
              "sweep": {"vary": {"effects.constant_torque.torque[3]": "0:1:2 mN m"}, "answer": "fate"},
              "bifurcation": {"vary": {"effects.constant_torque.torque[3]": "0:1 mN m"}},
              "basin": {"vary": {"angular_velocity[1]": "0:1:3", "angular_velocity[3]": "0:1:3"}, "depth": 0},
@@ -49,6 +49,8 @@ def test_every_public_function_of_a_scene_or_a_case_is_asked_here():
 
 def own_case(name):
     """(its path, the options) of a case that the question answers."""
+    if name == "flat_spin":
+        return CASES / "rahn-barba.toml"
     if name in ("attitude", "time_to", "when", "stuck", "sweep", "bifurcation", "basin", "atlas"):
         return TORQUE
     return CASES / "charged-body.toml" if name in ("compare", "theory", "validity") else FILE
