@@ -80,7 +80,7 @@ class BurningQuestions:
         of `stabilab.when`."""
         case = self.craft  # type: ignore[attr-defined]
         stated = import_module("stabilab.answers.when").limit_stated(case, **limit)
-        return import_module("stabilab.answers.stuck.chain").time_of_burn(self, stated.ask, stated.until)
+        return import_module("stabilab.answers.stuck.burn").time_of_burn(self, stated.ask, stated.until)
 
 
 class Plots:

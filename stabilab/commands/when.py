@@ -5,7 +5,7 @@ from dataclasses import replace
 
 from ..answers.caveats import of_law
 from ..answers.passage.of_case import limited_time
-from ..answers.stuck.chain import time_of_burn
+from ..answers.stuck.burn import time_of_burn
 from ..case.limit_options import stated_limit
 from ..case.read import blamed_on, fires_on_schedule, load_burning
 from ..show.text import answers, law

@@ -36,11 +36,11 @@ from ...physics.states import moved_row
 from ..attitude.ask import of_motion
 from ..attitude.result import Attitude
 from ..motion import motion
-from ..passage.limit import Limit
-from ..passage.run import ROUNDING, WIDER, Found, by_run, largest_rate
+from ..passage.limit import Limit, asked
+from ..passage.run import ROUNDING, WIDER, Found, TimeTo, by_run, largest_rate
 from ..simulate import trajectory
 from ..time_to import down, of_one, up
-from .chain import Chain, limit_after, weights_of_largest
+from .chain import Chain, Piece, limit_after, weights_of_largest
 
 RUN_STEPS = 1_000_000  # of one segment
 LOOKS = 2000  # closing times looked at after the first that is too late
@@ -162,11 +162,11 @@ class _Link:
     exact: Exact3 | None
 
 
-def _links(chain: Chain) -> Iterator[_Link]:
+def _links(chain: Chain, pieces: Sequence[Piece] | None = None) -> Iterator[_Link]:
     given = chain.case.exact_state
     state = np.array(chain.case.state, float)
     second = moved_row(state, MOVED) if state.any() else state
-    for begin, length, firing, scene in chain.pieces():
+    for begin, length, firing, scene in chain.pieces() if pieces is None else pieces:
         after, after_second = (_end_of(scene, one, length) for one in (state, second))
         yield _Link(begin, length, firing, tuple(float(m) for m in scene.vector("constant_torque")), scene,
                     state, second, after, after_second, given if not begin else None)
@@ -242,25 +242,65 @@ def _latest(chain: Chain, links: Sequence[_Link], below: Fraction) -> Latest:
     return Latest(size, found.low, found.high, found.level, found.words, again)
 
 
-def _enclosed(chain: Chain, limit: Limit) -> Found | None:
-    """The first crossing along the chain, proved; None where the work does not reach it."""
-    proof = chain.enclosed(limit)
+def time_of_burn(burning: Any, ask: dict[str, Any], until: Fraction | None = None) -> TimeTo:
+    """The first time at which the motion of a burn reaches a limit, over all switches and after them.
+
+    ask: the one limit, by its name as of `time_to`; until: s, the time at which the search ends; None: the
+    end of the span of the case, or the last closing, whichever is later, unless the free motion after the
+    burn surely stays below the limit for ever. Proved as far as the work reaches, by roots along runs beyond
+    (but for the angle of an axis).
+    """
+    chain = Chain(burning)
+    case, limit, pieces = chain.case, asked(chain.base, **ask), list(chain.pieces())
+    if limit.reached_by(case.exact_state or case.state):
+        return _time(chain, limit, Found(0.0, 0.0, "exact", f"{limit.words}: reached already at the start"))
+    if until is None and limit.kind == "rate" and chain.free:
+        largest = limit_after(chain.base, in_si(ask["rate"], RATE, "rate"))
+        after = _enclosed(chain, largest) or _along(list(_links(chain)), largest)
+        if math.isinf(after.low):
+            return _time(chain, limit, replace(after, words=f"{limit.words}: never, neither while thrusters "
+                                                            "fire nor after"))
+    closed = pieces[-1].begin + pieces[-1].length if pieces else Fraction(0)
+    end = until if until is not None else max(closed, Fraction(case.span[1]) if case.span else closed)
+    found = _enclosed(chain, limit, end)
+    if found is None and limit.kind != "tilt":
+        pieces += [Piece(closed, end - closed, (), chain.base)] if end > closed else []
+        found = _along(list(_links(chain, pieces)), limit, every=True)
+    if found is None or not found.low <= end:
+        known = 0.0 if found is None else float(end)
+        found = Found(known, math.nan, "undecided" if found is None else found.level,
+                      f"{limit.words}: not reached before {known:.10g} s")
+    return _time(chain, limit, found)
+
+
+def _time(chain: Chain, limit: Limit, found: Found) -> TimeTo:
+    scalar = lambda value, kind: np.array(value, kind)[()]  # as `time_to` has it
+    return TimeTo(scalar(found.low, float), scalar(found.high, float), scalar(found.level, object),
+                  scalar(found.words, object), limit.words, chain.base, np.array(chain.case.state),
+                  caveats=chain.case.caveats)
+
+
+def _enclosed(chain: Chain, limit: Limit, end: Fraction | None = None) -> Found | None:
+    """The first crossing along the chain, by `end` (None: the last closing), proved; None where the work does
+    not reach it."""
+    proof = chain.enclosed(limit, end)
     words = f"{limit.words}: the chain of motions enclosed, its first crossing by roots"
     if proof.high is not None and proof.low is not None:
         return Found(down(proof.low), up(proof.high), "proved", words)
     return Found(math.inf, math.inf, "proved", words) if proof.done and proof.low is None else None
 
 
-def _along(links: Sequence[_Link], limit: Limit) -> Found:
-    """The first crossing link by link, the first of them enclosed; inf where there is none."""
+def _along(links: Sequence[_Link], limit: Limit, every: bool = False) -> Found:
+    """The first crossing link by link, the first of them enclosed; inf where there is none. every: in those
+    too where nothing fires, and g is constant."""
     for one in links:
-        if not one.firing:
-            continue  # g is constant where nothing fires
+        if not one.firing and not every:
+            continue
         found = _first(one, limit)
         if found is not None:
             low, high = _outward(one.begin, found.low, found.high)
             return replace(found, low=low, high=high)
-    burns = [one for one in links if one.firing]
+    burns = [one for one in links if one.firing or every]
     level = "proved" if len(burns) <= 1 and all(one.exact for one in burns) else "run"
     return Found(math.inf, math.inf, level, limit.words)
 

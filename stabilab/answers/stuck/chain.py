@@ -2,7 +2,6 @@
 starts where the one before ended, at switching times that are exact."""
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from fractions import Fraction
@@ -13,17 +12,14 @@ import numpy as np
 
 from ...case.read import load_burning
 from ...errors import InputError
-from ...numbers.units import RATE, in_si
 from ...numbers.vectors import Exact3
 from ...physics.effects import effect_class
 from ...physics.scene import Scene
 from ...physics.states import checked_times
 from ...validation import came
 from ..passage.enclosed import Enclosed, enclosed
-from ..passage.limit import AXES, Limit, asked
-from ..passage.run import TimeTo
+from ..passage.limit import AXES, Limit
 from ..simulate import Simulation, in_matrices, quaternion_blocks, simulate
-from ..time_to import down, up
 
 
 class Piece(NamedTuple):
@@ -141,39 +137,6 @@ def simulate_burn(burning: Any, times: Any = None, attitude: str | None = None) 
         blocks = {"attitude": tuple(run.state["quaternion"][-1])} if "quaternion" in run.state else {}
     whole = _joined(found)
     return in_matrices(whole) if attitude == "matrix" else whole
-
-
-def time_of_burn(burning: Any, ask: dict[str, Any], until: Fraction | None = None) -> TimeTo:
-    """The first time at which the motion of a burn reaches a limit, over all switches and after them.
-
-    ask: the one limit, by its name as of `time_to`; until: s, the time at which the search ends; None: the
-    end of the span of the case, or the last closing, whichever is later, unless the free motion after the
-    burn surely stays below the limit for ever. Proved as far as the work reaches.
-    """
-    chain = Chain(burning)
-    case, limit = chain.case, asked(chain.base, **ask)
-    if until is None and limit.kind == "rate" and chain.free:
-        after = chain.enclosed(limit_after(chain.base, in_si(ask["rate"], RATE, "rate")))
-        if after.done and after.low is None:
-            return _first(chain, limit, math.inf, math.inf, "never: neither while thrusters fire nor after")
-    if until is None:
-        ends = [piece.begin + piece.length for piece in chain.pieces()]
-        until = max([*ends, *([Fraction(case.span[1])] if case.span else [])], default=Fraction(0))
-    found = chain.enclosed(limit, until)
-    low = down(found.until if found.low is None else found.low)
-    words = "the motion enclosed over all switches"
-    if limit.reached_by(case.exact_state or case.state):
-        return _first(chain, limit, 0.0, 0.0, "reached already at the start")
-    if found.high is not None and found.low is not None:
-        return _first(chain, limit, low, up(found.high), words)
-    return _first(chain, limit, low, math.nan, f"{words}, and it is not reached before {low:.10g} s")
-
-
-def _first(chain: Chain, limit: Limit, low: float, high: float, because: str) -> TimeTo:
-    scalar = lambda value, kind: np.array(value, kind)[()]  # as `time_to` has it
-    return TimeTo(scalar(low, float), scalar(high, float), scalar("proved", object),
-                  scalar(f"{limit.words}: {because}", object), limit.words, chain.base,
-                  np.array(chain.case.state), caveats=chain.case.caveats)
 
 
 def _joined(runs: Sequence[Simulation]) -> Simulation:

@@ -124,3 +124,22 @@ def test_a_limit_is_never_reached_or_not_by_the_end(stabilab, tmp_path, burning)
 
 def stabilab_of(path):
     return stabilab.load_burning(path)
+
+
+@pytest.mark.parametrize("keys, levels", [("stop = 180", {"proved"}), ("stop = 180\nperiod = 10\nduty = 0.9", {"run"})])
+def test_a_limit_that_is_reached_after_too_many_turns_to_enclose_is_found_along_runs(tmp_path, keys, levels):
+    D, torque = np.array([4000.0, 9000.0, 9000.0]), np.array([-166.5, 0, -166.5])
+    path = case_of(tmp_path, D.tolist(), [0, 0, 0], [(torque, keys)], 180)
+    found = stabilab_of(path).when(rate="296 deg/s")
+    w, t = np.zeros(3), 0.0
+    reached = lambda _, w: np.linalg.norm(w) - math.radians(296)
+    for n in range(36):  # from switch to switch
+        fires = "duty" not in keys or n % 2 == 0
+        length = (9 if fires else 1) if "duty" in keys else 5
+        run = solve_ivp(lambda _, w, fires=fires: (torque * fires - np.cross(w, D * w)) / D, (0, length), w,
+                        method="DOP853", rtol=1e-13, atol=1e-15, events=reached)
+        if run.t_events[0].size:
+            break
+        w, t = run.y[:, -1], t + length
+    assert found.level in levels
+    assert found.low - 1e-8 <= t + run.t_events[0][0] <= found.high + 1e-8 and found.high - found.low < 1e-6
