@@ -38,6 +38,12 @@ def test_a_page_has_none_of_our_own_words(page):
     assert ours(prose(page.read_text(encoding="utf-8"))) == []
 
 
+@pytest.mark.parametrize("notebook", sorted((ROOT / "docs/notebooks").glob("*.ipynb")), ids=lambda path: path.stem)
+def test_a_notebook_has_none_of_our_own_words(notebook):
+    cells = json.loads(notebook.read_text(encoding="utf-8"))["cells"]
+    assert ours(prose("\n\n".join("".join(one["source"]) for one in cells if one["cell_type"] == "markdown"))) == []
+
+
 def test_the_help_of_every_command_has_none_of_our_own_words(stabilab):
     from stabilab.show.terminal.groups import GROUPS
     for _, names in GROUPS.values():
