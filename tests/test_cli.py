@@ -769,6 +769,6 @@ def test_doctor_names_versions_renderer_and_processor(stabilab):
 def test_doctor_misses_no_package_that_is_for_other_machines(stabilab, monkeypatch):
     asked = ["numpy>=2.0", 'for-others; sys_platform == "nowhere"', 'for-all; python_version >= "3"',
              'of-an-extra; extra == "docs"']
-    monkeypatch.setattr("stabilab.show.text.doctor.metadata.requires", lambda name: asked)
+    monkeypatch.setattr("stabilab.commands.doctor.metadata.requires", lambda name: asked)
     out = stabilab("doctor")[1]
     assert out.startswith("NOT INSTALLED: for-all;") and "for-others" not in out and "of-an-extra" not in out

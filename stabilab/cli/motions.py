@@ -41,7 +41,7 @@ def classify(
         out: Annotated[Path, typer.Option(
             metavar="FILE.json", help="Where the certificate goes.")] = Path("certificate.json"),
         follow: Follow = None, tilt: Tilt = None, units: UnitsOption = None, why: Why = False):
-    """Find equilibria, their stability, and what becomes of the motion.
+    """Find equilibria, their stability, and the fate of the motion.
 
     Example: stabilab classify cases/minor-axis-100.toml --json
     """

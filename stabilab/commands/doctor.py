@@ -1,10 +1,79 @@
-"""`stabilab doctor`: what is installed, and whether pictures can be drawn."""
+"""`stabilab doctor`: versions, whether pictures can be drawn, the processor."""
 from __future__ import annotations
 
+import os
+import platform
+import re
+from importlib import metadata
+
+from ..packages import EXTRAS
+from ..show.surface.render_probe import probe
 from ..show.terminal.page import tell
-from ..show.text.doctor import text
 
 
 def doctor():
-    """Tell it, and load no more than that: the program may be asked because something is missing."""
+    """Print it, and load no more than that: the program may be asked because something is missing."""
     tell(text())
+
+
+def text() -> str:
+    """Whether something is missing, then versions of the program's packages, the renderer's state with its
+    cure, the processor."""
+    found = probe()
+    rows = [_answer(found), f"stabilab      {_version('stabilab')}",
+            f"python        {platform.python_version()} ({platform.platform()})"]
+    rows += [f"{name:<14}{_version(name)}{f' (extra {EXTRAS[name]})' if name in EXTRAS else ''}"
+             for name in _needed()]
+    return "\n".join(rows + [f"{'rendering':<14}{_rendering(found)}", f"{'processor':<14}{_processor()}"])
+
+
+def _needed() -> list[str]:
+    """The packages that the program asks for, those of its extras last."""
+    try:
+        asked = metadata.requires("stabilab") or []
+    except metadata.PackageNotFoundError:
+        asked = []
+    names = [re.match(r"[A-Za-z0-9_.-]+", line)[0] for line in asked if _meant_for_this_machine(line)]
+    return list(dict.fromkeys(names + list(EXTRAS)))
+
+
+def _meant_for_this_machine(requirement: str) -> bool:
+    """Whether a package is asked for here, and by no extra: heyoka is on some machines alone."""
+    if "extra ==" in requirement or ";" not in requirement:
+        return ";" not in requirement
+    try:
+        from packaging.requirements import Requirement
+    except ImportError:  # Matplotlib brings it
+        return True
+    return Requirement(requirement).marker.evaluate()
+
+
+def _version(name: str) -> str:
+    try:
+        return metadata.version(name)
+    except metadata.PackageNotFoundError:
+        return "not installed"
+
+
+def _answer(found) -> str:
+    """In a line: what is missing, and whether surfaces can be drawn; all other pictures need no renderer."""
+    missing = {name: EXTRAS.get(name) for name in _needed() if _version(name) == "not installed"}
+    broken, extras = [name for name, extra in missing.items()
+                      if not extra], list(dict.fromkeys(extra for extra in missing.values() if extra))
+    parts = [f"NOT INSTALLED: {', '.join(broken)}"] if broken else ["all that stabilab needs is installed"]
+    parts += [f"not the extra{'s' * (len(extras) > 1)} {', '.join(extras)}"] if extras else []
+    return f"{', but '.join(parts)}; pictures of surfaces {'can' if found.available else 'CANNOT'} be drawn"
+
+
+def _rendering(found) -> str:
+    return (f"works ({found.words})" if found.available
+            else f"does not work: {found.words}; cure: {found.cure}")
+
+
+def _processor() -> str:
+    try:
+        with open("/proc/cpuinfo", encoding="utf-8", errors="replace") as stream:
+            names = [line.split(":", 1)[1].strip() for line in stream if line.startswith("model name")]
+    except OSError:
+        names = []
+    return f"{names[0] if names else platform.processor() or platform.machine()}, {os.cpu_count()} logical"

@@ -97,7 +97,7 @@ def test_a_case_answers_as_the_function_does(name):
 def test_a_case_draws_itself():
     pytest.importorskip("matplotlib")
     assert CASE.plot.time().get_xlabel() == stabilab.plot.time(FILE).get_xlabel()
-    with pytest.raises(AttributeError, match="there is no plot 'basin'; there are attitude, budget"):
+    with pytest.raises(AttributeError, match="there is no plot 'basin'; there are attitude, body, budget"):
         CASE.plot.basin()
 
 

@@ -29,7 +29,7 @@ def folder(tmp_path_factory):
     where.index(found, out)
     page.page(found, out / "audit.html")
     figure = {"title": "", "caption": "", "tolerance": "", "command": "", "file": "a.png", "size": [1, 1],
-              "differences": (), "rows": ()}
+              "differences": (), "rows": (), "narrow": None, "more": ()}
     tables = [{"number": one.number, "title": "", "wide": False, "rows": (), "files": (),
                "html": Markup(html_fragment(one))} for one in table.tables()]
     main, others = catalogue.FIRST, [name for name in catalogue.PAPERS if name != catalogue.FIRST]

@@ -414,7 +414,7 @@ def test_a_picture_has_the_size_and_the_dots_asked_for(tmp_path):
 @pytest.mark.parametrize("options, words", [
     ({"kind": "nope"}, "expected one of time, phase"), ({"size": (0, 3)}, "1 to 60 inches"),
     ({"dpi": 3}, "10 to 1200 dots"),
-    ({"kind": "time", "units": "rpm"}, "expected one of deg, si")])
+    ({"kind": "time", "units": "knots"}, "expected one of deg, deg/day, rpm, rev/s, si")])
 def test_what_cannot_be_drawn_is_refused_and_nothing_is_written(options, words, tmp_path):
     with pytest.raises(errors.InputError, match=words):
         to_file.write(load("middle-axis-100"), tmp_path / "a.png", **options)
@@ -619,8 +619,8 @@ def test_an_axis_that_leaves_by_a_hidden_face_is_drawn_before_the_box():
     projection; but where both are near the same."""
     from mpl_toolkits.mplot3d.proj3d import proj_transform
     moving = stabilab.plot.attitude(load("torque-free-gyrostat"), frames=30)
-    (ax,), seen = moving._fig.axes, set()
-    box, = ax.collections
+    ax, seen = moving._fig.axes[0], set()
+    box = ax.collections[0]
     for frame in range(0, 30, 3):
         moving._func(frame)
         for line in ax.lines[:3]:
