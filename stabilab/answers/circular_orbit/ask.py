@@ -21,7 +21,8 @@ from ...validation import came
 
 MIDDLES = Caveat("uncertain", "of the middles of the uncertain numbers")
 MOST = Fraction(10)**50
-ROUNDED = "numbers that are irrational ({}) are taken to 240 bits"
+BITS = 64  # more than doubles have; of 240, as a case has them, elimination makes numbers of pages
+ROUNDED = "as some numbers are irrational ({}), all are taken to 64 bits"
 
 
 @dataclass(frozen=True)
@@ -62,8 +63,11 @@ def circular_orbit(orbiting: Any, up_to: Any = None) -> CircularOrbit:
         raise InputError("circular_orbit: the rate of the orbit, a moment, two of them over each other, or "
                          "the momentum over moment and rate, are beyond 1e50 or below 1e-50: are the units "
                          "right?")
-    equilibria = orbit_equilibria(satellite)
     irrational = [*case.inexact, *(["principal axes"] if case.frame and not case.frame.exact else [])]
+    if irrational:
+        satellite = Satellite(tuple(map(_rounded, satellite.moments)),
+                              tuple(map(_rounded, satellite.momentum)), _rounded(satellite.rate_squared))
+    equilibria = orbit_equilibria(satellite)
     if irrational:
         words = ROUNDED.format(", ".join(irrational))
         equilibria = replace(equilibria, reason=f"{equilibria.reason}; {words}")
@@ -72,6 +76,12 @@ def circular_orbit(orbiting: Any, up_to: Any = None) -> CircularOrbit:
                          tuple(map(float, satellite.momentum)), equilibria,
                          None if up_to is None else _varied(satellite, in_si(up_to, MOMENTUM, "up_to")),
                          tuple(MIDDLES if one.kind == "uncertain" else one for one in case.caveats))
+
+
+def _rounded(value: Fraction) -> Fraction:
+    """To `BITS` significant bits; zero and equal numbers stay so."""
+    unit = Fraction(2) ** (abs(value.numerator).bit_length() - value.denominator.bit_length() - BITS)
+    return round(value / unit) * unit
 
 
 def _in_range(satellite: Satellite) -> bool:
