@@ -216,6 +216,8 @@ def start_of(scene: AnyScene, omega: Sequence[float],
     for name in ordered((*scene.blocks, *blocks)):
         if name == "attitude":
             start[name] = _attitude(blocks.get("attitude", (0.0, 0.0, 0.0)))
+        elif name == "damper":
+            start.setdefault(name, REST[name])
     return start
 
 

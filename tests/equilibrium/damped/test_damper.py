@@ -1,5 +1,7 @@
 """Equilibria and bounds of a free body with a damper: the major-axis rule, and eigenvalues of the equations
 derived in symbols."""
+from fractions import Fraction
+
 import numpy as np
 import pytest
 
@@ -59,3 +61,30 @@ def test_beside_a_torque_no_bound_is_claimed():
 def test_a_damper_that_turns_is_no_equilibrium():
     assert motion(SCENE, {"omega": (1.0, 0, 0)}).fate.word == "equilibrium"
     assert motion(SCENE, {"omega": (1.0, 0, 0), "damper": (0.1, 0, 0)}).fate.word == "bounded"
+
+
+def test_a_state_without_the_damper_s_rates_has_the_sphere_at_rest_in_the_body():
+    from stabilab.answers.chaos import row_of
+    assert row_of(SCENE, (1, 2, 3), {}) == [1, 2, 3, 0, 0, 0]
+    assert motion(SCENE, (1.0, 0.1, 0.1)).at == motion(SCENE, (1.0, 0.1, 0.1, 0.0, 0.0, 0.0)).at
+
+
+def test_the_momentum_in_space_of_body_and_sphere_stays():
+    from stabilab import simulate
+    run = simulate(SCENE, (0.3, 0.2, 1.0), [0, 7, 40], {"damper": (0.5, 0, -0.2)}, attitude="quaternion")
+    H = run.state["momentum"]
+    assert H[0] == pytest.approx([0.9 + 0.05, 0.4, 1 - 0.02], rel=1e-15)
+    assert H == pytest.approx(np.array([H[0]] * 3), abs=1e-13)  # some hundred steps of rounding
+
+
+def test_vectors_of_a_tensor_in_another_frame_end_in_the_frame_of_the_file():
+    """Axes 1 and 2 swapped by a tensor whose diagonal stands in another order and one product."""
+    from stabilab import flat_spin, load
+    text = ("[body]\ninertia = [[2, 0.5, 0], [0.5, 2, 0], [0, 0, 1]]\n[effects.viscous_damper]\ninertia = 0.1\n"
+            "coefficient = 0.3\n[motion]\nangular_velocity = [1, 1, 0.1]\ndamper = [0.2, 0.2, 0]\n")
+    case = load(text)  # moments 2.5 along (1, 1, 0), 1.5 along (1, -1, 0), 1: by hand
+    assert sorted(case.scene.body.inertia) == pytest.approx([1, 1.5, 2.5])
+    found = flat_spin(case)
+    along = case.frame.back(tuple(map(Fraction, found.rates)))
+    expected = np.hypot(2.5 * np.sqrt(2) + 0.1 * 0.2 * np.sqrt(2), 0.1) / 2.5 / np.sqrt(2)
+    assert [float(v) for v in along] == pytest.approx([expected, expected, 0], abs=1e-12)
