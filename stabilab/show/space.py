@@ -20,6 +20,7 @@ from ..orbit.separatrix.plain_branches import REACH, PlainBranch, plain_separatr
 from ..packages import present
 from ..physics.scene import AnyScene
 from . import style
+from .sampling import spread
 
 NEAR = 2.0     # times the motion's own size: a separatrix or an equilibrium so near is in the picture
 ROOM = 1.25    # of a box about the things in it
@@ -286,7 +287,7 @@ def curves_of(found: Equilibria | None, box: Box, coarse: int = PLACES[0],
     out: list[tuple[str, list[Point]]] = []
     for curve in found.curves if found is not None else ():
         for segment in curve.segments:
-            for low, high in _inside(curve, _spread(*segment.t, coarse), box):
+            for low, high in _inside(curve, spread(*segment.t, coarse), box):
                 places = [_place(curve, low + (high - low) * n / fine) for n in range(fine + 1)]
                 out.append((style.EQUILIBRIA[style.kind_of(segment)],
                             [at for at in places if at is not None]))
@@ -315,20 +316,6 @@ def _inside(curve: Any, ts: list[float], box: Box) -> list[tuple[float, float]]:
                 runs.append((ts[first], ts[n - 1]))
             first = None
     return runs
-
-
-def _spread(low: float, high: float, number: int) -> list[float]:
-    """Parameters inside (low, high), dense at both ends, geometric towards infinite ones; `show.sampling`
-    does so in arrays."""
-    if math.isfinite(low) and math.isfinite(high):
-        return [low + (high - low) * (1 - math.cos(1e-3 + (math.pi - 2e-3) * n / (number - 1))) / 2
-                for n in range(number)]
-    away = [10 ** (-4 + 8 * n / (number - 1)) for n in range(number)]
-    if math.isfinite(low):
-        return [low + v * max(1.0, abs(low)) for v in away]
-    if math.isfinite(high):
-        return [high - v * max(1.0, abs(high)) for v in reversed(away)]
-    return [*(-v for v in reversed(away)), *away]
 
 
 # --- For the script of a page

@@ -3,11 +3,13 @@ import json
 import math
 import re
 from fractions import Fraction
+from itertools import product
 from types import SimpleNamespace
 
 import matplotlib
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 
 import stabilab
 from stabilab import errors
@@ -374,6 +376,27 @@ def test_a_motion_of_a_ten_thousandth_of_the_picture_is_shown_enlarged():
     assert np.ptp(enlarged.get_ylim()) < 1e-3 * np.ptp(plane.get_ylim())
 
 
+def test_a_band_of_uncertain_rates_holds_the_motions_at_its_corners():
+    """Rates of uncertain-separatrix at the highest and the lowest of its numbers, by SciPy's DOP853 on
+    Euler's equations written out here; 16 of the 32 corners are drawn, so a band is no bound."""
+    ax = stabilab.plot.time(load("uncertain-separatrix"), span=5.0)
+    names = [text.get_text() for text in ax.figure.legends[0].get_texts()]
+    assert "between 16 samples of the uncertain numbers" in names
+    ends = []
+    for sign in product((-1, 1), repeat=5):
+        a, b, c, d, e = sign
+        D, wheel = np.array([20 * (1 + 0.01 * a), 15 * (1 + 0.01 * b), 10]), np.array([3 + 0.05 * c, 2, 0])
+        torque = np.array([0, 0, 0.1 * (1 + 0.05 * d)])
+        run = solve_ivp(lambda t, w: (np.cross(D * w + wheel, w) + torque) / D, (0, 5),
+                        [0.2, 0.15, 1.7 + 0.02 * e], "DOP853", rtol=1e-9, atol=1e-12)
+        ends.append(np.degrees(run.y[:, -1]))
+    ends = np.array(ends)
+    bands = [band.get_paths()[0].vertices for band in ax.collections][:3]
+    for n, band in enumerate(bands):
+        last = band[np.isclose(band[:, 0], 5.0), 1]
+        assert all(np.abs(ends[:, n] - value).min() < 1e-4 for value in (last.min(), last.max()))
+
+
 EVERYWHERE = {"time", "space", "budget"}
 KINDS = {"minor-axis-100": EVERYWHERE | {"phase", "potential", "sphere", "section", "equilibria"},
          "off-axis-two": EVERYWHERE | {"equilibria"},
@@ -620,7 +643,7 @@ def test_an_axis_that_leaves_by_a_hidden_face_is_drawn_before_the_box():
     from mpl_toolkits.mplot3d.proj3d import proj_transform
     moving = stabilab.plot.attitude(load("torque-free-gyrostat"), frames=30)
     ax, seen = moving._fig.axes[0], set()
-    box = ax.collections[0]
+    box, = [one for one in ax.collections if isinstance(one, Poly3DCollection)]
     for frame in range(0, 30, 3):
         moving._func(frame)
         for line in ax.lines[:3]:

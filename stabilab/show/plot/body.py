@@ -16,8 +16,9 @@ from .subject import Subject, measures, subject
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-# of eight corners
-FACES = ((0, 1, 3, 2), (4, 5, 7, 6), (0, 1, 5, 4), (2, 3, 7, 6), (0, 2, 6, 4), (1, 3, 7, 5))
+CORNERS = np.array(list(product((-1.0, 1.0), repeat=3)))
+# across axes 1, 1, 2, 2, 3, 3
+FACES = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
 VIEW = (20, 38)  # degrees: elevation, azimuth
 RIGHTWARD = np.array([-np.sin(np.radians(VIEW[1])), np.cos(np.radians(VIEW[1])), 1e-6])  # in the picture
 LETTERS = {"fontsize": 11, "zorder": 12}
@@ -117,7 +118,7 @@ def box_sides(inertia) -> np.ndarray:
 def _box(ax, sides, axes):
     """The box, its edges, and the principal axes, which come out of it."""
     from mpl_toolkits.mplot3d.art3d import Poly3DCollection
-    corners = np.array(list(product((-0.5, 0.5), repeat=3))) * sides
+    corners = CORNERS * sides / 2
     ax.add_collection3d(Poly3DCollection([corners[list(face)] for face in FACES], facecolor=style.GREY,
                                          edgecolor="#444444", alpha=0.16, linewidth=0.9))
     for i in range(3):

@@ -282,7 +282,7 @@ def rest_states(found: Equilibria, number: int = 600) -> Rest:
             continue
         folds += [fold[:3] for fold in curve.folds]
         for segment in curve.segments:
-            points = np.array([curve.point(float(t))[:3] for t in spread(*segment.t, number)], float)
+            points = np.array([curve.point(t)[:3] for t in spread(*segment.t, number)], float)
             curves.append((style.kind_of(segment), points[np.isfinite(points).all(axis=1)]))
     return Rest(curves, planes, [(style.kind_of(p), np.array(p.at[:3], float)) for p in found.points],
                 np.array(folds, float).reshape(-1, 3))

@@ -3,10 +3,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from itertools import product
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ...answers.simulate import trajectory
+from ...answers.uncertain.box import box_of
 from ...theories.comparison import side_by_side
 from .. import style
 from ..text import comparison
@@ -32,6 +35,7 @@ ALIKE = 0.004  # of the height of all curves: no more than the width of a line
 THIN = 0.02  # of the height of all curves: as high as a few lines
 # dashes of a curve over one or two others: each leaves some of those below
 BROKEN = ((0, (6, 6)), (0, (3, 9)))
+FEW, EVEN = 4, 1001  # uncertain numbers of which all corners are followed; times of each of these motions
 MARKED = 30  # ends of periods at most
 
 
@@ -66,6 +70,7 @@ def time(case: Any, state: Any = None, ax: Axes | None = None, span: Any = None,
         _curve(target, t * per_time, length * per_rate, SIZE_LOOK, height)
         for values, look in zip(omega.T, looks):
             _curve(target, t * per_time, values * per_rate, look, height)
+        rows += _samples(target, one, t, per_time, per_rate, looks) if turned is None else []
         rows += _extremes(target, one, per_rate) if turned is None else []
         rows += _periods(target, one, low, high, per_time, scale)
         rows += _limits(target, one, t, omega, (time_unit, per_time), scale.rate)
@@ -84,6 +89,29 @@ def _answer(one, scale):
     """The answer in one line; of uncertain numbers only their middles are drawn."""
     told = headline(one.case, one.motion, scale.system)
     return told + ("; for the middles of the uncertain numbers" if one.case.uncertain else "")
+
+
+def _samples(ax, one, t, per_time, per_rate, looks):
+    """Bands between the least and the greatest rates of motions at corners of the box of uncertain numbers,
+    all where there are few."""
+    if one.case is None or not one.case.uncertain or not one.scene.plain:
+        return []
+    box = box_of(one.case)
+    if box.frame is not None:  # each corner has principal axes of its own
+        return []
+    corners = np.array(list(product((-1, 1), repeat=min(len(box.places), FEW))))
+    if len(box.places) > FEW:
+        corners = np.random.default_rng(0).choice((-1, 1), (len(corners), len(box.places)))
+    times = np.linspace(t[0], t[-1], EVEN)
+    runs = [np.asarray(trajectory(*box.at(corner.tolist()), times, laws=False).states) for corner in corners]
+    runs = np.array([run for run in runs if len(run) == EVEN])
+    if not len(runs):
+        return []
+    for values, look in zip((*np.moveaxis(runs, 2, 0), np.linalg.norm(runs, axis=2)), (*looks, SIZE_LOOK)):
+        ax.fill_between(times * per_time, values.min(axis=0) * per_rate, values.max(axis=0) * per_rate,
+                        color=look["color"], alpha=0.2, linewidth=0, zorder=1)
+    return [(f"between {len(runs)} samples of the uncertain numbers",
+             {"facecolor": style.GREY, "alpha": 0.35, "linewidth": 0})]
 
 
 def told_apart(looks: Sequence[dict[str, Any]], curves: Sequence[np.ndarray]) -> list[dict[str, Any]]:

@@ -22,6 +22,7 @@ from ..units import SHORT, Units
 from . import in_space
 from . import subject as canvas
 from . import subject as which
+from .body import CORNERS, FACES, box_sides
 from .subject import Subject, measures, subject
 
 if TYPE_CHECKING:
@@ -35,9 +36,6 @@ STEP = np.radians(15)
 # of a step's width; of the length of a film, to which its longest is found, in so many runs
 ROUNDED, NEAR, TRIES = 1.02, 1.1, 20
 THINNEST = 0.06  # of the longest edge
-CORNERS = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], float)
-# across axes 1, 1, 2, 2, 3, 3
-FACES = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
 
 
 @dataclass(frozen=True)
@@ -88,8 +86,9 @@ def turn(one: Subject, frames: int = FRAMES) -> Turn:
     vector = lambda name: (np.array([float(v) for v in scene.vector(name)])
                            if scene.effect(name) is not None else np.zeros(3))
     momentum = np.einsum("nij,nj->ni", rotations, omega * np.array(scene.body.inertia) + vector("gyrostat"))
-    return Turn(t, rotations, omega, edges(scene.body.inertia), whole, abs(high - low), momentum,
-                vector("constant_torque"), _share(one, omega))
+    edges = np.maximum(box_sides(scene.body.inertia), THINNEST)
+    return Turn(t, rotations, omega, edges, whole, abs(high - low), momentum, vector("constant_torque"),
+                _share(one, omega))
 
 
 def _share(one, omega):
@@ -140,14 +139,6 @@ def _at(one, times):
     if len(t) < 2:
         raise InputError("plot attitude: the motion cannot be followed: the run stopped at its start")
     return t, np.moveaxis(np.array(rotation(attitudes.T)), -1, 0), omega
-
-
-def edges(inertia) -> np.ndarray:
-    """(3,) half edges of the even box with these moments, the longest 1; a thin one where two moments make
-    the third."""
-    D = np.array([float(d) for d in inertia])
-    found = np.sqrt(np.maximum(D.sum() - 2 * D, 0.0))  # m a_i^2 / 6 = D_j + D_k - D_i for edges a
-    return np.maximum(found / found.max(), THINNEST)
 
 
 # --- The body's box as it turns, as one page of HTML that needs nothing else

@@ -62,7 +62,7 @@ function spaceView(canvas, {glass = 1, near = 1} = {}) {
       const cross = (x, y) => [x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]];
       let u = cross(t, e); const us = Math.hypot(...u) || 1; u = u.map(v => v / us); const w = cross(t, u);
       for (let s = 0; s < sides; s++) for (let j = 0; j < 3; j++)
-        ring.push(points[3 * i + j] + radius * (Math.cos(2 * Math.PI * s / sides) * u[j] + Math.sin(2 * Math.PI * s / sides) * w[j]));
+        ring.push(points[3 * i + j] + (radius[i] ?? radius) * (Math.cos(2 * Math.PI * s / sides) * u[j] + Math.sin(2 * Math.PI * s / sides) * w[j]));
       if (i) for (let s = 0; s < sides; s++) {
         const x = (i - 1) * sides + s, y = (i - 1) * sides + (s + 1) % sides;
         triangles.push(x, y, x + sides, y, y + sides, x + sides);
@@ -75,13 +75,7 @@ function spaceView(canvas, {glass = 1, near = 1} = {}) {
     for (const axis of [0, 1, 2]) for (const side of [-1, 1]) tube(points.map((v, i) => i % 3 === axis ? 0.999 * side : v), 0.005, "#BDBDBD", [axis, side], 3);
   }
 
-  function arrow(at, step, colour) {  // a cone along the motion
-    const size = Math.hypot(...step), t = step.map(v => v / size), least = t.map(Math.abs).indexOf(Math.min(...t.map(Math.abs))), e = [0, 1, 2].map(j => +(j === least));
-    const cross = (x, y) => [x[1] * y[2] - x[2] * y[1], x[2] * y[0] - x[0] * y[2], x[0] * y[1] - x[1] * y[0]], u = cross(t, e).map(v => v / Math.hypot(...cross(t, e))), w = cross(t, u);
-    const sides = 12, points = at.map((v, j) => v + 0.6 * step[j]), triangles = [];
-    for (let s = 0; s < sides; s++) { const a = 2 * Math.PI * s / sides; points.push(...at.map((v, j) => v - 0.4 * step[j] + 0.5 * size * (Math.cos(a) * u[j] + Math.sin(a) * w[j]))); triangles.push(0, 1 + s, 1 + (s + 1) % sides); }
-    add(new Float32Array(points), triangles, colour, 0.25);
-  }
+  const arrow = (at, step, colour) => tube([-0.4, 0.6].flatMap(share => at.map((v, j) => v + share * step[j])), [0.5 * Math.hypot(...step), 0], colour, null, 12);
 
   function ball([x, y, z], radius, colour) {
     const n = 10, m = 16, points = [], triangles = [];
