@@ -93,7 +93,7 @@ def printed(words):
 
 def set_as_a_book(app, document):
     """Signs and powers of a book in words; a table of many columns keeps its rows low (site.css), with a long
-    last cell in a row of its own below."""
+    last cell in a row of its own below, and names its columns in each cell for telephones."""
     for text in list(document.findall(nodes.Text)):
         around = text.parent
         while around is not None and not isinstance(around, TYPED):
@@ -110,11 +110,16 @@ def set_as_a_book(app, document):
         columns = len(list(table.findall(nodes.colspec)))
         if columns >= MANY:
             table["classes"].append("many")
+            heads = [cell.astext() for head in table.findall(nodes.thead)
+                     for cell in head.findall(nodes.entry)]
             for row in list(table.findall(nodes.row)):
                 for cell in row:
                     size = len(cell.astext())
                     cell["classes"].append("whole" if size <= SHORT else "words" if size <= LONG
                                            else "paragraph")
+                for cell, head in zip(row, [] if isinstance(row.parent, nodes.thead) else heads):
+                    for words in cell[:1]:
+                        words.insert(0, nodes.inline("", f"{head}: ", classes=["column"]))
                 if len(row) == columns and "paragraph" in row[-1]["classes"]:
                     note = nodes.entry("", *row[-1].children, morecols=columns - 1, classes=["note"])
                     row.replace(row[-1], nodes.entry("", classes=["whole"]))

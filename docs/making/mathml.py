@@ -15,6 +15,7 @@ TIGHT = {"|", "/"}  # LaTeX sets no space about them; a browser does, and more b
 RELATIONS = {"~", "∼"}  # of which a browser knows no space
 LENGTH = re.compile(r"(?<=\d)(?=(?:bp|cc|cm|dd|em|ex|in|mm|mu|pc|pt|sp))")
 PRIMED = re.compile(r"('+)(?:\^(?:\{([^{}]*)\}|(\w)))?")
+LONG = 45  # letters of LaTeX: a telephone may be too narrow for more (site.css)
 BREAKS = {"2em", "1em"}  # \qquad and \quad, which part the equations of a line
 
 
@@ -108,7 +109,8 @@ def _written(element) -> str:
 
 
 def _inline(page, node) -> None:
-    page.body.append(f'<span class="math">{formula(node.astext())}</span>')
+    long = " long" * (len(node.astext()) > LONG)
+    page.body.append(f'<span class="math{long}">{formula(node.astext())}</span>')
     raise SkipNode
 
 

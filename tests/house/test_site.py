@@ -205,6 +205,19 @@ def test_a_table_of_many_columns_has_low_rows_and_a_long_last_cell_stands_below_
     assert below.astext() == "e" * 200 and below[0]["morecols"] == 4 and below[0]["classes"] == ["note"]
 
 
+def test_a_cell_of_a_table_of_many_columns_names_its_column_for_telephones(conf):
+    from docutils import nodes
+    from docutils.utils import new_document
+    page = new_document("page")
+    row, table = a_table("1", "2", "3", "4", "5")
+    head, _ = a_table("hard case", "asked for", "naive error", "our error", "condition")
+    table[0].insert(5, nodes.thead("", head))
+    page += table
+    conf["set_as_a_book"](None, page)
+    assert row.astext().split("\n\n")[:2] == ["hard case: 1", "asked for: 2"]
+    assert head.astext().startswith("hard case\n") and row[0][0][0]["classes"] == ["column"]
+
+
 @pytest.mark.parametrize(("written", "told"), [
     ("[docs/atlas.md](atlas.md) and [benchmarks/RESULTS.md](../benchmarks/RESULTS.md)",
      "[](atlas.md) and [](results.md)"),

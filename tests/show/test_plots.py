@@ -315,6 +315,18 @@ def test_a_title_says_that_an_approximate_law_does_not_hold():
             for title in titles] == [True, False] and all("BOUNDED" in title for title in titles)
 
 
+def test_the_picture_for_a_telephone_has_no_title_and_a_legend_within_its_width(tmp_path):
+    from PIL import Image
+    to_file.write(load("geostationary-22n"), tmp_path / "wide.png", narrow=tmp_path / "narrow.png")
+    with Image.open(tmp_path / "wide.png") as wide, Image.open(tmp_path / "narrow.png") as narrow:
+        assert narrow.width < 0.65 * wide.width
+        grey = np.asarray(narrow.convert("L"))
+    assert grey[:, -2:].min() > 200 and grey[:, :2].min() > 200
+    ax = to_file.narrowed(stabilab.plot.time(load("geostationary-22n")).figure).axes[0]
+    assert ax.get_title() == "" and [text.get_text() for text in ax.figure.legends[0].get_texts()][0] == r"$|\omega|$"
+    plt.close("all")
+
+
 def test_a_motion_too_small_to_be_seen_beside_its_separatrix_is_shown_enlarged():
     """thruster-stuck-major-axis moves by a degree a second in a well of a hundred."""
     assert len(stabilab.plot.phase(load("thruster-stuck-major-axis")).figure.axes) == 2

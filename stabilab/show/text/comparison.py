@@ -24,7 +24,7 @@ LOOKS = {"exact": {"color": style.BLACK, "linewidth": 2.2},
 BURIED = {"linestyle": "-", "linewidth": 0.6, "antialiased": False, "alpha": 0.35, "zorder": 1.9}
 DARK = {"printed": "#946300", "corrected": "#9C4A7B", "lindstedt": style.BLUE}  # of words, to be read
 # where a model ends before the motion does
-END = {"marker": "X", "markersize": 6, "linestyle": "none", "zorder": 5}
+END = {"marker": "X", "markersize": 7, "linestyle": "none", "zorder": 5}
 FLAT = 1e-4  # of its values, a range below which an axis counts from one of them
 DENSE = 100  # turns of a model in a panel from which on it would
 NAMES = {"omega": (r"$\omega_1$", r"$\omega_2$", r"$\omega_3$"),
