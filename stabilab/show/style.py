@@ -219,15 +219,15 @@ def share() -> float:
 
 
 def fitting(names: list[str], width: float) -> int:
-    """The most columns of a legend that fit below a figure of so many inches; it is filled column by column.
-    """
+    """The columns of a legend below a figure of so many inches, filled one after the other: as few rows as
+    fit, of about the same length."""
     room = (width - 0.3) / share()
     widths = [KEY + LETTER * len(re.sub(r"[$_\\]|\\\w+", "", name)) for name in names]
     for count in range(len(names), 1, -1):
         rows, longer = divmod(len(names), count)  # the first columns take one more
         ends = [n * rows + min(n, longer) for n in range(count + 1)]
         if sum(max(widths[low:high]) for low, high in zip(ends, ends[1:])) <= room:
-            return count
+            return -(-len(names) // -(-len(names) // count))
     return 1
 
 
