@@ -113,8 +113,10 @@ def _turning(orbit, side):
         if _over(orbit, spot):
             return _crossing(orbit, inner, spot)
         inner = spot
-    if circle and (spots or not against):
+    if circle and not against:
         return None
+    if circle and spots:
+        raise Open
     # from here on the potential is monotone
     end, reach = Fraction(0) if inner is None else above(inner) if side > 0 else below(inner), REACH
     for _ in range(WINDOWS):
@@ -188,7 +190,7 @@ def _ranges(orbit, left, right):
     out = []
     for which in (0, 1):
         values = [orbit.place(left)[which], orbit.place(right)[which]]
-        for z in [] if orbit.constant(which) else orbit.turns_of(which, right):
+        for z in [] if orbit.constant(which) else orbit.stationary(which, right):
             if z < left or z > right:
                 continue
             value = orbit.place(z)[which]

@@ -342,7 +342,7 @@ class Orbit:
         det = g.du * g.sv - g.dv * g.su
         return _angle((g.du * v - g.dv * u) / det, (u * g.sv - v * g.su) / det) / g.n
 
-    def turns_of(self, which, right) -> list:
+    def stationary(self, which, right) -> list:
         """Where u (0) or v (1), which is not constant, is stationary: on a circle on the last turn before a
         place."""
         g = self.balls
