@@ -350,7 +350,7 @@ def space_of(one: Subject, names: Iterable[str], rate: float, known: Equilibria 
             known = equilibria(one.scene)
         except StabilabError:
             known = None
-    line = [] if moved is None else near_part(_path(one).tolist(), moved)
+    line = [] if moved is None else _path(one)
     marks = marks_of(one.state, moved, known)
     near = nearest(known, line) if line else []
     box = box_of(line, marks + near, branches_of(one.twin)[0], most, reaching)
@@ -399,12 +399,13 @@ def away(one: Subject, found: Space, scale: Measures) -> str:
             f"outside of this picture".replace("  ", " "))
 
 
-def _path(one: Subject) -> np.ndarray:
-    """The motion (n, 3): one period, or the span as far as a picture can show it."""
+def _path(one: Subject) -> list[Any]:
+    """The motion: one period, or the span as far as a picture can show it."""
     period = one.motion.period
     low, high = one.seen
     _, omega = path(one, low, low + period if period else high)
+    omega = omega[:len(near_part(omega.tolist(), one.motion))]
     near = FINE * (float(np.ptp(omega, axis=0).max()) or 1.0)
     while len(line := thinned(omega, near)) > MOST:
         near *= 2
-    return line
+    return line.tolist()
