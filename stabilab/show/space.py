@@ -21,6 +21,8 @@ from ..packages import present
 from ..physics.scene import AnyScene
 from . import style
 from .sampling import spread
+from .spans import BEYOND as SHOWN
+from .spans import limit_time
 
 NEAR = 2.0     # times the motion's own size: a separatrix or an equilibrium so near is in the picture
 ROOM = 1.25    # of a box about the things in it
@@ -126,16 +128,18 @@ def _comes_in(branch: PlainBranch, box: Box) -> bool:
                for n, at in enumerate(branch.points))
 
 
-def near_part(path: list[Point], motion: Motion | None) -> list[Point]:
-    """A motion that spins up as long as it is near where it began; all of it of any other, also where that
-    goes far and comes back."""
+def near_part(times: Sequence[float], path: list[Point], motion: Motion | None) -> list[Point]:
+    """A motion that spins up as long as it is near where it was in the first twentieth of its time, and past
+    the limit of its case; all of it of any other, also where that goes far and comes back."""
     if motion is not None and motion.fate is not Fate.SPIN_UP or not path:
         return path
-    size = max(math.hypot(*x) for x in path[:max(2, len(path) // 20)])
+    early = abs(times[-1] - times[0]) / 20
+    size = max(math.hypot(*x) for t, x in zip(times, path) if abs(t - times[0]) <= early)
     if motion is not None and motion.margin_velocity is not None and math.isfinite(motion.margin_velocity):
         size = max(size, motion.margin_velocity)
-    late = (next((n for n, x in enumerate(path) if math.hypot(*x) > LATEST * size), len(path)) if size
-            else len(path))
+    limit = SHOWN * ((motion and limit_time(motion)) or 0.0)
+    late = (next((n for n, (t, x) in enumerate(zip(times, path)) if math.hypot(*x) > LATEST * size
+                  and t > limit), len(path)) if size else len(path))
     return path[:late + 1] if late > 20 else path
 
 

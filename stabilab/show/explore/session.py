@@ -160,7 +160,7 @@ class Session:
         until, cut = _length(case, found, form, moving)
         times, path = self._once("line", (case.scene, case.state, until, moving),
                                  lambda: line(case, form, until, moving))
-        picture = self._space(bag, case, twin, found, at_rest, path, asked.get("box"), moving)
+        picture = self._space(bag, case, twin, found, at_rest, times, path, asked.get("box"), moving)
         made = {"headline": greek(words), "fate": "undecided" if found is None else found.fate.word,
                 "look": "conditional" if found is None else look(found),
                 "moving": moving, "start": clicked,
@@ -220,8 +220,9 @@ class Session:
         self._cost["equilibria"] = max(self._cost.get("equilibria", 0.0), time.process_time() - began)
         return found
 
-    def _space(self, bag, case, twin, found, at_rest, path, asked, moving):
-        near, (bare, ghost) = near_part(path, found), (None, False) if twin is None else _without_tilt(twin)
+    def _space(self, bag, case, twin, found, at_rest, times, path, asked, moving):
+        near = near_part(times, path, found)
+        bare, ghost = (None, False) if twin is None else _without_tilt(twin)
         marks = marks_of(case.state, found, at_rest)
         rests = [] if moving else nearest(at_rest, near)
         box = box_of(near, marks + rests, reaching=True, asked=asked, kept=moving or ghost)

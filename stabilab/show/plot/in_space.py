@@ -403,8 +403,8 @@ def _path(one: Subject) -> list[Any]:
     """The motion: one period, or the span as far as a picture can show it."""
     period = one.motion.period
     low, high = one.seen
-    _, omega = path(one, low, low + period if period else high)
-    omega = omega[:len(near_part(omega.tolist(), one.motion))]
+    t, omega = path(one, low, low + period if period else high)
+    omega = omega[:len(near_part(t.tolist(), omega.tolist(), one.motion))]
     near = FINE * (float(np.ptp(omega, axis=0).max()) or 1.0)
     while len(line := thinned(omega, near)) > MOST:
         near *= 2

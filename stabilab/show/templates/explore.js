@@ -1,5 +1,5 @@
 // The page: sliders ask, answers are drawn. A question of a moving hand waits for the one before; one of a resting hand gives way to any newer.
-const $ = id => document.getElementById(id), setup = JSON.parse($("setup").textContent), ask = backend(), view = spaceView($("space"), {glass: 0.62, near: 1.05});
+const $ = id => document.getElementById(id), setup = JSON.parse($("setup").textContent), ask = backend(), view = spaceView($("space"), {glass: 0.62, near: 0.95});
 const touched = {}, fields = {};
 let axis = setup.groups[0].axis, axisTouched = false, shown = null, serial = 0, latest = 0, busy = false, waiting = null, resting = null, abort = null, cross = null, planeArt = null;
 const REST = 160;  // ms without a change after which a hand rests
