@@ -399,11 +399,6 @@ class HyperbolaLandscape(ConicLandscape):
             return np.zeros(np.shape(place[0]), bool)
         return np.sqrt(np.abs(place[0])) * np.sqrt(np.abs(place[1])) <= near
 
-    @property
-    def least_invariant(self) -> float:
-        """The size of Q, in canonical units, above which a place is not `beside_centre`; 0 where none is."""
-        return (self._near_centre() or 0.0) ** 2
-
     def _near_centre(self):
         """How near the centre the conic is not to be trusted; None where no equilibrium stands there."""
         if not self.conic.pieces:

@@ -51,10 +51,19 @@ def test_the_help_of_every_command_has_none_of_our_own_words(stabilab):
             assert ours(stabilab(name, "--help")[1]) == [], name
 
 
+def texts(said):
+    """All texts of an answer but its keys, which scripts read and which therefore stay."""
+    if isinstance(said, str):
+        yield said
+    elif isinstance(said, (list, dict)):
+        for one in said.values() if isinstance(said, dict) else said:
+            yield from texts(one)
+
+
 @pytest.mark.parametrize("record", RECORDS, ids=[path.name.split(".")[0] for path in RECORDS])
 def test_the_answers_about_all_cases_have_none_of_our_own_words(record):
     for command, said in json.loads(gzip.decompress(record.read_bytes())).items():
-        assert ours(json.dumps(said, ensure_ascii=False), SAID) == [], command
+        assert ours("\n".join(texts(said)), SAID) == [], command
 
 
 @pytest.mark.parametrize("command", [("surface", "--out", "{}"), ("attitude",), ("fate", "--why"), ("chaos",)],

@@ -126,7 +126,8 @@ def test_the_latest_closing_time_is_the_last_double_that_stays_below(tmp_path, s
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("seed", range(3, 100))
+@pytest.mark.parametrize("seed", [*range(3, 25), *(pytest.param(n, marks=pytest.mark.long)
+                                                    for n in range(25, 100))])
 def test_the_latest_closing_times_of_a_hundred_burns(tmp_path, seed):
     check_latest(tmp_path, seed)
 

@@ -50,7 +50,9 @@ def agrees(one):
             assert np.abs(eigenvalues - z).min() < 1e-4
 
 
-@pytest.mark.parametrize("seed", [*range(40), *(pytest.param(n, marks=pytest.mark.slow) for n in range(40, 500))])
+@pytest.mark.parametrize("seed", [*range(40), *(
+    pytest.param(n, marks=[pytest.mark.slow, *([pytest.mark.long] if n >= 100 else [])])
+    for n in range(40, 500))])
 def test_newtons_method_from_many_starts_finds_the_same_equilibria(seed):
     agrees(random_satellite(seed))
 
