@@ -144,7 +144,8 @@ def follow(text, folder, wanted):
     run. The first is run by a shell, as a reader does, and all of a page that changes the program."""
     followed = [item for item in commands(text) if item[0] not in NOT_RUN and wanted(item[0])]
     for n, (command, shown, stated) in enumerate(followed):
-        by_shell = n == 0 or (folder / "stabilab").is_dir() or not command.startswith("stabilab ")
+        by_shell = (n == 0 or " > " in command or (folder / "stabilab").is_dir()
+                    or not command.startswith("stabilab "))
         output, code = (run if by_shell else run_here)(command, folder)
         if command.startswith("stabilab surface") and not probe().available:
             assert code == errors.NO_RENDERING and CURE in output, output
