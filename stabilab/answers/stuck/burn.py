@@ -191,8 +191,7 @@ def _closed(chain: Chain, links: Sequence[_Link]) -> Closed:
              for t in chain.case.thrusters]
     used = [None if t.burn is None or t.burn.mass_flow is None else float(t.burn.mass_flow * time)
             for t, time in zip(chain.case.thrusters, fired)]
-    last = links[-1].begin + links[-1].length if links else Fraction(0)
-    return Closed(float(last), rates, error,
+    return Closed(float(chain.closed), rates, error,
                   tuple(d * w + l for d, w, l in zip(body.inertia, rates, wheel)),
                   sum(d * w * w for d, w in zip(body.inertia, rates)) / 2,
                   largest_after(chain.base, rates) if chain.free else found.largest, before, found,
@@ -251,7 +250,7 @@ def time_of_burn(burning: Any, ask: dict[str, Any], until: Fraction | None = Non
     (but for the angle of an axis).
     """
     chain = Chain(burning)
-    case, limit, pieces = chain.case, asked(chain.base, **ask), list(chain.pieces())
+    case, limit = chain.case, asked(chain.base, **ask)
     if limit.reached_by(case.exact_state or case.state):
         return _time(chain, limit, Found(0.0, 0.0, "exact", f"{limit.words}: reached already at the start"))
     if until is None and limit.kind == "rate" and chain.free:
@@ -260,12 +259,12 @@ def time_of_burn(burning: Any, ask: dict[str, Any], until: Fraction | None = Non
         if math.isinf(after.low):
             return _time(chain, limit, replace(after, words=f"{limit.words}: never, neither while thrusters "
                                                             "fire nor after"))
-    closed = pieces[-1].begin + pieces[-1].length if pieces else Fraction(0)
+    closed = chain.closed
     end = until if until is not None else max(closed, Fraction(case.span[1]) if case.span else closed)
     found = _enclosed(chain, limit, end)
     if found is None and limit.kind != "tilt":
-        pieces += [Piece(closed, end - closed, (), chain.base)] if end > closed else []
-        found = _along(list(_links(chain, pieces)), limit, every=True)
+        rest = [Piece(closed, end - closed, (), chain.base)] if end > closed else []
+        found = _along(list(_links(chain, [*chain.pieces(), *rest])), limit, every=True)
     if found is None or not found.low <= end:
         known = 0.0 if found is None else float(end)
         found = Found(known, math.nan, "undecided" if found is None else found.level,

@@ -33,8 +33,8 @@ class Piece(NamedTuple):
 
 class Chain:
     """The scenes of a burn, one after the other, up to its last closing, at `stop` (s) at the latest. base:
-    the scene without the thrusters, which holds from then on; free: whether that is a body without wheels on
-    which no torque acts."""
+    the scene without the thrusters, which holds from then on; closed: s, the last closing; free: whether that
+    is a body without wheels on which no torque acts."""
 
     def __init__(self, burning: Any, stop: Fraction | None = None) -> None:
         if isinstance(burning, (str, PathLike)):
@@ -51,6 +51,7 @@ class Chain:
         self.case, self.base = case, case.physical
         self.until = stop if stop is not None else self._end(case)
         self.segments = burning.segments(self.until)
+        self.closed = self.segments[-1][1] if self.segments else Fraction(0)
         self.torques = [case.frame.turned(t.torque) for t in case.thrusters]
         self.free = not any(self.base.vector("gyrostat")) and not any(self.base.vector("constant_torque"))
 
@@ -73,11 +74,9 @@ class Chain:
     def enclosed(self, limit: Limit, end: Fraction | None = None) -> Enclosed:
         """The first crossing of a limit by `end` (s; None: by the last closing), proved over all switches, or
         until when there is none."""
-        pieces = list(self.pieces())
-        closed = pieces[-1].begin + pieces[-1].length if pieces else Fraction(0)
-        scenes = [*((piece.begin, piece.scene) for piece in pieces), (closed, self.base)]
+        scenes = [*((piece.begin, piece.scene) for piece in self.pieces()), (self.closed, self.base)]
         start = self.case.exact_state or tuple(map(Fraction, self.case.state))
-        return enclosed(scenes[0][1], start, limit, closed if end is None else end, later=scenes[1:])
+        return enclosed(scenes[0][1], start, limit, self.closed if end is None else end, later=scenes[1:])
 
     def _scene(self, firing: Sequence[int]) -> Scene:
         """With the torques of these thrusters added to what acts anyway."""
@@ -117,12 +116,10 @@ def simulate_burn(burning: Any, times: Any = None, attitude: str | None = None) 
     times = checked_times(case.span if times is None else times)
     if times[0] < 0 or times[0] > times[-1]:
         raise InputError("times: a burn is followed from 0 on: give increasing times that are not negative")
-    pieces = list(chain.pieces())
-    closed = pieces[-1].begin + pieces[-1].length if pieces else Fraction(0)
-    after = Piece(closed, max(Fraction(times[-1]) - closed, Fraction(0)), (), chain.base)
+    after = Piece(chain.closed, max(Fraction(times[-1]) - chain.closed, Fraction(0)), (), chain.base)
     omega, found = case.state, []
     blocks = {} if attitude is None else quaternion_blocks(case.blocks)
-    for piece in [*pieces, after]:
+    for piece in [*chain.pieces(), after]:
         end = piece.begin + piece.length
         inside = [t for t in times.tolist() if piece.begin <= t and (t < end or piece is after)]
         local = [float(Fraction(t) - piece.begin) for t in inside]

@@ -49,13 +49,29 @@ def label_by_table(table: BarrierTable, states, out) -> np.ndarray:
     for start in range(0, len(states), CHUNK):
         part = slice(start, min(start + CHUNK, len(states)))
         columns = {name: column[part] for name, column in out.items()}
-        columns["reasons"][:] = WALLS
-        columns["labels"][:] = 0
-        found = (_on_circles if table.e < 0 else _on_hyperbolas)(table, states[part], columns)
-        columns["axis"][:] = columns["labels"] * np.int8(table.axis)
-        columns["sense"][:] = columns["labels"] * np.int8(table.sense)
+        found = _labelled(table, states[part], columns)
         unsure.append(np.nonzero(found)[0] + start)
     return np.concatenate(unsure)
+
+
+def _labelled(table, states, out):
+    """Fill the columns of a chunk; (n,) which of them the general formula has to answer."""
+    heights, bound = ((circle_heights, CIRCLE_MARGIN_BOUND) if table.e < 0
+                      else (hyperbola_heights, HYPERBOLA_MARGIN_BOUND))
+    x, z, w = canonical(table, states)
+    energy = 0.5 * w * w
+    with np.errstate(all="ignore"):
+        height, scale, clear = heights(table, x, z)
+        margin = height - energy
+        np.multiply(margin, table.unit, out=out["margins"])
+        sure = np.isposinf(height) | _trusted(margin, height, energy, scale, bound)
+    out["labels"][:], out["reasons"][:] = 0, WALLS
+    if table.e < 0:  # on hyperbolas walls stand on both sides
+        np.less(margin, 0, out=out["labels"].view(bool))
+        np.add(out["labels"], np.isneginf(height), out=out["reasons"])
+    out["axis"][:] = out["labels"] * np.int8(table.axis)
+    out["sense"][:] = out["labels"] * np.int8(table.sense)
+    return ~(clear & sure)
 
 
 def canonical(table: BarrierTable, states):
@@ -149,26 +165,3 @@ def hyperbola_heights(table, x, z):
         wide = rounding[inside]
         scale[inside] += np.abs(tilt) + mu * (1 + wide / place) + r[STEEP] * wide * wide + r[BULK]
     return height, scale, clear
-
-
-def _on_circles(table, states, out):
-    x, z, w = canonical(table, states)
-    energy = 0.5 * w * w
-    with np.errstate(all="ignore"):
-        height, scale, clear = circle_heights(table, x, z)
-        margin = height - energy
-        np.multiply(margin, table.unit, out=out["margins"])
-        np.less(margin, 0, out=out["labels"].view(bool))
-        np.add(out["labels"], np.isneginf(height), out=out["reasons"])
-        return ~(clear & _trusted(margin, height, energy, scale, CIRCLE_MARGIN_BOUND))
-
-
-def _on_hyperbolas(table, states, out):
-    x, z, w = canonical(table, states)
-    energy = 0.5 * w * w
-    with np.errstate(all="ignore"):
-        height, scale, clear = hyperbola_heights(table, x, z)
-        margin = height - energy
-        np.multiply(margin, table.unit, out=out["margins"])
-        return ~(clear & (np.isposinf(height)
-                          | _trusted(margin, height, energy, scale, HYPERBOLA_MARGIN_BOUND)))

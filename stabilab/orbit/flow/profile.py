@@ -305,7 +305,7 @@ TINY = 1e-290  # no way at all, but not 0/0
 
 @lru_cache(maxsize=16)
 class Rule:
-    """Even functions of phi from their values at phi_m = m 2 pi/n, m = 0 ... n/2.
+    """Even functions of phi from their values at the angles phi_m = m 2 pi/n, m = 0 ... n/2.
 
     matrix: to their n/2 + 1 coefficients (of cos k phi), to those of the integral less its mean (of sin k
     phi), and to the integral at the nodes. low, high: 1 where the phase is told from the turning point on the
@@ -319,9 +319,8 @@ class Rule:
         weights = np.where((k == 0) | (k == last), 0.5, 1.0)
         fourier = 2.0 / last * np.cos(np.outer(k, phi)) * weights[:, None] * weights
         slow = fourier * np.where((k > 0) & (k < last), 1 / np.maximum(k, 1), 0.0)[:, None]
-        self.sines = np.sin(np.outer(phi, k))
-        self.matrix = np.vstack([fourier, slow, np.outer(phi, fourier[0]) + self.sines @ slow])
-        self.phi, self.angles, self.k, self.weights = phi, phi.tolist(), k, weights / last
+        self.matrix = np.vstack([fourier, slow, np.outer(phi, fourier[0]) + np.sin(np.outer(phi, k)) @ slow])
+        self.angles = phi
         part = last // 2 + 1
         self.low = (k < part).astype(float)
         self.high = 1 - self.low
