@@ -180,27 +180,28 @@ def loop_end(g, sense, x, z, side):
         return TURN, centre, SHARED
     if not rise(g, x, z, side * high) > 0:  # towards the torque the next turn lies lower
         return 0.0, 0.0, NONE
-    return crossing(g, x, z, side, low, high), centre, ENDS
+    end = crossing(lambda t: rise(g, x, z, side * t), lambda t: -side * force(g, *moved(x, z, side * t)), low,
+                   high)
+    return end, centre, ENDS
 
 
-def crossing(g, x, z, side, low, high):
-    """Where the potential rises through the saddle's height between a well at `low` and `high`: Newton's
-    method in a bracket.
+def crossing(height, slope_at, low, high):
+    """Where the potential rises through the saddle's height between a well at `low` and `high`, distances
+    from the saddle: Newton's method in a bracket. height, slope_at: of a distance.
 
     The first guess is exact for the cubic potential next to a fold, whose loop is half as long again as the
     way to the well.
     """
     t = min(1.5 * low, 0.5 * (low + high))
     for _ in range(200):
-        value = rise(g, x, z, side * t)
+        value = height(t)
         if value > 0:
             high = t
         elif value < 0:
             low = t
         else:
             return t
-        there_x, there_z = moved(x, z, side * t)
-        steep = -side * force(g, there_x, there_z)
+        steep = slope_at(t)
         new = t - value / steep if steep > 0 else low
         if abs(new - t) <= 1e-9 * t:
             return new  # convergence is quadratic: the next step would be 1e-18

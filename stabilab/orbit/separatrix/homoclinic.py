@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 
-from .circle import ENDS, NONE, OWN, real_cubic
+from .circle import ENDS, NONE, OWN, crossing, real_cubic
 from .circle import loop_end as _end_on_circle
 
 FAR = 700.0       # beside an open plane there is no wall as near as this
@@ -47,7 +47,11 @@ def _on_hyperbola(pot, sense, saddle, side):
         return None
     if high is None:
         high = _wall(pot, saddle, low, side)
-    return None if high is None else (_crossing(pot, saddle, side, low, high), centre, ENDS)
+    if high is None:
+        return None
+    end = crossing(lambda t: pot.rise(side * t, saddle),
+                   lambda t: -side * pot.force(pot.move(saddle, side * t)), low, high)
+    return end, centre, ENDS
 
 
 def _others(pot, saddle, side):
@@ -68,34 +72,6 @@ def _wall(pot, saddle, low, side):
             return low + step
         step *= 2
     return None
-
-
-def _crossing(pot, saddle, side, low, high):
-    """Where the potential rises through the saddle's height between a well at `low` and `high`: Newton's
-    method in a bracket.
-
-    The first guess is exact for the cubic potential next to a fold, whose loop is half as long again as the
-    way to the well.
-    """
-    t = min(1.5 * low, 0.5 * (low + high))
-    for _ in range(200):
-        value = pot.rise(side * t, saddle)
-        if value > 0:
-            high = t
-        elif value < 0:
-            low = t
-        else:
-            return t
-        slope = -side * pot.force(pot.move(saddle, side * t))
-        new = t - value / slope if slope > 0 else low
-        if abs(new - t) <= 1e-9 * t:
-            return new  # convergence is quadratic: the next step would be 1e-18
-        if not low < new < high:
-            new = 0.5 * (low + high)
-            if not low < new < high:
-                return new
-        t = new
-    return t
 
 
 GEOMETRIES = {-1: _on_circle, 1: _on_hyperbola}
