@@ -100,16 +100,21 @@ def eigenvectors(satellite: Satellite) -> tuple[Exact3, ...]:
 
 def across(satellite: Satellite, axes: Sequence[Exact3], k: int) -> Iterator[Line]:
     """Those with a3 along the axis k, which the momentum must be across."""
-    h, (i, j) = satellite.momentum, CYCLE[k]
-    if dot(h, axes[k]):
+    i, j = CYCLE[k]
+    if dot(satellite.momentum, axes[k]):
         return
-    moments = [dot(axis, turned_by(satellite.moments, axis)) / dot(axis, axis) for axis in axes]
-    parts = [dot(h, axis) / dot(axis, axis) for axis in axes]
-    one = fmpq_poly([1])
-    for polynomial, x, y in plane(moments[i], moments[j], parts[i], parts[j], dot(axes[i], axes[i]),
-                                  dot(axes[j], axes[j]), satellite.rate_squared):
+    one, ((A, p, a), (B, q, b)) = fmpq_poly([1]), (about(satellite, axes[n]) for n in (i, j))
+    for polynomial, x, y in plane(A, B, p, q, a, b, satellite.rate_squared):
         omega = tuple(rational(u) * x + rational(v) * y for u, v in zip(axes[i], axes[j]))
         yield Line(polynomial, tuple(rational(v) * one for v in axes[k]), omega, one)
+
+
+def about(satellite: Satellite, axis: Exact3) -> tuple[Fraction, Fraction, Fraction]:
+    """(moment of inertia about a principal axis, component of the momentum along it in units of the axis,
+    square of the axis)."""
+    square = dot(axis, axis)
+    return (dot(axis, turned_by(satellite.moments, axis)) / square, dot(satellite.momentum, axis) / square,
+            square)
 
 
 def plane(A: Number, B: Number, p: Number, q: Number, a: Number, b: Number,

@@ -19,7 +19,7 @@ from ...numbers.algebraic import cuts, gaps
 from ...numbers.balls import rational
 from ...numbers.vectors import CYCLE, Number, dot
 from ...physics.circular_orbit import Satellite
-from .elimination import coefficients, directions, eigenvectors, forms, plane_of, turned_by
+from .elimination import about, coefficients, directions, eigenvectors, forms, plane_of
 from .families import symmetry
 from .solve import orbit_equilibria
 
@@ -83,9 +83,7 @@ def _across(satellite: Satellite) -> Iterator[fmpq_poly]:
     for k, (i, j) in enumerate(CYCLE):
         if dot(h, axes[k]):
             continue
-        (A, p, a), (B, q, b) = ((rational(dot(axis, turned_by(satellite.moments, axis)) / dot(axis, axis)),
-                                 rational(dot(h, axis) / dot(axis, axis)), rational(dot(axis, axis)))
-                                for axis in (axes[i], axes[j]))
+        (A, p, a), (B, q, b) = (map(rational, about(satellite, axes[n])) for n in (i, j))
         D = B - A
         if p != 0 and q != 0:
             quartic = (a * t**2 - n2) * (D * t - p * s)**2 + b * q**2 * s**2 * t**2
