@@ -10,7 +10,7 @@ SLOW = ("scenes", "surfaces", "orbit_extremes",
         "trajectories")  # it runs many methods
 
 
-@pytest.mark.one_in(2)
+@pytest.mark.one_in(4)
 @pytest.mark.parametrize("topic",
                          [pytest.param(topic, marks=pytest.mark.slow if topic in SLOW else ())
                           for topic in suite.TOPICS])

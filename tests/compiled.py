@@ -17,6 +17,7 @@ import pytest
 from stabilab import load
 from stabilab.answers.motion import motion
 from stabilab.numbers.numba_door import installed
+from stabilab.orbit.extremes_and_periods import extremes_and_periods
 from stabilab.unreduced.spin_up.certificate import tests_of
 from stabilab.unreduced.spin_up.follow import spin_up_many
 from tests.shared import CASES
@@ -41,13 +42,29 @@ def proofs():
     motion(case.scene, case.state, proof=True)
 
 
+def rows(name):
+    """Of extremes and periods of many states, on one geometry."""
+    scene = load(CASES / f"{name}.toml").scene
+    extremes_and_periods(scene, np.random.default_rng(6).normal(size=(40, 3)), by_numba=True)
+
+
+def circles():
+    rows("minor-axis-100")
+
+
+def hyperbolas():
+    rows("middle-axis-100")
+
+
 def rewritten():
     """Every test is read; none is run."""
     with contextlib.redirect_stdout(io.StringIO()):
         pytest.main(["--collect-only", "-qq"])
 
 
+COMPILED = circles, hyperbolas, searches, proofs
+
 if __name__ == "__main__":
     with ProcessPoolExecutor(2) as pool:
-        for done in [pool.submit(task) for task in (*((searches, proofs) if installed() else ()), rewritten)]:
+        for done in [pool.submit(task) for task in (*(COMPILED if installed() else ()), rewritten)]:
             done.result()

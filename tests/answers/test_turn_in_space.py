@@ -71,7 +71,7 @@ def body(rng):
     return rng.permutation(np.array([[0, 1, 1], [1, 0, 1], [1, 1, 0]]) @ rng.uniform(0.05, 1, 3))
 
 
-@pytest.mark.parametrize("seeds", [range(15), pytest.param(range(15, 150), marks=pytest.mark.slow),
+@pytest.mark.parametrize("seeds", [range(6), pytest.param(range(6, 150), marks=pytest.mark.slow),
                                    pytest.param(range(150, 1000), marks=LONG)], ids=str)
 def test_periods_of_random_free_bodies_are_those_of_followed_attitudes(seeds):
     modes = set()
@@ -106,7 +106,7 @@ def test_the_period_grows_by_the_logarithm_down_to_32_decimals_from_the_separatr
     assert periods[1] - periods[0] == pytest.approx(2 * math.log(100) / speed, rel=1e-9)
 
 
-@pytest.mark.parametrize("seeds", [range(6), pytest.param(range(6, 60), marks=pytest.mark.slow),
+@pytest.mark.parametrize("seeds", [range(4), pytest.param(range(4, 60), marks=pytest.mark.slow),
                                    pytest.param(range(60, 400), marks=LONG)], ids=str)
 def test_free_gyrostats_turn_as_their_followed_attitudes(seeds):
     for seed in seeds:
@@ -115,7 +115,7 @@ def test_free_gyrostats_turn_as_their_followed_attitudes(seeds):
         checked(body(rng), wheel, np.zeros(3), rng.normal(size=3), 1e-10)
 
 
-@pytest.mark.parametrize("seeds", [range(8), pytest.param(range(8, 40), marks=pytest.mark.slow),
+@pytest.mark.parametrize("seeds", [range(3), pytest.param(range(3, 40), marks=pytest.mark.slow),
                                    pytest.param(range(40, 400), marks=LONG)], ids=str)
 def test_bounded_motions_with_a_torque_turn_as_their_followed_attitudes(seeds):
     bounded = 0

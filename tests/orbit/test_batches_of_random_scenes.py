@@ -23,7 +23,7 @@ from stabilab.orbit.reduction import reduce
 DIGITS, MARGIN = 1e-11, 1e-12
 SCENES, STATES, FEW = 200, 300, 24
 FAST = (False, True) if installed() else (False,)
-DEFAULT = range(0, SCENES, 17)
+DEFAULT = range(0, SCENES, 33)
 numbers = pytest.mark.parametrize("number",
                                   [*DEFAULT, *(pytest.param(n, marks=pytest.mark.slow) for n in range(SCENES)
                                                if n not in DEFAULT)])

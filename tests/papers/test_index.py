@@ -8,7 +8,8 @@ import pytest
 CONTENTS = {"constant-torque-gyrostat": (84, 17, {"1", "2", "3", "4"}), "liquid-cavity": (26, 13, set())}
 
 
-@pytest.mark.parametrize("paper", CONTENTS)
+@pytest.mark.parametrize("paper", [pytest.param("constant-torque-gyrostat", marks=pytest.mark.slow),
+                                   "liquid-cavity"])  # the audit of a paper takes five seconds
 def test_every_equation_figure_and_table_has_a_verdict_and_a_place(stabilab, paper):
     equations, figures, tables = CONTENTS[paper]
     rows = json.loads(stabilab("papers", paper, "--json")[1])["rows"]
@@ -23,6 +24,7 @@ def test_every_equation_figure_and_table_has_a_verdict_and_a_place(stabilab, pap
     assert all(row["place"] for row in rows)
 
 
+@pytest.mark.slow
 def test_the_text_has_a_line_an_item_with_how_to_see_it(stabilab):
     out = stabilab("papers", "constant-torque-gyrostat")[1]
     assert "figure 7 " in out

@@ -35,7 +35,7 @@ def bare(monkeypatch):
         monkeypatch.setattr(page, name, lambda *given, **options: None)
 
 
-@pytest.mark.one_in(4)
+@pytest.mark.one_in(8)
 @pytest.mark.parametrize("name", [name for name in CASES if name != "middle-axis-spin-up"]
                          + [pytest.param("middle-axis-spin-up", marks=pytest.mark.slow)])  # takes half a minute
 def test_every_view_has_the_same_headline(stabilab, bare, tmp_path, name):

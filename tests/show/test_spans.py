@@ -18,6 +18,7 @@ def one(request):
     return subject(stabilab.load(f"cases/{request.param}.toml"))
 
 
+@pytest.mark.one_in(2)
 def test_what_the_headline_says_happens_within_the_span(one):
     low, high = one.seen
     if limit := limit_time(one.motion):
@@ -28,6 +29,7 @@ def test_what_the_headline_says_happens_within_the_span(one):
         assert high > spin_up_time(one.motion)
 
 
+@pytest.mark.one_in(4)
 def test_pictures_and_explorer_show_the_same_span(one):
     """By what each of them draws."""
     low, high = one.seen
@@ -40,6 +42,7 @@ def test_pictures_and_explorer_show_the_same_span(one):
     assert row(header["time"]["size"]) == pytest.approx(np.linalg.norm(rates, axis=0), rel=1e-5)
 
 
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("name", ["minor-axis-100", "thruster-stuck-major-axis", "middle-axis-spin-up",
                                   "torque-free-body"])
 def test_a_case_without_a_span_has_one_span_in_every_view_too(name):

@@ -88,6 +88,7 @@ def test_company_does_not_matter(fast):
 
 
 @numba
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("wheel", [0, 1])
 def test_motions_are_decided_alike_with_and_without_numba(wheel):
     """The same loops, compiled and as they are written; the states lie on the motions, by SciPy's DOP853."""
