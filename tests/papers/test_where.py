@@ -38,11 +38,12 @@ def folder(tmp_path_factory):
                figures=[figure | {"number": row.number, "id": f"figure-{row.number}"}
                         for row in catalogue.of_paper(main)])
     for name in others:
-        chapter = {"id": name, "title": "", "about": "", "paper": "", "problem": "", "parameters": "D", "claims": (),
+        chapter = {"id": name, "title": "", "about": "", "paper": "", "problem": "", "parameters": "D",
                    "compared": (), "sensible": None, "end": 1.0,
                    "figures": [figure | {"number": row.number, "id": f"{name}-{row.number}"}
                                for row in catalogue.of_paper(name)]}
-        html.write(out / f"{name}.html", "chapter.html", chapter=chapter)
+        claims = where.claims(*next(one for one in found if one[0].figures == name))
+        html.write(out / f"{name}.html", "chapter.html", chapter=chapter, claims=claims)
     where.hard_cases(out)
     return out
 
@@ -62,6 +63,13 @@ def test_anchors_of_the_audit_are_unique_and_the_main_paper_is_the_first(folder)
     assert len(anchors) == len(set(anchors)) and papers()[0] == MAIN
     assert text.index(f'href="#{MAIN}"') < text.index(f'id="{MAIN}"') < text.index('id="charged-axisymmetric"')
     assert f'id="{MAIN}-30"' in text
+
+
+def test_the_claims_of_every_paper_stand_on_its_page_with_their_rows_of_the_audit(folder):
+    audit = (folder / "audit.html").read_text(encoding="utf-8")
+    for name in catalogue.PAPERS:
+        links = re.findall(r'"audit.html#([^"]+)">not so<', (folder / f"{name}.html").read_text(encoding="utf-8"))
+        assert len(links) > 5 and all(f'id="{anchor}"' in audit for anchor in links), name
 
 
 def test_the_data_of_the_main_paper_are_those_that_it_prints(folder):

@@ -1,12 +1,10 @@
-"""A chapter of the report per paper: its data, what its text claims, what is true, and a variant that makes
-sense.
+"""A chapter of the report per paper: its data, its figures, when its models leave the exact motion, and a
+variant that makes sense.
 
-Every number in a chapter is computed while the report is written: claims are set against the exact motion of
-the paper's own cases, and the times of the first 1 % and 10 % error come from `analysis.comparison`.
+Every number in a chapter is computed while the report is written.
 """
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -26,7 +24,6 @@ from ...theories.comparison import compare, side_by_side
 from ..figures import catalogue as figures
 from ..figures import panels
 from ..figures.difference import words
-from . import claims
 
 FOLDER = "figures/"  # of a report
 
@@ -34,17 +31,15 @@ FOLDER = "figures/"  # of a report
 @dataclass(frozen=True)
 class Chapter:
     """paper: short name as of `figures`; about: what the paper does and where it stands; compared: (case
-    file, variant) of the motions whose errors are listed; end: s; claims() -> rows (the text says, it is so,
-    True where the text is right); sensible: case file of the variant; sensible_end: s; why: what makes it
-    sensible; parts: of the state to draw, over `window`, s; short: name in the navigation; weight: s of one
-    core."""
+    file, variant) of the motions whose errors are listed; end: s; sensible: case file of the variant;
+    sensible_end: s; why: what makes it sensible; parts: of the state to draw, over `window`, s; short: name
+    in the navigation; weight: s of one core."""
 
     paper: str
     title: str
     about: str
     compared: tuple
     end: float
-    claims: Callable
     sensible: str
     sensible_end: float
     why: str
@@ -65,7 +60,7 @@ CHAPTERS = (
             "psi and phi. Euler's "
             "equations give two different rates a and b; equation (8) keeps one. The corrected closed form "
             "keeps both.",
-            tuple((_SWEEP, v) for v in ("-1-2-1", "-3-2-1", "-1-3-1", "-1-2-3")), 50.0, claims.charged,
+            tuple((_SWEEP, v) for v in ("-1-2-1", "-3-2-1", "-1-3-1", "-1-2-3")), 50.0,
             "charged-body-small-torque", 50.0, "the torque is so small that the tilt stays small for ever",
             ("omega", "angles", "position"), 50.0,
             "Charged body", 25.0),
@@ -83,7 +78,7 @@ CHAPTERS = (
             "-6 N m for -0.06 N m.",
             tuple((f"liquid-{name}", "")
                   for name in ("base", "lambda3-0_2", "lambda3-15", "lambda3-25", "zeta-2_5", "torque-9",
-                                                      "charge-1e3", "charge-1e4")), 20.0, claims.cavity,
+                                                      "charge-1e3", "charge-1e4")), 20.0,
             "liquid-sensible", 20000.0,
             "the cavity fits into the body, and the liquid is slow and viscous enough for its "
             "law", ("omega",), 3000.0, "Liquid cavity", 14.0),
@@ -94,7 +89,7 @@ CHAPTERS = (
             "keeps C* = C + "
             "l_z/r0, the permanent "
             "tilt by l_x and the frequency.",
-            tuple((f"top-lx{a}-lz{b}", "") for a, b in ((30, 30), (90, 30), (30, 90))), 1.3, claims.top,
+            tuple((f"top-lx{a}-lz{b}", "") for a, b in ((30, 30), (90, 30), (30, 90))), 1.3,
             "top-fast", 2.0, "it spins fast, delta1 and delta2 are of order one, and gamma0'' is not near 0",
             ("omega", "gamma"), 0.15, "Fast top", 11.0),
 )
@@ -106,13 +101,11 @@ def section(name: str, folder: Path, tell=lambda words: None) -> dict:
     chapter = next(chapter for chapter in CHAPTERS if chapter.paper == name)
     made = {"id": chapter.paper, "title": chapter.title, "paper": figures.PAPERS[chapter.paper],
             "about": written(chapter.about), "problem": "",
-               "claims": [], "compared": [], "sensible": None, "parameters": "", "end": chapter.end,
-               "figures": [drawn(row, folder, tell) for row in figures.of_paper(chapter.paper)]}
+            "compared": [], "sensible": None, "parameters": "", "end": chapter.end,
+            "figures": [drawn(row, folder, tell) for row in figures.of_paper(chapter.paper)]}
     try:
         tell(f"chapter {chapter.paper}: comparisons")
         made["parameters"] = _parameters(panels.sweep(chapter.compared[0][0])[chapter.compared[0][1]])
-        made["claims"] = [row | {"says": written(row["says"]), "is": written(row["is"])}
-                          for row in chapter.claims()]
         made["compared"] = [row for name, variant in chapter.compared
                             for row in _errors(panels.sweep(name)[variant], chapter.end)]
         made["sensible"] = _sensible(chapter, folder)

@@ -119,9 +119,11 @@ def _papers(folder, found, nav):
     html.write(folder / "constant-torque.html", "constant_torque.html", title="Constant torque",
                paper=paper.PAPER, tables=rows, nav=nav, here="constant-torque.html", data=where.data(),
                claims=where.claims(*main), figures=drawn)
+    audits = {audit[0].figures: audit for audit in (found[f"audit of {name}"] for name in audited_papers())}
     for one in chapters.CHAPTERS:
         html.write(folder / f"{one.paper}.html", "chapter.html", chapter=found[f"chapter {one.paper}"],
-                   nav=nav, here=f"{one.paper}.html", title=one.title)
+                   claims=where.claims(*audits[one.paper]), nav=nav, here=f"{one.paper}.html",
+                   title=one.title)
 
 
 GROUPS = (("Constant torque along a principal axis",
