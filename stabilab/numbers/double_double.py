@@ -1,9 +1,8 @@
 """Twofold numbers: unevaluated sums of two doubles, 32 digits, for the few differences that decide a small
 divisor.
 
-Error-free sum of Knuth and product of Dekker, as in Shewchuk (1997) and in Hida, Li and Bailey (2001); whole
-arrays at once, no fused multiply-add needed. Magnitudes must stay within 1e-140 ... 1e140, so that no partial
-product is lost.
+Whole arrays at once, no fused multiply-add needed. Magnitudes must stay within 1e-140 ... 1e140, so that no
+partial product is lost.
 """
 from __future__ import annotations
 
@@ -12,7 +11,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .error_free import exact_product, exact_sum
+from .error_free import add, exact_product, exact_sum, times
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -35,15 +34,11 @@ class Twofold:
 
     def __add__(self, other: ArrayLike | Twofold) -> Twofold:
         other = twofold(other)
-        s, e = exact_sum(self.high, other.high)
-        t, f = exact_sum(self.low, other.low)
-        s, e = exact_sum(s, e + t)
-        return Twofold(*exact_sum(s, e + f))
+        return Twofold(*add((self.high, self.low), (other.high, other.low)))
 
     def __mul__(self, other: ArrayLike | Twofold) -> Twofold:
         other = twofold(other)
-        p, e = exact_product(self.high, other.high)
-        return Twofold(*exact_sum(p, e + (self.high * other.low + self.low * other.high)))
+        return Twofold(*times((self.high, self.low), (other.high, other.low)))
 
     def __truediv__(self, other: ArrayLike | Twofold) -> Twofold:
         other = twofold(other)

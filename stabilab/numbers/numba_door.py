@@ -4,10 +4,13 @@ from __future__ import annotations
 from collections.abc import Callable, Container
 from functools import lru_cache
 from importlib.util import find_spec
+from pathlib import Path
 from types import FunctionType, ModuleType
 from typing import Any
+from zlib import crc32
 
 from ..errors import InputError
+from . import error_free
 
 
 @lru_cache(maxsize=1)
@@ -30,10 +33,10 @@ def wanted(n: int, fast: bool | None, loaded: bool, cold: int, warm: int) -> boo
     return bool(fast)
 
 
-def compiled(module: ModuleType, inlined: Container[str], variant: str = "",
+def compiled(module: ModuleType, inlined: Container[str] = (), variant: str = "",
              **instead: Any) -> dict[str, Any]:
-    """The names of a module of straight-line kernels with all its functions compiled; kept on disk where
-    there is a place for it.
+    """The names of a module of straight-line kernels with all its functions compiled, those named and sums of
+    twofold numbers inlined; kept on disk where there is a place for it.
 
     instead: what stands for names of the module, for compiled code; variant: names the code that has these,
     which the disk keeps apart."""
@@ -42,11 +45,12 @@ def compiled(module: ModuleType, inlined: Container[str], variant: str = "",
 
 def twins(module: ModuleType, make: Callable[[str, FunctionType], Any], variant: str = "",
           **instead: Any) -> dict[str, Any]:
-    """The names of a module with `make` of a twin of each of its functions, which sees these names; instead,
-    variant: as of `compiled`."""
-    names: dict[str, Any] = vars(module) | instead
+    """The names of a module with `make` of a twin of each of its functions, and of sums of twofold numbers,
+    which sees these names; instead, variant: as of `compiled`."""
+    names: dict[str, Any] = vars(error_free) | vars(module) | instead
     for name, function in list(names.items()):
-        if isinstance(function, FunctionType) and function.__module__ == module.__name__:
+        if isinstance(function, FunctionType) and function.__module__ in (module.__name__,
+                                                                          error_free.__name__):
             twin = FunctionType(function.__code__, names, name)
             twin.__qualname__ += variant
             names[name] = make(name, twin)
@@ -65,5 +69,10 @@ def _kept(make: Callable[[bool], Any]) -> Any:
 def _compiled(module: ModuleType, inlined: Container[str], cache: bool, variant: str,
               instead: dict[str, Any]) -> dict[str, Any]:
     from numba import njit
-    return twins(module, lambda name, twin: njit(cache=cache, error_model="numpy",
-                                                 forceinline=name in inlined)(twin), variant, **instead)
+    # numba's cache on disk watches the file of a function alone, not what is inlined from another
+    stamp = crc32(Path(error_free.__file__).read_bytes())
+
+    def make(name: str, twin: FunctionType) -> Any:
+        inline = name in inlined or hasattr(error_free, name)
+        return njit(cache=cache, error_model="numpy", forceinline=inline)(twin)
+    return twins(module, make, f"{variant}_{stamp:x}_", **instead)

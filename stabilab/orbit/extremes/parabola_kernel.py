@@ -6,11 +6,13 @@ f1 y^2/2 + f2 y^3/6 + f3 y^4/24. Where f3 < 0 walls stand on both sides: the roo
 or two with a barrier between them, and K falls or rises between them throughout. Of a sphere the force is
 linear, with one well. With K = (y - l)(r - y) H the period is sqrt(2) int dphi/sqrt(H) over half a circle, H
 a quadratic, which tan(phi/2) makes an arithmetic-geometric mean. What doubles cannot settle is marked and
-left to balls. Every function is plain Python too. All in one file: numba's cache on disk watches no other.
+left to balls. Every function is plain Python too.
 """
 from __future__ import annotations
 
 from math import acos, acosh, asinh, cos, cosh, pi, sinh, sqrt
+
+from ...numbers.error_free import add, exact_sum, scaled, times
 
 EPS = 2.220446049250313e-16
 INFINITY = float("inf")
@@ -21,47 +23,11 @@ TWOFOLD = 2.0**-96  # roundings of a sum of twofold numbers, by the size of its 
 # times its error: so far a height is from the energy, and a force from zero, where the side is certain
 CLEAR = 64.0
 BESIDE = 1e-8  # of the two terms of the discriminant: nearer to a fold balls say which equilibria there are
-SPLITTER, SIXTH = 134217729.0, (0.16666666666666666, 9.25185853854297e-18)
+SIXTH = 0.16666666666666666, 9.25185853854297e-18
 POLISH, STEPS, DOUBLINGS = 3, 80, 1100
 # steps of Newton's method at an equilibrium and in twofold numbers; at an end, most of them; doublings of a
 # way towards a wall
 MEANS = 8  # of the arithmetic-geometric mean, which doubles its digits with each
-
-
-def exact_sum(x, y):
-    s = x + y
-    back = s - x
-    return s, (x - (s - back)) + (y - back)
-
-
-def exact_product(x, y):
-    p = x * y
-    big = SPLITTER * x
-    xh = big - (big - x)
-    xl = x - xh
-    big = SPLITTER * y
-    yh = big - (big - y)
-    yl = y - yh
-    return p, ((xh * yh - p) + xh * yl + xl * yh) + xl * yl
-
-
-def add(a, b):
-    """Of twofold numbers, pairs of a high and a low part."""
-    s, e = exact_sum(a[0], b[0])
-    t, f = exact_sum(a[1], b[1])
-    s, e = exact_sum(s, e + t)
-    return exact_sum(s, e + f)
-
-
-def times(a, b):
-    p, e = exact_product(a[0], b[0])
-    return exact_sum(p, e + (a[0] * b[1] + a[1] * b[0]))
-
-
-def scaled(a, factor):
-    """A twofold number times a double."""
-    p, e = exact_product(a[0], factor)
-    return exact_sum(p, e + a[1] * factor)
 
 
 def speeds(u, v, fine):

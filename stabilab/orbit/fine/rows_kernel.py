@@ -4,8 +4,7 @@ floats that numba compiles.
 Equilibria along a row's orbit by Newton's method in twofold numbers, ends of the motion from the equilibrium
 that is nearer in height, the period T = 2 int_0^pi dphi/sqrt(2 H) with theta = middle - half cos(phi), where
 H = (E - V)/((theta - l)(r - theta)) is the second divided difference of V at (l, r, theta), formed by
-products. What 32 digits do not settle is marked and left to balls. Every function is plain Python too. All in
-one file: numba's cache on disk watches no other.
+products. What 32 digits do not settle is marked and left to balls. Every function is plain Python too.
 """
 from __future__ import annotations
 
@@ -14,11 +13,12 @@ from math import factorial
 
 import numpy as np
 
+from ...numbers.error_free import add, exact_product, exact_sum, less, scaled, times, value
+
 EPS = 2.220446049250313e-16
 TURN, PI = 6.283185307179586, 3.141592653589793
 INFINITY = float("inf")
 BOX, PERIOD = 1, 2  # bits: wanted, and left open
-SPLITTER = 134217729.0
 TINY = 1e-300
 ROUNDINGS = 64.0  # units of rounding allowed for beside a fold, as in `landscape`
 # of Newton's method at an equilibrium; of a radian, a last step: the next would be its square
@@ -60,50 +60,6 @@ OFFSET, OVER, BARRIER, AT_X, AT_Z, BEND, MODE_A, MODE_B, PULL, TILT, ERROR, ASTR
 END, FORCE, BLUR, HAZE, LEVEL, END_BEND, END_A, END_B = range(8)
 # a stop of a motion, an end or an equilibrium that it passes: offset, E - V, force, dF/dtheta, modes
 STOP, STOP_OVER, STOP_FORCE, STOP_BEND, STOP_A, STOP_B = range(6)
-
-
-def exact_sum(x, y):
-    s = x + y
-    back = s - x
-    return s, (x - (s - back)) + (y - back)
-
-
-def exact_product(x, y):
-    p = x * y
-    big = SPLITTER * x
-    xh = big - (big - x)
-    xl = x - xh
-    big = SPLITTER * y
-    yh = big - (big - y)
-    yl = y - yh
-    return p, ((xh * yh - p) + xh * yl + xl * yh) + xl * yl
-
-
-def add(a, b):
-    """Of twofold numbers, pairs of a high and a low part."""
-    s, e = exact_sum(a[0], b[0])
-    t, f = exact_sum(a[1], b[1])
-    s, e = exact_sum(s, e + t)
-    return exact_sum(s, e + f)
-
-
-def times(a, b):
-    p, e = exact_product(a[0], b[0])
-    return exact_sum(p, e + (a[0] * b[1] + a[1] * b[0]))
-
-
-def scaled(a, factor):
-    """A twofold number times a double."""
-    p, e = exact_product(a[0], factor)
-    return exact_sum(p, e + a[1] * factor)
-
-
-def less(a, b):
-    return add(a, (-b[0], -b[1]))
-
-
-def value(a):
-    return a[0] + a[1]
 
 
 def _parts(values):

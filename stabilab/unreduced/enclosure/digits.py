@@ -19,14 +19,13 @@ from ...numbers.numba_door import compiled, installed
 from . import kernel
 from .kernel import COARSE, DONE, ENDLESS, GOING, HALVINGS, LOST, ORDER, WIDER
 
-INLINED = {"exact_sum", "high_part", "exact_product"}
 GUARD = 20  # bits that the roundings of a coefficient may use up
 
 
 @lru_cache(maxsize=1)
 def functions() -> dict:
     """The kernel's functions by name, compiled where numba is installed, else as they are."""
-    return compiled(kernel, INLINED) if installed() else vars(kernel)
+    return compiled(kernel) if installed() else vars(kernel)
 
 
 def loaded() -> bool:

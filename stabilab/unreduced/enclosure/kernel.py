@@ -39,8 +39,6 @@ are sums and products of numbers that are not negative, fewer than
 2^20 roundings each: WIDER. TINY, far below all that counts, holds what underflow could take. Everything is in
 the scene's natural unit, and the time of a step's polynomials in a power of two, so that nothing comes near
 the ends of the range; what does is given up.
-
-All in one file: numba's cache on disk watches no other.
 """
 from __future__ import annotations
 
@@ -48,9 +46,10 @@ from math import frexp, inf, ldexp, sqrt
 
 import numpy as np
 
+from ...numbers.error_free import add, exact_product, exact_sum, halves, scaled, times
+
 ORDER = 36
 FINE, COARSE, WIDER, TINY = 2.0**-92, 2.0**-44, 1.0 + 2.0**-30, 1e-200
-SPLITTER = 134217729.0  # 2^27 + 1
 MARGIN = 2.0**-12
 PARALLEL = 2.0**12  # of directions that are kept: sizes in the product of their matrix with its inverse
 LEAST, MOST = 1e-30, 1e30  # sizes of rates in natural units that are followed
@@ -59,44 +58,11 @@ HALVINGS = 12
 DONE, GOING, LOST, ENDLESS = 0, 1, 2, 3
 
 
-def exact_sum(x, y):
-    """The rounded sum of two doubles and what rounding took away."""
-    s = x + y
-    back = s - x
-    return s, (x - (s - back)) + (y - back)
-
-
-def high_part(x):
-    """The upper half of a significand."""
-    big = SPLITTER * x
-    return big - (big - x)
-
-
-def exact_product(x, y):
-    """The rounded product of two doubles and what rounding took away."""
-    p = x * y
-    xh, yh = high_part(x), high_part(y)
-    xl, yl = x - xh, y - yh
-    return p, ((xh * yh - p) + xh * yl + xl * yh) + xl * yl
-
-
-def product(xh, xl, yh, yl):
-    """The product of two twofold numbers, within 2^-100 of its size."""
-    p, e = exact_product(xh, yh)
-    return exact_sum(p, e + (xh * yl + xl * yh))
-
-
-def added(xh, xl, yh, yl):
-    """The sum of two twofold numbers, within 2^-100 of the sum of their sizes."""
-    s, e = exact_sum(xh, yh)
-    return exact_sum(s, e + (xl + yl))
-
-
-def divided(xh, xl, n):
+def divided(x, n):
     """A twofold number over a small whole number."""
-    q = xh / n
+    q = x[0] / n
     p, e = exact_product(q, n)
-    return exact_sum(q, ((xh - p) - e + xl) / n)
+    return exact_sum(q, ((x[0] - p) - e + x[1]) / n)
 
 
 def series(numbers, low_numbers, unit, a, low):
@@ -104,8 +70,7 @@ def series(numbers, low_numbers, unit, a, low):
     `unit` (a power of two)."""
     high, rest = np.empty((3, ORDER + 1)), np.empty((3, ORDER + 1))
     for i in range(3):
-        high[i, 0] = high_part(a[i, 0])
-        rest[i, 0] = a[i, 0] - high[i, 0]
+        high[i, 0], rest[i, 0] = halves(a[i, 0])
     for n in range(ORDER):
         s0, s1, s2, c0, c1, c2 = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
         for m in range(n + 1):
@@ -128,18 +93,14 @@ def series(numbers, low_numbers, unit, a, low):
         sums, corrections = (s0, s1, s2), (c0, c1, c2)
         for i in range(3):
             j, k = (i + 1) % 3, (i + 2) % 3
-            vh, vl = exact_sum(sums[i], corrections[i])
-            vh, vl = product(vh, vl, numbers[0, i], low_numbers[0, i])
-            th, tl = product(a[k, n], low[k, n], numbers[1, i], low_numbers[1, i])
-            vh, vl = added(vh, vl, th, tl)
-            th, tl = product(a[j, n], low[j, n], numbers[2, i], low_numbers[2, i])
-            vh, vl = added(vh, vl, th, tl)
+            v = times(exact_sum(sums[i], corrections[i]), (numbers[0, i], low_numbers[0, i]))
+            v = add(v, times((a[k, n], low[k, n]), (numbers[1, i], low_numbers[1, i])))
+            v = add(v, times((a[j, n], low[j, n]), (numbers[2, i], low_numbers[2, i])))
             if n == 0:
-                vh, vl = added(vh, vl, numbers[3, i], low_numbers[3, i])
-            vh, vl = divided(vh * unit, vl * unit, n + 1.0)
-            a[i, n + 1], low[i, n + 1] = vh, vl
-            high[i, n + 1] = high_part(vh)
-            rest[i, n + 1] = vh - high[i, n + 1]
+                v = add(v, (numbers[3, i], low_numbers[3, i]))
+            v = divided((v[0] * unit, v[1] * unit), n + 1.0)
+            a[i, n + 1], low[i, n + 1] = v
+            high[i, n + 1], rest[i, n + 1] = halves(v[0])
 
 
 def variations(numbers, unit, a, B, V):
@@ -391,11 +352,10 @@ def turned(M, rest, rad, B):
 def at_end(a, low, x, centre, low_centre):
     """The polynomials' values at x in twofold numbers, by Horner's rule: within 2^-93 of the sum of sizes."""
     for i in range(3):
-        vh, vl = a[i, ORDER], low[i, ORDER]
+        v = a[i, ORDER], low[i, ORDER]
         for n in range(ORDER - 1, -1, -1):
-            vh, vl = product(vh, vl, x, 0.0)
-            vh, vl = added(vh, vl, a[i, n], low[i, n])
-        centre[i], low_centre[i] = vh, vl
+            v = add(scaled(v, x), (a[i, n], low[i, n]))
+        centre[i], low_centre[i] = v
 
 
 def end_of_variations(V, x, M):

@@ -17,7 +17,7 @@ def functions(kernel: ModuleType, fast: bool) -> dict[str, Any]:
 @lru_cache(maxsize=4)
 def compiled_functions(kernel: ModuleType) -> dict[str, Any]:
     """A kernel's functions by name, compiled; stored on disk where there is a place for it."""
-    return compiled(kernel, ())
+    return compiled(kernel)
 
 
 def loaded() -> bool:
@@ -28,4 +28,4 @@ def loaded() -> bool:
 def stored() -> bool:
     """Whether an earlier process left compiled steps beside the sources, where numba puts them unless told
     otherwise."""
-    return any(Path(__file__).with_name("__pycache__").glob("steps.advance-*.nbi"))
+    return any(Path(__file__).with_name("__pycache__").glob("steps.advance*.nbi"))
