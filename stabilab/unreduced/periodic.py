@@ -29,7 +29,6 @@ import numpy as np
 from ..numbers.constants import EPS
 from ..numbers.roots import held_newton
 from ..numbers.vectors import CYCLE
-from .spin_up.form import Centre, centres
 
 ORDER, TOLERANCE = 20, 1e-17
 STEPS = 800      # from one passage to the next, at most
@@ -38,7 +37,6 @@ FAR = 2          # times the size of a state: no periodic motion is looked for s
 CLOSED = 1e-11   # relative distance of a passage from the next at a periodic motion
 RETURNS = 48, 160  # passages whose mean is where the search for a centre begins
 NARROW = 2.0**-24  # of a step: two zeros nearer than that are a touch
-SHARES = 512     # of the way from one scene to another, at most
 
 
 @dataclass(frozen=True)
@@ -125,22 +123,6 @@ def periodic(scene: Any, state: Any, section: Section) -> Periodic | None:
     return None
 
 
-def about_centre(scene: Any, centre: Centre) -> Periodic | None:
-    """The periodic motion that averaging has at a centre, by its formula as the first guess."""
-    i = centre.axis - 1
-    j, k = CYCLE[i]
-    D, l, M = ([float(v) for v in vector]
-               for vector in (scene.body.exact, scene.vector("gyrostat"), scene.vector("constant_torque")))
-    P, Q = (D[i] - D[k]) * centre.spin + l[i], (D[i] - D[j]) * centre.spin + l[i]
-    if not P * Q > 0:
-        return None
-    start = [0.0] * 3
-    start[i], start[k] = centre.spin, (l[k] * centre.spin + M[j]) / P
-    start[j] = (l[j] * centre.spin - M[k]) / Q + math.sqrt(centre.action / D[j]) * (P / Q) ** 0.25
-    sense = 1 if scene.quadratic().rate(start)[k] > 0 else -1
-    return periodic(scene, start, Section(k, start[k], sense))
-
-
 def in_the_middle(scene: Any, state: Any) -> Periodic | None:
     """The elliptic periodic motion in the middle of the passages of a motion that recurs; None where the mean
     of these leads to none."""
@@ -165,27 +147,6 @@ def sections(states: np.ndarray) -> list[Section]:
     swings = [np.count_nonzero(np.diff(np.signbit(states[:, n] - middle[n]))) * states[:, n].std()
               for n in range(3)]
     return [Section(axis, float(middle[axis]), 1) for axis in np.argsort(swings)[::-1].tolist()]
-
-
-def continued(scenes: Any, known: Periodic) -> Periodic | None:
-    """The periodic motion of scenes(1) that one of scenes(0) becomes, followed in steps of the share that are
-    halved where Newton's method fails; None where it gets lost. scenes: share -> scene."""
-    share, step, now, section = 0.0, 1 / 4, known, known.section
-    while share < 1:
-        if step < 1 / SHARES:
-            return None
-        ahead = periodic(scenes(min(1.0, share + step)), now.state, section)
-        if ahead is None or math.dist(ahead.state, now.state) > 0.5 * math.hypot(*now.state):
-            step /= 2
-            continue
-        share, now, step = share + step, ahead, min(2 * step, 1 / 4)
-    return now
-
-
-def elliptic_of(scene: Any) -> list[Periodic]:
-    """The elliptic periodic motions at the centres that averaging finds for a scene."""
-    found = (about_centre(scene, centre) for centre in centres(scene))
-    return [one for one in found if one is not None and one.elliptic]
 
 
 def sampled(scene: Any, state: Any, steps: int = 400, until: float = math.inf) -> np.ndarray | None:
