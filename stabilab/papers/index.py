@@ -1,13 +1,18 @@
-"""Where is equation (30), figure 7, table 3 of a paper? Every item with its verdict and its place."""
+"""Where is equation (30), figure 7, table 3 of a paper? Every item with its verdict and its place, as text,
+JSON and a page of the report; claims and data of the papers' own pages, and the table of hard cases."""
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
+from pathlib import Path
 from typing import Any
 
+from ..physics.coefficients import shape_factors
+from ..show.report import html
 from ..show.terminal.letters import written
-from .audit.page import counted
-from .figures.catalogue import of_paper
+from .audit.page import anchor, counted
+from .figures import paper as constant_torque
+from .figures.catalogue import FIRST, of_paper
 from .table import EXTREMES
 
 SCHEMA = "stabilab.papers/1"
@@ -96,3 +101,105 @@ def verdict_words(row: Item) -> str:
 
 def _shown(row: Item) -> str:
     return f" -> {row.place}" if row.item.startswith(NAMED) and row.place else ""
+
+
+HARD = Path(__file__).with_name("hard-cases.md")  # a link to the page of the docs
+
+
+def page(findings: Sequence[tuple[Any, Sequence[Any]]], folder: Path, **around: Any) -> Path:
+    """The page "where is it": of each (paper, findings) its items, each a link to where it is shown."""
+    papers = []
+    for paper, group in findings:
+        rows = items([(paper, group)])
+        parts = {"equations": "(", "data": "data", "figures": "figure", "tables": "table",
+                 "claims of the text": "text"}
+        papers.append({"name": paper.name, "title": paper.title, "parts": [
+            (title, [_row(paper, row) for row in rows if row.item.startswith(begins)])
+            for title, begins in parts.items()]})
+    return html.write(folder / "where.html", "where.html", title="Where is it?", papers=papers, **around)
+
+
+def _row(paper: Any, row: Item) -> dict[str, str]:
+    return {"item": row.item, "verdict": verdict_words(row), "says": written(row.says),
+            "link": link(paper, row)}
+
+
+def link(paper: Any, row: Item) -> str:
+    """Where an item is in the report: its figure or table on the page of its paper, else its row of the
+    audit."""
+    kind, _, number = row.item.partition(" ")
+    main = paper.figures == FIRST
+    page = "constant-torque" if main else paper.figures
+    if kind == "data":
+        return f"{page}.html#data"
+    if kind == "figure":
+        return f"{page}.html#{'figure' if main else page}-{number}"
+    if kind == "table" and main:
+        return f"{page}.html#table-{number}"
+    return f"audit.html#{anchor(paper.name, row.item.strip('()').replace('table ', 'table-'))}"
+
+
+def claims(paper: Any, group: Sequence[Any]) -> list[dict[str, Any]]:
+    """Of every claim of the text that can be checked: what it says, whether it is so, what is so, and the
+    anchor of its row on the page of the audit."""
+    found = []
+    for one in group:
+        if not one.row.equation.startswith("text") or one.verdict not in ("holds", "only-if", "wrong"):
+            continue
+        only = f"only if {one.condition}" if one.verdict == "only-if" else ""
+        found.append({"says": written(one.row.says), "right": one.verdict == "holds",
+                      "is": written("; ".join(filter(None, [only, one.correction]))),
+                      "link": f"audit.html#{anchor(paper.name, one.row.equation)}"})
+    return found
+
+
+def of_figure(paper: Any, group: Sequence[Any], number: int) -> list[dict[str, str]]:
+    """The rows of the audit that concern a figure: equation and link."""
+    return [{"equation": one.row.equation, "link": f"audit.html#{anchor(paper.name, one.row.equation)}"}
+            for one in group if number in one.row.options.get("figures", ())]
+
+
+def data() -> list[tuple[str, str]]:
+    """(name, its value and meaning) of the main paper's data and scaled numbers."""
+    body = constant_torque.physical("minor", 0).body
+    factors = shape_factors(body)
+    k = factors[0] * factors[1] * factors[2]
+    scaled = {lam: constant_torque.scene("minor", lam) for lam in constant_torque.LAMBDAS}
+    names = ", ".join(map(str, constant_torque.LAMBDAS))
+    starts = (("figures 2 to 7, table 2", constant_torque.START_MINOR),
+              ("figures 8 to 11", constant_torque.START_MAJOR),
+              ("figures 12 to 15", constant_torque.START_CAPTURED),
+              ("figures 16 and 17, table 3", constant_torque.START_MIDDLE),
+              ("table 4", constant_torque.START_PLANE))
+    return [
+        ("D", f"{constant_torque.INERTIA} kg m^2: the principal moments, D1 > D2 > D3"),
+        ("lambda1", f"{names} kg m^2/s: the gyrostatic moment, along axis 1"),
+        ("k1, k2, k3", f"{', '.join(map(str, factors))}: (D2 - D3)/D1, (D1 - D3)/D2, (D1 - D2)/D3; "
+                       f"k = k1 k2 k3 = {k}"),
+        ("u", "1: the size of the torque (4), sqrt(k2 k3 u1^2 + k3 k1 u2^2 + k1 k2 u3^2)/k "
+              "with u_j = M_j/D_j"),
+        ("mu", "the direction of the scaled torque: (1, 0, 0), (0, 1, 0) or (0, 0, 1)"),
+        ("a", f"{_listed(s.a for s in scaled.values())}: lambda1/((D1 - D3) sqrt(u k1))"),
+        ("b", f"{_listed(s.b for s in scaled.values())}: lambda1/((D1 - D2) sqrt(u k1))"),
+        ("x(0)", "; ".join(f"{start} in {where}" for where, start in starts))]
+
+
+def _listed(values: Any) -> str:
+    return ", ".join(f"{float(value):.6g}" for value in values)
+
+
+def hard_cases(folder: Path, **around: Any) -> Path:
+    """The page of hard cases: what plain code answers, what stabilab answers, and how well one can know."""
+    words: list[str] = []
+    tables: list[dict[str, Any]] = []
+    for line in HARD.read_text(encoding="utf-8").splitlines():
+        if line.startswith("## "):
+            tables.append({"title": line.removeprefix("## "), "rows": []})
+        elif line.startswith("| "):
+            tables[-1]["rows"].append([cell.strip() for cell in line.strip("| ").split(" | ")])
+        elif not tables and not line.startswith("# "):
+            words.append(line)
+    parts = "\n".join(words).replace("*", "").split("\n\n")
+    about = [" ".join(part.split()) for part in parts if part.strip()]
+    return html.write(folder / "hard-cases.html", "hard_cases.html", title="Hard cases", about=about,
+                      tables=tables, **around)

@@ -319,10 +319,10 @@ def test_ci_runs_the_lowest_versions():
 # A report with one figure, no chapters and no audit: what is left reads the papers' cases as all of it does.
 LIGHT_REPORT = ("from stabilab.papers import table\nfrom stabilab.papers.figures import catalogue as "
                 "figures\n"
-                "from stabilab.papers.report import chapters, report, whole\n"
+                "from stabilab.papers.report import chapters, report\n"
                 "figures.FIGURES = (figures.figure(9),)\n"
-                "figures.NUMBERS = (9,)\nchapters.CHAPTERS = whole.COSTS = ()\nwhole.audited_papers = "
-                "lambda: (whole.MAIN,)\nreal = table.case_files\n"
+                "figures.NUMBERS = (9,)\nchapters.CHAPTERS = report.COSTS = ()\nreport.audited_papers = "
+                "lambda: (report.MAIN,)\nreal = table.case_files\n"
                 "report.table.case_files = lambda stems=('minor-axis-100',): "
                 "real(stems)\nprint(report.write(out='report', workers=1))\n")
 

@@ -3,9 +3,9 @@ themselves."""
 import numpy as np
 import pytest
 
-from stabilab.papers.figures import cavity, difference, panels, top
+from stabilab.papers.figures import cavity, panels, top
 from stabilab.papers.figures.catalogue import figure
-from stabilab.papers.figures.difference import differences, plain, words
+from stabilab.papers.figures.figure import Difference, differences, plain, words
 
 
 def test_a_figure_tells_the_largest_difference_of_each_panel_at_equal_times():
@@ -27,8 +27,8 @@ def test_a_figure_without_printed_curves_has_no_differences():
 @pytest.mark.parametrize("size, told", [(1444.0, "1444 m (140 times the exact motion's range) at t = 50 s"),
                                         (3.0, "3 m (0.3 of the exact motion's range) at t = 50 s")])
 def test_a_difference_beyond_the_motions_range_is_so_many_times_it(size, told, monkeypatch):
-    monkeypatch.setattr(difference, "differences",
-                        lambda _: (difference.Difference(r"$\eta_2$ (m)", "$M_1=4$ N m", size, 10.0, 50.0,
+    monkeypatch.setattr("stabilab.papers.figures.figure.differences",
+                        lambda _: (Difference(r"$\eta_2$ (m)", "$M_1=4$ N m", size, 10.0, 50.0,
                                                          "compared"),))
     assert words(None) == [f"η2, M1=4 N m: {told}"]
 

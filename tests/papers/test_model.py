@@ -8,11 +8,11 @@ import pytest
 from mpl_toolkits.mplot3d import proj3d
 
 from stabilab import Body, Charge, Scene, load
-from stabilab.papers.figures import model
 from stabilab.papers.figures.catalogue import figure
 from stabilab.papers.table import cases_folder
 from stabilab.physics.effects import REGISTRY
 from stabilab.show import style
+from stabilab.show.plot.body import PARTS, body
 
 # paper -> what its own figure 1 shows besides the body, as each paper lists it in its problem's section
 CONTENTS = {
@@ -104,7 +104,7 @@ def _extent(text, ax):
 
 
 def test_every_effect_has_a_part():
-    assert set(model.PARTS) == set(REGISTRY)
+    assert set(PARTS) == set(REGISTRY)
 
 
 def test_the_legend_and_the_caption_say_the_numbers_of_the_case(plt):
@@ -118,6 +118,6 @@ def test_the_charge_stands_at_its_arm_to_the_scale_of_a_body_with_a_mass(plt):
     """D1 = m (b^2 + c^2)/12: a box of 12 kg with moments (5, 5, 2) measures 1 x 1 x 2 m."""
     case = load(cases_folder() / "charged-body.toml")
     case = replace(case, physical=Scene(Body((5, 5, 2), mass=12), Charge(1, 1, 0.8, 0.1)))
-    (ax,) = model.draw(plt, case).axes
+    (ax,) = body(case, size=(7.2, 6.6), bare=True).figure.axes
     (ball,) = [line for line in ax.lines if line.get_marker() == "o"]
     assert np.ravel(ball.get_data_3d()) == pytest.approx([0, 0, 0.8 / 2])

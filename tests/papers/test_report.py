@@ -13,7 +13,7 @@ import stabilab
 from stabilab.papers.audit import findings_of
 from stabilab.papers.audit import page as audit_page
 from stabilab.papers.figures import catalogue as figures
-from stabilab.papers.report import chapters, report, whole
+from stabilab.papers.report import chapters, report
 from stabilab.show import style
 from stabilab.show.files import manifest
 from stabilab.show.report import html, own
@@ -115,10 +115,10 @@ def everything(tmp_path_factory, hostile):
     patch.setattr(figures, "FIGURES", (figures.figure(9),))
     patch.setattr(figures, "NUMBERS", (9,))
     patch.setattr(chapters, "CHAPTERS", ())
-    patch.setattr(whole, "COSTS", (("What it costs <b>", "in time", _small_page),
+    patch.setattr(report, "COSTS", (("What it costs <b>", "in time", _small_page),
                                    ("Nothing", "here", lambda cases, folder, **around: None)))
-    patch.setattr(whole, "audited_papers", lambda: ("constant-torque-gyrostat", "charged-axisymmetric-short"))
-    patch.setattr(whole, "findings_of", lambda name: findings_of(name, "13"))
+    patch.setattr(report, "audited_papers", lambda: ("constant-torque-gyrostat", "charged-axisymmetric-short"))
+    patch.setattr("stabilab.papers.audit.findings_of", lambda name: findings_of(name, "13"))
     try:
         return _written(tmp_path_factory, "everything", [hostile], papers=True, precision=True, workers=1)
     finally:
@@ -133,8 +133,8 @@ def test_a_page_below_one_of_the_navigation_shows_to_which_it_belongs(everything
                for page in (several[0].parent / "cases").glob("*.html"))
     told = []
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(whole, "COSTS", (("", "", lambda cases, folder, **around: told.append(around)),))
-        whole.costs((), everything.parent)
+        patch.setattr(report, "COSTS", (("", "", lambda cases, folder, **around: told.append(around)),))
+        report.costs((), everything.parent)
     assert told[0]["below"] == "cost.html"
 
 
@@ -277,7 +277,7 @@ def test_the_pages_of_costs_that_were_made_are_linked_and_the_others_left_out(ev
     assert '<a href="small.html">What it costs &lt;b&gt;</a><br>In time.' in told and "Nothing" not in told
     assert (everything.parent / "small.html").read_text(encoding="utf-8").endswith("<title>1</title>")
     assert [title for title, _,
-            _ in whole.COSTS] == ["What accuracy costs", "How cost grows", "What each effect costs"]
+            _ in report.COSTS] == ["What accuracy costs", "How cost grows", "What each effect costs"]
 
 
 def test_the_start_page_leads_to_every_other_and_every_page_back(everything):
@@ -300,12 +300,12 @@ def test_the_start_page_leads_by_question_with_the_answers_of_the_pages(tmp_path
             ("to another", "0.58", "the smallest change of the rates to the separatrix")]
     found = {"case minor-axis-100": page("Minor, lambda1", "conditional", told),
              "case upper-stage": page("Stage", "changes", told), "case cubesat-3u": page("Cube", "changes", told)}
-    hero = whole._hero(cases, found)
+    hero = report._hero(cases, found)
     assert (hero["title"], hero["file"]) == ("Cube", "cases/cubesat-3u.html")  # it has a wheel
-    first, edge, *_, papers = whole._questions(cases, found, hero, "3 hold", [])
+    first, edge, *_, papers = report._questions(cases, found, hero, "3 hold", [])
     assert first["words"] == "outcome: Spins up about z; when: 16.95 s until the limit; largest: 1"
     assert edge["words"] == "Minor, λ1: 0.58, the smallest change of the rates to the separatrix"
-    assert papers["words"] == "of their equations and claims 3 hold" and whole._hero(cases[:1], found) is None
+    assert papers["words"] == "of their equations and claims 3 hold" and report._hero(cases[:1], found) is None
 
 
 def test_a_report_on_cases_alone_reads_none_of_the_papers(alone, several, hostile):
@@ -350,11 +350,11 @@ def test_cases_of_one_name_have_pages_of_their_own(tmp_path):
     ("liquid-base", "A cavity of viscous liquid"),
     ("top-fast", "Weight and field: tops")])
 def test_cases_stand_in_groups_by_their_effects(name, title):
-    assert whole.group(stabilab.load(CASES / f"{name}.toml")) == title
+    assert report.group(stabilab.load(CASES / f"{name}.toml")) == title
 
 
 def test_constant_torque_comes_first():
-    assert [title for title, _ in whole.GROUPS][:2] == ["Constant torque along a principal axis",
+    assert [title for title, _ in report.GROUPS][:2] == ["Constant torque along a principal axis",
                                                         "Constant torque in another direction"]
 
 

@@ -5,10 +5,9 @@ from types import SimpleNamespace
 import pytest
 from markupsafe import Markup
 
-from stabilab.papers import table
+from stabilab.papers import index, table
 from stabilab.papers.audit import page
 from stabilab.papers.figures import catalogue
-from stabilab.papers.report import where
 from stabilab.papers.table import html_fragment
 from stabilab.show.report import html
 from stabilab.theories.printed.claims import MAIN, paper, papers
@@ -26,7 +25,7 @@ def unaudited(name):
 def folder(tmp_path_factory):
     found = [unaudited(name) for name in papers()]
     out = tmp_path_factory.mktemp("where")
-    where.index(found, out)
+    index.page(found, out)
     page.page(found, out / "audit.html")
     figure = {"title": "", "caption": "", "tolerance": "", "command": "", "file": "a.png", "size": [1, 1],
               "differences": (), "rows": (), "narrow": None, "more": ()}
@@ -34,7 +33,7 @@ def folder(tmp_path_factory):
                "html": Markup(html_fragment(one))} for one in table.tables()]
     main, others = catalogue.FIRST, [name for name in catalogue.PAPERS if name != catalogue.FIRST]
     html.write(out / "constant-torque.html", "constant_torque.html", title="", paper="", tables=tables,
-               data=where.data(), claims=where.claims(*found[0]),
+               data=index.data(), claims=index.claims(*found[0]),
                figures=[figure | {"number": row.number, "id": f"figure-{row.number}"}
                         for row in catalogue.of_paper(main)])
     for name in others:
@@ -42,9 +41,9 @@ def folder(tmp_path_factory):
                    "compared": (), "sensible": None, "end": 1.0,
                    "figures": [figure | {"number": row.number, "id": f"{name}-{row.number}"}
                                for row in catalogue.of_paper(name)]}
-        claims = where.claims(*next(one for one in found if one[0].figures == name))
+        claims = index.claims(*next(one for one in found if one[0].figures == name))
         html.write(out / f"{name}.html", "chapter.html", chapter=chapter, claims=claims)
-    where.hard_cases(out)
+    index.hard_cases(out)
     return out
 
 
@@ -75,7 +74,7 @@ def test_the_claims_of_every_paper_stand_on_its_page_with_their_rows_of_the_audi
 def test_the_data_of_the_main_paper_are_those_that_it_prints(folder):
     """k1 = 1/4, k2 = 2/3, k3 = 1/2 by hand from D = (2000, 1500, 1000); a = 100/(1000 sqrt(1/4)) = 0.2 and b twice
     that at lambda1 = 100."""
-    data = dict(where.data())
+    data = dict(index.data())
     assert data["k1, k2, k3"].startswith("1/4, 2/3, 1/2: ") and "k = k1 k2 k3 = 1/12" in data["k1, k2, k3"]
     assert data["a"].startswith("0.2, 0.6, 1: ") and data["b"].startswith("0.4, 1.2, 2: ")
     text = (folder / "constant-torque.html").read_text(encoding="utf-8")
@@ -83,6 +82,6 @@ def test_the_data_of_the_main_paper_are_those_that_it_prints(folder):
 
 
 def test_the_page_of_hard_cases_has_every_row_of_the_docs(folder):
-    rows = [line for line in where.HARD.read_text(encoding="utf-8").splitlines() if line.startswith("| ")]
+    rows = [line for line in index.HARD.read_text(encoding="utf-8").splitlines() if line.startswith("| ")]
     text = (folder / "hard-cases.html").read_text(encoding="utf-8")
     assert text.count("<tr>") == len(rows) > 40 and text.count("<h2>") == 2

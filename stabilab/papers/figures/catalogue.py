@@ -15,10 +15,7 @@ from . import middle_axis as middle
 from . import minor_axis as minor
 from . import minor_map, paper, without_wheel
 from . import top as figures_top
-from .difference import words
-from .figure import Figure
-from .level import POINTS
-from .model import model_figure
+from .figure import POINTS, Figure, model_figure, words
 
 _LEVEL = "curves: level sets of the exact potential, in doubles"
 _LAW = ("x2² + x3² − 2(b−a)x1 falls by exactly 2(b−a)τ, so no motion is bounded and there is no equilibrium, "

@@ -10,8 +10,7 @@ import numpy as np
 
 from ...theories.cavity.averaged import RTOL, polar
 from . import panels
-from .figure import Figure, listed
-from .model import model_figure
+from .figure import Figure, listed, model_figure
 
 PAPER = "Galal, Amer, Elneklawy, El-Kafly 2023, charged rigid body with a viscous liquid"
 SPAN, POINTS = 20.0, 2001

@@ -13,8 +13,7 @@ from ...theories.charged.model import circle as by_35
 from ...theories.charged.modes import horizon
 from ...theories.charged.modes import horizon as until
 from . import panels
-from .figure import Figure, listed
-from .model import model_figure
+from .figure import Figure, listed, model_figure
 
 PAPER = "Galal et al., charged rigid body with a gyrostatic moment (short form: Elneklawy)"
 SWEEP, SPAN, POINTS = "charged-sweep", 50.0, 2001

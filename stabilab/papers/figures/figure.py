@@ -1,10 +1,21 @@
-"""One figure of a paper: its number, what it shows, what the paper printed, and how to draw it."""
+"""One figure of a paper: its number, what it shows, what the paper printed, and how to draw it; figure 1 of
+each paper, its model; and how far printed curves are from true ones: level curves in a plane, lines beside
+the exact motion."""
 from __future__ import annotations
 
-from collections.abc import Callable
+import re
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
+import numpy as np
+
+from ...case.read import Case
+from ...show import style
+from ...show.plot.body import BOX, PARTS, body
 from ...show.terminal.letters import written
+from ...show.text.comparison import short
+from ...show.text.cost.words import share
+from . import panels
 
 
 @dataclass(frozen=True)
@@ -13,8 +24,8 @@ class Figure:
     caption, exact: how exact the curves are, each a text or a function that forms it from what is drawn;
     paper: the short name under which the command knows it, "" for the constant-torque paper; lines: a
     function that gives the figure's lines (panels.Row, columns) where it sets printed curves beside the exact
-    motion, of which `difference` tells how far they part; added: the paper has no such figure, and its number
-    comes after the paper's last."""
+    motion (see `differences`); added: the paper has no such figure, and its number comes after the paper's
+    last."""
 
     number: int
     title: str
@@ -52,3 +63,130 @@ def listed(values, form="{:.3g}") -> str:
     """Numbers in words: "1.2, 3.4 and 5.6"."""
     words = [form.format(v) for v in values]
     return f"{', '.join(words[:-1])} and {words[-1]}" if len(words) > 1 else "".join(words)
+
+
+SKETCH = ("a sketch: directions and the proportions of the box are those of the case, lengths of arrows are "
+          "not")
+
+
+def model_figure(name: str, paper: str = "") -> Figure:
+    """Figure 1 of a paper, from a case file of the repository: the body with every effect of its scene."""
+    return Figure(1, "The model", lambda: _of_model(panels.sweep(name)[""]),
+                  lambda plt: body(panels.sweep(name)[""], size=(7.2, 6.6), bare=True).figure, SKETCH, paper)
+
+
+def _of_model(case: Case) -> str:
+    """The caption: the case, and what is drawn of it."""
+    parts = ", ".join([BOX, *(PARTS[effect.name][0] for effect in case.physical.effects)])
+    return f"Drawn from the case {case.name} by what its scene contains: {parts}."
+
+
+# --- Level curves of an integral in a plane
+PRINTED = style.MEANING["printed"] | {"color": style.GREEN, "linestyle": "--", "linewidth": 1.6}
+POINTS = 1201  # of the grid on which a level curve is traced, along each axis
+PIECES = 16    # of a piece of a curve, where it is cut off at an edge
+
+
+def level_curves(integral: Callable, level: float, x_range: Sequence, y_range: Sequence) -> list[np.ndarray]:
+    """The curves integral(x, y) = level in a rectangle, arrays (n, 2) each, traced on a grid; where the
+    integral has no real value there is no curve."""
+    from contourpy import contour_generator
+    x, y = (np.linspace(low, high, POINTS) for low, high in (x_range, y_range))
+    with np.errstate(invalid="ignore", divide="ignore"):
+        values = integral(*np.meshgrid(x, y))
+    traced = contour_generator(x, y, np.ma.masked_invalid(values)).lines(level)
+    return [np.asarray(curve, float) for curve in traced]
+
+
+def within(curve: np.ndarray, x_range: Sequence, y_range: Sequence) -> np.ndarray:
+    """The curve (n, 2), each of its pieces divided, with NaN for what lies outside of a rectangle."""
+    low, high = np.transpose([x_range, y_range])
+    place = np.arange(len(curve) * PIECES - PIECES + 1) / PIECES
+    curve = np.stack([np.interp(place, np.arange(len(curve)), values) for values in curve.T], axis=-1)
+    return np.where(((curve >= low) & (curve <= high)).all(axis=1, keepdims=True), curve, np.nan)
+
+
+def farthest(printed: Sequence, true: Sequence) -> float:
+    """Largest distance from a point of the printed curves to the nearest point of the true ones; arrays
+    (..., 2) or (..., 3) of points each, the true ones close together; NaN is no point."""
+    from scipy.spatial import cKDTree
+    points, others = (np.concatenate([np.reshape(part, (-1, np.shape(part)[-1])) for part in curves])
+                      for curves in (printed, true))
+    points, others = (found[np.isfinite(found).all(axis=1)] for found in (points, others))
+    return float(cKDTree(others).query(points)[0].max())
+
+
+@dataclass(frozen=True)
+class Difference:
+    """One panel of a figure. quantity: what is drawn upwards, with its unit; column: the panel's heading;
+    largest: distance of the printed curve from the exact motion at equal times, the largest over the time
+    that both have, in the quantity's unit; reach: range of the exact motion (of a plane its diagonal), in the
+    same unit; at: s; status: "compared", or "no curve" with the reason in words."""
+
+    quantity: str
+    column: str
+    largest: float | None
+    reach: float | None
+    at: float | None
+    status: str
+    reason: str = ""
+
+    @property
+    def share(self) -> float | None:
+        """Largest difference over the range of the exact motion; None where it has no range."""
+        return self.largest / self.reach if self.largest is not None and self.reach else None
+
+
+def differences(figure: Figure) -> tuple[Difference, ...]:
+    """A difference for every panel with a printed curve, row by row; none for a figure without."""
+    if figure.lines is None:
+        return ()
+    return tuple(_difference(row, column) for row,
+                 columns in figure.lines() for column in columns if "printed" in column.runs)
+
+
+def _difference(row: panels.Row, column: panels.Column) -> Difference:
+    exact, printed = column.runs["exact"], column.runs["printed"]
+    curves = [row.pick(run) for run in (exact, printed)]
+    names = row.ylabel, column.heading
+    if curves[0] is None or curves[1] is None:
+        return Difference(*names, None, None, None, "no curve",
+                          "the printed formulas do not give this quantity")
+    (tx, true), (px, wrong) = ([np.asarray(v, float) for v in curve] for curve in curves)
+    n = min(len(true), len(wrong))  # a run that stops early has fewer of the same times
+    apart = np.abs(wrong[:n] - true[:n]) if row.over_time else np.hypot(wrong[:n] - true[:n], px[:n] - tx[:n])
+    seen = np.isfinite(apart)
+    if not seen.any():
+        return Difference(*names, None, None, None, "no curve", "the two have no time in common")
+    at, times = int(np.argmax(np.where(seen, apart, -1.0))), np.asarray(exact.t)[len(exact.t) - len(true):]
+    spans = [float(np.ptp(v[np.isfinite(v)])) for v in ((true,) if row.over_time else (tx, true))]
+    return Difference(*names, float(apart[at]), float(np.hypot.reduce(spans)), float(times[at]), "compared")
+
+
+LETTERS = {r"\\lambda": "λ", r"\\zeta": "ζ", r"\\psi": "ψ", r"\\phi": "φ", r"\\varphi": "φ", r"\\theta": "θ",
+           r"\\omega": "ω", r"\\eta": "η", r"\\gamma": "γ",
+           r"\\ell": "l", r"\^\{-1\}": "⁻¹", r"\^2": "²", r"\^3": "³", r"\\,": ""}
+
+
+def words(figure: Figure) -> list[str]:
+    """A line per panel with a printed curve: how far it is from the exact motion, and when."""
+    return [_words(d) for d in differences(figure)]
+
+
+def _words(d: Difference) -> str:
+    quantity, _, unit = plain(d.quantity).rpartition(" (")
+    quantity, unit = (quantity, " " + unit.rstrip(")")) if quantity else (unit, "")
+    head = f"{quantity}, {plain(d.column)}: "
+    if d.status != "compared":
+        return head + d.reason
+    part = f" ({share(d.share)} the exact motion's range)" if d.share is not None else ""
+    return f"{head}{short(d.largest)}{unit}{part} at t = {d.at:.3g} s"
+
+
+def plain(label: str) -> str:
+    """A label of Matplotlib as text: its letters in Unicode, without dollars and braces; a dot over a letter
+    as d/dt, as primes belong to names; a hyphen as a minus."""
+    label = re.sub(r"\\dot\{(.*?)\}((?:_\w)?'*)", r"d\1\2/dt", label)
+    for pattern, letter in LETTERS.items():
+        label = re.sub(pattern, letter, label)
+    return re.sub(r"[${}]|_(?=\w)", "", label).replace("-", "−")

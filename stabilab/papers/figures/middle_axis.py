@@ -6,8 +6,7 @@ import numpy as np
 from ...orbit.phase_plane import motion_curve, phase_plane
 from ...show import style
 from . import paper
-from .figure import listed
-from .level import PRINTED, farthest, level_curves, within
+from .figure import PRINTED, farthest, level_curves, listed, within
 from .minor_axis import branches
 from .minor_axis import exactness as of_branches
 

@@ -11,8 +11,7 @@ from ...orbit.separatrix.branches import separatrix
 from ...show import style
 from ...show.plot.phase_plane import draw
 from . import paper
-from .figure import listed
-from .level import PRINTED, farthest
+from .figure import PRINTED, farthest, listed
 
 # alpha = 2 theta: both wells and their saddles, no equilibrium at an edge; the plane repeats every 4 pi
 WINDOW = (-7.0, 8.4)

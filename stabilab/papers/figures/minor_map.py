@@ -8,7 +8,7 @@ import numpy as np
 
 from ...show import style
 from . import paper
-from .level import POINTS, farthest, level_curves, within
+from .figure import POINTS, farthest, level_curves, within
 from .minor_axis import branches
 from .minor_axis import exactness as of_branches
 

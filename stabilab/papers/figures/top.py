@@ -11,8 +11,7 @@ from ...theories.top.euler_angles import euler_angles
 from ...theories.top.model import printed
 from ...theories.top.scaling import fast_top
 from . import panels
-from .figure import Figure
-from .model import model_figure
+from .figure import Figure, model_figure
 
 PAPER = "Amer, Amer, Galal 2023, rigid body in a Newtonian field with a gyrostatic moment"
 SPAN, POINTS, ORDER = 1.3, 2601, 2

@@ -7,7 +7,7 @@ from ...orbit.phase_plane import phase_plane
 from ...orbit.separatrix.branches import separatrix
 from ...show import style
 from . import panels
-from .level import PRINTED, farthest
+from .figure import PRINTED, farthest
 
 CASE = "minor-axis-without-wheel"
 WINDOW = (-7.0, 8.4)  # of alpha, as in Figs 2 and 3

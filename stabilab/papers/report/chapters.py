@@ -23,7 +23,7 @@ from ...show.units import SI, parameter_unit
 from ...theories.comparison import compare, side_by_side
 from ..figures import catalogue as figures
 from ..figures import panels
-from ..figures.difference import words
+from ..figures.figure import words
 
 FOLDER = "figures/"  # of a report
 

@@ -1,5 +1,5 @@
-"""The report: one folder of pages, read from disk without a network: on cases of one's own, or on everything.
-"""
+"""The report: one folder of pages, read from disk without a network: on cases of one's own, or on everything,
+with a start page, the papers, all cases in groups, the audit, other tools' numbers and what answers cost."""
 from __future__ import annotations
 
 import os
@@ -11,13 +11,293 @@ from typing import Any
 from ...case.read import load_all
 from ...interrupt import undoing
 from ...packages import demand
+from ...physics.scene import torque_axis
 from ...show import style
 from ...show.files import manifest
-from ...show.report import own, precision_page
+from ...show.report import html, own, precision_page
+from ...show.report.workers import Task, done
+from ...show.terminal.letters import some, written
 from ...show.text import law
+from ...theories.printed.claims import MAIN
 from ...version import __version__
-from .. import table
-from . import whole
+from .. import index, table
+from ..audit import page as audit_page
+from ..audit import papers as audited_papers
+from ..audit.page import counted
+from ..cost import effects as effect_cost
+from ..cost import growth as cost_growth
+from ..figures import catalogue as figures
+from ..figures import paper
+from ..validation import comparison as validation
+from . import chapters
+
+TITLE = "Bounded motion and spin-up of a gyrostat under constant torque"
+FINEST = 5                   # number of the figure on the start page
+GROWING = "minor-axis-100"   # the case about which the growth of cost is measured
+# s
+AUDIT_TAKES = {"constant-torque-gyrostat": 15.0, "charged-axisymmetric-short": 13.0,
+               "charged-axisymmetric": 12.0, "liquid-cavity": 10.0}
+
+
+# -- what is drawn and computed, by whichever process is free
+
+
+def tables(folder: Path) -> list[dict]:
+    """Tables 1-4 in all formats, and what the page says of them."""
+    rows = []
+    (folder / "tables").mkdir()
+    for one in table.tables():
+        names = []
+        for kind, make in table.FORMATS.items():
+            path = folder / "tables" / f"{one.stem}.{kind}"
+            path.write_text(make(one), encoding="utf-8")
+            names.append(f"tables/{path.name}")
+        rows.append({"number": one.number, "title": one.title, "wide": one.wide, "rows": one.rows,
+                     "files": names, "html": table.html_fragment(one)})
+    return rows
+
+
+def figure(number: int, folder: Path) -> dict:
+    """A figure of the constant-torque paper, and what the page says of it."""
+    return chapters.drawn(figures.figure(number), folder)
+
+
+# -- the pages
+
+
+def everything_of(cases, folder: Path, tell, wanted: own.Wanted, workers=None,
+                  **around) -> list[tuple[str, bool]]:
+    """Everything: tasks first, by all processes, then the pages. Of each entry a line for each law that a
+    motion leaves, and whether a fate is undecided."""
+    work = [Task("tables", "papers.report.report:tables", (folder,), 0.5), *own.tasks(cases, folder, wanted)]
+    work += [Task(f"figure {row.number}", "papers.report.report:figure", (row.number, folder), 1.2)
+             for row in figures.FIGURES]
+    work += [Task(f"chapter {one.paper}", "papers.report.chapters:section", (one.paper, folder), one.weight)
+             for one in chapters.CHAPTERS]
+    work += [Task(f"audit of {name}", "papers.audit:findings_of", (name,), AUDIT_TAKES.get(name, 6.0))
+             for name in audited_papers()]
+    work += [Task("numbers of other tools", "papers.validation:validated", (), 5.0)]
+    work += ([Task("what answers cost", "papers.report.report:costs", (cases, folder), 90.0)]
+             if wanted.precision else [])
+    found = dict(zip([task.words for task in work], done(work, folder, tell, workers)))
+    cost = found.get("what answers cost", [])
+    nav = _nav(cost)
+    _papers(folder, found, nav)
+    groups = _cases(cases, folder, found, nav, around)
+    audit, tools = _audit(folder, found, nav), _validation(folder, found, nav)
+    index.page([found[f"audit of {name}"] for name in audited_papers()], folder, nav=nav, here="where.html")
+    index.hard_cases(folder, nav=nav, here="hard-cases.html")
+    if cost:
+        html.write(folder / "cost.html", "cost.html", title="What answers cost", pages=cost, nav=nav,
+                   here="cost.html")
+    _start(cases, folder, found, nav, groups, audit, tools, cost, around)
+    return [(made["beyond"], made["open"]) for name, made in found.items() if name.startswith("case ")]
+
+
+def _nav(cost):
+    rows = [("index.html", "Start"), ("constant-torque.html", "Constant torque"),
+            *((f"{one.paper}.html", one.short) for one in chapters.CHAPTERS), ("cases.html", "Cases"),
+            ("audit.html", "Printed formulas"), ("where.html", "Where is it?"),
+            ("hard-cases.html", "Hard cases"), ("validation.html", "Other tools")]
+    rows += [("cost.html", "Cost")] if cost else []
+    return [{"file": file, "title": title} for file, title in rows]
+
+
+def _papers(folder, found, nav):
+    """The pages of the papers."""
+    from markupsafe import Markup
+    # escaped cell by cell in table.py
+    rows = [one | {"html": Markup(one["html"])} for one in found["tables"]]
+    main = found[f"audit of {MAIN}"]
+    drawn = [found[f"figure {row.number}"] | {"rows": index.of_figure(*main, row.number)}
+             for row in figures.FIGURES]
+    html.write(folder / "constant-torque.html", "constant_torque.html", title="Constant torque",
+               paper=paper.PAPER, tables=rows, nav=nav, here="constant-torque.html", data=index.data(),
+               claims=index.claims(*main), figures=drawn)
+    audits = {audit[0].figures: audit for audit in (found[f"audit of {name}"] for name in audited_papers())}
+    for one in chapters.CHAPTERS:
+        html.write(folder / f"{one.paper}.html", "chapter.html", chapter=found[f"chapter {one.paper}"],
+                   claims=index.claims(*audits[one.paper]), nav=nav, here=f"{one.paper}.html",
+                   title=one.title)
+
+
+GROUPS = (("Constant torque along a principal axis",
+           lambda case: case.scene.plain and not case.thrusters and torque_axis(case.scene)),
+          ("Constant torque in another direction",
+           lambda case: case.scene.plain and not case.thrusters and _acts(case.scene)),
+          ("No torque", lambda case: case.scene.plain and not case.thrusters),
+          ("Spacecraft with thrusters", lambda case: case.thrusters),
+          ("A charge in a magnetic field",
+           lambda case: _has(case, "charge") and not _has(case, "liquid_cavity")),
+          ("A cavity of viscous liquid", lambda case: _has(case, "liquid_cavity")),
+          ("Weight and field: tops", lambda case: _has(case, "gravity") or _has(case, "newtonian_field")),
+          ("Other effects", lambda case: True))
+
+
+# look of the answer -> title
+OUTCOMES = {"changes": "Spins up, or reaches its limit",
+            "conditional": "Bounded on a condition, or undecided",
+            "bounded": "Bounded for ever", "": "Sweeps, and cases without a motion"}
+
+
+def _acts(scene):
+    return any(scene.quadratic().m)
+
+
+def _has(case, effect):
+    return case.variables == "physical" and any(one.name == effect for one in case.scene.effects)
+
+
+def group(case) -> str:
+    """The title of the group of a case: by its effects."""
+    return next(title for title, belongs in GROUPS if belongs(case))
+
+
+def _cases(cases, folder, found, nav, around):
+    """A page a case, and the page that lists them by outcome, those of one kind of scene side by side;
+    (title, number) of the groups."""
+    order = [title for title, _ in GROUPS]
+    rows: dict[str, list] = {look: [] for look in OUTCOMES}
+    for stem, _ in sorted(own.entries(cases), key=lambda one: order.index(group(one[1][0]))):
+        made = found[f"case {stem}"]
+        own.write(made, folder / own.FOLDER / f"{stem}.html", "", nav=nav, up="../", below="cases.html",
+                  **own.of_one(made, around))
+        row = own.listed(stem, made)
+        rows["" if "sweep" in made else row["look"]].append(row | {"file": f"{own.FOLDER}/{row['file']}"})
+    groups = [{"title": title, "rows": rows[look]} for look, title in OUTCOMES.items() if rows[look]]
+    html.write(folder / "cases.html", "list.html", title="Cases by outcome", groups=groups, nav=nav,
+               here="cases.html", **around)
+    return [(one["title"], len(one["rows"])) for one in groups]
+
+
+def _audit(folder, found, nav):
+    """The page of the audit; in words how many rows have which verdict."""
+    findings = [found[f"audit of {name}"] for name in audited_papers()]
+    audit_page.page(findings, folder / "audit.html", nav=nav, here="audit.html")
+    total: dict[str, int] = {}
+    for _, rows in findings:
+        for verdict, number in audit_page.count(rows):
+            total[verdict] = total.get(verdict, 0) + number
+    return ", ".join(f"{number} {counted(verdict, number)}" for verdict, number in total.items())
+
+
+def _validation(folder, found, nav):
+    findings = found["numbers of other tools"]
+    validation.page(findings, folder / "validation.html", nav=nav, here="validation.html")
+    return "; ".join(f"{source.title}: {validation.counts(rows)}" for source,
+                     rows in validation.told(findings))
+
+
+# -- what measures times
+
+
+def _precision_of_kinds(cases, folder, **around):
+    """The first case of every kind: the others of a kind obey the same equations with other numbers."""
+    firsts: dict = {}
+    for case in cases:
+        if case.state is not None and case.span is not None:
+            firsts.setdefault(precision_page.kind(case), case)
+    left = len(own.entries(cases)) - len(firsts)
+    return precision_page.page(firsts.values(), folder,
+                               passed=(
+                                   f"{left} other cases, with the equations of one of these and other "
+                                   f"numbers",) if left else (), **around)
+
+
+def _growth(cases, folder, **around):
+    case = next((case for case in cases if case.name == GROWING), None)
+    return case and cost_growth.page(case, folder, **around)
+
+
+def _effects(cases, folder, **around):
+    return effect_cost.page(folder, **around)
+
+
+# (title, what it says, page(cases, folder) -> its path, or None where the cases do not call for it)
+COSTS = (("What accuracy costs",
+          "every way to follow each motion: error against time, and the cheapest way to each digit",
+          _precision_of_kinds),
+         ("How cost grows", "with the number of states, the digits, and closeness to the separatrix",
+          _growth), ("What each effect costs", "state, equations and time as effects are added one at a time",
+                     _effects))
+
+
+def costs(cases, folder: Path) -> list[dict]:
+    """The pages that hold measured times, one after the other by one process: never two measurements at once.
+    """
+    made = [(title, words, page(cases, folder, nav=_nav(True), below="cost.html")) for title, words,
+            page in COSTS]
+    return [{"title": title, "words": words, "file": path.name} for title, words, path in made if path]
+
+
+def _hero(cases, found) -> dict | None:
+    """The answer to a stuck thruster that the start page begins with: of a spacecraft with wheels, if one is
+    among the cases."""
+    craft = [(stem, members[0]) for stem, members in own.entries(cases)
+             if len(members) == 1 and members[0].thrusters]
+    for stem, _ in sorted(craft, key=lambda one: not one[1].wheels):
+        made = found[f"case {stem}"]["case"]
+        picture = next((one for one in made["pictures"] if one["kind"] == "time"), None)
+        if picture:
+            short = "; ".join(f"{name}: {value} {note}".strip() for name, value, note in made["tiles"][:3])
+            return {"file": f"{own.FOLDER}/{stem}.html", "title": made["title"], "headline": made["headline"],
+                    "look": made["look"], "picture": picture, "folder": f"{own.FOLDER}/", "short": short}
+    return None
+
+
+def _edge(cases, found) -> tuple[str, str] | None:
+    """(what is said, page) of the first bounded motion under a torque whose distance from the separatrix is
+    known."""
+    for stem, members in own.entries(cases):
+        made = found[f"case {stem}"]
+        if "sweep" not in made and made["case"]["look"] == "conditional" and members[0].scene.plain:
+            *_, (_, value, note) = made["case"]["tiles"] or [("", "", "")]
+            if note.startswith("the smallest change"):
+                return f"{written(made['case']['title'])}: {value}, {note}", f"{own.FOLDER}/{stem}.html"
+    return None
+
+
+def _questions(cases, found, hero, audit, cost) -> list[dict]:
+    """(question, its answer, where more of it stands) of what the report answers."""
+    edge = _edge(cases, found)
+    rows = [("My thruster is stuck: what happens, how soon, how large?", hero["short"], hero["file"])
+            ] if hero else []
+    rows += [("How far is it from the edge, the separatrix?", *edge)] if edge else []
+    rows += [("What does accuracy cost in time?", "; ".join(page["words"] for page in cost), "cost.html")
+             ] if cost else []
+    rows += [("Where do formulas that are right on paper lose their digits?",
+              "hard cases, each with what a plain evaluation gives and what is done instead",
+             "hard-cases.html"),
+             ("What do the five papers say, and what is so?", f"of their equations and claims {audit}",
+              "where.html")]
+    return [{"question": question, "words": words, "file": file} for question, words, file in rows]
+
+
+def _start(cases, folder, found, nav, groups, audit, tools, cost, around):
+    """The first page: a stuck thruster as it is answered, the questions, the finest picture, and what is
+    inside."""
+    hero = _hero(cases, found)
+    drawn = [row.number for row in figures.FIGURES if not row.added]
+    words = {
+        "constant-torque.html": f"{paper.PAPER}: tables 1 to {len(found['tables'])}, figures {drawn[0]} to "
+                                f"{drawn[-1]}, recomputed and corrected",
+                                "cases.html": "; ".join(
+                                    f"{title[0].lower()}{title[1:]} ({some(number, 'case')})" for title,
+                                    number in groups),
+                                    "audit.html": f"every numbered equation of five papers, tried on the "
+                                                  f"equations of motion: {audit}", "validation.html": tools,
+                                                  "where.html": "every equation, figure, table and claim of "
+                                                                "the five papers, with its place",
+                                                  "hard-cases.html": "where formulas that are right on paper "
+                                                                     "lose their digits",
+                                                  "cost.html": "What accuracy, many states and each effect "
+                                                               "cost, measured"}
+    words |= {f"{one.paper}.html": f"{one.title}: {figures.PAPERS[one.paper]}" for one in chapters.CHAPTERS}
+    cards = [page | {"words": words[page["file"]]} for page in nav if page["file"] != "index.html"]
+    picture = found.get(f"figure {FINEST}") or found[f"figure {figures.FIGURES[0].number}"]
+    html.write(folder / "index.html", "start.html", title=TITLE, picture=picture, cards=cards, nav=nav,
+               hero=hero, questions=_questions(cases, found, hero, audit, cost), here="index.html", **around)
+
 
 PACKAGES = ("numpy", "scipy", "sympy", "heyoka", "matplotlib", "vtk", "pyvista", "python-flint")
 TOLERANCES = {"verdicts, fates, periods": "exact structure of the equations, to rounding",
@@ -54,7 +334,7 @@ def write(cases=None, out="report", progress=None, arguments=None, papers=False,
               "extra": ()}
     with _progress(progress) as tell, manifest.written(out, arguments, inputs, TOLERANCES) as folder:
         if wanted.papers:
-            left = whole.pages(loaded, folder, tell, wanted, workers, **around)
+            left = everything_of(loaded, folder, tell, wanted, workers, **around)
         else:
             around["extra"] = _precision(loaded, folder, tell) if wanted.precision else ()
             left = own.pages(loaded, folder, tell, wanted, workers, **around)

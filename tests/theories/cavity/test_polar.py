@@ -11,7 +11,7 @@ from scipy.integrate import solve_ivp
 from stabilab import Gyrostat, Scene
 from stabilab.errors import InputError
 from stabilab.papers.figures.catalogue import figure
-from stabilab.papers.figures.difference import differences
+from stabilab.papers.figures.figure import differences
 from stabilab.theories.cavity.averaged import averaged, polar
 from tests.shared import case
 from tests.theories.cavity.test_averaged import body, rates_by_hand
