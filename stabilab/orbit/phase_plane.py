@@ -10,6 +10,8 @@ import numpy as np
 from .far_states import in_range
 from .landscape import Landscape, landscape_in_doubles
 
+FARTHEST = 30.0  # along an orbit: beyond, where places are e^30 as far, rounding decides on which it lies
+
 
 @dataclass(frozen=True)
 class PhasePlane:
@@ -63,9 +65,11 @@ class PhasePlane:
     @cached_property
     def _critical(self):
         """[(y, is a saddle)] on the orbit; for a circle within one turn of the state."""
-        found = sorted(GEOMETRIES[self.land.e](self))
-        return [(y, bool(self.potential.slope(self.potential.move(self.place, np.float64(y))) > 0))
-                for y in found]
+        offsets, _, barrier = self.land.critical(tuple(np.array([v]) for v in self.place))
+        if np.isfinite(self.land.turn):
+            offsets = np.where(offsets > np.pi, offsets - self.land.turn, offsets)
+        return sorted((y, saddle) for y, saddle in zip(offsets[0].tolist(), barrier[0].tolist())
+                      if abs(y) < FARTHEST)
 
     @property
     def saddles(self) -> list[float]:
@@ -184,41 +188,3 @@ def motion_curve(plane: PhasePlane, low, high, points=4001):
     phase = np.linspace(-np.pi / 2, np.pi / 2, 801)
     y = (ends[0] + ends[1]) / 2 + (ends[1] - ends[0]) / 2 * np.sin(phase)
     return y, np.sqrt(2 * np.maximum(plane.W0**2 / 2 - plane.height(y), 0.0))
-
-
-FARTHEST = 1e13  # ratio of places beyond which rounding decides on which orbit an equilibrium lies
-
-
-# --- the equilibria on an orbit, told by their offsets
-def _on_circle(plane):
-    here = np.arctan2(*plane.place)
-    return [float((np.arctan2(x, z) - here + np.pi) % (2 * np.pi) - np.pi) for x, z in _on_conic(plane)]
-
-
-def _on_hyperbola(plane):
-    """xi eta = Q on all of the orbit, so that the sign of one of them tells the branch: that of the larger
-    one at the equilibrium. Next to an asymptote the smaller one is rounding."""
-    xi, eta = plane.place
-    for x, z in _on_conic(plane):
-        ahead, behind = x + z, x - z
-        if abs(ahead) >= abs(behind):
-            ratio = ahead / xi if xi else np.inf
-        else:
-            ratio = eta / behind
-        if 1 / FARTHEST < ratio < FARTHEST:
-            yield float(np.log(ratio))
-
-
-def _on_conic(plane):
-    """(X, Z) of the equilibria with the invariant of the orbit."""
-    return [(float(x[0]), float(z[0])) for x, z, exists,
-            _ in plane.land.conic.critical_places(np.array([plane.Q])) if exists[0]]
-
-
-def _on_parabola(plane):
-    first, second, third = plane.potential.derivatives(plane.place)
-    roots = np.roots(np.trim_zeros([third / 6, second / 2, first, plane.potential.force(plane.place)], "f"))
-    return [float(root.real) for root in roots if abs(root.imag) < 1e-9 * (1 + abs(root))]
-
-
-GEOMETRIES = {-1: _on_circle, 1: _on_hyperbola, 0: _on_parabola}
