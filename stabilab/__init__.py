@@ -39,10 +39,12 @@ if TYPE_CHECKING:  # what `_HOME` loads on first use, for editors and type check
     from .physics.effects.body_force import BodyForce as BodyForce
     from .physics.effects.charge import Charge as Charge
     from .physics.effects.constant_torque import ConstantTorque as ConstantTorque
+    from .physics.effects.eddy_currents import EddyCurrents as EddyCurrents
     from .physics.effects.gravity import Gravity as Gravity
     from .physics.effects.gyrostat import Gyrostat as Gyrostat
     from .physics.effects.liquid_cavity import LiquidCavity as LiquidCavity
     from .physics.effects.newtonian_field import NewtonianField as NewtonianField
+    from .physics.effects.rate_damper import RateDamper as RateDamper
     from .physics.effects.resistance import Resistance as Resistance
     from .physics.effects.viscous_damper import ViscousDamper as ViscousDamper
     from .physics.equations import derive as derive
@@ -80,6 +82,7 @@ _HOME = {
     "LiquidCavity": "physics.effects.liquid_cavity",
     "NewtonianField": "physics.effects.newtonian_field", "Gravity": "physics.effects.gravity",
     "BodyForce": "physics.effects.body_force", "ViscousDamper": "physics.effects.viscous_damper",
+    "RateDamper": "physics.effects.rate_damper", "EddyCurrents": "physics.effects.eddy_currents",
     "derive": "physics.equations", "validity": "physics.law_limits",
     "plot": "show", "sweep": "show.maps.sweep", "atlas": "show.maps.atlas",
     "basin": "show.maps.basins", "bifurcation": "maps.bifurcation.ask", "InputError": "errors",

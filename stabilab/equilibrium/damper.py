@@ -22,7 +22,7 @@ from .stability import ordered
 def damped_equilibria(parts: Content) -> Equilibria:
     """Every permanent rotation with its stability; undecided beside a torque, a medium, a liquid or a wheel.
     """
-    if any(parts.M) or parts.c or parts.kappa or any(parts.Lambda):
+    if any(parts.M) or parts.c or parts.damped or parts.kappa or any(parts.Lambda):
         return Equilibria("undecided",
                           "undecided: with a damper the stability of equilibria is known of a free body "
                           "without wheels")

@@ -1,17 +1,16 @@
-"""Equilibria with dissipation: a resisting medium, and others.
+"""Equilibria with dissipation: a resisting medium, a linear damper, and others.
 
-Equilibria in a resisting medium: (D omega + Lambda) x omega - c D omega + M = 0, c > 0, all of them and
-their stability.
+Equilibria where medium and damper take omega . R omega, R = c D + C positive definite (`Content.drag`):
+(D omega + Lambda) x omega - R omega + M = 0, all of them and their stability.
 
-Given omega_e of one axis e the other two components solve two linear equations, determinant
-q(t) = c^2 + ((D_e - D_i) t + Lambda_e)((D_e - D_j) t + Lambda_e)/(D_i D_j), t = omega_e; put into the third
-equation they leave one polynomial P(t) of degree five at most, with exact coefficients: Sturm's theorem gives
-all its real roots. The axis is chosen so that q has no real root at which the two equations are solvable.
-Stability: the characteristic polynomial is (z + c)^3 + m (z + c) + n, with m, n of the motion without
-resistance, so p2 = 3 c > 0, p1 = 3 c^2 + m, p0 = c^3 + m c + n, and by Routh and Hurwitz all roots lie on the
-left iff p0 > 0 and
-8 c^3 + 2 c m - n > 0. A sign at a root of P is decided exactly: by distance, and where that is not enough by
-the common divisor. Everywhere T' = M . omega - 2 c T.
+Given omega_e of one axis e the other two components solve two linear equations, whose determinant is q(t),
+t = omega_e: by c alone c^2 + ((D_e - D_i) t + Lambda_e)((D_e - D_j) t + Lambda_e)/(D_i D_j). Put into the
+third equation they leave one polynomial P(t) of degree five at most, with exact coefficients: Sturm's theorem
+gives all its real roots. The axis is chosen so that q has no real root at which the two equations are
+solvable. Stability: the Jacobian has the characteristic polynomial z^3 + p2 z^2 + p1 z + p0, p2 = tr D^-1 R
+> 0, and by Routh and Hurwitz all roots lie on the left iff p0 > 0 and p2 p1 - p0 > 0. A sign at a root of P
+is decided exactly: by distance, and where that is not enough by the common divisor. Everywhere T' =
+M . omega - omega . R omega.
 
 Equilibria of a body that a liquid in a cavity or a resisting medium takes energy from.
 
@@ -27,32 +26,39 @@ from ..numbers.balls import many_digits
 from ..numbers.polynomial import Poly, real_roots
 from ..numbers.vectors import CYCLE, dot
 from ..physics.coefficients import Content
+from ..physics.effects.rate_damper import SLACK, principal_minors
 from ..physics.scene import euler_form
 from .damper import damped_equilibria
+from .eddy import eddy_equilibria
 from .field_balance import Field, blocks, rotations_at
 from .field_states import around
 from .liquid import balanced_equilibria, liquid_equilibria
 from .result import CurveSegment, Equilibria, EquilibriumCurve, EquilibriumPoint
-from .stability import eigenvalues, invariants, ordered
+from .stability import eigenvalues, ordered
 
 T = Poly((0, 1))
 BITS = 256
 GLOBAL = "every motion tends to it: "
 REST = (GLOBAL + "T' = -2 c T without a torque, so the energy and with it every rate decays as exp(-c t)")
 ALL_LEFT = (
-    "asymptotically stable: p0 > 0 and 8 c^3 + 2 c m - n > 0 in (z + c)^3 + m (z + c) + n (Routh and "
-    "Hurwitz), so all roots lie on the left")
+    "asymptotically stable: p0 > 0 and p2 p1 - p0 > 0 in z^3 + p2 z^2 + p1 z + p0 (Routh and Hurwitz), so "
+    "all roots lie on the left")
 SADDLE = "p0 < 0: the product of the roots is positive, so one of them is"
-FOCUS = "8 c^3 + 2 c m - n < 0 (Routh and Hurwitz): a root with positive real part"
+FOCUS = "p2 p1 - p0 < 0 (Routh and Hurwitz): a root with positive real part"
+RUBBED = "T' = -omega . R omega without a torque, R = c D + C, positive definite, of what resists"
+PARTLY = "undecided: the damper resists rotation about some axes alone, and about others it may go on"
 
 
 def resisted_equilibria(parts: Content) -> Equilibria:
-    """All equilibria with resistance (and no liquid), each with its stability."""
-    form = euler_form(parts.D, parts.Lambda, parts.M)
+    """All equilibria with resistance or a linear damper (and no liquid), each with its stability."""
+    if not decay(parts):
+        return Equilibria("undecided", PARTLY)
+    form, none = euler_form(parts.D, parts.Lambda, parts.M), Fraction(0)
     if not any(parts.M):
-        m, n = invariants(form, (Fraction(0),) * 3)
-        rest = EquilibriumPoint((0.0,) * 3, damped(m, n, parts.c), "stable", "asymptotically stable", REST)
-        return Equilibria("points",
+        J = _jacobian(parts, form, (none,) * 3, Fraction(1))
+        rest = EquilibriumPoint((0.0,) * 3, _spectrum_of(J), "stable", "asymptotically stable",
+                                f"{GLOBAL}{RUBBED}" if parts.damped else REST)
+        return Equilibria("points", f"{RUBBED}, so only rest is an equilibrium" if parts.damped else
                           "resistance without a torque: T' = -2 c T, so only rest is an equilibrium", (rest,))
     chosen = next((found for e in _axes(parts.D) if (found := elimination(parts, form, e)) is not None), None)
     if chosen is None:
@@ -69,9 +75,26 @@ def resisted_equilibria(parts: Content) -> Equilibria:
     return Equilibria("points", reason, tuple(points))
 
 
-def damped(m, n, c):
-    """Roots of (z + c)^3 + m (z + c) + n."""
-    return tuple(z - float(c) for z in eigenvalues(m, n))
+def minors(rows):
+    """Sums of the principal minors of a 3 x 3 matrix of any numbers, of the orders 1, 2 and 3."""
+    found = list(principal_minors(rows))
+    return [sum(v for n, v in found if n == order) for order in (1, 2, 3)]
+
+
+def _jacobian(parts: Content, form, x, q):
+    """Rows of q times the derivative of omega' at omega = x/q, in any numbers."""
+    rows = [[-q * (v / d) for v in row] for row, d in zip(parts.drag, parts.D)]
+    for i, (j, k) in enumerate(CYCLE):
+        rows[i][j] += form.kappa[i] * x[k] + form.sigma[i] * q
+        rows[i][k] += form.kappa[i] * x[j] + form.rho[i] * q
+    return rows
+
+
+def _spectrum_of(J):
+    """The eigenvalues of a matrix of fractions: roots of (z - s)^3 + m (z - s) + n, 3 s its trace."""
+    one, two, three = minors(J)
+    s = one / 3
+    return tuple(z + float(s) for z in eigenvalues(two - 3 * s * s, s * two - three - 2 * s**3))
 
 
 def _axes(D):
@@ -85,19 +108,20 @@ def elimination(parts: Content, form, e):
     """((numerators of omega), q, P, e) with omega = numerators(t)/q(t) and P(t) = 0; None where q has a real
     root at which the two linear equations are solvable."""
     i, j = CYCLE[e]
-    c = parts.c
+    R = [[v / d for v in row] for row, d in zip(parts.drag, parts.D)]
     # axis i has neighbours (j, e), axis j has (e, i), cyclic: rate_i = kappa_i x_j x_e + rho_i x_e + sigma_i
-    # x_j + m_i
-    a, b = form.kappa[i] * T + form.sigma[i], form.rho[i] * T + form.m[i]  # c x_i = a x_j + b
-    # c x_j = f x_i + g
-    f, g = form.kappa[j] * T + form.rho[j], form.sigma[j] * T + form.m[j]
-    q = c * c - a * f
-    top_i, top_j = c * b + a * g, c * g + f * b
+    # x_j + m_i - R_i . x
+    # R_ii x_i = a x_j + b
+    a, b = form.kappa[i] * T + form.sigma[i] - R[i][j], (form.rho[i] - R[i][e]) * T + form.m[i]
+    # R_jj x_j = f x_i + g
+    f, g = form.kappa[j] * T + form.rho[j] - R[j][i], (form.sigma[j] - R[j][e]) * T + form.m[j]
+    q = R[i][i] * R[j][j] - a * f
+    top_i, top_j = R[j][j] * b + a * g, R[i][i] * g + f * b
     common = q.gcd(top_i).gcd(top_j)
     if common.degree > 0 and real_roots(common):
         return None
-    P = (form.kappa[e] * top_i * top_j + form.rho[e] * top_j * q + form.sigma[e] * top_i * q - c * T * q * q
-         + form.m[e] * q * q)
+    P = (form.kappa[e] * top_i * top_j + (form.rho[e] - R[e][j]) * top_j * q
+         + (form.sigma[e] - R[e][i]) * top_i * q - R[e][e] * T * q * q + form.m[e] * q * q)
     tops = [None] * 3
     tops[i], tops[j], tops[e] = top_i, top_j, T * q
     return tuple(tops), q, _without_common(P, q), e
@@ -125,21 +149,20 @@ def sign_at(R: Poly, P: Poly, t: Fraction, bits: int = BITS) -> int:
 
 
 def _point(parts, form, numerators, q, P, t) -> EquilibriumPoint:
-    c = parts.c
-    m, n = invariants(form, numerators, q)  # times q^2, q^3
+    one, two, three = minors(_jacobian(parts, form, numerators, q))  # times q, q^2, q^3
     side = sign_at(q, P, t)
-    p0 = side * sign_at(q * q * q * c**3 + m * q * c + n, P, t)
-    hurwitz = side * sign_at(q * q * q * (8 * c**3) + 2 * c * m * q - n, P, t)
+    p0 = side * sign_at(-three, P, t)
+    hurwitz = side * sign_at(three - one * two, P, t)
     bottom = q(t)
     omega = tuple(top(t) / bottom for top in numerators)
-    numbers = invariants(form, omega)
     linear, verdict, because = _verdict(p0, hurwitz, side, P, t)
     if verdict == "asymptotically stable" and draws_all(parts, omega):
         because += ("; " + GLOBAL
-                    + "V = delta . D delta/2, delta the departure, has V' = -2 c V + omega* . (delta x D "
-                      "delta), a "
-                    "negative definite form")
-    return EquilibriumPoint(tuple(float(v) for v in omega), damped(*numbers, c), linear, verdict, because)  # type: ignore[call-arg]
+                    + "V = delta . D delta/2, delta the departure, has V' = -delta . R delta + omega* . "
+                      "(delta x D delta), a negative definite form")
+    return EquilibriumPoint(tuple(float(v) for v in omega),
+                            _spectrum_of(_jacobian(parts, form, omega, Fraction(1))), linear, verdict,
+                            because)
 
 
 def _verdict(p0, hurwitz, side, P, t):
@@ -169,14 +192,12 @@ def _crossing(P: Poly, t) -> tuple[int, int]:
 
 
 def draws_all(parts: Content, omega) -> bool:
-    """Whether -c delta . D delta + omega . (delta x D delta) is negative definite (by principal minors)."""
-    D, c = parts.D, parts.c
-    S = [[c * D[i] if i == j else None for j in range(3)] for i in range(3)]
+    """Whether -delta . R delta + omega . (delta x D delta) is negative definite (by principal minors)."""
+    D, S = parts.D, [list(row) for row in parts.drag]
     for i, (j, k) in enumerate(CYCLE):  # (delta x D delta)_i = (D_k - D_j) delta_j delta_k
-        S[j][k] = S[k][j] = -omega[i] * (D[k] - D[j]) / 2
+        S[j][k] = S[k][j] = S[j][k] - omega[i] * (D[k] - D[j]) / 2
     two = S[0][0] * S[1][1] - S[0][1]**2
-    three = (S[0][0] * (S[1][1] * S[2][2] - S[1][2]**2) - S[0][1] * (S[0][1] * S[2][2] - S[1][2] * S[0][2])
-             + S[0][2] * (S[0][1] * S[1][2] - S[1][1] * S[0][2]))
+    three = minors(S)[2]
     scale = S[0][0] * S[1][1] * S[2][2] / 2**100  # far above what the 2**-256 of omega can change
     return two * S[2][2] > scale and three > scale
 
@@ -184,8 +205,19 @@ def draws_all(parts: Content, omega) -> bool:
 def energy_bound(parts: Content, T0: float) -> tuple[float, float]:
     """(largest sqrt(2 T) ever, its limit at late times) from (sqrt(2 T))' <= -c sqrt(2 T) + sqrt(M . D^-1 M).
     """
-    push = sum(float(m) ** 2 / float(d) for m, d in zip(parts.M, parts.D)) ** 0.5 / float(parts.c)
+    push = sum(float(m) ** 2 / float(d) for m, d in zip(parts.M, parts.D)) ** 0.5 / float(decay(parts))
     return max((2 * T0) ** 0.5, push), push
+
+
+def decay(parts: Content) -> Fraction:
+    """The largest c with omega . R omega >= c omega . D omega, 1/s: the least root of det(R - c D), all three
+    of which are real; 0 where the damper leaves an axis free."""
+    if not parts.damped:
+        return parts.c
+    det = minors([[v - (i == j) * parts.D[i] * T for j, v in enumerate(row)]
+                  for i, row in enumerate(parts.drag)])[2]
+    least = real_roots(det, BITS)[0]
+    return least if least > SLACK * max(max(row) for row in parts.drag) / min(parts.D) else Fraction(0)
 
 
 MINIMUM = ("asymptotically stable",
@@ -210,9 +242,11 @@ def dissipative_equilibria(parts: Content) -> Equilibria:
         return damped_equilibria(parts)
     if not parts.kappa:
         return resisted_equilibria(parts)
+    if parts.damped and (any(parts.M) or any(parts.Lambda) or not decay(parts)):
+        return Equilibria("undecided", "undecided: a liquid beside a linear damper, a torque or a wheel")
     if parts.unproved_loss:
         return Equilibria("undecided", parts.unproved_loss)
-    if not parts.c and not any(parts.M):
+    if not parts.c and not any(parts.M) and not parts.damped:
         return liquid_equilibria(parts)
     if not any(parts.M) and not any(parts.Lambda):
         return _rest_with_liquid(parts)
@@ -229,6 +263,10 @@ def held_in_a_field(parts: Content) -> Equilibria:
                           "charge enters the liquid's own "
                                        "torque, and equilibria beyond those of the body without liquid are "
                                        "not excluded")
+    if parts.eddy:
+        return eddy_equilibria(parts)
+    if parts.damped and not decay(parts):
+        return Equilibria("undecided", PARTLY)
     if any(parts.M):
         return Equilibria("undecided",
                           "undecided: a constant torque and a field hold a turning body against the medium "
@@ -238,11 +276,13 @@ def held_in_a_field(parts: Content) -> Equilibria:
 
 
 def _rest_with_liquid(parts: Content) -> Equilibria:
-    c = -float(parts.c)
-    rest = EquilibriumPoint((0.0,) * 3, (complex(c, 0.0),) * 3, "stable", "asymptotically stable",
-                            "every motion tends to it: T' <= -2 c T, since the liquid only takes energy and "
-                            "the medium takes 2 c T")
-    return Equilibria("points", "T' <= -2 c T, so only rest is an equilibrium", (rest,))
+    none = Fraction(0)
+    J = _jacobian(parts, euler_form(parts.D, parts.Lambda, parts.M), (none,) * 3, Fraction(1))
+    takes = "T' <= -omega . R omega" if parts.damped else "T' <= -2 c T"
+    rest = EquilibriumPoint((0.0,) * 3, _spectrum_of(J), "stable", "asymptotically stable",
+                            f"every motion tends to it: {takes}, since the liquid only takes energy and "
+                            f"{'so does what resists' if parts.damped else 'the medium takes 2 c T'}")
+    return Equilibria("points", f"{takes}, so only rest is an equilibrium", (rest,))
 
 
 def rest_positions(parts: Content) -> Equilibria:
@@ -284,7 +324,8 @@ def _spectrum(parts, field, rotation):
             for block in blocks(field, 0 * field.N, rotation.gamma))
     x, y, z = (float(g.mid()) for g in rotation.gamma)
     turn = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
-    J = np.block([[A - float(parts.c) * np.eye(3), B], [turn, np.zeros((3, 3))]])
+    R = np.array([[float(v / d) for v in row] for row, d in zip(parts.drag, parts.D)])
+    J = np.block([[A - R, B], [turn, np.zeros((3, 3))]])
     return ordered(np.linalg.eigvals(J))
 
 

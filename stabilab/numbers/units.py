@@ -64,7 +64,7 @@ RATE, FORCE, TORQUE, MOMENTUM = (0, 0, -1, 0, 1), (1, 1, -2, 0, 0), (2, 1, -2, 0
 INERTIA, VELOCITY, CHARGE, FLUX = (2, 1, 0, 0, 0), (1, 0, -1, 0, 0), (0, 0, 1, 1, 0), (0, 1, -2, -1, 0)
 PER_SECOND, PER_SECOND_2, DENSITY, VISCOSITY = (0, 0, -1, 0,
                                                 0), (0, 0, -2, 0, 0), (-3, 1, 0, 0, 0), (2, 0, -1, 0, 0)
-MASS_FLOW = (0, 1, -1, 0, 0)
+MASS_FLOW, EDDY = (0, 1, -1, 0, 0), (2, -1, 3, 2, 0)
 # an energy has the dimension of a torque
 ATTRACTION, LENGTH_7, ENERGY = (3, 0, -2, 0, 0), (7, 0, 0, 0, 0), (2, 1, -2, 0, 0)
 NAMES: dict[Dimension, str] = {
@@ -75,7 +75,8 @@ NAMES: dict[Dimension, str] = {
          INERTIA: "moment of inertia (kg m^2)", VELOCITY: "velocity (m/s)", CHARGE: "charge (C)",
          FLUX: "magnetic flux density (T)",
          PER_SECOND: "rate (1/s)", DENSITY: "density (kg/m^3)", VISCOSITY: "kinematic viscosity (m^2/s)",
-         MASS_FLOW: "mass flow (kg/s)", (2, 1, -3, 0, 0): "power (W)",
+         MASS_FLOW: "mass flow (kg/s)",
+         EDDY: "torque over rate and field squared (N m s/T^2)", (2, 1, -3, 0, 0): "power (W)",
          (-1, 1, -2, 0, 0): "pressure (Pa)", (0, 0, -2, 0, 1): "angular acceleration (rad/s^2)",
          (1, 1, -1, 0, 0): "momentum (N s)"}
 
@@ -105,6 +106,8 @@ DIMENSIONS: dict[str, Dimension] = {
     "effects.liquid_cavity.P0": LENGTH_7,
     "effects.liquid_cavity.radius": LENGTH,
     "effects.viscous_damper.inertia": INERTIA, "effects.viscous_damper.coefficient": MOMENTUM,
+    "effects.rate_damper.coefficient": MOMENTUM,
+    "effects.eddy_currents.coefficient": EDDY, "effects.eddy_currents.field": FLUX,
     "motion.damper": RATE,
 }
 

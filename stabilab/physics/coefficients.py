@@ -3,8 +3,9 @@ of the papers, and whether laws are approximate.
 
 What acts on the body, in exact numbers: a constant charge turns it as a wheel of moment -k e3 would.
 
-    D omega' = (D omega + Lambda) x omega + M - c D omega + kappa (omega'' + omega x omega')
-               + s x gamma + N gamma x D gamma + E gamma3 omega x e3,      gamma' = gamma x omega
+    D omega' = (D omega + Lambda) x omega + M - c D omega - C omega + kappa (omega'' + omega x omega')
+               + s x gamma + N gamma x D gamma + E gamma3 omega x e3 + eddy (omega x gamma) x gamma,
+    gamma' = gamma x omega
 
 Lambda = lambda - k e3 (gyrostat, charge of constant angle; k is no part of the angular momentum, yet the
 rates are the same), s = M g times the centre of mass, E = e H l^2 of a charge whose angle follows the
@@ -30,14 +31,14 @@ from typing import Any, ClassVar
 
 from ..errors import InputError
 from ..numbers.exact import exact_vector, sqrt_fraction
-from ..numbers.vectors import Exact3, Float3, Number, Triple, cross
+from ..numbers.vectors import Exact3, Float3, Number, Triple, cross, dot
 from ..validation import checked_scene, real
 from .effects import effect_class
 from .effects.base import Effect
 from .scene import ZERO3, AnyScene, Body, ScaledGyrostat, Scene
 
 KNOWN = {"gyrostat", "constant_torque", "charge", "resistance", "liquid_cavity", "newtonian_field", "gravity",
-         "body_force", "viscous_damper"}
+         "body_force", "viscous_damper", "rate_damper", "eddy_currents"}
 ZERO = Fraction(0)
 
 
@@ -45,7 +46,7 @@ ZERO = Fraction(0)
 class Content:
     """The coefficients of the equations above, exact. printed: the liquid's torque is the printed one;
     inside, friction: of a damper, the moment of inertia of its sphere, which turns relative to the body, and
-    the coefficient of its fluid."""
+    the coefficient of its fluid. C: rows of a linear damper; eddy: k B^2 of eddy currents, N m s."""
 
     D: Exact3
     Lambda: Exact3
@@ -58,18 +59,31 @@ class Content:
     E: Fraction = ZERO
     inside: Fraction = ZERO
     friction: Fraction = ZERO
+    C: tuple[Exact3, ...] = (ZERO3,) * 3
+    eddy: Fraction = ZERO
     charged: bool = False
     forced: bool = False
 
     @property
     def directed(self) -> bool:
         """Whether the torque depends on where a direction of space lies in the body."""
-        return bool(any(self.s) or self.E or (self.N and len(set(self.D)) > 1))
+        return bool(any(self.s) or self.E or self.eddy or (self.N and len(set(self.D)) > 1))
+
+    @property
+    def damped(self) -> bool:
+        """Whether a linear damper acts."""
+        return any(map(any, self.C))
+
+    @property
+    def drag(self) -> tuple[Exact3, ...]:
+        """C + c D: what medium and linear damper take is omega . drag omega, W."""
+        return tuple(tuple(v + (i == j) * self.c * self.D[i] for j, v in enumerate(row))
+                     for i, row in enumerate(self.C))
 
     @property
     def dissipative(self) -> bool:
-        """Whether a liquid, a medium or a damper takes energy."""
-        return bool(self.c or self.inside
+        """Whether a liquid, a medium, a damper or eddy currents take energy."""
+        return bool(self.c or self.inside or self.damped or self.eddy
                     or (self.kappa and len(set(self.D)) + any(self.Lambda) + self.directed > 1))
 
     @property
@@ -117,7 +131,9 @@ def content(scene: AnyScene) -> Content | None:
         numbers |= {"kappa": liquid.exact, "printed": liquid.law == "printed"}
     if (damper := scene.effect("viscous_damper")) is not None:
         numbers |= dict(zip(("inside", "friction"), damper.exact))
-    for name, key in (("resistance", "c"), ("newtonian_field", "N"), ("gravity", "s")):
+    if (eddy := scene.effect("eddy_currents")) is not None:
+        numbers["eddy"] = eddy.parameters()["kB2"]
+    for name, key in (("resistance", "c"), ("newtonian_field", "N"), ("gravity", "s"), ("rate_damper", "C")):
         if (effect := scene.effect(name)) is not None:
             numbers[key] = effect.exact
     return Content(scene.body.exact, tuple(lam), scene.vector("constant_torque"),
@@ -177,12 +193,12 @@ def rates(parts: Content, omega: Sequence[Number], gamma: Sequence[Number] | Non
     D = parts.D
     H = tuple(d * x + l for d, x, l in zip(D, w, parts.Lambda))
     total = list(cross(H, w))
-    total = [t + m - parts.c * d * x for t, m, d, x in zip(total, parts.M, D, w)]
+    total = [t + m - dot(row, w) for t, m, row in zip(total, parts.M, parts.drag)]
     if parts.kappa:
         total = [t + parts.kappa * v for t, v in zip(total, liquid_torque(parts, w))]
     if gamma:
         field = (cross(parts.s, g), cross(g, tuple(parts.N * d * x for d, x in zip(D, g))),
-                 cross(w, (0, 0, parts.E * g[2])))
+                 cross(w, (0, 0, parts.E * g[2])), cross(cross(w, tuple(parts.eddy * v for v in g)), g))
         total = [t + sum(part[i] for part in field) for i, t in enumerate(total)]
     return tuple(t / d for t, d in zip(total, D)), cross(g, w) if gamma else ()
 

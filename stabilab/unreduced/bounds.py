@@ -10,7 +10,7 @@ from fractions import Fraction
 from math import hypot, inf, sqrt
 from typing import Any
 
-from ..equilibrium.dissipative import GLOBAL, energy_bound, resisted_equilibria
+from ..equilibrium.dissipative import GLOBAL, decay, energy_bound, resisted_equilibria
 from ..equilibrium.liquid import trap
 from ..numbers.vectors import dot
 from ..orbit.fate.one_state import REASONS, Reason
@@ -56,7 +56,7 @@ def judged(parts: Content, omega, gamma, sigma=(0.0,) * 3) -> tuple[Fate, str, d
     T0 = sum(float(d) * w * w for d, w in zip(parts.D, omega)) / 2
     if parts.kappa and any(parts.Lambda) and not parts.printed:
         return _wheel_and_liquid(parts, T0)
-    if parts.c:
+    if parts.c or parts.damped:
         return _resisted(parts, T0)
     if any(parts.M):
         return (Fate.UNDECIDED,
@@ -68,10 +68,10 @@ def judged(parts: Content, omega, gamma, sigma=(0.0,) * 3) -> tuple[Fate, str, d
 
 def _damped(parts: Content, omega, sigma) -> tuple[Fate, str, dict]:
     """A damper alone, or with wheels: |H| stays, the energy falls."""
-    if any(parts.M) or parts.c or parts.kappa or parts.directed:
+    if any(parts.M) or parts.c or parts.damped or parts.kappa or parts.directed:
         return (Fate.UNDECIDED,
-                "undecided: no bound is proved for a damper beside a torque, a medium, a liquid or a field",
-                {})
+                "undecided: no bound is proved for a damper inside beside a torque, a medium, another "
+                "damper, a liquid or a field", {})
     k = parts.inside
     w, s = tuple(map(Fraction, omega)), tuple(map(Fraction, sigma))
     H = tuple(d * x + l + k * y for d, x, l, y in zip(parts.D, w, parts.Lambda, s))
@@ -86,14 +86,17 @@ def _damped(parts: Content, omega, sigma) -> tuple[Fate, str, dict]:
 
 def _resisted(parts: Content, T0) -> tuple[Fate, str, dict]:
     least = sqrt(float(min(parts.D)))
-    takes = "T' <= " if parts.kappa else "T' = "
+    slowest, takes = decay(parts), "T' <= " if parts.kappa or parts.damped else "T' = "
+    rate = f", c = {float(slowest):.6g} 1/s" if parts.damped else ""
+    if not slowest:
+        return _partly(parts, T0, least)
     if not any(parts.M):
         return (Fate.BOUNDED,
-                f"{takes}-2 c T: the energy falls at least as T(0) exp(-2 c t), so the motion tends to rest",
-                {"energy": T0, "rate_bound": sqrt(2 * T0) / least})
+                f"{takes}-2 c T{rate}: the energy falls at least as T(0) exp(-2 c t), so the motion tends to "
+                "rest", {"energy": T0, "rate_bound": sqrt(2 * T0) / least})
     largest, late = energy_bound(parts, T0)
-    words = (f"{takes}M . omega - 2 c T <= sqrt(2 T) (sqrt(M . D^-1 M) - c sqrt(2 T)): resistance outgrows "
-             f"the torque, so |omega| <= "
+    words = (f"{takes}M . omega - 2 c T <= sqrt(2 T) (sqrt(M . D^-1 M) - c sqrt(2 T)){rate}: resistance "
+             f"outgrows the torque, so |omega| <= "
              f"{largest / least:.6g} rad/s always and <= {late / least:.6g} rad/s in the end")
     bounds = {"energy": T0, "rate_bound": largest / least, "late_rate_bound": late / least}
     if parts.kappa:
@@ -109,6 +112,16 @@ def _resisted(parts: Content, T0) -> tuple[Fate, str, dict]:
             f"where it tends is undecided: {attracting} of {len(found.points)} equilibria attract their "
             f"neighbourhood, and no proof covers all motions")
     return Fate.BOUNDED, f"{words}; {where}", bounds
+
+
+def _partly(parts: Content, T0, least) -> tuple[Fate, str, dict]:
+    """A linear damper that leaves some axis free."""
+    if any(parts.M):
+        return (Fate.UNDECIDED, "undecided: the torque does work at the rate M . omega, and the damper "
+                                "resists rotation about some axes alone: no bound is proved", {"energy": T0})
+    return (Fate.BOUNDED, "T' = -omega . C omega <= 0: the energy does not grow; where the motion tends is "
+                          "undecided, for the damper resists rotation about some axes alone",
+            {"energy": T0, "rate_bound": sqrt(2 * T0) / least})
 
 
 def _liquid(parts: Content, omega, T0) -> tuple[Fate, str, dict]:
@@ -188,16 +201,20 @@ def _directed(parts: Content, omega, gamma) -> tuple[Fate, str, dict]:
                 {"energy": T0 + V0})
     if not any(parts.M):
         rate = sqrt(max(0.0, 2 * (T0 + V0 - floor) / least))
-        kept = "falls (the medium takes 2 c T)" if parts.c else "is constant"
-        end = "; it tends to rest (LaSalle)" if parts.c else ""
+        kept = ("falls (the medium takes 2 c T)" if parts.c else
+                "falls (the damper takes omega . C omega)" if parts.damped else
+                "falls (eddy currents take k B^2 |omega x gamma|^2)" if parts.eddy else "is constant")
+        end = "; it tends to rest (LaSalle)" if decay(parts) else ""
+        if parts.eddy and floor == 0 and not (end or parts.damped or any(parts.Lambda)):
+            end = _about_the_field(parts, omega, gamma)
         return (Fate.BOUNDED,
                 f"|gamma| = 1 bounds the potential energy from below and the sum of kinetic and potential "
                 f"energy {kept}: T <= "
                 f"{T0 + V0 - floor:.6g} J, so |omega| <= {rate:.6g} rad/s{end}",
                 {"energy": T0 + V0, "rate_bound": rate})
-    if parts.c:
+    if slowest := float(decay(parts)):
         torque = hypot(*map(float, parts.M)) + hypot(*s) + abs(N) * (most - least) / 2
-        late = torque / sqrt(least) / float(parts.c)
+        late = torque / sqrt(least) / slowest
         rate = max(sqrt(2 * T0), late) / sqrt(least)
         return (Fate.BOUNDED,
                 f"the torque is at most {torque:.6g} N m, and T' <= |torque| |omega| - 2 c T: resistance "
@@ -207,3 +224,12 @@ def _directed(parts: Content, omega, gamma) -> tuple[Fate, str, dict]:
             "undecided: the constant torque does work in a body that also turns in a field; no bound and no "
             "release is proved",
             {"energy": T0 + V0})
+
+
+def _about_the_field(parts: Content, omega, gamma) -> str:
+    """Where a body tends that eddy currents alone act on: see `equilibrium.eddy`."""
+    p = float(dot([d * Fraction(w) for d, w in zip(parts.D, omega)], list(map(Fraction, gamma))))
+    axis = max(range(3), key=lambda i: parts.D[i])
+    return (f"; H . gamma = {p:.6g} N m s stays, and the motion tends to rotation about the field, at "
+            f"{p / float(parts.D[axis]):.6g} rad/s about axis {axis + 1}, the axis of the largest moment, "
+            "but for a set of measure zero (LaSalle)")

@@ -18,8 +18,9 @@ EFFECTS = {
     "resistance": "coefficient = 0.1", "liquid_cavity": "density = 1\nviscosity = 1\nradius = 0.1",
     "newtonian_field": "strength = 0.5",
     "gravity": "weight = 1\ncentre_of_mass = [0.1, 0, 0]", "body_force": "force = [1, 0, 0]",
-    "viscous_damper": "inertia = 0.1\ncoefficient = 0.5"}
-GAMMA = ("newtonian_field", "gravity")
+    "viscous_damper": "inertia = 0.1\ncoefficient = 0.5", "rate_damper": "coefficient = 0.1",
+    "eddy_currents": "coefficient = 0.1\nfield = 1"}
+GAMMA = ("newtonian_field", "gravity", "eddy_currents")
 PAIRS = (("gyrostat", "constant_torque"), ("charge", "constant_torque"), ("liquid_cavity", "resistance"))
 ROUND, SLOW_START = "[12, 5, 5]", MOTION.replace("0.1, 0.05, 0.02", "1e-9, 2e-9, 3e-9")
 # (effects, inertia, motion); equal moments turn a torque onto an axis, a slow motion runs in its own unit of

@@ -12,7 +12,8 @@ from stabilab.physics.to_numpy import to_numpy
 
 ARGUMENTS = {  # what each effect is made from; an effect of one vector needs no line
     "charge": ("0.003", 100, "1.02", "0.37"), "resistance": ("0.02",), "liquid_cavity": (1250, 1000, "1.9"),
-    "viscous_damper": (17, "2.5"), "newtonian_field": ("0.5",), "gravity": (2943, ("0.7", "0.3", "-0.1"))}
+    "viscous_damper": (17, "2.5"), "rate_damper": (((3, "0.5", 0), ("0.5", 2, "-0.1"), (0, "-0.1", 1)),),
+    "eddy_currents": ("0.3", 2), "newtonian_field": ("0.5",), "gravity": (2943, ("0.7", "0.3", "-0.1"))}
 
 
 def vanishes(expression):
@@ -26,6 +27,7 @@ def example(name, numbers=(3, "-1/7", "2.5")):
     return effect_class(name)(*ARGUMENTS.get(name, (numbers,)))
 
 
+HALF, TENTH = sp.Rational(1, 2), sp.Rational(1, 10)
 BODY = Body((2000, 1500, "1000.25"), 10)
 SUBSETS = [names for n in range(3) for names in combinations(REGISTRY, n)] + [tuple(REGISTRY)]
 VARIANTS = [Scene(BODY, effect_class("charge")("0.01", 100, "0.01", "attitude"), *map(example, others))
@@ -137,6 +139,36 @@ def test_a_damper_alone_keeps_the_momentum_and_takes_energy_by_its_friction():
     assert sp.expand(laws["energy"].rate + c * sum(s**2 for s in sigma)) == 0 and laws["momentum"].rate == 0
     H = [d * x + k * s for d, x, s in zip(D, w, sigma)]
     assert sp.expand(laws["momentum"].quantity - sum(h**2 for h in H) / 2) == 0
+
+
+def test_a_linear_damper_takes_rayleighs_function_twice():
+    """T' = -2 F, F = omega . C omega/2, whose slope is the torque against the motion."""
+    equations = derive(Scene(BODY, example("rate_damper")))
+    w, C = equations.state, sp.Matrix([[3, HALF, 0], [HALF, 2, -TENTH], [0, -TENTH, 1]])
+    F = (sp.Matrix(w).T * C * sp.Matrix(w))[0] / 2
+    laws = {law.name: equations.numeric(law.rate) for law in equations.balances}
+    assert sp.expand(laws["energy"] + 2 * F) == 0
+    assert all(sp.expand(equations.numeric(t) + F.diff(x)) == 0
+               for t, x in zip(equations.torques["rate_damper"], w))
+
+
+def test_eddy_currents_damp_what_crosses_the_field_and_keep_the_momentum_along_it():
+    """T' = -k |omega x B|^2 and (H . gamma)' = 0, from Lorentz forces on the currents of a thin shell: E' = E + (omega
+    x r) x B drives K = s d E', and the torque is the integral of r x (K x B); k = 2 pi s d r^4/3 (Youngquist et al.
+    2016), here integrated over the sphere."""
+    equations = derive(Scene(BODY, example("eddy_currents")))
+    w, g, k = sp.Matrix(equations.state[:3]), sp.Matrix(equations.state[3:]), equations.symbols["kB2"]
+    laws = {law.name: law.rate for law in equations.balances}
+    assert sp.expand(laws["energy"] + k * w.cross(g).dot(w.cross(g))) == 0 and laws["area"] == 0
+    # seen from the body the field changes at B' = -omega x B; its electric field on the shell is -B' x r/2, which
+    # is along the shell, so that no charge gathers
+    u, v = sp.symbols("u v", real=True)
+    r = sp.Matrix([sp.sin(u) * sp.cos(v), sp.sin(u) * sp.sin(v), sp.cos(u)])
+    current = w.cross(g).cross(r) / 2
+    density = r.cross(current.cross(g)) * sp.sin(u)
+    torque = density.applyfunc(lambda f: sp.integrate(sp.expand(f), (u, 0, sp.pi), (v, 0, 2 * sp.pi)))
+    ours = sp.Matrix(equations.torques["eddy_currents"]).subs(k, 2 * sp.pi / 3)
+    assert (torque - ours).expand() == sp.zeros(3, 1)
 
 
 def test_a_damper_turns_as_body_and_sphere_apart_do():

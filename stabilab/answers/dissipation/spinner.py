@@ -21,6 +21,7 @@ from ...physics.to_numpy import to_numpy
 from ..simulate import trajectory
 
 TAKE = ("viscous_damper", "liquid_cavity")  # energy, and keep the angular momentum
+TAKE_BOTH = ("resistance", "rate_damper", "eddy_currents")
 STEPS = 5_000_000  # of a run: some ten seconds
 PATIENCE = 4  # times STEPS: a forecast beyond that ends a run
 POINTS = 200  # of a part of a run
@@ -43,6 +44,9 @@ class Spinner:
             raise InputError("flat-spin: give the start as [motion] angular_velocity, in rad/s")
         names = [effect.name for effect in scene.effects]
         others = [effect_words(name) for name in names if name not in TAKE]
+        if outside := [effect_words(name) for name in names if name in TAKE_BOTH]:
+            raise InputError(f"flat-spin: {', '.join(outside)} changes the angular momentum, too, and no "
+                             "flat spin need be the end: `stabilab classify` says where the motion tends")
         if others or not names:
             raise InputError(
                 f"flat-spin: it is known of a free body; this one has {', '.join(others)} besides" if others

@@ -12,6 +12,8 @@ REGISTRY: dict[str, tuple[str, str]] = {
     "resistance": ("resistance", "Resistance"),
     "liquid_cavity": ("liquid_cavity", "LiquidCavity"),
     "viscous_damper": ("viscous_damper", "ViscousDamper"),
+    "rate_damper": ("rate_damper", "RateDamper"),
+    "eddy_currents": ("eddy_currents", "EddyCurrents"),
     "newtonian_field": ("newtonian_field", "NewtonianField"),
     "gravity": ("gravity", "Gravity"),
     "body_force": ("body_force", "BodyForce"),

@@ -32,7 +32,8 @@ POINTS, MOST = 1200, 6000  # of a motion that is drawn: at least, at most
 CLOSE = 0.25  # rad of turn from one to the next, where so many are enough
 NOT_YET = {"reason": "Keep still, and the equilibria are looked for.", "rows": []}
 TAKES = {"liquid_cavity": "the liquid", "resistance": "the medium",
-         "viscous_damper": "the damper"}  # energy away
+         "viscous_damper": "the damper", "rate_damper": "the damper",
+         "eddy_currents": "the eddy currents"}  # energy away
 TURNS = {"newtonian_field": "the field", "gravity": "the weight"}  # acts by the attitude
 
 

@@ -215,6 +215,24 @@ def _resistance(ax, one, effect, sides):
     return f"resistance −c Dω, c = {effect.coefficient:g} 1/s, at the start", look
 
 
+def _rate_damper(ax, one, effect, sides):
+    """Against the angular velocity at the start."""
+    look = {"color": style.BLACK, "linewidth": 1.6}
+    torque = -np.array(effect.coefficient) @ np.array((0, 0, 0) if one.state is None else one.state)
+    if np.any(torque):
+        look = _arrow(ax, (0, 0, 0), _along(torque, 0.8), r"damping $-C\omega$", style.BLACK, 1.6)
+    return "linear damper −C ω, at the start", look
+
+
+def _eddy(ax, one, effect, sides):
+    """Lines of the field, half of each on either side of the plane of axes 2 and 3."""
+    field, look = _along(_down(one), 0.75), {}
+    for shift, label in ((-0.75, ""), (0.75, "field B")):
+        look = _arrow(ax, (0.0, shift, -0.3) - field / 2, field, label, style.PURPLE, 1.6)
+    return (f"eddy currents in a field of {effect.field_strength:g} T, k = {effect.coefficient:g} N m s/T²",
+            look)
+
+
 def _down(one: Subject):
     return np.array(one.blocks.get("gamma", (0.0, 0.0, -1.0)), float)
 
@@ -248,4 +266,5 @@ PARTS: dict[str, tuple[str, Callable]] = {  # effect -> its words in the caption
     "body_force": ("the constant force", _force), "charge": ("the charge and the field", _charge),
     "liquid_cavity": ("the cavity of liquid", _liquid), "resistance": ("the resistance", _resistance),
     "gravity": ("fixed point, centre of mass and weight", _weight),
-    "newtonian_field": ("the attracting centre", _attraction), "viscous_damper": ("the damper", _damper)}
+    "newtonian_field": ("the attracting centre", _attraction), "viscous_damper": ("the damper", _damper),
+    "rate_damper": ("the linear damper", _rate_damper), "eddy_currents": ("the magnetic field", _eddy)}

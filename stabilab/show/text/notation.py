@@ -5,7 +5,7 @@ from ...physics.equations import Equations, Symbolic
 
 # parameters whose names are products
 PRODUCTS = {"Mgx": "M g x_c", "Mgy": "M g y_c", "Mgz": "M g z_c", "eHl2": "e H l^2",
-            "kd": "k_d", "cd": "c_d"}
+            "kd": "k_d", "cd": "c_d", "kB2": "k B^2"}
 WORDS = ("mass",)  # parameters whose names are words
 
 
