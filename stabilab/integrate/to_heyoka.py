@@ -4,7 +4,8 @@ from __future__ import annotations
 import copy
 from contextlib import contextmanager
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import lru_cache, reduce
+from operator import mul
 from threading import RLock
 
 import numpy as np
@@ -136,9 +137,14 @@ def heyoka_form(state, symbols, expressions):
 
 
 def _from_sympy(expression, swap):
-    """heyoka.from_sympy turns away ratios and lone numbers; `form` has left only integers and symbols."""
-    return (heyoka().expression(float(expression)) if expression.is_number
-            else heyoka().from_sympy(expression, swap))
+    """heyoka.from_sympy turns away ratios and lone numbers; `form` has left only integers and symbols. Its
+    series of a power divides by the base, which may be zero, but for squares: powers are products."""
+    from sympy import Dummy, Pow
+    if expression.is_number:
+        return heyoka().expression(float(expression))
+    high = {one: Dummy() for one in expression.atoms(Pow) if one.exp.is_Integer and one.exp > 2}
+    products = {name: reduce(mul, [_from_sympy(one.base, swap)] * int(one.exp)) for one, name in high.items()}
+    return heyoka().from_sympy(expression.xreplace(high), swap | products)
 
 
 @lru_cache(maxsize=64)

@@ -13,6 +13,7 @@ from stabilab.integrate import to_heyoka
 from stabilab.integrate import trajectory as trajectories
 from stabilab.integrate.to_heyoka import heyoka_available
 from stabilab.integrate.trajectory import SCIPY_METHODS
+from stabilab.physics.effects.base import Effect
 from tests.oracles import model, taylor
 from tests.shared import SCALED_MINOR
 
@@ -161,6 +162,22 @@ def test_units_of_rate_and_time_scale_out():
                              ConstantTorque((0, 0, Fraction("204.1") * 2**40))),
                        (s, 2 * s, s), [3.0 / s]).states[0]
     assert other / s == pytest.approx(one, rel=1e-13)
+
+
+class Cubic(Effect):
+    """A torque against the cube of each rate."""
+
+    name = "cubic"
+    acts = True
+
+    def torque(self, omega, p):
+        return tuple(-w**3 for w in omega)
+
+
+def test_powers_of_a_rate_that_is_zero_are_followed():
+    """w' = -w^3 of a sphere has the solution w0/sqrt(1 + 2 w0^2 t); the other rates stay zero."""
+    run = trajectory(Scene(Body((1, 1, 1)), Cubic()), (0.5, 0.0, 0.0), [0, 2])
+    assert run.states[-1] == pytest.approx((0.5 / 2**0.5, 0, 0), abs=1e-15)
 
 
 def test_equilibrium_stays_where_it_is():

@@ -50,9 +50,9 @@ def agrees(one):
             assert np.abs(eigenvalues - z).min() < 1e-4
 
 
-@pytest.mark.parametrize("seed", [*range(40), *(
+@pytest.mark.parametrize("seed", [*range(8), *(
     pytest.param(n, marks=[pytest.mark.slow, *([pytest.mark.long] if n >= 100 else [])])
-    for n in range(40, 500))])
+    for n in range(8, 500))])
 def test_newtons_method_from_many_starts_finds_the_same_equilibria(seed):
     agrees(random_satellite(seed))
 
@@ -201,7 +201,7 @@ def test_runs_keep_the_jacobi_integral_and_librate_with_the_frequencies():
     body = satellite((60, 90, 50), ("0.01", "0.03", "0.005"), "1.21e-6")
     one = orbit_equilibria(body).points[0]
     assert one.verdict == "stable"
-    count, orbits = 2**14, 400
+    count, orbits = 2**13, 200
     times = np.linspace(0, orbits * 2 * pi / float(body.rate), count, endpoint=False)
     run = run_from(one, body, np.array([1e-6, 2e-6, -1e-6]), times)
     assert run.invariant_drift["Jacobi"] < 1e-13
@@ -214,8 +214,7 @@ def test_runs_keep_the_jacobi_integral_and_librate_with_the_frequencies():
     assert np.abs(np.array(peaks) - cycles).max() < 1  # a line of the spectrum
 
 
-@pytest.mark.parametrize("seed", (7, pytest.param(3, marks=pytest.mark.slow),
-                                  pytest.param(19, marks=pytest.mark.slow)))
+@pytest.mark.parametrize("seed", (7, *(pytest.param(n, marks=pytest.mark.slow) for n in (3, *range(19, 39)))))
 def test_long_runs_stay_at_stable_equilibria_and_leave_unstable_ones(seed):
     """By SciPy; sixteen orbits, and as the program's own equations run."""
     body = random_satellite(seed)
