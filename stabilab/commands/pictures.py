@@ -62,15 +62,15 @@ def plot(case, kind, out, size, dpi, until, neighbours, units, strict):
     for one in loaded:
         with blamed_on(one):
             end = time_asked(until, one, "until")
-            drawn.append(to_file.write(one, endings.labelled(target, one), kind, to_file.inches(size), dpi,
-                                       units, end, neighbours))
+            drawn.append(to_file.write_all(one, endings.labelled(target, one), kind, to_file.inches(size),
+                                           dpi, units, end, neighbours))
     laws = [law.of_case(one) for one in loaded]
-    for one, held, path in zip(loaded, laws, drawn):
+    for one, held, paths in zip(loaded, laws, drawn):
         for line in limiting.beside(one.caveats, units_of(one, units)):
             tell(line)
         if held is not None:
             tell(lettered(held.words))
-        write(str(path))
+        write("\n".join(map(str, paths)))
     hold_laws(strict, laws, loaded)
 
 

@@ -10,7 +10,6 @@ from ..case.read import blamed_on, load_burning
 from ..numbers.units import RATE, TIME, in_si
 from ..show.files import endings
 from ..show.progress import told
-from ..show.stuck_picture import draw
 from ..show.text import burn as burns
 from ..show.text import stuck as shown
 from .common.cases import load_cases, tell_all, tell_radians, units_asked
@@ -27,8 +26,8 @@ def stuck(case, all_thrusters, units, why, out, json, csv, strict):
         for one in loaded:
             with blamed_on(one):
                 answers.append(ask(one, all_thrusters, tell))
-    drawn = written(out, [(one, partial(draw, one, found, units=system)) for one, found,
-                          system in zip(loaded, answers, systems)])
+    drawn = written(out, [(one, partial(_drawn, one, found, system))
+                          for one, found, system in zip(loaded, answers, systems)])
     if json:
         write_json(loaded, list(map(shown.as_dict, loaded, answers)))
     elif csv:
@@ -40,6 +39,11 @@ def stuck(case, all_thrusters, units, why, out, json, csv, strict):
     say_written(drawn)
     leave_undecided(strict, any(row.fate == "undecided" for found in answers for row in found.rows))
     hold_laws(strict, (), loaded)
+
+
+def _drawn(case, found, units, path):
+    from ..show.plot.over_time import write_stuck
+    return write_stuck(case, found, units, path)
 
 
 def burn(path, stop, below, units, json, strict):

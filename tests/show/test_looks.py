@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from stabilab import load
-from stabilab.show import stuck_picture, style
+from stabilab.show import style
 from stabilab.show.explore.session import Session
 from stabilab.show.plot import over_time
 from stabilab.show.plot.subject import subject
@@ -84,7 +84,7 @@ def linear(colour: str) -> np.ndarray:
 def lines() -> set[str]:
     """The colours of all lines and markers."""
     looks = [*style.MEANING.values(), *style.MARKER.values(), *over_time.COMPONENTS, over_time.LIMIT,
-             *comparison.LOOKS.values(), *(one for _, one in stuck_picture.LOOKS)]
+             *comparison.LOOKS.values(), over_time.SIZE_LOOK]
     shown = [one.get("markeredgecolor", one.get("color")) for one in looks]
     return {*shown, *style.SERIES, *style.LOOK.values(), *style.SPIN.values()}
 

@@ -79,7 +79,7 @@ def test_a_small_figure_has_small_letters_and_room_for_the_curves(tmp_path):
     such a figure's height."""
     case = case_of(tmp_path, MOVING)
     with style.drawing():
-        figure = to_file.DRAWN["time"](subject.subject(case), None, (3.6, 3.0), plt)
+        figure = stabilab.plot.time(case, size=(3.6, 3.0)).figure
         figure.draw_without_rendering()
         (ax,), (below,) = figure.axes, figure.legends
         assert ax.get_window_extent().height > figure.bbox.height / 3
@@ -168,15 +168,27 @@ def test_of_curves_on_each_other_the_later_ones_are_broken_so_that_all_are_seen(
     assert all(line.get_linestyle() == "-" for line in moving.get_lines()[:4])
 
 
+def test_a_state_of_many_parts_is_written_to_several_pictures(tmp_path):
+    """liquid-base has its rates alone, top-fast rates and vertical, charged-body five parts."""
+    named = lambda name: [path.name for path in to_file.write_all(load(name), tmp_path / f"{name}.png", "state")]
+    assert named("top-fast") == ["top-fast.png"]
+    assert named("charged-body") == ["charged-body.png", "charged-body-2.png", "charged-body-3.png"]
+    assert len(list(tmp_path.iterdir())) == 4
+    for parts in ((), ("omega", "angles", "momentum"), ("gamma",)):
+        with pytest.raises(errors.InputError, match="parts: expected one or two of omega, angles"):
+            stabilab.plot.state(load("charged-body"), parts=parts)
+
+
 @pytest.mark.parametrize("units, unit, one", [("deg", "deg", 180 / math.pi), ("si", "rad", 1.0)])
 def test_every_part_of_a_state_is_drawn_in_the_units_of_the_other_plots(units, unit, one):
     """Oracle: the states of `simulate`, in rad and s, at the ends."""
     case = load("charged-body-small-torque")
-    figure, found = stabilab.plot.state(case, units=units,
-                                        span=case.span), stabilab.simulate(case.scene, case.state, case.span,
-                                                                        case.blocks)
+    figure = stabilab.plot.state(case, units=units, span=case.span)
+    found = stabilab.simulate(case.scene, case.state, case.span, case.blocks)
+    assert len(figure.axes) == 6
+    more = stabilab.plot.state(case, units=units, span=case.span, parts=("momentum",)).axes
     panels = {re.sub(r" [−+] [\d.]+ \(\$10\^\{-\d+\}\$ ", " (",
-                     ax.get_ylabel()): ax.get_lines()[0].get_ydata()[-1] for ax in figure.axes}
+                     ax.get_ylabel()): ax.get_lines()[0].get_ydata()[-1] for ax in (*figure.axes, *more)}
     for n in range(3):
         assert panels[rf"$\omega_{n + 1}$ ({unit}/s)"] == pytest.approx(found.state["omega"][-1, n] * one)
         assert panels[f"$H_{n + 1}$ (kg m²/s)"] == pytest.approx(found.state["momentum"][-1, n])
@@ -755,7 +767,7 @@ def test_a_rate_that_turns_often_by_little_is_drawn_as_its_line_and_not_as_a_ban
 def test_a_small_picture_of_costs_has_as_many_questions_as_have_room_and_nothing_is_cut_off(size, panels):
     """Oracle: Matplotlib's own boxes after the layout."""
     with style.drawing():
-        figure = to_file.DRAWN["budget"](subject.subject(load("middle-axis-double-well")), None, size, plt)
+        figure = path.whole(load("middle-axis-double-well"), plt, size)
         figure.draw_without_rendering()
         shown, (below,) = [ax for ax in figure.axes if ax.get_visible()], figure.legends
         assert len(shown) == panels and tuple(figure.get_size_inches()) == size

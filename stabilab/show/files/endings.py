@@ -44,3 +44,10 @@ def labelled(path, case) -> Path:
     before the ending ("run.csv" becomes "run-2-1.csv")."""
     path = Path(path)
     return path.with_name(f"{path.stem}{case.variant}{path.suffix}")
+
+
+def numbered(path, n: int) -> Path:
+    """Where the n-th picture of one output goes: the first to the path itself ("run.png"), the second beside
+    it ("run-2.png")."""
+    path = Path(path)
+    return path if n == 1 else path.with_name(f"{path.stem}-{n}{path.suffix}")

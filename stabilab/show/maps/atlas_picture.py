@@ -76,7 +76,7 @@ def rim() -> np.ndarray:
 # --- An atlas as a picture: the map of fates and that of times, with axes and thrusters; a row of both for
 # each wheel momentum
 PIXELS = 1500  # across one map
-ROWS = 5  # wheel momenta of a picture
+MAPS = 6  # of a picture
 LOG = 8  # times of more than this ratio are shown by their logarithm
 KINDS = ("fate", "when", "equilibria", "level")
 NEVER, UNKNOWN = light(style.GREY, 0.25), light(style.YELLOW, 0.6)
@@ -103,7 +103,7 @@ def chosen(atlas: Atlas, kind: str | None) -> tuple[str, ...]:
 def drawn(atlas: Atlas, units: Units, shown: tuple[str, ...], size: tuple[float, float] | None,
           plt: Any) -> Any:
     """The figure: maps below each other for one wheel, in rows for several."""
-    wheels = _wheels(atlas)
+    wheels = _wheels(atlas, MAPS // len(shown))
     alone = len(wheels) == 1
     down, across = (len(shown), 1) if alone else (len(wheels), len(shown))
     figure, axes = plt.subplots(down, across, squeeze=False, layout="constrained",
@@ -126,10 +126,10 @@ def drawn(atlas: Atlas, units: Units, shown: tuple[str, ...], size: tuple[float,
     return figure
 
 
-def _wheels(atlas: Atlas) -> list[int]:
-    """The wheel momenta that are drawn, spread over all."""
+def _wheels(atlas: Atlas, most: int) -> list[int]:
+    """So many wheel momenta at most, spread over all."""
     count = len(atlas.asked.wheels)
-    return [int(n) for n in np.unique(np.linspace(0, count - 1, min(ROWS, count)).round())]
+    return [int(n) for n in np.unique(np.linspace(0, count - 1, min(most, count)).round())]
 
 
 def _map(ax: Any, atlas: Atlas, wheel: int, kind: str, times: Any, plain: bool) -> None:

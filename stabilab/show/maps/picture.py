@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import math
+from itertools import product
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -433,7 +434,7 @@ def _share_map(data, moving, size, plt):
 
 # --- A sweep's file as a picture: curves along one axis, a map along two, small maps side by side along
 # more
-PANELS = 12  # small maps of a picture
+PANELS = 6  # small maps of a picture
 NUMBERS = ("margin", "distance", "least", "greatest", "period", "when_low", "when_high", "equilibria",
            "stable", "unstable", "open", "megno", "lyapunov")
 
@@ -599,11 +600,10 @@ def _panels(data, moving: list[str]) -> list[dict[str, int]]:
     """Places along the dimensions beyond the two that have most points, spread over each, as many as a
     picture takes."""
     rest = moving[2:]
-    most = PANELS if len(rest) == 1 else 3
-    choices = [np.unique(np.linspace(0, data.sizes[name] - 1,
-                                     min(most, data.sizes[name])).round().astype(int)).tolist()
-               for name in rest]
     if not rest:
         return [{}]
-    return [dict(zip(rest, pick))
-            for pick in np.array(np.meshgrid(*choices, indexing="ij")).reshape(len(rest), -1).T.tolist()]
+    # six along one, three and two along the first two, one along any other
+    most = [PANELS] if len(rest) == 1 else [3, 2] + [1] * (len(rest) - 2)
+    choices = [np.unique(np.linspace(0, data.sizes[name] - 1, min(count, data.sizes[name]))
+                         .round().astype(int)).tolist() for name, count in zip(rest, most)]
+    return [dict(zip(rest, place)) for place in product(*choices)]

@@ -1,19 +1,24 @@
-"""Rates and whole states over time."""
+"""Rates and whole states over time, and the rates after thrusters that are stuck."""
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
 from itertools import product
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ...answers.simulate import trajectory
+from ...answers.stuck.fate import scenario_of
 from ...answers.uncertain.box import box_of
+from ...errors import InputError
 from ...theories.comparison import side_by_side
 from .. import style
 from ..text import comparison
 from ..text.headline import headline
+from ..text.stuck import answer_line, row_name
+from ..units import Units
 from . import subject as canvas
 from . import subject as which
 from .path import SEEN, SOLID, band, path, turning
@@ -21,6 +26,9 @@ from .subject import Subject, measures, subject
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+
+    from ...answers.stuck.result import Stuck
+    from ...case.read import Case
 
 
 # --- The rates of a motion over time: components and size, with limits, extremes and period marked
@@ -36,6 +44,7 @@ THIN = 0.02  # of the height of all curves: as high as a few lines
 # dashes of a curve over one or two others: each leaves some of those below
 BROKEN = ((0, (6, 6)), (0, (3, 9)))
 FEW, EVEN = 4, 1001  # uncertain numbers of which all corners are followed; times of each of these motions
+IN_FILE = tuple(rf"$\omega_{axis}$" for axis in "xyz")
 MARKED = 30  # ends of periods at most
 
 
@@ -60,29 +69,40 @@ def time(case: Any, state: Any = None, ax: Axes | None = None, span: Any = None,
     turned = file_axes(one)
     omega = omega if turned is None else omega @ turned.T
     (time_unit, per_time), (rate_unit, per_rate) = scale.time(_measured(one, low, high)), scale.rate
-    names = scale.names if turned is None else tuple(rf"$\omega_{axis}$" for axis in "xyz")
+    names = scale.names if turned is None else IN_FILE
     with canvas.on(ax, size) as target:
-        length = np.linalg.norm(omega, axis=1)
-        height = (max(omega.max(), length.max()) - omega.min()) * per_rate
-        looks = told_apart(COMPONENTS, list(omega.T))
-        rows = list(zip(names, looks))
-        rows.insert(0, (scale.size or "$|x|$", SIZE_LOOK))  # so wide that a component on it leaves its edges
-        _curve(target, t * per_time, length * per_rate, SIZE_LOOK, height)
-        for values, look in zip(omega.T, looks):
-            _curve(target, t * per_time, values * per_rate, look, height)
+        rows, looks = _rates(target, t, omega, names, scale, (time_unit, per_time))
         rows += _samples(target, one, t, per_time, per_rate, looks) if turned is None else []
         rows += _extremes(target, one, per_rate) if turned is None else []
         rows += _periods(target, one, low, high, per_time, scale)
-        rows += _limits(target, one, t, omega, (time_unit, per_time), scale.rate)
-        target.set_xlim(t[0] * per_time, t[-1] * per_time)
-        target.margins(y=0.06)
-        target.set_xlabel(scale.label("time", time_unit) if scale.size else time_unit)
-        target.set_ylabel(scale.label("rate" + (", axes of the file" if turned is not None else ""),
-                                      rate_unit) if scale.size else "$x$")
+        if one.motion.first is not None:
+            reached, stated = one.motion.first[1], one.case.limits
+            limit = stated.rate if stated.rate is not None else stated.rates
+            rows += _limit(target, limit, (reached.low + reached.high) / 2, t, omega, (time_unit, per_time),
+                           scale.rate)
+        if turned is not None:
+            target.set_ylabel(scale.label("rate, axes of the file", rate_unit))
         canvas.title(target, one.heading, "" if one.case is None else _answer(one, scale))
         if legend:
             canvas.legend(target, rows, ax is None)
     return target
+
+
+def _rates(ax, t, omega, names, scale, time_unit):
+    """Draw the size and the components (n, 3) of rates over times (n,); the rows of the legend, and the looks
+    of the components."""
+    (unit, per_time), (rate_unit, per_rate) = time_unit, scale.rate
+    length = np.linalg.norm(omega, axis=1)
+    height = (max(omega.max(), length.max()) - omega.min()) * per_rate
+    looks = told_apart(COMPONENTS, list(omega.T))
+    # the size so wide that a component on it leaves its edges
+    for values, look in zip((length, *omega.T), (SIZE_LOOK, *looks)):
+        _curve(ax, t * per_time, values * per_rate, look, height)
+    ax.set_xlim(t[0] * per_time, t[-1] * per_time)
+    ax.margins(y=0.06)
+    ax.set_xlabel(scale.label("time", unit) if scale.size else unit)
+    ax.set_ylabel(scale.label("rate", rate_unit) if scale.size else "$x$")
+    return [(scale.size or "$|x|$", SIZE_LOOK), *zip(names, looks)], looks
 
 
 def _answer(one, scale):
@@ -186,42 +206,91 @@ def file_axes(one: Subject):
     return np.array([[float(v) for v in axis] for axis in case.frame.axes]).T
 
 
-def _limits(ax, one, t, omega, time_unit, rate_unit):
-    """Dashed lines at the limits, a point where one is reached first; the rows of the legend."""
-    if one.motion.first is None:
-        return []
-    _, reached = one.motion.first
+def _limit(ax, limit, when, t, omega, time_unit, rate_unit):
+    """Dashed lines at a limit of |omega| (a number) or of the components (three), and a point where it is
+    reached, at `when` or never (None); the rows of the legend."""
     (second, per_time), (name, per_rate) = time_unit, rate_unit
-    rate, rates = one.case.limits.rate, [float(v) for v in one.case.limits.rates or ()]
-    same = len(set(rates)) == 1
-    if rate is not None:
-        ax.axhline(float(rate) * per_rate, **LIMIT)
-    for most, look in zip(rates, COMPONENTS):
-        for sign in (1, -1):
+    alone = not isinstance(limit, (tuple, list))
+    limits = [float(v) for v in ([limit] if alone else limit)]
+    same = len(set(limits)) == 1
+    for most, look in zip(limits, COMPONENTS):
+        for sign in (1,) if alone else (1, -1):
             ax.axhline(sign * most * per_rate, **LIMIT | ({} if same else {"color": look["color"]}))
-    of, most = ("|ω|", float(rate)) if rate is not None else ("each", rates[0])
-    rows = [(f"limit of {of}, {most * per_rate:.4g} {name}" if rate is not None or same else "limits", LIMIT)]
-    when = float(reached.low + reached.high) / 2
-    if not t[0] <= when <= t[-1]:
+    told = f"limit of {'|ω|' if alone else 'each'}, {limits[0] * per_rate:.4g} {name}"
+    rows = [(told if same else "limits", LIMIT)]
+    if when is None or not t[0] <= when <= t[-1]:
         return rows
-    values = np.array([np.interp(when, t, column) for column in omega.T])
-    at = np.linalg.norm(values) if rate is not None else values[np.argmax(np.abs(values) / np.array(rates))]
-    ax.plot([when * per_time], [at * per_rate], zorder=5, **REACHED)
-    return [*rows, (f"reached after {when * per_time:.4g} {second}", REACHED)]
+    values = np.array([np.interp(float(when), t, column) for column in omega.T])
+    at = np.linalg.norm(values) if alone else values[np.argmax(np.abs(values) / np.array(limits))]
+    ax.plot([float(when) * per_time], [at * per_rate], zorder=5, **REACHED)
+    return [*rows, (f"reached after {float(when) * per_time:.4g} {second}", REACHED)]
+
+
+# --- The rates after each thruster that is stuck open: a panel a row of the answer
+BEYOND = 1.25  # of the time to the limit: how far a panel goes
+NATURAL = 15  # units of the motion's own time, where nothing else says how far
+MOST_PANELS = 4
+
+
+def write_stuck(case: Case, found: Stuck, units: Units, path: str | Path) -> Path:
+    """Draw the answer of `stuck` and write the picture."""
+    return style.write(path, lambda plt: stuck(case, found, units, plt))
+
+
+def stuck(case: Case, found: Stuck, units: Units, plt: Any) -> Any:
+    """The figure of an answer (`answers.stuck`): the rates about the axes of the file after each of the first
+    four thrusters or sets of them, with its limit."""
+    scenario, scale = scenario_of(case), measures(subject(case), units.name)
+    rows = found.rows[:MOST_PANELS]
+    figure, axes = plt.subplots(len(rows), 1, figsize=(7.6, 1.0 + 3.4 * len(rows)), layout="constrained",
+                                squeeze=False)
+    told: dict[str, Any] = {}
+    for ax, row in zip(axes[:, 0], rows):
+        scene = scenario.scene(scenario.torque([t for t in case.thrusters if t.name in row.thrusters]))
+        until = _until(scenario, row, scene)
+        t, omega = path(subject(scene, scenario.start), 0.0, until)
+        omega, time_unit = omega @ np.array(scenario.rows).T, units.times(until)
+        drawn, _ = _rates(ax, t, omega, IN_FILE, scale, time_unit)
+        if row.limit is not None:
+            when = sum(row.time_to_limit) / 2 if row.time_to_limit else None
+            drawn += _limit(ax, row.limit, when, t, omega, time_unit, scale.rate)
+        ax.set_ylabel(scale.label("rate, axes of the file", scale.rate[0]))
+        canvas.title(ax, f"{row_name(row)}: {answer_line(row, units).partition('; ')[0].rsplit(' (', 1)[0]}")
+        told |= {words.partition(" after ")[0]: look for words, look in drawn}
+    figure.suptitle(style.literal(case.heading), fontsize=10.5, wrap=True)
+    canvas.legend(axes[-1, 0], list(told.items()), True)
+    return figure
+
+
+def _until(scenario, row, scene) -> float:
+    """s: past the limit; else so long as the motion was followed, or some of its own units of time."""
+    if row.time_to_limit and row.time_to_limit[1] > 0:
+        return BEYOND * row.time_to_limit[1]
+    torque, weight = math.hypot(*row.torque), sum(scene.body.inertia) / 3
+    own = NATURAL * math.sqrt(weight / torque) if torque else NATURAL / (max(map(abs, scenario.start)) or 1.0)
+    return min(own, row.followed) if row.followed > 0 else own
 
 
 # --- Every part of a longer state over time, the analytic models beside the exact motion
 POINTS = 801
+ROWS = 2  # parts of a picture: six panels
 CROWDED = 24  # turns of a rate: more of them are shown over the first so many, unless a span is asked for
 
 
 def state(case: Any, start: Any = None, span: Any = None, size: tuple[float, float] | None = None,
-          units: str | None = None) -> Any:
-    """Draw every part of the state over time, a row a part and a column a component, and return the figure:
-    rates, direction of the vertical, attitude, momentum, velocity, place, as far as the scene has them; the
+          units: str | None = None, parts: Sequence[str] | None = None) -> Any:
+    """Draw parts of the state over time, a row a part and a column a component, and return the figure; the
     analytic models that apply are beside the exact motion. Of a case whose rates turn very often over its
-    span the first turns are shown. size: (width, height) in inches; None: as many as the rows need. units:
-    "deg" or "si", None for those of the case."""
+    span the first turns are shown. parts: one or two of omega, gamma, angles, momentum, velocity, position
+    (rates, direction of the vertical, attitude, ...), as far as the scene has them; None: the first two.
+    size: (width, height) in inches; None: as many as the rows need. units: "deg" or "si", None for those of
+    the case."""
+    return states(case, start, span, size, units, parts)[0]
+
+
+def states(case: Any, start: Any = None, span: Any = None, size: tuple[float, float] | None = None,
+           units: str | None = None, parts: Sequence[str] | None = None) -> list[Any]:
+    """The figures of all parts of the state, two to a figure; arguments as of `state`."""
     import matplotlib
     from matplotlib import pyplot as plt
     one = subject(case, start, span)
@@ -231,14 +300,16 @@ def state(case: Any, start: Any = None, span: Any = None, size: tuple[float, flo
     runs, _ = side_by_side(one, np.linspace(begin, end, POINTS))
     if span is None and (turns := _turns(runs["exact"].state["omega"])) > CROWDED:
         runs, _ = side_by_side(one, np.linspace(begin, begin + (end - begin) * CROWDED / turns, POINTS))
-    parts = [name for name in comparison.NAMES if name in runs["exact"].state]
-    law = runs["exact"].validity
+    have = [name for name in comparison.NAMES if name in runs["exact"].state]
+    if parts is not None and not (0 < len(parts) <= ROWS and set(parts) <= set(have)):
+        raise InputError(f"parts: expected one or two of {', '.join(have)}, got {parts!r:.60}")
+    shown, law = list(parts or have), runs["exact"].validity
+    groups = [shown[n:n + ROWS] for n in range(0, len(shown), ROWS)]
+    warned = f"\n{law.short}" if law is not None and not law.held else ""
     with matplotlib.rc_context(style.RC | style.letters(size)):
-        figure = comparison.picture(plt, one, runs, parts, size, scale.system)
-        if law is not None and not law.held:
-            figure.suptitle(style.literal(f"{one.heading}\n{law.short}"), fontsize=10 * style.share(),
-                            wrap=True)
-    return figure
+        return [comparison.picture(plt, one, runs, group, size, scale.system,
+                                   f" ({n} of {len(groups)})" * (len(groups) > 1) + warned)
+                for n, group in enumerate(groups, 1)]
 
 
 def _turns(rates: Any) -> int:

@@ -14,7 +14,7 @@ from . import subject as which
 from .body import body
 from .equilibria import equilibria
 from .in_space import space
-from .over_time import state, time
+from .over_time import states, time
 from .path import whole as budget
 from .phase_plane import phase, section
 from .potential import potential
@@ -27,28 +27,25 @@ LEAST, MOST, SHARP = 1.0, 60.0, 1200  # inches of a side, dots an inch
 PIXELS = 20_000  # of a side: what Matplotlib draws
 TELEPHONE = (4.6, 4.4)  # inches: letters of 8.5 points have 9.5 px where the picture has 370
 
-# kind -> figure(subject, units, size, plt)
-DRAWN: dict[str, Callable[..., Any]] = {
-    "time": lambda one, units, size, plt: time(one, units=units, size=size).figure,
-    "phase": lambda one, units, size, plt: phase(one, units=units, size=size).figure,
-    "potential": lambda one, units, size, plt: potential(one, units=units, size=size).figure,
-    "sphere": lambda one, units, size, plt: sphere(one, units=units, size=size).figure,
-    "space": lambda one, units, size, plt: space(one, units=units, size=size).figure,
-    "section": lambda one, units, size, plt: section(one, units=units, size=size).figure,
-    "equilibria": lambda one, units, size, plt: equilibria(one, units=units, size=size).figure,
-    "budget": lambda one, units, size, plt: budget(one, plt, size),
-    "tilt": lambda one, units, size, plt: tilt(one, units=units, size=size).figure,
-    "wheel": lambda one, units, size, plt: wheel(one, units=units, size=size).figure,
-    "body": lambda one, units, size, plt: body(one, units=units, size=size).figure,
-    "state": lambda one, units, size, plt: state(one, units=units, size=size),
-}
+# kind -> axes(subject, units, size)
+AXES: dict[str, Callable[..., Any]] = {
+    "time": time, "phase": phase, "potential": potential, "sphere": sphere, "space": space,
+    "section": section, "equilibria": equilibria, "tilt": tilt, "wheel": wheel, "body": body}
 
 
 def write(case: Any, path: str | Path, kind: str | None = None, size: tuple[float, float] | None = None,
           dpi: float | None = None, units: str | None = None,
           span: Any = None, neighbours: int | None = None, narrow: str | Path | None = None) -> Path:
+    """As `write_all`; returns the path of the first picture."""
+    return write_all(case, path, kind, size, dpi, units, span, neighbours, narrow)[0]
+
+
+def write_all(case: Any, path: str | Path, kind: str | None = None, size: tuple[float, float] | None = None,
+              dpi: float | None = None, units: str | None = None, span: Any = None,
+              neighbours: int | None = None, narrow: str | Path | None = None) -> list[Path]:
     """Draw a case (or a Subject) and write the picture to `path` (.png, .svg, .pdf; of an attitude .html,
-    .gif, .mp4), whole or not at all; returns the path.
+    .gif, .mp4), whole or not at all; returns the path, and those of more pictures beside it
+    (NAME-2.png, ...) where a state has more parts than one takes.
 
     kind: one of `which.KINDS`; None: the one that says most of the case. size: (width, height) in inches;
     dpi: dots an inch of a .png. units: "deg" or "si", None for those of the case. span: in place of the
@@ -65,13 +62,15 @@ def write(case: Any, path: str | Path, kind: str | None = None, size: tuple[floa
     check_size(size, dpi)
     with style.drawing() as plt:
         if chosen == "attitude":
-            return film(one, Path(path), units, size, dpi)
-        figure = DRAWN[chosen](one, units, size, plt)
-        if size is not None:
+            return [film(one, Path(path), units, size, dpi)]
+        figures = (states(one, units=units, size=size) if chosen == "state"
+                   else [budget(one, plt, size) if chosen == "budget"
+                         else AXES[chosen](one, units=units, size=size).figure])
+        for figure in figures if size is not None else ():
             figure.set_size_inches(*size)
-        made = style.save(figure, path, dpi)
+        made = [style.save(figure, endings.numbered(path, n), dpi) for n, figure in enumerate(figures, 1)]
         if narrow is not None:
-            style.save(narrowed(figure), narrow, dpi)
+            style.save(narrowed(figures[0]), narrow, dpi)
         return made
 
 

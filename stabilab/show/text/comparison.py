@@ -114,9 +114,9 @@ def write(case, found, path) -> Path:
     return path
 
 
-def picture(plt, case, runs, parts=("omega",), size=None, units: Units | None = None):
+def picture(plt, case, runs, parts=("omega",), size=None, units: Units | None = None, more: str = ""):
     """A figure: one row per part of the state, one column per component, every model of `runs` over the exact
-    motion. units: None is those of the case."""
+    motion. units: None is those of the case. more: behind its title."""
     units = units or units_of(case)
     clock, second = units.times(runs["exact"].t[-1])
     parts = [p for p in parts if p in runs["exact"].state]
@@ -138,7 +138,7 @@ def picture(plt, case, runs, parts=("omega",), size=None, units: Units | None = 
             ax.set_ylabel(_labelled(ax, NAMES[part][column], written(unit)))
     for ax in axes[-1]:
         ax.set_xlabel(f"$t$ ({written(clock)})")
-    figure.suptitle(style.literal(case.heading), fontsize=10 * style.share(), wrap=True)
+    figure.suptitle(style.literal(case.heading + more), fontsize=10 * style.share(), wrap=True)
     rows = [(WORDS[name] + (f", ends at {run.t[-1] * second:.3g} {written(clock)}" if stops(run)
                             and len(run.t) else ""), _in_legend(looks[name]))
             for name, run in runs.items()]

@@ -143,7 +143,7 @@ def test_no_title_of_small_maps_lies_on_its_neighbour(tmp_path):
         figure = picture.drawn(data, plan, "fate", None, plt)
         figure.canvas.draw()
         boxes = [ax.title.get_window_extent() for ax in figure.axes[:2]]
-        assert boxes[0].x1 < boxes[1].x0 and "9 of 16 maps" in figure.get_suptitle()
+        assert boxes[0].x1 < boxes[1].x0 and "6 of 16 maps" in figure.get_suptitle()
 
 
 @pytest.mark.parametrize("values, logarithmic",

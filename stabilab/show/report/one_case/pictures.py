@@ -41,8 +41,10 @@ def pictures(one, folder: Path, stem: str, deep: bool, units: str = "deg") -> li
             if kind == "time":
                 caption += _later(one)
             narrow = None if found or kind != "time" else folder / f"{stem}-{kind}-narrow.png"
-            made = to_file.write(one, folder / f"{stem}-{kind}.png", kind, units=units, narrow=narrow)
+            made, *more = to_file.write_all(one, folder / f"{stem}-{kind}.png", kind, units=units,
+                                            narrow=narrow)
             found.append(picture(made, "", narrow, caption=caption, kind=kind, title=title,
+                                 more=[path.name for path in more],
                                  command=f"stabilab plot {one.path} --kind {kind}"))
     return found
 
