@@ -209,10 +209,11 @@ class Corrected:
     rate: Terms
 
 
-def corrected(algebra: Algebra, rate: Terms, order: int, added: Terms | None = None) -> Corrected:
-    """Everything oscillating up to x^-order taken out of a rate; added: what was added to the quantity
-    before. Both are real: their terms come with their conjugates, so that half of them need be followed."""
-    parts, rate = [] if added is None else [added.half()], rate.half()
+def corrected(algebra: Algebra, rate: Terms, order: int) -> Corrected:
+    """Everything oscillating up to x^-order taken out of a rate, which is real: its terms come with their
+    conjugates, so that half of them need be followed."""
+    parts: list[Terms] = []
+    rate = rate.half()
     while True:
         levels = algebra.levels(rate)
         oscillating = (rate.apart != 0) & (levels <= 4 * order)
@@ -221,9 +222,6 @@ def corrected(algebra: Algebra, rate: Terms, order: int, added: Terms | None = N
         now = oscillating & (levels == levels[oscillating].min())
         parts.append(algebra.removed(rate[now]))
         rate = gathered(rate[~now], algebra.rest_of_rate(parts[-1]).real())
-
-
-FIRST_ORDERS = {"energy": 4, "amplitude": 6}
 
 
 class FixedCentre:
@@ -259,7 +257,6 @@ class MovingCentre:
         axes of the body, rows. axis, sense: of the body where the form's axis 1 is one of its axes."""
         (D1, D2, D3), (l1, l2, l3), (M1, M2, M3) = D, wheel, torque
         d2, d3 = D1 - D2, D1 - D3
-        self._first: dict[str, Corrected] = {}
         self.basis, self.s, self.axis, self.sense = np.array(basis, float), s, axis, sense
         self.limits = (float(l2 / d2) if d2 else 0.0, float(l3 / d3))  # of w2*, w3* for great spins
         self.wheeled = any((l1, l2, l3))
@@ -312,7 +309,7 @@ class MovingCentre:
         a, b = self.algebra.turn
         start = {(j, k, m + a, n + b): c * self.turn_size for (j, k, m, n),
                  c in (self.swing | self.pull).items()}
-        return self._corrected("energy", terms_of(start), order)
+        return corrected(self.algebra, terms_of(start), order)
 
     def amplitude(self, order: int) -> Corrected:
         """G0/M1 |eta|^2, corrected. D1 M1 times its rate is (D1 x' - G0) G0' |eta|^2 + 2 G0 [...], each
@@ -327,18 +324,7 @@ class MovingCentre:
         slope = self.algebra.slope(G0)
         around = product(product(gathered(swing, pull), slope), terms_of({(1, 1, 0, 0): 1.0}))
         rate = gathered(product(G0.times(2.0), gathered(*inner)), around).times(1 / (self.M1 * self.D1))
-        return self._corrected("amplitude", rate, order)
-
-    def _corrected(self, name, rate, order):
-        """`corrected`, by the order that is asked first and stored: a higher one goes on from there."""
-        if order < FIRST_ORDERS[name]:
-            return corrected(self.algebra, rate, order)
-        if name not in self._first:
-            self._first[name] = corrected(self.algebra, rate, FIRST_ORDERS[name])
-        first = self._first[name]
-        if order == FIRST_ORDERS[name]:
-            return first
-        return corrected(self.algebra, first.rate, order, first.added)
+        return corrected(self.algebra, rate, order)
 
     def transverse(self, A, z):
         """((low, high), (low, high)) of omega2 and omega3 of the form for x >= z, |eta| <= A: w* and rho are
