@@ -2,8 +2,8 @@
 import numpy as np
 import pytest
 
+from benchmarks.long_runs import Drift, drifts, growth, integrals, starts
 from stabilab.integrate.to_heyoka import heyoka_available
-from stabilab.papers.cost.long_runs import Drift, drifts, growth, integrals, starts
 from tests.oracles import taylor
 from tests.oracles.model import scaled
 

@@ -5,7 +5,7 @@ with a bias.
 
 A rounding error a step, independent of the others, adds up to the square root of the number of steps (Brouwer
 1937); one that always has the same sign adds up to the number itself. Bounded motions of the scaled minor
-axis: A^2 = (x1 + a)^2 + x2^2 and the energy are constant. python -m stabilab.papers.cost.long_runs [FOLDER]
+axis: A^2 = (x1 + a)^2 + x2^2 and the energy are constant. python -m benchmarks.long_runs [FOLDER]
 writes long-runs.png, .csv and .txt (ten minutes).
 """
 from __future__ import annotations
@@ -15,12 +15,12 @@ from pathlib import Path
 
 import numpy as np
 
-from ...answers.extremes import period
-from ...answers.simulate import trajectory
-from ...physics.scene import ScaledGyrostat
-from ...show import style
-from ...show.files import comma
-from ...version import __version__
+from stabilab.answers.extremes import period
+from stabilab.answers.simulate import trajectory
+from stabilab.physics.scene import ScaledGyrostat
+from stabilab.show import style
+from stabilab.show.files import comma
+from stabilab.version import __version__
 
 # --- How far invariants drift over many turns
 SCENE = ScaledGyrostat("0.2", "0.4", (0, 0, 1))
@@ -142,7 +142,7 @@ def write(folder, turns: float = 1e6, others: float = 1e5, motions: int = 6) -> 
     with style.whole_file(path.with_suffix(".txt")) as waiting:
         waiting.write_text(f"Drift of the integrals along bounded motions, Taylor series: {words} (1/2: "
                            f"independent roundings; 1: a bias)\n\n"
-                           f"made by: python -m stabilab.papers.cost.long_runs\nstabilab {__version__}\n"
+                           f"made by: python -m benchmarks.long_runs\nstabilab {__version__}\n"
                            "tolerance: half a unit in the last place a step; integrals in extended "
                            "precision\n", encoding="utf-8")
     return [path.with_suffix(s) for s in (".png", ".csv", ".txt")]
