@@ -28,12 +28,7 @@ ENOUGH, DRIFT = 1e-12, 1e-3
 TWOFOLD, SURE = 2.0**-100, 1e-20  # of the terms: rounding of a twofold sum; a sum that is smaller may be zero
 # units of rounding of a height, by the size of its terms; below it y - sinh y is a series
 ROUNDED, LAG = 8.0, 0.3
-# times its error, so far a height is from the energy where the barrier's side is certain; ends by series no
-# farther
-CLEAR, FAR = 64.0, 1.5
-# of H, which is known at the ends and over a barrier: what single nodes lose beside these is scattered, and a
-# part of the integral
-SCATTERED = 1e-9
+CLEAR = 64.0  # times its error, so far a height is from the energy where the barrier's side is certain
 DIGITS, PERIOD_DIGITS = 1e-12, 1e-11  # promised, relative: rounding that leaves less leaves a row open
 # of the energy terms: nearer to a barrier an energy in doubles leaves the period no eleven digits
 PERIOD_SHARE = 1e-4
@@ -41,9 +36,6 @@ ROOT = 1e-9  # relative, the last step to a turning point, which leaves its squa
 # relative, of sums over nodes: the last change, the error by estimate, a change that is nothing but rounding
 ALIKE, CONVERGED, FLOOR = 1e-9, 1e-13, 1e-15
 NARROW = 0.5  # half-widths below it take series where closed forms cancel
-TERMS = 30  # of a series about an equilibrium
-# places among which the least H is sought; steps towards it, to the bottom of parabolas through three places
-LOOKS, CLOSER = 64, 4
 # of the terms of an energy in twofold numbers: a dozen sums and a series of twenty terms, with room to spare
 FINE = 2.0**-92
 # relative, of E - V at a stop and half-way between two; the period's promise is `PERIOD_DIGITS`
@@ -700,45 +692,6 @@ def boxed(form, axes, state, x, z, xi, eta, ends, fastest, haze, box):
     return good and haze <= DIGITS * 2 * fastest and whole < INFINITY
 
 
-def series_modes(mu, spot, left, right, data, work):
-    """Modes of an interval about an equilibrium: fills data with the coefficients of the second divided
-    difference as a polynomial in the distance from it, then with the sizes of these; returns how many there
-    are. As `modes.TaylorModes`."""
-    a, b, slope, size = spot[MODE_A], spot[MODE_B], spot[BEND], max(abs(left), abs(right))
-    count, reach = TERMS, 1.0
-    for n in range(2, TERMS):
-        reach *= 2 * size / (n + 1)
-        if reach < 1e-19:
-            count = n
-            break
-    factorial, grown = 1.0, 1.0
-    for n in range(2, count + 2):
-        factorial *= n
-        odd = (n - 1) % 2
-        grown *= 1 if odd else 4
-        sign = E if ((n - 1) // 2) % 2 else 1.0
-        work[n - 2] = -sign * (slope + (2 * grown - 2) * b if odd else (grown - 1) * a - mu) / factorial
-    for absolute in range(2):
-        l, r = (abs(left), abs(right)) if absolute else (left, right)
-        total, power = 1.0, 1.0
-        for k in range(count):
-            data[absolute * TERMS + k] = 0.0
-        for m in range(count):
-            for k in range(count - m):
-                data[absolute * TERMS + k] += (abs(work[k + m]) if absolute else work[k + m]) * total
-            power *= r
-            total = total * l + power
-    data[2 * TERMS] = left
-    return count
-
-
-def horner(data, first, count, t):
-    total = 0.0 * t
-    for k in range(count - 1, -1, -1):
-        total = total * t + data[first + k]
-    return total
-
-
 def sinc_cos(u):
     """sin(u)/u and cos u for 0 <= u <= pi/2."""
     t = u * u
@@ -793,33 +746,6 @@ def sides_of_exponentials(p1, q1, p2, q2, rho, grown, share):
                       + 2 * (p2 + q2) * cu * cv), (0.5 * (p1 - q1) * odd1 + (p2 - q2) * odd2) / rho
 
 
-def pair(series, count, data, rho, whole_s, whole_c, share):
-    """(even, odd): the second divided difference of V is their sum at theta - l = 2 rho share, share <= 1/2,
-    and their difference at its mirror image.
-
-    series: whether the modes are those about an equilibrium."""
-    if series:
-        t = data[2 * TERMS]
-        low, high = horner(data, 0, count,
-                           t + 2 * rho * share), horner(data, 0, count, t + 2 * rho - 2 * rho * share)
-        return 0.5 * (low + high), 0.5 * (low - high)
-    return modes_pair(data, rho, whole_s, whole_c, share)
-
-
-def difference(series, count, data, held, rho, whole_s, whole_c, left, right):
-    """H at theta - l = 2 rho left, r - theta = 2 rho right."""
-    even, odd = pair(series, count, data, rho, whole_s, whole_c, min(left, right))
-    return (even + odd if left <= right
-            else even - odd) + (held[0] * right + held[2] * left + held[1] * left * right)
-
-
-def terms_at(series, count, data, sizes, rho, whole_s, whole_c, left):
-    """Size of what H is the sum of; sizes: whether of the terms that its modes are sums of."""
-    if series:
-        return horner(data, TERMS, count, max(abs(data[2 * TERMS]), abs(data[2 * TERMS] + 2 * rho)))
-    return modes_terms(data, 4 if sizes else 0, rho, whole_s, whole_c, left)
-
-
 def converged(now, last, middle, first):
     """Whether a sum over nodes is its integral, given what it changed by as its nodes were doubled: the last,
     the middle and the first of three such changes; any numbers.
@@ -837,17 +763,13 @@ def converged(now, last, middle, first):
         b2 * b2 * b2 * b <= CONVERGED * a2 * a2 * a2)
 
 
-def summed(series, count, data, held, rho, whole_s, whole_c, nodes, near, weights, levels):
-    """The period by the trapezoidal rule over mirrored pairs of nodes; by the double-exponential one where
-    that does not settle; NaN where none does."""
+def summed(data, rho, whole_s, whole_c, nodes):
+    """The period by the trapezoidal rule over mirrored pairs of nodes; NaN where that does not settle."""
     total, coarse, half, before, change, earlier, size, first = 0.0, 0.0, 0.0, np.nan, np.nan, np.nan, 8, 0
     while first < len(nodes):
         last = first + size // 2 if first else 5
         for n in range(first, last):
-            share = nodes[n]
-            even, odd = pair(series, count, data, rho, whole_s, whole_c, share)
-            even += 0.5 * (held[0] + held[2]) + share * (1 - share) * held[1]
-            odd += (0.5 - share) * (held[0] - held[2])
+            even, odd = modes_pair(data, rho, whole_s, whole_c, nodes[n])
             weight = 0.5 if n == 0 or n == 4 else 1.0
             term = weight * (1 / np.sqrt(2 * (even + odd)) + 1 / np.sqrt(2 * (even - odd)))
             total += term
@@ -864,132 +786,38 @@ def summed(series, count, data, held, rho, whole_s, whole_c, nodes, near, weight
         if converged(now, new, change, earlier):
             return now
         before, change, earlier = now, new, change
-    return peaked(series, count, data, held, rho, whole_s, whole_c, near, weights, levels)
+    return np.nan
 
 
-def peaked(series, count, data, held, rho, whole_s, whole_c, near, weights, levels):
-    """The period by the double-exponential rule on both sides of the place where H is least."""
-    cut, period = least(series, count, data, held, rho, whole_s, whole_c), 0.0
-    for side in range(2):
-        length = PI - cut if side else cut
-        total, before, change, earlier, found = 0.0, np.nan, np.nan, np.nan, False
-        for level in range(len(levels) - 1):
-            for n in range(levels[level], levels[level + 1]):
-                way = length * abs(near[n])
-                angle = length - way if near[n] < 0 else way
-                small, large = np.sin(0.5 * angle), np.cos(0.5 * angle)
-                small, large = small * small, large * large
-                left, right = (large, small) if side else (small, large)
-                total += (weights[n]
-                          / np.sqrt(2 * difference(series, count, data, held, rho, whole_s, whole_c, left,
-                                                   right)))
-            now = length * total * 2.0**-level
-            new = abs(now - before)
-            if converged(now, new, change, earlier):
-                period, found = period + 2 * now, True
-                break
-            before, change, earlier = now, new, change
-        if not found:
-            return np.nan
-    return period
-
-
-def curvature(series, count, data, held, rho, whole_s, whole_c, phi):
-    s, c = np.sin(0.5 * phi), np.cos(0.5 * phi)
-    return difference(series, count, data, held, rho, whole_s, whole_c, s * s, c * c)
-
-
-def least(series, count, data, held, rho, whole_s, whole_c):
-    """The angle where H is least inside (0, pi); pi/2 where it is least at an end."""
-    at, lowest = 0, INFINITY
-    for n in range(LOOKS + 1):
-        here = curvature(series, count, data, held, rho, whole_s, whole_c, PI / LOOKS * n)
-        if here < lowest:
-            at, lowest = n, here
-    if at == 0 or at == LOOKS:
-        return 0.5 * PI
-    middle, step = PI / LOOKS * at, PI / LOOKS
-    for _ in range(CLOSER + 1):
-        one, two, three = (curvature(series, count, data, held, rho, whole_s, whole_c, middle - step),
-                           curvature(series, count, data, held, rho, whole_s, whole_c, middle),
-                           curvature(series, count, data, held, rho, whole_s, whole_c, middle + step))
-        move = 0.5 * step * (one - three) / (one - 2 * two + three)
-        if abs(move) <= step:
-            middle += move
-        step *= 0.1
-    return middle if 0 < middle < PI else 0.5 * PI
-
-
-def timed(conic, x, z, xi, eta, w, count, spots, ends, closest, nodes, near, weights, levels, data, work,
-          held):
-    """(period, whether it has its digits) of a motion between two ends.
-
-    By modes about the middle; where these cancel, by a series about an equilibrium, or made to give at both
-    ends the force that is known there, and at the lowest barrier passed the energy over it."""
+def timed(conic, x, z, xi, eta, w, count, spots, ends, closest, nodes, data):
+    """(period, whether it has its digits) of a motion between two ends, by modes about the middle; not where
+    these cancel."""
     mu, left, right = conic[3], ends[0, END], ends[1, END]
-    rho, series, many = 0.5 * (right - left), False, 0
-    if not 0 < rho < 0.5 * ROUND:
+    rho = 0.5 * (right - left)
+    if not (0 < rho < 0.5 * ROUND
+            and closest > PERIOD_SHARE * (0.5 * w * w + mu + size_of_terms(conic, x, z, xi, eta))):
         return np.nan, False
     whole_s, whole_c = whole(rho)
     middle_modes(conic, x, z, xi, eta, 0.5 * (left + right), data)
     blur = ends[0, BLUR] + ends[1, BLUR]
-    held[0], held[1], held[2] = 0.0, 0.0, 0.0
-    anchor, barrier = -1, -1
+    share, dip, lowest = 0.5, INFINITY, INFINITY
     for i in range(count):
-        if spots[i, BARRIER] > 0:
-            if left < spots[i, OFFSET] < right and (barrier < 0 or spots[i, OVER] < spots[barrier, OVER]):
-                barrier = i
-        elif left <= spots[i, OFFSET] <= right and (anchor < 0 or spots[i, OVER] > spots[anchor, OVER]):
-            anchor = i
-    share, dip = 0.5, INFINITY
-    if barrier >= 0:
-        share = (spots[barrier, OFFSET] - left) / (2 * rho)
-        dip = spots[barrier, OVER] / (4 * rho * rho * share * (1 - share))
-    if closest > PERIOD_SHARE * (0.5 * w * w + mu + size_of_terms(conic, x, z, xi, eta)):
-        even, odd = pair(series, many, data, rho, whole_s, whole_c, 0.0)
-        first, last, inner = even + odd, even - odd, pair(series, many, data, rho, whole_s, whole_c, 0.5)[0]
-        # on a long hyperbola H over a barrier may be far less than at both ends and in the middle
-        sharp = EPS * terms_at(series, many, data, True, rho, whole_s, whole_c, share) <= PERIOD_DIGITS * dip
-        for sizes in range(2):
-            sharp = (sharp and EPS * terms_at(series, many, data, sizes > 0, rho, whole_s, whole_c,
-                                              0.0) <= PERIOD_DIGITS * first
-                     and EPS * terms_at(series, many, data, sizes > 0, rho, whole_s, whole_c,
-                                        0.5) <= PERIOD_DIGITS * inner
-                     and EPS * terms_at(series, many, data, sizes > 0, rho, whole_s, whole_c,
-                                        1.0) <= PERIOD_DIGITS * last)
-        most, lowest = max(first, inner, last), min(first, inner, last)
-        if sharp and blur * (most - lowest) <= PERIOD_DIGITS * rho * lowest:
-            period = summed(series, many, data, held, rho, whole_s, whole_c, nodes, near, weights, levels)
-            if period < INFINITY:
-                return period, True
-    if anchor < 0:
+        if spots[i, BARRIER] > 0 and left < spots[i, OFFSET] < right and spots[i, OVER] < lowest:
+            lowest = spots[i, OVER]
+            share = (spots[i, OFFSET] - left) / (2 * rho)
+            dip = lowest / (4 * rho * rho * share * (1 - share))
+    even, odd = modes_pair(data, rho, whole_s, whole_c, 0.0)
+    first, last, inner = even + odd, even - odd, modes_pair(data, rho, whole_s, whole_c, 0.5)[0]
+    # on a long hyperbola H over a barrier may be far less than at both ends and in the middle
+    sharp = EPS * modes_terms(data, 4, rho, whole_s, whole_c, share) <= PERIOD_DIGITS * dip
+    for sizes in range(0, 8, 4):
+        sharp = (sharp and EPS * modes_terms(data, sizes, rho, whole_s, whole_c, 0.0) <= PERIOD_DIGITS * first
+                 and EPS * modes_terms(data, sizes, rho, whole_s, whole_c, 0.5) <= PERIOD_DIGITS * inner
+                 and EPS * modes_terms(data, sizes, rho, whole_s, whole_c, 1.0) <= PERIOD_DIGITS * last)
+    most, lowest = max(first, inner, last), min(first, inner, last)
+    if not (sharp and blur * (most - lowest) <= PERIOD_DIGITS * rho * lowest):
         return np.nan, False
-    from_left, from_right = left - spots[anchor, OFFSET], right - spots[anchor, OFFSET]
-    if max(abs(from_left), abs(from_right)) <= FAR and from_right > from_left:
-        series, many = True, series_modes(mu, spots[anchor], from_left, from_right, data, work)
-    held_0 = (ends[0, FORCE] / (2 * rho)
-              - difference(series, many, data, held, rho, whole_s, whole_c, 0.0, 1.0))
-    held_2 = (-ends[1, FORCE] / (2 * rho)
-              - difference(series, many, data, held, rho, whole_s, whole_c, 1.0, 0.0))
-    inside = 0.5 * (held_0 + held_2)
-    if barrier >= 0:
-        inside = dip - difference(series, many, data, held, rho, whole_s, whole_c, share, 1 - share)
-    held[0], held[2] = held_0, held_2
-    held[1] = (inside - held_0 * (1 - share) - held_2 * share) / (share * (1 - share))
-    first, inner, last = (difference(series, many, data, held, rho, whole_s, whole_c, 0.0, 1.0),
-                          difference(series, many, data, held, rho, whole_s, whole_c, 0.5, 0.5),
-                          difference(series, many, data, held, rho, whole_s, whole_c, 1.0, 0.0))
-    half = 8 * EPS * terms_at(series, many, data, True, rho, whole_s, whole_c, 0.5)
-    good = (blur * (max(first, inner, last) - min(first, inner, last)) <= PERIOD_DIGITS * rho
-            * min(first, last)
-            and 8 * EPS * terms_at(series, many, data, True, rho, whole_s, whole_c, 0.0) <= SCATTERED * first
-            and half <= SCATTERED * inner
-            and 8 * EPS * terms_at(series, many, data, True, rho, whole_s, whole_c, 1.0) <= SCATTERED * last
-            and half <= SCATTERED * dip
-            and spots[anchor, PULL] + spots[anchor, TILT] <= PERIOD_DIGITS * min(first, inner, last))
-    if not good:
-        return np.nan, False
-    period = summed(series, many, data, held, rho, whole_s, whole_c, nodes, near, weights, levels)
+    period = summed(data, rho, whole_s, whole_c, nodes)
     return period, period < INFINITY
 
 
@@ -1072,7 +900,7 @@ def rows(states, open_rows, fine, form, axes, conic, pieces, lines, folds, rules
     spots, box = np.empty((2 * most + 1, ASTRAY + 1)), np.empty((3, 2))
     ends, turns = np.empty((2, END_B + 1)), np.empty((2, END_B + 1))
     stops = np.empty((2 * most + 3, STOP_B + 1))
-    data, work, held = np.empty(2 * TERMS + 1), np.empty(TERMS), np.empty(3)
+    data = np.empty(8)
     extra = abs(fine[8] * fine[12]) + abs(fine[10] * fine[14])
     for row in open_rows:
         asked, state = int(left_open[row]), states[row]
@@ -1107,7 +935,7 @@ def rows(states, open_rows, fine, form, axes, conic, pieces, lines, folds, rules
                 asked -= BOX
             if asked & PERIOD:
                 period, good = timed(conic, x, z, xi, eta, w, count, spots, turns if sharp else ends, closest,
-                                     nodes, near, weights, levels, data, work, held)
+                                     nodes, data)
                 if sharp and not good:
                     period, good = in_pieces(conic[3], count, spots, ends, near, weights, levels, stops)
                 if good:
