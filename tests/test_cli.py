@@ -17,7 +17,7 @@ import numpy as np
 import pytest
 
 from stabilab import cli, streams
-from stabilab.commands import show
+from stabilab.commands import one_case
 from stabilab.errors import CaseError
 from stabilab.show.terminal.groups import GROUPS
 
@@ -658,11 +658,11 @@ def test_exit_code_of_an_error_is_its_own(stabilab, monkeypatch):
                                (ZeroDivisionError("oops"), 1, "ZeroDivisionError: oops"),
                                (KeyboardInterrupt(), 130, ""),
                                (PermissionError(13, "Permission denied", "/x"), 2, "/x: Permission denied")]:
-        monkeypatch.setattr(show, "load_cases", raising(error))
+        monkeypatch.setattr(one_case, "load_cases", raising(error))
         came, out, err = stabilab("show", MINOR)
         assert (came, out) == (code, "") and words in err and "Traceback" not in err
     monkeypatch.setenv("STABILAB_DEBUG", "1")
-    monkeypatch.setattr(show, "load_cases", raising(ZeroDivisionError("oops")))
+    monkeypatch.setattr(one_case, "load_cases", raising(ZeroDivisionError("oops")))
     assert "Traceback" in stabilab("show", MINOR)[2]
 
 

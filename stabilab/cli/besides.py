@@ -25,5 +25,5 @@ def example(name: Annotated[str | None, typer.Argument(
 
     Example: stabilab example phone > phone.toml
     """
-    from ..commands.show import examples as answer
+    from ..commands.one_case import examples as answer
     answer(name)

@@ -192,7 +192,7 @@ def flat_spin(
 
     Example: stabilab flat-spin cases/explorer-1-damped.toml
     """
-    from ..commands.dissipation.flat_spin import flat_spin as answer
+    from ..commands.flat_spin import flat_spin as answer
     answer(case, within, units, json, strict)
 
 
@@ -210,7 +210,7 @@ def orbit(
 
     Example: stabilab orbit geos.toml --up-to "10 N m s"
     """
-    from ..commands.orbit.circular import orbit as answer
+    from ..commands.orbit import orbit as answer
     answer(case, up_to, units, json, strict)
 
 

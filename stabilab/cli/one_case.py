@@ -20,7 +20,7 @@ def show(case: CaseFile):
 
     Example: stabilab show cases/minor-axis-100.toml
     """
-    from ..commands.show import show as answer
+    from ..commands.one_case import show as answer
     answer(case)
 
 
@@ -81,5 +81,5 @@ def import_(
 
     Example: stabilab import SC_Simple.txt --out simple.toml
     """
-    from ..commands.foreign import import_ as answer
+    from ..commands.one_case import import_ as answer
     answer(file, out, stuck, body)

@@ -30,7 +30,7 @@ def verify(
 
     Example: stabilab verify certificate.json --case cases/minor-axis-100.toml
     """
-    from ..commands.verify import verify as answer
+    from ..commands.certificates import verify as answer
     answer(certificate, case, json, strict)
 
 

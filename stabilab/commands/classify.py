@@ -28,7 +28,7 @@ def classify(cases, json, strict, certify, out, follow, tilt, units, why):
     systems = units_asked(loaded, units)
     tell_radians(systems[0], tilt=tilt)
     if certify:
-        from . import certify as proof
+        from . import certificates as proof
         proof.checked(out, cases)
     answered = [(case, _equilibria(case),
                  tilted(case, motion_of(case, follow=follow, proof=certify), tilt) if case.state else None)

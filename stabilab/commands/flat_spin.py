@@ -3,12 +3,12 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from ...answers.dissipation.ask import flat_spin as ask
-from ...case.read import blamed_on
-from ...numbers.units import ANGLE, in_si
-from ...show.text import flat_spin as shown
-from ..common.cases import load_cases, one_by_one, tell_all, tell_radians, units_asked
-from ..common.output import hold_laws, leave_undecided, write_json
+from ..answers.dissipation.ask import flat_spin as ask
+from ..case.read import blamed_on
+from ..numbers.units import ANGLE, in_si
+from ..show.text import flat_spin as shown
+from .common.cases import load_cases, one_by_one, tell_all, tell_radians, units_asked
+from .common.output import hold_laws, leave_undecided, write_json
 
 
 def flat_spin(path, within, units, json, strict):

@@ -1,12 +1,12 @@
 """`stabilab orbit`: the equilibria of a satellite on a circular orbit."""
 from __future__ import annotations
 
-from ...answers.circular_orbit.ask import circular_orbit
-from ...case.read import blamed_on, load_orbiting
-from ...numbers.units import MOMENTUM, in_si
-from ...show.text import circular_orbit as shown
-from ..common.cases import units_asked
-from ..common.output import either, hold_laws, leave_undecided
+from ..answers.circular_orbit.ask import circular_orbit
+from ..case.read import blamed_on, load_orbiting
+from ..numbers.units import MOMENTUM, in_si
+from ..show.text import circular_orbit as shown
+from .common.cases import units_asked
+from .common.output import either, hold_laws, leave_undecided
 
 
 def orbit(path, up_to, units, json, strict):

@@ -1,0 +1,62 @@
+"""`stabilab classify --certify`: the proof of an answer, written as a file; `verify`: a second look at it, by
+code that shares nothing with what made it."""
+from __future__ import annotations
+
+from ..answers.certificate import certificate, subject
+from ..case.read import blamed_on
+from ..errors import InputError, ToleranceNotMet, printable
+from ..show.files.endings import labelled
+from ..show.text import certification
+from ..verify import verify as check
+from ..verify.form import about, differences, line, read
+from ..verify.numbers import Malformed
+from .common.cases import load_cases
+from .common.output import either, leave_undecided, say
+
+
+def checked(out, paths):
+    """Refuse a file that no certificate can be, and more cases than one, before any work."""
+    certification.checked(out)
+    if len(paths) != 1:
+        raise InputError(f"--certify: expected one case, got {len(paths)}; certify them one by one")
+
+
+def certified(case, out) -> bool:
+    """Write the certificate of one case; whether all of it could be certified."""
+    with blamed_on(case):
+        made = certificate(case.scene, case.exact_state)
+    say(f"written: {certification.write(made, labelled(out, case))}\n{certification.summary(made)}")
+    return not made["uncertified"]
+
+
+def verify(path, case, json, strict):
+    """Check a certificate, and that it is of the case where one is named."""
+    cases = load_cases([case]) if case else []
+    try:
+        claims = read(path)
+        found = check(claims)
+    except (Malformed, UnicodeDecodeError) as error:
+        raise InputError(
+            f"{path}: {error}; expected a certificate of stabilab classify --certify or stabilab "
+            f"bifurcation --certify") from None
+    told = about(claims)
+    other = _of_another(cases, told, path)
+    physical = told.get("variables") == "physical"
+    either(json, lambda: certification.as_dict(found, told),
+           lambda: certification.text(found, line(told), case if other else "", physical))
+    if found.status == "refuted":
+        raise ToleranceNotMet(f"{path}: a claim is wrong")
+    if other:
+        raise ToleranceNotMet(other)
+    leave_undecided(strict, found.status != "proved")
+
+
+def _of_another(cases, told, path):
+    """What differs where a certificate is of none of the cases; empty where it is of one, or none is named.
+    """
+    if not cases:
+        return ""
+    apart = [(case, differences(told, subject(case.scene, case.exact_state))) for case in cases]
+    return "" if not all(differing for _, differing in apart) else "\n".join(
+        f"{printable(str(path))}: of another case than {case.place}: {words}" for case,
+        differing in apart for words in differing)

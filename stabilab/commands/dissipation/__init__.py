@@ -1,1 +1,0 @@
-"""Commands on what internal dissipation does to a spin."""

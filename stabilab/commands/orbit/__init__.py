@@ -1,1 +1,0 @@
-"""Commands on a satellite in orbit."""
