@@ -202,6 +202,8 @@ def orbit(
         up_to: Annotated[str | None, typer.Option(
             "--up-to", metavar="MOMENTUM",
             help='Also count equilibria as the momentum of the wheels grows to this: "2 N m s".')] = None,
+        out: Annotated[Path | None, typer.Option(
+            metavar="FILE.png|.svg|.pdf", help="With --up-to: draw them over that momentum.")] = None,
         units: UnitsOption = None, json: Json = False, strict: StrictFate = False):
     """Find all equilibria of a satellite on a circular orbit.
 
@@ -211,7 +213,7 @@ def orbit(
     Example: stabilab orbit geos.toml --up-to "10 N m s"
     """
     from ..commands.orbit import orbit as answer
-    answer(case, up_to, units, json, strict)
+    answer(case, up_to, out, units, json, strict)
 
 
 @commands.command()

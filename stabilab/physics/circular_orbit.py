@@ -36,6 +36,14 @@ class Satellite:
         """The orbital rate n, rad/s, exactly where it is rational, else to 240 bits."""
         return sqrt_fraction(self.rate_squared)
 
+    def rounded(self, bits: int) -> Satellite:
+        """With numbers of so many significant bits; zero and equal numbers stay so."""
+        def short(value: Fraction) -> Fraction:
+            unit = Fraction(2) ** (abs(value.numerator).bit_length() - value.denominator.bit_length() - bits)
+            return round(value / unit) * unit
+        return Satellite(tuple(map(short, self.moments)), tuple(map(short, self.momentum)),
+                         short(self.rate_squared))
+
 
 def orbital_equations(satellite: Satellite) -> Equations:
     """The equations of motion in symbols: angular velocity in space (rad/s) and the quaternion from the body

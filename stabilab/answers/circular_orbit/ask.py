@@ -2,13 +2,14 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from os import PathLike
 from typing import Any
 
 from ...case.read import load_orbiting
 from ...caveat import Caveat
+from ...equilibrium.circular_orbit.branches import Branch, branches
 from ...equilibrium.circular_orbit.momenta import MomentumSpan, spans
 from ...equilibrium.circular_orbit.result import OrbitEquilibria
 from ...equilibrium.circular_orbit.solve import orbit_equilibria
@@ -31,7 +32,8 @@ class CircularOrbit:
 
     rate: of the orbit, rad/s; period: s. moments: kg m^2; momentum: of the wheels, N m s. equilibria: in the
     orbital frame, all of them. spans: where the wheels' momentum was varied along its direction, intervals of
-    it, N m s, with the number of equilibria in each (see `MomentumSpan`); None where it was not.
+    it, N m s, with the number of equilibria in each (see `MomentumSpan`); None where it was not. satellite:
+    its numbers, exact.
     """
 
     rate: float
@@ -41,6 +43,7 @@ class CircularOrbit:
     equilibria: OrbitEquilibria
     spans: tuple[MomentumSpan, ...] | None = None
     caveats: tuple[Caveat, ...] = ()
+    satellite: Satellite | None = field(default=None, repr=False)
 
 
 def circular_orbit(orbiting: Any, up_to: Any = None) -> CircularOrbit:
@@ -65,8 +68,7 @@ def circular_orbit(orbiting: Any, up_to: Any = None) -> CircularOrbit:
                          "right?")
     irrational = [*case.inexact, *(["principal axes"] if case.frame and not case.frame.exact else [])]
     if irrational:
-        satellite = Satellite(tuple(map(_rounded, satellite.moments)),
-                              tuple(map(_rounded, satellite.momentum)), _rounded(satellite.rate_squared))
+        satellite = satellite.rounded(BITS)
     equilibria = orbit_equilibria(satellite)
     if irrational:
         words = ROUNDED.format(", ".join(irrational))
@@ -75,13 +77,21 @@ def circular_orbit(orbiting: Any, up_to: Any = None) -> CircularOrbit:
     return CircularOrbit(rate, 2 * math.pi / rate, tuple(map(float, satellite.moments)),
                          tuple(map(float, satellite.momentum)), equilibria,
                          None if up_to is None else _varied(satellite, in_si(up_to, MOMENTUM, "up_to")),
-                         tuple(MIDDLES if one.kind == "uncertain" else one for one in case.caveats))
+                         tuple(MIDDLES if one.kind == "uncertain" else one for one in case.caveats),
+                         satellite)
 
 
-def _rounded(value: Fraction) -> Fraction:
-    """To `BITS` significant bits; zero and equal numbers stay so."""
-    unit = Fraction(2) ** (abs(value.numerator).bit_length() - value.denominator.bit_length() - BITS)
-    return round(value / unit) * unit
+def followed(found: CircularOrbit) -> list[Branch]:
+    """The equilibria followed over the spans of an answer, their momenta in N m s. Raises InputError without
+    spans, and where equilibria are families."""
+    if found.spans is None or found.satellite is None:
+        raise InputError("up_to: give the momentum up to which the equilibria are followed")
+    if any(span.families for span in found.spans) or found.equilibria.kind == "all":
+        raise InputError("circular_orbit: the equilibria of this body are families, which turn about an "
+                         "axis: they are described in words, and there are no branches to draw")
+    size = math.hypot(*found.momentum)
+    own = [replace(one, low=one.low / size, high=one.high / size) for one in found.spans]
+    return [replace(one, momenta=[size * s for s in one.momenta]) for one in branches(found.satellite, own)]
 
 
 def _in_range(satellite: Satellite) -> bool:

@@ -1,7 +1,6 @@
 """A diagram of equilibria over one number or over two as a picture."""
 from __future__ import annotations
 
-from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -14,12 +13,10 @@ from ...maps.bifurcation.plane import rows as arcs_of
 from .. import style
 from ..axes import axes_of
 from ..units import units_of
+from .over_values import OWN, counts_above
 from .shades import light, own_place, with_unit
 
 CROWD = 6.0  # a component that goes to infinity is cut at so many times what nine tenths of the points reach
-# of the values above the panel: points, rows at the most, inches of the figure beside the panel
-SIZE, ROWS, MARGIN = 7.5, 3, 1.2
-OWN = {"color": style.BLACK, "linewidth": 1.0, "linestyle": (0, (1, 2))}
 LOOKS = {"stable": ("stable", "stable"), "unstable": ("unstable", "unstable"),
          "border": ("fold", "stability changes"),
          "undecided": ("dividing", "undecided")}
@@ -62,7 +59,9 @@ def _line(found: Diagram, size: tuple[float, float] | None, plt: Any) -> tuple[A
         ax.set_ylabel(f"$x_{i + 1}$" if units.scaled else rf"$\omega_{i + 1}$ ({units.rates[0]})")
     span = found.family.spans[0]
     axes[-1, 0].set_xlabel(with_unit(span.label, span.shown_unit))
-    _counts(axes[0, 0], found)
+    counts_above(axes[0, 0], (float(span.low), float(span.high)),
+                 [(piece.low, piece.high, str(piece.count) if piece.count >= 0 else "curves")
+                  for piece in found.pieces], [event.value for event in (*found.events, *found.connections)])
     case = found.family.case
     counted = "changes of stability" if found.kind == BORDERS else "equilibria"
     figure.suptitle(f"{style.literal(case.title or case.name)}\nin bold: the number of {counted}", x=0.02,
@@ -91,48 +90,6 @@ def _panel(ax: Any, found: Diagram, rows: list[Branch], i: int, one: float) -> N
     heights = sorted(abs(state[i] * one) for branch in rows for state in branch.states)
     if heights and heights[-1] > CROWD * (usual := heights[int(0.9 * (len(heights) - 1))]) > 0:
         ax.set_ylim(-1.5 * usual, 1.5 * usual)
-
-
-def _counts(ax: Any, found: Diagram) -> None:
-    """How many there are in each piece, and the values between, above the first panel."""
-    span = found.family.spans[0]
-    whole = float(span.high) - float(span.low)
-    for piece in found.pieces:
-        if piece.high - piece.low > 0.03 * whole:
-            ax.annotate(str(piece.count) if piece.count >= 0 else "curves",
-                        (0.5 * (piece.low + piece.high), 1.0), xycoords=("data", "axes fraction"),
-                        xytext=(0, 3), textcoords="offset points", ha="center", va="bottom", fontsize=9,
-                        fontweight="bold")
-    shown = sorted((event.value, f"{event.value + 0.0:.5g}") for event in (*found.events, *found.connections)
-                   if event.value not in (float(span.low), float(span.high)))
-    wide = 72 * (ax.figure.get_figwidth() - MARGIN) / whole
-    places = [wide * (value - float(span.low)) for value, _ in shown]
-    for (value, told), row in zip(shown, rows_apart(places, [told for _, told in shown], SIZE, ROWS)):
-        if row is not None:
-            ax.annotate(told, (value, 1.0), xycoords=("data", "axes fraction"),
-                        xytext=(0, 16 + 1.3 * SIZE * row), textcoords="offset points",
-                        ha="center", va="bottom", fontsize=SIZE)
-
-
-GLYPH = 0.64  # width of a digit of the house's font over the size of the font
-GAP = 4.0  # points between two labels of a row
-
-
-def rows_apart(places: Sequence[float], texts: Sequence[str], size: float, rows: int) -> list[int | None]:
-    """The row (0 is the lowest) of each text, centred at a rising place and in a font of so many points, such
-    that no two of a row meet.
-
-    places: in points. None where no row has room.
-    """
-    ends = [-float("inf")] * rows
-    out: list[int | None] = []
-    for place, text in zip(places, texts):
-        half = 0.5 * GLYPH * size * len(text)
-        row = next((n for n, end in enumerate(ends) if place - half >= end + GAP), None)
-        if row is not None:
-            ends[row] = place + half
-        out.append(row)
-    return out
 
 
 # --- Over two numbers

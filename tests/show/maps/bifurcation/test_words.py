@@ -10,7 +10,7 @@ from stabilab.commands import maps
 from stabilab.errors import InputError
 from stabilab.show.maps import bifurcation as words
 from stabilab.show.maps import bifurcation_picture as picture
-from stabilab.show.maps.bifurcation_picture import GAP, GLYPH, rows_apart
+from stabilab.show.maps.over_values import GAP, GLYPH, rows_apart
 from tests.shared import CASES
 
 MINOR = CASES / "wheel-and-thruster.toml"
