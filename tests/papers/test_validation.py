@@ -11,6 +11,7 @@ from pathlib import Path
 import mpmath as mp
 import pytest
 
+from stabilab import load
 from stabilab.errors import InputError
 from stabilab.numbers.balls import working
 from stabilab.papers.validation import comparison as shown
@@ -37,13 +38,18 @@ def by_tool(validated):
 
 def test_every_value_agrees_or_its_difference_is_explained(validated):
     assert {name: shown.counts(found) for name, (_, found) in validated.items()} == {
-        "42": "no values are printed", "basilisk": "15 agree, 3 differ for a known cause",
+        "42": "no values are printed", "apophis": "1 agrees", "moon": "2 agree", "basilisk": "15 agree, 3 differ for a known cause",
         "nesc": "10 agree, 35 differ for a known cause", "orekit": "3 agree"}
 
 
-def test_sources_name_repository_commit_and_licence(validated):
+def test_sources_name_repository_commit_and_licence_or_the_publication(validated):
     for one, found in validated.values():
-        assert re.fullmatch(r"[0-9a-f]{40}", one.commit) and one.repository.count("/") == 1 and one.licence
+        if one.commit:
+            assert re.fullmatch(r"[0-9a-f]{40}", one.commit) and one.repository.count("/") == 1
+        else:
+            assert re.search(r"\(20\d\d\)$", one.repository)
+            assert all(one.url(v.printed.file).startswith("https://doi.org/10.") for v in found)
+        assert one.licence
         assert all(v.printed.tolerance_is and v.printed.file for v in found)
 
 
@@ -91,6 +97,29 @@ def test_the_angular_momentum_of_driven_wheels_and_body_rests_in_space():
         assert all(a.overlaps(b) and float(b.rad()) < 1e-60 for a, b in zip(start, space))
 
 
+def test_apophis_is_given_the_energy_and_the_precession_that_are_published():
+    """E over that of rotation about the axis of the largest moment at the same |H|, and P_phi = 27.38 h."""
+    case = load(source("apophis").printed[0].motion.case)
+    D, w = case.scene.body.inertia, case.state
+    energy, momentum = (sum(d**n * x * x for d, x in zip(D, w)) for n in (1, 2))
+    assert energy * max(D) / momentum == pytest.approx(1.024, abs=1e-9)
+    assert case.attitude().precession_period == pytest.approx(27.38 * 3600, abs=1e-2)
+
+
+def test_the_moon_has_the_ratios_that_are_published_and_the_frequencies_of_debra_and_delp():
+    """Pitch n sqrt(3 (B - A)/C); the roots of roll and yaw by the quadratic of DeBra and Delp 1961."""
+    from math import pi, sqrt
+    A, B, C = (float(v) for v in re.findall(r'"([\d.]+)"', source("moon").printed[0].motion.case)[:3])
+    assert ((C - A) / B, (B - A) / C) == pytest.approx((631.1e-6, 226.8e-6), abs=1e-12)
+    roll, yaw = (C - A) / B, (C - B) / A  # the vertical is along A
+    linear, constant = 1 + 3 * roll + roll * yaw, 4 * roll * yaw
+    slow = sqrt(2 * constant / (linear + sqrt(linear**2 - 4 * constant)))
+    month = 27.321661
+    wobble, longitude = (float(one.ours) for one in findings(source("moon")))
+    assert longitude == pytest.approx(month / sqrt(3 * (B - A) / C), rel=1e-9)
+    assert wobble == pytest.approx(month / slow, rel=1e-6)
+
+
 def test_rules_have_the_orders_that_they_are_named_for():
     # x' = x from 1 to t = 1: e, by its series
     rates = lambda x: [x[0]]
@@ -115,7 +144,7 @@ def test_a_difference_without_a_cause_ends_with_5(stabilab, monkeypatch):
 
 
 def test_unknown_source_is_bad_input(stabilab):
-    with pytest.raises(InputError, match="known are 42, basilisk, nesc, orekit"):
+    with pytest.raises(InputError, match="known are 42, apophis, basilisk, moon, nesc, orekit"):
         source("nase")
     assert stabilab("validate", "../x")[0] == 2
 

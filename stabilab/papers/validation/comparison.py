@@ -36,7 +36,8 @@ class Wheels:
 class Motion:
     """A motion that was run by others. inertia (any unit where no torque acts), torque (3,), rates omega in
     `unit` at the time `begins` (s), attitude by modified Rodrigues parameters sigma, or by the angular
-    momentum (against_momentum)."""
+    momentum (against_momentum). case: the text of a case that is asked as it stands; all else is empty
+    then."""
 
     id: str
     file: str
@@ -48,6 +49,7 @@ class Motion:
     begins: Fraction
     against_momentum: bool
     wheels: Wheels | None
+    case: str = ""
 
     @property
     def scene(self) -> Scene:
@@ -73,7 +75,8 @@ class Printed:
 
 @dataclass(frozen=True)
 class Source:
-    """A repository at a commit, its licence, what its numbers are, and the numbers."""
+    """A repository at a commit, or a publication (no commit, its files are addresses), its licence, what its
+    numbers are, and the numbers."""
 
     name: str
     title: str
@@ -85,7 +88,12 @@ class Source:
 
     def url(self, file: str) -> str:
         """Where a file of it can be read."""
-        return f"{REPOSITORY}{self.repository}/blob/{self.commit}/{file}"
+        return f"{REPOSITORY}{self.repository}/blob/{self.commit}/{file}" if self.commit else file
+
+    @property
+    def place(self) -> str:
+        """The repository at its commit, the publication."""
+        return f"{self.repository} at {self.commit[:12]}" if self.commit else self.repository
 
 
 def sources() -> tuple[str, ...]:
@@ -111,10 +119,10 @@ def _motion(row):
         wheels = Wheels(Fraction(wheels["momentum"]), _vector(wheels["speed"]), _vector(wheels["motor"]),
                         Fraction(wheels["until"]))
     zero = ("0", "0", "0")
-    return Motion(row["id"], row["file"], _vector(row["inertia"]), _vector(row["omega"]),
+    return Motion(row["id"], row["file"], _vector(row.get("inertia", ())), _vector(row.get("omega", ())),
                   row.get("unit", "rad/s"), _vector(row.get("torque", zero)),
                   _vector(row.get("sigma", zero)), Fraction(row.get("begins", "0")),
-                  row.get("against_momentum", False), wheels)
+                  row.get("against_momentum", False), wheels, row.get("case", ""))
 
 
 def _vector(texts):
@@ -133,7 +141,9 @@ SHOWN = 20  # digits of ours that are written at most
 COMPONENTS = {"omega": ("omega1", "omega2", "omega3"), "sigma": ("sigma1", "sigma2", "sigma3"),
               "rate3": ("omega3",), "angle3": ("angle about axis 3",),
               "off_linear": ("angle off a constant rate",),
-              "momentum_turn": ("turn of the angular momentum",)}
+              "momentum_turn": ("turn of the angular momentum",),
+              "rotation_period": ("period of rotation",),
+              "libration_periods": ("period of the wobble", "period of the libration in longitude")}
 UNITS = {"sigma": "", "angle3": "rad", "off_linear": "rad", "momentum_turn": "rad"}  # others: of the motion
 
 
@@ -258,7 +268,7 @@ def told(validated) -> list:
 
 def _lines(source, found):
     yield f"{source.name}: {counts(found)}: {source.title}"
-    yield f"  {source.repository} at {source.commit[:12]}, {source.licence}; {source.about}"
+    yield f"  {source.place}, {source.licence}; {source.about}"
     for group in grouped(found):
         printed = group[0].printed
         yield (

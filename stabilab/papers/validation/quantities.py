@@ -27,7 +27,10 @@ from dataclasses import dataclass
 from fractions import Fraction
 from operator import mul
 
+from ...answers.attitude.ask import attitude
+from ...answers.circular_orbit.ask import circular_orbit
 from ...answers.passage.enclosed import own_unit
+from ...case.read import load
 from ...integrate.integer_flow import IntegerFlow
 from ...numbers.balls import working
 from ...numbers.vectors import CYCLE
@@ -191,7 +194,9 @@ class At:
 
 
 def at(motion, times) -> list[At]:
-    """The motion at increasing times (rationals, s)."""
+    """The motion at increasing times (rationals, s); a case that is asked as it stands is not followed."""
+    if motion.case:
+        return [At((), ())] * len(times)
     if motion.wheels:
         return [At(*found) for found in wheels_at(motion, times)]
     runs = [_run(motion, times, axis) for axis in UNITS]
@@ -255,6 +260,23 @@ def values_of(piece, now, numbers) -> list:
 
 
 DEGREES = "deg/s"
+DAY, HOUR = 86400, 3600  # s
+CLOSED = Fraction(1, 10**12)  # of a number in doubles from a closed form: far more than it is off
+
+
+def rotation_period(motion, at: At, numbers) -> list:
+    """The period of rotation of a free body, h."""
+    return [_closed(attitude(load(motion.case)).rotation_period / HOUR, numbers)]
+
+
+def libration_periods(motion, at: At, numbers) -> list:
+    """The longer two periods of the first stable attitude on a circular orbit, days."""
+    first = circular_orbit(motion.case).equilibria.points[0]
+    return [_closed(2 * math.pi / rate / DAY, numbers) for rate in first.frequencies[:2]]
+
+
+def _closed(value: float, numbers):
+    return numbers.around(numbers.ball(Fraction(value)), numbers.ball(Fraction(value) * CLOSED))
 
 
 def omega(motion, at: At, numbers) -> list:
