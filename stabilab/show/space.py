@@ -10,7 +10,7 @@ import sys
 from array import array
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
-from itertools import accumulate
+from itertools import accumulate, pairwise, product
 from typing import Any
 
 from ..equilibrium.result import Equilibria
@@ -26,7 +26,7 @@ from .spans import limit_time
 
 NEAR = 2.0     # times the motion's own size: a separatrix or an equilibrium so near is in the picture
 ROOM = 1.25    # of a box about the things in it
-SMALL = 0.22   # of a box: a motion that fills less gets a box of its own
+SMALL = 0.22   # of a box: a motion that fills less gets a box of its own, a limit that does is not drawn
 # of the longest side: an axis along which less happens has a scale of its own, of which that fills a share
 THIN, FILLED, EVEN = 0.3, 0.6, 1e-6
 WHOLE = 1.6    # times the box of the motion: a surface no larger is shown whole
@@ -38,6 +38,9 @@ SHAPE = (48, 97)  # rows and columns of a branch
 PLACES = (40, 90)
 VIEWS = tuple((up, round_) for up in (22, 33) for round_ in (-55, -35, 35, 55))  # deg: elevation, azimuth
 BETTER = 1.25  # times as broad as from the first side: from there the path is seen
+RIM = 0.88  # of half of the box: up to here numbers stand at its edges, the corners are crowded
+# shares of the box across an axis, where the limit is cut; half the steps of an arc, a radian
+LEVELS, ARC = (-0.6, 0.0, 0.6), 6
 HALF, BEYOND = 4095, 8.0  # half of the box in numbers of a page; what is farther off is moved in
 
 Point = Sequence[float]
@@ -77,6 +80,16 @@ class Box:
         """The same in another unit."""
         return Box(tuple(per * v for v in self.middle), tuple(per * v for v in self.half))
 
+    def ticks(self, axis: int, least: int = 3) -> list[float]:
+        """Round numbers to stand along an edge of it: the largest step of which so many fit."""
+        middle, half = self.middle[axis], self.half[axis]
+        ten = 10.0 ** math.floor(math.log10(half))
+        for step in (many * ten for many in (10, 5, 2, 1, 0.5, 0.2, 0.1)):
+            first, last = math.ceil((middle - RIM * half) / step), math.floor((middle + RIM * half) / step)
+            if last - first + 1 >= least:
+                break
+        return [n * step for n in range(first, last + 1)]
+
 
 @dataclass(frozen=True)
 class Space:
@@ -100,23 +113,33 @@ class Space:
     def legend(self) -> dict[str, str]:
         """Words and colour of all that is drawn, each once."""
         kinds = [MOTION] * bool(self.path) + [words for words, _ in (*self.marks, *self.curves)]
-        return ({words: str(style.SPACE[words]["color"]) for words in kinds}
+        return ({words: str(look(words)["color"]) for words in kinds}
                 | {branch.name: colour for colour, branch in self.branches})
 
 
-MOTION, NEAREST = "this motion", "nearest point of the separatrix"
+MOTION, NEAREST, LIMIT = "this motion", "nearest point of the separatrix", "limit of |ω|"
 
 
-def space(names: Iterable[str], rate: float, box: Box, branches: Iterable[PlainBranch],
-          path: list[Point], marks: Iterable[tuple[str, Point]],
-          curves: Iterable[tuple[str, list[Point]]], words: str, more: str = "") -> Space:
-    """What is drawn in a box. branches: those that come into it are drawn, in the colours of their numbers;
-    more: behind their names; words: of the separatrix."""
-    shares = [box.share(at) for at in path]
+def look(words: str) -> dict[str, Any]:
+    """How something is drawn, by its words in a legend; behind a comma stands a number."""
+    return style.SPACE[words.partition(",")[0]]
+
+
+def space(names: Iterable[str], rate: tuple[str, float], box: Box, branches: Iterable[PlainBranch],
+          path: list[Point], marks: Iterable[tuple[str, Point]], curves: Iterable[tuple[str, list[Point]]],
+          words: str, more: str = "", limit: float | None = None) -> Space:
+    """What is drawn in a box. names, rate: of the components, and their unit (name, how many make one of the
+    scene's). branches: those that come into it are drawn, in the colours of their numbers; more: behind their
+    names; words: of the separatrix. limit: of |omega|, drawn where it comes into the box, and fills a part
+    of it."""
+    (unit, per), shares = rate, [box.share(at) for at in path]
+    named = tuple(f"{name} ({unit})" if unit else name for name in names)
+    limits = [(f"{LIMIT}, {per * limit:.4g} {unit}", arc) for arc
+              in (_cut(limit, box) if limit and limit > SMALL * max(box.half) else ())]
     shown = [(style.BESIDE[n % len(style.BESIDE)],
               replace(branch, name=f"{branch.name.capitalize()} of the separatrix{more}"))
              for n, branch in enumerate(branches) if _comes_in(branch, box)]
-    return Space(tuple(names), rate, box, tuple(shown), tuple(curves),
+    return Space(named, per, box, tuple(shown), (*curves, *limits),
                  tuple((kind, at) for kind, at in marks if box.holds(at)), path, _arrows(path, shares),
                  _view(shares), words)
 
@@ -126,6 +149,37 @@ def _comes_in(branch: PlainBranch, box: Box) -> bool:
     it meets its neighbour."""
     return any(0 < n % branch.columns < branch.columns - 1 and box.holds(at)
                for n, at in enumerate(branch.points))
+
+
+def _cut(size: float, box: Box) -> Iterable[list[Point]]:
+    """Arcs in which planes across the axes cut the sphere of |omega| = size inside a box."""
+    for axis, share in product(range(3), LEVELS):
+        level = box.middle[axis] + share * box.half[axis]
+        if abs(level) >= size:
+            continue
+        (one, other), radius = [n for n in range(3) if n != axis], math.sqrt(size**2 - level**2)
+        ends = {0.0, math.tau}  # and where the circle leaves the box
+        for n, first, opposite in ((one, math.acos, 0.0), (other, math.asin, math.pi)):
+            turns = [first(edge / radius) for edge in (box.low[n], box.high[n]) if abs(edge) < radius]
+            ends |= {turn % math.tau for known in turns for turn in (known, opposite - known)}
+        for low, high in pairwise(sorted(ends)):
+            steps = 2 * max(1, math.ceil(ARC * (high - low)))
+            arc = [(*at[:axis], level, *at[axis:]) for turn in spread(low, high, steps + 1)
+                   for at in [(radius * math.cos(turn), radius * math.sin(turn))]]
+            if box.holds(arc[steps // 2]):
+                yield arc
+
+
+def beside_limit(limit: float | None, path: list[Point]) -> list[tuple[str, Point]]:
+    """The place on the sphere of a limit of |omega| behind a motion's farthest, as a mark for its box."""
+    far = max(path, key=lambda at: math.hypot(*at), default=(0.0,) * 3)
+    return [(LIMIT, tuple(v * limit / math.hypot(*far) for v in far))] if limit and any(far) else []
+
+
+def limit_of(case: Any) -> float | None:
+    """The limit of |omega| that a case states."""
+    stated = None if case is None or case.limits is None else case.limits.rate
+    return None if stated is None else float(stated)
 
 
 def near_part(times: Sequence[float], path: list[Point], motion: Motion | None) -> list[Point]:
@@ -332,9 +386,9 @@ def data(drawn: Space, row: Callable[[bytes], Any]) -> dict[str, Any]:
             "half": box.scaled(drawn.rate).half, "view": drawn.view,
             "branches": [{"name": one.name, "colour": colour, "rows": one.rows, "columns": one.columns,
                           "at": packed(one.points)} for colour, one in drawn.branches],
-            "curves": [{"kind": words, "colour": style.SPACE[words]["color"], "at": packed(places)}
+            "curves": [{"kind": words, "colour": look(words)["color"], "at": packed(places)}
                        for words, places in curves],
-            "points": [{"kind": words, "colour": style.SPACE[words]["color"], "at": _round(box.share(at))}
+            "points": [{"kind": words, "colour": look(words)["color"], "at": _round(box.share(at))}
                        for words, at in drawn.marks],
             "arrows": [[_round(box.share(at)), _round([v / h for v, h in zip(step, box.half)])]
                        for at, step in drawn.arrows],

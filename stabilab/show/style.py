@@ -2,6 +2,7 @@
 change."""
 from __future__ import annotations
 
+import math
 import re
 from contextlib import contextmanager
 from pathlib import Path
@@ -54,6 +55,7 @@ SPACE = {  # words of a legend -> how that is drawn in the space of rates
     "this motion": MEANING["this motion"], "start": MARKER["start"],
     "nearest point of the separatrix": {"marker": "o", "color": YELLOW, "markeredgecolor": BLACK,
                                         "markersize": 6, "linestyle": "none"},
+    "limit of |ω|": {"color": VERMILION, "linestyle": "--", "linewidth": 0.9},
     **{words: MEANING[kind] for kind, words in EQUILIBRIA.items()}}
 BRANCHES = (SKY, ORANGE, GREEN, PURPLE, YELLOW, BLUE, VERMILION)  # surfaces, in order
 # surfaces beside a motion, which is orange, and their nearest point, a yellow ball
@@ -67,7 +69,7 @@ DPI = 110
 QUICK = 6
 LARGE = 100_000  # bytes
 LETTER, KEY = 0.07, 0.7  # inches that a letter of a legend, and its key with the gap, take
-TITLE = 0.0075  # inches that a letter of a title takes, a point of its size
+TITLE = 0.008  # inches that a letter of a title takes, a point of its size
 # inches from which on letters have their full size; the least share of it in smaller figures: 7 points
 ROOMY, SMALLEST = (5.6, 3.8), 0.7
 RC: dict[Any, Any] = {  # of Matplotlib
@@ -233,7 +235,9 @@ def fitting(names: list[str], width: float) -> int:
 
 def clauses(text: str, width: float) -> str:
     """A title of clauses in lines that fit a figure of so many inches: each ends with a clause where one
-    alone is no longer than a line."""
+    alone is no longer than a line; a longer one is parted into lines of about one length."""
+    import textwrap
+
     import matplotlib
     from matplotlib.font_manager import FontProperties
     most = (width
@@ -243,6 +247,11 @@ def clauses(text: str, width: float) -> str:
         if lines[-1] and len(lines[-1]) + len(clause.rstrip()) > most:
             lines.append("")
         lines[-1] += clause
+        count = math.ceil(len(lines[-1].rstrip()) / most)
+        if count > 1:
+            fits = (textwrap.wrap(lines[-1], wide) for wide in range(len(lines[-1]) // count, len(lines[-1])))
+            *before, last = next(parts for parts in fits if len(parts) <= count)
+            lines[-1:] = [*before, f"{last} "]
     return "\n".join(line.rstrip() for line in lines)
 
 

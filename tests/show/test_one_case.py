@@ -19,6 +19,7 @@ from stabilab.show.plot.subject import subject
 from stabilab.show.report.one_case import space, sweep
 from stabilab.show.report.one_case.page import equations, sections
 from stabilab.show.report.one_case.tables import equilibrium_table as table
+from stabilab.show.space import Box
 from stabilab.show.terminal.letters import printed
 from stabilab.show.text import law
 from stabilab.show.units import DEG, units_of
@@ -153,7 +154,7 @@ def test_a_motion_that_turns_often_is_drawn_as_it_is_and_not_by_chords_across_it
     to less than half of that."""
     case = load(CASES / "liquid-sensible.toml")
     one = subject(case)
-    across = np.hypot(*(line := np.degrees(space_of(one, "123", 1.0).path))[:, :2].T)
+    across = np.hypot(*(line := np.degrees(space_of(one, "123", ("", 1.0)).path))[:, :2].T)
     middle = np.hypot(*(line[1:, :2] + line[:-1, :2]).T / 2)
     assert len(line) <= 6000 and across.min() > 5.7 and middle.min() > 5.5 and across.max() > 9
 
@@ -499,3 +500,34 @@ def test_a_margin_to_other_bounded_motions_is_not_told_as_one_that_changes_the_f
                        ("minor-axis-100", False)):
         (row,) = _sections(name, tmp_path)["sensitivity"]["rows"]
         assert ("does not change the fate" in row["because"]) == same
+
+
+@pytest.mark.parametrize("name, limit", [("cubesat-3u", 60.0), ("upper-stage", 120.0), ("space-station", 0.5)])
+def test_the_limit_is_a_sphere_of_its_size_about_zero_where_the_picture_comes_near_it(name, limit):
+    """Oracle: the length of each place, in deg/s as the file states the limit."""
+    found = space_of(subject(load(CASES / f"{name}.toml")), "123", ("deg/s", 180 / np.pi))
+    arcs = [places for words, places in found.curves if words == f"limit of |ω|, {limit:g} deg/s"]
+    places = np.degrees(np.concatenate(arcs))
+    assert np.linalg.norm(places, axis=1) == pytest.approx(np.full(len(places), limit), rel=1e-12)
+    assert found.box.holds(np.radians(places).max(axis=0), 1 + 1e-9) and found.box.holds(
+        np.radians(places).min(axis=0), 1 + 1e-9)
+    assert "limit" in str(found.legend)
+
+
+def test_a_limit_far_from_the_motion_is_not_in_its_picture():
+    """The wobble of half a degree a second about 1.7 deg/s is seen at its own size; the limit is at 40."""
+    case = load(CASES / "thruster-stuck-major-axis.toml")
+    text = case.text + '\n[limits]\nrate = "40 deg/s"\n'
+    near, far = (space_of(subject(one), "123", ("deg/s", 180 / np.pi))
+                 for one in (case, read_text("far.toml", text)))
+    assert near.box == far.box and near.curves == far.curves
+    wide = space_of(subject(read_text("wide.toml", text)), "123", ("", 1.0), most=math.inf)  # 700 deg/s
+    assert not [words for words, _ in wide.curves if "limit" in words]
+
+
+@pytest.mark.parametrize("middle, half, least, told", [
+    (0.0, 54000.0, 3, [-40000, -20000, 0, 20000, 40000]), (0.0, 1.45e-4, 3, [-1e-4, 0, 1e-4]),
+    (8550.0, 80.0, 3, [8500, 8550, 8600]), (8550.0, 80.0, 2, [8500, 8600])])
+def test_numbers_at_an_edge_are_round_and_keep_off_the_corners(middle, half, least, told):
+    box = Box((middle,) * 3, (half,) * 3)
+    assert box.ticks(0, least) == pytest.approx(told)

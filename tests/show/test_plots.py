@@ -21,7 +21,7 @@ from stabilab.show.text import comparison
 
 matplotlib.use("Agg")
 from matplotlib import pyplot as plt  # after the back end is chosen
-from mpl_toolkits.mplot3d.art3d import Line3DCollection, Poly3DCollection
+from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
 CASES = __file__.rsplit("/tests/", 1)[0] + "/cases"
 
@@ -368,6 +368,15 @@ def test_lines_of_a_title_end_with_clauses_and_a_legend_of_six_has_one_row():
     assert legend.get_window_extent().x0 >= 0 and legend.get_window_extent().x1 <= ax.figure.bbox.width
 
 
+def test_a_clause_longer_than_a_line_is_parted_in_two_of_about_one_length_within_the_picture():
+    """Its last word, "(certified);", stood alone on a line. Oracle: Matplotlib's own box of the title."""
+    ax = stabilab.plot.time(load("cubesat-3u"))
+    first, second = ax.get_title().split("\n")[1:3]
+    assert first.startswith("SPINS UP") and second.endswith("(certified);") and 0.7 < len(first) / len(second) < 1.4
+    ax.figure.draw_without_rendering()
+    assert ax.title.get_window_extent().x0 >= 0 and ax.title._get_wrapped_text() == ax.get_title()
+
+
 def test_the_enlarged_plane_holds_the_start_and_other_energies_up_to_its_edges_and_hides_no_curve():
     """The mark of the start hid the motion in the large picture."""
     ax = stabilab.plot.phase(load("thruster-stuck-major-axis"))
@@ -566,12 +575,11 @@ def test_a_motion_in_space_has_its_shadows_on_the_walls_and_arrows_along_the_flo
     inertia = np.array([float(v) for v in case.scene.body.inertia])
     wheel, torque = (np.array([float(v) for v in case.scene.vector(effect)])
                      for effect in ("gyrostat", "constant_torque"))
-    arrows = [one for one in ax.collections if isinstance(one, Line3DCollection)]
+    arrows = [np.array(line.get_data_3d()).T for line in ax.get_lines()
+              if line.get_color() == ORANGE and len(line.get_data_3d()[0]) == 3]
     assert len(arrows) == 3
-    for arrow in arrows:
-        shaft, *barbs = (np.array(segment) for segment in arrow._segments3d)
-        head, tail = shaft
-        assert all(np.array_equal(barb[0], head) for barb in barbs)
+    for barb, head, other in arrows:
+        tail = (barb + other) / 2
         middle = (tail + head) / 2
         flow = (np.cross(inertia * middle + wheel, middle) + torque) / inertia
         along = (head - tail) @ flow / np.linalg.norm(head - tail) / np.linalg.norm(flow)

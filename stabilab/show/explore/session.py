@@ -35,7 +35,20 @@ from ...verify.form import about, parsed
 from ...verify.form import line as about_line
 from ...verify.numbers import Malformed
 from .. import limiting
-from ..space import PLACES, Box, box_of, branches_of, curves_of, data, marks_of, near_part, nearest, space
+from ..space import (
+    PLACES,
+    Box,
+    beside_limit,
+    box_of,
+    branches_of,
+    curves_of,
+    data,
+    limit_of,
+    marks_of,
+    near_part,
+    nearest,
+    space,
+)
 from ..spans import natural, seen
 from ..terminal.letters import greek, lettered, written
 from ..terminal.motion import margins
@@ -224,15 +237,15 @@ class Session:
         near = near_part(times, path, found)
         bare, ghost = (None, False) if twin is None else _without_tilt(twin)
         marks = marks_of(case.state, found, at_rest)
-        rests = [] if moving else nearest(at_rest, near)
+        limit = limit_of(case)
+        rests = [*beside_limit(limit, near), *([] if moving else nearest(at_rest, near))]
         box = box_of(near, marks + rests, reaching=True, asked=asked, kept=moving or ghost)
         branches, words = ((), other.why(case.scene)) if bare is None else self._branches(bare, box, moving)
-        names = [planes.labelled(component.replace("omega", "ω"), self.units.rates[0])
-                 for component in case.scene.components]
+        names = [component.replace("omega", "ω") for component in case.scene.components]
         curves = self._once("curves", (case.scene, box, moving, at_rest is None),
                             lambda: curves_of(at_rest, box, *POINTS[moving]))
-        drawn = space(names, self.units.rates[1], box, branches, near, marks, curves, words,
-                      " without the tilt" * ghost)
+        drawn = space(names, self.units.rates, box, branches, near, marks, curves, words,
+                      " without the tilt" * ghost, limit)
         if ghost:
             words = ("No separatrix is known for a torque off the axes"
                      + (": the surface drawn is that of the torque without its tilt" if drawn.branches

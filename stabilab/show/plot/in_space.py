@@ -14,18 +14,23 @@ from ...errors import StabilabError
 from .. import style
 from ..sampling import spread
 from ..space import (
+    EVEN,
     SHAPE,
     VIEWS,
     WHOLE,
     Box,
     Space,
+    beside_limit,
     box_of,
     branches_of,
     curves_of,
+    limit_of,
+    look,
     marks_of,
     near_part,
     nearest,
 )
+from ..space import THIN as SHORT
 from ..space import space as drawn_in
 from . import subject as canvas
 from . import subject as which
@@ -43,9 +48,7 @@ PALE = 0.75  # share of its colour that a surface has
 LIGHT = np.array([0.35, -0.55, 0.76])
 DARKEST = 0.62  # share of its colour that a facet keeps which the light only grazes
 ROOMY = 3.8  # inches: axes that are smaller have fewer ticks
-# of an axis that is seen in at least this share of the longest side; of a shorter one fewer, lest they lie on
-# each other
-TICKS, SEEN = 5, 0.45
+SEEN = 0.36  # of the longest side: an axis that is seen shorter has fewer ticks, lest they lie on each other
 FLATTEST = 0.75  # of the longest side of a box whose sides are in different scales
 
 
@@ -143,8 +146,11 @@ def _seen(view: tuple[float, float]) -> np.ndarray:
 
 def furnish(ax: Any, box: Box, labels: tuple[str, ...], view: tuple[float, float] = VIEW) -> None:
     """Limits, labels, ticks and the point of view."""
-    from matplotlib.ticker import MaxNLocator
     small = style.share()
+    power = math.floor(math.log10(box.farthest))
+    power = power if not -3 < power < 5 else 0
+    if power:
+        labels = tuple(words.replace("(", rf"($10^{{{power}}}$ ") for words in labels)
     ax.computed_zorder = False  # lines before surfaces: what is behind one is to be seen, too
     for letter, low, high in zip("xyz", box.low, box.high):
         getattr(ax, f"set_{letter}lim")(low, high)
@@ -164,8 +170,9 @@ def furnish(ax: Any, box: Box, labels: tuple[str, ...], view: tuple[float, float
     roomy = min(small, min(ax.bbox.width, ax.bbox.height) / ax.figure.dpi / ROOMY)
     lengths = np.array(box.half)
     sides = np.maximum(lengths / lengths.max(), FLATTEST)
-    for axis, share in zip((ax.xaxis, ax.yaxis, ax.zaxis), sides / sides.max() * _seen(view)):
-        axis.set_major_locator(MaxNLocator(max(2, min(TICKS, round(TICKS * roomy * share / SEEN)))))
+    for n, (axis, share) in enumerate(zip((ax.xaxis, ax.yaxis, ax.zaxis), sides / sides.max() * _seen(view))):
+        ticks = box.ticks(n, 3 if roomy * share > SEEN else 2)
+        axis.set_ticks(ticks, labels=[f"{v / 10.0**power:.6g}".replace("-", "\u2212") for v in ticks])
         axis.set_pane_color((1, 1, 1, 1))
     # the longest side as of a cube
     ax.set_box_aspect(sides, zoom=ZOOM * (1 - (1 - small) / 3) * float(np.linalg.norm(sides)) / math.sqrt(3))
@@ -311,7 +318,7 @@ def meanings(rest: Rest, words: str = "equilibria") -> list[tuple[str, dict[str,
 
 
 # --- A motion in the space of rates, beside the separatrix
-FINE, MOST = 1e-3, 6000  # of the motion's size: how near a line with fewer points stays to it; points
+FINE, MOST = 1e-3, 6000  # of the picture: how near a line with fewer points stays to it; points
 FACETS = (96, 129)  # rows and columns of a branch: those that are in front are told by their middles
 
 
@@ -330,8 +337,7 @@ def space(case: Any, state: Any = None, ax: Axes | None = None, span: Any = None
     one = subject(case, state, span)
     which.check("space", one)
     scale = measures(one, units)
-    found = space_of(one, (scale.label(name, scale.rate[0]) for name in scale.names), scale.rate[1],
-                     shape=FACETS)
+    found = space_of(one, scale.names, scale.rate, shape=FACETS)
     with canvas.on(ax, size, space=True) as target:
         draw(target, found)
         canvas.title(target, one.heading, canvas.answer(one, scale), away(one, found, scale))
@@ -340,9 +346,9 @@ def space(case: Any, state: Any = None, ax: Axes | None = None, span: Any = None
     return target
 
 
-def space_of(one: Subject, names: Iterable[str], rate: float, known: Equilibria | None = None,
+def space_of(one: Subject, names: Iterable[str], rate: tuple[str, float], known: Equilibria | None = None,
              shape: tuple[int, int] = SHAPE, most: float = WHOLE, reaching: bool = False) -> Space:
-    """What is drawn of a subject. names, rate: as of `Space`; known: its equilibria, where these are worked
+    """What is drawn of a subject. names, rate: as of `space`; known: its equilibria, where these are worked
     out already; shape: of the branches; most, reaching: as of `box_of`."""
     moved = one.motion if one.state is not None else None
     if known is None:
@@ -352,10 +358,11 @@ def space_of(one: Subject, names: Iterable[str], rate: float, known: Equilibria 
             known = None
     line = [] if moved is None else _path(one)
     marks = marks_of(one.state, moved, known)
-    near = nearest(known, line) if line else []
+    limit = limit_of(one.case)
+    near = [*nearest(known, line), *beside_limit(limit, line)] if line else []
     box = box_of(line, marks + near, branches_of(one.twin)[0], most, reaching)
     surface, words, _ = branches_of(one.twin, box, shape)
-    return drawn_in(names, rate, box, surface, line, marks, curves_of(known, box), words)
+    return drawn_in(names, rate, box, surface, line, marks, curves_of(known, box), words, limit=limit)
 
 
 def draw(ax: Any, found: Space) -> None:
@@ -364,21 +371,28 @@ def draw(ax: Any, found: Space) -> None:
     grids = [(colour, np.reshape(one.points, (one.rows, one.columns, 3))) for colour, one in found.branches]
     facets(ax, [(clipped(box, per * grid_triangles(points)), colour) for colour, points in grids])
     for words, places in found.curves:
-        line(ax, inside(box, per * np.array(places)), style.SPACE[words], zorder=6)
+        line(ax, inside(box, per * np.array(places)), look(words), zorder=6)
     path = inside(box, per * np.array(found.path)) if found.path else np.empty((0, 3))
     depth(ax, box, path, [per * np.array(at) for _, at in found.marks], found.view)
     line(ax, path, style.MEANING["this motion"], zorder=8)
     for at, step in found.arrows:
-        ax.quiver(*(per * np.array(at)), *(per * np.array(step)), color=style.ORANGE, linewidth=2.2,
-                  arrow_length_ratio=0.95, pivot="middle", zorder=8)
+        line(ax, per * _head(np.array(at), np.array(step), found), style.MEANING["this motion"], zorder=8)
     for words, at in reversed(found.marks):  # the start above all
         line(ax, per * np.array([at]), _marker(words), zorder=9)
     furnish(ax, box, found.names, found.view)
 
 
+def _head(at: np.ndarray, step: np.ndarray, found: Space) -> np.ndarray:
+    """(3, 3) the head of an arrow, flat to the eye, whatever the scales of the axes."""
+    half = np.array(found.box.half)
+    along = step / half
+    aside = np.cross(along, sight(found.view))
+    return at + half * np.array([-along / 2 + 0.4 * aside, along / 2, -along / 2 - 0.4 * aside])
+
+
 def _marker(words: str) -> Look:
     return next((POINTS[kind] for kind, name in style.EQUILIBRIA.items() if name == words),
-                style.SPACE[words])
+                look(words))
 
 
 def rows(found: Space) -> list[tuple[str, Look]]:
@@ -386,7 +400,7 @@ def rows(found: Space) -> list[tuple[str, Look]]:
     surfaces = {branch.name for _, branch in found.branches}
     curves = {words for words, _ in found.curves} | {"this motion"}
     return [(words, {"facecolor": pale(colour)} if words in surfaces
-             else style.SPACE[words] if words in curves else _marker(words))
+             else look(words) if words in curves else _marker(words))
             for words, colour in found.legend.items()]
 
 
@@ -405,7 +419,10 @@ def _path(one: Subject) -> list[Any]:
     low, high = one.seen
     t, omega = path(one, low, low + period if period else high)
     omega = omega[:len(near_part(t.tolist(), omega.tolist(), one.motion))]
-    near = FINE * (float(np.ptp(omega, axis=0).max()) or 1.0)
-    while len(line := thinned(omega, near)) > MOST:
+    spans = np.ptp(omega, axis=0)
+    size = np.where((spans < SHORT * spans.max()) & (spans > EVEN * spans.max()), spans, spans.max() or 1.0)
+    near = FINE  # of what an axis shows
+    while len(line := thinned(omega / size, near)) > MOST:
         near *= 2
+    line = line * size
     return line.tolist()

@@ -12,13 +12,12 @@ from ..axes import PLAIN
 from ..plot import subject as canvas
 from ..plot.in_space import away, rows, sight, space_of
 from ..plot.subject import measures, subject
-from ..space import Space, across
+from ..space import Space, across, look
 from .render_probe import use
 
 SIDE = 1000  # dots
 SIZE = (7.6, 8.0)  # inches of the whole picture
 AWAY, ANGLE = 9.0, 25.0  # of the eye, in halves of the box; deg of what it sees
-TICKS = 5
 GLASS = 0.75  # of a surface: what is behind it is seen
 FACETS = (96, 129)  # rows and columns of a branch
 LINE, THIN, GRID, BALL = 0.014, 0.005, 0.002, 0.034  # radii, of half of the box
@@ -52,8 +51,7 @@ def of(one: Any) -> Space:
     scale = measures(one)
     named = [scale.plain(n) + (f", {one.axes.name(n + 1)}" if one.physical and one.axes != PLAIN else "")
              for n in range(3)]
-    return space_of(one, (scale.label(name, scale.rate[0]) for name in named), scale.rate[1], shape=FACETS,
-                    most=np.inf)
+    return space_of(one, named, scale.rate, shape=FACETS, most=np.inf)
 
 
 def plotter(found: Space) -> Any:
@@ -76,7 +74,7 @@ def plotter(found: Space) -> Any:
         stage.add_mesh(surface.clip_box((-1, 1) * 3, invert=False), color=colour, ambient=0.35, diffuse=0.7,
                        specular=0.1, opacity=GLASS, name=f"branch {n}")
     for words, places in found.curves:
-        tube(share(places), LINE, style.SPACE[words]["color"])
+        tube(share(places), LINE if words in style.SPACE else THIN, look(words)["color"])
     path, toward = share(found.path or np.empty((0, 3))), sight(found.view)
     tube(path, LINE, style.ORANGE)
     for axis in range(3):
@@ -88,7 +86,7 @@ def plotter(found: Space) -> Any:
                        color=style.ORANGE)
     for words, at in found.marks:
         place = share(at)
-        stage.add_mesh(pyvista.Sphere(radius=BALL, center=place), color=style.SPACE[words]["color"])
+        stage.add_mesh(pyvista.Sphere(radius=BALL, center=place), color=look(words)["color"])
         tube([place, np.array([*place[:2], -1.0])], THIN, style.GREY)
     for axis, ticks in enumerate(_ticks(found)):  # a grid on the walls behind
         for other in (n for n in range(3) if n != axis):
@@ -103,12 +101,9 @@ def plotter(found: Space) -> Any:
 
 def _ticks(found: Space) -> list[list[tuple[float, str]]]:
     """Of each axis (place in halves of the box, number) of round numbers."""
-    from matplotlib.ticker import MaxNLocator
-    box, rows = found.box.scaled(found.rate), []
-    for low, high, middle, half in zip(box.low, box.high, box.middle, box.half):
-        values = [v for v in MaxNLocator(TICKS).tick_values(low, high) if abs(v - middle) < 0.97 * half]
-        rows.append([((v - middle) / half, f"{v:.6g}".replace("-", "\u2212")) for v in values])
-    return rows
+    box = found.box.scaled(found.rate)
+    return [[((v - box.middle[n]) / box.half[n], f"{v:.6g}".replace("-", "\u2212")) for v in box.ticks(n)]
+            for n in range(3)]
 
 
 def _label(ax: Any, found: Space) -> None:

@@ -105,7 +105,7 @@ function spaceView(canvas, {glass = 1, near = 1} = {}) {
     draw();
   }
 
-  const rim = 0.93;  // of half the box: up to here numbers stand, the corners are crowded
+  const rim = 0.88;  // of half the box: up to here numbers stand, the corners are crowded
   function step(half, middle) {  // the largest round number of which an axis shows three multiples
     const ten = 10 ** Math.floor(Math.log10(half)), shown = every => Math.floor((middle + rim * half) / every) - Math.ceil((middle - rim * half) / every) + 1;
     return ten * [10, 5, 2, 1, 0.5, 0.2].find(k => shown(k * ten) >= 3);

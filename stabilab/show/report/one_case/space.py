@@ -12,10 +12,8 @@ from ...terminal.letters import printed
 
 def space(case, motion, found_equilibria, units) -> dict:
     """What the script draws, and the rows of the legend; `reason`: what is to be said of the separatrix."""
-    unit, one = units.rates
-    names = [f"{printed(name)}{f' ({unit})' if unit else ''}" for name in case.scene.components]
-    found = space_of(replace(subject(case), known=motion), names, one, found_equilibria,
-                     reaching=True)
+    found = space_of(replace(subject(case), known=motion), map(printed, case.scene.components), units.rates,
+                     found_equilibria, reaching=True)
     drawn = data(found, lambda places: b64encode(places).decode("ascii"))
     return {"drawn": drawn, "legend": drawn["legend"], "reason": printed(units.words(found.words)),
             "clipped": any(max(map(abs, found.box.share(at))) > 1 + 1e-9 for _, branch in found.branches
