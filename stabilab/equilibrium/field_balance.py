@@ -211,23 +211,19 @@ def rounded_gamma(rotation):
 
 MINIMUM = ("stable",
            "energy-Casimir: at constant area integral the energy has a strict minimum on |gamma| = 1 (K "
-           "positive definite), and it "
-                     "persists as the area changes")
+           "positive definite), and it persists as the area changes")
 SADDLE = ("unstable", "det K < 0: b < 0 in z^4 + a z^2 + b, a positive eigenvalue")
 SPIRAL = ("unstable", "a^2 < 4 b in z^4 + a z^2 + b: four eigenvalues off the imaginary axis")
 REAL = ("unstable", "a < 0 < b, a^2 > 4 b in z^4 + a z^2 + b: two positive eigenvalues")
 GYROSCOPIC = ("undecided",
               "K is negative definite and all eigenvalues are imaginary: the gyroscopic terms stabilise the "
-              "linear motion, and the "
-                           "energy, a saddle here, does not decide for the full one")
+              "linear motion, and the energy, a saddle here, does not decide for the full one")
 SLEEPING = ("stable",
             "sleeping top: the spin about the axis of symmetry is a third integral; with distinct "
-            "frequencies a combination of the "
-                      "three integrals is definite (Chetaev)")
+            "frequencies a combination of the three integrals is definite (Chetaev)")
 CIRCLE = ("unstable",
           "one of a circle of rotations about the axis of symmetry: with any small change of the spin about "
-          "it gamma drifts round the "
-                      "circle, so neighbours leave this point")
+          "it gamma drifts round the circle, so neighbours leave this point")
 OPEN = ("undecided", "a coefficient of the spectrum vanishes here: the next order decides")
 SHELL = ("undecided",
          "a continuum of rotations at one Omega: its second variation vanishes along it, and a term of "

@@ -316,8 +316,7 @@ def steady_states(parts: Content) -> Equilibria:
     plane = _plane(parts, i)
     curves = tuple(_steady_curve(parts, plane, lo, hi, side) for lo, hi in _pieces(plane) for side in (-1, 1))
     reason = (f"torque . gamma = 0 puts gamma across axis {i + 1}, and one quadratic in Omega remains; the "
-              f"intervals where it is real are those of "
-              "a polynomial in tan(t/2) with exact coefficients")
+              "intervals where it is real are those of a polynomial in tan(t/2) with exact coefficients")
     return (Equilibria("curves", reason, curves=curves) if curves
             else Equilibria("none", reason + ": there are none"))
 

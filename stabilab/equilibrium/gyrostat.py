@@ -73,37 +73,29 @@ from .result import (
 from .stability import ONE, ZERO, Pencil, curve_with_verdicts, isolated_point, pencil, unit
 
 # Line of equilibria along axis 1 (x1 = X, the others at y2, y3): deltas obey d2' = -P(X) d3, d3' = Q(X) d2,
-# X' = e d2 d3
-# + f d2 + g d3 with P, Q linear in X and m = P Q. Removing the terms linear in d from X' by X -> X - (f/Q) d3
-# + (g/P) d2
-# leaves a mean drift X' = const f g (Q'P - P'Q) r^2; the bracket is lambda1 (D3 - D2)/(D2 D3), f g ~
-# (D2-D1)(D1-D3) y2 y3.
-# At a zero of P or Q (not of both: the bracket is not zero) one Jordan block is left, and m = -b z + ...
-# along the line, b != 0:
-# `stability.isolated_verdict` has the argument.
+# X' = e d2 d3 + f d2 + g d3 with P, Q linear in X and m = P Q. Removing the terms linear in d from X' by X ->
+# X - (f/Q) d3 + (g/P) d2 leaves a mean drift X' = const f g (Q'P - P'Q) r^2; the bracket is lambda1 (D3 -
+# D2)/(D2 D3), f g ~ (D2-D1)(D1-D3) y2 y3. At a zero of P or Q (not of both: the bracket is not zero) one
+# Jordan block is left, and m = -b z + ... along the line, b != 0: `stability.isolated_verdict` has the
+# argument.
 DRIFTING = Grounds(
     positive=("unstable",
-              "line of equilibria with eigenvalues 0, +-i sqrt(m): at second order in the amplitude r "
-              "the mean "
-                          "motion is X' = k r^2 along the line with k != 0 (three different moments), r' = "
-                          "O(r^3), so "
-                          "neighbours travel a finite way along it"),
+              "line of equilibria with eigenvalues 0, +-i sqrt(m): at second order in the amplitude r the "
+              "mean motion is X' = k r^2 along the line with k != 0 (three different moments), r' = O(r^3), "
+              "so neighbours travel a finite way along it"),
     odd=("unstable",
          "triple zero eigenvalue on a line of equilibria, where m changes sign: z''' = b z z' + ... with b "
-         "!= 0, and "
-                     "blown up with weights 2, 3, 4 it has a motion z ~ 12/(b t^2) that comes out of "
-                     "the point"),
+         "!= 0, and blown up with weights 2, 3, 4 it has a motion z ~ 12/(b t^2) that comes out of the "
+         "point"),
     minimum=("undecided", "triple zero eigenvalue on a line of equilibria: no proof is given"),
     maximum=("undecided", "triple zero eigenvalue on a line of equilibria: no proof is given"))
 # Two equal moments D1 = D2: with alpha' = d3, p(alpha) = d3^2 obeys p'' = -((D1-D3)/D1)^2 p - 2 m(X0 + c
-# alpha), linear,
-# so the motion is that of one degree of freedom in the potential -p/2: concave p (m > 0) turns, a cubic p
-# escapes.
+# alpha), linear, so the motion is that of one degree of freedom in the potential -p/2: concave p (m > 0)
+# turns, a cubic p escapes.
 CONCAVE = Grounds(
     positive=("stable",
               "symmetric body: d3^2 = p(alpha) with alpha' = d3 and p'' = -k^2 p - 2 m < 0 near the line, so "
-              "alpha "
-                        "turns back and neighbours stay"),
+              "alpha turns back and neighbours stay"),
     odd=("unstable",
          "symmetric body: d3^2 = p(alpha) with alpha' = d3 has a cubic term here, and motions run off on its "
                      "rising side"),
@@ -175,17 +167,14 @@ WHOLE = Poly((1,))  # the denominator of what has none
 
 WELL = Grounds(
     positive=("stable",
-              "non-degenerate minimum of the reduced potential (U'' = m > 0): energy keeps nearby motions "
-              "in the "
-                        "well, and the well persists as the invariant changes"),
+              "non-degenerate minimum of the reduced potential (U'' = m > 0): energy keeps nearby motions in "
+              "the well, and the well persists as the invariant changes"),
     odd=("unstable",
          "fold: the reduced potential has an inflection here (its first non-zero derivative is of odd "
-         "order), "
-                     "and motions released on its downhill side run away"),
+         "order), and motions released on its downhill side run away"),
     minimum=("stable",
-             "degenerate but strict minimum of the reduced potential (m > 0 on both sides along the "
-             "curve): its "
-                       "walls stand for nearby values of the invariant too"),
+             "degenerate but strict minimum of the reduced potential (m > 0 on both sides along the curve): "
+             "its walls stand for nearby values of the invariant too"),
     maximum=("unstable", "degenerate maximum of the reduced potential (m < 0 on both sides along the curve)"))
 
 
@@ -194,16 +183,14 @@ def balance_fails(p: Pencil) -> str | None:
     if dot(p.lam, p.M):
         if p.scaled:
             return ("an equilibrium needs mu1 (x1+a) = 0 and mu1 (x1+b) = 0: impossible, as mu1 is not zero "
-                    "and a differs "
-                    "from b")
+                    "and a differs from b")
         return ("an equilibrium needs M.omega = 0 and M.(D omega + lambda) = 0; M is an eigenvector of D, so "
                 "these "
                 "contradict each other unless lambda.M = 0, and here lambda.M = " + decimal(dot(p.lam, p.M)))
     first, second, _ = plane_basis(p)
     if first[1] == second[1] and not any(p.lam):
         return ("across the torque the two moments of inertia are equal and there is no gyrostatic moment: "
-                "nothing "
-                "balances the torque, and the rate about its axis grows steadily")
+                "nothing balances the torque, and the rate about its axis grows steadily")
     return None
 
 
@@ -346,23 +333,20 @@ def _potential_slope(form: QuadraticForm, x: Exact3, e: Exact3, terms: int) -> l
 CASIMIR = Grounds(
     positive=("stable",
               "energy-Casimir: on its momentum sphere the energy has a non-degenerate extremum (m > 0); "
-              "where the "
-                        "momentum or the rotation vanishes, that integral is itself definite"),
+              "where the momentum or the rotation vanishes, that integral is itself definite"),
     odd=("unstable",
          "fold: on its momentum sphere the energy has an inflection here, no extremum, and motions leave "
          "along it"),
     minimum=("stable",
              "energy-Casimir: on its momentum sphere the energy has a degenerate but strict extremum (m > 0 "
-             "on both "
-                       "sides along the curve)"),
+             "on both sides along the curve)"),
     maximum=("unstable",
              "on its momentum sphere the energy has a degenerate saddle (m < 0 on both sides along the "
              "curve)"))
 CROSSING = {
     1: ("stable",
         "crossing of two curves of equilibria; energy-Casimir: on its momentum sphere the energy has a "
-        "quartic but "
-                  "strict extremum"),
+        "quartic but strict extremum"),
     -1: ("unstable",
          "crossing of two curves of equilibria; on its momentum sphere the energy has a degenerate saddle")}
 REST = ("stable",
@@ -372,8 +356,7 @@ SYMMETRY_AXIS = ("stable",
                  "the rate about the axis of symmetry and the size of the rate across it are both constant")
 DRIFT = ("unstable",
          "m = n = 0: with any small change of the rate along the symmetry axis the state runs round the "
-         "circle of "
-                     "equilibria, so neighbours leave")
+         "circle of equilibria, so neighbours leave")
 
 
 def torque_free_curves(p: Pencil) -> tuple[list[RationalCurve], list[EquilibriumCurve]]:
@@ -515,8 +498,7 @@ def gyrostat_equilibria(scene: AnyScene) -> Equilibria:
     conic = tuple(curve_with_verdicts(p.form, c) for c in conic_curves(p))
     return Equilibria("curves",
                       "the torque is along an eigenvector of D with no gyrostatic moment along it: the two "
-                      "balance "
-                                "conditions are one plane, and in it one conic remains", curves=conic)
+                      "balance conditions are one plane, and in it one conic remains", curves=conic)
 
 
 def number_of_equilibria(scene: AnyScene) -> int | None:

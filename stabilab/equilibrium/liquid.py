@@ -54,19 +54,16 @@ from .stability import ordered, pencil
 
 ATTRACTING = ("stable",
               "c1, c2 > 0 in z (z^2 + c2 z + c1): the curve of permanent rotations attracts, so this "
-              "rotation is stable and "
-                        "every motion from nearby tends to a permanent rotation of the curve")
+              "rotation is stable and every motion from nearby tends to a permanent rotation of the curve")
 REPELLED = ("unstable", "c1 < 0 or c2 < 0 in z (z^2 + c2 z + c1): a root with positive real part")
 LARGEST = ("stable",
            "asymptotically stable at its angular momentum |H|: the liquid keeps |H|, and on the sphere of "
-           "constant |H| the energy is least "
-                     "here and falls everywhere else (LaSalle): motions from nearby tend to rotation about "
-                     "this axis")
+           "constant |H| the energy is least here and falls everywhere else (LaSalle): motions from nearby "
+           "tend to rotation about this axis")
 NOT_LARGEST = ("unstable",
                "the energy on the sphere of constant |H| is not least here and the liquid makes it fall "
-               "wherever the motion is no "
-                           "permanent rotation: states of less energy next to this one leave and do not "
-                           "come back")
+               "wherever the motion is no permanent rotation: states of less energy next to this one leave "
+               "and do not come back")
 REST = ("stable", "the kinetic energy is positive definite and never grows")
 EDGE = ("undecided", "the linear motion is degenerate (c1 c2 = 0): a term of higher order decides")
 
@@ -76,9 +73,8 @@ def liquid_equilibria(parts: Content) -> Equilibria:
     if parts.printed and any(parts.Lambda):
         return Equilibria("undecided",
                           "the printed torque of the liquid leaves out terms of its own order where a wheel "
-                          "or a charge "
-                                       "acts, so it vanishes on no permanent rotation: undecided; choose "
-                                       "torque = \"consistent\"")
+                          "or a charge acts, so it vanishes on no permanent rotation: undecided; choose "
+                          "torque = \"consistent\"")
     p = pencil(gyrostat_scene(parts))
     exact, planes = torque_free_curves(p)
     curves = (*(_judged(parts, curve) for curve in exact), *(_plane(parts, plane) for plane in planes))
@@ -88,15 +84,13 @@ def liquid_equilibria(parts: Content) -> Equilibria:
 def _reason(parts: Content) -> str:
     if not any(parts.Lambda):
         return ("the liquid takes energy at every rotation that is not about a principal axis, so the "
-                "equilibria are the permanent "
-                "rotations of the free body and no others")
+                "equilibria are the permanent rotations of the free body and no others")
     limit = validity(parts)
     where = (f"wherever |omega| < {float(limit):.6g} rad/s" if limit > 0
              else "only in the limit of small kappa")
     return ("momentum along rotation: the rates are (D + kappa L) a with a the rates without liquid, and D + "
-            "kappa L is invertible "
-            f"{where}, so there are no others; beyond that the torque of the liquid is as large as the "
-            f"body's own and its derivation does not hold")
+            f"kappa L is invertible {where}, so there are no others; beyond that the torque of the liquid is "
+            "as large as the body's own and its derivation does not hold")
 
 
 def validity(parts: Content) -> Fraction:
@@ -202,8 +196,7 @@ def _plane(parts: Content, plane: EquilibriumCurve) -> EquilibriumCurve:
     distance t from its centre."""
     across = ("stable",
               "the plane of permanent rotations attracts (the third eigenvalue is negative), so each of its "
-              "points is stable and "
-                        "motions from nearby tend to a point of the plane")
+              "points is stable and motions from nearby tend to a point of the plane")
     away = ("unstable", "the eigenvalue across the plane of permanent rotations is positive")
     centre = REST if not any(parts.Lambda) else EDGE
 
@@ -248,8 +241,7 @@ def balanced_equilibria(parts: Content) -> Equilibria:
     if not found.complete:
         return Equilibria("undecided",
                           f"undecided: {found.boxes} boxes did not settle the search where {words}; the "
-                          f"equilibria found are proved, "
-                                       "others are not excluded", points)
+                          "equilibria found are proved, others are not excluded", points)
     everywhere = words == EVERYWHERE
     kind = "points" if points else "none" if everywhere else "undecided"
     return Equilibria(kind,
@@ -326,8 +318,7 @@ def _region(parts: Content):
                 "bounds the equilibria")
     reach = max(limit, 3 * balance)
     return [reach] * 3, (f"|omega_i| < {reach:.6g} rad/s (where |omega| > {limit:.6g} rad/s the torque of "
-                         f"the liquid may be as large as the body's own: "
-                         "its derivation does not hold there)")
+                         "the liquid may be as large as the body's own: its derivation does not hold there)")
 
 
 def _point(parts: Content, torques, x) -> EquilibriumPoint:

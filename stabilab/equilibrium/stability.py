@@ -171,8 +171,7 @@ def isolated_verdict(m_sign: int, n_sign: int) -> Verdict:
     if n_sign:
         where = "a negative real root, so the other two have" if n_sign > 0 else "a real root with"
         return "unstable", (f"n {'>' if n_sign > 0 else '<'} 0 in z^3 + m z + n, whose roots sum to zero: "
-                            f"{where} a positive "
-                            "real part, whatever m is")
+                            f"{where} a positive real part, whatever m is")
     if m_sign < 0:
         return POSITIVE_EIGENVALUE
     if m_sign > 0:

@@ -86,8 +86,7 @@ def _no_torque(signs: Sequence[int], acting: Sequence[int], same: bool) -> dict[
                       "three lines")
     return _curve("(x1, 0, 0), (-b, x2, 0), (-a, 0, x3)", "always", "(x1 + a)(x1 + b) - x2^2 + x3^2",
                   "centre for (x1 + a)(x1 + b) > 0 on the line along x1 and for x3 != 0; unstable between -a "
-                  "and -b and for "
-                  "x2 != 0; degenerate at (-a, 0, 0) and (-b, 0, 0)",
+                  "and -b and for x2 != 0; degenerate at (-a, 0, 0) and (-b, 0, 0)",
                   "stable at centres and at (-a, 0, 0) (energy-Casimir), unstable elsewhere and at "
                   "(-b, 0, 0)", "three lines")
 
@@ -107,8 +106,7 @@ def _one_torque(signs: Sequence[int], acting: Sequence[int], same: bool) -> dict
                           "stable: minimum of the reduced potential")
         return _curve("x2 = 0, x3 (x1 + a) = mu2", "always", "(x1 + a)(x1 + b) + x3^2",
                       "centre iff x3^4 + (b-a) mu2 x3 + mu2^2 > 0: everywhere if |b-a| < 4 3^(-3/4) "
-                      "sqrt|mu2|, else outside two "
-                      "folds", WELL)
+                      "sqrt|mu2|, else outside two folds", WELL)
     if same:
         return _curve("x3 = 0, x2 (x1 + a) = -mu3", "always", "(x1 + a)^2 - x2^2",
                       "centre iff |x1 + a| > |x2|, that is |x2| < sqrt|mu3|; folds |x2| = |x1 + a| = "
@@ -122,9 +120,8 @@ def _two_torques(signs: Sequence[int], acting: Sequence[int], same: bool) -> dic
     """One component is fixed by each condition; the rate across them gives the last, where c = b - a lets it.
     """
     if 0 not in acting:
-        return _none(
-            "mu1 = 0 leaves mu2 x2 = 0 and mu3 x3 = 0, so x2 = x3 = 0, where x2' = mu2 and x3' = mu3 do not "
-            "vanish")
+        return _none("mu1 = 0 leaves mu2 x2 = 0 and mu3 x3 = 0, so x2 = x3 = 0, where x2' = mu2 and x3' = "
+                     "mu3 do not vanish")
     held, free, form = {2: ("X = x1 + a = 0", "mu1 (b-a)", "(-a, -mu3/(b-a), mu1 (b-a)/mu3)"),
                         1: ("Y = x1 + b = 0", "-mu1 (b-a)", "(-b, mu1 (b-a)/mu2, -mu2/(b-a))")}[acting[1]]
     if same:
@@ -159,8 +156,6 @@ def _three_torques(signs: Sequence[int], acting: Sequence[int], same: bool) -> d
         kinds=("none", "points"), counts=(0, 1, 2), number="two, one or none",
         condition=f"(b-a)^2 > 4 |{product_text}|: two; equal: one (fold, x1 = -(a+b)/2, n = 0); less: none",
         linear="unstable (n != 0); at the fold n = 0: unstable for m < 0, centre for m > 0, degenerate for m "
-               "= 0, with "
-               "m = 4 (mu2^2 - mu3^2)/(b-a)^2 - (b-a)^2/4",
+               "= 0, with m = 4 (mu2^2 - mu3^2)/(b-a)^2 - (b-a)^2/4",
         nonlinear="unstable: an eigenvalue with positive real part (n != 0); the fold too (m > 0: Chetaev "
-                  "function for 0, "
-                  "+-i sqrt(m)), undecided there if m = 0")
+                  "function for 0, +-i sqrt(m)), undecided there if m = 0")

@@ -25,8 +25,7 @@ from .to_heyoka import TAYLOR_TOLERANCE, borrowed_taylor, heyoka_available
 from .trajectory import PATIENCE, REPORT, STEP_LIMIT, integrated, steps_left
 
 # Motions in step: eight doubles fill the widest vectors there are, and narrower ones two or four at a time.
-# Not asked of
-# the machine, so that every machine groups alike.
+# Not asked of the machine, so that every machine groups alike.
 LANES = 8
 
 

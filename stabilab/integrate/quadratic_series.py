@@ -124,9 +124,8 @@ def followed(form: QuadraticForm, start: tuple[float, ...], until: float, steps:
             if t:
                 break
             raise InputError(f"this motion is too fast to be drawn: with a rate of {max(map(abs, x)):.3g} "
-                             f"and these torques and momenta the powers of its "
-                             "series exceed what a double holds (1.8e308); expected numbers of a body that "
-                             "can be built, in SI units")
+                             "and these torques and momenta the powers of its series exceed what a double "
+                             "holds (1.8e308); expected numbers of a body that can be built, in SI units")
         size = max(abs(one[0]) for one in series) or max(map(abs, form.coefficients[3]))
         h = min(length(series, SHARE * size), until - t)
         for n in range(1, INSIDE + 1):

@@ -14,8 +14,7 @@ from ..physics.equations import Equations
 from ..physics.to_numpy import Form, equations_of, form
 
 # Default tolerance of the Taylor series: half an ulp of 1. In a spin-up the phase grows as t^2, so a relative
-# 1e-12
-# per step would cost 2e-5 at t = 1000; a tighter step costs a few per cent.
+# 1e-12 per step would cost 2e-5 at t = 1000; a tighter step costs a few per cent.
 TAYLOR_TOLERANCE = 2.0**-53
 # Quadratures ride along scaled by this power of two (exact), too small ever to steer the step size.
 FEATHER = 2.0**-300

@@ -182,8 +182,7 @@ class _Taylor:
             left = steps_left(ta.time - last, grid[-1] - ta.time)
             if self.counters["steps"] - begun >= STEP_LIMIT or left > PATIENCE * STEP_LIMIT:
                 return np.concatenate(rows), (f"the last {REPORT} steps went from t = {last:.9g} to "
-                                              f"{ta.time:.9g}, the rest would "
-                                              f"take some {left:.1g} steps")
+                                              f"{ta.time:.9g}, the rest would take some {left:.1g} steps")
 
 
 class _SciPy:

@@ -44,9 +44,8 @@ def divided_differences(nodes: Sequence[ArrayLike], counts: Iterable[Counts], t:
     nodes, low = ([np.broadcast_to(np.asarray(x, complex), shape).ravel() for x in xs] for xs in (nodes, low))
     if t.size and max(np.max(x.real * t) for x in nodes) > LARGEST_EXPONENT:
         worst = max(np.max(x.real * t) for x in nodes)
-        raise InputError(
-            f"the motion grows like exp({worst:.6g}), beyond the largest double (exp(709)): ask for "
-            f"shorter times")
+        raise InputError(f"the motion grows like exp({worst:.6g}), beyond the largest double (exp(709)): ask "
+                         "for shorter times")
     table = _Table(nodes, low, t)
     return {c: (table.scaled(tuple(c)) * t ** (sum(c) - 1)).reshape(shape) for c in map(tuple, counts)}
 

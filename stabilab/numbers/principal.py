@@ -100,9 +100,8 @@ def fault_of(rows: Rows) -> str | None:
     for i, j in ((0, 1), (0, 2), (1, 2)):
         if rows[i][j] != rows[j][i]:
             return (f"the tensor is not symmetric: its {NAMES[i]}{NAMES[j]} entry is {float(rows[i][j])!r} "
-                    f"and its {NAMES[j]}{NAMES[i]} "
-                    f"entry {float(rows[j][i])!r}, they differ by {float(abs(rows[i][j] - rows[j][i])):.6g}; "
-                    f"write the same number in both places")
+                    f"and its {NAMES[j]}{NAMES[i]} entry {float(rows[j][i])!r}, they differ by "
+                    f"{float(abs(rows[i][j] - rows[j][i])):.6g}; write the same number in both places")
     polynomial = _characteristic(rows)
     constant, linear, square, _ = polynomial.c
     if not (constant < 0 < linear and square < 0):  # the signs of three positive roots, as all are real

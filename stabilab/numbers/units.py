@@ -55,10 +55,9 @@ WORDS = {name: symbol for symbol, names in {
 # alone they mean no other unit, as in DEG/S and KG M^2; N M S is three words, NM would be nm
 CAPITALS = {"S": "s", "M": "m"}
 ACCEPTED = ("m, kg, g, s, A, rad, N, J, W, Pa, C, V, T with the prefixes n u m c d k M G; deg, arcmin, "
-            "arcsec, rev, rpm; min, h, day, week; t; "
-            "in, ft, lb, lbf, slug; their English names such as hours, degrees, newtons, in small or capital "
-            "letters; "
-            "and products, powers and quotients of these such as N m s, kg m^2, deg/s")
+            "arcsec, rev, rpm; min, h, day, week; t; in, ft, lb, lbf, slug; their English names such as "
+            "hours, degrees, newtons, in small or capital letters; and products, powers and quotients of "
+            "these such as N m s, kg m^2, deg/s")
 NONE, LENGTH, MASS, TIME, ANGLE = (0,) * 5, (1, 0, 0, 0, 0), (0, 1, 0, 0, 0), (0, 0, 1, 0, 0), (0, 0, 0, 0, 1)
 RATE, FORCE, TORQUE, MOMENTUM = (0, 0, -1, 0, 1), (1, 1, -2, 0, 0), (2, 1, -2, 0, 0), (2, 1, -1, 0, 0)
 INERTIA, VELOCITY, CHARGE, FLUX = (2, 1, 0, 0, 0), (1, 0, -1, 0, 0), (0, 0, 1, 1, 0), (0, 1, -2, -1, 0)

@@ -150,9 +150,8 @@ def _periodic(motion):
         words = f", no mean precession: {error}"
     return _row("periodic motion",
                 f"through r and gamma of the start, by the expansion of order {motion.order}: period "
-                f"{motion.period:.12g} s{words}; "
-                f"p, q of the start are ({motion.departure[0]:.6g}, {motion.departure[1]:.6g}) rad/s off it; "
-                f"a small free wobble about it turns at Omega^2 = "
+                f"{motion.period:.12g} s{words}; p, q of the start are ({motion.departure[0]:.6g}, "
+                f"{motion.departure[1]:.6g}) rad/s off it; a small free wobble about it turns at Omega^2 = "
                 f"{motion.Omega2:.6g} of the squared spin", **values)
 
 

@@ -194,9 +194,8 @@ class Orbit:
     q0) across it.
 
     u, v: x_j and x_k; du/dalpha = p v + p0, dv/dalpha = q u + q0; y' = F(alpha), U' = -F, U(0) = 0. kind: -1
-    circle,
-    1 hyperbola, 0 parabola; tilt: the constant part of the force, in whose direction a circle's potential
-    falls.
+    circle, 1 hyperbola, 0 parabola; tilt: the constant part of the force, in whose direction a circle's
+    potential falls.
     """
 
     def __init__(self, rates, axis, state):

@@ -87,9 +87,8 @@ class Way:
         a = _series(self.numbers, self.centre, self.order)
         h = self._length(a)
         if t - self.t > PATIENCE * h * (self.allowed - self.steps):
-            raise Lost(
-                f"not followed beyond t = {brief(self.t)}: at this pace {self.allowed} steps do not reach "
-                f"{brief(t)}")
+            raise Lost(f"not followed beyond t = {brief(self.t)}: at this pace {self.allowed} steps do not "
+                       f"reach {brief(t)}")
         around = [c + r for c, r in zip(self.centre, self._reach())]
         with working(LINEAR_BITS):
             wide = _series(self.coarse, around, LINEAR_ORDER)

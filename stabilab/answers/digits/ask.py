@@ -273,9 +273,8 @@ def _over_span(scene: AnyScene, state: Any, span: Any, known: Motion, digits: in
     values = np.array(known.extremes)
     other = roots_of_rates(scene, moved_row(start), length, 8 * TAYLOR_TOLERANCE)
     error = CAUTION * _apart(values, other.extremes()) if not other.reason else math.inf
-    because = (
-        f"a run over the span; one at rtol {8 * TAYLOR_TOLERANCE:.1e} from a start moved in its last place "
-        f"differs by {error / CAUTION:.1e}")
+    because = (f"a run over the span; one at rtol {8 * TAYLOR_TOLERANCE:.1e} from a start moved in its last "
+               f"place differs by {error / CAUTION:.1e}")
     if digits <= MOST and error <= 10.0 ** (slack - digits):
         return Told("extremes", values, digits, digits_of(error), "run", because)
     found = _many_digits(equations, [*(exact or start[:3]), *start[3:]], length, digits)

@@ -168,9 +168,8 @@ def missed(case: Any, found: Any) -> str:
     """Why digits were not reached, in words."""
     if found.run.status != "reached":
         return f"{case.place}: {found.run.reason}"
-    return (
-        f"{case.place}: {found.asked} digits asked for, {found.digits:.1f} reached ({found.because}); ask "
-        f"for fewer or for a shorter span")
+    return (f"{case.place}: {found.asked} digits asked for, {found.digits:.1f} reached ({found.because}); "
+            "ask for fewer or for a shorter span")
 
 
 def best_reached(case: Any, times: np.ndarray, digits: int = DEFAULT, measured: bool = True,
@@ -368,9 +367,8 @@ def _many_digits(case: Any, times: np.ndarray, asked: int) -> Reached | None:
             return None
         # phi and theta magnify the rounding of the quaternion
         error += 2.0**-51 / np.abs(np.cos(parts["angles"][:, 0])).min()
-    because = (
-        f"Taylor series in {found.digits[0]} and {found.digits[1]} digits differ by {found.error.max():.0e}; "
-        f"rounded once")
+    because = (f"Taylor series in {found.digits[0]} and {found.digits[1]} digits differ by "
+               f"{found.error.max():.0e}; rounded once")
     run = Simulation(times, parts, "exact", MANY, None, counters={"multiplications": found.work},
                      reason=because, validity=validity)
     return _told(run, asked, error, because)

@@ -151,9 +151,8 @@ def _pair(value: Any, name: str) -> tuple[Any, Any]:
     try:
         axis, most = value
     except (TypeError, ValueError):
-        raise InputError(
-            f"{name}: expected (axis, limit), the axis 1, 2, 3 or three numbers along it, got "
-            f"{value!r:.80}") from None
+        raise InputError(f"{name}: expected (axis, limit), the axis 1, 2, 3 or three numbers along it, got "
+                         f"{value!r:.80}") from None
     return axis, most
 
 

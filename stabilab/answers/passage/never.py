@@ -64,9 +64,8 @@ def by_clock(scene: AnyScene, state: Float3, limit: Limit, followed: float, reac
     if found.level == "certified" and times[0] > found.t:
         found, times = _narrower(scene, state, limit, found, times, reached)
     low = max(followed, times[0]) if sure else followed
-    words = (
-        f"{limit.words}: by the clock of the spin-up about axis {found.axis}, {found.level} from t = "
-        f"{found.t:.6g} {scene.time_unit} on")
+    words = (f"{limit.words}: by the clock of the spin-up about axis {found.axis}, {found.level} from t = "
+             f"{found.t:.6g} {scene.time_unit} on")
     return Found(low, max(times[1], low), found.level, words)
 
 

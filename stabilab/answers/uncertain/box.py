@@ -128,8 +128,7 @@ def box_of(case: Any) -> Box:
     """The box of a Case. Raises InputError for scenes beyond a gyrostat under a constant torque."""
     if not case.scene.plain:
         raise InputError("what uncertain numbers do to the verdicts is known for a gyrostat under a constant "
-                         "torque alone; "
-                         "this scene has other effects")
+                         "torque alone; this scene has other effects")
     middle = {}
     oblique = case.frame if case.frame is not None and not case.frame.as_given else None
     if oblique:
@@ -195,8 +194,7 @@ def _scalable(box: Box) -> None:
                          "need: give the torque in N m and the motion as angular_velocity")
     if box.variables == "scaled" and any(box.half["momentum"][1:]):
         raise InputError("the scaled variables need the gyrostatic moment along axis 1, without uncertainty "
-                         "across it: use "
-                         "physical variables")
+                         "across it: use physical variables")
 
 
 def _name(path: tuple[Any, ...]) -> str:

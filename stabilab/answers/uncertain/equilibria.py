@@ -82,8 +82,7 @@ def _balance(box: Box, numbers: Numbers, form: QuadraticForm) -> tuple[Triple, T
 def _free(D: Sequence[Number], lam: Sequence[Number]) -> list[Condition]:
     if any(map(present, lam)):
         raise Unknown("without a torque, and with a gyrostatic moment, the stability along the curve of "
-                      "equilibria is not "
-                      "followed over a box")
+                      "equilibria is not followed over a box")
     pairs = [(i, j) for i, j in ((0, 1), (1, 2), (2, 0)) if present(D[i] - D[j])]
     return [Condition(D[i] - D[j], f"moments {i + 1} and {j + 1} are equal") for i, j in pairs]
 

@@ -33,9 +33,8 @@ from .normal_form import NAMES, check, constants, normal_form
 
 RTOL = 1e-10  # the equations themselves are true to eps^2 at best
 # Width of the band of slow turn in which phases are kept, as a share of (|d| |omega| + |Gamma|)/J0: in powers
-# of e it
-# is of order one, as the second order needs; at twice the width from nu = 0 the kept part is exp(-16), at 2.5
-# times 1e-17.
+# of e it is of order one, as the second order needs; at twice the width from nu = 0 the kept part is
+# exp(-16), at 2.5 times 1e-17.
 SHARE = 0.4
 # A removed harmonic leaves about (its rate)/nu of the state: within this many times the rate of nu = 0 it is
 # kept.
@@ -181,8 +180,7 @@ class Smallness:
         worst, reach = ratios[largest], f"t = {1 / self.slow:.3g} s" if self.slow else "all times"
         doubt = f"; doubtful here, for {largest} is {worst:.2g}" if worst > 0.3 else ""
         return (f"errors of order eps^{order} (eps = {self.eps:.3g}) in amplitude and spin up to about "
-                f"{reach} (the time of "
-                f"the slow change), in the phase they grow with time{doubt}")
+                f"{reach} (the time of the slow change), in the phase they grow with time{doubt}")
 
 
 def _over(a, b):
@@ -252,9 +250,8 @@ class _Model:
         if np.abs(miss).max() < 1e-13 * scale:
             return y
         raise InputError("averaging to second order needs smaller disturbances: the change of the initial "
-                         "values to averaged "
-                         f"variables does not converge (off by {np.abs(miss).max():.2g} rad/s); use order 1 "
-                         f"or the exact motion")
+                         f"values to averaged variables does not converge (off by {np.abs(miss).max():.2g} "
+                         "rad/s); use order 1 or the exact motion")
 
     def rates(self, t, y):
         """Rates of (Re W, Im W, r, psi), or of (log |W|, arg W, r, psi); none where an amplitude leaves the
@@ -345,7 +342,6 @@ def polar(scene, state, times) -> dict[str, np.ndarray]:
                     t_eval=times, rtol=FALLBACK_RTOL,
                     atol=FALLBACK_RTOL)
     if not run.success:
-        raise InputError(
-            f"amplitude and phase: the run stopped at t = {run.t[-1] if len(run.t) else 0:.6g} s: "
-            f"{run.message}")
+        raise InputError(f"amplitude and phase: the run stopped at t = {run.t[-1] if len(run.t) else 0:.6g} "
+                         f"s: {run.message}")
     return {"amplitude": np.exp(run.y[0]), "spin": run.y[2], "phase": run.y[1]}

@@ -76,9 +76,8 @@ class Polynomials:
         d1, d2 = float(exact[0] - exact[2]), float(exact[1] - exact[2])
         x1, x2 = d1 * r - n["Gamma"], d2 * r - n["Gamma"]
         if not x1 * x2 > 0:
-            raise InputError(f"the printed solution does not exist here: it needs (D1'r - g)(D2'r - g) > 0 "
-                             f"at the start, got "
-                             f"{x1 * x2:.3g}")
+            raise InputError("the printed solution does not exist here: it needs (D1'r - g)(D2'r - g) > 0 at "
+                             f"the start, got {x1 * x2:.3g}")
         formula, om = formulas(), math.sqrt(x1 * x2) / n["J0"]
         # eps = 1, so that d1, d2 are the differences themselves; lambda of (24) and B' of (25) read as zeta
         # and D2'

@@ -71,14 +71,12 @@ def constants(scene) -> dict:
 def check(scene):
     """Raises InputError where the scene is not of the kind that the averaging is about."""
     if scene.variables == "scaled":
-        raise InputError(
-            "averaging needs a physical scene (a body with a liquid, resistance, small torques), got a "
-            "scaled one")
+        raise InputError("averaging needs a physical scene (a body with a liquid, resistance, small "
+                         "torques), got a scaled one")
     other = [e.name for e in scene.effects if e.name not in ALLOWED]
     if other:
-        raise InputError(
-            f"averaging covers {', '.join(map(effect_words, sorted(ALLOWED)))}; the scene also has "
-            f"{', '.join(map(effect_words, other))}")
+        raise InputError(f"averaging covers {', '.join(map(effect_words, sorted(ALLOWED)))}; the scene also "
+                         f"has {', '.join(map(effect_words, other))}")
     if len(scene.blocks) > 1:
         raise InputError('averaging needs a constant angle of the charge (the angular velocity alone as '
                          'state), got angle = '
@@ -109,9 +107,8 @@ def _normal_form(state, rhs, items) -> NormalForm:
     fields = [tuple(expand(f.subs(into)) for f in (x - I * y, z)) for x, y, z in fields]
     nu = expand(fields[0][0] / (I * Z))  # (d r - Gamma)/J0
     if nu.has(Z, Zc) or fields[0][1] != 0 or nu.diff(r, 2) != 0:
-        raise InputError(
-            "averaging needs equations whose first order is a turn about axis 3; the effects of this scene "
-            "give another")
+        raise InputError("averaging needs equations whose first order is a turn about axis 3; the effects of "
+                         "this scene give another")
     slope = nu.diff(r)
 
     def by_r(f):  # m depends on r through nu
@@ -322,11 +319,9 @@ def _families(alpha, rho0, rho1):
         if rho1.eval(r) == 0 and rho0.eval(r) == 0:
             rate = float(rho1.diff().eval(r))
             yield (f"the angular velocities with r = {float(r):.10g} and any A: the turn stands still there; "
-                   f"a neighbour comes "
-                   f"back at the rate {-rate:.10g} A^2 1/s (A in rad/s)" if rate < 0 else
+                   f"a neighbour comes back at the rate {-rate:.10g} A^2 1/s (A in rad/s)" if rate < 0 else
                    f"the angular velocities with r = {float(r):.10g} and any A: the turn stands still there; "
-                   f"a neighbour leaves "
-                   f"at the rate {rate:.10g} A^2 1/s (A in rad/s)")
+                   f"a neighbour leaves at the rate {rate:.10g} A^2 1/s (A in rad/s)")
 
 
 def _words(polynomial):
@@ -344,8 +339,7 @@ def _reason(numbers, points, families):
                      else "there is none")
     if numbers["M1"] or numbers["M2"]:
         parts.append("the torques M1, M2 average out: the true motion keeps a small oscillation of the size "
-                     "M/(J0 nu), and is "
-                     "not covered near nu = 0")
+                     "M/(J0 nu), and is not covered near nu = 0")
     if numbers["h"]:
         parts.append("D1 - D2 averages out as long as nu is much larger than |D1 - D2| |omega|/(2 J0)")
     return "; ".join(parts)

@@ -211,9 +211,8 @@ def times(t):
 
 def verdict(tilt, t, until, small):
     """Status and reason of a motion with this tilt at the times t."""
-    promise = (
-        f"a tilt of {small:g} rad is not reached before t = {np.min(until):.6g} s (estimate from the torque "
-        f"and the start)")
+    promise = (f"a tilt of {small:g} rad is not reached before t = {np.min(until):.6g} s (estimate from the "
+               "torque and the start)")
     if np.all(np.isinf(until)):
         promise = f"the tilt stays below {small:g} rad for all time"
     if np.all(tilt <= small):

@@ -1,7 +1,6 @@
 """Where the charged axisymmetric body points on average, and how its spin angle runs away from r0 t.
 
-Read off the four rotating parts of the tilt (`modes.tilt_parts`), for frequencies 0, r0, w that
-differ.
+Read off the four rotating parts of the tilt (`modes.tilt_parts`), for frequencies 0, r0, w that differ.
 """
 from __future__ import annotations
 

@@ -119,9 +119,8 @@ def numbers(body: ChargedBody, t) -> dict:
     D1, D2, D3 = np.moveaxis(body.inertia, -1, 0)
     zeta1, zeta2, r0 = (D3 - D2) / D1, (D3 - D1) / D2, body.spin
     if np.any((zeta1 <= 0) | (zeta2 <= 0)):
-        raise InputError(
-            f"the printed formulas take roots of zeta1 and zeta2: D3 must exceed D1 and D2; got "
-            f"{np.asarray(body.inertia).tolist()}")
+        raise InputError("the printed formulas take roots of zeta1 and zeta2: D3 must exceed D1 and D2; got "
+                         f"{np.asarray(body.inertia).tolist()}")
     root1, root2, Lam = np.sqrt(zeta1), np.sqrt(zeta2), body.gyrostat - body.charge_moment
     if np.any(root1 * root2 * (r0 + Lam / (zeta1 * D1)) == 0):
         raise InputError("W = 0: the printed formulas divide by their frequency (8), which is zero here")

@@ -181,8 +181,7 @@ def largest_tilt(body: ChargedBody):
     where it grows.
 
     For D1 = D2 and r0/w irrational the motion comes as near to it as one likes. From rest and for D1 = D2 it
-    is
-    2 |M/D| / (product of the two smallest among |r0|, |w|, |r0 + w|).
+    is 2 |M/D| / (product of the two smallest among |r0|, |w|, |r0 + w|).
     """
     parts = tilt_parts(body)
     at_start = np.abs(body.attitude[..., 0] + 1j * body.attitude[..., 1])
@@ -198,9 +197,8 @@ def spin_words(body: ChargedBody, omega, t) -> str:
         return "D1 = D2: r is constant and p, q are those of Euler's equations"
     change = (abs(D1 - D2) / (2 * D3) * float((omega[..., 0]**2 + omega[..., 1]**2).max(initial=0.0))
               * float(np.abs(t).max(initial=0.0)))
-    return (
-        f"r is held at r0; with D1 - D2 = {D1 - D2:.6g} kg m^2 it changes by {change:.2g} rad/s at most over "
-        f"these times, by the model's p and q")
+    return (f"r is held at r0; with D1 - D2 = {D1 - D2:.6g} kg m^2 it changes by {change:.2g} rad/s at most "
+            "over these times, by the model's p and q")
 
 
 @dataclass(frozen=True, eq=False)

@@ -167,9 +167,8 @@ def read(path: Path) -> Paper:
     seen: dict = {}
     for row in rows:
         if row.equation in seen:
-            raise InputError(
-                f"{row.place}: equation {row.equation} has a row already ({seen[row.equation]}): give each "
-                f"its own name, as 18-a")
+            raise InputError(f"{row.place}: equation {row.equation} has a row already "
+                             f"({seen[row.equation]}): give each its own name, as 18-a")
         seen[row.equation] = row.place
     paper = Paper(data.get("name", path.stem), data.get("title", path.stem), symbols, units, definitions,
                   formulas, data.get("systems", {}), tuple(data.get("conditions", ())),
@@ -187,9 +186,8 @@ def _formulas(table, symbols, file) -> dict:
     out: dict = {}
     for name, text in table.items():
         if not name.isidentifier() or name in symbols:
-            raise InputError(
-                f"{file}, formulas: {name!r} is "
-                f"{'a symbol already' if name in symbols else 'no name (letters, digits, _)'}")
+            raise InputError(f"{file}, formulas: {name!r} is "
+                             f"{'a symbol already' if name in symbols else 'no name (letters, digits, _)'}")
         out[name] = _expanded(text, out)
     return out
 
@@ -309,7 +307,6 @@ def paper(name: str) -> Paper:
     if name.endswith(".toml"):
         return read(Path(name))
     if name not in papers():
-        raise InputError(
-            f"unknown paper {name!r}: known are {', '.join(papers())}; a file of claims of your own ends in "
-            f".toml (docs/audit.md)")
+        raise InputError(f"unknown paper {name!r}: known are {', '.join(papers())}; a file of claims of your "
+                         "own ends in .toml (docs/audit.md)")
     return read(FOLDER / f"{name}.toml")

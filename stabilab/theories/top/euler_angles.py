@@ -13,8 +13,7 @@ of their own, but psi + phi has at theta = 0 and psi - phi at theta = pi. What i
 follows by taking off phi. At a sample with sin theta < 1e-8 phi keeps its last value; `status` is then
 "singular" and `reason` says when.
 
-Classical Euler angles psi, theta, phi of a run, followed through whole turns however far apart its times
-are.
+Classical Euler angles psi, theta, phi of a run, followed through whole turns however far apart its times are.
 """
 from __future__ import annotations
 
@@ -56,9 +55,8 @@ def euler_angles(t, omega, gamma, psi0: float = 0.0) -> EulerAngles:
     """
     t, omega, gamma = (np.asarray(x, float) for x in (t, omega, gamma))
     if t.ndim != 1 or not t.size or omega.shape != (t.size, 3) or gamma.shape != (t.size, 3):
-        raise InputError(
-            f"expected t (n,), omega (n, 3), gamma (n, 3); got shapes {t.shape}, {omega.shape}, "
-            f"{gamma.shape}")
+        raise InputError(f"expected t (n,), omega (n, 3), gamma (n, 3); got shapes {t.shape}, {omega.shape}, "
+                         f"{gamma.shape}")
     if not (np.diff(t) > 0).all():
         raise InputError("t: expected strictly increasing times")
     gamma = _unit(gamma)
@@ -83,8 +81,7 @@ def _theta(gamma):
 def _verdict(times, error):
     if times.size:
         return "singular", (f"theta is 0 or pi at t = {times[0]:.6g} s: there only the sum (or difference) "
-                            f"of psi and phi means "
-                            "something; phi keeps its last value")
+                            "of psi and phi means something; phi keeps its last value")
     if error > COARSE:
         return "coarse", f"the samples are too far apart: psi is known to about {error:.2g} rad"
     return "regular", "theta stays away from 0 and pi at all samples"
@@ -198,9 +195,8 @@ def mean_precession(motion) -> float:
     turn = _revolution(motion)
     gamma = _unit(motion.at(turn.s / motion.frequency)[1])
     if (np.hypot(gamma[:, 0], gamma[:, 1]) < SINGULAR).mean() > 0.5:
-        raise InputError(
-            "the axis stays within 1e-8 rad of the vertical: psi has no rate of its own there; start "
-            "further off")
+        raise InputError("the axis stays within 1e-8 rad of the vertical: psi has no rate of its own there; "
+                         "start further off")
     return motion.frequency * (turn.mean - turn.sign * turn.winding / (2 * np.pi))
 
 

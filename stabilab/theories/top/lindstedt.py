@@ -38,9 +38,8 @@ from .scaling import fast_top
 
 ROUNDED = 3  # digits lost to rounding: a forcing whose share of the largest one lies below the others is none
 # Where the weight's tilt sin(theta0) is below what the first orders add to it, the orders of nu are small
-# differences over the
-# tilt: each order loses that ratio, so they are formed in many digits. A top that needs it for more is not
-# fast.
+# differences over the tilt: each order loses that ratio, so they are formed in many digits. A top that needs
+# it for more is not fast.
 SMALL_TILT = 0.5
 LEAST_TILT = 1e-18  # stands for a weight along axis 3 exactly; the series is continuous there
 
@@ -414,8 +413,7 @@ def _verdict(top, expansion, near, order, ahead, residual):
             f"{words}: the top is not fast enough for this expansion (small parameter {expansion.size:.3g})")
     elif expansion.order >= 0:
         reasons.append(f"the series misses the equations of motion by {residual:.2g} of the spin, so it may "
-                       f"be off by "
-                       f"{2 * np.pi * residual:.2g} after a revolution; its last terms are "
+                       f"be off by {2 * np.pi * residual:.2g} after a revolution; its last terms are "
                        f"{', '.join(f'{x:.2g}' for x in expansion.terms[-2:])}")
     if top.Omega2 < 0:
         status = "unstable"
@@ -441,13 +439,11 @@ def _diverging(terms, ahead, residual) -> str:
     if len(terms) > 1 and terms[-1] > 0 and terms[-1] >= max(terms[-3:-1]):
         return f"the terms do not fall ({', '.join(f'{x:.3g}' for x in terms[-3:])})"
     if ahead and max(ahead) > 0 and max(ahead) >= kept:
-        return (
-            f"the terms do not fall ({', '.join(f'{x:.3g}' for x in terms[-2:])}, then "
-            f"{', '.join(f'{x:.3g}' for x in ahead)})")
+        return (f"the terms do not fall ({', '.join(f'{x:.3g}' for x in terms[-2:])}, then "
+                f"{', '.join(f'{x:.3g}' for x in ahead)})")
     if residual >= kept:
-        return (
-            f"the series misses the equations of motion by {residual:.3g} of the spin, no less than its last "
-            f"terms, {kept:.3g}")
+        return (f"the series misses the equations of motion by {residual:.3g} of the spin, no less than its "
+                f"last terms, {kept:.3g}")
     return ""
 
 
@@ -457,9 +453,7 @@ def _how_far(departure, wobble, left_out, r0, status) -> str:
     if status == "diverging":
         return f"the start's {differ} from a series that does not converge there"
     if float(np.hypot(*wobble)) <= left_out + ROUNDING * r0:
-        return (
-            f"the start lies on the periodic motion to within what this order leaves out there, "
-            f"{left_out:.2g} rad/s")
-    return (
-        f"the start is not on the periodic motion: {differ}, a free wobble of that size which the expansion "
-        f"leaves out")
+        return ("the start lies on the periodic motion to within what this order leaves out there, "
+                f"{left_out:.2g} rad/s")
+    return (f"the start is not on the periodic motion: {differ}, a free wobble of that size which the "
+            "expansion leaves out")

@@ -1,7 +1,6 @@
 """The analytic model of a fast top, corrected and as printed.
 
-The fast top's first approximation as Amer et al. 2023 (fast top) print it: eqs. (4), (10), (41), (42),
-(43).
+The fast top's first approximation as Amer et al. 2023 (fast top) print it: eqs. (4), (10), (41), (42), (43).
 
 For comparison only. The formulas are those of the audit's file on the paper
 (`theories/printed/papers/newtonian-field-top.toml`), which holds each against the equations of motion. What
@@ -92,13 +91,11 @@ def paper_numbers(scene, state) -> PaperNumbers:
     gamma0 = float(top.gamma[2])
     if not any(top.force) or gamma0 <= 0:
         raise InputError("the printed solution divides by sqrt(M g L gamma0''): it needs gravity and a third "
-                         "component of gamma "
-                         f"above 0, got M g L/(C r0^2) = {math.hypot(*map(float, top.force)):g} and gamma0'' "
-                         f"= {gamma0:g}")
+                         "component of gamma above 0, got M g L/(C r0^2) = "
+                         f"{math.hypot(*map(float, top.force)):g} and gamma0'' = {gamma0:g}")
     if top.tilt[1]:
-        raise InputError(
-            "the printed solution has the gyrostatic moment (l_x, 0, l_z); the scene's has a second "
-            "component")
+        raise InputError("the printed solution has the gyrostatic moment (l_x, 0, l_z); the scene's has a "
+                         "second component")
     r0, a, b, lz = float(top.r0), float(top.a), float(top.b), float(top.wheel)
     length = math.hypot(*map(float, top.force))
     x, y, z = (float(f) / length for f in top.force)

@@ -76,14 +76,12 @@ def fast_top(scene, state) -> FastTop:
     other = [e.name for e in scene.effects if e.name not in COVERED]
     if other or scene.variables != "physical":
         raise InputError("the expansion of the fast top covers gravity, a Newtonian field and a gyrostat; "
-                         "the scene has "
-                         f"{', '.join(other) or 'scaled variables'}")
+                         f"the scene has {', '.join(other) or 'scaled variables'}")
     omega, gamma = _start(state)
     r0 = omega[2]
     if r0 == 0:
-        raise InputError(
-            "angular_velocity: the third component is 0; the expansion is about a fast rotation around "
-            "axis 3")
+        raise InputError("angular_velocity: the third component is 0; the expansion is about a fast rotation "
+                         "around axis 3")
     A, B, C = scene.body.exact
     weight, field = scene.effect("gravity"), scene.effect("newtonian_field")
     arm = weight.exact if weight else (Fraction(0),) * 3

@@ -67,9 +67,8 @@ def _check(claims: Claims, note, work: Work) -> None:
         _check_event(event, places, changes, left, note)
     _check_pieces(claims, places, changes, note)
     missed = sorted(_near(places[n].root) for n in left)
-    between = (
-        f"{sum(p.root is not None for p in places)} critical values, {sum(p.root is None for p in places)} "
-        f"counts between them")
+    between = (f"{sum(p.root is not None for p in places)} critical values, "
+               f"{sum(p.root is None for p in places)} counts between them")
     told = f"near {', '.join(missed)} the number changes too" if missed else f"trace forms: {between}"
     note("the events are complete", "refuted" if missed else "proved", told)
 

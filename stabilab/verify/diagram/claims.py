@@ -110,9 +110,8 @@ def _piece(table, where: str, counted: str) -> Piece:
     count = _whole(table, "equilibria", where) if field(table, "equilibria", where) is not None else None
     stable = _whole(table, "stable", where) if field(table, "stable", where) is not None else None
     if (stable is None) != (counted == "borders" or count is None):
-        raise Malformed(
-            f"{where}.stable: expected how many of the equilibria are stable, and none where these are "
-            f"endless or changes of stability")
+        raise Malformed(f"{where}.stable: expected how many of the equilibria are stable, and none where "
+                        "these are endless or changes of stability")
     return Piece(count, stable)
 
 
@@ -124,9 +123,8 @@ def _in_order(events, pieces, low: Fraction, high: Fraction) -> None:
         raise Malformed("events: expected them rising, apart from one another and inside the range")
     ends = sum(e.low == e.high == end for e in events for end in (low, high))
     if len(pieces) != len(events) + 1 - ends:
-        raise Malformed(
-            f"pieces: expected {len(events) + 1 - ends}, before, between and after the events, got "
-            f"{len(pieces)}")
+        raise Malformed(f"pieces: expected {len(events) + 1 - ends}, before, between and after the events, "
+                        f"got {len(pieces)}")
 
 
 def is_one(certificate: dict) -> bool:
@@ -150,9 +148,8 @@ def line(told: dict) -> str:
     low, high = (brief(number(end, "range")) for end in told["range"])
     keys = [key for key, _ in PLACES[told["variables"]]] + (["state"] if "state" in told else [])
     varying = [key for key in keys if any(len(row) > 1 for row in told[key])]
-    return (
-        f"about: {', '.join(varying) or 'nothing'} as {_plain(told['number'])} goes from {low} to {high}; "
-        f"{_fixed(told, keys)}")
+    return (f"about: {', '.join(varying) or 'nothing'} as {_plain(told['number'])} goes from {low} to "
+            f"{high}; {_fixed(told, keys)}")
 
 
 def _plain(name: str) -> str:
@@ -176,9 +173,8 @@ def differences(told: dict, case: dict) -> list[str]:
         for n, (row, value) in enumerate(zip(told[key], values), 1):
             apart = _apart(row, value)
             if apart is None or apart.degree() == 0:
-                out.append(
-                    f"{key}[{n}]: the certificate's {' '.join(row):.80}, the case's "
-                    f"{value if value is not None else 'none'}")
+                out.append(f"{key}[{n}]: the certificate's {' '.join(row):.80}, the case's "
+                           f"{value if value is not None else 'none'}")
             elif apart != 0:
                 common = apart if common is None else common.gcd(apart)
     if not out and common is not None and not any(factor.degree() == 1 for factor, _ in common.factor()[1]):
