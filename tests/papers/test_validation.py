@@ -108,7 +108,7 @@ def test_apophis_is_given_the_energy_and_the_precession_that_are_published():
 
 def test_the_moon_has_the_ratios_that_are_published_and_the_frequencies_of_debra_and_delp():
     """Pitch n sqrt(3 (B - A)/C); the roots of roll and yaw by the quadratic of DeBra and Delp 1961."""
-    from math import pi, sqrt
+    from math import sqrt
     A, B, C = (float(v) for v in re.findall(r'"([\d.]+)"', source("moon").printed[0].motion.case)[:3])
     assert ((C - A) / B, (B - A) / C) == pytest.approx((631.1e-6, 226.8e-6), abs=1e-12)
     roll, yaw = (C - A) / B, (C - B) / A  # the vertical is along A
