@@ -164,8 +164,8 @@ def _cut(size: float, box: Box) -> Iterable[list[Point]]:
             ends |= {turn % math.tau for known in turns for turn in (known, opposite - known)}
         for low, high in pairwise(sorted(ends)):
             steps = 2 * max(1, math.ceil(ARC * (high - low)))
-            arc = [(*at[:axis], level, *at[axis:]) for turn in spread(low, high, steps + 1)
-                   for at in [(radius * math.cos(turn), radius * math.sin(turn))]]
+            arc: list[Point] = [(*at[:axis], level, *at[axis:]) for turn in spread(low, high, steps + 1)
+                                for at in [(radius * math.cos(turn), radius * math.sin(turn))]]
             if box.holds(arc[steps // 2]):
                 yield arc
 
