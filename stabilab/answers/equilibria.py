@@ -18,6 +18,7 @@ BY_KIND = {
     "dissipative": ("dissipative", "dissipative_equilibria"),
     "directed": ("field_states", "directed_equilibria"),
     "directed and dissipative": ("dissipative", "held_in_a_field"),
+    "eddy currents": ("eddy", "eddy_equilibria"),
 }
 
 

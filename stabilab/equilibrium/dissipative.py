@@ -24,12 +24,11 @@ from fractions import Fraction
 
 from ..numbers.balls import many_digits
 from ..numbers.polynomial import Poly, real_roots
+from ..numbers.principal import SLACK, principal_minors
 from ..numbers.vectors import CYCLE, dot
 from ..physics.coefficients import Content
-from ..physics.effects.rate_damper import SLACK, principal_minors
 from ..physics.scene import euler_form
 from .damper import damped_equilibria
-from .eddy import eddy_equilibria
 from .field_balance import Field, blocks, rotations_at
 from .field_states import around
 from .liquid import balanced_equilibria, liquid_equilibria
@@ -263,8 +262,6 @@ def held_in_a_field(parts: Content) -> Equilibria:
                           "charge enters the liquid's own "
                                        "torque, and equilibria beyond those of the body without liquid are "
                                        "not excluded")
-    if parts.eddy:
-        return eddy_equilibria(parts)
     if parts.damped and not decay(parts):
         return Equilibria("undecided", PARTLY)
     if any(parts.M):

@@ -30,8 +30,8 @@ SPHERE = "all moments are equal: rotation across the field decays, and the attit
 
 def eddy_equilibria(parts: Content) -> Equilibria:
     """Rotations about the field and rest, of the body alone; undecided beside anything else."""
-    if (any(parts.M) or any(parts.Lambda) or parts.c or parts.damped or parts.kappa or any(parts.s) or parts.N
-            or parts.E):
+    if (any(parts.M) or any(parts.Lambda) or parts.c or parts.damped or parts.inside or parts.kappa
+            or any(parts.s) or parts.N or parts.E):
         return Equilibria("undecided", "undecided: of eddy currents beside wheels, a torque, a medium, a "
                                        "damper, a liquid or another field not all equilibria are known")
     curves = [_rotations(parts, i, sign) for i in range(3) for sign in (1, -1)]

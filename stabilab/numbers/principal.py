@@ -8,9 +8,10 @@ and the gaps (Davis and Kahan 1970).
 """
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from itertools import combinations
 from typing import TypeAlias
 
 from ..errors import InputError
@@ -26,6 +27,8 @@ IDENTITY = tuple(tuple(Fraction(i == j) for j in range(3)) for i in range(3))
 NAMES = "xyz"
 # of a vector: a component as small is what irrational axes, good to BITS, leave of zero
 NOTHING = Fraction(1, 1 << 200)
+# of the largest entry of a matrix that was turned and written again: what counts as zero
+SLACK = Fraction(1, 1 << 100)
 
 
 @dataclass(frozen=True)
@@ -92,6 +95,16 @@ def evened(rows: Rows, share: Fraction) -> Rows:
     slack = share * max(abs(v) for row in rows for v in row)
     return [[(v + rows[j][i]) / 2 if abs(v - rows[j][i]) <= slack else v for j, v in enumerate(row)] for i,
             row in enumerate(rows)]
+
+
+def principal_minors(rows: Sequence[Sequence[Number]]) -> Iterator[tuple[int, Number]]:
+    """(order, value) of the seven principal minors of a 3 x 3 matrix of any numbers."""
+    for i in range(3):
+        yield 1, rows[i][i]
+    for i, j in combinations(range(3), 2):
+        yield 2, rows[i][i] * rows[j][j] - rows[i][j] * rows[j][i]
+    (a, b, c), (d, e, f), (g, h, k) = rows
+    yield 3, a * (e * k - f * h) - b * (d * k - f * g) + c * (d * h - e * g)
 
 
 def fault_of(rows: Rows) -> str | None:

@@ -98,7 +98,10 @@ class Content:
 
     @property
     def kind(self) -> str:
-        """"gyrostat" (Lambda and M alone), "dissipative", "directed" or "directed and dissipative"."""
+        """"gyrostat" (Lambda and M alone), "dissipative", "directed", "directed and dissipative" or "eddy
+        currents", whatever acts besides."""
+        if self.eddy:
+            return "eddy currents"
         words = [word for word, there in (("directed", self.directed), ("dissipative", self.dissipative))
                  if there]
         return " and ".join(words) or "gyrostat"

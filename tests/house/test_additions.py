@@ -10,6 +10,7 @@ import sys
 
 import pytest
 
+from stabilab.physics.effects import REGISTRY, effect_class
 from tests.house.rooms import PACKAGE
 
 KIND = '''"""A sphere without wheel and torque: whatever its rates are, they stay."""
@@ -81,6 +82,18 @@ told["many"] = [stabilab.fate(sphere, [state]).labels.tolist(), stabilab.extreme
 told["satellite"] = repr(vars(stabilab.motion(satellite, state)))
 print(json.dumps(told))
 """
+
+
+def test_every_effect_is_one_file_and_one_row_of_the_registry():
+    """And nothing that derives, compiles or integrates equations of motion names the two that damp from outside."""
+    files = {path.stem for path in (PACKAGE / "physics/effects").glob("*.py")} - {"__init__", "base"}
+    assert files == {module for module, _ in REGISTRY.values()} and len(files) == len(REGISTRY)
+    assert all(effect_class(name).name == name for name in REGISTRY)
+    rooms = [*(PACKAGE / "integrate").rglob("*.py"), *(PACKAGE / "case").rglob("*.py"),
+             *(PACKAGE / f"physics/{name}.py" for name in ("equations", "to_numpy", "scene", "states"))]
+    naming = {path.name for path in rooms for name in ("rate_damper", "eddy_currents")
+              if name in path.read_text(encoding="utf-8")}
+    assert not naming
 
 
 def added(package, file, text, row):

@@ -1,7 +1,7 @@
 """A linear damper: a torque of the outside against the angular velocity."""
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from itertools import combinations
@@ -9,12 +9,11 @@ from typing import Any, ClassVar
 
 from ...errors import InputError
 from ...numbers.exact import floats
-from ...numbers.principal import PrincipalAxes, evened
+from ...numbers.principal import SLACK, PrincipalAxes, evened, principal_minors
 from ...numbers.units import MOMENTUM, in_si, vector_in_si
 from ...numbers.vectors import Exact3, Given, Number, Triple, dot
 from .base import Effect
 
-SLACK = Fraction(1, 1 << 100)  # of the largest entry: far above what irrational axes leave of a zero
 ENTRIES = {"C11": (0, 0), "C22": (1, 1), "C33": (2, 2), "C12": (0, 1), "C13": (0, 2), "C23": (1, 2)}
 
 
@@ -83,16 +82,6 @@ def _rows(given: Any) -> tuple[Exact3, ...]:
         return tuple(vector_in_si(row, MOMENTUM, "coefficient") for row in rows)
     diagonal = vector_in_si(rows, MOMENTUM, "coefficient")
     return tuple(tuple(diagonal[i] if i == j else Fraction(0) for j in range(3)) for i in range(3))
-
-
-def principal_minors(rows: Sequence[Sequence[Number]]) -> Iterator[tuple[int, Number]]:
-    """(order, value) of the seven principal minors of a 3 x 3 matrix of any numbers."""
-    for i in range(3):
-        yield 1, rows[i][i]
-    for i, j in combinations(range(3), 2):
-        yield 2, rows[i][i] * rows[j][j] - rows[i][j] * rows[j][i]
-    (a, b, c), (d, e, f), (g, h, k) = rows
-    yield 3, a * (e * k - f * h) - b * (d * k - f * g) + c * (d * h - e * g)
 
 
 def fault_of(rows: Sequence[Exact3]) -> str:

@@ -17,6 +17,7 @@ from stabilab import (
     LiquidCavity,
     RateDamper,
     Scene,
+    ViscousDamper,
     equilibria,
     flat_spin,
     load,
@@ -151,12 +152,13 @@ def test_a_body_in_a_field_ends_about_the_field_as_it_says():
 
 
 @pytest.mark.parametrize("others", [(ConstantTorque((1, 0, 0)),), (Gravity(1, (0, 0, 1)),), (Gyrostat((1, 0, 0)),),
-                                    (LiquidCavity(1, 1, 1),), (RateDamper("0.1"),)])
+                                    (LiquidCavity(1, 1, 1),), (RateDamper("0.1"),),
+                                    (ViscousDamper("0.1", 1),)])
 def test_eddy_currents_beside_others_are_bounded_or_open_but_never_wrong(others):
     scene, start = Scene(Body((3, 2, 1)), EddyCurrents("0.1", 1), *others), (1, 2, 3, 0, 0, 1)
     assert equilibria(scene).kind == "undecided"
     found = motion(scene, start)
-    open_ = others[0].name in ("constant_torque", "liquid_cavity")
+    open_ = others[0].name in ("constant_torque", "liquid_cavity", "viscous_damper")
     assert (found.fate == Fate.UNDECIDED) == open_ and ("rate_bound" in found.invariants) != open_
 
 
