@@ -16,6 +16,7 @@ from stabilab.show import style
 from stabilab.show.plot.in_space import space_of
 from stabilab.show.plot.path import thinned
 from stabilab.show.plot.subject import subject
+from stabilab.show.report.one_case import pictures as drawn
 from stabilab.show.report.one_case import space, sweep
 from stabilab.show.report.one_case.page import equations, sections
 from stabilab.show.report.one_case.tables import equilibrium_table as table
@@ -53,8 +54,9 @@ def test_a_top_has_its_fate_and_says_that_it_has_no_phase_plane(tmp_path):
                                                                                "Analytic models beside the "
                                                                                "exact motion"]
     assert all((tmp_path / picture["file"]).exists() for picture in page["pictures"])
-    assert [what for what, _ in page["absent"]] == ["Phase plane, Reduced potential",
-                                                 "The surface on which the motion stays"]
+    assert [what for what, _ in page["absent"]] == [
+        "Phase plane, Reduced potential", "The surface on which the motion stays",
+        "Time to the limit against the tilt, Time gained by another momentum of a wheel"]
     assert page["space"]["reason"].startswith("no separatrix is drawn: ")
 
 
@@ -500,6 +502,20 @@ def test_a_margin_to_other_bounded_motions_is_not_told_as_one_that_changes_the_f
                        ("minor-axis-100", False)):
         (row,) = _sections(name, tmp_path)["sensitivity"]["rows"]
         assert ("does not change the fate" in row["because"]) == same
+
+
+@pytest.mark.parametrize("name, kinds", [
+    ("cubesat-3u", {"time", "tilt", "wheel", "body"}), ("torque-free-body", {"time", "phase", "potential", "sphere",
+                                                                             "equilibria"}),
+    ("symmetric-spin-up", {"time", "phase", "potential", "body"})])
+def test_a_page_has_the_pictures_that_no_other_part_of_it_makes_redundant(name, kinds, tmp_path, monkeypatch):
+    """Of cubesat-3u two single equilibria stand in the table; the plane of symmetric-spin-up is what its
+    cylinder would show; nothing acts on the body without a torque."""
+    monkeypatch.setattr(drawn.to_file, "write_all", lambda one, path, *given, **named: [path])
+    monkeypatch.setattr(drawn, "picture", lambda made, *given, **words: words)
+    case = load(CASES / f"{name}.toml")
+    found = drawn.pictures(subject(case), tmp_path, name, True, at_rest=equilibria(case.scene))
+    assert {one["kind"] for one in found} == kinds
 
 
 @pytest.mark.parametrize("name, limit", [("cubesat-3u", 60.0), ("upper-stage", 120.0), ("space-station", 0.5)])

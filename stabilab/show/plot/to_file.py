@@ -42,7 +42,8 @@ def write(case: Any, path: str | Path, kind: str | None = None, size: tuple[floa
 
 def write_all(case: Any, path: str | Path, kind: str | None = None, size: tuple[float, float] | None = None,
               dpi: float | None = None, units: str | None = None, span: Any = None,
-              neighbours: int | None = None, narrow: str | Path | None = None) -> list[Path]:
+              neighbours: int | None = None, narrow: str | Path | None = None,
+              titled: bool = True) -> list[Path]:
     """Draw a case (or a Subject) and write the picture to `path` (.png, .svg, .pdf; of an attitude .html,
     .gif, .mp4), whole or not at all; returns the path, and those of more pictures beside it
     (NAME-2.png, ...) where a state has more parts than one takes.
@@ -50,7 +51,8 @@ def write_all(case: Any, path: str | Path, kind: str | None = None, size: tuple[
     kind: one of `which.KINDS`; None: the one that says most of the case. size: (width, height) in inches;
     dpi: dots an inch of a .png. units: "deg" or "si", None for those of the case. span: in place of the
     case's own. neighbours: of a section, how many motions are shown beside it, None for six. narrow: a file
-    for the same picture as a telephone shows it, without its title, of kind "time". The same input gives the
+    for the same picture as a telephone shows it, without its title, of kind "time".
+    titled: False leaves the title of a plot to the page. The same input gives the
     same bytes (but for "budget", whose times are measured). Raises InputError for another ending, and where
     the case has no such plot: it names those that there are.
     """
@@ -66,8 +68,11 @@ def write_all(case: Any, path: str | Path, kind: str | None = None, size: tuple[
         figures = (states(one, units=units, size=size) if chosen == "state"
                    else [budget(one, plt, size) if chosen == "budget"
                          else AXES[chosen](one, units=units, size=size).figure])
-        for figure in figures if size is not None else ():
-            figure.set_size_inches(*size)
+        for figure in figures:
+            if size is not None:
+                figure.set_size_inches(*size)
+            if not titled:
+                figure.axes[0].set_title("")
         made = [style.save(figure, endings.numbered(path, n), dpi) for n, figure in enumerate(figures, 1)]
         if narrow is not None:
             style.save(narrowed(figures[0]), narrow, dpi)

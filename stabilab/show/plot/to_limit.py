@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 TALL = 8.0  # times the least: of times farther apart the logarithm is drawn
-ANGLES = np.radians(np.geomspace(0.1, 10.0, 11))
+ANGLES = np.radians(np.geomspace(0.1, 10.0, 7))
 EARLIEST = {"color": style.VERMILION, "linewidth": 2.0}
 BAND = {"facecolor": style.VERMILION, "alpha": 0.22, "linewidth": 0}
 SURE = {"facecolor": style.BLUE, "alpha": 0.18, "linewidth": 0}

@@ -69,7 +69,7 @@ def sections(case, folder: Path, stem: str, deep: bool = True, certify: bool = F
                  "extremes": extremes(case, moved, units), "over": _over(units.words(moved.extremes_over))}
         page["pictures"] = (_tried(absent, "Pictures",
                                    lambda: pictures(one, folder, stem, deep,
-                                                    "deg" if units.scaled else units.name)) or [])
+                                                    "deg" if units.scaled else units.name, found)) or [])
         missing: dict[str, list[str]] = {}  # titles by their reason
         for kind, (title, _) in SHOWN.items():
             missing.setdefault(which.why_not(kind, one), []).append(title)

@@ -16,37 +16,52 @@ SHOWN = {
     "time": ("Rates over time", "The rates along the principal axes."),
     "phase": ("Phase plane",
               "Turn about one axis since the start, and the rate about it. A motion stays on its curve; "
-              "black curves, where there are any, "
-                             "part motions of different kinds."),
+              "black curves, where there are any, part motions of different kinds."),
     "potential": ("Reduced potential",
                   "The motion stays where its energy is above the potential; a barrier holds it."),
     "sphere": ("The surface on which the motion stays", "With the other motions on it."),
     "equilibria": ("All equilibria", "Stable and unstable ones in the space of the rates."),
     "state": ("Analytic models beside the exact motion",
               "Each part of the state over time; stabilab compare tells when a model is off by 1 % "
-              "and 10 %.")}
+              "and 10 %."),
+    "tilt": ("Time to the limit against the tilt",
+             "From the earliest to the latest of runs at directions round the edge of each cone."),
+    "wheel": ("Time gained by another momentum of a wheel", "The other wheels left as they are."),
+    "body": ("The body and what acts on it", "Directions are those of the case, lengths of arrows are not.")}
+TITLED = ("sphere", "equilibria", "state")  # by what no heading of the page says
+SIZES = {"tilt": (6.0, 3.8), "wheel": (6.0, 3.8), "body": (5.2, 5.2)}  # inches, of the smaller ones
 OF_THE_FILE = "The rates along the axes of the file, about which its limits are."
 BRIEF = ("time", "phase", "state")  # on a page among many
 
 
-def pictures(one, folder: Path, stem: str, deep: bool, units: str = "deg") -> list[dict]:
+def pictures(one, folder: Path, stem: str, deep: bool, units: str = "deg", at_rest=None) -> list[dict]:
     """Draw every plot of a subject (`plot.subject`) that a page shows; file, size in pixels, title and
-    caption of each, in order. deep: all kinds, not only those of the motion itself."""
-    found = []
-    for kind in which.offered(one):
-        if kind in (SHOWN if deep else BRIEF):
-            title, caption = SHOWN[kind]
+    caption of each, in order. deep: all kinds, not only those of the motion itself. at_rest: its
+    equilibria."""
+    found, offered = [], which.offered(one)
+    # what another part of the page has: table and space the single points, the plane what is wrapped round a
+    # surface
+    spared = {"equilibria": at_rest is not None and not at_rest.curves, "body": not _acted_on(one),
+              "sphere": "phase" in offered and not which.free(one)}
+    for kind, (title, caption) in SHOWN.items():
+        if kind in offered and (deep or kind in BRIEF) and not spared.get(kind):
             if kind == "time" and file_axes(one) is not None:
                 caption = OF_THE_FILE
             if kind == "time":
                 caption += _later(one)
             narrow = None if found or kind != "time" else folder / f"{stem}-{kind}-narrow.png"
-            made, *more = to_file.write_all(one, folder / f"{stem}-{kind}.png", kind, units=units,
-                                            narrow=narrow)
+            made, *more = to_file.write_all(one, folder / f"{stem}-{kind}.png", kind, SIZES.get(kind),
+                                            units=units, narrow=narrow, titled=kind in TITLED)
             found.append(picture(made, "", narrow, caption=caption, kind=kind, title=title,
                                  more=[path.name for path in more],
                                  command=f"stabilab plot {one.path} --kind {kind}"))
     return found
+
+
+def _acted_on(one) -> bool:
+    """Whether a sketch of the body shows more than its moments: effects, or axes that the file has not."""
+    case, scene = one.case, which.bodily(one)
+    return bool(scene and scene.effects or case.thrusters or case.frame and not case.frame.as_given)
 
 
 def _later(one) -> str:
