@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from ..numbers.vectors import Float3
@@ -108,6 +108,12 @@ def axes_of(case: Case) -> Axes:
     letters = tuple("xyz") if frame is None or frame.as_given else ("",) * 3
     # a scene with a body
     return Axes(letters, _words(case.scene.body.exact), rows)  # type: ignore[union-attr]
+
+
+def with_moments(axes: Axes, moments: Any) -> Axes:
+    """The names of the same axes for other moments about them."""
+    words = _words(moments)
+    return replace(axes, words=words, letters=axes.letters if any(axes.letters + words) else PLAIN.letters)
 
 
 def _words(moments) -> tuple[str, ...]:

@@ -56,7 +56,7 @@ DOORS = {
     ("stabilab.public", "stabilab.answers.chaos"): "loads numpy",
     ("stabilab.public", "stabilab.physics.states"): "loads numpy",
     ("stabilab.show.explore.orbits", "stabilab.show.plot.path"): "loads numpy",
-    ("stabilab.show.explore.orbits", "stabilab.show.plot.subject"): "loads numpy",
+    ("stabilab.show.explore.orbits", "stabilab.show.plot.turning"): "loads numpy",
     ("stabilab.show.explore.session", "stabilab.answers.passage.of_case"): "loads numpy",
     ("stabilab.show.space", "stabilab.orbit.separatrix.branches"): "loads numpy",
     ("stabilab.show.terminal.completion", "stabilab.show.plot.subject"): "loads numpy",

@@ -650,10 +650,10 @@ def test_a_film_has_the_momentum_that_stays_without_a_torque_and_the_share_of_th
     from stabilab.show.plot.turning import turn
     free = turn(subject.subject(load("torque-free-gyrostat")), 150)
     assert np.abs(free.momentum - free.momentum[0]).max() < 1e-11 * np.abs(free.momentum).max()
-    assert [letter for letter, *_ in free.arrows] == ["H"] and free.share is None
+    assert [letter for letter, *_ in free.arrows] == ["H", "λ"] and free.share is None
     found = turn(subject.subject(load("cubesat-3u"), span=20.0), 400)
     assert float(np.interp(1.0, found.share, found.t)) == pytest.approx(16.95, abs=0.01)
-    assert [letter for letter, *_ in found.arrows] == ["H", "M"]
+    assert [letter for letter, *_ in found.arrows] == ["H", "M", "λ"]
 
 
 def test_the_vertical_of_a_top_stands_upright_in_space_all_the_time():

@@ -16,6 +16,7 @@ another motion's.
 from __future__ import annotations
 
 import math
+from typing import Any
 
 from ...answers.equilibria import equilibria
 from ...case.read import Case
@@ -26,9 +27,11 @@ from ...packages import demand, present
 from ...physics.coefficients import content
 from ...physics.effects.base import effect_words
 from ...physics.scene import AnyScene, QuadraticForm, Scene
-from . import orbits as other
+from ..units import Units
+from .pictures import Bag
 
 POINTS, MOST = 1200, 6000  # of a motion that is drawn: at least, at most
+FRAMES = 400  # of the body that turns
 CLOSE = 0.25  # rad of turn from one to the next, where so many are enough
 NOT_YET = {"reason": "Keep still, and the equilibria are looked for.", "rows": []}
 TAKES = {"liquid_cavity": "the liquid", "resistance": "the medium",
@@ -79,12 +82,22 @@ def path(case: Case, until: float) -> Path:
     """(times, rates) of the motion up to a time, or as far as a run goes."""
     import numpy as np
 
-    from ..plot.path import along
-    from ..plot.subject import subject
+    from ..plot.path import along, subject
     turn = until * math.hypot(*case.state)
     number = min(MOST, max(POINTS, math.ceil(turn / CLOSE)))
     t, rates = along(subject(case), np.linspace(0.0, until, number))
     return t.tolist(), [(x, y, z) for x, y, z in rates.tolist()]
+
+
+def film(case: Case, until: float, bag: Bag, units: Units) -> dict[str, Any]:
+    """The body as it turns in that time, as `templates/turning.js` draws it."""
+    from ..plot import turning
+    one = turning.subject(case, span=until)
+    found = turning.turn(one, FRAMES)
+    drawn = turning.drawn(one, found, units.times(until), units.rates,
+                          lambda rows: bag.add("float32", rows.ravel().tolist()))
+    return drawn | {"names": [units.axes.label(n) for n in (1, 2, 3)],
+                    "words": f"Arrows: {found.words}. {found.part(units)}"}
 
 
 def at_rest(scene: AnyScene) -> Equilibria | None:
@@ -99,9 +112,9 @@ def line(case: Case, form: QuadraticForm | None, until: float, moving: bool) -> 
     """(times, rates) of the motion from t = 0 on. form: its rates, where they are quadratic. moving: a hand
     that does not wait is shown the part of which floats are sure; so is a page without NumPy."""
     if form is None:
-        return other.path(case, until)
+        return path(case, until)
     times, states = followed(form, case.state, until)
     known = parting(form, (times, states))
     if (known < len(times) or times[-1] < until) and not moving and present("numpy"):
-        return other.path(case, until)
+        return path(case, until)
     return times[:known], states[:known]

@@ -21,16 +21,18 @@ from ...physics.scene import Scene
 from ...verify.numbers import shown
 from ..units import Units
 
-# --- The sliders of a case: torque and its tilt, wheel momentum, start, in the units in which the case is
-# told
+# --- The sliders of a case: moments of inertia, torque and its tilt, wheel momentum, start, in the units
+# of the case
 ROOM = 2.5  # of the case's own number: how far a slider goes
 TILTED = 10.0  # deg, the least length of the slider of a tilt
+LARGER, SLENDER = 1.5, 100.0  # the largest moment of a slider: times that of the case, times its least
 STILL = 0.05  # rad/s: a body that no number moves turns so fast on the sliders
 
 
 @dataclass(frozen=True)
 class Control:
-    """One slider. name: as in a request; value, low, high: in its unit; words: for people."""
+    """One slider. name: as in a request; value, low, high: in its unit; words: for people, empty where it is
+    named by its principal axis (1 to 3)."""
 
     name: str
     words: str
@@ -38,21 +40,22 @@ class Control:
     value: float
     low: float
     high: float
+    axis: int = 0
 
 
 def groups(case: Case, units: Units) -> list[dict[str, Any]]:
     """The groups of sliders as a page takes them: {title, axis of the torque where it is of that, controls}.
     """
     axis, size, tilt, azimuth = direction(vector(case, "torque"))
-    strength = Control("size", f"about {units.axes.short(axis)}", units.plain("N m")[0], size,
-                       *_around(abs(size) or _usual_torque(case)))
-    torque = [strength,
-              Control("tilt", "tilt off the axis", "deg", tilt, 0.0, nice(max(TILTED, ROOM * tilt))),
+    torque = [Control("size", "size", units.plain("N m")[0], size,
+                      *_around(abs(size) or _usual_torque(case))),
+              Control("tilt", "tilt off it", "deg", tilt, 0.0, nice(max(TILTED, ROOM * tilt))),
               Control("azimuth", "towards", "deg", azimuth, -180.0, 180.0)]
-    return [{"title": "Torque", "axis": axis, "controls": _plain(torque)},
-            {"title": "Wheel momentum" if not units.scaled else "Wheel and moments", "axis": None,
-             "controls": _plain(_wheel(case, units))},
-            {"title": "Start", "axis": None, "controls": _plain(_start(case, units))}]
+    found = [("Torque along", axis, torque),
+             ("Wheel and moments" if units.scaled else "Wheel momentum about axis", None, _wheel(case)),
+             ("Rates at the start", None, _start(case, units)),
+             ("Moments of inertia about axis", None, _moments(case))]
+    return [{"title": title, "axis": along, "controls": _plain(rows)} for title, along, rows in found if rows]
 
 
 def vector(case: Case, name: str) -> tuple[float, ...]:
@@ -95,7 +98,17 @@ def _turned(degrees: float) -> tuple[float, float]:
     return math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
 
 
-def _wheel(case: Case, units: Units) -> list[Control]:
+def _moments(case: Case) -> list[Control]:
+    """A moment may come to exceed the sum of the others: the page says then that no rigid body has it."""
+    if not isinstance(case.scene, Scene):
+        return []
+    moments = case.scene.body.inertia
+    high = nice(LARGER * max(moments))
+    low = min(high / SLENDER, min(moments) / 2)
+    return [Control(f"inertia{n}", "", "kg m²", value, low, high, n + 1) for n, value in enumerate(moments)]
+
+
+def _wheel(case: Case) -> list[Control]:
     values = vector(case, "wheel")
     if not isinstance(case.scene, Scene):
         high = nice(ROOM * max(1.0, *map(abs, values)))
@@ -103,8 +116,7 @@ def _wheel(case: Case, units: Units) -> list[Control]:
                 (name, value) in enumerate(zip("ab", values))]
     size = max(max(map(abs, values)),
                max(case.scene.body.inertia) * (math.hypot(*vector(case, "start")) or STILL) / ROOM)
-    return [Control(f"wheel{n}", f"about {units.axes.short(n + 1)}", "N m s", value, *_around(size)) for n,
-            value in enumerate(values)]
+    return [Control(f"wheel{n}", "", "N m s", value, *_around(size), n + 1) for n, value in enumerate(values)]
 
 
 def _start(case: Case, units: Units) -> list[Control]:
@@ -150,14 +162,16 @@ LARGEST = 1e8  # beyond it doubles that are drawn run into overflows and lost di
 
 def changed(case: Case, asked: dict[str, Any], units: Units) -> tuple[Case, str]:
     """(the case with the changes of a request, words on what was left out). asked: {"torque": None or {axis,
-    size, tilt, azimuth}, "wheel" and "start": a number in text, or None for the case's own, for each slider}.
-    Raises InputError for what is no such request."""
+    size, tilt, azimuth}, "inertia", "wheel" and "start": a number in text, or None for the case's own, for
+    each slider}. Raises InputError for what is no such request."""
     scaled = case.scene.variables == "scaled"
-    torque, wheel, start = asked.get("torque"), _numbers(asked, "wheel",
-                                                         2 if scaled else 3), _numbers(asked, "start", 3)
-    if torque is None and wheel is None and start is None and case.state is not None:
+    torque, inertia, start = asked.get("torque"), _numbers(asked, "inertia", 3), _numbers(asked, "start", 3)
+    wheel = _numbers(asked, "wheel", 2 if scaled else 3)
+    if all(one is None for one in (torque, inertia, wheel, start)) and case.state is not None:
         return case, ""
     base = _base(case)
+    if inertia is not None:
+        _set_inertia(base, case, inertia)
     if torque is not None:
         _set_torque(base, _given_torque(torque), scaled)
     if wheel is not None:
@@ -215,6 +229,16 @@ def _base(case: Case) -> dict[str, Any]:
 
 def _kept(data: dict[str, Any], *keys: str) -> dict[str, Any]:
     return {key: data[key] for key in keys if key in data}
+
+
+def _set_inertia(base: dict[str, Any], case: Case, values: list[Any]) -> None:
+    if not isinstance(case.scene, Scene):
+        raise InputError("inertia: scaled variables have no moments of inertia")
+    if wrong := next((one for one in values if one is not None and not float(one) > 0), None):
+        raise InputError(f"inertia: expected a number above 0, got {wrong}")
+    old, given = base["body"], [exact_text(v) for v in case.scene.body.exact]
+    base["body"] = {"inertia": [own if new is None else Written(new) for own, new in zip(given, values)],
+                    **_kept(old, "mass", "centre_of_mass")}
 
 
 def _set_torque(base: dict[str, Any], vector: tuple[float, ...], scaled: bool) -> None:

@@ -12,6 +12,7 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from functools import partial
 from itertools import groupby
 from typing import Any
@@ -35,6 +36,8 @@ from ...verify.form import about, parsed
 from ...verify.form import line as about_line
 from ...verify.numbers import Malformed
 from .. import limiting
+from ..axes import with_moments
+from ..report.one_case.tiles import tiles
 from ..space import (
     PLACES,
     Box,
@@ -69,7 +72,9 @@ MOST = 12  # rows of equilibria
 
 def rows(case: Case, motion: Motion, units: Units) -> list[list[str]]:
     """[words, value] of what is known of the motion."""
-    found = [["start", units.vector(motion.at[:3], units.rates)],
+    _, (_, when, until), *_ = tiles(motion, units)
+    found = [*([["limit", f"{when}: {until}"]] if motion.first else []),
+             ["start", units.vector(motion.at[:3], units.rates)],
              *([name, greek(words)] for name, words in margins(motion, units))]
     if motion.extremes is not None and not any(map(math.isnan, sum(map(list, motion.extremes), []))):
         for component, pair in zip(case.scene.components,
@@ -125,8 +130,6 @@ class Session:
     def __init__(self, case: Case) -> None:
         other.check(case)
         self.case, self.units = case, units_of(case)
-        told = frame.components(case)
-        self._axes = [["axes", lettered(told)]] if told else []
         self._swept = SWEPT if "sweep" in data_of(case.text) else ""
         self._kept: dict[str, tuple[Any, Any]] = {}
         self._cost: dict[str, float] = {}  # s that the last motion of a kind took
@@ -135,8 +138,7 @@ class Session:
         """What a page must know before its first question."""
         return {"name": self.case.name, "title": written(self.case.heading),
                 "groups": controls.groups(self.case, self.units),
-                "axes": [self.units.axes.short(n) for n in (1, 2, 3)], "rates": self.units.rates[0],
-                "scaled": self.units.scaled}
+                "axes": _named(self.units), "rates": self.units.rates[0], "scaled": self.units.scaled}
 
     def answer(self, asked: dict[str, Any], stopped: Callable[[], bool] = lambda: False) -> bytes:
         """The answer to a request as a framed message (`bag`). asked: as of `changed`, with moving (whether a
@@ -157,6 +159,7 @@ class Session:
         began = time.process_time()
         moving, clicked = bool(asked.get("moving")), None
         case, note = changed(self.case, asked, self.units)
+        units = self._units(case)
         if asked.get("click"):
             clicked = planes.clicked(self._twin(case), case.state, asked["click"], self.units)
             case, note = changed(self.case, asked | {"start": clicked, "click": None}, self.units)
@@ -165,7 +168,7 @@ class Session:
             found = law.judged(case, found, brief=True)
             if case.limits is not None and not moving and present("numpy"):
                 found = self._first(case, found)
-            words = headline(case, found, self.units)
+            words = headline(case, found, units)
         settled = time.process_time()
         twin = self._twin(case)
         at_rest = self._at_rest(case, twin, moving)
@@ -177,14 +180,32 @@ class Session:
         made = {"headline": greek(words), "fate": "undecided" if found is None else found.fate.word,
                 "look": "conditional" if found is None else look(found),
                 "moving": moving, "start": clicked,
-                "note": " ".join(filter(None, (note, self._swept, cut, _law(found, self.units),
-                                                   *limiting.beside(case.caveats, self.units)))),
-                "toml": case.text, "rows": self._axes
-                + ([] if found is None else tables.rows(case, found, self.units)), "space": picture,
-                "plane": None if twin is None else planes.drawn_planes(bag, twin, case.state, self.units),
-                "time": planes.over_time(bag, case, found, times, path, self.units)}
-        made["equilibria"] = tables.equilibrium_rows(at_rest, self.units) if at_rest else other.NOT_YET
+                "note": " ".join(filter(None, (note, self._swept, cut, _law(found, units),
+                                                   *map(_capital, limiting.beside(case.caveats, units))))),
+                "toml": case.text, "axes": _named(units), "space": picture,
+                "rows": self._components(units) + ([] if found is None else tables.rows(case, found, units)),
+                "plane": None if twin is None else planes.drawn_planes(bag, twin, case.state, units),
+                "time": planes.over_time(bag, case, found, times, path, units),
+                "film": self._film(bag, case, times[-1], moving, units)}
+        made["equilibria"] = tables.equilibrium_rows(at_rest, units) if at_rest else other.NOT_YET
         return made | {"analysis": 1e3 * (settled - began), "work": 1e3 * (time.process_time() - began)}
+
+    def _units(self, case: Case) -> Units:
+        """With the names of the axes by the moments of a case, whose order the sliders may change."""
+        if not isinstance(case.scene, Scene):
+            return self.units
+        return replace(self.units, axes=with_moments(self.units.axes, case.scene.body.exact))
+
+    def _components(self, units: Units) -> list[list[str]]:
+        """The row that says about which axes of the file the rates are."""
+        told = frame.components(self.case, units.axes)
+        return [["axes", lettered(told)]] if told else []
+
+    def _film(self, bag: Bag, case: Case, until: float, moving: bool, units: Units) -> dict[str, Any] | None:
+        """The body as it turns; None where it waits until the hand rests, or is not to be had."""
+        if self.units.scaled or not present("numpy") or moving and not case.scene.plain:
+            return None
+        return other.film(case, until, bag, units)
 
     def _motion(self, case: Case, moving: bool, stopped) -> tuple[Motion | None, str]:
         """(what is known of the motion, the verdict in a line); None where a run would keep a moving hand
@@ -267,6 +288,10 @@ class Session:
         if kept is None or kept[0] != key:
             kept = self._kept[name] = (key, make())
         return kept[1]
+
+
+def _named(units: Units) -> list[str]:
+    return [units.axes.short(n) for n in (1, 2, 3)]
 
 
 def _law(found: Motion | None, units: Units) -> str:

@@ -1,6 +1,6 @@
 """The page as a folder for any static web server: Python runs in the browser (Pyodide), and answers there.
 
-The folder holds the page, a worker, and the package without what only papers and measurements need. Python
+The folder holds the page, a worker, and the package without papers, cases and commands. Python
 itself and python-flint come from the address of the Pyodide project and from the index of Python packages,
 or, with a folder of theirs given, from this folder alone.
 """
@@ -25,8 +25,7 @@ from .session import Session
 PYODIDE, FLINT = "314.0.7", "0.9.0"  # what the tests load
 ADDRESS = f"https://cdn.jsdelivr.net/pyodide/v{PYODIDE}/full/"
 NEEDED = ("pyodide.mjs", "pyodide.asm.mjs", "pyodide.asm.wasm", "python_stdlib.zip", "pyodide-lock.json")
-LEFT_OUT = ("cases", "cost", "papers", "theories", "show/report", "show/plot", "show/templates",
-            "show/text/cost")
+LEFT_OUT = ("cases/", "cli/", "commands/", "papers/", "show/templates/")
 POLICY = ("default-src 'none'; script-src 'unsafe-inline' 'self'; style-src 'unsafe-inline'; img-src data:; "
           "worker-src 'self'; base-uri 'none'; "
           "form-action 'none'")
@@ -74,7 +73,7 @@ def archive() -> bytes:
     with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as packed:
         for path in sorted(package.rglob("*.py")):
             place = path.relative_to(package).as_posix()
-            if not place.startswith(tuple(f"{part}/" for part in LEFT_OUT)):
+            if not place.startswith(LEFT_OUT):
                 packed.writestr(zipfile.ZipInfo(f"stabilab/{place}", DAY), path.read_bytes(),
                                 zipfile.ZIP_DEFLATED)
     return buffer.getvalue()

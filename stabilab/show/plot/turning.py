@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import json
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -18,7 +19,7 @@ from ...physics.states import quaternion, start_of
 from .. import style
 from ..files import endings
 from ..report import html
-from ..units import SHORT, Units
+from ..units import SHORT, Unit, Units
 from . import in_space
 from . import subject as canvas
 from . import subject as which
@@ -42,8 +43,8 @@ THINNEST = 0.06  # of the longest edge
 class Turn:
     """t: (n,) s; rotations: (n, 3, 3) from body to space; omega: (n, 3) rad/s; edges: (3,) half edges of the
     box, the longest 1; whole: whether the span that was asked for is shown to its end; asked: its length, s;
-    momentum: (n, 3) of body and wheels in space, N m s; torque: (3,) the constant one, N m, body; share: (n,)
-    of the limit of the case, None without one."""
+    momentum: (n, 3) of body and wheels in space, N m s; torque: (3,) the constant one, N m, body; wheel: (3,)
+    momentum of the wheels, N m s, body; share: (n,) of the limit of the case, None without one."""
 
     t: np.ndarray
     rotations: np.ndarray
@@ -53,20 +54,25 @@ class Turn:
     asked: float
     momentum: np.ndarray
     torque: np.ndarray
+    wheel: np.ndarray
     share: np.ndarray | None
 
     @property
     def arrows(self) -> list[tuple[str, str, np.ndarray]]:
-        """(letter, colour, (n, 3) in space) of momentum and torque, the longest as long as is drawn."""
-        found = (("H", style.BLACK, self.momentum), ("M", style.PURPLE, self.rotations @ self.torque))
-        return [(letter, colour, OUT * rows / np.linalg.norm(rows, axis=1).max())
-                for letter, colour, rows in found if rows.any()]
+        """(letter, colour, (n, 3) in space) of momentum, torque and wheels, the longest as long as is drawn.
+        """
+        found = (("H", style.BLACK, OUT, self.momentum),
+                 ("M", style.PURPLE, OUT, self.rotations @ self.torque),
+                 ("λ", style.SKY, WHEEL, self.rotations @ self.wheel))
+        largest = [np.abs(rows).max() or 1.0 for *_, rows in found]  # of tiny ones the squares vanish
+        return [(letter, colour, long * (rows / most) / np.linalg.norm(rows / most, axis=1).max())
+                for (letter, colour, long, rows), most in zip(found, largest) if rows.any()]
 
     @property
     def words(self) -> str:
         """What the arrows are."""
-        told = {"H": "H: angular momentum of body and wheels", "M": "M: torque"}
-        return "; ".join(told[letter] for letter, *_ in self.arrows)
+        words = {"H": "angular momentum of body and wheels", "M": "torque", "λ": "momentum of the wheels"}
+        return "; ".join(f"{letter}: {words[letter]}" for letter, *_ in self.arrows)
 
     def part(self, units: Units) -> str:
         """What is said of a film that ends before its span."""
@@ -85,10 +91,11 @@ def turn(one: Subject, frames: int = FRAMES) -> Turn:
     scene: Any = one.scene  # physical: `which` refuses the others
     vector = lambda name: (np.array([float(v) for v in scene.vector(name)])
                            if scene.effect(name) is not None else np.zeros(3))
-    momentum = np.einsum("nij,nj->ni", rotations, omega * np.array(scene.body.inertia) + vector("gyrostat"))
+    wheel = vector("gyrostat")
+    momentum = np.einsum("nij,nj->ni", rotations, omega * np.array(scene.body.inertia) + wheel)
     edges = np.maximum(box_sides(scene.body.inertia), THINNEST)
     return Turn(t, rotations, omega, edges, whole, abs(high - low), momentum, vector("constant_torque"),
-                _share(one, omega))
+                wheel, _share(one, omega))
 
 
 def _share(one, omega):
@@ -145,20 +152,24 @@ def _at(one, times):
 SMOOTH = 600  # frames of a page, which are numbers and no pictures
 
 
+def drawn(one: Subject, found: Turn, time: Unit, rate: Unit,
+          row: Callable[[np.ndarray], Any]) -> dict[str, Any]:
+    """What templates/turning.js draws. time, rate: units; row: what a page has for an array of any shape."""
+    unit, per = time
+    return {"t": row(found.t * per), "unit": unit, "rate": rate[0],
+            "size": row(np.linalg.norm(found.omega, axis=1) * rate[1]), "rotations": row(found.rotations),
+            "corners": (CORNERS * found.edges).round(5).tolist(), "edges": found.edges.round(5).tolist(),
+            "faces": FACES, "colours": COLOURS, "names": [one.axes.label(n) for n in (1, 2, 3)],
+            "tip": int(np.argmax(np.abs(found.omega[0]))), "real": float(abs(found.t[-1] - found.t[0])),
+            "arrows": [[letter, colour, row(rows)] for letter, colour, rows in found.arrows],
+            "share": None if found.share is None else row(found.share)}
+
+
 def page(one, found: Turn, scale, path) -> Path:
     """Write the page."""
-    unit, per = scale.time(float(np.abs(found.t).max()))
-    data = {"t": [float(f"{v * per:.6g}") for v in found.t], "unit": unit, "rate": scale.rate[0],
-            "size": [float(f"{v:.5g}") for v in np.linalg.norm(found.omega, axis=1) * scale.rate[1]],
-            "rotations": [[round(float(v), 5) + 0.0 for v in rotation.ravel()]
-                          for rotation in found.rotations],
-            "corners": (CORNERS * found.edges).round(5).tolist(), "edges": found.edges.round(5).tolist(),
-            "faces": FACES,
-            "colours": [style.VERMILION, style.GREEN, style.BLUE],
-            "names": [one.axes.label(n) for n in (1, 2, 3)], "tip": int(np.argmax(np.abs(found.omega[0]))),
-            "real": float(abs(found.t[-1] - found.t[0])),
-            "arrows": [[letter, colour, rows.round(4).tolist()] for letter, colour, rows in found.arrows],
-            "share": None if found.share is None else found.share.round(4).tolist()}
+    def row(values):
+        return [float(f"{v:.6g}") + 0.0 for v in values.ravel()]
+    data = drawn(one, found, scale.time(float(np.abs(found.t).max())), scale.rate, row)
     # nothing of it ends the script
     text = json.dumps(data, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
     return html.write(path, "attitude.html", title=printable(one.heading or "Attitude"), data=text,
@@ -172,7 +183,7 @@ PER_SECOND, PICTURES = 20, 100  # of a film
 DPI = 80
 COLOURS = (style.VERMILION, style.GREEN, style.BLUE)  # faces across axes 1, 2, 3, and these axes
 FAR = 1.75  # half the picture, in half edges
-OUT = 1.5  # length of the body's axes
+OUT, WHEEL = 1.5, 1.25  # lengths of the body's axes, momentum and torque; of the wheels' momentum
 # of the eye, in half edges: ten units of Matplotlib, in which the box of the axes is zoom * 25/18 wide
 DISTANCE = 10 * 2 * FAR / (1.1 * 25 / 18)
 BEHIND, BEFORE = 1, 3  # the box
@@ -185,10 +196,10 @@ def attitude(case: Any, state: Any = None, ax: Any = None, span: Any = None, fra
 
     The box is the even one with the body's moments of inertia; its faces and axes have the colours of the
     principal axes, and the line is the way of the tip of the axis about which the body turns most at the
-    start. Arrows: angular momentum and constant torque; the bar: how much of the limit of the case the rates
-    have reached. The start has the attitude of the case, else one that holds its vertical upright, else body
-    and space are aligned. Where the span would need more pictures than `frames` at 15 degrees each, its first
-    part is shown. Raises InputError for scaled variables.
+    start. Arrows: angular momentum, constant torque, momentum of the wheels; the bar: how much of the limit
+    of the case the rates have reached. The start has the attitude of the case, else one that holds its
+    vertical upright, else body and space are aligned. Where the span would need more pictures than `frames`
+    at 15 degrees each, its first part is shown. Raises InputError for scaled variables.
     """
     from matplotlib.animation import FuncAnimation
     one = subject(case, state, span)

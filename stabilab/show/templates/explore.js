@@ -1,7 +1,7 @@
 // The page: sliders ask, answers are drawn. A question of a moving hand waits for the one before; one of a resting hand gives way to any newer.
-const $ = id => document.getElementById(id), setup = JSON.parse($("setup").textContent), ask = backend(), view = spaceView($("space"), {glass: 0.62, near: 0.95});
-const touched = {}, fields = {};
-let axis = setup.groups[0].axis, axisTouched = false, shown = null, serial = 0, latest = 0, busy = false, waiting = null, resting = null, abort = null, cross = null, planeArt = null;
+const setup = JSON.parse($("setup").textContent), ask = backend(), view = spaceView($("space"), {glass: 0.62, near: 0.95, shape: [0.68, 0.6]}), body = setup.scaled ? null : turningView();
+const touched = {}, fields = {}, torque = setup.groups.find(group => group.axis);
+let axis = torque.axis, axisTouched = false, linked = "", shown = null, serial = 0, latest = 0, busy = false, waiting = null, resting = null, abort = null, cross = null, planeArt = null, timeArt = null;
 const REST = 160;  // ms without a change after which a hand rests
 
 function element(tag, properties, ...children) { const made = Object.assign(document.createElement(tag), properties); made.append(...children); return made; }
@@ -13,49 +13,83 @@ function put(name, text) {  // a number on its slider and in its field
   range.value = value; field.value = text; row.classList.toggle("own", !(name in touched));
 }
 
-function slider(control) {
+function slider(title, control) {
   const name = control.name, range = element("input", {type: "range", id: name, min: control.low, max: control.high, step: "any", value: control.value});
-  const field = element("input", {type: "number", step: "any", value: control.value}), words = `${control.words}${control.unit ? `, ${control.unit}` : ""}`;
-  field.setAttribute("aria-label", `${words}, as a number`); range.setAttribute("aria-label", words);
-  const label = element("label", {htmlFor: name, textContent: control.words}), row = element("div", {className: "control own"}, label, field, element("span", {className: "unit", textContent: control.unit}), range);
+  const field = element("input", {type: "number", step: "any", value: control.value}), unit = control.unit && `, ${control.unit}`;
+  const label = element("label", {htmlFor: name}), row = element("div", {className: "control own"}, label, range, field, element("span", {className: "unit", textContent: control.unit}));
+  const called = name => { const words = name.replace(/^the | axis$/g, ""); label.textContent = words; range.setAttribute("aria-label", `${title}: ${words}${unit}`); field.setAttribute("aria-label", `${title}: ${words}${unit}, as a number`); };
+  called(control.words || setup.axes[control.axis - 1]);
   const step = 10 ** Math.floor(Math.log10((control.high - control.low) / 500));
-  range.oninput = () => { touched[name] = String(+(Math.round(Number(range.value) / step) * step).toPrecision(9)); put(name, touched[name]); move(); };
-  field.oninput = () => { if (field.value === "" || !Number.isFinite(Number(field.value))) return; touched[name] = field.value; put(name, field.value); move(); };
-  fields[name] = {range, field, row, label, own: String(control.value), low: control.low, high: control.high};
+  range.oninput = () => { linked = ""; touched[name] = String(+(Math.round(Number(range.value) / step) * step).toPrecision(9)); put(name, touched[name]); move(); };
+  field.oninput = () => { if (field.value === "" || !Number.isFinite(Number(field.value))) return; linked = ""; touched[name] = field.value; put(name, field.value); move(); };
+  fields[name] = {range, field, row, called, axis: control.axis, own: String(control.value), low: control.low, high: control.high};
   return row;
 }
 
 function build() {
   for (const group of setup.groups) {
     const set = element("fieldset", {}, element("legend", {textContent: group.title}));
-    if (group.axis) {
-      const choice = element("select", {id: "axis"}, ...[1, 2, 3].map(n => element("option", {value: n, textContent: setup.axes[n - 1]}))); choice.value = axis;
-      choice.onchange = () => { axis = Number(choice.value); axisTouched = true; fields.size.label.textContent = `about ${setup.axes[axis - 1]}`; move(); };
-      set.append(element("div", {className: "control"}, element("label", {htmlFor: "axis", textContent: "along"}), choice));
+    if (group === torque) {
+      const choice = element("select", {id: "axis"}, ...setup.axes.map((name, n) => element("option", {value: n + 1, textContent: name})));
+      choice.setAttribute("aria-label", "The axis that the torque is along"); choice.value = axis;
+      choice.onchange = () => { linked = ""; axis = Number(choice.value); axisTouched = true; move(); };
+      set.append(element("div", {className: "control"}, element("label", {htmlFor: "axis", textContent: "axis"}), choice));
     }
-    set.append(...group.controls.map(slider)); $("controls").append(set);
+    set.append(...group.controls.map(one => slider(group.title, one))); $("controls").append(set);
   }
-  const again = element("button", {type: "button", id: "again", textContent: "As in the case"}), save = element("button", {type: "button", id: "save", textContent: "Save as case"});
-  again.onclick = () => {
-    for (const name of Object.keys(touched)) delete touched[name];
-    axis = setup.groups[0].axis; axisTouched = false; if ($("axis")) $("axis").value = axis;
-    for (const [name, {range, low, high, own}] of Object.entries(fields)) { range.min = low; range.max = high; put(name, own); }
-    if (fields.size) fields.size.label.textContent = `about ${setup.axes[axis - 1]}`;
-    shown = null; move();
+  const button = (id, textContent) => element("button", {type: "button", id, textContent}), again = button("again", "As in the case"), save = button("save", "Save as case"), copy = button("copy", "Copy link");
+  again.onclick = () => { asInCase(); shown = null; move(); };
+  copy.onclick = async () => {
+    remember();
+    try { await navigator.clipboard.writeText(location.href); copy.textContent = "Copied"; setTimeout(() => { copy.textContent = "Copy link"; }, 1500); }
+    catch { trouble("This browser gives no access to its clipboard: copy the address of this page, which holds the state"); }
   };
   save.onclick = () => {
     if (!shown || !shown.toml) return;
     const link = element("a", {href: URL.createObjectURL(new Blob([shown.toml], {type: "application/toml"})), download: `${setup.name}-explored.toml`});
     document.body.append(link); link.click(); link.remove(); setTimeout(() => URL.revokeObjectURL(link.href), 5000);
   };
-  $("controls").append(element("div", {className: "buttons"}, save, again)); $("controls").onsubmit = e => e.preventDefault();
+  $("controls").append(element("div", {className: "buttons"}, save, again, copy)); $("controls").onsubmit = e => e.preventDefault();
+  document.querySelectorAll(".picture").forEach(part => {
+    const tab = element("button", {type: "button", textContent: part.dataset.tab});
+    tab.onclick = () => { pick(part, tab); drawFlat(); view.draw(); if (body) body.draw(); };
+    document.querySelector(".tabs").append(tab); if (part.matches(".curves")) pick(part, tab);
+  });
+}
+
+function pick(part, tab) {  // on a telephone one picture stands above the sliders
+  document.querySelectorAll(".picture").forEach(one => one.classList.toggle("picked", one === part));
+  tab.parentNode.querySelectorAll("button").forEach(one => one.setAttribute("aria-pressed", one === tab));
+}
+
+function asInCase() {
+  for (const name of Object.keys(touched)) delete touched[name];
+  axis = torque.axis; axisTouched = false; $("axis").value = axis; linked = "";
+  for (const [name, {range, low, high, own}] of Object.entries(fields)) { range.min = low; range.max = high; put(name, own); }
+}
+
+// The state stands in the address behind #: what the sliders changed, by the names of the sliders.
+function remember() {
+  const state = new URLSearchParams({...(axisTouched ? {axis} : {}), ...touched}).toString();
+  history.replaceState(null, "", state ? `#${state}` : location.pathname + location.search);
+}
+
+function restore() {
+  asInCase();
+  const wrong = [];
+  for (const [name, text] of new URLSearchParams(location.hash.slice(1))) {
+    if (name === "axis" && ["1", "2", "3"].includes(text)) { axis = Number(text); axisTouched = true; $("axis").value = axis; }
+    else if (Object.hasOwn(fields, name) && text.trim() && Number.isFinite(Number(text))) { touched[name] = text.trim(); put(name, text.trim()); }
+    else wrong.push(text ? `${name.slice(0, 20)}=${text.slice(0, 20)}` : name.slice(0, 20));
+  }
+  if (wrong.length) linked = `Left out of the link: ${wrong.slice(0, 5).join(", ")}${wrong.length > 5 ? " and more" : ""}; expected a number for any of ${Object.keys(fields).join(", ")}, and 1, 2 or 3 for axis.`;
 }
 
 function question(moving, click) {
-  const row = (stem, count) => Array.from({length: count}, (_, n) => touched[stem + n] ?? null), value = name => touched[name] ?? fields[name].own;
-  const torque = axisTouched || ["size", "tilt", "azimuth"].some(name => name in touched);
-  return {torque: torque ? {axis, size: value("size"), tilt: value("tilt"), azimuth: value("azimuth")} : null, wheel: row("wheel", setup.groups[1].controls.length),
-          start: row("start", 3), moving, click: click || null, box: shown && shown.space ? shown.space.box : null};
+  const row = stem => { const names = Object.keys(fields).filter(name => name.startsWith(stem)); return names.length ? names.map(name => touched[name] ?? null) : null; }, value = name => touched[name] ?? fields[name].own;
+  const turned = axisTouched || ["size", "tilt", "azimuth"].some(name => name in touched);
+  return {torque: turned ? {axis, size: value("size"), tilt: value("tilt"), azimuth: value("azimuth")} : null, inertia: row("inertia"), wheel: row("wheel"),
+          start: row("start"), moving, click: click || null, box: shown && shown.space ? shown.space.box : null};
 }
 
 function move(click) {
@@ -64,7 +98,7 @@ function move(click) {
 }
 
 function rest() {  // a click is answered first: its start is part of every question after it
-  if (busy || waiting) resting = setTimeout(rest, REST); else send(false);
+  if (busy || waiting) resting = setTimeout(rest, REST); else { remember(); send(false); }
 }
 
 async function pump() {
@@ -113,12 +147,17 @@ function trouble(words) { $("note").className = "warning"; $("note").hidden = !w
 
 function show(answer) {
   if (answer.error) { trouble(answer.error); return; }
-  trouble(""); $("note").hidden = !answer.note; $("note").textContent = answer.note; shown = answer;
-  $("note").className = answer.note.startsWith("Within") ? "note" : "warning";  // a law that holds is no warning
+  const note = [linked, answer.note].filter(Boolean).join(" ");
+  trouble(note); $("headline").classList.remove("stale"); shown = answer;
+  $("note").className = note.startsWith("Within") ? "note" : "warning";  // a law that holds is no warning
+  for (const {axis, called} of Object.values(fields)) if (axis) called(answer.axes[axis - 1]);
+  [...$("axis").options].forEach((option, n) => { option.textContent = answer.axes[n]; });
   $("headline").textContent = answer.headline; $("headline").className = `verdict-line ${answer.look}`;
   view.show(answer.space);
   fill("legend", answer.space.legend, rows => rows.map(([words, colour]) => { const mark = element("i", {}); mark.style.background = colour; return element("span", {}, mark, words); }));
   fill("space-words", `${answer.space.words}. Drag to turn; click a curve or a point to start there; double click: as at first.`, words => [signed(words)]);
+  if (answer.film) { body.show(answer.film); fill("body-words", answer.film.words, words => [signed(words)]); }
+  else if (body) fill("body-words", answer.moving ? "Keep still, and the body turns." : "The body turns where NumPy is there.", words => [words]);
   drawFlat();
   const saddle = answer.plane && answer.plane.rests.some(one => one.saddle), centre = answer.plane && answer.plane.rests.some(one => !one.saddle);
   fill("plane-words", answer.plane ? `Orange: this motion;${saddle ? " black: separatrix;" : ""} grey: other energies${centre ? "; filled: centre" : ""}${saddle ? "; open: saddle" : ""}. Click to start a motion there.`
@@ -135,12 +174,15 @@ function show(answer) {
 
 function drawFlat() {
   if (!shown) return;
-  drawTime($("time"), shown.time);
+  timeArt = drawTime($("time"), shown.time);
   $("plane").hidden = !shown.plane;
   if (shown.plane) planeArt = drawPlane($("plane"), shown.plane, document.activeElement === $("plane") ? cross : null);
   else planeArt = null;
 }
 
+if (body) body.moved = t => { if (timeArt) { $("cursor").hidden = !shown.film; $("cursor").style.left = `${timeArt.x(t) + 1}px`; } };
+new ResizeObserver(() => document.documentElement.style.setProperty("--top", `${$("headline").offsetHeight + 6}px`)).observe($("headline"));
+window.addEventListener("hashchange", () => { restore(); shown = null; move(); });
 $("plane").onclick = e => { if (!planeArt) return; const [turn, rate] = planeArt.at(e.offsetX, e.offsetY); cross = null; move({turn, rate}); };
 $("plane").onkeydown = e => {
   const way = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]}[e.key];
@@ -151,7 +193,7 @@ $("plane").onkeydown = e => {
   else { const [turn, rate] = cross; cross = null; move({turn, rate}); }
 };
 $("plane").onblur = () => { cross = null; drawFlat(); };
-view.onpick = place => { place.forEach((v, n) => { touched[`start${n}`] = String(+v.toPrecision(7)); put(`start${n}`, touched[`start${n}`]); }); move(); };
+view.onpick = place => { linked = ""; place.forEach((v, n) => { touched[`start${n}`] = String(+v.toPrecision(7)); put(`start${n}`, touched[`start${n}`]); }); move(); };
 window.addEventListener("resize", drawFlat);
 
 async function check(file) {
@@ -168,4 +210,4 @@ $("drop").ondragover = e => { e.preventDefault(); $("drop").classList.add("over"
 $("drop").ondragleave = () => $("drop").classList.remove("over");
 $("drop").ondrop = e => { e.preventDefault(); $("drop").classList.remove("over"); if (e.dataTransfer.files.length) check(e.dataTransfer.files[0]); };
 
-build(); send(false);
+build(); restore(); send(false);

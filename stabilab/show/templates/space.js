@@ -1,7 +1,7 @@
 "use strict";
 // The space of the rates on a canvas: show(data) draws what it is given in place of what was there; onpick(place, words) hears of a click on something drawn.
-// glass: how opaque the surfaces are, so that a motion behind them is seen; near: how near one stands at first.
-function spaceView(canvas, {glass = 1, near = 1} = {}) {
+// glass: how opaque the surfaces are, so that a motion behind them is seen; near: how near one stands at first; shape: height by width, on a telephone and elsewhere.
+function spaceView(canvas, {glass = 1, near = 1, shape = [0.95, 0.7]} = {}) {
   let data = null;
   const view = {show, draw, onpick: null};
   const layer = document.createElement("canvas"), gl = layer.getContext("webgl2", {antialias: true, preserveDrawingBuffer: true}), pen = canvas.getContext("2d");
@@ -124,7 +124,7 @@ function spaceView(canvas, {glass = 1, near = 1} = {}) {
   }
   function draw() {
     if (!data) return;
-    const sharp = Math.min(window.devicePixelRatio || 1, 2), width = Math.round(canvas.clientWidth * sharp) || 1000, height = Math.round(width * (canvas.clientWidth < 500 ? 0.95 : 0.7));
+    const sharp = Math.min(window.devicePixelRatio || 1, 2), width = Math.round(canvas.clientWidth * sharp) || 1000, height = Math.round(width * (shape[canvas.clientWidth < 420 ? 0 : 1]));
     if (canvas.width !== width || canvas.height !== height) { canvas.width = layer.width = width; canvas.height = layer.height = height; }
     const seen = look();
     gl.viewport(0, 0, width, height); gl.clearColor(1, 1, 1, 1); gl.enable(gl.DEPTH_TEST); gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);

@@ -61,12 +61,12 @@ def rows_of_axes(case) -> list[tuple[str, str]]:
     return found
 
 
-def components(case) -> str:
+def components(case, names=None) -> str:
     """About which axes the components of a rate are, where these are not the axes of the file; else nothing.
-    """
+    names: of the axes, where other than those of the case."""
     if _turned(case) is None:
         return ""
-    names = axes_of(case)
+    names = names or axes_of(case)
     return "; ".join(f"omega{n} about {names.whole(n).removesuffix(IN_FILE)}" for n in (1, 2, 3)) + IN_FILE
 
 

@@ -8,6 +8,7 @@ import pytest
 from stabilab.case.read import load, read_text
 from stabilab.case.write import data_of, exact_text, text_of
 from stabilab.errors import InputError
+from stabilab.show.axes import axes_of, with_moments
 from stabilab.show.explore import parameters as controls
 from stabilab.show.explore.parameters import changed
 from stabilab.show.units import units_of
@@ -17,7 +18,7 @@ NAMED = {path.stem: path for path in CASES}
 
 
 def asked(**parts):
-    return {"torque": None, "wheel": None, "start": None, **parts}
+    return {"torque": None, "inertia": None, "wheel": None, "start": None, **parts}
 
 
 def moved(name, **parts):
@@ -65,6 +66,20 @@ def test_the_wheel_of_a_tensor_that_is_not_diagonal_counts_along_its_principal_a
     assert new.frame.as_given and not new.wheels and not new.thrusters
 
 
+def test_moments_change_one_by_one_and_the_axes_are_called_by_the_new_ones():
+    case, new = moved("thruster-stuck-major-axis", inertia=[None, "12.5", None])
+    assert new.scene.body.exact == (12, Fraction(25, 2), Fraction(13, 2)) and new.exact_state == case.exact_state
+    assert axes_of(new) == with_moments(axes_of(case), new.scene.body.exact)
+    assert axes_of(new).words == ("intermediate", "major", "minor")
+    case, new = moved("cubesat-3u", inertia=["0.05", "0.05", "0.05"])  # of a full tensor: no letters, no ranks
+    assert with_moments(axes_of(case), new.scene.body.exact).letters == ("axis 1", "axis 2", "axis 3")
+
+
+def test_moments_of_no_rigid_body_are_said_to_be_such():
+    _, new = moved("thruster-stuck-major-axis", inertia=["20", None, None])  # 9 + 6.5 < 20
+    assert [one.kind for one in new.caveats] == ["unphysical"]
+
+
 def test_a_stuck_thruster_closes_where_a_slider_gives_the_torque():
     case, new = moved("upper-stage", torque={"axis": 3, "size": "2", "tilt": "0", "azimuth": "0"})
     assert tuple(map(float, new.scene.vector("constant_torque"))) == (0, 0, 2)
@@ -105,7 +120,8 @@ def test_a_torque_on_an_axis_or_in_a_plane_is_there_exactly():
 @pytest.mark.parametrize("parts", [{"wheel": ["x"]}, {"start": ["nan", None, None]},
                                    {"start": [1.5, None, None]}, {"start": ["1e999", None, None]},
                                    {"torque": {"axis": 4, "size": "1", "tilt": "0", "azimuth": "0"}},
-                                   {"torque": {"axis": 1}}])
+                                   {"torque": {"axis": 1}}, {"inertia": ["0", None, None]},
+                                   {"inertia": ["1", "-2", None]}, {"inertia": ["1"]}])
 def test_what_is_no_number_is_refused_in_words(parts):
     with pytest.raises(InputError, match="expected"):
         moved("thruster-stuck-major-axis", **parts)

@@ -347,3 +347,35 @@ def test_a_law_that_is_judged_says_so(name, words):
     beyond any law; a torque and a wheel have none."""
     note = ask(Session(case_of(name)), moving=True)[0]["note"]
     assert words in note and ("law" in note.lower()) == bool(words)
+
+
+def test_the_body_turns_as_its_film_does():
+    """Without a torque R (D omega + wheel) rests in space: D = (3, 2, 1), a proof of its own."""
+    case = case_of("torque-free-gyrostat")
+    for moving in (True, False):
+        told, numbers = ask(Session(case), moving=moving)
+        film, wheel = told["film"], np.array([float(v) for v in case.scene.vector("gyrostat")])
+        rotations = row(numbers, film["rotations"]).reshape(-1, 3, 3)
+        assert len(rotations) == film["t"]["count"] == 400 and "λ: momentum of the wheels" in film["words"]
+        letter, _, rows = film["arrows"][0]
+        assert letter == "H" and np.ptp(row(numbers, rows).reshape(-1, 3), axis=0).max() < 1e-5  # singles
+        arrow = row(numbers, film["arrows"][1][2]).reshape(-1, 3)
+        assert np.allclose(arrow, rotations @ (1.25 * wheel / np.linalg.norm(wheel)), atol=1e-5)
+    assert ask(Session(case_of("minor-axis-100")))[0]["film"] is None  # scaled: no body
+
+
+def test_the_limit_stands_first_among_what_is_known_of_the_motion():
+    """16.95 s: SciPy's DOP853 in test_to_limit."""
+    told, _ = ask(Session(case_of("cubesat-3u")))
+    assert told["rows"][0][0] == "axes" and told["rows"][1] == ["limit", "16.95 s: until the limit, 60 deg/s, is reached (proved)"]
+
+
+@pytest.mark.parametrize("name", ["cubesat-3u", "thruster-stuck-major-axis", "phone"])
+def test_a_move_costs_less_than_a_tenth_of_a_second(name):
+    """Of the processor's time, moments, wheel and start moved at once; the first answer loads what it needs."""
+    session, case = Session(case_of(name)), case_of(name)
+    inertia = [str(1.01 * v) for v in case.scene.body.inertia]
+    ask(session, moving=True)
+    cost = min(ask(session, moving=True, inertia=inertia, start=[None, None, str(0.5 + n / 10)])[0]["work"]
+               for n in range(3))
+    assert cost < 100
