@@ -109,7 +109,7 @@ def record(name: str, found: dict) -> None:
 
 def differences(before, now, relative: float, where: str = "", size: float = 0.0) -> list[str]:
     """Where two answers differ, in words: words and whole numbers exactly, others to `relative` of the
-    largest beside them, numbers inside words to one in their last digit."""
+    largest in their lists, numbers inside words to one in their last digit."""
     if isinstance(before, dict) and isinstance(now, dict):
         found = ([f"{where}: {sorted(before.keys() ^ now.keys())} in one only"] if before.keys() != now.keys()
                  else [])
@@ -118,17 +118,26 @@ def differences(before, now, relative: float, where: str = "", size: float = 0.0
     if isinstance(before, list) and isinstance(now, list):
         if len(before) != len(now):
             return [f"{where}: {len(before)} entries, now {len(now)}"]
-        largest = max((abs(v) for v in before if isinstance(v, float) and math.isfinite(v)), default=0.0)
+        largest = max(size, _largest(before))
         return [d for i, pair in enumerate(zip(before, now))
                 for d in differences(*pair, relative, f"{where}[{i}]", largest)]
     if isinstance(before, (int, float)) and isinstance(now, (int, float)) and isinstance(before + now, float):
-        same = before == now or abs(before - now) <= (0.5 if where.endswith(".reached")  # digits of a run
-                                                      else relative * max(abs(before), size))
+        if where.endswith(".reached"):  # digits of a run
+            same = abs(before - now) <= 0.5
+        else:  # of an estimated error two digits are meant
+            same = before == now or abs(before - now) <= max(
+                relative * max(abs(before), size), 0.01 * abs(before) if ".error." in where else 0)
     elif isinstance(before, str) and isinstance(now, str):
         same = _same_words(before, now)
     else:
         same = before == now
     return [] if same else [f"{where}: {before!r}, now {now!r}"]
+
+
+def _largest(numbers: list) -> float:
+    """The size of the largest number in lists of lists: one eigenvalue is as near as the largest lets it be."""
+    return max((_largest(v) if isinstance(v, list) else abs(v) for v in numbers
+                if isinstance(v, list) or isinstance(v, float) and math.isfinite(v)), default=0.0)
 
 
 def _same_words(before: str, now: str) -> bool:
