@@ -119,6 +119,7 @@ def test_commands_load_only_the_effects_that_the_scene_names(tmp_path):
 
 
 @pytest.mark.slow
+@pytest.mark.one_in(2)
 @pytest.mark.parametrize("command", (*COMMANDS, *OTHERS, *(pytest.param(c, marks=pytest.mark.long)
                                                            for c in DRAWING)))
 def test_command_loads_only_the_effects_that_any_scene_names(tmp_path, command):

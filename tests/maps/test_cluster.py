@@ -194,7 +194,7 @@ def test_workers_end_in_the_middle_of_a_chunk_with_the_process_that_started_them
 
 @posix
 @pytest.mark.slow
-@pytest.mark.parametrize("how", [signal.SIGTERM, signal.SIGHUP, signal.SIGKILL])
+@pytest.mark.parametrize("how", [signal.SIGTERM, *(pytest.param(s, marks=pytest.mark.long) for s in (signal.SIGHUP, signal.SIGKILL))])
 def test_a_sweep_ended_by_a_signal_keeps_its_parts_and_goes_on(tmp_path, how):
     out = tmp_path / "killed.nc"
     command = started(*ASKED, "--out", out, "--workers", "2")

@@ -93,6 +93,7 @@ def test_every_flipped_sign_in_every_formula_that_holds_is_found(name):
 
 
 @pytest.mark.slow
+@pytest.mark.long  # a minute and more
 def test_the_repair_search_returns_most_of_the_flipped_formulas():
     import sympy as sp
     tried = returned = 0
