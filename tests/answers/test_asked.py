@@ -52,7 +52,7 @@ NO_NUMBERS = (None, "x", b"1", [], (1, 2), {}, [None] * 3, 1j, float("nan"), "1/
 
 @pytest.mark.parametrize("made", MADE, ids=lambda one: one.__name__)
 def test_a_scene_s_parts_called_with_other_arguments_than_they_take_say_what_they_take(made):
-    assert len(MADE) == 12
+    assert len(MADE) == 14
     expected = (
         rf"^{made.__name__}: .*; expected "
         rf"{made.__name__}\(.*{[*inspect.signature(made.__init__).parameters][-1]}.*\)$")
@@ -80,6 +80,8 @@ def test_a_scene_s_parts_made_of_no_numbers_are_bad_input_that_names_the_key(mad
         if given is None and name in ("mass", "slack",
                                       "distance") or name == "effects" and isinstance(given, (list, dict)):
             continue  # nothing is what may stand there
+        if made is stabilab.RateDamper and getattr(given, "shape", ()) == (3, 3):
+            continue  # a matrix is
         with pytest.raises(stabilab.InputError, match=r"^\w+: "):
             made(*(given if at == place else fit[one] for at, one in enumerate(takes)))
 
