@@ -32,7 +32,7 @@ ANSWERS = {"FateResult": "stabilab.orbit.fate.result", "Motion": "stabilab.orbit
            "Attitude": "stabilab.answers.attitude.result", "Crossings": "stabilab.answers.events",
            "Burned": "stabilab.answers.stuck.burn",
            "Closed": "stabilab.answers.stuck.burn",
-           "Latest": "stabilab.answers.stuck.burn",
+           "Latest": "stabilab.answers.stuck.closing",
            "CircularOrbit": "stabilab.answers.circular_orbit.ask",
            "OrbitEquilibria": "stabilab.equilibrium.circular_orbit.result",
            "OrbitEquilibrium": "stabilab.equilibrium.circular_orbit.result",

@@ -12,7 +12,7 @@ import numpy as np
 
 from ...case.read import load_burning
 from ...errors import InputError
-from ...numbers.vectors import Exact3
+from ...numbers.vectors import CYCLE, Exact3
 from ...physics.effects import effect_class
 from ...physics.scene import Scene
 from ...physics.states import checked_times
@@ -33,8 +33,9 @@ class Piece(NamedTuple):
 
 class Chain:
     """The scenes of a burn, one after the other, up to its last closing, at `stop` (s) at the latest. base:
-    the scene without the thrusters, which holds from then on; closed: s, the last closing; free: whether that
-    is a body without wheels on which no torque acts."""
+    the scene without the thrusters, which holds from then on; closed: s, the last closing; quiet: whether
+    no torque acts from then on; free: whether moreover the largest |omega| has a closed form (`closing`):
+    without wheels, or with these along the axis of a body whose other two moments are equal."""
 
     def __init__(self, burning: Any, stop: Fraction | None = None) -> None:
         if isinstance(burning, (str, PathLike)):
@@ -53,7 +54,10 @@ class Chain:
         self.segments = burning.segments(self.until)
         self.closed = self.segments[-1][1] if self.segments else Fraction(0)
         self.torques = [case.frame.turned(t.torque) for t in case.thrusters]
-        self.free = not any(self.base.vector("gyrostat")) and not any(self.base.vector("constant_torque"))
+        self.quiet = not any(self.base.vector("constant_torque"))
+        D, wheel = self.base.body.exact, self.base.vector("gyrostat")
+        self.free = self.quiet and (not any(wheel) or any(D[j] == D[k] and not (wheel[j] or wheel[k])
+                                                          for j, k in CYCLE))
 
     @staticmethod
     def _end(case: Any) -> Fraction | None:
@@ -88,7 +92,7 @@ class Chain:
 
 
 def weights_of_largest(scene: Scene) -> Exact3:
-    """Of the squares of the rates in g^2, the square of the largest |omega| of a free motion (see `burn`)."""
+    """Of the squares of the rates in g^2, that of the largest |omega| of a free motion: see `closing`."""
     D = scene.body.exact
     least, middle, greatest = sorted(range(3), key=lambda i: D[i])
     found = [Fraction(1)] * 3

@@ -36,14 +36,16 @@ def _closed(case, one) -> dict | None:
 
 def _latest(one) -> dict | None:
     """time: [low, high], null where no closing is too late or it is not known; not_before: any closing up to
-    then is early enough, null where all are."""
+    then is early enough, null where all are; surely: as of `Latest`, its second null where
+    it is not known."""
     if one is None:
         return None
     reached = "never" if math.isinf(one.low) else "yes" if math.isfinite(one.high) else "unknown"
     return {"limit": one.limit, "reached": reached,
             "time": [one.low, one.high] if reached == "yes" else None,
             "not_before": None if reached == "never" else one.low, "level": one.level,
-            "because": one.because, "again": [list(pair) for pair in one.again]}
+            "because": one.because, "again": [list(pair) for pair in one.again],
+            "surely": one.surely and [v if math.isfinite(v) else None for v in one.surely]}
 
 
 def text(case, found, units: Units) -> str:
@@ -86,6 +88,10 @@ def _of_latest(found, units: Units):
     if early is not None:
         yield row("closed then", f"{_turning(early, units)}; largest rate before "
                                  f"{_rate(early.largest_before, units)}")
+    if latest.surely is not None:
+        early_enough, late = latest.surely
+        yield row("bounded by", f"early enough up to {units.time(early_enough)}"
+                  + (f", too late from {units.time(late)} on" if math.isfinite(late) else ""))
     for begin, end in latest.again:
         yield row("below it again", f"closed between {units.time(begin)} and {units.time(end)} (seen at 2000 "
                                     "times, no proof)")

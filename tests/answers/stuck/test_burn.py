@@ -10,7 +10,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import stabilab
-from stabilab.answers.stuck.burn import largest_after
+from stabilab.answers.stuck.closing import bound_of_largest, largest_after, largest_of_run
 from stabilab.case.burns import Burn, segments
 from stabilab.errors import InputError
 from tests.oracles import model, taylor
@@ -47,10 +47,11 @@ def run(D, torque, w, length, lam=(0.0, 0.0, 0.0), dense=False):
     return found if dense else found.y[:, -1]
 
 
-def largest(D, w):
+def largest(D, w, lam=(0.0, 0.0, 0.0)):
     """|omega| at the most of the free motion from w, by sampling a long run: some periods."""
-    found = run(D, (0, 0, 0), w, 600 / np.linalg.norm(w), dense=True)
-    return np.linalg.norm(found.sol(np.linspace(0, found.t[-1], 60_000)), axis=0).max()
+    found = solve_ivp(euler(D, (0, 0, 0), lam), (0, 150 / np.linalg.norm(w)), w, method="DOP853", rtol=1e-9,
+                      atol=1e-13, dense_output=True)  # sampled to 2e-6
+    return np.linalg.norm(found.sol(np.linspace(0, found.t[-1], 15_000)), axis=0).max()
 
 
 def random_body(rng):
@@ -59,11 +60,60 @@ def random_body(rng):
     return [float(f"{v:.6g}") for v in D], [float(f"{v:.6g}") for v in rng.normal(0, 0.05, 3)]
 
 
-@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("seed", range(4))
 def test_the_largest_rate_of_a_free_body_is_that_of_a_long_run(seed):
     D, w = random_body(np.random.default_rng(seed))
     found = largest_after(stabilab.Scene(stabilab.Body(D)), w)
     assert found == pytest.approx(largest(D, w), rel=2e-6)  # the oracle samples a maximum: second order
+
+
+def wheels(lam):
+    return "".join(f"[[wheels]]\naxis = {np.eye(3)[n].tolist()}\nmomentum = {lam[n]}\n" for n in range(3) if lam[n])
+
+
+def check_latest_with_wheels(folder, seed):
+    """The latest closing time of a random gyrostat: by DOP853 over long runs, sampled, the free motion from a little
+    before it stays below the limit, that from a little after it does not, and none from closing times before."""
+    rng = np.random.default_rng([34, seed])
+    D, w = random_body(rng)
+    lam = [float(f"{v:.6g}") for v in rng.normal(0, 0.1, 3) * [1, 1, seed % 2]]
+    torque = np.array([float(f"{v:.6g}") for v in rng.normal(0, 0.02, 3)])
+    most = largest(D, w, lam) * rng.uniform(1.3, 3)
+    found = stabilab.burn(case_of(folder, D, w, [(torque, "stop = 2000")], more=wheels(lam)), below=most).latest
+    assert found.level == "run" and found.low < found.high < found.low * (1 + 1e-8)
+    assert found.surely[0] <= found.low and found.high <= found.surely[1]
+    after = lambda end: largest(D, run(D, torque, w, end, lam), lam)
+    assert after(found.low * (1 - 1e-4)) < most < after(found.high * (1 + 1e-4))
+    assert all(after(found.low * share) < most for share in (0.3, 0.9))
+    along = run(D, torque, w, found.surely[0], lam, dense=True).sol(np.linspace(0, found.surely[0], 200))
+    assert (np.array(D) @ along**2 <= min(D) * most**2 * (1 + 1e-12)).all()  # so that |omega| stays below it
+    assert np.linalg.norm(run(D, torque, w, found.surely[1], lam)) == pytest.approx(most, rel=1e-9)
+
+
+@pytest.mark.parametrize("seed", [1, *(pytest.param(n, marks=pytest.mark.slow) for n in (0, *range(2, 25))),
+                                  *(pytest.param(n, marks=[pytest.mark.slow, pytest.mark.long])
+                                    for n in range(25, 100))])
+def test_the_latest_closing_time_with_wheels_parts_the_free_motions(tmp_path, seed):
+    check_latest_with_wheels(tmp_path, seed)
+
+
+@pytest.mark.parametrize("seed", range(2))
+def test_the_largest_rate_with_wheels_is_that_of_a_long_run_and_below_its_bound(seed):
+    rng = np.random.default_rng([7, seed])
+    (D, w), lam = random_body(rng), rng.normal(0, 0.1, 3).tolist()
+    scene, most = stabilab.Scene(stabilab.Body(D), stabilab.Gyrostat(lam)), largest(D, w, lam)
+    assert largest_of_run(scene, w) == pytest.approx(most, rel=2e-6)  # the oracle samples a maximum
+    assert most <= bound_of_largest(scene, np.array([w]))[0]
+
+
+def test_a_wheel_along_the_axis_of_a_symmetric_body_leaves_a_closed_form(tmp_path):
+    """Its free motion keeps |omega|, so that closing is too late once the burn itself reaches the limit: the first
+    crossing of |omega|, by the bisection of an own run."""
+    D, w, torque, lam, most = [2.0, 2.0, 3.0], [0.01, 0.02, -0.03], np.array([0.05, 0.02, 0.04]), [0, 0, 0.5], 0.2
+    found = stabilab.burn(case_of(tmp_path, D, w, [(torque, "stop = 99")], more=wheels(lam)), below=most).latest
+    assert found.level == "proved" and found.high == math.nextafter(found.low, math.inf)
+    before, after = (np.linalg.norm(run(D, torque, w, end, lam)) for end in (found.low - 1e-9, found.high + 1e-9))
+    assert before < most < after and found.surely is None
 
 
 def check_latest(folder, seed):
@@ -120,13 +170,13 @@ def least_square(D, w):
     return ((three**2 - one**2) * T2 - (three - one) * H2) / (one * three * (three - one))
 
 
-@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("seed", [1])
 def test_the_latest_closing_time_is_the_last_double_that_stays_below(tmp_path, seed):
     check_latest(tmp_path, seed)
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("seed", [*range(3, 25), *(pytest.param(n, marks=pytest.mark.long)
+@pytest.mark.parametrize("seed", [0, *range(2, 25), *(pytest.param(n, marks=pytest.mark.long)
                                                     for n in range(25, 100))])
 def test_the_latest_closing_times_of_a_hundred_burns(tmp_path, seed):
     check_latest(tmp_path, seed)
@@ -151,7 +201,7 @@ def test_pulses_and_propellant_are_those_of_a_piecewise_run(tmp_path):
     assert np.abs(found.closed.rates - state).max() < 1e-13
     assert [one.time for one in found.switches] == [0, 1, 1.5, 2.25, 3, 3.5, 4, 5]
     assert found.closed.motion.fate == stabilab.Fate.BOUNDED
-    assert found.closed.largest_rate == pytest.approx(found.closed.motion.largest, rel=1e-12)
+    assert found.closed.largest_rate == pytest.approx(found.closed.motion.largest, rel=1e-8)  # eight digits
 
 
 def test_the_angular_momentum_in_space_grows_by_the_integral_of_the_torque(tmp_path):
@@ -263,8 +313,9 @@ def test_a_closing_before_the_start_leaves_the_motion_as_it_was(tmp_path):
 def test_what_burn_cannot_answer_it_says(tmp_path):
     wheel = "[[wheels]]\naxis = [1, 0, 0]\nmomentum = 1\n"
     path = case_of(tmp_path, [3.0, 2.0, 1.5], [0, 0, 0.05], [([0, 0, 0.15], "stop = 9")], more=wheel)
-    with pytest.raises(stabilab.InputError, match="below: .*without wheels"):
-        stabilab.burn(stabilab.load_burning(path), below=1)
+    stays = '[[thrusters]]\nposition = [1, 0, 0]\ndirection = [0, 1, 0]\nforce = 1\nstuck = true\n'
+    with pytest.raises(stabilab.InputError, match="below: a torque stays"):
+        stabilab.burn(path.read_text() + stays, below=1)
     with pytest.raises(stabilab.InputError, match="stop: expected a positive number"):
         stabilab.burn(stabilab.load_burning(path), stop=-1)
     path.write_text("body.inertia = [3, 2, 1.5]\nmotion.angular_velocity = [0, 0, 1]\n")

@@ -2,6 +2,7 @@
 written out piece by piece."""
 import json
 import math
+from functools import lru_cache
 
 import numpy as np
 import pytest
@@ -27,17 +28,19 @@ def burning(tmp_path):
                                                  (TWO, "start = 2.25\nstop = 4")], more=wheels)
 
 
+@lru_cache(maxsize=1)
 def run_of_pieces():
     """(begin, length, solution of rates and matrix) of each piece."""
-    y, begin = np.concatenate([START, np.eye(3).ravel()]), 0.0
+    y, begin, found = np.concatenate([START, np.eye(3).ravel()]), 0.0, []
     for length, torque in PIECES:
         def rate(_, y, torque=torque):
             w, C = y[:3], y[3:].reshape(3, 3)
             cross = [[0, -w[2], w[1]], [w[2], 0, -w[0]], [-w[1], w[0], 0]]
             return np.concatenate([(torque - np.cross(w, D * w + LAM)) / D, (C @ cross).ravel()])
         run = solve_ivp(rate, (0, length), y, method="DOP853", rtol=1e-13, atol=1e-15, dense_output=True)
-        yield begin, length, run.sol
+        found.append((begin, length, run.sol))
         y, begin = run.y[:, -1], begin + length
+    return found
 
 
 def written_out():
@@ -126,7 +129,9 @@ def stabilab_of(path):
     return stabilab.load_burning(path)
 
 
-@pytest.mark.parametrize("keys, levels", [("stop = 180", {"proved"}), ("stop = 180\nperiod = 10\nduty = 0.9", {"run"})])
+@pytest.mark.parametrize("keys, levels", [
+    pytest.param("stop = 180", {"proved"}, marks=pytest.mark.slow),
+    pytest.param("stop = 180\nperiod = 10\nduty = 0.9", {"run"}, marks=pytest.mark.slow)])
 def test_a_limit_that_is_reached_after_too_many_turns_to_enclose_is_found_along_runs(tmp_path, keys, levels):
     D, torque = np.array([4000.0, 9000.0, 9000.0]), np.array([-166.5, 0, -166.5])
     path = case_of(tmp_path, D.tolist(), [0, 0, 0], [(torque, keys)], 180)
