@@ -6,10 +6,8 @@ from fractions import Fraction as F
 import numpy as np
 import pytest
 
-from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene, extremes, fate, period
-from stabilab.orbit import reduction
+from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene
 from stabilab.orbit.reduction import reduce
-from stabilab.physics import scene as module
 from tests.oracles.pairs import physical, scaled
 from tests.orbit.fate.test_fate import FAMILIES
 
@@ -77,16 +75,3 @@ def test_a_wheel_on_the_symmetry_axis_shifts_the_rate_about_it():
     D3)."""
     r = reduce(REDUCED["wheel and torque on the symmetry axis"][0])
     assert (r.axis, r.s, r.weight) == (0, F(1, 2), 3)
-
-
-def test_a_scene_s_rationals_are_reduced_once_however_many_calls_ask(monkeypatch):
-    """A call with a few rows took longer over these than over the rows."""
-    scene, made = Scene(Body((9.5, 7.8, 7.9)), Gyrostat((0, 0, "0.17")), ConstantTorque(("-0.3", 0, 0))), []
-    for where, name in ((reduction, "reduction_about"), (module, "euler_form")):
-        function = getattr(where, name)
-        monkeypatch.setattr(where, name, lambda *given, name=name,
-                            function=function: made.append(name) or function(*given))
-    states = [[0.1, 0.2, 0.3], [1.0, -2.0, 0.5]]
-    for ask in (fate, extremes, period, extremes):
-        ask(scene, states)
-    assert sorted(made) == ["euler_form", "reduction_about"]

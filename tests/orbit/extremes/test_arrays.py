@@ -12,17 +12,13 @@ import pytest
 import stabilab
 from stabilab import Body, Fate, Gyrostat, Scene
 from stabilab.answers.motion import motion
-from stabilab.orbit.extremes.one_state import precise_extremes
-from stabilab.orbit.extremes_and_periods import extremes_and_periods
-from stabilab.orbit.fate.arrays import circle_margins
 from stabilab.orbit.landscape import landscape
-from stabilab.orbit.one_orbit import Orbit
 from stabilab.orbit.reduction import reduce
 from tests.oracles import energy
 from tests.oracles.energy import Reduced, _levels
-from tests.oracles.pairs import WORDS, brink, exactly, physical, scaled
+from tests.oracles.pairs import WORDS, exactly, physical, scaled
 from tests.orbit.extremes.test_extremes import assert_extremes
-from tests.orbit.fate.test_fate import FAMILIES, axis_of, sample
+from tests.orbit.fate.test_fate import FAMILIES, axis_of
 from tests.shared import PARABOLIC
 
 ALL = FAMILIES | PARABOLIC
@@ -327,47 +323,6 @@ def test_equilibria_beside_the_centre_of_a_hyperbola_stand_where_they_stand():
                       ("0x1.562d0829e194cp+2", "-0x1.c48ca697a8c75p-17", "0x1.951d823f7c0c2p-43")))
     assert_extremes(stabilab.extremes(scene, np.array([state]))[0],
                     energy.extremes(problem, state, digits=120), 1e-11)
-
-
-def test_a_root_of_the_energy_difference_in_theta_loses_half_of_the_digits_next_to_the_separatrix():
-    """The turning point merges with the saddle, where V is flat: bisection on E - V(theta), subtracted,
-    against balls. The arrays' path solves from the saddle instead, in the distance from it."""
-    scene, problem = FAMILIES["minor scaled +"]
-    land, rng, worst = landscape(scene), np.random.default_rng(3), 0.0
-    for _ in range(6):
-        state = brink(problem, rng.normal(size=2) * 2, -1e-13)
-        if state is None or stabilab.fate(scene, np.array(state)).labels != Fate.BOUNDED:
-            continue
-        state = np.array(state, float)
-        place, w, size = land.start(state[None])
-        pot, (x, z) = land.potential, (float(place[0][0]), float(place[1][0]))
-        offset, _, barrier = land.critical(place, True)
-        margins, _ = circle_margins(land, place, w, size)
-        ahead = float(np.nanmin(np.where(barrier, offset, np.nan)))
-
-        def height(y):
-            X, Z = x * np.cos(y) + z * np.sin(y), z * np.cos(y) - x * np.sin(y)
-            return -pot.mu * y - pot.G * X * X / 2 - pot.c * X + pot.d * Z
-        energy, low, high = float(w[0]) ** 2 / 2 + height(0.0), 0.0, ahead
-        for _ in range(100):
-            middle = 0.5 * (low + high)
-            low, high = (middle, high) if height(middle) < energy else (low, middle)
-        X, Z = x * np.cos(low) + z * np.sin(low), z * np.cos(low) - x * np.sin(low)
-        naive = land.components((np.array([X]), np.array([Z])), np.zeros(1))[0]
-        exact, got = precise_extremes(Orbit(land.reduction, state), 0), stabilab.extremes(scene, state)
-        j, k = land.reduction.j, land.reduction.k
-        off = min(np.abs(exact[a] - naive[a]).min() for a in (j, k))
-        assert np.abs(got - exact).max() < 1e-12 * np.abs(exact).max()
-        worst = max(worst, off)
-    assert 1e-11 < worst < 1e-4
-
-
-def test_extremes_and_periods_in_one_go_equal_each_alone():
-    scene = FAMILIES["minor scaled +"][0]
-    states = sample("minor scaled +", 30)
-    boxes, periods = extremes_and_periods(scene, states)
-    np.testing.assert_array_equal(boxes, stabilab.extremes(scene, states))
-    np.testing.assert_array_equal(periods, stabilab.period(scene, states))
 
 
 def test_small_arrays_never_load_numba():

@@ -3,8 +3,6 @@ from __future__ import annotations
 
 import importlib
 from fractions import Fraction as F
-from itertools import product
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -16,7 +14,6 @@ from stabilab.orbit.fate.one_state import REASONS, Reason
 from stabilab.orbit.fate.result import empty_columns, in_chunks
 from stabilab.orbit.fate.table import barrier_table
 from stabilab.orbit.landscape import landscape
-from stabilab.physics import scene as quadratic
 from tests.oracles import energy
 from tests.oracles.pairs import WORDS, brink, exactly, physical, scaled
 from tests.orbit.extremes.test_extremes import assert_extremes
@@ -43,24 +40,6 @@ def times(a, b):
         for k, y in enumerate(b):
             out[i + k] += x * y
     return out
-
-
-def test_a_parabola_is_flat_exactly_where_no_power_of_the_force_along_it_survives():
-    """u' = p v + p0, v' = q u + q0 with p q = 0, F = kappa u v + rho v + sigma u + m: the polynomial
-    multiplied out."""
-    flat = 0
-    for p, q in ((0, 0), (0, 3), (2, 0)):
-        for p0, q0, kappa, rho, sigma, u, v in product((0, 1), (0, -1, 2), (0, 1), (-2, 0, 1), (0, 1),
-                                                       (-1, 0, 1), (0, 2)):
-            a, b = F(p * v + p0), F(q * u + q0)
-            us, vs = [F(u), a, F(p) * b / 2], [F(v), b, F(q) * a / 2]
-            force = [kappa * x + rho * y + sigma * z for x, y, z in
-                     zip(times(us, vs), [*vs, 0, 0], [*us, 0, 0])]
-            r = SimpleNamespace(j=0, k=1, p=F(p), q=F(q), p0=F(p0), q0=F(q0), kappa=F(kappa), rho=F(rho),
-                                sigma=F(sigma))
-            assert fate._is_flat(r, (float(u), float(v), 7.0)) == (not any(force[1:]))
-            flat += not any(force[1:])
-    assert 0 < flat < 900
 
 
 @pytest.mark.parametrize("scale", [1e-9, 1.0, 1e9])
@@ -97,34 +76,6 @@ def test_long_arrays_are_answered_in_chunks_and_any_chunk_gives_the_same_bytes(n
     same(by_chunks, stabilab.fate(scene, states))
     np.testing.assert_array_equal(by_chunks.labels, whole.labels)
     assert by_chunks.precise == 2
-
-
-def test_a_table_is_built_for_large_arrays_alone(monkeypatch):
-    scene, built = FAMILIES["minor scaled +"][0], []
-    monkeypatch.setattr(fate, "barrier_table", lambda scene: built.append(scene))
-    stabilab.fate(scene, sample("minor scaled +", fate.TABLE_FROM - 1))
-    assert not built
-    stabilab.fate(scene, sample("minor scaled +", fate.TABLE_FROM))
-    assert built == [scene]
-
-
-def test_few_states_are_asked_exactly_whether_they_rest(monkeypatch):
-    """Rates in doubles are off by some roundings of their terms: only rates as small as that need fractions.
-    """
-    scene, asked, real = scaled(0.25, 0.5, (0, 0, 1))[0], [], quadratic.rests
-    monkeypatch.setattr("stabilab.physics.states.rests", lambda form,
-                        state: asked.append(tuple(state)) or real(form, state))
-    off = 10.0 ** np.arange(-17, -10, 0.25)
-    states = np.array([(0.0, -2.0, 0.0), *((0.0, -2.0 * (1 + d), 0.0) for d in off)])
-    labels = stabilab.fate(scene, states).labels
-    assert labels[0] == Fate.EQUILIBRIUM and labels[-1] != Fate.EQUILIBRIUM
-    # x3' = mu + X1 X2 + b X2 ...: terms 1 and b |X2| = 1, so the rate of the k-th is off[k] against terms of
-    # 2
-    widest = max(d for d, state in zip(off, states[1:]) if tuple(state) in asked)
-    assert 4 * 2.0**-52 <= widest / 2 <= 64 * 2.0**-52
-    asked.clear()
-    stabilab.fate(scene, sample("minor scaled +", 200))
-    assert not asked
 
 
 def edge_states(name):
@@ -205,41 +156,12 @@ def test_pure_spin_about_the_middle_axis_grows_with_the_torque_and_rests_without
     assert (free.labels, free.axis, free.sense, free.reasons) == (Fate.EQUILIBRIUM, 0, 0, Reason.AT_REST)
 
 
-def test_a_result_is_told_by_its_answers_and_not_by_its_states():
-    assert repr(stabilab.fate(FAMILIES["minor scaled +"][0],
-                              np.zeros((2, 3)))) == "FateResult(2 states: 2 spin-up)"
-
-
 # The fold stands 2,000 times as near to the centre as the asymptotes of the equilibria: the second needs more
 # cells
 FAR_ASYMPTOTES = [stabilab.Scene(stabilab.Body(D), stabilab.Gyrostat(wheel), stabilab.ConstantTorque(torque))
                   for D, wheel, torque in (
     ((5.399, 4.133, 3.232), (0, 0, 7.757), (-0.0129, 0, 0)),
     ((3.315, 4.642, 4.635), (0, 0, -1.393), (0, -0.0106, 0)))]
-
-
-@pytest.mark.parametrize("scene, tries", [(FAMILIES["minor scaled +"][0], 1),
-                                          (FAMILIES["middle scaled -, |c| above the cusp"][0], 1),
-                                          (FAMILIES["middle scaled, |c| far above"][0], 1),
-                                          (FAR_ASYMPTOTES[1], 2)])
-def test_a_table_has_as_few_cells_as_leave_few_gaps(scene, tries, monkeypatch):
-    module = importlib.import_module("stabilab.orbit.fate.table")
-    table, sizes = barrier_table(scene), list(module.CELLS)
-    count = table.cells.shape[1]
-    assert count == sizes[tries - 1] and table.gaps <= module.GAPS[tries - 1]
-    for fewer, allowed in zip(sizes[:tries - 1], module.GAPS):
-        monkeypatch.setattr(module, "CELLS", (fewer,))
-        assert module.barrier_table.__wrapped__(scene).gaps > allowed
-
-
-def test_a_hundredth_of_the_cells_is_no_reason_for_a_table_of_8192():
-    """Next to the fold of this body 1 % of 2048 cells are left out; its states are answered as fast as with
-    0.2 % of 8192, which cost four times as much."""
-    module = importlib.import_module("stabilab.orbit.fate.table")
-    table = barrier_table(stabilab.Scene(stabilab.Body((2.536, 2.5, 1.821)),
-                                         stabilab.Gyrostat((-0.955, 0, 0.128)),
-                                         stabilab.ConstantTorque((0, -0.2426, 0))))
-    assert table.cells.shape[1] == module.CELLS[1] and table.gaps <= module.GAPS[1]
 
 
 @pytest.mark.parametrize("scene", FAR_ASYMPTOTES)
@@ -254,18 +176,6 @@ def test_a_fold_far_inside_the_asymptotes_leaves_few_states_to_the_general_formu
     assert (found.labels[::20] == general.labels).all()
     np.testing.assert_allclose(found.margins[::20], general.margins, rtol=1e-11,
                                atol=1e-12 * np.abs(general.margins[np.isfinite(general.margins)]).max())
-
-
-def test_more_cells_are_tried_only_while_they_close_gaps(monkeypatch):
-    module, tried = importlib.import_module("stabilab.orbit.fate.table"), []
-    def rough(land, span, count):
-        tried.append(count)
-        cells = np.zeros((count, module.DEGREE + 3))
-        cells[::10] = np.nan  # a tenth however many: rounding of the curve itself
-        return [0.0] * 11, cells
-    monkeypatch.setattr(module, "_stretch", rough)
-    assert module._tabulated(None,
-                             [None])[2] == pytest.approx(0.1, abs=1e-2) and tried == list(module.CELLS[:2])
 
 # Rates of 1e15 and more against moments that differ by 1e-15: the way along the conic to where a barrier was
 # sought ended at a well.

@@ -8,7 +8,6 @@ from __future__ import annotations
 import importlib
 from importlib.util import find_spec
 from itertools import islice
-from types import SimpleNamespace
 
 import mpmath as mp
 import numpy as np
@@ -16,12 +15,11 @@ import pytest
 
 import stabilab
 from stabilab.numbers.constants import EPS
-from stabilab.orbit import landscape as landscape_base
 from stabilab.orbit.fate.one_state import decide
 from stabilab.orbit.fine.margins import valley_margins
 from stabilab.orbit.landscape import landscape
 from stabilab.orbit.one_orbit import Orbit
-from stabilab.orbit.reduction import Reduction, reduce
+from stabilab.orbit.reduction import reduce
 from tests.oracles import energy
 from tests.oracles.energy import Reduced
 from tests.oracles.pairs import brink, physical, scaled
@@ -29,21 +27,7 @@ from tests.orbit.fate.test_fate import ELLIPTIC, FAMILIES, axis_of
 from tests.shared import PARABOLIC
 
 fate = importlib.import_module("stabilab.orbit.fate.arrays")
-LOST = 1e-3  # of the shifted rates: a place that small has lost three digits
 AWAY = 10.0 ** np.arange(-7, -17, -0.125)  # relative distances from the separatrix in the axis's rate
-
-
-def doubtful(scene, states, monkeypatch):
-    """(n,) True where doubles leave a state to longer arithmetic; twofold numbers, which would decide most,
-    leave it to balls here."""
-    asked = []
-    monkeypatch.setattr(fate, "valley_margins", lambda land, rows,
-                        known: (np.zeros(len(rows)), np.zeros(len(rows), bool)))
-    monkeypatch.setattr(fate, "decide",
-                        lambda orbit: asked.append(tuple(orbit.state)) or SimpleNamespace(sign=1, margin=1.0))
-    stabilab.fate(scene, states)
-    monkeypatch.undo()
-    return np.array([tuple(state) in asked for state in states])
 
 
 def terms(problem, state):
@@ -85,23 +69,6 @@ BARRIERS = {"far centre": scaled(1e5, 1e5 + 0.25, (0, 0, 1)),
                 "first axis, other sign", "second axis", "third axis", "oblate")}}
 
 
-@pytest.mark.one_in(4)
-@pytest.mark.parametrize("name", BARRIERS)
-def test_states_within_some_fifty_roundings_of_a_separatrix_are_decided_exactly_and_no_others(name,
-                                                                                              monkeypatch):
-    scene, problem = BARRIERS[name]
-    found = brinks(name, problem)
-    assert len(found) >= 2
-    for state in found:
-        states = np.array([state] * len(AWAY))
-        states[:, axis_of(problem)] *= 1 + AWAY
-        unsure = doubtful(scene, states, monkeypatch)
-        assert unsure.any() and (np.diff(unsure.astype(int)) >= 0).all()
-        size, square = terms(problem, tuple(states[-1]))
-        bound = AWAY[np.argmax(unsure)] * square / (EPS * size)
-        assert 40 < bound < 160, state
-
-
 def test_twofold_numbers_decide_no_state_otherwise_than_balls_however_near_the_separatrix():
     scene, problem = BARRIERS["middle scaled, |c| far above"]
     land, nearest = landscape(scene), []
@@ -113,85 +80,6 @@ def test_twofold_numbers_decide_no_state_otherwise_than_balls_however_near_the_s
                               [decide(Orbit(land.reduction, one)).sign for one in states[sure]])
         nearest.append(AWAY[sure].min())
     assert max(nearest) < 1e-12  # the zone that is left to balls is no wider than that of doubles
-
-
-def on_circles(radius, count):
-    """(landscape, potential, places of `count` states on a circle, its barriers' places) of a scene on
-    circles."""
-    land = landscape(FAMILIES["minor scaled +"][0])
-    place = np.array([radius]), np.array([0.0])
-    offsets, spots, barrier = land.critical(place, barriers_only=True)
-    return land, [tuple(np.full(count, v) for v in spots[:, 0, column])
-                  for column in np.nonzero(barrier[0])[0]]
-
-
-@pytest.mark.parametrize("radius", [2.5, 30.0])
-@pytest.mark.parametrize("sizes", [(0.0, 0.0), (5.0, 50.0), (1e6, 0.0)])
-@pytest.mark.parametrize("side", [-1, 1])
-def test_a_state_so_near_a_barrier_that_rounding_decides_which_side_it_is_on_is_decided_exactly(side, sizes,
-                                                                                                radius):
-    """A place known to EPS times the sizes has an angle known to that over the radius; the angle's own
-    rounding is added."""
-    off = 10.0 ** np.arange(-2, -17, -0.1)
-    land, spots = on_circles(radius, len(off))
-    assert spots
-    for spot in spots:
-        place = land.potential.move(spot, side * off)
-        unsure = fate.circle_margins(land, place, np.full(len(off), radius),
-                                     tuple(np.full(len(off), s) for s in sizes))[1]
-        assert unsure[-1] and (np.diff(unsure.astype(int)) >= 0).all()
-        assert 16 < off[np.argmax(unsure)] / (EPS * (1 + sum(sizes) / radius)) < 64
-
-
-@pytest.mark.parametrize("sizes", [(0.0, 0.0), (1.0, 3.0), (1e3, 0.0)])
-@pytest.mark.parametrize("side", [-1, 1])
-def test_a_circle_that_may_or_may_not_reach_a_fold_is_judged_exactly(side, sizes):
-    """Q = Z^2 + X^2 of a place known to EPS times the sizes is known to about EPS times their square."""
-    off = 10.0 ** np.arange(-2, -17, -0.1)
-    land = landscape(FAMILIES["minor scaled +"][0])
-    assert len(land.conic.fold_invariants) == 2
-    for edge in land.conic.fold_invariants:
-        radius, angle = np.sqrt(edge * (1 + side * off)), 1.0
-        place = radius * np.sin(angle), radius * np.cos(angle)
-        unsure = fate.circle_margins(land, place, np.full(len(off), 5.0),
-                                     tuple(np.full(len(off), s) for s in sizes))[1]
-        assert unsure[-1] and (np.diff(unsure.astype(int)) >= 0).all()
-        assert 32 < off[np.argmax(unsure)] / (EPS * (1 + sum(sizes) ** 2 / edge)) < 128
-
-
-@pytest.mark.parametrize("name",
-                         ["minor scaled +", "minor physical, other sign", "major physical", "middle scaled +",
-                                  "middle physical, other sign"])
-def test_next_to_the_centre_or_a_plane_places_come_from_longer_arithmetic_and_keep_their_digits(name,
-                                                                                                monkeypatch):
-    r, land, asked = reduce(FAMILIES[name][0]), landscape(FAMILIES[name][0]), []
-    exact, g, rng = Reduction.canonical_exact, r.exact_constants, np.random.default_rng(2)
-    states = np.zeros((160, 3))
-    for n, state in enumerate(states):
-        x, z = rng.normal(size=2)
-        if r.e > 0 and n % 2:  # near a plane rather than the centre
-            z = x * rng.choice([-1, 1]) * (1 + 10.0 ** rng.uniform(-12, 0))
-        else:
-            x, z = x * 10.0 ** (-n / 20), z * 10.0 ** (-n / 20)
-        state[[r.j, r.k]] = float(g["flip"]
-                                  * g["rx"]) * x - float(g["sj"]), float(g["rz"]) * z - float(g["sk"])
-    twofold = landscape_base.twofold_places
-    monkeypatch.setattr(landscape_base, "twofold_places", lambda c, j, k,
-                        some: asked.extend(map(tuple, some)) or twofold(c, j, k, some))
-    place, _, size = land.start(states)
-    for n, state in enumerate(states):
-        x, z, _ = exact(r, state)
-        true = (x, z) if r.e < 0 else (x + z, x - z)
-        small = float(max(map(abs, true))) if r.e < 0 else float(min(map(abs, true)))
-        error = max(abs(float(t) - p[n]) for t, p in zip(true, place)) if r.e < 0 else max(
-            abs(float(t) - p[n]) / max(1e-300, abs(float(t))) * small for t, p in zip(true, place))
-        assert error <= 2 * EPS / LOST * small
-        share = small / (size[0][n] + size[1][n])
-        assert (tuple(state) in asked) if share < LOST / 2 else (share < 2 * LOST
-                                                                 or tuple(state) not in asked)
-    sj, sk = abs(float(g["sj"] / g["rx"])), abs(float(g["sk"] / g["rz"]))
-    near = [abs(float(v)) for v in exact(r, states[0])]
-    assert [s[0] for s in size] == pytest.approx([near[0] + sj, near[1] + sk], rel=1e-12)
 
 
 @pytest.mark.one_in(4)

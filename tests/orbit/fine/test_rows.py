@@ -7,11 +7,8 @@ from __future__ import annotations
 
 import math
 
-import mpmath as mp
 import numpy as np
 import pytest
-from scipy.integrate import quad
-from scipy.special import ellipk
 
 import stabilab
 from benchmarks.random_scenes import drawn
@@ -118,33 +115,6 @@ def test_all_rows_are_settled_with_the_digits_of_balls_and_of_a_potential_in_man
         assert_extremes(box, energy.extremes(problem, state), 1e-11)
         assert time == pytest.approx(float(energy.period(problem, state)), rel=1e-11)
     assert ((boxes[..., 0] <= states) & (states <= boxes[..., 1])).all()
-
-
-@pytest.mark.parametrize("sign", [-1, 1])
-@pytest.mark.parametrize("axis, wheel",
-                         [(2, (100, 0, 0)), (2, (60, 90, 0)), (0, (0, 70, 0)), (0, (0, 50, -90)),
-                                         (1, (100, 0, 0)), (1, (60, 0, 90))])
-def test_either_direction_of_the_torque_about_every_axis(sign, axis, wheel):
-    one = physical(BODY, wheel, tuple(200.0 * sign if n == axis else 0 for n in range(3)))[0]
-    states = librations(one, np.random.default_rng(5).uniform(-1, 1, (60, 3)))[:10]
-    boxes, periods, left = settled(one, states)
-    assert not left.any()
-    assert_exact(one, states[:5], boxes, periods, left)
-
-
-@pytest.mark.parametrize("scale", [1e-20, 1e-6, 1e3, 1e20])
-@pytest.mark.parametrize("axis", [1, 2])
-def test_scaling_the_scene_scales_the_answers(scale, axis):
-    """omega, lambda ~ s and M ~ s^2 leave D omega' = (D omega + lambda) x omega + M as it is in the time t/s.
-    """
-    torque = np.where(np.arange(3) == axis, 200.0, 0.0)
-    one = physical(BODY, (100, 0, 0), tuple(torque))[0]
-    twin = physical(BODY, (100 * scale, 0, 0), tuple(torque * scale * scale))[0]
-    states = librations(one, np.random.default_rng(5).uniform(-1, 1, (60, 3)))[:12]
-    (boxes, periods, left), (other, times, open_) = settled(one, states), settled(twin, states * scale)
-    assert not left.any() and not open_.any()
-    assert np.all(np.abs(other / scale - boxes) <= 2e-12 * np.abs(boxes).max(axis=2, keepdims=True))
-    np.testing.assert_allclose(times * scale, periods, rtol=1e-11)
 
 
 @pytest.mark.parametrize("name", ["minor scaled +", "minor physical", "major physical"])
@@ -372,56 +342,6 @@ def test_ends_in_twofold_numbers_are_those_of_balls(number):
         rows(states, np.array([n]), *kernel_input(land), boxes, none, left)
     assert np.count_nonzero(left == 0) >= 0.9 * len(states)
     assert_exact(one.scene, states, boxes, np.empty(len(states)), left | 2)
-
-
-@pytest.mark.parametrize("y", [0.0, 1e-9, -0.3, 1.7, -3.1, 6.5, -12.5])
-def test_the_sine_of_a_double_is_known_to_thirty_digits(y):
-    with mp.workdps(60):
-        for found, exact in zip(rows_kernel.sine_and_lag(y), (mp.sin(mp.mpf(y)), 1 - mp.cos(mp.mpf(y)))):
-            assert abs(mp.mpf(found[0]) + mp.mpf(found[1]) - exact) <= mp.mpf(10) ** -29
-
-
-@pytest.mark.parametrize("y", [0.0, 1e-9, -0.3, 1.7, 25.0, -80.5, 600.0])
-def test_the_exponential_of_a_double_is_known_to_twenty_seven_digits(y):
-    with mp.workdps(60):
-        found, exact = rows_kernel.exponential(y), mp.exp(mp.mpf(y))
-        assert abs(mp.mpf(float(found[0])) + mp.mpf(float(found[1])) - exact) <= mp.mpf(10) ** -27 * exact
-
-
-def test_the_mean_gives_the_complete_integral():
-    for m in (0.0, 0.3, 0.9, 1 - 1e-9):
-        assert 0.5 * math.pi / parabola_kernel.mean(1.0,
-                                                    math.sqrt(1 - m)) == pytest.approx(float(ellipk(m)),
-                                                                                       rel=1e-14)
-
-
-@pytest.mark.parametrize("ends, inner",
-                         [((-1.0, 2.0), (1.3, 0.7)), ((-0.2, 0.1), (-4.0, 5.0)), ((-3.0, -1.0), (0.5, 1e-3))])
-def test_the_period_between_two_roots_is_the_integral(ends, inner):
-    """K = c (y - l)(r - y)((y - a)^2 + b), its coefficients by hand; the integral by SciPy's quadrature of
-    the angle."""
-    (left, right), (a, b), c = ends, inner, 0.8
-    poly = (c * np.polynomial.Polynomial.fromroots([left, right])
-            * -np.polynomial.Polynomial([a * a + b, -2 * a, 1]))
-    pulls = float(poly.deriv()(left)), -float(poly.deriv()(right))
-    period, off = parabola_kernel.period_of(left, right, float(poly.deriv(4)(0.0)), (0.0, 0.0), pulls,
-                                            (0.0, 0.0))
-    middle, rho = 0.5 * (left + right), 0.5 * (right - left)
-    exact = quad(lambda phi: math.sqrt(2) / math.sqrt(c * ((middle + rho * math.cos(phi) - a) ** 2 + b)), 0,
-                 math.pi, epsabs=0, epsrel=1e-13, limit=500)[0]
-    assert period == pytest.approx(exact, rel=1e-12) and off < 1e-11
-
-
-def test_fates_show_in_the_extremes_exactly():
-    """Bounded motions have finite extremes and periods, spin-ups infinite ones, as an oracle's potential
-    decides."""
-    one, problem = FAMILIES["minor scaled +"]
-    states = sample("minor scaled +", 60)
-    boxes, periods = extremes_and_periods(one, states)
-    spins = np.array([energy.label(problem, tuple(state), digits=60) == "spin-up"
-                      for state in states.tolist()])
-    np.testing.assert_array_equal(np.isinf(boxes).any(axis=(1, 2)), spins)
-    np.testing.assert_array_equal(np.isinf(periods), spins)
 
 
 def test_without_numba_plain_python_serves(monkeypatch):

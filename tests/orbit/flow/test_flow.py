@@ -9,11 +9,9 @@ import stabilab
 from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene, fate, trajectory
 from stabilab.errors import InputError
 from stabilab.integrate.reference import reference, relative_errors
-from stabilab.integrate.to_heyoka import heyoka_available
 from stabilab.orbit.flow.flow import reduced_motion
 from stabilab.orbit.flow.periodic import ByPanels, BySeries
 from stabilab.orbit.flow.spin_up import SpinUp
-from tests.hard.circles import textbook_period
 from tests.hunt.disagreements import DISAGREEMENTS, many_digits
 from tests.oracles import energy
 from tests.oracles.pairs import exactly, physical, scaled
@@ -22,7 +20,6 @@ MINOR = ScaledGyrostat("0.2", "0.4", (0, 0, 1))
 MIDDLE = ScaledGyrostat("0.2", "4.4", (0, 1, 0))  # |c| = 4.2: a double well
 HELD, SPINNING = (2.75, 1.125, 1.0), (1.0, 4.0, 3.0)
 EPS = float(np.finfo(float).eps)
-needs_heyoka = pytest.mark.skipif(not heyoka_available(), reason="heyoka is not installed")
 
 
 def error_of(scene, state, times, **options):
@@ -73,17 +70,6 @@ def test_state_next_to_the_separatrix_keeps_its_digits(distance, side):
     motion = reduced_motion(MINOR, state)
     assert isinstance(motion, ByPanels if side > 0 else SpinUp)
     assert error_of(MINOR, state, [1.0, 5.0, 10.0]).max() < 2e-14
-
-
-def test_energies_subtracted_lose_the_period_that_divided_differences_keep():
-    """The hard case: 1e-9 from the separatrix the period by the textbook formula, energies subtracted, and
-    the quadrature."""
-    state = (2.75, 1.125, turning_speed(2.75, 1.125) * (1 - 1e-9))
-    motion = reduced_motion(MINOR, state)
-    time, rest, _ = reference(MINOR, state, np.array([1.0]), orbit=True).period
-    assert abs(motion.period - time - rest) < 4e-15 * time
-    naive = textbook_period(0.2, 0.4, state)
-    assert abs(naive - time) > 1e-10 * time
 
 
 def test_small_libration_about_a_centre_keeps_its_relative_digits():

@@ -2,18 +2,13 @@
 leaves no depth at all."""
 from __future__ import annotations
 
-import math
-
 import numpy as np
 import pytest
 
 import stabilab
 from benchmarks.random_scenes import drawn
-from stabilab import Body, Fate, Scene
-from stabilab.orbit.extremes import arrays
+from stabilab import Fate
 from stabilab.orbit.extremes_and_periods import extremes_and_periods
-from stabilab.orbit.fine.rows_kernel import converged
-from stabilab.orbit.landscape import landscape
 from stabilab.orbit.one_orbit import Orbit
 from stabilab.orbit.period import precise_period
 from stabilab.orbit.reduction import reduce
@@ -92,36 +87,3 @@ def test_a_sum_that_is_right_by_chance_does_not_end_the_doubling_of_its_nodes(nu
     scene = drawn(number + 1)[number].scene
     exact = precise_period(Orbit(reduce(scene), state), Fate.BOUNDED)
     assert stabilab.period(scene, [state])[0] == pytest.approx(exact, rel=1e-12)
-
-
-def test_changes_tell_convergence_unless_one_of_them_vanishes_by_chance():
-    """An error r^n, known at every n: two sums that nearly agree by chance, as none but the last of three
-    changes would see, do not end it."""
-    changes = [abs(0.02**n - 0.02 ** (2 * n)) for n in (1, 2, 4)]
-    assert converged(1.0, changes[2] * 1e-3, changes[1] * 1e-2, changes[0] * 1e-1)
-    assert not converged(1.0, 1e-11, 1e-3, 3e-2)  # the last is 1e-6 by the two before
-    assert not converged(1.0, 1e-10, 1e-11, 1e-2)  # the middle one vanished, the last shows it
-    assert not converged(1.0, 2e-9, 1e-10, 1e-12)  # nothing so large is the last
-    assert converged(1.0, 0.0, 0.0, 0.0) and converged(1.0, 3e-16, 3e-16, 1e-16)  # rounding alone
-    assert not converged(1.0, math.nan, 0.0, 0.0)
-
-
-@pytest.mark.parametrize("beside", [1e-2, 1e-3])
-def test_sums_over_a_rotation_end_where_rounding_is_all_that_changes_them(beside, monkeypatch):
-    """The peaks of an integrand of period 2 pi are (margin/energy)^(1/2) wide at least, margin/energy =
-    `PERIOD_SHARE` where arrays answer, so that 30 nodes over that width leave e^-30 (Trefethen and Weideman
-    2014); a sum of less than twice as many follows, with those before four times the nodes. The balls of
-    `precise_period` share no sum with them."""
-    scene, states = Scene(Body((3, 2, 1.5))), np.random.default_rng(1).normal(size=(400, 3))
-    # 3 (3 - 2) x^2 = 1.5 (2 - 1.5) z^2 on the separatrix
-    states[:, 0] = np.sign(states[:, 0]) * 0.5 * np.abs(states[:, 2]) * (1 + beside)
-    margins = stabilab.fate(scene, states).margins
-    potential, nodes = type(landscape(scene).potential), []
-    rise = potential.rise
-    monkeypatch.setattr(potential, "rise", lambda self, *way: nodes.append(1) or rise(self, *way))
-    found = arrays.rotation_periods(landscape(scene), states, margins)
-    assert len(nodes) < 4 * 30 / np.sqrt(arrays.PERIOD_SHARE)
-    settled = np.nonzero(np.isfinite(found))[0]
-    assert settled.size > 300
-    exact = [precise_period(Orbit(reduce(scene), state), Fate.BOUNDED) for state in states[settled[::20]]]
-    np.testing.assert_allclose(found[settled[::20]], exact, rtol=1e-11)

@@ -8,13 +8,11 @@ from flint import arb
 from scipy.optimize import brentq
 
 import stabilab
-from stabilab import Fate, ScaledGyrostat
-from stabilab.numbers.balls import Digits, Unclear, settled, working
+from stabilab import ScaledGyrostat
+from stabilab.numbers.balls import Unclear, settled, working
 from stabilab.orbit import period as balls
-from stabilab.orbit.extremes.one_state import turning_points
-from stabilab.orbit.one_orbit import Orbit, ball_orbit
+from stabilab.orbit.one_orbit import ball_orbit
 from stabilab.orbit.period import _rate
-from stabilab.orbit.reduction import reduce
 
 WIDTH = 0.1  # of a peak, against an interval of 1
 
@@ -25,30 +23,6 @@ def test_a_rate_below_a_barrier_is_asked_for_again_with_more_bits():
     side = 1 if float(orbit.force_here) < 0 else -1  # uphill
     with pytest.raises(Unclear):
         _rate(orbit, orbit.energy * 0 + side)
-
-
-@pytest.mark.parametrize("digits", [9, 14, 20, 30, 50])
-def test_a_period_in_balls_is_worked_out_once(digits, monkeypatch):
-    """The last whole step of the rule stands nearer to a turning point than its terms need: with fewer bits
-    every first try was in vain."""
-    tried, orbit = [], Orbit(reduce(scene := ScaledGyrostat(1, 2, (0, 0, 1))), (0.3, 0.2, 0.1))
-    assert stabilab.fate(scene, [orbit.state]).labels[0] == Fate.BOUNDED
-    monkeypatch.setattr(balls, "turning_points",
-                        lambda one: tried.append(one.numbers.bits) or turning_points(one))
-    found = balls.period_ball(orbit, digits)
-    assert len(tried) == 1
-    finer = balls.period_ball(orbit, digits + 12)
-    assert abs(float((found - finer).mid())) <= 10.0**-digits * float(finer.mid())
-
-
-def test_a_height_in_balls_forms_the_force_at_the_state_once(monkeypatch):
-    """A period asks for some hundred heights, and the exact force took longer than the rest of each."""
-    orbit, made = Orbit(reduce(ScaledGyrostat(1, 2, (0, 0, 1))), (0.3, 0.2, 0.1)), []
-    ball = Digits.ball
-    monkeypatch.setattr(Digits, "ball", staticmethod(lambda value: made.append(value) or ball(value)))
-    balls.period_ball(orbit, 9)
-    force = orbit.settled(lambda found: found.force_here)
-    assert 1 <= made.count(force) <= 4
 
 
 def test_two_steps_that_agree_by_chance_do_not_end_the_rule():

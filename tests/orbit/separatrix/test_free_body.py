@@ -15,10 +15,8 @@ import pytest
 import stabilab
 from stabilab import Body, ConstantTorque, Fate, ScaledGyrostat, Scene
 from stabilab.answers.motion import motion
-from stabilab.orbit.extremes.one_state import precise_extremes
 from stabilab.orbit.fate.one_state import decide, precise_margin
 from stabilab.orbit.one_orbit import Orbit
-from stabilab.orbit.period import precise_period
 from stabilab.orbit.reduction import reduce
 from tests.oracles import energy
 from tests.oracles.model import scaled
@@ -100,14 +98,6 @@ def test_on_the_separatrix_no_digit_of_a_margin_is_known_and_no_barrier_has_none
     # A^2 = 1/2 < 2: no equilibrium on the circle
     assert precise_margin(Orbit(spinning, (0.5, 0.5, 0.0)), 20) is None
     assert decide(Orbit(spinning, (0.5, 0.5, 0.0))).margin == -np.inf
-
-
-def test_a_state_at_rest_has_itself_for_extremes_and_no_time_for_a_period():
-    scene = reduce(ScaledGyrostat(0, 0, (0, 0, 1)))  # x1 x2 = -1, x3 = 0
-    assert precise_extremes(Orbit(scene, (-1.0, 1.0, 0.0)),
-                            Fate.EQUILIBRIUM).tolist() == [[-1, -1], [1, 1], [0, 0]]
-    assert precise_period(Orbit(scene, (-1.0, 1.0, 0.0)), Fate.EQUILIBRIUM) == 0.0
-    assert precise_period(Orbit(scene, (0.5, 0.5, 0.0)), Fate.SPIN_UP) == np.inf
 
 
 @pytest.mark.parametrize("speed", [0.5, -0.5, -3.0])
