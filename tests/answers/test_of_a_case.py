@@ -9,23 +9,6 @@ import stabilab
 CASE = stabilab.load(Path(__file__).parents[2] / "cases" / "thruster-stuck-major-axis.toml")
 
 
-def test_a_case_stands_for_its_scene_its_start_and_its_span():
-    scene, start, span = CASE.scene, CASE.start, CASE.span
-    assert stabilab.fate(CASE).labels == stabilab.fate(scene, start).labels
-    assert stabilab.fate(CASE).margins == stabilab.fate(scene, start).margins
-    assert stabilab.period(CASE) == stabilab.period(scene,
-                                                    start) and stabilab.equilibria(
-                                                        CASE) == stabilab.equilibria(scene)
-    assert np.array_equal(stabilab.extremes(CASE), stabilab.extremes(scene, start, span))
-    assert np.array_equal(stabilab.simulate(CASE).state["omega"],
-                          stabilab.simulate(scene, start, span).state["omega"])
-    assert stabilab.motion(CASE).extremes == stabilab.motion(scene, start, span,
-                                                             exact=CASE.exact_state).extremes
-    other = (0.1, 0.2, 0.3)
-    assert stabilab.motion(CASE, other).at == other and stabilab.fate(CASE, [other]).labels.shape == (1,)
-    assert np.array_equal(stabilab.simulate(CASE, times=[0, 1]).t, [0, 1])
-
-
 @pytest.mark.parametrize("ask", [stabilab.fate, stabilab.period, stabilab.extremes, stabilab.equilibria,
                                  stabilab.motion, stabilab.stuck,
                                  lambda given: stabilab.simulate(given, (1, 0, 0), [0.0, 1.0])])

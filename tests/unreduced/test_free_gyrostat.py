@@ -18,64 +18,6 @@ from stabilab.unreduced.free_gyrostat import extremes_over_period
 from tests.oracles import sphere
 
 
-def rotations(D, lam, h2, digits=50):
-    """[(energy, whether a saddle)] of the permanent rotations with |H|^2 = h2: Newton's method on (H, 1/s)
-    from many starts, polished in many digits, and the signs of the energy's second derivative in the tangent
-    plane; shares nothing with the sextic."""
-    D, lam, found, rng = np.array(D, float), [mp.mpf(v) for v in lam], [], np.random.default_rng(1)
-    plain = np.array(lam, float)
-    rough = []
-    for _ in range(120):
-        n = rng.normal(size=3)
-        H = n / np.linalg.norm(n) * float(h2) ** 0.5
-        k = float(H @ ((H - plain) / D)) / float(h2)
-        x = np.array([*H, k])
-        for _ in range(40):
-            F = np.array([*((x[:3] - plain) / D - x[3] * x[:3]), x[:3] @ x[:3] - float(h2)])
-            J = np.block([[np.diag(1 / D - x[3]), -x[:3, None]], [2 * x[None, :3], np.zeros((1, 1))]])
-            step = np.linalg.lstsq(J, F, rcond=None)[0]
-            x = x - step
-        if np.linalg.norm(step) < 1e-9 * np.linalg.norm(x) and not any(np.linalg.norm(x - y) < 1e-6
-                                                                       * np.linalg.norm(x) for y in rough):
-            rough.append(x)
-    with mp.workdps(digits):
-        for x in rough:
-            exact = mp.findroot(lambda a, b, c,
-                                k: [*((v - l) / mp.mpf(d) - k * v for v, d,
-                                      l in zip((a, b, c), D.tolist(), lam)),
-                                                    a * a + b * b + c * c - h2],
-                                [mp.mpf(v) for v in x.tolist()])
-            H, k = [exact[i] for i in range(3)], exact[3]
-            across = np.linalg.svd(x[None, :3])[2][1:]
-            found.append((sum((v - l) ** 2 / mp.mpf(d) for v, d, l in zip(H, D.tolist(), lam)) / 2,
-                          np.linalg.det(across @ np.diag(1 / D - float(k)) @ across.T) < 0))
-    return found
-
-
-@pytest.mark.one_in(4)
-@pytest.mark.parametrize("D, lam", [((4, 3, 2), (1, 2, -1)), ((4, 3, 2), (1e-3, 1e-2, -1e-3)),
-                                    ((3, 3, 2), (1, 2, 3)), ((2, 2, 2), (1, 2, 3)),
-                                    ((4, 3, 2), (30, 1, 2))])
-@pytest.mark.parametrize("state", [(1.0, 0.5, -0.25), (0.125, 2.0, 0.25)])
-def test_the_margin_is_that_of_the_nearest_saddle_found_by_newtons_method(D, lam, state):
-    scene = Scene(Body(D), Gyrostat(lam))
-    assert kind_of(scene) == "free"
-    with mp.workdps(50):
-        h2 = sum((d * mp.mpf(v) + mp.mpf(l)) ** 2 for d, v, l in zip(D, state, lam))
-        energy = sum(d * mp.mpf(v) ** 2 for d, v in zip(D, state)) / 2
-        points = rotations(D, [mp.mpf(v) for v in lam], h2)
-        saddles = [e - energy for e, saddle in points if saddle]
-        # Euler's number of the sphere: none was missed in a way that would show
-        assert len(points) - 2 * len(saddles) == 2
-        margin = free_margin(scene, state)
-        if not saddles:
-            assert margin.ball is None and stabilab.fate(scene, np.array(state)).margins == np.inf
-        else:
-            nearest = min(saddles, key=abs)
-            assert abs(float(margin) - nearest) < 1e-14 * abs(nearest)
-    assert stabilab.fate(scene, np.array(state)).labels == Fate.BOUNDED
-
-
 def free_scenes(seed, count, decades=0.0):
     """Bodies without a torque, moments distinct, nearly equal or equal, wheels along no, one, two or three
     axes, and states: floats."""
@@ -173,24 +115,17 @@ def test_a_rational_state_on_the_separatrix_of_a_free_gyrostat_is_recognised_and
 
 def test_the_digits_of_a_free_margin_are_those_asked_for():
     from stabilab.answers.digits.ask import ask
-    lam, D = (0.125, 0.25, -0.125), (4, 3, 2)
-    told = ask("fate", Scene(Body(D), Gyrostat(lam)), (1.0, 0.5, -0.25), 40)
+    lam, D, state = (0.125, 0.25, -0.125), (4, 3, 2), (1.0, 0.5, -0.25)
+    told = ask("fate", Scene(Body(D), Gyrostat(lam)), state, 40)
     assert told.digits >= 40
+    nearest = sphere.margin(D, lam, state)
     with mp.workdps(60):
-        state = (mp.mpf(1), mp.mpf("0.5"), mp.mpf("-0.25"))
-        h2 = sum((d * v + l) ** 2 for d, v, l in zip(D, state, lam))
-        energy = sum(d * v ** 2 for d, v in zip(D, state)) / 2
-        nearest = min((e - energy for e, saddle in rotations(D, lam, h2, 60) if saddle), key=abs)
         assert abs(mp.mpf(told.decimals) - nearest) < mp.mpf(10) ** -40 * abs(nearest)
 
 
-# D = (4, 4, 2), lambda = (0, 1, 0), torque (-50, 0, 0), and a state exactly on its separatrix
-# (test_hard_cases, TIES)
-TIED = (1.0, -7.5, -3.5)
-
-
 def turned_by(cosine, sine):
-    """The tied scene and state turned about axis 3 by an angle with these rational cosine and sine."""
+    """A scene (D = (4, 4, 2), lambda = (0, 1, 0), torque (-50, 0, 0)) and a state exactly on its separatrix
+    (tests/hard/test_numbers.py, TIES), turned about axis 3 by an angle with these rational cosine and sine."""
     turn = lambda x, y: (cosine * x - sine * y, sine * x + cosine * y)
     momentum, torque = (*turn(0, 1), 0), (*turn(-50, 0), 0)
     state = (*turn(Fraction(1), Fraction(-15, 2)), Fraction(-7, 2))
@@ -354,18 +289,6 @@ def test_a_momentum_sphere_that_touches_its_fold_has_a_margin():
     nearest = min((e - energy for e in energies), key=abs)
     assert float(free_margin(Scene(Body((3, 5, 6)), Gyrostat((F(8, 3), -1, F(1, 3)))),
                              w)) == pytest.approx(nearest, rel=1e-9)
-
-
-@pytest.mark.parametrize("unit", [2.0**-40, 2.0**-330, 2.0**330])
-def test_a_free_gyrostat_of_any_pace_returns(unit):
-    """Law: with moment and rates times u the motion is the same in a time 1/u as long; u a power of two
-    rounds nothing."""
-    def asked(u):
-        scene, state = Scene(Body((3, 2, 1.5)), Gyrostat((0.3 * u, -0.4 * u, u))), [0.3 * u, 2 * u, -u]
-        return float(stabilab.period(scene, state)) * u, stabilab.extremes(scene, state) / u
-    (period, extremes), (expected, wanted) = asked(unit), asked(1.0)
-    assert period == pytest.approx(expected, rel=1e-13)
-    assert np.abs(extremes - wanted).max() < 1e-13
 
 
 @pytest.mark.one_in(3)

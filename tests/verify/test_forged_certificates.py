@@ -54,7 +54,6 @@ SCENES = {
     "none, contradictory": physical((3, 2, 1), (1, 0, 0), (1, 0, 0)),
     "none, a constant": physical((3, 2, 2), (0, 0, 0), (1, 0, 0)),
     "none, no real root": ScaledGyrostat(0, 0, (-1, 1, 1)), "all": physical((2, 2, 2))}
-OTHER = {"stable": "unstable", "unstable": "stable", "degenerate": "stable"}
 
 
 def proved(scene, state=None):
@@ -83,65 +82,6 @@ def moved(ends, share=F(1, 7)):
     low, high = map(F, ends)
     step = 3 * (high - low) + share * (abs(low) + 1)
     return [str(low + step), str(high + step)]
-
-
-def forgeries(claims):
-    """(what was forged, the certificate) for every claim on the equilibria."""
-    def changed(*path, to):
-        forged = copy.deepcopy(claims)
-        place = forged["equilibria"]
-        for key in path[:-1]:
-            place = place[key]
-        if to is None:
-            del place[path[-1]]
-        else:
-            place[path[-1]] = to
-        return path, forged
-    found = claims["equilibria"]
-    yield changed("kind", to="points" if found["kind"] != "points" else "curves")
-    for part in ("points", "curves", "planes"):
-        for n, entry in enumerate(found[part]):
-            yield changed(part, n, to=None)
-            for word in ("linear", "verdict"):
-                if word in entry:
-                    yield changed(part, n, word, to=OTHER[entry[word]])
-    for n, point in enumerate(found["points"]):
-        yield changed("points", to=[*found["points"], point])
-        yield from (changed("points", n, "box", i, to=moved(point["box"][i])) for i in range(3))
-    for n, curve in enumerate(found["curves"]):
-        line = len(curve["denominator"]) == 1 and all(len(row) < 3 for row in curve["numerators"])
-        for i, row in enumerate(curve["numerators"]):
-            if not (line and len(row) == 2):  # along a line itself a change is another parametrisation
-                yield from (changed("curves", n, "numerators", i, k, to=str(F(c) + 1)) for k,
-                            c in enumerate(row))
-        for part in ("segments", "folds"):
-            for k, piece in enumerate(curve[part]):
-                yield changed("curves", n, part, k, to=None)
-                yield from (changed("curves", n, part, k, word, to=OTHER[piece[word]])
-                            for word in ("linear", "verdict"))
-        for k, fold in enumerate(curve["folds"]):
-            yield changed("curves", n, "folds", k, "t", to=moved(fold["t"]))
-        for k, piece in enumerate(curve["segments"]):
-            for side in (0, 1):
-                end = piece["t"][side]
-                yield changed("curves", n, "segments", k, "t", side,
-                              to=["0", "0"] if end is None else moved(end))
-    for n, plane in enumerate(found["planes"]):
-        across = next(i for i in range(3) if not any(F(row[i]) for row in plane["directions"]))
-        yield changed("planes", n, "base", across, to=str(F(plane["base"][across]) + 1))
-        yield changed("planes", n, "directions", 1, to=["1", "1", "1"])
-        yield from (changed("planes", n, "centre", "at", i, to=str(F(v) + 1)) for i,
-                    v in enumerate(plane["centre"]["at"]))
-        yield changed("planes", n, "centre", "verdict", to="unstable")
-
-
-@pytest.mark.one_in(3)
-@pytest.mark.parametrize("name", SCENES)
-def test_a_forged_claim_on_the_equilibria_is_never_proved(name):
-    claims = proved(SCENES[name])
-    for path, forged in forgeries(claims):
-        status = status_of(forged)
-        assert status == "refuted", (path, status, verify(forged).findings)
 
 
 @pytest.mark.one_in(4)
@@ -210,18 +150,6 @@ def test_false_numbers_beside_an_equilibrium_are_refuted(change):
     assert status_of(claims | {"motion": claims["motion"] | change}) == "refuted"
 
 
-@pytest.mark.one_in(2)
-@pytest.mark.parametrize("bad", [True, float("nan"), "1/0", [], [[]], "\u0661", 1.0, "1e1000000000"],
-                         ids=ascii)
-@pytest.mark.parametrize("key", ["state", "fate", "axis", "sense", "extremes", "period"])
-@pytest.mark.parametrize("name", ["off-axis-fold", "off-axis-none", "minor-axis-100"])
-def test_junk_in_a_motion_is_refused_whatever_its_fate(name, key, bad):
-    # at an equilibrium, without a reduction, and with one
-    claims = case_proved("minor-axis-100") | {"scene": case_proved(name)["scene"]}
-    claims["motion"] |= {key: bad}
-    assert status_of(claims) == "refused"
-
-
 def test_an_equilibrium_is_its_own_extremes():
     claims = case_proved("off-axis-fold")
     claims["motion"]["extremes"] = [[[x, x], [x, x]] for x in claims["motion"]["state"]]
@@ -234,36 +162,6 @@ def test_a_fate_left_open_still_has_its_numbers_checked():
     assert status_of(claims) == "partly"
     claims["motion"]["period"] = moved(claims["motion"]["period"])
     assert status_of(claims) == "refuted"
-
-
-def malformed(claims, where=()):
-    """Every string of the mathematics replaced by what is no number, and every list and object by a string.
-    """
-    place = claims
-    for key in where:
-        place = place[key]
-    for key in list(place) if isinstance(place, dict) else range(len(place)):
-        if key in ("program", "uncertified"):
-            continue
-        here, kept = (*where, key), place[key]
-        wrong = [5, "x"] if isinstance(kept, (str, list, dict)) else []
-        for bad in wrong:
-            if isinstance(kept, str) and bad == "x" and key in ("linear", "verdict", "fate", "kind"):
-                continue
-            place[key] = bad
-            yield here, bad
-        place[key] = kept
-        if isinstance(kept, (list, dict)):
-            yield from malformed(claims, here)
-
-
-@pytest.mark.parametrize("name", ["two points", "a hyperbola", "a plane"])
-def test_what_is_no_number_or_no_list_is_refused(name):
-    claims = proved(SCENES[name])
-    for where, bad in malformed(claims):
-        with pytest.raises(Malformed):
-            verify(claims)
-            pytest.fail(f"{where}: {bad!r} was taken")
 
 
 MOTIONS = {
@@ -290,32 +188,6 @@ MOTIONS = {
     "torque in no axis": (physical((F(7, 5), 1, F(3, 5)), (F(1, 5), F(1, 10), F(-3, 10)),
                                    (F(1, 2), F(3, 5), F(31, 50))), (F(1, 10), 1, 2)),
     "torque in no axis, scaled": (ScaledGyrostat("0.2", "0.4", (-1, "0.5", "0.75")), (-2, 1, F(1, 2)))}
-
-
-@pytest.mark.one_in(3)
-@pytest.mark.parametrize("name", MOTIONS)
-def test_a_forged_claim_on_the_motion_is_refuted(name):
-    claims = proved(*MOTIONS[name])
-    claims["equilibria"] = None
-    true = claims["motion"]
-    changes = ([{"fate": word} for word in ("bounded", "spin-up", "equilibrium") if word != true["fate"]]
-               + [{"state": ["3", "5", "7"]}])
-    if true["fate"] == "spin-up":
-        changes += [{"axis": true["axis"] % 3 + 1}, {"sense": -true["sense"]}, {"period": ["1", "2"]}]
-    elif true["period"]:
-        changes += [{"period": moved(true["period"])}, {"axis": 1}]
-    for i, pair in enumerate(true["extremes"] or []):
-        for side, ends in enumerate(pair):
-            forged = copy.deepcopy(true["extremes"])
-            forged[i][side] = ["0", "1"] if ends is None else moved(ends, F(1, 10**6))
-            changes.append({"extremes": forged, "period": None})
-            forged = copy.deepcopy(true["extremes"])
-            if ends is not None:
-                forged[i][side] = None
-                changes.append({"extremes": forged, "period": None})
-    for change in changes:
-        status = status_of(claims | {"motion": true | change})
-        assert status == "refuted", (change, verify(claims | {"motion": true | change}).findings)
 
 
 # -- by machine: tests/verify/forge.py says what is known of each change without the checker,
@@ -386,13 +258,22 @@ def meets(motion, true):
                two in pairs)
 
 
-def forge_all(claims, seed, count, paths=None):
-    """Forge a certificate by machine; the number of changes, and what was found of those that went wrong."""
+def forge_all(claims, seed, count, paths=None, each=None):
+    """Forge a certificate by machine; the number of changes, and what was found of those that went wrong.
+
+    each: how many changes of a claim are drawn of those that say something, and of those that are junk; all
+    by default.
+    """
     rng, made, wrong, values = random.Random(seed), 0, [], TrueValues(claims)
     everything = list(forge.claims_of(claims))
     for path in everything if paths is None else rng.sample(everything, min(paths, len(everything))):
         whole = part_of(claims, path)
-        for known, to in forge.changes(whole, path, rng, count):
+        changes = forge.changes(whole, path, rng, count)
+        if each is not None:
+            junk = [change for change in changes if change[0] == "junk"]
+            said = [change for change in changes if change[0] != "junk"]
+            changes = [*rng.sample(said, min(each, len(said))), *rng.sample(junk, min(each, len(junk)))]
+        for known, to in changes:
             changed = forge.forged(whole, path, to)
             status = status_of(changed)
             made += 1
@@ -421,6 +302,13 @@ def test_what_a_machine_forges_is_never_proved(name, paths):
     claims = case_proved(name) if name in FILES else proved(*KINDS[name])
     made, wrong = forge_all(claims, name, 2, paths=paths)
     assert made > 75 * paths and not wrong, wrong[:3]
+
+
+@pytest.mark.one_in(3)
+@pytest.mark.parametrize("name", [name for name in KINDS if not name.startswith("torque in no axis")])
+def test_a_change_of_any_claim_is_never_proved(name):  # a spin-up off the axes: below, minutes
+    made, wrong = forge_all(proved(*KINDS[name]), name, 4, each=2)
+    assert made > 30 and not wrong, wrong[:3]
 
 
 OF_EACH_SORT = ("two points", "an oblique line that is left slowly", "spin-up after turning",
