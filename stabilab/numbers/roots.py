@@ -3,17 +3,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from fractions import Fraction
 from typing import TYPE_CHECKING
-
-from .vectors import Number
 
 if TYPE_CHECKING:
     import numpy as np
 
 EPS = 2.0**-52
 MOST_STEPS = 4000  # bisection alone takes no more than 2200, over all doubles
-TINY = 1e-290  # so small a sum of products may have lost some to underflow
 
 
 def bracketed_newton(fun: Callable[..., tuple[np.ndarray, np.ndarray]], lo: np.ndarray, hi: np.ndarray,
@@ -84,72 +80,6 @@ def golden_section(size_of: Callable[[float], float], low: float, high: float,
             b = low + golden * (high - low)
             at_b = size_of(b)
     return (a, at_a), (b, at_b)
-
-
-def real_polynomial_roots(coefficients: Sequence[Fraction]) -> list[float]:
-    """Real roots, ascending, of a polynomial with exact (Fraction) coefficients, highest first.
-
-    The roots of the derivative separate those of the polynomial; signs at the separators are exact, so no
-    root of odd multiplicity is missed or invented. A root of even multiplicity is returned where a separator
-    is an exact root.
-    """
-    coefficients = list(coefficients)
-    while coefficients and not coefficients[0]:
-        coefficients.pop(0)
-    degree = len(coefficients) - 1
-    if degree <= 0:
-        return []
-    if degree == 1:
-        return [float(-coefficients[1] / coefficients[0])]
-    derivative = [a * (degree - i) for i, a in enumerate(coefficients[:-1])]
-    if not any(coefficients[1:]):
-        return [0.0]
-
-    def value(x: Number) -> Number:
-        total = 0
-        for a in coefficients:
-            total = total * x + a
-        return total
-
-    # Fujiwara: no root exceeds twice the largest |a_i/a_0|^(1/i); as a power of two, so that the knots stay
-    # short
-    bound = (Fraction(2) ** (2 + max(_log2(a / coefficients[0]) // i + 1 for i,
-                                     a in enumerate(coefficients) if i and a)))
-    knots = [-bound, *(Fraction(r) for r in real_polynomial_roots(derivative)), bound]
-    roots = []
-    for left, right in zip(knots, knots[1:]):
-        fl, fr = value(left), value(right)
-        if fl == 0 and left != -bound:
-            roots.append(float(left))
-        if (fl > 0) != (fr > 0) and fl and fr:
-            roots.append(_bisect_newton(value, left, right, fl, coefficients))
-    return sorted(set(roots))
-
-
-def _log2(value: Fraction) -> int:
-    """Floor of log2|value|, give or take one, for exact numbers of any size."""
-    return abs(value.numerator).bit_length() - value.denominator.bit_length()
-
-
-def _bisect_newton(value: Callable[[Number], Number], left: Fraction, right: Fraction, fl: Fraction,
-                   coefficients: Sequence[Fraction]) -> float:
-    """The root in (left, right), to the nearest double or its neighbour: floats guide, exact signs decide."""
-    unit = Fraction(2) ** -max(_log2(a) for a in coefficients if a)  # coefficients of any size would overflow
-    slopes = [float(a * unit) for a in coefficients]
-
-
-    def look(x: float) -> tuple[float, float, bool | None]:
-        f, df, size = 0.0, 0.0, 0.0
-        for a in slopes:
-            df = df * x + f
-            f = f * x + a
-            size = size * abs(x) + abs(a)
-        if TINY < size < math.inf and not abs(f) < 1e-10 * size:
-            return f, df, (f > 0) != (fl > 0)
-        exact = value(Fraction(x)) * unit  # the sign must be exact
-        wrong = (exact > 0) != (fl > 0) if exact else None
-        return float(exact) if _log2(exact) < 1000 else math.inf, df, wrong
-    return held_newton(look, float(left), float(right), 0.9, 1e-17)
 
 
 def held_newton(look: Callable[[float], tuple[float, float, bool | None]], low: float, high: float,

@@ -11,9 +11,11 @@ import math
 from fractions import Fraction
 from typing import NamedTuple
 
-from ..numbers.roots import bracketed_newton, real_polynomial_roots
+from ..numbers.polynomial import Poly, real_roots
+from ..numbers.roots import bracketed_newton
 
 SHORT = 1e-9  # a last step of Newton's method that leaves its square
+FOLD_BITS = 200
 BESIDE = 0.1  # of |h|: nearer to the centre of the orbits than that
 
 
@@ -71,20 +73,20 @@ class Conic:
             self.lines = (Line(float(-c / G), 0.0, 0.0, 1.0), Line(0.0, float(-d / G), 1.0, 0.0))
             self.tangents = float(-self.e * (c / G) ** 2), float((d / G) ** 2)
             return
-        self.quartic = quartic = [Fraction(1), -d / G, Fraction(0), -self.e * c * K / G**2,
-                                  self.e * K * K / G**2]
-        self.folds = tuple(real_polynomial_roots([_shorten(a) for a in quartic]))
+        # of two almost equal moments a fold's h lies far out, and one rounding of it would move its orbit
+        quartic = Poly((self.e * K * K / G**2, -self.e * c * K / G**2, Fraction(0), -d / G, Fraction(1)))
+        self.exact_folds = {float(h): h for h in real_roots(quartic, FOLD_BITS)}
+        self.folds = tuple(self.exact_folds)
 
         def exact_at(h):
             return (K / h - c) / G, h - d / G
         self.pieces = tuple(self._pieces(exact_at, G, c, d))
-        # of two almost equal moments a fold's h lies far out, and one rounding of it would move its orbit
-        exact_places = [exact_at(_sharpened(quartic, h)) for h in self.folds]
+        exact_places = [exact_at(h) for h in self.exact_folds.values()]
         self.fold_invariants = tuple(float(z * z - self.e * x * x) for x, z in exact_places)
 
     def sharp_ends(self, piece):
-        """|h| of the ends of a piece, those at folds to some 200 bits."""
-        return tuple(abs(_sharpened(self.quartic, piece.sign * end)) if 0 < end < math.inf else end
+        """|h| of the ends of a piece, those at folds to FOLD_BITS."""
+        return tuple(abs(self.exact_folds[piece.sign * end]) if 0 < end < math.inf else end
                      for end in (piece.inner, piece.outer))
 
     def at(self, h):
@@ -320,29 +322,6 @@ def _inside(inner, outer):
     if math.isinf(outer):
         return inner * 1.5, inner * 3
     return inner + (outer - inner) / 3, inner + (outer - inner) / 1.5
-
-
-def _sharpened(coefficients, root: float) -> Fraction:
-    """A root of a polynomial (highest power first) to some 200 bits, from the nearest double; that double at
-    a double root."""
-    x = Fraction(root)
-    for _ in range(3):
-        value = slope = Fraction(0)
-        for a in coefficients:
-            slope = slope * x + value
-            value = value * x + a
-        if not slope or abs(value) > abs(slope * x) / 2**20:
-            return Fraction(root)
-        x = _shorten(x - value / slope)
-    return x
-
-
-def _shorten(value: Fraction, bits: int = 300) -> Fraction:
-    """The value to 300 bits: exact zeros stay, huge denominators go."""
-    if value.denominator.bit_length() <= bits:
-        return value
-    shift = bits + value.denominator.bit_length() - abs(value.numerator).bit_length()
-    return Fraction(round(value * 2**shift), 2**shift) if shift > 0 else value
 
 
 def _conic_degenerates(reduction) -> bool:

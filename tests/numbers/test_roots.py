@@ -9,7 +9,8 @@ from fractions import Fraction as F
 import numpy as np
 import pytest
 
-from stabilab.numbers.roots import EPS, between, bracketed_newton, real_polynomial_roots
+from stabilab.numbers.polynomial import Poly, real_roots
+from stabilab.numbers.roots import EPS, between, bracketed_newton
 
 # name -> (f, f', bracket, root by hand, rising, most evaluations from the middle)
 FUNCTIONS = {
@@ -95,8 +96,13 @@ def expanded(roots, factors=()):
     return out
 
 
+def found_of(coefficients):
+    """The real roots in doubles, coefficients highest first."""
+    return [float(root) for root in real_roots(Poly(reversed(coefficients)))]
+
+
 def assert_roots(coefficients, roots):
-    found = real_polynomial_roots(coefficients)
+    found = found_of(coefficients)
     assert len(found) == len(roots) and found == sorted(found)
     for got, root in zip(found, sorted(roots)):
         assert abs(F(got) - root) <= F(math.ulp(float(root)))
@@ -133,21 +139,17 @@ def test_coefficients_beyond_the_range_of_doubles_have_the_same_roots(decades):
     assert_roots([F(10) ** decades * a for a in expanded(small)], small)
 
 
-def test_multiple_roots_are_told_once_where_algebra_can_see_them():
-    assert real_polynomial_roots(expanded([1, 1, -2])) == [-2.0, 1.0]
-    assert real_polynomial_roots(expanded([3, 3, 3])) == [3.0]
-    # (x^2 - 2)^2 touches zero at no rational number
-    assert real_polynomial_roots([F(1), F(0), F(-4), F(0), F(4)]) == []
-    assert real_polynomial_roots([F(7), F(0), F(0), F(0)]) == [0.0]
-    assert real_polynomial_roots([F(1), F(0), F(0), F(1), F(0)]) == [-1.0, 0.0]
+def test_multiple_roots_are_told_once():
+    assert found_of(expanded([1, 1, -2])) == [-2.0, 1.0]
+    assert found_of(expanded([3, 3, 3])) == [3.0]
+    assert found_of([F(1), F(0), F(-4), F(0), F(4)]) == [-math.sqrt(2), math.sqrt(2)]  # (x^2 - 2)^2
+    assert found_of([F(7), F(0), F(0), F(0)]) == [0.0]
+    assert found_of([F(1), F(0), F(0), F(1), F(0)]) == [-1.0, 0.0]
 
 
 def test_leading_zeros_count_for_nothing_and_constants_have_no_roots():
-    assert real_polynomial_roots([]) == real_polynomial_roots([F(0),
-                                                               F(0)]) == real_polynomial_roots([F(0),
-                                                                                                F(5)]) == []
-    assert real_polynomial_roots([F(0), F(0), F(2), F(-3)]) == [1.5]
-    assert real_polynomial_roots([F(1), F(0), F(1)]) == []
+    assert found_of([F(0), F(5)]) == found_of([F(1), F(0), F(1)]) == []
+    assert found_of([F(0), F(0), F(2), F(-3)]) == [1.5]
 
 
 @pytest.mark.parametrize("lo, hi",
