@@ -31,8 +31,8 @@ def motion(scene, state, span=None, exact=None, brief: bool = False) -> Motion:
     at = omega + (gamma or ()) + (sigma if parts.inside else ())
     seen = {}
     if span is not None:
-        from .over_span import seen_over
-        seen = seen_over(scene, {"omega": omega} | ({"gamma": gamma} if gamma else {})
+        from .evidence import seen_of_blocks
+        seen = seen_of_blocks(scene, {"omega": omega} | ({"gamma": gamma} if gamma else {})
                          | ({"damper": sigma} if parts.inside else {}), span)
     if at_rest(parts, exact or omega, gamma) and not any(sigma):
         fields: dict[str, Any] = {"fate": Fate.EQUILIBRIUM, "because": REASONS[Reason.AT_REST],

@@ -63,7 +63,7 @@ DOORS = {
     ("stabilab.show.text.law", "stabilab.answers.passage.of_case"): "loads numpy",
     ("stabilab.show.text.law", "stabilab.answers.simulate"): "loads numpy",
     ("stabilab.show.text.law", "stabilab.integrate.limits_along"): "loaded for approximate laws alone",
-    ("stabilab.unreduced.bounds", "stabilab.unreduced.over_span"): "loads numpy",
+    ("stabilab.unreduced.bounds", "stabilab.unreduced.evidence"): "loads numpy",
     ("stabilab.unreduced.near_rest", "stabilab.integrate.reference"): "loads numpy",
 }
 
