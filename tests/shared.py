@@ -6,6 +6,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
 import stabilab
 from stabilab import Body, ScaledGyrostat
 from stabilab.answers.certificate import certificate
@@ -17,6 +19,14 @@ CASES = Path(__file__).parents[1] / "cases"
 
 def case(name):
     return stabilab.load(CASES / f"{name}.toml")
+
+
+def later(rows):
+    """Parameters that the default suite leaves out: one in four for the slow tests, the others for the long."""
+    return [pytest.param(*(row if isinstance(row, tuple) else (row,)),
+                         marks=[pytest.mark.slow, *[pytest.mark.long] * (n % 4 > 0)])
+            for n, row in enumerate(rows)]
+
 
 ROUND, LIQUID = Body(("9.5", "9.5", "9")), LiquidCavity(1250, 1000, "1.9")
 

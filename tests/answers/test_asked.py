@@ -135,6 +135,13 @@ def test_what_is_no_number_no_state_and_no_time_is_bad_input_in_every_place_of_a
                         or isinstance(given, str) and given != "1e999"), (place, given)
 
 
+@pytest.mark.parametrize("digits", [0, 51, -1, 2.5, "x", True, [1]])
+@pytest.mark.parametrize("name", ["fate", "extremes", "period"])
+def test_digits_are_a_whole_number_from_1_to_50(name, digits):
+    with pytest.raises(stabilab.InputError):
+        getattr(stabilab, name)(SCENES["bounded"], STATE, digits=digits)
+
+
 @pytest.mark.parametrize("given", [iter([1.0, 2.0]), object(), lambda: 1, map(float, "12")],
                          ids=["an iterator", "an object", "a function", "a map"])
 def test_what_is_told_of_an_object_without_numbers_is_the_same_in_every_run(given):

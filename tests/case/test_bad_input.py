@@ -9,14 +9,13 @@ import sys
 from fractions import Fraction
 from pathlib import Path
 
-import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 
 import stabilab as stabilab_package
 from stabilab.case import source as case_sweep
 from stabilab.case.read import load
-from stabilab.errors import BAD_INPUT, OK, CaseError, InputError, printable
+from stabilab.errors import BAD_INPUT, OK, CaseError, printable
 from tests.fuzz.grammar import CASES, mutated_cases, written_cases
 from tests.fuzz.judge import judged
 
@@ -288,48 +287,3 @@ def test_what_the_analysis_refuses_is_an_error_of_the_file_and_its_line(stabilab
     code, out, err = stabilab(command, "fast.toml")
     assert code == BAD_INPUT and not out
     assert err.startswith("fast.toml:8: motion.angular_velocity: ") and "largest double" in err
-
-
-SCENE, OFF = stabilab_package.ScaledGyrostat("0.2", "0.4",
-                                             (0, 0, 1)), stabilab_package.ScaledGyrostat("0.2", "0.4",
-                                                                                         (1, 1, 1))
-STATE = [0.1, 0.05, 0.02]
-ASKED = {name: lambda scene=SCENE, states=STATE, name=name,
-         **more: getattr(stabilab_package, name)(scene, states, **more)
-         for name in ("fate", "motion", "extremes", "period", "spin_up")}
-ASKED["trajectory"] = lambda scene=SCENE, states=STATE, times=(0,
-                                                               1): stabilab_package.trajectory(scene, states,
-                                                                                               times)
-ASKED["ensemble"] = lambda scene=SCENE, states=STATE, times=(0,
-                                                             1): stabilab_package.ensemble(scene, [states],
-                                                                                           times)
-ASKED |= {name: lambda scene=SCENE, name=name: getattr(stabilab_package, name)(scene)
-          for name in ("equilibria", "separatrix", "derive")}
-WITH_STATES = ("fate", "motion", "extremes", "period", "spin_up", "trajectory", "ensemble")
-NO_SCENES = ("x", None, 3, [1, 2], object())
-NO_STATES = (None, "abc", ["a", "b", "c"], [[1, 2, 3], [1, 2]], [1j, 0, 0], np.array([1 + 0j, 2, 3]),
-             [np.nan, 0, 0], [np.inf, 0, 0], [1, 2], {}, [None] * 3)
-WRONG = [*((name, {"scene": bad}) for name in ASKED for bad in NO_SCENES),
-         *((name, {"states": bad}) for name in WITH_STATES for bad in NO_STATES),
-         *((name, {"digits": bad}) for name in ("fate", "extremes", "period")
-           for bad in (0, 51, -1, 2.5, "x", True, [1])),
-         *((name, {"scene": OFF, "span": bad}) for name in ("extremes", "motion")
-           for bad in ("x", np.nan, np.inf, [1], (1, 2, 3), object())),
-         *((name, {"times": bad}) for name in ("trajectory", "ensemble")
-           for bad in (None, "x", [np.nan], [[1]], [2, 1, 3], [1j]))]
-
-
-@pytest.mark.parametrize("name, wrong", WRONG,
-                         # the same in every process
-                         ids=[f"{n}-{name}" for n, (name, _) in enumerate(WRONG)])
-def test_every_public_function_tells_a_wrong_argument_in_words(name, wrong):
-    with pytest.raises(InputError):
-        ASKED[name](**wrong)
-
-
-@pytest.mark.parametrize("wrong", [lambda: stabilab_package.load(None), lambda: stabilab_package.Scene(None),
-                                   lambda: stabilab_package.Scene("x"),
-                                   lambda: stabilab_package.Scene(stabilab_package.Body((3, 2, 1)), 5)])
-def test_a_case_or_scene_made_of_something_else_is_told_in_words(wrong):
-    with pytest.raises(InputError):
-        wrong()

@@ -4,7 +4,6 @@ import csv
 import json
 import math
 from dataclasses import replace
-from fractions import Fraction
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -15,13 +14,12 @@ import pytest
 from stabilab import load
 from stabilab.answers.digits import run as precision_digits
 from stabilab.answers.digits import run as precision_front
-from stabilab.answers.digits.run import FrontPoint, candidates, ladder, simulate_to
+from stabilab.answers.digits.run import FrontPoint, candidates, simulate_to
 from stabilab.cost import accuracy as measuring
 from stabilab.cost.accuracy import Point, digit_price, pareto, precision
 from stabilab.cost.methods import methods, problem
-from stabilab.errors import InputError, ToleranceNotMet
-from stabilab.integrate.reference import Recursion, reference, relative_errors
-from stabilab.orbit.flow.flow import reduced_motion
+from stabilab.errors import ToleranceNotMet
+from stabilab.integrate.reference import reference, relative_errors
 from stabilab.physics.effects.gyrostat import Gyrostat
 from stabilab.physics.equations import derive
 from stabilab.physics.scene import Body, Scene
@@ -45,29 +43,6 @@ def sums(found):
 
 
 # -- the reference
-
-
-def test_reference_meets_eulers_elliptic_functions_within_its_error():
-    # Torque-free motion from omega2 = 0 in closed form (Landau and Lifshitz, Mechanics, section 37), in
-    # mpmath.
-    D, start, times = (1, 2, 3), (1.0, 0.0, 1.0), np.array([0.5, 3.0, 11.0])
-    found = reference(Scene(Body(D)), start, times)
-    with mp.workdps(45):
-        one, two, three = (mp.mpf(d) for d in D)
-        E2, M2 = one + three, one + 9  # 2 E and M^2; M^2 < 2 E D2 or not decides which pair swaps
-        assert M2 > E2 * two
-        rate = mp.sqrt((three - two) * (M2 - E2 * one) / (one * two * three))
-        m = (two - one) * (E2 * three - M2) / ((three - two) * (M2 - E2 * one))
-        tops = (mp.sqrt((E2 * three - M2) / (one * (three - one))),
-                mp.sqrt((E2 * three - M2) / (two * (three - two))),
-                mp.sqrt((M2 - E2 * one) / (three * (three - one))))
-        for t, state in zip(times, sums(found)):
-            cn, sn, dn = (mp.ellipfun(name, rate * float(t), m=m) for name in ("cn", "sn", "dn"))
-            exact = [tops[0] * cn, tops[1] * sn, tops[2] * dn]
-            gap = max(abs(a - b) for a, b in zip(state, exact))
-            # two doubles hold 32 digits
-            assert gap <= max(found.error.max(), 1e-31) * 10, (t, gap)
-    assert found.status == "agrees" and 0 < found.error.max() < 1e-27
 
 
 def test_reference_of_a_sphere_with_a_wheel_turns_at_the_wheels_rate():
@@ -119,43 +94,7 @@ def test_reference_runs_backwards_too():
     assert np.abs(back.states[0] - FREE.state).max() < 1e-14  # the state at 5, rounded once, went back
 
 
-def test_recursion_forms_each_product_once():
-    recursion = Recursion(derive(FREE.scene))
-    assert len(recursion.products) == 3 and all(len(rate) == 1 for rate in recursion.rates)
-    D = FREE.scene.body.exact
-    assert recursion.rates[0][0][1] == Fraction(D[1] - D[2]) / D[0]
-
-
 # -- the methods
-
-
-@pytest.mark.one_in(3)
-@pytest.mark.parametrize("name", ["torque-free-body", "minor-axis-100", "middle-axis-double-well",
-                                  "wheel-and-thruster",
-                                  "symmetric-spin-up", "thruster-negative-minor-axis"])
-def test_reduced_form_gives_the_state_at_any_time_without_a_step(name):
-    one = case(name)
-    task = problem(one, 6)
-    exact = reference(one.scene, task.start, task.times)
-    errors = [relative_errors(reduced_motion(one.scene, task.start, n).states(exact.t), exact.states, exact.rest,
-                              exact.slices).max()
-              for n in ladder(one.scene, task.start)]
-    assert errors[-1] < 3e-14 and errors[0] > errors[-1] or max(errors) < 1e-14
-
-
-def test_reduced_form_costs_the_same_at_a_thousand_times_the_time():
-    near, far = (reduced_motion(FREE.scene, FREE.state, 128) for _ in range(2))
-    first, folded = near.states([7.0]), far.states([7.0 + 1000 * far.period])
-    # a late time costs no more; its error is the period's, a thousand times
-    assert far.evaluations <= near.evaluations + 3
-    assert np.abs(folded - first).max() < 1e-10
-
-
-def test_reduced_form_declines_what_it_is_not_set_up_for():
-    with pytest.raises(InputError, match="no reduction"):
-        ladder(case("major-axis-100").scene, (1.0, 2.0, 3.0))
-    with pytest.raises(InputError, match="separatrix|spin-up|equilibrium"):
-        ladder(FREE.scene, (0.0, 1.0, 0.0))
 
 
 def test_scipy_counters_are_scipys_own():

@@ -12,6 +12,7 @@ import stabilab
 from tests.hard.row import UNIT, distance, half_units
 from tests.oracles import energy, model
 from tests.oracles.pairs import WORDS, physical, random_body
+from tests.shared import later
 
 # times the condition, and times half a unit in the last place of the distance to the centre of the conic
 ALLOWED = 8
@@ -97,25 +98,22 @@ def checked(seed, questions, strengths=0.0, **options):
     return sum(f is not None for f in found)
 
 
-@pytest.mark.parametrize("seed", [0, 1, 2, *(pytest.param(n, marks=pytest.mark.slow) for n in range(3, 60))])
+@pytest.mark.parametrize("seed", [0, 1, 2, *later(range(3, 60))])
 def test_units_of_any_size_cost_no_digit_of_extremes_and_margin(seed):
     assert checked(seed, ("extremes", "margin")) >= 1
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("seed", range(100, 118))
+@pytest.mark.parametrize("seed", later(range(100, 118)))
 def test_units_of_any_size_cost_no_digit_of_the_period(seed):
     checked(seed, ("period",))
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("seed", range(200, 260))
+@pytest.mark.parametrize("seed", later(range(200, 260)))
 def test_gyrostats_and_torques_of_any_strength_lose_no_more_than_the_centre_is_far(seed):
     checked(seed, ("extremes", "margin"), strengths=6)
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("seed", range(200, 212))
+@pytest.mark.parametrize("seed", later(range(200, 212)))
 def test_digits_asked_for_are_all_that_the_inputs_hold_at_any_strength(seed):
     checked(seed, ("extremes",), strengths=6, digits=17)
 

@@ -118,8 +118,7 @@ def test_every_file_is_the_same_in_two_runs(everything, tmp_path, name):
 
 
 @pytest.mark.slow
-@pytest.mark.one_in(2)
-@pytest.mark.parametrize("name", PROCESSORS)
+@pytest.mark.parametrize("name", ["baseline", pytest.param("without AVX-512", marks=pytest.mark.long)])
 def test_all_answers_and_tables_are_the_same_on_every_processor(everything, tmp_path, name):
     other = outputs(tmp_path / "other", MORE, NPY_DISABLE_CPU_FEATURES=PROCESSORS[name])
     drawn = {f"{n}.txt" for n in range(len(MORE), len(MORE) + len(DRAWN))}
@@ -134,8 +133,7 @@ MODELS_APART = 1e-15  # of the largest value: one unit in the last place of sine
 
 
 @pytest.mark.slow
-@pytest.mark.one_in(2)
-@pytest.mark.parametrize("name", PROCESSORS)
+@pytest.mark.parametrize("name", ["baseline", pytest.param("without AVX-512", marks=pytest.mark.long)])
 def test_surfaces_and_formulas_differ_in_their_last_places_only(tmp_path, name):
     from stabilab.show.surface.render_probe import use
     use()

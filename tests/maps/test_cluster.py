@@ -208,39 +208,6 @@ def test_a_sweep_ended_by_a_signal_keeps_its_parts_and_goes_on(tmp_path, how):
     assert made(out, "--workers", "1")
 
 
-LARGE = {"a million on the minor axis": (MINOR, "x[1]=-4:4:1000", "x[3]=-3:3:1000"),
-         "100,000 off the axes": (CASES / "off-axis-two.toml", "angular_velocity[1]=-2:2:400",
-                                  "angular_velocity[2]=-2:2:250")}
-
-
-@posix
-@pytest.mark.slow
-@pytest.mark.parametrize("which", LARGE)
-def test_large_sweeps_give_the_same_bytes_killed_at_a_third_and_on_a_cluster_that_loses_a_worker(
-    tmp_path, which):
-    """The bytes of one process that nobody disturbs, four ways."""
-    pytest.importorskip("distributed")
-    case, *vary = LARGE[which]
-    asked = ("sweep", case, *(word for one in vary for word in ("--vary", one)))
-    whole = made(tmp_path / "whole.nc", "--workers", 1, asked=asked)
-    third = len(planned(case, [one.split("=") for one in vary]).chunks) // 3
-    out = tmp_path / "killed.nc"
-    command = started(*asked, "--out", out, "--workers", 1)
-    until(third, out, command, 0.002)
-    command.send_signal(signal.SIGKILL)
-    command.communicate()
-    assert not out.exists() and len(list(place_of(out).glob("part-*"))) >= third
-    assert made(out, "--workers", 2, asked=asked) == whole
-    with a_cluster(tmp_path, 3) as (address, workers):
-        command = started(*asked, "--out", tmp_path / "cluster.nc", "--scheduler", address)
-        until(1, tmp_path / "cluster.nc", command, 0.002)
-        workers[1].kill()
-        words = command.communicate(timeout=300)
-        assert command.returncode == 0, words
-    assert (tmp_path / "cluster.nc").read_bytes() == whole == made(tmp_path / "two.nc", "--workers", 2,
-                                                                   asked=asked)
-
-
 @posix
 @pytest.mark.slow
 def test_a_worker_that_is_killed_is_one_error_and_keeps_what_is_finished(tmp_path):

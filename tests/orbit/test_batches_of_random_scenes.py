@@ -17,6 +17,7 @@ from stabilab.orbit.fate.one_state import decide, fate_of
 from stabilab.orbit.one_orbit import Orbit
 from stabilab.orbit.period import precise_period
 from stabilab.orbit.reduction import reduce
+from tests.shared import later
 
 # promised of extremes and periods, relative to themselves, and of margins, relative to kinetic energy and
 # barrier
@@ -25,8 +26,7 @@ SCENES, STATES, FEW = 200, 300, 24
 FAST = (False, True) if installed() else (False,)
 DEFAULT = range(0, SCENES, 33)
 numbers = pytest.mark.parametrize("number",
-                                  [*DEFAULT, *(pytest.param(n, marks=pytest.mark.slow) for n in range(SCENES)
-                                               if n not in DEFAULT)])
+                                  [*DEFAULT, *later(n for n in range(SCENES) if n not in DEFAULT)])
 
 
 def beside_and_anywhere(one, count):

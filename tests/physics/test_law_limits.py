@@ -1,8 +1,5 @@
 """How far approximate laws hold: the numbers, their values along a motion, and that every command and result carries them."""
-import csv
 import json
-import subprocess
-import sys
 from fractions import Fraction
 from pathlib import Path
 
@@ -266,18 +263,6 @@ def test_json_carries_number_value_and_limit_and_strict_ends_with_3(stabilab, tm
     assert (exact[0] if isinstance(exact, list) else exact)["validity"] is None
 
 
-def test_csv_of_extremes_stays_a_table_and_the_law_is_a_column_of_it(tmp_path):
-    run = subprocess.run([sys.executable, "-m", "stabilab", "extremes", str(water(tmp_path, "1e-6")), "--csv"], capture_output=True, text=True)
-    rows = list(csv.DictReader(run.stdout.splitlines()))
-    assert [row["component"] for row in rows] == ["omega1", "omega2", "omega3"] and not run.stderr
-    assert all(row["caveats"].startswith("BEYOND THE LAW: liquid cavity: ") for row in rows)
-
-
-def test_strict_of_fate_is_three_for_an_undecided_motion(stabilab):
-    assert stabilab("fate", CASES / "off-axis-two.toml", "--strict", "--follow", "1")[0] == 3
-    assert stabilab("fate", CASES / "minor-axis-100.toml", "--strict")[0] == 0
-
-
 def test_surface_carries_it_in_its_summary(stabilab, tmp_path, monkeypatch):
     from stabilab.show.surface import render_probe
     monkeypatch.setattr("stabilab.show.surface.write.probe", lambda: render_probe.Renderer(False, "none here"))  # loaded first, so that it is put back
@@ -290,14 +275,6 @@ def test_section_of_a_report_says_it_first(tmp_path):
     from stabilab.show.report.one_case.page import sections
     page = sections(load(water(tmp_path, "1e-6")), tmp_path, "water")
     assert page["law"].startswith("BEYOND THE LAW")  # the page has it below its verdict, before anything else
-
-
-def test_combinations_of_a_file_that_leave_one_limit_are_one_line():
-    from stabilab.case.read import load_all
-    from stabilab.show.text import law
-    cases = load_all(CASES / "charged-sweep.toml")
-    (line,) = law.of_cases(cases).splitlines()
-    assert line.endswith("(charged-sweep: 27 of 27 combinations, the farthest of them given)") and "2.07" in line
 
 
 def test_one_reason_of_several_cases_is_one_line_that_names_them():

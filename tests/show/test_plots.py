@@ -26,12 +26,6 @@ from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 CASES = __file__.rsplit("/tests/", 1)[0] + "/cases"
 
 
-@pytest.fixture(autouse=True)
-def closed():
-    yield
-    plt.close("all")
-
-
 def load(name):
     return stabilab.load(f"{CASES}/{name}.toml")
 
@@ -620,15 +614,6 @@ def test_given_axes_decide_whether_equilibria_are_drawn_in_space():
     _, flat = plt.subplots()
     with pytest.raises(errors.InputError, match="three-dimensional"):
         stabilab.plot.equilibria(load("torque-free-gyrostat"), ax=flat)
-
-
-@pytest.mark.parametrize("kind",
-                         ["space", *(pytest.param(kind, marks=pytest.mark.slow)
-                                     for kind in ("sphere", "equilibria"))])
-def test_pictures_in_space_have_the_same_bytes_again(kind, tmp_path):
-    one, two = (to_file.write(load("torque-free-body"), tmp_path / f"{n}.svg", kind).read_bytes()
-                for n in (1, 2))
-    assert one == two and len(one) < 3_000_000
 
 
 # -- attitude --

@@ -1,7 +1,6 @@
 """The time to a limit against the tilt of a torque and the momentum of a wheel, and the body as a sketch."""
 from pathlib import Path
 
-import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
@@ -12,12 +11,6 @@ from stabilab.answers.passage.of_case import limit_of
 from stabilab.answers.tilt import by_angle
 
 CASES = Path(__file__).parents[2] / "cases"
-
-
-@pytest.fixture(autouse=True)
-def closed():
-    yield
-    plt.close("all")
 
 
 def load(name):

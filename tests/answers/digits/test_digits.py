@@ -14,17 +14,13 @@ from stabilab.answers.digits import ask as precision_questions
 from stabilab.answers.digits import run as precision_digits
 from stabilab.answers.digits.ask import ask, ask_all
 from stabilab.answers.digits.checked import Told
-from stabilab.answers.digits.run import FrontPoint, best_reached, simulate_to
-from stabilab.cost import accuracy as measuring
+from stabilab.answers.digits.run import FrontPoint, best_reached
 from stabilab.errors import InputError, ToleranceNotMet
 from stabilab.integrate.reference import reference, relative_errors
 from tests.oracles import energy
 from tests.oracles.model import physical, scaled
 
 CASES = Path(__file__).parents[3] / "cases"
-PAPER = [f"{family}-{lam}" for family in ("minor-axis", "middle-axis", "middle-axis-equal",
-                                          "middle-axis-plane") for lam in (100, 300, 500)]
-MAJOR = [f"{family}-{lam}" for family in ("major-axis", "major-axis-spin3") for lam in (100, 300, 500)]
 
 
 def case(name):
@@ -176,52 +172,6 @@ def test_too_few_digits_end_with_5_after_the_answer(stabilab, monkeypatch):
 
 
 # -- the paper's cases
-
-
-# half a minute each
-LATER = [pytest.param(name, marks=pytest.mark.long) for name in (*PAPER[1:], *MAJOR[1:])]
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("name",
-                         [PAPER[0], MAJOR[0], "major-axis-captured", "middle-axis-double-well", *LATER])
-def test_every_ladder_of_digits_is_reached_on_the_papers_cases_and_costs_as_the_picture_says(name, tmp_path,
-                                                                                             monkeypatch):
-    # states: against the Taylor series in many digits. Cost: of the measured front the cheapest point that
-    # has the digits to spare is
-    # taken, and along Taylor series and formulas of Runge and Kutta more digits take more evaluations.
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
-    one = replace(case(name), span=(0.0, 6.0))
-    from stabilab.answers.digits.run import front, keep
-    found = measuring.precision(one, "quick")
-    assert keep(found) and found.reference.status == "agrees"
-    times, costs = found.times, []
-    kept = front(one)
-    for digits in (3, 6, 9, 12):
-        reached = simulate_to(one, times, digits)
-        exact = found.reference
-        error = relative_errors(reached.run.state["x"], exact.states, exact.rest, exact.slices).max()
-        assert error <= 10.0**-digits and reached.digits >= digits
-        enough = [p.cost for p in kept if p.digits >= digits + precision_digits.SAFETY]
-        costs.append(min(enough, default=np.inf))
-    assert costs == sorted(costs)
-    for method in ("taylor", "DOP853"):
-        needed = [min((p.evaluations for p in found.of("span", method) if p.digits >= digits), default=np.inf)
-                  for digits in (3, 6, 9, 12)]
-        assert needed == sorted(needed) and needed[0] < needed[-1]
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("name", PAPER)
-def test_extremes_and_period_of_the_papers_cases_have_3_6_9_and_12_digits(name):
-    # the reduced potential in mpmath (tests/oracles/energy.py)
-    one = case(name)
-    exact = {"extremes": energy.extremes(model(one), one.state, digits=60),
-             "period": energy.period(model(one), one.state, digits=60, nodes=60)}
-    for question, value in exact.items():
-        for digits in (3, 6, 9, 12):
-            told = ask(question, one.scene, one.start, digits)
-            assert told.digits >= digits and apart(told, value) <= mp.mpf(10) ** -digits
 
 
 def test_a_front_that_was_measured_decides_the_method_and_a_stopped_run_is_handed_back(monkeypatch):

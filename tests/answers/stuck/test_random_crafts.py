@@ -9,6 +9,7 @@ import pytest
 from tests.answers.stuck import energy
 from tests.answers.stuck.brute import Craft
 from tests.answers.stuck.random_crafts import anywhere, on_an_axis
+from tests.shared import later
 
 FATES, LEVELS = ("spin-up", "bounded", "equilibrium", "separatrix",
                  "undecided"), ("proved", "certified", "exact", "run")
@@ -27,7 +28,7 @@ def asked(stabilab, tmp_path):
 
 @pytest.mark.one_in(3)
 @pytest.mark.parametrize("n",
-                         [3, 4, 9, 11, *(pytest.param(n, marks=pytest.mark.slow) for n in range(12, 44))])
+                         [3, 4, 9, 11, *later(range(12, 44))])
 def test_every_field_off_the_axes_is_that_of_a_run(asked, n):
     found, craft = asked(anywhere(np.random.default_rng([13, n]), n))
     moments, axes = (np.array(found["principal"][name]) for name in ("moments", "axes"))
@@ -65,8 +66,7 @@ def moments_differ(found):
 
 
 @pytest.mark.one_in(2)
-@pytest.mark.parametrize("axis, n", [(0, 5), (2, 2),
-                                     *(pytest.param(n % 3, n, marks=pytest.mark.slow) for n in range(6, 30))])
+@pytest.mark.parametrize("axis, n", [(0, 5), (2, 2), *later((n % 3, n) for n in range(6, 30))])
 def test_fate_margins_and_wheel_intervals_on_an_axis_are_those_of_runs(asked, axis, n):
     """A start, a wheel or a torque changed by 0.99 or 1.01 of a margin; a wheel's momentum on both sides of
     every end: by what runs prove (`Craft.fate`), and a millionth to either side by the balance of energy
@@ -121,7 +121,7 @@ def _margins_are_where_the_fate_changes(craft, row, across):
 
 
 @pytest.mark.parametrize("axis, n",
-                         [(1, 4), *(pytest.param(n % 3, n, marks=pytest.mark.slow) for n in range(30, 39))])
+                         [(1, 4), *later((n % 3, n) for n in range(30, 39))])
 def test_a_wheel_that_is_not_across_the_torque_keeps_nothing_bounded_but_without_momentum(asked, axis, n):
     """By the law of growth, measured along a run: a growth of |H|^2/2 - D T that never ends. Without the
     momentum by what a run proves (`Craft.fate`)."""

@@ -9,15 +9,14 @@ from stabilab import load, stuck
 from tests.answers.stuck import energy
 from tests.answers.stuck.brute import Craft
 from tests.answers.stuck.random_crafts import on_an_axis
+from tests.shared import later
 
 PLACES = 12
 
 
 @pytest.mark.one_in(2)
 @pytest.mark.parametrize("n, axis",
-                         [(6, 0), (15, 0), (20, 2),
-                          *(pytest.param(n, n % 3, marks=pytest.mark.slow) for n in range(23, 60)
-                            if n % 3 != 1)])
+                         [(6, 0), (15, 0), (20, 2), *later((n, n % 3) for n in range(23, 60) if n % 3 != 1)])
 def test_beyond_a_margin_of_rate_the_fate_is_another_up_to_where_it_is_told_to_be_back(tmp_path, n, axis):
     """By the least value of the energy ahead of the start (`energy.fate`, in the frame of the file), at
     places on both sides."""

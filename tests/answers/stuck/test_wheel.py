@@ -16,7 +16,7 @@ from tests.answers.stuck import energy
 from tests.answers.stuck.brute import Craft
 from tests.oracles import brute
 from tests.oracles.model import physical
-from tests.shared import craft_file
+from tests.shared import craft_file, later
 
 INF = math.inf
 D, TORQUE, START = (12, 9, 5), (0, 0, "0.02"), (Fraction("0.1"), Fraction("0.05"), Fraction("0.9"))
@@ -51,7 +51,7 @@ def a_scene(numbers, at_rest=False):
 
 
 @pytest.mark.parametrize("seed",
-                         [0, 1, 2, *(pytest.param(seed, marks=pytest.mark.slow) for seed in range(3, 40))])
+                         [0, 1, 2, *later(range(3, 40))])
 def test_a_run_changes_its_fate_at_every_end(seed):
     moments, wheel, torque, start, axis = a_scene(random.Random(seed))
     found, _ = intervals(scene(moments, wheel, torque), start, axis)

@@ -16,6 +16,7 @@ from stabilab.orbit.fate.table import barrier_table
 from tests.oracles import energy
 from tests.oracles.pairs import WORDS, brink, physical, random_body, random_problem, scaled
 from tests.orbit.fate.test_fate import ELLIPTIC, FAMILIES, axis_of, sample
+from tests.shared import later
 
 module = importlib.import_module("stabilab.orbit.fate.arrays")
 TABLED = [name for name in FAMILIES if barrier_table(FAMILIES[name][0]) is not None]
@@ -119,8 +120,7 @@ def test_labels_of_random_bodies_over_twelve_decades_equal_the_oracle(tables_alw
         np.testing.assert_array_equal(stabilab.fate(scene, states).labels, expected)
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("seed", range(40))
+@pytest.mark.parametrize("seed", later(range(40)))
 def test_a_hundred_thousand_states_of_random_scenes_answer_as_the_general_formula(seed):
     rng = np.random.default_rng(seed)
     scene, _ = random_problem(rng, seed % 3) if seed % 2 else random_problem(rng, 1 + seed % 4 // 2, "scaled")

@@ -10,13 +10,13 @@ from benchmarks.random_scenes import drawn
 from stabilab import separatrix
 from stabilab.show.surface.mesh import triangulate
 from tests.oracles import homoclinic
+from tests.shared import later
 
 SHARE = 1e-3  # of a sheet's size: the accuracy that is asked for
 # a rim on a fold and few rows along the saddles; few columns at the outer rim; a figure eight
 DEFAULT = (3, 25, 49)
 numbers = pytest.mark.parametrize("number",
-                                  [*DEFAULT, *(pytest.param(n, marks=pytest.mark.slow) for n in range(60)
-                                               if n not in DEFAULT)])
+                                  [*DEFAULT, *later(n for n in range(60) if n not in DEFAULT)])
 EPS = 2.0**-52
 
 
@@ -105,9 +105,7 @@ def test_no_part_of_a_separatrix_is_missing(number):
 
 
 @pytest.mark.parametrize("number",
-                         [31, 82, *(pytest.param(n, marks=pytest.mark.slow)
-                                    for n in (13, 15, 27, 28, 40, 56, 65, 89, 95, 96, 112, 114, 149, 176,
-                                                                                                198))])
+                         [31, 82, *later((13, 15, 27, 28, 40, 56, 65, 89, 95, 96, 112, 114, 149, 176, 198))])
 def test_no_row_of_a_long_hyperbola_is_missing_where_its_saddle_has_a_loop(number):
     """The oracle looks for the ends on either side of the saddles of the sheet that has the most rows, but
     for the last one's, which may lie on an invariant plane; equilibria stand up to e^20 apart there."""

@@ -89,23 +89,6 @@ def test_extreme_shapes_keep_every_digit(changes):
     assert worst(v, twelve(solution(body_of(v), v["t"]))) <= ALLOWED
 
 
-def test_partial_fractions_lose_what_the_closed_forms_keep():
-    """The tilt by residues, sum of e^(st) over the poles 0, -ir0, iw, -iw, for a torque, next to r0 = 0."""
-    v = near_resonance("r0 = 0", 1e-6, 7.0) | dict(p0=0.0, q0=0.0, psi0=0.0, phi0=0.0)
-    body = body_of(v)
-    m, t = modes(body), v["t"]
-    a, b, w, r0 = m.a.value(), m.b.value(), m.frequency, body.spin
-    m1, m2 = v["M1"] / D1, v["M2"] / D2
-    poles = (0, -1j * r0, 1j * w, -1j * w)
-    residue = lambda s: ((m1 + 1j * m2) * s - a * m2
-                         + 1j * b * m1) / np.prod([s - z for z in poles if z != s])
-    tilt = sum(residue(s) * np.exp(s * t) for s in poles)
-    good = twelve(solution(body, t))
-    naive = [*good[:2], tilt.real, tilt.imag, *good[4:]]
-    assert worst(v, naive) > 1e4 > ALLOWED >= worst(v, good)
-    assert abs(tilt - (good[2] + 1j * good[3])) < 1e-6  # the same formula in exact arithmetic
-
-
 def random_bodies(count, seed=7):
     rng = np.random.default_rng(seed)
     u = lambda *size: rng.uniform(-1, 1, (count, *size))
