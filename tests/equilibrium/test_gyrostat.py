@@ -24,26 +24,6 @@ def physical(D, lam, M) -> Scene:
     return Scene(Body(D), Gyrostat(lam), ConstantTorque(M))
 
 
-def euler(D, lam, M):
-    """The equations of motion written out here anew in SymPy: a list of three polynomials in x, y, z."""
-    import sympy as sp
-    w = sp.Matrix(sp.symbols("x y z"))
-    D, lam, M = (sp.Matrix([sp.Rational(F(v).numerator, F(v).denominator) for v in u]) for u in (D, lam, M))
-    return list((sp.diag(*D) * w + lam).cross(w) + M), list(w)
-
-
-def real_solutions(equations, w, form=(3, 7, 19)):
-    """Real values of a separating linear form over all solutions, by a Groebner basis: [] if none, None if a
-    continuum."""
-    import sympy as sp
-    u = sp.Symbol("u")
-    basis = sp.groebner([*equations, u - sum(c * v for c, v in zip(form, w))], *w, u, order="lex")
-    if basis.exprs == [1]:
-        return []
-    last = [e for e in basis.exprs if e.free_symbols <= {u}]
-    return sorted(set(map(float, sp.real_roots(sp.Poly(last[0], u))))) if last else None
-
-
 def values(points, form=(3, 7, 19)):
     return sorted(sum(c * float(v) for c, v in zip(form, x)) for x in points)
 
@@ -92,10 +72,6 @@ def test_every_returned_point_satisfies_the_equations_to_rounding(D, lam, M, e):
     found = equilibria(scene)
     for p in (*found.points, *(s for c in found.curves for s in c.samples)):
         assert residual(scene, p.at) <= 8 * 2**-53
-
-
-def folds(found, change=lambda v: v):
-    return sorted({tuple(v + 0.0 for v in change(f)) for c in found.curves for f in c.folds})
 
 
 def test_coordinates_are_correct_to_the_last_digit_for_nearly_equal_moments():
@@ -191,7 +167,6 @@ def test_a_line_of_equilibria_exists_for_a_torque_on_no_axis():
     axis 1, so H x omega + M = 0 by hand."""
     (curve,) = equilibria(physical((4, 3, 2), (1, 5, 14), (0, 7, -5))).curves
     assert curve.point(3.25) == (3.25, 5.0, 7.0)
-    assert real_solutions(*euler((4, 3, 2), (1, 5, 14), (0, 7, -5))) is None
 
 
 def test_a_free_sphere_is_in_equilibrium_everywhere_and_a_free_symmetric_body_on_a_plane_and_an_axis():
