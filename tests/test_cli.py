@@ -16,7 +16,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from stabilab import cli, streams
+from stabilab import cli
 from stabilab.commands import one_case
 from stabilab.errors import CaseError
 from stabilab.show.terminal.groups import GROUPS
@@ -664,16 +664,6 @@ def test_exit_code_of_an_error_is_its_own(stabilab, monkeypatch):
     monkeypatch.setenv("STABILAB_DEBUG", "1")
     monkeypatch.setattr(one_case, "load_cases", raising(ZeroDivisionError("oops")))
     assert "Traceback" in stabilab("show", MINOR)[2]
-
-
-@pytest.mark.skipif(os.name != "posix", reason="pipes and signals of POSIX")
-def test_reader_that_goes_away_ends_the_program_quietly():
-    read, write = os.pipe()
-    os.close(read)
-    run = subprocess.run([sys.executable, "-m", "stabilab", "show", str(MINOR)], stdout=write,
-                         stderr=subprocess.PIPE, cwd=ROOT)
-    os.close(write)
-    assert run.returncode == streams.PIPE_CLOSED and run.stderr == b""
 
 
 def interrupted(arguments, delay, cwd=ROOT):

@@ -288,13 +288,6 @@ def test_times_reach_from_zero_to_the_end_of_the_span():
     assert task.times.tolist() == [0.75, 1.5, 2.25, 3.0]
 
 
-def test_command_refuses_other_endings_before_it_measures(stabilab, monkeypatch, tmp_path):
-    monkeypatch.setattr("stabilab.commands.accuracy.measure", lambda case, effort,
-                        until=None: pytest.fail("measured"))
-    code, out, err = stabilab("precision", CASES / "torque-free-body.toml", "--out", tmp_path / "p.txt")
-    assert code == 2 and not out and ".png, .svg, .pdf or .csv" in err
-
-
 # -- the front that is kept
 
 

@@ -134,20 +134,6 @@ def test_a_worker_makes_the_records_of_this_process():
         assert kind == "records" and rows == found.records.tobytes()
 
 
-@posix
-@pytest.mark.slow
-def test_a_killed_sweep_goes_on_with_any_number_of_processes_to_the_same_bytes(tmp_path):
-    out = tmp_path / "killed.nc"
-    command = started(*ASKED, "--out", out, "--workers", "2")
-    until(2, out, command)
-    command.send_signal(signal.SIGKILL)
-    command.communicate()
-    assert not out.exists()
-    finished = {path.name: path.stat().st_mtime_ns for path in place_of(out).glob("part-*")}
-    assert made(out, "--workers", "1") == made(tmp_path / "whole.nc", "--workers", "2") and len(finished) >= 2
-    assert [path.name for path in tmp_path.iterdir() if path.suffix != ".nc"] == []
-
-
 ENDLESS = """
 import sys, time
 from pathlib import Path
@@ -194,8 +180,9 @@ def test_workers_end_in_the_middle_of_a_chunk_with_the_process_that_started_them
 
 @posix
 @pytest.mark.slow
-@pytest.mark.parametrize("how", [signal.SIGTERM, *(pytest.param(s, marks=pytest.mark.long) for s in (signal.SIGHUP, signal.SIGKILL))])
-def test_a_sweep_ended_by_a_signal_keeps_its_parts_and_goes_on(tmp_path, how):
+@pytest.mark.parametrize("how", [signal.SIGTERM, pytest.param(signal.SIGHUP, marks=pytest.mark.long),
+                                 pytest.param(signal.SIGKILL, marks=pytest.mark.long)])
+def test_a_sweep_ended_by_a_signal_goes_on_from_its_parts_to_the_same_bytes(tmp_path, how):
     out = tmp_path / "killed.nc"
     command = started(*ASKED, "--out", out, "--workers", "2")
     until(1, out, command)
@@ -205,7 +192,8 @@ def test_a_sweep_ended_by_a_signal_keeps_its_parts_and_goes_on(tmp_path, how):
     time.sleep(2)
     assert finished == {path.name: path.stat().st_mtime_ns
                         for path in place_of(out).glob("part-*")} != {} and command.returncode == -how
-    assert made(out, "--workers", "1")
+    assert made(out, "--workers", "1") == made(tmp_path / "whole.nc", "--workers", "2")
+    assert [path.name for path in tmp_path.iterdir() if path.suffix != ".nc"] == []
 
 
 @posix

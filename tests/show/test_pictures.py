@@ -145,22 +145,6 @@ def test_the_motion_of_a_middle_axis_case_closes():
     assert W[0] == pytest.approx(0, abs=1e-6) and W[-1] == pytest.approx(0, abs=1e-6)
 
 
-@pytest.mark.one_in(2)
-@pytest.mark.parametrize("name", ["minor-axis-100", "middle-axis-300", "major-axis-500"])
-def test_plot_writes_a_picture_of_any_case(name, tmp_path):
-    import stabilab
-    path = plane.write(stabilab.load(CASES / f"{name}.toml"), tmp_path / "picture.png")
-    assert path.read_bytes()[:8] == b"\x89PNG\r\n\x1a\n" and path.stat().st_size < 200_000
-
-
-def test_a_picture_needs_a_motion(tmp_path):
-    import stabilab
-    path = tmp_path / "still.toml"
-    path.write_text("[body]\ninertia = [3, 2, 1]\n")
-    with pytest.raises(errors.InputError, match="angular_velocity"):
-        plane.write(stabilab.load(path), tmp_path / "x.png", "time")
-
-
 def test_each_figure_has_a_note_with_its_command(tmp_path):
     figures.write([9], tmp_path)
     note = (tmp_path / "figure-09.txt").read_text(encoding="utf-8")
@@ -263,21 +247,6 @@ def no_gl(monkeypatch):
 
 def test_a_renderer_that_crashes_is_reported_and_not_fatal(no_gl):
     assert not render_probe.probe().available and "GL libraries" in render_probe.probe().words
-
-
-def test_without_gl_the_meshes_are_written_and_the_cure_is_named(no_gl, tmp_path):
-    with pytest.raises(errors.RenderingUnavailable, match="apt install libegl1 libgl1-mesa-dri") as caught:
-        surface.write(paper.scene("minor", 100), tmp_path, shape=(12, 25))
-    assert caught.value.exit_code == 4 and caught.value.summary["triangles"] > 0
-    assert {p.suffix for p in tmp_path.iterdir()} == {".vtp", ".glb", ".stl", ".json"}
-    assert json.loads((tmp_path / "surface.json").read_text())["triangles"] > 0
-
-
-def test_a_scene_without_separatrix_is_answered_with_the_reason_and_no_file(tmp_path):
-    """For |b - a| < 1.7548 a torque on the middle axis leaves no saddle (docstring of figure 16)."""
-    summary = surface.write(paper.scene("middle", 100), tmp_path / "none")
-    assert summary["schema"] == "stabilab.surface/1" and summary["sheets"] == [] and summary["files"] == []
-    assert "no separatrix" in summary["reason"] and not list(tmp_path.iterdir())
 
 
 # what a file of each kind begins with, by the definition of the format

@@ -82,6 +82,34 @@ def test_twofold_numbers_decide_no_state_otherwise_than_balls_however_near_the_s
     assert max(nearest) < 1e-12  # the zone that is left to balls is no wider than that of doubles
 
 
+def on_circles(radius, count):
+    """(landscape, potential, places of `count` states on a circle, its barriers' places) of a scene on
+    circles."""
+    land = landscape(FAMILIES["minor scaled +"][0])
+    place = np.array([radius]), np.array([0.0])
+    offsets, spots, barrier = land.critical(place, barriers_only=True)
+    return land, [tuple(np.full(count, v) for v in spots[:, 0, column])
+                  for column in np.nonzero(barrier[0])[0]]
+
+
+@pytest.mark.parametrize("radius", [2.5, 30.0])
+@pytest.mark.parametrize("sizes", [(0.0, 0.0), (5.0, 50.0), (1e6, 0.0)])
+@pytest.mark.parametrize("side", [-1, 1])
+def test_a_state_so_near_a_barrier_that_rounding_decides_which_side_it_is_on_is_decided_exactly(side, sizes,
+                                                                                                radius):
+    """A place known to EPS times the sizes has an angle known to that over the radius; the angle's own
+    rounding is added."""
+    off = 10.0 ** np.arange(-2, -17, -0.1)
+    land, spots = on_circles(radius, len(off))
+    assert spots
+    for spot in spots:
+        place = land.potential.move(spot, side * off)
+        unsure = fate.circle_margins(land, place, np.full(len(off), radius),
+                                     tuple(np.full(len(off), s) for s in sizes))[1]
+        assert unsure[-1] and (np.diff(unsure.astype(int)) >= 0).all()
+        assert 16 < off[np.argmax(unsure)] / (EPS * (1 + sum(sizes) / radius)) < 64
+
+
 @pytest.mark.one_in(4)
 @pytest.mark.parametrize("name", [*FAMILIES, *PARABOLIC])
 def test_the_equilibria_of_an_orbit_are_those_of_the_potential_at_sixty_digits(name):

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 
+import mpmath as mp
 import numpy as np
 import pytest
 
@@ -342,6 +343,13 @@ def test_ends_in_twofold_numbers_are_those_of_balls(number):
         rows(states, np.array([n]), *kernel_input(land), boxes, none, left)
     assert np.count_nonzero(left == 0) >= 0.9 * len(states)
     assert_exact(one.scene, states, boxes, np.empty(len(states)), left | 2)
+
+
+@pytest.mark.parametrize("y", [0.0, 1e-9, -0.3, 1.7, 25.0, -80.5, 600.0])
+def test_the_exponential_of_a_double_is_known_to_twenty_seven_digits(y):
+    with mp.workdps(60):
+        found, exact = rows_kernel.exponential(y), mp.exp(mp.mpf(y))
+        assert abs(mp.mpf(float(found[0])) + mp.mpf(float(found[1])) - exact) <= mp.mpf(10) ** -27 * exact
 
 
 def test_without_numba_plain_python_serves(monkeypatch):
