@@ -14,13 +14,13 @@ from stabilab import Body, Fate, Gyrostat, Scene
 from stabilab.answers.motion import motion
 from stabilab.numbers.balls import DOUBLE_BITS, START_BITS
 from stabilab.orbit.extremes.one_state import precise_extremes
-from stabilab.orbit.fate.one_state import decide, fate_of
+from stabilab.orbit.fate.one_state import decide
 from stabilab.orbit.landscape import landscape
 from stabilab.orbit.one_orbit import Orbit
 from stabilab.orbit.period import precise_period
 from stabilab.orbit.reduction import reduce
 from tests.oracles import energy
-from tests.oracles.pairs import PAPER_BODY, WORDS, brink, physical, scaled
+from tests.oracles.pairs import PAPER_BODY, WORDS, brink, physical
 from tests.orbit.extremes.test_extremes import assert_extremes
 from tests.orbit.fate.test_fate import FAMILIES
 from tests.shared import PARABOLIC
@@ -125,35 +125,6 @@ def test_on_planes_with_irrational_axes_one_state_and_arrays_know_the_fate_and_e
                     precise_extremes(Orbit(reduce(scene), state), WORDS[word])):
             assert_extremes(box, exact, 1e-11)
     assert {WORDS["spin-up"]} <= set(found.labels.tolist()) or set(found.labels.tolist()) == {Fate.BOUNDED}
-
-
-@pytest.mark.parametrize("a, b, sign", [(0.0, 3.0, 1), (0.0, -3.0, 1), (0.0, 3.0, -1), (0.25, 0.5, 1)])
-@pytest.mark.parametrize("plane", [-1, 1])
-def test_one_state_on_an_invariant_plane_is_told_as_arrays_tell_it(a, b, sign, plane):
-    scene = scaled(a, b, (0, sign, 0))[0]
-    states = [(y - b, w, plane * y) for y in (-4.0, -0.5, 0.0, 1.25) for w in (-3.0, 0.0, 0.75)]
-    found = stabilab.fate(scene, np.array(states))
-    for n, state in enumerate(states):
-        one = fate_of(scene, Orbit(reduce(scene), state))
-        assert (one.label, one.reason) == (found.labels[n], found.reasons[n])
-        assert (one.axis, one.sense) == (found.axis[n], found.sense[n])
-        assert one.margin == pytest.approx(found.margins[n], rel=1e-12)
-
-
-@pytest.mark.parametrize("turn", [-1, 1])
-@pytest.mark.parametrize("ahead", [-1, 1])
-def test_a_free_motion_on_the_separatrix_tends_to_the_middle_spin_with_extremes_in_closed_form(ahead, turn):
-    """D = (6, 5, 3): there |w1| = |w3|, 9 w1^2 + 5 w2^2 = 2T = 11.45, and w2 falls where w1 w3 > 0, for ever.
-    """
-    scene, _ = physical((6, 5, 3))
-    state = (turn * 1.0, ahead * 0.7, turn * 1.0)
-    most, spin = math.sqrt(11.45 / 9), math.sqrt(11.45 / 5)
-    side = sorted((0.0, turn * (most if ahead > 0 else 1.0)))  # w1 is greatest where w2 passes zero
-    exact = [side, [-spin, ahead * 0.7], side]
-    assert stabilab.fate(scene, np.array(state)).labels == motion(scene, state).fate == Fate.SEPARATRIX
-    for box in (stabilab.extremes(scene, np.array(state)),
-                precise_extremes(Orbit(reduce(scene), state), Fate.SEPARATRIX)):
-        np.testing.assert_allclose(box, exact, rtol=1e-15, atol=1e-15)
 
 
 @pytest.mark.parametrize("l2, l3", [(1, 1), (2, -1), (3, 2), (-1, F(1, 2))])

@@ -15,11 +15,12 @@ import pytest
 
 import stabilab
 from stabilab.numbers.constants import EPS
+from stabilab.orbit import landscape as landscape_base
 from stabilab.orbit.fate.one_state import decide
 from stabilab.orbit.fine.margins import valley_margins
 from stabilab.orbit.landscape import landscape
 from stabilab.orbit.one_orbit import Orbit
-from stabilab.orbit.reduction import reduce
+from stabilab.orbit.reduction import Reduction, reduce
 from tests.oracles import energy
 from tests.oracles.energy import Reduced
 from tests.oracles.pairs import brink, physical, scaled
@@ -27,6 +28,7 @@ from tests.orbit.fate.test_fate import ELLIPTIC, FAMILIES, axis_of
 from tests.shared import PARABOLIC
 
 fate = importlib.import_module("stabilab.orbit.fate.arrays")
+LOST = 1e-3  # of the shifted rates: a place that small has lost three digits
 AWAY = 10.0 ** np.arange(-7, -17, -0.125)  # relative distances from the separatrix in the axis's rate
 
 
@@ -108,6 +110,41 @@ def test_a_state_so_near_a_barrier_that_rounding_decides_which_side_it_is_on_is_
                                      tuple(np.full(len(off), s) for s in sizes))[1]
         assert unsure[-1] and (np.diff(unsure.astype(int)) >= 0).all()
         assert 16 < off[np.argmax(unsure)] / (EPS * (1 + sum(sizes) / radius)) < 64
+
+
+@pytest.mark.parametrize("name",
+                         ["minor scaled +", "minor physical, other sign", "major physical", "middle scaled +",
+                                  "middle physical, other sign"])
+def test_next_to_the_centre_or_a_plane_places_come_from_longer_arithmetic_and_keep_their_digits(name,
+                                                                                                monkeypatch):
+    r, land, asked = reduce(FAMILIES[name][0]), landscape(FAMILIES[name][0]), []
+    exact, g, rng = Reduction.canonical_exact, r.exact_constants, np.random.default_rng(2)
+    states = np.zeros((160, 3))
+    for n, state in enumerate(states):
+        x, z = rng.normal(size=2)
+        if r.e > 0 and n % 2:  # near a plane rather than the centre
+            z = x * rng.choice([-1, 1]) * (1 + 10.0 ** rng.uniform(-12, 0))
+        else:
+            x, z = x * 10.0 ** (-n / 20), z * 10.0 ** (-n / 20)
+        state[[r.j, r.k]] = float(g["flip"]
+                                  * g["rx"]) * x - float(g["sj"]), float(g["rz"]) * z - float(g["sk"])
+    twofold = landscape_base.twofold_places
+    monkeypatch.setattr(landscape_base, "twofold_places", lambda c, j, k,
+                        some: asked.extend(map(tuple, some)) or twofold(c, j, k, some))
+    place, _, size = land.start(states)
+    for n, state in enumerate(states):
+        x, z, _ = exact(r, state)
+        true = (x, z) if r.e < 0 else (x + z, x - z)
+        small = float(max(map(abs, true))) if r.e < 0 else float(min(map(abs, true)))
+        error = max(abs(float(t) - p[n]) for t, p in zip(true, place)) if r.e < 0 else max(
+            abs(float(t) - p[n]) / max(1e-300, abs(float(t))) * small for t, p in zip(true, place))
+        assert error <= 2 * EPS / LOST * small
+        share = small / (size[0][n] + size[1][n])
+        assert (tuple(state) in asked) if share < LOST / 2 else (share < 2 * LOST
+                                                                 or tuple(state) not in asked)
+    sj, sk = abs(float(g["sj"] / g["rx"])), abs(float(g["sk"] / g["rz"]))
+    near = [abs(float(v)) for v in exact(r, states[0])]
+    assert [s[0] for s in size] == pytest.approx([near[0] + sj, near[1] + sk], rel=1e-12)
 
 
 @pytest.mark.one_in(4)

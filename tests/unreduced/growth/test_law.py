@@ -161,12 +161,6 @@ def test_capture_grows_like_the_square_root_of_time(brute):
     assert end[2] == pytest.approx(math.sqrt(26 + 0.2 * 3e3), rel=0.05)
 
 
-def test_pure_spin_on_the_axis_is_spin_up_for_both_signs_of_c():
-    for c in ("1", "-1"):
-        answer = captured_fate(paper(c), (-3, 0, 0))
-        assert (answer.fate, answer.axis, answer.certificate) == (Fate.SPIN_UP, 1, "axis")
-
-
 @pytest.mark.parametrize("c", ["-0.4", "0.4", "-3"])
 def test_opposite_torque_and_c_give_the_mirror_image(c):
     """(-x1, x2, -x3), (a, b) -> (-a, -b), mu1 -> -mu1 maps motions onto motions."""
@@ -211,11 +205,6 @@ def test_bodies_spin_up_about_the_answered_axis(torque, momentum):
                              np.linspace(f * late / 2, f * late / 2 * 1.1, 200)).states for f in (1, 2))
     held = answer.sense * end[:, answer.axis - 1]
     assert held.min() > 1.15 * np.abs(early[:, answer.axis - 1]).min() > 0
-
-
-def test_equal_moments_across_the_torque_spin_up_in_proportion_to_time():
-    answer = captured_fate(Scene(Body((2, 2, 1)), Gyrostat((0, 0, 1)), ConstantTorque((0, 0, -3))), (1, 2, 3))
-    assert (answer.fate, answer.axis, answer.sense, answer.certificate) == (Fate.SPIN_UP, 3, -1, "law")
 
 
 def test_finite_extreme_of_a_spin_up_is_its_minimum_over_a_long_run():
