@@ -4,9 +4,6 @@ from __future__ import annotations
 
 import json
 import math
-import os
-import subprocess
-import sys
 
 import numpy as np
 import pytest
@@ -105,35 +102,6 @@ def test_a_tilt_of_one_degree_ends_the_bounded_motion_of_the_readme():
     assert 0.15 * found.low < found.not_before < found.low == pytest.approx(found.times.min(), rel=1e-9)
     assert found.untilted is None and abs(math.hypot(*found.torque) - 0.02) < 1e-15  # turned, not longer
     assert math.degrees(math.atan2(math.hypot(*found.torque[:2]), found.torque[2])) == pytest.approx(1)
-
-
-FIRST = """
-import json, sys
-from stabilab import cli
-from stabilab.integrate import to_heyoka
-from stabilab.numbers import numba_door
-compiled = []
-numba_door._kept = lambda make: compiled.append(make) or {}
-sys.argv = ["stabilab", *sys.argv[1:]]
-try:
-    cli.main()
-finally:
-    print(json.dumps([len(compiled), to_heyoka._event_integrator.cache_info().misses + to_heyoka._integrator.cache_info().misses]))
-"""
-
-
-def test_a_first_answer_compiles_no_kernel_and_few_integrators(tmp_path):
-    """The README's first command. Validated steps take ten seconds to compile; an integrator a fifth of one,
-    so all azimuths share it: one for the torques with three components, one for those with two, one of
-    another tolerance for the error."""
-    (tmp_path / "my.toml").write_text(CASE)
-    run = subprocess.run([sys.executable, "-c", FIRST, "fate", "my.toml", "--tilt", "1 deg"],
-                         capture_output=True, text=True, cwd=tmp_path,
-                         env=os.environ | {"PYTHONPATH": str(CASES.parent)})
-    *answer, counts = run.stdout.splitlines()
-    kernels, integrators = json.loads(counts)
-    assert "tilted by 1 deg it reaches 18.04 deg/s after 108.4 min (run)" in answer[
-        0] and kernels == 0 and integrators <= 3
 
 
 def test_one_azimuth_is_followed_where_runs_end_before_the_limit_can_be_reached(monkeypatch):

@@ -3,8 +3,6 @@ theory."""
 from __future__ import annotations
 
 import math
-import subprocess
-import sys
 from fractions import Fraction as F
 
 import numpy as np
@@ -196,13 +194,6 @@ def test_words_of_a_curve_leave_out_the_points_that_do_otherwise(stabilab, tmp_p
     path = tmp_path / "round.toml"
     path.write_text(f"[body]\ninertia = [{inertia}]\n[effects.gyrostat]\nmomentum = [{momentum}]\n")
     assert words in stabilab("classify", path)[1]
-
-
-def test_classification_needs_no_numerical_library():
-    code = ("import sys; from stabilab import ScaledGyrostat, equilibria; equilibria(ScaledGyrostat(0, 1, "
-            "(0, 0, 1)));"
-            "sys.exit(any(m in sys.modules for m in ('numpy', 'scipy', 'sympy', 'mpmath')))")
-    assert subprocess.run([sys.executable, "-c", code]).returncode == 0
 
 
 def test_a_discriminant_beyond_the_doubles_is_still_told():

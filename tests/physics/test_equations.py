@@ -16,7 +16,7 @@ from stabilab.physics.effects.gravity import Gravity
 from stabilab.physics.effects.liquid_cavity import LiquidCavity
 from stabilab.physics.effects.resistance import Resistance
 from stabilab.physics.equations import derive, invariants
-from stabilab.physics.to_numpy import form, to_numpy
+from stabilab.physics.to_numpy import to_numpy
 from stabilab.show.text.notation import latex, lines
 
 BODY = Body((2000, "1500.5", 1000))
@@ -163,11 +163,6 @@ def test_nearly_equal_moments_keep_their_difference():
     assert rate == float(Fraction(1, 10**12) / Fraction(1, 2))
 
 
-def test_one_compilation_serves_all_scenes_of_a_structure():
-    one, other = (form(e, e.rhs) for e in (derive(Scene(Body((3, 2, n)))) for n in ("1.5", 4)))
-    assert one.expressions == other.expressions and one.numbers != other.numbers
-
-
 def test_equations_read_as_text_and_latex():
     equations = derive(Scene(BODY, WHEEL, THRUST))
     assert lines(equations)[0] == "D1 omega1' = M1 + lambda2*omega3 + omega2*omega3*(D2 - D3)"
@@ -194,17 +189,6 @@ def test_growth_rate_of_the_quadratic_law_is_lambda_times_torque():
     law = {v.name: v
            for v in invariants(Scene(BODY, Gyrostat((1, 2, 7)), ConstantTorque((0, 0, 5))))}["quadratic"]
     assert law.rate == 35
-
-
-def test_a_run_with_its_laws_forms_no_jacobian():
-    """It is as dear as all the rest of a liquid's equations, and only stiff methods and spectra ask for it.
-    """
-    scene = Scene(Body((12, 9, 5)), Gyrostat((1, 0, 2)), ConstantTorque((0, 0, 3)))
-    system = to_numpy(scene)
-    system.rate_and_laws([0.1, 0.2, 0.3])
-    assert "jacobian" not in vars(system.equations) and "entries" not in vars(system)
-    by_hand = [[0, (9 - 5) * 0.3 / 12 - 2 / 12, (9 - 5) * 0.2 / 12]]  # 12 w1' = (9 - 5) w2 w3 - 2 w2
-    np.testing.assert_allclose(system.jacobian(np.array([0.1, 0.2, 0.3]))[:1], by_hand, rtol=1e-14)
 
 
 @pytest.mark.parametrize("wrong, got",

@@ -9,7 +9,7 @@ import pytest
 import stabilab
 from stabilab import ScaledGyrostat
 from stabilab.answers.digits.ask import ask, ask_all
-from tests.shared import CASES, MARGIN, PERIOD, SCALED_MINOR, answer
+from tests.shared import MARGIN, PERIOD, SCALED_MINOR, answer
 
 TENTH = """
 title = "a state that no double holds"
@@ -56,11 +56,3 @@ def test_what_has_no_number_is_told_for_states_and_rows_alike():
     rows = ask_all("period", SCALED_MINOR, states, 20, stabilab.period(SCALED_MINOR, states))
     assert rows.values[0] == np.inf and rows.values[1] == pytest.approx(
         float(stabilab.period(SCALED_MINOR, np.array([2.5, 4.0, 0.1]))), rel=1e-12)
-
-
-@pytest.mark.parametrize("question", ["extremes", "period", "fate"])
-def test_digits_do_not_search_for_the_distance_from_the_separatrix(question, monkeypatch):
-    monkeypatch.setattr("stabilab.orbit.one_state.distance_of",
-                        lambda *_: pytest.fail("a distance was searched"))
-    case = stabilab.load(CASES / "thruster-stuck-major-axis.toml")
-    getattr(stabilab, question)(case.scene, case.state, digits=5)

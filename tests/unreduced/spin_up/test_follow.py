@@ -23,18 +23,6 @@ def test_every_motion_without_a_wheel_spins_up():
         assert answer.level == "certified" and answer.t < 10_000
 
 
-def test_fate_agrees_with_a_long_run_by_brute_force():
-    rng = random.Random(23)
-    for _ in range(6):
-        scene = random_scene(rng, rng.choice((0, .1)))
-        answer = spin_up(scene, sphere(rng), 500)
-        end = run(rates_of(scene), sphere(rng) if answer.level != "certified" else answer.state,
-                  np.array([0.0, 15.0, 30.0]))
-        if answer.level == "certified":
-            i = answer.axis - 1
-            assert np.sign(end[-1, i]) == answer.sense and abs(end[-1, i]) > abs(end[1, i])
-
-
 COLUMNS = ("fate", "axis", "sense", "level", "t", "steps", "condition", "states")
 
 
