@@ -93,7 +93,8 @@ def told(name, text) -> bool:
     words = CASES[name][1]
     if name == "axis":  # a number where the JSON or the CSV has one, else the name
         return any(f"{words}{axis}" in text for axis in ("axis 3", "the z axis", "z (minor axis)"))
-    return (words in text or (name == "limit" and "reaches 0.122173 rad/s after " in text)
+    return (words in text or words.capitalize() in text
+            or (name == "limit" and "reaches 0.122173 rad/s after " in text)
             or (name == "limit" and "reaches 7 deg/s in " in text))
 
 
