@@ -48,6 +48,10 @@ class Questions:
         """What the stuck thrusters do, and what helps: see `stabilab.stuck`."""
         return _public("stuck")(self, *given, **named)
 
+    def burn(self, **named: Any) -> Any:
+        """What the stuck thrusters leave when they close, and by when they must: see `stabilab.burn`."""
+        return _public("burn")(self, **named)
+
     @property
     def plot(self) -> Plots:
         """`case.plot.time()`, and the other kinds of `stabilab.plot`."""

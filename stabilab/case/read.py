@@ -181,6 +181,10 @@ def load(given: Any, state: Any = None, span: Any = None) -> Case:
         raise InputError("load: state and span are those of a scene; a case or a file has its own [motion]")
     if isinstance(given, Case):
         return given
+    if isinstance(given, Burning):
+        raise InputError("load: expected a case whose torque never changes; thrusters of this one fire on a "
+                         "schedule: ask its burn, simulate or when, or write stuck = true in place of "
+                         "start, stop and the other keys of the schedule")
     if isinstance(given, Mapping):
         return _made("dict", plain(given))
     if isinstance(given, str) and "\n" in given:
@@ -230,10 +234,25 @@ def fires_on_schedule(path: str | os.PathLike[str]) -> bool:
     return bool(_scheduled(data, faults))
 
 
-def load_burning(given: str | os.PathLike[str]) -> Burning:
-    """The case in a file, or in a text of several lines, whose thrusters fire on a schedule (start, stop,
-    period, duty, on_time, propellant, mass_flow), for `burn`. Raises CaseError as `load` does."""
-    return Burning(_built(*_stated(given, "load_burning"), burning=True))
+def load_burning(given: Case | str | os.PathLike[str]) -> Burning:
+    """The case, or that in a file or in a text of several lines, whose thrusters fire on a schedule (start,
+    stop, period, duty, on_time, propellant, mass_flow), for `burn`. Where none does, the stuck ones fire from
+    0 on. Raises CaseError as `load` does."""
+    if isinstance(given, Case):
+        path, text = given.path, text_of_case(given)
+        data, faults = parsed(path, text)
+    else:
+        path, text, data, faults = _stated(given, "load_burning")
+    if not _scheduled(data, faults) and isinstance(stated := data.get("thrusters"), list):
+        data = data | {"thrusters": [_from_start(one) for one in stated]}
+    return Burning(_built(path, text, data, faults, burning=True))
+
+
+def _from_start(thruster: Any) -> Any:
+    """A stuck thruster as one that opens at 0; any other as it is."""
+    if not isinstance(thruster, dict) or thruster.get("stuck") is not True:
+        return thruster
+    return {key: value for key, value in thruster.items() if key != "stuck"} | {"start": 0}
 
 
 def _stated(given: Any, name: str) -> tuple[Any, str, dict, Faults]:

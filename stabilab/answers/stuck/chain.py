@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ...case.read import load_burning
+from ...case.read import Case, load_burning
 from ...errors import InputError
 from ...numbers.vectors import CYCLE, Exact3
 from ...physics.effects import effect_class
@@ -38,11 +38,11 @@ class Chain:
     without wheels, or with these along the axis of a body whose other two moments are equal."""
 
     def __init__(self, burning: Any, stop: Fraction | None = None) -> None:
-        if isinstance(burning, (str, PathLike)):
+        if isinstance(burning, (str, PathLike, Case)):
             burning = load_burning(burning)
         if not hasattr(burning, "segments"):
-            raise InputError("burn: expected the path of a case whose thrusters fire on a schedule, its "
-                             f"text, or what stabilab.load_burning gives; got {came(burning)}")
+            raise InputError("burn: expected a case whose thrusters fire on a schedule or are stuck, its "
+                             f"path or text, or what stabilab.load_burning gives; got {came(burning)}")
         case = burning.craft
         if case.physical is None or case.state is None or case.variables != "physical":
             raise InputError("a burn is followed from a start in rad/s: give [motion] angular_velocity")

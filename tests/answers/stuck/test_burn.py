@@ -290,7 +290,7 @@ def test_questions_of_a_constant_torque_refuse_a_burn_and_name_the_command(tmp_p
     with pytest.raises(stabilab.InputError, match=r"thrusters\.stop: .*`stabilab burn`"):
         stabilab.load(path)
     for ask in (stabilab.fate, stabilab.stuck, stabilab.simulate, stabilab.motion, stabilab.equilibria):
-        with pytest.raises(stabilab.InputError, match="expected a"):
+        with pytest.raises(stabilab.InputError, match="on a schedule: ask its burn, simulate or when"):
             ask(stabilab.load_burning(path))
 
 
@@ -302,6 +302,16 @@ def test_a_stuck_thruster_beside_a_burn_goes_on_after_it(tmp_path):
     assert closed.rates == pytest.approx((0, 0, 0.05 + 0.18 / 1.5 * 3), abs=1e-15)
     assert closed.motion.fate == stabilab.Fate.SPIN_UP and closed.attitude is None
     assert closed.fired == (3.0, None) and closed.largest_rate is None
+
+
+def test_a_stuck_thruster_alone_is_one_that_opens_at_the_start(tmp_path):
+    stuck = case_of(tmp_path, [3.0, 2.0, 1.5], [0.1, 0.2, 0.05], [([0.01, 0, 0.15], "stuck = true")])
+    case, text = stabilab.load(stuck), stuck.read_text()
+    found, scheduled = case.burn(stop="3 s"), stabilab.burn(text.replace("stuck = true", "start = 0"), stop=3)
+    assert found.closed.rates == scheduled.closed.rates == stabilab.burn(stuck, stop=3).closed.rates
+    assert found.closed.rates == pytest.approx(case.simulate([0, 3]).state["omega"][-1], abs=1e-14)
+    with pytest.raises(stabilab.InputError, match="no thruster fires on a schedule"):
+        stabilab.load("cases/torque-free-body.toml").burn(stop=3)
 
 
 def test_a_closing_before_the_start_leaves_the_motion_as_it_was(tmp_path):
@@ -330,5 +340,5 @@ def test_a_burn_takes_a_path_or_a_text_and_text_with_units(tmp_path):
     assert one.closed.rates == other.closed.rates and one.closed.time == 12
     with pytest.raises(InputError, match="stop: expected time"):
         stabilab.burn(path, stop="3 deg")
-    with pytest.raises(InputError, match="expected the path of a case"):
+    with pytest.raises(InputError, match="burn: expected a case whose thrusters"):
         stabilab.burn(3)
