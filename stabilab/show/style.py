@@ -198,12 +198,17 @@ def _nearest(colours, palette):
                            for part in np.array_split(colours, len(colours) // 4096 + 1)])
 
 
+def explained(rows) -> tuple[list, list[str]]:
+    """(handles, names) for a legend of rows (name, look); a look with a colour of its face is an area."""
+    from matplotlib.lines import Line2D
+    from matplotlib.patches import Patch
+    handles = [Patch(**look) if "facecolor" in look else Line2D([], [], **look) for _, look in rows]
+    return handles, [name for name, _ in rows]
+
+
 def legend(figure, rows, columns=4):
     """One legend below the picture: rows of (name, look)."""
-    from matplotlib.lines import Line2D
-    names = [name for name, _ in rows]
-    figure.legend([Line2D([], [], **look) for _, look in rows], names, loc="outside lower center",
-                  ncols=min(columns, len(rows)))
+    figure.legend(*explained(rows), loc="outside lower center", ncols=min(columns, len(rows)))
 
 
 def letters(size: tuple[float, float] | None) -> dict[str, float]:
@@ -260,18 +265,3 @@ def literal(text: str) -> str:
     dollar, which begins no formula. (Matplotlib's parse_math=False does not reach the lines that it
     wraps.)"""
     return written(text).replace("$", r"\$")
-
-
-def name_space(ax, zoom=0.92, order=(1, 2, 3)):
-    """Labels of the three axes of a 3-D picture, close to it and not clipped; `order`: components along its
-    axes."""
-    from matplotlib.ticker import MaxNLocator
-    for setter, component, pad in zip((ax.set_xlabel, ax.set_ylabel, ax.set_zlabel), order, (-2, -2, -4)):
-        setter(f"$x_{component}$", labelpad=pad, rotation=0)
-    ax.tick_params(pad=-1, labelsize=8)
-    for axis in (ax.xaxis, ax.yaxis, ax.zaxis):
-        axis.set_rotate_label(False)  # upright from every side
-        axis.set_major_locator(MaxNLocator(5))
-        axis.set_pane_color((1, 1, 1, 0))  # white would cover a label of the panel before
-    ax.patch.set_visible(False)
-    ax.set_box_aspect(None, zoom=zoom)

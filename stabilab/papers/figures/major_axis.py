@@ -140,7 +140,7 @@ def _coloured(ax, states, end, limits):
     for setter, pair in zip((ax.set_xlim, ax.set_ylim, ax.set_zlim), limits):
         setter(*pair)
     ax.view_init(22, -62)
-    style.name_space(ax, 1.05)
+    paper.name_space(ax, 1.05)
     return pieces
 
 

@@ -171,7 +171,7 @@ def _nested(ax, scene):
         ax.plot(*within(curve, (-3, 3), (-3, 3)).T, 0.0, **PRINTED)
     for half in printed_path():
         ax.plot(*_upright(half), **PRINTED)
-    style.name_space(ax, order=UPRIGHT)
+    paper.name_space(ax, order=UPRIGHT)
     ax.view_init(32, -118)
 
 
@@ -186,7 +186,7 @@ def _figure_eight(ax):
         ax.plot(*_upright(branch.saddle), zorder=6, **style.MEANING["unstable"])
         ax.plot(*_upright(branch.centre), zorder=6, **style.MEANING["stable"])
     _one_eight(ax, *found.branches[:2])
-    style.name_space(ax, 0.98, order=UPRIGHT)
+    paper.name_space(ax, 0.98, order=UPRIGHT)
     ax.view_init(26, -20)  # onto both loops: from other sides one hides the other
     return [branch.name for branch in found.branches]
 

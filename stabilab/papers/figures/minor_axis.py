@@ -254,7 +254,7 @@ def surfaces(plt):
                 ax.plot(*loop.T, zorder=5, **PRINTED)
         ax.plot(FOLD_RADIUS * np.sin(turn), FOLD_RADIUS * np.cos(turn), 0 * turn, zorder=5, **PRINTED)
         ax.view_init(*view)
-        style.name_space(ax, 1.05)
+        paper.name_space(ax, 1.05)
     figure.suptitle(r"Separatrix surfaces, torque on the minor axis, $\lambda_1=100$; "
                     "right: the folds, enlarged")
     sides = [(f"{side} separatrix surface", {"color": colour, "linewidth": 8, "solid_capstyle": "butt"})
@@ -325,7 +325,7 @@ def stable_motions(plt):
         above.plot(*circle, **PRINTED)
     _hyperbola(ax, above)
     ax.view_init(28, -58)
-    style.name_space(ax, 1.0)
+    paper.name_space(ax, 1.0)
     above.set(aspect="equal", xlabel="$x_1$", ylabel="$x_2$", title="from above")
     figure.suptitle(r"Periodic motions on their circles of radius $A$ about $(-a, 0)$, $\lambda_1=100$")
     style.legend(figure, [("centres (stable)", style.MEANING["stable"]),

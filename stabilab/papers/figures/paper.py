@@ -28,3 +28,18 @@ def physical(axis: str, lambda1: float) -> Scene:
     """The same system in physical variables."""
     body = Body(INERTIA)
     return Scene(body, Gyrostat((lambda1, 0, 0)), ConstantTorque(torque_from_mu(body, TORQUE[axis])))
+
+
+def name_space(ax, zoom=0.92, order=(1, 2, 3)):
+    """Labels of the three axes of a 3-D picture, close to it and not clipped; `order`: components along its
+    axes."""
+    from matplotlib.ticker import MaxNLocator
+    for setter, component, pad in zip((ax.set_xlabel, ax.set_ylabel, ax.set_zlabel), order, (-2, -2, -4)):
+        setter(f"$x_{component}$", labelpad=pad, rotation=0)
+    ax.tick_params(pad=-1, labelsize=8)
+    for axis in (ax.xaxis, ax.yaxis, ax.zaxis):
+        axis.set_rotate_label(False)  # upright from every side
+        axis.set_major_locator(MaxNLocator(5))
+        axis.set_pane_color((1, 1, 1, 0))  # white would cover a label of the panel before
+    ax.patch.set_visible(False)
+    ax.set_box_aspect(None, zoom=zoom)

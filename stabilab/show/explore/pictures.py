@@ -33,7 +33,7 @@ from ...physics.scene import AnyScene
 from ...verify.numbers import shown
 from ..space import packed
 from ..spans import limit_time
-from ..units import Units
+from ..units import Units, labelled
 
 TYPES = {"int16": "h", "float32": "f"}
 
@@ -208,11 +208,6 @@ def drawn_planes(bag: Bag, scene: AnyScene, state: tuple[float, ...], units: Uni
             "rotates": plane.reduction.sense == 0 and not plane.reduction.geometry.walled,
             "x": labelled(f"turn about {units.axes.short(axis)}", angle[0]),
             "y": labelled(f"{name}{axis}", rate[0])}
-
-
-def labelled(words: str, unit: str) -> str:
-    """A label with its unit, where it has one."""
-    return f"{words} ({unit})" if unit else words
 
 
 def clicked(scene: AnyScene, state: tuple[float, ...], at: Any, units: Units) -> list[str]:

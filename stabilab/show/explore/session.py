@@ -61,7 +61,6 @@ from ..units import SHORT, Units, but_for_rounding, units_of
 from . import orbits as other
 from . import parameters as controls
 from . import pictures as planes
-from . import session as tables
 from .orbits import line
 from .parameters import changed
 from .pictures import Bag
@@ -183,11 +182,11 @@ class Session:
                 "note": " ".join(filter(None, (note, self._swept, cut, _law(found, units),
                                                    *map(_capital, limiting.beside(case.caveats, units))))),
                 "toml": case.text, "axes": _named(units), "space": picture,
-                "rows": self._components(units) + ([] if found is None else tables.rows(case, found, units)),
+                "rows": self._components(units) + ([] if found is None else rows(case, found, units)),
                 "plane": None if twin is None else planes.drawn_planes(bag, twin, case.state, units),
                 "time": planes.over_time(bag, case, found, times, path, units),
                 "film": self._film(bag, case, times[-1], moving, units)}
-        made["equilibria"] = tables.equilibrium_rows(at_rest, units) if at_rest else other.NOT_YET
+        made["equilibria"] = equilibrium_rows(at_rest, units) if at_rest else other.NOT_YET
         return made | {"analysis": 1e3 * (settled - began), "work": 1e3 * (time.process_time() - began)}
 
     def _units(self, case: Case) -> Units:

@@ -22,8 +22,8 @@ from .. import limiting, style
 from ..axes import axes_of
 from ..files import comma
 from ..text.answers import Endless, as_json
-from ..units import SHORT, Units
-from .shades import FATES, light, limits_of, spinning, unit, with_unit
+from ..units import SHORT, Units, labelled
+from .shades import FATES, light, limits_of, spinning, unit
 from .sweep import COUNTS, checked, column_in, finished, origin, write
 
 if TYPE_CHECKING:
@@ -304,7 +304,7 @@ def csv(atlas: Atlas) -> str:
     columns = columns_of(atlas.asked.answers)[1:]
     heads = ["name", "wheel", "level", "number", "share", *(f"direction{n}" for n in (1, 2, 3)),
              *(f"file_{n}" for n in "xyz"),
-             *(with_unit(column.name, unit(plan, column)) for column in columns)]
+             *(labelled(column.name, unit(plan, column)) for column in columns)]
     leaves = atlas.leaves
     points = zip((point_name(atlas, point) for point in atlas.named), (point.wheel for point in atlas.named),
                  repeat(("", "", "")))

@@ -18,6 +18,7 @@ from ...maps.plan import Plan
 from ...numbers.units import unit_of
 from ...orbit.result import Fate
 from .. import style
+from ..units import labelled
 
 # --- What the dimensions and columns of a sweep are called, and their units
 SAMPLE = "sample"
@@ -111,17 +112,12 @@ def spinning(axis: int) -> tuple[float, float, float]:
     return light(style.SPIN[abs(axis)], 0.4 if axis < 0 else 0.9)
 
 
-def with_unit(name: str, unit: str) -> str:
-    """A name with its unit behind it; "1" is none."""
-    return name if unit == "1" else f"{name} ({unit})"
-
-
 def label(data: Any, name: str) -> str:
     """The name of a dimension or column with its unit; of a dimension as few of its last words as tell it
     from the others of the sweep."""
     attrs = data[name].attrs
     words = drawn(spoken_key(data, name)) if name in data.dims else str(attrs.get("long_name", name))
-    return with_unit(words, attrs.get("units", "1"))
+    return labelled(words, attrs.get("units", "1"))
 
 
 def spoken_key(data: Any, name: str) -> str:
@@ -133,7 +129,7 @@ def spoken_key(data: Any, name: str) -> str:
 
 def short_label(data: Any, name: str) -> str:
     """The same for a narrow place: a column by its own name."""
-    return with_unit(name.replace("_", " "), data[name].attrs.get("units", "1"))
+    return labelled(name.replace("_", " "), data[name].attrs.get("units", "1"))
 
 
 def is_log(values: np.ndarray) -> bool:

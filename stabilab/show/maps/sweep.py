@@ -26,8 +26,8 @@ from ..terminal import page
 from ..terminal.letters import greek
 from ..text import law
 from ..text.answers import Endless, as_json
-from ..units import Unit, units_of
-from .shades import SAMPLE, dimensions, limits_of, names, said, unit, with_unit
+from ..units import Unit, labelled, units_of
+from .shades import SAMPLE, dimensions, limits_of, names, said, unit
 
 if TYPE_CHECKING:
     import xarray
@@ -158,11 +158,11 @@ def undecided(found: Swept) -> bool:
 def heads(found: Swept) -> list[str]:
     """What the cells of `rows` are: keys with their units, then columns with theirs."""
     plan = found.plan
-    keys = [with_unit(axis.key.name, axis.shown_unit) for axis in plan.axes]
-    keys += ([SAMPLE, *(with_unit(key.name, plan.sampled.unit(n)) for n, key in enumerate(plan.sampled.keys))]
+    keys = [labelled(axis.key.name, axis.shown_unit) for axis in plan.axes]
+    keys += ([SAMPLE, *(labelled(key.name, plan.sampled.unit(n)) for n, key in enumerate(plan.sampled.keys))]
              if plan.sampled else [])
     for column in columns_of(plan.answers)[1:]:
-        keys += [with_unit(f"{column.name}{n}", unit(plan, column))
+        keys += [labelled(f"{column.name}{n}", unit(plan, column))
                  for n in (("1", "2", "3") if column.shape else ("",))]
     return keys
 

@@ -42,10 +42,8 @@ def basin(found: Basins, ax: Axes | None = None, size: tuple[float, float] | Non
         rough = found.dimension
         told = ("" if math.isnan(rough.value)
                 else f"boundary: box dimension {rough.value:.3f} ± {rough.uncertainty:.3f}")
-        canvas.title(target, found.plan.case.title or found.plan.case.name, told)
-        if legend:
-            canvas.legend(target, rows, ax is None)
-    return target
+        return canvas.explained(target, rows if legend else [], ax is None,
+                                found.plan.case.title or found.plan.case.name, told)
 
 
 def write(found: Basins, out: str | Path, size: tuple[float, float] | None = None,

@@ -185,7 +185,8 @@ def line(ax: Any, points: np.ndarray, look: dict[str, Any], **more: Any) -> None
 
 
 THIN = {"color": style.GREY, "linewidth": 0.6}
-SHADOW = {"color": "#BDBDBD", "linewidth": 0.9, "zorder": 0.5}
+PALEST = "#BDBDBD"
+SHADOW = {"color": PALEST, "linewidth": 0.9, "zorder": 0.5}
 DROP = {"color": style.GREY, "linewidth": 0.7, "linestyle": (0, (2, 2)), "zorder": 0.6}
 
 
@@ -340,10 +341,8 @@ def space(case: Any, state: Any = None, ax: Axes | None = None, span: Any = None
     found = space_of(one, scale.names, scale.rate, shape=FACETS)
     with canvas.on(ax, size, space=True) as target:
         draw(target, found)
-        canvas.title(target, one.heading, canvas.answer(one, scale), away(one, found, scale))
-        if legend:
-            canvas.legend(target, rows(found), ax is None)
-    return target
+        return canvas.explained(target, rows(found) if legend else [], ax is None,
+                                one.heading, canvas.answer(one, scale), away(one, found, scale))
 
 
 def space_of(one: Subject, names: Iterable[str], rate: tuple[str, float], known: Equilibria | None = None,

@@ -22,7 +22,7 @@ from ...unreduced.periodic import (
     returns,
 )
 from .. import style
-from ..units import number
+from ..units import labelled, number
 from . import subject as canvas
 from . import subject as which
 from .subject import Measures, Subject, measures, subject
@@ -53,15 +53,13 @@ def phase(case: Any, state: Any = None, ax: Axes | None = None, units: str | Non
         draw(target, plane, start=not small, **factors)
         if small:
             _enlarged(target, plane, factors)
-        target.set_xlabel(scale.label(rf"turn $\alpha_{i + 1}$ about {one.axes.short(i + 1)} from the start",
+        target.set_xlabel(labelled(rf"turn $\alpha_{i + 1}$ about {one.axes.short(i + 1)} from the start",
                                       scale.angle[0]))
-        target.set_ylabel(scale.label(scale.names[i], scale.rate[0]))
-        canvas.title(target, one.heading, canvas.answer(one, scale))
-        if legend:
-            present = {"separatrix": bool(plane.saddles), "saddle (unstable)": bool(plane.saddles),
-                       "centre (stable)": bool(plane.centres)}
-            canvas.legend(target, [row for row in ROWS if present.get(row[0], True)], ax is None)
-    return target
+        target.set_ylabel(labelled(scale.names[i], scale.rate[0]))
+        present = {"separatrix": bool(plane.saddles), "saddle (unstable)": bool(plane.saddles),
+                   "centre (stable)": bool(plane.centres)}
+        rows = [row for row in ROWS if legend and present.get(row[0], True)]
+        return canvas.explained(target, rows, ax is None, one.heading, canvas.answer(one, scale))
 
 
 # of the walls: a motion below it would be a line, and the grid may miss the bottom of its well
@@ -200,11 +198,9 @@ def section(case: Any, states: Any = None, ax: Axes | None = None, units: str | 
     sets += [(STAYS, "neighbours", stay)] * bool(len(stay))
     with canvas.on(ax, size or canvas.SQUARE) as target:
         rows = _draw(target, sets, leave, orbit, plane, scale)
-        canvas.title(target, one.heading, _plane_words(plane, scale),
-                     *_passed(one, times, places, until, scale, orbit))
-        if legend:
-            canvas.legend(target, rows, ax is None)
-    return target
+        return canvas.explained(target, rows if legend else [], ax is None, one.heading,
+                                _plane_words(plane, scale),
+                                *_passed(one, times, places, until, scale, orbit))
 
 
 def _motions(case: Any, states: Any) -> tuple[Subject, np.ndarray]:
@@ -293,7 +289,7 @@ def _draw(ax: Any, sets: list, leave: np.ndarray, orbit: Periodic | None, plane:
         low, high = float(every[:, axis].min()), float(every[:, axis].max())
         half = max((high - low) * (0.5 + MARGIN), least)
         setter((low + high) / 2 * per_rate - half * per_rate, (low + high) / 2 * per_rate + half * per_rate)
-        labels(scale.label(scale.names[axis], scale.rate[0]))
+        labels(labelled(scale.names[axis], scale.rate[0]))
     return rows
 
 

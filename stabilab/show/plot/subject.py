@@ -331,10 +331,6 @@ class Measures:
         """The name of a component for text that is not typeset."""
         return ("ω" if self.size else "x") + "₁₂₃"[axis]
 
-    def label(self, words: str, unit: str) -> str:
-        """A label of an axis with its unit, where it has one."""
-        return f"{words} ({unit})" if unit else words
-
 
 def measures(one: Subject, units: str | None = None) -> Measures:
     """Those of a subject: units "deg" (deg/s, deg; seconds, minutes or hours), "deg/day", "rpm", "rev/s" or
@@ -379,19 +375,20 @@ def _checked(ax: Any, space: bool) -> Any:
     return ax
 
 
+def explained(ax: Any, rows: list[tuple[str, dict[str, Any]]], own: bool, *lines: str) -> Any:
+    """The axes, with the lines of a title and with what the looks mean, rows of (name, look)."""
+    title(ax, *lines)
+    legend(ax, rows, own)
+    return ax
+
+
 def legend(ax: Any, rows: list[tuple[str, dict[str, Any]]], own: bool) -> None:
     """What the looks mean, rows of (name, look): below a figure of its own, inside axes that were given."""
-    from matplotlib.lines import Line2D
-    from matplotlib.patches import Patch
-    if not rows:
-        return
-    handles = [Patch(**look) if "facecolor" in look else Line2D([], [], **look) for _, look in rows]
-    names = [name for name, _ in rows]
-    if not own:
-        ax.legend(handles, names, loc="best", fontsize="small")
-        return
-    ax.figure.legend(handles, names, loc="outside lower center",
-                     ncols=style.fitting(names, ax.figure.get_figwidth()))
+    if rows and own:
+        columns = style.fitting([name for name, _ in rows], ax.figure.get_figwidth())
+        style.legend(ax.figure, rows, columns)
+    elif rows:
+        ax.legend(*style.explained(rows), loc="best", fontsize="small")
 
 
 def answer(one: Subject, scale: Measures) -> str:

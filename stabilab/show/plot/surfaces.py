@@ -10,6 +10,7 @@ from ...orbit.phase_plane import PhasePlane, motion_curve, phase_plane, window
 from .. import style
 from ..sampling import spread
 from ..space import Box
+from ..units import labelled
 from . import in_space
 from . import subject as canvas
 from . import subject as which
@@ -58,7 +59,7 @@ def cylinder(one: Subject, units: str | None) -> SurfaceLines:
     box = between(surface.min(axis=(0, 1)) - pad, surface.max(axis=(0, 1)) + pad)
     words = f"the rates across {one.axes.short(axis + 1)} stay on a {plane.land.base}"
     found = SurfaceLines(grid_triangles(surface), box, view,
-                         tuple(scale.label(name, scale.rate[0]) for name in scale.names), words)
+                         tuple(labelled(name, scale.rate[0]) for name in scale.names), words)
     _wrap(found, plane, at, axis, low, high, top)
     for sign in ways(plane, Ws):
         inside = (np.abs(Ws) <= top) & (ys >= low - 1e-9) & (ys <= high + 1e-9) | np.isfinite(plane.land.turn)
@@ -255,10 +256,7 @@ def sphere(case: Any, state: Any = None, ax: Axes | None = None, units: str | No
         for points, look in found.marks:
             in_space.line(target, points, look, zorder=8)
         in_space.furnish(target, found.box, found.labels, found.view)
-        canvas.title(target, one.heading, found.words)
-        if legend:
-            canvas.legend(target, found.rows, ax is None)
-    return target
+        return canvas.explained(target, found.rows if legend else [], ax is None, one.heading, found.words)
 
 
 BEHIND = {"alpha": 0.3, "linewidth": 0.7}

@@ -88,10 +88,8 @@ def tilt(case: Any, state: Any = None, ax: Axes | None = None, units: str | None
         least = f"{number(found.limit.least_rate() * scale.rate[1], SHORT)} {scale.rate[0]}"
         reaches = r"$|\omega|$ =" if found.limit.kind == "rate" else "a component of"
         target.set_ylabel(f"time to {reaches} {least} ({unit})")
-        canvas.title(target, one.heading, canvas.answer(one, scale))
-        if legend:
-            canvas.legend(target, rows, ax is None)
-    return target
+        return canvas.explained(target, rows if legend else [], ax is None,
+                                one.heading, canvas.answer(one, scale))
 
 
 def wheel(case: Any, ax: Axes | None = None, units: str | None = None,
@@ -145,7 +143,5 @@ def wheel(case: Any, ax: Axes | None = None, units: str | None = None,
         target.margins(y=0.12)
         target.set_xlabel("momentum of the wheel along its axis (N m s)")
         target.set_ylabel(f"later by ({unit})")
-        canvas.title(target, one.heading, canvas.answer(one, scale))
-        if legend:
-            canvas.legend(target, list(dict(rows).items()), ax is None)
-    return target
+        return canvas.explained(target, list(dict(rows).items()) if legend else [], ax is None,
+                                one.heading, canvas.answer(one, scale))

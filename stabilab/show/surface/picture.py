@@ -10,7 +10,7 @@ import numpy as np
 from .. import style
 from ..axes import PLAIN
 from ..plot import subject as canvas
-from ..plot.in_space import away, rows, sight, space_of
+from ..plot.in_space import FACETS, PALEST, away, rows, sight, space_of
 from ..plot.subject import measures, subject
 from ..space import Space, across, look
 from .render_probe import use
@@ -19,9 +19,7 @@ SIDE = 1000  # dots
 SIZE = (7.6, 8.0)  # inches of the whole picture
 AWAY, ANGLE = 9.0, 25.0  # of the eye, in halves of the box; deg of what it sees
 GLASS = 0.75  # of a surface: what is behind it is seen
-FACETS = (96, 129)  # rows and columns of a branch
 LINE, THIN, GRID, BALL = 0.014, 0.005, 0.002, 0.034  # radii, of half of the box
-SHADOW = "#BDBDBD"
 
 
 def draw(case: Any, path: Path, found: Any = None) -> Path:
@@ -79,7 +77,7 @@ def plotter(found: Space) -> Any:
     tube(path, LINE, style.ORANGE)
     for axis in range(3):
         wall = np.where(np.arange(3) == axis, -np.sign(toward[axis]), path)
-        tube(wall, THIN, SHADOW)
+        tube(wall, THIN, PALEST)
     for at, step in found.arrows:
         stage.add_mesh(pyvista.Cone(center=share(at), direction=np.divide(step, found.box.half), height=0.11,
                                     radius=0.04),
@@ -93,7 +91,7 @@ def plotter(found: Space) -> Any:
             for mark in (*(tick for tick, _ in ticks), -1.0, 1.0):
                 ends = np.tile(-np.sign(toward), (2, 1))
                 ends[:, axis], ends[:, other] = mark, (-1, 1)
-                tube(ends, GRID, SHADOW)
+                tube(ends, GRID, PALEST)
     stage.camera_position = [tuple(AWAY * toward), (0, 0, 0), (0, 0, 1)]
     stage.camera.view_angle = ANGLE
     return stage
