@@ -105,7 +105,6 @@ COST = {"fate": (1e-6, 1e-3), "level": (0, 0), "reason": (0, 0), "margin": (0, 0
         "when": (0.1, 0.1), "island": (0, 0), "equilibria": (0, 0), "verdict": (0, 0), "chaos": (2e-2, 5e-2)}
 SCENE_COST = (3e-3, 3e-2)
 POINTED_COST = 5e-2  # of a direction of an atlas, all answers together
-LIMITS = ("rate", "component", "energy", "tilt", "until")
 
 
 class Chunk(NamedTuple):

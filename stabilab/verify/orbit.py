@@ -371,15 +371,6 @@ class Orbit:
         u, v = self.place(alpha)
         return g.kappa * u * v + g.rho * v + g.sigma * u + g.m
 
-    def force_slope(self, alpha):
-        """dF/dalpha."""
-        g = self.balls
-        if self.kind == 0:
-            return _poly(g.dFs, alpha)
-        u, v = self.place(alpha)
-        du, dv = g.p * v + g.p0, g.q * u + g.q0
-        return g.kappa * (du * v + u * dv) + g.rho * dv + g.sigma * du
-
     def potential(self, alpha):
         """U, zero at alpha = 0."""
         g = self.balls
@@ -401,7 +392,6 @@ def _balls(orbit, bits):
     g = SimpleNamespace(**{name: ball(getattr(o, name)) for name in names})
     if o.kind == 0:
         g.us, g.vs, g.Fs, g.Us = ([ball(c) for c in row] for row in (o.us, o.vs, o.Fs, o.Us))
-        g.dFs = [ball(n * c) for n, c in enumerate(o.Fs)][1:]
         return g
     g.n, g.decays = ball(abs(o.p * o.q)).sqrt(), o.decays()
     g.cu, g.du, g.su = ball(o.cu), ball(o.u0 - o.cu), ball(o.p * o.v0 + o.p0) / g.n
