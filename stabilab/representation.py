@@ -30,6 +30,11 @@ def same(one: Any, other: Any) -> bool:
     return one is other or bool(one == other) or (isinstance(one, float) and one != one and other != other)
 
 
+def values_of(one: Any, names: str) -> dict[str, Any]:
+    """{name: value} of these attributes, whose names are parted by blanks."""
+    return {name: getattr(one, name) for name in names.split()}
+
+
 class Compared:
     """A data class that holds arrays: one is equal to another by what its fields hold, and has no hash, as
     arrays have none."""

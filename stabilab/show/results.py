@@ -14,6 +14,7 @@ import numpy as np
 from ..orbit.result import Fate
 from ..packages import demand
 from ..physics.scene import PARTS
+from ..representation import values_of
 from .axes import direction
 from .terminal.letters import MINUS
 
@@ -126,8 +127,7 @@ def _simulation(run):
     notes = {f"departure_from_{name}": value for name, value in run.invariant_drift.items()}
     return Variables(("time",), of_parts(run.state, errors=run.error),
                      {"time": (run.t, {"units": "1" if "x" in run.state else "s"}), **AXIS},
-                     {"model": run.model, "method": run.method, "status": run.status, "reason": run.reason}
-                     | notes)
+                     values_of(run, "model method status reason") | notes)
 
 
 def _trajectory_words(run):
@@ -140,7 +140,7 @@ def _trajectory(run):
     plain = {name: (dims, values, {"long_name": words["long_name"]})
              for name, (dims, values, words) in parts.items()}
     return Variables(("time",), plain, {"time": (run.t, {}), **AXIS},
-                     {"method": run.method, "status": run.status, "reason": run.reason})
+                     values_of(run, "method status reason"))
 
 
 def _fates_words(found):
@@ -225,9 +225,8 @@ def _motion(m):
     values = {"start": _along_axes(m.at[:3])} | {
         name: _numbers(("axis",), (pair[end] for pair in m.extremes or ((None, None),) * 3), **over)
         for end, name in enumerate(("least", "greatest"))}
-    notes = {"fate": m.fate.word, "level": m.level, "because": m.because, "spin_axis": m.axis,
-             "sense": m.sense, "margin_energy": m.margin_energy,
-             "margin_rate": m.margin_velocity, "period": m.period, **m.invariants}
+    notes = {"fate": m.fate.word, "spin_axis": m.axis, "margin_rate": m.margin_velocity, **m.invariants
+             } | values_of(m, "level because sense margin_energy period")
     if m.energy_integral is not None:
         notes |= {m.energy_integral.name: m.energy_integral.value,
                   f"{m.energy_integral.name}s": m.energy_integral.on_separatrix}
@@ -320,10 +319,9 @@ def _spin_up(found):
     values = {"state": _along_axes(found.state, long_name="rates at time t"),
               "direction": _along_axes(found.direction,
                                        long_name="along which the rate grows; NaN: undecided")}
-    notes = {"fate": found.fate.word, "level": found.level, "spin_axis": found.axis,
-             "sense": found.sense, "t": found.t, "steps": found.steps, "cause": found.cause,
-             "condition": found.condition}
-    return Variables(("axis",), values, AXIS, notes)
+    notes = {"fate": found.fate.word, "spin_axis": found.axis}
+    return Variables(("axis",), values, AXIS,
+                     notes | values_of(found, "level sense t steps cause condition"))
 
 
 def _attitude_words(found):
@@ -339,9 +337,9 @@ def _attitude(found):
                   found.momentum_direction, long_name="unit vector along the angular momentum at the start"),
               "turn_axis": _along_axes(
                   found.turn_axis, long_name="about which one rotation period turns the body")}
-    notes = {"fate": found.fate.word} | {name: getattr(found, name) for name in (
-        "mode", "momentum", "rotation_period", "precession_period", "nutation_period", "lean", "cone",
-        "turn_angle", "error", "because")}
+    notes = {"fate": found.fate.word} | values_of(
+        found, "mode momentum rotation_period precession_period nutation_period lean cone turn_angle error "
+               "because")
     notes |= {f"{name} written out": text for name, text in (found.decimals or {}).items()}
     return Variables(("axis",), values, AXIS, _known(notes))
 
@@ -357,8 +355,7 @@ def _crossings(found):
               "t": (("zero",), np.concatenate(found.t), {}),
               "error": (("zero",), np.concatenate(found.error), {"long_name": "of the time"}),
               "state": (("zero", "component"), np.concatenate(found.states), {})}
-    return Variables(("zero",), values, {}, {"until": found.until, "status": found.status,
-                                             "reason": found.reason})
+    return Variables(("zero",), values, {}, values_of(found, "until status reason"))
 
 
 def _chaos_words(found):
@@ -389,7 +386,7 @@ def _ensemble(found):
     values = {"last": (("motion", "component"), found.states[:, -1], {"long_name": "state at the last time"}),
               "reached": (("motion",), found.reached[:, -1],
                           {"long_name": "whether the motion went on so far"})}
-    return Variables(("motion",), values, {}, {"method": found.method, "rtol": found.rtol})
+    return Variables(("motion",), values, {}, values_of(found, "method rtol"))
 
 
 def _diagram_words(found):

@@ -12,6 +12,7 @@ from collections import Counter
 from functools import reduce
 from pathlib import Path
 
+from ...representation import values_of
 from ...show.report import html
 from ...show.report.typeset import numbered
 from ...show.terminal.letters import ALPHABET, lettered, some
@@ -34,11 +35,9 @@ def _text_row(paper, finding):
     return {
         "paper": paper.name,
         "equation": row.equation,
-        "verdict": finding.verdict,
-        "condition": finding.condition,
+        **values_of(finding, "verdict condition"),
         "printed": "; ".join(row.printed),
-        "correction": finding.correction,
-        "method": finding.method,
+        **values_of(finding, "correction method"),
         "says": row.says,
         "residual": _finite(finding.residual),
         "corrected_residual": _finite(finding.corrected_residual),
@@ -148,9 +147,7 @@ def _row(paper, finding):
         else [finding.correction] if finding.correction else [],
         "where": _texts(row.where),
         "corrected_where": _texts(row.corrected_where),
-        "repairs": finding.repairs,
-        "method": finding.method,
-        "unit_fault": finding.unit_fault,
+        **values_of(finding, "repairs method unit_fault"),
         "residual": f"{finding.residual:.2g}" if finding.verdict in ("wrong", "only-if") else "",
         "figures": figures_of(finding, paper.figures),
         "note": row.options.get("note", ""),

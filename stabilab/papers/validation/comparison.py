@@ -12,6 +12,7 @@ from ...errors import InputError
 from ...numbers.balls import working
 from ...physics.effects.constant_torque import ConstantTorque
 from ...physics.scene import Body, Scene
+from ...representation import values_of
 from ...show.report import html
 from . import quantities
 from .quantities import BALL_BITS, WORDS, at, reproduced
@@ -228,18 +229,15 @@ def as_dict(validated) -> dict:
 
 
 def _source(source):
-    return {"source": source.name, "title": source.title, "repository": source.repository,
-            "commit": source.commit, "licence": source.licence,
-            "about": source.about}
+    return {"source": source.name} | values_of(source, "title repository commit licence about")
 
 
 def _value(source, one):
     return {"tool": one.printed.tool, "file": one.printed.file, "url": source.url(one.printed.file),
             "motion": one.printed.motion.id, "time_s": one.time,
             "quantity": one.component, "unit": one.unit, "ours": one.ours, "ours_within": one.bound,
-            "theirs": one.theirs, "difference": one.difference,
-            "tolerance": one.tolerance, "tolerance_is": one.printed.tolerance_is, "verdict": one.verdict,
-            "cause": one.cause, "left": one.left}
+            **values_of(one, "theirs difference tolerance"), "tolerance_is": one.printed.tolerance_is,
+            **values_of(one, "verdict cause left")}
 
 
 def counts(found) -> str:

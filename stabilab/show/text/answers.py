@@ -5,6 +5,7 @@ import math
 from dataclasses import asdict, replace
 
 from ...physics.scene import ATTITUDES, PARTS
+from ...representation import values_of
 from .. import limiting
 from ..axes import axes_of
 from ..files import comma
@@ -68,15 +69,14 @@ def _point(case, p) -> dict:
     """With the Jacobian, row by row, where the state is the three rates alone, and the coefficients of its
     characteristic polynomial, highest power first."""
     jacobian = case.scene.quadratic().jacobian(tuple(map(float, p.at))) if case.scene.plain else None
-    return {"at": p.at, "jacobian": jacobian, "characteristic": p.characteristic,
-            "eigenvalues": p.eigenvalues, "linear": p.linear, "verdict": p.verdict, "because": p.because}
+    return {"at": p.at, "jacobian": jacobian} | values_of(
+        p, "characteristic eigenvalues linear verdict because")
 
 
 def _curve(case, c) -> dict:
-    return {"name": c.name, "equation": c.equation, "parametrisation": c.parametrisation,
-            "samples": [_point(case, p) for p in c.samples], "folds": c.folds,
-            "segments": [{"t": s.t, "linear": s.linear, "verdict": s.verdict, "because": s.because}
-                         for s in c.segments]}
+    return values_of(c, "name equation parametrisation") | {
+        "samples": [_point(case, p) for p in c.samples], "folds": c.folds,
+        "segments": [values_of(s, "t linear verdict because") for s in c.segments]}
 
 
 def _motion(case, m) -> dict:
@@ -84,9 +84,9 @@ def _motion(case, m) -> dict:
             "margin": {"energy": m.margin_energy, "angular_velocity": m.margin_velocity,
                        "bounds": m.velocity_bounds,
                        "witness": m.velocity_witness, "because": m.velocity_because or None},
-            "period": m.period, "extremes": m.extremes, "invariants": m.invariants,
+            **values_of(m, "period extremes invariants"),
             "energy_integral": None if m.energy_integral is None else asdict(m.energy_integral),
-            "sense": m.sense or None, "extremes_over": m.extremes_over, "evidence": m.evidence,
+            "sense": m.sense or None, **values_of(m, "extremes_over evidence"),
             "tilt": when.tilt_dict(m.tilt)} | followed(m)
 
 
@@ -109,8 +109,7 @@ def undecided(equilibria, motion) -> bool:
 def digits(told) -> dict:
     """What is said of the digits; reached: null where there is no number to judge."""
     shown = None if told.digits is None else min(told.digits, 99.0)
-    return {"asked": told.asked, "reached": shown, "method": told.method, "because": told.because,
-            "decimals": told.decimals}
+    return {"asked": told.asked, "reached": shown} | values_of(told, "method because decimals")
 
 
 def extremes(case, motion, told) -> dict:
@@ -137,19 +136,16 @@ def fate(case, motion, told) -> dict:
     margin = motion.margin_energy if told.values is None else told.values
     return {"schema": "stabilab.fate/1", "case": case.name, "variables": case.variables, "at": motion.at,
             "fate": motion.fate.word,
-            **axes_of(case).key(motion.axis), "sense": motion.sense or None,
-            "because": motion.because,
-            "margin": margin,
-            "digits": digits(told),
-            "tilt": when.tilt_dict(motion.tilt)} | followed(motion) | _around(case, motion)
+            **axes_of(case).key(motion.axis), "sense": motion.sense or None, "because": motion.because,
+            "margin": margin, "digits": digits(told), "tilt": when.tilt_dict(motion.tilt)
+            } | followed(motion) | _around(case, motion)
 
 
 def period(case, motion, told) -> dict:
     """One object of `stabilab period --json`; null where the motion does not repeat, or is undecided (see
     fate, digits.because)."""
     return {"schema": "stabilab.period/1", "case": case.name, "variables": case.variables, "at": motion.at,
-            "fate": motion.fate.word,
-            "period": told.values, "time": case.scene.time_unit,
+            "fate": motion.fate.word, "period": told.values, "time": case.scene.time_unit,
             "digits": digits(told)} | _around(case, motion)
 
 
@@ -157,9 +153,7 @@ def simulation(case, run) -> dict:
     """The object of `stabilab simulate --json`."""
     return {"schema": "stabilab.simulate/1", "case": case.name, "model": run.model,
             "time": case.scene.time_unit,
-            "t": run.t, "state": run.state, "error": run.error, "invariant_drift": run.invariant_drift,
-            "counters": run.counters,
-            "method": run.method, "rtol": run.rtol, "status": run.status, "reason": run.reason,
+            **values_of(run, "t state error invariant_drift counters method rtol status reason"),
             **{name: PARTS[name].words for name in ATTITUDES if name in run.state}
             } | frame.rows(case, run) | frame.key(case)
 

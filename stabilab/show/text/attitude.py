@@ -1,6 +1,7 @@
 """How a motion turns in space: as text and as JSON."""
 from __future__ import annotations
 
+from ...representation import values_of
 from .. import limiting
 from ..terminal.motion import reason, row
 from ..units import DIGITS, Units, number
@@ -18,12 +19,12 @@ def as_dict(cases, found) -> dict:
 
 def row_of(case, one) -> dict:
     """One motion; null is what it does not have."""
-    return {"at": one.at, "fate": one.fate.word, "rotation_period": one.rotation_period,
-            "precession_period": one.precession_period, "mode": one.mode, "momentum": one.momentum,
-            "momentum_direction": in_file(case, one.momentum_direction), "cone": one.cone,
-            "lean": one.lean, "nutation_period": one.nutation_period,
-            "turn_angle": one.turn_angle, "turn_axis": in_file(case, one.turn_axis), "error": one.error,
-            "decimals": one.decimals, "because": one.because} | limiting.key(case, one.caveats)
+    return {"at": one.at, "fate": one.fate.word,
+            **values_of(one, "rotation_period precession_period mode momentum"),
+            "momentum_direction": in_file(case, one.momentum_direction),
+            **values_of(one, "cone lean nutation_period turn_angle"),
+            "turn_axis": in_file(case, one.turn_axis),
+            **values_of(one, "error decimals because")} | limiting.key(case, one.caveats)
 
 
 def in_file(case, vector):

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from ...physics.scene import PARTS
+from ...representation import values_of
 from ...theories.theory import lines as told
 from .. import style
 from ..files import comma, endings
@@ -46,10 +47,9 @@ REACH = 1.6
 def as_dict(case, found) -> dict:
     """The object of `stabilab compare --json`."""
     return {"schema": "stabilab.compare/1", "case": case.name, "time": case.scene.time_unit, "t": found.t,
-            "models": {name: {"status": run.status, "reason": run.reason} for name, run in found.runs.items()}
+            "models": {name: values_of(run, "status reason") for name, run in found.runs.items()}
             | {name: {"status": "refused", "reason": why} for name, why in found.refused.items()},
-            "departures": [{"model": d.model, "part": d.part, "error": d.error, "scale": d.scale,
-                            "largest": d.largest,
+            "departures": [{**values_of(d, "model part error scale largest"),
                             "first": {f"{level:g}": time for level, time in d.first.items()}}
                            for d in found.departures],
             "theory": list(found.theory)}

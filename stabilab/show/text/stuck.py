@@ -6,6 +6,7 @@ from collections import Counter
 from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
 
 from ...errors import printable
+from ...representation import values_of
 from .. import limiting
 from ..axes import axes_of, direction
 from ..files import comma
@@ -38,25 +39,18 @@ def as_dict(case, found) -> dict:
 
 
 def _row(row, case) -> dict:
-    return {"thrusters": list(row.thrusters), "torque": row.torque, "torque_principal": row.torque_principal,
-            "fate": row.fate, "level": row.level,
-            **axes_of(case).key(row.axis), "sense": row.sense, "limit": row.limit,
-            "time_to_limit": row.time_to_limit, "largest_rate": row.largest_rate,
-            "margin": _margin_sizes(row),
-            "wheel_intervals": [{"wheel": w.wheel,
-                                 "keeps_bounded": [list(map(Endless, pair)) for pair in w.keeps_bounded],
-                                 "now": w.now, "axis": w.axis,
-                                 "best": w.best, "best_time": w.best_time, "gain": w.gain,
-                                 "searched": w.searched, "because": w.because} for w in row.wheels],
-            "because": row.because, "tilt": tilt_dict(row.tilt), "direction": row.direction,
-            "never": row.never, "time_level": row.time_level,
-            "margin_direction": {name: margin.direction for name, margin in row.margins.items()},
-            "margin_until": {name: margin.until if margin.until is None else Endless(margin.until) for name,
-                             margin in row.margins.items()},
-            "margin_because": {name: margin.because for name, margin in row.margins.items()},
-            "helpers": [{"thrusters": list(h.thrusters), "duty": h.duty, "effect": h.effect,
-                         "torque_left": h.torque_left, "fate": h.fate,
-                         "time_to_limit": h.time_to_limit}
+    wheels = [{"wheel": w.wheel, "keeps_bounded": [list(map(Endless, pair)) for pair in w.keeps_bounded],
+               **values_of(w, "now axis best best_time gain searched because")} for w in row.wheels]
+    margins = row.margins.items()
+    return {**values_of(row, "thrusters torque torque_principal fate level"),
+            **axes_of(case).key(row.axis), **values_of(row, "sense limit time_to_limit largest_rate"),
+            "margin": _margin_sizes(row), "wheel_intervals": wheels,
+            "because": row.because, "tilt": tilt_dict(row.tilt),
+            **values_of(row, "direction never time_level"),
+            "margin_direction": {name: margin.direction for name, margin in margins},
+            "margin_until": {name: margin.until and Endless(margin.until) for name, margin in margins},
+            "margin_because": {name: margin.because for name, margin in margins},
+            "helpers": [values_of(h, "thrusters duty effect torque_left fate time_to_limit")
                         for h in row.helpers]} | limiting.key(case, row.caveats)
 
 

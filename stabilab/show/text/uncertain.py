@@ -6,6 +6,7 @@ from dataclasses import replace
 from fractions import Fraction
 
 from ...numbers.units import unit_of_key
+from ...representation import values_of
 from ..terminal.letters import lettered
 from ..units import DIGITS, SI, Units
 from ..units import number as told
@@ -30,17 +31,12 @@ def as_dict(found) -> dict:
 def _over(over) -> dict | None:
     if over is None:
         return None
-    return {"answer": over.answer, "verdict": over.verdict, "because": over.because,
-            "except": over.but or None,
-            "proved_up_to": over.proved, "changes_at": over.changes_at, "parts": over.parts,
-            "samples": _samples(over.samples),
-            "witnesses": [{"verdict": w.verdict, **_numbers(w)}
-                          for w in over.witnesses]}
-
-
-def _samples(samples) -> dict | None:
-    return (samples and {"number": samples.number, "seed": samples.seed, "counts": samples.counts,
-                         "margin_quantiles": samples.margins})
+    samples = over.samples and (values_of(over.samples, "number seed counts")
+                                | {"margin_quantiles": over.samples.margins})
+    return values_of(over, "answer verdict because") | {
+        "except": over.but or None, "proved_up_to": over.proved,
+        **values_of(over, "changes_at parts"), "samples": samples,
+        "witnesses": [{"verdict": w.verdict, **_numbers(w)} for w in over.witnesses]}
 
 
 def key(uncertain) -> str:

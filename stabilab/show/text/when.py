@@ -6,6 +6,7 @@ import math
 import re
 
 from ...errors import printable
+from ...representation import values_of
 from .. import limiting
 from ..files import comma
 from ..terminal.letters import lettered
@@ -113,13 +114,10 @@ def tilt_dict(found) -> dict | None:
     if found is None:
         return None
     if found.ranges:
-        return {"angle": found.angle, "of": found.of, "directions": found.directions, "limit": found.limit,
-                "earliest": found.earliest,
-                "latest": found.latest, "level": found.level, "fates": dict(found.fates),
-                "because": found.because}
-    return {"angle": found.angle, "of": found.of, "limit": found.limit, "limit_stated": found.stated,
-            "not_before": found.not_before,
-            "time": [found.low, found.high] if found.ends else None,
-            "level": found.level if found.ends else None, "azimuth": found.azimuth,
-            "torque": found.torque, "azimuths": found.azimuths, "times": found.times,
-            "untilted": found.untilted}
+        return values_of(found, "angle of directions limit earliest latest level") | {
+            "fates": dict(found.fates), "because": found.because}
+    return values_of(found, "angle of limit") | {
+        "limit_stated": found.stated, "not_before": found.not_before,
+        "time": [found.low, found.high] if found.ends else None,
+        "level": found.level if found.ends else None
+        } | values_of(found, "azimuth torque azimuths times untilted")
