@@ -247,28 +247,14 @@ def _words(table, where):
 
 
 def identically_zero(rates, curve) -> bool:
-    """Whether the rates, times the square of the denominator, vanish as polynomials."""
-    x, d = curve.tops, curve.bottom
-    return all(q(rates.kappa[i]) * x[j] * x[k] + q(rates.rho[i]) * x[k] * d + q(rates.sigma[i]) * x[j] * d
-               + q(rates.m[i]) * d * d == 0 for i, (j, k) in enumerate(AHEAD))
-
-
-def _homogeneous_jacobian(rates, curve):
-    """The Jacobian along the curve, times the denominator."""
-    x, d = curve.tops, curve.bottom
-    zero, rows = d - d, []
-    for i, (j, k) in enumerate(AHEAD):
-        row = [zero] * 3
-        row[j] = q(rates.kappa[i]) * x[k] + q(rates.sigma[i]) * d
-        row[k] = q(rates.kappa[i]) * x[j] + q(rates.rho[i]) * d
-        rows.append(row)
-    return rows
+    """Whether the rates vanish all along it."""
+    return not any(rate != 0 for rate in rates.at(curve.tops, curve.bottom))
 
 
 def check_curve(rates, curve, note):
     """Findings on the verdicts along a curve on which the rates vanish."""
     note(curve.claim, "proved", "the rates vanish identically along it")
-    J = _homogeneous_jacobian(rates, curve)
+    J = rates.jacobian(curve.tops, curve.bottom)  # times the denominator
     m, n = characteristic(J)
     if n != 0 or m == 0:
         note(f"{curve.claim}: verdicts", "refuted" if n != 0 else "not checked",

@@ -36,42 +36,9 @@ class Facts:
 
     def __init__(self, orbit):
         self.orbit, self.bits = orbit, ctx.prec
-        circle, sense = orbit.kind < 0, exact_sign(orbit.tilt)
-        self.ends, self.round = None, False
-        if orbit.forceless():
-            self.fate, self.reason = ("bounded",
-                                      "no force along the orbit: this rate is constant, and so is the "
-                                      "circle's radius")
-            if not circle:
-                raise Open
-        elif circle and sense == 0:
-            self.fate, self.reason = "bounded", "no torque: the energy is constant and positive definite"
-            ends = [_turning(orbit, side) for side in (-1, 1)]
-            if None in ends:
-                if ends != [None, None]:
-                    raise Open
-                self.round = True
-            else:
-                self.ends = ends
-        elif circle:
-            ahead = _turning(orbit, sense)
-            if ahead is None:
-                self.fate, self.reason = ("spin-up",
-                                          "no barrier within one turn ahead reaches the energy, and each "
-                                          "turn is lower")
-            else:
-                behind = _turning(orbit, -sense)
-                self.fate, self.reason = ("bounded",
-                                          "a barrier above the energy stands ahead, and the tilt rises "
-                                          "behind")
-                self.ends = sorted((ahead, behind), key=lambda end: float(end.mid()))
-        else:
-            ends = [_turning(orbit, side) for side in (-1, 1)]
-            if None in ends:
-                self.fate, self.reason = _released(orbit, ends)
-            else:
-                self.fate, self.reason, self.ends = ("bounded", "walls above the energy stand on both sides",
-                                                     ends)
+        sense = exact_sign(orbit.tilt)
+        self.fate, self.reason, self.ends = _fate(orbit, sense)
+        self.round = self.fate == "bounded" and self.ends is None
         self.extremes = self._extremes(sense)
 
     def _extremes(self, sense):
@@ -95,6 +62,31 @@ class Facts:
             ranges = ({o.axis: (low, high)}
                       | dict(zip((o.j, o.k), _whole_circle(o) if o.kind < 0 else _to_the_end(o, sense))))
         return [ranges[i] for i in range(3)]
+
+
+def _fate(orbit, sense):
+    """(fate, reason, the two turning points of a motion that has them, else None)."""
+    circle, torque_free = orbit.kind < 0, "no torque: the energy is constant and positive definite"
+    if orbit.forceless():
+        if not circle:
+            raise Open
+        return ("bounded", "no force along the orbit: this rate is constant, and so is the circle's radius",
+                None)
+    if circle and sense:
+        ahead = _turning(orbit, sense)
+        if ahead is None:
+            return ("spin-up", "no barrier within one turn ahead reaches the energy, and each turn is lower",
+                    None)
+        ends = sorted((ahead, _turning(orbit, -sense)), key=lambda end: float(end.mid()))
+        return "bounded", "a barrier above the energy stands ahead, and the tilt rises behind", ends
+    ends = [_turning(orbit, side) for side in (-1, 1)]
+    if None not in ends:
+        return "bounded", torque_free if circle else "walls above the energy stand on both sides", ends
+    if not circle:
+        return *_released(orbit, ends), None
+    if ends != [None, None]:
+        raise Open
+    return "bounded", torque_free, None
 
 
 def _turning(orbit, side):
@@ -336,8 +328,10 @@ def check_motion(rates, claims, note):
     proof = orbit and _Proof(orbit)
     found = proof and at_rising_precision(proof.facts)
     if found is None:
-        _leave_open(claims, f"not decided with {MOST_BITS} bits" if orbit
-                    else "the scene has no reduction to one degree of freedom", note)
+        why = (f"not decided with {MOST_BITS} bits" if orbit
+               else "the scene has no reduction to one degree of freedom")
+        note(claims.words, "not checked", why)
+        _leave_numbers(claims, why, note)
         return
     axis = orbit.axis + 1 if found.fate == "spin-up" else 0
     _check_words(claims, found.fate, axis, exact_sign(orbit.tilt) if axis else 0, found.reason, note)
@@ -366,11 +360,9 @@ def _check_trapped(rates, claims, note):
         _check_words(claims, "spin-up", claims.spin_up.axis, claims.spin_up.sense, reason, note)
     else:
         note(claims.words, "not checked", reason)
-    for claim, *_ in _named(claims.extremes, [(None, None)] * 3):
-        note(claim, "not checked", "the inequality says nothing of the time before")
-    if claims.period is not None:
-        note("period", "refuted" if status == "proved" else "not checked",
-             "a motion that spins up does not repeat")
+    _leave_numbers(claims, "the inequality says nothing of the time before", note,
+                   "refuted" if status == "proved" else "not checked",
+                   "a motion that spins up does not repeat")
 
 
 def _check_closed(rates, claims, note):
@@ -380,11 +372,9 @@ def _check_closed(rates, claims, note):
         _check_words(claims, fate, axis, sense, reason, note)
     else:
         note(claims.words, "not checked", reason)
-    for claim, *_ in _named(claims.extremes, [(None, None)] * 3):
-        note(claim, "not checked", "the closed solution bounds sizes alone")
-    if claims.period is not None:
-        note("period", "refuted" if fate == "spin-up" else "not checked",
-             "the closed solution is not asked for a period")
+    _leave_numbers(claims, "the closed solution bounds sizes alone", note,
+                   "refuted" if fate == "spin-up" else "not checked",
+                   "the closed solution is not asked for a period")
     if claims.spin_up:
         check_spin_up(rates, claims.state, claims.spin_up, note)
 
@@ -402,13 +392,12 @@ def _check_words(claims, fate, axis, sense, reason, note):
         note(claims.words, "proved", reason)
 
 
-def _leave_open(claims, why, note):
-    """Every claim of the motion is not checked, for one reason."""
-    note(claims.words, "not checked", why)
+def _leave_numbers(claims, why, note, period="not checked", because=None):
+    """No extreme of the motion is checked; what becomes of its period, for a reason of its own."""
     for claim, *_ in _named(claims.extremes, [(None, None)] * 3):
         note(claim, "not checked", why)
     if claims.period is not None:
-        note("period", "not checked", why)
+        note("period", period, because or why)
 
 
 def _named(claimed, found):

@@ -358,11 +358,6 @@ class Orbit:
         last = int((above(right) - below(first)) // below(half)) + 1
         return [first + n * half for n in range(last - 3, last + 1)]
 
-    def slopes(self, alpha):
-        """(du/dalpha, dv/dalpha)."""
-        g, (u, v) = self.balls, self.place(alpha)
-        return g.p * v + g.p0, g.q * u + g.q0
-
     def force(self, alpha):
         """F = y'."""
         g = self.balls

@@ -4,6 +4,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 
+from flint import arb, fmpq_poly
+
 from .numbers import Malformed, ball, field, hull, number, numbers, q, sign
 
 # --- The rates of the three components, from the numbers of a scene: x_i' = kappa x_j x_k + rho x_k + sigma
@@ -62,28 +64,24 @@ class Rates:
         integrals = ([one, one, o], [a, o, o]), ([one, o, -one], [b, o, o])
         return cls([one, -one, one], [o, o, b], [o, -a, o], list(mu), conditions, any(mu), integrals)
 
-    def at(self, x):
-        """The rates at x: fractions, balls or polynomials alike."""
-        return [self._lift(self.kappa[i], x) * x[j] * x[k] + self._lift(self.rho[i], x) * x[k]
-                + self._lift(self.sigma[i], x) * x[j] + self._lift(self.m[i], x) for i,
-                (j, k) in enumerate(AHEAD)]
+    def at(self, x, w=1):
+        """The rates at x/w, times w^2: fractions, balls or polynomials alike."""
+        kappa, rho, sigma, m = self._lifted(x)
+        return [kappa[i] * x[j] * x[k] + (rho[i] * x[k] + sigma[i] * x[j]) * w + m[i] * w * w
+                for i, (j, k) in enumerate(AHEAD)]
 
-    def jacobian(self, x):
-        """Rows of derivatives of the rates."""
-        rows = []
+    def jacobian(self, x, w=1):
+        """Rows of derivatives of the rates at x/w, times w."""
+        kappa, rho, sigma, _ = self._lifted(x)
+        rows = [[x[0] * 0] * 3 for _ in AHEAD]
         for i, (j, k) in enumerate(AHEAD):
-            row = [x[0] * 0] * 3
-            row[j] = self._lift(self.kappa[i], x) * x[k] + self._lift(self.sigma[i], x)
-            row[k] = self._lift(self.kappa[i], x) * x[j] + self._lift(self.rho[i], x)
-            rows.append(row)
+            rows[i][j], rows[i][k] = kappa[i] * x[k] + sigma[i] * w, kappa[i] * x[j] + rho[i] * w
         return rows
 
-    @staticmethod
-    def _lift(value, x):
-        """A coefficient in the arithmetic of x."""
-        if isinstance(x[0], Fraction):
-            return value
-        return ball(value) if type(x[0]).__name__ == "arb" else q(value)
+    def _lifted(self, x):
+        """The coefficients in the arithmetic of x."""
+        lift = q if isinstance(x[0], fmpq_poly) else ball if isinstance(x[0], arb) else Fraction
+        return [[lift(v) for v in row] for row in (self.kappa, self.rho, self.sigma, self.m)]
 
 
 def characteristic(J):
