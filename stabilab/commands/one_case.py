@@ -2,7 +2,7 @@
 another program's spacecraft as a case."""
 from __future__ import annotations
 
-from ..case.examples import EXAMPLES, example
+from ..case.examples import EXAMPLES, command_of, example
 from ..case.foreign import import_42, import_basilisk
 from ..case.foreign.imported import case_text, faults_of
 from ..case.source import source_text
@@ -24,9 +24,9 @@ def examples(name):
     if name is not None:
         write(example(name).rstrip("\n"))
         return
-    rows = [f"  {known:<14}{data_of(example(known))['title']}" for known in EXAMPLES]
-    tell("\n".join(["stabilab example NAME > NAME.toml writes one of these, which stabilab classify answers.",
-                    "", *rows]))
+    rows = [f"  {known:<14}{command_of(known):<10}{data_of(example(known))['title']}" for known in EXAMPLES]
+    tell("\n".join(["stabilab example NAME > NAME.toml writes one of these, then ask stabilab COMMAND NAME.toml.",
+                    "", f"  {'NAME':<14}COMMAND", *rows]))
 
 
 def import_(file, out, stuck, body=None):

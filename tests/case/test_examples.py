@@ -4,14 +4,26 @@ import math
 import pytest
 
 import stabilab
-from stabilab.case.examples import EXAMPLES, example
+from stabilab.case.examples import EXAMPLES, command_of, example
 
 
-@pytest.mark.parametrize("name", EXAMPLES)
+@pytest.mark.parametrize("name", [name for name in EXAMPLES if command_of(name) == "classify"])
 def test_an_example_is_a_case_with_a_source_and_an_outcome(name):
     case = stabilab.load(example(name))
     assert case.title and case.source and case.span
     assert case.motion(brief=True).fate.word in ("bounded", "spin-up")
+
+
+@pytest.mark.parametrize("name, answer", [("boom", "16 EQUILIBRIA, 2 STABLE"), ("stage", "CLOSED at t = 20.4")])
+def test_an_example_of_one_question_is_answered_by_its_command_and_refused_by_others(
+        stabilab, tmp_path, name, answer):
+    """Answers: of docs/circular-orbit.md; 12 kg at 9.8 g/s last 20.4 min."""
+    path = tmp_path / f"{name}.toml"
+    path.write_text(example(name))
+    code, out, _ = stabilab(command_of(name), path)
+    assert code == 0 and out.startswith(f"{name}: {answer}")
+    code, out, err = stabilab("classify", path)
+    assert code == 2 and not out and f"stabilab {command_of(name)}" in err
 
 
 def test_the_command_lists_and_writes_them(stabilab, tmp_path):

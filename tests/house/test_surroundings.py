@@ -354,8 +354,8 @@ def test_the_package_brings_the_cases_of_its_tables_and_figures(tmp_path):
                     "egg_info", "--egg-base", tmp_path,
                     "build_py", "--build-lib", tmp_path / "made"], cwd=ROOT, check=True, capture_output=True)
     made = tmp_path / "made/stabilab/cases"
-    assert {p.name: p.read_bytes()
-            for p in made.iterdir()} == {p.name: p.read_bytes() for p in (ROOT / "cases").glob("*.toml")}
+    files = lambda folder: {p.relative_to(folder): p.read_bytes() for p in folder.rglob("*.toml")}
+    assert files(made) == files(ROOT / "cases")
 
 
 @pytest.mark.slow
