@@ -69,6 +69,8 @@ DPI = 110
 QUICK = 6
 LARGE = 100_000  # bytes
 LETTER, KEY = 0.07, 0.7  # inches that a letter of a legend, and its key with the gap, take
+# the blanks within a measured value: lambda3 = 0.1 N m s
+MEASURED = re.compile(r"(?<= =) | (?==)|(?<=\d) (?=[^\W\d])|(?<=\bN) (?=m\b)|(?<=\bm) (?=s\b)")
 TITLE = 0.008  # inches that a letter of a title takes, a point of its size
 # inches from which on letters have their full size; the least share of it in smaller figures: 7 points
 ROOMY, SMALLEST = (5.6, 3.8), 0.7
@@ -254,10 +256,11 @@ def clauses(text: str, width: float) -> str:
         lines[-1] += clause
         count = math.ceil(len(lines[-1].rstrip()) / most)
         if count > 1:
-            fits = (textwrap.wrap(lines[-1], wide) for wide in range(len(lines[-1]) // count, len(lines[-1])))
-            *before, last = next(parts for parts in fits if len(parts) <= count)
+            whole = MEASURED.sub("\u00a0", lines[-1])  # textwrap ends no line there
+            fits = (textwrap.wrap(whole, wide) for wide in range(len(lines[-1]) // count, len(lines[-1])))
+            *before, last = next((parts for parts in fits if len(parts) <= count), [whole])
             lines[-1:] = [*before, f"{last} "]
-    return "\n".join(line.rstrip() for line in lines)
+    return "\n".join(line.rstrip() for line in lines).replace("\u00a0", " ")
 
 
 def literal(text: str) -> str:
