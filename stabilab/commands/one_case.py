@@ -25,7 +25,7 @@ def examples(name):
         write(example(name).rstrip("\n"))
         return
     rows = [f"  {known:<14}{command_of(known):<10}{data_of(example(known))['title']}" for known in EXAMPLES]
-    tell("\n".join(["stabilab example NAME > NAME.toml writes one of these, then ask stabilab COMMAND NAME.toml.",
+    tell("\n".join(["stabilab example NAME > NAME.toml writes one of these, for stabilab COMMAND NAME.toml.",
                     "", f"  {'NAME':<14}COMMAND", *rows]))
 
 
