@@ -13,6 +13,7 @@ from types import ModuleType
 from typing import Any
 
 from ..errors import InputError
+from .balls import fraction, rational, working
 from .vectors import Exact3, Number
 
 # one way only to match: else a long wrong number would be tried in exponentially many
@@ -117,63 +118,22 @@ def mpmath_alone() -> Iterator[ModuleType]:
 _MPMATH = RLock()
 
 
-def precise(name: str, *arguments: Fraction, bits: int = 240) -> Fraction:
-    """A rational within about 2**-bits of a function of a rational ("cos") or of a constant ("pi"), in
-    integers alone: a small command that asks for the cosine of one angle need not read mpmath, whose numbers
-    these are, to the last of bits + 20 places."""
-    places = bits + 20
-    if name == "pi":
-        return _rounded(pi_in(places + GUARD), places + GUARD, places)
-    (angle,) = arguments
-    x = _nearest(Fraction(angle.numerator), places) / angle.denominator
-    return _cosine(_nearest(x, places), places)
-
-
-def pi_in(bits: int) -> int:
-    """2**bits pi, rounded down, by Machin's formula."""
-    one = 1 << bits + 16
-
-    def arctan(inverse: int) -> int:
-        term, total, n = one // inverse, 0, 1
-        while term:
-            total += term // n if n % 4 == 1 else -(term // n)
-            term //= inverse * inverse
-            n += 2
-        return total
-    return (4 * (4 * arctan(5) - arctan(239))) >> 16
-
-
 GUARD = 64  # bits beyond those asked for, which rounding in between may spoil
-HALVINGS = 8  # of the angle, before its series is summed
 
 
-def _cosine(angle: Fraction, places: int) -> Fraction:
-    """Its cosine, rounded to so many bits."""
-    guard = GUARD
+def precise(name: str, *arguments: Fraction, bits: int = 240) -> Fraction:
+    """The number of bits + 20 places nearest to the cosine of a rational ("cos") or to "pi"; of an angle with
+    more places, to that of the angle rounded to them."""
+    from flint import arb
+    places, guard = bits + 20, GUARD
+    angle = [_nearest(_nearest(Fraction(v.numerator), places) / v.denominator, places) for v in arguments]
     while True:
-        work = places + guard
-        turn = 2 * pi_in(work + max(0, angle.numerator.bit_length() - angle.denominator.bit_length()))
-        more = turn.bit_length() - work - 3  # the bits that whole turns take away
-        x = (angle.numerator << work + more) // angle.denominator % turn >> more
-        x = (x << 2 * HALVINGS) >> HALVINGS  # of an angle 2**HALVINGS times smaller, with as many bits more
-        work += 2 * HALVINGS
-        square, less, term, n = x * x >> work, 0, 1 << work, 1
-        while term:  # 1 - cos, which keeps its digits as the angle is doubled
-            term = term * square // (n * (n + 1)) >> work
-            less += term if n % 4 == 1 else -term
-            n += 2
-        for _ in range(HALVINGS):
-            less = less * ((2 << work) - less) >> work - 1
-        found, off = (1 << work) - less, 1 << GUARD // 2 + 2 * HALVINGS
-        low, high = (_rounded(found + side * off, work, places) for side in (-1, 1))
+        with working(places + guard):
+            ball = arb(rational(*angle)).cos() if angle else arb.pi()
+            low, high = (_nearest(fraction(end.fmpq()), places) for end in (ball.lower(), ball.upper()))
         if low == high:
             return low
         guard *= 2
-
-
-def _rounded(number: int, scale: int, places: int) -> Fraction:
-    """number/2**scale with so many bits."""
-    return _nearest(Fraction(number, 1 << scale), places)
 
 
 def _nearest(value: Fraction, places: int) -> Fraction:

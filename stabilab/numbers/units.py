@@ -7,6 +7,7 @@ which hold pi: these are good to 240 bits.
 """
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Iterable
 from fractions import Fraction
@@ -14,7 +15,7 @@ from functools import lru_cache
 from typing import Any, NamedTuple, TypeAlias
 
 from ..errors import InputError
-from .exact import exact, exact_vector, half_unit, pi_in
+from .exact import exact, exact_vector, half_unit, precise
 from .vectors import Exact3
 
 Dimension: TypeAlias = tuple[int, ...]  # exponents of m, kg, s, A, rad
@@ -248,5 +249,5 @@ def _near(word: str) -> str:
 
 @lru_cache(maxsize=1)
 def pi() -> Fraction:
-    """Pi within 2**-300, by Machin's formula in integers."""
-    return Fraction(pi_in(304), 1 << 304)
+    """Pi within 2**-300."""
+    return Fraction(math.floor(precise("pi", bits=400) * 2**304), 2**304)
