@@ -15,8 +15,7 @@ from ...errors import InputError
 from ...numbers.principal import IDENTITY, NOTHING, PrincipalAxes, without_trace
 from ...numbers.vectors import Exact3, Float3, Number, dot
 from ...orbit.result import Fate, Motion
-from ...physics.effects.constant_torque import ConstantTorque
-from ...physics.effects.gyrostat import Gyrostat
+from ...physics.effects import effect_class
 from ...physics.scene import Body, Scene, rests
 from ...unreduced.enclosure.run import proved
 from ...unreduced.spin_up.follow import spin_up
@@ -49,7 +48,8 @@ class Scenario:
     def scene(self, torque: Sequence[Fraction], wheel: Sequence[Fraction] | None = None) -> Scene:
         """The scene under a torque (N m), with another wheel momentum (N m s) where one is given."""
         wheel = without_trace(tuple(self.wheel if wheel is None else wheel), tuple(torque))
-        return Scene(self.body, Gyrostat(wheel), ConstantTorque(tuple(torque)))
+        return Scene(self.body, effect_class("gyrostat")(wheel),
+                     effect_class("constant_torque")(tuple(torque)))
 
     def torque(self, thrusters: Sequence[Any]) -> Exact3:
         """The whole torque while these thrusters fire, along the scene's axes."""

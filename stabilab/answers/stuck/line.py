@@ -40,8 +40,7 @@ from ...orbit.fate.one_state import fate_of
 from ...orbit.one_orbit import Orbit
 from ...orbit.reduction import Reduction, reduce
 from ...orbit.result import Fate
-from ...physics.effects.constant_torque import ConstantTorque
-from ...physics.effects.gyrostat import Gyrostat
+from ...physics.effects import effect_class
 from ...physics.scene import Body, Scene, Turn, aligned
 from ..caveats import STEADY
 
@@ -76,8 +75,8 @@ class Family:
     def scene(self, wheel: Sequence[Fraction] | None = None, torque: Fraction | None = None) -> Scene:
         """With this wheel momentum, and this torque about the axis."""
         size = self.torque if torque is None else torque
-        return Scene(self.body, Gyrostat(tuple(self.wheel if wheel is None else wheel)),
-                     ConstantTorque(tuple(size * (n == self.axis) for n in range(3))))
+        return Scene(self.body, effect_class("gyrostat")(tuple(self.wheel if wheel is None else wheel)),
+                     effect_class("constant_torque")(tuple(size * (n == self.axis) for n in range(3))))
 
     def fate(self, wheel: Sequence[Fraction] | None = None, torque: Fraction | None = None) -> Fate:
         """The fate of the start, decided exactly; SPIN_UP where a wheel along the torque lets no motion be
