@@ -8,7 +8,7 @@ HERE = Path(__file__).parent
 sys.path[:0] = [str(HERE.parent), str(HERE)]
 
 from docutils import nodes  # noqa: E402
-from making import gallery, notebooks, reference, written  # noqa: E402
+from making import commands, gallery, notebooks, reference, written  # noqa: E402
 from sphinx import addnodes  # noqa: E402
 
 import stabilab  # noqa: E402
@@ -56,6 +56,7 @@ def write_pages(app):
                                                 "](../figures/").replace("](CITATION.cff",
                                                                          "](../CITATION.cff"))
     written.page(HERE / "api.md", reference.text())
+    written.page(HERE / "commands.md", commands.text())
     notebooks.write(HERE)
     gallery.write(HERE)
 

@@ -27,7 +27,7 @@ from stabilab.show.surface.render_probe import CURE, probe
 ROOT = Path(__file__).parents[2]
 README, GUIDE = ROOT / "README.md", ROOT / "docs/guide.md"
 # by docs/conf.py, from what stands elsewhere
-MADE = {"readme.md", "results.md", "api.md", "gallery.md", "contributing.md", "changelog.md"}
+MADE = {"readme.md", "results.md", "api.md", "commands.md", "gallery.md", "contributing.md", "changelog.md"}
 LISTS = {"index.md"}  # of pages alone, which the last test here looks through
 CHAPTERS = [page for page in sorted((ROOT / "docs/mathematics").glob("*.md")) if page.name not in LISTS]
 PAGES = [README, *(page for page in sorted((ROOT / "docs").glob("*.md")) if page.name not in MADE | LISTS),

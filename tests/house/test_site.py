@@ -13,7 +13,7 @@ import stabilab
 from .test_readme import MADE, ROOT, make_knows
 
 sys.path.insert(0, str(ROOT / "docs"))
-from making import gallery, notebooks, reference
+from making import commands, gallery, notebooks, reference
 
 CASES = sorted((ROOT / "cases").glob("*.toml"))
 NOTEBOOKS = sorted((ROOT / "docs/notebooks").glob("*.ipynb"))
@@ -48,6 +48,16 @@ def test_every_public_name_stands_in_the_reference():
     text = reference.text()
     assert all(f":: stabilab.{name}\n" in text for name in stabilab.__all__
                if name not in ("plot", "__version__"))
+
+
+def test_every_command_stands_on_its_page_by_the_question_it_answers(stabilab):
+    text = commands.text()
+    listed = re.findall(r"^  ([a-z][a-z-]+) {2,}\S", stabilab("--help")[1], re.M)
+    rows = re.findall(r"^\| ([A-Z].*\?) \| `stabilab ([a-z-]+) ?(.*)` \|$", text, re.M)
+    assert [name for _, name, _ in rows] == listed and len({question for question, *_ in rows}) == len(rows) > 30
+    for name in ("fate", "sweep", "import"):
+        (example,) = [rest for _, one, rest in rows if one == name]
+        assert f"Example: stabilab {name} {example}" in " ".join(stabilab(name, "--help")[1].split())
 
 
 def public():

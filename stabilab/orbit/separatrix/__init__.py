@@ -1,1 +1,1 @@
-"""Homoclinic loops, the sheets they sweep, and the distance of a state from them."""
+"""Homoclinic loops, the branches they sweep, and the distance of a state from them."""

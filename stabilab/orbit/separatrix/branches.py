@@ -1,7 +1,7 @@
 """The separatrix as surfaces: for each value of the invariant the homoclinic loop of each saddle, an exact
 curve.
 
-A branch of the separatrix (a sheet, in what measures distances from it) sweeps one branch of saddles
+A branch of the separatrix sweeps one curve of saddles
 outward from its fold, where the loop shrinks to a point. On a circle the loop runs from its saddle against
 the torque and back; on a hyperbola (and without torque) each saddle has a loop on either side: a figure
 eight. The lower of two saddles on a circle may have a second loop there too, towards the torque, where the

@@ -1,14 +1,14 @@
 """Rows and columns of a surface within an accuracy.
 
-Rows and columns of a sheet, graded so that its flat facets stray from the surface about equally everywhere.
+Rows and columns of a branch, graded so that its flat facets stray from the surface about equally everywhere.
 
 A facet's edge with steps (du, ds) of the parameters strays from a surface r(u, s) with unit normal n by
 |L du^2 + 2 M du ds + N ds^2|/8, where L = r_uu.n, M = r_us.n, N = r_ss.n. Differences on a small trial grid
 give them: columns stand uniformly in the integral of sqrt|L|, rows in that of sqrt|N|, each for the worst of
 the others; as for a picture, columns follow the outline too. The finished grid is measured in the same way.
-Grids within an asked-for distance are those of `within`, which begin with the same trial rows.
+Grids within an allowed distance are those of `within`, which begin with the same trial rows.
 
-Grids of sheets whose flat facets stay within an asked-for distance of the surface, each with rows and columns
+Grids of branches whose flat facets stay within an allowed distance of the surface, each with rows and columns
 of its own.
 
 An edge of length l strays from a surface of normal curvature c along it by c l^2/8 where that hardly changes.
@@ -30,8 +30,8 @@ from .saddles import OPEN, PLANE
 from .seams import Part, parted
 
 TRIAL = 17              # rows and columns of the trial grid
-FLOOR = 0.3             # of the mean density: no gap where a sheet happens to be straight
-STRAIGHT = 1e-6         # of a sheet's size: a lesser sag between neighbours of the trial grid does not matter
+FLOOR = 0.3             # of the mean density: no gap where a branch happens to be straight
+STRAIGHT = 1e-6         # of a branch's size: less sag between neighbours of the trial grid does not matter
 TAIL = 10.0 ** -np.arange(3, 6.1, 0.5)  # 1 - s of the last trial rows towards a plane Q = 0
 NEAR = 1e-6             # a first row this near to the fold where the loop there is no point
 DENSE = 129             # steps along a branch that trial rows are chosen from
@@ -87,7 +87,7 @@ def _grading(made, forms, bends, edge, rows, columns):
 
 def measured_loops(land, parts, s, u):
     """(loops at rows s, how far the chords between the first two rows, and between the last two, stray from
-    the sheet (2, k)): inner rows do not tell how much it bends beyond them, towards a plane Q = 0 without
+    the branch (2, k)): inner rows do not tell how much it bends beyond them, towards a plane Q = 0 without
     bound, so rows in between are measured."""
     more = np.concatenate([s[:, :1], 0.5 * (s[:, :1] + s[:, 1:2]), s[:, 1:-1],
                            0.5 * (s[:, -2:-1] + s[:, -1:]), s[:, -1:]], axis=1)
@@ -97,7 +97,7 @@ def measured_loops(land, parts, s, u):
 
 
 def _sag(loops, first, between, last):
-    """(k,) how far the chords from the row `first` to `last` stray from the sheet, by the row in between."""
+    """(k,) how far the chords from the row `first` to `last` stray from the branch, by the row in between."""
     before, middle, after = (loops.points[:, row] for row in (first, between, last))
     chord, way = (after - before)[:, 1:-1], (middle - before)[:, 1:-1]
     normal = np.cross(chord, middle[:, 2:] - middle[:, :-2])
@@ -188,7 +188,7 @@ def shrinks(land, branch, side) -> bool:
 
 def _trial_rows(land, branch, side):
     """(TRIAL,) parameters s of rows: the saddle moves on by equal steps near the fold and by equal factors
-    far out, where the sheet only grows and hardly bends."""
+    far out, where the branch only grows and hardly bends."""
     stretched, s = _stretched(land, branch)
     s = np.interp(np.linspace(0, stretched[-1], TRIAL), stretched, s)
     s[0], s[-1] = 0.0 if shrinks(land, branch, side) else NEAR, 1.0
@@ -226,15 +226,15 @@ def _stretched(land, branch, dense=DENSE):
     return np.log1p(way / start), s
 
 
-CELL_FLOOR = 0.1        # of the mean density: no gap where a sheet happens to be straight
+CELL_FLOOR = 0.1        # of the mean density: no gap where a branch happens to be straight
 MIXTURES = np.array([0.7, 1.0, 1.5, 2.0])  # columns against rows, relative to where both alone stray equally
 # rows and columns grow by that much more than asked, by its square at the next attempt, and so on
 SAFETY = 1.05
 GROW = 6.0         # cells, at most, against those of the grid before
 ROUNDS = 14
 SHARE = 4000       # points: strips of unequal shapes are computed as one array where no more are wasted
-RIM = 0.1          # of how far its outline strays counts where `reach` cuts a sheet off
-# where a sheet bends within a cell, edges stray like their length and not its square: by that power denser
+RIM = 0.1          # of how far its outline strays counts where `reach` cuts a branch off
+# where a branch bends within a cell, edges stray like their length and not its square: by that power denser
 # than the root of how far tells
 BENT = 0.25
 TINY, SMALL = np.finfo(float).tiny, 1e-200
@@ -242,7 +242,7 @@ TINY, SMALL = np.finfo(float).tiny, 1e-200
 
 def grids_within(land, strips, accuracy) -> list[Grid]:
     """A grid for each strip, a pair (branch, side), or for each part of one that is cut at a seam, with as
-    few rows and columns as keep facets within `accuracy` of the sheets."""
+    few rows and columns as keep facets within `accuracy` of the branches."""
     parts, rows = trial_parts(land, tuple(strips))
     todo, found = {n: (row, np.linspace(0, 1, TRIAL)) for n, row in enumerate(rows)}, {}
     for attempt in range(ROUNDS):
@@ -303,9 +303,9 @@ def _gathered(c, axis):
 
 
 def _rims(made, r, parts):
-    """(k, m - 1) how far edges stray from the outline of a sheet, in the sheet too, where it ends, from grids
-    r (k, n, m + 1, 3): in the first row, a point or a rim, and in the last one; only a share `RIM` of that
-    where `reach` cuts off a sheet that goes on."""
+    """(k, m - 1) how far edges stray from the outline of a branch, in the branch too, where it ends, from
+    grids r (k, n, m + 1, 3): in the first row, a point or a rim, and in the last one; only a share `RIM` of
+    that where `reach` cuts off a branch that goes on."""
     first, last = (_along(r[:, row], np.ones((len(r), r.shape[2]), bool) & made.found[:, row, None])[:, :-1]
                    for row in (0, -1))
     last[[part.seam <= 0 and part.branch.far == OPEN for part in parts]] *= RIM

@@ -1,8 +1,8 @@
-"""Seams of a sheet: where the loop of a saddle reaches a second saddle as high, behind which it opens a
+"""Seams of a branch: where the loop of a saddle reaches a second saddle as high, behind which it opens a
 second well.
 
 At the seam the far end of the loop jumps: on one side the loop turns back before the second saddle, on the
-other it passes over it. The sheet is smooth on both sides, W^2 = 2 (V_saddle - V) being a saddle surface
+other it passes over it. The branch is smooth on both sides, W^2 = 2 (V_saddle - V) being a saddle surface
 itself next to the second saddle, but rows of a grid are level curves of it: they must crowd towards the seam
 like squares, and columns towards the second saddle, where loops are pinched. So a strip is cut there, and
 each part graded by itself.

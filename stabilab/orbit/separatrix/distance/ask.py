@@ -2,22 +2,22 @@
 proof and a witness, on circles, hyperbolas and parabolas.
 
 The separatrix is the set of states whose fate is to tend to a saddle of the reduced potential: the loops of
-all saddles, swept along the branches of saddles. Branch and bound over these sheets (`search`) brings a
+all saddles, swept along the curves of saddles. Branch and bound over its branches (`search`) brings a
 proved lower bound and a point of the separatrix together; what the number of boxes does not close is a
 bracket.
 
-Of a sheet only those points part bounded motions from spin-up whose saddle no higher barrier stands beside
+Of a branch only those points part bounded motions from spin-up whose saddle no higher barrier stands beside
 (`Shade`): on a circle under a torque the fate is that of the highest barrier within one turn ahead. A loop
 counts as far as no place between it and its saddle, and none ahead of the saddle, is higher than the saddle:
-there the sheet ends on the loop on which two barriers are as high, and the other barrier's sheet goes on.
-Where two sheets meet so, they form a notch that points into the bounded motions, and the nearest point may
+there the branch ends on the loop on which two barriers are as high, and the other barrier's goes on.
+Where two branches meet so, they form a notch that points into the bounded motions, and the nearest point may
 lie in it: a bound that uses both heights at once closes there.
 
 Without a torque the states of an invariant plane whose energy exceeds that of the resting centre tend to a
 rotation about the axis and are on the separatrix too: a flat piece, bounded by the loops' limit n^2 W^2/2 =
 u(xi, eta). Its distance is that of the plane where the foot of the perpendicular has the energy; else the
-nearest point is on that limit, where the sheets end. With a torque no point of the planes is a limit of
-sheets but the curve of each saddle on them: a sheet beside a plane keeps eta = eta* exp(-(n^2 W^2/2 +
+nearest point is on that limit, where the branches end. With a torque no point of the planes is a limit of
+branches but the curve of each saddle on them: a branch beside a plane keeps eta = eta* exp(-(n^2 W^2/2 +
 ...)/mu) > 0 at every rate W.
 
 With two equal moments orbits are parabolas and the potential is a quartic. With D_k = D_i (p = 0, q = -kappa,
@@ -107,7 +107,7 @@ class Shade:
 
 
 def _barrier(chart, t, at):
-    """The point of a sheet at another barrier: phi is below zero where that is higher than the saddle. Two
+    """The point of a branch at another barrier: phi is below zero where that is higher than the saddle. Two
     barriers of a wide circle may be as high but for the last digits of what they rise above the centre, which
     doubles lose, with those of the barrier's place: then a step of Newton's method in balls leads to it."""
     p, (bend, _) = chart.point(t, at), chart.bends(t, 0.0, at, 0.0)[5]
@@ -188,8 +188,8 @@ class _OnCircles(_Arc):
 
     @staticmethod
     def shade(orbit, arcs):
-        """What may shade a sheet: only a state that a barrier holds sees the difference, and only where there
-        are two barriers."""
+        """What may shade a branch: only a state that a barrier holds sees the difference, and only where
+        there are two barriers."""
         reduction = orbit.reduction
         if not reduction.sense or len(arcs) < 2 or decide(orbit, FIRST_BITS).sign < 0:
             return None
@@ -433,13 +433,13 @@ def separatrix_distance(scene, states):
 
     A torque in a plane of equal moments: the distance of the turned state in the turned scene, as a turn
     keeps distances. Not known: a free gyrostat without a reduction (its separatrix is known by its energy on
-    each momentum sphere, not as sheets), and a torque off the axes. A gyrostatic moment along the torque
+    each momentum sphere, not as branches), and a torque off the axes. A gyrostatic moment along the torque
     leaves no equilibrium (|H|^2/2 - D T grows steadily), so no separatrix: inf.
     """
     import numpy as np
     array = np.asarray(states, float)
-    asked = _asker(scene)
-    flat = [asked(state) for state in array.reshape(-1, 3).tolist()]
+    distance_from = _asker(scene)
+    flat = [distance_from(state) for state in array.reshape(-1, 3).tolist()]
     return np.array(flat, float).reshape(array.shape[:-1])
 
 

@@ -5,7 +5,7 @@ is a box's own.
 
 Those of a loop chart are written out, as sums of sizes without differences of nearly equal terms.
 
-A point of a sheet in balls of many digits, where the rounding of doubles would decide how near it is.
+A point of a branch in balls of many digits, where the rounding of doubles would decide how near it is.
 
 Each chart gives the place of (t, y) less the state's, (u, v), and phi = W^2 with their slopes; t and y are
 exact: doubles, or Fractions beside a point that doubles do not resolve. The formulas are the plain ones: what

@@ -23,7 +23,7 @@ from typing import Any, NamedTuple
 
 from ...conic import planes_touched
 
-# --- A reduction seen from a state, and what a chart of a sheet tells of one of its points
+# --- A reduction seen from a state, and what a chart of a branch says of one of its points
 EPS = 2.0**-52
 ROUNDINGS = 48  # units in the last place of the largest terms that a value at a point is off by at most
 UNIT = ROUNDINGS * EPS
@@ -133,8 +133,8 @@ class Spot(NamedTuple):
 
 
 class _Remembered:
-    """A branch remembers the place that it was asked for last: a box asks for that of its middle twice, and
-    its neighbour for the same one."""
+    """A curve of saddles remembers its last place: a box needs that of its middle twice, and its neighbour
+    the same one."""
 
     last: tuple[float, Spot | None] = (math.nan, None)
 

@@ -9,11 +9,11 @@ e1 xi - e2 eta
 
     n^2 W^2/2 = mu y + u(xi, eta) - u(r, E(r)),  G E^2/4 - e2 E = mu + G r^2/4 + e1 r.
 
-In (xi, y) the sheet is regular however long its loops are, while the place on the branch decides xi by e^y,
-and terms of size e^2y would cancel. Where the branch meets the plane, r = 0, loops grow without bound and the
-eta that is left is below e^-y: with a torque the sheet is within e^(-n^2 W^2/2 mu) of the plane eta = 0 at a
-rate W, never on it, but nearer than any number of digits tells. The sheets beside eta = 0 are those of the
-mirror image Z -> -Z, in which mu, d and the sense of the orbit change sign.
+In (xi, y) the branch is regular however long its loops are, while the place on the curve of saddles decides
+xi by e^y, and terms of size e^2y would cancel. Where that curve meets the plane, r = 0, loops grow without
+bound and the eta that is left is below e^-y: with a torque the branch is within e^(-n^2 W^2/2 mu) of the
+plane eta = 0 at a rate W, never on it, but nearer than any number of digits tells. The branches
+beside eta = 0 are those of the mirror image Z -> -Z, in which mu, d and the sense of the orbit change sign.
 
 Long loops beside the saddle of a hyperbola's branch at which xi is stationary, by xi and the place on the
 branch.

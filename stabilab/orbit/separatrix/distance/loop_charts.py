@@ -1,6 +1,6 @@
 """Charts of a separatrix: loops about a saddle, whole turns, roots at a turning point.
 
-A sheet of the separatrix as a surface in two parameters: t along a branch of saddles, y along the loop of
+A branch of the separatrix as a surface in two parameters: t along a curve of saddles, y along the loop of
 each.
 
 A saddle S(t) = (x, z) stands on the conic of equilibria; carried along its orbit by the offset y it is
@@ -60,7 +60,7 @@ from .curves import UNIT, Point, Seen, gap_of, seen_as, square_of
 
 
 class Chart:
-    """One sheet over a rectangle of (t, y)."""
+    """One branch over a rectangle of (t, y)."""
 
     sharpest = False  # whether its points are exact in any case
     from_saddle = True  # whether y = 0 is the saddle, where phi and its slope vanish
@@ -83,7 +83,7 @@ class Chart:
         return False
 
     def holds(self, t, y):
-        """Whether the point belongs to the sheet."""
+        """Whether the point belongs to the branch."""
         return True
 
     def folded(self, t, dt, y, dy):
@@ -94,7 +94,7 @@ class Chart:
         """Whether a box of which no bound is known is better halved in t."""
         return dt >= dy
 
-    def on_sheet(self, t, y):
+    def on_branch(self, t, y):
         return self, t, y
 
     def at_one(self, t, y):
@@ -166,7 +166,7 @@ class Chart:
 
 
 class OpenChart(Chart):
-    """A sheet whose loops are hyperbolas."""
+    """A branch whose loops are hyperbolas."""
 
     def misses(self, t, dt, y, dy, upper):
         """By the ranges of X + Z and X - Z alone: they grow and shrink like e^y, and a Taylor polynomial over
@@ -189,21 +189,21 @@ def outside(middle, radius, low, high, place, wide):
 
 
 class TurnedChart(Chart):
-    """A sheet beside the saddles, after a whole turn back."""
+    """A branch beside the saddles, after a whole turn back."""
 
     from_saddle, turns = False, -1
 
-    def on_sheet(self, t, y):
+    def on_branch(self, t, y):
         return Chart(self.seen, self.curve, self.t, (-2 * math.pi, 0.0)), t, y - 2 * math.pi
 
 
 class OppositeChart(Chart):
-    """A sheet beside the places opposite to the saddles, after half a turn back; `seen` and the curve are of
+    """A branch beside the places opposite to the saddles, after half a turn back; `seen` and the curve are of
     the state's mirror image."""
 
     from_saddle, turns = False, -0.5
 
-    def on_sheet(self, t, y):
+    def on_branch(self, t, y):
         return _FromSaddle(self.seen, self.curve, self.t, self.y), t, y - math.pi
 
     def place(self, t, y):

@@ -2,7 +2,7 @@
 
 Smooth functions below the squared distance over a box, and their least values.
 
-The squared distance of a state from the point (t, y) of a sheet is D = R + (sqrt(phi) - w0)^2, with R in the
+The squared distance of a state from the point (t, y) of a branch is D = R + (sqrt(phi) - w0)^2, with R in the
 plane of the orbit and phi = W^2. Its root is taken out by duality: for every multiplier k < 1 and all phi >=
 0
 
@@ -10,7 +10,7 @@ plane of the orbit and phi = W^2. Its root is taken out by duality: for every mu
 
 and the right-hand side is smooth in (t, y), where W = 0 too; with k = 1 - w0/sqrt(phi) it touches D.
 
-The nearest point of the sheets of a separatrix: branch and bound over their parameters, with a proved lower
+The nearest point of the branches of a separatrix: branch and bound over their parameters, with a proved lower
 bound.
 
 A box is done with when its second-order Taylor bound (`forms`) exceeds the least distance found; where the
@@ -27,7 +27,7 @@ from collections.abc import Sequence
 from fractions import Fraction
 from typing import Any, NamedTuple
 
-# --- The neighbourhood of a point of a sheet that no doubles of t and y name: a chart in offsets from it,
+# --- The neighbourhood of a point of a branch that no doubles of t and y name: a chart in offsets from it,
 # with points in balls
 EPS = 2.0**-52
 COARSE = 2.0**-24  # of a parameter and its range: what doubles tell apart easily
@@ -89,9 +89,9 @@ class Beside:
         return (t0 <= float(t - dt - self.t0) and float(t + dt - self.t0) <= t1
                 and y0 <= float(y - dy - self.y0) and float(y + dy - self.y0) <= y1)
 
-    def on_sheet(self, t, y):
+    def on_branch(self, t, y):
         """The chart that this one is a part of, and where on it a point lies to doubles."""
-        return self.chart.on_sheet(*self._on_chart(t, y))
+        return self.chart.on_branch(*self._on_chart(t, y))
 
     def _on_chart(self, t, y):
         return self.near[0] + t, self.near[1] + y
@@ -297,7 +297,7 @@ def _least(g, h, d):
     return -abs(g) * d + 0.5 * h * d * d
 
 
-# --- Newton's method for the nearest point of a sheet
+# --- Newton's method for the nearest point of a branch
 def descent(chart, t, y, w0, steps=30, exact=False):
     """Places on the way of Newton's method for the conditions of a least distance in (t, y, W - w0, k):
     stationary R + (W - w0)^2 on phi = W^2, which are regular where W = 0 too; it stays in the rectangle and
@@ -506,7 +506,7 @@ class _Search:
             if p.phi < -p.off[1]:
                 return False
         distance = math.sqrt(p.apart + p.off[0] + p.gap * p.gap + p.off_square(self.w)) * (1 + 4e-16)
-        if not distance < self.upper or (self.genuine and not self.genuine(*chart.on_sheet(t, y))):
+        if not distance < self.upper or (self.genuine and not self.genuine(*chart.on_branch(t, y))):
             return False
         self.upper, self.at = distance, (chart, t, y)
         self.goal = (distance * (1 - CLOSE)) ** 2
@@ -553,7 +553,7 @@ class _Search:
                     break
             else:
                 if self.genuine is not None:
-                    on, at_t, at_y = chart.on_sheet(t, y)
+                    on, at_t, at_y = chart.on_branch(t, y)
                     best = self.genuine.bound(self, form, best, on, at_t, dt, at_y, dy)
         # without the rounding at the middle the box might be done with, or hold no rate at all
         rough = best + 4 * form.off >= self.goal or p.off[1] > 0.25 * swing
