@@ -1,10 +1,16 @@
 """Pages, help and answers use the field's words (`docs/glossary.md`), none of our own."""
 import gzip
+import html
 import json
 import re
 from pathlib import Path
 
 import pytest
+
+from stabilab import load
+from stabilab.show.explore import serve
+from stabilab.show.explore.pictures import unframed
+from stabilab.show.explore.session import Session
 
 ROOT = Path(__file__).resolve().parents[2]
 # words that stood for: reported, page or part, the user's pointer, exactly as written, compared with, direction
@@ -73,3 +79,36 @@ def test_the_answers_that_are_not_recorded_have_none_either(stabilab, tmp_path, 
     name, *options = command
     *_, out, err = stabilab(name, ROOT / f"cases/{case}.toml", *(one.format(tmp_path) for one in options))
     assert ours(out + err, SAID) == []
+
+
+def read(page):
+    """The words of a page of HTML: without tags, scripts and what is typed, but with alternative texts."""
+    spoken = " ".join(re.findall(r'\b(?:alt|aria-label|title|placeholder)="([^"]*)"', page))
+    page = re.sub(r"<(script|style|pre|code)\b.*?</\1>", " ", page, flags=re.DOTALL)
+    return html.unescape(f"{re.sub(r'<[^>]+>', ' ', page)} {spoken}")
+
+
+@pytest.mark.parametrize("case", ["phone", pytest.param("cubesat-3u", marks=pytest.mark.slow),
+                                  pytest.param("charged-body", marks=pytest.mark.slow)])
+def test_the_pages_about_a_case_have_none_of_our_own_words(stabilab, tmp_path, case):
+    assert stabilab("report", ROOT / f"cases/{case}.toml", "--out", tmp_path)[0] == 0
+    page = (tmp_path / "index.html").read_text(encoding="utf-8")
+    assert "<h1>" in page and ours(read(page), SAID) == []
+    assert "alt=" in page and not re.search(r'<img(?![^>]* alt="[^"]{10})', page)  # each picture in words
+
+
+@pytest.mark.parametrize("case", ["thruster-stuck-major-axis", "cubesat-3u", "charged-sweep", "minor-axis-100"])
+def test_the_explorer_has_none_of_our_own_words(case):
+    session = Session(load(ROOT / f"cases/{case}.toml"))
+    assert ours(read(serve.page(session.about(), "explore-server.js", serve.HOW)), SAID) == []
+    for asked in ({}, {"moving": True, "torque": {"axis": 1, "size": "0.02", "tilt": "2", "azimuth": "0"}}):
+        answer, _ = unframed(session.answer(asked))
+        answer.pop("toml")  # a case file
+        assert answer["headline"] and ours("\n".join(texts(answer)), SAID) == []
+
+
+@pytest.mark.parametrize("script", ["explore", "explore-plots", "explore-browser", "turning", "space", "atlas"])
+def test_what_a_script_writes_on_a_page_has_none_of_our_own_words(script):
+    text = (ROOT / f"stabilab/show/templates/{script}.js").read_text(encoding="utf-8")
+    said = re.findall(r'"[^"\n]*"|`[^`\n]*`', re.sub(r"(?<!:)//.*", "", text))
+    assert len(said) > 5 and ours("\n".join(said), SAID) == []

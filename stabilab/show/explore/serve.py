@@ -23,7 +23,7 @@ from ...errors import InputError
 from ..report.html import render
 from .session import Session, Stopped, checked
 
-WAITING = "The first answer is on its way ..."
+WAITING = "Working out the first answer ..."
 
 
 def page(about: dict[str, Any], backend: str, how: str, policy: str = "", **more: Any) -> str:

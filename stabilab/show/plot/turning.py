@@ -195,7 +195,7 @@ def attitude(case: Any, state: Any = None, ax: Any = None, span: Any = None, fra
     """The body turning in space, as an animation of Matplotlib (keep it, or nothing moves).
 
     The box is the even one with the body's moments of inertia; its faces and axes have the colours of the
-    principal axes, and the line is the way of the tip of the axis about which the body turns most at the
+    principal axes, and the line is the path of the tip of the axis about which the body turns most at the
     start. Arrows: angular momentum, constant torque, momentum of the wheels; the bar: how much of the limit
     of the case the rates have reached. The start has the attitude of the case, else one that holds its
     vertical upright, else body and space are aligned. Where the span would need more pictures than `frames`
