@@ -71,7 +71,7 @@ MOST = 12  # rows of equilibria
 
 def rows(case: Case, motion: Motion, units: Units) -> list[list[str]]:
     """[words, value] of what is known of the motion."""
-    _, (_, when, until), *_ = tiles(motion, units)
+    when, until = next(rest for name, *rest in tiles(motion, units) if name == "when")
     found = [*([["limit", f"{when}: {until}"]] if motion.first else []),
              ["start", units.vector(motion.at[:3], units.rates)],
              *([name, greek(words)] for name, words in margins(motion, units))]
@@ -167,7 +167,7 @@ class Session:
             found = law.judged(case, found, brief=True)
             if case.limits is not None and not moving and present("numpy"):
                 found = self._first(case, found)
-            words = headline(case, found, units)
+            words = headline(case, found, units, limit_first=True)
         settled = time.process_time()
         twin = self._twin(case)
         at_rest = self._at_rest(case, twin, moving)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from functools import lru_cache
+from html import escape, unescape
 from pathlib import Path
 
 from ...files import whole_file
@@ -34,6 +35,7 @@ COMPOUND = re.compile(r"(?<=\d\u00a0)N m(?: s)?\b")
 INDEXED = re.compile(r"(?<![\w/.])([A-Za-zΑ-Ωα-ω]|" + "|".join(ALPHABET) + r")_(\w+)")  # I_omega, x_j, mu_j
 # b - a, (-M2, x = -y
 SUBTRACTED = re.compile(r"(?<=[\w)²³*;]) - (?=[\w(])|(?:(?<=[(=,\[] )|(?<=[(\[=])|^)-(?=[\w(])")
+HEADING = re.compile(r'<h([23])(?: id="([^"]*)")?>(.*?)</h\1>', re.S)
 RAISED = re.compile(r"\^(?:\(([^()]*)\)|([-−]?\w+))")
 
 
@@ -110,9 +112,26 @@ def render(template: str, **values) -> str:
     return _environment().get_template(template).render(**{**ALONE, **values})
 
 
+def anchored(page: str) -> str:
+    """The page with a link to itself in every heading, which gets an id of its words where it has none."""
+    used = set(re.findall(r' id="([^"]*)"', page))
+
+    def linked(found):
+        level, name, inside = found[1], found[2], found[3]
+        words = " ".join(unescape(re.sub("<[^>]*>", "", inside)).split())
+        if not name:
+            name = first = re.sub(r"[^a-z0-9]+", "-", words.lower()).strip("-") or "part"
+            while name in used:
+                name = f"{first}-{len(used)}"
+            used.add(name)
+        return (f'<h{level} id="{name}">{inside} <a class="anchor" href="#{name}" '
+                f'aria-label="Link to: {escape(words)}">#</a></h{level}>')
+    return HEADING.sub(linked, page)
+
+
 def write(path, template: str, **values) -> Path:
     """The page as a file, whole or not at all."""
     path = Path(path)
     with whole_file(path) as waiting:
-        waiting.write_text(render(template, **values), encoding="utf-8")
+        waiting.write_text(anchored(render(template, **values)), encoding="utf-8")
     return path

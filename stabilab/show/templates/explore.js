@@ -182,6 +182,7 @@ function drawFlat() {
 
 if (body) body.moved = t => { if (timeArt) { $("cursor").hidden = !shown.film; $("cursor").style.left = `${timeArt.x(t) + 1}px`; } };
 new ResizeObserver(() => document.documentElement.style.setProperty("--top", `${$("headline").offsetHeight + 6}px`)).observe($("headline"));
+document.querySelector(".skip").onclick = e => { e.preventDefault(); $("controls").focus(); };  // what stands behind # is the state
 window.addEventListener("hashchange", () => { restore(); shown = null; move(); });
 $("plane").onclick = e => { if (!planeArt) return; const [turn, rate] = planeArt.at(e.offsetX, e.offsetY); cross = null; move({turn, rate}); };
 $("plane").onkeydown = e => {

@@ -13,10 +13,12 @@ from ...units import SHORT, Units
 
 
 def tiles(motion: Motion, units: Units) -> list[tuple[str, str, str]]:
-    """(what, its value, what belongs to it) of four."""
-    return [(name, printed(value), printed(note)) for name, (value, note) in (
-        ("outcome", _outcome(motion, units)), ("when", _when(motion, units)),
-        ("largest rate", _largest(motion, units)), ("to another outcome", _distance(motion, units)))]
+    """(what, its value, what belongs to it) of four: when a limit is reached first."""
+    found = [("outcome", _outcome(motion, units)), ("when", _when(motion, units)),
+             ("largest rate", _largest(motion, units)), ("to another outcome", _distance(motion, units))]
+    if any(one.kind == "limit" for one in motion.caveats):
+        found[:2] = reversed(found[:2])
+    return [(name, printed(value), printed(note)) for name, (value, note) in found]
 
 
 def _outcome(motion, units):
