@@ -25,11 +25,11 @@ if TYPE_CHECKING:  # what `_HOME` loads on first use, for editors and type check
     from .answers.stuck.burn import burn as burn
     from .answers.time_to import time_to as time_to
     from .answers.when import when as when
-    from .case.examples import example as example
     from .case.read import Case as Case
     from .case.read import load as load
     from .case.read import load_burning as load_burning
     from .case.read import load_orbiting as load_orbiting
+    from .case.source import example as example
     from .errors import InputError as InputError
     from .integrate.ensemble import ensemble as ensemble
     from .maps.bifurcation.ask import bifurcation as bifurcation
@@ -62,7 +62,7 @@ if TYPE_CHECKING:  # what `_HOME` loads on first use, for editors and type check
 
 # Public name -> module; loaded on first use so that light commands stay light.
 _HOME = {
-    "load": "case.read", "example": "case.examples", "Case": "case.read",
+    "load": "case.read", "example": "case.source", "Case": "case.read",
     "load_burning": "case.read", "burn": "answers.stuck.burn",
     "load_orbiting": "case.read", "circular_orbit": "answers.circular_orbit.ask",
     "flat_spin": "answers.dissipation.ask",

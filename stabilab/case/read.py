@@ -17,6 +17,7 @@ from ..numbers.principal import PrincipalAxes
 from ..numbers.vectors import Exact3, Float3, dot
 from ..physics.coefficients import Scaling, to_scaled, torque_from_mu
 from ..physics.effects import REGISTRY, effect_class
+from ..physics.effects.base import effect_words
 from ..physics.scene import Body, ScaledGyrostat, Scene
 from ..validation import came, checked_span
 from .attitude import judge_attitude, vertical_of
@@ -293,8 +294,9 @@ def _judge_burns(top: Table, burning: bool):
             table.fault(ONLY.format(", ".join(keys)), keys[0])
         return
     if not found:
-        top.fault('no thruster fires on a schedule: give one of [[thrusters]] start and stop, such as stop = '
-                  '"12 s", in place of stuck', *(["thrusters"] if "thrusters" in top else []))
+        top.fault('no thruster fires on a schedule: give one of [[thrusters]] start = 0 in place of stuck, '
+                  'and stop = "12 s", or a span in [motion] to look for the time to close it in',
+                  *(["thrusters"] if "thrusters" in top else []))
     if "sweep" in top:
         top.fault("a burn takes one case at a time: take away [sweep]", "sweep")
 
@@ -549,9 +551,9 @@ def _judge_blocks(motion: _Motion, scene):
         angles = given.get("attitude")
         told = (f"; the attitude given has [{', '.join(f'{v:.10g}' for v in vertical_of(*angles))}]" if angles
                 else "")
-        table.fault(
-            f"vertical is missing: an effect of this scene needs it (a direction, body frame)"
-            f"{told}")
+        need = [effect_words(one.name) for one in scene.effects if set(one.needs) - {"damper"}]
+        table.fault(f"vertical is missing: because of {' and '.join(need)} give the direction of inertial "
+                    f"axis 3 (upward, or along the field) in the body at the start, as [0, 0, 1]{told}")
     judge_attitude(table, given, scene)
 
 

@@ -8,12 +8,20 @@ import stat
 import tomllib
 from itertools import product
 
-from ..errors import CaseError, Problem
+from ..errors import CaseError, InputError, Problem, printable
 from .lines import KeyLines, key_lines
-from .table import Faults, Table, Written, described, dotted
+from .table import Faults, Table, Written, described, did_you_mean, dotted
 
 # --- The text of a case file and its TOML data; whatever is no such file is refused with the line where it
 # goes wrong
+FOLDER = os.path.join(os.path.dirname(os.path.dirname(__file__)), "cases")
+# cases to begin with, by what a thing is: name -> its file in FOLDER; that of a folder there is for one question,
+# the only one that it answers
+EXAMPLES = {"phone": "phone", "t-handle": "t-handle", "top": "toy-top", "cubesat": "cubesat-3u",
+            "comsat": "geostationary-22n", "upper-stage": "upper-stage", "station": "space-station",
+            "explorer-1": "explorer-1", "toutatis": "toutatis", "charged-body": "charged-body",
+            "tank": "liquid-sensible", "stage": "burns/stage", "boom": "orbits/boom"}
+QUESTIONS = {"burns": "burn", "orbits": "orbit"}  # folder -> its command
 LARGEST = 128 * 1024  # bytes; a case has one or two thousand, and a wrong file is refused before it is parsed
 
 
@@ -51,6 +59,9 @@ def source_text(path) -> str:
 
 def _neighbour(path) -> str:
     from difflib import get_close_matches
+
+    if path in EXAMPLES:
+        return f"; `stabilab example {path} > {path}.toml` writes one"
     folder, name = os.path.split(path)
     try:
         near = get_close_matches(name, [n for n in os.listdir(folder or ".") if n.endswith(".toml")], n=1)
@@ -58,8 +69,21 @@ def _neighbour(path) -> str:
         near = []
     if near:
         return f"; did you mean {os.path.join(folder, near[0])}?"
-    brought = os.path.realpath(os.path.join(os.path.dirname(os.path.dirname(__file__)), "cases", name))
+    brought = os.path.realpath(os.path.join(FOLDER, name))
     return f"; stabilab brings one: {brought}" if name.endswith(".toml") and os.path.isfile(brought) else ""
+
+
+def example(name: str) -> str:
+    """The text of the case of this name. Raises InputError for a name that there is not."""
+    if name not in EXAMPLES:
+        raise InputError(
+            f"example {printable(name)[:60]}: there is none of this name{did_you_mean(name, EXAMPLES)}")
+    return source_text(os.path.join(FOLDER, f"{EXAMPLES[name]}.toml"))
+
+
+def command_of(name: str) -> str:
+    """The command that answers an example."""
+    return QUESTIONS.get(EXAMPLES[name].rpartition("/")[0], "classify")
 
 
 def parsed(path, text: str) -> tuple[dict, Faults]:

@@ -2,10 +2,9 @@
 another program's spacecraft as a case."""
 from __future__ import annotations
 
-from ..case.examples import EXAMPLES, command_of, example
 from ..case.foreign import import_42, import_basilisk
 from ..case.foreign.imported import case_text, faults_of
-from ..case.source import source_text
+from ..case.source import EXAMPLES, command_of, example, source_text
 from ..case.write import data_of
 from ..errors import InputError, printable
 from ..files import whole_file

@@ -93,7 +93,7 @@ def _resisted(parts: Content, T0) -> tuple[Fate, str, dict]:
     if not any(parts.M):
         return (Fate.BOUNDED,
                 f"{takes}-2 c T{rate}: the energy falls at least as T(0) exp(-2 c t), so the motion tends to "
-                "rest", {"energy": T0, "rate_bound": sqrt(2 * T0) / least})
+                "rest", {"energy": T0, "rate_bound": sqrt(2 * T0) / least, "late_rate_bound": 0.0})
     largest, late = energy_bound(parts, T0)
     words = (f"{takes}M . omega - 2 c T <= sqrt(2 T) (sqrt(M . D^-1 M) - c sqrt(2 T)){rate}: resistance "
              f"outgrows the torque, so |omega| <= "
@@ -211,7 +211,7 @@ def _directed(parts: Content, omega, gamma) -> tuple[Fate, str, dict]:
                 f"|gamma| = 1 bounds the potential energy from below and the sum of kinetic and potential "
                 f"energy {kept}: T <= "
                 f"{T0 + V0 - floor:.6g} J, so |omega| <= {rate:.6g} rad/s{end}",
-                {"energy": T0 + V0, "rate_bound": rate})
+                {"energy": T0 + V0, "rate_bound": rate} | ({"late_rate_bound": 0.0} if decay(parts) else {}))
     if slowest := float(decay(parts)):
         torque = hypot(*map(float, parts.M)) + hypot(*s) + abs(N) * (most - least) / 2
         late = torque / sqrt(least) / slowest

@@ -4,7 +4,7 @@ import math
 import pytest
 
 import stabilab
-from stabilab.case.examples import EXAMPLES, command_of, example
+from stabilab.case.source import EXAMPLES, command_of, example
 
 
 @pytest.mark.parametrize("name", [name for name in EXAMPLES if command_of(name) == "classify"])
@@ -33,6 +33,8 @@ def test_the_command_lists_and_writes_them(stabilab, tmp_path):
     (tmp_path / "phone.toml").write_text(out)
     assert code == 0 and out == example("phone")
     assert stabilab("classify", tmp_path / "phone.toml")[0] == 0
+    code, out, err = stabilab("fate", "toutatis")
+    assert code == 2 and err == "toutatis: no such file; `stabilab example toutatis > toutatis.toml` writes one\n"
     code, out, err = stabilab("example", "phon")
     assert code == 2 and not out and err.strip().endswith("there is none of this name; did you mean phone?")
 

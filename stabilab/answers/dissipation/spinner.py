@@ -45,8 +45,9 @@ class Spinner:
         names = [effect.name for effect in scene.effects]
         others = [effect_words(name) for name in names if name not in TAKE]
         if outside := [effect_words(name) for name in names if name in TAKE_BOTH]:
-            raise InputError(f"flat-spin: {', '.join(outside)} changes the angular momentum, too, and no "
-                             "flat spin need be the end: `stabilab classify` says where the motion tends")
+            raise InputError(f"flat-spin: {' and '.join(outside)}: a torque from outside, which changes the "
+                             "angular momentum, too, so that no flat spin need be the end: `stabilab "
+                             "classify` says where the motion tends")
         if others or not names:
             raise InputError(
                 f"flat-spin: it is known of a free body; this one has {', '.join(others)} besides" if others

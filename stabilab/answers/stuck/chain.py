@@ -66,7 +66,7 @@ class Chain:
             return None
         if case.span is None:
             raise InputError('a thruster has neither stop nor propellant: give one, or --stop "12 s", or a '
-                             "span in [motion]")
+                             'span in [motion], such as span = [0, "10 min"]')
         return Fraction(case.span[1])
 
     def pieces(self) -> Iterator[Piece]:

@@ -25,7 +25,8 @@ def fate(case, motion, told, units: Units, all_digits: bool, say: bool, proofs: 
     bounds = bound_lines(case, replace(motion, extremes=None), units)
     return "\n".join([f"{case.name}: {verdict(case, motion, units)}", *rows, *bounds,
                       *tilt_lines(case, motion, units, proofs),
-                      *why(case, motion, units, proofs), *frame.note(case), *([_said(told, units)] * (say))])
+                      *why(case, motion, units, proofs), *frame.note(case),
+                      *([_said(told, units, " of the margin, energy")] * say)])
 
 
 def _energy(told, units, all_digits):
@@ -65,13 +66,14 @@ def _word(decimal) -> str:
     return "unbounded" if decimal in ("inf", "-inf") else decimal
 
 
-def _said(told, units) -> str:
+def _said(told, units, of: str = "") -> str:
+    """How many digits were checked, of what, and how."""
     if told.digits is None:
         return f"  {reason(told.because, units)}"
     if math.isinf(told.digits):
         return f"  exact: {reason(told.because, units)}"
     reached = f"{min(told.digits, 99.0):.1f}".removesuffix(".0")
-    return f"  {reached} digits: {reason(told.because, units)}"
+    return f"  {reached} digits{of}: {reason(told.because, units)}"
 
 
 def period(case, motion, told, units: Units, all_digits: bool, say: bool, proofs: bool = False) -> str:

@@ -70,7 +70,8 @@ def _headline(result) -> str:
     if result.families and not result.points:
         return families
     gyroscopic = sum(one.verdict == "undecided" and one.linear == "stable" for one in result.points)
-    more = [*([f"{gyroscopic} gyroscopically"] if gyroscopic else []), *([families] if families else [])]
+    more = [*([f"{gyroscopic} undecided (gyroscopically stable)"] if gyroscopic else []),
+            *([families] if families else [])]
     return ", ".join([f"{len(result.points)} EQUILIBRIA, {result.count('stable')} STABLE", *more])
 
 

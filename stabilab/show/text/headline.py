@@ -116,7 +116,10 @@ def largest(motion: Motion, units: Units) -> str:
         return f"about the other axes at most {units.rate(max(finite.values()), SHORT)}"
     bound = motion.invariants.get("rate_bound")
     if bound is not None and (over or not finite):
-        return f"{'|x|' if units.scaled else '|omega|'} at most {units.rate(bound, SHORT)}"
+        late = motion.invariants.get("late_rate_bound")
+        end = ("" if late is None or late >= bound else f", {units.rate(late, SHORT)} in the end" if late
+               else ", tends to rest")
+        return f"{'|x|' if units.scaled else '|omega|'} at most {units.rate(bound, SHORT)}{end}"
     found = greatest(motion, units)
     return f"largest rate {found}" if found else ""
 

@@ -89,6 +89,14 @@ def test_a_damper_in_proportion_to_the_moments_is_a_resisting_medium():
     assert [p.eigenvalues for p in one.points] == [p.eigenvalues for p in two.points]
 
 
+def test_the_first_line_says_what_is_left_in_the_end(stabilab, tmp_path):
+    """Rest without a torque (LaSalle); a late bound with one, below that of the start."""
+    (tmp_path / "a.toml").write_text("body.inertia = [3, 2, 1]\neffects.rate_damper.coefficient = 0.1\n"
+                                     "motion.angular_velocity = [1, 0, 0]\n")
+    assert stabilab("fate", tmp_path / "a.toml")[1].splitlines()[0].endswith(", tends to rest")
+    assert " deg/s in the end" in stabilab("fate", "cases/cubesat-3u-detumbling.toml")[1].splitlines()[0]
+
+
 @pytest.mark.parametrize("C, M, wheel", SCENES)
 def test_rates_stay_below_their_bounds(C, M, wheel):
     start = np.array([2.0, -3.0, 5.0])
@@ -165,7 +173,7 @@ def test_eddy_currents_beside_others_are_bounded_or_open_but_never_wrong(others)
 @pytest.mark.parametrize("loss", [RateDamper("0.1"), EddyCurrents(1, 1)])
 def test_there_is_no_flat_spin_where_the_angular_momentum_falls(loss):
     case = load(Scene(Body((3, 2, 1)), loss), {"omega": (0, 0, 1)} | ({"gamma": (1, 0, 0)} if loss.needs else {}))
-    with pytest.raises(InputError, match="changes the angular momentum"):
+    with pytest.raises(InputError, match="which changes the angular momentum"):
         flat_spin(case)
 
 
