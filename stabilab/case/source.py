@@ -15,8 +15,8 @@ from .table import Faults, Table, Written, described, did_you_mean, dotted
 # --- The text of a case file and its TOML data; whatever is no such file is refused with the line where it
 # goes wrong
 FOLDER = os.path.join(os.path.dirname(os.path.dirname(__file__)), "cases")
-# cases to begin with, by what a thing is: name -> its file in FOLDER; that of a folder there is for one question,
-# the only one that it answers
+# cases to begin with, by what a thing is: name -> its file in FOLDER; those of a folder there are for one
+# question, the only one that they answer
 EXAMPLES = {"phone": "phone", "t-handle": "t-handle", "top": "toy-top", "cubesat": "cubesat-3u",
             "comsat": "geostationary-22n", "upper-stage": "upper-stage", "station": "space-station",
             "explorer-1": "explorer-1", "toutatis": "toutatis", "charged-body": "charged-body",
