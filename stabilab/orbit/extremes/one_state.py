@@ -244,7 +244,7 @@ def _range(values, certain, bits):
         low, high = low.min(value), high.max(value)
     size = max(float(abs(low).mid()), float(abs(high).mid()))
     width = max(float(low.rad()), float(high.rad()))
-    if width > size * 2.0**-certain and bits < MOST_BITS:
+    if not width <= size * 2.0**-certain and bits < MOST_BITS:  # nor is a root of both signs a number
         raise Unclear
     return low, high
 

@@ -28,6 +28,22 @@ def test_the_turning_point_on_a_large_circle_is_settled_in_some_number_of_bits()
     assert_extremes(stabilab.extremes(scene, np.array(state)), energy.extremes(problem, state), 1e-11)
 
 
+@pytest.mark.parametrize("a, b, mu, state", [
+    (7.768996654585626, 10.165882106248802, 1.0,
+     ("-0x1.058db91dbca8ap+3", "-0x1.00fc3c12ad089p-1", "0x1.a349f724ad939p-49")),
+    (-9.999994510210845, -9.876687960809653, -3.639303335324426e-07,
+     ("0x1.3c0e04a151d73p+3", "0x1.00a9ac2c5d301p-6", "-0x1.48b15c35cfdd4p-52")),
+    (-0.15256615775308, -0.960289699001265, 1.0,
+     ("0x1.ebb9d88a448fdp-1", "-0x1.159c8ae4099eep+13", "0x1.c827ac0759fcfp-53"))])
+def test_a_spin_up_that_hardly_passes_a_barrier_has_its_least_rate(a, b, mu, state):
+    """Its square had a ball of both signs, whose root is no number, and no number was taken for settled."""
+    scene, problem = scaled(a, b, (0, 0, mu))
+    state = exactly(*state)
+    expected = energy.extremes(problem, state, digits=80)
+    assert_extremes(stabilab.extremes(scene, np.array(state)), expected, 1e-11)
+    assert_extremes(np.array(stabilab.motion(scene, state, brief=True).extremes), expected, 1e-11)
+
+
 @pytest.mark.parametrize("scene, state, extremes, period",
                          [  # by hand, p, q, r the rates; all three are circles
     # r = 1: p' = (1 - q)/2, q' = p/2
