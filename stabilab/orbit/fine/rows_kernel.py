@@ -1,10 +1,10 @@
 """Extremes and periods of bounded rows on circles and hyperbolas, one row at a time, as straight lines of
 floats that numba compiles.
 
-Equilibria along a row's orbit and their heights in twofold numbers, ends of the motion from the equilibrium
-that is nearer in height, or from the state; the period T = 2 int dtheta/W between these and the equilibria
-that the motion passes, W from the nearer one. What 32 digits do not settle is marked and left to balls. Every
-function is plain Python too.
+Equilibria along a row's orbit by Newton's method in twofold numbers, ends of the motion from the equilibrium
+that is nearer in height, the period T = 2 int_0^pi dphi/sqrt(2 H) with theta = middle - half cos(phi), where
+H = (E - V)/((theta - l)(r - theta)) is the second divided difference of V at (l, r, theta), formed by
+products. What 32 digits do not settle is marked and left to balls. Every function is plain Python too.
 """
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ import numpy as np
 from ...numbers.error_free import add, exact_product, exact_sum, less, scaled, times, value
 
 EPS = 2.220446049250313e-16
-TURN, TURN_LEFT, PI = 6.283185307179586, 2.4492935982947064e-16, 3.141592653589793
+TURN, PI = 6.283185307179586, 3.141592653589793
 INFINITY = float("inf")
 BOX, PERIOD = 1, 2  # bits: wanted, and left open
 TINY = 1e-300
@@ -30,9 +30,12 @@ TWOFOLD, SURE = 2.0**-100, 1e-20  # of the terms: rounding of a twofold sum; a s
 ROUNDED, LAG = 8.0, 0.3
 CLEAR = 64.0  # times its error, so far a height is from the energy where the barrier's side is certain
 DIGITS, PERIOD_DIGITS = 1e-12, 1e-11  # promised, relative: rounding that leaves less leaves a row open
+# of the energy terms: nearer to a barrier an energy in doubles leaves the period no eleven digits
+PERIOD_SHARE = 1e-4
 ROOT = 1e-9  # relative, the last step to a turning point, which leaves its square
 # relative, of sums over nodes: the last change, the error by estimate, a change that is nothing but rounding
 ALIKE, CONVERGED, FLOOR = 1e-9, 1e-13, 1e-15
+NARROW = 0.5  # half-widths below it take series where closed forms cancel
 # of the terms of an energy in twofold numbers: a dozen sums and a series of twenty terms, with room to spare
 FINE = 2.0**-92
 # relative, of E - V at a stop and half-way between two; the period's promise is `PERIOD_DIGITS`
@@ -148,15 +151,15 @@ class Circle:
         return np.sqrt(x * x + z * z), np.sqrt(u * u + v * v)
 
     @staticmethod
-    def repeated(spots, count, over, mu):
-        """The last of so many spots, E - V = over there, a turn earlier or later too, where the tilt has
-        changed the potential by 2 pi mu; over and mu twofold. How many there are then."""
+    def repeated(spots, count, mu):
+        """The last of so many spots a turn earlier or later too, where the tilt has changed the potential by
+        2 pi mu; how many there are then."""
         spot, twin = spots[count - 1], spots[count]
-        side = 1.0 if spot[OFFSET] <= 0 else -1.0
+        turn = TURN if spot[OFFSET] <= 0 else -TURN
         twin[:] = spot
-        twin[OFFSET] += side * TURN
-        twin[OVER] = value(add(over, scaled(times((TURN, TURN_LEFT), mu), side)))
-        twin[ERROR] += FINE * TURN * mu[0]
+        twin[OFFSET] += turn
+        twin[OVER] += turn * mu
+        twin[ERROR] += ROUNDED * EPS * TURN * mu
         return count + 1
 
     @staticmethod
@@ -175,6 +178,52 @@ class Circle:
         first = np.arctan(z / x if row == 0 else -x / z)
         at = first + PI * np.ceil((left - first) / PI)
         return at if at > left else at + PI
+
+    @staticmethod
+    def size_of_terms(conic, x, z, xi, eta):
+        """Of the potential, but for its tilt."""
+        q = x * x + z * z
+        return abs(conic[2]) * q + (abs(conic[0]) + abs(conic[1])) * np.sqrt(q)
+
+    @staticmethod
+    def middle_modes(conic, x, z, xi, eta, y, data):
+        """Modes about a place y away from a state, then sizes of what these are sums of."""
+        c, d, G = conic[0], conic[1], conic[2]
+        dx, dz, _, _ = change(x, z, xi, eta, y)
+        x, z = x + dx, z + dz
+        data[0], data[1], data[2], data[3] = -c * x + d * z, -c * z - d * x, -0.25 * G * (x - z) * (
+            x + z), -0.5 * G * x * z
+        data[4], data[5] = abs(c * x) + abs(d * z), abs(c * z) + abs(d * x)
+        data[6], data[7] = abs(data[2]), abs(data[3])
+
+    @staticmethod
+    def whole(rho):
+        """What `modes_pair` needs of an interval whatever the node."""
+        return np.sin(rho), np.cos(rho)
+
+    @staticmethod
+    def modes_pair(data, rho, whole_s, whole_c, share):
+        """(even, odd) of modes about the middle, as `pair`."""
+        p1, q1, p2, q2 = data[0], data[1], data[2], data[3]
+        u = rho * share
+        v = rho - u
+        fu, cu = sinc_cos(u)
+        su = u * fu
+        sv, cv = whole_s * cu - whole_c * su, whole_c * cu + whole_s * su
+        fv = sv / v
+        even = -0.5 * fu * fv * (p1 + 4 * p2 * cu * cv)
+        if rho < NARROW:
+            gu, gv, wu, wv = sinc_minus_cos(u
+                                            * u), sinc_minus_cos(v * v), sinc_minus_cos(
+                                                4 * u * u), sinc_minus_cos(4 * v * v)
+            return even, (0.5 * q1 * (fu * gv - fv * gu) + q2 * (fu * cu * wv - fv * cv * wu)) / rho
+        return even, (0.5 * q1 * (cu * fv - fu * cv)
+                      + q2 * ((cu * cu - su * su) * fv * cv - fu * cu * (cv * cv - sv * sv))) / rho
+
+    @staticmethod
+    def modes_terms(data, first, rho, whole_s, whole_c, left):
+        """Size of what H is the sum of at a share of the interval, by the sizes that begin at `first`."""
+        return abs(data[first]) + abs(data[first + 1]) + 4 * (abs(data[first + 2]) + abs(data[first + 3]))
 
 
 class Hyperbola:
@@ -239,7 +288,7 @@ class Hyperbola:
         return abs(x + side * z), abs(u + side * v)
 
     @staticmethod
-    def repeated(spots, count, over, mu):
+    def repeated(spots, count, mu):
         return count
 
     @staticmethod
@@ -253,6 +302,34 @@ class Hyperbola:
         near, far = (-z / x, eta / xi) if row == 0 else (-x / z, -eta / xi)
         at = np.arctanh(near) if abs(near) < 0.5 else (0.5 * np.log(far) if far > 0 else INFINITY)
         return at if at > left else INFINITY
+
+    @staticmethod
+    def size_of_terms(conic, x, z, xi, eta):
+        q = xi * xi + eta * eta
+        return abs(conic[2]) * q + 0.5 * (abs(conic[0] + conic[1]) + abs(conic[1] - conic[0])) * np.sqrt(q)
+
+    @staticmethod
+    def middle_modes(conic, x, z, xi, eta, y, data):
+        c, d, G = conic[0], conic[1], conic[2]
+        xi, eta = xi * np.exp(y), eta * np.exp(-y)
+        data[0], data[1] = -0.5 * (c + d) * xi, 0.5 * (d - c) * eta
+        data[2], data[3] = -0.125 * G * xi * xi, -0.125 * G * eta * eta
+        for k in range(4):
+            data[4 + k] = abs(data[k])
+
+    @staticmethod
+    def whole(rho):
+        return np.exp(rho), 0.0
+
+    @staticmethod
+    def modes_pair(data, rho, whole_s, whole_c, share):
+        return sides_of_exponentials(data[0], data[1], data[2], data[3], rho, whole_s, share)
+
+    @staticmethod
+    def modes_terms(data, first, rho, whole_s, whole_c, left):
+        even, odd = sides_of_exponentials(abs(data[first]), abs(data[first + 1]), abs(data[first + 2]),
+                                          abs(data[first + 3]), rho, whole_s, min(left, 1 - left))
+        return even + odd if left <= 0.5 else even - odd
 
 
 def guessed(piece, conic, Q, xi, eta, radius):
@@ -376,39 +453,26 @@ def placed(u, v, X, Z, wide, last, conic, way, slope, spot):
     steep = abs(G) * far + abs(c) + abs(d)
     start, end = sizes_of_ways(X[0], Z[0], uh, vh)
     spot[OFFSET], spot[AT_X], spot[AT_Z], spot[BEND] = way, uh, vh, slope
-    spot[BARRIER] = 1.0 if slope > 0 else 0.0
     spot[MODE_A], spot[MODE_B] = G * uh * vh, 0.5 * G * bent(uh, vh)
     spot[PULL] = steep * off + TWOFOLD * mu + (2 * abs(G) * far + steep) * far * last * last
     spot[TILT], spot[ASTRAY] = (abs(G) * far + steep) * off, TWOFOLD * wide / start + off / end
 
 
-def height(fine, X, Z, Q, kinetic, u, v, wide, spot):
-    """(E - V, its error) at an equilibrium (u, v), a sum of twofold numbers: next to a separatrix doubles
-    leave little of it. Q: a double."""
-    G, c, d, mu = (fine[0], fine[1]), (fine[2], fine[3]), (fine[4], fine[5]), (fine[6], fine[7])
-    way = whole_way(u, v, X, Z, Q, spot[OFFSET])
-    half = times(G, scaled(add(u, X), 0.5))
-    rise = add(times(less(u, X), add(half, c)), scaled(times(d, less(v, Z)), E))
-    far = abs(u[0]) + abs(v[0]) + wide
-    terms = kinetic[0] + mu[0] * (1 + abs(way[0])) + (abs(G[0]) * far + abs(c[0]) + abs(d[0])) * far
-    return (add(add(kinetic, times(mu, way)), rise),
-            FINE * terms + spot[PULL] * spot[PULL] / abs(spot[BEND]))
-
-
-def spots_of_row(fine, conic, pieces, lines, straight, folds, X, Z, turn, wide, spots):
+def spots_of_row(fine, conic, pieces, lines, straight, folds, X, Z, w, wide, spots):
     """(how many equilibria stand along the orbit of a row, in ascending order in `spots`; whether all were
     placed).
 
-    straight: the invariant up to which lines say where they are about, and no pieces of the conic; turn: the
-    rate about the axis, less its shift, twofold."""
+    straight: the invariant up to which lines say where they are about, and no pieces of the conic."""
     Q = add(times(Z, Z), scaled(times(X, X), -E))
     xi, eta, q = value(add(X, Z)), value(less(X, Z)), value(Q)
-    count = 0
+    mu, count = conic[3], 0
     for fold in folds:
         if not abs(q - fold) > ROUNDINGS * EPS * (wide * wide + abs(fold)):
             return 0, False
     radius = np.sqrt(abs(q))
-    by_lines, kinetic = q <= straight, times((fine[16], fine[17]), times(turn, turn))
+    kinetic, x, z = 0.5 * w * w, value(X), value(Z)
+    force = conic[3] + conic[2] * x * z + conic[0] * z + conic[1] * x
+    by_lines = q <= straight
     for p in range(len(lines) if by_lines else len(pieces)):
         there, u0, v0 = (on_line(lines[p], q, xi, eta, radius) if by_lines
                          else guessed(pieces[p], conic, q, xi, eta, radius))
@@ -419,10 +483,13 @@ def spots_of_row(fine, conic, pieces, lines, straight, folds, X, Z, turn, wide, 
         if not (abs(last) <= ENOUGH and abs(drift) <= DRIFT and as_expected):
             return 0, False
         spot = spots[count]
-        placed(u, v, X, Z, wide, last, conic, way_between(u, v, X, Z, q), slope, spot)
-        over, spot[ERROR] = height(fine, X, Z, q, kinetic, u, v, wide, spot)
-        spot[OVER] = value(over)
-        count = repeated(spots, count + 1, over, (fine[6], fine[7]))
+        way = way_between(u, v, X, Z, q)
+        placed(u, v, X, Z, wide, last, conic, way, slope, spot)
+        rise, _, terms, s, h = rise_and_force(mu, -way, slope, spot[MODE_A], spot[MODE_B])
+        spot[OVER], spot[BARRIER] = kinetic + rise, 1.0 if slope > 0 else 0.0
+        spot[ERROR] = (rounding_of(way, terms, s, h, spot[PULL], spot[TILT]) + ROUNDED * EPS * kinetic
+                       + abs(force) * spot[ASTRAY])
+        count = repeated(spots, count + 1, mu)
     for i in range(1, count):
         for k in range(i, 0, -1):
             if spots[k - 1, OFFSET] <= spots[k, OFFSET]:
@@ -439,12 +506,32 @@ def spots_of_row(fine, conic, pieces, lines, straight, folds, X, Z, turn, wide, 
     return count, sure
 
 
+def sharpened(fine, conic, X, Z, turn, wide, count, spots):
+    """E - V at the equilibria along a row's orbit anew, as sums of twofold numbers: next to a separatrix
+    doubles leave little of it.
+
+    turn: the rate about the axis, less its shift, twofold."""
+    G, c, d, mu = (fine[0], fine[1]), (fine[2], fine[3]), (fine[4], fine[5]), (fine[6], fine[7])
+    kinetic = times((fine[16], fine[17]), times(turn, turn))
+    Q = add(times(Z, Z), scaled(times(X, X), -E))
+    for i in range(count):
+        spot = spots[i]
+        u, v, slope, last, _ = settled(fine, spot[AT_X], spot[AT_Z], Q)
+        way = whole_way(u, v, X, Z, value(Q), spot[OFFSET])
+        half = times(G, scaled(add(u, X), 0.5))
+        over = add(add(kinetic, times(mu, way)),
+                   add(times(less(u, X), add(half, c)), scaled(times(d, less(v, Z)), E)))
+        far = abs(u[0]) + abs(v[0]) + wide
+        terms = kinetic[0] + mu[0] * (1 + abs(way[0])) + (abs(G[0]) * far + abs(c[0]) + abs(d[0])) * far
+        if abs(last) <= ENOUGH:
+            spot[OVER], spot[ERROR] = value(over), FINE * terms + spot[PULL] * spot[PULL] / abs(slope)
+
+
 def sharpened_ends(fine, X, Z, turn, wide, ends, turns):
     """Fill turns with the ends after steps of Newton's method, E - V there a sum of twofold numbers and the
     force that of the place: where the force is small or the equilibrium far, doubles leave few digits.
 
-    They are told from the state, and their level is infinite. Next to a barrier the period needs the ends
-    that are told from it."""
+    They are told from the state. Next to a barrier the period needs the ends that are told from it."""
     G, c, d, mu = (fine[0], fine[1]), (fine[2], fine[3]), (fine[4], fine[5]), (fine[6], fine[7])
     kinetic = times((fine[16], fine[17]), times(turn, turn))
     for k in range(2):
@@ -458,7 +545,6 @@ def sharpened_ends(fine, X, Z, turn, wide, ends, turns):
             across = add(times(G, u), c)
             end[FORCE] = value(add(add(times(v, across), mu), times(d, u)))
             end[END_BEND] = slope_of(G, d, u, v, across)
-            end[END_A], end[END_B] = value(times(G, times(u, v))), 0.5 * G[0] * bent(value(u), value(v))
             step, steep = -over / end[FORCE], abs(end[END_BEND] / end[FORCE])
             if not abs(step) * steep <= NEAR:
                 turns[k] = ends[k]
@@ -466,7 +552,7 @@ def sharpened_ends(fine, X, Z, turn, wide, ends, turns):
             end[END] += step
             far = abs(u[0]) + abs(v[0]) + wide
             terms = kinetic[0] + mu[0] * (1 + abs(end[END])) + (abs(G[0]) * far + abs(c[0]) + abs(d[0])) * far
-            end[HAZE], end[LEVEL] = FINE * terms, INFINITY
+            end[HAZE] = FINE * terms
             end[BLUR] = end[HAZE] / abs(end[FORCE]) + step * step * steep + EPS * abs(end[END])
             if abs(step) <= EPS * abs(end[END]):
                 break
@@ -540,15 +626,17 @@ def turned(mu, count, spots, side, end):
 
 
 def spanned(mu, w, count, spots, ends):
-    """(whether the motion's two ends are known, fastest W^2/2, its error)."""
+    """(whether the motion's two ends are known, fastest W^2/2, its error, nearest barrier's distance in
+    energy)."""
     if count == 0 or not (turned(mu, count, spots, -1, ends[0]) and turned(mu, count, spots, 1, ends[1])):
-        return False, 0.0, 0.0
+        return False, 0.0, 0.0, 0.0
     ends[0, END], ends[1, END] = min(ends[0, END], 0.0), max(ends[1, END], 0.0)
     left, right = ends[0, END], ends[1, END]
-    fastest, clear, barred = 0.5 * w * w, True, False
+    fastest, closest, clear, barred = 0.5 * w * w, INFINITY, True, False
     for i in range(count):
         spot = spots[i]
         if spot[BARRIER] > 0:
+            closest = min(closest, abs(spot[OVER]))
             clear = clear and abs(spot[OVER]) > CLEAR * spot[ERROR]
             barred = barred or (spot[OVER] <= 0 and spot[OFFSET] > 0)
         elif left <= spot[OFFSET] <= right:
@@ -564,7 +652,7 @@ def spanned(mu, w, count, spots, ends):
         ends[k, BLUR] += off / abs(ends[k, FORCE]) + astray
         # no number is not: the largest of some would pass over it
         clear = clear and ends[k, BLUR] < INFINITY and ends[k, HAZE] < INFINITY
-    return clear and (barred or WALLED), fastest, off + EPS * fastest
+    return clear and (barred or WALLED), fastest, off + EPS * fastest, closest
 
 
 def boxed(form, axes, state, x, z, xi, eta, ends, fastest, haze, box):
@@ -604,6 +692,60 @@ def boxed(form, axes, state, x, z, xi, eta, ends, fastest, haze, box):
     return good and haze <= DIGITS * 2 * fastest and whole < INFINITY
 
 
+def sinc_cos(u):
+    """sin(u)/u and cos u for 0 <= u <= pi/2."""
+    t = u * u
+    s = 1 - t * (1 / 6) * (1 - t * (1 / 20) * (1 - t * (1 / 42) * (1 - t * (1 / 72) * (1 - t * (1 / 110) * (
+        1 - t * (1 / 156)
+        * (1 - t * (1 / 210) * (1 - t * (1 / 272) * (1 - t * (1 / 342) * (1 - t * (1 / 420))))))))))
+    k = 1 - t * 0.5 * (1 - t * (1 / 12) * (1 - t * (1 / 30) * (1 - t * (1 / 56) * (1 - t * (1 / 90) * (
+        1 - t * (1 / 132)
+        * (1 - t * (1 / 182) * (1 - t * (1 / 240) * (1 - t * (1 / 306) * (1 - t * (1 / 380) * (
+            1 - t * (1 / 462)))))))))))
+    return s, k
+
+
+def sinc_minus_cos(t):
+    """sin(u)/u - cos u of t = u^2 <= 1, without cancellation."""
+    return t * (1 / 3) * (1 - t * (1 / 10) * (1 - t * (1 / 28) * (1 - t * (1 / 54) * (1 - t * (1 / 88) * (
+        1 - t * (1 / 130) * (1 - t * (1 / 180) * (1 - t * (1 / 238) * (1 - t * (1 / 304)))))))))
+
+
+def sinhc_and_rest(t):
+    """sinh(u)/u and cosh u less it, of t = u^2 <= 1."""
+    f = 1 + t * (1 / 6) * (1
+                           + t * (1 / 20) * (1 + t * (1 / 42)
+                                             * (1 + t * (1 / 72) * (1 + t * (1 / 110) * (1 + t * (1 / 156) * (
+        1 + t * (1 / 210) * (1 + t * (1 / 272))))))))
+    g = 1 + t * (1 / 10) * (1
+                            + t * (1 / 28)
+                            * (1 + t * (1 / 54)
+                               * (1 + t * (1 / 88) * (1 + t * (1 / 130) * (1 + t * (1 / 180) * (
+        1 + t * (1 / 238) * (1 + t * (1 / 304))))))))
+    return f, t * (1 / 3) * g
+
+
+def sides_of_exponentials(p1, q1, p2, q2, rho, grown, share):
+    """(even, odd) of a sum of exp(y), exp(-y), exp(2 y), exp(-2 y) about the middle, grown: exp(rho)."""
+    u = rho * share
+    v = rho - u
+    if rho < NARROW:
+        fu, gu = sinhc_and_rest(u * u)
+        fv, gv = sinhc_and_rest(v * v)
+        wu, wv = sinhc_and_rest(4 * u * u)[1], sinhc_and_rest(4 * v * v)[1]
+        cu, cv = fu + gu, fv + gv
+        odd1, odd2 = gu * fv - fu * gv, wu * fv * cv - fu * cu * wv
+    else:
+        down = np.expm1(u)
+        eu = 1 + down
+        cu, su = 0.5 * (eu + 1 / eu), 0.5 * (down + down / eu)
+        cv, sv = 0.5 * (grown / eu + eu / grown), 0.5 * (grown / eu - eu / grown)
+        fu, fv = su / u if share > 0 else 1.0, sv / v
+        odd1, odd2 = cu * fv - fu * cv, (1 + 2 * su * su) * fv * cv - fu * cu * (1 + 2 * sv * sv)
+    return fu * fv * (0.5 * (p1 + q1)
+                      + 2 * (p2 + q2) * cu * cv), (0.5 * (p1 - q1) * odd1 + (p2 - q2) * odd2) / rho
+
+
 def converged(now, last, middle, first):
     """Whether a sum over nodes is its integral, given what it changed by as its nodes were doubled: the last,
     the middle and the first of three such changes; any numbers.
@@ -621,6 +763,64 @@ def converged(now, last, middle, first):
         b2 * b2 * b2 * b <= CONVERGED * a2 * a2 * a2)
 
 
+def summed(data, rho, whole_s, whole_c, nodes):
+    """The period by the trapezoidal rule over mirrored pairs of nodes; NaN where that does not settle."""
+    total, coarse, half, before, change, earlier, size, first = 0.0, 0.0, 0.0, np.nan, np.nan, np.nan, 8, 0
+    while first < len(nodes):
+        last = first + size // 2 if first else 5
+        for n in range(first, last):
+            even, odd = modes_pair(data, rho, whole_s, whole_c, nodes[n])
+            weight = 0.5 if n == 0 or n == 4 else 1.0
+            term = weight * (1 / np.sqrt(2 * (even + odd)) + 1 / np.sqrt(2 * (even - odd)))
+            total += term
+            if n == 0 or n == 4:
+                half += term
+            elif n == 2:
+                coarse = term
+        if not first:
+            before = (coarse + half) * (TURN / 4)
+            change = abs(before - half * (TURN / 2))
+        size, first = size * 2 if first else size, last
+        now = total * (TURN / size)
+        new = abs(now - before)
+        if converged(now, new, change, earlier):
+            return now
+        before, change, earlier = now, new, change
+    return np.nan
+
+
+def timed(conic, x, z, xi, eta, w, count, spots, ends, closest, nodes, data):
+    """(period, whether it has its digits) of a motion between two ends, by modes about the middle; not where
+    these cancel."""
+    mu, left, right = conic[3], ends[0, END], ends[1, END]
+    rho = 0.5 * (right - left)
+    if not (0 < rho < 0.5 * ROUND
+            and closest > PERIOD_SHARE * (0.5 * w * w + mu + size_of_terms(conic, x, z, xi, eta))):
+        return np.nan, False
+    whole_s, whole_c = whole(rho)
+    middle_modes(conic, x, z, xi, eta, 0.5 * (left + right), data)
+    blur = ends[0, BLUR] + ends[1, BLUR]
+    share, dip, lowest = 0.5, INFINITY, INFINITY
+    for i in range(count):
+        if spots[i, BARRIER] > 0 and left < spots[i, OFFSET] < right and spots[i, OVER] < lowest:
+            lowest = spots[i, OVER]
+            share = (spots[i, OFFSET] - left) / (2 * rho)
+            dip = lowest / (4 * rho * rho * share * (1 - share))
+    even, odd = modes_pair(data, rho, whole_s, whole_c, 0.0)
+    first, last, inner = even + odd, even - odd, modes_pair(data, rho, whole_s, whole_c, 0.5)[0]
+    # on a long hyperbola H over a barrier may be far less than at both ends and in the middle
+    sharp = EPS * modes_terms(data, 4, rho, whole_s, whole_c, share) <= PERIOD_DIGITS * dip
+    for sizes in range(0, 8, 4):
+        sharp = (sharp and EPS * modes_terms(data, sizes, rho, whole_s, whole_c, 0.0) <= PERIOD_DIGITS * first
+                 and EPS * modes_terms(data, sizes, rho, whole_s, whole_c, 0.5) <= PERIOD_DIGITS * inner
+                 and EPS * modes_terms(data, sizes, rho, whole_s, whole_c, 1.0) <= PERIOD_DIGITS * last)
+    most, lowest = max(first, inner, last), min(first, inner, last)
+    if not (sharp and blur * (most - lowest) <= PERIOD_DIGITS * rho * lowest):
+        return np.nan, False
+    period = summed(data, rho, whole_s, whole_c, nodes)
+    return period, period < INFINITY
+
+
 def kinetic_near(mu, stop, y):
     """W^2/2 = E - V at the way y from a stop."""
     s, h, behind = swing(y)
@@ -629,9 +829,9 @@ def kinetic_near(mu, stop, y):
             + 2 * E * h2 * (stop[STOP_A] * s + 2 * stop[STOP_B] * h2))
 
 
-def stops_of(count, spots, ends, turns, stops):
+def stops_of(count, spots, ends, stops):
     """Fill the stops of a motion in their order; how many there are, 0 where E - V is not known well at one
-    of them. turns: the ends as they are told from the state, for those whose equilibrium is far."""
+    of them."""
     many, sure = 1, True
     for i in range(count):
         spot = spots[i]
@@ -644,18 +844,16 @@ def stops_of(count, spots, ends, turns, stops):
             many += 1
     for k in range(2):
         stop, end = stops[k * many], ends[k]
-        if not end[HAZE] <= 0.01 * PIECE_DIGITS * abs(end[LEVEL]):
-            end = turns[k]
         stop[STOP], stop[STOP_OVER], stop[STOP_FORCE] = end[END], 0.0, end[FORCE]
         stop[STOP_BEND], stop[STOP_A], stop[STOP_B] = end[END_BEND], end[END_A], end[END_B]
         sure = sure and end[HAZE] <= PIECE_DIGITS * abs(end[LEVEL])
     return many + 1 if sure else 0
 
 
-def timed(mu, count, spots, ends, turns, near, weights, levels, stops):
+def in_pieces(mu, count, spots, ends, near, weights, levels, stops):
     """(period, whether it has its digits): dtheta/W by the double-exponential rule from stop to stop, E - V
     told from the nearer one."""
-    many, period = stops_of(count, spots, ends, turns, stops), 0.0
+    many, period = stops_of(count, spots, ends, stops), 0.0
     if many < 3:
         return np.nan, False
     for i in range(many - 1):
@@ -696,12 +894,13 @@ def rows(states, open_rows, fine, form, axes, conic, pieces, lines, folds, rules
     flip/n, shift s of the third component and what its double leaves, the invariant up to which the lines
     serve; conic: c, d, G, mu, K, shift, and how near a hyperbola's centre no row is settled.
     """
-    near, weights, levels = rules
+    nodes, near, weights, levels = rules
     j, k, i = axes
     most = max(len(pieces), len(lines))
     spots, box = np.empty((2 * most + 1, ASTRAY + 1)), np.empty((3, 2))
     ends, turns = np.empty((2, END_B + 1)), np.empty((2, END_B + 1))
     stops = np.empty((2 * most + 3, STOP_B + 1))
+    data = np.empty(8)
     extra = abs(fine[8] * fine[12]) + abs(fine[10] * fine[14])
     for row in open_rows:
         asked, state = int(left_open[row]), states[row]
@@ -719,23 +918,26 @@ def rows(states, open_rows, fine, form, axes, conic, pieces, lines, folds, rules
         if still and abs(conic[3] + conic[2] * x * z + conic[0] * z
                          + conic[1] * x) <= ROUNDINGS * EPS * terms * (1 + wide / (abs(x) + abs(z))):
             continue
-        whole_turn = exact_sum(turn, rest + form[4])
-        count, sure = spots_of_row(fine, conic, pieces, lines, form[5], folds, X, Z, whole_turn, wide, spots)
+        count, sure = spots_of_row(fine, conic, pieces, lines, form[5], folds, X, Z, w, wide, spots)
         if not sure:
-            continue
-        known, fastest, haze = spanned(conic[3], w, count, spots, ends)
-        if not known:
             continue
         for sharp in range(2):
             if sharp:
-                sharpened_ends(fine, X, Z, whole_turn, wide, ends, turns)
+                sharpened(fine, conic, X, Z, exact_sum(turn, rest + form[4]), wide, count, spots)
+            known, fastest, haze, closest = spanned(conic[3], w, count, spots, ends)
+            if not known:
+                continue
+            if sharp:
+                sharpened_ends(fine, X, Z, exact_sum(turn, rest + form[4]), wide, ends, turns)
             if asked & BOX and boxed(form, axes, state, x, z, xi, eta, turns if sharp else ends, fastest,
                                      haze, box):
                 boxes[row] = box
                 asked -= BOX
             if asked & PERIOD:
-                period, good = timed(conic[3], count, spots, ends, turns if sharp else ends, near, weights,
-                                     levels, stops)
+                period, good = timed(conic, x, z, xi, eta, w, count, spots, turns if sharp else ends, closest,
+                                     nodes, data)
+                if sharp and not good:
+                    period, good = in_pieces(conic[3], count, spots, ends, near, weights, levels, stops)
                 if good:
                     periods[row] = period
                     asked -= PERIOD
@@ -754,4 +956,6 @@ E, ROUND, WALLED = Circle.E, Circle.ROUND, Circle.WALLED
 invariant, lost, onto, way_between, whole_way, moved, swing, bent, sizes_of_ways = (
     Circle.invariant, Circle.lost, Circle.onto, Circle.way_between, Circle.whole_way, Circle.moved,
     Circle.swing, Circle.bent, Circle.sizes_of_ways)
-repeated, change, stationary = Circle.repeated, Circle.change, Circle.stationary
+repeated, change, stationary, size_of_terms, middle_modes, whole, modes_pair, modes_terms = (
+    Circle.repeated, Circle.change, Circle.stationary, Circle.size_of_terms, Circle.middle_modes,
+    Circle.whole, Circle.modes_pair, Circle.modes_terms)

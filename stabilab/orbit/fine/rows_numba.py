@@ -14,7 +14,8 @@ from . import rows_kernel
 from .places import twofold_constant
 
 # Functions without which loops call instead of adding
-INLINED = {"swing", "way_of_cosine", "converged", "rounding_of"}
+INLINED = {"swing", "lag", "sinc_cos", "sinc_minus_cos", "sinhc_and_rest", "way_of_cosine", "converged",
+           "rounding_of"}
 INLINED_ON_PARABOLAS = {"quartic", "cubic", "bend", "terms_of", "blur_of_force", "place_at"}
 # Loading the code from disk costs some 0.3 s of a processor, compiling it once per machine some ten for each
 # geometry;
@@ -24,6 +25,7 @@ STRAIGHT = 1e-6  # of the slopes, as in `conic`: a circle so small hardly sees t
 PARABOLA = "p", "p0", "q", "q0", "kappa", "rho", "sigma", "m", "s"
 REACH = 3.45  # of t: beyond, the weights of double-exponential nodes are 1e-20
 LAST_LEVEL = 8  # of these nodes, whose steps are 2^-level
+HALVED = 8, 16, 32, 64  # intervals whose midpoints are added to the trapezoidal nodes of eight
 
 
 def settle_rows(land: Landscape, states, boxes, periods, left_open, by_numba: bool | None = None):
@@ -111,11 +113,14 @@ def _between(conic, piece):
 
 @lru_cache(maxsize=1)
 def rules():
-    """(distances of the double-exponential nodes from the nearer end, negative where that is the inner one;
-    their weights; where levels begin)."""
+    """(shares sin(phi/2)^2 <= 1/2 of the trapezoidal nodes of eight intervals, then of the midpoints of these
+    and of twice as many; distances of the double-exponential nodes from the nearer end, negative where that
+    is the inner one, their weights, and where levels begin)."""
+    phi = np.concatenate([np.arange(5) * (np.pi / 8)]
+                         + [(np.arange(n // 2) + 0.5) * (np.pi / n) for n in HALVED])
     levels = [double_exponential_nodes(level) for level in range(LAST_LEVEL + 1)]
     near, weights = (np.concatenate(parts) for parts in zip(*levels))
-    return near, weights, np.cumsum([0] + [len(way) for way, _ in levels])
+    return np.sin(0.5 * phi) ** 2, near, weights, np.cumsum([0] + [len(way) for way, _ in levels])
 
 
 def double_exponential_nodes(level):
