@@ -10,7 +10,6 @@ from ..units import DIGITS, Units, number
 from .attitude import in_file
 
 NAMES = {"phase": "phase", "nutation": "nutation angle", "damping": "strength of the damping"}
-PAST = "past at the start"
 
 
 def as_dict(case, found) -> dict:
