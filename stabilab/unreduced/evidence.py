@@ -176,17 +176,19 @@ def size_words(evidence, unit: str) -> str:
 
 
 STIFF = 1e5  # fastest decay times span beyond which a search for extremes would take minutes
+LONG = 1e7  # fastest turn times span, rad, beyond which it would
 
 
 def seen_of_blocks(scene, start, span) -> dict:
     """Of a motion whose bounds alone are proved: extremes as roots of the rates from the start to the end of
-    the span, and how the energy went; empty where the decay is too fast. start: its blocks by name."""
+    the span, and how the energy went; empty where the rates change too fast. start: its blocks by name."""
     turning = Scene(scene.body, *(e for e in scene.effects if e.name != "body_force"))
     equations, state = equations_and_start(turning, start)
     system, length = to_numpy(equations), reach_of(span)
     J = system.jacobian(state)
-    if not np.isfinite(J).all() or abs(np.linalg.eigvals(J).real).max() * length > STIFF:
-        return {"extremes_over": "none: the decay is too fast for a search over the span"}
+    roots = np.linalg.eigvals(J) * length if np.isfinite(J).all() else np.array([np.inf])
+    if abs(roots.real).max() > STIFF or abs(roots).max() > LONG:
+        return {"extremes_over": "none: the rates change too fast for a search over the span"}
     found = roots_of_rates(turning, start, length)
     over = f"s in [0, {found.t_reached:g}]"
     ends = system.invariants(np.vstack([found.start, found.end]))["energy"]

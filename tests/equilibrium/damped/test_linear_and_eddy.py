@@ -170,6 +170,12 @@ def test_eddy_currents_beside_others_are_bounded_or_open_but_never_wrong(others)
     assert (found.fate == Fate.UNDECIDED) == open_ and ("rate_bound" in found.invariants) != open_
 
 
+def test_turns_too_many_for_a_search_are_not_searched():
+    found = motion(Scene(Body((3, 2, 1)), EddyCurrents(1, 1)), (1e12, 1e12, 0, 0, 0, 1), (0, 10))  # 1e13 rad
+    assert found.fate == Fate.BOUNDED and "too fast" in found.extremes_over
+    assert found.invariants["rate_bound"] == pytest.approx(5**0.5 * 1e12)  # T <= T(0) and D3 = 1
+
+
 @pytest.mark.parametrize("loss", [RateDamper("0.1"), EddyCurrents(1, 1)])
 def test_there_is_no_flat_spin_where_the_angular_momentum_falls(loss):
     case = load(Scene(Body((3, 2, 1)), loss), {"omega": (0, 0, 1)} | ({"gamma": (1, 0, 0)} if loss.needs else {}))
