@@ -51,6 +51,8 @@ def links_of(chain: Chain, pieces: Sequence[Piece] | None = None) -> Iterator[Li
 
 
 def end_of(scene: Scene, state: np.ndarray, length: Fraction) -> np.ndarray:
+    if not length:
+        return np.asarray(state, float)
     run = trajectory(scene, state, (0.0, float(length)), laws=False)
     if run.status == "stopped":
         raise InputError(f"state: the burn cannot be followed: {run.reason}")

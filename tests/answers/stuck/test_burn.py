@@ -116,6 +116,15 @@ def test_a_wheel_along_the_axis_of_a_symmetric_body_leaves_a_closed_form(tmp_pat
     assert before < most < after and found.surely is None
 
 
+def test_a_wheel_across_the_axis_of_a_flat_symmetric_body_has_its_closing_time_where_the_bound_is_reached(tmp_path):
+    """The free motion comes nearest to 2T/D1 there, so that the root lies at the end of the first interval looked at,
+    which begins with the burn: by sampled runs of DOP853."""
+    D, w, torque, lam, most = [2.0, 2.0, 3.0], [0.01, 0.02, -0.03], np.array([0.1, 0, 0]), [0.5, 0, 0], 0.2
+    found = stabilab.burn(case_of(tmp_path, D, w, [(torque, "stop = 99")], more=wheels(lam)), below=most).latest
+    before, after = (largest(D, run(D, torque, w, end, lam), lam) for end in (found.low - 1e-4, found.high + 1e-4))
+    assert before < most < after and found.high < found.low + 1e-9
+
+
 def check_latest(folder, seed):
     """The latest closing time of a random burn, pulsed in every second one: at the double that is given the
     free motion stays below the limit, at the next double it does not, by Taylor series in 40 digits of
