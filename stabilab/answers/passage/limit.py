@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
 
@@ -55,6 +55,10 @@ class Limit:
         return all(_below(terms, [size if any(vector[n] for _, vector in terms) else 0.0 for n,
                                   size in enumerate(sizes)], most)
                    for terms, most in self.parts)
+
+    def raised(self, share: Fraction) -> Limit:
+        """The same limit, greater by a share of itself."""
+        return replace(self, parts=tuple((terms, most * (1 + share)) for terms, most in self.parts))
 
     def least_rate(self) -> float:
         """The largest |omega| below which it is surely not reached."""

@@ -202,6 +202,8 @@ STEPS = 300_000  # of each of the two runs
 MOVED = 2.0  # places by which the second run's start is moved
 WIDER = 4.0  # times what the two runs differ by
 ROUNDING = 2.0**-50  # relative, of a time that both find alike
+VAGUE = 1e-6  # of a time: two runs that differ by more may have met the limit by rounding alone
+HIGHER = Fraction(1, 2**44)  # of a limit: far beyond the rounding of a motion that settles there
 CHUNK = 256  # steps between two looks at what was found
 FARTHEST = 10**300  # squares of rates that no run in doubles reaches
 PRODUCTS = tuple(combinations_with_replacement(range(3), 2))  # of two rates
@@ -228,6 +230,12 @@ def by_run(scene: AnyScene, start: Any, limit: Limit, t_max: float = math.inf, s
                      f"{words} find it at {one.t / unit:.6g} {scene.time_unit}, a second run from a start "
                      "moved in its last place does not: more than a run in doubles can tell", one.steps)
     blur = WIDER * abs(one.t - two.t) + ROUNDING * one.t
+    if blur > VAGUE * one.t:
+        higher = _search(scene, start, limit.raised(HIGHER))[0]
+        if higher(state, min(end, one.t + 2 * blur), 2 * steps).t is None:
+            return Found(max(0.0, one.t - blur) / unit, math.nan, "undecided",
+                         f"{words} find it at {one.t / unit:.6g} {scene.time_unit}, but not a limit greater "
+                         f"by {float(HIGHER):.1g} of it: the motion may come near it and no farther", one.steps)
     return Found(max(0.0, one.t - blur) / unit, (one.t + blur) / unit, "run",
                  f"{words}, the error from a second one", one.steps)
 

@@ -198,6 +198,20 @@ def test_other_effects_are_answered_by_a_run():
     assert found.level == "run" and abs(found.low - true) < 1e-8 and found.high - found.low < 1e-10
 
 
+@pytest.mark.parametrize("effect, settles", [
+    (stabilab.RateDamper("0.1"), 1.0), (stabilab.Resistance("0.05"), 0.5)])
+def test_a_rate_at_which_a_motion_settles_is_not_said_to_be_reached(effect, settles):
+    """By hand, from rest about axis 1: omega1 = w (1 - exp(-t M/(D1 w))), w = M/c or M/(c D1)."""
+    scene = stabilab.Scene(stabilab.Body((4, 3, 2)), effect, stabilab.ConstantTorque((0.1, 0, 0)))
+    time = lambda share: -math.log1p(-share) * 4 * settles / 0.1
+    found = stabilab.time_to(scene, (0, 0, 0), rate=settles)
+    assert found.level == "undecided" and math.isnan(found.high) and found.low > time(1 - 1e-6)
+    for share in (0.5, 0.999, 1 - 1e-9):
+        low, high = map(float, stabilab.time_to(scene, (0, 0, 0), rate=share * settles))
+        assert low <= time(share) * (1 + 1e-6) and high >= time(share) * (1 - 1e-6)
+        assert high - low < 1e-5 * high
+
+
 def test_a_bound_of_the_rate_keeps_other_limits_from_being_reached():
     scene = stabilab.Scene(BODY, stabilab.Resistance("0.01"))
     found = stabilab.time_to(scene, [0.1, 0.05, 0.9], rate=2)  # T falls, and |omega|^2 <= 2 T / D3 < 1.5^2
