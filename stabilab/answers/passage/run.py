@@ -235,7 +235,8 @@ def by_run(scene: AnyScene, start: Any, limit: Limit, t_max: float = math.inf, s
         if higher(state, min(end, one.t + 2 * blur), 2 * steps).t is None:
             return Found(max(0.0, one.t - blur) / unit, math.nan, "undecided",
                          f"{words} find it at {one.t / unit:.6g} {scene.time_unit}, but not a limit greater "
-                         f"by {float(HIGHER):.1g} of it: the motion may come near it and no farther", one.steps)
+                         f"by {float(HIGHER):.1g} of it: the motion may come near it and no farther",
+                         one.steps)
     return Found(max(0.0, one.t - blur) / unit, (one.t + blur) / unit, "run",
                  f"{words}, the error from a second one", one.steps)
 

@@ -46,7 +46,7 @@ def links_of(chain: Chain, pieces: Sequence[Piece] | None = None) -> Iterator[Li
     for begin, length, firing, scene in chain.pieces() if pieces is None else pieces:
         after, after_second = (end_of(scene, one, length) for one in (state, second))
         yield Link(begin, length, firing, tuple(float(m) for m in scene.vector("constant_torque")), scene,
-                    state, second, after, after_second, given if not begin else None)
+                   state, second, after, after_second, given if not begin else None)
         state, second = after, after_second
 
 
