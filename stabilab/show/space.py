@@ -23,7 +23,7 @@ from . import style
 from .sampling import spread
 from .spans import BEYOND as SHOWN
 from .spans import limit_time
-from .units import labelled
+from .units import with_unit
 
 NEAR = 2.0     # times the motion's own size: a separatrix or an equilibrium so near is in the picture
 ROOM = 1.25    # of a box about the things in it
@@ -134,7 +134,7 @@ def space(names: Iterable[str], rate: tuple[str, float], box: Box, branches: Ite
     names; words: of the separatrix. limit: of |omega|, drawn where it comes into the box, and fills a part
     of it."""
     (unit, per), shares = rate, [box.share(at) for at in path]
-    named = tuple(labelled(name, unit) for name in names)
+    named = tuple(with_unit(name, unit) for name in names)
     limits = [(f"{LIMIT}, {per * limit:.4g} {unit}", arc) for arc
               in (_cut(limit, box) if limit and limit > SMALL * max(box.half) else ())]
     shown = [(style.BESIDE[n % len(style.BESIDE)],

@@ -205,6 +205,6 @@ def bracket(low: float, high: float) -> tuple[str, str]:
         return str(Decimal(low).quantize(step, ROUND_FLOOR)), str(Decimal(high).quantize(step, ROUND_CEILING))
 
 
-def labelled(words: str, unit: str) -> str:
+def with_unit(words: str, unit: str) -> str:
     """A name with its unit behind it; "" and "1" are none."""
     return words if unit in ("", "1") else f"{words} ({unit})"

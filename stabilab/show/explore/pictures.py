@@ -33,7 +33,7 @@ from ...physics.scene import AnyScene
 from ...verify.numbers import shown
 from ..space import packed
 from ..spans import limit_time
-from ..units import Units, labelled
+from ..units import Units, with_unit
 
 TYPES = {"int16": "h", "float32": "f"}
 
@@ -206,8 +206,8 @@ def drawn_planes(bag: Bag, scene: AnyScene, state: tuple[float, ...], units: Uni
             "rate": [zero, plane.rate(1.0) * rate[1] - zero], "start": plane.W0, "energy": plane.W0**2 / 2,
             "rests": rests,
             "rotates": plane.reduction.sense == 0 and not plane.reduction.geometry.walled,
-            "x": labelled(f"turn about {units.axes.short(axis)}", angle[0]),
-            "y": labelled(f"{name}{axis}", rate[0])}
+            "x": with_unit(f"turn about {units.axes.short(axis)}", angle[0]),
+            "y": with_unit(f"{name}{axis}", rate[0])}
 
 
 def clicked(scene: AnyScene, state: tuple[float, ...], at: Any, units: Units) -> list[str]:
@@ -239,8 +239,8 @@ def over_time(bag: Bag, case: Case, motion: Motion | None, times: list[float], p
             "rates": [bag.add("float32", [x[n] * rate for x in path]) for n in range(3)],
             "extremes": extremes, "period": None if motion is None or motion.period is None
             else motion.period * one,
-            "x": "time τ" if units.scaled else labelled("time", name),
-            "y": labelled("x" if units.scaled else "rate", label),
+            "x": "time τ" if units.scaled else with_unit("time", name),
+            "y": with_unit("x" if units.scaled else "rate", label),
             "names": [*(f"{symbol}{n}" for n in (1, 2, 3)), f"|{symbol}|"],
             "size": bag.add("float32", [math.hypot(*x) * rate for x in path]),
             "limits": [float(v) * rate for v in _limits(case)],

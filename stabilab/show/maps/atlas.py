@@ -22,7 +22,7 @@ from .. import limiting, style
 from ..axes import axes_of
 from ..files import comma
 from ..text.answers import Endless, as_json
-from ..units import SHORT, Units, labelled
+from ..units import SHORT, Units, with_unit
 from .shades import FATES, light, limits_of, spinning, unit
 from .sweep import COUNTS, checked, column_in, finished, origin, write
 
@@ -304,7 +304,7 @@ def csv(atlas: Atlas) -> str:
     columns = columns_of(atlas.asked.answers)[1:]
     heads = ["name", "wheel", "level", "number", "share", *(f"direction{n}" for n in (1, 2, 3)),
              *(f"file_{n}" for n in "xyz"),
-             *(labelled(column.name, unit(plan, column)) for column in columns)]
+             *(with_unit(column.name, unit(plan, column)) for column in columns)]
     leaves = atlas.leaves
     points = zip((point_name(atlas, point) for point in atlas.named), (point.wheel for point in atlas.named),
                  repeat(("", "", "")))

@@ -31,7 +31,7 @@ from ..axes import axes_of
 from ..files import comma
 from ..text import law
 from ..text.answers import as_json
-from ..units import labelled, units_of
+from ..units import units_of, with_unit
 from .shades import limits_of
 from .sweep import checked, column_in, finished, origin, write
 
@@ -140,7 +140,7 @@ def csv(found: Basins) -> str:
     """A line for each cell: its ends along both axes, its depth, and what its states do, or that it is on a
     boundary."""
     cells = cells_of(found)
-    heads = [labelled(f"{axis.key.name} {end}", axis.shown_unit)
+    heads = [with_unit(f"{axis.key.name} {end}", axis.shown_unit)
              for axis in found.plan.axes for end in ("from", "to")]
     values = [np.array(axis.values) for axis in found.plan.axes]
     columns = [values[n][cells[name] + more].tolist() for n,

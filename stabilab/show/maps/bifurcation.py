@@ -15,7 +15,7 @@ from ..terminal import page
 from ..terminal.letters import greek
 from ..text import frame
 from ..text.answers import as_json
-from ..units import Units, labelled, units_of
+from ..units import Units, units_of, with_unit
 
 SCHEMA = "stabilab.bifurcation/1"
 DIGITS = 10  # of a value, unless more are needed to tell two apart
@@ -141,7 +141,7 @@ def _and(values: list[str]) -> str:
 def _table(found: Diagram) -> list[str]:
     span = found.family.spans[0]
     units, digits = units_of(found.family.case), _digits(found)
-    name = labelled(span.label, greek(span.shown_unit))
+    name = with_unit(span.label, greek(span.shown_unit))
     rows = [[name, "changes" if found.kind == BORDERS else "equilibria",
              *([] if found.kind == BORDERS else ["stable"]), "what"]]
     for _, one in _in_order(found):
@@ -177,8 +177,8 @@ def _in_order(found: Diagram) -> list[tuple[float, Piece | Event]]:
 def _line_rows(found: Diagram) -> tuple[list[str], list[list[Any]]]:
     span, case = found.family.spans[0], found.family.case
     of = "rad/s" if case.variables == "physical" else "1"
-    head = [labelled(span.key.name, span.shown_unit), "piece", "branch",
-            *(labelled(name, of) for name in case.scene.components), "verdict", "event"]
+    head = [with_unit(span.key.name, span.shown_unit), "piece", "branch",
+            *(with_unit(name, of) for name in case.scene.components), "verdict", "event"]
     rows: list[list[Any]] = [[value, branch.piece + 1, branch.number + 1, *state, branch.verdict, None]
                              for branch in branches(found) for value,
                              state in zip(branch.values, branch.states)]
@@ -245,7 +245,7 @@ def _examples(found: Plane) -> list[str]:
     """A row for each number of equilibria, where it has most room, and one for each cusp."""
     units, border = units_of(found.family.case), found.kind == BORDERS
     table = [["changes" if border else "equilibria", *([] if border else ["stable"]), "such as at",
-              *(labelled(span.label, span.shown_unit) for span in found.family.spans)]]
+              *(with_unit(span.label, span.shown_unit) for span in found.family.spans)]]
     largest: dict[int, tuple[float, float, Piece]] = {}
     for strip in found.strips:
         for piece in strip.line.pieces:
@@ -271,7 +271,7 @@ def _plane_rows(found: Plane) -> tuple[list[str], list[list[Any]]]:
             out += [[arc.kinds[0], n + 1, k + 1, p, q] for p, q in zip(values, row)]
     for k, wall in enumerate(found.walls):
         out += [[wall.kinds[0], 0, k + 1, wall.value, q] for q in (wall.low, wall.high)]
-    names = [labelled(span.key.name, span.shown_unit) for span in found.family.spans]
+    names = [with_unit(span.key.name, span.shown_unit) for span in found.family.spans]
     return ["kind", "strip", "arc", *names], out + [["cusp", None, None, *cusp.at] for cusp in found.cusps]
 
 

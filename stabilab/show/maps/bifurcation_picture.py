@@ -12,7 +12,7 @@ from ...maps.bifurcation.plane import Plane
 from ...maps.bifurcation.plane import rows as arcs_of
 from .. import style
 from ..axes import axes_of
-from ..units import labelled, units_of
+from ..units import units_of, with_unit
 from .over_values import OWN, counts_above
 from .shades import light, own_place
 
@@ -58,7 +58,7 @@ def _line(found: Diagram, size: tuple[float, float] | None, plt: Any) -> tuple[A
         _panel(ax, found, rows, i, units.rates[1])
         ax.set_ylabel(f"$x_{i + 1}$" if units.scaled else rf"$\omega_{i + 1}$ ({units.rates[0]})")
     span = found.family.spans[0]
-    axes[-1, 0].set_xlabel(labelled(span.label, span.shown_unit))
+    axes[-1, 0].set_xlabel(with_unit(span.label, span.shown_unit))
     counts_above(axes[0, 0], (float(span.low), float(span.high)),
                  [(piece.low, piece.high, str(piece.count) if piece.count >= 0 else "curves")
                   for piece in found.pieces], [event.value for event in (*found.events, *found.connections)])
@@ -141,7 +141,7 @@ def _plane(found: Plane, size: tuple[float, float] | None, plt: Any) -> tuple[An
     ax.set_xlim(float(first.low), float(first.high))
     ax.set_ylim(float(second.low), float(second.high))
     for told, span in ((ax.set_xlabel, first), (ax.set_ylabel, second)):
-        told(labelled(span.label, span.shown_unit))
+        told(with_unit(span.label, span.shown_unit))
     case = found.family.case
     shown = "changes of stability" if found.kind == "borders" else "number of equilibria"
     ax.set_title(f"{style.literal(case.title or case.name)}\n{shown}", loc="left", wrap=True)

@@ -18,7 +18,7 @@ from ...maps.plan import Plan
 from ...numbers.units import unit_of
 from ...orbit.result import Fate
 from .. import style
-from ..units import labelled
+from ..units import with_unit
 
 # --- What the dimensions and columns of a sweep are called, and their units
 SAMPLE = "sample"
@@ -117,7 +117,7 @@ def label(data: Any, name: str) -> str:
     from the others of the sweep."""
     attrs = data[name].attrs
     words = drawn(spoken_key(data, name)) if name in data.dims else str(attrs.get("long_name", name))
-    return labelled(words, attrs.get("units", "1"))
+    return with_unit(words, attrs.get("units", "1"))
 
 
 def spoken_key(data: Any, name: str) -> str:
@@ -129,7 +129,7 @@ def spoken_key(data: Any, name: str) -> str:
 
 def short_label(data: Any, name: str) -> str:
     """The same for a narrow place: a column by its own name."""
-    return labelled(name.replace("_", " "), data[name].attrs.get("units", "1"))
+    return with_unit(name.replace("_", " "), data[name].attrs.get("units", "1"))
 
 
 def is_log(values: np.ndarray) -> bool:

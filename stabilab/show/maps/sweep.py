@@ -26,7 +26,7 @@ from ..terminal import page
 from ..terminal.letters import greek
 from ..text import law
 from ..text.answers import Endless, as_json
-from ..units import Unit, labelled, units_of
+from ..units import Unit, units_of, with_unit
 from .shades import SAMPLE, dimensions, limits_of, names, said, unit
 
 if TYPE_CHECKING:
@@ -158,11 +158,11 @@ def undecided(found: Swept) -> bool:
 def heads(found: Swept) -> list[str]:
     """What the cells of `rows` are: keys with their units, then columns with theirs."""
     plan = found.plan
-    keys = [labelled(axis.key.name, axis.shown_unit) for axis in plan.axes]
-    keys += ([SAMPLE, *(labelled(key.name, plan.sampled.unit(n)) for n, key in enumerate(plan.sampled.keys))]
+    keys = [with_unit(axis.key.name, axis.shown_unit) for axis in plan.axes]
+    keys += ([SAMPLE, *(with_unit(key.name, plan.sampled.unit(n)) for n, key in enumerate(plan.sampled.keys))]
              if plan.sampled else [])
     for column in columns_of(plan.answers)[1:]:
-        keys += [labelled(f"{column.name}{n}", unit(plan, column))
+        keys += [with_unit(f"{column.name}{n}", unit(plan, column))
                  for n in (("1", "2", "3") if column.shape else ("",))]
     return keys
 
@@ -263,7 +263,7 @@ def sweep(case: Case | str | os.PathLike[str], vary: Mapping[str, Any] | None = 
           out: str | os.PathLike[str] | None = None, workers: int | None = 1, scheduler: str | None = None,
           follow: str | None = None,
           **limit: str | None) -> xarray.Dataset:
-    """Answers over ranges of a case's numbers, labelled by what varies.
+    """Answers over ranges of a case's numbers, with_unit by what varies.
 
     case: a Case, or the path of a case file. vary: name of a number -> the values it takes, "0:30:31 deg/s",
     "0.1:10:21:log", or numbers in SI units; names such as "motion.angular_velocity[1]", "wheels.pitch.speed",

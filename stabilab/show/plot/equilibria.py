@@ -9,7 +9,7 @@ from ...answers.equilibria import equilibria as all_of
 from ...errors import InputError
 from .. import style
 from ..space import Box
-from ..units import labelled
+from ..units import with_unit
 from . import in_space
 from . import subject as canvas
 from .in_space import CURVES, FOLD, POINTS, Rest, disc, holds, inside, meanings, rest_states
@@ -43,7 +43,7 @@ def equilibria(case: Any, state: Any = None, ax: Axes | None = None, units: str 
     box = _box(rest, one)
     flat = _flat_axis(rest, box) if ax is None or getattr(ax, "name", "") != "3d" else None
     with canvas.on(ax, size, space=flat is None) as target:
-        labels = tuple(labelled(name, scale.rate[0]) for name in scale.names)
+        labels = tuple(with_unit(name, scale.rate[0]) for name in scale.names)
         if flat is None:
             _in_space(target, rest, box, scale.rate[1], labels)
         else:

@@ -18,7 +18,7 @@ from .. import style
 from ..text import comparison
 from ..text.headline import headline
 from ..text.stuck import answer_line, row_name
-from ..units import Units, labelled
+from ..units import Units, with_unit
 from . import subject as canvas
 from . import subject as which
 from .path import SEEN, SOLID, band, path, turning
@@ -81,7 +81,7 @@ def time(case: Any, state: Any = None, ax: Axes | None = None, span: Any = None,
             rows += _limit(target, limit, (reached.low + reached.high) / 2, t, omega, (time_unit, per_time),
                            scale.rate)
         if turned is not None:
-            target.set_ylabel(labelled("rate, axes of the file", rate_unit))
+            target.set_ylabel(with_unit("rate, axes of the file", rate_unit))
         return canvas.explained(target, rows if legend else [], ax is None,
                                 one.heading, "" if one.case is None else _answer(one, scale))
 
@@ -98,8 +98,8 @@ def _rates(ax, t, omega, names, scale, time_unit):
         _curve(ax, t * per_time, values * per_rate, look, height)
     ax.set_xlim(t[0] * per_time, t[-1] * per_time)
     ax.margins(y=0.06)
-    ax.set_xlabel(labelled("time", unit) if scale.size else unit)
-    ax.set_ylabel(labelled("rate", rate_unit) if scale.size else "$x$")
+    ax.set_xlabel(with_unit("time", unit) if scale.size else unit)
+    ax.set_ylabel(with_unit("rate", rate_unit) if scale.size else "$x$")
     return [(scale.size or "$|x|$", SIZE_LOOK), *zip(names, looks)], looks
 
 
@@ -252,7 +252,7 @@ def stuck(case: Case, found: Stuck, units: Units, plt: Any) -> Any:
         if row.limit is not None:
             when = sum(row.time_to_limit) / 2 if row.time_to_limit else None
             drawn += _limit(ax, row.limit, when, t, omega, time_unit, scale.rate)
-        ax.set_ylabel(labelled("rate, axes of the file", scale.rate[0]))
+        ax.set_ylabel(with_unit("rate, axes of the file", scale.rate[0]))
         canvas.title(ax, f"{row_name(row)}: {answer_line(row, units).partition('; ')[0].rsplit(' (', 1)[0]}")
         told |= {words.partition(" after ")[0]: look for words, look in drawn}
     figure.suptitle(style.literal(case.heading), fontsize=10.5, wrap=True)

@@ -22,7 +22,7 @@ from ...unreduced.periodic import (
     returns,
 )
 from .. import style
-from ..units import labelled, number
+from ..units import number, with_unit
 from . import subject as canvas
 from . import subject as which
 from .subject import Measures, Subject, measures, subject
@@ -53,9 +53,9 @@ def phase(case: Any, state: Any = None, ax: Axes | None = None, units: str | Non
         draw(target, plane, start=not small, **factors)
         if small:
             _enlarged(target, plane, factors)
-        target.set_xlabel(labelled(rf"turn $\alpha_{i + 1}$ about {one.axes.short(i + 1)} from the start",
+        target.set_xlabel(with_unit(rf"turn $\alpha_{i + 1}$ about {one.axes.short(i + 1)} from the start",
                                       scale.angle[0]))
-        target.set_ylabel(labelled(scale.names[i], scale.rate[0]))
+        target.set_ylabel(with_unit(scale.names[i], scale.rate[0]))
         present = {"separatrix": bool(plane.saddles), "saddle (unstable)": bool(plane.saddles),
                    "centre (stable)": bool(plane.centres)}
         rows = [row for row in ROWS if legend and present.get(row[0], True)]
@@ -289,7 +289,7 @@ def _draw(ax: Any, sets: list, leave: np.ndarray, orbit: Periodic | None, plane:
         low, high = float(every[:, axis].min()), float(every[:, axis].max())
         half = max((high - low) * (0.5 + MARGIN), least)
         setter((low + high) / 2 * per_rate - half * per_rate, (low + high) / 2 * per_rate + half * per_rate)
-        labels(labelled(scale.names[axis], scale.rate[0]))
+        labels(with_unit(scale.names[axis], scale.rate[0]))
     return rows
 
 

@@ -10,7 +10,7 @@ from ...orbit.phase_plane import PhasePlane, motion_curve, phase_plane, window
 from .. import style
 from ..sampling import spread
 from ..space import Box
-from ..units import labelled
+from ..units import with_unit
 from . import in_space
 from . import subject as canvas
 from . import subject as which
@@ -59,7 +59,7 @@ def cylinder(one: Subject, units: str | None) -> SurfaceLines:
     box = between(surface.min(axis=(0, 1)) - pad, surface.max(axis=(0, 1)) + pad)
     words = f"the rates across {one.axes.short(axis + 1)} stay on a {plane.land.base}"
     found = SurfaceLines(grid_triangles(surface), box, view,
-                         tuple(labelled(name, scale.rate[0]) for name in scale.names), words)
+                         tuple(with_unit(name, scale.rate[0]) for name in scale.names), words)
     _wrap(found, plane, at, axis, low, high, top)
     for sign in ways(plane, Ws):
         inside = (np.abs(Ws) <= top) & (ys >= low - 1e-9) & (ys <= high + 1e-9) | np.isfinite(plane.land.turn)
