@@ -316,7 +316,13 @@ def load_all(path) -> list[Case]:
     with some value of its own, which the sweep replaces. [expect] speaks of the file's own values and is left
     out. Raises CaseError as `load` does.
     """
-    path, text, data, faults = _read(path)
+    path = os.fspath(path)
+    return read_all(path, source_text(path))
+
+
+def read_all(path: str, text: str) -> list[Case]:
+    """The cases of `load_all` in a text; `path` is named in its faults."""
+    data, faults = parsed(path, text)
     base = _built(path, text, data, faults)
     found = combinations(Table((), data, faults))
     if not found:

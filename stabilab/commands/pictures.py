@@ -108,6 +108,7 @@ def chaos(cases, until, out, csv, json, strict):
 def explore(case, port, browser, static, pyodide):
     """Serve a case as a page, or write the page as a folder."""
     one = load(case or AN_EXAMPLE)
+    load_cases([case or AN_EXAMPLE])  # says what is wrong with its [sweep]
     if static is not None:
         from ..show.explore.static import write as write_folder
         write(str(write_folder(one, static, pyodide)))

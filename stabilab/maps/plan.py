@@ -24,7 +24,7 @@ import numpy as np
 
 from ..answers.kinds import KINDS, kind_of
 from ..case.limit_options import StatedLimit, stated_limit
-from ..case.read import Case, read_text
+from ..case.read import Case, read_all, read_text
 from ..case.source import parsed, source_text
 from ..case.table import Uncertain
 from ..errors import InputError, printable
@@ -299,13 +299,14 @@ def split_keys(words: Sequence[str],
 
 def place_and_text(question: str, case: Any) -> tuple[str, str]:
     """(path, text) of a case, or of a case file by its path. Raises InputError, in the name of what was
-    asked, for anything else."""
-    if isinstance(case, Case):
-        return os.fspath(case.path), case.text
-    if not isinstance(case, (str, os.PathLike)):
+    asked, for anything else, and for a file with a fault, those of its [sweep] among them, though its values
+    are left aside."""
+    if not isinstance(case, (Case, str, os.PathLike)):
         raise InputError(
             f"{question}: expected a case, as of load(...), or the path of a case file, got {case!r:.80}")
-    return os.fspath(case), source_text(case)
+    path, text = (case.path, case.text) if isinstance(case, Case) else (os.fspath(case), source_text(case))
+    read_all(path, text)
+    return path, text
 
 
 def planned(case: Case | str | os.PathLike[str], vary: Mapping[str, Any] | Sequence[tuple[str, Any]],

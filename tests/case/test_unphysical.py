@@ -162,3 +162,17 @@ def test_a_tensor_that_doubles_made_unsymmetric_is_read():
     tensor[0, 1] = np.nextafter(tensor[1, 0], 9)
     read = read_text("own.toml", f"[body]\ninertia = {tensor.tolist()}\n")
     assert sorted(read.scene.body.inertia) == pytest.approx([1, 2, 3], abs=1e-14) and not read.caveats
+
+
+@pytest.mark.parametrize("command", [["sweep", "--vary", "torque[3]=0:1:2"], ["atlas"], ["explore"],
+                                     ["basin", "--vary", "velocity[1]=0:1", "--vary", "velocity[2]=0:1"],
+                                     ["bifurcation", "--vary", "torque[3]=0:1"]], ids=lambda given: given[0])
+def test_a_fault_in_the_table_sweep_of_a_file_is_one_for_commands_that_leave_its_values_aside(
+        stabilab, tmp_path, command):
+    path = tmp_path / "own.toml"
+    path.write_text(
+        "[body]\ninertia = [8, 4, 5]\n[effects.constant_torque]\ntorque = [0, 0, 0.1]\n[motion]\n"
+        'angular_velocity = [0.1, 0.2, 0.3]\n[sweep]\n"body.inertia" = [[8, 4, 5], [8, 4, "5 s"]]\n')
+    code, out, err = stabilab(command[0], path, *command[1:])
+    assert (code, out, err.strip().count("\n")) == (2, "", 0)
+    assert f"{path}:8: body.inertia: " in err and "a value of [sweep]" in err
