@@ -21,14 +21,15 @@ WHEELS = ("on a circular orbit only wheels are known beside the gravity gradient
 
 
 def judge_orbit(top: Table, effects: Iterable[Effect], orbiting: bool):
-    """Note an orbit where the question knows none; where it asks for one, that there is none or what acts
-    beside it."""
+    """Note an orbit where the question knows none; where it asks for one, what acts beside it, or, of a file
+    without another fault, that there is none."""
     if not orbiting:
         if "circular_orbit" in top:
             top.fault(ONLY, "circular_orbit")
         return
     if "circular_orbit" not in top:
-        top.fault(NONE)
+        if not top.faults.problems:
+            top.fault(NONE)
     elif (table := top.table("circular_orbit")) is not None:
         rate_squared(table)
     for key in ("scaled", "sweep"):

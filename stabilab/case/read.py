@@ -286,14 +286,15 @@ def load_orbiting(given: str | os.PathLike[str]) -> Orbiting:
 
 
 def _judge_burns(top: Table, burning: bool):
-    """Note every thruster with a schedule where the question takes a constant torque; where it does not, that
-    there is none, and combinations of values."""
+    """Note every thruster with a schedule where the question takes a constant torque; where it does not,
+    combinations of values, and that there is no schedule: of a file without another fault, which may be what
+    hides it."""
     found = _scheduled(top.data, top.faults)
     if not burning:
         for table, keys in found:
             table.fault(ONLY.format(", ".join(keys)), keys[0])
         return
-    if not found:
+    if not found and not top.faults.problems:
         top.fault('no thruster fires on a schedule: give one of [[thrusters]] start = 0 in place of stuck, '
                   'and stop = "12 s", or a span in [motion] to look for the time to close it in',
                   *(["thrusters"] if "thrusters" in top else []))
@@ -362,9 +363,7 @@ def _built(path, text, data, faults, variant="", burning=False, orbiting=False) 
     swept(top)  # notes the faults of [sweep]
     title, source = top.text("title"), top.text("source")
     craft = _craft(top)
-    _judge_burns(top, burning)
     physical, mu, frame = _physical(top, craft)
-    judge_orbit(top, physical.effects if physical else (), orbiting)
     scaled = _scaled(top)
     motion = _motion(top)
     judge_oblique(top, frame)
@@ -375,6 +374,8 @@ def _built(path, text, data, faults, variant="", burning=False, orbiting=False) 
     scene, variables, scaling = _variables(top, motion, physical, scaled, mu)
     _judge_blocks(motion, scene)
     span = _span(motion, variables, scaling)
+    _judge_burns(top, burning)
+    judge_orbit(top, physical.effects if physical else (), orbiting)
     if faults.problems:
         raise CaseError(path, sorted(faults.problems, key=lambda p: p.line or 0))
     return Case(path, title, source, scene, variables, physical, scaling, motion.state, span, expect,

@@ -294,6 +294,17 @@ def test_a_burn_that_cannot_be_is_one_fault_with_its_line_and_a_cure(tmp_path, k
     assert "\n" not in str(caught.value)
 
 
+@pytest.mark.parametrize("load", [stabilab.load_burning, stabilab.load_orbiting], ids=["burn", "orbit"])
+def test_a_fault_of_a_file_is_named_and_not_what_it_hides(load):
+    """A misspelled key leaves the thruster without a schedule."""
+    text = CASE.format(inertia=[3, 2, 1], rates=[0, 0, 1], span=9) + (
+        '[[thrusters]]\nposition = [1, 0, 0]\ndirection = [0, 1, 0]\nforce = 1\nstrat = 3\n')
+    with pytest.raises(stabilab.InputError) as caught:
+        load(text)
+    (problem,) = caught.value.problems
+    assert (problem.key, problem.message) == ("thrusters.strat", "unknown key; did you mean start?")
+
+
 def test_questions_of_a_constant_torque_refuse_a_burn_and_name_the_command(tmp_path):
     path = case_of(tmp_path, [3.0, 2.0, 1.5], [0, 0, 0.05], [([0, 0, 0.15], "stop = 9")])
     with pytest.raises(stabilab.InputError, match=r"thrusters\.stop: .*`stabilab burn`"):
