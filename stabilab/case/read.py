@@ -197,9 +197,14 @@ def load(given: Any, state: Any = None, span: Any = None) -> Case:
 
 
 def _made(path: str, data: dict) -> Case:
-    """The case of tables that stand in no file, so that their faults have no lines."""
+    """The case of tables that stand in no file."""
+    return _built(path, *_tables(path, data))
+
+
+def _tables(path: str, data: dict) -> tuple[str, dict, Faults]:
+    """(text, data, faults) of tables that stand in no file, so that their faults have no lines."""
     text = text_of(data)
-    return _built(path, text, parsed(path, text)[0], Faults(KeyLines()))
+    return text, parsed(path, text)[0], Faults(KeyLines())
 
 
 def text_of_case(case: Case) -> str:
@@ -235,15 +240,11 @@ def fires_on_schedule(path: str | os.PathLike[str]) -> bool:
     return bool(_scheduled(data, faults))
 
 
-def load_burning(given: Case | str | os.PathLike[str]) -> Burning:
-    """The case, or that in a file or in a text of several lines, whose thrusters fire on a schedule (start,
-    stop, period, duty, on_time, propellant, mass_flow), for `burn`. Where none does, the stuck ones fire from
-    0 on. Raises CaseError as `load` does."""
-    if isinstance(given, Case):
-        path, text = given.path, text_of_case(given)
-        data, faults = parsed(path, text)
-    else:
-        path, text, data, faults = _stated(given, "load_burning")
+def load_burning(given: Any) -> Burning:
+    """The case, or that of a file, a text of several lines or a dict, whose thrusters fire on a schedule
+    (start, stop, period, duty, on_time, propellant, mass_flow), for `burn`. Where none does, the stuck ones
+    fire from 0 on. Raises CaseError as `load` does."""
+    path, text, data, faults = _stated(given, "load_burning")
     if not _scheduled(data, faults) and isinstance(stated := data.get("thrusters"), list):
         data = data | {"thrusters": [_from_start(one) for one in stated]}
     return Burning(_built(path, text, data, faults, burning=True))
@@ -257,12 +258,19 @@ def _from_start(thruster: Any) -> Any:
 
 
 def _stated(given: Any, name: str) -> tuple[Any, str, dict, Faults]:
-    """(path, text, data, faults) of a path, or of a text of several lines."""
-    if not isinstance(given, (str, os.PathLike)):
-        raise InputError(f"{name}: expected the path of a case file, or its text, got {came(given)}")
-    if isinstance(given, str) and "\n" in given:
-        return "text", given, *parsed("text", given)
-    return _read(given)
+    """(path, text, data, faults) of a case, the path of a file, a text of several lines or a dict."""
+    if isinstance(given, Mapping):
+        return "dict", *_tables("dict", plain(given))
+    if isinstance(given, Case):
+        path, text = given.path, text_of_case(given)
+    elif isinstance(given, str) and "\n" in given:
+        path, text = "text", given
+    elif isinstance(given, (str, os.PathLike)):
+        return _read(given)
+    else:
+        raise InputError(f"{name}: expected a case: the path of a case file, its text, or a dict; got "
+                         f"{came(given)}")
+    return path, text, *parsed(path, text)
 
 
 @dataclass(frozen=True)
@@ -274,9 +282,9 @@ class Orbiting:
     rate_squared: Fraction
 
 
-def load_orbiting(given: str | os.PathLike[str]) -> Orbiting:
-    """The case in a file, or in a text of several lines, that has [circular_orbit] (rate, period, altitude or
-    radius), for `circular_orbit`. Raises CaseError as `load` does."""
+def load_orbiting(given: Any) -> Orbiting:
+    """The case of a file, of a text of several lines or of a dict, that has [circular_orbit] (rate, period,
+    altitude or radius), for `circular_orbit`. Raises CaseError as `load` does."""
     path, text, data, faults = _stated(given, "load_orbiting")
     craft = _built(path, text, data, faults, orbiting=True)
     if "period" in data["circular_orbit"]:  # its rate holds pi

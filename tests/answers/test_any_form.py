@@ -86,6 +86,28 @@ def test_a_question_of_a_case_takes_it_in_any_form_and_a_scene_with_its_motion(n
     assert type(ask(case.scene, state=state, span=case.span, **options)) is type(of_the_case)
 
 
+@pytest.mark.parametrize("ask, path", [(stabilab.burn, "burns/stage"), (stabilab.load_burning, "burns/stage"),
+                                       (stabilab.circular_orbit, "orbits/boom"),
+                                       (stabilab.load_orbiting, "orbits/boom")])
+def test_burns_and_circular_orbits_take_a_case_in_any_form(ask, path):
+    path = CASES / f"{path}.toml"
+    text = path.read_text(encoding="utf-8")
+    for given in (str(path), text, tomllib.loads(text)):
+        found, expected = ask(given), ask(path)
+        if hasattr(found, "craft"):
+            found, expected = ((one.craft.scene, one.craft.state) for one in (found, expected))
+        assert alike(found, expected), type(given)
+    with pytest.raises(stabilab.InputError, match="expected a case"):
+        ask(3)
+
+
+def test_a_satellite_in_a_dict_without_an_orbit_is_told_which_table_is_missing():
+    with pytest.raises(stabilab.InputError, match=r"^dict: expected a table \[circular_orbit\] with rate"):
+        stabilab.circular_orbit({"body": {"inertia": [3, 2, 1]}})
+    with pytest.raises(stabilab.InputError, match=r"phone.toml: expected a table \[circular_orbit\] with rate"):
+        stabilab.circular_orbit(stabilab.load(CASES / "phone.toml"))
+
+
 @pytest.mark.parametrize("name", ["fate", "motion", "equilibria", "period", "extremes", "simulate", "stuck",
                                   "attitude", "when"])
 def test_a_case_answers_as_the_function_does(name):

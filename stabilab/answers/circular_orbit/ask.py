@@ -2,12 +2,13 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from os import PathLike
 from typing import Any
 
-from ...case.read import load_orbiting
+from ...case.read import Case, load_orbiting
 from ...caveat import Caveat
 from ...equilibrium.circular_orbit.branches import Branch, branches
 from ...equilibrium.circular_orbit.momenta import MomentumSpan, spans
@@ -50,16 +51,16 @@ def circular_orbit(orbiting: Any, up_to: Any = None) -> CircularOrbit:
     """Every equilibrium, in the orbital frame, of a satellite with wheels on a circular orbit, with its
     stability and its librations.
 
-    orbiting: the path or the text of a case file with [circular_orbit], or what `stabilab.load_orbiting`
-    gives. up_to: N m s, or text with a unit: the wheels' momentum is varied from 0 to there along the
-    direction that it has, too. Raises InputError for what is no such case, for a momentum that is not
-    positive, and for `up_to` of a satellite without one.
+    orbiting: the path or the text of a case file with [circular_orbit], a dict with its tables, or what
+    `stabilab.load_orbiting` gives. up_to: N m s, or text with a unit: the wheels' momentum is varied from 0
+    to there along the direction that it has, too. Raises InputError for what is no such case, for a momentum
+    that is not positive, and for `up_to` of a satellite without one.
     """
-    if isinstance(orbiting, (str, PathLike)):
+    if isinstance(orbiting, (str, PathLike, Mapping, Case)):
         orbiting = load_orbiting(orbiting)
     if not hasattr(orbiting, "rate_squared"):
-        raise InputError(f"circular_orbit: expected a case file, its text, or what stabilab.load_orbiting "
-                         f"gives, got {came(orbiting)}")
+        raise InputError(f"circular_orbit: expected a case with [circular_orbit]: the path of its file, its "
+                         f"text, a dict, or what stabilab.load_orbiting gives; got {came(orbiting)}")
     case = orbiting.craft
     satellite = Satellite(case.physical.body.exact, case.physical.vector("gyrostat"), orbiting.rate_squared)
     if not _in_range(satellite):

@@ -80,12 +80,12 @@ class Burned:
 def burn(burning: Any, stop: Any = None, below: Any = None) -> Burned:
     """What thrusters that fire on a schedule leave behind.
 
-    burning: a case, the path or the text of a case file, or what `stabilab.load_burning` gives; where no
-    thruster has a schedule, the stuck ones fire from 0 on. stop: s, all close
-    then, if not before; below: rad/s, asks for the latest closing time that keeps |omega| below it for ever.
-    Numbers, or text with a unit ("12 s", "30 deg/s"). Raises InputError for times and limits that are none,
-    for scenes with other effects than wheels and a constant torque, and for `below` where a constant torque
-    stays.
+    burning: a case, the path or the text of a case file, a dict with its tables, or what
+    `stabilab.load_burning` gives; where no thruster has a schedule, the stuck ones fire from 0 on. stop: s,
+    all close then, if not before; below: rad/s, asks for the latest closing time that keeps |omega| below it
+    for ever. Numbers, or text with a unit ("12 s", "30 deg/s"). Raises InputError for times and limits that
+    are none, for scenes with other effects than wheels and a constant torque, and for `below` where a
+    constant torque stays.
     """
     last = None if stop is None else _positive(stop, TIME, "stop")
     limit = None if below is None else _positive(below, RATE, "below")

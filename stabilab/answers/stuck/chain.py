@@ -2,7 +2,7 @@
 starts where the one before ended, at switching times that are exact."""
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from os import PathLike
@@ -38,11 +38,12 @@ class Chain:
     without wheels, or with these along the axis of a body whose other two moments are equal."""
 
     def __init__(self, burning: Any, stop: Fraction | None = None) -> None:
-        if isinstance(burning, (str, PathLike, Case)):
+        if isinstance(burning, (str, PathLike, Mapping, Case)):
             burning = load_burning(burning)
         if not hasattr(burning, "segments"):
             raise InputError("burn: expected a case whose thrusters fire on a schedule or are stuck, its "
-                             f"path or text, or what stabilab.load_burning gives; got {came(burning)}")
+                             f"path, its text, a dict, or what stabilab.load_burning gives; got "
+                             f"{came(burning)}")
         case = burning.craft
         if case.physical is None or case.state is None or case.variables != "physical":
             raise InputError("a burn is followed from a start in rad/s: give [motion] angular_velocity")

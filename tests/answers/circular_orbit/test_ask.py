@@ -69,7 +69,7 @@ def test_a_momentum_that_cannot_be_varied_is_bad_input(text, up_to, words):
 
 @pytest.mark.parametrize("given", (None, {}, 3, "x"))
 def test_what_is_no_case_on_an_orbit_is_bad_input(given):
-    with pytest.raises(InputError, match="no such file" if given == "x" else "expected a case"):
+    with pytest.raises(InputError, match="no such file" if given == "x" else "expected a"):
         package.circular_orbit(given)
 
 
