@@ -1,6 +1,6 @@
-"""The commands of the program: a file a group of them, with their names and options. Each opens one door, to
-its file in `commands`, which loads cases, asks the analysis and shows the answer. The group that a line names
-is read, and no other."""
+"""The commands of the program: files of them, with their names and options. Each names its function in
+`commands`, which loads cases, asks the analysis and shows the answer. The file whose command a line names is
+read, and no other."""
 from __future__ import annotations
 
 import os
@@ -17,6 +17,7 @@ from ..show.terminal.groups import GROUPS, Grouped
 from ..streams import LOST, OutputLost, guarded
 from ..version import __version__
 
+FILES = list(dict.fromkeys(file for file, _ in GROUPS.values()))
 
 def _version(wanted: bool):
     if wanted:
@@ -39,7 +40,7 @@ def _without_commands() -> typer.Typer:
     return program
 
 
-def _of_group(file: str):
+def _of_file(file: str):
     return import_module(f"{__name__}.{file}").commands.registered_commands
 
 
@@ -47,23 +48,22 @@ def _of_group(file: str):
 def whole() -> typer.Typer:
     """The program with all its commands."""
     program = _without_commands()
-    program.registered_commands += chain.from_iterable(_of_group(file) for file, _ in GROUPS.values())
+    program.registered_commands += chain.from_iterable(map(_of_file, FILES))
     return program
 
 
 def asked_for(words) -> typer.Typer:
-    """The program as far as a line asks for it: of the group whose command begins the line, of all groups
-    where none does, the commands that the line names as they are, of the others the name and the help.
+    """The program as far as a line asks for it: of the file whose command begins the line, of all files where
+    none does, the commands that the line names as they are, of the others the name and the help.
 
     Typer evaluates and inspects every option of every command that it is given, which takes longer than to
     import typer. A shell that completes a line names no command in it, and gets them all.
     """
     if any(name.startswith("_") and name.endswith("_COMPLETE") for name in os.environ):
         return whole()
-    files = ([file for file, names in GROUPS.values() if words[:1] and words[0] in names]
-             or [file for file, _ in GROUPS.values()])
+    files = [file for file, names in GROUPS.values() if words[:1] and words[0] in names] or FILES
     needed = _without_commands()
-    for command in chain.from_iterable(map(_of_group, files)):
+    for command in chain.from_iterable(map(_of_file, files)):
         name = command.name or command.callback.__name__
         if name in words:
             needed.registered_commands.append(command)

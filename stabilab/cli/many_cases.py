@@ -19,13 +19,14 @@ from .options import (
     UnitsOption,
     Until,
     Workers,
-    either_json_or_csv,
+    opens,
 )
 
 commands = typer.Typer()
 
 
 @commands.command()
+@opens("maps.sweep")
 def sweep(
         case: CaseFile,
         vary: Annotated[list[str] | None, typer.Option(
@@ -57,13 +58,10 @@ def sweep(
     Example: stabilab sweep cases/minor-axis-100.toml --vary "x[1]=-4:4:101" --vary "x[3]=-3:3:101" --out
     map.nc
     """
-    either_json_or_csv(json, csv)
-    from ..commands.maps import sweep as run
-    limits = {"rate": rate, "component": component, "energy": energy, "tilt": tilt, "until": until}
-    run(case, vary, samples, seed, answer, follow, limits, out, workers, scheduler, csv, json, strict)
 
 
 @commands.command()
+@opens("maps.atlas")
 def atlas(
         case: CaseFile,
         torque: Annotated[str | None, typer.Option(
@@ -98,14 +96,10 @@ def atlas(
 
     Example: stabilab atlas cases/cubesat-3u.toml --out atlas.png
     """
-    either_json_or_csv(json, csv)
-    from ..commands.maps import atlas as answer
-    limits = {"rate": rate, "component": component, "energy": energy, "tilt": tilt, "until": until}
-    answer(case, torque, wheel, level, refine, certify, follow, not no_time, limits, out, workers, scheduler,
-           units, csv, json, strict)
 
 
 @commands.command()
+@opens("maps.basin")
 def basin(
         case: CaseFile,
         vary: Annotated[list[str] | None, typer.Option(
@@ -127,12 +121,10 @@ def basin(
 
     Example: stabilab basin cases/minor-axis-100.toml --vary "x[1]=-4:4" --vary "x[3]=-3:3" --out basin.png
     """
-    either_json_or_csv(json, csv)
-    from ..commands.maps import basin as answer
-    answer(case, vary, depth, out, workers, scheduler, follow, csv, json, strict)
 
 
 @commands.command()
+@opens("maps.bifurcation")
 def bifurcation(
         case: CaseFile,
         vary: Annotated[list[str] | None, typer.Option(
@@ -158,6 +150,3 @@ def bifurcation(
 
     Example: stabilab bifurcation cases/wheel-and-thruster.toml --vary "torque[3]=0:2000"
     """
-    either_json_or_csv(json, csv)
-    from ..commands.maps import bifurcation as answer
-    answer(case, vary, curve, out, certify, csv, json)

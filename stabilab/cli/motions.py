@@ -21,13 +21,14 @@ from .options import (
     Tilt,
     UnitsOption,
     Why,
-    either_json_or_csv,
+    opens,
 )
 
 commands = typer.Typer()
 
 
 @commands.command()
+@opens("classify.classify")
 def classify(
         cases: CaseFiles, json: Json = False,
         strict: Annotated[bool, typer.Option(
@@ -45,11 +46,10 @@ def classify(
 
     Example: stabilab classify cases/minor-axis-100.toml --json
     """
-    from ..commands.classify import classify as answer
-    answer(cases, json, strict, certify, out, follow, tilt, units, why)
 
 
 @commands.command()
+@opens("questions.answer", question="fate")
 def fate(cases: CaseFiles, json: Json = False, digits: Digits = None, strict: Strict = False,
          follow: Follow = None, tilt: Tilt = None,
          certify: Prove = False, units: UnitsOption = None, why: Why = False):
@@ -60,11 +60,10 @@ def fate(cases: CaseFiles, json: Json = False, digits: Digits = None, strict: St
 
     Example: stabilab fate cases/minor-axis-100.toml --digits 30
     """
-    from ..commands.questions import answer
-    answer("fate", cases, digits, json, strict, follow=follow, tilt=tilt, proof=certify, units=units, why=why)
 
 
 @commands.command()
+@opens("questions.answer", question="extremes")
 def extremes(cases: CaseFiles, json: Json = False,
              csv: Csv = False, digits: Digits = None,
              strict: Strict = False, follow: Follow = None, units: UnitsOption = None, why: Why = False):
@@ -72,23 +71,20 @@ def extremes(cases: CaseFiles, json: Json = False,
 
     Example: stabilab extremes cases/minor-axis-*.toml --csv
     """
-    either_json_or_csv(json, csv)
-    from ..commands.questions import answer
-    answer("extremes", cases, digits, json, strict, csv, follow, units=units, why=why)
 
 
 @commands.command()
+@opens("questions.answer", question="period")
 def period(cases: CaseFiles, json: Json = False, digits: Digits = None, strict: Strict = False,
            units: UnitsOption = None, why: Why = False):
     """Find the period of each motion that repeats.
 
     Example: stabilab period cases/minor-axis-100.toml --digits 30
     """
-    from ..commands.questions import answer
-    answer("period", cases, digits, json, strict, units=units, why=why)
 
 
 @commands.command()
+@opens("questions.attitude")
 def attitude(cases: CaseFiles, json: Json = False, digits: Annotated[int | None, typer.Option(
         metavar="N",
         help="Write the periods to N digits (1 to 50); exit 5 where they are not reached.")] = None,
@@ -97,11 +93,10 @@ def attitude(cases: CaseFiles, json: Json = False, digits: Annotated[int | None,
 
     Example: stabilab attitude cases/torque-free-body.toml
     """
-    from ..commands.questions import attitude as answer
-    answer(cases, json, digits, strict, units)
 
 
 @commands.command()
+@opens("when.when")
 def when(
         cases: CaseFiles,
         rate: Annotated[str | None, typer.Option(
@@ -127,13 +122,10 @@ def when(
 
     Example: stabilab when cases/cubesat-3u.toml --rate "30 deg/s"
     """
-    either_json_or_csv(json, csv)
-    from ..commands.when import when as answer
-    limits = {"rate": rate, "component": component, "energy": energy, "tilt": tilt, "until": until}
-    answer(cases, limits, "si" if si else units, json, csv, strict)
 
 
 @commands.command()
+@opens("stuck.stuck")
 def stuck(
         case: CaseFile,
         all_thrusters: Annotated[bool, typer.Option(
@@ -151,12 +143,10 @@ def stuck(
 
     Example: stabilab stuck cases/upper-stage.toml
     """
-    either_json_or_csv(json, csv)
-    from ..commands.stuck import stuck as answer
-    answer(case, all_thrusters, "si" if si else units, why, out, json, csv, strict)
 
 
 @commands.command()
+@opens("stuck.burn")
 def burn(
         case: CaseFile,
         stop: Annotated[str | None, typer.Option(
@@ -172,11 +162,10 @@ def burn(
 
     Example: stabilab burn ascent.toml --stop "12 s" --below "30 deg/s"
     """
-    from ..commands.stuck import burn as answer
-    answer(case, stop, below, units, json, strict)
 
 
 @commands.command(name="flat-spin")
+@opens("flat_spin.flat_spin")
 def flat_spin(
         case: CaseFile,
         within: Annotated[str, typer.Option(
@@ -192,11 +181,10 @@ def flat_spin(
 
     Example: stabilab flat-spin cases/explorer-1-damped.toml
     """
-    from ..commands.flat_spin import flat_spin as answer
-    answer(case, within, units, json, strict)
 
 
 @commands.command()
+@opens("orbit.orbit")
 def orbit(
         case: CaseFile,
         up_to: Annotated[str | None, typer.Option(
@@ -212,11 +200,10 @@ def orbit(
 
     Example: stabilab orbit geos.toml --up-to "10 N m s"
     """
-    from ..commands.orbit import orbit as answer
-    answer(case, up_to, out, units, json, strict)
 
 
 @commands.command()
+@opens("pictures.chaos")
 def chaos(
         cases: CaseFiles,
         until: Annotated[str | None, typer.Option(
@@ -234,6 +221,3 @@ def chaos(
 
     Example: stabilab chaos cases/minor-axis-100.toml
     """
-    either_json_or_csv(json, csv)
-    from ..commands.pictures import chaos as answer
-    answer(cases, until, out, csv, json, strict)

@@ -1,5 +1,5 @@
-"""More about a case: its equations, its models and methods compared, and a case from another program's
-file."""
+"""More about a case: its equations, its models and methods compared, a case from another program's file;
+cases to begin with, and the state of the machine."""
 from __future__ import annotations
 
 from pathlib import Path
@@ -7,12 +7,13 @@ from typing import Annotated  # typer reads the annotations at run time
 
 import typer
 
-from .options import CaseFile, Csv, Json, Order, Strict, UnitsOption, either_json_or_csv
+from .options import CaseFile, Csv, Json, Order, Strict, UnitsOption, opens
 
 commands = typer.Typer()
 
 
 @commands.command()
+@opens("one_case.show")
 def show(case: CaseFile):
     """Show the equations of motion and their first integrals.
 
@@ -20,11 +21,10 @@ def show(case: CaseFile):
 
     Example: stabilab show cases/minor-axis-100.toml
     """
-    from ..commands.one_case import show as answer
-    answer(case)
 
 
 @commands.command()
+@opens("accuracy.compare")
 def compare(
         case: CaseFile, order: Order = None,
         out: Annotated[Path | None, typer.Option(
@@ -36,11 +36,10 @@ def compare(
 
     Example: stabilab compare cases/charged-body.toml
     """
-    from ..commands.accuracy import compare as answer
-    answer(case, order, out, json, strict, units)
 
 
 @commands.command()
+@opens("accuracy.precision")
 def precision(
         case: CaseFile, json: Json = False, csv: Csv = False,
         out: Annotated[Path | None, typer.Option(
@@ -56,12 +55,10 @@ def precision(
 
     Example: stabilab precision cases/minor-axis-100.toml --quick
     """
-    either_json_or_csv(json, csv)
-    from ..commands.accuracy import precision as answer
-    answer(case, json, csv, out, until, quick, strict)
 
 
 @commands.command(name="import")
+@opens("one_case.import_")
 def import_(
         file: Annotated[Path, typer.Argument(
             metavar="FILE", show_default=False,
@@ -81,5 +78,22 @@ def import_(
 
     Example: stabilab import SC_Simple.txt --out simple.toml
     """
-    from ..commands.one_case import import_ as answer
-    answer(file, out, stuck, body)
+
+
+@commands.command()
+@opens("doctor.doctor")
+def doctor():
+    """Say what is installed and whether pictures can be drawn.
+
+    Example: stabilab doctor
+    """
+
+
+@commands.command()
+@opens("one_case.example")
+def example(name: Annotated[str | None, typer.Argument(
+        metavar="NAME", help="Of a case; without one all are listed.")] = None):
+    """Write a case to begin with: a phone, a CubeSat, an asteroid.
+
+    Example: stabilab example phone > phone.toml
+    """

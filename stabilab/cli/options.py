@@ -1,11 +1,15 @@
 """Options and arguments that several commands share."""
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import wraps
+from importlib import import_module
 from pathlib import Path
-from typing import Annotated  # typer reads the annotations at run time
+from typing import Annotated, Any  # typer reads the annotations at run time
 
 import typer
 
+from .. import commands
 from ..show.terminal import completion
 
 CaseFile = Annotated[Path, typer.Argument(
@@ -53,7 +57,20 @@ Folder = Annotated[Path, typer.Option(metavar="DIR", help="Folder for the files.
 Order = Annotated[int | None, typer.Option(metavar="N", min=1, help="Order of the lindstedt expansion.")]
 
 
-def either_json_or_csv(json: bool, csv: bool) -> None:
-    """Refuse both at once."""
-    if json and csv:
-        raise typer.BadParameter("choose one of --json and --csv")
+
+def opens(place: str, **fixed: str) -> Callable[[Callable[..., None]], Callable[..., None]]:
+    """The work of a command that declares its options: a function of `commands` ("maps.sweep"), which gets
+    them all by name, and what is fixed. Its file is read when the command is given."""
+    file, name = place.split(".")
+
+    def answered_by(declared: Callable[..., None]) -> Callable[..., None]:
+        @wraps(declared)
+        def run(**options: Any) -> None:
+            if options.get("json") and options.get("csv"):
+                raise typer.BadParameter("choose one of --json and --csv")
+            if options.pop("si", False):
+                options["units"] = "si"
+            getattr(import_module(f"{commands.__name__}.{file}"), name)(**options, **fixed)
+        run.opens = place, fixed  # type: ignore[attr-defined]  # for the test that compares the names
+        return run
+    return answered_by

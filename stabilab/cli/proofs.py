@@ -1,5 +1,5 @@
-"""Proofs and checks: certificates, reference motions, formulas and numbers held against ours, bytes made
-again."""
+"""Proofs and checks: certificates, reference motions, formulas and numbers compared with ours, bytes made
+again; the papers' tables and figures."""
 from __future__ import annotations
 
 from pathlib import Path
@@ -8,12 +8,13 @@ from typing import Annotated  # typer reads the annotations at run time
 import typer
 
 from ..show.terminal import completion
-from .options import CaseFile, Json
+from .options import CaseFile, Folder, Json, opens
 
 commands = typer.Typer()
 
 
 @commands.command()
+@opens("certificates.verify")
 def verify(
         certificate: Annotated[Path, typer.Argument(
             metavar="CERTIFICATE", show_default=False, autocompletion=completion.certificates,
@@ -30,11 +31,10 @@ def verify(
 
     Example: stabilab verify certificate.json --case cases/minor-axis-100.toml
     """
-    from ..commands.certificates import verify as answer
-    answer(certificate, case, json, strict)
 
 
 @commands.command()
+@opens("simulate.reference")
 def reference(
         case: CaseFile,
         at: Annotated[list[str] | None, typer.Option(
@@ -51,11 +51,10 @@ def reference(
 
     Example: stabilab reference cases/minor-axis-100.toml --digits 30 --out minor-axis-100.csv
     """
-    from ..commands.simulate import reference as answer
-    answer(case, at, digits, out, json)
 
 
 @commands.command()
+@opens("papers.audit")
 def audit(
         paper: Annotated[str | None, typer.Argument(
             metavar="[PAPER]", show_default=False, autocompletion=completion.audited,
@@ -71,11 +70,10 @@ def audit(
 
     Example: stabilab audit constant-torque-gyrostat --equation 17
     """
-    from ..commands.papers import audit as answer
-    answer(paper, equation, json, out)
 
 
 @commands.command()
+@opens("papers.validate")
 def validate(
         source: Annotated[str | None, typer.Argument(
             metavar="[SOURCE]", show_default=False, autocompletion=completion.sources,
@@ -90,11 +88,10 @@ def validate(
 
     Example: stabilab validate nesc
     """
-    from ..commands.papers import validate as answer
-    answer(source, json, out)
 
 
 @commands.command()
+@opens("report.rerun")
 def rerun(
         manifest: Annotated[Path, typer.Argument(
             metavar="MANIFEST", show_default=False, autocompletion=completion.certificates,
@@ -107,5 +104,45 @@ def rerun(
 
     Example: stabilab rerun report/manifest.json
     """
-    from ..commands.report import rerun as answer
-    answer(manifest, out)
+
+
+@commands.command()
+@opens("papers.papers")
+def papers(
+        paper: Annotated[str | None, typer.Argument(
+            metavar="[PAPER]", autocompletion=completion.audited, show_default=False,
+            help="A paper of `stabilab audit`; none: all.")] = None,
+        json: Json = False):
+    """List equations, figures, tables, claims with verdicts.
+
+    Example: stabilab papers constant-torque-gyrostat
+    """
+
+
+@commands.command()
+@opens("papers.tables")
+def tables(out: Folder = ...):  # type: ignore[assignment]  # typer: must be given
+    """Write Tables 1-4 of the constant-torque paper.
+
+    Formats: text, CSV, Markdown, LaTeX, HTML.
+
+    Example: stabilab tables --out tables
+    """
+
+
+@commands.command()
+@opens("papers.figures")
+def figures(
+        numbers: Annotated[list[int] | None, typer.Argument(
+            metavar="[N...]", show_default=False, help="Figure numbers of one paper; none: all.")] = None,
+        paper: Annotated[str | None, typer.Option(
+            metavar="NAME", autocompletion=completion.papers,
+            help="constant-torque, charged, cavity or top. Default: constant-torque where "
+                 "numbers are given, else all.")] = None,
+        out: Annotated[Path, typer.Option(metavar="DIR", help="Folder for the pictures.")] = Path("figures")):
+    """Draw the figures of the papers.
+
+    Each picture gets a text file: caption, command, version, tolerance.
+
+    Example: stabilab figures --paper charged 2 8 --out figures
+    """

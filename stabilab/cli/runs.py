@@ -7,12 +7,13 @@ from typing import Annotated  # typer reads the annotations at run time
 import typer
 
 from ..show.terminal import completion
-from .options import CaseFile, Folder, Json, Order, Strict, UnitsOption
+from .options import CaseFile, Folder, Json, Order, Strict, UnitsOption, opens
 
 commands = typer.Typer()
 
 
 @commands.command()
+@opens("simulate.simulate")
 def simulate(
         case: CaseFile,
         at: Annotated[list[str] | None, typer.Option(
@@ -50,11 +51,10 @@ def simulate(
 
     Example: stabilab simulate cases/major-axis-100.toml --at 0,5,10,15 --json
     """
-    from ..commands.simulate import simulate as answer
-    answer(case, at, model, order, method, rtol, digits, angles, attitude, matrix, out, json, strict, units)
 
 
 @commands.command()
+@opens("pictures.plot")
 def plot(
         case: CaseFile,
         kind: Annotated[str | None, typer.Option(
@@ -81,11 +81,10 @@ def plot(
 
     Example: stabilab plot cases/middle-axis-double-well.toml --kind time --out double-well.svg
     """
-    from ..commands.pictures import plot as answer
-    answer(case, kind, out, size, dpi, until, neighbours, units, strict)
 
 
 @commands.command()
+@opens("pictures.surface")
 def surface(
         case: CaseFile,
         out: Folder = ...,  # type: ignore[assignment]  # typer: must be given
@@ -97,11 +96,10 @@ def surface(
 
     Example: stabilab surface cases/minor-axis-100.toml --out surfaces
     """
-    from ..commands.pictures import surface as answer
-    answer(case, out, json, strict)
 
 
 @commands.command()
+@opens("report.report")
 def report(
         cases: Annotated[list[Path] | None, typer.Argument(
             metavar="[CASE...]", show_default=False, autocompletion=completion.cases,
@@ -124,11 +122,10 @@ def report(
 
     Example: stabilab report cases/minor-axis-100.toml --out report
     """
-    from ..commands.report import report as answer
-    answer(cases, out, papers, precision, certify, workers, strict)
 
 
 @commands.command()
+@opens("pictures.explore")
 def explore(
         case: Annotated[Path | None, typer.Argument(
             metavar="[CASE]", show_default=False, autocompletion=completion.cases,
@@ -151,7 +148,3 @@ def explore(
 
     Example: stabilab explore cases/thruster-stuck-major-axis.toml --no-browser
     """
-    if pyodide is not None and static is None:
-        raise typer.BadParameter("--pyodide belongs to --static")
-    from ..commands.pictures import explore as answer
-    answer(case, port, browser, static, pyodide)

@@ -2,7 +2,8 @@
 code that shares nothing with what made it."""
 from __future__ import annotations
 
-from ..answers.certificate import certificate, subject
+from ..answers.certificate import certificate as proof_of
+from ..answers.certificate import subject
 from ..case.read import blamed_on
 from ..errors import InputError, ToleranceNotMet, printable
 from ..show.files.endings import labelled
@@ -24,28 +25,28 @@ def checked(out, paths):
 def certified(case, out) -> bool:
     """Write the certificate of one case; whether all of it could be certified."""
     with blamed_on(case):
-        made = certificate(case.scene, case.exact_state)
+        made = proof_of(case.scene, case.exact_state)
     say(f"written: {certification.write(made, labelled(out, case))}\n{certification.summary(made)}")
     return not made["uncertified"]
 
 
-def verify(path, case, json, strict):
+def verify(certificate, case, json, strict):
     """Check a certificate, and that it is of the case where one is named."""
     cases = load_cases([case]) if case else []
     try:
-        claims = read(path)
+        claims = read(certificate)
         found = check(claims)
     except (Malformed, UnicodeDecodeError) as error:
         raise InputError(
-            f"{path}: {error}; expected a certificate of stabilab classify --certify or stabilab "
+            f"{certificate}: {error}; expected a certificate of stabilab classify --certify or stabilab "
             f"bifurcation --certify") from None
     told = about(claims)
-    other = _of_another(cases, told, path)
+    other = _of_another(cases, told, certificate)
     physical = told.get("variables") == "physical"
     either(json, lambda: certification.as_dict(found, told),
            lambda: certification.text(found, line(told), case if other else "", physical))
     if found.status == "refuted":
-        raise ToleranceNotMet(f"{path}: a claim is wrong")
+        raise ToleranceNotMet(f"{certificate}: a claim is wrong")
     if other:
         raise ToleranceNotMet(other)
     leave_undecided(strict, found.status != "proved")

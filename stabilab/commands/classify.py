@@ -1,6 +1,8 @@
 """`stabilab classify`: equilibria, their stability, and the fate of the motion."""
 from __future__ import annotations
 
+from functools import partial
+
 from ..answers.attitude.ask import in_closed_form, of_motion
 from ..answers.equilibria import equilibria
 from ..case.read import blamed_on
@@ -35,23 +37,20 @@ def classify(cases, json, strict, certify, out, follow, tilt, units, why):
                 for case in one_by_one(loaded)]
     boxes = over_boxes(loaded, "equilibria", "fate")
     answered = [(case, found, sampled(motion, box)) for (case, found, motion), box in zip(answered, boxes)]
-    turning = [of_motion(case.scene, case.exact_state or case.state, motion)
-               if motion is not None and in_closed_form(case.scene) else None for case, _, motion in answered]
-    laws = [law.worst(found.validity, motion and motion.validity) for _, found, motion in answered]
+    answered = [(case, found, motion, of_motion(case.scene, case.exact_state or case.state, motion)
+                 if motion is not None and in_closed_form(case.scene) else None)
+                for case, found, motion in answered]
+    laws = [law.worst(found.validity, motion and motion.validity) for _, found, motion, _ in answered]
     if json:
-        write(answers.as_json([answers.classification(*answer)
-                               | {"attitude": turn and row_of(answer[0], turn)}
-                               | law.key(held, answer[0] if answer[2] is None else None)
-                               | uncertain.as_dict(box)
-                               for answer, turn, held, box in zip(answered, turning, laws, boxes)]))
+        write(answers.as_json([answers.classification(case, found, motion)
+                               | {"attitude": turn and row_of(case, turn)}
+                               | law.key(held, case if motion is None else None) | uncertain.as_dict(box)
+                               for (case, found, motion, turn), held, box in zip(answered, laws, boxes)]))
     else:
-        plain = [lambda n=n: classification.text(*answered[n], systems[n], why, turning[n])
-                 for n in range(len(answered))]
-        texts = [lambda n=n: uncertain.first(boxes[n], plain[n](), systems[n]) for n in range(len(answered))]
-        tell_all(loaded, texts, laws, list(map(uncertain.in_si, boxes, systems)), why, "\n\n",
-                 swept_motions([m for *_, m in answered], systems), systems)
+        tell_all(answered, systems, partial(classification.text, proofs=why), None if why else _swept, laws,
+                 boxes)
     certified = all([proof.certified(case, out) for case in loaded]) if certify else True
-    undecided = (any(answers.undecided(found, motion) for _, found, motion in answered)
+    undecided = (any(answers.undecided(found, motion) for _, found, motion, _ in answered)
                  or any(map(uncertain.undecided, boxes)))
     leave_undecided(strict, not certified or undecided)
     hold_laws(strict, laws, loaded)
@@ -60,3 +59,7 @@ def classify(cases, json, strict, certify, out, follow, tilt, units, why):
 def _equilibria(case):
     with blamed_on(case):
         return equilibria(case.scene)
+
+
+def _swept(answered, units):
+    return swept_motions([motion for _, _, motion, _ in answered], units)

@@ -15,17 +15,17 @@ from ..show.maps import bifurcation_picture, to_file
 from ..show.maps import sweep as sweep_shown
 from ..show.text import certification
 from ..show.units import units_of
-from .common.output import answer, leave_undecided, say, say_written, unphysical
+from .common.output import leave_undecided, say, say_written, unphysical, write_answer
 
 
-def sweep(case, vary, samples, seed, answers, follow, limits, out, workers, scheduler, csv, json, strict):
+def sweep(case, vary, samples, seed, answer, follow, out, workers, scheduler, csv, json, strict, **limits):
     """Answer the case at every point. limits: those of the answer when, by the names of their options."""
-    plan = planned(case, split_keys(vary or []), samples, seed, answers, follow, **limits)
+    plan = planned(case, split_keys(vary or []), samples, seed, answer, follow, **limits)
     if out:
         sweep_shown.checked(out)
     with run(plan, out, workers, scheduler) as found:
         files = [sweep_shown.write(sweep_shown.dataset(found), out)] if out else []
-    answer(sweep_shown, found, json, csv)
+    write_answer(sweep_shown, found, json, csv)
     say_written(files)
     leave_undecided(strict, strict and (sweep_shown.undecided(found) or unphysical([plan.case])))
 
@@ -41,7 +41,7 @@ def bifurcation(case, vary, curve, out, certify, csv, json):
     found = ask(case, spans, curve)
     made = diagram_certificate(found) if certify else None
     files = [bifurcation_picture.write(found, out)] if out else []
-    answer(diagram_shown, found, json, csv)
+    write_answer(diagram_shown, found, json, csv)
     say_written(files)
     if made:
         _certified(made, certify)
@@ -59,18 +59,18 @@ def basin(case, vary, depth, out, workers, scheduler, follow, csv, json, strict)
     with basins(case, split_keys(vary or [], "KEY=FROM:TO or KEY=FROM:TO:N"), depth,
                 to_file.data_of(targets), workers, scheduler, follow) as found:
         files = [to_file.write_basins(found, path) for path in targets]
-    answer(basins_shown, found, json, csv)
+    write_answer(basins_shown, found, json, csv)
     say_written(files)
     leave_undecided(strict, strict and (basins_shown.undecided(found) or unphysical([found.plan.case])))
 
 
-def atlas(case, torque, wheel, level, refine, certify, follow, timed, limits, out, workers, scheduler, units,
-          csv, json, strict):
+def atlas(case, torque, wheel, level, refine, certify, follow, no_time, out, workers, scheduler, units, csv,
+          json, strict, **limits):
     """Map all directions of a torque. limits: what is to be reached, by the names of the options."""
-    plan = asked(case, torque, wheel, level, refine, certify, follow, timed, **limits)
+    plan = asked(case, torque, wheel, level, refine, certify, follow, not no_time, **limits)
     system, targets = units_of(plan.case, units), to_file.checked(out or [], to_file.PAGES)
     with drawn(plan, targets[0] if targets else None, workers, scheduler) as found:
         files = [to_file.write_atlas(found, target, system) for target in targets]
-    answer(atlas_shown, found, json, csv, system)
+    write_answer(atlas_shown, found, json, csv, system)
     say_written(files)
     leave_undecided(strict, strict and (atlas_shown.undecided(found) or unphysical([plan.case])))

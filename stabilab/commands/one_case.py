@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from ..case.foreign import import_42, import_basilisk
 from ..case.foreign.imported import case_text, faults_of
-from ..case.source import EXAMPLES, command_of, example, source_text
+from ..case.source import EXAMPLES, command_of, source_text
+from ..case.source import example as text_of
 from ..case.write import data_of
 from ..errors import InputError, printable
 from ..files import whole_file
@@ -18,12 +19,12 @@ def show(case):
     tell(of_all(load_cases([case])))
 
 
-def examples(name):
+def example(name):
     """The list of examples, or the text of one."""
     if name is not None:
-        write(example(name).rstrip("\n"))
+        write(text_of(name).rstrip("\n"))
         return
-    rows = [f"  {known:<14}{command_of(known):<10}{data_of(example(known))['title']}" for known in EXAMPLES]
+    rows = [f"  {known:<14}{command_of(known):<10}{data_of(text_of(known))['title']}" for known in EXAMPLES]
     tell("\n".join(["stabilab example NAME > NAME.toml writes one of these, for stabilab COMMAND NAME.toml.",
                     "", f"  {'NAME':<14}COMMAND", *rows]))
 

@@ -5,6 +5,8 @@ import sys
 from functools import partial
 from pathlib import Path
 
+import typer
+
 from ..answers.chaos import Order, row_of
 from ..answers.chaos import chaos as ask_chaos
 from ..case.read import blamed_on, load
@@ -20,7 +22,7 @@ from ..show.surface.write import write_all
 from ..show.terminal.letters import lettered
 from ..show.text import law
 from ..show.units import units_of
-from .common.cases import load_cases, one_by_one, tell_all, time_asked, units_asked
+from .common.cases import answers_of, load_cases, tell_all, time_asked, units_asked
 from .common.output import hold_laws, leave_undecided, say, say_written, tell, write, write_json, written
 
 AN_EXAMPLE = Path(__file__).parents[1] / "cases" / "thruster-stuck-major-axis.toml"
@@ -83,13 +85,11 @@ def _of_file(case, target, kind, size, dpi, units):
 
 def chaos(cases, until, out, csv, json, strict):
     """Say of each motion whether it is regular, and draw what that looks like."""
-    loaded, rows = load_cases(cases, motion=True), []
+    loaded = load_cases(cases, motion=True)
     if out:
         endings.file(out, endings.PICTURES)
-    for case in one_by_one(loaded):
-        with blamed_on(case):
-            rows.append((case, ask_chaos(case.scene, row_of(case.scene, case.state, case.blocks),
-                                         time_asked(until, case, "until"))))
+    rows = answers_of(loaded, lambda case: ask_chaos(case.scene, row_of(case.scene, case.state, case.blocks),
+                                                     time_asked(until, case, "until")))
     drawn = written(out, [(case, partial(chaos_shown.write, case, found)) for case, found in rows])
     laws = [law.of_case(case) for case in loaded]
     if json:
@@ -97,9 +97,7 @@ def chaos(cases, until, out, csv, json, strict):
     elif csv:
         write(chaos_shown.csv(rows, laws))
     else:
-        texts = [partial(chaos_shown.text, [row]) for row in rows]
-        tell_all(loaded, texts, laws, [""] * len(rows), False, "\n",
-                 lambda of: chaos_shown.swept([rows[n] for n in of]), units_asked(loaded, None))
+        tell_all(rows, units_asked(loaded, None), chaos_shown.text, chaos_shown.swept, laws, between="\n")
     say_written(drawn)
     leave_undecided(strict, any(int(found.labels) == Order.UNDECIDED for _, found in rows))
     hold_laws(strict, laws, loaded)
@@ -107,6 +105,8 @@ def chaos(cases, until, out, csv, json, strict):
 
 def explore(case, port, browser, static, pyodide):
     """Serve a case as a page, or write the page as a folder."""
+    if pyodide is not None and static is None:
+        raise typer.BadParameter("--pyodide belongs to --static")
     one = load(case or AN_EXAMPLE)
     load_cases([case or AN_EXAMPLE])  # says what is wrong with its [sweep]
     if static is not None:

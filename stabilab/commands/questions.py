@@ -2,6 +2,8 @@
 `attitude`: how it turns in space."""
 from __future__ import annotations
 
+from functools import partial
+
 from ..answers.attitude.ask import attitude as turning
 from ..answers.digits.checked import DEFAULT, by_bound, short
 from ..case.read import blamed_on
@@ -10,6 +12,7 @@ from ..show.text import answers, law, uncertain
 from ..show.text import attitude as attitudes
 from ..show.units import DEG
 from .common.cases import (
+    answers_of,
     load_cases,
     motion_of,
     one_by_one,
@@ -25,14 +28,14 @@ from .common.cases import (
 from .common.output import all_reached, hold_laws, leave_undecided, write
 
 
-def answer(question, paths, digits, json, strict, csv=False, follow=None, tilt=None, proof=False, units=None,
-           why=False):
+def answer(question, cases, json, digits, strict, units, why, csv=False, follow=None, tilt=None,
+           certify=False):
     """Answer a question for every case and say how many digits of it are known."""
-    loaded = load_cases(paths, motion=True)
+    loaded = load_cases(cases, motion=True)
     systems = units_asked(loaded, units)
     tell_radians(systems[0], tilt=tilt)
     answered = [(case, found, _told(question, case, found, digits)) for case in one_by_one(loaded)
-                for plain in [motion_of(case, brief=question == "extremes", follow=follow, proof=proof)]
+                for plain in [motion_of(case, brief=question == "extremes", follow=follow, proof=certify)]
                 for found in [tilted(case, plain, tilt) if question == "fate" else plain]]
     boxes = over_boxes([case for case, *_ in answered], *(["fate"] if question == "fate" else []))
     answered = [(case, sampled(found, box), told) for (case, found, told), box in zip(answered, boxes)]
@@ -43,7 +46,7 @@ def answer(question, paths, digits, json, strict, csv=False, follow=None, tilt=N
     elif csv:
         write(answers.extremes_csv(answered))
     else:
-        _tell(question, loaded, answered, systems, digits, boxes, why)
+        _tell(question, answered, systems, digits, boxes, why)
     if digits is not None:
         all_reached((case, f"{question}: {short(told)}") for case, _, told in answered if not told.enough)
     leave_undecided(strict, any(motion.fate.word == "undecided" for _, motion, _ in answered)
@@ -51,19 +54,19 @@ def answer(question, paths, digits, json, strict, csv=False, follow=None, tilt=N
     hold_laws(strict, (motion.validity for _, motion, _ in answered), loaded)
 
 
-def _tell(question, loaded, answered, systems, digits, boxes, why):
+def _tell(question, answered, systems, digits, boxes, why):
     """The answers as text."""
-    told, motions = getattr(questions, question), [motion for _, motion, _ in answered]
-    say = [digits is not None or not found.enough for *_, found in answered]
-    texts = [lambda n=n: uncertain.first(boxes[n],
-                                         told(*answered[n], systems[n], digits is not None, say[n], why),
-                                         systems[n])
-             for n in range(len(answered))]
-    table = (swept_extremes(loaded, motions, systems) if question == "extremes"
-             else swept_motions(motions, systems))
-    boxed = list(map(uncertain.in_si, boxes, systems))
-    tell_all(loaded, texts, [m.validity for m in motions], boxed, why or digits is not None, "\n", table,
-             systems)
+    def text(case, motion, told, units):
+        return getattr(questions, question)(case, motion, told, units, digits is not None,
+                                            digits is not None or not told.enough, why)
+
+    def swept(rows, units):
+        motions = [motion for _, motion, _ in rows]
+        return (swept_extremes(rows[0][0], motions, units) if question == "extremes"
+                else swept_motions(motions, units))
+
+    tell_all(answered, systems, text, None if why or digits is not None else swept,
+             [motion.validity for _, motion, _ in answered], boxes, "\n")
 
 
 def _told(question, case, motion, digits):
@@ -81,15 +84,11 @@ def _told(question, case, motion, digits):
 
 def attitude(cases, json, digits, strict, units):
     """How each motion turns in space: answer every case, every combination where it has a [sweep]."""
-    loaded, found = load_cases(cases, motion=True), []
+    loaded = load_cases(cases, motion=True)
     systems = [DEG if system.scaled else system for system in units_asked(loaded, units)]  # all is in SI here
-    for case in one_by_one(loaded):
-        with blamed_on(case):
-            found.append(turning(case, digits=digits))
+    answered = answers_of(loaded, partial(turning, digits=digits))
     if json:
-        write(answers.as_json(attitudes.as_dict(loaded, found)))
+        write(answers.as_json(attitudes.as_dict(answered)))
     else:
-        texts = [lambda n=n: attitudes.text(loaded[n], found[n], systems[n]) for n in range(len(loaded))]
-        tell_all(loaded, texts, [None] * len(loaded), [""] * len(loaded), True, "\n\n",
-                 lambda of: [], systems)
-    leave_undecided(strict, any(one.fate.word == "undecided" for one in found))
+        tell_all(answered, systems, attitudes.text)
+    leave_undecided(strict, any(found.fate.word == "undecided" for _, found in answered))

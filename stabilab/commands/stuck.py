@@ -12,32 +12,28 @@ from ..show.files import endings
 from ..show.progress import told
 from ..show.text import burn as burns
 from ..show.text import stuck as shown
-from .common.cases import load_cases, tell_all, tell_radians, units_asked
+from .common.cases import answers_of, load_cases, tell_all, tell_radians, units_asked
 from .common.output import either, hold_laws, leave_undecided, say_written, write, write_json, written
 
 
 def stuck(case, all_thrusters, units, why, out, json, csv, strict):
     """Answer a case, every combination where it has a [sweep]."""
-    loaded, answers = load_cases([case], motion=True), []
+    loaded = load_cases([case], motion=True)
     systems = units_asked(loaded, units)
     if out:
         endings.file(out, endings.PICTURES)
     with told() as tell:
-        for one in loaded:
-            with blamed_on(one):
-                answers.append(ask(one, all_thrusters, tell))
+        answered = answers_of(loaded, lambda one: ask(one, all_thrusters, tell))
     drawn = written(out, [(one, partial(_drawn, one, found, system))
-                          for one, found, system in zip(loaded, answers, systems)])
+                          for (one, found), system in zip(answered, systems)])
     if json:
-        write_json(loaded, list(map(shown.as_dict, loaded, answers)))
+        write_json(loaded, [shown.as_dict(*one) for one in answered])
     elif csv:
-        write(shown.csv(zip(loaded, answers)))
+        write(shown.csv(answered))
     else:
-        texts = [lambda n=n: shown.text(loaded[n], answers[n], systems[n]) for n in range(len(loaded))]
-        tell_all(loaded, texts, [None] * len(loaded), [""] * len(loaded), all_thrusters or why, "\n\n",
-                 lambda of: shown.swept([answers[n] for n in of], systems[of[0]]), systems)
+        tell_all(answered, systems, shown.text, None if all_thrusters or why else shown.swept)
     say_written(drawn)
-    leave_undecided(strict, any(row.fate == "undecided" for found in answers for row in found.rows))
+    leave_undecided(strict, any(row.fate == "undecided" for _, found in answered for row in found.rows))
     hold_laws(strict, (), loaded)
 
 
@@ -46,16 +42,16 @@ def _drawn(case, found, units, path):
     return write_stuck(case, found, units, path)
 
 
-def burn(path, stop, below, units, json, strict):
+def burn(case, stop, below, units, json, strict):
     """Answer one case."""
-    burning = load_burning(path)
-    case = burning.craft
-    system = units_asked([case], units)[0]
+    burning = load_burning(case)
+    craft = burning.craft
+    system = units_asked([craft], units)[0]
     tell_radians(system, below=below)
     asked = {name: in_si(text.strip(), dimension, f"--{name}")
              for name, text, dimension in (("stop", stop, TIME), ("below", below, RATE)) if text is not None}
-    with blamed_on(case):
+    with blamed_on(craft):
         found = left_by(burning, **asked)
-    either(json, lambda: burns.as_dict(case, found), lambda: burns.text(case, found, system))
+    either(json, lambda: burns.as_dict(craft, found), lambda: burns.text(craft, found, system))
     open_ = found.latest is not None and found.latest.level == "undecided"
     leave_undecided(strict, open_ or found.closed.motion.fate.word == "undecided")

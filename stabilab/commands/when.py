@@ -14,7 +14,7 @@ from .common.cases import load_cases, one_by_one, tell_all, tell_radians, units_
 from .common.output import hold_laws, leave_undecided, write
 
 
-def when(cases, limits, units, json, csv, strict):
+def when(cases, units, json, csv, strict, **limits):
     """Answer every case. limits: what is to be reached and by when, by the names of the options."""
     paths, answered = list(map(str, cases)), []
     burns = {path: load_burning(path) for path in paths if fires_on_schedule(path)}
@@ -37,8 +37,6 @@ def when(cases, limits, units, json, csv, strict):
     elif csv:
         write(shown.csv(answered))
     else:
-        texts = [lambda n=n: shown.text(*answered[n], systems[n]) for n in range(len(answered))]
-        tell_all(loaded, texts, laws, [""] * len(loaded), False, "\n",
-                 lambda of: shown.swept([answered[n] for n in of], systems[of[0]]), systems)
+        tell_all(answered, systems, shown.text, shown.swept, laws, between="\n")
     leave_undecided(strict, any(shown.unknown(found) for *_, found in answered))
     hold_laws(strict, laws, loaded)

@@ -3,15 +3,17 @@ light."""
 from __future__ import annotations
 
 import ast
+import inspect
 import os
 import re
 import subprocess
 import sys
-from collections import Counter
+from importlib import import_module
 
 import pytest
 
 import stabilab
+from stabilab import cli
 from tests.house import geometry, rooms
 from tests.house.rooms import (
     GROUND,
@@ -36,9 +38,9 @@ DRAWING = {"matplotlib", "pyvista", "vtk", "vtkmodules", "trame", "jinja2", "xar
 MODULES = sorted(PACKAGE.rglob("*.py"))
 FLINT_AT_HEAD = ("equilibrium/", "maps/bifurcation/", "verify/", "numbers/algebraic.py")
 FILES_IN_A_FOLDER = 16  # a list that fits the eye, `__init__` counted
-IMPORTS_INSIDE = 63  # of 237 once: one of each of 36 commands, the others in the table below
+IMPORTS_INSIDE = 29  # of 237 once
 SIGNS = 25  # tests of the sign of p q, of 139 once
-# Imports inside functions, besides those of the commands: (importing module, imported module) -> why it waits
+# Imports inside functions: (importing module, imported module) -> why it waits
 DOORS = {
     ("stabilab.answers.attitude.ask", "stabilab.answers.attitude.followed"): "loads numpy",
     ("stabilab.answers.certificate", "stabilab.answers.certified_motion"): "loads numpy",
@@ -101,18 +103,19 @@ def test_imports_inside_functions_are_doors():
 
 
 def test_imports_inside_functions_are_few():
-    """Those of `cli` included, which opens one door a command."""
     assert len({(one.source, one.line) for one in all_imports() if one.inside}) <= IMPORTS_INSIDE
 
 
-def test_a_command_opens_one_door():
-    """What its file in `commands` needs, that file imports at its head."""
-    functions = [function for path in (PACKAGE / "cli").glob("*.py") for function,
-                 _ in statements(tree_of(path)) if isinstance(function, ast.FunctionDef)]
-    doors = Counter(function.name for function in functions for node,
-                    _ in statements(function) if isinstance(node, ast.ImportFrom) and node.level)
-    assert set(doors.values()) == {1}, doors
-    assert set(doors) >= {function.name for function in functions if function.decorator_list} - {"whole"}
+@pytest.mark.parametrize("command", cli.whole().registered_commands, ids=lambda one: one.callback.__name__)
+def test_a_command_names_a_function_that_takes_its_options(command):
+    """By their names, but for `si`, which stands for units."""
+    place, fixed = command.callback.opens
+    file, name = place.split(".")
+    function = getattr(import_module(f"stabilab.commands.{file}"), name)
+    options = dict.fromkeys(inspect.signature(command.callback).parameters)
+    options.pop("si", None)
+    bound = inspect.signature(function).bind(**options, **fixed).arguments
+    assert set(bound.get("limits", ())) <= {"rate", "component", "energy", "tilt", "until"}
 
 
 def test_no_private_name_crosses_a_module():

@@ -1,11 +1,12 @@
 """Cases that a command is given, their motions, and what is printed of them."""
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
+from typing import Any
 
 from ...answers.motion import motion
 from ...case.read import Case, blamed_on, load_all
@@ -13,7 +14,7 @@ from ...errors import InputError, printable
 from ...numbers.units import NONE, TIME, quantity, split
 from ...show.progress import each
 from ...show.terminal import page, sweep
-from ...show.text import law
+from ...show.text import law, uncertain
 from ...show.units import DEG, DIGITS, SCALED, SI, Units, number, units_of
 from ...streams import Progress
 from .output import say
@@ -40,6 +41,15 @@ def load_cases(paths: Iterable[Path], motion: bool = False) -> list[Case]:
 def one_by_one(cases: Sequence[Case]) -> Iterable[Case]:
     """The cases, told one by one to a terminal where they take their time."""
     return cases if len(cases) < 2 else each(cases, lambda case: printable(case.name))
+
+
+def answers_of(cases: Sequence[Case], ask: Callable[[Case], Any]) -> list[tuple[Case, Any]]:
+    """(case, ask(case)) of each, faults blamed on the file of the case."""
+    found = []
+    for case in one_by_one(cases):
+        with blamed_on(case):
+            found.append((case, ask(case)))
+    return found
 
 
 def units_asked(cases: Iterable[Case], asked: str | None) -> list[Units]:
@@ -150,48 +160,54 @@ def over_boxes(cases, *questions):
     """What uncertain numbers do to the verdicts of each case; None where it has none."""
     if not questions or not any(case.uncertain for case in cases):
         return [None] * len(cases)
-    from ...answers.uncertain.fate import uncertain
-    return [uncertain(case, questions) for case in cases]
+    from ...answers.uncertain.fate import uncertain as over_box
+    return [over_box(case, questions) for case in cases]
 
 
 # --- The answers of several cases as text: one after the other, or the combinations of a [sweep] as one
 # table
-def tell_all(cases, texts, laws, boxes, full, between, swept, systems):
-    """Text of every case to stdout; the combinations of a [sweep] as one table, unless all is asked for in
-    full. texts: functions, a case each; swept(indices): (answer in a line, columns, rows) of a table;
-    systems: the units of each."""
-    if full or not any(case.variant for case in cases):
-        page.tell(between.join(law.first(held, text(), units, _of(case, box)) + box
-                               for case, text, held, box, units in zip(cases, texts, laws, boxes, systems)))
+def tell_all(answered, systems, text, swept=None, laws=None, boxes=None, between="\n\n"):
+    """The answers as text to stdout; of a [sweep] as one table where `swept` is given.
+
+    answered: (case, what was found ...) of each; text(case, what was found ..., units); swept(answered,
+    units): (answer in a line, columns, rows) of a table; systems: the units of each; laws: how far the
+    approximate laws of each hold, or None; boxes: what uncertain numbers do to each, or None.
+    """
+    nothing = [None] * len(answered)
+    laws, boxes, cases = laws or nothing, boxes or nothing, [case for case, *_ in answered]
+    below = list(map(uncertain.in_si, boxes, systems))
+
+    def words(n):
+        return uncertain.first(boxes[n], text(*answered[n], systems[n]), systems[n])
+
+    if swept is None or not any(case.variant for case in cases):
+        page.tell(between.join(
+            law.first(laws[n], words(n), systems[n], _caveats(cases[n], below[n])) + below[n]
+            for n in range(len(cases))))
         return
-    told = []
+    parts = []
     for of in sweep.groups(cases):
-        words = sweep.text([cases[n] for n in of], *swept(of)) if cases[of[0]].variant else texts[of[0]]()
-        caveats = dict.fromkeys(one for n in of for one in _of(cases[n], boxes[n]))
-        told.append(law.first(law.worst(*(laws[n] for n in of)), words, systems[of[0]], caveats)
-                    + "".join(dict.fromkeys(boxes[n] for n in of)))
-    page.tell("\n\n".join(told))
+        first = of[0]
+        table = (sweep.text([cases[n] for n in of], *swept([answered[n] for n in of], systems[first]))
+                 if cases[first].variant else words(first))
+        caveats = dict.fromkeys(one for n in of for one in _caveats(cases[n], below[n]))
+        parts.append(law.first(law.worst(*(laws[n] for n in of)), table, systems[first], caveats)
+                     + "".join(dict.fromkeys(below[n] for n in of)))
+    page.tell("\n\n".join(parts))
 
 
-def _of(case, box):
-    """The caveats of a case; without that on uncertain numbers where the words on their box follow."""
-    return [one for one in case.caveats if not box or one.kind != "uncertain"]
+def _caveats(case, below):
+    """Those of a case; without that on uncertain numbers where the words on their box follow."""
+    return [one for one in case.caveats if not below or one.kind != "uncertain"]
 
 
-def swept_motions(motions, systems):
-    """How `tell_all` tells the motions of a sweep."""
-    def table(of):
-        chosen = [motions[n] for n in of]
-        if None in chosen:
-            return f"{sum(m is None for m in chosen)} of them state no motion", [], [[] for _ in of]
-        return sweep.fates(chosen, systems[of[0]]), *sweep.of_motions(chosen, systems[of[0]])
-    return table
+def swept_motions(motions, units):
+    """The table of the motions of a sweep."""
+    if None in motions:
+        return f"{motions.count(None)} of them state no motion", [], [[] for _ in motions]
+    return sweep.fates(motions, units), *sweep.of_motions(motions, units)
 
 
-def swept_extremes(cases, motions, systems):
-    """How `tell_all` tells the extremes of a sweep."""
-    def table(of):
-        chosen = [motions[n] for n in of]
-        extremes = sweep.of_extremes(chosen, cases[of[0]].scene.components, systems[of[0]])
-        return sweep.fates(chosen, systems[of[0]]), *extremes
-    return table
+def swept_extremes(case, motions, units):
+    """The table of the extremes of a sweep. case: one of its combinations."""
+    return sweep.fates(motions, units), *sweep.of_extremes(motions, case.scene.components, units)

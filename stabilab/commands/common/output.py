@@ -36,7 +36,7 @@ def either(json: bool, data, words):
         tell(words())
 
 
-def answer(shown, found, json: bool, csv: bool, *more):
+def write_answer(shown, found, json: bool, csv: bool, *more):
     """What was found as JSON or CSV, or in words: by the functions of these names in `shown`, which take
     `more` (all but csv) besides."""
     if json or csv:

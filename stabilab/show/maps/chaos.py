@@ -114,12 +114,7 @@ FIRST = {Order.REGULAR: "REGULAR as far as it was followed", Order.CHAOTIC: "CHA
          Order.SPIN_UP: "SPIN-UP", Order.UNDECIDED: "UNDECIDED"}
 
 
-def text(rows: list[tuple[Any, Chaos]]) -> str:
-    """A paragraph a case."""
-    return "\n".join(_of_one(*row) for row in rows)
-
-
-def _of_one(case: Any, found: Chaos) -> str:
+def text(case: Any, found: Chaos, _: Any = None) -> str:
     """The answer first; then what it means for a small change, and MEGNO at each doubling of the time."""
     label, unit = Order(int(found.labels)), _unit(case)
     resting = label == Order.REGULAR and not found.megno < FLAT
@@ -136,7 +131,7 @@ def _of_one(case: Any, found: Chaos) -> str:
     return "\n".join(lines)
 
 
-def swept(rows: list[tuple[Any, Chaos]]) -> tuple[str, list[tuple[str, str]], list[list[str]]]:
+def swept(rows: list[tuple[Any, Chaos]], _: Any = None) -> tuple[str, list[tuple[str, str]], list[list[str]]]:
     """(the answer in a line, columns, rows) of a sweep: how many motions are what, and of each MEGNO at the
     last time; where one is chaotic, also how soon neighbours part."""
     labels = [Order(int(found.labels)) for _, found in rows]

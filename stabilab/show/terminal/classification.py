@@ -18,7 +18,7 @@ FEW = 3  # curves that one line has room for
 WORDS = ("stable", "asymptotically stable", "unstable", "undecided")
 
 
-def text(case, equilibria, motion, units: Units, proofs: bool = False, turning=None) -> str:
+def text(case, equilibria, motion, turning, units: Units, proofs: bool = False) -> str:
     """The lines for one case. turning: its `Attitude`, where that takes no run. proofs: with eigenvalues,
     equations of curves, reasons of every verdict and the principal axes."""
     answer = (f"{resting(equilibria, units)}; no [motion], so no fate" if motion is None

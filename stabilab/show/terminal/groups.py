@@ -41,11 +41,11 @@ GROUPS = {
         "audit": "Are published formulas right?",
         "validate": "Do the published numbers of other tools agree?",
         "rerun": "Does the same command give the same bytes?"}),
-    "The papers": ("papers", {
+    "The papers": ("proofs", {
         "papers": "Which equations, figures and claims do the papers have, and which are right?",
         "tables": "Where are the tables of the constant-torque paper?",
         "figures": "Where are the figures of the papers?"}),
-    "Help to begin": ("besides", {
+    "Help to begin": ("one_case", {
         "example": "With which case do I begin?",
         "doctor": "Is all installed that pictures need?"}),
 }

@@ -11,10 +11,10 @@ HEADS = {"long-axis": "LONG-AXIS MODE", "short-axis": "SHORT-AXIS MODE", "separa
          "steady": "STEADY ROTATION", "heavy top": "HEAVY TOP"}
 
 
-def as_dict(cases, found) -> dict:
+def as_dict(answered) -> dict:
     """The object of `stabilab attitude --json`: a row a case, vectors in the frame of the file, s and rad."""
     return {"schema": "stabilab.attitude/1",
-            "rows": [{"case": case.name} | row_of(case, one) for case, one in zip(cases, found)]}
+            "rows": [{"case": case.name} | row_of(case, found) for case, found in answered]}
 
 
 def row_of(case, one) -> dict:

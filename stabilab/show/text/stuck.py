@@ -83,7 +83,7 @@ def text(case, found, units: Units) -> str:
 def swept(answers, units: Units):
     """(the answer in a line, columns, rows) of a sweep: what becomes of each, about which axis, and when the
     limit is reached."""
-    rows = [found.rows[0] for found in answers]
+    rows = [found.rows[0] for _, found in answers]
     fates = Counter(row.fate for row in rows)
     told = {fate: FATES[fate] + limiting.shared([row.caveats for row in rows if row.fate == fate], units)
             for fate in fates}
