@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from functools import partial
 
-from ..answers.digits.run import keep
 from ..case.read import blamed_on
 from ..cost.accuracy import precision as measure
 from ..errors import InputError
@@ -52,8 +51,6 @@ def precision(case, json, csv, out, until, quick, strict):
     loaded = load_cases([case], motion=True)
     measured = [measure(one, "quick" if quick else "full", time_asked(until, one, "until"))
                 for one in one_by_one(loaded)]
-    for found in measured:
-        keep(found)
     if out:
         write_each(out, [(found.case, partial(shown.write, found)) for found in measured])
     if json:

@@ -82,8 +82,7 @@ def _run_or_best(case, times, model, method, rtol, order, digits):
         raise InputError("--digits chooses method and tolerance of the exact motion itself: give it without "
                          "--model, --method, "
                          "--rtol and --order")
-    reached = best_reached(case, times, DEFAULT if digits is None else digits, measured=digits is not None,
-                           aim=digits is None)
+    reached = best_reached(case, times, DEFAULT if digits is None else digits, aim=digits is None)
     return reached.run, reached
 
 

@@ -335,7 +335,7 @@ def test_a_motion_in_many_digits_starts_from_the_decimals(tmp_path):
     path = tmp_path / "tie.toml"
     path.write_text(TIE)
     case = load(path)
-    found = best_reached(case, [150.0], 15, measured=False)
+    found = best_reached(case, [150.0], 15)
     # On the separatrix omega3/omega1 stays 3/4: twice the energy times D2 equals |H|^2 along the motion.
     omega = found.run.state["omega"][0]
     assert found.enough and omega[2] / omega[0] == pytest.approx(0.75, rel=1e-13)

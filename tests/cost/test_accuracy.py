@@ -13,12 +13,10 @@ import pytest
 
 from stabilab import load
 from stabilab.answers.digits import run as precision_digits
-from stabilab.answers.digits import run as precision_front
-from stabilab.answers.digits.run import FrontPoint, candidates, simulate_to
+from stabilab.answers.digits.run import best_reached
 from stabilab.cost import accuracy as measuring
 from stabilab.cost.accuracy import Point, digit_price, pareto, precision
 from stabilab.cost.methods import methods, problem
-from stabilab.errors import ToleranceNotMet
 from stabilab.integrate.reference import reference, relative_errors
 from stabilab.physics.effects.gyrostat import Gyrostat
 from stabilab.physics.equations import derive
@@ -288,37 +286,6 @@ def test_times_reach_from_zero_to_the_end_of_the_span():
     assert task.times.tolist() == [0.75, 1.5, 2.25, 3.0]
 
 
-# -- the front that is kept
-
-
-def test_front_is_kept_per_motion_machine_and_version(tmp_path, monkeypatch, measured):
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
-    assert precision_front.front(FREE) == ()
-    path = precision_front.keep(measured)
-    assert path.is_relative_to(tmp_path / "stabilab")
-    kept = precision_front.front(FREE)
-    assert [p.method for p in kept] == [p.method for p in measured.front("span")] and kept
-    assert all(a.digits < b.digits and a.cost < b.cost for a, b in zip(kept, kept[1:]))
-    assert precision_front.front(case("sphere-wheel")) == ()
-    coarse = replace(measured, points=measured.points[:1])
-    # quick: nothing is lost
-    assert precision_front.keep(coarse) == path and precision_front.front(FREE) == kept
-    assert precision_front.keep(replace(coarse,
-                                        effort="full")) == path and len(precision_front.front(FREE)) == 1
-    short = replace(measured, effort="full", reference=replace(measured.reference, status="stopped"))
-    assert precision_front.keep(short) is None  # it would speak of times that were not judged
-    monkeypatch.setattr("stabilab.answers.digits.run.versions", lambda: {"stabilab": "0"})
-    assert precision_front.front(FREE) == ()
-    path.write_text("{")
-    assert precision_front.front(FREE) == ()
-
-
-def test_a_folder_that_cannot_be_written_keeps_nothing(tmp_path, monkeypatch, measured):
-    (tmp_path / "file").write_text("")
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "file"))
-    assert precision_front.keep(measured) is None
-
-
 # -- digits asked for
 
 
@@ -338,33 +305,10 @@ def test_digits_asked_for_are_reached(judged, digits, tmp_path, monkeypatch):
     # against the reference in many digits, which the check itself does not use below 15
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     for name, (one, times, exact) in judged.items():
-        reached = simulate_to(one, times, digits)
+        reached = best_reached(one, times, digits)
         error = relative_errors(reached.run.state["x"], exact.states, exact.rest, exact.slices).max()
         assert error <= 10.0**-digits and reached.digits >= digits, name
         assert error <= 10.0**-reached.digits * 1.01 + 2.0**-53, name  # what it says of itself holds
-
-
-def test_a_measured_front_is_followed_and_checked(tmp_path, monkeypatch, judged):
-    # a front that lies: RK23 at 1e-3 "has 11 digits"; the check sees through it and the next setting serves
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
-    one, times, exact = judged["minor-axis-100"]
-    lie, honest = FrontPoint("RK23", 1e-3, 11.0, 1e-6), FrontPoint("DOP853", 1e-9, 7.6, 2e-6)
-    monkeypatch.setattr(precision_digits, "front", lambda case: (lie, honest))
-    assert candidates(one, times, 6)[:2] == [("RK23", 1e-3), ("DOP853", 1e-9)]
-    assert ("DOP853", 1e-9) not in candidates(one, times, 7)  # no digit to spare
-    assert ("RK23", 1e-3) not in candidates(one, 100 * times, 6)  # measured for a shorter span
-    reached = simulate_to(one, times, 6)
-    assert reached.run.method == "DOP853"
-    assert relative_errors(reached.run.state["x"], exact.states, exact.rest, exact.slices).max() <= 1e-6
-
-
-def test_reduced_form_serves_digits_where_it_was_measured_to(monkeypatch, judged):
-    one, times, exact = judged["minor-axis-100"]
-    monkeypatch.setattr(precision_digits, "front", lambda case: (FrontPoint("reduced", 64, 13.8, 1e-6),))
-    reached = simulate_to(one, times, 12)
-    # 64 samples a turn, of which 31 are mirror images
-    assert reached.run.method == "reduced form" and reached.run.counters["evaluations"] == 33
-    assert relative_errors(reached.run.state["x"], exact.states, exact.rest, exact.slices).max() <= 1e-12
 
 
 def test_digits_that_nothing_reaches_end_with_5_after_the_states_that_come_nearest(stabilab, tmp_path,
@@ -439,10 +383,9 @@ def test_a_start_on_an_unstable_plane_is_beyond_doubles_but_not_beyond_many_digi
     # Off it by rounding, the distance grows as fast.
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     one = case("middle-axis-spin-up")
-    reached = simulate_to(one, np.array([0.0, 12.0]), 10)
+    reached = best_reached(one, np.array([0.0, 12.0]), 10)
     assert reached.run.method == "many digits"
     x1, x2, x3 = reached.run.state["x"][-1]
     assert abs(x1 + one.scene.b) < 1e-20 and abs(x3) < 1e-20 and x2 > 5
     monkeypatch.setattr("stabilab.integrate.reference.DIGITS", (30, 42))  # too few
-    with pytest.raises(ToleranceNotMet, match="10 digits asked for"):
-        simulate_to(one, np.array([0.0, 20.0]), 10)
+    assert not best_reached(one, np.array([0.0, 20.0]), 10).enough

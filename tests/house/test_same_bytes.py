@@ -91,17 +91,6 @@ def test_answers_are_the_same_bytes_whatever_surrounds_them(answers, tmp_path, a
     assert differing(answers, outputs(tmp_path / "other", ANSWERS, **around)) == []
 
 
-def test_what_was_measured_on_a_machine_changes_no_answer_that_did_not_ask_for_it(tmp_path, monkeypatch,
-                                                                                  stabilab):
-    """A front that names another method is followed by --digits alone."""
-    from stabilab.answers.digits import run as precision_digits
-    from stabilab.answers.digits.run import FrontPoint
-    without = stabilab("simulate", FEW[0], "--at", "0,1,2")
-    monkeypatch.setattr(precision_digits, "front", lambda case: (FrontPoint("DOP853", 1e-13, 12.5, 1e-6),))
-    assert stabilab("simulate", FEW[0], "--at", "0,1,2") == without and without[0] == OK
-    assert "DOP853" in stabilab("simulate", FEW[0], "--at", "0,1,2", "--digits", "9")[1]
-
-
 @pytest.fixture(scope="module")
 def everything(tmp_path_factory):
     return outputs(tmp_path_factory.mktemp("bytes") / "plain", MORE + DRAWN)

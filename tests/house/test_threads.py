@@ -87,7 +87,7 @@ def all_questions():
     asked["motion, free"] = lambda: stabilab.motion(FREE, STATE)
     asked["margin to 30 digits, free"] = lambda: ask("fate", FREE, STATE, 30)
     asked["period to 20 digits, free"] = lambda: ask("period", FREE, STATE, 20)
-    asked["simulation to 12 digits"] = lambda: best_reached(some, [0.0, 1.0], 12, measured=False)
+    asked["simulation to 12 digits"] = lambda: best_reached(some, [0.0, 1.0], 12)
     asked["trajectory"] = lambda: stabilab.trajectory(some.scene, some.state, np.linspace(0, 2, 5)).states
     return {name: lambda question=question: plain(question()) for name, question in asked.items()}
 

@@ -182,7 +182,7 @@ def test_every_result_carries_it():
     assert not stabilab.equilibria(case.scene).validity.holds
     assert not simulate(case.scene, case.state, [0, 1]).validity.holds
     assert not follow(case, [0, 1], "averaged1").validity.holds
-    assert not best_reached(case, [1.0], 12, measured=False).run.validity.holds
+    assert not best_reached(case, [1.0], 12).run.validity.holds
 
 
 def test_exact_laws_have_none():

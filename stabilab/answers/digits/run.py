@@ -1,29 +1,21 @@
-"""One motion to the digits asked for, by the cheapest method that proves or shows them.
-
-A motion to as many digits as are asked for: the cheapest setting that was measured to reach them, checked
-afterwards.
+"""A motion to as many digits as are asked for, checked afterwards.
 
 The check needs no reference: the same motion at another tolerance, its start moved by a unit in its last
 place, shows the error of the first run and what doubles can hold, for the price of one run more. What falls
-short is done again with the next setting, at last in many digits, rounded once.
+short is done again in another way, at last in many digits, rounded once.
 """
 from __future__ import annotations
 
-import json
 import math
-import os
-from dataclasses import asdict, dataclass, replace
-from hashlib import sha256
-from pathlib import Path
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ...cache import cache_folder, in_words
-from ...errors import InputError, ToleranceNotMet
+from ...errors import InputError
 from ...integrate.reference import reference
 from ...integrate.to_heyoka import TAYLOR_TOLERANCE
-from ...integrate.trajectory import FALLBACK_RTOL, SCIPY_METHODS
+from ...integrate.trajectory import FALLBACK_RTOL
 from ...orbit.flow.flow import reduced_motion
 from ...physics.coefficients import limits_of
 from ...physics.equations import derive
@@ -39,77 +31,11 @@ from ...physics.states import (
     to_space,
 )
 from ...physics.to_numpy import to_numpy
-from ...processes import machine, versions
 from ..simulate import STIFF_METHOD, Simulation, errors_of, in_quaternions, simulate
 from .checked import CAUTION, DEFAULT, MOST, NEAR, checked_digits, digits_of
 
 if TYPE_CHECKING:
     from ...physics.law_limits import Validity
-
-
-# --- The measured fronts, kept from run to run: per machine and version, in the user's cache folder
-CACHE_SCHEMA = "stabilab.front/1"
-SAFETY = 1.0  # digits that a setting must have had to spare when it was measured
-
-
-@dataclass(frozen=True)
-class FrontPoint:
-    """A setting that no other beats: digits of the states over the span, cost in seconds. rtol: the setting's
-    value (nodes for "reduced", order for an expansion)."""
-
-    method: str
-    rtol: float
-    digits: float
-    cost: float
-
-
-def front(case: Any) -> tuple[FrontPoint, ...]:
-    """The measured front of a case on this machine with this version, cheapest first; empty where none was
-    measured (`stabilab precision CASE` measures it)."""
-    try:
-        data = json.loads(_file(case).read_text(encoding="utf-8"))
-        if data["schema"] != CACHE_SCHEMA or data["machine"] != machine() | versions():
-            return ()
-        return tuple(FrontPoint(str(p["method"]), float(p["rtol"]), float(p["digits"]), float(p["cost"]))
-                     for p in data["front"])
-    except (OSError, ValueError, KeyError, TypeError):
-        return ()
-
-
-def keep(measured: Any) -> Path | None:
-    """Keep the front of a measurement over the whole span, a quick one only where there is none yet; the
-    file, or None where a part of the span was not judged or the folder cannot be written."""
-    if measured.reference.status != "agrees":
-        return None
-    try:
-        path = _file(measured.case)
-    except OSError:
-        return None
-    if measured.quick and front(measured.case):
-        return path
-    points = [asdict(FrontPoint(p.method, p.value, round(p.digits, 3), p.seconds))
-              for p in measured.front("span")]
-    text = json.dumps({"schema": CACHE_SCHEMA, "case": measured.case.name, "machine": machine() | versions(),
-                       "front": points},
-                      indent=1, allow_nan=False)
-    waiting = path.with_name(f".{path.name}.{os.getpid()}")
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        waiting.write_text(text, encoding="utf-8")
-        waiting.replace(path)
-    except OSError:
-        return None
-    return path
-
-
-def _file(case: Any) -> Path:
-    """One file per motion: the scene's numbers, the start and the span, whatever the case file is called.
-    OSError where nothing is to be kept."""
-    folder = cache_folder()
-    if folder is None:
-        raise FileNotFoundError("STABILAB_CACHE is off")
-    key = in_words((case.scene, case.state, case.span, *sorted(case.blocks.items())))
-    return folder / "precision" / f"{sha256(key.encode()).hexdigest()[:24]}.json"
 
 
 # --- The reduced form as one of the ways to follow a motion: `reduced_motion` at a given resolution
@@ -128,6 +54,7 @@ MANY, REDUCED_FORM = "many digits", "reduced form"
 # the finest Taylor series, which costs little more than a coarse one; Radau where the scene is stiff
 OWN = ("as simulate chooses", 0.0)
 STIFF_FINE = (STIFF_METHOD, 1e-12)
+SAFETY = 1.0  # digits that a stiff run at its own tolerance must have to spare
 FAR = 1e4  # radians or so from which the reduced form, whose cost does not grow, is cheaper than a run
 # radians beyond which a run in many digits takes more than the work allowed (`precision_reference.WORK`)
 FARTHEST = 1e5
@@ -152,18 +79,6 @@ class Reached:
         return self.run.status == "reached" and self.digits >= self.asked
 
 
-def simulate_to(case: Any, times: np.ndarray, digits: int = DEFAULT) -> Reached:
-    """The exact motion of a case at the times (as of `simulate`) to `digits` decimal digits: relative to the
-    largest size of each part of the state over the times.
-
-    Raises InputError for digits outside 1 to 15, and ToleranceNotMet where no setting reaches them.
-    """
-    found = best_reached(case, times, digits)
-    if not found.enough:
-        raise ToleranceNotMet(missed(case, found))
-    return found
-
-
 def missed(case: Any, found: Any) -> str:
     """Why digits were not reached, in words."""
     if found.run.status != "reached":
@@ -172,18 +87,19 @@ def missed(case: Any, found: Any) -> str:
             "ask for fewer or for a shorter span")
 
 
-def best_reached(case: Any, times: np.ndarray, digits: int = DEFAULT, measured: bool = True,
-                 aim: bool = False) -> Reached:
-    """As `simulate_to`, but where no setting reaches the digits the motion that comes nearest. Where stepping
-    stops early, so would finer steps: then only the reduced form is left. measured: choose by the times that
-    were measured on this machine; without them the answer is always the same. aim: nobody asked for the
-    digits: the last `NEAR` of them may be missing, and many digits go no farther than FAR."""
+def best_reached(case: Any, times: np.ndarray, digits: int = DEFAULT, aim: bool = False) -> Reached:
+    """The exact motion of a case at the times (as of `simulate`) to 1 to 15 decimal digits, relative to the
+    largest size of each part of the state over the times. Where nothing reaches them, the motion that comes
+    nearest.
+
+    aim: nobody asked for the digits: the last `NEAR` of them may be missing, and many digits go no farther
+    than FAR.
+    """
     checked_digits(digits, MOST)
     times = np.atleast_1d(np.asarray(times, float))
     best: Any = None  # `simulate`'s own way always has an answer
     far = _turned(case, times) > (FAR if aim else FARTHEST)
-    tried = candidates(case, times, digits) if measured else _unmeasured(case, times)
-    for method, value in tried:
+    for method, value in _ways(case, times):
         if best is not None and _hopeless(method, best, far):
             continue
         found = _checked(case, times, method, value, digits)
@@ -205,18 +121,9 @@ def _hopeless(method: str, best: Reached, far: bool) -> bool:
     return best.run.status != "reached" or (far if method == MANY else best.run.method == REDUCED_FORM)
 
 
-def candidates(case: Any, times: np.ndarray, digits: int) -> list[tuple[str, float]]:
-    """(method, setting) to try, in order: what was measured to reach the digits with one to spare, cheapest
-    first; then, whatever was measured, what `simulate` chooses itself, and many digits, with the reduced form
-    before the one that costs more."""
-    end = max(case.span, key=abs) if case.span else 0.0
-    inside = np.all((times * np.sign(end) >= 0) & (np.abs(times) <= abs(end)))
-    measured = [(p.method, p.rtol) for p in front(case) if inside and p.digits >= digits + SAFETY
-                and p.method in RUNS]
-    return list(dict.fromkeys([*measured, *_unmeasured(case, times)]))
-
-
-def _unmeasured(case: Any, times: np.ndarray) -> list[tuple[str, float]]:
+def _ways(case: Any, times: np.ndarray) -> list[tuple[str, float]]:
+    """(method, setting) to try, in order: what `simulate` chooses itself and many digits, with the reduced
+    form before the one that costs more."""
     ladder = [("reduced", nodes) for nodes in _resolutions(case, times)]
     return [*ladder, OWN, (MANY, 0.0)] if _turned(case, times) > FAR else [OWN, *ladder, (MANY, 0.0)]
 
@@ -250,7 +157,7 @@ def _checked(case: Any, times: np.ndarray, method: str, value: Any, asked: int) 
     if method == MANY:
         return _many_digits(case, times, asked)
     try:
-        run = RUNS[method](case, times, method, value)
+        run = (_reduced if method == "reduced" else _integrated)(case, times, method, value)
     except InputError:
         if (method, value) == OWN:
             raise
@@ -262,7 +169,7 @@ def _checked(case: Any, times: np.ndarray, method: str, value: Any, asked: int) 
     if method == "reduced":
         return _checked_reduced(case, times, run, value, asked)
     other_value = _other(method, value)
-    other = RUNS[method](_moved(case), times, method, other_value) if run.status == "reached" else run
+    other = _integrated(_moved(case), times, method, other_value) if run.status == "reached" else run
     if other.status != "reached":
         return Reached(run, asked, 0.0, f"the check of {method} stopped early")
     gap = _distance(run, other)
@@ -331,10 +238,6 @@ def _reduced(case: Any, times: np.ndarray, method: str, nodes: float) -> Simulat
     return Simulation(times, {_first(case): orbit.states(times)}, "exact", REDUCED_FORM, None,
                       counters=counters,
                       reason=f"time as an integral over the reduced coordinate, {int(nodes)} nodes")
-
-
-RUNS = {"taylor": _integrated, OWN[0]: _integrated, **dict.fromkeys(SCIPY_METHODS, _integrated),
-        "reduced": _reduced}
 
 
 def _first(case: Any) -> str:

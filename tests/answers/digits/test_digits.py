@@ -14,9 +14,8 @@ from stabilab.answers.digits import ask as precision_questions
 from stabilab.answers.digits import run as precision_digits
 from stabilab.answers.digits.ask import ask, ask_all
 from stabilab.answers.digits.checked import Told
-from stabilab.answers.digits.run import FrontPoint, best_reached
+from stabilab.answers.digits.run import best_reached
 from stabilab.errors import InputError, ToleranceNotMet
-from stabilab.integrate.reference import reference, relative_errors
 from tests.oracles import energy
 from tests.oracles.model import physical, scaled
 
@@ -172,15 +171,6 @@ def test_too_few_digits_end_with_5_after_the_answer(stabilab, monkeypatch):
 
 
 # -- the paper's cases
-
-
-def test_a_front_that_was_measured_decides_the_method_and_a_stopped_run_is_handed_back(monkeypatch):
-    one = case("minor-axis-300")
-    monkeypatch.setattr(precision_digits, "front", lambda case: (FrontPoint("DOP853", 1e-9, 7.6, 2e-6),))
-    assert best_reached(one, [1.0, 3.0], 6).run.method == "DOP853"
-    exact = reference(one.scene, one.state, [1.0, 3.0])
-    found = best_reached(one, [1.0, 3.0], 6)
-    assert relative_errors(found.run.state["x"], exact.states, exact.rest, exact.slices).max() <= 1e-6
 
 
 # -- far times, and digits that nobody asked for

@@ -9,27 +9,18 @@ import pytest
 
 import stabilab
 from stabilab.answers.digits import run as precision_digits
-from stabilab.answers.digits.run import OWN, FrontPoint, best_reached
+from stabilab.answers.digits.run import OWN
 from stabilab.errors import InputError
 from tests.shared import case
 
 
-@pytest.mark.slow
-def test_a_measured_method_that_refuses_the_motion_is_passed_over(monkeypatch):
-    one = case("charged-body-attitude")  # the reduced form has no attitude
-    monkeypatch.setattr(precision_digits, "front", lambda case: (FrontPoint("reduced", 40, 14.0, 1e-6),))
-    found = best_reached(one, [0.0, 0.5], 8)
-    assert found.enough and "reduced" not in found.because and "attitude" not in found.run.state
-    assert "angles" in found.run.state
-
-
 def test_a_check_that_stops_early_shows_no_digit(monkeypatch):
-    one, plain = case("minor-axis-100"), precision_digits.RUNS["taylor"]
+    one, plain = case("minor-axis-100"), precision_digits._integrated
 
     def stops(case, times, method, rtol):
         run = plain(case, times, method, rtol)
         return run if case is one else replace(run, status="stopped")
-    monkeypatch.setattr(precision_digits, "RUNS", {**precision_digits.RUNS, "taylor": stops, OWN[0]: stops})
+    monkeypatch.setattr(precision_digits, "_integrated", stops)
     found = precision_digits._checked(one, np.array([0.0, 1.0]), *OWN, 9)
     assert found.digits == 0 and not found.enough and "stopped early" in found.because
 

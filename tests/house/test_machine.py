@@ -1,18 +1,12 @@
-"""Where measured fronts are kept, and what a front that is read back must agree with: the rules of each
-platform by hand."""
-import json
+"""The cache folder of each platform, by its rules, and what a machine is called."""
 import platform
 import sys
 from pathlib import Path
 
 import pytest
 
-import stabilab
 from stabilab import processes as machine
-from stabilab.answers.digits import run as precision_front
-from stabilab.answers.digits.run import FrontPoint, cache_folder, front
-
-CASE = stabilab.load(Path(__file__).parents[3] / "cases" / "torque-free-body.toml")
+from stabilab.cache import cache_folder
 
 
 @pytest.mark.parametrize("system, local, wanted",
@@ -59,25 +53,3 @@ def test_a_library_that_is_missing_is_named_so(monkeypatch):
     before = machine.versions()
     monkeypatch.setattr(metadata, "version", version)
     assert machine.versions() == before | {"heyoka": "not installed"} and before["numpy"][0].isdigit()
-
-
-def kept(tmp_path, monkeypatch, **changes):
-    """The front that is read from a file with these entries."""
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
-    path = precision_front._file(CASE)
-    path.parent.mkdir(parents=True, exist_ok=True)
-    good = {"schema": precision_front.CACHE_SCHEMA, "machine": machine.machine() | machine.versions(),
-            "front": [{"method": "taylor", "rtol": 1e-6, "digits": 5.5, "cost": 1e-4}]}
-    path.write_text(json.dumps({name: value for name,
-                                value in (good | changes).items() if value is not None}))
-    return front(CASE)
-
-
-@pytest.mark.parametrize("changes", [{"schema": "stabilab.front/0"}, {"machine": {}}, {"machine": None},
-                                     {"front": None}, {"front": 3},
-                                     {"front": [{"method": "taylor"}]}, {"front": [["taylor", 1]]},
-                                     {"front": [{"method": "taylor", "rtol": "small", "digits": 5,
-                                                 "cost": 1}]}])
-def test_a_kept_front_of_another_form_or_machine_is_none(changes, tmp_path, monkeypatch):
-    assert kept(tmp_path, monkeypatch) == (FrontPoint("taylor", 1e-6, 5.5, 1e-4),)
-    assert kept(tmp_path, monkeypatch, **changes) == ()
