@@ -1,15 +1,8 @@
-"""Extrema and events along a motion.
+"""The zeros that a motion passes: of its rates, where its components are extreme, or of other expressions.
 
-Local extremes of a motion's components: every root of every rate over a span, none lost between samples.
-
-With heyoka the Taylor polynomial of each rate over each step is searched for all its real roots. SciPy's
-stand-in looks for sign changes on the step's own interpolant, which can miss a pair of roots closer than a
-sixteenth of a step.
-
-The first root of an expression along a run in machine precision, whatever the scene.
-
-With heyoka the Taylor polynomial of the expression over each step is searched for all its real roots; SciPy's
-stand-in looks for sign changes on the step's own interpolant, sixteen to a step.
+With heyoka the Taylor polynomial of each expression over each step is searched for all its real roots, so
+that none is lost. SciPy's stand-in looks for changes of sign on the step's own interpolant, sixteen to a
+step, and can miss two roots that are closer.
 """
 from __future__ import annotations
 
@@ -19,12 +12,122 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..physics.states import equations_and_start
-from ..physics.to_numpy import lambdified, to_numpy
+from ..physics.to_numpy import Form, evaluate, to_numpy
 from .quadratic_series import in_unit, mass_unit, own_unit
 from .to_heyoka import TAYLOR_TOLERANCE, heyoka_available, taylor_events
 from .trajectory import FALLBACK_RTOL, STEP_LIMIT, floor, root_between, sign_changes, stand_in
 
 SUBSAMPLES = 16
+TOGETHER = 400  # steps between looks at what was found
+# natural times a step may take: a motion that is a polynomial of time has steps without end, whose powers
+# overflow
+LONGEST = 1e6
+
+
+@dataclass(frozen=True)
+class Passed:
+    """A run and the zeros on its way. zeros: (time, which of the expressions, state (N,)), in the order of
+    the run; t, state: where it ended; steps: taken; reason: why it ended before its time, else empty."""
+
+    zeros: list[tuple[float, int, np.ndarray]]
+    t: float
+    state: np.ndarray
+    steps: int
+    reason: str
+
+    @property
+    def first(self) -> float | None:
+        """The time of the first of them."""
+        return self.zeros[0][0] if self.zeros else None
+
+
+def zeros_passed(forms: Form, state, rates, t_end: float, steps: int = STEP_LIMIT,
+                 tolerance: float = TAYLOR_TOLERANCE, first: bool = False) -> Passed:
+    """The motion from `state` (N,) at t = 0 to t_end, of either sign, and the zeros on its way of those
+    expressions of a form that stand behind its N rates; those of the start itself do not count.
+
+    rates: (N,) near the start; steps: after so many the run is given up; first: it ends soon after the first
+    zero.
+    """
+    with np.errstate(all="ignore"):
+        if heyoka_available():
+            return _by_taylor(forms, state, float(t_end), steps, tolerance, first, _longest(rates, state))
+        return _by_scipy(forms, state, float(t_end), steps, tolerance, first)
+
+
+def _by_taylor(forms, state, t_end, steps, tolerance, first, longest) -> Passed:
+    zeros, done = [], 0
+    with taylor_events(forms, tolerance) as (integrator, found):
+        integrator.time = 0.0
+        integrator.state[:] = state
+        while True:
+            outcome, _, _, taken, *_ = integrator.propagate_until(
+                t_end, max_steps=min(TOGETHER, steps - done), max_delta_t=longest)
+            done += taken
+            zeros += [zero for zero in found if zero[0] != 0 and np.isfinite(zero[2]).all()]
+            found.clear()
+            if outcome.name != "step_limit" or done >= steps or (first and zeros):
+                break
+        now, end = float(integrator.time), integrator.state.copy()
+    zeros.sort(key=lambda zero: abs(zero[0]))
+    if not np.isfinite(end).all():
+        now, _, end = zeros[-1] if zeros else (0.0, 0, state)
+    return Passed(zeros, now, end, done, "" if outcome.name == "time_limit" else f"stopped: {outcome.name}")
+
+
+def _longest(rates, state) -> float:
+    """The longest step, by the size of the first three components and the roots of their rates."""
+    changes = np.abs(rates[:3])
+    size = max(float(np.abs(state[:3]).max()),
+               math.sqrt(float(changes.max())) if np.isfinite(changes).all() else 1.0)
+    return LONGEST / size if size > 0 else math.inf
+
+
+def _by_scipy(forms, state, t_end, steps, tolerance, first) -> Passed:
+    n, rtol = len(forms.state), max(tolerance, FALLBACK_RTOL)
+    atol = floor(state, rtol)
+    moving, behind = (Form(forms.state, part, forms.symbols, forms.numbers)
+                      for part in (forms.expressions[:n], forms.expressions[n:]))
+
+    def run(t, y, end):
+        return stand_in(lambda x: moving.function(*x, *moving.numbers), y, end, t, rtol, atol)
+
+    if t_end == 0:
+        return Passed([], 0.0, state, 0, "")
+    solver, zeros, done = run(0.0, state, t_end), [], 0
+    while solver.status == "running" and done < steps and not (first and zeros):
+        begin, before = solver.t, solver.y.copy()
+        solver.step()
+        if solver.status == "failed" or not np.isfinite(solver.y).all():
+            return Passed(zeros, begin, before, done, "stopped: the numbers overflowed")
+        done += 1
+        zeros += sorted(_zeros_of_step(behind, solver, before, run), key=lambda zero: abs(zero[0]))
+    reason = "" if solver.status == "finished" else f"stopped: {steps} steps were not enough"
+    return Passed(zeros, float(solver.t), solver.y, done, reason)
+
+
+def _zeros_of_step(behind, solver, before, run):
+    """Changes of sign within one step, each with the state there."""
+    dense, zeros = solver.dense_output(), []
+    times = np.linspace(solver.t_old, solver.t, SUBSAMPLES + 1)
+    values = evaluate(behind, dense(times).T)
+    for i, row in enumerate(values.T):
+        for left in sign_changes(row):
+            t = root_between(lambda y, i=i: evaluate(behind, y)[i], dense, times[left], times[left + 1])
+            zeros.append((t, i, _land(run, solver.t_old, before, t)))
+        if np.abs(row).max() > 0:
+            zeros += [(times[n], i, dense(times[n])) for n in np.nonzero(row[1:] == 0)[0] + 1]
+    return zeros
+
+
+def _land(run, t, y, t_end):
+    """The state at t_end by steps of the method that end there (free of the interpolant's error)."""
+    if t == t_end:
+        return y
+    solver = run(t, y, t_end)
+    while solver.status == "running":
+        solver.step()
+    return solver.y
 
 
 @dataclass(frozen=True)
@@ -67,13 +170,13 @@ def roots_of_rates(scene, state, t_end: float, tolerance: float = TAYLOR_TOLERAN
     with np.errstate(all="ignore"):
         rates = to_numpy(equations)(state)
     if not np.isfinite(rates).all():
-        return _sorted([], state, state, 0.0, "none", 0, "stopped: the rates overflow at the start")
+        return _roots(Passed([], 0.0, state, 0, "stopped: the rates overflow at the start"), state, "none")
     if equations.blocks == ("omega",):
         unit, mass = own_unit(scene, state.tolist(), rates.tolist()), mass_unit(scene)
         if unit != 1 or mass != 1:
             return _in_unit(scene, state, float(t_end), tolerance, unit, mass)
-    search = _taylor_roots if heyoka_available() else _scipy_roots
-    return search(equations, state, float(t_end), tolerance)
+    passed = zeros_passed(to_numpy(equations).motion_and_rates, state, rates, t_end, tolerance=tolerance)
+    return _roots(passed, state, "taylor" if heyoka_available() else "DOP853")
 
 
 def _in_unit(scene, state, t_end, tolerance, unit, mass) -> RateRoots:
@@ -83,153 +186,8 @@ def _in_unit(scene, state, t_end, tolerance, unit, mass) -> RateRoots:
                    t_reached=found.t_reached / unit)
 
 
-def _taylor_roots(equations, state, t_end, tolerance):
-    with taylor_events(to_numpy(equations).motion_and_rates,
-                       tolerance) as (integrator, found), np.errstate(all="ignore"):
-        integrator.time = 0.0
-        integrator.state[:] = state
-        outcome, _, _, steps, *_ = integrator.propagate_until(t_end, max_steps=STEP_LIMIT)
-        end, t_reached, hits = integrator.state.copy(), integrator.time, list(found)
-    hits = [h for h in hits if h[0] != 0.0 and np.isfinite(h[2]).all()]
-    if not np.isfinite(end).all():
-        t_reached, _, end = hits[-1] if hits else (0.0, 0, state)
-    reason = "" if outcome.name == "time_limit" else f"stopped: {outcome.name}"
-    return _sorted(hits, state, end, t_reached, "taylor", steps, reason)
-
-
-def _sorted(hits, start, end, t_reached, method, steps, reason):
-    hits = sorted(hits, key=lambda h: abs(h[0]))
-    return RateRoots(np.array([h[0] for h in hits]), np.array([h[1] for h in hits], int),
-                     np.array([h[2] for h in hits]).reshape(-1, len(start)), np.array(start), np.array(end),
-                     float(t_reached),
-                     method, int(steps), reason)
-
-
-def _scipy_roots(equations, state, t_end, tolerance):
-    system, rtol = to_numpy(equations), max(tolerance, FALLBACK_RTOL)
-
-    def run(t, y, end):
-        return stand_in(system.rate, y, end, t, rtol, floor(state, rtol))
-
-    if t_end == 0:
-        return _sorted([], state, state, 0.0, "DOP853", 0, "")
-    solver, hits, steps = run(0.0, state, t_end), [], 0
-    with np.errstate(all="ignore"):
-        while solver.status == "running" and steps < STEP_LIMIT:
-            before = solver.y.copy()
-            solver.step()
-            if solver.status == "failed" or not np.isfinite(solver.y).all():
-                return _sorted(hits, state, before, solver.t_old or 0.0, "DOP853", steps,
-                               "stopped: the numbers overflowed")
-            steps += 1
-            hits += _step_roots(system, solver, before, run)
-    reason = "" if solver.status == "finished" else f"stopped: {STEP_LIMIT} steps were not enough"
-    return _sorted(hits, state, solver.y, solver.t, "DOP853", steps, reason)
-
-
-def _step_roots(system, solver, before, run):
-    """Sign changes of the rates within one step, each polished on the motion itself."""
-    dense, hits = solver.dense_output(), []
-    times = np.linspace(solver.t_old, solver.t, SUBSAMPLES + 1)
-    rates = system(dense(times).T)
-    for i in range(len(before)):
-        for left in sign_changes(rates[:, i]):
-            t = root_between(lambda y, i=i: system.rate(y.tolist())[i], dense, times[left], times[left + 1])
-            hits.append((t, i, _land(run, solver.t_old, before, t)))
-        hits += [(times[n], i, dense(times[n])) for n in np.nonzero(rates[1:, i] == 0)[0] + 1
-                 if np.abs(rates[:, i]).max() > 0]
-    return hits
-
-
-def _land(run, t, y, t_end):
-    """The state at t_end by steps of the method that end there (free of the interpolant's error)."""
-    if t == t_end:
-        return y
-    solver = run(t, y, t_end)
-    while solver.status == "running":
-        solver.step()
-    return solver.y
-
-
-TOGETHER = 400  # steps between looks at what was found
-# natural times a step may take: a motion that is a polynomial of time has steps without end, whose powers
-# overflow
-LONGEST = 1e6
-
-
-@dataclass(frozen=True)
-class FirstRoot:
-    """t: the first root, None where none was found; until: the time that the run reached; ended: whether that
-    is the time asked for; steps: taken."""
-
-    t: float | None
-    until: float
-    ended: bool
-    steps: int
-
-
-def root_of(forms, rate, state, t_max: float, steps: int, tolerance: float = TAYLOR_TOLERANCE) -> FirstRoot:
-    """The first time in (0, t_max] at which one of the expressions of a form is zero, which stand behind its
-    rates.
-
-    rate: of a list of floats; state: (N,) at time 0; steps: after so many the run is given up.
-    """
-    with np.errstate(all="ignore"):
-        longest = _longest(np.asarray(rate(state.tolist()), float), state)
-    if heyoka_available():
-        return _by_taylor(forms, state, t_max, steps, tolerance, longest)
-    return _by_scipy(forms, rate, state, t_max, steps, tolerance)
-
-
-def _by_taylor(forms, state, t_max, steps, tolerance, longest):
-    with taylor_events(forms, tolerance) as (integrator, found), np.errstate(all="ignore"):
-        integrator.time, done = 0.0, 0
-        integrator.state[:] = state
-        while True:
-            outcome, _, _, taken, *_ = integrator.propagate_until(
-                t_max, max_steps=min(TOGETHER, steps - done), max_delta_t=longest)
-            done += taken
-            hits = [t for t, *_ in found if t > 0]
-            if hits:
-                return FirstRoot(min(hits), float(integrator.time), True, done)
-            alive = np.isfinite(integrator.state).all()
-            if outcome.name != "step_limit" or done >= steps or not alive:
-                return FirstRoot(None, float(integrator.time) if alive else 0.0,
-                                 outcome.name == "time_limit" and bool(alive), done)
-
-
-def _longest(changes, state) -> float:
-    """The longest step, by the rates of the start and the roots of their changes."""
-    changes = np.abs(changes[:3])
-    size = max(float(np.abs(state[:3]).max()),
-               math.sqrt(float(changes.max())) if np.isfinite(changes).all() else 1.0)
-    return LONGEST / size if size > 0 else math.inf
-
-
-def _by_scipy(forms, rate, state, t_max, steps, tolerance):
-    values = _compiled(forms, len(forms.state))
-    solver = stand_in(rate, state, t_max, rtol=max(tolerance, FALLBACK_RTOL))
-    for done in range(steps):
-        if solver.status != "running":
-            break
-        with np.errstate(all="ignore"):
-            solver.step()
-        if solver.status == "failed" or not np.isfinite(solver.y).all():
-            return FirstRoot(None, float(solver.t_old or 0.0), False, done)
-        if roots := _of_step(values, solver.dense_output(), solver.t_old, solver.t):
-            return FirstRoot(float(min(roots)), float(solver.t), True, done)
-    return FirstRoot(None, float(solver.t), solver.status == "finished", steps)
-
-
-def _of_step(values, dense, begin, end):
-    """The first sign change of each expression within one step."""
-    times, roots = np.linspace(begin, end, SUBSAMPLES + 1), []
-    for n, row in enumerate(np.array([values(y) for y in dense(times).T]).T):
-        for left in sign_changes(row)[:1]:
-            roots.append(root_between(lambda y, n=n: values(y)[n], dense, times[left], times[left + 1]))
-    return roots
-
-
-def _compiled(forms, count):
-    function = lambdified(forms.state + forms.symbols, list(forms.expressions[count:]))
-    return lambda y: function(*map(float, y), *forms.numbers)
+def _roots(passed: Passed, start, method: str) -> RateRoots:
+    times, components, states = zip(*passed.zeros) if passed.zeros else ((), (), ())
+    return RateRoots(np.array(times, float), np.array(components, int),
+                     np.array(states).reshape(-1, len(start)), np.array(start), np.array(passed.state),
+                     passed.t, method, passed.steps, passed.reason)

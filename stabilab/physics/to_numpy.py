@@ -201,7 +201,7 @@ class System:
 
     def __call__(self, x: ArrayLike) -> np.ndarray:
         """Rates of the states x: (..., 3) -> (..., 3)."""
-        return _evaluate(self.rhs, x)
+        return evaluate(self.rhs, x)
 
     def rate(self, x: Sequence[float]) -> list[float]:
         """Rates of one state given as a list of three plain floats, as a list (no array overhead)."""
@@ -213,18 +213,18 @@ class System:
 
     def jacobian(self, x: ArrayLike) -> np.ndarray:
         """d rate_i / d x_j: (..., 3) -> (..., 3, 3)."""
-        flat = _evaluate(self.entries, x)
+        flat = evaluate(self.entries, x)
         n = len(self.equations.state)
         return flat.reshape(flat.shape[:-1] + (n, n))
 
     def invariants(self, x: ArrayLike) -> dict[str, np.ndarray]:
         """Law name -> its quantity (up to an additive constant) at the states x: (..., 3) -> (...)."""
-        flat = _evaluate(self.quantities, x)
+        flat = evaluate(self.quantities, x)
         return {law.name: flat[..., i] for i, law in enumerate(self.equations.balances)}
 
     def law_rates(self, x: ArrayLike) -> dict[str, np.ndarray]:
         """Law name -> rate of its quantity at the states x: (..., 3) -> (...)."""
-        flat = _evaluate(self.rates, x)
+        flat = evaluate(self.rates, x)
         return {law.name: flat[..., i] for i, law in enumerate(self.equations.balances)}
 
     def law_sizes(self, x: ArrayLike) -> dict[str, np.ndarray]:
@@ -296,7 +296,7 @@ def _call(form: Form, x: Sequence[float]) -> list[float]:
     return form.function(*x, *form.numbers)
 
 
-def _evaluate(form: Form, x: ArrayLike) -> np.ndarray:
+def evaluate(form: Form, x: ArrayLike) -> np.ndarray:
     """Values of the form at x (..., 3), one per expression in the last place; constants are spread over the
     batch."""
     x = _inexact(x)
@@ -307,7 +307,7 @@ def _evaluate(form: Form, x: ArrayLike) -> np.ndarray:
 
 
 def _columns(form: Form, x: ArrayLike) -> np.ndarray:
-    """`_evaluate` with one row an expression: (..., 3) -> (expressions, ...), which many states in a row fill
+    """`evaluate` with one row an expression: (..., 3) -> (expressions, ...), which many states in a row fill
     faster."""
     x = _inexact(x)
     columns = np.ascontiguousarray(x.transpose((x.ndim - 1, *range(x.ndim - 1))))

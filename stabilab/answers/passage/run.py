@@ -28,20 +28,19 @@ place says how well it is known.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
-from functools import cached_property, lru_cache, partial
+from functools import cached_property, lru_cache
 from itertools import combinations_with_replacement
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ...caveat import Caveat
-from ...integrate.events import SUBSAMPLES, FirstRoot, root_of
+from ...integrate.events import zeros_passed
 from ...integrate.quadratic_series import in_unit, mass_unit, own_unit
-from ...integrate.to_heyoka import TAYLOR_TOLERANCE, heyoka_available, taylor_events
-from ...integrate.trajectory import stand_in
+from ...integrate.to_heyoka import TAYLOR_TOLERANCE
 from ...numbers.vectors import CYCLE, Float3
 from ...physics.coefficients import limits_of
 from ...physics.equations import Equations, derive, rotation
@@ -204,7 +203,6 @@ WIDER = 4.0  # times what the two runs differ by
 ROUNDING = 2.0**-50  # relative, of a time that both find alike
 VAGUE = 1e-6  # of a time: two runs that differ by more may have met the limit by rounding alone
 HIGHER = Fraction(1, 2**44)  # of a limit: far beyond the rounding of a motion that settles there
-CHUNK = 256  # steps between two looks at what was found
 FARTHEST = 10**300  # squares of rates that no run in doubles reaches
 PRODUCTS = tuple(combinations_with_replacement(range(3), 2))  # of two rates
 
@@ -214,30 +212,31 @@ def by_run(scene: AnyScene, start: Any, limit: Limit, t_max: float = math.inf, s
     """The first crossing of the motion of any scene. start: numbers or blocks, as `trajectory` takes them;
     t_max: the scene's time; beside: the state from which the second run starts (None: moved in the start's
     last place)."""
-    search, state, unit = _search(scene, start, limit)
+    forms, state, rates, unit = _search(scene, start, limit)
     end = t_max * unit if math.isfinite(t_max) else 1e300
-    one = search(state, end, steps)
+    one = zeros_passed(forms, state, rates, end, steps, first=True)
     words = f"{limit.words}: roots along a run in machine precision"
-    if one.t is None:
-        far = "t_max" if one.ended else f"{steps} steps"
-        low = one.until * (1 - ROUNDING) / unit
-        because = f"{words}: not reached by t = {one.until / unit:.6g} {scene.time_unit} ({far})"
+    if one.first is None:
+        far = f"{steps} steps" if one.reason else "t_max"
+        low = one.t * (1 - ROUNDING) / unit
+        because = f"{words}: not reached by t = {one.t / unit:.6g} {scene.time_unit} ({far})"
         return Found(low, math.nan, "run", because, one.steps)
     second = moved_row(state, MOVED) if beside is None else beside / unit
-    two = search(second, end, 2 * steps, 4 * TAYLOR_TOLERANCE)
-    if two.t is None:
+    two = zeros_passed(forms, second, rates, end, 2 * steps, 4 * TAYLOR_TOLERANCE, first=True)
+    if two.first is None:
         return Found(0.0, math.nan, "undecided",
-                     f"{words} find it at {one.t / unit:.6g} {scene.time_unit}, a second run from a start "
-                     "moved in its last place does not: more than a run in doubles can tell", one.steps)
-    blur = WIDER * abs(one.t - two.t) + ROUNDING * one.t
-    if blur > VAGUE * one.t:
+                     f"{words} find it at {one.first / unit:.6g} {scene.time_unit}, a second run from a "
+                     "start moved in its last place does not: more than a run in doubles can tell", one.steps)
+    blur = WIDER * abs(one.first - two.first) + ROUNDING * one.first
+    if blur > VAGUE * one.first:
         higher = _search(scene, start, limit.raised(HIGHER))[0]
-        if higher(state, min(end, one.t + 2 * blur), 2 * steps).t is None:
-            return Found(max(0.0, one.t - blur) / unit, math.nan, "undecided",
-                         f"{words} find it at {one.t / unit:.6g} {scene.time_unit}, but not a limit greater "
-                         f"by {float(HIGHER):.1g} of it: the motion may come near it and no farther",
+        end = min(end, one.first + 2 * blur)
+        if zeros_passed(higher, state, rates, end, 2 * steps, first=True).first is None:
+            return Found(max(0.0, one.first - blur) / unit, math.nan, "undecided",
+                         f"{words} find it at {one.first / unit:.6g} {scene.time_unit}, but not a limit "
+                         f"greater by {float(HIGHER):.1g} of it: the motion may come near it and no farther",
                          one.steps)
-    return Found(max(0.0, one.t - blur) / unit, (one.t + blur) / unit, "run",
+    return Found(max(0.0, one.first - blur) / unit, (one.first + blur) / unit, "run",
                  f"{words}, the error from a second one", one.steps)
 
 
@@ -248,58 +247,35 @@ def run_once(scene: AnyScene, state: Sequence[float], limit: Limit, t_max: float
 
     scene: wheel and torque; state: three floats; t_max: the scene's time.
     """
-    search, start, unit = _search(scene, state, limit)
-    found = search(start, t_max * unit if math.isfinite(t_max) else 1e300, steps)
-    until = t_max if found.t is None and found.ended and math.isfinite(t_max) else found.until / unit
-    return (math.inf, until) if found.t is None else (found.t / unit, math.inf)
+    forms, start, rates, unit = _search(scene, state, limit)
+    end = t_max * unit if math.isfinite(t_max) else 1e300
+    found = zeros_passed(forms, start, rates, end, steps, first=True)
+    if found.first is not None:
+        return found.first / unit, math.inf
+    return math.inf, t_max if not found.reason and math.isfinite(t_max) else found.t / unit
 
 
-def _search(scene: AnyScene, start: Any, limit: Limit) -> tuple[Callable[..., FirstRoot], np.ndarray, float]:
-    """(search(state, end, steps, tolerance) for the first crossing in the motion's own unit of rates, the
-    start in it, that unit)."""
+def _search(scene: AnyScene, start: Any, limit: Limit) -> tuple[Form, np.ndarray, Any, float]:
+    """(rates followed by what vanishes at the limit, in the motion's own unit of rates; the start and its
+    rates in it; that unit)."""
     if limit.kind == "tilt" or not scene.plain:
         equations, state, unit, expressions = _asked(scene, start, limit)
-        forms, rate = form(equations, (*equations.rhs, *expressions)), to_numpy(equations).rate
-    else:
-        own, unit, state = _in_own_unit(scene, start)
-        forms, rate = _quadratic(own, limit.parts, Fraction(unit) ** 2), own.quadratic().rate
-    return partial(root_of, forms, rate), state, unit
+        with np.errstate(all="ignore"):
+            rates = to_numpy(equations)(state)
+        return form(equations, (*equations.rhs, *expressions)), state, rates, unit
+    own, unit, state = _in_own_unit(scene, start)
+    return (_quadratic(own, limit.parts, Fraction(unit) ** 2), state, own.quadratic().rate(state.tolist()),
+            unit)
 
 
 def largest_rate(scene: AnyScene, state: Sequence[float], until: float, budget: int) -> tuple[float, float]:
     """(largest |omega| from 0 to `until`, rad/s; the time that the run reached, s): at its ends and where it
     is stationary."""
     own, unit, start = _in_own_unit(scene, state)
-    sizes, reached = (_turning if heyoka_available() else _sampled)(own, start, until * unit, budget)
-    return max(v for v in sizes if math.isfinite(v)) * unit, reached / unit
-
-
-def _turning(scene: AnyScene, start: np.ndarray, end: float, budget: int) -> tuple[list[float], float]:
-    """(|omega| at the ends and wherever it is stationary, time reached)."""
-    sizes, steps = [float(np.linalg.norm(start))], 0
-    with taylor_events(_quadratic(scene)) as (run, found), np.errstate(all="ignore"):
-        run.time, run.state[:] = 0.0, start
-        while steps < budget and run.time < end and np.isfinite(run.state).all():
-            steps += max(run.propagate_until(end, max_steps=min(CHUNK, budget - steps))[3], 1)
-            sizes.append(max((float(np.linalg.norm(state)) for _, _, state in found), default=0.0))
-            found.clear()
-        return [*sizes, float(np.linalg.norm(run.state))], float(run.time)
-
-
-def _sampled(scene: AnyScene, start: np.ndarray, end: float, budget: int) -> tuple[list[float], float]:
-    """The same where heyoka is not installed: at sixteen places of every step."""
-    solver, sizes = stand_in(scene.quadratic().rate, start, end, rtol=3e-14,
-                             atol=1e-16), [float(np.linalg.norm(start))]
-    for _ in range(budget):
-        if solver.status != "running":
-            break
-        with np.errstate(all="ignore"):
-            solver.step()
-        if not np.isfinite(solver.y).all():
-            return sizes, float(solver.t_old or 0.0)
-        states = solver.dense_output()(np.linspace(solver.t_old, solver.t, SUBSAMPLES + 1)).T
-        sizes.append(float(np.linalg.norm(states, axis=1).max()))
-    return sizes, float(solver.t)
+    rates = own.quadratic().rate(start.tolist())
+    run = zeros_passed(_quadratic(own), start, rates, until * unit, budget)
+    sizes = [float(np.linalg.norm(one)) for one in (start, run.state, *(at for _, _, at in run.zeros))]
+    return max(sizes) * unit, run.t / unit
 
 
 def _in_own_unit(scene: AnyScene, state: Sequence[float]) -> tuple[AnyScene, float, np.ndarray]:

@@ -29,9 +29,7 @@ from fractions import Fraction
 
 import numpy as np
 
-from ...integrate import to_heyoka
-from ...integrate.events import roots_of_rates
-from ...integrate.trajectory import ATOL_SHARE, FALLBACK_RTOL, stand_in
+from ...integrate.events import roots_of_rates, zeros_passed
 from ...numbers.balls import FIRST_BITS, Unclear, settled
 from ...numbers.vectors import CYCLE, Float3
 from ...orbit.extremes.one_state import CERTAIN_BITS
@@ -199,16 +197,18 @@ def search_certificate(c, y, t_max):
         return found, 0.0, y, 0.0, 0
     if not math.isfinite(sum(v * v for v in y) * (1 + c * c)):
         return "none", None, y, 0.0, 0
-    run, t, last, steps = runner(c, y), 0.0, 0.0, 0
+    run, t, last, steps = turning_run(c), 0.0, 0.0, 0
     budget = STEP_BUDGET if c < 0 else RELEASE_BUDGET
     while t < t_max and steps < budget:
-        t = min(t_max, t + max(1.0 / (1 + abs(c) + max(map(abs, y))), 0.2 * t))
-        t, y, reversal, taken = run(t, budget - steps)
-        last, steps = reversal if reversal is not None else last, steps + taken
-        if not all(map(math.isfinite, y)):
-            break
+        end = min(t_max, t + max(1.0 / (1 + abs(c) + max(map(abs, y))), 0.2 * t))
+        passed = run(y, end - t, budget - steps)
+        last = t + passed.zeros[-1][0] if passed.zeros else last
+        t = t + passed.t if passed.reason else end
+        y, steps = tuple(passed.state.tolist()), steps + passed.steps
         if found := certificate(c, y):
             return found, t, y, last, steps
+        if passed.reason:
+            break
     return "none", None, y, last, steps
 
 
@@ -224,49 +224,14 @@ def nearest_other(c, y, t_max, name, steps):
     return None
 
 
-def runner(c, y):
-    """run(t, step limit) -> (time reached, state, last reversal of the turn on the way or None, steps)."""
+def turning_run(c):
+    """run(state, length, step limit): the motion, and the zeros of R^2 phi', where the turn reverses."""
     equations = derive(ScaledGyrostat(Fraction(c) / -2, Fraction(c) / 2, (1, 0, 0)))
     _, x2, x3 = equations.state
-    turn = x2 * equations.rhs[2] - x3 * equations.rhs[1]  # R^2 phi'
-    maker = _taylor_runner if to_heyoka.heyoka_available() else _scipy_runner
-    return maker(equations, form(equations, (*equations.rhs, turn)), y)
+    forms = form(equations, (*equations.rhs, x2 * equations.rhs[2] - x3 * equations.rhs[1]))
 
-
-def _taylor_runner(equations, forms, y):
-    at = [0.0, y]
-
-    def run(t, limit):
-        with to_heyoka.taylor_events(forms) as (integrator, found):
-            integrator.time = at[0]
-            integrator.state[:] = at[1]
-            steps = integrator.propagate_until(t, max_steps=limit)[3]
-            at[:] = integrator.time, tuple(integrator.state.tolist())
-            reversals = [time for time, *_ in found]
-        return at[0], at[1], max(reversals, default=None), steps
-    return run
-
-
-def _scipy_runner(equations, forms, y):
-    from scipy.optimize import brentq
-    system, at = to_numpy(equations), [0.0, np.array(y)]
-
-    def turn(x):
-        rate = system.rate(list(x))
-        return x[1] * rate[2] - x[2] * rate[1]
-
-    def run(t, limit):
-        solver = stand_in(system.rate, at[1], t, at[0], atol=FALLBACK_RTOL * ATOL_SHARE)
-        steps, last = 0, None
-        while solver.status == "running" and steps < limit:
-            solver.step()
-            steps += 1
-            dense, times = solver.dense_output(), np.linspace(solver.t_old, solver.t, 9)
-            values = np.array([turn(x) for x in dense(times).T])
-            for n in np.nonzero(values[:-1] * values[1:] < 0)[0]:
-                last = brentq(lambda s, dense=dense: turn(dense(s)), times[n], times[n + 1])
-        at[:] = solver.t, solver.y
-        return solver.t, tuple(solver.y.tolist()), last, steps
+    def run(y, length, limit):
+        return zeros_passed(forms, np.array(y), to_numpy(equations)(y), length, limit)
     return run
 
 

@@ -15,9 +15,9 @@ from stabilab.answers.simulate import trajectory
 from stabilab.unreduced.growth.certificate import (
     captured_extremes,
     release_estimate,
-    runner,
     search_certificate,
     spin_up_margin,
+    turning_run,
     well_margin,
 )
 from stabilab.unreduced.growth.law import captured_fate
@@ -104,13 +104,10 @@ def test_the_last_reversal_of_the_turn_is_the_same_by_both_steppers(state, turns
     pytest.importorskip("heyoka")
     found = []
     for available in (True, False):
-        monkeypatch.setattr("stabilab.integrate.to_heyoka.heyoka_available", lambda: available)
-        run, last = runner(0.3, state), None
-        for t in (1.0, 2.5, 6.0):
-            reached, y, reversal, steps = run(t, 10**6)
-            assert reached == t and steps > 0
-            last = last if reversal is None else reversal
-        found.append((last, y))
+        monkeypatch.setattr("stabilab.integrate.events.heyoka_available", lambda: available)
+        passed = turning_run(0.3)(state, 6.0, 10**6)
+        assert passed.t == 6 and passed.steps > 0 and not passed.reason
+        found.append((passed.zeros[-1][0] if passed.zeros else None, passed.state))
     assert (found[0][0] is not None) == (found[1][0] is not None) == turns
     if turns:
         assert found[0][0] == pytest.approx(found[1][0], rel=1e-9)
