@@ -16,9 +16,6 @@ OUTPUTS = ("p", "q", "psi", "phi", "G1", "G2", "v1", "v2", "v3", "x1", "x2", "x3
 ONE, E, PI, PIC, GAMMA, GAMMAC, V, W, U, VEL, POS, VEL3, POS3, POSC = range(14)
 BITS = 520
 STEP = -170  # binary exponent of the relative step of the difference quotients
-LINEAR = ("M1", "M2", "p0", "q0", "psi0", "phi0")
-
-
 def outputs(values: dict):
     """The twelve outputs as flint balls for inputs given as floats or balls."""
     from flint import acb, acb_mat, arb, ctx

@@ -8,7 +8,7 @@ import mpmath as mp
 import numpy as np
 
 from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene
-from tests.oracles import model
+from tests.oracles import energy, model
 from tests.oracles.energy import motion_of
 
 WORDS = {"bounded": 0, "spin-up": 1, "separatrix": 2, "equilibrium": 3, "undecided": 4}
@@ -38,7 +38,7 @@ def brink(problem, perpendicular, distance, sense=1, digits=60):
     """The double state nearest to relative distance `distance` from the separatrix in the torque axis's
     component, above the given perpendicular pair (j, k cyclic after the axis); None where no barrier stands
     ahead of it."""
-    axis = next(i for i in range(3) if problem.m[i])
+    axis = axis_of(problem)
     state = [0.0, 0.0, 0.0]
     state[(axis + 1) % 3], state[(axis + 2) % 3] = perpendicular
     with mp.workdps(digits):
@@ -58,6 +58,23 @@ def barrier_ahead(problem, state, digits):
     marks = motion._ahead(forward)[0] if motion.kind == "elliptic" else motion.stationary()
     heights = [-motion.W(t) for t, kind in marks if kind == "saddle"]
     return max(heights) if heights and max(heights) > 0 else None
+
+
+def axis_of(problem):
+    """The axis of the torque."""
+    return next(i for i in range(3) if problem.m[i])
+
+
+def assert_margin(problem, state, got, digits=60):
+    """To 1e-12 of its two terms, the height of the barrier over the state and the kinetic energy; without a
+    barrier nothing holds a motion on a circle, and walls hold every other."""
+    exact, axis = energy.margin(problem, state, digits=digits), axis_of(problem)
+    if exact is None:
+        circle = problem.kappa[axis - 1] * problem.kappa[axis - 2] < 0
+        assert got == (-np.inf if circle else np.inf), state
+        return
+    exact, kinetic = float(exact), 0.5 * float(problem.weight[axis]) * float(state[axis]) ** 2
+    assert abs(got - exact) <= 1e-12 * (abs(exact + kinetic) + kinetic), [float(v).hex() for v in state]
 
 
 def as_floats(rows):
@@ -83,11 +100,6 @@ def random_problem(rng, axis, variables="physical"):
     momentum, torque = rng.normal(size=3), [0.0, 0.0, 0.0]
     momentum[axis], torque[axis] = 0.0, size
     return physical(random_body(rng), momentum, torque)
-
-
-def rank_axis(inertia, rank):
-    """Index of the minor (0), middle (1), major (2) axis."""
-    return int(np.argsort(inertia)[rank])
 
 
 def exactly(*digits):

@@ -13,12 +13,11 @@ import stabilab
 from stabilab import Body, Fate, Gyrostat, Scene
 from stabilab.answers.motion import motion
 from stabilab.orbit.landscape import landscape
-from stabilab.orbit.reduction import reduce
 from tests.oracles import energy
 from tests.oracles.energy import Reduced, _levels
-from tests.oracles.pairs import WORDS, exactly, physical, scaled
+from tests.oracles.pairs import WORDS, assert_margin, axis_of, exactly, physical, scaled
 from tests.orbit.extremes.test_extremes import assert_extremes
-from tests.orbit.fate.test_fate import FAMILIES, axis_of
+from tests.orbit.fate.test_fate import FAMILIES
 from tests.shared import PARABOLIC
 
 ALL = FAMILIES | PARABOLIC
@@ -233,12 +232,9 @@ ON_TOP = {
 @pytest.mark.parametrize("name", ON_TOP)
 def test_at_the_place_of_an_equilibrium_extremes_margin_and_period_are_right(name):
     (scene, problem), state = ON_TOP[name]
-    axis = next(i for i in range(3) if problem.m[i])
     result = stabilab.fate(scene, np.array(state))
     assert WORDS[energy.label(problem, state, digits=200)] == result.labels
-    exact, kinetic = float(energy.margin(problem, state,
-                                         digits=200)), 0.5 * float(problem.weight[axis]) * state[axis] ** 2
-    assert abs(float(result.margins) - exact) <= 1e-12 * (abs(exact + kinetic) + kinetic)
+    assert_margin(problem, state, float(result.margins), digits=200)
     assert_extremes(stabilab.extremes(scene, np.array(state)), energy.extremes(problem, state, digits=200),
                     1e-11)
     assert float(stabilab.period(scene,
@@ -303,12 +299,7 @@ def test_motions_along_parabolas_have_the_fate_and_extremes_of_the_potential(nam
                                                                    states), stabilab.period(scene, states)
     for n, state in enumerate(states.tolist()):
         assert found.labels[n] == WORDS[energy.label(problem, state, digits=60)]
-        margin = energy.margin(problem, state, digits=60)
-        kinetic = 0.5 * float(problem.weight[reduce(scene).axis]) * state[reduce(scene).axis] ** 2
-        if margin is None:
-            assert np.isposinf(found.margins[n])
-        else:
-            assert abs(found.margins[n] - float(margin)) <= 1e-12 * (abs(float(margin) + kinetic) + kinetic)
+        assert_margin(problem, state, found.margins[n])
         assert_extremes(boxes[n], energy.extremes(problem, state, digits=60), 1e-11)
         if n < 3:
             assert times[n] == pytest.approx(float(energy.period(problem, state)), rel=1e-11)

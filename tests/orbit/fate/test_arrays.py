@@ -15,9 +15,9 @@ from stabilab.orbit.fate.result import empty_columns, in_chunks
 from stabilab.orbit.fate.table import barrier_table
 from stabilab.orbit.landscape import landscape
 from tests.oracles import energy
-from tests.oracles.pairs import WORDS, brink, exactly, physical, scaled
+from tests.oracles.pairs import WORDS, axis_of, brink, exactly, physical, scaled
 from tests.orbit.extremes.test_extremes import assert_extremes
-from tests.orbit.fate.test_fate import ELLIPTIC, FAMILIES, axis_of, sample
+from tests.orbit.fate.test_fate import ELLIPTIC, FAMILIES, sample
 from tests.shared import PARABOLIC
 
 fate = importlib.import_module("stabilab.orbit.fate.arrays")
@@ -125,16 +125,18 @@ def test_the_table_leaves_edges_to_the_general_formula_and_agrees_with_it_elsewh
 
 
 @pytest.mark.one_in(3)
-@pytest.mark.parametrize("a, b, sign", [(0.25, 0.5, 1), (0.25, 0.5, -1), (0.0, 3.0, 1), (0.0, -3.0, -1)])
+@pytest.mark.parametrize("a, b, sign", [(0.25, 0.5, 1), (0.25, 0.5, -1), (0.0, 3.0, 1), (0.0, -3.0, 1),
+                                        (0.5, 0.5, 1), (0.0, -3.0, -1), (0.0, 3.0, -1)])
 @pytest.mark.parametrize("plane", [-1, 1])
-def test_a_spin_up_on_an_invariant_plane_tells_its_axis_sense_reason_and_margin(a, b, sign, plane):
-    """Labels and heights from the potential at 60 digits; on the plane that decays the one barrier ahead
-    counts."""
+def test_motions_on_an_invariant_plane_tell_axis_sense_reason_margin_and_extremes(a, b, sign, plane):
+    """Labels, heights and extremes from the potential at 60 digits: x3 = -(x1 + b) decays in the torque's
+    direction, where the one barrier ahead counts, and x3 = x1 + b grows."""
     scene, problem = scaled(a, b, (0, sign, 0))
     states = [(y - b, w, plane * y) for y in (-4.0, -1.25, -0.5, 0.5, 1.25, 4.0)
               for w in (-3.0, -0.75, 0.0, 2.5)]
-    found = stabilab.fate(scene, np.array(states))
+    found, boxes = stabilab.fate(scene, np.array(states)), stabilab.extremes(scene, np.array(states))
     for n, state in enumerate(states):
+        assert_extremes(boxes[n], energy.extremes(problem, state, digits=60), 1e-11)
         word = energy.label(problem, state, digits=60)
         assert found.labels[n] == WORDS[word]
         assert (found.axis[n], found.sense[n]) == ((2, sign) if word == "spin-up" else (0, 0))
@@ -270,23 +272,6 @@ def test_spin_about_a_torque_that_no_other_rate_disturbs_grows_for_ever(axis, mo
         assert box[:2] == pytest.approx(np.hypot(*state[:2]) * np.array([[-1, 1], [-1, 1]]), rel=1e-14)
     else:
         assert box[1:].tolist() == [[0, 0], [0, 0]]
-
-
-@pytest.mark.one_in(3)
-@pytest.mark.parametrize("a, b, sign",
-                         [(0.25, 0.5, 1), (0.25, 0.5, -1), (0.0, 3.0, 1), (0.0, -3.0, 1), (0.5, 0.5, 1),
-                                        (0.0, 3.0, -1)])
-@pytest.mark.parametrize("plane", [-1, 1])
-def test_motions_on_the_invariant_planes_have_the_fate_and_extremes_of_the_potential(a, b, sign, plane):
-    """x3 = -(x1 + b) decays in the torque's direction, x3 = x1 + b grows; the oracle follows the one
-    exponential left."""
-    scene, problem = scaled(a, b, (0, sign, 0))
-    states = [(y - b, w, plane * y) for y in (-4.0, -1.25, -0.5, 0.5, 1.25, 4.0)
-              for w in (-3.0, -0.75, 0.0, 2.5)]
-    found, boxes = stabilab.fate(scene, np.array(states)), stabilab.extremes(scene, np.array(states))
-    for n, state in enumerate(states):
-        assert found.labels[n] == WORDS[energy.label(problem, state, digits=60)], state
-        assert_extremes(boxes[n], energy.extremes(problem, state, digits=60), 1e-11)
 
 
 @pytest.mark.one_in(2)

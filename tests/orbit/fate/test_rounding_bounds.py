@@ -23,8 +23,8 @@ from stabilab.orbit.one_orbit import Orbit
 from stabilab.orbit.reduction import Reduction, reduce
 from tests.oracles import energy
 from tests.oracles.energy import Reduced
-from tests.oracles.pairs import brink, physical, scaled
-from tests.orbit.fate.test_fate import ELLIPTIC, FAMILIES, axis_of
+from tests.oracles.pairs import assert_margin, axis_of, brink, physical, scaled
+from tests.orbit.fate.test_fate import ELLIPTIC, FAMILIES
 from tests.shared import PARABOLIC
 
 fate = importlib.import_module("stabilab.orbit.fate.arrays")
@@ -199,14 +199,12 @@ def test_margins_of_circles_far_larger_than_their_barriers_are_high_keep_twelve_
     """Against the potential at 80 digits, by the general formula, by the table and by the table compiled."""
     D, momentum, torque, state = FAR_OUT[case]
     scene, problem = physical(D, momentum, torque)
-    exact, axis = float(energy.margin(problem, state, digits=80)), axis_of(problem)
-    kinetic = 0.5 * D[axis] * state[axis] ** 2
     many = np.random.default_rng(1).normal(size=(6000, 3)) * np.abs(state).max()
     many[0] = state
     for states, fast in zip((many[:1], many, many),
                             (False, False, None if find_spec("numba") is None else True)):
         found = stabilab.fate(scene, states, fast=fast)
-        assert abs(found.margins[0] - exact) <= 1e-12 * (kinetic + abs(exact + kinetic))
+        assert_margin(problem, state, found.margins[0], digits=80)
         assert found.precise <= 10
 
 
@@ -224,13 +222,7 @@ def test_margins_near_the_poles_of_circles_of_any_size_keep_twelve_digits_and_se
         found = stabilab.fate(scene, states)
         asked, count = asked + found.precise, count + len(states)
         for state, margin in zip(states.tolist(), found.margins):
-            exact = energy.margin(problem, state)
-            kinetic = 0.5 * float(problem.weight[i]) * state[i] ** 2
-            assert np.isneginf(margin) if exact is None else abs(margin
-                                                                 - float(exact)) <= 1e-12 * (kinetic
-                                                                                             + abs(
-                                                                                                 float(exact)
-                                                                                                 + kinetic)), (name, [v.hex() for v in state])
+            assert_margin(problem, state, margin, digits=100)
     assert asked <= 0.1 * count
 
 

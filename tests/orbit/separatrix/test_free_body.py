@@ -82,7 +82,7 @@ def polhode(state):
 
 @pytest.mark.one_in(4)
 @pytest.mark.parametrize("order", ORDERS)
-@pytest.mark.parametrize("factor", [1 - 2**-30, 1 + 2**-30, 0.5, 2.0])
+@pytest.mark.parametrize("factor", [1 - 2**-51, 1 + 2**-51, 1 - 2**-30, 1 + 2**-30, 0.5, 2.0])
 def test_beside_the_separatrix_a_free_body_turns_as_jacobis_functions_say(order, factor):
     rows, period = polhode((3.0 * factor, 1.0, 4.0))
     scene, state = Scene(Body([MOMENTS[n] for n in order])), tuple((3.0 * factor, 1.0, 4.0)[n] for n in order)

@@ -34,17 +34,11 @@ def images_agree(number, seed):
         what = moments, wheel, torque, state, order
         assert first.settled and second.settled, what
         assert abs(first.upper - second.upper) <= 1.1e-9 * first.upper, what
-    return known
 
 
-def test_a_scene_and_its_image_have_one_distance_known_to_1e_9():
-    assert images_agree(15, 8) == 15
-
-
-@pytest.mark.slow
-@pytest.mark.long
-def test_bound_and_witness_meet_on_two_thousand_random_scenes():
-    assert images_agree(1000, 2026) == 1000
+@pytest.mark.parametrize("number", [15, pytest.param(1000, marks=[pytest.mark.slow, pytest.mark.long])])
+def test_a_scene_and_its_image_have_one_distance_known_to_1e_9(number):
+    images_agree(number, 8)
 
 
 def test_a_body_without_effects_is_as_far_from_its_separatrix_as_from_two_planes():
@@ -112,15 +106,9 @@ def check_loops(number, seed):
         assert np.linalg.norm(points - state,
                               axis=1).min() >= found.lower - off, (moments, wheel, torque, state)
         known += 1
-    return known
 
 
 @pytest.mark.slow
-def test_no_point_of_a_loop_that_is_integrated_is_nearer_than_the_lower_bound():
-    assert check_loops(12, 9) == 12
-
-
-@pytest.mark.slow
-@pytest.mark.long
-def test_no_point_of_many_loops_that_are_integrated_is_nearer_than_the_lower_bound():
-    assert check_loops(300, 10) == 300
+@pytest.mark.parametrize("number", [12, pytest.param(300, marks=pytest.mark.long)])
+def test_no_point_of_a_loop_that_is_integrated_is_nearer_than_the_lower_bound(number):
+    check_loops(number, 9)
