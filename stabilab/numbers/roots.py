@@ -104,6 +104,16 @@ def held_newton(look: Callable[[float], tuple[float, float, bool | None]], low: 
     return x
 
 
+def halved(value: Callable[[float], float], low: float, high: float) -> float:
+    """The root of a function between two floats at which its signs differ, by halving, to some last places of
+    the larger."""
+    rising, enough = value(high) > 0, 2 * EPS * max(abs(low), abs(high))
+    while high - low > enough:
+        middle = 0.5 * (low + high)
+        low, high = (low, middle) if (value(middle) > 0) == rising else (middle, high)
+    return 0.5 * (low + high)
+
+
 def between(lo: float, hi: float) -> float:
     """A point inside (lo, hi), geometric where the ends differ by orders of magnitude."""
     if lo * hi > 0 and not 0.01 < abs(lo / hi) < 100:

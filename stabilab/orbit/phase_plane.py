@@ -7,6 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
+from ..numbers.roots import halved
 from .far_states import in_range
 from .landscape import Landscape, landscape_in_doubles
 
@@ -108,8 +109,7 @@ class PhasePlane:
         return y[first:last], np.sqrt(2 * np.maximum(drop[first:last], 0))
 
     def _edge(self, saddle, left, right):
-        from scipy.optimize import brentq
-        return brentq(lambda y: float(self.height(y, saddle)), left, right, xtol=1e-13)
+        return halved(lambda y: float(self.height(y, saddle)), left, right)
 
     def loop(self, saddle, low, high):
         """(end, end) of the homoclinic loop through the saddle, None where it does not close in the window.
@@ -173,7 +173,6 @@ def _side(plane, edge, sense, ceiling, cellar):
 def motion_curve(plane: PhasePlane, low, high, points=4001):
     """(y, W >= 0) of the motion through the state: its connected piece of the level curve inside [low, high].
     """
-    from scipy.optimize import brentq
     free = lambda v: plane.W0**2 / 2 - float(plane.height(v))
     ends = []
     for limit in (low, high):
@@ -181,9 +180,8 @@ def motion_curve(plane: PhasePlane, low, high, points=4001):
         left = plane.W0**2 / 2 - plane.height(grid)
         outside = np.nonzero(left[1:] < 0)[0]
         if len(outside):
-            i = int(outside[0])
-            inside = free(grid[i])
-            limit = brentq(free, grid[i], grid[i + 1], xtol=1e-14) if inside > 0 else grid[i]
+            near, far = grid[outside[0]:outside[0] + 2].tolist()
+            limit = halved(free, *sorted((near, far))) if free(near) > 0 else near
         ends.append(float(limit))
     phase = np.linspace(-np.pi / 2, np.pi / 2, 801)
     y = (ends[0] + ends[1]) / 2 + (ends[1] - ends[0]) / 2 * np.sin(phase)

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from stabilab.numbers.polynomial import Poly, real_roots
-from stabilab.numbers.roots import EPS, between, bracketed_newton
+from stabilab.numbers.roots import EPS, between, bracketed_newton, halved
 
 # name -> (f, f', bracket, root by hand, rising, most evaluations from the middle)
 FUNCTIONS = {
@@ -26,6 +26,12 @@ FUNCTIONS = {
     "an exponential": (lambda x: np.exp(x) - 1e12, np.exp, (0.0, 700.0), math.log(1e12), True, 24),
     "tiny numbers": (lambda x: x * x - 1e-40, lambda x: 2 * x, (0.0, 1.0), 1e-20, True, 80),
 }
+
+
+@pytest.mark.parametrize("name", [name for name in FUNCTIONS if name != "tiny numbers"])  # below its rounding
+def test_halving_ends_at_the_root_to_the_last_places_of_the_larger_end(name):
+    f, _, (low, high), root, _, _ = FUNCTIONS[name]
+    assert halved(f, low, high) == pytest.approx(root, abs=4 * EPS * max(abs(low), abs(high)))
 
 
 def solved(name, start, enough=2 * EPS):

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...answers.equilibria import equilibria
+from ...numbers.roots import halved
 from ...orbit.phase_plane import PhasePlane, motion_curve, phase_plane, window
 from .. import style
 from ..sampling import spread
@@ -221,13 +222,12 @@ def _rest(one, D, wheel, size):
 
 
 def _roots(function, low, high):
-    from scipy.optimize import brentq
     t = spread(low, high, 4001)
     values = np.array([function(v) for v in t])
     with np.errstate(all="ignore"):
         change = np.nonzero(np.isfinite(values[:-1]) & np.isfinite(values[1:])
                             & (values[:-1] * values[1:] <= 0) & (values[:-1] != 0))[0]
-    return [brentq(function, t[n], t[n + 1], xtol=1e-15, rtol=1e-14) for n in change]
+    return [halved(function, t[n], t[n + 1]) for n in change]
 
 
 # --- The surface on which a motion stays: the sphere of its momentum, or the cylinder of a torque on an
