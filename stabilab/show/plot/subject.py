@@ -11,6 +11,8 @@ from typing import Any
 
 from ...answers.equilibria import equilibria
 from ...answers.motion import motion
+from ...answers.stuck.ask import stuck
+from ...answers.stuck.result import Row
 from ...case.read import Case, load
 from ...errors import InputError, printable
 from ...orbit.far_states import far_exponent
@@ -101,6 +103,11 @@ class Subject:
         gamma = tuple(self.blocks.get("gamma", ())) if "gamma" in self.scene.blocks else ()
         found = motion(self.scene, (*self.state, *gamma), self.span, exact=self.exact_state)
         return found if self.case is None else law.judged(self.case, found)
+
+    @cached_property
+    def stuck(self) -> Row:
+        """What the stuck thrusters of the case do together. Raises InputError as `answers.stuck` does."""
+        return stuck(self.case).rows[0]
 
     @cached_property
     def seen(self) -> tuple[float, ...]:

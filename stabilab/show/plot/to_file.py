@@ -56,7 +56,9 @@ def write_all(case: Any, path: str | Path, kind: str | None = None, size: tuple[
     same bytes (but for "budget", whose times are measured). Raises InputError for another ending, and where
     the case has no such plot: it names those that there are.
     """
-    one = replace(subject(case, span=span), neighbours=neighbours)
+    one = subject(case, span=span)
+    if neighbours is not None:
+        one = replace(one, neighbours=neighbours)
     chosen = checked(path, one, kind)
     if neighbours and chosen != "section":
         raise InputError(f"neighbours: a section alone shows them (kind section), got kind {chosen}")

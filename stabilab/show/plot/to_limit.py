@@ -8,7 +8,7 @@ import numpy as np
 from ...answers.caveats import STEADY
 from ...answers.passage.of_case import limit_of
 from ...answers.stuck.fate import PATIENCE, scenario_of
-from ...answers.stuck.wheel import delayed, intervals, times_over
+from ...answers.stuck.wheel import times_over
 from ...answers.tilt import SIDES, by_angle
 from ...numbers.principal import without_trace
 from .. import style
@@ -102,25 +102,21 @@ def wheel(case: Any, ax: Axes | None = None, units: str | None = None,
     """
     one = subject(case)
     which.check("wheel", one)
-    scale, scenario = measures(one, units), scenario_of(one.case)
+    scale, scenario, row = measures(one, units), scenario_of(one.case), one.stuck
     torque, first = scenario.torque([t for t in scenario.case.thrusters if t.stuck]), one.motion.first[1]
     time = float(first.low), float(first.high)
     curves = []
-    for part in scenario.case.wheels:
+    for part, found in zip(scenario.case.wheels, row.wheels):
         axis = without_trace(scenario.axes.turned(part.axis), torque)
-        others = tuple(w - part.momentum * a for w, a in zip(scenario.wheel, axis))
-        kept = () if one.motion.fate in STEADY else intervals(scenario.scene(torque, others), scenario.state,
-                                                              axis)[0]
-        best = delayed(scenario, torque, axis, part.momentum, time)
-        curves.append((part, *times_over(scenario, torque, axis, part.momentum, time), kept, best))
-    gains = [times - time[0] for _, _, times, *_ in curves]
+        curves.append((part, found, *times_over(scenario, torque, axis, part.momentum, time)))
+    gains = [times - time[0] for *_, times in curves]
     unit, per = scale.time(max(float(np.abs(gain[np.isfinite(gain)]).max(initial=time[0])) for gain in gains))
     with canvas.on(ax, size) as target:
         rows: list[tuple[str, dict[str, Any]]] = []
-        for (part, momenta, _, kept, best), gain, look in zip(curves, gains, WHEELS):
-            if best is not None and best[2] is not None:
-                after = int(np.searchsorted(momenta, best[0]))
-                momenta, gain = np.insert(momenta, after, best[0]), np.insert(gain, after, best[2])
+        for (part, found, momenta, _), gain, look in zip(curves, gains, WHEELS):
+            if found.gain is not None:
+                after = int(np.searchsorted(momenta, found.best))
+                momenta, gain = np.insert(momenta, after, found.best), np.insert(gain, after, found.gain)
             reached = np.isfinite(gain)
             target.plot(momenta, per * np.where(reached, gain, np.nan), **look)
             rows.append((f"wheel {part.name}", look))
@@ -128,13 +124,15 @@ def wheel(case: Any, ax: Axes | None = None, units: str | None = None,
                 top = per * float(gain[reached].max(initial=time[0]))
                 target.plot(momenta[~reached], np.full((~reached).sum(), top), color=look["color"], **NEVER)
                 rows.append((f"not within {PATIENCE} times as long", NEVER | {"color": look["color"]}))
-            if best is not None and best[2] is not None:
-                words = f"{number(best[0], SHORT)} N m s: {number(per * best[2], SHORT)} {unit}"
-                side = ("left", "center", "right")[int(np.digitize(best[0] / best[3][1], (-0.5, 0.5)))]
-                target.annotate(words.replace("-", "\u2212"), (best[0], per * best[2]), (0, 6), ha=side,
+            if found.gain is not None:
+                best, later = found.best, per * found.gain
+                words = f"{number(best, SHORT)} N m s: {number(later, SHORT)} {unit}"
+                side = ("left", "center", "right")[int(np.digitize(best / found.searched[1], (-0.5, 0.5)))]
+                target.annotate(words.replace("-", "\u2212"), (best, later), (0, 6), ha=side,
                                 textcoords="offset points", color=look["color"])
-                target.plot(best[0], per * best[2], marker="o", color=look["color"], markersize=4)
+                target.plot(best, later, marker="o", color=look["color"], markersize=4)
             target.plot([float(part.momentum)], [0.0], zorder=5, **style.MARKER["start"])
+            kept = () if one.motion.fate in STEADY else found.keeps_bounded
             for low, high in kept:
                 target.axvspan(max(low, momenta[0]), min(high, momenta[-1]), **KEEPS)
             rows += [("keeps the motion bounded", KEEPS)] if kept else []

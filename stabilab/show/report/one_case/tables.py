@@ -4,7 +4,6 @@ from __future__ import annotations
 import math
 import re
 
-from ....answers.stuck.ask import stuck
 from ....case.limit_options import stated_limit
 from ....errors import InputError
 from ....orbit.potential import potential
@@ -92,13 +91,15 @@ def _between(name, pair, unit, one):
     return f"{name} {span} {unit}".rstrip()
 
 
-def sensitivity(case, motion, units) -> dict:
-    """Rows (what changes, by how much, in which direction, what is to be said) and sentences on wheels,
-    thrusters and a tilt of the torque. A tilt is that of the motion; where it has none, the command that
-    asks for one is named. An empty table comes with the reason.
+def sensitivity(one, units) -> dict:
+    """Of a subject (`plot.subject`) with a case and a motion: rows (what changes, by how much, in which
+    direction, what is to be said) and sentences on wheels, thrusters and a tilt of the torque. A tilt is that
+    of the motion; where it has none, the command that asks for one is named. An empty table comes with the
+    reason.
     """
+    case, motion = one.case, one.motion
     try:
-        row = stuck(case).rows[0]
+        row = one.stuck
     except InputError as error:
         return {"rows": _of_motion(case.scene, motion, units), "words": [],
                 "reason": printed(f"No margin of wheel or torque: {units.words(str(error))}.")}
