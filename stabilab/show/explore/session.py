@@ -167,7 +167,7 @@ class Session:
             found = law.judged(case, found, brief=True)
             if case.limits is not None and not moving and present("numpy"):
                 found = self._first(case, found)
-            words = headline(case, found, units, limit_first=True)
+            words = headline(case, found, units)
         settled = time.process_time()
         twin = self._twin(case)
         at_rest = self._at_rest(case, twin, moving)

@@ -399,11 +399,13 @@ def legend(ax: Any, rows: list[tuple[str, dict[str, Any]]], own: bool) -> None:
 
 
 def answer(one: Subject, scale: Measures) -> str:
-    """The outcome of the motion of a case, in the words of its headline; empty without a case."""
+    """What becomes of the motion of a case, and when it reaches its limit, as its headline begins; empty
+    without a case."""
     if one.case is None or one.state is None:
         return ""
     units = replace(scale.system or units_of(one.case), axes=axes_of(one.case))
-    return law.warned(one.motion.validity, outcome(one.motion, units)[0])
+    became, limit, _ = outcome(one.motion, units)
+    return law.warned(one.motion.validity, "; ".join(filter(None, (became, limit))))
 
 
 def title(ax: Any, *lines: str) -> None:

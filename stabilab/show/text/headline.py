@@ -26,23 +26,19 @@ LEVELS = {"run": "by a run alone"}
 CLAUSE = 110  # letters of a cause that the line has room for
 
 
-def headline(case: Case, motion: Motion, units: Units | None = None, limit_first: bool = False) -> str:
+def headline(case: Case, motion: Motion, units: Units | None = None) -> str:
     """The line of every page, picture and explorer, without the name of the case: the verdict, behind a
     warning where it is that of an approximate law that does not hold. units: of the case where None; their
-    names of axes, where they have any, go before those of the case. limit_first: as of `verdict`."""
-    return law.warned(motion.validity, verdict(case, motion, units, limit_first))
+    names of axes, where they have any, go before those of the case."""
+    return law.warned(motion.validity, verdict(case, motion, units))
 
 
-def verdict(case: Case, motion: Motion, units: Units | None = None, limit_first: bool = False) -> str:
-    """The outcome, its axis and the condition that it rests on; when the limit of the case is reached, before
-    the outcome where limit_first; what a tilt does; then its numbers."""
+def verdict(case: Case, motion: Motion, units: Units | None = None) -> str:
+    """The outcome, its axis and the condition that it rests on; when the limit of the case is reached; what a
+    tilt does; then its numbers."""
     units = (units_of(case) if units is None else replace(units, axes=axes_of(case)) if units.axes == PLAIN
              else units)
-    became, limit, tilted = outcome(motion, units)
-    if limit_first and limit:
-        verb, _, rest = limit.partition(" ")
-        became, limit = f"{verb.upper()} {rest}", became
-    parts = [became, limit, tilted, cause(motion, units), largest(motion, units), margin(motion, units),
+    parts = [*outcome(motion, units), cause(motion, units), largest(motion, units), margin(motion, units),
              period(motion, units)]
     return "; ".join(part for part in parts if part)
 

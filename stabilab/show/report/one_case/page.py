@@ -51,7 +51,7 @@ def sections(case, folder: Path, stem: str, deep: bool = True, certify: bool = F
     asked = ("equilibria", "fate") if case.state else ("equilibria",)
     box = _tried(absent, "Uncertain numbers", lambda: uncertain(case, asked)) if case.uncertain else None
     answer = f"No motion is given. Equilibria: {found.kind if found else 'not known'}"
-    answer = headline(case, moved, units, limit_first=True) if moved else answer
+    answer = headline(case, moved, units) if moved else answer
     beyond = "" if moved is None or moved.validity is None or moved.validity.held else moved.validity.words
     caveats = limiting.beside((one for one in case.caveats if one.kind != "uncertain"), units)
     page = {"name": case.name, "title": case.heading, "source": case.source,
