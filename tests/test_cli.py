@@ -153,7 +153,7 @@ def _liquid(cavity, D, wheel, w):
 
 @each_fifth
 def test_every_invariant_and_number_of_a_run_has_its_unit_in_text(fifth):
-    from stabilab.show.terminal.motion import QUANTITIES
+    from stabilab.show.text.motion import QUANTITIES
     motions = [answer["motion"] for answer in classified(fifth).values()]
     assert {name for motion in motions for part in ("invariants", "evidence")
             for name in motion[part]} <= set(QUANTITIES)
@@ -165,7 +165,7 @@ def test_numbers_in_json_are_doubles_to_the_last_digit(stabilab):
 
 
 def test_infinite_and_missing_values_become_null():
-    from stabilab.show.text.answers import as_json
+    from stabilab.show.data import as_json
     value = {"a": [math.inf, -math.inf, math.nan, None, np.float64(0.1), np.int64(3), 1 + 2j],
              "b": np.array([[1.0, np.inf]])}
     assert strict_json(as_json(value)) == {"a": [None, None, None, None, 0.1, 3, [1.0, 2.0]],

@@ -7,7 +7,8 @@ from functools import partial
 from ..case.read import blamed_on
 from ..cost.accuracy import precision as measure
 from ..errors import InputError
-from ..show.text import comparison, law
+from ..show.text import law
+from ..show.text.cost import comparison
 from ..show.text.cost import precision as shown
 from ..theories.comparison import compare as set_side_by_side
 from ..theories.follow import models_of

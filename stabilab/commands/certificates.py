@@ -6,8 +6,8 @@ from ..answers.certificate import certificate as proof_of
 from ..answers.certificate import subject
 from ..case.read import blamed_on
 from ..errors import InputError, ToleranceNotMet, printable
+from ..show import certification
 from ..show.files.endings import labelled
-from ..show.text import certification
 from ..verify import verify as check
 from ..verify.form import about, differences, line, read
 from ..verify.numbers import Malformed

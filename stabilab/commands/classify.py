@@ -6,8 +6,8 @@ from functools import partial
 from ..answers.attitude.ask import in_closed_form, of_motion
 from ..answers.equilibria import equilibria
 from ..case.read import blamed_on
-from ..show.terminal import classification
-from ..show.text import answers, law, uncertain
+from ..show.data import as_json
+from ..show.text import classification, law, uncertain
 from ..show.text.attitude import row_of
 from .common.cases import (
     load_cases,
@@ -42,7 +42,7 @@ def classify(cases, json, strict, certify, out, follow, tilt, units, why):
                 for case, found, motion in answered]
     laws = [law.worst(found.validity, motion and motion.validity) for _, found, motion, _ in answered]
     if json:
-        write(answers.as_json([answers.classification(case, found, motion)
+        write(as_json([classification.as_dict(case, found, motion)
                                | {"attitude": turn and row_of(case, turn)}
                                | law.key(held, case if motion is None else None) | uncertain.as_dict(box)
                                for (case, found, motion, turn), held, box in zip(answered, laws, boxes)]))
@@ -50,7 +50,7 @@ def classify(cases, json, strict, certify, out, follow, tilt, units, why):
         tell_all(answered, systems, partial(classification.text, proofs=why), None if why else _swept, laws,
                  boxes)
     certified = all([proof.certified(case, out) for case in loaded]) if certify else True
-    undecided = (any(answers.undecided(found, motion) for _, found, motion, _ in answered)
+    undecided = (any(classification.undecided(found, motion) for _, found, motion, _ in answered)
                  or any(map(uncertain.undecided, boxes)))
     leave_undecided(strict, not certified or undecided)
     hold_laws(strict, laws, loaded)

@@ -7,13 +7,13 @@ from ..maps.bifurcation.ask import bifurcation as ask
 from ..maps.diagram_certificate import certifiable, diagram_certificate
 from ..maps.plan import planned, split_keys
 from ..maps.run import run
+from ..show import certification
 from ..show.files import endings
 from ..show.maps import atlas as atlas_shown
 from ..show.maps import basins as basins_shown
 from ..show.maps import bifurcation as diagram_shown
 from ..show.maps import bifurcation_picture, to_file
 from ..show.maps import sweep as sweep_shown
-from ..show.text import certification
 from ..show.units import units_of
 from .common.output import leave_undecided, say, say_written, unphysical, write_answer
 

@@ -9,7 +9,7 @@ from ..case.source import example as text_of
 from ..case.write import data_of
 from ..errors import InputError, printable
 from ..files import whole_file
-from ..show.text.scene_text import of_all
+from ..show.text.scene import of_all
 from .common.cases import load_cases
 from .common.output import say, tell, write
 

@@ -7,9 +7,9 @@ from functools import partial
 from ..answers.attitude.ask import attitude as turning
 from ..answers.digits.checked import DEFAULT, by_bound, short
 from ..case.read import blamed_on
-from ..show.terminal import questions
-from ..show.text import answers, law, uncertain
+from ..show.data import as_json
 from ..show.text import attitude as attitudes
+from ..show.text import law, questions, uncertain
 from ..show.units import DEG
 from .common.cases import (
     answers_of,
@@ -40,11 +40,12 @@ def answer(question, cases, json, digits, strict, units, why, csv=False, follow=
     boxes = over_boxes([case for case, *_ in answered], *(["fate"] if question == "fate" else []))
     answered = [(case, sampled(found, box), told) for (case, found, told), box in zip(answered, boxes)]
     if json:
-        write(answers.as_json([
-            getattr(answers, question)(case, found, told) | law.key(found.validity) | uncertain.as_dict(box)
+        write(as_json([
+            getattr(questions, f"{question}_dict")(case, found, told) | law.key(found.validity)
+            | uncertain.as_dict(box)
             for (case, found, told), box in zip(answered, boxes)]))
     elif csv:
-        write(answers.extremes_csv(answered))
+        write(questions.extremes_csv(answered))
     else:
         _tell(question, answered, systems, digits, boxes, why)
     if digits is not None:
@@ -88,7 +89,7 @@ def attitude(cases, json, digits, strict, units):
     systems = [DEG if system.scaled else system for system in units_asked(loaded, units)]  # all is in SI here
     answered = answers_of(loaded, partial(turning, digits=digits))
     if json:
-        write(answers.as_json(attitudes.as_dict(answered)))
+        write(as_json(attitudes.as_dict(answered)))
     else:
         tell_all(answered, systems, attitudes.text)
     leave_undecided(strict, any(found.fate.word == "undecided" for _, found in answered))

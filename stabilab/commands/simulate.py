@@ -12,11 +12,10 @@ from ..answers.stuck.chain import simulate_burn
 from ..case.read import blamed_on, fires_on_schedule, load_burning
 from ..errors import InputError, ToleranceNotMet
 from ..show import reference as outside
-from ..show.files import trajectory_files
+from ..show.data import as_json
 from ..show.terminal import page
 from ..show.terminal.letters import lettered
-from ..show.terminal.run import text, zero_within
-from ..show.text import answers, law
+from ..show.text import law, simulation
 from ..theories.follow import follow
 from ..theories.theory import lines, theory
 from ..theories.top.euler_angles import with_euler_angles
@@ -41,7 +40,7 @@ def simulate(case, at, model, order, method, rtol, digits, angles, attitude, mat
     systems = units_asked(loaded, units)
     say_repeated(loaded[0], at)
     if out:
-        trajectory_files.checked(out)
+        simulation.checked(out)
     if burning is not None:
         with blamed_on(loaded[0]):
             turning = "quaternion" if attitude or matrix else None
@@ -54,7 +53,7 @@ def simulate(case, at, model, order, method, rtol, digits, angles, attitude, mat
     if angles:
         runs = [(one, _with_angles(one, run, model, order), reached) for one, run, reached in runs]
     if out:
-        write_each(out, [(one, partial(trajectory_files.write, one, run)) for one, run, _ in runs])
+        write_each(out, [(one, partial(simulation.write, one, run)) for one, run, _ in runs])
     if json:
         write_json(loaded, [_as_dict(*followed) for followed in runs])
     elif not out:
@@ -93,7 +92,7 @@ def _with_angles(case, run, model, order):
 
 def _as_dict(case, run, reached) -> dict:
     told = reached and {"asked": reached.asked, "reached": reached.digits, "because": reached.because}
-    return (answers.simulation(case, run) | {"digits": told} | {"theory": _theory(case, run)}
+    return (simulation.as_dict(case, run) | {"digits": told} | {"theory": _theory(case, run)}
             | law.key(run.validity, case))
 
 
@@ -101,8 +100,8 @@ def _as_text(case, run, reached, digits, units, width) -> str:
     checked = "checked to " if digits is None else ""
     last = f"\n# {checked}{reached.digits:.1f} digits: {reached.because}" if reached else ""
     told = "".join(f"\n# {lettered(units.words(line))}" for line in _theory(case, run, words=True))
-    return law.first(run.validity, text(case, run, units, None if digits is None else _known(reached, digits),
-                                        width) + last + told, units, case.caveats)
+    table = simulation.text(case, run, units, None if digits is None else _known(reached, digits), width)
+    return law.first(run.validity, table + last + told, units, case.caveats)
 
 
 def _known(reached, digits) -> int:
@@ -129,10 +128,10 @@ def _say_digits(runs):
 def _say_lost(runs):
     """Which columns of a file hold numbers that are no more than their error."""
     for case, run, _ in runs:
-        names, rows = answers.columns(run)
-        for name, error, values in zip(names, answers.errors(run), zip(*rows)):
-            if any(answers.lost(t, value, error) for t, value in zip(run.t, values)):
-                say(f"{case.place}: {name}: {zero_within(error)} where it is smaller than that")
+        names, rows = simulation.columns(run)
+        for name, error, values in zip(names, simulation.errors(run), zip(*rows)):
+            if any(simulation.lost(t, value, error) for t, value in zip(run.t, values)):
+                say(f"{case.place}: {name}: {simulation.zero_within(error)} where it is smaller than that")
 
 
 def _judge(runs, digits):
@@ -157,6 +156,6 @@ def reference(case, at, digits, out, json):
     if out:
         write_each(out, [(one, partial(outside.write, found)) for one, found, _ in made])
     else:
-        write(answers.as_json([found for _, found, _ in made] if len(made) > 1 else made[0][1]) if json
+        write(as_json([found for _, found, _ in made] if len(made) > 1 else made[0][1]) if json
               else "".join(outside.csv(found) for _, found, _ in made).rstrip("\n"))
     all_reached(short for one in made for short in outside.missing(*one))

@@ -8,7 +8,8 @@ from ..answers.passage.of_case import limited_time
 from ..answers.stuck.burn import time_of_burn
 from ..case.limit_options import stated_limit
 from ..case.read import blamed_on, fires_on_schedule, load_burning
-from ..show.text import answers, law
+from ..show.data import as_json
+from ..show.text import law
 from ..show.text import when as shown
 from .common.cases import load_cases, one_by_one, tell_all, tell_radians, units_asked
 from .common.output import hold_laws, leave_undecided, write
@@ -33,7 +34,7 @@ def when(cases, units, json, csv, strict, **limits):
     answered = [(case, limit, replace(found, caveats=(*found.caveats, *of_law(held))))
                 for (case, limit, found), held in zip(answered, laws)]
     if json:
-        write(answers.as_json([shown.as_dict(*one) | law.key(held) for one, held in zip(answered, laws)]))
+        write(as_json([shown.as_dict(*one) | law.key(held) for one, held in zip(answered, laws)]))
     elif csv:
         write(shown.csv(answered))
     else:

@@ -15,7 +15,7 @@ from ..case.read import load
 from ..equilibrium.torque_table import torque_table
 from ..errors import InputError
 from ..show import style
-from ..show.files import comma
+from ..show.data import csv_lines
 from .figures import paper
 from .printed_extremes import FAMILIES, printed_extremes
 
@@ -195,7 +195,7 @@ def _wrapped(words, width):
 
 def comma_separated(table: Table) -> str:
     """CSV: numbers with 17 significant digits, "inf" where unbounded, an empty cell for nothing."""
-    return comma.lines([table.header, *table.rows])
+    return csv_lines([table.header, *table.rows])
 
 
 def markdown(table: Table) -> str:

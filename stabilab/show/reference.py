@@ -15,8 +15,8 @@ from ..caveat import key
 from ..files import whole_file
 from ..numbers.balls import working
 from ..physics.coefficients import effective
-from .files import comma, endings, manifest
-from .text import answers
+from .data import as_json, csv_lines
+from .files import endings, manifest
 
 SCHEMA = "stabilab.reference/1"
 VERSIONS = ("python", "python-flint")
@@ -124,7 +124,7 @@ def csv(made: dict) -> str:
         rows += [(f"{word} over {extremes['over']}", None, name, value, None, extremes["because"]) for word,
                  value in zip(("least", "greatest"), pair)]
     rows += [("caveat", None, one["kind"], one["words"], None, None) for one in made["caveats"]]
-    return comma.lines(rows)
+    return csv_lines(rows)
 
 
 def checked(path) -> Path:
@@ -136,6 +136,6 @@ def write(made: dict, path) -> Path:
     """The reference as a file."""
     path = Path(path)
     with whole_file(path) as waiting:
-        waiting.write_text(csv(made) if endings.ending(path) == ".csv" else answers.as_json(made) + "\n",
+        waiting.write_text(csv(made) if endings.ending(path) == ".csv" else as_json(made) + "\n",
                            encoding="utf-8")
     return path

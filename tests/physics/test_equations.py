@@ -17,7 +17,7 @@ from stabilab.physics.effects.liquid_cavity import LiquidCavity
 from stabilab.physics.effects.resistance import Resistance
 from stabilab.physics.equations import derive, invariants
 from stabilab.physics.to_numpy import to_numpy
-from stabilab.show.text.notation import latex, lines
+from stabilab.show.text.scene import latex, lines
 
 BODY = Body((2000, "1500.5", 1000))
 WHEEL, THRUST = Gyrostat((100, "2/3", 0)), ConstantTorque((1, -2, "204.1"))

@@ -12,9 +12,9 @@ from stabilab import load
 from stabilab.answers.stuck.ask import stuck as ask
 from stabilab.numbers.principal import IDENTITY, PrincipalAxes
 from stabilab.show.axes import PLAIN, axes_of
+from stabilab.show.data import as_json
+from stabilab.show.frame import note
 from stabilab.show.text import stuck as shown
-from stabilab.show.text.answers import as_json
-from stabilab.show.text.frame import note
 from stabilab.show.units import units_of
 
 MOMENTS = (100, 90, 40)

@@ -55,7 +55,7 @@ def test_rounding_is_not_drawn_as_motion():
 
     from stabilab.answers.simulate import Simulation
     from stabilab.show import style
-    from stabilab.show.text import comparison
+    from stabilab.show.text.cost import comparison
     from tests.shared import case
     t = np.linspace(0, 1, 50)
     run = Simulation(t, {"omega": np.stack([1e-17 * np.sin(40 * t), 0.1 * np.sin(t), 2 + 0 * t], -1)},

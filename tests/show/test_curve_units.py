@@ -8,7 +8,7 @@ import re
 import pytest
 
 from stabilab import equilibria
-from stabilab.show.curve_units import in_units
+from stabilab.show.text.classification import in_units
 from stabilab.show.units import DEG, SI
 from tests.equilibrium.test_curve_text import ON_EVERY_AXIS, said
 from tests.equilibrium.test_gyrostat import CURVED

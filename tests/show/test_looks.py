@@ -15,7 +15,7 @@ from stabilab.show.plot import subject as which
 from stabilab.show.plot.subject import subject
 from stabilab.show.report.one_case import page
 from stabilab.show.terminal.letters import greek, printed
-from stabilab.show.text import comparison
+from stabilab.show.text.cost import comparison
 from stabilab.show.text.headline import headline, look
 
 from .explore.test_session import ask

@@ -7,7 +7,7 @@ import pytest
 
 from stabilab import Body, Gyrostat, Scene, simulate
 from stabilab.case.read import load
-from stabilab.show.terminal.run import zero_within
+from stabilab.show.text.simulation import zero_within
 from tests.shared import CASES
 
 # at 20 s the amplitude is 3.6e-212 rad/s, by power series in 60 digits (test_polar)

@@ -9,7 +9,7 @@ import sympy
 import stabilab
 from stabilab.physics.equations import derive
 from stabilab.show.report.typeset import PRODUCTS
-from stabilab.show.text.notation import latex, tex
+from stabilab.show.text.scene import latex, tex
 
 CASES = Path(__file__).parents[2] / "cases"
 e, m, k = sympy.symbols("eHl2 mass k", positive=True)

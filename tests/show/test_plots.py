@@ -17,7 +17,7 @@ from stabilab.case.read import read_text
 from stabilab.show import style
 from stabilab.show.plot import path, subject, to_file
 from stabilab.show.plot import subject as which
-from stabilab.show.text import comparison
+from stabilab.show.text.cost import comparison
 
 matplotlib.use("Agg")
 from matplotlib import pyplot as plt  # after the back end is chosen

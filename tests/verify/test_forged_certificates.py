@@ -17,7 +17,7 @@ import pytest
 from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene, load
 from stabilab.answers.certificate import certificate
 from stabilab.errors import InputError
-from stabilab.show.text import certification
+from stabilab.show import certification
 from stabilab.verify import spin_up as spin_up_claims
 from stabilab.verify import verify, verify_file
 from stabilab.verify.numbers import Malformed

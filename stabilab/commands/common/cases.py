@@ -13,8 +13,8 @@ from ...case.read import Case, blamed_on, load_all
 from ...errors import InputError, printable
 from ...numbers.units import NONE, TIME, quantity, split
 from ...show.progress import each
-from ...show.terminal import page, sweep
-from ...show.text import law, uncertain
+from ...show.terminal import page
+from ...show.text import law, sweep, uncertain
 from ...show.units import DEG, DIGITS, SCALED, SI, Units, number, units_of
 from ...streams import Progress
 from .output import say

@@ -7,9 +7,10 @@ import sys
 import typer
 
 from ...errors import UNDECIDED, ToleranceNotMet
+from ...show.data import as_json
 from ...show.files.endings import labelled
 from ...show.terminal import page
-from ...show.text import answers, law
+from ...show.text import law
 
 
 def write(text: str):
@@ -31,7 +32,7 @@ def say(text: str):
 def either(json: bool, data, words):
     """JSON to stdout, or text for people; both are functions, and one of them is called."""
     if json:
-        write(answers.as_json(data()))
+        write(as_json(data()))
     else:
         tell(words())
 
@@ -47,7 +48,7 @@ def write_answer(shown, found, json: bool, csv: bool, *more):
 
 def write_json(cases, rows):
     """An object for a case, a list of them for the combinations of a [sweep]."""
-    write(answers.as_json(rows if any(case.variant for case in cases) else rows[0]))
+    write(as_json(rows if any(case.variant for case in cases) else rows[0]))
 
 
 def write_paths(paths, otherwise):

@@ -29,7 +29,7 @@ from ...orbit.one_orbit import Orbit, ball_orbit
 from ...orbit.period import period_ball, precise_period
 from ...orbit.result import Fate
 from ...show import style
-from ...show.files import comma
+from ...show.data import csv_lines
 from ...show.report import html
 from ...show.text.cost.words import caption, duration
 
@@ -285,7 +285,7 @@ def page(case, folder, tell=None, full: bool = False, **around) -> Path:
 
 def csv(rows) -> str:
     """One line per measurement; empty where there is no count."""
-    return comma.lines([[f.name for f in fields(Growth)], *map(astuple, rows)])
+    return csv_lines([[f.name for f in fields(Growth)], *map(astuple, rows)])
 
 
 def picture(plt, rows, about):

@@ -13,7 +13,7 @@ from ...case.read import Case
 from ...show import style
 from ...show.plot.body import BOX, PARTS, body
 from ...show.terminal.letters import written
-from ...show.text.comparison import short
+from ...show.text.cost.comparison import short
 from ...show.text.cost.words import share
 from . import panels
 

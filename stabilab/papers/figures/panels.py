@@ -18,7 +18,7 @@ import numpy as np
 
 from ...case.read import load_all
 from ...show import style
-from ...show.text import comparison
+from ...show.text.cost import comparison
 from ...theories.comparison import side_by_side
 from ..table import cases_folder
 

@@ -16,9 +16,9 @@ from ...physics.scene import PARTS
 from ...show import style
 from ...show.report.html import picture
 from ...show.terminal.letters import written
-from ...show.text import comparison
+from ...show.text.cost import comparison
 from ...show.text.cost.words import so_many
-from ...show.text.notation import PRODUCTS
+from ...show.text.scene import PRODUCTS
 from ...show.units import SI, parameter_unit
 from ...theories.comparison import compare, side_by_side
 from ..figures import catalogue as figures

@@ -35,7 +35,7 @@ from ...verify import verify
 from ...verify.form import about, parsed
 from ...verify.form import line as about_line
 from ...verify.numbers import Malformed
-from .. import limiting
+from .. import frame, limiting
 from ..axes import with_moments
 from ..report.one_case.tiles import tiles
 from ..space import (
@@ -54,9 +54,9 @@ from ..space import (
 )
 from ..spans import natural, seen
 from ..terminal.letters import greek, lettered, written
-from ..terminal.motion import margins
-from ..text import frame, law
+from ..text import law
 from ..text.headline import headline, look
+from ..text.motion import margins
 from ..units import SHORT, Units, but_for_rounding, units_of
 from . import orbits as other
 from . import parameters as controls

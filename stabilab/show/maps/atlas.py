@@ -20,8 +20,7 @@ from ...orbit.result import Fate
 from ...packages import demand
 from .. import limiting, style
 from ..axes import axes_of
-from ..files import comma
-from ..text.answers import Endless, as_json
+from ..data import Endless, as_json, csv_lines
 from ..units import SHORT, Units, with_unit
 from .shades import FATES, light, limits_of, spinning, unit
 from .sweep import COUNTS, checked, column_in, finished, origin, write
@@ -315,7 +314,7 @@ def csv(atlas: Atlas) -> str:
                                                (cells, atlas.directions, atlas.records))
             for (name, wheel, about), direction, of_file, answered in zip(
                 first, directions.tolist(), atlas.in_file(directions).tolist(), records)]
-    return comma.lines([heads, *rows])
+    return csv_lines([heads, *rows])
 
 
 def _momentum(atlas: Atlas, wheel: int) -> Any:

@@ -28,9 +28,8 @@ from ...maps.columns import ANSWERS, CAVEATS, LEVELS, record
 from ...maps.plan import from_json
 from .. import limiting
 from ..axes import axes_of
-from ..files import comma
+from ..data import as_json, csv_lines
 from ..text import law
-from ..text.answers import as_json
 from ..units import units_of, with_unit
 from .shades import limits_of
 from .sweep import checked, column_in, finished, origin, write
@@ -148,7 +147,7 @@ def csv(found: Basins) -> str:
     words = ["boundary" if mixed else basin_name(found, label) for mixed,
              label in zip(cells["mixed"].tolist(), cells["label"].tolist())]
     told = [limiting.cell(found.plan.case, limits_of(found.plan.case, found.records))] * len(words)
-    return comma.lines([[*heads, "depth", "basin", "caveats"],
+    return csv_lines([[*heads, "depth", "basin", "caveats"],
                         *zip(*columns, cells["depth"].tolist(), words, told)])
 
 

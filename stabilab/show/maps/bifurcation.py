@@ -9,12 +9,10 @@ from ...maps.bifurcation.diagram import branches
 from ...maps.bifurcation.equations import BORDERS
 from ...maps.bifurcation.family import CURVES, ENDLESS, Diagram, Event, Piece, State
 from ...maps.bifurcation.plane import Plane, rows
-from .. import limiting
-from ..files import comma
+from .. import frame, limiting
+from ..data import as_json, csv_lines
 from ..terminal import page
 from ..terminal.letters import greek
-from ..text import frame
-from ..text.answers import as_json
 from ..units import Units, units_of, with_unit
 
 SCHEMA = "stabilab.bifurcation/1"
@@ -46,7 +44,7 @@ def csv(found: Diagram | Plane) -> str:
     state, verdict; over two one for each point of each curve, then the cusps."""
     head, rows = _line_rows(found) if isinstance(found, Diagram) else _plane_rows(found)
     told = cell(found.family.case.caveats)
-    return comma.lines([[*head, "caveats"], *([*row, told] for row in rows)])
+    return csv_lines([[*head, "caveats"], *([*row, told] for row in rows)])
 
 
 def json(found: Diagram | Plane) -> str:

@@ -13,13 +13,13 @@ from ...answers.chaos import FLAT, Chaos, Order, chaos
 from ...errors import printable
 from ...packages import demand
 from .. import style
-from ..files import comma, endings
+from ..data import as_json, csv_lines
+from ..files import endings
 from ..limiting import cell
 from ..plot import phase_plane as plane_section
 from ..plot import subject as which
 from ..plot.subject import Measures, Subject, measures, subject
 from ..text import law
-from ..text.answers import as_json
 from ..units import number
 from .shades import light
 
@@ -174,7 +174,7 @@ def csv(rows: list[tuple[Any, Chaos]], laws: Sequence[Any]) -> str:
     """A line for each case and time. laws: as of `json`."""
     told = [cell(case, caveats_of(case.scene, validity=held, file=case.caveats)) for (case, _),
             held in zip(rows, laws)]
-    return comma.lines([["case", "answer", "time", "megno", "caveats"],
+    return csv_lines([["case", "answer", "time", "megno", "caveats"],
                         *([case.name, Order(int(found.labels)).word, time,
                            None if math.isnan(value) else value, caveats]
                           for (case, found), caveats in zip(rows, told) for time,

@@ -21,11 +21,11 @@ from ...packages import demand
 from ...version import __version__
 from .. import limiting
 from ..axes import Axes, axes_of
-from ..files import comma, endings
+from ..data import Endless, as_json, csv_lines
+from ..files import endings
 from ..terminal import page
 from ..terminal.letters import greek
 from ..text import law
-from ..text.answers import Endless, as_json
 from ..units import Unit, units_of, with_unit
 from .shades import SAMPLE, dimensions, limits_of, names, said, unit
 
@@ -184,7 +184,7 @@ def rows(found: Swept) -> Iterator[list[Any]]:
 
 def csv(found: Swept) -> str:
     """Every point as a line."""
-    return comma.lines([heads(found), *rows(found)])
+    return csv_lines([heads(found), *rows(found)])
 
 
 def json(found: Swept) -> str:

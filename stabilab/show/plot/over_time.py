@@ -15,7 +15,7 @@ from ...answers.uncertain.box import box_of
 from ...errors import InputError
 from ...theories.comparison import side_by_side
 from .. import style
-from ..text import comparison
+from ..text.cost import comparison
 from ..text.headline import headline
 from ..text.stuck import answer_line, row_name
 from ..units import Units, with_unit

@@ -5,7 +5,7 @@ import re
 from functools import lru_cache
 
 from ...physics.equations import Equations
-from ..text.notation import PRODUCTS, right_side
+from ..text.scene import PRODUCTS, right_side
 
 # symbols and digits or so of a sum that fit beside each other on a page; a longer one goes on in the next
 # line

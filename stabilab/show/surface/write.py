@@ -12,9 +12,9 @@ from ...errors import RenderingUnavailable, printable
 from ...orbit.separatrix.branches import separatrix
 from ...packages import present
 from .. import style
+from ..data import plain
 from ..files import endings, manifest
 from ..progress import each
-from ..text.answers import plain
 from . import picture as drawing
 from .mesh import Mesh, glb, stl, triangulate
 from .render_probe import probe

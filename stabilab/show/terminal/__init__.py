@@ -1,2 +1,1 @@
-"""What a person at a terminal sees: its width, colours and letters, groups of commands, completion, progress.
-"""
+"""How text comes to a terminal: letters, lines that fit, colours, the help, what the shell completes."""

@@ -2,10 +2,9 @@
 from __future__ import annotations
 
 from ...representation import values_of
-from .. import limiting
-from ..terminal.motion import reason, row
+from .. import frame, limiting
 from ..units import DIGITS, Units, number
-from . import frame
+from .motion import reason, row
 
 HEADS = {"long-axis": "LONG-AXIS MODE", "short-axis": "SHORT-AXIS MODE", "separatrix": "ON THE SEPARATRIX",
          "steady": "STEADY ROTATION", "heavy top": "HEAVY TOP"}

@@ -4,9 +4,9 @@ from __future__ import annotations
 import math
 
 from .. import limiting
-from ..terminal.motion import reason, row
 from ..units import DIGITS, Units, bracket, number
 from .attitude import in_file
+from .motion import reason, row
 
 SHOWN = 12  # switches in text; JSON has them all
 

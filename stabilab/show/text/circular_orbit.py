@@ -3,9 +3,9 @@ from __future__ import annotations
 
 from ...equilibrium.circular_orbit.result import yaw_pitch_roll
 from .. import limiting
-from ..terminal.motion import row
 from ..units import DIGITS, SHORT, Units, number
 from .attitude import in_file
+from .motion import row
 
 ASSUMED = "a circular orbit about a sphere, wheels whose momentum relative to the body is constant, no " \
           "other torque"

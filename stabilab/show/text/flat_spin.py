@@ -5,9 +5,9 @@ import math
 
 from .. import limiting
 from ..axes import Axes, axes_of
-from ..terminal.motion import reason, row
 from ..units import DIGITS, Units, number
 from .attitude import in_file
+from .motion import reason, row
 
 NAMES = {"phase": "phase", "nutation": "nutation angle", "damping": "strength of the damping"}
 

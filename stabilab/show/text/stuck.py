@@ -9,12 +9,11 @@ from ...errors import printable
 from ...representation import values_of
 from .. import limiting
 from ..axes import axes_of, direction
-from ..files import comma
+from ..data import Endless, csv_lines
 from ..terminal.letters import lettered
 from ..units import DIGITS, SHORT, Units
 from ..units import bracket as _bracket
 from ..units import number as _number
-from .answers import Endless
 from .headline import REST, STEADY
 from .when import tilt_dict
 
@@ -56,7 +55,7 @@ def _row(row, case) -> dict:
 
 def csv(answers) -> str:
     """A line a row of (case, answer), SI units; empty where a number does not exist."""
-    return comma.lines([CSV, *(_cells(case, found, row) for case, found in answers for row in found.rows)])
+    return csv_lines([CSV, *(_cells(case, found, row) for case, found in answers for row in found.rows)])
 
 
 def _cells(case, found, row) -> list:

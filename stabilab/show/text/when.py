@@ -7,11 +7,10 @@ import re
 
 from ...errors import printable
 from ...representation import values_of
-from .. import limiting
-from ..files import comma
+from .. import frame, limiting
+from ..data import csv_lines
 from ..terminal.letters import lettered
 from ..units import DIGITS, Units, bracket, number
-from . import frame
 
 WORDS = {"yes": "reached by", "unknown": "NOT KNOWN of", "never": "NEVER by"}
 CSV = ("case", "quantity", "limit", "time_low", "time_high", "level", "caveats")
@@ -38,7 +37,7 @@ def csv(answers) -> str:
     rows = [(case.name, "/".join(limit.names), "/".join(map(repr, limit.limits)),
              *(None if math.isnan(v) else float(v) for v in (found.low, found.high)),
              str(found.level), limiting.cell(case, found.caveats)) for case, limit, found in answers]
-    return comma.lines([CSV, *rows])[:-1]
+    return csv_lines([CSV, *rows])[:-1]
 
 
 def text(case, limit, found, units: Units) -> str:

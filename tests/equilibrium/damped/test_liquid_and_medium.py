@@ -26,8 +26,8 @@ from stabilab.physics.effects.liquid_cavity import LiquidCavity
 from stabilab.physics.effects.resistance import Resistance
 from stabilab.physics.equations import derive
 from stabilab.physics.to_numpy import to_numpy
-from stabilab.show.terminal import classification
-from stabilab.show.text import answers
+from stabilab.show.data import as_json
+from stabilab.show.text import classification
 from stabilab.show.units import units_of
 
 ROOT = Path(__file__).parents[3]
@@ -325,7 +325,7 @@ def test_classification_of_a_case_is_complete_json(name):
     case = stabilab.load(ROOT / "cases" / f"{name}.toml")
     vertical = case.blocks["gamma"] if "gamma" in case.scene.blocks else ()
     found, told = equilibria(case.scene), motion(case.scene, (*case.state, *vertical), case.span)
-    text = answers.as_json(answers.classification(case, found, told))
+    text = as_json(classification.as_dict(case, found, told))
     assert "NaN" not in text and told.because and told.extremes is not None
     assert classification.text(case, found, told, units_of(case), proofs=True)
 
@@ -345,6 +345,6 @@ def test_rest_is_told_where_the_list_of_equilibria_is_undecided():
     assert rest.at == (0, 0, 0) and rest.verdict == "asymptotically stable"
     assert np.sort(np.linalg.eigvals(slopes).real) == pytest.approx(
         np.sort([z.real for z in rest.eigenvalues]), rel=1e-4)
-    from stabilab.show.terminal.classification import resting
+    from stabilab.show.text.classification import resting
     from stabilab.show.units import SI
     assert resting(found, SI) == "UNDECIDED, 1 known (1 asymptotically stable)"

@@ -27,7 +27,8 @@ from stabilab.physics.effects.newtonian_field import NewtonianField
 from stabilab.physics.effects.resistance import Resistance
 from stabilab.physics.equations import derive
 from stabilab.physics.to_numpy import to_numpy
-from stabilab.show.text import answers
+from stabilab.show.data import as_json
+from stabilab.show.text import classification
 from tests.shared import case
 
 ROOT = Path(__file__).parents[3]
@@ -346,7 +347,7 @@ def test_steady_states_of_a_torque_are_all_that_newton_finds():
 def test_what_has_no_closed_form_is_undecided_with_a_reason(effects):
     rest = equilibria(Scene(Body((5, 6, 7)), *effects))
     assert rest.kind == "undecided" and rest.reason.startswith("undecided: ")
-    assert answers.undecided(rest, None)
+    assert classification.undecided(rest, None)
 
 
 def test_torque_in_a_field_with_resistance_is_bounded_by_its_own_number():
@@ -362,7 +363,7 @@ def test_torque_in_a_field_with_resistance_is_bounded_by_its_own_number():
 def test_classification_of_a_top_is_complete_json(name):
     case = stabilab.load(ROOT / "cases" / f"{name}.toml")
     told = motion(case.scene, (*case.state, *case.blocks["gamma"]), case.span)
-    text = answers.as_json(answers.classification(case, equilibria(case.scene), told))
+    text = as_json(classification.as_dict(case, equilibria(case.scene), told))
     assert "NaN" not in text and told.fate == Fate.BOUNDED and told.extremes is not None
 
 

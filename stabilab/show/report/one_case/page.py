@@ -12,16 +12,15 @@ from ....answers.uncertain.fate import uncertain
 from ....errors import StabilabError
 from ....physics.equations import derive, invariants
 from ....verify import verify_file
-from ... import limiting
+from ... import certification, frame, limiting
 from ...axes import axes_of
 from ...plot import subject as which
 from ...plot.subject import subject
 from ...terminal.letters import greek, printed
-from ...terminal.motion import constants, margins, shown, state
-from ...text import certification, frame
 from ...text import uncertain as boxes
 from ...text.headline import headline, look
-from ...text.notation import latex
+from ...text.motion import constants, margins, shown, state
+from ...text.scene import latex
 from ...units import DIGITS, but_for_rounding, number, parameter_unit, units_of
 from .. import typeset
 from .pictures import SHOWN, pictures

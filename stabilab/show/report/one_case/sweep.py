@@ -14,9 +14,9 @@ from ... import limiting, style
 from ...plot.path import along
 from ...plot.subject import subject
 from ...terminal.letters import printed, some
-from ...terminal.sweep import fates, key_columns, of_motions
 from ...text.headline import look
 from ...text.law import judged, lines_of
+from ...text.sweep import fates, key_columns, of_motions
 from ...units import units_of
 from .. import html
 from .page import equations

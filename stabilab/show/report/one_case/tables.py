@@ -10,9 +10,9 @@ from ....orbit.potential import potential
 from ....orbit.reduction import reduce
 from ....physics.coefficients import effective
 from ... import limiting
-from ...curve_units import in_units
 from ...terminal.letters import printed
-from ...terminal.motion import clock, tilt_lines
+from ...text.classification import in_units
+from ...text.motion import clock, tilt_lines
 from ...text.stuck import WORDS, amount, holds_for, means, vector
 from ...text.when import any_of, asked
 from ...units import DIGITS, number

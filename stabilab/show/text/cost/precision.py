@@ -9,7 +9,8 @@ from ....cost.accuracy import digit_price
 from ....packages import demand
 from ....processes import machine, versions
 from ... import limiting, style
-from ...files import comma, endings
+from ...data import csv_lines
+from ...files import endings
 from ...report.precision_picture import picture
 from ...terminal.letters import written
 from .words import NAMES, by_digits, caption, duration, flat, methods, setting, title, words
@@ -95,7 +96,7 @@ def _row(found, p) -> dict:
 
 def csv(*measured) -> str:
     """One line per point of every case; empty where a count does not exist, inf where no answer came."""
-    return comma.lines([(*COLUMNS, "caveats"),
+    return csv_lines([(*COLUMNS, "caveats"),
                         *((*_row(found, p).values(), _limits(found)) for found in measured
                           for p in found.points)])[:-1]
 

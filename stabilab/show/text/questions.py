@@ -1,17 +1,20 @@
-"""What `fate`, `extremes` and `period` print: the answer, its numbers, why, and how many digits were checked.
-"""
+"""What `fate`, `extremes` and `period` print: the answer, its numbers, why, and how many digits were checked;
+the same as JSON and CSV."""
 from __future__ import annotations
 
 import math
 from dataclasses import replace
 
 from ...orbit.result import Fate, no_period
-from .. import limiting
-from ..text import frame
-from ..text.headline import cause, largest, outcome, rate_margin, verdict
+from ...representation import values_of
+from .. import frame, limiting
+from ..axes import axes_of
+from ..data import csv_lines
+from ..terminal.letters import greek
 from ..units import DIGITS, Units, number
-from .letters import greek
-from .motion import bound_lines, energy_margin, extreme_lines, reason, row, tilt_lines, why
+from . import when
+from .headline import cause, largest, outcome, rate_margin, verdict
+from .motion import bound_lines, energy_margin, extreme_lines, followed, reason, row, tilt_lines, why
 
 SHOWN = 12  # digits of a number that is not written out, where more than a table's were asked for
 
@@ -93,3 +96,55 @@ def period(case, motion, told, units: Units, all_digits: bool, say: bool, proofs
     lines = [f"{case.name}: {'; '.join(filter(None, parts))}",
              *(why(case, motion, units, proofs) if proofs else ())]
     return "\n".join([*lines, *([_said(told, units)] * (say and told.values is not None))])
+
+
+# --- As JSON and CSV
+def digits(told) -> dict:
+    """What is said of the digits; reached: null where there is no number to judge."""
+    shown = None if told.digits is None else min(told.digits, 99.0)
+    return {"asked": told.asked, "reached": shown} | values_of(told, "method because decimals")
+
+
+def extremes_dict(case, motion, told) -> dict:
+    """One object of `stabilab extremes --json`; null where a component is unbounded or unknown (see fate)."""
+    motion = _with(motion, told)
+    found = {"schema": "stabilab.extremes/1", "case": case.name, "variables": case.variables, "at": motion.at,
+             "fate": motion.fate.word, "components": case.scene.components, "extremes": motion.extremes,
+             "over": motion.extremes_over}
+    return found | followed(motion) | _around(case, motion) | {"digits": digits(told)}
+
+
+def _around(case, motion) -> dict:
+    """The caveats and the frame."""
+    return limiting.key(case, motion.caveats) | frame.key(case)
+
+
+def _with(motion, told):
+    return (motion if told.values is None
+            else replace(motion, extremes=tuple(tuple(map(float, pair)) for pair in told.values)))
+
+
+def fate_dict(case, motion, told) -> dict:
+    """One object of `stabilab fate --json`; margin: barrier minus energy, null where none stands ahead."""
+    margin = motion.margin_energy if told.values is None else told.values
+    return {"schema": "stabilab.fate/1", "case": case.name, "variables": case.variables, "at": motion.at,
+            "fate": motion.fate.word,
+            **axes_of(case).key(motion.axis), "sense": motion.sense or None, "because": motion.because,
+            "margin": margin, "digits": digits(told), "tilt": when.tilt_dict(motion.tilt)
+            } | followed(motion) | _around(case, motion)
+
+
+def period_dict(case, motion, told) -> dict:
+    """One object of `stabilab period --json`; null where the motion does not repeat, or is undecided (see
+    fate, digits.because)."""
+    return {"schema": "stabilab.period/1", "case": case.name, "variables": case.variables, "at": motion.at,
+            "fate": motion.fate.word, "period": told.values, "time": case.scene.time_unit,
+            "digits": digits(told)} | _around(case, motion)
+
+
+def extremes_csv(answered) -> str:
+    """A line a component of (case, motion, digits), every digit asked for; inf: unbounded, empty: unknown."""
+    rows = [(case.name, name, *pair, moved.extremes_over, limiting.cell(case, moved.caveats))
+            for case, moved, told in answered for pairs in [told.decimals or _with(moved, told).extremes]
+            for name, pair in zip(case.scene.components, pairs or ((None, None),) * 3)]
+    return csv_lines([("case", "component", "min", "max", "over", "caveats"), *rows])[:-1]

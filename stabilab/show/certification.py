@@ -4,10 +4,10 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
-from ...errors import printable
-from ...files import whole_file
-from ..files import endings
-from ..terminal.letters import some
+from ..errors import printable
+from ..files import whole_file
+from .files import endings
+from .terminal.letters import some
 
 SCHEMA = "stabilab.verification/1"
 

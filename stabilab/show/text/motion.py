@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 
 from .. import limiting
-from ..text.headline import rate_margin, span_words
+from ..terminal.letters import greek, lettered
 from ..units import DEG, DIGITS, Units, bracket, but_for_rounding, number
-from .letters import greek, lettered
+from .headline import rate_margin, span_words
 
 WIDE = 24  # columns of a name
 # Of invariants and of what a run showed: what it is called, and which number of `Units` it is.
@@ -202,3 +202,12 @@ def clock(ends, units: Units) -> str:
 
 def _angle(value: float) -> str:
     return DEG.angle(value)
+
+
+def followed(m) -> dict:
+    """How well a fate is known; of a motion that was followed also when its certificate held (null: it did
+    not), what was seen on the way, and the bounds of the rates for all times (null in them: unbounded)."""
+    known = {"level": m.level}
+    if m.cause:
+        known |= {"t": m.evidence.get("t_certificate"), "cause": m.cause, "bounds": m.bounds}
+    return known

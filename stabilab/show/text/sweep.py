@@ -10,10 +10,10 @@ from dataclasses import replace
 
 from ...numbers.units import DIMENSIONS, NAMES
 from .. import limiting
-from ..text.headline import WORDS, known_as, rate_margin
+from ..terminal import page
+from ..terminal.letters import greek, some
 from ..units import SHORT, Units, but_for_rounding, number
-from . import page
-from .letters import greek, some
+from .headline import WORDS, known_as, rate_margin
 from .motion import shown
 
 LETTERS = {"angular_velocity": "ω", "mu": "μ"}  # keys with a shorter name

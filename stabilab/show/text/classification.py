@@ -1,18 +1,23 @@
 """What `stabilab classify` prints: the answer, the motion's numbers, the equilibria, why; proofs and algebra
-where they are asked for."""
+on request; the same as JSON; and curves of equilibria with their numbers in the unit of rates."""
 from __future__ import annotations
 
 import math
+import re
 from collections import Counter
+from dataclasses import asdict
 from itertools import groupby
+from typing import NamedTuple
 
 from ...numbers.vectors import CYCLE
-from ..curve_units import in_units
-from ..text import attitude, frame
-from ..text.headline import verdict
+from ...representation import values_of
+from .. import frame, limiting
+from ..axes import axes_of
+from ..terminal.letters import lettered, written
 from ..units import SI, Units, number
-from .letters import lettered, written
-from .motion import reason, row, state, table, tilt_lines, why
+from . import attitude, when
+from .headline import verdict
+from .motion import followed, reason, row, state, table, tilt_lines, why
 
 FEW = 3  # curves that one line has room for
 WORDS = ("stable", "asymptotically stable", "unstable", "undecided")
@@ -196,3 +201,103 @@ def _complex(z) -> str:
     if z.imag == 0:
         return f"{z.real + 0.0:.6g}"
     return f"{z.imag:+.6g}i" if z.real == 0 else f"{z.real:.6g}{z.imag:+.6g}i"
+
+
+# --- As JSON
+def as_dict(case, equilibria, motion) -> dict:
+    """One object of `stabilab classify --json`."""
+    return {"schema": "stabilab.classify/1", "case": case.name, "variables": case.variables,
+            "equilibria": {"kind": equilibria.kind, "reason": equilibria.reason,
+                           "points": [_point_dict(case, p) | _input(case, p.at) for p in equilibria.points],
+                           "curves": [_curve_dict(case, c) for c in equilibria.curves]},
+            "motion": None if motion is None else _motion_dict(case, motion) | _input(case, motion.at)
+            } | ({} if motion is None else limiting.key(case, motion.caveats)) | frame.key(case)
+
+
+def _input(case, at) -> dict:
+    """The same vector in the frame of the file, where that is another one."""
+    found = frame.back(case, at[:3])
+    return {} if found is None else {"at_input": found}
+
+
+def _point_dict(case, p) -> dict:
+    """With the Jacobian, row by row, where the state is the three rates alone, and the coefficients of its
+    characteristic polynomial, highest power first."""
+    jacobian = case.scene.quadratic().jacobian(tuple(map(float, p.at))) if case.scene.plain else None
+    return {"at": p.at, "jacobian": jacobian} | values_of(
+        p, "characteristic eigenvalues linear verdict because")
+
+
+def _curve_dict(case, c) -> dict:
+    return values_of(c, "name equation parametrisation") | {
+        "samples": [_point_dict(case, p) for p in c.samples], "folds": c.folds,
+        "segments": [values_of(s, "t linear verdict because") for s in c.segments]}
+
+
+def _motion_dict(case, m) -> dict:
+    return {"at": m.at, "fate": m.fate.word, **axes_of(case).key(m.axis), "because": m.because,
+            "margin": {"energy": m.margin_energy, "angular_velocity": m.margin_velocity,
+                       "bounds": m.velocity_bounds,
+                       "witness": m.velocity_witness, "because": m.velocity_because or None},
+            **values_of(m, "period extremes invariants"),
+            "energy_integral": None if m.energy_integral is None else asdict(m.energy_integral),
+            "sense": m.sense or None, **values_of(m, "extremes_over evidence"),
+            "tilt": when.tilt_dict(m.tilt)} | followed(m)
+
+
+def undecided(equilibria, motion) -> bool:
+    """True where a verdict or the fate is undecided."""
+    parts = [*equilibria.points, *(part for c in equilibria.curves for part in (*c.segments, *c.samples))]
+    unknown = equilibria.kind == "undecided" or any(p.verdict == "undecided" for p in parts)
+    return unknown or (motion is not None and motion.fate.word == "undecided")
+
+
+# --- A curve in the unit of rates
+DIGITS = 6
+RATE = r"(?:omega|x)\d"
+NUMBER = r"(?<![\w.])\d+(?:\.\d+)?(?:e[-+]?\d+)?"
+# what is left of a clause once names, numbers, the parameter and signs are taken out; an oblique plane or a
+# field has other symbols
+KNOWN = re.compile(
+    rf"{RATE}|{NUMBER}|\bt\b|\b(?:arbitrary|and|on a straight "
+    rf"line|plane|line|along|equilibrium|hyperbola|the gyrostatic moment)\b|[-+=/(), ]")
+TURNS = re.compile(r" and its turns about axis \d$")
+TERM = re.compile(rf"({NUMBER})(/t| t\b)?")
+
+
+class Told(NamedTuple):
+    """A curve in words. one: how many of the unit make one in the variables of the curve; `unit` is empty
+    where these are scaled."""
+
+    name: str
+    equation: str
+    parametrisation: str
+    unit: str
+    one: float
+
+
+def in_units(curve, units: Units) -> Told:
+    """The name, the equation and the parametrisation of a curve whose numbers are all rates, or products of
+    two, in the unit of rates; those of any other as they are, in rad/s."""
+    words = (curve.name, curve.equation, TURNS.sub("", curve.parametrisation))
+    name, one = units.rates
+    if units.scaled or one == 1.0 or any(KNOWN.sub("", part) for part in words):
+        return Told(curve.name, curve.equation, curve.parametrisation, "" if units.scaled else "rad/s", 1.0)
+    title, equation, run = (", ".join(_clause(clause, one) for clause in part.split(", ")) for part in words)
+    return Told(title, equation, run + curve.parametrisation[len(words[2]):], name, one)
+
+
+def _clause(clause, one):
+    """"omega1 = 0.4 + t", "(omega1 + 0.4) omega2 = 2" or "omega1 = 0.4 + 2/t" with its numbers in another
+    unit of rates."""
+    left, equals, right = clause.partition(" = ")
+    product = len(re.findall(RATE, left)) == 2 and bool(equals)
+    return _scaled(left, one, one) + equals + _scaled(right, one * one if product else one, one)
+
+
+def _scaled(words, one, rate):
+    """A number that stands alone times `one`; one over t, a product of two rates, times the square of that of
+    a rate; one times t as it is."""
+    factors = {"": one, "/t": rate * rate, " t": 1.0}
+    return TERM.sub(lambda found: f"{float(found[1]) * factors[found[2] or '']:.{DIGITS}g}{found[2] or ''}",
+                    words)

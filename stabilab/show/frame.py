@@ -3,8 +3,8 @@ from __future__ import annotations
 
 import math
 
-from ...errors import printable
-from ..axes import IN_FILE, axes_of
+from ..errors import printable
+from .axes import IN_FILE, axes_of
 
 
 def key(case) -> dict:

@@ -6,13 +6,14 @@ from pathlib import Path
 
 import numpy as np
 
-from ...physics.scene import PARTS
-from ...representation import values_of
-from ...theories.theory import lines as told
-from .. import style
-from ..files import comma, endings
-from ..terminal.letters import lettered, written
-from ..units import SHORT, Units, number, units_of
+from ....physics.scene import PARTS
+from ....representation import values_of
+from ....theories.theory import lines as told
+from ... import style
+from ...data import csv_lines
+from ...files import endings
+from ...terminal.letters import lettered, written
+from ...units import SHORT, Units, number, units_of
 
 LOOKS = {"exact": {"color": style.BLACK, "linewidth": 2.2},
          "linear": {"color": style.BLUE, "linewidth": 1.4, "linestyle": "--"},
@@ -107,7 +108,7 @@ def write(case, found, path) -> Path:
     path = checked(path)
     head = [case.scene.time_unit, *(f"{d.model} {d.part}" for d in found.departures)]
     with style.whole_file(path) as waiting:
-        waiting.write_text(comma.lines([head,
+        waiting.write_text(csv_lines([head,
                                         *(map(float, row)
                                           for row in zip(found.t, *(d.error for d in found.departures)))]),
                            encoding="utf-8")

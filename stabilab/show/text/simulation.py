@@ -1,0 +1,178 @@
+"""A run in time: as text (how far it went, times and states in columns with units, departures from the laws),
+as JSON, and as a file, which appears whole or not at all."""
+from __future__ import annotations
+
+import math
+from decimal import ROUND_CEILING, Decimal, localcontext
+from pathlib import Path
+
+import numpy as np
+
+from ...files import whole_file
+from ...packages import demand
+from ...physics.scene import ATTITUDES, PARTS
+from ...representation import values_of
+from ...version import __version__
+from .. import frame
+from ..data import csv_lines
+from ..files import endings
+from ..results import of_parts
+from ..terminal.letters import lettered, written
+from ..units import DIGITS, SHORT, Units
+
+ALL = 16  # digits of a double
+GAP = 2
+
+
+def text(case, run, units: Units, known: int | None = None, width: int | None = None) -> str:
+    """The lines for one run. known: digits that a check vouches for, where more than a table's were asked
+    for; width: of a terminal, where the columns are told part by part if they do not fit."""
+    digits = DIGITS if known is None else min(ALL, known)
+    names, rows = columns(run)
+    factors = _factors(run, units)
+    head, scale = [f"t ({written(case.scene.time_unit)})"], [1.0]
+    head += [lettered(f"{name} ({unit})" if unit else name) for name, (unit, _) in zip(names, factors)]
+    scale += [one for _, one in factors]
+    off = [0.0, *errors(run)]
+    cells = [[zero_within(error * one) if lost(t, value, error) else f"{value * one + 0.0:.{digits}g}"
+              for value, one, error in zip((t, *row), scale, off)] for t, row in zip(run.t, rows)]
+    laws = [f"# {lettered(name)}: largest relative departure {value:.3g}" for name,
+            value in run.invariant_drift.items()]
+    how = f"# {run.method}, rtol {run.rtol:.3g}" if run.rtol else f"# {run.model}: {lettered(run.method)}"
+    notes = ([f"# {lettered(units.words(run.reason))}"] if run.reason and run.reason != "all times reached"
+             else [])
+    notes += [f"# {', '.join(PARTS[name].components)}: {PARTS[name].words}" for name in run.state
+              if name in ATTITUDES]
+    return "\n".join([f"{case.name}: {headline(case, run, units)}",
+                      *_columns(head, cells, width, 13 if known is None else ALL + 7), how, *laws, *notes,
+                      *(f"# {line.strip()}" for line in frame.note(case))])
+
+
+def zero_within(error: float) -> str:
+    """What stands for a number that is no more than its error, which is told by one digit, rounded up."""
+    with localcontext() as context:
+        context.prec, context.rounding = 1, ROUND_CEILING
+        return f"0 within {float(+Decimal(error)):.0e}"
+
+
+def headline(case, run, units: Units) -> str:
+    """How far the motion was followed, its size at both ends, and by how much first integrals vary."""
+    if not len(run.t):
+        return f"NOT FOLLOWED: {run.reason}"
+    reached = "followed to" if run.status == "reached" else "STOPPED at"
+    kept = f"; first integrals vary by {max(run.invariant_drift.values()):.2g}" if run.invariant_drift else ""
+    return f"{reached} {units.time(float(run.t[-1]), SHORT)}{_sizes(run, units)}{kept}"
+
+
+def _sizes(run, units):
+    part = next((name for name in ("omega", "x") if name in run.state), None)
+    if part is None:
+        return ""
+    error = max((float(v) for v in np.ravel(run.error.get(part, 0.0))), default=0.0)
+    first, last = (_size(float(run.t[n]), math.hypot(*map(float, run.state[part][n])), error, units)
+                   for n in (0, -1))
+    name = "|x|" if units.scaled else "|ω|"
+    return f"; {name} = {last} there" if len(run.t) == 1 else f"; {name} = {first} first, {last} last"
+
+
+def _size(t, size, error, units):
+    unit, one = units.rates
+    return (f"{zero_within(error * one)} {unit}".rstrip() if lost(t, size, error)
+            else units.rate(size, SHORT))
+
+
+def _factors(run, units) -> list[tuple[str, float]]:
+    """(unit, how many of it make one of the run's own) of every column."""
+    found: list[tuple[str, float]] = []
+    for name in run.state:
+        found += [units.of(PARTS[name].unit)] * len(PARTS[name].components)
+    return found
+
+
+def _columns(head, cells, width, wide):
+    """Lines of right-aligned columns, the time first; in several tables where they are wider than a terminal.
+    """
+    sizes = [max(wide, len(name) + GAP, 1 + max((len(row[i]) for row in cells), default=0)) for i,
+             name in enumerate(head)]
+    fit = len(head) - 1 if width is None else max(1, (width - sizes[0]) // max(sizes[1:], default=1))
+    lines = []
+    for start in range(1, len(head), fit):
+        chosen = [0, *range(start, min(start + fit, len(head)))]
+        lines += [""] * (start > 1)
+        lines += ["".join(f"{row[i]:>{sizes[i]}}" for i in chosen) for row in (head, *cells)]
+    return lines
+
+
+# --- As JSON
+def as_dict(case, run) -> dict:
+    """The object of `stabilab simulate --json`."""
+    return {"schema": "stabilab.simulate/1", "case": case.name, "model": run.model,
+            "time": case.scene.time_unit,
+            **values_of(run, "t state error invariant_drift counters method rtol status reason"),
+            **{name: PARTS[name].words for name in ATTITUDES if name in run.state}
+            } | frame.rows(case, run) | frame.key(case)
+
+
+def columns(run) -> tuple[list[str], list[list[float]]]:
+    """Names and rows of everything a run has, time left out."""
+    names: list[str] = []
+    parts: list[np.ndarray] = []
+    for name, values in run.state.items():
+        values = np.asarray(values, float)
+        names += PARTS[name].components
+        parts.append(values.reshape(len(run.t), int(np.prod(values.shape[1:]))))
+    return names, np.hstack(parts).tolist()
+
+
+def errors(run) -> list[float]:
+    """The error of each of the columns, 0 where none is known."""
+    return [float(v) for name, values in run.state.items()
+            for v in np.broadcast_to(run.error.get(name, 0.0), np.shape(values)[1:]).ravel()]
+
+
+def lost(t: float, value: float, error: float) -> bool:
+    """Whether a number is no more than its error: rounding. What a start gives is known."""
+    return t != 0 and 0 < abs(value) <= error
+
+
+# --- As files: NetCDF with units and provenance, or CSV
+def checked(path) -> Path:
+    """The path, if it can be written by its ending; InputError otherwise."""
+    path = endings.file(path, tuple(WRITERS))
+    if endings.ending(path) == ".nc":
+        demand("xarray", "scipy")
+    return path
+
+
+def write(case, run, path) -> Path:
+    """Write a Trajectory of a case to `path` (.nc or .csv), under a temporary name first, then renamed."""
+    path = checked(path)
+    with whole_file(path) as waiting:
+        WRITERS[endings.ending(path)](case, run, waiting)
+    return path
+
+
+def _csv(case, run, path):
+    names, rows = columns(run)
+    units = [unit for name in run.state for unit in [PARTS[name].unit] * len(PARTS[name].components)]
+    time = "tau" if case.variables == "scaled" else "t (s)"
+    named = [f"{name} ({unit})" if unit else name for name, unit in zip(names, units, strict=True)]
+    path.write_text(csv_lines([(time, *named),
+                                 *((float(t), *row) for t, row in zip(run.t, rows))]), encoding="utf-8",
+                    newline="")
+
+
+def _netcdf(case, run, path):
+    import xarray
+    time = "t" if case.variables == "physical" else "tau"
+    data = xarray.Dataset(
+        of_parts(run.state, time, run.error),
+        {time: ((time,), run.t, {"units": "s" if case.variables == "physical" else "1"}), "axis": [1, 2, 3]},
+        {"title": case.title, "source": case.source, "case": case.text, "program": f"stabilab {__version__}",
+         "model": run.model, "method": run.method, **({"rtol": run.rtol} if run.rtol else {}),
+         "status": run.status,
+         **{f"departure_from_{name}": value for name, value in run.invariant_drift.items()}})
+    data.to_netcdf(path, engine="scipy")  # NetCDF 3: every reader knows it, and no HDF5 library is needed
+
+
+WRITERS = {".nc": _netcdf, ".csv": _csv}
