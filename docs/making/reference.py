@@ -38,8 +38,8 @@ ANSWERS = {"FateResult": "stabilab.orbit.fate.result", "Motion": "stabilab.orbit
            "OrbitEquilibria": "stabilab.equilibrium.circular_orbit.result",
            "OrbitEquilibrium": "stabilab.equilibrium.circular_orbit.result",
            "MomentumSpan": "stabilab.equilibrium.circular_orbit.momenta",
-           "FlatSpin": "stabilab.answers.dissipation.result",
-           "Span": "stabilab.answers.dissipation.result",
+           "FlatSpin": "stabilab.answers.dissipation.ask",
+           "Span": "stabilab.answers.dissipation.ask",
            "Comparison": "stabilab.theories.comparison"}
 
 

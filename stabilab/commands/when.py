@@ -4,8 +4,8 @@ from __future__ import annotations
 from dataclasses import replace
 
 from ..answers.caveats import of_law
-from ..answers.passage.of_case import limited_time
 from ..answers.stuck.burn import time_of_burn
+from ..answers.when import limited_time
 from ..case.limit_options import stated_limit
 from ..case.read import blamed_on, fires_on_schedule, load_burning
 from ..show.data import as_json

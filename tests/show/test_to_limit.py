@@ -7,8 +7,8 @@ from scipy.integrate import solve_ivp
 
 import stabilab
 from stabilab import errors
-from stabilab.answers.passage.of_case import limit_of
 from stabilab.answers.tilt import by_angle
+from stabilab.answers.when import limit_of
 
 CASES = Path(__file__).parents[2] / "cases"
 

@@ -23,7 +23,8 @@ equal parts; in the nutation angle, or in the strength of the damper, the bands 
 from __future__ import annotations
 
 import math
-from dataclasses import replace
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import reduce
 from operator import getitem
@@ -36,13 +37,88 @@ from ...case.source import parsed
 from ...caveat import Caveat
 from ...errors import InputError
 from ...numbers.units import ANGLE, in_si
-from ...numbers.vectors import dot
+from ...numbers.vectors import Float3, dot
+from ...physics.scene import Scene, slices
 from ...physics.states import moved_row
+from ...representation import Compared, Shown
 from ...validation import checked_case
 from ..caveats import of_law
-from .result import ACROSS, NEGATIVE, POSITIVE, UNDECIDED, FlatSpin, Time
-from .spans import SPAN_STEPS, side_of, spans_of
 from .spinner import Run, Spinner
+
+POSITIVE, NEGATIVE = "positive major axis", "negative major axis"
+ACROSS, UNDECIDED = "across the minor axis", "undecided"
+
+
+@dataclass(frozen=True)
+class Time:
+    """A time, s, known to `error`, s: what a second run from a start moved in its last places, with a coarser
+    tolerance, differs by."""
+
+    at: float
+    error: float
+
+
+@dataclass(frozen=True)
+class Span:
+    """How far one number of the start, or of the damper, may go down and up before the outcome is another;
+    their sum is the width of the band of one outcome. name: "phase" (rad: the transverse angular momentum
+    turned about the minor axis along the polhode), "nutation" (relative, of the sine of the nutation angle)
+    or "damping" (relative, of the strength of what takes energy)."""
+
+    name: str
+    down: float
+    up: float
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class FlatSpin(Shown, Compared):
+    """What internal dissipation makes of a spin.
+
+    outcome: "positive major axis", "negative major axis", "across the minor axis" (two greatest moments are
+    equal: about some axis in their plane) or "undecided"; because: how it is known, or why it is not; level:
+    "exact", "run" (a run and a second one agree) or "undecided". axis: of the greatest moment, 1 to 3, and
+    minor: of the least; momentum: |H|, N m s; final_rate: |H|/(greatest moment), rad/s; rates: rad/s, along
+    the principal axes, at the end, None where it is undecided or across. energy, final_energy: J, now and at
+    the end.
+
+    The nutation angle is that of the polhode: the largest angle between the angular momentum and an axis in
+    the free motion of the same T and |H|. leaves: when it exceeds `within`, rad, from the minor axis;
+    crosses: when the separatrix is crossed, 2 T D2 = |H|^2, D2 the intermediate moment; settles: when it is
+    at most `within` from the major axis, which it then stays. Each None where it is past at the start, or not
+    reached. growth, decay: s, time constants of the nutation near the minor and the major axis, by
+    eigenvalues, None where there are none. spans: by how much the start may change. steps: of the first run.
+    """
+
+    outcome: str
+    because: str
+    level: str
+    axis: int
+    minor: int
+    momentum: float
+    final_rate: float
+    rates: Float3 | None
+    energy: float
+    final_energy: float
+    within: float
+    leaves: Time | None = None
+    crosses: Time | None = None
+    settles: Time | None = None
+    growth: float | None = None
+    decay: float | None = None
+    spans: tuple[Span, ...] = ()
+    steps: int = 0
+    caveats: tuple[Caveat, ...] = field(default=(), repr=False)
+
+    @property
+    def lost(self) -> float:
+        """The energy that is lost in all, J."""
+        return self.energy - self.final_energy
+
+    @property
+    def passage(self) -> float | None:
+        """From leaving the minor axis to settling at the major one, s."""
+        return None if self.leaves is None or self.settles is None else self.settles.at - self.leaves.at
+
 
 LEAST = math.radians(0.01)  # of `within`: below, the energy in doubles does not tell the angle any more
 DRAWN = 32  # motions from the box of uncertain numbers
@@ -80,7 +156,7 @@ def _over_the_box(case: Any, found: FlatSpin) -> FlatSpin:
             share = Fraction(draws.uniform(-1, 1))
             reduce(getitem, tables, data)[last] = str(one.middle + one.half * share)
         spinner = Spinner.of(with_data(case.path, case.text, data))
-        side = (1 if spinner.momentum[found.axis - 1] > 0 else -1) if found.crosses is None else side_of(
+        side = (1 if spinner.momentum[found.axis - 1] > 0 else -1) if found.crosses is None else _side_of(
             spinner, spinner.start, found.crosses.at)
         ends[POSITIVE if side > 0 else NEGATIVE] += 1
     told = (f"of {drawn} motions drawn from their box {ends[POSITIVE]} end about the positive and "
@@ -181,4 +257,107 @@ def _timed(spinner: Spinner, found: FlatSpin, angle: float) -> FlatSpin:
              f"axis; a second run, from a start moved by {MOVED:.0f} in its last place with tolerance "
              f"{SECOND_RTOL:.0e}, agrees")
     return replace(_ended(found, directions[0]), level="run", because=words,
-                   spans=spans_of(spinner, directions[0], found))
+                   spans=_spans_of(spinner, directions[0], found))
+
+
+# --- By how much the start, or what takes energy, may change before the spin ends in the other direction
+SPAN_STEPS = 6_000_000  # of all runs that look for changes of the outcome
+HALVINGS = 7  # of an interval with one change of the outcome: it is known to 1 %
+RUNS = 12  # for one change, about
+WEAKER = 0.5  # of nutation or damping: the least that is tried
+FINEST = 2.0**-30  # of the first change tried: a closer one is the second run's
+
+
+def _spans_of(spinner: Spinner, direction: int, found: FlatSpin) -> tuple[Span, ...]:
+    """The bands of one outcome about the start, where the motion begins about the minor axis."""
+    one, two, three = spinner.inverses
+    parts = slices(spinner.scene.blocks)
+    omega = spinner.start[parts["omega"]]
+    D = np.array(spinner.scene.body.inertia)
+    L = D * omega
+    i, j, k = spinner.order
+    weight = np.sqrt([three - one, three - two])
+    across = weight * L[[i, j]]
+    room = float(np.sqrt(weight[1] ** 2 * (L @ L) / max(across @ across, 1e-300)))  # times nutation
+    if found.crosses is None or room <= 1 or not L[k]:
+        return ()
+    until = found.crosses.at
+    # a stronger sphere must still fit into the body
+    stronger = min(1.0, 0.99 * float(spinner.moments[2] / spinner.inside - 1)) if spinner.inside else 1.0
+
+    def moved(angle: float = 0.0, share: float = 0.0) -> np.ndarray:
+        """The start turned along its polhode by an angle, its nutation greater by a share."""
+        c, s = math.cos(angle), math.sin(angle)
+        turn = np.array([[c, -s], [s, c]])
+        new, state = L.copy(), spinner.start.copy()
+        new[[i, j]] = (1 + share) * (turn @ across) / weight
+        new[k] = math.copysign(math.sqrt(max(0.0, L @ L - new[i] ** 2 - new[j] ** 2)), L[k])
+        state[parts["omega"]] = new / D
+        if "damper" in parts:
+            sigma = spinner.start[parts["damper"]].copy()
+            sigma[[i, j]] = turn @ sigma[[i, j]]
+            state[parts["damper"]] = sigma
+        return state
+
+    def flips(state: np.ndarray, scene: Scene | None = None) -> bool:
+        other = spinner if scene is None else replace(spinner, scene=scene)
+        return _side_of(other, state, until) != direction
+
+    steps = found.steps
+    tried: list[tuple[str, Callable[[float], bool], float, float]] = [
+        ("phase", lambda s: flips(moved(angle=s)), math.pi / 16, math.pi),
+        ("nutation", lambda s: flips(moved(share=s)), 0.0, 0.99 * (room - 1)),
+        ("damping", lambda s: flips(spinner.start, _stronger(spinner.scene, s)), 0.0, stronger)]
+    turns = max(1.0, until * float(np.linalg.norm(omega)) / math.pi)
+    spans: list[Span] = []
+    for name, flipped, first, most in tried:
+        if steps * RUNS * (1 if name == "phase" else 2) > SPAN_STEPS:
+            continue
+        first = first or min(most, 1.0) / turns
+        up = _edge(flipped, first, most)
+        down = (math.pi - up if name == "phase"
+                else _edge(lambda s, flipped=flipped: flipped(-s), first, min(most, WEAKER)))
+        spans.append(Span(name, down, up))
+    return tuple(spans)
+
+
+def _stronger(scene: Scene, share: float) -> Scene:
+    """The scene whose damper, inertia and coefficient, or liquid is stronger by a share."""
+    more = 1 + Fraction(share)
+    damper, liquid, changed = scene.effect("viscous_damper"), scene.effect("liquid_cavity"), []
+    if damper is not None:
+        changed.append(type(damper)(*(value * more for value in damper.exact)))
+    if liquid is not None:
+        changed.append(replace(liquid, P0=Fraction(liquid.P0) * more))
+    return Scene(scene.body, *changed)
+
+
+def _side_of(spinner: Spinner, state: np.ndarray, until: float) -> int:
+    """The side on which a motion is past the separatrix."""
+    run, times = Run(spinner, state, None), np.array([1.02 * until])
+    for _ in range(60):
+        state = run.over(state, times).states[-1]
+        if float(spinner.ratios(state)) < spinner.inverses[1]:
+            return spinner.direction(state)
+        times = times * 0.05 if times[0] > until else times * 1.5
+    return 0
+
+
+def _edge(flips: Callable[[float], bool], first: float, most: float) -> float:
+    """The smallest change of which the outcome is another, to 1 %; inf where there is none up to `most`.
+    Bands of one outcome are about equally wide, so that doubling the change passes over none."""
+    low = high = min(first, most)
+    if flips(high):
+        while flips(low := high / 2):
+            high = low
+            if high < FINEST * first:
+                return high
+    else:
+        while not flips(high := min(2 * low, most)):
+            if high >= most:
+                return math.inf
+            low = high
+    for _ in range(HALVINGS):
+        middle = (low + high) / 2
+        low, high = (low, middle) if flips(middle) else (middle, high)
+    return (low + high) / 2

@@ -23,8 +23,8 @@ from ...numbers.principal import NOTHING, without_trace
 from ...numbers.vectors import CYCLE, Exact3, dot
 from ...physics.scene import Scene
 from ..caveats import STEADY, caveats_of
-from ..passage.of_case import limit_of, of_tilt
 from ..tilt import Spread, Tilt
+from ..when import limit_of, of_tilt
 from .fate import PATIENCE, Found, Scenario, first_time, found, limit_in, scenario_of, time_under
 from .line import Family
 from .margins import margins

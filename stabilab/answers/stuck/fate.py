@@ -22,9 +22,9 @@ from ...unreduced.spin_up.follow import spin_up
 from ...validation import came
 from ..kinds import kind_of, one
 from ..passage.limit import Limit, asked
-from ..passage.of_case import limit_of
 from ..passage.run import largest_rate, run_once
 from ..time_to import of_one
+from ..when import limit_of
 
 
 # --- A case with its thrusters stuck one way or another: what turns the body then

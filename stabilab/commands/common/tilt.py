@@ -1,7 +1,7 @@
 """What a tilt of the torque does to a motion: an angle as typed, or what the case states."""
 from __future__ import annotations
 
-from ...answers.passage.of_case import with_tilt
+from ...answers.when import with_tilt
 from ...case.limit_options import stated_angle
 from ...case.read import blamed_on
 

@@ -232,7 +232,7 @@ class Session:
     def _first(self, case: Case, found: Motion) -> Motion:
         """The motion with the time at which it reaches the limit of its case, by work that a hand waits for.
         """
-        from ...answers.passage.of_case import with_first
+        from ...answers.when import with_first
         return with_first(case, found, QUICK)
 
     def _twin(self, case: Case) -> AnyScene | None:

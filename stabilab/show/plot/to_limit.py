@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...answers.caveats import STEADY
-from ...answers.passage.of_case import limit_of
 from ...answers.stuck.fate import PATIENCE, scenario_of
 from ...answers.stuck.wheel import times_over
 from ...answers.tilt import SIDES, by_angle
+from ...answers.when import limit_of
 from ...numbers.principal import without_trace
 from .. import style
 from ..spans import limit_time

@@ -86,7 +86,7 @@ def judged(case, motion, brief=False):
     motion = limited(motion if found is None else replace(motion, validity=found), case.scene, case)
     if case.limits is None or brief:
         return motion
-    from ...answers.passage.of_case import with_first
+    from ...answers.when import with_first
     return with_first(case, motion)
 
 

@@ -8,7 +8,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from stabilab import Body, ConstantTorque, InputError, LiquidCavity, Scene, ViscousDamper, flat_spin, load
-from stabilab.answers.dissipation import spans, spinner
+from stabilab.answers.dissipation import ask, spinner
 
 RAHN_BARBA = """[body]
 inertia = [2000, 1500, 1000]
@@ -26,7 +26,7 @@ def case(rates="0.1224, 0, 2.99"):
 
 @pytest.fixture
 def no_search(monkeypatch):
-    monkeypatch.setattr(spans, "SPAN_STEPS", 0)
+    monkeypatch.setattr(ask, "SPAN_STEPS", 0)
 
 
 @pytest.fixture(scope="module")

@@ -7,8 +7,8 @@ from pathlib import Path
 
 from ....answers.certificate import certificate
 from ....answers.equilibria import equilibria
-from ....answers.passage.of_case import with_tilt
 from ....answers.uncertain.fate import uncertain
+from ....answers.when import with_tilt
 from ....errors import StabilabError
 from ....physics.equations import derive, invariants
 from ....verify import verify_file
