@@ -316,7 +316,7 @@ def _spans_of(spinner: Spinner, direction: int, found: FlatSpin) -> tuple[Span, 
         first = first or min(most, 1.0) / turns
         up = _edge(flipped, first, most)
         down = (math.pi - up if name == "phase"
-                else _edge(lambda s, flipped=flipped: flipped(-s), first, min(most, WEAKER)))
+                else _edge(flipped, -first, min(most, WEAKER)))
         spans.append(Span(name, down, up))
     return tuple(spans)
 
@@ -344,20 +344,22 @@ def _side_of(spinner: Spinner, state: np.ndarray, until: float) -> int:
 
 
 def _edge(flips: Callable[[float], bool], first: float, most: float) -> float:
-    """The smallest change of which the outcome is another, to 1 %; inf where there is none up to `most`.
-    Bands of one outcome are about equally wide, so that doubling the change passes over none."""
-    low = high = min(first, most)
-    if flips(high):
-        while flips(low := high / 2):
+    """The size of the smallest change, of the sign of `first`, of which the outcome is another, to 1 %; inf
+    where there is none up to `most`. Bands of one outcome are about equally wide, so that doubling the change
+    passes over none."""
+    sign = math.copysign(1.0, first)
+    low = high = min(abs(first), most)
+    if flips(sign * high):
+        while flips(sign * (low := high / 2)):
             high = low
-            if high < FINEST * first:
+            if high < FINEST * abs(first):
                 return high
     else:
-        while not flips(high := min(2 * low, most)):
+        while not flips(sign * (high := min(2 * low, most))):
             if high >= most:
                 return math.inf
             low = high
     for _ in range(HALVINGS):
         middle = (low + high) / 2
-        low, high = (low, middle) if flips(middle) else (middle, high)
+        low, high = (low, middle) if flips(sign * middle) else (middle, high)
     return (low + high) / 2
