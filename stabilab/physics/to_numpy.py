@@ -227,19 +227,9 @@ class System:
         flat = evaluate(self.rates, x)
         return {law.name: flat[..., i] for i, law in enumerate(self.equations.balances)}
 
-    def law_sizes(self, x: ArrayLike) -> dict[str, np.ndarray]:
-        """Law name -> sum of the absolute terms of its quantity: what a relative departure is measured
-        against."""
-        return {name: sizes for name, (_, sizes) in self.law_values(x).items()}
-
-    def law_values(self, x: ArrayLike) -> dict[str, tuple[np.ndarray, np.ndarray]]:
-        """Law name -> (`invariants`, `law_sizes`) at the states x, each term formed once: (..., 3) -> two of
-        (...)."""
-        quantities, sizes = self.laws(x)
-        return {law.name: pair for law, pair in zip(self.equations.balances, zip(quantities, sizes))}
-
     def laws(self, x: ArrayLike) -> tuple[np.ndarray, np.ndarray]:
-        """`law_values` in the order of the equations' balances: (..., 3) -> two of (laws, ...)."""
+        """(quantities as of `invariants`, the sums of their absolute terms, which a relative departure is
+        measured against), in the order of the equations' balances: (..., 3) -> two of (laws, ...)."""
         terms, ends = self._law_terms
         each = _columns(terms, x)
         quantities, sizes = np.empty((2, len(ends), *each.shape[1:]), each.dtype)

@@ -9,8 +9,9 @@ import sympy
 from stabilab.equilibrium.circular_orbit.result import yaw_pitch_roll
 from stabilab.equilibrium.circular_orbit.solve import orbit_equilibria
 from stabilab.integrate.trajectory import integrated
-from stabilab.physics.circular_orbit import Satellite, orbital_equations
+from stabilab.physics.circular_orbit import Satellite
 from tests.equilibrium.orbit import newton
+from tests.oracles.circular_orbit import orbital_equations
 
 
 def satellite(moments, momentum, rate_squared=1):
