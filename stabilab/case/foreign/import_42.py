@@ -1,36 +1,32 @@
-"""Spacecraft files of 42 as cases; bodies joined rigidly into one.
-
-Several bodies on joints, as NASA's simulator 42 places them, as one rigid body: the joints locked where they
-are.
-
-Of a joint from body i to body o, 42 (InitSpacecraft in 42init.c, MapStateVectorToBodyStates in 42dynamics.c)
-turns components by C_oi = C(Go to Bo) C(angles) C(Bi to Gi), each from angles and a sequence, "312" first
-about axis 3; the origin of o is at (position wrt inner) + C(Bi to Gi)^T (displacements) - C_oi^T (position
-wrt outer) from that of i. Angles and displacements beyond the joint's degrees of freedom count as zero. A
-body's moments are about its mass centre, or about its origin (REFPT_JOINT).
-
-The spacecraft description file of NASA's simulator 42 (SC_*.txt): a value and its label a line, in titled
-sections.
+"""The spacecraft description file of NASA's simulator 42 (SC_*.txt) as a case: a value and its label a line,
+in titled sections.
 
 42 states rates in deg/s, products of inertia as positive integrals, and puts thrusters at nodes whose places
-are in a file of their own; a thruster without a place cannot be used and is listed. Several bodies are
-combined, their joints locked (`joined`).
+are in a file of their own; a thruster without a place cannot be used and is listed.
+
+Several bodies become one rigid body, their joints locked where they are. Of a joint from body i to body o, 42
+(InitSpacecraft in 42init.c, MapStateVectorToBodyStates in 42dynamics.c) turns components by C_oi = C(Go to
+Bo) C(angles) C(Bi to Gi), each from angles and a sequence, "312" first about axis 3; the origin of o is at
+(position wrt inner) + C(Bi to Gi)^T (displacements) - C_oi^T (position wrt outer) from that of i. Angles and
+displacements beyond the joint's degrees of freedom count as zero. A body's moments are about its mass centre,
+or about its origin (REFPT_JOINT).
 """
 from __future__ import annotations
 
 import math
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from fractions import Fraction
 from typing import Any, NamedTuple
 
+import numpy as np
+
 from ...errors import InputError
 from ...numbers.exact import precise
-from ...numbers.vectors import Exact3, dot
 from .imported import Craft
 
-Matrix = tuple[Exact3, ...]
-ONE: Matrix = tuple(tuple(Fraction(i == j) for j in range(3)) for i in range(3))
+# Matrices (3, 3) and vectors (3,) are arrays of Fractions: products of these are exact.
+ONE = np.array([[Fraction(i == j) for j in range(3)] for i in range(3)])
 DIGITS = 12  # of the largest number of a vector or a tensor: products of decimals and cosines do not end
 
 
@@ -39,9 +35,9 @@ class Part(NamedTuple):
     momentum of its wheels, N m s."""
 
     mass: Fraction
-    tensor: Matrix
-    centre: Exact3
-    momentum: Exact3
+    tensor: np.ndarray
+    centre: np.ndarray
+    momentum: np.ndarray
 
 
 class Joint(NamedTuple):
@@ -50,23 +46,26 @@ class Joint(NamedTuple):
 
     inner: int
     outer: int
-    turn: Matrix
-    origin: Exact3
+    turn: np.ndarray
+    origin: np.ndarray
 
 
-def turn(angles: Sequence[Fraction], sequence: str) -> Matrix:
+Places = dict[int, tuple[np.ndarray, np.ndarray]]
+
+
+def turn(angles: Iterable[Fraction], sequence: str) -> np.ndarray:
     """What turns components by angles in deg about the axes of a sequence such as "312", the first first."""
     found = ONE
     for angle, axis in zip(angles, sequence):
-        found = product(_about(int(axis) - 1, angle), found)
+        found = _about(int(axis) - 1, angle) @ found
     return found
 
 
-def _about(axis: int, angle: Fraction) -> Matrix:
+def _about(axis: int, angle: Fraction) -> np.ndarray:
     j, k, c, s = (axis + 1) % 3, (axis + 2) % 3, _cosine(angle), _cosine(angle - 90)
-    rows = [list(row) for row in ONE]
-    rows[j][j], rows[j][k], rows[k][j], rows[k][k] = c, s, -s, c
-    return tuple(map(tuple, rows))
+    found = ONE.copy()
+    found[j, j], found[j, k], found[k, j], found[k, k] = c, s, -s, c
+    return found
 
 
 def _cosine(angle: Fraction) -> Fraction:
@@ -77,67 +76,38 @@ def _cosine(angle: Fraction) -> Fraction:
             else precise("cos", angle * precise("pi") / 180))
 
 
-def product(a: Matrix, b: Matrix) -> Matrix:
-    """a b."""
-    return tuple(tuple(dot(row, column) for column in zip(*b)) for row in a)
+def _parallel(mass: Fraction, arm: np.ndarray) -> np.ndarray:
+    """mass (|arm|^2 I - arm arm^T): what parallel axes add to a tensor, kg m^2."""
+    return mass * (arm @ arm * ONE - np.outer(arm, arm))
 
 
-def times(a: Matrix, v: Sequence[Fraction]) -> Exact3:
-    """a v."""
-    return tuple(dot(row, v) for row in a)
-
-
-def turned_back(a: Matrix) -> Matrix:
-    """The transpose."""
-    return tuple(zip(*a))
-
-
-def about(mass: Fraction, arm: Exact3) -> Matrix:
-    """mass (|arm|^2 I - arm arm^T): what parallel axes add, kg m^2."""
-    return tuple(tuple(mass * (dot(arm, arm) * (i == j) - arm[i] * arm[j]) for j in range(3))
-                 for i in range(3))
-
-
-def added(a: Matrix, b: Matrix, sign: int = 1) -> Matrix:
-    """a + sign b."""
-    return tuple(tuple(x + sign * y for x, y in zip(p, q)) for p, q in zip(a, b))
-
-
-def places(joints: Sequence[Joint], count: int) -> dict[int, tuple[Matrix, Exact3]]:
+def places(joints: Sequence[Joint], count: int) -> Places:
     """Of every body that joints tie to body 0: (what turns components of body 0 to its own, its origin in the
     frame of body 0)."""
-    found: dict[int, tuple[Matrix, Exact3]] = {0: (ONE, (Fraction(0),) * 3)}
+    found: Places = {0: (ONE, 0 * ONE[0])}
     for _ in range(count):  # 42 wants inner bodies first; a tree in any other order is read too
         for joint in joints:
             if joint.inner in found and joint.outer not in found:
                 to_inner, at = found[joint.inner]
-                arm = times(turned_back(to_inner), joint.origin)
-                found[joint.outer] = product(joint.turn, to_inner), tuple(a + b for a, b in zip(at, arm))
+                found[joint.outer] = joint.turn @ to_inner, at + to_inner.T @ joint.origin
     return found
 
 
-def joined(parts: Sequence[Part], where: dict[int, tuple[Matrix, Exact3]]) -> Part:
+def joined(parts: Sequence[Part], where: Places) -> Part:
     """The parts as one body in the frame of body 0, by parallel axes about their common mass centre. Their
     masses are positive together."""
-    mass, centres = Fraction(sum(part.mass for part in parts)), []
-    for index, part in enumerate(parts):
-        back, at = turned_back(where[index][0]), where[index][1]
-        centres.append(tuple(a + b for a, b in zip(at, times(back, part.centre))))
-    centre = tuple(sum(part.mass * c[i] for part, c in zip(parts, centres)) / mass for i in range(3))
-    tensor: Matrix = ((Fraction(0),) * 3,) * 3
-    momentum: Exact3 = (Fraction(0),) * 3
-    for index, part in enumerate(parts):
-        to_part = where[index][0]
-        own = product(product(turned_back(to_part), part.tensor), to_part)
-        tensor = added(tensor,
-                       added(own, about(part.mass, tuple(c - o for c, o in zip(centres[index], centre)))))
-        momentum = tuple(Fraction(a + b) for a,
-                         b in zip(momentum, times(turned_back(to_part), part.momentum)))
-    return Part(mass, tensor, centre, momentum)
+    turns, origins = zip(*(where[index] for index in range(len(parts))))
+    centres = [at + turn.T @ part.centre for part, turn, at in zip(parts, turns, origins)]
+    mass = sum((part.mass for part in parts), Fraction(0))
+    centre = sum(part.mass * own for part, own in zip(parts, centres)) / mass
+    tensor = sum(turn.T @ part.tensor @ turn + _parallel(part.mass, own - centre)
+                 for part, turn, own in zip(parts, turns, centres))
+    return Part(mass, tensor, centre, sum(turn.T @ part.momentum for part, turn in zip(parts, turns)))
 
 
-def decimals(numbers: Sequence[Fraction]) -> list[str]:
+def decimals(numbers: Iterable[Fraction]) -> list[str]:
     """The numbers to so many digits of the largest of them, as a case file writes them."""
+    numbers = list(numbers)
     most = max(map(abs, numbers))
     places = DIGITS - 1 - math.floor(math.log10(most)) if most else 0
     return [f"{float(round(v, places)) + 0.0:.{DIGITS}g}" for v in numbers]
@@ -181,7 +151,7 @@ def spacecraft(text: str, path, body: int | None = None) -> Craft:
     alone, whole = bodies[body or 0], body is None and len(bodies) > 1
     craft.rate, craft.rate_unit = _numbers(entries, "ang vel (", 3, path), "deg/s"
     if body and craft.rate:
-        craft.rate = decimals(times(where[body][0], [Fraction(v) for v in craft.rate]))
+        craft.rate = decimals(where[body][0] @ [Fraction(v) for v in craft.rate])
     if whole:
         parts = [_part(rows, _at_joint(entries), path) for rows in bodies]
         if sum(part.mass for part in parts) <= 0:
@@ -224,7 +194,7 @@ def _together(craft: Craft, whole: Part, count: int):
 
 def _rows(part: Part) -> list:
     """The tensor of a part, or its moments where it is diagonal."""
-    flat = decimals([v for row in part.tensor for v in row])
+    flat = decimals(part.tensor.ravel())
     return flat[::4] if not any(float(flat[i]) for i in (1, 2, 5)) else [flat[i:i + 3] for i in (0, 3, 6)]
 
 
@@ -241,15 +211,16 @@ def _part(rows, at_joint: bool, path) -> Part:
     """A body in exact numbers."""
     mass, = _exact(rows, "mass", 1, path)
     x, y, z = (Fraction(v) for v in _moments(rows, path))
-    xy, xz, yz = (-v for v in _exact(rows, "products of inertia", 3, path))
-    tensor, centre = ((x, xy, xz), (xy, y, yz), (xz, yz, z)), _exact(rows, "location of mass center", 3, path)
-    return Part(mass, added(tensor, about(mass, centre), -1) if at_joint else tensor, centre,
+    xy, xz, yz = -_exact(rows, "products of inertia", 3, path)
+    centre = _exact(rows, "location of mass center", 3, path)
+    tensor = np.array([(x, xy, xz), (xy, y, yz), (xz, yz, z)])
+    return Part(mass, tensor - _parallel(mass, centre) if at_joint else tensor, centre,
                 _exact(rows, "constant embedded momentum", 3, path))
 
 
-def _exact(rows, label: str, count: int, path) -> Exact3:
+def _exact(rows, label: str, count: int, path) -> np.ndarray:
     """The numbers of a line, zeros where it is missing."""
-    return tuple(Fraction(v) for v in _numbers(rows, label, count, path) or ["0"] * count)
+    return np.array([Fraction(v) for v in _numbers(rows, label, count, path) or ["0"] * count])
 
 
 def _at_joint(entries) -> bool:
@@ -275,13 +246,12 @@ def _joint(rows, path) -> Joint:
                                          for label in ("rotdof, seq", "trndof, seq"))
     angles = _exact(rows, "initial angles", 3, path)[:int(free)]
     before, after = (_static(rows, label, path) for label in ("bi to gi", "go to bo"))
-    slid = [Fraction(0)] * 3
+    slid = 0 * ONE[0]
     for axis, way in zip(str(along), _exact(rows, "initial displacements", 3, path)[:int(slides)]):
         slid[int(axis) - 1] += way
-    turned = product(after, product(turn(angles, str(sequence)), before))
+    turned = after @ turn(angles, str(sequence)) @ before
     inside, outside = (_exact(rows, f"position wrt {word}", 3, path) for word in ("inner", "outer"))
-    back = zip(inside, times(turned_back(before), slid), times(turned_back(turned), outside))
-    return Joint(inner, outer, turned, tuple(a + b - c for a, b, c in back))
+    return Joint(inner, outer, turned, inside + before.T @ slid - turned.T @ outside)
 
 
 def _static(rows, label, path):
@@ -318,7 +288,7 @@ def _wheel(craft: Craft, block, rows, where, body, path):
 
 def _turned(place, vector) -> list[str]:
     """A vector of a body in the frame of body 0."""
-    return decimals(times(turned_back(place[0]), [Fraction(v) for v in vector]))
+    return decimals(place[0].T @ [Fraction(v) for v in vector])
 
 
 def _thruster(craft, block, rows, where, path):
