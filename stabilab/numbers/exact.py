@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from fractions import Fraction
@@ -104,6 +104,13 @@ def sqrt_fraction(value: Fraction, bits: int = 240) -> Fraction:
         return Fraction(rn, rd)
     shift = max(0, bits + (d.bit_length() - n.bit_length()) // 2 + d.bit_length())
     return Fraction(math.isqrt((n << (2 * shift)) // d), 1 << shift)
+
+
+def unit_vector(vector: Sequence[Fraction]) -> Exact3:
+    """The vector in length 1: exactly where its length is rational, as along an axis, else good to 240 bits.
+    ZeroDivisionError for zero."""
+    length = sqrt_fraction(sum((v * v for v in vector), Fraction(0)))
+    return tuple(v / length for v in vector)
 
 
 @contextmanager

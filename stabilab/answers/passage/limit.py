@@ -10,8 +10,8 @@ from typing import Any
 
 from ...errors import InputError
 from ...integrate.integer_flow import Threshold
-from ...numbers.exact import exact, exact_vector, precise, sqrt_fraction
-from ...numbers.vectors import Exact3, Number, dot
+from ...numbers.exact import exact, exact_vector, precise, sqrt_fraction, unit_vector
+from ...numbers.vectors import Exact3, Number
 from ...physics.scene import AnyScene
 
 AXES = tuple(tuple(Fraction(int(i == j)) for j in range(3)) for i in range(3))
@@ -167,11 +167,10 @@ def _direction(axis: Any, name: str) -> tuple[Exact3, str]:
             return AXES[int(axis) - 1], f"axis {int(axis)}"
         raise InputError(f"{name}: expected the axis 1, 2 or 3 or three numbers along it, got {axis!r}")
     vector = exact_vector(axis, name)
-    length = sqrt_fraction(dot(vector, vector))
-    if not length:
+    if not any(vector):
         raise InputError(f"{name}: expected a direction, got zero: give a vector of any length but that")
-    return tuple(v / length
-                 for v in vector), "(" + ", ".join(f"{float(v / length):.6g}" for v in vector) + ")"
+    unit = unit_vector(vector)
+    return unit, f"({', '.join(f'{float(v):.6g}' for v in unit)})"
 
 
 def _positive(value: Any, name: str) -> Fraction:

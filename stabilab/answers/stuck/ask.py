@@ -25,7 +25,7 @@ from ...physics.scene import Scene
 from ..caveats import STEADY, caveats_of
 from ..tilt import Spread, Tilt
 from ..when import limit_of, of_tilt
-from .fate import PATIENCE, Found, Scenario, first_time, found, limit_in, scenario_of, time_under
+from .fate import PATIENCE, Found, Scenario, first_time, found, scenario_of, time_under
 from .line import Family
 from .margins import margins
 from .result import Helper, Principal, Row, Stuck, WheelAnswer
@@ -178,7 +178,7 @@ def _run(scenario: Scenario, torque: Sequence[Fraction], chosen: Any, duty: Duty
     """The time of the limit by a plain run, inf where it is not reached for long."""
     left = _left(torque, [arm for _, arm in chosen], duty)
     t_max = PATIENCE * (seen.time[0] if seen.time else seen.followed)
-    return first_time(scenario, limit_in(scenario), left, None, t_max)
+    return first_time(scenario, left, None, t_max)
 
 
 def _in_the_box(torque: Sequence[Fraction], arms: Sequence[Sequence[Fraction]]) -> list[Duty]:

@@ -9,6 +9,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from functools import cached_property
 from typing import Any, cast
 
 from ...errors import InputError
@@ -68,6 +69,14 @@ class Scenario:
         found = self.axes.back([Fraction(v) for v in vector])
         least = max(map(abs, found)) * NOTHING
         return tuple(float(v) + 0.0 if abs(v) > least else 0.0 for v in found)
+
+    @cached_property
+    def exact_limit(self) -> Limit:
+        """The limit of the case along the scene's axes, exactly, where it has one."""
+        found = asked(self.scene(self.base), **cast(dict[str, Any], limit_of(self.case)))
+        if found.kind == "component":
+            return replace(found, words="components in the frame of the file")
+        return found
 
     @property
     def start(self) -> Float3:
@@ -159,20 +168,13 @@ def time_under(scenario: Scenario, torque: Sequence[Fraction],
     return _when(scenario, scenario.scene(torque, wheel), None, LITTLE, FEW).time
 
 
-def limit_in(scenario: Scenario) -> Limit:
-    """The limit of the case along the scene's axes, exactly."""
-    ask = cast(dict[str, Any], limit_of(scenario.case))
-    found = asked(scenario.scene(scenario.base), **ask)
-    return replace(found, words="components in the frame of the file") if found.kind == "component" else found
-
-
-def first_time(scenario: Scenario, limit: Limit, torque: Sequence[Fraction], wheel: Sequence[Fraction] | None,
+def first_time(scenario: Scenario, torque: Sequence[Fraction], wheel: Sequence[Fraction] | None,
                t_max: float) -> float:
     """The time at which a plain run comes to the limit, s, for searches; inf where not until t_max, and where
     its steps end before that, the time it got to."""
-    if limit.reached_by(scenario.state):
+    if scenario.exact_limit.reached_by(scenario.state):
         return 0.0
-    t, until = run_once(scenario.scene(torque, wheel), scenario.start, limit, t_max, SEARCHED)
+    t, until = run_once(scenario.scene(torque, wheel), scenario.start, scenario.exact_limit, t_max, SEARCHED)
     return t if until >= t_max else until
 
 
@@ -224,7 +226,7 @@ def _when(scenario: Scenario, scene: Scene, t_max: float | None, *work: Any, spu
         return _When(None, "run", False, 0.0 if t_max is None else t_max)
     end = None if t_max is None else Fraction(t_max)
     # work is no more than two
-    seen = of_one(scene, scenario.start, scenario.state, limit_in(scenario), end, *work, spun=spun)  # type: ignore[misc]
+    seen = of_one(scene, scenario.start, scenario.state, scenario.exact_limit, end, *work, spun=spun)  # type: ignore[misc]
     if math.isinf(seen.low):
         return _When(None, seen.level, True, math.inf)
     if math.isfinite(seen.high):

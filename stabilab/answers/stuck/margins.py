@@ -10,7 +10,7 @@ from typing import Any, cast
 
 import numpy as np
 
-from ...numbers.exact import sqrt_fraction
+from ...numbers.exact import unit_vector
 from ...numbers.roots import golden_section
 from ...numbers.vectors import Float3, Number
 from ...orbit.reduction import Reduction
@@ -75,7 +75,7 @@ def _rate_again(family: Family, change: Sequence[Number], size: Fraction) -> flo
     if reduction is None:
         return None
     way = family.turned([Fraction(v) for v in change])
-    step = [v / sqrt_fraction(sum((v * v for v in way), Fraction(0))) for v in way]
+    step = unit_vector(way)
     cuts = candidates(Line(reduction, reduction, family.state, family.along(family.state, step, Fraction(1))))
     if cuts is None:
         return None
@@ -194,8 +194,7 @@ def _to_pure_spin(family: Family) -> list[Fraction] | None:
     """The unit vector towards the momentum at which the orbit's circle is a point and nothing stands in the
     way of a spin-up."""
     step = [_pure_spin(family, n) - family.wheel[n] if n in family.across else Fraction(0) for n in range(3)]
-    whole = sqrt_fraction(sum((v * v for v in step), Fraction(0)))
-    return [v / whole for v in step] if whole else None
+    return list(unit_vector(step)) if any(step) else None
 
 
 def _pure_spin(family: Family, n: int) -> Fraction:

@@ -15,7 +15,7 @@ from ...numbers.vectors import Exact3, Number, dot
 from ...orbit.reduction import Reduction
 from ...physics.scene import Scene, rests
 from ..caveats import STEADY
-from .fate import PATIENCE, Scenario, first_time, limit_in, time_under
+from .fate import PATIENCE, Scenario, first_time, time_under
 from .line import EVERY, INF, Family, Intervals, Line, candidates, family_of, own_momentum, pieces
 
 Answer: TypeAlias = tuple[Intervals, str]  # and because
@@ -194,9 +194,8 @@ def _runs(scenario: Scenario, torque: Sequence[Fraction], axis: Exact3, now: Fra
     # of a wheel at rest: up to the momentum of the body itself
     reach = (RANGE * abs(float(now))
              or own_momentum(scenario.body, scenario.start, math.hypot(*map(float, torque))))
-    limit = limit_in(scenario)
 
     def until(s: Number) -> float:
         wheel = [w + Fraction(float(s)) * a for w, a in zip(others, axis)]
-        return first_time(scenario, limit, torque, wheel, PATIENCE * time[0])
+        return first_time(scenario, torque, wheel, PATIENCE * time[0])
     return others, reach, until

@@ -32,9 +32,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ...case.read import Case
-from ...numbers.exact import sqrt_fraction
+from ...numbers.exact import unit_vector
 from ...numbers.principal import without_trace
-from ...numbers.vectors import Exact3, dot
+from ...numbers.vectors import Exact3
 from ...physics.effects import effect_class
 from ...physics.scene import Scene
 
@@ -217,19 +217,12 @@ def named_direction(case: Case, kind: int, number: int) -> Exact3:
         return tuple(Fraction((1 - 2 * (number % 2)) * (axis == number // 2)) for axis in range(3))
     turned = (case.scene.vector("constant_torque") if kind == OWN  # type: ignore[union-attr]
               else along_axes(case, case.thrusters[number].torque))
-    return unit(turned)
+    return unit_vector(turned)
 
 
 def along_axes(case: Case, vector: Exact3) -> Exact3:
     """The components along the principal axes of a vector in the frame of the file."""
     return vector if case.frame is None else case.frame.turned(vector)
-
-
-def unit(vector: Exact3) -> Exact3:
-    """The vector in length 1: exactly along an axis where it is along one."""
-    size = sqrt_fraction(dot(vector, vector))
-    return (tuple(v / size for v in vector) if sum(v != 0 for v in vector) > 1
-            else tuple(Fraction((v > 0) - (v < 0)) for v in vector))
 
 
 # --- The cells of an atlas at their depths: which lies beside which, and which are to be cut because the

@@ -15,7 +15,7 @@ import numpy as np
 from ...case.limit_options import FILE_AXES, StatedLimit, stated_limit
 from ...case.read import Case, blamed_on, read_text
 from ...errors import InputError, printable
-from ...numbers.exact import sqrt_fraction
+from ...numbers.exact import sqrt_fraction, unit_vector
 from ...numbers.principal import NOTHING
 from ...numbers.units import TORQUE, quantity
 from ...numbers.vectors import Exact3, dot
@@ -37,7 +37,6 @@ from .pointed import (
     count,
     middles,
     named_direction,
-    unit,
 )
 
 # --- What an atlas is asked: body, start, size of the torque, wheel momenta, how fine the cells are; each
@@ -173,8 +172,7 @@ def _size(case: Case, torque: Any) -> Fraction:
             raise InputError(
                 f'{case.place}: no torque acts, so its size is not known: give --torque "1 N m", or mark a '
                 f'thruster of the case as stuck')
-        return (abs(next(v for v in own if v)) if sum(v != 0 for v in own) == 1
-                else sqrt_fraction(dot(own, own)))
+        return sqrt_fraction(dot(own, own))
     try:
         size, _ = quantity(str(torque), TORQUE)
     except InputError as error:
@@ -204,7 +202,7 @@ def _own_direction(case: Case, own: Exact3) -> Exact3:
         raise InputError('the case has no wheel that turns: say along which axis, as in --wheel "z=-2:2:5" '
                          '(x, y, z of the file, or 1, 2, 3, the '
                          "principal axes)")
-    return unit(own)
+    return unit_vector(own)
 
 
 def _along(case: Case, axis: str) -> Exact3:
