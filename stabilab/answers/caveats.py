@@ -55,8 +55,8 @@ def unseen(case: Any) -> tuple[Caveat, ...]:
     """That a misalignment which the case states is left out of an answer."""
     names = misaligned(case)
     return (Caveat("tilt",
-                   f"a tilt of the torque, by the misalignment of {' and '.join(names)}, is not looked "
-                   f"at here"),) if names else ()
+                   f"a tilt of the torque, by the misalignment of {' and '.join(names)}, is not looked at "
+                   "here"),) if names else ()
 
 
 def condition(scene: AnyScene) -> int:

@@ -49,8 +49,7 @@ def certificate(scene: AnyScene, state: Sequence[Any] | None = None) -> dict[str
                            "uncertified": []}
     if not scene.plain:
         out["uncertified"].append("effects beyond the gyrostat and a constant torque: there is no "
-                                  "certificate for their equilibria "
-                                  "and motions")
+                                  "certificate for their equilibria and motions")
         return out
     out["scene"] = _scene(scene)
     out["equilibria"] = _equilibria(scene)

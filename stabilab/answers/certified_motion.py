@@ -72,8 +72,8 @@ def certified_spin_up(scene: AnyScene, state: Sequence[Any]) -> tuple[dict[str, 
         box = _box(course, later, state)
         if box is None:
             return (None,
-                    f"{found.fate.word}: {found.cause}; it was not enclosed up to t = {later:.6g} in "
-                    f"{STEPS} validated steps")
+                    f"{found.fate.word}: {found.cause}; it was not enclosed up to t = {later:.6g} in {STEPS} "
+                    "validated steps")
         inequality = _holding(tests_of(own), ways, box, unit)
         if inequality:
             t = Fraction(course.t) if course else Fraction(0)
@@ -100,8 +100,8 @@ def _box(course: Course | None, t: float, state: Sequence[Any]) -> Any:
     """(middle (3,), radius) of a ball that holds the motion at a time; None where the steps do not reach."""
     if course is None:
         middle = np.array([float(v) for v in state])
-        return middle, float(sum(abs(v - Fraction(m)) for v,
-                                 m in zip(state, middle.tolist()))) * (1 + 2.0**-40)
+        off = sum(abs(v - Fraction(m)) for v, m in zip(state, middle.tolist()))
+        return middle, float(off) * (1 + 2.0**-40)
     course.advance(t, min(STEPS, allowed(course.bits)) - course.steps)
     now = course.now
     return (now.middle, float(np.abs(now.rest).sum() + now.radius.sum())

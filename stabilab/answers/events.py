@@ -67,7 +67,7 @@ def crossings(scene: AnyScene, start: Any, until: float, events: Any) -> Crossin
     return Crossings(within(times), within(states), within(error), end,
                      "ended" if ended else "reached" if run.status == "reached" else "stopped",
                      f"changes of sign between {SAMPLES} samples of every step of a run ({run.method}), each "
-                     f"found to rounding; two zeros between neighbouring samples are not seen"
+                     "found to rounding; two zeros between neighbouring samples are not seen"
                      + ("" if run.status == "reached" else f"; {run.reason}"))
 
 

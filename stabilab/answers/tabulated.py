@@ -90,8 +90,8 @@ def events_of(scene: AnyScene, pieces: Sequence[Any], until: Fraction) -> tuple[
                 found += [_event(curve, i, kind, s) for s in roots]
     found = [one for one in found if one.t <= _ball(until)]
     words = (
-        f"zeros and extremes of each rate after the start, by roots along the enclosed motion: none is "
-        f"passed over (below 1e-{NOTHING} counts as zero)")
+        "zeros and extremes of each rate after the start, by roots along the enclosed motion: none is passed "
+        f"over (below 1e-{NOTHING} counts as zero)")
     if open_at:
         places = "; ".join(open_at[:3]) + " and so on" * (len(open_at) > 3)
         words += f", but where the digits leave open whether there is one ({places})"
@@ -126,8 +126,8 @@ class _Curve:
         x = self.piece.at(s)
         if order == 0:
             return x[i]
-        rate = [self.kappa[n] * x[j] * x[k] + self.rho[n] * x[k] + self.sigma[n] * x[j] + self.m[n] for n,
-                (j, k) in enumerate(CYCLE)]
+        rate = [self.kappa[n] * x[j] * x[k] + self.rho[n] * x[k] + self.sigma[n] * x[j] + self.m[n]
+                for n, (j, k) in enumerate(CYCLE)]
         if order == 1:
             return rate[i]
         j, k = CYCLE[i]
@@ -269,7 +269,7 @@ def _twice(scene: AnyScene, start: Any, exact: Any, times: Sequence[Fraction], d
     reached = len(states) == len(times)
     because = (
         f"Taylor series in {digits + GUARD} and {digits + GUARD + MORE_DIGITS} digits agree; no bound is "
-        f"proved")
+        "proved")
     if not reached:
         because += f"; only up to {float(times[len(states) - 1]) if states else 0:.6g} {scene.time_unit}"
     return Tabulated(tuple(times[:len(states)]), tuple(states), components, digits, TWICE, because, reached,

@@ -278,8 +278,8 @@ def spread(scene: Scene, state: Any, cone: Cone, ask: dict[str, Any] | None,
     if not most:
         return Spread(cone.angle, cone.words, len(torques), limit.least_rate(), followed=min(ends))
     exactly = [time_to(tilted(scene, torque), state, **ask, exact=exact, work=WORK) for torque in most]
-    (first, last), all_of_them = [(float(one.low), float(one.high))
-                                  for one in exactly], bool(np.isfinite([own, *times]).all())
+    first, last = [(float(one.low), float(one.high)) for one in exactly]
+    all_of_them = bool(np.isfinite([own, *times]).all())
     levels = {str(one.level) for one in exactly[:1 + all_of_them]}
     return Spread(cone.angle, cone.words, len(torques) + 4 * REFINED, limit.least_rate(), first,
                   last if all_of_them and math.isfinite(last[1]) else None,

@@ -56,9 +56,8 @@ def time_to(scene: AnyScene, states: Any, rate: Any = None, component: Any = Non
         states = states.get("omega", ())
     if not scene.plain:
         rows, shape = _rows(states)
-        array, found = np.array([equations_and_start(scene, row)[1]
-                                 for row in rows]), [_of_any(scene, row, limit, end) for row in rows]
-        array = array.reshape(*shape, -1)
+        array = np.array([equations_and_start(scene, row)[1] for row in rows]).reshape(*shape, -1)
+        found = [_of_any(scene, row, limit, end) for row in rows]
     else:
         array = checked_states(states)
         rows, shape = array.reshape(-1, 3).tolist(), array.shape[:-1]
@@ -121,7 +120,7 @@ def of_one(scene: AnyScene, state: Any, start: Any, limit: Limit, end: Fraction 
         return after_a_period(limit) if last is not end else Found(
             down(last), math.nan, "proved",
             f"{limit.words}: not reached by the end of the search: the torque could not bring the energy for "
-            f"it sooner")
+            "it sooner")
     proof = enclosed(scene, start, limit, last, work, before)
     if proof.high is not None:
         return Found(down(proof.low), up(proof.high), "proved",
@@ -137,8 +136,7 @@ def _at_the_end(proof: Any, limit: Limit, whole: Any, unit: Any) -> Found:
     if proof.low is not None:
         return Found(down(proof.low), math.nan, "proved",
                      f"{limit.words}: touched at t = {float(proof.low):.10g} {unit} as closely as "
-                     f"{2.0**-50:.0e}:  whether it is "
-                     f"reached is not known")
+                     f"{2.0**-50:.0e}:  whether it is reached is not known")
     if whole:
         return after_a_period(limit)
     return Found(down(proof.until), math.nan, "proved",

@@ -78,9 +78,8 @@ def _rate(case, text, dimension):
 
 def _component(case, text, dimension):
     axis, most = _pair(text, dimension, "component")
-    return {"component": (_along(case, axis),
-                          most)}, "component", (f"|{'x' if dimension is NONE else 'omega'} {axis}|",
-                                                ), (float(most),)
+    name = f"|{'x' if dimension is NONE else 'omega'} {axis}|"
+    return {"component": (_along(case, axis), most)}, "component", (name,), (float(most),)
 
 
 def _energy(case, text, _):

@@ -142,8 +142,7 @@ def swept(top: Table) -> tuple[list[tuple], list[list]]:
             table.fault(f"expected a list of the values that {key} takes, got {described(values)}", key)
         elif _holder(top.data, path) is None:
             table.fault(f"this file has no key {key}; write it as \"effects.gyrostat.momentum\" or "
-                        f"\"thrusters.NAME.force\", "
-                        "with a value in its place", key)
+                        "\"thrusters.NAME.force\", with a value in its place", key)
         else:
             paths.append(path)
             choices.append(list(enumerate(values, 1)))

@@ -238,8 +238,8 @@ class Table:
                 return self._middle(value, keys)
             return self._number(value, keys)
         except InputError as error:
-            row, number = (f"row {keys[1] + 1}, " if len(keys) > 2 else "",
-                           f"number {keys[-1] + 1}: " if len(keys) > 1 else "")
+            row = f"row {keys[1] + 1}, " if len(keys) > 2 else ""
+            number = f"number {keys[-1] + 1}: " if len(keys) > 1 else ""
             self.fault(row + number + str(error), *keys)
             return None
 
@@ -247,8 +247,7 @@ class Table:
         """The middle of an uncertain number, which is noted."""
         if self.path + keys[:1] not in UNCERTAIN or len(keys) > 2:
             raise InputError(f"takes no uncertainty, got {described(text)}; one may stand in inertia, "
-                             f"coefficient of a damper, momentum, torque, mu, "
-                             "a, b, angular_velocity and x")
+                             "coefficient of a damper, momentum, torque, mu, a, b, angular_velocity and x")
         path = self.path + keys
         middle, half, sharp = plus_minus(text, dimension_of(path))
         if half:

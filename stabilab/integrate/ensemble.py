@@ -98,8 +98,8 @@ def ensemble(scene: AnyScene, states: ArrayLike, times: ArrayLike, rtol: float |
 
 def _units(scene, starts, rates):
     """(n,) `own_unit` of each motion: most are ordinary, which a look at all of them together shows."""
-    size, units = np.maximum(np.abs(starts).max(axis=1),
-                             np.sqrt(np.abs(rates).max(axis=1))), np.ones(len(starts))
+    size = np.maximum(np.abs(starts).max(axis=1), np.sqrt(np.abs(rates).max(axis=1)))
+    units = np.ones(len(starts))
     for n in np.flatnonzero(~((size >= SLOW) & (size <= FAST))):
         units[n] = own_unit(scene, starts[n].tolist(), rates[n].tolist())
     return units

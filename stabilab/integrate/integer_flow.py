@@ -77,8 +77,8 @@ class IntegerFlow:
         q = [Fraction(w) / largest for w in weights]
         if sum(w * k for w, k in zip(q, form.kappa)):
             raise ValueError("the weights do not make the cubic terms cancel")
-        self.q, self.shear = [float(w) for w in q], [_shear(form, q, unit, *axes)
-                                                     for axes in zip(range(3), *zip(*CYCLE))]
+        self.q = [float(w) for w in q]
+        self.shear = [_shear(form, q, unit, i, j, k) for i, (j, k) in enumerate(CYCLE)]
         self.least = math.sqrt(min(self.q)) / MORE
         self.error = math.ceil(math.sqrt(sum(self.q)) * MORE)  # the start is within half a last place
         self.turned = 2
@@ -306,9 +306,8 @@ class _Excess:
             found.append((v, slope))
         if self.falls:
             return self.limit - found[0][0], self.rough - found[0][1]
-        return self._sum([v * v for v,
-                          _ in found]) - (self.limit << self.bits), 2 * self._sum(
-                              [v * w for v, w in found]) + self.rough
+        value = self._sum([v * v for v, _ in found]) - (self.limit << self.bits)
+        return value, 2 * self._sum([v * slope for v, slope in found]) + self.rough
 
     def reaches(self, sign, s=0):
         """The last place that the steps reach from s before g + sign err may be 0; None where there is no
@@ -347,8 +346,8 @@ class _Excess:
 
 def _combined(vector, piece):
     """(the row of a . y, how far it may be off), in units of 2^-bits."""
-    used = [(Fraction(a), row, radius, size) for a, row, radius,
-            size in zip(vector, piece.rows, piece.radii, piece.sizes) if a]
+    used = [(Fraction(a), row, radius, size)
+            for a, row, radius, size in zip(vector, piece.rows, piece.radii, piece.sizes) if a]
     if len(used) == 1 and abs(used[0][0]) == 1:
         a, row, radius, _ = used[0]
         return (row if a > 0 else [-v for v in row]), radius

@@ -77,8 +77,8 @@ def in_unit(scene: AnyScene, unit: float | Fraction, mass: float | Fraction = 1.
         return _changed(scene, unit, mass)
     except InputError as error:
         raise InputError(f"state: in the unit of rates of this size, {unit:.1e}, a number of the scene "
-                         f"leaves the range of doubles, and a run in "
-                         f"doubles does not follow the motion ({error})") from None
+                         "leaves the range of doubles, and a run in doubles does not follow the motion "
+                         f"({error})") from None
 
 
 def _changed(scene: AnyScene, unit: float | Fraction, mass: float | Fraction) -> AnyScene:

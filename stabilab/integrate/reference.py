@@ -46,8 +46,8 @@ class Recursion:
                 terms = Poly(equations.numeric(rate), *equations.state).terms()
             except PolynomialError:
                 raise InputError("the reference needs rates that are polynomials in the state") from None
-            self.rates.append([(self._place(powers), Fraction(int(c.p), int(c.q))) for powers,
-                               c in terms if c != 0])
+            self.rates.append([(self._place(powers), Fraction(int(c.p), int(c.q)))
+                               for powers, c in terms if c != 0])
 
     def _place(self, powers):
         """Row of the monomial's series (-1: the number 1), forming the products it needs."""
@@ -332,7 +332,7 @@ def reference(scene, start, times, blocks=(), orbit=False, work: int = WORK) -> 
     return best or Reference(np.empty(0), empty, empty, np.empty(0), DIGITS[:2], parts, status="stopped",
                              work=work - budget[0],
                              reason=f"a run in {DIGITS[0]} digits takes more than the {work:.1g} "
-                                    f"multiplications allowed")
+                                    "multiplications allowed")
 
 
 def _compared(times, before, now, parts, work) -> Reference:

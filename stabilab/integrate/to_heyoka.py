@@ -67,8 +67,8 @@ class _Borrowed:
     """A context by itself: one made of a generator costs a short run a hundredth of its time."""
 
     def __init__(self, forms, tolerance, lanes):
-        self.key, self.numbers = (forms.structure, tolerance,
-                                  lanes), np.reshape(forms.numbers, (-1, 1)) if lanes else forms.numbers
+        self.key = forms.structure, tolerance, lanes
+        self.numbers = np.reshape(forms.numbers, (-1, 1)) if lanes else forms.numbers
 
     def __enter__(self):
         self.free = _free(*self.key)

@@ -195,9 +195,8 @@ class _SciPy:
 
     def run(self, state, grid, passed=None, watch=None):
         """As of _Taylor."""
-        y, t, points, h = np.concatenate([state,
-                                          np.zeros(len(self.system.equations.balances))]), 0.0, [], None
-        failure = None
+        y = np.concatenate([state, np.zeros(len(self.system.equations.balances))])
+        t, points, h, failure = 0.0, [], None, None
         with np.errstate(all="ignore"):
             for piece in (grid[i:i + 1] for i in range(len(grid))) if self.landing else (grid,):
                 y, h, failure = self._piece(t, y, piece, h, points, passed, watch)

@@ -32,8 +32,8 @@ class Key(NamedTuple):
 
 def keys_of(data: dict[str, Any]) -> dict[str, Key]:
     """Every number of a case's data by its name."""
-    return {name: Key(name, _both_sides(data, path)) for table in SWEPT if table in data for name,
-            path in _numbers(data[table], table, (table,))}
+    return {name: Key(name, _both_sides(data, path)) for table in SWEPT if table in data
+            for name, path in _numbers(data[table], table, (table,))}
 
 
 def key_of(data: dict[str, Any], text: str) -> Key:
@@ -257,7 +257,7 @@ def _judge(values: list[float]) -> None:
     if again is not None:
         raise InputError(
             f"the value {again!r} comes twice: give each once (a range of fewer points, where doubles cannot "
-            f"tell them apart)")
+            "tell them apart)")
 
 
 # --- The range of a number that varies without steps: "0:1.5 N m", from one end to the other, both counted
@@ -292,7 +292,7 @@ def spans_of(data: dict[str, Any], vary: Sequence[tuple[str, Any]]) -> tuple[Spa
     if len(vary) > 2:
         raise InputError(
             f"expected one or two numbers that vary, got {len(vary)}: a diagram has no more; stabilab sweep "
-            f"takes up to four")
+            "takes up to four")
     spans = tuple(span_of(key_of(data, name), asked) for name, asked in vary)
     if len(spans) == 2 and set(spans[0].key.paths) & set(spans[1].key.paths):
         raise InputError(

@@ -65,8 +65,8 @@ ANSWERS: dict[str, tuple[Column, ...]] = {
                     note="+inf: never; NaN where that is not known"),
              Column("when_level", "i1", "", "how well the time is known", LIMIT_LEVELS, note="-1: no case")),
     "equilibria": (Column("equilibria", "i4", "", "number of equilibria",
-                          note=f"{ENDLESS}: curves of them, {OPEN}: not all of them are known, {NONE}: "
-                               f"no case"),),
+                          note=f"{ENDLESS}: curves of them, {OPEN}: not all of them are known, {NONE}: no "
+                               "case"),),
     "verdict": (Column("stable", "i4", "", "stable equilibria, and stable pieces of curves of them",
                        note=f"{NONE}: no case"),
                 Column("unstable", "i4", "", "unstable equilibria, and unstable pieces of curves of them",

@@ -39,8 +39,8 @@ def diagram_certificate(found: Diagram) -> dict[str, Any]:
     may hold."""
     if found.kind == CURVES:
         raise InputError(
-            f"--certify: {found.what.partition(';')[0]}: stabilab classify --certify proves them at "
-            f"one value")
+            f"--certify: {found.what.partition(';')[0]}: stabilab classify --certify proves them at one "
+            "value")
     pieces, events = _changes(found)
     if len(events) > MOST:
         raise InputError(
@@ -56,7 +56,7 @@ def diagram_certificate(found: Diagram) -> dict[str, Any]:
                        for piece in pieces],
             "events": [{"t": _bounds(event), "equilibria": _count(event.count)} for event in events],
             "uncertified": [f"{len(found.connections)} connections: the heights of saddles hold an angle and "
-                            f"are isolated by balls alone"]
+                            "are isolated by balls alone"]
             if found.connections else []}
 
 
@@ -115,8 +115,8 @@ def _start(family: Family) -> list[list[str]]:
     """The state in the case's variables, x = (y - u)/A."""
     n = family.numbers
     scales = (2, 1, -1) if family.scaled else (1, 1, 1)
-    return [_written((univariate(y, 2) - univariate(u, 2)) / rational(Fraction(a))) for y, u,
-            a in zip(n["y"], n["u"], scales)]
+    return [_written((univariate(y, 2) - univariate(u, 2)) / rational(Fraction(a)))
+            for y, u, a in zip(n["y"], n["u"], scales)]
 
 
 def _written(f: fmpq_poly) -> list[str]:

@@ -232,8 +232,8 @@ def _extremes_and_periods(case: Case, states: np.ndarray, box: bool,
     if kind == "orbit":
         return extremes_and_periods(case.scene, states, box=box, period=times,
                                     by_numba=len(states) >= COMPILED)
-    return _extremes(case, states,
-                     KINDS[kind].follows) if box else None, period(case.scene, states) if times else None
+    return (_extremes(case, states, KINDS[kind].follows) if box else None,
+            period(case.scene, states) if times else None)
 
 
 def _extremes(case: Case, states: np.ndarray, follows: bool) -> np.ndarray:
@@ -334,7 +334,7 @@ def _claim(plan: Plan, folder: Path, command: str) -> None:
     if not claim.exists() and any(not entry.name.startswith(".") for entry in folder.iterdir()):
         raise InputError(
             f"{folder}: holds files that are no sweep's, and would be removed with its parts: move them, or "
-            f"give another --out")
+            "give another --out")
     if claim.exists() and any(folder.glob("part-*")):  # of one killed before its first part nothing is lost
         if plan.digest not in claim.read_text(encoding="utf-8"):
             raise InputError(_of_another(folder, claim, command))

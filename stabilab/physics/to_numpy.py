@@ -138,8 +138,7 @@ def _rounded(exact: Symbolic) -> float:
         return float(Fraction(int(exact.p), int(exact.q))) if exact.is_Rational else float(exact.evalf(30))
     except OverflowError:
         raise InputError("a number of the equations or of their laws (the square of a moment, say) is beyond "
-                         "the largest double: "
-                         "choose other units") from None
+                         "the largest double: choose other units") from None
 
 
 @dataclass(frozen=True)

@@ -90,8 +90,8 @@ def ask_all(question: str, scene: AnyScene, states: Any, digits: int, values: An
         told = [ask(question, scene, row, digits, whole) for row in rows]
     values = np.reshape(values, (len(rows), *np.shape(values)[array.ndim - 1:]))
     if len(told) == len(rows):
-        values = np.array([old if t.values is None else t.values for old,
-                           t in zip(values, told)]).reshape(values.shape)
+        values = np.array([old if t.values is None else t.values
+                           for old, t in zip(values, told)]).reshape(values.shape)
     judged = [t for t in told if t.digits is not None]
     worst = min(judged, key=lambda t: t.digits or 0.0) if judged else told[0]
     sampled = f"; {len(told)} of {len(rows)} states checked" if len(told) < len(rows) else ""
@@ -181,8 +181,8 @@ def _gap(values: Any, balls: Any) -> float:
 
 def _width(balls: Any) -> float:
     from flint import arb
-    return max(float(arb(v).rad()) / abs(float(size)) if float(size) else float(arb(v).rad()) for v,
-               size in _each(balls) if math.isfinite(float(v)))
+    return max(float(arb(v).rad()) / abs(float(size)) if float(size) else float(arb(v).rad())
+               for v, size in _each(balls) if math.isfinite(float(v)))
 
 
 def _floats(balls: Any) -> Any:

@@ -212,8 +212,8 @@ def _other(method: str, value: float) -> float:
 def _moved(case: Any, places: float = 1.0) -> Any:
     """The case with its start moved; what is zero throughout (rest at the origin) stays."""
     return replace(case, state=tuple(map(float, moved_row(case.state, places))),
-                   blocks={name: tuple(map(float, moved_row(row, places))) for name,
-                           row in case.blocks.items()})
+                   blocks={name: tuple(map(float, moved_row(row, places)))
+                           for name, row in case.blocks.items()})
 
 
 def _distance(one: Any, two: Any) -> float:
@@ -259,8 +259,8 @@ def _many_digits(case: Any, times: np.ndarray, asked: int) -> Reached | None:
     states = np.empty_like(found.states)
     states[order] = found.states
     validity = _validity(case.scene, {name: states[:, part] for name, part in found.slices.items()})
-    parts: Any = {_first(case) if name == "omega" else name: states[:, part] for name,
-                  part in found.slices.items()}
+    parts: Any = {_first(case) if name == "omega" else name: states[:, part]
+                  for name, part in found.slices.items()}
     error = float(found.error.max()) + 2.0**-53
     if as_quaternion(case.blocks.get("attitude", ())):
         parts = in_quaternions(case.scene, parts)

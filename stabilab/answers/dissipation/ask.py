@@ -181,7 +181,7 @@ def _answered(spinner: Spinner, angle: float) -> FlatSpin:
     if spinner.ratio * D2 < 1 and D1 > D2:
         direction = 1 if spinner.momentum[axis] > 0 else -1
         found = replace(_ended(blank, direction), level="exact", because=(
-            f"2 T D2 < |H|^2 at the start: the separatrix is crossed already, with the angular momentum on "
+            "2 T D2 < |H|^2 at the start: the separatrix is crossed already, with the angular momentum on "
             f"{_axis(direction, axis)}, where it stays and tends to that axis"))
         return _timed(spinner, found, angle)
     return _timed(spinner, blank, angle)
@@ -249,10 +249,10 @@ def _timed(spinner: Spinner, found: FlatSpin, angle: float) -> FlatSpin:
         return replace(found, because=f"the separatrix is not crossed by the end of the run: {why}")
     if directions[0] != directions[1]:
         return replace(found, because=(
-            f"the start is within rounding of the boundary between the two directions: a run and a second "
+            "the start is within rounding of the boundary between the two directions: a run and a second "
             f"one, from a start moved by {MOVED:.0f} in its last place with tolerance {SECOND_RTOL:.0e}, end "
             "at opposite directions of the major axis"))
-    words = (f"2 T D2 falls below |H|^2 with the angular momentum on "
+    words = ("2 T D2 falls below |H|^2 with the angular momentum on "
              f"{_axis(directions[0], spinner.order[0])}; from then on it cannot cross, and tends to that "
              f"axis; a second run, from a start moved by {MOVED:.0f} in its last place with tolerance "
              f"{SECOND_RTOL:.0e}, agrees")

@@ -52,8 +52,8 @@ class Limit:
         if self.kind == "tilt":
             return False
         sizes = [max(abs(low), abs(high)) * (1 + slack) for low, high in extremes]
-        return all(_below(terms, [size if any(vector[n] for _, vector in terms) else 0.0 for n,
-                                  size in enumerate(sizes)], most)
+        return all(_below(terms, [size if any(vector[n] for _, vector in terms) else 0.0
+                                  for n, size in enumerate(sizes)], most)
                    for terms, most in self.parts)
 
     def raised(self, share: Fraction) -> Limit:
@@ -62,8 +62,8 @@ class Limit:
 
     def least_rate(self) -> float:
         """The largest |omega| below which it is surely not reached."""
-        return min(float(sqrt_fraction(Fraction(most) / max(c for c, _ in terms))) for terms,
-                   most in self.parts)
+        return min(float(sqrt_fraction(Fraction(most) / max(c for c, _ in terms)))
+                   for terms, most in self.parts)
 
     def beyond_rate(self, rate: float) -> bool:
         """Whether |omega| <= rate keeps the quantity below the limit."""
@@ -107,8 +107,8 @@ def _rate(scene: AnyScene, value: Any) -> Limit:
     unit = _unit(scene)
     if hasattr(value, "__len__") and not isinstance(value, str):
         limits = exact_vector(value, "rate")
-        parts = tuple((((Fraction(1), axis),), _positive(most, "rate") ** 2) for axis,
-                      most in zip(AXES, limits))
+        parts = tuple((((Fraction(1), axis),), _positive(most, "rate") ** 2)
+                      for axis, most in zip(AXES, limits))
         return Limit("component", parts,
                      "|components| " + ", ".join(f"{float(v):.10g}" for v in limits) + f" {unit}")
     most = _positive(value, "rate")

@@ -89,8 +89,8 @@ def _times(found: Any, limit: Limit) -> Any:
     bounds, spin, times = found.trap.bounds(), found.axis - 1, []
     for terms, most in limit.parts:
         weights = cast(list[float], along_axes(terms))  # asked above
-        across = sum(c * max(abs(low), abs(high)) ** 2 for n,
-                     (c, (low, high)) in enumerate(zip(weights, bounds)) if n != spin and c)
+        across = sum(c * max(abs(low), abs(high)) ** 2
+                     for n, (c, (low, high)) in enumerate(zip(weights, bounds)) if n != spin and c)
         if not weights[spin]:
             if across >= float(most):
                 return None  # a rate across the spin may reach it at any time

@@ -148,8 +148,8 @@ class _Well:
         self.pull = sideways * math.sqrt(max(abs(a) / D[1:]))  # of |mu|
         ahead = math.copysign(1.0, along[0] * self.n)
         self.step = 2 * math.pi / POINTS
-        self.behind, self.ahead = (sense * np.arange(turns * POINTS + 1) * self.step for sense,
-                                   turns in ((-ahead, BEHIND), (ahead, 1)))
+        self.behind, self.ahead = (sense * np.arange(turns * POINTS + 1) * self.step
+                                   for sense, turns in ((-ahead, BEHIND), (ahead, 1)))
 
     def holds(self, t: float) -> bool:
         """Whether |omega| is surely below the rate up to t."""
@@ -187,8 +187,8 @@ class _Well:
         along the axis, at each place."""
         theta = self.theta + way
         across = np.stack([np.cos(theta), -np.sin(theta)], axis=-1) / self.scale
-        square, linear, constant = across**2 @ weights, 2 * across @ (weights * self.centre), float(
-            self.centre**2 @ weights)
+        square, linear = across**2 @ weights, 2 * across @ (weights * self.centre)
+        constant = float(self.centre**2 @ weights)
         ends = np.maximum(*(square * r * r + linear * r for r in rhos))
         with np.errstate(all="ignore"):
             top = -linear / (2 * square)
@@ -304,8 +304,8 @@ def _structure(parts: int) -> Any:
     from sympy import symbols
     extra: Any = symbols(f"e0:{7 * parts}", real=True) if parts else ()
     x, c = symbols("x1:4", real=True), symbols("c0:12", real=True)
-    rates = [c[4 * i] * x[j] * x[k] + c[4 * i + 1] * x[k] + c[4 * i + 2] * x[j] + c[4 * i + 3] for i,
-             (j, k) in enumerate(CYCLE)]
+    rates = [c[4 * i] * x[j] * x[k] + c[4 * i + 1] * x[k] + c[4 * i + 2] * x[j] + c[4 * i + 3]
+             for i, (j, k) in enumerate(CYCLE)]
     events = [sum(e * x[i] * x[j] for e, (i, j) in zip(extra[7 * n:], PRODUCTS)) - extra[7 * n + 6]
               for n in range(parts)]
     return x, (*c, *extra), (*rates, *(events or [sum(v * rate for v, rate in zip(x, rates))]))
@@ -340,14 +340,14 @@ def _expressions(limit: Limit, equations: Equations, state: Sequence[float] | np
     if limit.kind != "tilt":
         omega = equations.state[:3]
         power = rational(Fraction(unit)) ** 2
-        return [sum(rational(c) * sum(rational(a) * w for a, w in zip(vector, omega) if a) ** 2 for c,
-                    vector in terms) - rational(most) / power
+        return [sum(rational(c) * sum(rational(a) * w for a, w in zip(vector, omega) if a) ** 2
+                    for c, vector in terms) - rational(most) / power
                 for terms, most in limit.parts]
     at = 3 + (3 if "gamma" in equations.blocks else 0)
     q = equations.state[at:at + 4]
     direction = limit.direction or ()
     first = to_space(state[at:at + 4], [float(v) for v in direction])
     rows = rotation(q)
-    turned = sum(Rational(float(f)) * rational(a) * entry for f, row in zip(first, rows) for a,
-                 entry in zip(direction, row) if a)
+    turned = sum(Rational(float(f)) * rational(a) * entry for f, row in zip(first, rows)
+                 for a, entry in zip(direction, row) if a)
     return [turned - Rational(float(cos(Float(rational(limit.parts[0][1]), 30))))]

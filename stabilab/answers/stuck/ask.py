@@ -164,8 +164,8 @@ def _slowest(scenario: Scenario, torque: Sequence[Fraction], sets: Any, seen: Fo
             best = math.sqrt(float(square)), chosen, duty
             better = not out or best[0] < WORTH * out[0][0]
         else:
-            best = max(((_run(scenario, torque, chosen, scaled, seen), chosen, scaled) for _, chosen,
-                        duty in tried
+            best = max(((_run(scenario, torque, chosen, scaled, seen), chosen, scaled)
+                        for _, chosen, duty in tried
                         for share in SHARES for scaled in [tuple(share * u for u in duty)]),
                        key=lambda one: one[0])
             better = not out or out[0][0] < WORTH * best[0]
@@ -290,8 +290,8 @@ def _wheel(scenario: Scenario, torque: Exact3, seen: Found, wheel: Any) -> Wheel
     """What one wheel of the case can do, the others left as they are."""
     axis = without_trace(scenario.axes.turned(wheel.axis), torque)
     least = NOTHING * max(map(abs, scenario.wheel))
-    others = tuple(v if abs(v) > least else v * 0 for w,
-                   a in zip(scenario.wheel, axis) for v in [w - wheel.momentum * a])
+    others = tuple(v if abs(v) > least else v * 0
+                   for w, a in zip(scenario.wheel, axis) for v in [w - wheel.momentum * a])
     kept, because = intervals(scenario.scene(torque, others), scenario.state, axis)
     told = tuple(map(float, wheel.axis)), float(wheel.momentum), kept, because
     later = (None if kept or seen.fate in STEADY

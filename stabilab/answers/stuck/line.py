@@ -211,8 +211,8 @@ def rise(fixed: Any, at: Any, change: Any, h: Number, S: Number, K: Number, whee
     (G, mu, e2, e1, e0), (x0, z0, c0, d0), (x1, z1, c1, d1) = fixed, at, change
     w0, w1, u0, u1 = z0 * K - x0 * S, z1 * K - x1 * S, x0 * K + z0 * S, x1 * K + z1 * S
     i0, i1 = G * (x0 + S * w0) + c0, G * (x1 + S * w1) + c1
-    first, level = -2 * (w0 * i1 + w1 * i0 + d0 * u1
-                         + d1 * u0), -2 * S * (w0 * i0 + d0 * u0) - 2 * mu * h - e0
+    first = -2 * (w0 * i1 + w1 * i0 + d0 * u1 + d1 * u0)
+    level = -2 * S * (w0 * i0 + d0 * u0) - 2 * mu * h - e0
     if wheel:
         return 2 * _bend(G, change, w1), first, level
     return -2 * S * (w1 * i1 + d1 * u1) - e2, S * first - e1, level
@@ -222,8 +222,8 @@ def force(fixed: Any, at: Any, change: Any, S: Number, K: Number, wheel: bool) -
     """(F2, F1, F0) likewise; where the wheel changes of S F in sigma."""
     (G, mu, *_), (x0, z0, c0, d0), (x1, z1, c1, d1) = fixed, at, change
     sine, cosine = 2 * S * K, 1 - 2 * S * S
-    X0, X1, Z0, Z1 = (x0 * cosine + z0 * sine, x1 * cosine + z1 * sine, z0 * cosine - x0 * sine,
-                      z1 * cosine - x1 * sine)
+    X0, Z0 = x0 * cosine + z0 * sine, z0 * cosine - x0 * sine
+    X1, Z1 = x1 * cosine + z1 * sine, z1 * cosine - x1 * sine
     F0 = mu + G * X0 * Z0 + c0 * Z0 + d0 * X0
     F1 = G * (X0 * Z1 + X1 * Z0) + c0 * Z1 + c1 * Z0 + d0 * X1 + d1 * X0
     if wheel:
@@ -299,8 +299,8 @@ def _narrowed(pair: Pair, low: Number, high: Number) -> tuple[Number, Number] | 
     if 0 in slope:
         return low, high
     step = value / slope  # Newton's: the zero is within middle - step
-    least, most = middle - float((step.mid()
-                                  + step.rad()).upper()), middle - float((step.mid() - step.rad()).lower())
+    least = middle - float((step.mid() + step.rad()).upper())
+    most = middle - float((step.mid() - step.rad()).lower())
     low, high = max(low, least - 1e-15), min(high, most + 1e-15)
     return (low, high) if low <= high else None
 
@@ -341,10 +341,9 @@ def pieces(clearly: Callable[[Fraction], tuple[bool, float]], unit: Fraction,
         if steady[n] == steady[n + 1]:
             continue
         inside, outside = (samples[n], samples[n + 1]) if steady[n] else (samples[n + 1], samples[n])
-        near = cut + (1 if inside > cut
-                      else -1) * NEAR * unit, cut - (1 if inside > cut else -1) * NEAR * unit
-        if holds(near[0]) and not holds(near[1]):
-            inside, outside = near
+        step = (1 if inside > cut else -1) * NEAR * unit
+        if holds(cut + step) and not holds(cut - step):
+            inside, outside = cut + step, cut - step
         end = float(change_between(clearly, inside, outside, unit)[0])
         if steady[n]:
             out.append((low, end))

@@ -216,9 +216,8 @@ def _nearest(heights: _Rise, steady: bool) -> list[tuple[float, float]]:
     least = sorted(least, key=lambda n: sizes[n])[:FEW]
     found = []
     for n in least:
-        low, high = angles[n - 1] - 2 * math.pi * (n
-                                                   == 0), angles[(n + 1) % len(angles)] + 2 * math.pi * (
-                                                       n + 1 == len(angles))
+        low = angles[n - 1] - 2 * math.pi * (n == 0)
+        high = angles[(n + 1) % len(angles)] + 2 * math.pi * (n + 1 == len(angles))
         closer = golden_section(lambda a: heights.first_change(a, steady), low, high, CLOSER)
         found.append(min(*closer, (angles[n], sizes[n]), key=lambda one: one[1]))
     return found
@@ -236,8 +235,8 @@ class _Rise:
         here, *there = (cast(Reduction, family.reduction(wheel)) for wheel in (family.wheel, *wheels))
         lines = [Line(here, one, family.state, family.state) for one in there]
         floats: Any = lambda numbers: np.array([float(v) for v in numbers])
-        self.fixed, self.at, self.changes = floats(lines[0].fixed), floats(lines[0].at), [
-            floats(line.change) for line in lines]
+        self.fixed, self.at = floats(lines[0].fixed), floats(lines[0].at)
+        self.changes = [floats(line.change) for line in lines]
         self.centre = math.atan2(float(_pure_spin(family, k) - family.wheel[k]),
                                  float(_pure_spin(family, j) - family.wheel[j]))
         # a great momentum raises the potential close to the start, before or behind it

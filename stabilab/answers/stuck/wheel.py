@@ -103,10 +103,9 @@ def across(family: Family, start: Sequence[Fraction], step: Sequence[Fraction]) 
     if found is None:
         return (), "not known: the balls did not isolate the momenta at which the start lies on a separatrix"
     clearly = lambda s: family.clearly(wheel=family.along(start, step, s))
-    return pieces(clearly, Fraction(family.momentum_unit),
-                  sorted(set(found))), ("the ends are momenta at which the start lies on a separatrix: "
-                                                             f"of {len(found)} candidates, isolated as "
-                                                             f"roots, those where the exact fate changes")
+    kept = pieces(clearly, Fraction(family.momentum_unit), sorted(set(found)))
+    return kept, (f"the ends are momenta at which the start lies on a separatrix: of {len(found)} "
+                  "candidates, isolated as roots, those where the exact fate changes")
 
 
 def _between_walls(family: Family, start: Sequence[Fraction], step: Sequence[Fraction]) -> Answer:
@@ -115,8 +114,7 @@ def _between_walls(family: Family, start: Sequence[Fraction], step: Sequence[Fra
     wheels = [family.along(start, step, Fraction(s)) for s in (-1, 0, 1)]
     reductions: Any = [family.reduction(wheel) for wheel in wheels]  # none has a part along the torque
     words = (f"the torque is on {reductions[0].geometry.where}: the potential has walls on both sides, so "
-             f"every motion "
-             "is bounded but for a set of measure zero")
+             "every motion is bounded but for a set of measure zero")
     for before, at, after in zip(*(loose(reduction, family.state) for reduction in reductions)):
         a, b, c = (before + after) / 2 - at, (after - before) / 2, at
         if a or b or c:

@@ -160,8 +160,8 @@ def _in_the_file(case: Any, frame: PrincipalAxes) -> Numbers:
              "momentum": frame.back(case.physical.vector("gyrostat")),
              "torque": frame.back(case.physical.vector("constant_torque"))}
     found |= {"state": frame.back(case.exact_state)} if case.state is not None else {}
-    return {name: tuple(_as_written(v, max(map(abs, values))) for v in values) for name,
-            values in found.items()}
+    return {name: tuple(_as_written(v, max(map(abs, values))) for v in values)
+            for name, values in found.items()}
 
 
 def _as_written(value: Fraction, size: Fraction) -> Fraction:
@@ -190,8 +190,8 @@ def _scalable(box: Box) -> None:
     D, h = box.middle["inertia"], box.half["inertia"]
     if not all(D[i] - h[i] > D[i + 1] + h[i + 1] for i in (0, 1)):
         raise InputError("within the uncertainties the moments are not surely in falling order, as the "
-                         "scaled variables and mu "
-                         "need: give the torque in N m and the motion as angular_velocity")
+                         "scaled variables and mu need: give the torque in N m and the motion as "
+                         "angular_velocity")
     if box.variables == "scaled" and any(box.half["momentum"][1:]):
         raise InputError("the scaled variables need the gyrostatic moment along axis 1, without uncertainty "
                          "across it: use physical variables")

@@ -72,8 +72,8 @@ def known(found: list[Condition]) -> list[Condition]:
 def _balance(box: Box, numbers: Numbers, form: QuadraticForm) -> tuple[Triple, Triple, Triple]:
     """(D, lambda, M) of (D y + lambda) x y + M = 0 (`pencil`)."""
     if box.variables == "physical":
-        return numbers["inertia"], numbers["momentum"], tuple(d * m for d,
-                                                              m in zip(numbers["inertia"], form.m))
+        D = numbers["inertia"]
+        return D, numbers["momentum"], tuple(d * m for d, m in zip(D, form.m))
     b, a = form.rho[2], -form.sigma[1]
     zero, half = Fraction(0), Fraction(1, 2)
     return (half, zero, Fraction(1)), ((b - a) * half, zero, zero), form.m
@@ -99,8 +99,8 @@ def _off_axis(D: Sequence[Number], lam: Sequence[Number], M: Sequence[Number],
     v = [-(M[j] * M[k] * gaps[i]) for i, (j, k) in enumerate(CYCLE)]
     area = sum((squared(c) for c in v), Fraction(0))
     DM, load = [d * m for d, m in zip(D, M)], _dot(lam, M)
-    foot = [load * (_dot(M, DM) * m - _dot(M, M) * dm) / area if present(load) else load for m,
-            dm in zip(M, DM)]
+    foot = [load * (_dot(M, DM) * m - _dot(M, M) * dm) / area if present(load) else load
+            for m, dm in zip(M, DM)]
     pair = lambda x, y: sum((M[i] * gaps[i] * x[j] * y[k] for i, (j, k) in enumerate(CYCLE)), Fraction(0))
     turn = lambda x: sum((M[i] * (lam[j] * x[k] - lam[k] * x[j]) for i, (j, k) in enumerate(CYCLE)),
                          Fraction(0))
@@ -239,7 +239,7 @@ def _proof(all_of: Callable[..., list[Condition]], box: Box, first: Any, signs: 
             lower = clear < worst
             share = importance(np.broadcast_to(value.g, parts.widths.shape),
                                np.broadcast_to(value.e, len(none)), parts.widths)
-            worst, weights[:, :-1] = np.where(lower, clear,
-                                              worst), np.where(lower[:, None], share, weights[:, :-1])
+            worst = np.where(lower, clear, worst)
+            weights[:, :-1] = np.where(lower[:, None], share, weights[:, :-1])
         return settled | none, np.zeros(len(none), bool), weights  # contrary cases are the search's to find
     return branch_and_bound(whole(box), judge, most)

@@ -200,8 +200,8 @@ def _between_walls(box: Box, here: Any, look: Look, r: Reduction, numbers: Numbe
                     but="where the force is the same all along the parabola, nothing holds the spin back")
     if _certain_plane(r, state):
         return by_sample(box, here, look,
-                         "every motion of the box lies on an invariant plane Q = 0, where a "
-                         "barrier decides, and the plane's motions are not followed over a box")
+                         "every motion of the box lies on an invariant plane Q = 0, where a barrier decides, "
+                         "and the plane's motions are not followed over a box")
     with np.errstate(all="ignore"):
         orbit = orbit_of(r, state, signs)
         clear = all(int(np.ravel(sign_over(lifted(side)))[0])
@@ -264,8 +264,8 @@ class Uncertainty:
 
     @property
     def caveats(self) -> tuple[Caveat, ...]:
-        sampled = ((name, over.samples) for name,
-                   over in (("equilibria", self.equilibria), ("fate", self.fate)) if over)
+        sampled = ((name, over.samples)
+                   for name, over in (("equilibria", self.equilibria), ("fate", self.fate)) if over)
         return tuple(Caveat("samples",
                             f"{name} over the uncertain numbers by samples, not by proof: {found.words}")
                      for name, found in sampled if found)

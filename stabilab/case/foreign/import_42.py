@@ -156,8 +156,8 @@ def spacecraft(text: str, path, body: int | None = None) -> Craft:
         parts = [_part(rows, _at_joint(entries), path) for rows in bodies]
         if sum(part.mass for part in parts) <= 0:
             raise InputError(
-                f"{path}: {len(parts)} bodies without a mass have no common mass centre; --body N takes "
-                f"one alone")
+                f"{path}: {len(parts)} bodies without a mass have no common mass centre; --body N takes one "
+                "alone")
         _together(craft, joined(parts, where), len(bodies))
     else:
         _alone(craft, alone, _at_joint(entries), path)
@@ -174,8 +174,8 @@ def spacecraft(text: str, path, body: int | None = None) -> Craft:
 def _alone(craft: Craft, rows, at_joint: bool, path):
     """One body as the file writes it."""
     craft.mass = (_numbers(rows, "mass", 1, path) or [None])[0]
-    craft.inertia, craft.products = _moments(rows,
-                                             path), _acting(_numbers(rows, "products of inertia", 3, path))
+    craft.inertia = _moments(rows, path)
+    craft.products = _acting(_numbers(rows, "products of inertia", 3, path))
     craft.centre = _numbers(rows, "location of mass center", 3, path)
     craft.momentum = _acting(_numbers(rows, "constant embedded momentum", 3, path))
     if at_joint and _acting(craft.centre):
@@ -188,8 +188,8 @@ def _together(craft: Craft, whole: Part, count: int):
     craft.mass, craft.inertia = decimals([whole.mass])[0], _rows(whole)
     craft.centre, craft.momentum = decimals(whole.centre), _acting(decimals(whole.momentum))
     craft.said.append(f"{count} bodies are combined into one rigid body about their common mass centre, in "
-                      f"the frame of body 0, the joints "
-                      "locked as the file places them (--body N takes one alone)")
+                      "the frame of body 0, the joints locked as the file places them (--body N takes one "
+                      "alone)")
 
 
 def _rows(part: Part) -> list:
@@ -203,7 +203,7 @@ def _moments(rows, path) -> list[str]:
     if found is None:
         raise InputError(
             f"{path}: expected a line with three numbers and the label Moments of Inertia in the section "
-            f"Body Parameters")
+            "Body Parameters")
     return found
 
 
@@ -236,7 +236,7 @@ def _places(entries, count: int, path):
     if missing:
         raise InputError(
             f"{path}: no joint of the section Joint Parameters ties body {', '.join(missing)} to body 0; "
-            f"--body N takes one body alone")
+            "--body N takes one body alone")
     return found
 
 
@@ -302,8 +302,8 @@ def _thruster(craft, block, rows, where, path):
         craft.thrusters.append({"name": block, "position": place, "direction": axis, "force": force[0]})
     elif axis and force:
         craft.omitted.append(f"{block}: {force[0]} N along [{', '.join(axis)}] at node "
-                             f"{_value(rows, '', 'node')}, whose place is in a node "
-                             "file: add it as [[thrusters]] with its position")
+                             f"{_value(rows, '', 'node')}, whose place is in a node file: add it as "
+                             "[[thrusters]] with its position")
 
 
 def _entries(text: str) -> list[Entry]:

@@ -14,8 +14,8 @@ from .imported import Craft
 
 HUB = {"mass": ("mHub", "mass"), "centre": ("r_BcB_B",), "inertia": ("IHubPntBc_B", "inertia"),
        "rate": ("omega_BN_BInit", "omega_BN_B")}
-THRUSTERS, WHEELS = ("thrusters", "thruster",
-                     "thrs"), ("reactionWheels", "reaction_wheels", "wheels", "RWs", "rws", "RW")
+THRUSTERS = ("thrusters", "thruster", "thrs")
+WHEELS = ("reactionWheels", "reaction_wheels", "wheels", "RWs", "rws", "RW")
 THRUSTER = {"name": ("label", "name"), "position": ("thrLoc_B", "location"),
             "direction": ("thrDir_B", "direction"), "force": ("MaxThrust", "maxThrust")}
 WHEEL = {"name": ("label", "name"), "axis": ("gsHat_B",), "inertia": ("Js",), "speed": ("Omega",)}
@@ -34,8 +34,8 @@ def from_dictionary(data: dict, path="the dictionary") -> Craft:
     inertia = _found(flat, HUB["inertia"])
     if inertia is None:
         raise InputError(f"{path}: expected the inertia of the hub about its mass centre under the name "
-                         f"IHubPntBc_B (or a NASA 42 "
-                         f"spacecraft file); found {', '.join(list(flat)[:20]) or 'nothing'}")
+                         "IHubPntBc_B (or a NASA 42 spacecraft file); found "
+                         f"{', '.join(list(flat)[:20]) or 'nothing'}")
     craft.inertia = _tensor(inertia[1], path)
     mass, centre, rate = (_found(flat, HUB[key]) for key in ("mass", "centre", "rate"))
     craft.mass = mass and _one(mass[1], mass[0], path)

@@ -117,8 +117,8 @@ def directions(place: np.ndarray) -> np.ndarray:
     middle, side = up / np.sqrt(3.0), out * azimuth_cos / np.sqrt(6.0)
     edge = out * azimuth_sin / np.sqrt(2.0)
     found = np.empty_like(size)
-    found[rows, i], found[rows, j], found[rows,
-                                          k] = middle + side + edge, middle + side - edge, middle - 2 * side
+    found[rows, i], found[rows, j] = middle + side + edge, middle + side - edge
+    found[rows, k] = middle - 2 * side
     # principal planes and axes without a trace across them
     found = np.where(size == 0, 0.0, np.maximum(found, 0.0))
     return np.where(place < 0, -found, found)

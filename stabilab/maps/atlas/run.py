@@ -129,8 +129,8 @@ def asked(case: Case | str | os.PathLike[str], torque: Any = None, wheel: str | 
     _judge(one)
     size, (wheels, momenta, of) = _size(one, torque), _wheels(one, wheel)
     _judge_cells(level, refine, len(wheels))
-    options = tuple((name, str(value)) for name,
-                    value in (("torque", torque), ("wheel", wheel)) if value is not None)
+    options = tuple((name, str(value))
+                    for name, value in (("torque", torque), ("wheel", wheel)) if value is not None)
     stated = tuple((name, value) for name, value in limit.items() if value is not None)
     if stated and not timed:
         raise InputError(f"--no-time and --{stated[0][0]} contradict each other: give one of them")
@@ -154,12 +154,11 @@ def _own_torque(case: Case) -> bool:
 def _judge(case: Case) -> None:
     if case.variables == "scaled" or case.physical is None:
         raise InputError(f"{case.place}: is in scaled variables, whose torque has no direction in space: an "
-                         f"atlas needs a body in kg m^2 with "
-                         "angular_velocity in rad/s")
+                         "atlas needs a body in kg m^2 with angular_velocity in rad/s")
     if case.state is None:
         raise InputError(
             f"{case.place}: motion: expected angular_velocity in [motion]; an atlas shows what becomes of a "
-            f"motion")
+            "motion")
     with blamed_on(case):
         case.scene.quadratic()  # says which effect is not covered
 
@@ -193,8 +192,8 @@ def _wheels(case: Case, text: str | None) -> tuple[tuple[Exact3, ...], tuple[flo
         direction = _along(case, axis.strip().lower()) if equals else _own_direction(case, own)
     except InputError as error:
         raise InputError(f'wheel: {str(error).removeprefix("vary wheel: ")}') from None
-    return tuple(tuple(Fraction(size) * part for part in direction)
-                 for size in along.si), along.values, along.shown_unit
+    wheels = tuple(tuple(Fraction(size) * part for part in direction) for size in along.si)
+    return wheels, along.values, along.shown_unit
 
 
 def _own_direction(case: Case, own: Exact3) -> Exact3:
@@ -222,7 +221,7 @@ def _judge_cells(level: Any, refine: Any, wheels: int) -> None:
     if level + refine > DEEPEST:
         raise InputError(
             f"level {level} with {refine} refinements: at most {DEEPEST} in all, whose cells are a fiftieth "
-            f"of a degree wide")
+            "of a degree wide")
     if count(level) * wheels > MOST:
         raise InputError(
             f"level {level} has {count(level):,} cells, with {wheels} wheel momenta "

@@ -74,18 +74,17 @@ def dimension(counts: tuple[int, ...]) -> Dimension:
     if len(used) < FEWEST:
         few = (
             f"only {len(used)} depths have {COARSEST} cells on the boundary or more; {FEWEST} are needed: go "
-            f"deeper")
+            "deeper")
         why = few if counts[-1] else "there is no boundary"
         return Dimension(math.nan, math.nan, depths, counts, used, why)
     heights = [math.log2(counts[n]) for n in used]
     slope, error = _line(used, heights)
-    parts = [_line(used[low:high], heights[low:high])[0] for low,
-             high in ((1, len(used)), (0, len(used) - 1))] if len(used) > FEWEST else \
+    parts = [_line(used[low:high], heights[low:high])[0]
+             for low, high in ((1, len(used)), (0, len(used) - 1))] if len(used) > FEWEST else \
             [b - a for a, b in zip(heights, heights[1:])]
     moved = max(abs(part - slope) for part in parts)
     words = (f"slope of log2(cells) over depths {used[0]} to {used[-1]}; twice its standard error, how far "
-             f"it moves without the coarsest or finest depth, and "
-             "what one cell at every depth makes of it")
+             "it moves without the coarsest or finest depth, and what one cell at every depth makes of it")
     return Dimension(slope, SHARE * error + moved + _of_one_cell(used, counts), depths, counts, used, words)
 
 
@@ -172,8 +171,8 @@ def refined(cells: tuple[int, int], depth: int, ask: Ask) -> Mesh:
     mesh.split = [nothing] * (depth + 1)
     _ask(mesh, mesh.corners(0, mesh.leaves[0]), ask)
     while any(map(len, found := _to_split(mesh))):
-        wanted = np.unique(np.concatenate([mesh.corners(n + 1, _children(mesh, n, chosen)).ravel() for n,
-                                           chosen in enumerate(found)]))
+        wanted = np.unique(np.concatenate([mesh.corners(n + 1, _children(mesh, n, chosen)).ravel()
+                                           for n, chosen in enumerate(found)]))
         if len(mesh.keys) + len(wanted) > MOST:
             return _ended(mesh)
         for n, chosen in enumerate(found):
@@ -408,14 +407,12 @@ def _planned(case, vary, depth, follow) -> Plan:
     if plan.inner != (0, 1):
         other = next(axis.key.name for n, axis in enumerate(plan.axes) if n not in plan.inner)
         raise InputError(f"vary {printable(other)}: is no rate of the initial state: a plane of states has "
-                         f"two of [motion] x or angular_velocity; "
-                         "stabilab sweep maps other numbers")
+                         "two of [motion] x or angular_velocity; stabilab sweep maps other numbers")
     if min(plan.shape) < 2:
         raise InputError("a plane needs two points at least along each axis")
     if plan.points > MOST:
         raise InputError(f"{' x '.join(map(str, plan.shape))} are {plan.points:,} points before any is "
-                         f"refined; at most {MOST:,} are asked: take fewer, "
-                         "and a depth")
+                         f"refined; at most {MOST:,} are asked: take fewer, and a depth")
     return plan
 
 

@@ -35,9 +35,9 @@ def bifurcation(case: Case | str | os.PathLike[str], vary: Mapping[str, Any] | S
     try:
         return with_connections(diagram(family, curve)) if len(family.spans) == 1 else plane(family, curve)
     except Unclear:
-        raise InputError(f"{family.case.place}: undecided: what happens at one value of this "
-                         f"range is open at any number of bits, where the equations degenerate: "
-                         "divide the range, or move its ends") from None
+        raise InputError(f"{family.case.place}: undecided: what happens at one value of this range is open "
+                         "at any number of bits, where the equations degenerate: divide the range, or move "
+                         "its ends") from None
 
 
 def family_of(case: Case | str | os.PathLike[str],
@@ -52,8 +52,8 @@ def family_of(case: Case | str | os.PathLike[str],
     if not scene.plain:
         others = ", ".join(e.name for e in scene.effects if e.name not in ("gyrostat", "constant_torque"))
         raise InputError(f"{read.place}: a diagram is exact for a body with wheels under a constant torque; "
-                         f"this case also has {others}: "
-                         "stabilab sweep --answer equilibria,verdict counts there")
+                         f"this case also has {others}: stabilab sweep --answer equilibria,verdict counts "
+                         "there")
     return family
 
 

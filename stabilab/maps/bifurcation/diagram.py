@@ -43,8 +43,8 @@ CROSSES = ("undecided", "the curve that the motion stays on crosses itself here"
 def ball_form(family: Family, values: list) -> tuple[QuadraticForm, list[arb]]:
     """(the rates with balls for coefficients, u) at values of what varies."""
     unknowns = [arb(0)] * 2
-    numbers: dict[str, Any] = {name: [evaluated(c, [*unknowns, *values]) for c in row] for name,
-                               row in family.numbers.items()}
+    numbers: dict[str, Any] = {name: [evaluated(c, [*unknowns, *values]) for c in row]
+                               for name, row in family.numbers.items()}
     if not family.scaled:
         return euler_form(tuple(numbers["D"]), tuple(numbers["lam"]), tuple(numbers["M"])), numbers["u"]
     half, l1 = numbers["u"][0] / 2, numbers["lam"][0]
@@ -245,8 +245,8 @@ def _on_an_axis(family: Family, system: OnLine | Conics, cut: Cut) -> tuple[int,
     states = tuple(State(point.at, 1, point.linear, point.verdict, point.because) for point in found.points)
     told = ("no equilibrium" if found.kind == "none"
             else f"{', '.join(curve.name for curve in found.curves)}" if found.curves else "")
-    return ENDLESS if found.curves or found.kind == "all" else len(
-        states), states, f"{told}: {found.reason}" if told else found.reason
+    count = ENDLESS if found.curves or found.kind == "all" else len(states)
+    return count, states, f"{told}: {found.reason}" if told else found.reason
 
 
 def _joined(pieces: list[Piece], events: list[Event | None],
@@ -288,8 +288,8 @@ def parts(family: Family, kind: str, eliminated: Eliminated, piece: Piece) -> li
 
 def followed(before: Sequence[Float3], after: Sequence[Float3]) -> list[int]:
     """For each state after a seam the place of the one before it that it goes on from: the nearest."""
-    apart = sorted((sum((u - v) ** 2 for u, v in zip(a, b)), n, k) for n, a in enumerate(after) for k,
-                   b in enumerate(before))
+    apart = sorted((sum((u - v) ** 2 for u, v in zip(a, b)), n, k) for n, a in enumerate(after)
+                   for k, b in enumerate(before))
     found: dict[int, int] = {}
     for _, n, k in apart:
         if n not in found and k not in found.values():

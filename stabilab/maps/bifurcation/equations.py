@@ -44,9 +44,8 @@ class OnLine:
         of y, made homogeneous."""
         x, zero = family.ring.gens()[0], family.ring.constant(0)
         y = [s + x * a for s, a in zip(self.start, self.along)]
-        there, mirrored, middle = _linear_m(family,
-                                            y), _linear_m(family,
-                                                          [-c for c in y]), _linear_m(family, [zero] * 3)
+        there, mirrored = _linear_m(family, y), _linear_m(family, [-c for c in y])
+        middle = _linear_m(family, [zero] * 3)
         mean, half = (there + mirrored) / 2, (there - mirrored) / 2
         return mean - middle + half * self.below + middle * self.below * self.below
 
@@ -150,8 +149,8 @@ def _linear_m(family: Family, y: Sequence[fmpq_mpoly]) -> fmpq_mpoly:
         u1, l1 = n["u"][0], n["lam"][0]
         a, b = u1 / 2 - l1, u1 / 2 + l1
         x = ((y[0] - u1) / 2, y[1], -y[2])
-        weights, kappa, rho, sigma = (one,) * 3, (one, -one,
-                                                  one), (0 * one, 0 * one, b), (0 * one, -a, 0 * one)
+        weights, kappa = (one,) * 3, (one, -one, one)
+        rho, sigma = (0 * one, 0 * one, b), (0 * one, -a, 0 * one)
     else:
         D, lam = n["D"], n["lam"]
         x, weights, kappa = (y[0], y[1], y[2]), (D[0], D[1], D[2]), tuple(D[j] - D[k] for j, k in CYCLE)
@@ -195,9 +194,9 @@ def chosen(family: Family, borders: bool) -> tuple[str, str, OnLine | Conics | N
         load = n["lam"][axis] * n["M"][axis]
         note = (
             f"the torque lies on principal axis {axis + 1} and a wheel carries momentum along it: no "
-            f"equilibrium wherever neither is zero")
-        return ISOLATED, WHAT[ISOLATED], OnLine((one, zero, zero), (zero,) * 3, (zero,) * 3, one, load,
-                                                load), (note,)
+            "equilibrium wherever neither is zero")
+        nowhere = OnLine((one, zero, zero), (zero,) * 3, (zero,) * 3, one, load, load)
+        return ISOLATED, WHAT[ISOLATED], nowhere, (note,)
     D = n["D"]
     if borders or "y" not in n:
         return _solvable(BORDERS, WHAT[BORDERS], across(family, axis, BORDERS))

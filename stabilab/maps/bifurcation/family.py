@@ -70,8 +70,8 @@ class Family:
         laws = [law(column) for column in columns]
         found = {name: tuple(laws[n:n + 3]) for n, (name, place) in enumerate(places) if not place}
         for number in range(1, CHECKS + 1):
-            values = tuple(span.low + (span.high - span.low) * Fraction(2 * number - 1 + k, 7 + 4 * k) for k,
-                           span in enumerate(self.spans))
+            values = tuple(span.low + (span.high - span.low) * Fraction(2 * number - 1 + k, 7 + 4 * k)
+                           for k, span in enumerate(self.spans))
             self._hold(found, values)
         return found
 
@@ -98,10 +98,9 @@ class Family:
                     what = {"D": "principal moments", "lam": "wheel", "M": "torque", "u": "wheel",
                             "y": "start"}[name]
                     raise InputError(f"vary {keys}: the {what} of the case (along principal axes, in its "
-                                     f"variables) is no polynomial of it of degree "
-                                     f"{DEGREE}, so nothing can be eliminated exactly: vary a moment of "
-                                     f"inertia, a torque, a force or a wheel instead, or "
-                                     "use stabilab sweep")
+                                     f"variables) is no polynomial of it of degree {DEGREE}, so nothing can "
+                                     "be eliminated exactly: vary a moment of inertia, a torque, a force or "
+                                     "a wheel instead, or use stabilab sweep")
 
 
 def _numbers_of(case: Case) -> dict[str, tuple[Fraction, ...]]:

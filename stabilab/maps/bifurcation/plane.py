@@ -156,8 +156,8 @@ def _triple_root(R: fmpq_mpoly, p: arb, q: arb) -> arb:
             continue
         fitting = [x for x in real if all(f(x).contains(0) for f in rows[:n])]
         if fitting:
-            nearest = [(float(abs(arb_poly.evaluate(rows[1], [x])[0]).mid()), k) for k,
-                       x in enumerate(fitting)]
+            nearest = [(float(abs(arb_poly.evaluate(rows[1], [x])[0]).mid()), k)
+                       for k, x in enumerate(fitting)]
             return fitting[min(nearest)[1]]
     raise Unclear
 
@@ -220,14 +220,14 @@ def plane(family: Family, borders: bool = False) -> Plane:
     if system is None:
         raise InputError(
             f"{family.case.place}: {what}: vary one number, and the curves are described in words; over two "
-            f"there is nothing to draw")
+            "there is nothing to draw")
     eliminated = Eliminated(family, system)
     curves = eliminated.critical
     found = cuts(_projected(family, curves), family.spans[0].low, family.spans[0].high)
     if len(found) > MOST:
         raise InputError(
             f"the curves of these ranges turn and meet at {len(found)} values; at most {MOST} are followed: "
-            f"narrow the ranges")
+            "narrow the ranges")
     strips = _strips(family, borders, curves, found)
     walls = [wall for cut in found for wall in _walls(family, borders, cut, curves, strips)]
     return Plane(family, kind, what, curves, tuple(strips), tuple(walls),
@@ -248,8 +248,8 @@ def _projected(family: Family, curves: Sequence[fmpq_mpoly]):
         if F.degrees()[3] > 1:
             parts.append(F.resultant(F.derivative("q"), "q"))
         parts += [F.resultant(G, "q") for G in curves[:n] if G.degrees()[3] > 0]
-    return [univariate(f, 2) for part in parts if not part.is_zero() and not part.is_constant() for f,
-            _ in part.factor()[1]]
+    return [univariate(f, 2) for part in parts if not part.is_zero() and not part.is_constant()
+            for f, _ in part.factor()[1]]
 
 
 def fixed(family: Family, which: int, value: Fraction) -> Family:
@@ -257,8 +257,8 @@ def fixed(family: Family, which: int, value: Fraction) -> Family:
     data, span = copy.deepcopy(family.data), family.spans[which]
     for path in span.key.paths:
         put(data, path, span.written(value))
-    return Family(family.at(tuple(value if n == which else other.low for n,
-                                  other in enumerate(family.spans))), data, (family.spans[1 - which],))
+    return Family(family.at(tuple(value if n == which else other.low
+                                  for n, other in enumerate(family.spans))), data, (family.spans[1 - which],))
 
 
 def _strips(family: Family, borders: bool, curves: Sequence[fmpq_mpoly], found: Sequence[Cut]) -> list[Strip]:
