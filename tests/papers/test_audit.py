@@ -14,7 +14,7 @@ from stabilab.errors import InputError
 from stabilab.papers import audit
 from stabilab.papers.audit.checks import bound_of, decide, pairs, raw, system_of
 from stabilab.papers.audit.findings import domain_of, edits, examine, prove_systems, repairs
-from stabilab.papers.audit.special import constant_torque as trend
+from stabilab.papers.audit.measured import missed as steps_missed
 from stabilab.theories.cavity import model as cavity
 from stabilab.theories.charged import model as charged
 from stabilab.theories.printed.claims import FormulaError, parse, read, sides
@@ -305,8 +305,8 @@ def test_operators_carried_out_in_numbers_and_in_symbols_have_one_value(text, va
 # counted by hand: steps of 1, 3, 2, 2
 @pytest.mark.parametrize("goes, missed", [("rises", 2), ("falls", 2), ("stays", 2)])
 def test_steps_that_do_not_go_as_said_are_counted(goes, missed):
-    assert trend.missed([1, 3, 2, 2], goes) == missed
-    assert trend.missed([1, 1 + 1e-12], goes) == (goes != "stays")  # rounding is no change
+    assert steps_missed([1, 3, 2, 2], goes) == missed
+    assert steps_missed([1, 1 + 1e-12], goes) == (goes != "stays")  # rounding is no change
 
 
 def test_claims_about_the_major_axis_agree_with_an_independent_integrator():

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from stabilab.errors import InputError
+from stabilab.papers.families import FAMILIES, sweep
 from stabilab.papers.figures import catalogue as figures
-from stabilab.papers.figures import cavity as figures_cavity
 from stabilab.papers.figures import charged as figures_charged
 from stabilab.papers.figures import panels
 from stabilab.papers.figures import top as figures_top
@@ -46,23 +46,20 @@ def test_a_figure_number_without_a_paper_belongs_to_the_constant_torque_paper():
 
 def test_the_families_are_those_of_the_papers():
     """Values from the captions of the papers' figures, read back from the scenes that are drawn."""
-    for family, pick in (("lambda3", lambda s: float(s.vector("gyrostat")[2])),
-                         ("M1", lambda s: float(s.vector("constant_torque")[0])),
-                         ("e", lambda s: s.effect("charge").charge)):
-        _, values, _, variant = figures_charged.FAMILIES[family]
-        scenes = [panels.sweep(figures_charged.SWEEP)[variant.format(i)].scene for i in (1, 2, 3)]
-        assert [float(pick(s)) for s in scenes] == list(values)
-    read = {"small": lambda s: s.vector("gyrostat")[2], "large": lambda s: s.vector("gyrostat")[2],
-            "zeta": lambda s: s.effect("resistance").exact * 100,
-            "M3": lambda s: s.vector("constant_torque")[2] * 100,
-            "e": lambda s: s.effect("charge").charge}
-    for family, (_, _, files) in figures_cavity.FAMILIES.items():
-        assert [float(read[family](panels.sweep(name)[""].scene))
-                for name in files.values()] == pytest.approx(list(files))
-    for pairs in figures_top.FAMILIES.values():
-        for lx, lz in pairs:
-            assert tuple(map(float,
-                             panels.sweep(f"top-lx{lx}-lz{lz}")[""].scene.vector("gyrostat"))) == (lx, 0, lz)
+    read = {"charged": {"lambda3": lambda s: s.vector("gyrostat")[2], "e": lambda s: s.effect("charge").charge,
+                        "M1": lambda s: s.vector("constant_torque")[0]},
+            "cavity": {"small": lambda s: s.vector("gyrostat")[2], "large": lambda s: s.vector("gyrostat")[2],
+                       "zeta": lambda s: s.effect("resistance").exact * 100,
+                       "M3": lambda s: s.vector("constant_torque")[2] * 100,
+                       "e": lambda s: s.effect("charge").charge},
+            "top": {"lx": lambda s: s.vector("gyrostat")[0], "lz": lambda s: s.vector("gyrostat")[2]},
+            "constant-torque": dict.fromkeys(("figure 8", "figure 12"), lambda s: s.exact_ab[0] * 500)}
+    assert {paper: set(found) for paper, found in FAMILIES.items()} == {
+        paper: set(found) for paper, found in read.items()}
+    for paper, found in FAMILIES.items():
+        for name, family in found.items():
+            assert [float(read[paper][name](case.scene)) for case in family.members] == pytest.approx(
+                list(family.cases)), (paper, name)
 
 
 def _column(exact, printed):
@@ -151,10 +148,10 @@ def test_a_figure_of_more_than_six_panels_is_divided():
 
 def test_printed_curves_of_the_velocity_are_the_printed_formulas():
     from stabilab.theories.charged.model import body_of, printed
-    column = next(iter(figures_charged._columns("lambda3")))
-    t, drawn = figures_charged.VELOCITY[0].pick(column.runs["printed"])
+    column = figures_charged._columns("lambda3")[0]
+    t, drawn = figures_charged.KINDS["velocity"][1][0].pick(column.runs["printed"])
     np.testing.assert_array_equal(drawn,
-                                  printed(body_of(panels.sweep("charged-sweep")["-1-2-1"]), t).velocity[:, 0])
+                                  printed(body_of(sweep("charged-sweep")["-1-2-1"]), t).velocity[:, 0])
     assert {"printed", "corrected", "linear", "exact"} == set(column.runs)
 
 
@@ -191,7 +188,7 @@ def test_the_top_of_table_1_is_not_fast():
 
 
 def test_every_number_of_a_chapters_data_has_its_unit():
-    told = chapters._parameters(panels.sweep("liquid-base")[""])
+    told = chapters._parameters(sweep("liquid-base")[""])
     assert told.startswith("D1 = 9.51 kg m², ") and "M3 = −0.06 N m; at t = 0: ω = (1, 0, 1) rad/s" in told
     assert all(re.search(r"= \S+ [A-Za-z1]", part) for part in told.split("; ")[0].split(", "))
 

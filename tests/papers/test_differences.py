@@ -3,14 +3,15 @@ themselves."""
 import numpy as np
 import pytest
 
-from stabilab.papers.figures import cavity, panels, top
+from stabilab.papers.families import compared
+from stabilab.papers.figures import cavity, top
 from stabilab.papers.figures.catalogue import figure
 from stabilab.papers.figures.figure import Difference, differences, plain, words
 
 
 def test_a_figure_tells_the_largest_difference_of_each_panel_at_equal_times():
     found = differences(figure(3, "cavity"))
-    runs = panels.motions("liquid-lambda3-15", "", cavity.SPAN, cavity.POINTS, crowd=2)
+    runs = compared("liquid-lambda3-15", "", cavity.SPAN)[0]
     true, wrong = (np.asarray(runs[name].state["omega"])[:, 0] for name in ("exact", "printed"))
     n = len(wrong)
     at = np.argmax(abs(wrong - true[:n]))

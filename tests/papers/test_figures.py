@@ -63,7 +63,7 @@ def test_a_curve_that_ends_within_a_panel_is_marked_and_the_panel_says_why(plt):
     for ax, run in zip(panels, (runs["printed"] for runs in cavity.runs_of("small"))):
         ends = [line for line in ax.lines if line.get_marker() == "X"]
         words = " ".join(text.get_text() for text in ax.get_legend().get_texts()) if ax.get_legend() else ""
-        assert [line.get_xdata()[0] for line in ends] == ([run.t[-1]] if run.t[-1] < cavity.SPAN else [])
+        assert [line.get_xdata()[0] for line in ends] == ([run.t[-1]] if run.t[-1] < cavity.SPAN.end else [])
         assert bool(ends) == ("no real value" in words.replace("\n", " "))
 
 

@@ -14,7 +14,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from decimal import Decimal, InvalidOperation
-from importlib import import_module
 from itertools import combinations
 
 from ...errors import InputError
@@ -23,6 +22,7 @@ from ...physics.equations import derive
 from ...physics.scene import Body, Scene
 from ...theories.printed.claims import FormulaError, Paper, Row, parse, sides
 from ...theories.printed.evaluate import Evaluator, Undefined, points, precise, settled
+from . import measured
 
 # effect -> arguments that leave no parameter zero
 EFFECTS = {"gyrostat": ((2, 3, 5),), "constant_torque": ((2, 3, 5),), "charge": (2, 3, 5, "1/2"),
@@ -56,11 +56,11 @@ def system_of(paper: Paper, name: str | None, place: str = "") -> System | None:
             f"{', '.join(paper.systems) or 'none'}")
     data, place = paper.systems[name], f"{paper.name}, systems.{name}"
     unknown = (set(data) - {"effects", "names", "blocks", "state", "rates", "follows", "meaning", "pace",
-                            "set", "time", "scene"})
+                            "set", "time"})
     if unknown:
         raise InputError(f"{place}: unknown keys {', '.join(sorted(unknown))}")
     values = {symbol: _read(paper, place, text) for symbol, text in data.get("set", {}).items()}
-    if "effects" in data or "scene" in data:
+    if "effects" in data:
         return _derived(paper, name, data, values, place)
     if "rates" in data:
         state = tuple(_symbol(paper, place, s) for s in data["state"])
@@ -105,9 +105,6 @@ def _derived(paper, name, data, values, place):
 
 def _scene(data, place):
 
-    if "scene" in data:
-        module, _, function = data["scene"].partition(":")
-        return getattr(import_module(f".special.{module}", __package__), function)()
     effects = []
     for effect in data["effects"]:
         if effect not in EFFECTS:
@@ -255,18 +252,16 @@ CHECKS = {"holds": _holds, "order": _holds, "solves": _solves, "equilibrium": _e
 
 
 def residuals_of(row: Row):
-    """(residual of the printed claim, of the corrected one): two formulas of numbers, or the test that the
-    row names, `module:test`, of the modules in `special`, with the arguments that the row gives."""
+    """(residual of the printed claim, of the corrected one): two formulas of numbers, or the test of
+    `measured` that the row names, with the arguments that it gives."""
     if isinstance(row.options["test"], list):
         value = Evaluator(precise(30), {}, {}, None)
         return tuple(abs(float(value(parse(text, {})))) for text in row.options["test"])
-    module, _, function = row.options["test"].partition(":")
-    try:
-        return tuple(abs(float(v))
-                     for v in import_module(f".special.{module}", __package__).TESTS[function](
-                         **row.options.get("with", {})))
-    except (ModuleNotFoundError, KeyError) as error:
-        raise InputError(f"{row.place}: no function {row.options['test']!r} ({error})") from None
+    name = row.options["test"]
+    if name not in measured.TESTS:
+        raise InputError(f"{row.place}: no test {name!r}; known are {', '.join(measured.TESTS)}")
+    found = measured.TESTS[name](**row.options.get("with", {}))
+    return tuple(abs(float(v)) for v in found)
 
 
 DIGITS = (50, 80)  # a claim "holds" by values only if its residual shrinks with the digits

@@ -11,88 +11,80 @@ from ...theories.charged.corrected import one_frequency
 from ...theories.charged.model import body_of
 from ...theories.charged.model import circle as by_35
 from ...theories.charged.modes import horizon
-from ...theories.charged.modes import horizon as until
+from .. import families
+from ..families import Span
 from . import panels
-from .figure import Figure, listed, model_figure
+from .figure import Figure, family_figure, listed, model_figure
 
 PAPER = "Galal et al., charged rigid body with a gyrostatic moment (short form: Elneklawy)"
-SWEEP, SPAN, POINTS = "charged-sweep", 50.0, 2001
-# family -> (symbol, values as in the sweep file, unit, variant of the i-th value; the others stand at 1.3,
-# 0.003, 4)
-FAMILIES = {"lambda3": (r"\lambda_3", (1.3, 1.6, 1.9), r"kg m$^2$/s", "-{}-2-1"),
-            "e": ("e", (0.001, 0.003, 0.005), "C", "-1-{}-1"),
-            "M1": ("M_1", (4.0, 4.5, 5.0), "N m", "-1-2-{}")}
-OTHERS = {"lambda3": r"$e=0.003$ C, $M_1=4$ N m", "e": r"$\lambda_3=1.3$ kg m$^2$/s, $M_1=4$ N m",
-          "M1": r"$\lambda_3=1.3$ kg m$^2$/s, $e=0.003$ C"}
-RATES = (panels.history("omega", 0, "$p$", "rad/s"), panels.history("omega", 1, "$q$", "rad/s"))
-PLANES = (panels.phase("omega", 0, "$p$", "rad/s"), panels.phase("omega", 1, "$q$", "rad/s"))
-ANGLES = tuple(panels.history("angles", i, name, "rad") for i,
-               name in enumerate((r"$\psi$", r"$\phi$", r"$\theta$")))
-MOMENTUM = (panels.history("momentum", 0, "$G_1$", r"kg m$^2$/s"),
-            panels.history("momentum", 1, "$G_2$", r"kg m$^2$/s"),
-            panels.plane("momentum", 0, 1, ("$G_1$", "$G_2$"), r"kg m$^2$/s"))
-VELOCITY = tuple(panels.history("velocity", i, rf"$v_{i + 1}$", "m/s") for i in range(3))
-PLACE = tuple(panels.history("position", i, rf"$\eta_{i + 1}$", "m") for i in range(3))
+FAMILIES, SPAN = families.FAMILIES["charged"], families.SPANS["charged"]
+# kind of figure -> (title, its rows)
+KINDS: dict[str, tuple[str, tuple[panels.Row, ...]]] = {
+    "rates": ("Angular velocities", tuple(panels.history("omega", i, f"${name}$", "rad/s")
+                                          for i, name in enumerate("pq"))),
+    "planes": ("Phase planes", tuple(panels.phase("omega", i, f"${name}$", "rad/s")
+                                     for i, name in enumerate("pq"))),
+    "angles": ("Angles of the 3-1-2 sequence", tuple(panels.history("angles", i, name, "rad") for i, name in
+                                                     enumerate((r"$\psi$", r"$\phi$", r"$\theta$")))),
+    "momentum": ("Angular momentum by (33)", (*(panels.history("momentum", i, f"$G_{i + 1}$", r"kg m$^2$/s")
+                                                for i in (0, 1)),
+                                              panels.plane("momentum", 0, 1, ("$G_1$", "$G_2$"),
+                                                           r"kg m$^2$/s"))),
+    "velocity": ("Velocity", tuple(panels.history("velocity", i, f"$v_{i + 1}$", "m/s") for i in range(3))),
+    "place": ("Displacement", tuple(panels.history("position", i, rf"$\eta_{i + 1}$", "m")
+                                    for i in range(3)))}
+KINDS["circle"] = "Angular momentum by (35)", KINDS["momentum"][1]
 
 
-def _columns(family, end=SPAN, horizon=True):
-    symbol, values, unit, variant = FAMILIES[family]
-    for i, value in enumerate(values, 1):
-        name = variant.format(i)
-        mark = float(until(body_of(panels.sweep(SWEEP)[name]))) if horizon else None
-        yield panels.Column(rf"${symbol}={value:g}$ {unit}", panels.motions(SWEEP, name, end, POINTS), mark)
+def _columns(name, span=SPAN, marked=True):
+    """A column for each value, marked where the tilt is no longer small."""
+    marks = [float(horizon(body)) if marked else None for body in _bodies(name)]
+    return [replace(c, mark=mark) for c, mark in zip(panels.columns_of(FAMILIES[name], span), marks)]
 
 
-def _lines(family, rows, circle=False):
-    """(row, columns) of every row of the figure."""
-    columns = list(_columns(family))
+def _lines(name, kind):
+    """(row, columns) of every row of a figure; of "circle" with the momentum of (35) as the printed one."""
+    columns = _columns(name)
     # ahead of the misprinted integrals the corrected motion is the printed one
-    if rows not in (VELOCITY, PLACE):
-        columns = [_without(c, "corrected") for c in columns]
-    if circle:
-        columns = [replace(c, runs={name: _by_35(family, i, run) if name == "printed" else run for name,
-                                    run in c.runs.items()})
-                   for i, c in enumerate(columns, 1)]
-    return [(row, columns) for row in rows]
+    if kind not in ("velocity", "place"):
+        columns = [_without_corrected(c) for c in columns]
+    if kind == "circle":
+        columns = [_by_35(body, c) for body, c in zip(_bodies(name), columns)]
+    return [(row, columns) for row in KINDS[kind][1]]
 
 
-def _family(plt, family, rows, title, circle=False):
-    words = {"printed": "as printed: (35)" if circle else "as printed: (33)"} if rows is MOMENTUM else {}
-    return panels.draw_lines(plt, f"{title}, {OTHERS[family]}", _lines(family, rows, circle), words=words,
-                             mark_words="tilt reaches 0.1 rad")
+def _without_corrected(column):
+    return replace(column, runs={name: run for name, run in column.runs.items() if name != "corrected"})
 
 
-def _without(column, model):
-    return replace(column, runs={name: run for name, run in column.runs.items() if name != model})
-
-
-def _by_35(family, i, run):
-    """The printed run with the momentum of (35) in place of (33)."""
-    across = by_35(body_of(panels.sweep(SWEEP)[FAMILIES[family][3].format(i)]), run.t)
-    return replace(run, state=run.state
-                   | {"momentum": np.hstack([across, np.asarray(run.state["momentum"])[:, 2:]])})
+def _by_35(body, column):
+    """The column with the printed momentum of (35) in place of (33)."""
+    run = column.runs["printed"]
+    momentum = np.hstack([by_35(body, run.t), np.asarray(run.state["momentum"])[:, 2:]])
+    printed = replace(run, state=run.state | {"momentum": momentum})
+    return replace(column, runs=column.runs | {"printed": printed})
 
 
 def _circle_lines():
-    parts = []
-    for end in (2.0, 10.0, SPAN):
-        c = _without(next(iter(_columns("M1", end, horizon=False))), "corrected")
-        parts.append(replace(c, heading=f"0 to {end:g} s",
-                             runs={n: _by_35("M1", 1, r) if n == "printed" else r for n,
-                                   r in c.runs.items()}))
-    return [(row, parts) for row in MOMENTUM[2:]]
+    """Of Fig. 11: three spans of time."""
+    body, parts = _bodies("M1")[0], []
+    for end in (2.0, 10.0, SPAN.end):
+        column = _without_corrected(_columns("M1", Span(end, SPAN.count), marked=False)[0])
+        parts.append(replace(_by_35(body, column), heading=f"0 to {end:g} s"))
+    return [(row, parts) for row in KINDS["circle"][1][2:]]
 
 
 def circle(plt):
     """Fig. 11: the momentum across the axis, by (35) and in truth, over three spans of time."""
-    return panels.draw_lines(plt, rf"Angular momentum across the axis $z_1$: {OTHERS['M1']}, $M_1=4$ N m",
+    return panels.draw_lines(plt, f"Angular momentum across the axis $z_1$: "
+                                  f"{FAMILIES['M1'].rest.removeprefix(', ')}, $M_1=4$ N m",
                              _circle_lines(), height=2.35,
                              words={"printed": "as printed: (35), a circle"}, own=True)
 
 
 def _pointing_lines():
     row = panels.Row("$v_1/v_3$", "$v_2/v_3$", _direction, limits=((-4.5, 8.5), (-4.5, 8.5)))
-    return [(row, list(_columns(family, horizon=False))) for family in FAMILIES]
+    return [(row, _columns(name, marked=False)) for name in FAMILIES]
 
 
 def pointing(plt):
@@ -110,13 +102,13 @@ def _direction(run):
 # -- captions, with their numbers
 
 
-def runs_of(family) -> list[dict]:
+def runs_of(name) -> list[dict]:
     """model -> run of each value of a family, over the figures' span."""
-    return [panels.motions(SWEEP, FAMILIES[family][3].format(i), SPAN, POINTS) for i in (1, 2, 3)]
+    return FAMILIES[name].runs(SPAN)
 
 
-def _bodies(family):
-    return [body_of(panels.sweep(SWEEP)[FAMILIES[family][3].format(i)]) for i in (1, 2, 3)]
+def _bodies(name):
+    return [body_of(case) for case in FAMILIES[name].members]
 
 
 def _state(family, model, part):
@@ -214,68 +206,60 @@ _CUT = (
 _THIN = _CUT + ", thin those with corrected integrals where they differ."
 
 
-def _exactness(families=tuple(FAMILIES), more=""):
-    return (
-        f"{panels.exactness([r for f in families for r in runs_of(f)])}; models: closed forms; {POINTS} "
-        f"points{more}")
+CLOSED = "models: closed forms"
+
+
+def _exactness(names):
+    runs = [run for name in names for run in runs_of(name)]
+    return f"{panels.exactness(runs)}; {CLOSED}; {SPAN.count} points"
 
 
 def _figures():
-    rates, planes, angles = partial(_family,
-                                    rows=RATES), partial(_family, rows=PLANES), partial(_family, rows=ANGLES)
-    momentum, speed, way = partial(_family,
-                                   rows=MOMENTUM), partial(_family,
-                                                           rows=VELOCITY), partial(_family, rows=PLACE)
-    across, by_35 = partial(momentum, circle=True), "Angular momentum by (35)"
-    three = "Angles of the 3-1-2 sequence"
-    for n, family, draw, title, words in (
-            (2, "lambda3", rates, "Angular velocities", _rates),
-            (3, "lambda3", planes, "Phase planes",
+    for number, name, kind, caption in (
+            (2, "lambda3", "rates", _rates),
+            (3, "lambda3", "planes",
              "The printed ellipses are those of linear equations; the true curves are "
              "egg-shaped, because r is not constant."),
-            (4, "e", rates, "Angular velocities",
+            (4, "e", "rates",
              partial(_rates, more="The text has amplitude and wavelength increase \"while their "
                                                           "wavelengths decrease\": both increase.")),
-            (5, "e", planes, "Phase planes",
+            (5, "e", "planes",
              "The curves widen with e, which takes k = e H l^2 cos sigma off lambda3. True curves: "
              "egg-shaped."),
-            (6, "M1", rates, "Angular velocities", _rates_by_torque),
-            (7, "M1", planes, "Phase planes",
+            (6, "M1", "rates", _rates_by_torque),
+            (7, "M1", "planes",
              "The text says that the curves shrink with growing M1; they grow, in print in proportion "
              "to M1."),
-            (8, "lambda3", angles, three, _angles), (9, "e", angles, three, _angles),
-            (10, "M1", angles, three,
+            (8, "lambda3", "angles", _angles), (9, "e", "angles", _angles),
+            (10, "M1", "angles",
              partial(_angles,
                      more="The text sees a marginal change of psi and phi with M1; in print they are "
                                               "proportional to it. ")),
-            (12, "lambda3", momentum, "Angular momentum by (33)",
+            (12, "lambda3", "momentum",
              partial(_by_33, more="lambda3 hardly matters.")),
-            (14, "e", momentum, "Angular momentum by (33)",
+            (14, "e", "momentum",
              partial(_by_33, more="the charge widens the loops.")),
-            (16, "M1", momentum, "Angular momentum by (33)",
+            (16, "M1", "momentum",
              partial(_by_33, more="G is proportional to M1; the text has a marginal rise.")),
-            (13, "lambda3", across, by_35, _circle),
-            (15, "e", across, by_35,
+            (13, "lambda3", "circle", _circle),
+            (15, "e", "circle",
              partial(_circle, more="That the charge has no influence is an artefact.")),
-            (17, "M1", across, by_35, partial(_circle, more="The text says that M1 makes no difference.")),
-            (18, "lambda3", speed, "Velocity", _speed),
-            (19, "e", speed, "Velocity", partial(_speed, more="The charge does change v3. ")),
-            (20, "M1", speed, "Velocity", partial(_speed, more="M1 does change v3. ")),
-            (22, "lambda3", way, "Displacement", _way),
-            (23, "e", way, "Displacement", partial(_way, more="So the charge does matter to eta3. ")),
-            (24, "M1", way, "Displacement", partial(_way, more="So M1 does matter to eta3. "))):
-        more = "; rates by central differences" if draw is planes else ""
-        yield Figure(n, f"{title}: {NAMES[family]}", partial(words, family) if callable(words) else words,
-                     partial(draw, family=family, title=title), partial(_exactness, (family,), more),
-                     "charged",
-                     partial(_lines, family, draw.keywords["rows"], draw.keywords.get("circle", False)))
+            (17, "M1", "circle", partial(_circle, more="The text says that M1 makes no difference.")),
+            (18, "lambda3", "velocity", _speed),
+            (19, "e", "velocity", partial(_speed, more="The charge does change v3. ")),
+            (20, "M1", "velocity", partial(_speed, more="M1 does change v3. ")),
+            (22, "lambda3", "place", _way),
+            (23, "e", "place", partial(_way, more="So the charge does matter to eta3. ")),
+            (24, "M1", "place", partial(_way, more="So M1 does matter to eta3. "))):
+        printed = {"momentum": "as printed: (33)", "circle": "as printed: (35)"}.get(kind)
+        yield family_figure("charged", number, name, KINDS[kind][0], caption, partial(_lines, name, kind),
+                            CLOSED, words=printed and {"printed": printed}, mark_words="tilt reaches 0.1 rad")
     yield model_figure("charged-body", "charged")
     yield Figure(11, "Angular momentum across z1",
-                 partial(_circle, "lambda3", "The print draws the small circle of a body that hardly "
-                                                           "tilts."), circle, partial(_exactness, ("M1",)),
-                 "charged", _circle_lines)
-    yield Figure(21, "Direction of the velocity", _pointing, pointing, _exactness, "charged", _pointing_lines)
+                 partial(_circle, "lambda3", "The print draws the small circle of a body that hardly tilts."),
+                 circle, partial(_exactness, ("M1",)), "charged", _circle_lines)
+    yield Figure(21, "Direction of the velocity", _pointing, pointing, partial(_exactness, tuple(FAMILIES)),
+                 "charged", _pointing_lines)
 
 
-NAMES = {"lambda3": "family of λ3", "e": "family of e", "M1": "family of M1"}
 FIGURES = tuple(sorted(_figures(), key=lambda row: row.number))

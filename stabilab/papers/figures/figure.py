@@ -6,6 +6,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -15,6 +16,7 @@ from ...show.plot.body import BOX, PARTS, body
 from ...show.terminal.letters import written
 from ...show.text.cost.comparison import short
 from ...show.text.cost.words import share
+from ..families import FAMILIES, SPANS, sweep
 from . import panels
 
 
@@ -71,14 +73,30 @@ SKETCH = ("a sketch: directions and the proportions of the box are those of the 
 
 def model_figure(name: str, paper: str = "") -> Figure:
     """Figure 1 of a paper, from a case file of the repository: the body with every effect of its scene."""
-    return Figure(1, "The model", lambda: _of_model(panels.sweep(name)[""]),
-                  lambda plt: body(panels.sweep(name)[""], size=(7.2, 6.6), bare=True).figure, SKETCH, paper)
+    return Figure(1, "The model", lambda: _of_model(sweep(name)[""]),
+                  lambda plt: body(sweep(name)[""], size=(7.2, 6.6), bare=True).figure, SKETCH, paper)
 
 
 def _of_model(case: Case) -> str:
     """The caption: the case, and what is drawn of it."""
     parts = ", ".join([BOX, *(PARTS[effect.name][0] for effect in case.physical.effects)])
     return f"Drawn from the case {case.name} by what its scene contains: {parts}."
+
+
+def family_figure(paper: str, number: int, name: str, title: str, caption, lines: Callable, models: str,
+                  **looks) -> Figure:
+    """A figure of a family of motions: lines() gives its lines (panels.Row, columns); caption: a text, or a
+    function of the family's name; models: how exact the models beside the exact motion are; looks: of
+    `panels.draw_lines`."""
+    family, span = FAMILIES[paper][name], SPANS[paper]
+    more = "; rates by central differences" if title == "Phase planes" else ""
+
+    def exact() -> str:
+        return f"{panels.exactness(family.runs(span))}; {models}; {span.count} points{more}"
+    return Figure(number, f"{title}: {family.name}",
+                  partial(caption, name) if callable(caption) else caption,
+                  lambda plt: panels.draw_lines(plt, title + family.rest, lines(), **looks), exact, paper,
+                  lines)
 
 
 # --- Level curves of an integral in a plane

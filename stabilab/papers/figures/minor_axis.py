@@ -77,19 +77,20 @@ def _left(saddles, start):
 def _heights(lambda1=100):
     """(height by (25), as it is printed, true height) over alpha: x^2/2 + height is constant."""
     scene, (x1, x2, _) = paper.scene("minor", lambda1), paper.START_MINOR
-    return (_height(np.hypot(x1, x2), scene.b), _height(np.hypot(x1 + scene.a, x2), scene.b - scene.a))
+    return (height(np.hypot(x1, x2), scene.b), height(np.hypot(x1 + scene.a, x2), scene.b - scene.a))
 
 
-def _height(radius, wheel):
+def height(radius, wheel):
+    """Function of alpha: x^2/2 less it is constant on the circle of a radius, by (25)."""
     return lambda alpha: radius**2 * np.cos(alpha) - 4 * radius * wheel * np.sin(alpha / 2) - 2 * alpha
 
 
-def _separatrix_by(height, alpha):
+def _separatrix_by(level, alpha):
     """x >= 0 on the separatrices through the saddles of a height near alpha = 0 and 2 pi, each from its own
     loop on; NaN where there is none."""
     found = []
     for near in (0.0, 2 * np.pi):
-        there, h = height(alpha[np.abs(alpha - near) < 1.5]).max(), height(alpha)
+        there, h = level(alpha[np.abs(alpha - near) < 1.5]).max(), level(alpha)
         own = (h <= there) & (alpha > near - 2 * np.pi)
         found.append(np.sqrt(np.where(own, 2 * (there - h), np.nan)))
     return found
@@ -211,9 +212,9 @@ def printed_loops() -> dict:
 def _printed_loop(radius, b, turn):
     """The loop that hangs on alpha = turn - asin(2/F^2)."""
     from scipy.optimize import brentq
-    height = _height(radius, b)
+    level = height(radius, b)
     saddle = turn - np.arcsin(2 / radius**2)
-    room = lambda alpha: height(saddle) - height(alpha)
+    room = lambda alpha: level(saddle) - level(alpha)
     alpha = saddle + np.linspace(-2 * np.pi, 0.0, 4001)
     low = int(np.argmax(room(alpha)))
     ends = [float(brentq(room, alpha[low], edge)) for edge in

@@ -10,17 +10,14 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass, field
-from functools import lru_cache
 from textwrap import fill
 from typing import Any
 
 import numpy as np
 
-from ...case.read import load_all
 from ...show import style
 from ...show.text.cost import comparison
-from ...theories.comparison import side_by_side
-from ..table import cases_folder
+from ..families import Family, Span, compared
 
 TIME = "$t$ (s)"
 # How each model is drawn: the pale ones are broad and lie under the exact motion, the others over it, so that
@@ -87,28 +84,13 @@ class Column:
     refused: dict = field(default_factory=dict, repr=False)
 
 
-@lru_cache(maxsize=32)
-def sweep(name: str) -> dict:
-    """Variant -> case of a sweep file of the repository ("" for a file without sweep)."""
-    return {case.variant: case for case in load_all(cases_folder() / f"{name}.toml")}
-
-
-def motions(name: str, variant: str, end: float, count: int, order: int | None = None,
-            crowd: int = 1) -> dict:
-    """model -> Simulation of a case of the repository at `count` times from 0 to `end`, crowd > 1: closer at
-    the start; models that refuse are left out."""
-    return _both(name, variant, end, count, order, crowd)[0]
-
-
-def refusals(name: str, variant: str, end: float, count: int, order: int | None = None,
-             crowd: int = 1) -> dict:
-    """model -> why it refuses; arguments as of `motions`."""
-    return _both(name, variant, end, count, order, crowd)[1]
-
-
-@lru_cache(maxsize=64)
-def _both(name, variant, end, count, order, crowd):
-    return side_by_side(sweep(name)[variant], end * np.linspace(0.0, 1.0, count) ** crowd, order)
+def columns_of(family: Family, span: Span) -> list[Column]:
+    """A column for each case of a family."""
+    made = []
+    for value, case in family.cases.items():
+        runs, refused = compared(*case, span)
+        made.append(Column(rf"${family.symbol}={value:g}$ {family.unit}", runs, refused=refused))
+    return made
 
 
 def exactness(runs) -> str:

@@ -10,40 +10,43 @@ import numpy as np
 from ...theories.top.euler_angles import euler_angles
 from ...theories.top.model import printed
 from ...theories.top.scaling import fast_top
+from .. import families
+from ..families import compared, sweep
 from . import panels
-from .figure import Figure, model_figure
+from .figure import family_figure, model_figure
 
 PAPER = "Amer, Amer, Galal 2023, rigid body in a Newtonian field with a gyrostatic moment"
-SPAN, POINTS, ORDER = 1.3, 2601, 2
+FAMILIES, SPAN = families.FAMILIES["top"], families.SPANS["top"]
 REFERENCE = 15.0  # kg m^2: A0 of Table 1
-FAMILIES = {"lx": [(30, 30), (60, 30), (90, 30)], "lz": [(30, 30), (30, 60), (30, 90)]}
 THOUSAND = "10$^3$"  # unit of gamma1: numbers that fit above a panel
 SIX = [("omega", 0, "$p_1$", ""), ("omega", 1, "$q_1$", ""), ("omega", 2, "$r_1$", ""),
        ("gamma", 0, r"$\gamma_1$", THOUSAND), ("gamma", 1, r"$\gamma_1'$", THOUSAND),
        ("gamma", 2, r"$\gamma_1''$", THOUSAND)]
-HISTORIES = tuple(panels.history(*row) for row in SIX)
-PLANES = tuple(panels.phase(*row) for row in SIX)
-ANGLES = tuple(panels.history("euler", i, name, "rad") for i,
-               name in enumerate((r"$\theta$", r"$\varphi$", r"$\psi$")))
+# kind of figure -> (title, its rows)
+KINDS = {"histories": ("Histories", tuple(panels.history(*row) for row in SIX)),
+         "planes": ("Phase planes", tuple(panels.phase(*row) for row in SIX)),
+         "angles": ("Euler angles", tuple(panels.history("euler", i, name, "rad") for i, name in
+                                          enumerate((r"$\theta$", r"$\varphi$", r"$\psi$"))))}
 
 
-def _columns(family, angles=False):
-    for lx, lz in FAMILIES[family]:
-        value, name = (lx, r"\ell_x") if family == "lx" else (lz, r"\ell_z")
-        case = f"top-lx{lx}-lz{lz}"
-        yield panels.Column(rf"${name}={value}$ kg m$^2$/s", _with_angles(case) if angles else _scaled(case))
+def _lines(name, kind):
+    """(row, columns) of every row of a figure."""
+    family, seen = FAMILIES[name], _with_angles if kind == "angles" else _scaled
+    columns = [replace(column, runs=seen(*case))
+               for column, case in zip(panels.columns_of(family, SPAN), family.cases.values())]
+    return [(row, columns) for row in KINDS[kind][1]]
 
 
 def _units() -> tuple[np.ndarray, float]:
     """The paper's units, its (4): c sqrt(gamma0'') of p1 and q1 and r0 of r1, rad/s; gamma0'' of gamma1."""
-    case = panels.sweep("top-lx30-lz30")[""]
+    case = sweep("top-lx30-lz30")[""]
     top = fast_top(case.scene, {"omega": case.state, "gamma": case.blocks["gamma"]})
     across, spin = top.epsilon * float(top.r0), float(top.r0)
     return np.array([across, across, spin]), float(top.gamma[2])
 
 
 @lru_cache(maxsize=8)
-def _scaled(name):
+def _scaled(file, variant):
     """The runs of a case in the paper's variables p1, q1, r1, and gamma1, gamma1', gamma1'' in thousands;
     times in s."""
     rates, vertical = _units()
@@ -52,14 +55,14 @@ def _scaled(name):
         return state | {"omega": np.asarray(state["omega"]) / rates,
                         "gamma": np.asarray(state["gamma"]) / (1000 * vertical)}
     return {model: replace(run, state=scaled(run.state))
-            for model, run in panels.motions(name, "", SPAN, POINTS, ORDER).items()}
+            for model, run in compared(file, variant, SPAN)[0].items()}
 
 
 @lru_cache(maxsize=8)
-def _with_angles(name):
+def _with_angles(file, variant):
     """The runs of a case with a part "euler": theta, phi, psi."""
-    case, found = panels.sweep(name)[""], {}
-    for model, run in panels.motions(name, "", SPAN, POINTS, ORDER).items():
+    case, found = sweep(file)[variant], {}
+    for model, run in compared(file, variant, SPAN)[0].items():
         if model == "printed":
             a = printed(case.scene, {"omega": case.state, "gamma": case.blocks["gamma"]}, run.t)
         else:
@@ -68,25 +71,13 @@ def _with_angles(name):
     return found
 
 
-def _lines(family, rows):
-    """(row, columns) of every row of the figure."""
-    columns = list(_columns(family, rows is ANGLES))
-    return [(row, columns) for row in rows]
-
-
-def _family(plt, family, rows, title):
-    other = r"$\ell_z=30$" if family == "lx" else r"$\ell_x=30$"
-    return panels.draw_lines(plt, f"{title}, {other} kg m$^2$/s", _lines(family, rows),
-                             words={"lindstedt": "corrected expansion, order 2"})
-
-
 def _runs(family):
-    return [panels.motions(f"top-lx{lx}-lz{lz}", "", SPAN, POINTS, ORDER) for lx, lz in FAMILIES[family]]
+    return FAMILIES[family].runs(SPAN)
 
 
 def _fast(family, more=""):
     """The caption of every figure: what is wrong with the data."""
-    case = panels.sweep("top-lx30-lz30")[""]
+    case = sweep("top-lx30-lz30")[""]
     top = fast_top(case.scene, {"omega": case.state, "gamma": case.blocks["gamma"]})
     run, A = _runs(family)[0]["exact"], float(case.scene.body.inertia[0])
     r = np.asarray(run.state["omega"])[:, 2]
@@ -123,7 +114,7 @@ def _variables():
 
 
 def _nutation(family):
-    runs = [_with_angles(f"top-lx{lx}-lz{lz}") for lx, lz in FAMILIES[family]]
+    runs = [_with_angles(*case) for case in FAMILIES[family].cases.values()]
     swing = max(np.ptp(run["exact"].state["euler"][:, 1]) for run in runs)
     r0 = _runs(family)[0]["exact"].state["omega"][0, 2]
     return _fast(family,
@@ -134,23 +125,15 @@ def _nutation(family):
                  "where csc theta0 is meant. ")
 
 
-def _exactness(family, more=""):
-    return f"{panels.exactness(_runs(family))}; printed and corrected: their formulas; {POINTS} points{more}"
-
-
 def _figures():
-    for n, family, rows, title, words in (
-            (2, "lx", HISTORIES, "Histories",
-             partial(_unit, more="The text sees l_x change q and gamma'' only; in truth it changes all "
-                                                      "six. ")),
-            (3, "lz", HISTORIES, "Histories", _unit), (4, "lx", PLANES, "Phase planes", _free),
-            (5, "lz", PLANES, "Phase planes", _free),
-            (6, "lx", ANGLES, "Euler angles", _nutation), (7, "lz", ANGLES, "Euler angles", _nutation)):
-        name = f"{family} = 30, 60, 90 kg m²/s"
-        more = "; rates by central differences" if rows is PLANES else ""
-        yield Figure(n, f"{title}: {name}", partial(words, family),
-                     partial(_family, family=family, rows=rows, title=title),
-                     partial(_exactness, family, more), "top", partial(_lines, family, rows))
+    for number, name, kind, caption in (
+            (2, "lx", "histories", partial(_unit, more="The text sees l_x change q and gamma'' only; in "
+                                                       "truth it changes all six. ")),
+            (3, "lz", "histories", _unit), (4, "lx", "planes", _free), (5, "lz", "planes", _free),
+            (6, "lx", "angles", _nutation), (7, "lz", "angles", _nutation)):
+        yield family_figure("top", number, name, KINDS[kind][0], caption, partial(_lines, name, kind),
+                            "printed and corrected: their formulas",
+                            words={"lindstedt": "corrected expansion, order 2"})
 
 
 FIGURES = (model_figure("top-lx30-lz30", "top"), *_figures())

@@ -6,7 +6,7 @@ import numpy as np
 from ...orbit.phase_plane import phase_plane
 from ...orbit.separatrix.branches import separatrix
 from ...show import style
-from . import panels
+from ..families import sweep
 from .figure import PRINTED, farthest
 
 CASE = "minor-axis-without-wheel"
@@ -17,7 +17,7 @@ TRUE = {"left": style.MEANING["separatrix 2"], "right": style.MEANING["separatri
 
 
 def _case():
-    return panels.sweep(CASE)[""]
+    return sweep(CASE)[""]
 
 
 def printed_saddle(radius, side):

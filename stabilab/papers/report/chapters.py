@@ -21,6 +21,7 @@ from ...show.text.cost.words import so_many
 from ...show.text.scene import PRODUCTS
 from ...show.units import SI, parameter_unit
 from ...theories.comparison import compare, side_by_side
+from ..families import sweep
 from ..figures import catalogue as figures
 from ..figures import panels
 from ..figures.figure import words
@@ -105,9 +106,9 @@ def section(name: str, folder: Path, tell=lambda words: None) -> dict:
             "figures": [drawn(row, folder, tell) for row in figures.of_paper(chapter.paper)]}
     try:
         tell(f"chapter {chapter.paper}: comparisons")
-        made["parameters"] = _parameters(panels.sweep(chapter.compared[0][0])[chapter.compared[0][1]])
+        made["parameters"] = _parameters(sweep(chapter.compared[0][0])[chapter.compared[0][1]])
         made["compared"] = [row for name, variant in chapter.compared
-                            for row in _errors(panels.sweep(name)[variant], chapter.end)]
+                            for row in _errors(sweep(name)[variant], chapter.end)]
         made["sensible"] = _sensible(chapter, folder)
     except StabilabError as error:  # no such case yet, or a motion that cannot be run: the chapter says so
         made["problem"] = str(error)
@@ -151,7 +152,7 @@ def _time(value):
 
 def _sensible(chapter, folder):
     """The variant: its errors and its picture."""
-    case = panels.sweep(chapter.sensible)[""]
+    case = sweep(chapter.sensible)[""]
     found = compare(case, np.linspace(0.0, chapter.sensible_end, POINTS))
     runs, _ = side_by_side(case, np.linspace(0.0, chapter.window, 1001))
     with style.drawing() as plt:
