@@ -10,9 +10,8 @@ from ..errors import InputError
 from ..integrate.events import roots_of_rates
 from ..validation import checked_case
 from .cavity.normal_form import attractors
-from .charged.mean_pointing import pointing, spin_drift
 from .charged.model import MISPRINTS, body_of
-from .charged.modes import SMALL_ANGLE, horizon, largest_tilt, modes, resonances
+from .charged.modes import SMALL_ANGLE, horizon, largest_tilt, modes, pointing, resonances, spin_drift
 from .follow import family
 from .top.euler_angles import COARSE, angles_along, mean_precession
 from .top.lindstedt import lindstedt

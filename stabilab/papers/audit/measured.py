@@ -16,8 +16,7 @@ from ...physics.coefficients import scaling
 from ...physics.effects.gyrostat import Gyrostat
 from ...physics.scene import Body, Scene
 from ...theories.cavity.normal_form import constants
-from ...theories.charged.closed_form import solution
-from ...theories.charged.corrected import one_frequency
+from ...theories.charged.closed_form import one_frequency, solution
 from ...theories.charged.model import body_of, circle
 from ...theories.follow import follow
 from ..families import FAMILIES, SPANS, sweep
@@ -226,7 +225,8 @@ def _middle_line():
 
 
 def _seconds():
-    """1 less the root of k; the seconds of one tau, from the scaling of the package (u = 1), less its inverse."""
+    """1 less the root of k; the seconds of one tau, from the scaling of the package (u = 1), less its
+    inverse."""
     return 1 - math.sqrt(1 / 12), float(scaling(Body(paper.INERTIA), Fraction(1)).time) - math.sqrt(12)
 
 

@@ -7,7 +7,7 @@ from functools import partial
 
 import numpy as np
 
-from ...theories.charged.corrected import one_frequency
+from ...theories.charged.closed_form import one_frequency
 from ...theories.charged.model import body_of
 from ...theories.charged.model import circle as by_35
 from ...theories.charged.modes import horizon

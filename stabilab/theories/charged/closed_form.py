@@ -1,11 +1,10 @@
 """The motion of the charged, nearly axisymmetric body in closed form, under constant body-fixed torque and
 force.
 
-The linear model of `modes`, solved with both of its rates a and b (the paper's equation (8) keeps one of
-them: `corrected`); how far to believe it: `modes.horizon`. Every quantity is a sum of divided differences D
-of the exponential, regular at every resonance. With w^2 = ab, nu+- = r0 +- w, mu = M1/D1 + i M2/D2, Pi = p +
-iq, k0 = (w - a) q0 + i (b - w) p0 and k1 the same of mu (proof: Laplace transform of the linear equations,
-s/(s^2 + w^2) = 1/(s - iw) - iw/(s^2 + w^2)):
+The linear model of `modes`, solved with both of its rates a and b; how far to believe it: `modes.horizon`.
+Every quantity is a sum of divided differences D of the exponential, regular at every resonance. With w^2 =
+ab, nu+- = r0 +- w, mu = M1/D1 + i M2/D2, Pi = p + iq, k0 = (w - a) q0 + i (b - w) p0 and k1 the same of mu
+(proof: Laplace transform of the linear equations, s/(s^2 + w^2) = 1/(s - iw) - iw/(s^2 + w^2)):
 
     n-fold integral of Gamma:
         J_n = Gamma0 D[0^n,-ir0] + Pi0 D[0^n,-ir0,iw] + mu D[0^(n+1),-ir0,iw]
@@ -17,17 +16,27 @@ s/(s^2 + w^2) = 1/(s - iw) - iw/(s^2 + w^2)):
 That suits a near b, where k0 and k1 are small. Where one is much larger, or ab < 0, half of Pi0 and mu goes
 with -iw: s/(s^2 + w^2) = [1/(s - iw) + 1/(s + iw)]/2, and k0 = -a q0 + i b p0, k1 = -a m2 + i b m1 with m1 +
 i m2 = mu.
-"""
+
+The paper (Galal et al., charged body) keeps one frequency. Its step from (7) to (8) puts zeta1 D1 for zeta2
+D2:
+
+    p1' = A1 - W q1,  q1' = A2 + W p1,   W = zeta [r0 + Lambda/(zeta1 D1)],   p = p1/sqrt(zeta2),  q =
+    q1/sqrt(zeta1)
+
+In p and q that keeps a and replaces b = zeta2 r0 + Lambda/D2 by a zeta2/zeta1: exact for D1 = D2 and for
+Lambda = 0, otherwise a wrong frequency W for sqrt(ab), and a phase error that grows with t and does not
+shrink with the amplitude. `corrected` is this model, solved without further error: what the paper means where
+its integrals for velocity and displacement are misprinted. `model.printed` follows the print itself. """
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ...errors import InputError
 from ...numbers.divided_differences import divided_differences
 from ...numbers.double_double import twofold
-from .modes import SMALL_ANGLE, ChargedBody, Modes, horizon, modes, resonances
+from .modes import SMALL_ANGLE, ChargedBody, Modes, horizon, modes
 
 LOPSIDED = 4.0  # a/b beyond which the even split loses less: w - a cancels against 1 by sqrt(a/b)
 
@@ -156,49 +165,85 @@ WITHIN, BEYOND = "small angles", "beyond small angles"
 
 @dataclass(frozen=True, eq=False)
 class AxisymmetricMotion:
-    """The motion in the linear model at the asked-for times; arrays (..., 3) over the batch of the body and
-    of t.
+    """The motion by one of the models at the asked-for times; arrays (..., 3) over the batch of the body and
+    of t, None where not asked for.
 
     omega: p, q, r, rad/s, body axes. angles: psi, phi, theta of the 3-1-2 sequence, rad, theta unwrapped.
     momentum: angular momentum (body and rotor, without the charge), kg m^2/s, inertial, first order in the
-    tilt. velocity, position: inertial, m/s and m, None without a mass. tilt: |Gamma|, rad, (...). horizon: s,
-    until when the tilt stays small (`modes.horizon`). status: "small angles" or "beyond small
-    angles"; reason says from when on and why; resonances: those that the data meet, in words.
+    tilt. velocity, position: inertial, m/s and m, None without a mass. status: "small angles" or "beyond
+    small angles", of the model's own tilt; reason says from when on and why.
     """
 
     t: np.ndarray
     omega: np.ndarray
-    angles: np.ndarray
-    momentum: np.ndarray
+    angles: np.ndarray | None
+    momentum: np.ndarray | None
     velocity: np.ndarray | None
     position: np.ndarray | None
-    tilt: np.ndarray
-    horizon: np.ndarray
     status: str
     reason: str
-    resonances: tuple[str, ...] = field(default=())
+
+    @property
+    def tilt(self) -> np.ndarray:
+        """|Gamma|, rad, (...)."""
+        return tilt_of(self.angles)
 
 
 def solution(body: ChargedBody, t, small_angle: float = SMALL_ANGLE) -> AxisymmetricMotion:
     """The motion at times t (s, any shape, broadcast against the batch of the body).
 
-    small_angle: the tilt in rad up to which the model counts as valid; it decides status, reason and horizon,
-    nothing else. Raises InputError where the unstable motion exceeds the largest double.
+    small_angle: the tilt in rad up to which the model counts as valid; it decides status and reason, nothing
+    else. Raises InputError where the unstable motion exceeds the largest double.
     """
     t = times(t)
-    omega, angles, momentum, velocity, position = _parts(body, t)
-    tilt = np.hypot(angles[..., 0], angles[..., 1])
-    until = horizon(body, small_angle)
-    status, reason = verdict(tilt, t, until, small_angle)
-    return AxisymmetricMotion(t, omega, angles, momentum, velocity, position, tilt, until, status, reason,
-                              resonances(body))
-
-
-def _parts(body, t):
-    """Rates, angles, momentum, velocity and position; None for the last two without a mass."""
     terms = Terms(body, t, modes(body))
+    return _motion(terms, terms.momentum(), small_angle)
+
+
+def corrected(body: ChargedBody, t, small_angle: float = SMALL_ANGLE) -> AxisymmetricMotion:
+    """The motion with the paper's one frequency, its integrals corrected: momentum by (33), velocity and
+    position by the integrals that the paper means. Evaluated without loss at its own resonances too.
+
+    Raises InputError where D3 lies between D1 and D2 or equals one of them: the paper divides by zeta1 and
+    zeta2 and takes the root of their product.
+    """
+    terms = Terms(body, times(t), one_frequency(body))
+    return _motion(terms, momentum(body, terms.angular_velocity(), terms.angles()), small_angle)
+
+
+def _motion(terms, momentum, small_angle) -> AxisymmetricMotion:
+    body, angles = terms.body, terms.angles()
     places = terms.translation() if body.mass is not None else (None, None)
-    return terms.angular_velocity(), terms.angles(), terms.momentum(), *places
+    status, reason = verdict(tilt_of(angles), terms.t, horizon(body, small_angle), small_angle)
+    return AxisymmetricMotion(terms.t, terms.angular_velocity(), angles, momentum, *places, status, reason)
+
+
+def one_frequency(body: ChargedBody):
+    """The modes with the paper's b: a zeta2/zeta1 (twofold)."""
+    m = modes(body)
+    D1, D2, D3 = (twofold(body.inertia[..., i]) for i in range(3))
+    zeta1, zeta2 = (D3 - D2) / D1, (D3 - D1) / D2
+    if np.any(zeta1.high * zeta2.high <= 0):
+        raise InputError(
+            f"the paper's formulas need D3 above both D1 and D2, or below both; got {body.inertia}")
+    b = m.a * zeta2 / zeta1
+    squared = m.a * b
+    root = squared.sqrt() * np.where(m.a.high < 0, -1.0, 1.0)
+    return replace(m, b=b, squared=squared, root=root, unstable=squared.high < 0)
+
+
+def momentum(body, omega, angles):
+    """(33): G = e^(i theta) [D1 p + i D2 q - i Gamma (D3 r0 + lambda3)]."""
+    D1, D2, D3 = np.moveaxis(body.inertia, -1, 0)
+    H3 = D3 * body.spin + body.gyrostat
+    G = np.exp(1j * angles[..., 2]) * (D1 * omega[..., 0] + 1j * D2 * omega[..., 1]
+                                       - 1j * (angles[..., 0] + 1j * angles[..., 1]) * H3)
+    return np.stack(np.broadcast_arrays(G.real, G.imag, H3), axis=-1)
+
+
+def tilt_of(angles):
+    """|Gamma| = |psi + i phi|."""
+    return np.hypot(angles[..., 0], angles[..., 1])
 
 
 def times(t):

@@ -11,7 +11,6 @@ not close, closed as in (46). The short form (Elneklawy) prints the same, but fo
 """
 from __future__ import annotations
 
-from dataclasses import dataclass
 from fractions import Fraction
 
 import numpy as np
@@ -19,8 +18,7 @@ import numpy as np
 from ...answers.simulate import Simulation
 from ...errors import InputError
 from ..printed.evaluate import printed_formulas
-from .closed_form import solution, times, verdict
-from .corrected import corrected, momentum
+from .closed_form import AxisymmetricMotion, corrected, momentum, solution, tilt_of, times, verdict
 from .modes import SMALL_ANGLE, ChargedBody, horizon, spin_words
 
 PARTS = ("omega", "angles", "momentum", "velocity", "position")
@@ -62,27 +60,9 @@ MISPRINTS = {
 }
 
 
-@dataclass(frozen=True, eq=False)
-class PrintedMotion:
-    """The printed motion at the asked-for times; units, frames and shapes as in `AxisymmetricMotion`, None
-    where not asked for.
-
-    omega: (13), q by its first form. angles: (26). momentum: (33). velocity: (43), (47). position: (58),
-    (63). status, reason: how far this motion's own tilt is small, and what is to be known of the print.
-    """
-
-    t: np.ndarray
-    omega: np.ndarray
-    angles: np.ndarray | None
-    momentum: np.ndarray | None
-    velocity: np.ndarray | None
-    position: np.ndarray | None
-    status: str
-    reason: str
-
-
-def printed(body: ChargedBody, t, parts=PARTS, small_angle: float = SMALL_ANGLE) -> PrintedMotion:
-    """The paper's formulas for the asked-for parts of the state at times t (s, any shape).
+def printed(body: ChargedBody, t, parts=PARTS, small_angle: float = SMALL_ANGLE) -> AxisymmetricMotion:
+    """The paper's formulas for the asked-for parts of the state at times t (s, any shape): omega by (13), q
+    by its first form; angles (26); momentum (33); velocity (43), (47); position (58), (63).
 
     Raises InputError for D3 not above D1 and D2 (the paper takes roots of zeta1 and zeta2), for velocity or
     position without a mass, and where the formulas of a part divide by zero (near that they lose digits: they
@@ -97,10 +77,9 @@ def printed(body: ChargedBody, t, parts=PARTS, small_angle: float = SMALL_ANGLE)
         found["momentum"] = momentum(body, omega, found["angles"])
     if set(parts) & {"velocity", "position"}:
         found |= _translation(body, values)
-    tilt = (np.zeros(omega.shape[:-1]) if found["angles"] is None
-            else np.hypot(*np.moveaxis(found["angles"], -1, 0)[:2]))
+    tilt = np.zeros(omega.shape[:-1]) if found["angles"] is None else tilt_of(found["angles"])
     status, reason = verdict(tilt, t, horizon(body, small_angle), small_angle)
-    return PrintedMotion(t, omega, **found, status=status, reason=reason)
+    return AxisymmetricMotion(t, omega, **found, status=status, reason=reason)
 
 
 def circle(body: ChargedBody, t) -> np.ndarray:

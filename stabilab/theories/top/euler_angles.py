@@ -1,7 +1,5 @@
-"""Euler angles of a top, and along a run.
-
-Classical Euler angles of a top: precession psi, nutation theta, self-rotation phi, followed through whole
-turns.
+"""Classical Euler angles of a top along a run: precession psi, nutation theta, self-rotation phi, followed
+through whole turns however far apart its times are.
 
 gamma = (sin theta sin phi, sin theta cos phi, cos theta); phi' + psi' cos theta = r, and
 
@@ -12,8 +10,6 @@ of their own, but psi + phi has at theta = 0 and psi - phi at theta = pi. What i
 + phi where gamma'' >= 0 and psi - phi where it is negative, with rates that stay regular there, and psi
 follows by taking off phi. At a sample with sin theta < 1e-8 phi keeps its last value; `status` is then
 "singular" and `reason` says when.
-
-Classical Euler angles psi, theta, phi of a run, followed through whole turns however far apart its times are.
 """
 from __future__ import annotations
 
@@ -27,13 +23,13 @@ from ..follow import follow
 SINGULAR = 1e-8  # below this sin(theta) rounding decides phi
 AWAY = 0.1  # 1 +- gamma'' beyond this is far enough from the pole for a smooth rate
 COARSE = 1e-3  # rad: an estimated error of psi above this is said
-FINEST = 2**16  # samples of one revolution; a path closer to a pole than they resolve is said to be coarse
+FINEST = 2**16  # samples of one revolution, at the most
 
 
 @dataclass(frozen=True)
 class EulerAngles:
     """psi, theta, phi (n,), rad, at t (n,), s; theta in [0, pi], psi and phi unwrapped, psi = psi0 at the
-    first time (for a periodic motion: at t = 0). error: estimated error of psi, rad. status: "regular",
+    first time. error: estimated error of psi, rad. status: "regular",
     "singular" (theta reaches 0 or pi), "coarse" (the samples are too far apart for psi); reason: in words."""
 
     t: np.ndarray
@@ -125,79 +121,30 @@ def _psi(t, omega, gamma, phi):
     return np.concatenate([[0.0], np.cumsum(np.where(upper, total - turn, difference + turn))])
 
 
-@dataclass(frozen=True)
-class _Revolution:
-    """psi and phi over one revolution of a periodic motion, as functions of the phase s."""
-
-    sign: int  # what is integrated is psi + sign phi; 0: psi itself
-    mean: float  # its mean rate over s
-    coefficients: np.ndarray  # Fourier coefficients of its rate over s, without the mean
-    s: np.ndarray
-    phi: np.ndarray  # unwrapped, at the phases s
-    winding: float
-    singular: bool
-    tail: float
-
-    def integral(self, s):
-        """psi + sign phi, 0 at s = 0."""
-        k = np.arange(1, self.coefficients.size + 1)
-        waves = self.coefficients / (1j * k)
-        return self.mean * s + 2 * np.real(np.exp(1j * np.outer(s, k)) @ waves - waves.sum())
-
-    def turned(self, s, phi):
-        """phi (modulo a turn, at the phases s) unwrapped from s = 0 on."""
-        expected = np.interp(s % (2 * np.pi), self.s, self.phi) + self.winding * np.floor(s / (2 * np.pi))
-        return phi + 2 * np.pi * np.round((expected - phi) / (2 * np.pi))
-
-
-def _revolution(motion) -> _Revolution:
-    n = 64
-    while True:
-        s = np.linspace(0, 2 * np.pi, n + 1)
-        omega, gamma = motion.at(s / motion.frequency)
-        omega, gamma = omega / motion.frequency, _unit(gamma)
-        phi, singular = _phi(s, omega, gamma)
-        low, high = gamma[:, 2].min(), gamma[:, 2].max()
-        sign = 1 if low > AWAY - 1 else -1 if high < 1 - AWAY else 0
-        rate = (_rates(omega, gamma)[0 if sign > 0 else 1] if sign else
-                _moment(omega, gamma) / np.maximum(1 - gamma[:, 2]**2, SINGULAR**2))
-        waves = np.fft.rfft(rate[:-1]) / n
-        tail = float(np.abs(waves[n // 4:]).max() / (np.abs(waves).max() or 1.0))
-        step = float(np.abs(np.diff(phi)).max())
-        if (tail < 1e-15 and step < 1) or n >= FINEST:
-            keep = n // 4
-            return _Revolution(sign, float(waves[0].real), waves[1:keep + 1], s, phi, float(phi[-1] - phi[0]),
-                               bool(singular.any()), tail)
-        n *= 2
-
-
-def periodic_angles(motion, times=None, psi0: float = 0.0) -> EulerAngles:
-    """Angles of a `LindstedtMotion` at its times (or others, s, in any order), psi = psi0 at t = 0; psi is
-    integrated term by term of its Fourier series, so it is as good after a million revolutions as in the
-    first."""
-    times = motion.t if times is None else np.asarray(times, float)
-    if motion.order < 0:
-        raise InputError(f"there is no periodic motion to take angles of: {motion.reason}")
-    turn, s = _revolution(motion), motion.frequency * times
-    gamma = _unit(motion.at(times)[1])
-    phi = turn.turned(s, np.arctan2(gamma[:, 0], gamma[:, 1]))
-    psi = psi0 + turn.integral(s) - turn.sign * (phi - turn.phi[0])
-    sine = np.hypot(gamma[:, 0], gamma[:, 1])
-    error = turn.tail * float(np.abs(s).max(initial=0.0))
-    singular = times[sine < SINGULAR] if not turn.singular else times[:1]
-    return EulerAngles(times, psi, _theta(gamma), phi, error, *_verdict(singular, error))
-
-
 def mean_precession(motion) -> float:
     """Mean of psi' over a period of a `LindstedtMotion`, rad/s. Where theta passes through 0 or pi it is the
     mean of (psi +- phi)' less that of phi' counted at the samples. Raises InputError where the axis stays
     within 1e-8 of the vertical."""
-    turn = _revolution(motion)
-    gamma = _unit(motion.at(turn.s / motion.frequency)[1])
+    n = 64
+    while True:
+        s = np.linspace(0, 2 * np.pi, n + 1)  # the phase of the motion
+        omega, gamma = motion.at(s / motion.frequency)
+        omega, gamma = omega / motion.frequency, _unit(gamma)
+        phi, _ = _phi(s, omega, gamma)
+        low, high = gamma[:, 2].min(), gamma[:, 2].max()
+        # of phi in the sum that is regular; 0: neither is
+        sign = 1 if low > AWAY - 1 else -1 if high < 1 - AWAY else 0
+        rate = (_rates(omega, gamma)[0 if sign > 0 else 1] if sign else
+                _moment(omega, gamma) / np.maximum(1 - gamma[:, 2]**2, SINGULAR**2))
+        waves = np.abs(np.fft.rfft(rate[:-1]))
+        settled = waves[n // 4:].max() < 1e-15 * waves.max() and np.abs(np.diff(phi)).max() < 1
+        if settled or n >= FINEST:
+            break
+        n *= 2
     if (np.hypot(gamma[:, 0], gamma[:, 1]) < SINGULAR).mean() > 0.5:
         raise InputError("the axis stays within 1e-8 rad of the vertical: psi has no rate of its own there; "
                          "start further off")
-    return motion.frequency * (turn.mean - turn.sign * turn.winding / (2 * np.pi))
+    return motion.frequency * float(rate[:-1].mean() - sign * (phi[-1] - phi[0]) / (2 * np.pi))
 
 
 TO_A_TURN = 60  # points to a turn of the fastest rate: psi is then known to some 1e-7

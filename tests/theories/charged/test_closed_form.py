@@ -6,11 +6,18 @@ import numpy as np
 import pytest
 
 from stabilab.errors import InputError
-from stabilab.theories.charged.closed_form import BEYOND, WITHIN, solution
-from stabilab.theories.charged.corrected import corrected
-from stabilab.theories.charged.mean_pointing import pointing, spin_drift
+from stabilab.theories.charged.closed_form import BEYOND, WITHIN, corrected, solution
 from stabilab.theories.charged.model import MISPRINTS, circle, formulas, printed
-from stabilab.theories.charged.modes import ChargedBody, horizon, largest_tilt, modes, resonances, tilt_parts
+from stabilab.theories.charged.modes import (
+    ChargedBody,
+    horizon,
+    largest_tilt,
+    modes,
+    pointing,
+    resonances,
+    spin_drift,
+    tilt_parts,
+)
 
 flint = pytest.importorskip("flint")
 from tests.oracles.axisymmetric import BITS, OUTPUTS, conditioned  # noqa: E402 - after importorskip
@@ -100,7 +107,7 @@ def test_a_batch_of_bodies_and_times_agrees_with_single_answers():
     fields = {name: getattr(many, name) for name in ChargedBody.__dataclass_fields__}
     column = ChargedBody(**{n: x[:, None, :] if x.ndim == 2 else x[:, None] for n, x in fields.items()})
     batch = solution(column, t)
-    assert batch.omega.shape == (5, 3, 3) and batch.tilt.shape == (5, 3) and batch.horizon.shape == (5, 1)
+    assert batch.omega.shape == (5, 3, 3) and batch.tilt.shape == (5, 3) and horizon(column).shape == (5, 1)
     for i in range(5):
         for j, time in enumerate(t):
             one = solution(ChargedBody(**{n: x[i] for n, x in fields.items()}), time)

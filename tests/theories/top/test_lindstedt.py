@@ -13,7 +13,7 @@ from stabilab.errors import InputError
 from stabilab.integrate.to_heyoka import heyoka_available
 from stabilab.physics.effects.gravity import Gravity
 from stabilab.physics.effects.newtonian_field import NewtonianField
-from stabilab.theories.top.euler_angles import euler_angles, mean_precession, periodic_angles
+from stabilab.theories.top.euler_angles import euler_angles, mean_precession
 from stabilab.theories.top.lindstedt import lindstedt
 from stabilab.theories.top.model import paper_numbers, printed
 
@@ -305,8 +305,9 @@ def test_regular_precession_of_the_symmetric_top_is_met_order_by_order():
     scene = Scene(Body((A, A, C)), Gravity(WEIGHT, (0, 0, arm)), Gyrostat((0, 0, lz)))
     off = [abs(mean_precession(lindstedt(scene, START, [0.0], n)) / slow - 1) for n in (2, 6, 16)]
     assert off[0] < 1e-2 and off[1] < 1e-6 and off[2] < 1e-13
-    angles = periodic_angles(lindstedt(scene, START, [0.0, 1.0, 1e6], 16))
-    assert angles.psi == pytest.approx([0, slow, 1e6 * slow], rel=1e-11) and np.ptp(angles.theta) < 1e-12
+    motion = lindstedt(scene, START, np.linspace(0, 5, 2001), 16)
+    angles = euler_angles(motion.t, motion.omega, motion.gamma)
+    assert angles.psi == pytest.approx(slow * motion.t, rel=1e-11) and np.ptp(angles.theta) < 1e-12
 
 
 def test_an_axis_that_never_leaves_the_vertical_has_no_precession():
@@ -332,10 +333,11 @@ def test_precession_and_nutation_are_those_of_the_axis_in_space(gamma):
     across /= np.linalg.norm(across)
     azimuth = np.unwrap(np.arctan2(axis @ np.cross(up, across), axis @ across))
     motion = lindstedt(top(), start, times, 16)
-    exact, periodic = euler_angles(times, run.block("omega"), run.block("gamma")), periodic_angles(motion)
+    exact, periodic = (euler_angles(times, omega, gamma) for omega, gamma in
+                       ((run.block("omega"), run.block("gamma")), (motion.omega, motion.gamma)))
     assert exact.psi - exact.psi[0] == pytest.approx(azimuth - azimuth[0], abs=1e-7)
     assert exact.status == "regular"
-    assert periodic.psi == pytest.approx(azimuth, abs=1e-9)
+    assert periodic.psi == pytest.approx(azimuth - azimuth[0], abs=1e-7)
     assert exact.theta == pytest.approx(np.arccos(axis @ up), abs=1e-9)
     assert periodic.theta == pytest.approx(exact.theta, abs=1e-9)
     assert exact.phi == pytest.approx(periodic.phi, abs=1e-8) and abs(exact.phi[-1] - exact.phi[0]) > 60
@@ -422,7 +424,7 @@ def test_printed_angles_have_wrong_signs_where_y0_enters(arm, order):
     for h in (0.2, 0.1):
         scene = top(h, 0.0, 0.0, arm)
         motion = lindstedt(scene, START, np.linspace(0, 0.04, 40), 8)
-        paper, angles = printed(scene, START, motion.t), periodic_angles(motion)
+        paper, angles = printed(scene, START, motion.t), euler_angles(motion.t, motion.omega, motion.gamma)
         theta0 = math.acos(START["gamma"][2])
         # csc(eps theta0) stands where csc theta0 is meant
         meant = paper.psi * math.sin(paper.epsilon * theta0) / math.sin(theta0)
