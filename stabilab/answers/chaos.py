@@ -48,7 +48,8 @@ class Chaos(Shown):
     """labels (...): of `Order`; megno (...): at the last time, nan of motions that spin up or could not be
     followed; times (k,): in the scene's time, each twice the one before; history (..., k): MEGNO at them;
     lyapunov (...): the rate at which neighbours part, per time of the scene, 0 of regular motions and nan
-    where it is not known; lyapunov_error (...): how far the last doubling of the time moved it."""
+    where it is not known; lyapunov_error (...): how far the last doubling of the time moved it; stiff (...):
+    whether a motion was given up since its steps were too short."""
 
     labels: np.ndarray
     megno: np.ndarray
@@ -58,6 +59,7 @@ class Chaos(Shown):
     lyapunov_error: np.ndarray
     turn: float
     scene: AnyScene = field(repr=False, compare=False)
+    stiff: np.ndarray | bool = False
 
     @property
     def orders(self) -> list[str]:
@@ -72,6 +74,9 @@ class Chaos(Shown):
         label, after = int(self.labels), f"{self.times[-1] / self.turn:,.0f} turns"
         if label == Order.SPIN_UP:
             return "its fate is spin-up: it does not come back, and chaos is a property of motions that do"
+        if label == Order.UNDECIDED and self.stiff:
+            return ("stopped, because the motion is too stiff: something in it changes so fast beside its "
+                    "turn that it would be followed in too short steps")
         if label == Order.UNDECIDED:
             return ("its numbers exceed the range of doubles" if not np.isfinite(self.megno) else
                     f"after {after} MEGNO is {_shown(float(self.megno))}, neither near 2 nor growing with "
@@ -122,15 +127,15 @@ def chaos(scene: AnyScene, states: ArrayLike, until: float | None = None,
     leaving = fates == Fate.SPIN_UP
     found = growth(scene, rows[~leaving], end, turn, tell) if not leaving.all() else None
     times = end / 2.0 ** np.arange(5, -1, -1) if found is None else found.times
-    history = np.full((len(rows), len(times)), np.nan)
+    history, stiff = np.full((len(rows), len(times)), np.nan), np.zeros(len(rows), bool)
     if found is not None:
-        history[~leaving] = found.megno
+        history[~leaving], stiff[~leaving] = found.megno, found.stiff
     labels = np.where(leaving, Order.SPIN_UP,
                       np.where(fates == Fate.EQUILIBRIUM, Order.REGULAR, _labels(history)))
     rate, error = _rates(history, times, labels)
     shaped = lambda values: values.reshape(array.shape[:-1] + values.shape[1:])[()]
     return Chaos(shaped(labels), shaped(history[:, -1]), times, shaped(history), shaped(rate), shaped(error),
-                 turn, scene)
+                 turn, scene, shaped(stiff))
 
 
 def long_enough(scene: AnyScene, state: ArrayLike) -> float:

@@ -269,7 +269,10 @@ def _chosen(scene: AnyScene, start: Mapping[str, Sequence[float]], times: np.nda
     if method is not None or not any(not e.keeps_volume for e in scene.effects):
         return "taylor" if method is None else method, rtol, ""
     equations, state = equations_and_start(scene, start)
-    fastest = float(np.max(-np.linalg.eigvals(to_numpy(equations).jacobian(state)).real, initial=0.0))
+    slopes = to_numpy(equations).jacobian(state)
+    # Euler's own terms keep volume: a pair of rates that they part and bring together is no decay
+    fastest = min(float(np.max(-np.linalg.eigvals(slopes).real, initial=0.0)),
+                  max(-float(np.trace(slopes)), 0.0))
     stiffness = fastest * float(np.abs(times).max(initial=0.0))
     turn = float(np.linalg.norm(start["omega"])) if len(equations.blocks) > 1 else 0.0
     if stiffness <= STIFF or fastest < TURNING * turn:

@@ -37,6 +37,8 @@ ATOL_SHARE = 1e-3
 STEP_LIMIT = 20_000_000
 # steps after which the rest is forecast; forecast over STEP_LIMIT that ends the run
 REPORT, PATIENCE = 1_000_000, 5
+# of SciPy's methods, whose steps take a hundred times as long; an implicit one has a system to solve in each
+SCIPY_REPORT, IMPLICIT_LIMIT = 10_000, 200_000
 OUTCOMES = {"err_nf_state": "the numbers overflowed"}
 
 
@@ -129,9 +131,14 @@ def departures(system, state, points) -> dict[str, float]:
             for law, departure, size in zip(system.equations.balances, departed.tolist(), largest.tolist())}
 
 
-def steps_left(passed, ahead) -> float:
-    """How many more steps the time ahead would take at the pace of the last REPORT of them."""
-    return float(abs(ahead) / (abs(passed) or 1e-300) * REPORT)
+def steps_left(passed, ahead, steps=None) -> float:
+    """How many more steps the time ahead would take at the pace of the last REPORT of them, or of `steps`."""
+    return float(abs(ahead) / (abs(passed) or 1e-300) * (steps or REPORT))
+
+
+def _crawling(last, now, left, steps) -> str:
+    return (f"the last {steps} steps went from t = {last:.9g} to {now:.9g}, the rest would take some "
+            f"{left:.1g} steps")
 
 
 class _Taylor:
@@ -181,8 +188,7 @@ class _Taylor:
                 return found, OUTCOMES.get(outcome.name, outcome.name)
             left = steps_left(ta.time - last, grid[-1] - ta.time)
             if self.counters["steps"] - begun >= STEP_LIMIT or left > PATIENCE * STEP_LIMIT:
-                return np.concatenate(rows), (f"the last {REPORT} steps went from t = {last:.9g} to "
-                                              f"{ta.time:.9g}, the rest would take some {left:.1g} steps")
+                return np.concatenate(rows), _crawling(last, ta.time, left, REPORT)
 
 
 class _SciPy:
@@ -192,14 +198,16 @@ class _SciPy:
     def __init__(self, system, method, rtol, landing=False):
         self.system, self.method, self.rtol, self.landing = system, method, rtol, landing
         self.counters = {"steps": 0, "rate evaluations": 0, "jacobian evaluations": 0}
+        self.most = IMPLICIT_LIMIT if method in ("Radau", "BDF") else STEP_LIMIT
+        self.reported = 0.0  # the time at the last report
 
     def run(self, state, grid, passed=None, watch=None):
         """As of _Taylor."""
         y = np.concatenate([state, np.zeros(len(self.system.equations.balances))])
-        t, points, h, failure = 0.0, [], None, None
+        t, points, h, failure, self.reported = 0.0, [], None, None, 0.0
         with np.errstate(all="ignore"):
             for piece in (grid[i:i + 1] for i in range(len(grid))) if self.landing else (grid,):
-                y, h, failure = self._piece(t, y, piece, h, points, passed, watch)
+                y, h, failure = self._piece(t, y, piece, h, points, passed, watch, grid[-1])
                 if failure:
                     break
                 t = piece[-1]
@@ -207,8 +215,9 @@ class _SciPy:
         out[:, state.size:] /= FEATHER
         return out, failure and _stopped(out, grid, failure)
 
-    def _piece(self, t, y, grid, h, points, passed, watch):
-        """Steps from t to grid[-1], appending to `points`; (last state, last step, failure or None)."""
+    def _piece(self, t, y, grid, h, points, passed, watch, end):
+        """Steps from t to grid[-1], appending to `points`; (last state, last step, failure or None). end: of
+        the run."""
         n = len(self.system.equations.state)
         try:
             solver = self._solver(t, y, grid[-1], h)
@@ -227,8 +236,13 @@ class _SciPy:
                 watch.note(solver.y[:n].copy())
             if solver.status == "failed" or not np.isfinite(solver.y[:n]).all():
                 return y, h, message or "the numbers overflowed"
-            if self.counters["steps"] >= STEP_LIMIT:
-                return y, h, f"{STEP_LIMIT} steps were not enough"
+            if self.counters["steps"] >= self.most:
+                return y, h, f"{self.most} steps were not enough"
+            if self.counters["steps"] % SCIPY_REPORT == 0:
+                left = steps_left(solver.t - self.reported, end - solver.t, SCIPY_REPORT)
+                if left > PATIENCE * self.most:
+                    return y, h, _crawling(self.reported, solver.t, left, SCIPY_REPORT)
+                self.reported = solver.t
             h = abs(solver.t - solver.t_old) if solver.status == "running" or h is None else h
             if abs(grid[done]) <= abs(solver.t):
                 inside = grid[done:][np.abs(grid[done:]) <= abs(solver.t)]

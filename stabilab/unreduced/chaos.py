@@ -22,7 +22,7 @@ import numpy as np
 
 from ..integrate.quadratic_series import in_unit, own_unit
 from ..integrate.to_heyoka import TAYLOR_TOLERANCE, borrowed_taylor, heyoka_available
-from ..integrate.trajectory import FALLBACK_RTOL, STEP_LIMIT
+from ..integrate.trajectory import STEP_LIMIT, stand_in
 from ..physics.equations import Equations
 from ..physics.to_numpy import equations_of, form, to_numpy
 
@@ -31,22 +31,27 @@ STAGES = 6         # doublings of the time: 1/32 of it is the first
 # of ln |v| in a turn; more than twice the faster swing of |v|, so that its mean is that of the motion
 SAMPLES = 12
 TURNS = 1000       # that a motion is followed unless a time is given
+# steps between two samples from which on a motion is too stiff to be followed (one or two are ordinary); of
+# SciPy's, each of which takes fifty times as long
+CRAWL, SLOW_CRAWL = 1000, 50
 
 
 @dataclass(frozen=True)
 class Growth:
     """times: (stages,) in the scene's time; megno: (n, stages), nan from where on a motion could not be
-    followed."""
+    followed; stiff: (n,), whether it was given up since its steps were too short."""
 
     times: np.ndarray
     megno: np.ndarray
+    stiff: np.ndarray
 
 
 def turn_of(scene: Any, states: np.ndarray) -> float:
     """The time (scene's time) of a turn of a motion of middling pace among states (n, N): 2 pi over rate, or
     over the root of what changes it."""
-    rates = to_numpy(scene)(states)[:, :3]
-    pace = np.maximum(np.abs(states[:, :3]).max(axis=1), np.sqrt(np.abs(rates).max(axis=1)))
+    with np.errstate(all="ignore"):
+        rates = np.abs(to_numpy(scene)(states)[:, :3]).max(axis=1)
+    pace = np.maximum(np.abs(states[:, :3]).max(axis=1), np.sqrt(np.where(np.isfinite(rates), rates, 0.0)))
     found = float(np.median(pace))
     return 2 * math.pi / found if found > 0 else 1.0
 
@@ -55,33 +60,39 @@ def growth(scene: Any, states: np.ndarray, until: float, turn: float,
            tell: Callable[[int], Any] | None = None) -> Growth:
     """MEGNO of motions from states (n, N) at `until` and at its halves; turn: `turn_of` them. tell(motions
     done)."""
+    with np.errstate(all="ignore"):
+        rates = np.abs(to_numpy(scene)(states)[:, :3])
     unit = own_unit(scene, np.abs(states[:, :3]).max(axis=0).tolist(),
-                    np.abs(to_numpy(scene)(states)[:, :3]).max(axis=0).tolist())
+                    np.where(np.isfinite(rates), rates, 0.0).max(axis=0).tolist())
     if unit != 1:
         found = growth(in_unit(scene, unit), states / unit, until * unit, turn * unit, tell)
         return replace(found, times=found.times / unit)
     times = until / 2.0 ** np.arange(STAGES - 1, -1, -1)
     first = max(SAMPLES, math.ceil(SAMPLES * times[0] / turn))
-    out = np.full((len(states), STAGES), np.nan)
+    out, stiff = np.full((len(states), STAGES), np.nan), np.zeros(len(states), bool)
     width = LANES if heyoka_available() else 1
     for low in range(0, len(states), width):
         rows = np.arange(low, min(low + width, len(states)))
-        out[rows] = _together(scene, states[np.resize(rows, width)], times, first)[:len(rows)]
+        megno, slow = _together(scene, states[np.resize(rows, width)], times, first)
+        out[rows], stiff[rows] = megno[:len(rows)], slow[:len(rows)]
         if tell is not None:
             tell(int(rows[-1]) + 1)
-    return Growth(times, out)
+    return Growth(times, out, stiff)
 
 
-def _together(scene: Any, states: np.ndarray, times: np.ndarray, first: int) -> np.ndarray:
-    """(n, stages) of a few motions, on a grid of `first` samples up to times[0], as dense as that later."""
+def _together(scene: Any, states: np.ndarray, times: np.ndarray,
+              first: int) -> tuple[np.ndarray, np.ndarray]:
+    """`megno` and `stiff` of a few motions, on a grid of `first` samples up to times[0], as dense as that
+    later."""
     step, megno = times[0] / first, np.full((len(states), len(times)), np.nan)
     x = np.concatenate([states, np.tile(_change(states.shape[1]), (len(states), 1))], axis=1)
     follow = _by_taylor if heyoka_available() else _by_scipy
     size, piece = states.shape[1], step * np.arange(first + 1)
-    logs, grown = [np.zeros((1, len(states)))], np.zeros(len(states))
+    logs, grown, stiff = [np.zeros((1, len(states)))], np.zeros(len(states)), np.zeros(len(states), bool)
     for stage in range(len(times)):
         for _ in range(max(1, 1 << stage - 1) if stage else 1):  # so often the first time, to double it
-            points = follow(scene, x, piece)  # (samples, n, 2 N)
+            points, slow = follow(scene, x, piece)  # (samples, n, 2 N)
+            stiff |= slow
             lengths = _lengths(points[:, :, size:])
             with np.errstate(all="ignore"):
                 logs.append(grown + np.log(lengths[1:]))
@@ -90,7 +101,7 @@ def _together(scene: Any, states: np.ndarray, times: np.ndarray, first: int) -> 
         megno[:, stage] = _megno(np.concatenate(logs), step)
         if not np.isfinite(x).all(axis=1).any():
             break
-    return megno
+    return megno, stiff
 
 
 def _lengths(change: np.ndarray) -> np.ndarray:
@@ -131,26 +142,51 @@ def varied(equations: Equations) -> Equations:
     return replace(equations, state=(*equations.state, *change), rhs=(*equations.rhs, *linear))
 
 
-def _by_taylor(scene: Any, x: np.ndarray, grid: np.ndarray) -> np.ndarray:
+def _by_taylor(scene: Any, x: np.ndarray, grid: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """The states and changes at the times of `grid`, and which motions took too many steps."""
     equations = varied(equations_of(scene))
     forms = form(equations, equations.rhs)
     with borrowed_taylor(forms, TAYLOR_TOLERANCE, LANES) as ta, np.errstate(all="ignore"):
         ta.set_time(0.0)
         ta.state[:] = np.where(np.isfinite(x), x, 0.0).T
         points = ta.propagate_grid(np.tile(grid[:, None], LANES),
-                                   max_steps=STEP_LIMIT)[1].transpose(0, 2, 1).copy()
+                                   max_steps=min(STEP_LIMIT, CRAWL * grid.size))[1].transpose(0, 2, 1).copy()
         points[:, ~np.isfinite(x).all(axis=1)] = np.nan
-    return points
+        slow = np.array([outcome.name == "step_limit" for outcome, *_ in ta.propagate_res])
+    return points, slow | (~np.isfinite(points[-1]).all(axis=1) & _too_fast(scene, x, grid))
 
 
-def _by_scipy(scene: Any, x: np.ndarray, grid: np.ndarray) -> np.ndarray:
-    from scipy.integrate import solve_ivp
+def _too_fast(scene: Any, x: np.ndarray, grid: np.ndarray) -> np.ndarray:
+    """Which motions change in so little of the time between two samples that a power series overflows."""
+    size = x.shape[1] // 2
+    alive = np.isfinite(x).all(axis=1)
+    pace = np.array([np.abs(to_numpy(scene).jacobian(row[:size])).max() if one else 0.0
+                     for row, one in zip(x, alive)])
+    return alive & (pace * grid[1] > CRAWL)
+
+
+def _by_scipy(scene: Any, x: np.ndarray, grid: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     system, size = to_numpy(scene), x.shape[1] // 2
-    rate = lambda _, y: np.concatenate([system(y[:size]), system.jacobian(y[:size]) @ y[size:]])
-    out = np.full((len(grid), *x.shape), np.nan)
+    rate = lambda y: np.concatenate([system(y[:size]), system.jacobian(y[:size]) @ y[size:]])
+    out, slow = np.full((len(grid), *x.shape), np.nan), np.zeros(len(x), bool)
     for n, start in enumerate(x):
         if np.isfinite(start).all():
-            found = solve_ivp(rate, (0.0, grid[-1]), start, "DOP853", t_eval=grid, rtol=FALLBACK_RTOL,
-                              atol=FALLBACK_RTOL * 1e-3)
-            out[:found.y.shape[1], n] = found.y.T
-    return out
+            found, slow[n] = _stepped(rate, start, grid)
+            out[:len(found), n] = found
+    return out, slow
+
+
+def _stepped(rate: Callable[[np.ndarray], np.ndarray], start: np.ndarray,
+             grid: np.ndarray) -> tuple[list[np.ndarray], bool]:
+    """The states at the times of `grid` that SciPy reaches, and whether it took too many steps."""
+    solver, found, steps = stand_in(lambda y: rate(np.array(y)), start, grid[-1]), [start], 0
+    while solver.status == "running":
+        if steps >= SLOW_CRAWL * grid.size:
+            return found, True
+        solver.step()
+        steps += 1
+        if solver.status == "failed" or not np.isfinite(solver.y).all():
+            break
+        inside = grid[len(found):][grid[len(found):] <= solver.t]
+        found += list(solver.dense_output()(inside).T) if inside.size else []
+    return found, False

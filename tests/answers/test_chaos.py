@@ -147,6 +147,28 @@ def test_the_picture_of_a_motion_that_spins_up_says_that_it_is_not_followed(stab
     assert code == 0 and "SPIN-UP" in out and (tmp_path / "a.png").read_bytes().startswith(b"\x89PNG")
 
 
+@pytest.mark.parametrize("coefficient", ["1e12", "1"])
+def test_a_motion_too_stiff_to_be_followed_is_stopped_and_undecided(monkeypatch, coefficient):
+    """A sphere of 1e-12 kg m^2 in a fluid is at rest in it after 1e-12 s/coefficient; a turn takes 10 s."""
+    from stabilab.unreduced import chaos as followed
+    case = stabilab.load({"body": {"inertia": [3, 2, 1]},
+                          "effects": {"viscous_damper": {"inertia": "1e-12", "coefficient": coefficient}},
+                          "motion": {"angular_velocity": ["0.1", "0.2", "0.3"]}})
+    for crawl in (100, 0):  # 0: by SciPy
+        monkeypatch.setattr(followed, "CRAWL", crawl)
+        monkeypatch.setattr(followed, "heyoka_available", lambda crawl=crawl: crawl > 0)
+        found = stabilab.chaos(case)
+        assert found.labels == Order.UNDECIDED and np.isnan(found.history).all() and found.stiff
+        assert found.because.startswith("stopped, because the motion is too stiff")
+        assert words.text([(case, found)]).count("\n") == 0
+
+
+def test_rates_whose_squares_are_no_doubles_are_followed_in_their_own_time():
+    """Of a free body every motion is regular, at any rate."""
+    found = stabilab.chaos(stabilab.Scene(stabilab.Body((3, 2, 1))), (1e200, 2e200, 3e200))
+    assert found.labels == Order.REGULAR and 1.9 < found.megno < 2.1
+
+
 def test_a_megno_next_to_zero_has_no_minus():
     found = Chaos(np.array(Order.REGULAR), np.array(-1e-5), np.array([1.0, 2.0]), np.array([-2e-5, -1e-5]),
                   np.array(0.0), np.array(0.0), 1.0, None)

@@ -1,5 +1,6 @@
 """Exact motions with more blocks of state than the angular velocity, against equations typed in by hand in
 mpmath."""
+import re
 from pathlib import Path
 
 import mpmath as mp
@@ -223,3 +224,16 @@ def test_files_carry_the_attitude_with_units_in_their_header(stabilab, tmp_path,
         assert np.ravel(part[1]).tolist() == [float(v) for v in rows[1].split(",")[4:4 + part[1].size]]
         assert data["omega"].attrs["units"] == "rad/s" and part.attrs["units"] == "1"
     assert stabilab("simulate", case, "--at", "0,1", "--attitude", "--matrix")[0] == 2
+
+
+@pytest.mark.parametrize("method", ["taylor", "Radau"])
+def test_a_run_over_1e14_turns_stops_and_says_so(monkeypatch, method):
+    """The damper takes 1000 s; that the turns part rates for a moment is no decay, and no reason to take an
+    implicit method."""
+    from stabilab.integrate import trajectory as trajectories
+    monkeypatch.setattr(trajectories, "REPORT", 1000)
+    monkeypatch.setattr(trajectories, "SCIPY_REPORT", 50)
+    scene = Scene(Body((3, 2, 1)), effect_class("rate_damper")("1e-3"))
+    run = simulate(scene, (1e12, 2e12, 3e12), [0.0, 100.0], method=None if method == "taylor" else method)
+    assert (run.method, run.status) == (method, "stopped") and run.t.tolist() == [0.0]
+    assert re.search("the last [0-9]+ steps went from t = 0 to .*, the rest would take some", run.reason)

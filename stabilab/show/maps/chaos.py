@@ -124,7 +124,7 @@ def text(case: Any, found: Chaos, _: Any = None) -> str:
         lines.append(
             f"  neighbours part at {rate:.3g} ± {error:.1g} 1/{unit}: a small change doubles in "
             f"{math.log(2) / rate:.3g} {unit}")
-    if label != Order.SPIN_UP:
+    if np.isfinite(found.history).any():
         lines.append("  an indicator of a finite time, no proof; time and MEGNO:")
         lines += [f"  {time:12.6g} {unit}  {0.0 if abs(value) < 5e-5 else value:9.4f}" for time,
                   value in zip(found.times.tolist(), found.history.tolist())]
