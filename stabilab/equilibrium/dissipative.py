@@ -201,11 +201,11 @@ def draws_all(parts: Content, omega) -> bool:
     return two * S[2][2] > scale and three > scale
 
 
-def energy_bound(parts: Content, T0: float) -> tuple[float, float]:
-    """(largest sqrt(2 T) ever, its limit at late times) from (sqrt(2 T))' <= -c sqrt(2 T) + sqrt(M . D^-1 M).
-    """
+def energy_bound(parts: Content, start: float) -> tuple[float, float]:
+    """(largest sqrt(2 T) ever, its limit at late times) from `start`, that at the start, and from
+    (sqrt(2 T))' <= -c sqrt(2 T) + sqrt(M . D^-1 M)."""
     push = sum(float(m) ** 2 / float(d) for m, d in zip(parts.M, parts.D)) ** 0.5 / float(decay(parts))
-    return max((2 * T0) ** 0.5, push), push
+    return max(start, push), push
 
 
 def decay(parts: Content) -> Fraction:

@@ -7,15 +7,18 @@ rates over the span.
 from __future__ import annotations
 
 from fractions import Fraction
-from math import hypot, inf, sqrt
+from math import frexp, hypot, inf, isinf, sqrt
 from typing import Any
 
 from ..equilibrium.dissipative import GLOBAL, decay, energy_bound, resisted_equilibria
 from ..equilibrium.liquid import trap
+from ..numbers.exact import sqrt_fraction
 from ..numbers.vectors import dot
 from ..orbit.fate.one_state import REASONS, Reason
 from ..orbit.result import Fate, Motion
 from ..physics.coefficients import Content, at_rest, content, relative, split
+
+SMALL = 1e-290  # below it a square of doubles has lost digits
 
 
 def motion(scene, state, span=None, exact=None, brief: bool = False) -> Motion:
@@ -53,17 +56,30 @@ def judged(parts: Content, omega, gamma, sigma=(0.0,) * 3) -> tuple[Fate, str, d
         return Fate.UNDECIDED, parts.unproved_loss, {}
     if gamma:
         return _directed(parts, omega, gamma)
-    T0 = sum(float(d) * w * w for d, w in zip(parts.D, omega)) / 2
+    T0, x0 = _energy(parts, omega)
     if parts.kappa and any(parts.Lambda) and not parts.printed:
-        return _wheel_and_liquid(parts, T0)
+        return _wheel_and_liquid(parts, T0, x0)
     if parts.c or parts.damped:
-        return _resisted(parts, T0)
+        return _resisted(parts, T0, x0)
     if any(parts.M):
         return (Fate.UNDECIDED,
                 "undecided: the torque does work at the rate M . omega, and what the liquid takes, of fourth "
                 "order in the rates, "
                 "vanishes about the principal axes: no bound is proved", {})
-    return _liquid(parts, omega, T0)
+    return _liquid(parts, omega, T0, x0)
+
+
+def _energy(parts: Content, omega) -> tuple[float, float]:
+    """T and sqrt(2 T); the root, unlike the energy, is a double wherever the rates are ordinary ones."""
+    unit = 2.0 ** (frexp(max(map(abs, omega)))[1] - 1)
+    T0 = sum(float(d) * w * w for d, w in zip(parts.D, [w / unit for w in omega])) / 2
+    return T0 * unit * unit, sqrt(2 * T0) * unit
+
+
+def _sqrt(square: Fraction) -> float:
+    """The root of a number that may be below the least double."""
+    found = float(square)
+    return sqrt(found) if found > SMALL else float(sqrt_fraction(square))
 
 
 def _damped(parts: Content, omega, sigma) -> tuple[Fate, str, dict]:
@@ -80,21 +96,21 @@ def _damped(parts: Content, omega, sigma) -> tuple[Fate, str, dict]:
         return _permanent(parts, H, twice, "the damper")
     words = ("the damper keeps |H| and takes energy at every rotation that is not permanent (LaSalle), so "
              "the motion is bounded and tends to permanent rotations of its |H|")
-    return Fate.BOUNDED, words, {"energy": float(twice / 2), "momentum": sqrt(float(dot(H, H))),
-                                 "rate_bound": sqrt(float(twice / (min(parts.D) - k)))}
+    return Fate.BOUNDED, words, {"energy": float(twice / 2), "momentum": _sqrt(dot(H, H)),
+                                 "rate_bound": _sqrt(twice / (min(parts.D) - k))}
 
 
-def _resisted(parts: Content, T0) -> tuple[Fate, str, dict]:
+def _resisted(parts: Content, T0, x0) -> tuple[Fate, str, dict]:
     least = sqrt(float(min(parts.D)))
     slowest, takes = decay(parts), "T' <= " if parts.kappa or parts.damped else "T' = "
     rate = f", c = {float(slowest):.6g} 1/s" if parts.damped else ""
     if not slowest:
-        return _partly(parts, T0, least)
+        return _partly(parts, T0, x0, least)
     if not any(parts.M):
         return (Fate.BOUNDED,
                 f"{takes}-2 c T{rate}: the energy falls at least as T(0) exp(-2 c t), so the motion tends to "
-                "rest", {"energy": T0, "rate_bound": sqrt(2 * T0) / least, "late_rate_bound": 0.0})
-    largest, late = energy_bound(parts, T0)
+                "rest", {"energy": T0, "rate_bound": x0 / least, "late_rate_bound": 0.0})
+    largest, late = energy_bound(parts, x0)
     words = (f"{takes}M . omega - 2 c T <= sqrt(2 T) (sqrt(M . D^-1 M) - c sqrt(2 T)){rate}: resistance "
              f"outgrows the torque, so |omega| <= "
              f"{largest / least:.6g} rad/s always and <= {late / least:.6g} rad/s in the end")
@@ -114,24 +130,24 @@ def _resisted(parts: Content, T0) -> tuple[Fate, str, dict]:
     return Fate.BOUNDED, f"{words}; {where}", bounds
 
 
-def _partly(parts: Content, T0, least) -> tuple[Fate, str, dict]:
+def _partly(parts: Content, T0, x0, least) -> tuple[Fate, str, dict]:
     """A linear damper that leaves some axis free."""
     if any(parts.M):
         return (Fate.UNDECIDED, "undecided: the torque does work at the rate M . omega, and the damper "
                                 "resists rotation about some axes alone: no bound is proved", {"energy": T0})
     return (Fate.BOUNDED, "T' = -omega . C omega <= 0: the energy does not grow; where the motion tends is "
                           "undecided, for the damper resists rotation about some axes alone",
-            {"energy": T0, "rate_bound": sqrt(2 * T0) / least})
+            {"energy": T0, "rate_bound": x0 / least})
 
 
-def _liquid(parts: Content, omega, T0) -> tuple[Fate, str, dict]:
+def _liquid(parts: Content, omega, T0, x0) -> tuple[Fate, str, dict]:
     """Liquid alone: |H| stays where no wheel acts, the energy falls."""
     if any(parts.Lambda):  # the printed torque
         return (Fate.BOUNDED,
                 "the printed torque of the liquid takes energy, T' <= 0; where the motion tends is "
                 "undecided, since "
                 "this torque changes the angular momentum",
-                {"energy": T0, "rate_bound": sqrt(2 * T0 / float(min(parts.D)))})
+                {"energy": T0, "rate_bound": x0 / sqrt(float(min(parts.D)))})
     w = tuple(map(Fraction, omega))
     return _permanent(parts, tuple(d * x for d, x in zip(parts.D, w)),
                       sum(d * x * x for d, x in zip(parts.D, w)), "the liquid")
@@ -140,9 +156,9 @@ def _liquid(parts: Content, omega, T0) -> tuple[Fate, str, dict]:
 def _permanent(parts: Content, H, twice, what: str) -> tuple[Fate, str, dict]:
     """A free body of angular momentum H and kinetic energy twice/2 from which something takes energy."""
     square, order = dot(H, H), sorted(range(3), key=lambda i: -parts.D[i])
-    size = sqrt(float(square))
+    size = _sqrt(square)
     # without a damper |omega| <= |H|/(least moment); with it T >= (least moment - k) |omega|^2/2
-    bound = (sqrt(float(twice / (min(parts.D) - parts.inside))) if parts.inside
+    bound = (_sqrt(twice / (min(parts.D) - parts.inside)) if parts.inside
              else size / float(min(parts.D)))
     bounds = {"energy": float(twice) / 2, "momentum": size, "rate_bound": bound}
     words = (
@@ -166,10 +182,10 @@ def _permanent(parts: Content, H, twice, what: str) -> tuple[Fate, str, dict]:
             bounds)
 
 
-def _wheel_and_liquid(parts: Content, T0) -> tuple[Fate, str, dict]:
+def _wheel_and_liquid(parts: Content, T0, x0) -> tuple[Fate, str, dict]:
     """With Lambda the liquid's work has parts of either sign, which resistance outweighs below a certain
     energy."""
-    found, x0 = trap(parts), sqrt(2 * T0)
+    found = trap(parts)
     if found is None or x0 >= found[1]:
         return (Fate.UNDECIDED,
                 "undecided: with a wheel or a charge the liquid keeps |H| to first order in kappa only, and "
@@ -189,7 +205,7 @@ def _wheel_and_liquid(parts: Content, T0) -> tuple[Fate, str, dict]:
 
 
 def _directed(parts: Content, omega, gamma) -> tuple[Fate, str, dict]:
-    T0 = sum(float(d) * w * w for d, w in zip(parts.D, omega)) / 2
+    T0, x0 = _energy(parts, omega)
     s, N = tuple(map(float, parts.s)), float(parts.N)
     V0 = -dot(s, gamma) + N / 2 * sum(float(d) * g * g for d, g in zip(parts.D, gamma))
     least, most = float(min(parts.D)), float(max(parts.D))
@@ -200,7 +216,10 @@ def _directed(parts: Content, omega, gamma) -> tuple[Fate, str, dict]:
                 "sign; no bound is proved",
                 {"energy": T0 + V0})
     if not any(parts.M):
-        rate = sqrt(max(0.0, 2 * (T0 + V0 - floor) / least))
+        above = T0 + V0 - floor
+        rate = (sqrt(max(0.0, 2 * above / least)) if SMALL < above < inf
+                else hypot(x0, sqrt(max(0.0, 2 * (V0 - floor)))) / sqrt(least))
+        at_most = "is more than a double holds" if isinf(above) else f"<= {above:.6g} J"
         kept = ("falls (the medium takes 2 c T)" if parts.c else
                 "falls (the damper takes omega . C omega)" if parts.damped else
                 "falls (eddy currents take k B^2 |omega x gamma|^2)" if parts.eddy else "is constant")
@@ -209,13 +228,12 @@ def _directed(parts: Content, omega, gamma) -> tuple[Fate, str, dict]:
             end = _about_the_field(parts, omega, gamma)
         return (Fate.BOUNDED,
                 f"|gamma| = 1 bounds the potential energy from below and the sum of kinetic and potential "
-                f"energy {kept}: T <= "
-                f"{T0 + V0 - floor:.6g} J, so |omega| <= {rate:.6g} rad/s{end}",
+                f"energy {kept}: T {at_most}, so |omega| <= {rate:.6g} rad/s{end}",
                 {"energy": T0 + V0, "rate_bound": rate} | ({"late_rate_bound": 0.0} if decay(parts) else {}))
     if slowest := float(decay(parts)):
         torque = hypot(*map(float, parts.M)) + hypot(*s) + abs(N) * (most - least) / 2
         late = torque / sqrt(least) / slowest
-        rate = max(sqrt(2 * T0), late) / sqrt(least)
+        rate = max(x0, late) / sqrt(least)
         return (Fate.BOUNDED,
                 f"the torque is at most {torque:.6g} N m, and T' <= |torque| |omega| - 2 c T: resistance "
                 f"outgrows it, so |omega| <= {rate:.6g} "

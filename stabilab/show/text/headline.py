@@ -111,7 +111,7 @@ def largest(motion: Motion, units: Units) -> str:
             return ""
         return f"about the other axes at most {units.rate(max(finite.values()), SHORT)}"
     bound = motion.invariants.get("rate_bound")
-    if bound is not None and (over or not finite):
+    if bound is not None and math.isfinite(bound) and (over or not finite):
         late = motion.invariants.get("late_rate_bound")
         end = ("" if late is None or late >= bound else f", {units.rate(late, SHORT)} in the end" if late
                else ", tends to rest")
