@@ -14,6 +14,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
+from itertools import pairwise
 from typing import Any, ClassVar, TypeAlias, cast
 
 import numpy as np
@@ -37,6 +38,7 @@ AZIMUTHS, REFINED = 12, 4  # looked at round the edge of the cone; halvings of t
 EDGE = [2 * math.pi * n / AZIMUTHS for n in range(AZIMUTHS)]
 STEPS = 60_000  # of a run at one azimuth
 SIDES, FEW = 6, 20_000  # directions of a cone that is one of many, and steps of a run at one
+HALVINGS, BEND = 3, 0.02  # of an interval of angles; relative: by so much a time is off a power of the angle
 WORK = 8_000_000  # multiplications for a proof of the shortest time
 TWICE = 2.0  # times the largest rate of the bounded motion: the limit where none is stated
 UP = 1 + 1e-12  # more than the rounding of a few doubles
@@ -301,25 +303,44 @@ class ByAngle:
 
 
 def by_angle(scene: Scene, state: Any, angles: np.ndarray, case: Any = None,
-             ask: dict[str, Any] | None = None) -> ByAngle:
+             ask: dict[str, Any] | None = None, closer: bool = False) -> ByAngle:
     """The time to a limit against the tilt of the torque, by runs at SIDES directions round each cone.
 
-    scene: a body with wheels under a constant torque; angles: (n,) rad; case: whose stuck thrusters are
-    tilted, where they state a misalignment; ask: the limit, by its name as of `time_to`, None for twice the
-    largest rate of a bounded motion.
+    scene: a body with wheels under a constant torque; angles: (n,) rad, rising; case: whose stuck thrusters
+    are tilted, where they state a misalignment; ask: the limit, by its name as of `time_to`, None for twice
+    the largest rate of a bounded motion. closer: more angles between these where a time is no power of the
+    angle.
     """
     limit, cone = asked(scene, **(ask or _twice_the_largest(scene, state))), cone_of(scene, case, DEGREE)
     if case is not None and any(t.stuck and t.misalignment for t in case.thrusters):
         cone = cone_of(scene, case)
-    rows = []
-    for angle in angles:
+
+    def row(angle: float) -> tuple[float, float, float]:
         wider = replace(cone, angle=angle, parts=tuple((*part[:3], angle) for part in cone.parts))
         times = [run_once(tilted(scene, wider.at(azimuth)), state, limit, steps=FEW)[0]
                  for azimuth in EDGE[::len(EDGE) // SIDES]]
         sure = stays_below(scene, state, limit.least_rate(), *wider.reach()) if torque_axis(scene) else 0.0
-        rows.append((min(times), max(times), sure))
-    earliest, latest, not_before = np.array(rows).T
-    return ByAngle(angles, earliest, latest, not_before, limit, cone.words)
+        return min(times), max(times), sure
+    rows = {angle: row(angle) for angle in angles.tolist()}
+    parts = list(pairwise(rows))
+    for _ in range(HALVINGS if closer else 0):
+        halves: list[tuple[float, float]] = []
+        for low, high in parts:
+            middle = math.sqrt(low * high)
+            rows[middle] = row(middle)
+            if _bends(rows[low][:2], rows[middle][:2], rows[high][:2]):
+                halves += [(low, middle), (middle, high)]
+        parts = halves
+    earliest, latest, not_before = np.array([rows[angle] for angle in sorted(rows)]).T
+    return ByAngle(np.array(sorted(rows)), earliest, latest, not_before, limit, cone.words)
+
+
+def _bends(*times: tuple[float, ...]) -> bool:
+    """Whether times at three angles, each the mean of its neighbours in logarithms, are not so; one that no
+    run reaches bends nothing."""
+    with np.errstate(all="ignore"):
+        before, between, after = np.log(times)
+        return bool((np.abs(between - (before + after) / 2) > BEND)[np.isfinite(before + after)].any())
 
 
 def nearest_round(value: Callable[[float], float], tried: Tried) -> Tried:

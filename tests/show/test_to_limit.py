@@ -55,6 +55,16 @@ def test_a_bounded_motion_is_lost_after_a_time_like_one_over_the_tilt_and_not_be
     assert (0 < found.not_before).all() and (found.not_before < found.earliest).all()
 
 
+def test_more_angles_are_looked_at_where_the_times_bend():
+    """Of times like one over the tilt (as above) the middles alone; cubesat-3u: at 10 deg the latest grows
+    without end, so most angles are there. Every interval follows its ends to 2 %."""
+    angles = np.radians(np.geomspace(0.1, 10, 4))
+    straight, bent = (by_angle(case.scene, case.state, angles, case, case.limits and limit_of(case), closer=True)
+                      for case in map(load, ("thruster-stuck-major-axis", "cubesat-3u")))
+    assert len(straight.angles) < 11 < len(bent.angles) < 26 and set(angles) <= set(bent.angles)
+    assert np.median(bent.angles) > np.radians(1.0) and (np.diff(bent.angles) > 0).all()
+
+
 @pytest.mark.slow
 def test_the_best_momentum_of_a_wheel_is_that_of_stuck_and_now_is_no_gain():
     case = load("cubesat-3u")

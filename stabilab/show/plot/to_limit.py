@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 TALL = 8.0  # times the least: of times farther apart the logarithm is drawn
-ANGLES = np.radians(np.geomspace(0.1, 10.0, 7))
+ANGLES = np.radians(np.geomspace(0.1, 10.0, 4))  # and more where times bend
 EARLIEST = {"color": style.VERMILION, "linewidth": 2.0}
 BAND = {"facecolor": style.VERMILION, "alpha": 0.22, "linewidth": 0}
 SURE = {"facecolor": style.BLUE, "alpha": 0.18, "linewidth": 0}
@@ -48,7 +48,7 @@ def tilt(case: Any, state: Any = None, ax: Axes | None = None, units: str | None
     scale, given = measures(one, units), one.case
     scene: Any = one.scene  # physical: `which` refuses the others
     found = by_angle(scene, one.state, ANGLES, given,
-                     None if given is None or given.limits is None else limit_of(given))
+                     None if given is None or given.limits is None else limit_of(given), closer=True)
     finite = np.concatenate([times[np.isfinite(times) & (times > 0)] for times in
                              (found.earliest, found.latest, found.not_before)])
     unit, per = scale.time(float(finite.max(initial=0.0)) or 1.0)
@@ -58,10 +58,10 @@ def tilt(case: Any, state: Any = None, ax: Axes | None = None, units: str | None
         rows: list[tuple[str, dict[str, Any]]] = [("earliest, by runs", EARLIEST)]
         ends = np.isfinite(found.latest).all()
         top = (1.2 if ends else 3.0) * per * float(finite.max(initial=0.0))
-        latest = np.where(np.isfinite(found.latest), per * found.latest, top)
         reached = np.isfinite(found.earliest)
         if reached.any():
-            target.fill_between(degrees, per * found.earliest, latest, where=reached, **BAND)
+            target.fill_between(np.repeat(degrees, 2), np.repeat(per * found.earliest, 2),
+                                _open_above(per * found.latest, top), where=np.repeat(reached, 2), **BAND)
             target.plot(degrees[reached], per * found.earliest[reached], **EARLIEST)
             rows.append((f"to the latest of {SIDES} directions", BAND))
         if found.not_before.any():
@@ -90,6 +90,16 @@ def tilt(case: Any, state: Any = None, ax: Axes | None = None, units: str | None
         target.set_ylabel(f"time to {reaches} {least} ({unit})")
         return canvas.explained(target, rows if legend else [], ax is None,
                                 one.heading, canvas.answer(one, scale))
+
+
+def _open_above(latest: np.ndarray, top: float) -> np.ndarray:
+    """(2n,) the upper edge of a band, before and behind each of n places: at the top beside one that is
+    infinite."""
+    edge = np.stack([latest, latest], axis=1)
+    never = np.isinf(latest)
+    edge[1:, 0][never[:-1]] = edge[:-1, 1][never[1:]] = top
+    edge[never] = top
+    return edge.ravel()
 
 
 def wheel(case: Any, ax: Axes | None = None, units: str | None = None,
