@@ -38,6 +38,7 @@ def body(case: Any, state: Any = None, ax: Axes | None = None, units: str | None
     """
     one = subject(case, state)
     which.check("body", one)
+    from matplotlib.patheffects import withStroke
     scene = which.bodily(one)
     sides = box_sides(scene.body.inertia)
     with canvas.on(ax, size or SIZE, space=True) as target:
@@ -51,7 +52,10 @@ def body(case: Any, state: Any = None, ax: Axes | None = None, units: str | None
         target.set(xlim=(-0.8, 0.8), ylim=(-0.8, 0.8), zlim=(-0.7, 0.9))
         target.set_axis_off()
         target.view_init(*VIEW)
-        target.set_box_aspect((1, 1, 1), zoom=1.25)
+        target.set_box_aspect((1, 1, 1), zoom=1.3)
+        halo = [withStroke(linewidth=2.5, foreground="white")]  # words lie on lines and arrows
+        for words in target.texts:
+            words.set(path_effects=halo, zorder=LETTERS["zorder"])
         if not bare:
             canvas.title(target, one.heading)
         if legend:
@@ -81,7 +85,8 @@ def _craft(ax: Any, case: Any, sides: np.ndarray) -> list[tuple[str, dict[str, A
         colour = style.PURPLE if one.stuck else style.GREY
         ax.plot(*np.array([np.zeros(3), place]).T, color=style.GREY, linewidth=0.8, linestyle=":", zorder=5)
         ax.plot(*place[:, None], marker="o", color=colour, markersize=6, zorder=9)
-        look = _arrow(ax, place, 0.3 * principal(one.direction), one.name, colour, 2.0)
+        look = _arrow(ax, place, 0.3 * principal(one.direction), "", colour, 2.0)
+        ax.text(*place, f" {one.name}", color=colour, ha="left", va="top", **LETTERS)
         stuck = ", stuck" * one.stuck
         rows.append((f"force of {one.name} on the body, {float(one.force):.4g} N{stuck}", look))
     for one in case.wheels if len(case.wheels) > 1 else ():
@@ -92,7 +97,7 @@ def _craft(ax: Any, case: Any, sides: np.ndarray) -> list[tuple[str, dict[str, A
         for letter, axis in zip("xyz", turn.T):
             ax.plot(*np.array([-0.72 * axis, 0.72 * axis]).T, color=style.BROWN, linewidth=1.0,
                     linestyle="--", zorder=4)
-            ax.text(*(0.76 * axis), letter, color=style.BROWN, **LETTERS)
+            ax.text(*(0.78 * axis), letter, color=style.BROWN, **LETTERS)
         rows.append(("axes of the file", {"color": style.BROWN, "linewidth": 1.0, "linestyle": "--"}))
     return rows
 
@@ -161,12 +166,12 @@ def _wheel(ax, one, effect, sides):
 
 
 def _torque(ax, one, effect, sides):
-    look = _arrow(ax, (0, 0, 0), _along(effect.vector, 1.0), "torque M", style.VERMILION)
+    look = _arrow(ax, (0, 0, 0), _along(effect.vector, 0.85), "torque M", style.VERMILION)
     return f"constant torque M = {_vector(effect.vector)} N m", look
 
 
 def _force(ax, one, effect, sides):
-    look = _arrow(ax, (0, 0, 0), _along(effect.vector, 1.1), "force f", style.GREEN)
+    look = _arrow(ax, (0, 0, 0), _along(effect.vector, 1.0), "force f", style.GREEN)
     return f"constant force f = {_vector(effect.vector)} N", look
 
 
