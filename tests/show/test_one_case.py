@@ -60,6 +60,13 @@ def test_a_top_has_its_fate_and_says_that_it_has_no_phase_plane(tmp_path):
     assert page["space"]["reason"].startswith("no separatrix is drawn: ")
 
 
+@pytest.mark.parametrize("name, title", [
+    ("cubesat-3u-detumbling", None), ("vanguard-1", "Every part of the state over time")])
+def test_a_state_beside_which_there_is_no_theory_says_so_and_shows_what_the_rates_do_not(tmp_path, name, title):
+    shown = {one["kind"]: one["title"] for one in _sections(name, tmp_path)["pictures"]}
+    assert shown.get("state") == title and "time" in shown
+
+
 SATELLITE = (np.array([100.0, 90, 40]), np.array([3.0, 0, 0]))  # moments, momentum of its wheel
 
 

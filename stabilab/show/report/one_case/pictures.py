@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from ....theories.follow import models_of
 from ...plot import subject as which
 from ...plot import to_file
 from ...plot.over_time import file_axes
@@ -30,6 +31,7 @@ SHOWN = {
     "body": ("The body and what acts on it", "Directions are those of the case, lengths of arrows are not.")}
 TITLED = ("sphere", "equilibria", "state")  # by what no heading of the page says
 SIZES = {"tilt": (6.0, 3.8), "wheel": (6.0, 3.8), "body": (5.2, 5.2)}  # inches, of the smaller ones
+ALONE = ("Every part of the state over time", "No approximate theory comes with these effects.")
 OF_THE_FILE = "The rates along the axes of the file, about which its limits are."
 BRIEF = ("time", "phase", "state")  # on a page among many
 
@@ -43,8 +45,12 @@ def pictures(one, folder: Path, stem: str, deep: bool, units: str = "deg", at_re
     # surface
     spared = {"equilibria": at_rest is not None and not at_rest.curves, "body": not _acted_on(one),
               "sphere": "phase" in offered and not which.free(one)}
+    exact_alone = models_of(one.scene) == ("exact",)
+    spared["state"] = exact_alone and one.scene.blocks == ("omega",)  # the rates over time have all
     for kind, (title, caption) in SHOWN.items():
         if kind in offered and (deep or kind in BRIEF) and not spared.get(kind):
+            if kind == "state" and exact_alone:
+                title, caption = ALONE
             if kind == "time" and file_axes(one) is not None:
                 caption = OF_THE_FILE
             if kind == "time":
