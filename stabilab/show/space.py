@@ -92,12 +92,20 @@ class Box:
         return [n * step for n in range(first, last + 1)]
 
 
+def numbers(ticks: list[float]) -> list[str]:
+    """What stands at ticks: six digits, more where these would round them."""
+    apart = min((b - a for a, b in zip(ticks, ticks[1:])), default=0.0)
+    digits = next(n for n in range(6, 18) if all(abs(float(f"{v:.{n}g}") - v) <= apart / 100 for v in ticks)
+                  or n == 17)
+    return [f"{v:.{digits}g}".replace("-", "\u2212") for v in ticks]
+
+
 @dataclass(frozen=True)
 class Space:
     """names: labels of the axes, in a unit of which `rate` make one of the scene's; branches: (colour,
     branch) of the separatrix; curves and marks: (words of the legend, places or place); path: of the motion;
     arrows: (place, step) along it; view: elevation and azimuth of the eye, deg; words: what the separatrix
-    parts, or why none is drawn."""
+    parts, or why none is drawn; part: what is said where the path is a part of the motion."""
 
     names: tuple[str, ...]
     rate: float
@@ -109,6 +117,7 @@ class Space:
     arrows: tuple[tuple[Point, Point], ...]
     view: tuple[float, float]
     words: str
+    part: str = ""
 
     @property
     def legend(self) -> dict[str, str]:

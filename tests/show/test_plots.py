@@ -274,6 +274,22 @@ def test_parts_of_a_state_that_turn_often_are_shown_over_their_first_turns():
     assert ends[0] < 0.6 and ends[1] == 2.0
 
 
+def test_a_vertical_that_turns_often_is_shown_over_its_first_turns():
+    """vanguard-1: the body turns at 972 deg/s, so the vertical turns back twice in 0.37 s."""
+    figure = stabilab.plot.state(load("vanguard-1"))
+    (line,) = figure.axes[3].get_lines()
+    assert line.get_xdata()[-1] == pytest.approx(24 / 2 * 360 / 972, rel=0.1)
+
+
+def test_of_a_motion_that_would_be_a_solid_body_in_space_the_first_turns_are_drawn():
+    """explorer-1-damped: free precession, (A - C) omega3 / A = 4463 deg/s by the moments of the file."""
+    ax = stabilab.plot.space(load("explorer-1-damped"))
+    shown = float(re.search(r"the first (\S+) s of 60 s are drawn", ax.get_title())[1])
+    assert shown == pytest.approx(24 * 360 / 4463, rel=0.05)
+    names = [label.get_text() for label in ax.get_zticklabels()]
+    assert len(set(names)) == len(names) and all(name.startswith(("4499.99", "4500")) for name in names)
+
+
 def test_a_motion_that_never_turns_has_one_branch_in_its_plane():
     """torque-free-body goes right round axis 1 (H^2 > 2 T D2), so omega1 keeps its sign; one in a well has
     both."""

@@ -45,7 +45,7 @@ def equilibria(case: Any, state: Any = None, ax: Axes | None = None, units: str 
     with canvas.on(ax, size, space=flat is None) as target:
         labels = tuple(with_unit(name, scale.rate[0]) for name in scale.names)
         if flat is None:
-            _in_space(target, rest, box, scale.rate[1], labels)
+            _in_space(target, rest, box, scale.rate[1], labels, [] if one.state is None else [one.state])
         else:
             _in_plane(target, rest, box, scale.rate[1], labels, flat)
         rows = meanings(rest)
@@ -86,13 +86,14 @@ def _constant(rest: Rest, axis: int) -> float:
     return float(next(points[0, axis] for _, points in rest.curves if len(points)))
 
 
-def _in_space(ax, rest, box, per_rate, labels):
+def _in_space(ax, rest, box, per_rate, labels, start):
     in_units = box.scaled(per_rate)
     for kind, spanning in rest.planes:
         in_space.polygon(ax, disc(spanning, box.half[0] * per_rate), CURVES[kind]["color"], 0.3)
     for kind, points in rest.curves:
         in_space.line(ax, inside(box, points) * per_rate, CURVES[kind])
-    in_space.depth(ax, in_units, np.empty((0, 3)), [at * per_rate for _, at in rest.points])
+    in_space.depth(ax, in_units, np.empty((0, 3)),
+                   [np.array(at) * per_rate for at in (*start, *(at for _, at in rest.points))])
     for kind, at in rest.points:
         in_space.line(ax, at[None] * per_rate, POINTS[kind])
     in_space.line(ax, rest.folds[holds(box, rest.folds)] * per_rate, FOLD)

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -29,12 +29,13 @@ from ..space import (
     marks_of,
     near_part,
     nearest,
+    numbers,
 )
 from ..space import THIN as SHORT
 from ..space import space as drawn_in
 from . import subject as canvas
 from . import subject as which
-from .path import path, thinned
+from .path import path, thinned, turning
 from .subject import Measures, Subject, measures, subject
 
 if TYPE_CHECKING:
@@ -49,6 +50,7 @@ LIGHT = np.array([0.35, -0.55, 0.76])
 DARKEST = 0.62  # share of its colour that a facet keeps which the light only grazes
 ROOMY = 3.8  # inches: axes that are smaller have fewer ticks
 SEEN = 0.36  # of the longest side: an axis that is seen shorter has fewer ticks, lest they lie on each other
+USUAL = 6  # letters of a number at a tick: longer ones stand farther off
 FLATTEST = 0.75  # of the longest side of a box whose sides are in different scales
 
 
@@ -172,7 +174,11 @@ def furnish(ax: Any, box: Box, labels: tuple[str, ...], view: tuple[float, float
     sides = np.maximum(lengths / lengths.max(), FLATTEST)
     for n, (axis, share) in enumerate(zip((ax.xaxis, ax.yaxis, ax.zaxis), sides / sides.max() * _seen(view))):
         ticks = box.ticks(n, 3 if roomy * share > SEEN else 2)
-        axis.set_ticks(ticks, labels=[f"{v / 10.0**power:.6g}".replace("-", "\u2212") for v in ticks])
+        words = numbers([v / 10.0**power for v in ticks])
+        axis.set_ticks(ticks, labels=words)
+        if (longer := max(map(len, words)) - USUAL) > 0:
+            axis.set_tick_params(pad=(3.5 + 2.5 * longer) * small)
+            axis.labelpad += 4 * longer
         axis.set_pane_color((1, 1, 1, 1))
     # the longest side as of a cube
     ax.set_box_aspect(sides, zoom=ZOOM * (1 - (1 - small) / 3) * float(np.linalg.norm(sides)) / math.sqrt(3))
@@ -320,6 +326,10 @@ def meanings(rest: Rest, words: str = "equilibria") -> list[tuple[str, dict[str,
 
 # --- A motion in the space of rates, beside the separatrix
 FINE, MOST = 1e-3, 6000  # of the picture: how near a line with fewer points stays to it; points
+# turns of a rate: a line with more of them is drawn thin; of one to which MOST leaves no ten points a round,
+# the first
+CLOSE, SOLID, FIRST = 60, MOST // 5, 48
+SLIM = {"linewidth": 0.9}
 FACETS = (96, 129)  # rows and columns of a branch: those that are in front are told by their middles
 
 
@@ -342,7 +352,7 @@ def space(case: Any, state: Any = None, ax: Axes | None = None, span: Any = None
     with canvas.on(ax, size, space=True) as target:
         draw(target, found)
         return canvas.explained(target, rows(found) if legend else [], ax is None,
-                                one.heading, canvas.answer(one, scale), away(one, found, scale))
+                                one.heading, canvas.answer(one, scale), away(one, found, scale), found.part)
 
 
 def space_of(one: Subject, names: Iterable[str], rate: tuple[str, float], known: Equilibria | None = None,
@@ -355,13 +365,14 @@ def space_of(one: Subject, names: Iterable[str], rate: tuple[str, float], known:
             known = equilibria(one.scene)
         except StabilabError:
             known = None
-    line = [] if moved is None else _path(one)
+    line, part = ([], "") if moved is None else _path(one)
     marks = marks_of(one.state, moved, known)
     limit = limit_of(one.case)
     near = [*nearest(known, line), *beside_limit(limit, line)] if line else []
     box = box_of(line, marks + near, branches_of(one.twin)[0], most, reaching)
     surface, words, _ = branches_of(one.twin, box, shape)
-    return drawn_in(names, rate, box, surface, line, marks, curves_of(known, box), words, limit=limit)
+    found = drawn_in(names, rate, box, surface, line, marks, curves_of(known, box), words, limit=limit)
+    return replace(found, part=part)
 
 
 def draw(ax: Any, found: Space) -> None:
@@ -373,7 +384,8 @@ def draw(ax: Any, found: Space) -> None:
         line(ax, inside(box, per * np.array(places)), look(words), zorder=6)
     path = inside(box, per * np.array(found.path)) if found.path else np.empty((0, 3))
     depth(ax, box, path, [per * np.array(at) for _, at in found.marks], found.view)
-    line(ax, path, style.MEANING["this motion"], zorder=8)
+    slim = SLIM if any(turning(rate) > CLOSE for rate in np.array(found.path).T) else {}
+    line(ax, path, style.MEANING["this motion"] | slim, zorder=8)
     for at, step in found.arrows:
         line(ax, per * _head(np.array(at), np.array(step), found), style.MEANING["this motion"], zorder=8)
     for words, at in reversed(found.marks):  # the start above all
@@ -412,16 +424,30 @@ def away(one: Subject, found: Space, scale: Measures) -> str:
             f"outside of this picture".replace("  ", " "))
 
 
-def _path(one: Subject) -> list[Any]:
-    """The motion: one period, or the span as far as a picture can show it."""
+def _path(one: Subject) -> tuple[list[Any], str]:
+    """The motion: one period, or the span as far as a picture can show it; and what is to be said where that
+    is a part of it."""
     period = one.motion.period
     low, high = one.seen
     t, omega = path(one, low, low + period if period else high)
     omega = omega[:len(near_part(t.tolist(), omega.tolist(), one.motion))]
+    part = ""
+    if (end := min(map(_end_of_the_first_turns, omega.T))) < len(omega):
+        unit, per = measures(one).time(abs(high - low))
+        shown, whole = (f"{abs(time - low) * per:.3g} {unit}" for time in (t[end], high))
+        part = f"the first {shown} of {whole} are drawn"
+        _, omega = path(one, low, t[end])
     spans = np.ptp(omega, axis=0)
     size = np.where((spans < SHORT * spans.max()) & (spans > EVEN * spans.max()), spans, spans.max() or 1.0)
     near = FINE  # of what an axis shows
     while len(line := thinned(omega / size, near)) > MOST:
         near *= 2
-    line = line * size
-    return line.tolist()
+    return (line * size).tolist(), part
+
+
+def _end_of_the_first_turns(rate: np.ndarray) -> int:
+    """How many of the values of a rate are drawn, as far as its turns decide."""
+    if turning(rate) <= SOLID or np.ptp(rate) <= EVEN * np.abs(rate).max():
+        return len(rate)
+    steps = np.sign(np.diff(rate))
+    return int(np.flatnonzero(steps[1:] != steps[:-1])[FIRST]) + 1

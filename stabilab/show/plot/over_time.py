@@ -21,7 +21,7 @@ from ..text.stuck import answer_line, row_name
 from ..units import Units, with_unit
 from . import subject as canvas
 from . import subject as which
-from .path import SEEN, SOLID, band, path, turning
+from .path import SOLID, band, path, turning
 from .subject import Subject, measures, subject
 
 if TYPE_CHECKING:
@@ -272,7 +272,9 @@ def _until(scenario, row, scene) -> float:
 # --- Every part of a longer state over time, the analytic models beside the exact motion
 POINTS = 801
 ROWS = 2  # parts of a picture: six panels
-CROWDED = 24  # turns of a rate: more of them are shown over the first so many, unless a span is asked for
+# turns of a rate or of the vertical: of more of them the first are shown, unless a span is asked for
+CROWDED, FEWER = 24, 0.95
+STILL = 1e-9  # of the largest: what rounding leaves
 
 
 def state(case: Any, start: Any = None, span: Any = None, size: tuple[float, float] | None = None,
@@ -296,9 +298,12 @@ def states(case: Any, start: Any = None, span: Any = None, size: tuple[float, fl
     scale = measures(one, units)
     begin, end = one.asked or (one.seen[0], max(*one.seen, *(one.span or ())))  # slow parts need all
     runs, _ = side_by_side(one, np.linspace(begin, end, POINTS))
-    if span is None and (turns := _turns(runs["exact"].state["omega"])) > CROWDED:
-        runs, _ = side_by_side(one, np.linspace(begin, begin + (end - begin) * CROWDED / turns, POINTS))
-    have = [name for name in comparison.NAMES if name in runs["exact"].state]
+    # again where so few times hide some of the turns
+    while span is None and (turns := _turns(runs["exact"].state)) > CROWDED:
+        end = begin + FEWER * (end - begin) * CROWDED / turns
+        runs, _ = side_by_side(one, np.linspace(begin, end, POINTS))
+    exact = runs["exact"].state
+    have = [name for name in comparison.NAMES if name in exact]
     if parts is not None and not (0 < len(parts) <= ROWS and set(parts) <= set(have)):
         raise InputError(f"parts: expected one or two of {', '.join(have)}, got {parts!r:.60}")
     shown, law = list(parts or have), runs["exact"].validity
@@ -310,7 +315,9 @@ def states(case: Any, start: Any = None, span: Any = None, size: tuple[float, fl
                 for n, group in enumerate(groups, 1)]
 
 
-def _turns(rates: Any) -> int:
-    """How often the rate turns that turns most; of one that all but stays the rounding is not counted."""
-    still = SEEN * np.abs(rates).max()
-    return max((turning(row) for row in np.asarray(rates).T if np.ptp(row) > still), default=0)
+def _turns(state: Any) -> int:
+    """How often the rate or the component of the vertical turns that turns most; of one that stays the
+    rounding is not counted."""
+    parts = [np.asarray(state[name]) for name in ("omega", "gamma") if name in state]
+    return max((turning(row) for part in parts for row in part.T
+                if np.ptp(row) > STILL * np.abs(part).max()), default=0)

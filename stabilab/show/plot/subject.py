@@ -355,6 +355,7 @@ def measures(one: Subject, units: str | None = None) -> Measures:
 # house
 SIZE = (7.6, 4.8)  # inches
 SQUARE = (7.0, 6.4)
+BELOW = 0.14  # between axes in space and their legend
 
 
 @contextmanager
@@ -369,6 +370,8 @@ def on(ax: Any, size: tuple[float, float] | None = None, space: bool = False) ->
     import matplotlib.pyplot as plt
     with matplotlib.rc_context(style.RC | style.letters(size)):
         figure = plt.figure(figsize=size or (SQUARE if space else SIZE), layout="constrained")
+        if space:  # of which no layout knows how far the labels reach
+            figure.get_layout_engine().set(h_pad=BELOW)
         yield figure.add_subplot(projection="3d" if space else None)
 
 

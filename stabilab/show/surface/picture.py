@@ -12,7 +12,7 @@ from ..axes import PLAIN
 from ..plot import subject as canvas
 from ..plot.in_space import FACETS, PALEST, away, rows, sight, space_of
 from ..plot.subject import measures, subject
-from ..space import Space, across, look
+from ..space import Space, across, look, numbers
 from .render_probe import use
 
 SIDE = 1000  # dots
@@ -100,8 +100,8 @@ def plotter(found: Space) -> Any:
 def _ticks(found: Space) -> list[list[tuple[float, str]]]:
     """Of each axis (place in halves of the box, number) of round numbers."""
     box = found.box.scaled(found.rate)
-    return [[((v - box.middle[n]) / box.half[n], f"{v:.6g}".replace("-", "\u2212")) for v in box.ticks(n)]
-            for n in range(3)]
+    return [[((v - box.middle[n]) / box.half[n], words) for v, words in zip(ticks, numbers(ticks))]
+            for n, ticks in enumerate(map(box.ticks, range(3)))]
 
 
 def _label(ax: Any, found: Space) -> None:

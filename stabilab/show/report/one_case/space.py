@@ -15,6 +15,7 @@ def space(case, motion, found_equilibria, units) -> dict:
     found = space_of(replace(subject(case), known=motion), map(printed, case.scene.components), units.rates,
                      found_equilibria, reaching=True)
     drawn = data(found, lambda places: b64encode(places).decode("ascii"))
-    return {"drawn": drawn, "legend": drawn["legend"], "reason": printed(units.words(found.words)),
+    reason = "; ".join(filter(None, (found.words, found.part)))
+    return {"drawn": drawn, "legend": drawn["legend"], "reason": printed(units.words(reason)),
             "clipped": any(max(map(abs, found.box.share(at))) > 1 + 1e-9 for _, branch in found.branches
                            for at in branch.points)}
