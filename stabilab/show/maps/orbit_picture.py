@@ -32,16 +32,15 @@ def _drawn(case: Case, found: CircularOrbit, rows: Any, units: Units, plt: Any) 
         ("orbit normal to momentum", math.pi, lambda at: math.acos(_within(dot(at.normal, wheel)))),
         ("vertical to minor axis", math.pi / 2, lambda at: math.acos(_within(abs(at.vertical[minor]))))]
     figure, axes = plt.subplots(2, 1, sharex=True, layout="constrained", figsize=(8, 7))
-    ends = 0.0, found.spans[-1].high  # type: ignore[index]
+    own, ends = math.hypot(*found.momentum), (0.0, found.spans[-1].high)  # type: ignore[index]
     for ax, (words, most, angle) in zip(axes, panels):
         for branch in rows:
-            ax.plot(branch.momenta, [angle(at) * one for at in branch.points], label=WORDS[branch.verdict],
+            ax.plot(branch.momenta, [angle(at) * one for at in branch.points],
                     **style.MEANING[branch.verdict])
         for span in found.spans:  # type: ignore[union-attr]
             ax.axvline(span.high, color=style.GREY, linewidth=0.7, linestyle=":", zorder=0)
-        own = math.hypot(*found.momentum)
         if own <= ends[1]:
-            ax.axvline(own, label="the case itself", zorder=3, **OWN)
+            ax.axvline(own, zorder=3, **OWN)
         ax.set_ylim(-0.03 * most * one, 1.03 * most * one)
         ax.set_ylabel(f"{words} ({name})")
     axes[-1].set_xlim(*ends)
@@ -50,9 +49,9 @@ def _drawn(case: Case, found: CircularOrbit, rows: Any, units: Units, plt: Any) 
                  [span.low for span in found.spans])
     figure.suptitle(f"{style.literal(case.title or case.name)}\nin bold: the number of equilibria, two or "
                     "more a line", x=0.02, ha="left", fontsize=10.5, wrap=True)
-    handles, labels = axes[0].get_legend_handles_labels()
-    kept = dict(zip(labels, handles))
-    figure.legend(kept.values(), kept.keys(), loc="outside lower center", ncols=4)
+    kinds = dict.fromkeys(branch.verdict for branch in rows)
+    style.legend(figure, [*((WORDS[kind], style.MEANING[kind]) for kind in kinds),
+                          *([("the case itself", OWN)] if own <= ends[1] else [])])
     return figure
 
 
