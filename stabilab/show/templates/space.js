@@ -95,7 +95,8 @@ function spaceView(canvas, {glass = 1, near = 1, shape = [0.95, 0.7]} = {}) {
     parts.forEach(part => gl.deleteVertexArray(part.vertices)); buffers.forEach(buffer => gl.deleteBuffer(buffer));
     parts = []; buffers = []; shapes = [];
     data.branches.forEach(branch);
-    data.curves.forEach(c => tube(places(c.at), c.kind === "this motion" ? 0.013 : 0.011, c.colour));
+    const wide = (kind, at) => kind !== "this motion" ? 0.011 : at.length > 6000 ? 0.006 : 0.013;  // thin of a motion that turns often
+    data.curves.forEach(c => { const at = places(c.at); tube(at, wide(c.kind, at), c.colour); });
     data.points.forEach(p => { ball(p.at, 0.03, p.colour); tube([...p.at, ...p.at.slice(0, 2), -0.999], 0.003, "#7A7A7A"); });
     for (const motion of data.curves.filter(c => c.kind === "this motion")) {
       shadows(places(motion.at)); data.arrows.forEach(([at, step]) => arrow(at, step, motion.colour));
@@ -150,13 +151,15 @@ function spaceView(canvas, {glass = 1, near = 1, shape = [0.95, 0.7]} = {}) {
       const ends = [at(edge(-1)), at(edge(1))], [ex, ey] = [ends[1][0] - ends[0][0], ends[1][1] - ends[0][1]], size = Math.hypot(ex, ey) || 1;
       const side = Math.sign(-ey * (mx - middle[0]) + ex * (my - middle[1])) || 1, away = [-side * ey / size, side * ex / size];  // across the edge, outwards
       const half = data.half[k], every = step(half, data.middle[k]), low = data.middle[k] - half, high = data.middle[k] + half;
+      const digits = Math.min(17, Math.max(6, 2 + Math.floor(Math.log10(Math.max(Math.abs(low), Math.abs(high)) / every))));  // tell neighbours apart
+      const inside = (x, room) => Math.min(Math.max(x, room), canvas.width - room);
       pen.fillStyle = "#333"; pen.font = `${small}px sans-serif`; let widest = 0;
       for (let v = Math.ceil(low / every) * every; v <= high; v += every) {
         if (Math.abs(v - data.middle[k]) > rim * half) continue;
         const [x, y] = at(edge((v - data.middle[k]) / half));
-        const told = String(+v.toPrecision(6) || 0).replace("-", "\u2212"), wide = pen.measureText(told).width;
+        const told = String(+v.toPrecision(digits) || 0).replace("-", "\u2212"), wide = pen.measureText(told).width;
         widest = Math.max(widest, wide);
-        pen.fillText(told, x + (8 * sharp + wide / 2) * away[0], y + 16 * sharp * away[1]);
+        pen.fillText(told, inside(x + (8 * sharp + wide / 2) * away[0], wide / 2 + 2), y + 16 * sharp * away[1]);
       }
       pen.fillStyle = "#000"; pen.font = `600 ${small * 1.1}px sans-serif`;
       const room = pen.measureText(data.names[k]).width / 2 + 4;
@@ -165,7 +168,7 @@ function spaceView(canvas, {glass = 1, near = 1, shape = [0.95, 0.7]} = {}) {
         const end = ends[0][1] < ends[1][1] ? ends[0] : ends[1];
         [tx, ty] = [end[0] + room * 0.5 * away[0], end[1] - 16 * sharp];
       }
-      pen.fillText(data.names[k], Math.min(Math.max(tx, room), canvas.width - room), Math.min(Math.max(ty, small), canvas.height - small));
+      pen.fillText(data.names[k], inside(tx, room), Math.min(Math.max(ty, small), canvas.height - small));
     }
   }
   const held = new Map(); let apart = 0;
