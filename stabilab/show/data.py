@@ -13,6 +13,11 @@ class Endless(float):
     what is not known."""
 
 
+def endless(values: list) -> list:
+    """The values of a column, infinite ones told as such."""
+    return [Endless(value) if isinstance(value, float) and math.isinf(value) else value for value in values]
+
+
 def as_json(value) -> str:
     """JSON with every digit of a double; what does not exist (and infinity, unless it is an end that is told
     as `Endless`) is null."""

@@ -16,7 +16,7 @@ from ..packages import demand
 from ..physics.scene import PARTS
 from ..representation import values_of
 from .axes import direction
-from .terminal.letters import MINUS
+from .terminal.letters import MINUS, some
 
 if TYPE_CHECKING:
     import pandas
@@ -80,10 +80,6 @@ def _named(words, value):
     return "" if value is None else f"{words} {value:.6g}"
 
 
-def _counted(number, word):
-    return f"{number} {word}" + ("" if number == 1 else "s")
-
-
 def _shares(words):
     return ", ".join(f"{number} {word}" for word, number in Counter(words).items())
 
@@ -115,7 +111,7 @@ def _across(name, values) -> tuple[str, ...]:
 
 def _run_words(run, parts, method):
     span = f", {run.t[0]:.6g} to {run.t[-1]:.6g}" if len(run.t) else ""
-    return (f"{_counted(len(run.t), 'time')}{span}; {', '.join(parts)}; {method}, "
+    return (f"{some(len(run.t), 'time')}{span}; {', '.join(parts)}; {method}, "
             f"{run.status if run.status == 'reached' else run.reason}")
 
 
@@ -146,7 +142,7 @@ def _trajectory(run):
 def _fates_words(found):
     words = [Fate(int(label)).word for label in found.labels.reshape(-1)]
     return (f"{words[0]}: {found.because}" if found.labels.ndim == 0
-            else f"{_counted(len(words), 'state')}: {_shares(words)}")
+            else f"{some(len(words), 'state')}: {_shares(words)}")
 
 
 def _fates(found):
@@ -170,7 +166,7 @@ def _time_to_words(found):
     low, high = found.low, found.high
     if getattr(low, "ndim", 0):
         levels = _shares(map(str, found.level.reshape(-1)))
-        return f"{found.quantity}: {_counted(low.size, 'state')}, {levels}"
+        return f"{found.quantity}: {some(low.size, 'state')}, {levels}"
     when = ("never" if low == math.inf else f"not before {low:.6g}" if math.isnan(high)
             else f"{low:.9g} to {high:.9g}")
     return f"{found.quantity}: {when}, {found.level}"
@@ -190,9 +186,9 @@ def _time_to(found):
 
 def _equilibria_words(found):
     pieces = [segment.verdict for curve in found.curves for segment in curve.segments]
-    told = [f"{_counted(len(found.points), 'point')} ({_shares(p.verdict for p in found.points)})"
+    told = [f"{some(len(found.points), 'point')} ({_shares(p.verdict for p in found.points)})"
             if found.points else "",
-            f"{_counted(len(found.curves), 'curve')}, their pieces: {_shares(pieces)}" if found.curves
+            f"{some(len(found.curves), 'curve')}, their pieces: {_shares(pieces)}" if found.curves
             else ""]
     return "; ".join([found.kind, *filter(None, told)])
 
@@ -260,7 +256,7 @@ def _comparison_words(found):
         worst[d.model] = max(worst.get(d.model, 0.0), share)
     models = ([f"{model} {share:.2g}" for model, share in worst.items()]
               + [f"{model} refused" for model in found.refused])
-    return (f"{_counted(len(found.t), 'time')}; largest error of a part's size: "
+    return (f"{some(len(found.t), 'time')}; largest error of a part's size: "
             f"{', '.join(models) or 'no model'}")
 
 
@@ -286,7 +282,7 @@ def _stuck_words(found):
     first = (f"{' and '.join(head.thrusters) or 'torque'}: "
              f"{head.fate}{f' about axis {head.axis}' if head.axis else ''}{when}")
     return (first if len(found.rows) == 1
-            else f"{_counted(len(found.rows), 'row')} ({_shares(row.fate for row in found.rows)}), the first "
+            else f"{some(len(found.rows), 'row')} ({_shares(row.fate for row in found.rows)}), the first "
                  f"{first}")
 
 
@@ -312,7 +308,7 @@ def _stuck(found):
 
 def _spin_up_words(found):
     return (f"{found.fate.word}{_about(found)}, {found.level}; t = {found.t:.6g}, "
-            f"{_counted(found.steps, 'step')}")
+            f"{some(found.steps, 'step')}")
 
 
 def _spin_up(found):
@@ -345,7 +341,7 @@ def _attitude(found):
 
 
 def _crossings_words(found):
-    zeros = ", ".join(_counted(len(row), "zero") for row in found.t)
+    zeros = ", ".join(some(len(row), "zero") for row in found.t)
     return f"{zeros} up to t = {found.until:.6g}, {found.status}; by changes of sign along a run"
 
 
@@ -363,7 +359,7 @@ def _chaos_words(found):
     one = f", MEGNO {float(found.megno):.4g}" if np.ndim(found.megno) == 0 else ""
     if not len(found.times):
         return _shares(words)
-    return f"{_counted(len(words), 'state')}: {_shares(words)}{one}; followed to {found.times[-1]:.6g}"
+    return f"{some(len(words), 'state')}: {_shares(words)}{one}; followed to {found.times[-1]:.6g}"
 
 
 def _chaos(found):
@@ -378,7 +374,7 @@ def _chaos(found):
 
 def _ensemble_words(found):
     ended = f"; {len(found.stopped)} stopped" if found.stopped else ""
-    return (f"{_counted(len(found.states), 'motion')} at {_counted(len(found.t), 'time')}; "
+    return (f"{some(len(found.states), 'motion')} at {some(len(found.t), 'time')}; "
             f"{found.method}{ended}")
 
 
@@ -406,7 +402,7 @@ def _diagram(found):
 
 def _plane_words(found):
     counts = ((found.strips, "strip"), (found.walls, "wall"), (found.cusps, "cusp"))
-    return f"{found.what}: {', '.join(_counted(len(rows), word) for rows, word in counts)}"
+    return f"{found.what}: {', '.join(some(len(rows), word) for rows, word in counts)}"
 
 
 def _plane(found):

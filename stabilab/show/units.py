@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from decimal import ROUND_CEILING, ROUND_FLOOR, Decimal, localcontext
 from functools import partial
@@ -58,6 +59,11 @@ class Units:
     def time(self, value: float, digits: int = DIGITS) -> str:
         """A time, given in s, in the unit that suits its size."""
         return self.told(value, self.times(value), digits)
+
+    def clock(self, low: float, high: float) -> str:
+        """A time between two bounds, given in s, in the unit that suits its size."""
+        name, one = self.times(high)
+        return f"{' to '.join(bracket(low * one, high * one))} {name}"
 
     def moment(self, value: float, digits: int = DIGITS) -> str:
         """A point in time: "t = 2.5 s", or "tau = 2.5" of a scaled case."""
@@ -132,7 +138,7 @@ class Units:
     def vector(self, values, unit: Unit, digits: int = DIGITS) -> str:
         """Several numbers in one unit: "(1, 2, 3) deg/s"."""
         name, one = unit
-        return f"({', '.join(number(float(v) * one, digits) for v in values)}) {name}".rstrip()
+        return f"{vector((float(v) * one for v in values), digits)} {name}".rstrip()
 
 
 CLOCK = ((172800.0, ("day", 1 / 86400)), (7200.0, ("h", 1 / 3600)), (120.0, ("min", 1 / 60)),
@@ -203,6 +209,11 @@ def bracket(low: float, high: float) -> tuple[str, str]:
     with localcontext() as context:
         context.prec = 800  # of any double
         return str(Decimal(low).quantize(step, ROUND_FLOOR)), str(Decimal(high).quantize(step, ROUND_CEILING))
+
+
+def vector(values: Iterable[float], digits: int = DIGITS) -> str:
+    """Numbers in parentheses: "(1, 2, 3)"."""
+    return f"({', '.join(number(float(v), digits) for v in values)})"
 
 
 def with_unit(words: str, unit: str) -> str:

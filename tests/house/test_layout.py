@@ -47,7 +47,7 @@ DOORS = {
     ("stabilab.commands.classify", "stabilab.commands.certificates"): "loaded for --certify alone",
     ("stabilab.commands.common.cases",
      "stabilab.answers.uncertain.fate"): "loaded for uncertain numbers alone",
-    ("stabilab.commands.common.cases", "stabilab.commands.common.tilt"): "loads numpy",
+    ("stabilab.commands.common.cases", "stabilab.answers.when"): "loads numpy",
     ("stabilab.commands.pictures", "stabilab.show.explore.serve"): "loads what serves a page",
     ("stabilab.commands.pictures", "stabilab.show.explore.static"): "loads what writes a page as a folder",
     ("stabilab.commands.questions", "stabilab.answers.digits.ask"): "loads numpy",

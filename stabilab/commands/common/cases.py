@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from ...answers.motion import motion
+from ...case.limit_options import stated_angle
 from ...case.read import Case, blamed_on, load_all
 from ...errors import InputError, printable
 from ...numbers.units import NONE, TIME, quantity, split
@@ -146,8 +147,9 @@ def tilted(case, motion, angle: str | None):
               or any(thruster.stuck and thruster.misalignment for thruster in case.thrusters))
     if angle is None and not stated:
         return motion
-    from .tilt import with_angle
-    return with_angle(case, motion, angle)
+    from ...answers.when import with_tilt
+    with blamed_on(case):
+        return with_tilt(case, motion, None if angle is None else stated_angle(angle, "tilt"))
 
 
 def sampled(motion, box):

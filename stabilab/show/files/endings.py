@@ -4,6 +4,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from ...errors import InputError
+from ..terminal.letters import listed
 
 PICTURES = (".png", ".svg", ".pdf")
 OF_FILES = (*PICTURES, ".jpg", ".jpeg", ".gif", ".csv", ".json", ".nc", ".txt", ".md", ".tex", ".html",
@@ -16,9 +17,8 @@ def file(path, known) -> Path:
     """The path of a file that is to be written, if its ending is one of `known`; InputError otherwise."""
     path = Path(path)
     if ending(path) not in known:
-        *most, last = known
-        names = f"{', '.join(most)} or {last}" if most else last
-        raise InputError(f"{path}: expected a name that ends in {names}, got {path.suffix or 'no ending'}")
+        raise InputError(f"{path}: expected a name that ends in {listed(known, 'or')}, "
+                         f"got {path.suffix or 'no ending'}")
     if path.is_dir():
         raise InputError(f"{path}: expected a file, this is a folder")
     return path

@@ -20,7 +20,7 @@ from ...orbit.result import Fate
 from ...packages import demand
 from .. import limiting, style
 from ..axes import axes_of
-from ..data import Endless, as_json, csv_lines
+from ..data import as_json, csv_lines, endless
 from ..units import SHORT, Units, with_unit
 from .shades import FATES, light, limits_of, spinning, unit
 from .sweep import COUNTS, checked, column_in, finished, origin, write
@@ -360,23 +360,14 @@ def json(atlas: Atlas, units: Units) -> str:
                   if column.flags},
         "units": {column.name: unit(plan, column) for column in columns_of(asked.answers)[1:]
                   if column.kind == "f8"},
-        "cells": cells | {column.name: _plain(atlas.records[column.name])
+        "cells": cells | {column.name: endless(atlas.records[column.name].tolist())
                           for column in columns_of(asked.answers)[1:]}}
     return as_json(told | limiting.key(asked.case, limits_of(asked.case, _all(atlas))))
 
 
 def _as_dict(asked: Any, record: Any) -> dict[str, Any]:
-    return {column.name: value for column,
-            value in zip(columns_of(asked.answers)[1:],
-                         _words(_cells(columns_of(asked.answers)[1:], record)))}
-
-
-def _words(values: list[Any]) -> list[Any]:
-    return [Endless(value) if isinstance(value, float) and math.isinf(value) else value for value in values]
-
-
-def _plain(values: np.ndarray) -> list[Any]:
-    return _words(values.tolist())
+    columns = columns_of(asked.answers)[1:]
+    return {column.name: value for column, value in zip(columns, endless(_cells(columns, record)))}
 
 
 # --- As a data set

@@ -12,7 +12,7 @@ from ...maps.bifurcation.plane import Plane, rows
 from .. import frame, limiting
 from ..data import as_json, csv_lines
 from ..terminal import page
-from ..terminal.letters import greek
+from ..terminal.letters import greek, listed
 from ..units import Units, units_of, with_unit
 
 SCHEMA = "stabilab.bifurcation/1"
@@ -107,7 +107,7 @@ def _uniform(found: Diagram, count: int) -> str:
     other = [f"{_things(found, event.count)} at {_number(event.value, digits)}{unit(span)}"
              for event in found.events if event.count != count]
     events = "" if other and found.kind == CURVES else _events_told(found)
-    return told + (f", but {_and(other)}" if other else "") + (f": {events}" if events else "")
+    return told + (f", but {listed(other)}" if other else "") + (f": {events}" if events else "")
 
 
 def unit(span: Span) -> str:
@@ -128,12 +128,8 @@ def _events_told(found: Diagram) -> str:
         by_kind.setdefault(event.kinds[0], []).append(_number(event.value, digits))
     names = NAMES | ({"curve": "other curves"} if found.kind == CURVES else {})
     alone = "infinity", "axis", "curve"
-    return ", ".join(f"{names[kind]}{'s' * (len(values) > 1 and kind not in alone)} at {_and(values)}{of}"
+    return ", ".join(f"{names[kind]}{'s' * (len(values) > 1 and kind not in alone)} at {listed(values)}{of}"
                      for kind, values in by_kind.items())
-
-
-def _and(values: list[str]) -> str:
-    return values[0] if len(values) == 1 else f"{', '.join(values[:-1])} and {values[-1]}"
 
 
 def _table(found: Diagram) -> list[str]:
@@ -222,8 +218,8 @@ def _of_plane(found: Plane) -> str:
     counts = sorted({piece.count for strip in found.strips for piece in strip.line.pieces})
     things = ("changes of stability" if found.kind == BORDERS else "equilibria" if counts != [1]
               else "equilibrium")
-    some = _or(["no" if c == 0 and len(counts) == 1 else "curves of" if c == ENDLESS else str(c)
-                for c in counts])
+    some = listed(["no" if c == 0 and len(counts) == 1 else "curves of" if c == ENDLESS else str(c)
+                   for c in counts], "or")
     told = [f"{some} {things} over {first.label} and {second.label}"]
     kinds = sorted({kind for strip in found.strips for arc in strip.arcs for kind in arc.kinds}
                    | {kind for wall in found.walls for kind in wall.kinds})
@@ -233,10 +229,6 @@ def _of_plane(found: Plane) -> str:
         places = " and ".join(f"({_number(cusp.at[0])}, {_number(cusp.at[1])})" for cusp in found.cusps)
         told.append(f"{'cusp' if len(found.cusps) == 1 else f'{len(found.cusps)} cusps'} at {places}")
     return "; ".join(told)
-
-
-def _or(words: list[str]) -> str:
-    return words[0] if len(words) == 1 else f"{', '.join(words[:-1])} or {words[-1]}"
 
 
 def _examples(found: Plane) -> list[str]:

@@ -21,7 +21,7 @@ from ...packages import demand
 from ...version import __version__
 from .. import limiting
 from ..axes import Axes, axes_of
-from ..data import Endless, as_json, csv_lines
+from ..data import as_json, csv_lines, endless
 from ..files import endings
 from ..terminal import page
 from ..terminal.letters import greek
@@ -194,7 +194,8 @@ def json(found: Swept) -> str:
             for axis in plan.axes]
     columns = {column.name: {"unit": unit(plan, column), "long_name": column.words}
                | ({"flags": list(column.flags)} if column.flags else {})
-               | {"values": _plain(found.records[column.name])} for column in columns_of(plan.answers)[1:]}
+               | {"values": endless(found.records[column.name].ravel().tolist())}
+               for column in columns_of(plan.answers)[1:]}
     told: dict[str, Any] = {"schema": SCHEMA, "case": plan.case.name, "variables": plan.case.variables,
                             "command": plan.command,
                             "shape": list(plan.shape), "axes": axes}
@@ -204,13 +205,6 @@ def json(found: Swept) -> str:
                            "values": plan.sampled.values(0, plan.sampled.count).tolist()}
     told |= limiting.key(plan.case, limits_of(plan.case, found.records))
     return as_json(told | {"no_case": {"points": found.broken, "because": found.why}, "columns": columns})
-
-
-def _plain(values: np.ndarray) -> list[Any]:
-    """In one list; of three numbers a point, these beside each other. What is infinite is told as such, where
-    null stands for what is not known."""
-    return [Endless(value) if isinstance(value, float) and math.isinf(value) else value
-            for value in values.ravel().tolist()]
 
 
 def _table(found: Swept) -> list[str]:

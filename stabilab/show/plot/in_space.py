@@ -174,9 +174,9 @@ def furnish(ax: Any, box: Box, labels: tuple[str, ...], view: tuple[float, float
     sides = np.maximum(lengths / lengths.max(), FLATTEST)
     for n, (axis, share) in enumerate(zip((ax.xaxis, ax.yaxis, ax.zaxis), sides / sides.max() * _seen(view))):
         ticks = box.ticks(n, 3 if roomy * share > SEEN else 2)
-        words = numbers([v / 10.0**power for v in ticks])
-        axis.set_ticks(ticks, labels=words)
-        if (longer := max(map(len, words)) - USUAL) > 0:
+        shown = numbers([v / 10.0**power for v in ticks])
+        axis.set_ticks(ticks, labels=shown)
+        if (longer := max(map(len, shown)) - USUAL) > 0:
             axis.set_tick_params(pad=(3.5 + 2.5 * longer) * small)
             axis.labelpad += 4 * longer
         axis.set_pane_color((1, 1, 1, 1))

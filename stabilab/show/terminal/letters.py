@@ -3,6 +3,7 @@ such letters."""
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 
 GREEK = {"omega": "ω", "lambda": "λ", "Lambda": "Λ", "mu": "μ", "gamma": "γ", "alpha": "α", "sigma": "σ",
          "zeta": "ζ", "tau": "τ"}
@@ -76,6 +77,11 @@ def _in_letters(text):
 def some(count: int, noun: str) -> str:
     """A number with its noun: "1 curve", "2 curves"."""
     return f"{count} {noun}" if count == 1 else f"{count} {noun}s"
+
+
+def listed(words: Sequence[str], last: str = "and") -> str:
+    """Words one after the other: "a", "a and b", "a, b and c"."""
+    return f" {last} ".join(filter(None, (", ".join(words[:-1]), words[-1])))
 
 
 def greek(text: str) -> str:

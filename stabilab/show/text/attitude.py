@@ -3,7 +3,7 @@ from __future__ import annotations
 
 from ...representation import values_of
 from .. import frame, limiting
-from ..units import DIGITS, Units, number
+from ..units import DIGITS, Units, number, vector
 from .motion import reason, row
 
 HEADS = {"long-axis": "LONG-AXIS MODE", "short-axis": "SHORT-AXIS MODE", "separatrix": "ON THE SEPARATRIX",
@@ -26,9 +26,9 @@ def row_of(case, one) -> dict:
             **values_of(one, "error decimals because")} | limiting.key(case, one.caveats)
 
 
-def in_file(case, vector):
+def in_file(case, along):
     """A vector along the principal axes in the frame of the file."""
-    return frame.back(case, vector) or vector
+    return frame.back(case, along) or along
 
 
 def text(case, found, units: Units) -> str:
@@ -76,6 +76,6 @@ def _answer(found, units):
         yield f"mean precession period {units.time(found.precession_period)}"
 
 
-def _vector(case, vector) -> str:
-    place = "in the frame of the file" if frame.back(case, vector) else "along axes 1, 2, 3"
-    return f"({', '.join(number(v, DIGITS) for v in in_file(case, vector))}) {place}"
+def _vector(case, along) -> str:
+    place = "in the frame of the file" if frame.back(case, along) else "along axes 1, 2, 3"
+    return f"{vector(in_file(case, along))} {place}"

@@ -4,7 +4,7 @@ from __future__ import annotations
 import math
 
 from .. import limiting
-from ..units import DIGITS, Units, bracket, number
+from ..units import DIGITS, Units, bracket, number, vector
 from .attitude import in_file
 from .motion import reason, row
 
@@ -116,7 +116,7 @@ def _of_closed(case, found, one, units: Units):
     yield row("rates then", f"{units.vector(in_file(case, one.rates), units.rates)}, known to "
                             f"{units.rate(one.error, 2)}")
     yield row("angular momentum", f"{number(math.hypot(*one.momentum), DIGITS)} N m s, "
-                                  f"({', '.join(number(v, DIGITS) for v in in_file(case, one.momentum))})")
+                                  f"{vector(in_file(case, one.momentum))}")
     yield row("energy", units.energy(one.energy))
     yield row("largest rate before", _rate(one.largest_before, units))
     yield row("after it", _turning(one, units))

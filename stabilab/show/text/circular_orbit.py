@@ -3,7 +3,7 @@ from __future__ import annotations
 
 from ...equilibrium.circular_orbit.result import yaw_pitch_roll
 from .. import limiting
-from ..units import DIGITS, SHORT, Units, number
+from ..units import DIGITS, SHORT, Units, number, vector
 from .attitude import in_file
 from .motion import row
 
@@ -38,7 +38,7 @@ def _object(case, found, one) -> dict:
 
 def _frame(case, one):
     """The orbital frame in the frame of the file."""
-    return tuple(tuple(in_file(case, vector)) for vector in (one.velocity, one.normal, one.vertical))
+    return tuple(tuple(in_file(case, along)) for along in (one.velocity, one.normal, one.vertical))
 
 
 def text(case, found, units: Units) -> str:
@@ -86,8 +86,8 @@ def _lines(case, found, one, units: Units, name: str, other=None):
         grows = max(z.real for z in one.eigenvalues)
         yield row("", f"a disturbance grows e-fold in {units.time(1 / grows, SHORT)}")
         return
-    _, normal, vertical = (", ".join(number(v, DIGITS) for v in vector) for vector in _frame(case, one))
-    yield row("", f"orbit normal ({normal}), up {'+-' if other else ''}({vertical}) in the body")
+    _, normal, vertical = map(vector, _frame(case, one))
+    yield row("", f"orbit normal {normal}, up {'+-' if other else ''}{vertical} in the body")
     if one.frequencies:
         yield row("", f"librations {units.vector(one.frequencies, units.rates)[1:].replace(')', '')}, "
                       f"{', '.join(number(f / found.rate, DIGITS) for f in one.frequencies)} per orbit")

@@ -6,7 +6,7 @@ import math
 
 from .. import limiting
 from ..terminal.letters import greek, lettered
-from ..units import DEG, DIGITS, Units, bracket, but_for_rounding, number
+from ..units import DEG, DIGITS, Units, but_for_rounding, number
 from .headline import rate_margin, span_words
 
 WIDE = 24  # columns of a name
@@ -178,7 +178,7 @@ def tilt_lines(case, motion, units: Units, proofs: bool = False) -> list[str]:
     limit = f"|omega| = {units.rate(found.limit)}{stated}"
     lines = [f"  tilted by {_angle(found.angle)}: {found.of}, to {limit}"]
     if found.ends:
-        lines.append(f"    shortest time found   {clock((found.low, found.high), units)} ({found.level})")
+        lines.append(f"    shortest time found   {units.clock(found.low, found.high)} ({found.level})")
         if proofs:
             lines.append(
                 f"    at azimuth            {_angle(found.azimuth)}, torque "
@@ -191,13 +191,6 @@ def tilt_lines(case, motion, units: Units, proofs: bool = False) -> list[str]:
     return [*lines,
             f"    not before            {units.time(found.not_before)}, whatever the azimuth and for any "
             f"smaller tilt (proved)"]
-
-
-def clock(ends, units: Units) -> str:
-    """A time between two bounds, in one unit."""
-    name, one = units.times(ends[1])
-    low, high = bracket(ends[0] * one, ends[1] * one)
-    return f"{low} to {high} {name}"
 
 
 def _angle(value: float) -> str:

@@ -10,7 +10,7 @@ from ...physics.effects.base import effect_words
 from ...physics.equations import Equations, Symbolic, derive, invariants
 from .. import frame, limiting
 from ..axes import axes_of
-from ..terminal.letters import lettered, some, written
+from ..terminal.letters import lettered, listed, some, written
 from ..terminal.page import table, width
 from ..units import DIGITS, number, parameter_unit, units_of
 from .sweep import swept_columns
@@ -55,8 +55,7 @@ def _whole(case, equations, own) -> str:
              "In LaTeX", latex(equations), "", "Laws that hold for every value of the parameters"]
     axes = axes_of(case)
     parts += [f"  {lettered(axes.sentence(law.words))}" for law in equations.balances]
-    effects = (" and ".join(", ".join(effect_words(effect.name)
-                                      for effect in case.scene.effects).rsplit(", ", 1)) or "no effect")
+    effects = listed([effect_words(effect.name) for effect in case.scene.effects] or ["no effect"])
     answer = (
         f"{case.name}: a {'scaled gyrostat' if case.variables == 'scaled' else 'body with ' + effects}; laws "
         f"known of this scene: {len(own)}")

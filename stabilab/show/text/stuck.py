@@ -11,9 +11,7 @@ from .. import limiting
 from ..axes import axes_of, direction
 from ..data import Endless, csv_lines
 from ..terminal.letters import lettered
-from ..units import DIGITS, SHORT, Units
-from ..units import bracket as _bracket
-from ..units import number as _number
+from ..units import DIGITS, SHORT, Units, bracket, number, vector
 from .headline import REST, STEADY
 from .when import tilt_dict
 
@@ -91,7 +89,7 @@ def swept(answers, units: Units):
     ends = [row.time_to_limit[1] for row in rows if row.time_to_limit]
     name, one = units.times(max(ends, default=0.0))
     cells = [[row.fate, units.axes.signed(row.axis, row.sense),
-              _number(row.time_to_limit[1] * one, DIGITS) if row.time_to_limit else ""] for row in rows]
+              number(row.time_to_limit[1] * one, DIGITS) if row.time_to_limit else ""] for row in rows]
     return counts + (f"; the first limit is reached in {units.time(min(ends), SHORT)}" if ends
                      else ""), [("fate", ""), ("axis", ""), ("limit in", name)], cells
 
@@ -159,9 +157,9 @@ def _when(row, units) -> str:
     low, high = (t * one for t in row.time_to_limit)
     if high == 0:
         return f"starts at its limit, {_limit(row.limit, units)}"
-    a, b = _bracket(low, high)
+    a, b = bracket(low, high)
     return (
-        f"reaches {_limit(row.limit, units)} in {_number((low + high) / 2)} {name} ({row.time_level} {a} "
+        f"reaches {_limit(row.limit, units)} in {number((low + high) / 2)} {name} ({row.time_level} {a} "
         f"to {b})")
 
 
@@ -169,9 +167,9 @@ def _limit(limit, units) -> str:
     name, one = units.rates
     if isinstance(limit, tuple):
         if len(set(limit)) == 1:
-            return f"{_number(limit[0] * one)} {name} in a component"
-        return f"the limit of a component ({', '.join(_number(v * one) for v in limit)} {name})"
-    return f"{_number(limit * one)} {name}"
+            return f"{number(limit[0] * one)} {name} in a component"
+        return f"the limit of a component ({', '.join(number(v * one) for v in limit)} {name})"
+    return f"{number(limit * one)} {name}"
 
 
 def _so_far(row, units) -> str:
@@ -183,7 +181,7 @@ def _so_far(row, units) -> str:
 def _torque(row, units) -> str:
     known = row.largest_rate is not None and row.fate == "spin-up"
     largest = f"; largest rate until then {units.rate(row.largest_rate, SHORT)}" if known else ""
-    size = _number(math.hypot(*row.torque))
+    size = number(math.hypot(*row.torque))
     return f"torque {size} N m, {vector(row.torque)} in the frame of the file{largest}"
 
 
@@ -208,14 +206,14 @@ def _ends(name, margin, units) -> tuple[str, str]:
     if margin.until is None or not margin.size < margin.until < SOON * margin.size:
         return amount(name, margin.size, units, SHORT), ""
     unit, one = _unit(name, units)
-    low, high = _bracket(margin.size * one, margin.until * one)
+    low, high = bracket(margin.size * one, margin.until * one)
     return f"{low} {unit}", f"{high} {unit}"
 
 
 def amount(name, size, units, digits=DIGITS) -> str:
     """The size of a change with its unit."""
     unit, one = _unit(name, units)
-    return f"{_number(size * one, digits)} {unit}"
+    return f"{number(size * one, digits)} {unit}"
 
 
 def holds_for(name, margin, units) -> str:
@@ -234,7 +232,7 @@ def _wheel(wheel, units) -> str:
     name = printable(wheel.wheel)
     if wheel.keeps_bounded:
         momenta = " or ".join(map(_interval, merged(wheel.keeps_bounded)))
-        return f"wheel {name}, now {_number(wheel.now)} N m s, keeps it bounded at {momenta}"
+        return f"wheel {name}, now {number(wheel.now)} N m s, keeps it bounded at {momenta}"
     if wheel.best is None:
         return f"wheel {name}: no momentum is known to keep it bounded: {wheel.because}"
     later = ("not reached while followed" if wheel.best_time is None
@@ -243,8 +241,8 @@ def _wheel(wheel, units) -> str:
     low, high = wheel.searched
     most = "delays the limit most of all" if wheel.most else "delays the limit, perhaps not most of all,"
     return (
-        f"wheel {name}, now {_number(wheel.now)} N m s: {_number(wheel.best)} N m s {most} within "
-        f"{_number(low)} to {_number(high)}: {later}{gain}")
+        f"wheel {name}, now {number(wheel.now)} N m s: {number(wheel.best)} N m s {most} within "
+        f"{number(low)} to {number(high)}: {later}{gain}")
 
 
 def merged(intervals):
@@ -261,12 +259,12 @@ def merged(intervals):
 
 def _interval(part) -> str:
     low, high, without = part
-    return _span_of(low, high) + "".join(f" but {_number(s, 12)} N m s" for s in without)
+    return _span_of(low, high) + "".join(f" but {number(s, 12)} N m s" for s in without)
 
 
 def _span_of(low, high) -> str:
     if low == high:
-        return f"{_number(low, 12)} N m s alone"
+        return f"{number(low, 12)} N m s alone"
     if math.isinf(low) and math.isinf(high):
         return "any momentum"
     for digits in (DIGITS, 9, 12):
@@ -283,14 +281,14 @@ def _inward(value: float, way: str, digits: int) -> str:
     if not value or math.isinf(value):
         return str(value)
     exact = Decimal(value)
-    return _number(float(exact.quantize(Decimal(1).scaleb(exact.adjusted() + 1 - digits), way,
+    return number(float(exact.quantize(Decimal(1).scaleb(exact.adjusted() + 1 - digits), way,
                                         context=PRECISE)), digits)
 
 
 def _helper(helper, units) -> str:
-    fired = " and ".join(f"{printable(name)} for {_number(100 * duty)} % of the time" for name,
+    fired = " and ".join(f"{printable(name)} for {number(100 * duty)} % of the time" for name,
                          duty in zip(helper.thrusters, helper.duty))
-    rest = f"{_number(helper.torque_left)} N m is left"
+    rest = f"{number(helper.torque_left)} N m is left"
     left = {"zero": "no torque is left",
             "bounded": f"{rest}, and the motion stays bounded while that is exactly on its axis"}.get(
                 helper.effect, rest)
@@ -333,10 +331,5 @@ def means(row, units) -> list[str]:
 def _axes(principal, axes) -> list[str]:
     names = [axes.name(n) for n in (1, 2, 3)]
     return ["principal axes, unit vectors in the frame of the file:"] + [
-        f"  {name:<{max(map(len, names))}}  moment {_number(moment, DIGITS)} kg m^2  {vector(axis)}"
+        f"  {name:<{max(map(len, names))}}  moment {number(moment, DIGITS)} kg m^2  {vector(axis)}"
         for name, moment, axis in zip(names, principal.moments, principal.axes)]
-
-
-def vector(values) -> str:
-    """Numbers in parentheses."""
-    return f"({', '.join(_number(v, DIGITS) for v in values)})"

@@ -9,7 +9,7 @@ from ...errors import printable
 from ...representation import values_of
 from .. import frame, limiting
 from ..data import csv_lines
-from ..terminal.letters import lettered
+from ..terminal.letters import lettered, listed
 from ..units import DIGITS, Units, bracket, number
 
 WORDS = {"yes": "reached by", "unknown": "NOT KNOWN of", "never": "NEVER by"}
@@ -94,13 +94,8 @@ def asked(limit, units):
     names, told = [units.axes.sentence(_named(name))
                    for name in limit.names], [units.told(most, unit, DIGITS) for most in limit.limits]
     if len(set(told)) == 1:
-        return f"{any_of(names)} = {told[0]}"
+        return f"{listed(names, 'or')} = {told[0]}"
     return " or ".join(f"{name} = {most}" for name, most in zip(names, told))
-
-
-def any_of(names) -> str:
-    """a, b or c."""
-    return " or ".join(filter(None, (", ".join(names[:-1]), names[-1])))
 
 
 def _named(quantity):

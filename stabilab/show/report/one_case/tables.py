@@ -10,12 +10,12 @@ from ....orbit.potential import potential
 from ....orbit.reduction import reduce
 from ....physics.coefficients import effective
 from ... import limiting
-from ...terminal.letters import printed
+from ...terminal.letters import listed, printed
 from ...text.classification import in_units
-from ...text.motion import clock, tilt_lines
-from ...text.stuck import WORDS, amount, holds_for, means, vector
-from ...text.when import any_of, asked
-from ...units import DIGITS, number
+from ...text.motion import tilt_lines
+from ...text.stuck import WORDS, amount, holds_for, means
+from ...text.when import asked
+from ...units import DIGITS, number, vector
 from ..html import css
 
 ROUNDING = 1e-12  # of a unit vector from the difference of two states in doubles
@@ -105,14 +105,15 @@ def sensitivity(one, units) -> dict:
                 "reason": printed(f"No margin of wheel or torque: {units.words(str(error))}.")}
     words = []
     if row.time_to_limit:
-        limit, when = asked(stated_limit(case), units), clock(row.time_to_limit, units)
+        limit, when = asked(stated_limit(case), units), units.clock(*row.time_to_limit)
         words.append(f"The limit of the case, {limit}, is reached after {when} ({row.time_level}).")
     words += [f"{line[0].upper()}{line[1:]}." for line in means(row, units)]
     why: dict[str, list] = {}
     for name, margin in row.margins.items():
         if margin.size is None:
             why.setdefault(margin.because, []).append(WORDS[name])
-    reasons = [f"No margin in {any_of(names)}: {units.words(because)}." for because, names in why.items()]
+    reasons = [f"No margin in {listed(names, 'or')}: {units.words(because)}."
+               for because, names in why.items()]
     rows = [_change(name, amount(name, margin.size, units), margin.direction, holds_for(name, margin, units))
             for name, margin in row.margins.items() if margin.size is not None]
     words += _tilt(case, motion if motion.tilt else row, units)
