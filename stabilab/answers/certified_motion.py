@@ -1,18 +1,14 @@
-"""What a certificate says of motions with equal moments and of spin-up off the axes.
+"""What a certificate (its form: docs/certificate.md) says of motions with a closed solution, and of spin-up
+under a torque of any direction.
 
-The part of a certificate for motions with a closed solution: no torque, spheres, bodies of revolution
-without a transverse wheel.
+Closed solutions (`unreduced.spin_up.symmetric`) are those without a torque, of spheres, and of bodies of
+revolution without a transverse wheel. Told are the law, the exact direction along which the rates grow, how
+fast they do at least, and how large what lies across that direction (or, bounded, the whole rate) ever
+becomes at most.
 
-`unreduced.spin_up.symmetric` has the solutions. Told are the law, the exact direction along which the rates
-grow, how fast they do at least, and how large what lies across that direction (or, bounded, the whole rate)
-ever becomes at most. docs/certificate.md has the form.
-
-The part of a certificate that proves a spin-up under a torque of any direction: the way, and an inequality
-at its end that stays true.
-
-The inequality is that about the fixed centre where it holds soon, else that about the moving centre, or along
-the equator of a body of revolution: a checker can work out each from the rates alone. docs/certificate.md has
-the form.
+Of a spin-up under a torque of any direction it has the way, and an inequality at its end that stays true:
+that about the fixed centre where it holds soon, else that about the moving centre, or along the equator of a
+body of revolution. A checker can work out each from the rates alone.
 """
 from __future__ import annotations
 

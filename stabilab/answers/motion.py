@@ -67,6 +67,8 @@ def _largest(scene: AnyScene, found: Motion) -> float | None:
 def _found(scene: AnyScene, state: Any, span: tuple[float, float] | None, brief: bool,
            exact: Sequence[Fraction] | None,
            follow: float | None, tell: Callable[..., Any] | None, proof: bool) -> Motion:
+    """By the module that answers the kind of scene; where all effects together turn the body as a gyrostat
+    does, that of the gyrostat."""
     parts = None if scene.plain else content(scene)
     with in_range():
         if parts is None or parts.kind != "gyrostat":

@@ -1,12 +1,9 @@
-"""A motion at given times, with its zeros and extremes, to proved digits.
+"""A motion at given times, with its zeros and extremes, to so many digits: enclosed where a wheel and a
+torque are all there is, else by Taylor series in two precisions.
 
-States and events of a motion to so many digits: enclosed where a wheel and a torque are all there is, else
-by Taylor series in two precisions.
-
-Zeros and extremes of the rates along an enclosed motion, each proved to be one and none passed over.
-
-On an interval where a function's enclosure leaves out zero it has none; where its derivative's does, it has
-one at most, and the signs at the ends tell. Any other interval is divided. The rates' own equations give the
+Along an enclosed motion each zero and extreme of the rates is proved to be one, and none is passed over. On
+an interval where a function's enclosure leaves out zero it has none; where its derivative's does, it has one
+at most, and the signs at the ends tell. Any other interval is divided. The rates' own equations give the
 derivatives, so that no error is differentiated.
 """
 from __future__ import annotations

@@ -50,16 +50,17 @@ def stated_limit(case: Case, rate: str | None = None, component: str | None = No
     return StatedLimit(*found, until=end)  # type: ignore[misc]  # all but the last
 
 
-def stated_angle(text: str, option: str) -> float:
-    """An angle of the command line, rad: below a quarter turn. Raises InputError that names the option."""
-    angle = float(_number(text, ANGLE, option))
+def stated_tilt(text: str) -> float:
+    """The half-angle of --tilt, rad: below a quarter turn. Raises InputError that names the option."""
+    angle = float(_number(text, ANGLE, "tilt"))
     if not angle < math.pi / 2:
-        raise InputError(
-            f'--{option}: expected an angle below 90 deg, got "{text[:60]}"; a number alone is in rad')
+        raise InputError(f'--tilt: expected an angle below 90 deg, got "{text[:60]}"; a number alone is in '
+                         "rad")
     return angle
 
 
 def _of_case(case):
+    """The fields of `StatedLimit` but `until` by [limits] of the case; those of an option below."""
     if case.limits is None:
         raise InputError(f'{case.place}: no limit: give --rate "30 deg/s", --component "z = 30 deg/s", '
                          f'--energy "5 J" or --tilt "z = 20 deg", or write '

@@ -58,6 +58,8 @@ def source_text(path) -> str:
 
 
 def _neighbour(path) -> str:
+    """"; ..." with what may have been meant by a path without a file: an example, a file of a like name, a
+    case of the package."""
     from difflib import get_close_matches
 
     if path in EXAMPLES:

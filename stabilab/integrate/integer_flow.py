@@ -1,7 +1,5 @@
-"""A motion enclosed by power series in integers, and when it crosses a limit.
-
-The motion of a gyrostat under constant torque, enclosed: a Taylor series in integers, and a proved bound of
-its error.
+"""The motion of a gyrostat under constant torque, enclosed by a Taylor series in integers with a proved bound
+of its error, and the first time at which a quantity of it reaches a limit.
 
 Numbers are integers in units of 2^-bits. Any polynomial p obeys p' = f(p) + defect, and here the defect is
 bounded term by term: what rounds each coefficient, and what the products have beyond the order. The
@@ -19,12 +17,11 @@ by the factor exp(integral of mu),
 factor the enclosure is as narrow as wanted, and no set has to be turned. A direction n at rest in space obeys
 n' = n x omega, and its error grows by that of omega alone: |e_n|' <= |n| |e_omega|.
 
-The first time at which a quantity of an enclosed motion reaches a limit, by roots: nothing is sampled.
-
-On a piece the quantity less its limit is a polynomial g(s), 0 <= s <= 1, known to within err. From a place
-where g + err < 0 a bound B of |g''| tells how far g + err stays below 0: to the root of g + err + g' s + B
-s^2 / 2. These steps end at the first root of g + err from below, quadratically where it is simple, and pass
-whatever only comes near. A place behind where g - err > 0 is the upper end.
+A limit is found by roots, and nothing is sampled. On a piece the quantity less its limit is a polynomial
+g(s), 0 <= s <= 1, known to within err. From a place where g + err < 0 a bound B of |g''| tells how far g +
+err stays below 0: to the root of g + err + g' s + B s^2 / 2. These steps end at the first root of g + err
+from below, quadratically where it is simple, and pass whatever only comes near. A place behind where g - err
+> 0 is the upper end.
 """
 from __future__ import annotations
 

@@ -1,6 +1,5 @@
-"""One motion with quadratic rates by its power series in doubles, in units of its own size and time.
-
-A motion in its own unit of time, in which its rates are of order one.
+"""A motion in its own units of time and mass, and one with quadratic rates by its power series in plain
+floats.
 
 The step control of Taylor series is relative to the state above size 1 but absolute below: rates of 1e-5
 rad/s would lose five digits, and coefficients of a series in t underflow for slower ones still. Euler's
@@ -8,12 +7,10 @@ equations with a gyrostatic moment, a constant torque and a resisting medium are
 and t = s/u, y obeys them with moment/u, torque/u^2 and resistance/u. For u a power of two the change is
 exact. So is a unit of mass, which leaves the motion as it is, but not the squares in its laws.
 
-One motion with quadratic rates by its power series in plain floats: for pictures that follow a hand, where
-neither NumPy nor a compiled step is at hand.
-
-The rates are x_i' = kappa_i x_j x_k + rho_i x_k + sigma_i x_j + m_i, so the coefficients of the series follow
-from one another by products of series. A picture needs no last digit: a step leaves SHARE of the state's size
-at most.
+Power series in plain floats are for pictures that follow a hand, where neither NumPy nor a compiled step is
+loaded. The rates are x_i' = kappa_i x_j x_k + rho_i x_k + sigma_i x_j + m_i, so the coefficients of the
+series follow from one another by products of series. A picture needs no last digit: a step leaves SHARE of
+the state's size at most.
 """
 from __future__ import annotations
 

@@ -1,16 +1,10 @@
-"""A motion to many digits, its error known: power series in mpmath or balls.
-
-Taylor series of a scene's exact equations in many digits, and what is looked for along them: a return,
-extremes.
+"""A motion to many digits, its error known: Taylor series of the exact equations, run at two precisions, and
+what is looked for along them, a return and extremes. Nothing but the equations is shared with the methods
+that are judged by it.
 
 The rates of every scene are polynomials in the state with rational coefficients. The series x = sum x_n t^n
 obeys (n+1) x_(n+1) = sum of c_m m_n over the monomials m, and a product's series is the convolution of its
 factors'. The numbers are midpoints of python-flint's balls.
-
-A motion in many digits which knows its own error: Taylor series of the exact equations, run at two
-precisions.
-
-Nothing is shared with the methods that are judged by it but the equations themselves.
 """
 from __future__ import annotations
 
@@ -317,11 +311,12 @@ def reference(scene, start, times, blocks=(), orbit=False, work: int = WORK) -> 
     orbit = orbit and not (times < 0).any()
     empty = np.empty((0, recursion.size))
     for digits in DIGITS:
-        # of the work, for the second run: it costs twice the first
-        kept = 0 if before else budget[0] * 2 // 3
-        budget[0] -= kept
-        now = one_run(recursion, start, times, digits, budget, orbit)
-        budget[0] = max(budget[0], 0) + kept if kept else budget[0]
+        if before is None:  # a third of the work: the second run, which checks the first, costs twice as much
+            budget[0], later = budget[0] - budget[0] * 2 // 3, budget[0] * 2 // 3
+            now = one_run(recursion, start, times, digits, budget, orbit)
+            budget[0] = max(budget[0], 0) + later
+        else:
+            now = one_run(recursion, start, times, digits, budget, orbit)
         if before is not None:
             found = _compared(times, before, now, parts, work - budget[0])
             best = found if best is None or len(found.t) >= len(best.t) else best

@@ -1,6 +1,5 @@
-"""The points of a sweep as cases, answered in chunks, and what a killed run left.
-
-What is finished of a sweep: a folder beside its file with a part for every chunk, whole or absent.
+"""The points of a sweep as cases, answered in chunks; and what is finished of it, a folder beside its file
+with a part for every chunk, whole or absent.
 
 A part is the records of a chunk as they lie in memory, with a digest of them and of the sweep before them.
 The folder says of which sweep it is, and by which command; a run that was killed leaves it there, and the
@@ -151,6 +150,7 @@ def answered(plan: Plan, number: int) -> np.ndarray:
 
 
 def _scene(plan: Plan, scene: int, chunk: Chunk, out: np.ndarray) -> None:
+    """Put the answers for the states of a scene that the chunk has into their records."""
     try:
         case = case_of(plan, scene)
     except CaseError:

@@ -1,5 +1,4 @@
-"""Fate, extremes and period to as many digits as are asked for: the cheapest way that reaches them, checked
-afterwards.
+"""Fate, extremes and period to as many digits as are asked for, in the cheapest way, checked afterwards.
 
 A motion with a reduction: formulas in doubles, checked in ball arithmetic, whose answer takes over where they
 fall short or where more digits are asked for. A motion that repeats without one: its return in a run, checked

@@ -59,18 +59,18 @@ def digits_of(error: float, most: float = MOST + 0.95) -> float:
     return max(0.0, min(-math.log10(error), most))
 
 
-def by_bound(question: str, motion: Motion, asked: int = DEFAULT) -> Told | None:
+def by_bound(question: str, motion: Motion) -> Told | None:
     """What the formulas of the reduced motion say of themselves: they bound their rounding as they go, and
     hand over to ball arithmetic where the bound is too large. None where no formula answered."""
     if motion.tolerance is None:
         return None
     values = {"extremes": motion.extremes, "period": motion.period, "fate": motion.margin_energy}[question]
     if question == "fate":
-        return None if values is not None else nothing(question, asked, motion.because)
+        return None if values is not None else nothing(question, DEFAULT, motion.because)
     if values is None:
-        return nothing(question, asked, no_period(motion.fate))
+        return nothing(question, DEFAULT, no_period(motion.fate))
     tolerance = motion.tolerance * (10 if question == "period" else 1)
-    return Told(question, values, asked, digits_of(tolerance), "formulas",
+    return Told(question, values, DEFAULT, digits_of(tolerance), "formulas",
                 f"formulas that bound their own rounding by {tolerance:.0e}, balls beyond")
 
 

@@ -1,7 +1,5 @@
-"""The first crossing with the motion enclosed: as many bits as it takes, as long as the work allowed reaches.
-
-Beyond that the motion is enclosed by compiled steps, for rates along principal axes alone.
-"""
+"""The first crossing with the motion enclosed in integers, of as many bits as it takes, as long as the work
+allowed reaches; beyond that by compiled steps, for rates along principal axes alone."""
 from __future__ import annotations
 
 import math

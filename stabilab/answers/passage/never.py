@@ -1,16 +1,8 @@
-"""Limits that are never reached, and those that a certified spin-up reaches: bounds that hold for all times.
+"""What is known of a limit without a run: that it is never reached, as rest, extremes, a bound or one whole
+period tell; when a certified spin-up reaches it, by its clock; a time before which the torque cannot.
 
-Times far beyond any run, from the certificate of spin-up: its clock for the spin, its bounds for the rates
-across it.
-
-Limits that are never reached: a motion that rests, extremes or a bound over all time below the limit, or
-one whole period below it.
-
-A time before which no motion can reach a limit, whatever it does on the way: the torque feeds energy at a
-bounded rate.
-
-Let W = (omega . D omega)^(1/2), the root of twice the kinetic energy. The torque alone does work, so that W
-W' = M . omega, and with M . omega <= |D^(-1/2) M| W
+The torque feeds energy at a bounded rate. Let W = (omega . D omega)^(1/2), the root of twice the kinetic
+energy. The torque alone does work, so that W W' = M . omega, and with M . omega <= |D^(-1/2) M| W
 
     W(t) <= W(0) + |D^(-1/2) M| t.
 

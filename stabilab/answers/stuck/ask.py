@@ -1,7 +1,5 @@
-"""What each thruster does when it sticks, and which wheel momentum or other thruster helps.
-
-Other thrusters, alone or in pairs, that fired together with the stuck ones keep the motion bounded, or
-delay its limit.
+"""What each thruster does when it sticks, and which wheel momentum or other thrusters help: alone or in
+pairs, fired together with the stuck ones, they keep the motion bounded, or delay its limit.
 
 What leaves less torque need not come to the limit later: what is left may lie nearer to an axis about which
 the body spins up. So times are compared with the time without help, and what brings the limit sooner is said

@@ -1,8 +1,5 @@
-"""A stuck thruster as a scenario, and its fate.
-
-Fate of one motion under one torque, the time to its limit, and the largest rate before: whatever the
-torque's direction.
-"""
+"""A stuck thruster as a scenario: the fate of its motion under one torque of any direction, the time to its
+limit, and the largest rate before."""
 from __future__ import annotations
 
 import math

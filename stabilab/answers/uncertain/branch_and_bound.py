@@ -5,11 +5,9 @@ angle of one turn does (spin-up; cells of angles, each settled on its own). What
 across the number that matters most to first order, until a middle contradicts the claim or the parts run out.
 Bounds are those of `affine`, so a part's surplus is quadratic in its width.
 
-The reduced motion of many bodies, or of many boxes of bodies, at once: height of the potential over the
-energy ahead.
-
-Circles only (elliptic reduction). In the canonical variables of `reduction`, at the angle y ahead in the
-torque's direction,
+Bodies are compared by the height of the potential over the energy ahead, of many bodies, or of many boxes of
+bodies, at once: circles only (elliptic reduction). In the canonical variables of `reduction`, at the angle y
+ahead in the torque's direction,
 
     excess(y) = V(theta_0 + y) - E = -mu y - dX (G (X + dX/2) + c) + d dZ - W^2/2,
 

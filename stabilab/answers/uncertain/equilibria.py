@@ -1,7 +1,5 @@
-"""Number, kind and stability of the equilibria of a body that is known only within bounds.
-
-What the number, kind and stability of equilibria hang on: quantities that keep their sign as long as these
-stay the same.
+"""Number, kind and stability of the equilibria of a body that is known only within bounds, by quantities that
+keep their sign as long as these stay the same.
 
 Off the axes: M.y = 0 and M.(D y + lambda) = 0 meet in a line along v = M x D M, on which one quadratic is
 left (`isolated_equilibria`); simple roots have n != 0, so they are unstable. On axis i with lambda_i = 0:

@@ -1,9 +1,4 @@
-"""Fates over a box of uncertain numbers, and the verdicts of a case within its uncertainties.
-
-The fate of a motion whose body, torque or start is known only within bounds: proved, or with a witness on
-each side.
-
-What uncertain numbers do to the verdicts on equilibria and motion.
+"""What uncertain numbers of a case do to the fate of its motion, and to all its verdicts.
 
 A case may state inertia, gyrostatic moment, torque and state with half-widths; together they span a box. For
 the whole box a verdict holds (proved), or it depends (with a point of the box on each side), or it stays

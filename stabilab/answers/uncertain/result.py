@@ -1,11 +1,8 @@
-"""What an uncertain box does to a verdict: holds, depends, sampled or undecided, and how far from a change.
+"""What an uncertain box does to a verdict, and how far the box must be stretched until the verdict changes.
 
-How far a box must be stretched until an answer changes: a search along rays from its middle.
-
-The rays go to corners, along single numbers, against the gradient where there is one; the nearest change is
-then drawn nearer by moving one number at a time. What it finds is a change that is really there, so the
-stretch is an upper bound of the least one; nothing found is no proof. Seeded: the same box gives the same
-answer.
+The nearest change is looked for along rays from the middle of the box, to corners, along single numbers, and
+against the gradient where there is one. What is found is a change that is really there, so its stretch is an
+upper bound of the least one; that nothing is found is no proof. Seeded: the same box gives the same answer.
 """
 from __future__ import annotations
 
@@ -24,6 +21,8 @@ MOST = 100.0          # times the stated uncertainty
 LADDER = np.concatenate([10.0 ** np.arange(-9, -2), 2.0 ** np.arange(-6, 7) * (MOST / 64)])
 CORNERS, CHUNK = 256, 4096
 HALVINGS, ROUNDS, NEAREST = 14, 4, 16
+NEARER_STILL = 0.995  # of a change: how near one must be at least that takes its place
+SETTLED = 20  # halvings of a change by the exact answers
 # points (m, n) of a box -> what is known there as an int each, (m,)
 Codes: TypeAlias = Callable[[np.ndarray], np.ndarray]
 # one point of a box -> what the ordinary exact code answers there, None where there is no such body
@@ -63,57 +62,54 @@ def rays(n: int, favoured: Iterable[np.ndarray] = ()) -> np.ndarray:
 
 def nearest_change(box: Box, codes: Codes, answer: Answer, here: Any,
                    favoured: Iterable[np.ndarray] = ()) -> Change | None:
-    """The nearest change found of the codes that the answer confirms. here: the answer at the middle."""
+    """The nearest change of the codes that is found, where the exact answers confirm it. here: the answer at
+    the middle.
+
+    Rungs of growing stretch show where the code first changes on each ray; the rays that change first are
+    bisected, and the nearest change is drawn nearer by moving one number at a time.
+    """
     n = len(box.places)
-    found = nearest_in_box(codes, int(codes(np.zeros((1, n)))[0]), n, favoured)
-    return found and confirmed(found, answer, here)
-
-
-def nearest_in_box(codes: Codes, here: int, n: int, favoured: Iterable[np.ndarray] = (),
-                   most: float = MOST) -> Change | None:
-    """The nearest change found of codes(points (m, n)) -> (m,) ints from `here`; None where none is found up
-    to `most`."""
-    ladder = LADDER[LADDER <= most * 1.0001]
+    middle = int(codes(np.zeros((1, n)))[0])
     directions = rays(n, favoured)
-    first = _first_change(codes, here, directions, ladder)
-    if not np.isfinite(first).any():
-        return None
+    first = _first_change(codes, middle, directions)
     chosen = np.argsort(first, kind="stable")[:NEAREST]
     chosen = chosen[np.isfinite(first[chosen])]
-    directions, ends = directions[chosen], first[chosen]
-    starts = np.array([ladder[ladder < end][-1] if (ladder < end).any() else 0.0 for end in ends])
-    starts, ends = _bisected(codes, here, directions, starts, ends)
-    best = int(ends.argmin())
-    direction, start, end = directions[best], starts[best], ends[best]
+    if not len(chosen):
+        return None
+    before = np.array([max(LADDER[LADDER < end], default=0.0) for end in first[chosen]])
+    change = _bisected(codes, middle, directions[chosen], before, first[chosen])
     for _ in range(ROUNDS):
-        moved = _moved(direction)
-        near = codes(moved * (0.995 * end))
-        moved = moved[(near != here) & (near != UNKNOWN)]
+        nearer = NEARER_STILL * change.stretch
+        moved = _moved(change.direction)
+        moved = moved[_changed(codes, middle, moved * nearer)]
         if not len(moved):
             break
-        starts, ends = _bisected(codes, here, moved, np.zeros(len(moved)), np.full(len(moved), 0.995 * end))
-        best = int(ends.argmin())
-        direction, start, end = moved[best], starts[best], ends[best]
-    return Change(direction, float(end), float(start))
+        change = _bisected(codes, middle, moved, np.zeros(len(moved)), np.full(len(moved), nearer))
+    return confirmed(change, answer, here)
 
 
-def _first_change(codes: Codes, here: int, directions: np.ndarray, ladder: np.ndarray) -> np.ndarray:
+def _changed(codes: Codes, here: int, points: np.ndarray) -> np.ndarray:
+    """(m,): whether another code than `here` is known at points (m, n)."""
+    found = np.concatenate([codes(points[i:i + CHUNK]) for i in range(0, max(1, len(points)), CHUNK)])
+    return (found != here) & (found != UNKNOWN)
+
+
+def _first_change(codes: Codes, here: int, directions: np.ndarray) -> np.ndarray:
     """The first rung at which each ray has changed, inf where none."""
-    points = (directions[:, None, :] * ladder[None, :, None]).reshape(-1, directions.shape[1])
-    found = np.concatenate([codes(points[i:i + CHUNK])
-                            for i in range(0, len(points), CHUNK)]).reshape(len(directions), -1)
-    changed = (found != here) & (found != UNKNOWN)
-    return np.where(changed.any(1), ladder[changed.argmax(1)], np.inf)
+    points = (directions[:, None, :] * LADDER[None, :, None]).reshape(-1, directions.shape[1])
+    changed = _changed(codes, here, points).reshape(len(directions), -1)
+    return np.where(changed.any(1), LADDER[changed.argmax(1)], np.inf)
 
 
 def _bisected(codes: Codes, here: int, directions: np.ndarray, starts: np.ndarray,
-              ends: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+              ends: np.ndarray) -> Change:
+    """The nearest of the changes along directions, each between a start and an end."""
     for _ in range(HALVINGS):
         middle = np.where(starts > 0, np.sqrt(starts * ends), ends / 2)
-        found = codes(directions * middle[:, None])
-        changed = (found != here) & (found != UNKNOWN)
+        changed = _changed(codes, here, directions * middle[:, None])
         starts, ends = np.where(changed, starts, middle), np.where(changed, middle, ends)
-    return starts, ends
+    best = int(ends.argmin())
+    return Change(directions[best], float(ends[best]), float(starts[best]))
 
 
 def _moved(direction: np.ndarray) -> np.ndarray:
@@ -124,7 +120,7 @@ def _moved(direction: np.ndarray) -> np.ndarray:
     return np.unique(np.array([d for d in out if np.abs(d).max() == 1.0]), axis=0)
 
 
-def confirmed(change: Change, answer: Answer, here: Any, halvings: int = 20) -> Change | None:
+def confirmed(change: Change, answer: Answer, here: Any) -> Change | None:
     """The change with its stretch settled by answer(point), of any kind, that differs from `here`; None where
     the answer is still `here` a thousandth farther."""
     other = lambda stretch: answer(change.direction * stretch) not in (None, here)
@@ -135,7 +131,7 @@ def confirmed(change: Change, answer: Answer, here: Any, halvings: int = 20) -> 
     start = min(change.before, end)
     if other(start):
         start = 0.0
-    for _ in range(halvings):
+    for _ in range(SETTLED):
         middle = 0.5 * (start + end)
         if middle in (start, end) or end - start <= 1e-6 * end:
             break
@@ -280,13 +276,13 @@ def by_trial(box: Box, here: Any, look: Look, because: str) -> Over:
                      f"{because}; {tried} other points of the box, tried one by one, do as the middle does")
 
 
-def by_sample(box: Box, here: Any, look: Look, because: str, seed: int = SEED) -> Over:
+def by_sample(box: Box, here: Any, look: Look, because: str) -> Over:
     """Where no proof is at hand: what points of the box drawn at random say, by the ordinary code. look:
     point -> (verdict or None, margin in energy or NaN)."""
     counts: dict[str, int] = {}
     places: dict[str, Point] = {}
     margins = []
-    for point in np.random.default_rng(seed).uniform(-1, 1, (SAMPLE, len(box.places))):
+    for point in np.random.default_rng(SEED).uniform(-1, 1, (SAMPLE, len(box.places))):
         if counts.get(Fate.UNDECIDED.word, 0) == TIRED:  # each costs a second
             break
         word, margin = look(point)
@@ -297,7 +293,7 @@ def by_sample(box: Box, here: Any, look: Look, because: str, seed: int = SEED) -
     if not counts or here is None:
         return Over("undecided", here, because)
     spread = tuple(np.quantile(margins, (0.05, 0.5, 0.95)).tolist()) if np.isfinite(margins).all() else None
-    found = Sampled(len(margins), seed, dict(sorted(counts.items(), key=lambda pair: -pair[1])), spread)
+    found = Sampled(len(margins), SEED, dict(sorted(counts.items(), key=lambda pair: -pair[1])), spread)
     because = f"{because}; {found.words}"
     other = next((word for word in places if word not in (here, Fate.UNDECIDED.word, UNDECIDED)), None)
     if other is None or here in (Fate.UNDECIDED.word, UNDECIDED):

@@ -1,7 +1,5 @@
-"""Directions of a torque as cells of a sphere, refined where neighbours differ.
-
-Cells of equal area on the sphere of directions: triangles of an octahedron, whose corners are the principal
-axes.
+"""Directions of a torque as cells of equal area of a sphere, triangles of an octahedron whose corners are the
+principal axes, refined where neighbours differ.
 
 The projection is Snyder's (Cartographica 29, 1992), with the octahedron in place of the icosahedron. A face
 is cut from its middle into six right triangles; in each a plane one of angles 60, 90 and 30 degrees stands

@@ -127,7 +127,7 @@ def asked(case: Case | str | os.PathLike[str], torque: Any = None, wheel: str | 
     path, text = place_and_text("atlas", case)
     one = read_text(path, text)
     _judge(one)
-    size, (wheels, momenta, of) = _size(one, torque), _wheels(one, wheel)
+    size, (wheels, momenta, unit) = _size(one, torque), _wheels(one, wheel)
     _judge_cells(level, refine, len(wheels))
     options = tuple((name, str(value))
                     for name, value in (("torque", torque), ("wheel", wheel)) if value is not None)
@@ -136,11 +136,11 @@ def asked(case: Case | str | os.PathLike[str], torque: Any = None, wheel: str | 
         raise InputError(f"--no-time and --{stated[0][0]} contradict each other: give one of them")
     if stated:
         stated_limit(one, **dict(stated))
-    found = Asked(path, text, size, wheels, momenta, of, level, refine, certify, stated, options, follow,
+    found = Asked(path, text, size, wheels, momenta, unit, level, refine, certify, stated, options, follow,
                   timed)
-    if found.plan(()).longest is not None:  # which says what is wrong with it
-        found = replace(found, options=(*options, ("follow", str(follow))))
-    return found
+    if found.plan(()).longest is None:  # raises where `follow` is no time
+        return found
+    return replace(found, options=(*options, ("follow", str(follow))))
 
 
 def _own_torque(case: Case) -> bool:

@@ -1,14 +1,8 @@
-"""Planes of states: smaller cells along the boundary between fates, and its dimension.
-
-The box dimension of a boundary, by counting the cells of every depth that hold a piece of it, and how well
-such a count knows it.
+"""Planes of states: smaller cells along the boundary between fates, and the box dimension of that boundary.
 
 A line that has a length is met by a number of cells that doubles from depth to depth: dimension 1. Where the
 count grows as 2^(D depth), with D above 1, the boundary is rough at all these sizes: a fate near it is less
 predictable than the state is known.
-
-Cells of a plane that are split where the labels of their corners differ, again and again: the boundary
-between labels, followed to small cells.
 
 Places are whole numbers on the finest grid: cells of depth k are 2^(depth - k) of its steps wide. A cell is
 split where two of its corners have different labels, and where the boundary leaves it unseen: a smaller

@@ -174,6 +174,8 @@ class _Rise:
         return self.known[value]
 
     def _of(self, low: Fraction, high: Fraction) -> tuple[arb, arb]:
+        """(rise, slope) over an interval of p: each saddle is enclosed over it, then U as a series p + s to
+        first order in s."""
         self.budget[0] -= 1
         if self.budget[0] < 0:
             raise Spent

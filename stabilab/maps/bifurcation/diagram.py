@@ -1,8 +1,5 @@
 """The diagram over one number: critical values by elimination, the equilibria at each and at one value
-between neighbours.
-
-The stability of an equilibrium comes from the signs of m and n in balls and the reasons of the room
-`equilibrium`.
+between neighbours, their stability by the signs of m and n in balls.
 
 Where equilibria form curves for every value of the range, these are given in words. Without a torque they are
 lines along principal axes that carry no wheel, planes of equal moments, and the curve on which momentum is

@@ -136,8 +136,8 @@ class Eliminated:
         return self._known[key]
 
     def _of_lines(self, number: Algebraic) -> tuple[Leant, Powers] | None:
-        """The same where both conics become lines there: these meet in one point, in none, or are one line
-        (None)."""
+        """As `_split` where both conics become lines at the number, f0 + f1 x + f2 y and g0 + g1 x + g2 y:
+        these meet in one point, in none, or are one line (None); None for conics, too."""
         view = self.main
         zero = number.polynomial * 0
         rows = []

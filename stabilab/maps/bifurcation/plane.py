@@ -1,17 +1,15 @@
 """The diagram over two numbers: curves in their plane at which equilibria change, the number between them,
-and cusps.
-
-Cusps of fold curves: places where three equilibria meet, from the conditions for a triple root of R(x; p, q),
-exactly.
-
-R has degree four at the most. F = 0 (a double root, x = 0 say) with the discriminant of R' zero is a triple
-root or, in degree four, R = x^2 (x^2 + c x + 9 c^2/32), R' = 4 x (x + 3 c/8)^2: there R'' = 0 at -c/8 and -3
-c/8, which are no roots of R. So with the resultant of R and R'' zero besides it is a triple root, and
-conversely. The p of such a place is a root of a resultant, the q then a common root over the field of p.
+and cusps of fold curves, where three equilibria meet.
 
 The plane is cut into strips: at the ends of a strip a curve turns back, two meet, or one leaves the range
 (roots of discriminants and resultants of the curves' polynomials), inside it all curves run side by side. So
 one value inside a strip, with its diagram over the second number, tells the strip.
+
+A cusp is a triple root of R(x; p, q). R has degree four at the most. F = 0 (a double root, x = 0 say) with
+the discriminant of R' zero is a triple root or, in degree four, R = x^2 (x^2 + c x + 9 c^2/32), R' = 4 x (x +
+3 c/8)^2: there R'' = 0 at -c/8 and -3 c/8, which are no roots of R. So with the resultant of R and R'' zero
+besides it is a triple root, and conversely. The p of such a place is a root of a resultant, the q then a
+common root over the field of p.
 """
 from __future__ import annotations
 
