@@ -92,7 +92,7 @@ def test_equations_from_disk_are_those_derived(folder):
     """Symbols, numbers and rates of a body with wheel, torque and liquid, derived and then read; the rates
     without the liquid by Euler's equations."""
     rigid = Body((2000, 1500, 1000)), Gyrostat((100, 0, 0)), ConstantTorque((0, 0, 20))
-    for scene, files in ((Scene(*rigid), 5), (Scene(*rigid, LiquidCavity(1000, 1e-4, 1e-9)), 10)):
+    for scene, files in ((Scene(*rigid), 1), (Scene(*rigid, LiquidCavity(1000, 1e-4, 1e-9)), 2)):
         seen = []
         for _ in range(2):
             equations._physical.cache_clear()
@@ -102,28 +102,10 @@ def test_equations_from_disk_are_those_derived(folder):
                          system.equations.balances, system.rhs,
                          system.entries, system.quantities, system.rates, system([0.1, 0.2, 0.3]).tolist()))
         assert seen[0] == seen[1] and len(list(folder.rglob("*.json"))) == files
-        if files == 5:
+        if files == 1:
             euler = [500 * 0.06 / 2000, (-1000 * 0.03 - 100 * 0.3) / 1500,
                      (500 * 0.02 + 100 * 0.2 + 20) / 1000]
             np.testing.assert_allclose(seen[0][-1], euler, rtol=1e-14)
-
-
-def test_what_an_integrator_steps_is_read_where_effects_take_long_to_multiply_out(folder, monkeypatch):
-    """A liquid's monomials are worked out once for all runs; the quadratic rates of a gyrostat are no file
-    more."""
-    def formed(*effects):
-        equations._physical.cache_clear()
-        to_numpy._system.cache_clear()
-        system = to_numpy.to_numpy(stabilab.derive(Scene(Body((2000, 1500, 1003)), *effects)))
-        return system.motion, system.motion_and_laws, system.motion_and_rates
-
-    formed(Gyrostat((100, 0, 0)))
-    assert len(list(folder.rglob("*.json"))) == 1
-    derived = formed(Gyrostat((100, 0, 0)), LiquidCavity(1000, 1e-4, 1e-9))
-    monkeypatch.setattr(to_numpy, "form", None)
-    assert formed(Gyrostat((100, 0, 0)), LiquidCavity(1000, 1e-4, 1e-9)) == derived
-    counts = [len(one.expressions) for one in derived]
-    assert counts == [3, 5, 6]  # three rates; two laws, energy and momentum; the rates once more
 
 
 def test_compiled_rates_load_none_of_numpys_tools():

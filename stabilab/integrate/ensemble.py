@@ -86,7 +86,7 @@ def ensemble(scene: AnyScene, states: ArrayLike, times: ArrayLike, rtol: float |
             units = _units(scene, starts, system(starts))
         if (units != 1).any():
             return _by_units(scene, starts, times, rtol, workers, units)
-    run = _Rows(scene, system.motion, rtol, starts, times)
+    run = _Rows(scene, system.rhs, rtol, starts, times)
     groups = _groups(system, starts)
     workers = min(workers, len(groups))  # more would have nothing to do
     with ThreadPoolExecutor(workers) if workers > 1 else nullcontext() as pool:

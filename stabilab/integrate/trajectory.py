@@ -145,7 +145,7 @@ class _Taylor:
     """Runs of the Taylor series; counters add up over the runs."""
 
     def __init__(self, system, rtol, laws=True):
-        self.forms, self.rtol = system.motion_and_laws if laws else system.motion, rtol
+        self.forms, self.rtol = system.motion_and_laws if laws else system.rhs, rtol
         self.counters = {"steps": 0}
 
     def run(self, state, grid, passed=None, watch=None):

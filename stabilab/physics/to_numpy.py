@@ -17,13 +17,11 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 
 from ..errors import InputError
-from .equations import Equations, Symbolic, derive, kept_of_symbols, values
+from .equations import Equations, Symbolic, derive, values
 from .scene import AnyScene
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
-
-QUICK = {"inertia", "gyrostat", "constant_torque"}  # torques of which the rates are quadratic
 
 Known: TypeAlias = tuple[tuple[Symbolic, Symbolic], ...]  # parameters and their numbers
 
@@ -77,43 +75,46 @@ def _form(state: tuple[Symbolic, ...], known: Known, expressions: tuple[Symbolic
     numbers: list[float] = []
     result = []
     for expression in expressions:
-        terms = _terms(expression, state)
+        terms = _terms(expression, state, known)
         if terms is None:
             result.append(_unstructured(expression, numbers_of, symbols, numbers))
             continue
+        whole = _whole(expression, state, tuple(numbers_of)) if any(c.is_Integer for _, c in terms) else {}
         total = expression * 0
-        for powers, factor in terms:
-            if not (drop_constants and not any(powers)):
-                total += _coefficient(factor, numbers_of, symbols, numbers) * _monomial(state, powers)
+        for powers, coefficient in terms:
+            if coefficient == 0 or (drop_constants and not any(powers)):
+                continue
+            own = (coefficient if whole.get(powers) == coefficient
+                   else _numbered(_rounded(coefficient), symbols, numbers))
+            total += own * _monomial(state, powers)
         result.append(total)
     return Form(state, tuple(result), tuple(symbols), tuple(numbers))
 
 
-@lru_cache(maxsize=512)  # scenes of one structure have the same expressions, and other numbers
-def _terms(expression: Symbolic,
-           state: tuple[Symbolic, ...]) -> list[tuple[tuple[int, ...], Symbolic]] | None:
-    """(powers, factor) of each monomial of the state; None of what is no polynomial in it."""
+def _terms(expression: Symbolic, state: tuple[Symbolic, ...],
+           known: Known) -> list[tuple[tuple[int, ...], Symbolic]] | None:
+    """(powers, number) of each monomial of the state at these values of the parameters; None of what is no
+    polynomial in the state."""
     from sympy import Poly, PolynomialError
     try:
-        return Poly(expression, *state).terms()
+        return Poly(expression.xreplace(dict(known)), *state).terms()
     except PolynomialError:
         return None
+
+
+@lru_cache(maxsize=512)  # scenes of one structure have the same expressions, and other numbers
+def _whole(expression: Symbolic, state: tuple[Symbolic, ...],
+           parameters: tuple[Symbolic, ...]) -> dict[tuple[int, ...], Symbolic]:
+    """The coefficients of a polynomial that are whole numbers for any parameters, as they are for these,
+    which have nothing to do with one another."""
+    from sympy import Rational
+    others = tuple((one, Rational(1009 + 617 * n**3, 1013 + n)) for n, one in enumerate(parameters))
+    return {powers: c for powers, c in _terms(expression, state, others) or () if c.is_Integer}
 
 
 def _monomial(state: Sequence[Symbolic], powers: Sequence[int]) -> Symbolic:
     from sympy import prod
     return prod(x**n for x, n in zip(state, powers))
-
-
-def _coefficient(factor: Symbolic, known: dict[Symbolic, Symbolic], symbols: list[Symbolic],
-                 numbers: list[float]) -> Symbolic:
-    """A symbol for the coefficient (its number rounded once), 0 where it vanishes, the integer itself where
-    it is one."""
-    from sympy import Integer
-    if factor.is_Integer:
-        return factor
-    exact = factor.subs(known)
-    return Integer(0) if exact.is_zero else _numbered(_rounded(exact), symbols, numbers)
 
 
 def _unstructured(expression: Symbolic, known: dict[Symbolic, Symbolic], symbols: list[Symbolic],
@@ -150,53 +151,33 @@ class System:
 
     @cached_property
     def rhs(self) -> Form:
-        """Rates of the state."""
-        return self._formed("rhs", lambda: self.equations.rhs)
+        """Rates of the state: what an integrator steps."""
+        return form(self.equations, self.equations.rhs)
 
     @cached_property
     def entries(self) -> Form:
         """The Jacobian's, row by row."""
-        return self._formed("entries", lambda: self.equations.jacobian)
+        return form(self.equations, self.equations.jacobian)
 
     @cached_property
     def quantities(self) -> Form:
         """The laws', up to additive constants."""
-        return self._formed("quantities", lambda: [law.quantity for law in self.equations.balances],
-                            drop_constants=True)
+        return form(self.equations, [law.quantity for law in self.equations.balances], drop_constants=True)
 
     @cached_property
     def rates(self) -> Form:
         """Those of the laws' quantities."""
-        return self._formed("rates", lambda: [law.rate for law in self.equations.balances])
-
-    @cached_property
-    def motion(self) -> Form:
-        """The rates of the state alone: what an integrator steps."""
-        return self._stepped("motion")
+        return form(self.equations, [law.rate for law in self.equations.balances])
 
     @cached_property
     def motion_and_laws(self) -> Form:
-        """`motion`, and the rates of the laws' quantities with it."""
-        return self._stepped("motion and laws", lambda: [law.rate for law in self.equations.balances])
+        """`rhs`, and the rates of the laws' quantities with it."""
+        return form(self.equations, (*self.equations.rhs, *(law.rate for law in self.equations.balances)))
 
     @cached_property
     def motion_and_rates(self) -> Form:
-        """`motion`, and the rates once more: what an integrator steps that looks for their roots."""
-        return self._stepped("motion and rates", lambda: self.equations.rhs)
-
-    def _stepped(self, name: str, beside: Callable[[], Iterable[Symbolic]] = tuple) -> Form:
-        """The rates of the state and what rides along; kept on disk only with effects that take long to
-        multiply out."""
-        if QUICK.issuperset(self.equations.torques):
-            return form(self.equations, (*self.equations.rhs, *beside()))
-        return self._formed(name, lambda: (*self.equations.rhs, *beside()))
-
-    def _formed(self, name: str, expressions: Callable[[], Iterable[Symbolic]],
-                drop_constants: bool = False) -> Form:
-        """A part, from the disk where the equations may be kept there."""
-        equations, make = self.equations, lambda: form(self.equations, expressions(), drop_constants)
-        return (kept_of_symbols("forms", f"{equations.content} {name}", make, Form) if equations.content
-                else make())
+        """`rhs`, and the rates once more: what an integrator steps that looks for their roots."""
+        return form(self.equations, (*self.equations.rhs, *self.equations.rhs))
 
     def __call__(self, x: ArrayLike) -> np.ndarray:
         """Rates of the states x: (..., 3) -> (..., 3)."""
