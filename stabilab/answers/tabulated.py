@@ -14,7 +14,6 @@ from fractions import Fraction
 from typing import Any
 
 from ..errors import InputError
-from ..integrate.integer_flow import IntegerFlow
 from ..integrate.reference import GUARD, Recursion, one_run
 from ..numbers.balls import narrowed, working
 from ..numbers.vectors import CYCLE
@@ -22,7 +21,7 @@ from ..physics.coefficients import effective
 from ..physics.scene import AnyScene, QuadraticForm
 from ..physics.states import equations_and_start
 from .digits.checked import MOST_DECIMALS, checked_digits
-from .passage.enclosed import own_unit
+from .passage.enclosed import flow_of, own_unit
 
 # --- A motion in many digits and how well each of them is known
 PROVED, TWICE = "proved", "two precisions agree"
@@ -208,8 +207,7 @@ def _attempt(scene: AnyScene, start: Any, times: Sequence[Fraction], digits: int
     error grew by)."""
     from flint import arb
     unit = own_unit(scene, start)
-    weights = (Fraction(1), Fraction(2), Fraction(1)) if scene.variables == "scaled" else scene.body.exact
-    flow = IntegerFlow(scene.quadratic(), list(map(Fraction, weights)), start, bits, unit)
+    flow = flow_of(scene, start, bits, unit)
     states: list[tuple[Any, ...]] = []
     pieces: list[Polynomials] = []
     why = ""

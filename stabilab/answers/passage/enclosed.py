@@ -11,7 +11,7 @@ from typing import Any
 from ...integrate.integer_flow import IntegerFlow, Piece, Search
 from ...numbers.exact import sqrt_fraction
 from ...numbers.numba_door import installed
-from ...numbers.vectors import Number
+from ...numbers.vectors import Exact3, Number
 from ...physics.scene import AnyScene
 from ...unreduced.enclosure.bands import Crossing, first_crossing
 from .limit import Limit, along_axes
@@ -30,13 +30,12 @@ STEPS = 60_000  # validated ones; some two seconds
 class Enclosed:
     """low, high: of the first crossing, in the scene's time, exact; high None: not found before `until`, and
     low is None or a place where the limit is touched. until: the last time that was looked at; done: whether
-    that is the time asked for; spent: multiplications."""
+    that is the time asked for."""
 
     low: Fraction | None
     high: Fraction | None
     until: Fraction
     done: bool
-    spent: int
 
 
 def enclosed(scene: AnyScene, start: Sequence[Number], limit: Limit, t_max: Fraction | None = None,
@@ -50,20 +49,25 @@ def enclosed(scene: AnyScene, start: Sequence[Number], limit: Limit, t_max: Frac
     which on another scene holds, of the same body and wheels. A first attempt, at few bits, is carried on
     beyond what its bits can prove, to learn how many it takes.
     """
-    form, unit = scene.quadratic(), max(own_unit(one, start) for one in (scene, *(one for _, one in later)))
-    weights = (Fraction(1), Fraction(2), Fraction(1)) if scene.variables == "scaled" else scene.body.exact
+    unit = max(own_unit(one, start) for one in (scene, *(one for _, one in later)))
     switches = [(time * unit, one.quadratic()) for time, one in later]
-    bits, best, spent = FIRST_BITS, Enclosed(None, None, Fraction(0), False, 0), 0
+    bits, best, spent = FIRST_BITS, Enclosed(None, None, Fraction(0), False), 0
     while True:
-        attempt = _Attempt(IntegerFlow(form, weights, start, bits, unit, limit.direction), limit, unit, t_max,
-                           earliest, switches)
+        attempt = _Attempt(flow_of(scene, start, bits, unit, limit.direction), limit, unit, t_max, earliest,
+                           switches)
         found = attempt.run(work - spent)
         spent += attempt.flow.work
         best = found if found.high is not None or found.until > best.until or found.done else best
         if best.high is not None or best.done or attempt.needs is None or spent > work:
-            break
+            return best
         bits = max(attempt.needs, bits + KEPT)
-    return Enclosed(best.low, best.high, best.until, best.done, spent)
+
+
+def flow_of(scene: AnyScene, start: Sequence[Number], bits: int, unit: Fraction,
+            direction: Exact3 | None = None) -> IntegerFlow:
+    """The motion of a plain scene from three rationals; bits, unit, direction: as of IntegerFlow."""
+    weights = (Fraction(1), Fraction(2), Fraction(1)) if scene.variables == "scaled" else scene.body.exact
+    return IntegerFlow(scene.quadratic(), weights, start, bits, unit, direction)
 
 
 def own_unit(scene: AnyScene, start: Sequence[Number]) -> Fraction:
@@ -133,9 +137,8 @@ class _Attempt:
         if self.end is not None and low is not None and low > self.end:
             low = high = None
         scale = lambda t: None if t is None else t / self.unit
-        return Enclosed(scale(low), scale(high),
-                        (min(until, self.end) if done and self.end is not None else until) / self.unit, done,
-                        0)
+        until = min(until, self.end) if done and self.end is not None else until
+        return Enclosed(scale(low), scale(high), until / self.unit, done)
 
 
 def banded(scene: AnyScene, start: Sequence[Number], limit: Limit, t_max: float,
