@@ -214,15 +214,6 @@ class _Model:
         share = np.where(x == 0, 0.0, -np.expm1(-x**4) / safe)
         return share / self.width, (4 * x**2 * kept - share / safe) / self.width**2, kept
 
-    def removal_at(self, nu):
-        """`removal` of one float."""
-        x = nu / self.width if self.width else 0.0
-        if not x:
-            return 0.0, 0.0, 1.0
-        x = min(max(x, -1e60), 1e60)
-        kept, share = math.exp(-x**4), -math.expm1(-x**4) / x
-        return share / self.width, (4 * x**2 * kept - share / x) / self.width**2, kept
-
     def near_identity(self, Z, r):
         """(U_Z, U_r) at averaged variables; complex and real."""
         uz, ur = self.near(Z, np.conj(Z), r, *self.removal(self.slope * r - self.offset), *self.parameters)
@@ -269,7 +260,7 @@ class _Model:
             turn, spin = self.means(abs(W) ** 2, r, 0.0, 0.0, 0.0, *self.parameters)
             kept_W = kept_r = 0.0
         else:
-            removal = self.removal_at(nu)
+            removal = self.removal(nu)
             turn, spin = self.means(abs(W) ** 2, r, *removal, *self.parameters)
             kept_W = kept_r = 0.0
             if removal[2]:

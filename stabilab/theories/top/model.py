@@ -39,35 +39,6 @@ from .scaling import fast_top
 
 
 @dataclass(frozen=True)
-class PaperNumbers:
-    """The dimensionless numbers of eqs. (4) and (10) as printed, for one scene and start; h: the start's
-    place in the paper's time, s (its tau = 0 has gamma' = 0)."""
-
-    r0: float
-    c: float
-    gamma0: float
-    epsilon: float
-    x: float
-    y: float
-    z: float
-    k: float
-    a: float
-    b: float
-    A1: float
-    B1: float
-    C1: float
-    X: float
-    Omega2: float
-    lambda_: float
-    lambda1: float
-    lambda2: float
-    y1: float
-    y3: float
-    M3: float
-    h: float
-
-
-@dataclass(frozen=True)
 class PrintedMotion:
     """The printed solution at t (n,), s: omega (n, 3) rad/s, gamma (n, 3) (not of length 1), psi, theta, phi
     (n,) rad of (43) with psi0 = 0. status: "as printed" or "pole" (a divisor is 0: no numbers, empty arrays);
@@ -84,9 +55,11 @@ class PrintedMotion:
     reason: str
 
 
-def paper_numbers(scene, state) -> PaperNumbers:
-    """Eqs. (4) and (10) for a scene with gravity, gamma0'' > 0 and l_y = 0. Raises InputError elsewhere, and
-    ZeroDivisionError at the poles C = B, Omega^2 = 0 and Omega^2 = 1."""
+def paper_numbers(scene, state) -> dict[str, float]:
+    """The dimensionless numbers of eqs. (4) and (10) as printed, under the names that the formulas have for
+    them, for a scene with gravity, gamma0'' > 0 and l_y = 0; t0: the start's place in the paper's time, s
+    (its tau = 0 has gamma' = 0); g0: gamma0''. Raises InputError elsewhere, and ZeroDivisionError at the
+    poles C = B, Omega^2 = 0 and Omega^2 = 1."""
     top = fast_top(scene, state)
     gamma0 = float(top.gamma[2])
     if not any(top.force) or gamma0 <= 0:
@@ -100,34 +73,24 @@ def paper_numbers(scene, state) -> PaperNumbers:
     length = math.hypot(*map(float, top.force))
     x, y, z = (float(f) / length for f in top.force)
     c = math.sqrt(length) * abs(r0)
-    k = float(top.field) * r0**2 * gamma0 / c**2
     A1, B1, C1 = float((1 - top.b) / top.a), float((top.a - 1) / top.b), float(top.b - top.a)
-    share = c * math.sqrt(gamma0) / r0
-    M3 = math.sqrt(max(0.0, 1 - gamma0**2)) / gamma0
-    h = (math.atan2(float(top.gamma[0]), float(top.gamma[1])) - math.pi / 2) / r0
+    share, M3 = c * math.sqrt(gamma0) / r0, math.sqrt(max(0.0, 1 - gamma0**2)) / gamma0
     # in units of C and 1/r0: C = 1, s/r0 = eps, and l_z/r0 = lz
     formula = formulas()
-    values = {"A": a, "B": b, "a": a, "b": b, "A1": A1, "B1": B1, "om": -A1 * B1, "xs": x, "zs": z, "k": k,
-              "ep": share, "s": share, "lz": lz}
+    values = {"A": a, "B": b, "a": a, "b": b, "A1": A1, "B1": B1, "om": -A1 * B1, "xs": x, "zs": z,
+              "k": float(top.field) * r0**2 * gamma0 / c**2, "ep": share, "s": share, "lz": lz}
     X, Omega2 = formula("X_10", values), formula("Om_10", values)
     lambda_, lambda1 = formula("lam_10", values, Om=Omega2), formula("lam1_10", values, Om=Omega2)
-    lambda2 = formula("lam2_10", values, lam1=lambda1)
-    return PaperNumbers(r0, c, gamma0, share, x, y, z, k, a, b, A1, B1, C1, X, Omega2, lambda_, lambda1,
-                        lambda2,
-                        float(top.tilt[0]) / share, lz / share, M3, h)
+    return {"ep": share, "r0": r0, "c": c, "g0": gamma0, "xs": x, "ys": y, "k": values["k"], "a": a, "b": b,
+            "A1": A1, "C1": C1, "Xs": X, "Om": Omega2, "lam": lambda_, "lam1": lambda1,
+            "lam2": formula("lam2_10", values, lam1=lambda1), "y1": float(top.tilt[0]) / share,
+            "y3": lz / share, "M3": M3, "th": math.atan(M3),
+            "t0": (math.atan2(float(top.gamma[0]), float(top.gamma[1])) - math.pi / 2) / r0}
 
 
 def formulas():
     """The paper's formulas; SymPy is imported with the first of them."""
     return printed_formulas("newtonian-field-top")
-
-
-def symbols_of(n: PaperNumbers) -> dict:
-    """The numbers under the names that the formulas have for them."""
-    return {"ep": n.epsilon, "r0": n.r0, "t0": n.h, "c": n.c, "xs": n.x, "ys": n.y, "k": n.k, "a": n.a,
-            "b": n.b, "A1": n.A1, "C1": n.C1, "Xs": n.X,
-            "Om": n.Omega2, "lam": n.lambda_, "lam1": n.lambda1, "lam2": n.lambda2, "y1": n.y1, "y3": n.y3,
-            "M3": n.M3, "th": math.atan(n.M3)}
 
 
 def printed(scene, state, times) -> PrintedMotion:
@@ -136,34 +99,33 @@ def printed(scene, state, times) -> PrintedMotion:
     and for l_y."""
     times, top = times_row(times), fast_top(scene, state)
     try:
-        n = paper_numbers(scene, state)
+        values = paper_numbers(scene, state)
     except ZeroDivisionError:
         empty = np.empty(0)
         return PrintedMotion(empty, np.empty((0, 3)), np.empty((0, 3)), empty, empty, empty, top.epsilon,
                              "pole",
                              "C = B, Omega = 0 or Omega = 1: the printed solution divides by 0")
-    formula, values = formulas(), symbols_of(n)
-    omega, gamma = ([np.broadcast_to(formula(f"{name}_41", values, tau=n.r0 * (times + n.h)), times.shape)
-                     for name in names]
+    formula, r0 = formulas(), values["r0"]
+    tau = r0 * (times + values["t0"])
+    omega, gamma = ([np.broadcast_to(formula(f"{name}_41", values, tau=tau), times.shape) for name in names]
                     for names in (("p1", "q1", "r1"), ("g1", "g2", "g3")))
-    psi, theta, phi = _angles(n, values, times)
-    scale = n.c * math.sqrt(n.gamma0)
-    return PrintedMotion(times, np.stack([scale * omega[0], scale * omega[1], n.r0 * omega[2]], -1),
-                         n.gamma0 * np.stack(gamma, -1),
-                         psi, theta, phi, n.epsilon, "as printed",
+    psi, theta, phi = _angles(values, times)
+    scale = values["c"] * math.sqrt(values["g0"])
+    return PrintedMotion(times, np.stack([scale * omega[0], scale * omega[1], r0 * omega[2]], -1),
+                         values["g0"] * np.stack(gamma, -1), psi, theta, phi, values["ep"], "as printed",
                          "eqs. (10), (41) and (43) as they stand in print, misprints and all")
 
 
-def _angles(n, values, t):
+def _angles(values, t):
     """Eq. (43), csc(eps theta0) and all: psi (0 at t = 0), theta, phi. psi1 = phi1 = 0, phi2 = psi2, phi4 =
     psi3 as printed."""
     if values["th"] == 0:
         raise InputError("the printed angles divide by sin(theta0), which is 0 for this start")
-    formula = formulas()
+    formula, start = formulas(), values["t0"]
 
     def gained(name):
         """What a term has more than at the start."""
-        at = lambda t: formula(f"{name}_43", values, t=t + n.h, tau=n.r0 * (t + n.h))
+        at = lambda t: formula(f"{name}_43", values, t=t + start, tau=values["r0"] * (t + start))
         return at(t) - at(0.0)
 
     terms = {"dth1": gained("theta1"), "dth2": gained("theta2"), "dps2": gained("psi2"),

@@ -174,7 +174,7 @@ def test_the_change_of_variables_and_the_means_belong_together(monkeypatch):
         numbers, exact = constants(scene), rates_by_hand(scene)
         model = averaging._Model(scene, numbers, np.array([A, 0, r]), 2)
         nu = model.slope * r - model.offset
-        turn, spin = model.means(A * A, r, *model.removal_at(nu), *model.parameters)
+        turn, spin = model.means(A * A, r, *model.removal(nu), *model.parameters)
         rest = []
         for unit in np.exp(2j * math.pi * np.arange(16) / 16):
             Y = A * unit * (1j * nu + turn), spin
