@@ -1,7 +1,6 @@
-"""Equilibria with dissipation: a resisting medium, a linear damper, and others.
-
-Equilibria where medium and damper take omega . R omega, R = c D + C positive definite (`Content.drag`):
-(D omega + Lambda) x omega - R omega + M = 0, all of them and their stability.
+"""Equilibria with dissipation: where medium and linear damper take omega . R omega, R = c D + C positive
+definite (`Content.drag`), all solutions of (D omega + Lambda) x omega - R omega + M = 0 and their stability;
+and what a field or a liquid beside them leaves to say.
 
 Given omega_e of one axis e the other two components solve two linear equations, whose determinant is q(t),
 t = omega_e: by c alone c^2 + ((D_e - D_i) t + Lambda_e)((D_e - D_j) t + Lambda_e)/(D_i D_j). Put into the
@@ -12,12 +11,8 @@ solvable. Stability: the Jacobian has the characteristic polynomial z^3 + p2 z^2
 is decided exactly: by distance, and where that is not enough by the common divisor. Everywhere T' =
 M . omega - omega . R omega.
 
-Equilibria of a body that a liquid in a cavity or a resisting medium takes energy from.
-
-`liquid` has the balance with a liquid, `medium` that with a resisting medium alone; here is what both
-together or a body in a field leave to say. The liquid does no work against rest, and for Lambda = 0 it only
-takes energy: T' <= M . omega - 2 c T.
-"""
+`liquid` has the balance with a liquid, which does no work against rest, and for Lambda = 0 only takes energy:
+T' <= M . omega - 2 c T. """
 from __future__ import annotations
 
 from fractions import Fraction
@@ -28,14 +23,12 @@ from ..numbers.principal import SLACK, principal_minors
 from ..numbers.vectors import CYCLE, dot
 from ..physics.coefficients import Content
 from ..physics.scene import euler_form
-from .damper import damped_equilibria
 from .field_balance import Field, blocks, rotations_at
 from .field_states import around
-from .liquid import balanced_equilibria, liquid_equilibria
-from .result import CurveSegment, Equilibria, EquilibriumCurve, EquilibriumPoint
+from .liquid import balanced_equilibria, damped_equilibria, liquid_equilibria
+from .result import CurveSegment, Equilibria, EquilibriumCurve, EquilibriumPoint, T
 from .stability import eigenvalues, ordered
 
-T = Poly((0, 1))
 BITS = 256
 GLOBAL = "every motion tends to it: "
 REST = (GLOBAL + "T' = -2 c T without a torque, so the energy and with it every rate decays as exp(-c t)")

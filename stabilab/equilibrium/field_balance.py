@@ -1,8 +1,5 @@
-"""Permanent rotations of a body in a field at one rate Omega: balance, spectrum, verdict, and the rates at
-which they change.
-
-Small motions about a permanent rotation omega = Omega gamma of a body in a field: spectrum and second
-variation.
+"""Permanent rotations omega = Omega gamma of a body in a field at one rate Omega, with spectrum and verdict,
+and the rates at which their number or a sign of their spectrum may change.
 
 On |gamma| = 1 the amended potential at constant Omega is U = -gamma . S gamma/2 - b . gamma with
 S = (Omega^2 - N) D - Omega E e3 e3^T, b = Omega Lambda + s; a permanent rotation is a critical point, (S -
@@ -16,16 +13,10 @@ a = -tr(J^2)/2 and b = I det K/(D1 D2 D3).
   not decide.
 Written for any scalars, with gamma as a ratio gamma/q, so that the same lines serve balls and polynomials.
 
-All permanent rotations at one rate Omega: (S - mu) gamma = -b, |gamma| = 1, by one polynomial in mu.
-
-The verdict on one permanent rotation, from signs of certified balls.
-
-The rates Omega at which the number of permanent rotations or a sign of their spectrum may change, all of
-them.
-
-The discriminant in mu of the balance, and resultants of the balance with b and with a^2 - 4 b of the
-spectrum: polynomials in Omega with exact coefficients, whose real roots python-flint isolates.
-"""
+All rotations at one Omega are roots mu of one polynomial, and signs of certified balls give the verdict on
+each. The rates at which that changes are real roots of the polynomial's discriminant in mu, and of its
+resultants with b and with a^2 - 4 b: polynomials in Omega with exact coefficients, whose real roots
+python-flint isolates. """
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -43,7 +34,7 @@ from .result import EquilibriumPoint
 
 @dataclass(frozen=True)
 class Field:
-    """The coefficients of `gyroscopic.Content` as flint rationals."""
+    """The coefficients of a `Content` as flint rationals."""
 
     D: tuple
     Lambda: tuple

@@ -1,9 +1,5 @@
-"""Permanent rotations and steady states of a body in a field, as curves.
-
-Circles and spheres of permanent rotations at single rates Omega: where S is the same on axes that carry no b.
-
-Permanent rotations omega = Omega gamma of a body in a field (gravity, Newtonian, charge that follows the
-attitude; gyrostat).
+"""Permanent rotations omega = Omega gamma of a body in a field (gravity, Newtonian, charge that follows the
+attitude; gyrostat), and its steady states under a constant torque along a principal axis, as curves.
 
 gamma' = 0 makes omega parallel to gamma, and the rest is (S - mu) gamma = -b with the diagonal S(Omega) and
 b(Omega) of `field_balance`: for each Omega the real roots mu of
@@ -14,12 +10,12 @@ over the groups g of equal S, gamma_i = -b_i/n_g; and, for a group whose b vanis
 gamma in it free up to |gamma| = 1. The number of roots changes at zeros of the discriminant of P alone, and
 the signs that the verdicts rest on change at zeros of resultants: polynomials in Omega with exact
 coefficients, all of whose real roots are isolated (python-flint). So the branches are complete, and a verdict
-in the middle of an interval holds all over it.
+in the middle of an interval holds all over it. Where S is the same on axes that carry no b, there are circles
+and spheres of rotations at single rates besides.
 
-Steady states omega = Omega gamma of a body in a field under a constant torque along a principal axis.
-
-(S gamma + b) x gamma = -M asks for M . gamma = 0. With M along axis i, and neither wheel nor weight along it,
-gamma = (0, cos t, sin t) on the axes (i, j, k) solves all but one equation, a quadratic in Omega:
+With a torque (S gamma + b) x gamma = -M asks for M . gamma = 0. With M along axis i, and neither wheel nor
+weight along it, gamma = (0, cos t, sin t) on the axes (i, j, k) solves all but one equation, a quadratic in
+Omega:
 
     A (Omega^2 - N) + B Omega + C = 0,   A = (D_j - D_k) cos t sin t,   C = s_j sin t - s_k cos t + M_i,
     B = Lambda_j sin t - Lambda_k cos t -+ E cos t sin t    (- where j is axis 3, + where k is)

@@ -1,9 +1,13 @@
 """All equilibria of a body with a gyrostatic moment under a constant torque, in closed form.
 
-Equilibria of a torque off every eigenvector of the inertia: none, one, two, or a whole line.
+At an equilibrium (D y + lambda) x y + M = 0; dotting with y and with D y + lambda gives M.y = 0 and M.(D y +
+lambda) = 0, two linear conditions, and what is left is at most one quadratic. Existence (parallel vectors,
+signs of discriminants, conics that fall apart into lines) is decided with exact rationals; coordinates are
+rounded once. Source: derived here; Amer et al. 2024 treats lambda along axis 1 and torques on one axis.
 
-M.y = 0 and M.(D y + lambda) = 0 are two planes that meet in a line y0 + t v, v = M x D M. There (D y +
-lambda) x y is parallel to M, so one quadratic remains:
+A torque off every eigenvector of the inertia: none, one, two, or a whole line. M.y = 0 and M.(D y + lambda) =
+0 are two planes that meet in a line y0 + t v, v = M x D M. There (D y + lambda) x y is parallel to M, so one
+quadratic remains:
 
     q(t) = det(D y + lambda, y, M)/M.M + 1 = q2 t^2 + q1 t + q0,   q2 = det(M, D M, D^2 M) up to a positive
     factor.
@@ -12,11 +16,9 @@ q2 vanishes where a component of M does or two moments are equal. All of q vanis
 y0 + l v, with D v = D_v v and M = l y0 x v: then D y + lambda = D_v y + l v, and the balance holds for every
 rate t about v.
 
-Equilibria of a torque along an eigenvector of the inertia: a conic in the plane across it.
-
-With D M = d M the two conditions M.y = 0 and M.(D y + lambda) = 0 are one plane if lambda.M = 0 and
-contradict each other otherwise. In the plane, with orthogonal eigenvectors P, Q of D (P x Q = w M), y = alpha
-P + beta Q:
+A torque along an eigenvector of the inertia: a conic in the plane across it. With D M = d M the two
+conditions M.y = 0 and M.(D y + lambda) = 0 are one plane if lambda.M = 0 and contradict each other otherwise.
+In the plane, with orthogonal eigenvectors P, Q of D (P x Q = w M), y = alpha P + beta Q:
 
     (d_P - d_Q) alpha beta + l_P beta - l_Q alpha + 1/w = 0,   l_P = lambda.P/P.P,  l_Q = lambda.Q/Q.Q,
 
@@ -28,21 +30,14 @@ On the conic the reduced potential has U' = 0 and U'' = m, and (alpha, invariant
 are coordinates near every equilibrium: so its centres are stable (docs/mathematics/equilibria.md,
 docs/mathematics/stability.md).
 
-Equilibria without a torque: momentum parallel to rotation, D y + lambda = s y.
-
-Curve: y(s) = lambda/(s - D) between its poles, through y = 0 at s = infinity and, for each D_i with lambda_i
-= 0, a line y_i arbitrary at s = D_i. With s = D_p + 1/t for one axis p that carries lambda the curve is
-rational and whole: t = 0 is rest, and t = infinity is the pole at D_p. lambda = 0: the principal axes, planes
-for equal moments, everything for a sphere.
+Without a torque: momentum parallel to rotation, D y + lambda = s y. The curve y(s) = lambda/(s - D) between
+its poles, through y = 0 at s = infinity and, for each D_i with lambda_i = 0, a line y_i arbitrary at s = D_i.
+With s = D_p + 1/t for one axis p that carries lambda the curve is rational and whole: t = 0 is rest, and t =
+infinity is the pole at D_p. lambda = 0: the principal axes, planes for equal moments, everything for a
+sphere.
 
 Stable exactly where m > 0, by energy and Casimir; where a line meets the curve in a pitchfork, exactly where
 m > 0 on the rest of the line (proofs: docs/mathematics/stability.md).
-
-At an equilibrium (D omega + lambda) x omega + M = 0; dotting with omega and with D omega + lambda gives
-M.omega = 0 and M.(D omega + lambda) = 0, two linear conditions, and what is left is at most one quadratic.
-Existence (parallel vectors, signs of discriminants, conics that fall apart into lines) is decided with exact
-rationals; coordinates are rounded once. Source: derived here; Amer et al. 2024 treats lambda along axis 1 and
-torques on one axis.
 """
 from __future__ import annotations
 
@@ -54,6 +49,7 @@ from ..numbers.vectors import CYCLE, Exact3, Number, Triple, cross, dot
 from ..physics.coefficients import Content, gyrostat_scene
 from ..physics.scene import AnyScene, QuadraticForm
 from .result import (
+    ONE_POLY,
     CurveSegment,
     Equilibria,
     EquilibriumCurve,
@@ -163,8 +159,6 @@ def _whole_line(p: Pencil, start: Exact3, v: Exact3) -> RationalCurve:
                          scale=size_of(x) / size_of(v))
 
 
-WHOLE = Poly((1,))  # the denominator of what has none
-
 WELL = Grounds(
     positive=("stable",
               "non-degenerate minimum of the reduced potential (U'' = m > 0): energy keeps nearby motions in "
@@ -243,7 +237,7 @@ class _Plane:
         # the parameter is the component that theory and paper use: the second axis if it lies in the plane
         self.leading = 1 if self.oblique or jq == 1 or (jp != 1 and jq == 2) else 0
 
-    def state(self, u: Number, v: Number, bottom: Number = WHOLE) -> Triple:
+    def state(self, u: Number, v: Number, bottom: Number = ONE_POLY) -> Triple:
         """Polynomials (or numbers over bottom = 1) of the state from its two plane components over `bottom`.
         """
         a, b = u * self.stretch[0], v * self.stretch[1]
@@ -402,7 +396,7 @@ def _main_curve(p: Pencil) -> RationalCurve:
     lead = support[0]
     factors = {i: Poly((1, p.D[lead] - p.D[i])) for i in support}  # s - D_i, times t
     distinct = list({p.D[i]: f for i, f in factors.items() if f.degree}.values())
-    bottom = Poly((1,))
+    bottom = ONE_POLY
     for f in distinct:
         bottom = bottom * f
     tops = tuple(bottom * T * p.lam[i] // factors[i] if i in factors else Poly(()) for i in range(3))

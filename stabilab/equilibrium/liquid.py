@@ -1,11 +1,10 @@
-"""Equilibria of a body with a liquid in a cavity: without torque and resistance, and with them.
+"""Equilibria of a body with a liquid in a cavity, without torque and resistance and with them, and of a free
+body with a damper inside, which ends as one with a liquid does.
 
-Permanent rotations of a body with a liquid in a cavity, without torque and resistance, and which of them
-attract.
-
-With a = D^-1 (D omega + Lambda) x omega and A = da/domega the rates are (D + kappa L) a, L = A + [omega x].
-So a = 0, the permanent rotations without liquid, are equilibria; any other needs det(D + kappa L) = 0, where
-the liquid's torque is no longer small against the body's (its derivation fails); for Lambda = 0 the energy
+Without torque and resistance they are permanent rotations. With a = D^-1 (D omega + Lambda) x omega and A =
+da/domega the rates are (D + kappa L) a, L = A + [omega x]. So a = 0, the permanent rotations without liquid,
+are equilibria; any other needs det(D + kappa L) = 0, where the liquid's torque is no longer small against the
+body's (its derivation fails); for Lambda = 0 the energy
 
     T' = -kappa/(D1 D2 D3) sum (Di - Dj)^2 (Di + Dj - Dk) omega_i^2 omega_j^2
 
@@ -14,9 +13,8 @@ is: z (z^2 + c2 z + c1). c1, c2 > 0: the curve of equilibria attracts its neighb
 manifold), so each point of it is stable and neighbouring motions tend to neighbouring points. c1 < 0 or c2 <
 0: a root with positive real part.
 
-Equilibria of a body with a liquid under a torque, in a resisting medium, or both.
-
-Three polynomials of third degree in omega. With x = sqrt(2 T) the work of all torques gives
+Under a torque, in a resisting medium, or both they are zeros of three polynomials of third degree in omega.
+With x = sqrt(2 T) the work of all torques gives
 
     x' <= m - (c - kappa alpha) x + kappa beta x^2,      m = sqrt(M . D^-1 M),
 
@@ -27,17 +25,19 @@ All equilibria below x2 lie in the box of x1, where exclusion and Krawczyk's tes
 """
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from fractions import Fraction
 from math import inf, sqrt
 from types import SimpleNamespace
+from typing import Any
 
 from flint import Ordering, arb, arb_mat, fmpq_mpoly_ctx
 
 from ..numbers.balls import evaluated, fraction, many_digits, rational
 from ..numbers.exact import sqrt_fraction
 from ..numbers.polynomial import Poly, real_roots
-from ..numbers.vectors import cross, dot
+from ..numbers.vectors import CYCLE, cross, dot
 from ..physics.coefficients import Content, gyrostat_scene, linear_rates, liquid_torque
 from .gyrostat import torque_free_curves
 from .result import (
@@ -359,3 +359,49 @@ def _enclosed(torques, x):
     if not all(abs(step) < size * RADIUS for step in steps.entries()):
         raise ArithmeticError("an equilibrium was not enclosed")
     return box
+
+
+# --- A damper inside a free body. At an equilibrium the damper's sphere is at rest in the body: sigma' +
+# omega' = 0 gives c sigma/k = -omega x sigma, whose product with sigma is c |sigma|^2/k = 0. So the
+# equilibria are those of the body alone. The damper keeps |H| and takes energy at every rotation that is not
+# permanent, as a liquid does, so that the same rotations attract; the eigenvalues are the damper's own.
+def damped_equilibria(parts: Content) -> Equilibria:
+    """Every permanent rotation with its stability; undecided beside a torque, a medium, a liquid or a wheel.
+    """
+    if any(parts.M) or parts.c or parts.damped or parts.kappa or any(parts.Lambda):
+        return Equilibria("undecided",
+                          "undecided: with a damper the stability of equilibria is known of a free body "
+                          "without wheels")
+    found = liquid_equilibria(replace(parts, inside=Fraction(0), kappa=Fraction(1)))  # verdicts of any liquid
+    return Equilibria(found.kind, _of_damper(found.reason),
+                      tuple(_with_damper(parts, point) for point in found.points),
+                      tuple(_curve_with_damper(parts, curve) for curve in found.curves))
+
+
+def _of_damper(words: str) -> str:
+    return words.replace("the liquid", "the damper")
+
+
+def _curve_with_damper(parts: Content, curve: EquilibriumCurve) -> EquilibriumCurve:
+    return replace(curve, samples=tuple(_with_damper(parts, point) for point in curve.samples),
+                   segments=tuple(replace(one, because=_of_damper(one.because)) for one in curve.segments))
+
+
+def _with_damper(parts: Content, point: EquilibriumPoint) -> EquilibriumPoint:
+    import numpy as np
+    return replace(point, eigenvalues=ordered(np.linalg.eigvals(damper_jacobian(parts, point.at))),
+                   because=_of_damper(point.because))
+
+
+def damper_jacobian(parts: Content, omega: Sequence[float]) -> Any:
+    """(6, 6) array at a permanent rotation, of (omega, sigma)."""
+    import numpy as np
+    w, D, k = omega, [float(d) for d in parts.D], float(parts.inside)
+    c = float(parts.friction)
+    found = np.zeros((6, 6))
+    for i, (j, l) in enumerate(CYCLE):
+        found[i, j], found[i, l] = (D[j] - D[l]) * w[l] / (D[i] - k), (D[j] - D[l]) * w[j] / (D[i] - k)
+        found[i, 3 + i] = c / (D[i] - k)
+        found[3 + i, 3 + i], found[3 + i, 3 + l], found[3 + i, 3 + j] = -c / k, -w[j], w[l]
+    found[3:] -= found[:3]
+    return found

@@ -1,11 +1,6 @@
-"""Curves, lines and planes of equilibria: where they are, and how stable.
-
-What decides where m and n vanish, or where the linear motion is a centre on a line of equilibria that no
-potential explains.
-
-Each function returns (verdict, reason), or None where it proves nothing. docs/certificate.md has the
-arguments.
-"""
+"""Curves, lines and planes of equilibria: where they are, and how stable. What decides where m and n vanish,
+or on a line of equilibria that no potential explains, returns (verdict, reason), or None where it proves
+nothing; the arguments are in docs/certificate.md."""
 from __future__ import annotations
 
 from fractions import Fraction

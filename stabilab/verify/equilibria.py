@@ -1,8 +1,6 @@
-"""What a certificate claims of equilibria, checked: each is one, none is missing, its stability.
-
-Do the curves cover everything? In the plane of the two conditions they are a conic; without a torque every s
-of D x + lambda = s x must be passed.
-"""
+"""What a certificate claims of equilibria, checked: each is one, none is missing, its stability. With a
+torque they lie on a line or a conic in the plane of the two conditions; without one every s of D x + lambda =
+s x must be passed. """
 from __future__ import annotations
 
 from dataclasses import dataclass

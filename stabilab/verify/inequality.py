@@ -1,11 +1,9 @@
-"""The inequality that stays true once it holds, about a fixed and about a moving centre.
+"""The inequality of spin-up, about a fixed and about a moving centre: true at one time, it is true for ever.
 
-The inequality of spin-up: true at one time, it is true for ever.
-
-In the normal form (`normal_form`), let M > 0. Energy and amplitude are corrected by terms c zeta^j zeta*^k
-X^-n: adding -c/(i om (j - k)) zeta^j zeta*^k X^-(n+1) takes an oscillating term (j != k) of degree n out of a
-rate, at the price of what the rest of d/dt makes of the added term. One after another, lowest degree first,
-up to a degree:
+About a fixed centre. In the normal form (`normal_form`), let M > 0. Energy and amplitude are corrected by
+terms c zeta^j zeta*^k X^-n: adding -c/(i om (j - k)) zeta^j zeta*^k X^-(n+1) takes an oscillating term (j !=
+k) of degree n out of a rate, at the price of what the rest of d/dt makes of the added term. One after
+another, lowest degree first, up to a degree:
 
     Y = X^2/2 + (added),                     Y' = M X + m + (left),      m constant, what is left of degree 0
     and more;
@@ -22,12 +20,10 @@ at one time, then as long as |zeta| < A and X > z: Y' > 0, so y = sqrt(2 (Y - e)
 1)), and |zeta|^2 stays below A^2 with the margin it began with. So both hold for ever, and X grows at least
 at the rate eta.
 
-The inequality of spin-up about the moving centre: true at one time, it is true for ever.
-
-In the form of `moving_form` let M > 0, z such that P, Q > 0 from z on, and Om = sqrt(P Q), which rises and is
-concave there, as P and Q do not fall and are linear. By adding -c/(i (j - k)) zeta^j zeta*^k P^-(a+2)/4
-Q^-(b+2)/4 an oscillating term (j != k) is taken out of a rate, at the price of x' times what d/dx and r zeta*
-+ f make of the added term; one after another, those that fall slowest first:
+About a moving centre. In the form of `moving_form` let M > 0, z such that P, Q > 0 from z on, and Om = sqrt(P
+Q), which rises and is concave there, as P and Q do not fall and are linear. By adding -c/(i (j - k)) zeta^j
+zeta*^k P^-(a+2)/4 Q^-(b+2)/4 an oscillating term (j != k) is taken out of a rate, at the price of x' times
+what d/dx and r zeta* + f make of the added term; one after another, those that fall slowest first:
 
     Y = int Om dx + (added),           Y' = Om G + (left);         B = (G/M) |zeta|^2 + (added),    B' =
     (left).

@@ -1,12 +1,10 @@
-"""The rates near a fixed or moving centre of spin-up, in the variables of the inequality.
+"""The rates about a fixed or a moving centre of spin-up in the variables of the inequality, from their
+coefficients alone.
 
-The normal form of the rates about an axis whose spin turns the other two, from the coefficients of the rates
-alone.
-
-Along the axis called 1 (cyclic relabelling; turned by half a turn about axis 2 where the sense is negative)
-the other two rates obey x2' = (kappa2 x1 + sigma2) x3 + rho2 x1 + m2 and x3' = (kappa3 x1 + rho3) x2 + sigma3
-x1 + m3. About c2 = -sigma3/kappa3, c3 = -rho2/kappa2, with U = x2 - c2, V = x3 - c3 and zeta = U + i q V, q^2
-= -kappa2/kappa3 (they turn where kappa2 kappa3 < 0), q of the sign of -kappa2,
+About a fixed centre. Along the axis called 1 (cyclic relabelling; turned by half a turn about axis 2 where
+the sense is negative) the other two rates obey x2' = (kappa2 x1 + sigma2) x3 + rho2 x1 + m2 and x3' = (kappa3
+x1 + rho3) x2 + sigma3 x1 + m3. About c2 = -sigma3/kappa3, c3 = -rho2/kappa2, with U = x2 - c2, V = x3 - c3
+and zeta = U + i q V, q^2 = -kappa2/kappa3 (they turn where kappa2 kappa3 < 0), q of the sign of -kappa2,
 
     zeta' = i om X zeta + i h zeta* + mu,   X' = M + g Im zeta^2 + Re(kap* zeta),   om = sqrt(-kappa2 kappa3),
       X = x1 + shift,
@@ -15,11 +13,9 @@ by inserting U = (zeta + zeta*)/2, V = (zeta - zeta*)/(2 i q): om shift = (q rho
 sigma2/q)/2, mu = m2 + sigma2 c3 + i q (m3 + rho3 c2), M = m1 + kappa1 c2 c3 + rho1 c3 + sigma1 c2, g =
 kappa1/(2 q), kap = kappa1 c3 + sigma1 + i (kappa1 c2 + rho1)/q.
 
-The form about the moving centre, from the coefficients of the rates alone: about a body axis, or along the
-equator of a body of revolution.
-
-With the frame, signs and letters of `normal_form`, let P = -tau (kappa2 x + sigma2) and Q = tau (kappa3 x +
-rho3) be positive, not falling (x = x1, tau = +-1):
+About a moving centre: a body axis, or the equator of a body of revolution. With the frame, signs and letters
+of `normal_form`, let P = -tau (kappa2 x + sigma2) and Q = tau (kappa3 x + rho3) be positive, not falling (x =
+x1, tau = +-1):
 
     x2' = -tau P x3 + rho2 x + m2,   x3' = tau Q x2 + sigma3 x + m3   vanish at   c2 = N2/Q, c3 = N3/P,   N2 =
     -tau (sigma3 x + m3), N3 = tau (rho2 x + m2).

@@ -1,11 +1,8 @@
 """Numbers of certificates read exactly, balls and their precision, the zero of a monotone function.
 
-python-flint's working precision, for one thread at a time.
-
-It belongs to the whole process, which may run the analysis in another thread meanwhile. So whoever needs it
-holds one lock, and the lock stands on the library: the one thing that checker and analysis share, and neither
-has to know the other.
-"""
+python-flint's precision belongs to the whole process, which may run the analysis in another thread meanwhile.
+So whoever needs it holds one lock, and the lock stands on the library: the one thing that checker and
+analysis share, and neither has to know the other. """
 from __future__ import annotations
 
 import re

@@ -1,13 +1,11 @@
-"""The reduced motion of one state in balls: its potential, its conserved quantities, its period.
+"""Motions that need no steps: those with a closed solution, judged by the rates alone, and those of one
+degree of freedom, as the motion of one state in its potential, in balls.
 
-What a certificate says of a motion with a closed solution, read and judged by the rates alone.
-
-free: no torque, so that sum D x^2 is constant. sphere: the rates are x' = m - n x x with a fixed n (or none);
-the part along n grows at the rate m . n/|n|, the part across goes round a circle. axis of symmetry: x_i' =
-m_i, and the two others turn at the rate w = kappa_j x_i + sigma_j under a constant push: where m_i is not
-zero w' is constant, so that (van der Corput) their size stays below that of the start and 8
-|push|/|w'|^(1/2); where it is, w is constant.
-"""
+The laws of closed solutions. free: no torque, so that sum D x^2 is constant. sphere: the rates are x' = m - n
+x x with a fixed n (or none); the part along n grows at the rate m . n/|n|, the part across goes round a
+circle. axis of symmetry: x_i' = m_i, and the two others turn at the rate w = kappa_j x_i + sigma_j under a
+constant push: where m_i is not zero w' is constant, so that (van der Corput) their size stays below that of
+the start and 8 |push|/|w'|^(1/2); where it is, w is constant. """
 from __future__ import annotations
 
 from dataclasses import dataclass

@@ -1,8 +1,6 @@
-"""Real zeros of polynomials with rational coefficients, isolated by Sturm's sequences, and counted work.
-
-How much work a check may take: bits times operations, counted before each, so that the same file has the same
-end everywhere.
-"""
+"""Real zeros of polynomials with rational coefficients, isolated by Sturm's sequences, with the work that a
+check may take: bits times operations, counted before each, so that the same file has the same end
+everywhere."""
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence

@@ -1,8 +1,5 @@
-"""A spin-up off the axes, checked: the motion up to the state of the inequality by Taylor series in balls,
-then the inequality.
-
-Where a motion surely is at given times: Taylor series in python-flint's balls, with enough bits instead of a
-guess.
+"""A spin-up off the axes, checked: the motion is enclosed by Taylor series in balls up to the state at which
+the inequality is claimed, then the inequality is tried there.
 
 x_i' = kappa_i x_j x_k + rho_i x_k + sigma_i x_j + m_i from an exact start. The set that holds the state is c
 + P E: c and the matrix P exact, E a box. A step takes c along by its Taylor polynomial, P by the derivative J

@@ -1,7 +1,5 @@
-"""How a printed equation is tried on the equations of motion, and what is decided of it.
-
-The true motion that a claim is held against: the program's own equations of motion, in the paper's
-letters.
+"""How a printed equation is tried on the program's own equations of motion, in the paper's letters, and what
+is decided of it.
 
 A system is either derived (`effects`: the equations that the program integrates, renamed by `names`), or
 stated by its rates in other variables (`follows`, `meaning`, `pace`) and then proved to follow from its

@@ -1,13 +1,10 @@
-"""Findings of the audit, and the repair of a printed equation.
-
-The smallest change that makes a wrong formula right: single edits of its tree, tried one after another.
+"""A paper's rows, each with its verdict: held against the equations of motion, with condition, correction,
+how it was decided, and the smallest change that makes a wrong formula right: single edits of its tree, tried
+one after another.
 
 Edits: a sign, an index (another symbol of the same stem), another symbol of the formula, a missing or an
 extra factor from the formula's own symbols and 2, sine for cosine, i for -i, a power raised, lowered, halved
 or doubled, a term left out.
-
-A paper's rows, each with its verdict: held against the equations of motion, with condition, correction and
-how it was decided.
 """
 from __future__ import annotations
 

@@ -1,8 +1,5 @@
-"""The audit in words and as a page.
-
-The audit as HTML pages: a table a paper, each row with its formulas typeset, residual, correction and how
-it was checked.
-"""
+"""The audit in words, as JSON and as a page: a table a paper, each row with its formulas typeset, residual,
+correction and how it was checked."""
 from __future__ import annotations
 
 import math

@@ -1,14 +1,6 @@
-"""What each effect costs, measured, and its page.
-
-What each effect of a scene costs: states, symbols, operations and the time of a rate, as effects are added
-one at a time.
-
-The counts are of the equations that run: the compiled form of the rates, with common subexpressions formed
-once.
-
-Only the effects a scene calls for, shown: what each one adds to the state, the equations and the time of a
-rate.
-"""
+"""What each effect of a scene costs, and its page: states, symbols, operations and the time of a rate, as
+effects are added one at a time. The counts are of the equations that run: the compiled form of the rates,
+with common subexpressions formed once."""
 from __future__ import annotations
 
 import subprocess

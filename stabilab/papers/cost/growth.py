@@ -1,6 +1,5 @@
-"""How cost grows with states, digits and closeness, measured, and its page.
-
-How cost grows: with the number of states, with the digits, and with closeness to the separatrix.
+"""How cost grows with the number of states, with the digits, and with closeness to the separatrix, measured,
+and its page.
 
 Times are the fastest of a few runs, warmed up; errors, nodes and bits are counted and do not depend on the
 machine.

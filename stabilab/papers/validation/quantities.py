@@ -1,24 +1,16 @@
-"""Quantities that other tools print, computed here.
-
-Integrators with a fixed step, in doubles as the tools run them: to show what of a printed number is its
+"""Quantities that other tools print (rates, modified Rodrigues parameters, angles), enclosed in balls, and as
+the integrators with a fixed step leave them that the tools seem to use: what of a printed number is its
 integrator's error.
 
-A body whose wheels are driven by motors, enclosed: Taylor series in balls with a proved remainder.
-
-With I the moments of the body and its wheels less the wheels' own about their axes, and h the wheels' whole
-momenta about these,
+A recorded motion is followed by the Taylor series in integers of `integrate.integer_flow`; a body whose
+wheels are driven by motors by Taylor series in balls with a proved remainder. With I the moments of the body
+and its wheels less the wheels' own about their axes, and h the wheels' whole momenta about these,
 
     I omega' = -omega x (I omega + h) - u,    h' = u,    n' = n x omega      (u motor torques, n a direction
     at rest in space).
 
 A box about the start that x0 + [0, H] f(box) does not leave holds the motion over the step H; the last Taylor
 coefficient over the box bounds the remainder.
-
-Rates and attitude of a recorded motion, enclosed in balls: by the Taylor series in integers of
-`integrate.integer_flow`.
-
-What is printed of a motion, from its enclosure: rates, modified Rodrigues parameters, angles. Balls in,
-balls out.
 """
 from __future__ import annotations
 
@@ -121,7 +113,7 @@ RPM = Fraction(6000)  # the speed at which a wheel has its nominal momentum
 
 
 def wheels_at(motion, times) -> list:
-    """[(rates, turned rows)] at increasing times (rationals, s), as of `enclose.At`."""
+    """[(rates, turned rows)] at increasing times (rationals, s), as of `At`."""
     found, wheels = [], motion.wheels
     with working(BITS) as numbers:
         # moment of a wheel about its axis

@@ -1,17 +1,12 @@
-"""Averaged equations of a body with a liquid-filled cavity, in polar form.
-
-Averaged motion of a nearly spherical body with a liquid: slow amplitude, spin and phase instead of every
-turn.
+"""Slow amplitude, spin and phase of a nearly spherical body with a liquid: by the averaged equations, and
+exactly.
 
 p = A cos phi, q = -A sin phi, r: A and r change slowly while phi turns at about nu = (d r - Gamma)/J0. The
-equations come from `averaging_form`; they are integrated in W = A exp(i (phi - psi)), r, psi, which is
+averaged equations come from `normal_form`; they are integrated in W = A exp(i (phi - psi)), r, psi, which is
 regular at A = 0, at r < 0 and through nu = 0. Without a torque across axis 3 no amplitude reaches 0, and log
 W is followed, which keeps an amplitude and its phase far below the rounding of r.
 
-The exact motion of a body with a liquid in amplitude, phase and spin, which keep their digits when the
-amplitude dies out.
-
-p = A cos phi and q = -A sin phi of a run in doubles are known to a share of the whole angular velocity: once
+p and q of an exact run in doubles are known to a share of the whole angular velocity: once
 A has fallen below the rounding of r they are noise, and so is the angle of (p, -q). Where p' and q' vanish
 with p and q, A'/A and phi' stay regular however small A is, so log A and phi are followed instead.
 """

@@ -1,6 +1,4 @@
-"""The analytic model of a body with a liquid-filled cavity, corrected and as printed.
-
-The printed Taylor polynomials of the body with a liquid.
+"""The averaged models of a body with a liquid as models of a case, and the Taylor polynomials as printed.
 
 Galal, Amer, Elneklawy, El-Kafly, "Studying the influence of a gyrostatic moment on the motion of a charged
 rigid body containing a viscous incompressible liquid", eqs (13), (14), (24)-(29). The formulas are
@@ -41,10 +39,7 @@ class PrintedMotion:
     """The printed solution at the asked-for times.
 
     t: (n,) s, up to where it exists; amplitude a of p, rad/s, spin r, rad/s, phase phi, rad: (n,); omega: (n,
-    3) rad/s, body frame, by (14). stops: quantity ("omega", "amplitude", "spin", "phase") -> (time of the
-    first 1 %, of the first 10 % departure from the exact motion), s; None where there is none in the span. A
-    departure is relative to the largest size of the quantity so far; of the phase it is 0.01 and 0.1 of a
-    turn. status: "reached" or "stopped"; reason: why.
+    3) rad/s, body frame, by (14). status: "reached" or "stopped"; reason: why.
     """
 
     t: np.ndarray

@@ -1,7 +1,5 @@
-"""The normal form of a body with a liquid-filled cavity, and its attractors.
-
-The averaged equations of a nearly spherical body, derived from the scene's equations: a normal form of the
-slow turn.
+"""The averaged equations of a nearly spherical body with a liquid, derived from the scene's equations as a
+normal form of the slow turn; and where they end: their steady states, who attracts, and how fast.
 
 With D1 = J0 + e d + e^2 h, D2 = J0 + e d - e^2 h, D3 = J0, Gamma = e g, kappa = e kappa, resistance e^2 zeta,
 torque e^2 M (e only counts orders: every answer is written in the physical numbers, e = 1) and Z = p - i q =
@@ -15,14 +13,11 @@ is split into K(nu) and 1 - K(nu), K = exp(-(nu/width)^4); the first part stays 
 U through the factor m(nu) = (1 - K)/nu, which is regular everywhere. Far from nu = 0 this is classical
 averaging, at nu = 0 the plain equations.
 
-Where a body with a liquid ends: steady states of the averaged equations, who attracts, and how fast.
-
-A' = A alpha(r), r' = rho0(r) + A^2 rho1(r): the means of first and second order, derived in `averaging_form`,
-of the body with D1 and D2 both at their mean and M1 = M2 = 0 (the harmonics of either leave such a state in
+Steady states are those of A' = A alpha(r), r' = rho0(r) + A^2 rho1(r): the means of first and second order of
+the body with D1 and D2 both at their mean and M1 = M2 = 0 (the harmonics of either leave such a state in
 first order). The second order matters as soon as |Gamma| > J0 |r|: it holds the decay kappa Gamma^2/J0^3 of
 the turn in the liquid. A steady state with A = 0 is a spin about axis 3; one with A > 0 is a regular
-precession, the angular velocity going round axis 3 in the body.
-"""
+precession, the angular velocity going round axis 3 in the body. """
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -255,7 +250,7 @@ class Attractors:
 
 def attractors(scene) -> Attractors:
     """Steady states of the averaged equations of the scene, first and second order together. Raises
-    InputError where the scene is not of the kind (`averaging_form.check`)."""
+    InputError where the scene is not of the kind (`check`)."""
     from sympy import Poly, Rational, Symbol, expand, re
     form, numbers = normal_form(scene), constants(scene)
     put = {s: Rational(numbers[n].numerator, numbers[n].denominator) for s, n in zip(form.symbols, NAMES)}

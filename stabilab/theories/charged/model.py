@@ -1,6 +1,5 @@
-"""The analytic model of a charged body, corrected and as printed.
-
-The charged axisymmetric body by the paper's formulas as they stand in print, misprints and all.
+"""The closed forms of the charged axisymmetric body as models of a case, and the paper's formulas as they
+stand in print, misprints and all.
 
 Galal et al., charged body, (11)-(13), (20)-(26), (33), (35), (43)-(51), (58)-(66). The formulas are those of
 the audit's file on the paper (`theories/printed/papers/charged-axisymmetric.toml`), which holds each against

@@ -1,8 +1,5 @@
-"""Printed formulas and what the papers claim of them.
-
-Formulas as people type them, read as SymPy trees: names, numbers, + - * / **, a few functions, nothing
-that runs code.
-"""
+"""What papers claim, read from TOML: formulas as people type them become SymPy trees (names, numbers, + - * /
+**, a few functions, nothing that runs code), claims become rows."""
 from __future__ import annotations
 
 import ast

@@ -1,8 +1,6 @@
-"""Printed formulas evaluated: values with derivatives.
-
-Printed formulas as functions of NumPy arrays: what `model = "printed"` draws is what the audit holds
-against the equations of motion.
-"""
+"""Printed formulas evaluated: at points, with derivatives and to any number of digits, for the audit, and as
+functions of NumPy arrays, so that what `model = "printed"` draws is what the audit holds against the
+equations of motion."""
 from __future__ import annotations
 
 import cmath

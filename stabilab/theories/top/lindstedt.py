@@ -1,6 +1,5 @@
-"""A fast top by Lindstedt series.
-
-The periodic motion of a fast top as a power series in the small parameter, each coefficient a Fourier sum.
+"""The periodic motion of a fast top in a Newtonian field by the Poincare-Lindstedt expansion, to any order: a
+power series in the small parameter, each coefficient a Fourier sum.
 
 With e = `size`, p = e r0 u, q = e r0 v, r = r0 w, s = nu r0 t, a dash for d/ds and hats for quantities over
 their power of e, the Euler-Poisson equations (Amer et al. 2023, fast top: eq. (5), there for gamma/gamma0'')
@@ -16,10 +15,8 @@ u, v are at rest; the kernel of the linear part is the size and phase of G and t
 constants that the start gamma, r sets. The harmonic exp(-is) of the order n equation of G settles nu_n; the
 other three conditions of solvability hold by the three integrals (`defect` keeps how well).
 
-The fast top's periodic motion in a Newtonian field by the Poincare-Lindstedt expansion, to any order.
-
 The expansion has no free wobble in it (source: Amer et al. 2023, fast top; its first order is printed
-wrongly, see `small_parameter_printed`). A start therefore gives r and gamma at t = 0, and the periodic motion
+wrongly, see `model`). A start therefore gives r and gamma at t = 0, and the periodic motion
 through them says what p and q must be; `departure` is how far the given p and q are from that. A start
 elsewhere wobbles about the periodic motion at the frequency Omega r0 with an amplitude of that size, which
 the expansion leaves out.
@@ -264,7 +261,7 @@ class LindstedtMotion:
     `FastTop.size`); frequency: nu r0, rad/s (with the sign of r0); period: s; Omega2: square of the free
     wobble's frequency over r0; resonances: those in reach, nearest first; terms: size of each order's term
     relative to the spin, 0 ... order; ahead: those of the next two orders, where they exist; residual:
-    largest residual over one revolution of the scaled equations (see `small_parameter_series`); departure:
+    largest residual over one revolution of the scaled equations (above); departure:
     (2,) given minus periodic p, q at t = 0, rad/s; left_out: what p, q at t = 0 change by in the next two
     orders, rad/s (by the residual, where these do not exist).
 

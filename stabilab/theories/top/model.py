@@ -1,8 +1,7 @@
-"""The analytic model of a fast top, corrected and as printed.
+"""The expansion of a fast top as a model of a case, and its first approximation as Amer et al. 2023 (fast
+top) print it: eqs. (4), (10), (41), (42), (43), for comparison only.
 
-The fast top's first approximation as Amer et al. 2023 (fast top) print it: eqs. (4), (10), (41), (42), (43).
-
-For comparison only. The formulas are those of the audit's file on the paper
+The formulas are those of the audit's file on the paper
 (`theories/printed/papers/newtonian-field-top.toml`), which holds each against the equations of motion. What
 is wrong in it:
 

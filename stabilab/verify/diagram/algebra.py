@@ -1,23 +1,14 @@
-"""Coefficients, Groebner bases and Hermite's trace form.
-
-Coefficients of the equations while a number t varies: rational functions of t, or what they are at one
-algebraic value of it.
-
-Polynomials in a few unknowns, and a Groebner basis of the equations: which monomials remain, and any
-polynomial written in these.
+"""How many real zeros equations have, by a Groebner basis and Hermite's trace form, while a number t varies:
+their coefficients are rational functions of t, or what these are at one algebraic value of it.
 
 A polynomial is a table from the powers of its unknowns to coefficients that are not zero (`Ratio`,
 `Residue`). The order of monomials is by total degree, then by the powers. Buchberger's algorithm: every pair
 of the basis leaves the remainder zero, or its remainder joins the basis.
 
-Hermite's trace form: its rank is the number of different zeros of the equations, its signature that of the
-real ones.
-
-For any polynomial q the form with entries tr(b_i b_j q), over the monomials b that remain, has the rank
-"different zeros at which q is not zero" and the signature "real ones where q > 0 less real ones where q < 0".
-All its eigenvalues are real, so the signs of its characteristic polynomial's coefficients tell how many are
-positive (Descartes' rule is exact then).
-"""
+For any polynomial q Hermite's trace form with entries tr(b_i b_j q), over the monomials b that remain, has
+the rank "different zeros at which q is not zero" and the signature "real ones where q > 0 less real ones
+where q < 0". All its eigenvalues are real, so the signs of its characteristic polynomial's coefficients tell
+how many are positive (Descartes' rule is exact then). """
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence

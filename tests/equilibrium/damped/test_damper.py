@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from stabilab import Body, ConstantTorque, Gyrostat, Scene, ViscousDamper, derive, equilibria, motion
-from stabilab.equilibrium.damper import jacobian
+from stabilab.equilibrium.liquid import damper_jacobian as jacobian
 from stabilab.equilibrium.stability import ordered
 from stabilab.physics.coefficients import content
 from stabilab.physics.to_numpy import to_numpy
