@@ -5,7 +5,6 @@ import itertools
 import json
 import math
 import os
-import re
 import signal
 import subprocess
 import sys
@@ -56,27 +55,6 @@ each_fifth = pytest.mark.parametrize("fifth", [0, *(pytest.param(n, marks=LATER)
 each_case = pytest.mark.parametrize("fifth, path",
                                     [pytest.param(n % 5, path, id=path.stem, marks=[LATER] * (n % 5 > 0))
                                      for n, path in enumerate(CASES)])
-
-
-@each_fifth
-def test_classify_answers_once_per_case_with_the_documented_keys(fifth):
-    from stabilab.case.read import load_all
-    assert list(classified(fifth)) == [case.name for path in CASES[fifth::5] for case in load_all(path)]
-    for answer in classified(fifth).values():
-        assert answer["schema"] == "stabilab.classify/1" and answer["variables"] in ("scaled", "physical")
-        assert {"kind", "reason", "points", "curves"} <= answer["equilibria"].keys()
-        assert {"at", "fate", "axis", "because", "margin", "period", "extremes",
-                "invariants"} <= answer["motion"].keys()
-        assert answer["motion"]["margin"].keys() == {"energy", "angular_velocity", "bounds", "witness",
-                                                     "because"}
-        for point in answer["equilibria"]["points"]:
-            # a full tensor: the state in the frame of the file as well
-            turned = {"at_input"} if "frame" in answer else set()
-            assert point.keys() == {"at", "jacobian", "characteristic", "eigenvalues", "linear", "verdict",
-                                    "because"} | turned
-            assert np.shape(point["eigenvalues"]) == (len(point["at"]), 2)
-        for curve in answer["equilibria"]["curves"]:
-            assert {"name", "samples", "folds", "segments"} <= curve.keys()
 
 
 @each_case
@@ -159,11 +137,6 @@ def test_every_invariant_and_number_of_a_run_has_its_unit_in_text(fifth):
             for name in motion[part]} <= set(QUANTITIES)
 
 
-def test_numbers_in_json_are_doubles_to_the_last_digit(stabilab):
-    code, out, _ = stabilab("classify", MINOR, "--json")
-    assert code == 0 and strict_json(out)[0]["motion"]["at"] == [2.5, 4.0, 0.1]
-
-
 def test_infinite_and_missing_values_become_null():
     from stabilab.show.data import as_json
     value = {"a": [math.inf, -math.inf, math.nan, None, np.float64(0.1), np.int64(3), 1 + 2j],
@@ -179,12 +152,6 @@ def test_case_without_a_motion_has_null_for_it(stabilab, tmp_path):
     assert code == 0 and strict_json(out)[0]["motion"] is None
 
 
-def test_text_of_classify_names_fate_and_curve(stabilab):
-    code, out, err = stabilab("classify", MINOR, OFF_AXIS)
-    assert code == 0 and not err
-    assert "minor-axis-100: BOUNDED" in out and "off-axis-two: SPINS UP" in out and "unstable" in out
-
-
 def test_strict_turns_an_undecided_fate_into_exit_code_3(stabilab):
     assert stabilab("classify", OFF_AXIS, "--follow", "1")[0] == 0
     code, out, _ = stabilab("classify", OFF_AXIS, "--strict", "--json", "--follow", "1 s")
@@ -198,10 +165,6 @@ def test_spin_up_off_the_axes_is_the_first_line_with_its_certificate(stabilab):
     code, out, err = stabilab("fate", OFF_AXIS, "--strict")
     assert code == 0 and not err and out.startswith(
         "off-axis-two: SPINS UP about z (minor axis), positive direction (certified); ")
-    told = strict_json(stabilab("fate", OFF_AXIS, "--json")[1])[0]
-    assert (told["fate"], told["level"], told["axis"], told["sense"]) == ("spin-up", "certified", 3, 1)
-    assert told["t"] > 0 and "certified" in told["cause"] and told["bounds"][2][
-        1] is None and None not in told["bounds"][0]
     assert "bounds for all times" in stabilab("extremes", OFF_AXIS)[1]
 
 
@@ -356,16 +319,6 @@ def test_motion_is_asked_for_where_it_is_needed(stabilab, tmp_path):
         assert code == 2 and not out and "this command needs a state" in err
 
 
-def test_show_prints_equations_and_laws(stabilab):
-    code, out, _ = stabilab("show", ROOT / "cases/wheel-and-thruster.toml")
-    assert code == 0 and "D1 ω1' =" in out and "\\dot{\\omega_{1}}" in out and "Laws of this scene" in out
-
-
-def test_show_names_no_symbol_of_an_effect_that_is_not_there(stabilab):
-    code, out, _ = stabilab("show", ROOT / "cases/off-axis-two.toml")
-    assert code == 0 and "M1" in out and "lambda" not in out.split("Laws that hold for every value")[0]
-
-
 def test_show_tells_equations_of_a_sweep_once_and_again_where_a_term_is_gone(stabilab, tmp_path):
     path = tmp_path / "two.toml"
     path.write_text(MINOR_SWEPT)
@@ -375,15 +328,6 @@ def test_show_tells_equations_of_a_sweep_once_and_again_where_a_term_is_gone(sta
     same, other = out.split("\n\ntwo-3: ")
     assert "hold for 1 other combination" in same and "other combination" not in other
     assert [line.split() for line in same.splitlines()[-2:]] == [["two-1", "0.5"], ["two-2", "0.8"]]
-
-
-def test_show_sets_factors_side_by_side_and_names_as_letters(stabilab):
-    """-(λ x ω) and the torque of gravity, (M g r) x γ up to its sign, by hand."""
-    told = "".join(stabilab("show", ROOT / f"cases/{name}.toml")[1].split("In LaTeX")[0]
-                   for name in ("top-lx30-lz30", "liquid-base"))
-    assert "  D3 ω3' = Mgx γ2 - Mgy γ1 + " in told and "+ λ1 ω2 + ω1 ω2 (D1 - D2)\n" in told
-    assert "D1² κ" in told and "  ζ = 1/50" in told
-    assert "*" not in told and not re.search(r"kappa|zeta|lambda|gamma", told)
 
 
 def test_plot_writes_a_picture_and_says_where(stabilab, tmp_path):
@@ -405,6 +349,7 @@ def test_surface_without_a_renderer_writes_the_meshes_and_ends_with_4(stabilab, 
 
 
 # -- [sweep]
+
 
 SWEPT = """title = "swept"
 [body]
@@ -533,6 +478,8 @@ def test_a_scene_without_a_separatrix_is_an_answer_and_no_file(stabilab, tmp_pat
 @pytest.mark.parametrize("arguments, known", [
     (("plot", MINOR, "--out", "a.jpg"), ".png, .svg or .pdf"),
     (("plot", MINOR, "--out", "a"), ".png, .svg or .pdf"),
+    (("plot", MINOR, "--out", "a.png.gz"), ".png, .svg or .pdf"),
+    (("plot", MINOR, "--out", ".png"), ".png, .svg or .pdf"),
     (("simulate", MINOR, "--out", "a.png"), ".nc or .csv"),
     (("compare", ROOT / "cases/charged-body.toml", "--out", "a.json"), ".csv"),
     (("precision", MINOR, "--out", "a.txt"), ".png, .svg, .pdf or .csv"),

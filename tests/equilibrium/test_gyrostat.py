@@ -22,10 +22,6 @@ def physical(D, lam, M) -> Scene:
     return Scene(Body(D), Gyrostat(lam), ConstantTorque(M))
 
 
-def values(points, form=(3, 7, 19)):
-    return sorted(sum(c * float(v) for c, v in zip(form, x)) for x in points)
-
-
 # D, lambda, M: hyperbola, lines that cross, one line, oblique torque on a symmetric body, torque-free
 CURVED = [
     (D_PAPER, (100, 0, 0), (0, 0, 204)), ((5, 4, 2), (2, 3, 0), (0, 0, -6)),

@@ -81,7 +81,7 @@ def answers(tmp_path_factory):
     return outputs(tmp_path_factory.mktemp("bytes") / "plain", ANSWERS)
 
 
-@pytest.mark.one_in(2)
+@pytest.mark.slow
 @pytest.mark.parametrize("around",
                          [{**AROUND["one thread"], **AROUND["other hashing"],
                            "NPY_DISABLE_CPU_FEATURES": LEAST}], ids=["all"])

@@ -133,6 +133,7 @@ def test_a_case_of_the_gallery_has_picture_answer_file_and_commands_and_is_kept_
     assert drawn == [changed]
 
 
+@pytest.mark.slow
 def test_the_gallery_says_before_an_answer_that_it_leaves_its_law(tmp_path):
     """25 t of liquid in a body of 9 kg m^2: "BOUNDED for ever" alone stood above a picture that says it."""
     assert gallery.made(ROOT / "cases/liquid-base.toml",

@@ -8,8 +8,8 @@ import pytest
 CONTENTS = {"constant-torque-gyrostat": (84, 17, {"1", "2", "3", "4"}), "liquid-cavity": (26, 13, set())}
 
 
-@pytest.mark.parametrize("paper", [pytest.param("constant-torque-gyrostat", marks=pytest.mark.slow),
-                                   "liquid-cavity"])  # the audit of a paper takes five seconds
+@pytest.mark.slow  # the audit of a paper takes five seconds
+@pytest.mark.parametrize("paper", CONTENTS)
 def test_every_equation_figure_and_table_has_a_verdict_and_a_place(stabilab, paper):
     equations, figures, tables = CONTENTS[paper]
     rows = json.loads(stabilab("papers", paper, "--json")[1])["rows"]

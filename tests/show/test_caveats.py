@@ -98,7 +98,7 @@ def told(name, text) -> bool:
                                                   or "reaches 7 deg/s in " in text))
 
 
-@pytest.mark.one_in(4)
+@pytest.mark.one_in(6)
 @pytest.mark.parametrize("command, shown", VIEWS, ids=[" ".join(view) for view, _ in VIEWS])
 def test_every_command_and_view_shows_what_limits_its_answer(stabilab, files, command, shown):
     for name in shown:

@@ -42,6 +42,12 @@ def _space(case):
     return moved, space.space(case, moved, equilibria(case.scene), units_of(case))
 
 
+@pytest.fixture
+def undrawn(monkeypatch):
+    """A page without its pictures, which take most of its time."""
+    monkeypatch.setattr("stabilab.show.report.one_case.page.pictures", lambda *given: [])
+
+
 def _places(packed):
     return np.frombuffer(base64.b64decode(packed), "<i2").reshape(-1, 3) / 4095.0
 
@@ -70,7 +76,7 @@ def test_a_state_beside_which_there_is_no_theory_says_so_and_shows_what_the_rate
 SATELLITE = (np.array([100.0, 90, 40]), np.array([3.0, 0, 0]))  # moments, momentum of its wheel
 
 
-def test_the_tiles_have_the_outcome_when_the_largest_rate_and_the_distance(tmp_path):
+def test_the_tiles_have_the_outcome_when_the_largest_rate_and_the_distance(tmp_path, undrawn):
     """Time and rate by SciPy's DOP853 on Euler's equations written out here."""
     text = ("[body]\ninertia = [100, 90, 40]\n[effects.gyrostat]\nmomentum = [3, 0, 0]\n"
             "[effects.constant_torque]\ntorque = {torque}\n[motion]\nangular_velocity = [0.1, 0, 0.01]\n"
@@ -207,7 +213,7 @@ def test_formulas_in_words_have_the_signs_of_a_book_and_commands_stay(plain, tol
 
 
 def test_the_first_line_of_a_page_says_what_the_uncertain_numbers_change_and_the_page_has_one_unit_of_rates(
-    tmp_path):
+    tmp_path, undrawn):
     """The file's 1.7 +- 0.02 rad/s are 97.403 +- 1.1459 deg/s by hand."""
     page = sections(load(CASES / "uncertain-separatrix.toml"), tmp_path, "x", deep=False)
     assert page["headline"].endswith(
@@ -365,7 +371,7 @@ def test_parameters_whose_names_are_products_are_set_as_products_and_minus_is_a_
 
 
 @pytest.mark.parametrize("name, claims", [("top-fast", False), ("symmetric-body", True)])
-def test_a_certificate_without_claims_is_not_said_to_be_checked(name, claims, tmp_path):
+def test_a_certificate_without_claims_is_not_said_to_be_checked(name, claims, tmp_path, undrawn):
     from stabilab.show.report import html
     page = sections(load(CASES / f"{name}.toml"), tmp_path, name, deep=False, certify=True)
     text = html.render("case.html", case=page, surface=None, pictures="", extra=(), command="", versions=())
@@ -390,7 +396,7 @@ def test_every_parameter_of_the_equations_has_its_unit(name, tmp_path):
             if " " not in value] == []
 
 
-def test_a_page_tells_scaled_numbers_as_x_and_a_law_that_needs_no_run_has_no_steps(tmp_path):
+def test_a_page_tells_scaled_numbers_as_x_and_a_law_that_needs_no_run_has_no_steps(tmp_path, undrawn):
     page = _sections("major-axis-captured", tmp_path)
     facts = dict(page["facts"])
     assert facts["start"] == "(−1, 0, 3) at τ = 0"
@@ -429,7 +435,7 @@ def test_moments_certificates_limits_and_the_reduced_energy_are_told_as_what_the
                for words in small["sensitivity"]["words"])
 
 
-def test_a_limit_about_three_axes_is_named_once(tmp_path, stabilab):
+def test_a_limit_about_three_axes_is_named_once(tmp_path, stabilab, undrawn):
     """The limits of geostationary-22n are 5 deg/s about each axis of its file."""
     page = sections(load(CASES / "geostationary-22n.toml"), tmp_path, "x", deep=False)
     assert any(words.startswith("The limit of the case, |ωx|, |ωy| or |ωz| = 5 deg/s, is reached after 8.57")
@@ -438,7 +444,7 @@ def test_a_limit_about_three_axes_is_named_once(tmp_path, stabilab):
                                                                          CASES / "geostationary-22n.toml")[1]
 
 
-def test_the_reason_of_an_undecided_fate_does_not_repeat_that_it_is_undecided(tmp_path):
+def test_the_reason_of_an_undecided_fate_does_not_repeat_that_it_is_undecided(tmp_path, undrawn):
     assert not dict(_sections("charged-body-attitude", tmp_path)["facts"])["because"].startswith("undecided")
 
 
@@ -460,7 +466,7 @@ def test_the_legend_of_the_space_names_only_what_is_in_its_box():
 
 
 @pytest.mark.slow
-def test_an_extreme_that_is_zero_but_for_rounding_is_told_as_zero(tmp_path):
+def test_an_extreme_that_is_zero_but_for_rounding_is_told_as_zero(tmp_path, undrawn):
     """The start has omega2 = 0, where omega2' = 0 too, and the motion comes back to it from above: by hand
     the least omega2 is 0."""
     rows = _sections("charged-body", tmp_path)["extremes"]
@@ -496,7 +502,7 @@ def test_equilibria_of_undecided_stability_are_not_drawn_as_stable():
     assert "equilibria of undecided stability" in legend and "stable equilibria" not in legend
 
 
-def test_the_trend_of_an_energy_tells_what_it_compares(tmp_path):
+def test_the_trend_of_an_energy_tells_what_it_compares(tmp_path, undrawn):
     """major-axis-spin3-500 spins up: its energy has turned before the end of the run, and yet is below that
     of the beginning."""
     for name, words in (("major-axis-spin3-500",
@@ -505,7 +511,7 @@ def test_the_trend_of_an_energy_tells_what_it_compares(tmp_path):
         assert dict(_sections(name, tmp_path)["facts"])["the energy"] == words
 
 
-def test_a_margin_to_other_bounded_motions_is_not_told_as_one_that_changes_the_fate(tmp_path):
+def test_a_margin_to_other_bounded_motions_is_not_told_as_one_that_changes_the_fate(tmp_path, undrawn):
     """Without a torque, and about the middle axis with walls on both sides, every motion is bounded; beyond
     the barrier of a minor axis it spins up."""
     for name, same in (("torque-free-body", True), ("middle-axis-double-well", True),

@@ -164,7 +164,8 @@ def test_of_curves_on_each_other_the_later_ones_are_broken_so_that_all_are_seen(
 
 def test_a_state_of_many_parts_is_written_to_several_pictures(tmp_path):
     """liquid-base has its rates alone, top-fast rates and vertical, charged-body five parts."""
-    named = lambda name: [path.name for path in to_file.write_all(load(name), tmp_path / f"{name}.png", "state")]
+    named = lambda name: [path.name for path in to_file.write_all(load(name), tmp_path / f"{name}.png", "state",
+                                                                  size=(4, 3), dpi=30)]
     assert named("top-fast") == ["top-fast.png"]
     assert named("charged-body") == ["charged-body.png", "charged-body-2.png", "charged-body-3.png"]
     assert len(list(tmp_path.iterdir())) == 4
@@ -459,15 +460,6 @@ def test_every_kind_of_scene_knows_its_kinds_of_plot(name):
     for kind in set(which.KINDS) - known:
         with pytest.raises(errors.InputError, match="this one has time"):
             which.check(kind, one)
-
-
-@pytest.mark.one_in(3)
-@pytest.mark.parametrize("ending", ["png", "svg", "pdf"])
-def test_the_same_case_gives_the_same_bytes_in_every_format(ending, tmp_path):
-    case = load("middle-axis-100")
-    one, two = (to_file.write(case, tmp_path / f"{n}.{ending}", "time", size=(5, 3)).read_bytes()
-                for n in (1, 2))
-    assert one == two and one[:5] in (b"\x89PNG\r", b"<?xml", b"%PDF-")
 
 
 def test_a_picture_has_the_size_and_the_dots_asked_for(tmp_path):
@@ -772,7 +764,8 @@ def test_a_rate_that_turns_often_by_little_is_drawn_as_its_line_and_not_as_a_ban
     assert len(ax.collections) == 2  # omega1 and omega2, which fill bands
 
 
-@pytest.mark.parametrize("size, panels", [((3.6, 3.0), 1), pytest.param((7, 6), 4, marks=pytest.mark.slow)])
+@pytest.mark.slow
+@pytest.mark.parametrize("size, panels", [((3.6, 3.0), 1), ((7, 6), 4)])
 def test_a_small_picture_of_costs_has_as_many_questions_as_have_room_and_nothing_is_cut_off(size, panels):
     """Oracle: Matplotlib's own boxes after the layout."""
     with style.drawing():
@@ -787,20 +780,18 @@ def test_a_small_picture_of_costs_has_as_many_questions_as_have_room_and_nothing
         assert all(ax.get_window_extent().height > figure.bbox.height / 8 for ax in shown)
 
 
-def test_the_third_axis_is_named_upwards_and_an_axis_seen_from_its_end_has_fewer_ticks():
+@pytest.mark.one_in(3)
+@pytest.mark.parametrize("size", [None, (3.6, 3.0), (3.0, 3.0)])
+@pytest.mark.parametrize("name", ["two-wheels-minor-axis", "torque-free-gyrostat", "middle-axis-double-well"])
+def test_the_third_axis_is_named_upwards_and_an_axis_seen_from_its_end_has_fewer_ticks(name, size):
     """Oracle: the ticks' own boxes, of which no two lie on each other."""
-    for name in ("two-wheels-minor-axis", "torque-free-gyrostat", "middle-axis-double-well"):
-        for size in (None, (3.6, 3.0), (3.0, 3.0)):
-            ax = stabilab.plot.sphere(load(name), size=size)
-            ax.figure.draw_without_rendering()
-            assert ax.zaxis.label.get_rotation() == (90 if " " in ax.get_zlabel() else 0)
-            for axis in (ax.xaxis, ax.yaxis, ax.zaxis):
-                low, high = sorted(axis.get_view_interval())
-                boxes = [tick.label1.get_window_extent() for tick in axis.get_major_ticks()
-                         if low <= tick.get_loc() <= high]
-                assert len(boxes) >= 2 and not [1 for n, box in enumerate(boxes) for other in boxes[:n]
-                                                if _deep(box, other)], (name, size)
-            plt.close("all")
+    ax = stabilab.plot.sphere(load(name), size=size)
+    ax.figure.draw_without_rendering()
+    assert ax.zaxis.label.get_rotation() == (90 if " " in ax.get_zlabel() else 0)
+    for axis in (ax.xaxis, ax.yaxis, ax.zaxis):
+        low, high = sorted(axis.get_view_interval())
+        boxes = [tick.label1.get_window_extent() for tick in axis.get_major_ticks() if low <= tick.get_loc() <= high]
+        assert len(boxes) >= 2 and not [1 for n, box in enumerate(boxes) for other in boxes[:n] if _deep(box, other)]
 
 
 def _deep(box, other):

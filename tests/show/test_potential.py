@@ -66,10 +66,10 @@ def test_the_arrow_has_the_length_of_the_margin_and_ends_at_a_saddle(name, above
 
 
 def test_every_motion_under_a_torque_that_has_a_margin_has_its_arrow():
-    """Of 24 random bodies: the barrier ahead may stand a turn away. Lengths are the margins of `fate`."""
+    """Of 10 random bodies: the barrier ahead may stand a turn away. Lengths are the margins of `fate`."""
     rng = np.random.default_rng(5)
     seen = 0
-    for k in range(24):
+    for k in range(10):
         D, axis = rng.permutation(rng.uniform(0.5, 3, 3)), k % 3
         wheel, torque = rng.normal(size=3) * 10.0 ** rng.uniform(-2, 1), np.zeros(3)
         wheel[axis], torque[axis] = 0.0, rng.normal()
@@ -86,7 +86,7 @@ def test_every_motion_under_a_torque_that_has_a_margin_has_its_arrow():
             assert left < arrow.xy[0] < right
             seen += 1
         plt.close(ax.figure)
-    assert seen > 8
+    assert seen > 3
 
 
 def test_a_motion_that_does_not_reduce_has_none_and_says_why():

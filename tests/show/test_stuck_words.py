@@ -31,6 +31,7 @@ def test_an_interval_that_keeps_the_motion_bounded_is_told_in_six_digits_and_lie
         r"margin, rate +\S+ deg/s along .* from 25\.58\d* deg/s along the same line", text)
 
 
+@pytest.mark.slow
 def test_margins_of_which_nothing_is_known_have_one_line_and_known_ones_one_each(stabilab):
     off, on = (stabilab("stuck", CASES / f"{name}.toml", "--why")[1].splitlines()
                for name in ("upper-stage", "thruster-stuck-major-axis"))

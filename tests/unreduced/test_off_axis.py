@@ -1,7 +1,6 @@
 """Roots of rates, evidence and certified spin-up off the axes, and the period of free motion."""
 import sys
 
-import mpmath as mp
 import numpy as np
 import pytest
 
@@ -91,32 +90,6 @@ def test_evidence_off_the_axes_stays_undecided_and_names_its_span():
         evidence(OFF, (1, 2, 3), 0)
 
 
-def jacobi_case():
-    """Euler's free top about axis 1 (2 T D2 < |H|^2): period 4 K/rate and amplitudes, Landau and Lifshitz
-    sec. 37."""
-    D3, D2, D1 = 2.0, 1.5, 1.0  # Landau's I3 > I2 > I1; axes 1 and 3 exchanged here
-    x = (0.9, 0.2, 0.3)  # omega on axes of inertia (2, 1.5, 1)
-    with mp.workdps(30):
-        w3, w2, w1 = map(mp.mpf, x)
-        E2 = D3 * w3**2 + D2 * w2**2 + D1 * w1**2
-        M2 = D3**2 * w3**2 + D2**2 * w2**2 + D1**2 * w1**2
-        assert M2 > E2 * D2
-        k2 = (D2 - D1) * (E2 * D3 - M2) / ((D3 - D2) * (M2 - E2 * D1))
-        period = 4 * mp.ellipk(k2) * mp.sqrt(D1 * D2 * D3 / ((D3 - D2) * (M2 - E2 * D1)))
-        least = [mp.sqrt((M2 - E2 * D2) / (D3 * (D3 - D2))), mp.sqrt((E2 * D3 - M2) / (D2 * (D3 - D2))),
-                 mp.sqrt((E2 * D3 - M2) / (D1 * (D3 - D1)))]
-        top = mp.sqrt((M2 - E2 * D1) / (D3 * (D3 - D1)))
-        return x, float(period), [[float(least[0]), float(top)], *([-float(v), float(v)] for v in least[1:])]
-
-
-def test_free_top_has_the_elliptic_period_and_amplitudes(either):
-    x, period, extremes = jacobi_case()
-    got = extremes_over_period(Scene(Body((2, 1.5, 1))), x)
-    assert got.over == "all time"
-    assert got.period == pytest.approx(period, rel=1e-13 if either == "heyoka" else 1e-10)
-    assert got.extremes == pytest.approx(np.array(extremes), rel=2e-14)
-
-
 @pytest.mark.one_in(2)
 @pytest.mark.parametrize("scene",
                          [Scene(BODY, Gyrostat((50, 20, 30))), Scene(BODY, Gyrostat((-3000, 0, 700))),
@@ -140,11 +113,6 @@ def test_equilibrium_has_period_zero_and_separatrix_none():
     # On the free top's separatrix M^2 = 2 E D2: D1 (D1 - D2) w1^2 = D3 (D2 - D3) w3^2, chosen rational (D =
     # 4, 3, 3/2: 4 w1^2 = (9/4) w3^2)
     assert extremes_over_period(Scene(Body((4, 3, 1.5))), (0.75, 0.5, 1.0)).period == np.inf
-
-
-def test_torque_is_turned_away_from_the_free_period():
-    with pytest.raises(InputError, match="without torque"):
-        extremes_over_period(OFF, (1, 2, 3))
 
 
 def test_a_rate_that_never_changes_has_no_roots_and_disturbs_no_other(either):

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from ...answers.motion import motion
-from ...case.limit_options import stated_angle
+from ...case.limit_options import stated_tilt
 from ...case.read import Case, blamed_on, load_all
 from ...errors import InputError, printable
 from ...numbers.units import NONE, TIME, quantity, split
@@ -149,7 +149,7 @@ def tilted(case, motion, angle: str | None):
         return motion
     from ...answers.when import with_tilt
     with blamed_on(case):
-        return with_tilt(case, motion, None if angle is None else stated_angle(angle, "tilt"))
+        return with_tilt(case, motion, None if angle is None else stated_tilt(angle))
 
 
 def sampled(motion, box):

@@ -170,9 +170,6 @@ def test_too_few_digits_end_with_5_after_the_answer(stabilab, monkeypatch):
     assert code == 5 and "1.8043122475" in out and "12 digits asked for, 4.0 reached" in err
 
 
-# -- the paper's cases
-
-
 # -- far times, and digits that nobody asked for
 
 

@@ -37,10 +37,6 @@ def test_attitudes_in_many_digits_need_a_run_that_counts_their_turns(monkeypatch
     assert precision_digits._many_digits(one, times, 12) is None
 
 
-def test_times_of_both_signs_are_left_to_doubles():
-    assert precision_digits._many_digits(case("minor-axis-100"), np.array([-1.0, 1.0]), 12) is None
-
-
 def test_digits_that_no_way_gives_are_told(tmp_path):
     path = tmp_path / "case.toml"
     path.write_text(

@@ -11,9 +11,7 @@ from fractions import Fraction
 import pytest
 
 from stabilab import Body, ConstantTorque, Gyrostat, Scene, load, stuck
-from stabilab.answers.stuck.line import Line, candidates
 from stabilab.answers.stuck.wheel import intervals
-from stabilab.orbit.reduction import reduce
 from stabilab.show.text.stuck import merged
 from tests.answers.stuck.symmetric import least, scene
 from tests.oracles import brute
@@ -140,18 +138,6 @@ def test_a_motion_that_no_wall_holds_is_made_bounded_by_any_change(tmp_path):
     margins = asked(tmp_path, 0, [0, 0.02, 0], [0, 0, 0]).margins
     assert margins["rate"].size == margins["wheel"].size == 0
     assert margins["torque"].size == 0.02 == margins["torque"].until  # beyond none it spins up against it
-
-
-def test_along_a_change_of_the_spin_both_separatrices_are_candidates():
-    """The torque does not depend on that spin, so the resultant is a square times F^2. S = 5 (w3 + s)^2/2 +
-    S_0, S_0 at w3 = 0: s = -w3 +- sqrt(-2 S_0/5)."""
-    M, wheel, start = Fraction("0.02"), (Fraction("0.8"), 0, 0), (0, 0, Fraction(-1, 2))
-    reduction = reduce(Scene(Body((12, 9, 5)), Gyrostat(wheel), ConstantTorque((0, 0, M))))
-    half = math.sqrt(-2 * least((12, 9, 5), 2, M, wheel, (0, 0, 0)) / 5)
-    beside = (*start[:2], start[2] + 1)
-    found = candidates(Line(reduction, reduction, start, beside))
-    for s in (0.5 - half, 0.5 + half):
-        assert min(abs(c - s) for c in found) < 1e-12
 
 
 def numbers(values):

@@ -8,10 +8,9 @@ import numpy as np
 import pytest
 
 from stabilab import Body, ConstantTorque, Gyrostat, Scene, load, stuck
-from stabilab.answers.stuck.line import Line, candidates, expansion, family_of, resultant
+from stabilab.answers.stuck.line import Line, expansion, family_of, resultant
 from stabilab.answers.stuck.wheel import intervals
 from stabilab.numbers.balls import working
-from stabilab.orbit.one_orbit import ball_orbit
 from tests.answers.stuck import energy
 from tests.answers.stuck.brute import Craft
 from tests.oracles import brute
@@ -81,38 +80,6 @@ def test_no_momentum_between_the_ends_has_another_fate(at_rest):
             assert family.steady(family.along(wheel, axis, s)) == any(low <= s <= high for low, high in found)
         some += len(found) > 1
     assert some or at_rest
-
-
-def test_the_resultant_vanishes_where_the_start_is_on_a_separatrix():
-    """At every end, a candidate: the highest rise of the potential, by the formulas of `orbit.reduction`, is
-    the energy."""
-    family = family_of(scene(D, (0, 0, 0), TORQUE), START)
-    at_0, at_1 = family.reduction((0, 0, 0)), family.reduction((1, 0, 0))
-    circle = Line(at_0, at_1, START, START)
-    found, _ = intervals(scene(D, (0, 0, 0), TORQUE), START, (1, 0, 0))
-    ends = [end for pair in found for end in pair if math.isfinite(end)]
-    assert len(ends) == 2
-    for end in ends:
-        s = min(candidates(circle), key=lambda c: abs(c - end))
-        g = family.reduction((Fraction(s), 0, 0)).constants
-        x, z, w = family.reduction((Fraction(s), 0, 0)).canonical(np.array([[0.1, 0.05, 0.9]]))
-        y = np.linspace(0, 2 * math.pi, 400_001)[1:]
-        X, Z = x * np.cos(y) + z * np.sin(y), z * np.cos(y) - x * np.sin(y)
-        rise = -g["mu"] * y - g["G"] * (X * X - x * x) / 2 - g["c"] * (X - x) + g["d"] * (Z - z) - w * w / 2
-        assert abs(rise.max()) < 1e-8 * abs(rise).max()
-    with working(128) as numbers:
-        h, s = numbers.ball(Fraction(3, 4)), numbers.ball(Fraction("0.4"))
-        f, g = circle.pair(numbers.ball)(h)
-        sigma = s * h.sin()
-        assert 0 in (f[0] * sigma * sigma + f[1] * sigma
-                     + f[2]) - _rise(family, Fraction("0.4"), Fraction(3, 2), numbers)
-        assert 0 not in resultant(f, g)
-
-
-def _rise(family, s, y, numbers):
-    """V(y) - V(0) - E of the orbit in balls, by `orbit.one_orbit`."""
-    orbit = ball_orbit(family.reduction((s, 0, 0)), family.state, numbers)
-    return orbit.height(numbers.ball(y)) - orbit.energy
 
 
 def test_a_wheel_along_the_torque_keeps_nothing_bounded_but_at_one_momentum():

@@ -11,7 +11,6 @@ import numpy as np
 import pytest
 import sympy as sp
 
-import stabilab
 from stabilab import Body, ConstantTorque, Gyrostat, Scene
 from stabilab.answers.equilibria import equilibria
 from stabilab.answers.motion import motion
@@ -26,9 +25,6 @@ from stabilab.physics.effects.liquid_cavity import LiquidCavity
 from stabilab.physics.effects.resistance import Resistance
 from stabilab.physics.equations import derive
 from stabilab.physics.to_numpy import to_numpy
-from stabilab.show.data import as_json
-from stabilab.show.text import classification
-from stabilab.show.units import units_of
 
 ROOT = Path(__file__).parents[3]
 BODY = Body((9, 8, 5))
@@ -316,18 +312,6 @@ def test_force_at_the_centre_of_mass_leaves_the_verdicts_as_they_are():
     alone = motion(scene(ConstantTorque((0, 3, 0)), body=body), (1, 2, 3))
     assert pushed.fate == alone.fate and pushed.margin_energy == alone.margin_energy
     assert "as if it were absent" in pushed.because
-
-
-@pytest.mark.one_in(2)
-@pytest.mark.parametrize("name",
-                         ["liquid-base", "liquid-lambda3-25", "charged-body", "charged-body-attitude"])
-def test_classification_of_a_case_is_complete_json(name):
-    case = stabilab.load(ROOT / "cases" / f"{name}.toml")
-    vertical = case.blocks["gamma"] if "gamma" in case.scene.blocks else ()
-    found, told = equilibria(case.scene), motion(case.scene, (*case.state, *vertical), case.span)
-    text = as_json(classification.as_dict(case, found, told))
-    assert "NaN" not in text and told.because and told.extremes is not None
-    assert classification.text(case, found, told, units_of(case), proofs=True)
 
 
 def test_rest_is_told_where_the_list_of_equilibria_is_undecided():

@@ -27,7 +27,6 @@ from stabilab.physics.effects.newtonian_field import NewtonianField
 from stabilab.physics.effects.resistance import Resistance
 from stabilab.physics.equations import derive
 from stabilab.physics.to_numpy import to_numpy
-from stabilab.show.data import as_json
 from stabilab.show.text import classification
 from tests.shared import case
 
@@ -357,14 +356,6 @@ def test_torque_in_a_field_with_resistance_is_bounded_by_its_own_number():
     assert told.fate == Fate.BOUNDED
     run = trajectory(scene, state, np.linspace(1, 500, 500))
     assert np.linalg.norm(run.states[:, :3], axis=1).max() <= told.invariants["rate_bound"]
-
-
-@pytest.mark.parametrize("name", ["top-fast", "top-lx60-lz30"])
-def test_classification_of_a_top_is_complete_json(name):
-    case = stabilab.load(ROOT / "cases" / f"{name}.toml")
-    told = motion(case.scene, (*case.state, *case.blocks["gamma"]), case.span)
-    text = as_json(classification.as_dict(case, equilibria(case.scene), told))
-    assert "NaN" not in text and told.fate == Fate.BOUNDED and told.extremes is not None
 
 
 def test_a_branch_of_permanent_rotations_has_no_point_outside_it():

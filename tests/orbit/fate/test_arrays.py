@@ -2,7 +2,6 @@
 from __future__ import annotations
 
 import importlib
-from fractions import Fraction as F
 
 import numpy as np
 import pytest
@@ -31,15 +30,6 @@ def never(what):
 def same(one, other):
     assert all(getattr(one, name).tobytes() == getattr(other, name).tobytes() for name in COLUMNS)
     assert one.precise == other.precise
-
-
-def times(a, b):
-    """Product of two polynomials, lowest power first."""
-    out = [F(0)] * (len(a) + len(b) - 1)
-    for i, x in enumerate(a):
-        for k, y in enumerate(b):
-            out[i + k] += x * y
-    return out
 
 
 @pytest.mark.parametrize("scale", [1e-9, 1.0, 1e9])
@@ -179,6 +169,7 @@ def test_a_fold_far_inside_the_asymptotes_leaves_few_states_to_the_general_formu
     np.testing.assert_allclose(found.margins[::20], general.margins, rtol=1e-11,
                                atol=1e-12 * np.abs(general.margins[np.isfinite(general.margins)]).max())
 
+
 # Rates of 1e15 and more against moments that differ by 1e-15: the way along the conic to where a barrier was
 # sought ended at a well.
 NO_BARRIER = {
@@ -202,6 +193,7 @@ def test_an_equilibrium_that_turns_out_a_well_is_no_barrier(name):
     assert stabilab.fate(scene, np.array(state)).margins == np.inf
     assert stabilab.motion(scene, state, brief=True).margin_energy is None
 
+
 TILTED = {
     "a hundredth of a radian from the barrier on a circle of 2e4": (
         physical((2.057349576751503, 1.827253363649677, 2.3096300639157525),
@@ -221,6 +213,7 @@ def test_rounding_of_the_force_at_a_barrier_costs_the_margin_nothing(name):
     (scene, problem), state = TILTED[name]
     exact = float(energy.margin(problem, state, digits=200))
     assert abs(float(stabilab.fate(scene, np.array(state)).margins) - exact) <= 1e-13 * exact
+
 
 families = pytest.mark.parametrize("name", FAMILIES)
 

@@ -45,20 +45,6 @@ def sheets():
     return {name: stabilab.separatrix(scene).branches for name, (scene, _) in SCENES.items()}
 
 
-def excess(problem, vertex, digits=60):
-    """(saddle energy - energy for the nearest in energy of the saddles of the vertex's conic within a turn,
-    size of the terms of the energy); None without a saddle."""
-    with mp.workdps(digits):
-        motion = energy.Reduced(problem, tuple(map(float, vertex)), digits)
-        turns = (-1, 0, 1) if motion.kind == "elliptic" else (0,)
-        marks = [a + n * motion.turn if n else a for a,
-                 kind in motion.stationary() if kind != "centre" for n in turns]
-        if not marks:
-            return None
-        best = min(marks, key=lambda a: abs(motion.W(a) + motion.w0 ** 2 / 2))
-        return -motion.W(best) - motion.w0 ** 2 / 2, motion.terms(best)
-
-
 def at_fold(problem, sheet, row):
     return (abs(rate_and_slope(problem, sheet.saddle[row], axis_of(problem))[1]) <= 1e-9
             * np.max(np.abs(sheet.saddle)))
@@ -507,5 +493,3 @@ def test_a_mesh_that_cannot_be_made_is_refused_and_a_parabola_has_none():
 def test_a_scene_without_sheets_is_told_what_is_true_of_it(scene, words, sheets_of):
     found = sheets_of(scene)
     assert words in (found[1] if isinstance(found, tuple) else found.reason)
-
-

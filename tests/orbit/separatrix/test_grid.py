@@ -6,10 +6,7 @@ import pytest
 
 import stabilab
 from stabilab.errors import InputError
-from stabilab.orbit.landscape import landscape, spots_along
 from stabilab.orbit.separatrix.grid import _along
-from stabilab.orbit.separatrix.homoclinic_arrays import loop_ends, polished
-from stabilab.orbit.separatrix.saddles import limit_of, saddle_branches
 from stabilab.show.surface.mesh import triangulate
 from tests.oracles.pairs import PAPER_BODY, physical, scaled
 
@@ -85,29 +82,6 @@ def test_planes_of_a_free_body_need_the_smallest_grid_only():
 def test_a_bad_accuracy_is_refused(bad):
     with pytest.raises(InputError, match="accuracy"):
         stabilab.separatrix(SCENES["minor a<b"], **bad)
-
-
-@pytest.mark.parametrize("inertia, momentum, torque", [
-    ((3.0, 2.0, 1.5), (0.4, -0.7, 0), (0, 0, 0.3)), ((3.0, 2.0, 1.5), (0, 0.8, 0.0), (0.2, 0, 0)),
-    ((3, 2, 1), (0, 0, 0), (0, 0, 0.1)),
-    ((3, 2, 1), (5.0, -0.2, 0), (0, 0, -0.3)), ((2.0, 2.0 - 1e-9, 1.5), (0.3, 0.2, 0), (0, 0, 0.3))])
-def test_wells_from_the_cubic_of_a_circle_are_those_of_the_equilibrium_conic(inertia, momentum, torque):
-    """The conic's intersections with the circle share no code with the cubic for the angle from the saddle.
-    """
-    land = landscape(physical(inertia, momentum, torque)[0])
-    for branch in saddle_branches(land.conic, land.potential, limit_of(land.conic, 4.0)):
-        s = np.linspace(0.02, 0.97, 41)
-        saddle = polished(land, tuple(np.asarray(v, float) for v in branch.place(s)), s)
-        end, centre, found, shared = loop_ends(land, saddle, -1)
-        assert not shared.any()
-        spots = spots_along(land, saddle, np.zeros(len(s)))
-        for row in np.nonzero(found)[0]:
-            passed = spots.there[row] & (spots.offset[row] < -1e-9) & (spots.offset[row] > end[row])
-            assert not (passed & spots.barrier[row] & (spots.energy[row] < 0)).any()
-            wells = passed & ~spots.barrier[row]
-            deepest = np.argmax(np.where(wells, spots.energy[row], -np.inf))
-            np.testing.assert_allclose(centre[:, row], spots.place[:, row, deepest],
-                                       atol=1e-9 * np.abs(saddle).max())
 
 
 @pytest.mark.parametrize("cut", [1, -1])

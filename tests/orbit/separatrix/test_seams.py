@@ -6,7 +6,7 @@ import pytest
 from stabilab import Body, ConstantTorque, Gyrostat, Scene, fate, separatrix
 from stabilab.orbit.landscape import landscape_in_doubles
 from stabilab.orbit.separatrix.saddles import limit_of, saddle_branches
-from stabilab.orbit.separatrix.seams import pinched_shares, seam_of
+from stabilab.orbit.separatrix.seams import seam_of
 from stabilab.show.surface.mesh import triangulate
 
 SEAMS = {  # the distance of facets that is asked for
@@ -21,16 +21,6 @@ BENDS = {
     "rod": (Scene(Body(("2.889", "2.883", "0.161")), Gyrostat(("1.525", 0, 0)),
                   ConstantTorque((0, 0, "0.0172"))), 0.25),
 }
-
-
-def strip_of(scene):
-    """(landscape, the one strip that has a seam, what the seam is)."""
-    land = landscape_in_doubles(scene)
-    found = [(branch, -1, seam)
-             for branch in saddle_branches(land.conic, land.potential, limit_of(land.conic, 4.0))
-             if (seam := seam_of(land, branch, -1))]
-    (branch, side, seam), = found
-    return land, (branch, side), seam
 
 
 @pytest.mark.one_in(2)
@@ -79,34 +69,6 @@ def test_the_parts_of_a_sheet_meet_in_the_second_saddle(name):
     assert np.linalg.norm(longer[0] - shorter[0]) < 1e-6 * size
     assert np.abs(second.invariant[0] - first.invariant[-1]) < 1e-9 * size**2
     assert max(first.residual.max(), second.residual.max()) < 1e-13
-
-
-@pytest.mark.parametrize("name", SEAMS)
-def test_a_seam_is_placed_to_twelve_digits_and_one_side_passes_over(name):
-    """There the second saddle is as high as the first: the rise between them, by the potential, is that of
-    rounding."""
-    land, (branch, side), (before, behind, over) = strip_of(SEAMS[name][0])
-    assert 0 < behind - before < 3e-12 and over == 1
-    end = [abs(_end(land, branch, side, s)) for s in (before, behind)]
-    assert end[1] > 1.1 * end[0]
-    saddle = tuple(map(float, branch.place(before)))
-    wells = abs(land.potential.rise(side * 0.5 * end[0], saddle))
-    assert abs(land.potential.rise(side * end[0], saddle)) < 1e-9 * wells
-
-
-def _end(land, branch, side, s):
-    from stabilab.orbit.separatrix.homoclinic import loop_end
-    return loop_end(land.potential, land.sense, tuple(map(float, branch.place(s))), side)[0]
-
-
-def test_columns_of_a_pinched_loop_rise_from_the_saddle_to_the_far_end_and_crowd_at_the_second():
-    land, (branch, side), (_, behind, _) = strip_of(SEAMS["far apart"][0])
-    end, u = np.array([_end(land, branch, side, behind)]), np.linspace(0, 1, 41)
-    saddle = np.array([[float(v)] for v in branch.place(behind)])
-    share, = pinched_shares(land.potential, saddle, end, side, u)
-    steps = np.diff(share)
-    assert share[0] == 0 and share[-1] == pytest.approx(1, abs=1e-15) and (steps > 0).all()
-    assert 19 <= steps.argmin() <= 20 and steps.min() < 0.03 * steps.max()
 
 
 def test_smooth_sheets_are_not_cut():

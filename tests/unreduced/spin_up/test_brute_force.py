@@ -111,12 +111,14 @@ def test_euler_is_written_alike_twice():
 
 
 @numba
-@pytest.mark.parametrize("count", [4, pytest.param(30, marks=pytest.mark.slow)])
+@pytest.mark.slow  # the formula is compiled for three seconds; by default runs of DOP853 judge random scenes
+@pytest.mark.parametrize("count", [30, pytest.param(2000, marks=pytest.mark.long)])
 def test_no_random_scene_that_is_decided_is_contradicted_by_brute_force(brute, count):
     assert checked(51, count, brute, True) == (count, [])
 
 
 @numba
+@pytest.mark.slow
 def test_a_wrong_answer_is_contradicted(brute):
     """Another axis, a spin that grows too fast, and a trap that is too narrow."""
     state = (0.3, -0.2, 0.4)
@@ -151,10 +153,3 @@ def test_the_latest_without_a_wheel_still_change_the_sign_of_their_spin_after_50
     zero = times[np.flatnonzero(spin < 0)[-1]]
     assert wheel == 0 and answer.level == "certified" and 5000 < last
     assert abs(zero - last) < 0.02 and zero < answer.t < zero + 240
-
-
-@numba
-@pytest.mark.slow
-@pytest.mark.long
-def test_none_of_two_thousand_decided_scenes_is_contradicted_by_brute_force(brute):
-    assert checked(52, 2000, brute, True) == (2000, [])

@@ -4,7 +4,6 @@ import random
 import mpmath
 import numpy as np
 import pytest
-import sympy as sp
 
 from stabilab.unreduced.spin_up import fixed_kernel, moving_kernel
 from stabilab.unreduced.spin_up.centres import moving_centre
@@ -63,31 +62,6 @@ def test_rates_of_corrected_quantities_are_what_is_left(orders):
                 assert abs(true - value(rate, X, z)) < 1e-9 * (1 + size + abs(dz))  # chain rule on the form
             true = f.D1 * X * dX + derivative(energy, X, z, dX, dz)
             assert abs(true - f.M1 * X - f.drag - value(left, X, z)) < 1e-8 * (1 + abs(X * dX) + abs(dz))
-
-
-def test_first_order_is_the_classical_energy_and_amplitude():
-    f = normal_form((1.4, 1, .6), (.2, .1, -.3), (.5, .6, .62), 0)
-    X, z = 6.375, .5 - .4j
-    ((added, _), _), ((second, _), _) = corrected(f, (0, 2), 0.0)
-    energy = (f.gam / 2 / f.om * (z * z).real - (f.kap.conjugate() * z).imag / f.om
-              - (f.nu * z).imag / f.om**2 / X)
-    assert value(added, X, z).real == pytest.approx(energy, rel=1e-13)  # E2 of the paper's section 1
-    m, k, g, h, M1 = f.mu, f.kap.conjugate(), f.gam, f.h, f.M1
-    psi = (M1 * h / 2 * (z**2).imag + 2 * M1 * (m.conjugate() * z).real - g * h / 8 * (z**4).real
-           - g * abs(z)**2 * (m * z).imag
-           + g / 3 * (m.conjugate() * z**3).imag + h / 6 * (k * z**3).imag
-           + h / 2 * abs(z)**2 * (f.kap * z).imag + (k * m.conjugate() * z**2).real / 2)
-    R = h * (z * z).real - 2 * (m.conjugate() * z).imag
-    amplitude = R / f.om / X + psi / f.D1 / f.om**2 / X**3
-    assert value(second, X, z).real == pytest.approx(amplitude, rel=1e-12)  # B of section 1
-
-
-def test_the_term_of_the_amplitude_that_falls_like_1_over_x_vanishes_identically():
-    z, zc, mu, muc, h = sp.symbols("z zc mu muc h")
-    rest, restc = sp.I * h * zc + mu, -sp.I * h * z + muc
-    R = h * (z**2 + zc**2) / 2 - (muc * z - mu * zc) / sp.I
-    # in symbols; so no tolerance decides it
-    assert sp.expand(sp.diff(R, z) * rest + sp.diff(R, zc) * restc) == 0
 
 
 @pytest.mark.parametrize("order", [2, 6, 14])

@@ -11,9 +11,9 @@ from stabilab.errors import InputError
 from stabilab.physics.coefficients import to_scaled
 from stabilab.unreduced.spin_up import certificate, follow
 from stabilab.unreduced.spin_up.follow import spin_up, spin_up_many
-from stabilab.unreduced.spin_up.form import _equilibria, seen
+from stabilab.unreduced.spin_up.form import seen
 
-from .scenes import EXAMPLE, euler, numba, random_scene, rates_of, run, sphere
+from .scenes import EXAMPLE, numba, random_scene, rates_of, run, sphere
 
 
 def test_every_motion_without_a_wheel_spins_up():
@@ -90,23 +90,6 @@ def test_fate_does_not_depend_on_units(unit, mass):
     one, two = spin_up(EXAMPLE, (.1, .2, .3)), spin_up(scene, [unit * v for v in (.1, .2, .3)])
     assert (one.axis, one.sense, one.steps) == (two.axis, two.sense,
                                                 two.steps) and two.t == pytest.approx(one.t / unit, rel=1e-9)
-
-
-def test_bounded_island_is_never_certified():
-    """D = (1.2412, .3937, 1.3650): bounded over 1e6 units, an elliptic orbit between two saddle-foci."""
-    scene = Scene(Body((1.2412, .3937, 1.3650)), Gyrostat((-.5224, .8309, .1914)),
-                  ConstantTorque((.0987, .8450, .5255)))
-    answer = spin_up(scene, (-1.572, .657, .738), 3000)
-    assert answer.level == "undecided" and answer.fate is Fate.UNDECIDED and "island" in answer.cause
-
-
-def test_two_equilibria_rest():
-    scene = Scene(Body((1.2412, .3937, 1.3650)), Gyrostat((-.5224, .8309, .1914)),
-                  ConstantTorque((.0987, .8450, .5255)))
-    D, l, M = ([float(v) for v in vector]
-               for vector in (scene.body.exact, scene.vector("gyrostat"), scene.vector("constant_torque")))
-    ends = _equilibria(scene)
-    assert len(ends) == 2 and all(max(map(abs, euler(D, l, M, w))) < 1e-12 for w in ends)
 
 
 def test_parked_motion_is_called_parked():

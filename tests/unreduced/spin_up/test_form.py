@@ -1,18 +1,16 @@
 """The normal forms are Euler's equations, exactly."""
 import random
-from fractions import Fraction
 from functools import partial
 
 import numpy as np
 import pytest
-import sympy as sp
 
 import stabilab
 from stabilab import Body, ConstantTorque, Gyrostat, InputError, ScaledGyrostat, Scene
 from stabilab.unreduced.spin_up.centres import moving_centre
 from stabilab.unreduced.spin_up.form import forms_of, normal_form
 
-from .scenes import euler, random_scene, rates_of
+from .scenes import random_scene, rates_of
 from .test_certificate import places
 
 
@@ -92,29 +90,6 @@ def test_moving_centre_moves_as_eulers_equations_say():
             # central differences of Euler's equations
             assert abs((xp - xm) / (2 * step) - swing) < 1e-6 * (1 + abs(swing))
             assert abs((zp - zm) / (2 * step) - turned) < 1e-5 * (1 + abs(turned))
-
-
-def test_mean_drift_about_the_moving_centre_vanishes_identically():
-    x, l1, l2, l3, M1, M2, M3, D1, D2, D3 = sp.symbols("x l1 l2 l3 M1 M2 M3 D1 D2 D3", positive=True)
-    d2, d3, e = D1 - D2, D1 - D3, D2 - D3
-    P, Q = d3 * x + l1, d2 * x + l1
-    n2, n3 = d3 * M2 - l1 * l3, d2 * M3 + l1 * l2
-    G0 = M1 + l2 * M2 / Q + l3 * M3 / P - e * M2 * M3 / (P * Q)
-    # Re(k* f) with s = 1: rho cancels between k and f
-    product = -(e * M2 - l3 * Q) / P * n3 / Q**2 + (l2 * P - e * M3) / Q * n2 / P**2
-    # in symbols: Re(k* f) = -G0', what lets the mean terms be dropped
-    assert sp.simplify(product + sp.diff(G0, x)) == 0
-
-
-def test_quasi_equilibrium_gives_the_mean_torque():
-    numbers = [Fraction(n, 7) for n in (3, 5, 11, 2, 13, 4, 1, 9, 8, 6)]
-    x, l1, l2, l3, M1, M2, M3 = numbers[:7]
-    D = (Fraction(3), Fraction(2), Fraction(5, 3))
-    P, Q, e = (D[0] - D[2]) * x + l1, (D[0] - D[1]) * x + l1, D[1] - D[2]
-    w = (x, (l2 * x - M3) / Q, (l3 * x + M2) / P)
-    rate = euler(D, (l1, l2, l3), (M1, M2, M3), w)
-    assert rate[1:] == [0, 0]  # exact rationals
-    assert D[0] * rate[0] == M1 + l2 * M2 / Q + l3 * M3 / P - e * M2 * M3 / (P * Q)
 
 
 def test_a_turned_case_has_the_same_forms():
