@@ -1,4 +1,4 @@
-"""Symmetries of D w' = (D w + lambda) x w + M: what must not depend on names, senses and units."""
+"""Symmetries of D w' = (D w + lambda) x w + M: what must not depend on names and senses."""
 from __future__ import annotations
 
 from functools import lru_cache
@@ -33,20 +33,18 @@ def answers(scene, states):
     return stabilab.fate(scene, rows), stabilab.period(scene, rows), stabilab.extremes(scene, rows)
 
 
-def compare(scene, states, other, images, margin_factor=1.0, time_factor=1.0, box=None):
-    """Same labels; margins and periods by their factors; extremes through `box` ((n, 3, 2) -> (n, 3, 2))."""
+def compare(scene, states, other, images, box):
+    """Same labels, margins and periods; extremes through `box` ((n, 3, 2) -> (n, 3, 2))."""
     (first, times, boxes), second = answers(scene, states.tobytes()), stabilab.fate(other, images)
     np.testing.assert_array_equal(first.labels, second.labels)
-    np.testing.assert_allclose(second.margins, first.margins * margin_factor, rtol=LOOSE,
-                               atol=LOOSE * margin_factor)
-    np.testing.assert_allclose(stabilab.period(other, images), times * time_factor, rtol=1e-9)
-    if box is not None:
-        expected, got = box(boxes), stabilab.extremes(other, images)
-        finite = np.isfinite(expected)
-        np.testing.assert_array_equal(np.isfinite(got), finite)
-        np.testing.assert_array_equal(got[~finite], expected[~finite])
-        size = np.max(np.abs(expected[finite]))
-        assert np.max(np.abs(got[finite] - expected[finite])) < 1e-10 * size
+    np.testing.assert_allclose(second.margins, first.margins, rtol=LOOSE, atol=LOOSE)
+    np.testing.assert_allclose(stabilab.period(other, images), times, rtol=1e-9)
+    expected, got = box(boxes), stabilab.extremes(other, images)
+    finite = np.isfinite(expected)
+    np.testing.assert_array_equal(np.isfinite(got), finite)
+    np.testing.assert_array_equal(got[~finite], expected[~finite])
+    size = np.max(np.abs(expected[finite]))
+    assert np.max(np.abs(got[finite] - expected[finite])) < 1e-10 * size
 
 
 def signed(boxes, signs):
@@ -175,28 +173,4 @@ def test_time_reversal_with_a_mirror_keeps_bounded_motions(name, axis, states):
     bounded = states[labels == Fate.BOUNDED]
     assert len(bounded) > 5
     np.testing.assert_array_equal(stabilab.fate(other, states * mirror).labels, labels)
-    compare(scene, bounded, other, bounded * mirror, box=lambda b: signed(b, mirror))
-
-
-@cases
-@pytest.mark.parametrize("decade",
-                         [-12, 7, *(pytest.param(d, marks=pytest.mark.slow) for d in (-7, -3, 3, 12))])
-def test_a_faster_clock_scales_rates_moments_and_torques(name, decade):
-    """w -> s w, lambda -> s lambda, M -> s^2 M, t -> t/s."""
-    factor = 10.0 ** decade
-    momentum, torque = map(np.array, CASES[name])
-    scene, _ = physical(BODY, momentum, torque)
-    other, _ = physical(BODY, momentum * factor, torque * factor ** 2)
-    compare(scene, STATES, other, STATES * factor, factor ** 2, 1 / factor, box=lambda b: b * factor)
-
-
-@cases
-@pytest.mark.parametrize("decade", [-12, 6, *(pytest.param(d, marks=pytest.mark.slow) for d in (-6, 12))])
-def test_a_heavier_body_of_the_same_shape_moves_alike(name, decade):
-    """D, lambda, M all times s: the same motion, energies times s."""
-    factor = 10.0 ** decade
-    momentum, torque = map(np.array, CASES[name])
-    scene, _ = physical(BODY, momentum, torque)
-    # 3, 2, 1.5 times a rounded power of ten keep the triangle inequality by a wide margin
-    other, _ = physical(np.array(BODY) * factor, momentum * factor, torque * factor)
-    compare(scene, STATES, other, STATES, factor, box=lambda b: b)
+    compare(scene, bounded, other, bounded * mirror, lambda b: signed(b, mirror))

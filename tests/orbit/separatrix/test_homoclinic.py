@@ -8,9 +8,12 @@ import numpy as np
 import pytest
 
 import stabilab
-from stabilab.orbit.separatrix.circle import real_cubic
+from stabilab.orbit.landscape import landscape
+from stabilab.orbit.separatrix.circle import force, moved, real_cubic
+from stabilab.orbit.separatrix.circle import settled as settled_on_circle
 from tests.hunt.disagreements import off_surface
 from tests.oracles.pairs import scaled
+from tests.shared import SCALED_MINOR
 
 
 @pytest.mark.parametrize("roots", [(1.0, 2.0, 4.0), (-3.0, 0.5, 0.5 + 1e-3), (2.0,), (-1.0, 5.0), ()])
@@ -48,3 +51,19 @@ def test_a_loop_beside_the_centre_of_its_hyperbola_ends_where_the_potential_is_b
         for row in (1, 2, 4):
             size, words = off_surface(problem, 1, branch, row, 4)
             assert size <= 1, words
+
+
+@pytest.mark.parametrize("off", [0.0, 1e-9, 1e-3, 0.05])
+def test_a_place_near_an_equilibrium_moves_onto_it_and_no_other(off):
+    land = landscape(SCALED_MINOR)
+    pot = land.potential
+    g = pot.G, pot.c, pot.d, pot.mu
+    # an equilibrium on the conic G X Z + c Z + d X + mu = 0 at Z = 2
+    z = 2.0
+    x = -(pot.c * z + pot.mu) / (pot.G * z + pot.d)
+    start = moved(x, z, off)
+    found = settled_on_circle(g, *start)
+    assert abs(force(g, *found)) < 1e-9 and math.hypot(*found) == pytest.approx(math.hypot(x, z), rel=1e-12)
+    np.testing.assert_allclose(found, (x, z), atol=1e-8)
+    flat = (0.05, 0.05)  # A^2 < 2: no equilibrium on this circle
+    np.testing.assert_allclose(math.hypot(*settled_on_circle(g, *flat)), math.hypot(*flat), rtol=1e-9)
