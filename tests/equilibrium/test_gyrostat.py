@@ -1,14 +1,11 @@
-"""Equilibria against exact elimination (SymPy), the equations themselves, symmetries and the cases of the
-theory."""
+"""Equilibria in the cases of the theory, and to the last digit where numbers nearly meet; that none is missed or
+wrong is held on random scenes (`test_random_scenes`)."""
 from __future__ import annotations
 
 import math
 from fractions import Fraction as F
 
-import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
 import stabilab
 from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene, equilibria
@@ -20,52 +17,6 @@ D_PAPER = (2000, 1500, 1000)
 
 def physical(D, lam, M) -> Scene:
     return Scene(Body(D), Gyrostat(lam), ConstantTorque(M))
-
-
-# D, lambda, M: hyperbola, lines that cross, one line, oblique torque on a symmetric body, torque-free
-CURVED = [
-    (D_PAPER, (100, 0, 0), (0, 0, 204)), ((5, 4, 2), (2, 3, 0), (0, 0, -6)),
-    ((5, 4, 2), (2, 3, 0), (0, 0, 6)),
-    ((5, 4, 5), (2, 3, 0), (0, 0, -6)), ((2, 2, 1), (1, 2, 0), (0, 0, 1)), ((2, 2, 1), (2, 1, 3), (1, -2, 0)),
-    ((3, 3, 3), (1, 2, 3), (3, 0, -1)), ((5, 4, 2), (1, 2, 3), (0, 0, 0)), ((5, 4, 2), (1, 0, 3), (0, 0, 0)),
-    ((5, 4, 2), (0, 1, 0), (0, 0, 0)), ((4, 4, 2), (1, 2, 3), (0, 0, 0)), ((4, 4, 2), (1, 2, 0), (0, 0, 0)),
-    ((5, 4, 2), (0, 0, 0), (0, 0, 0)), ((3, 3, 3), (1, 2, 3), (0, 0, 0)), ((5, 4, 2), (0, 1, 2), (3, 0, 0))]
-
-
-@pytest.mark.parametrize("D, lam, M", CURVED)
-def test_every_sample_and_fold_of_a_curve_is_an_equilibrium(D, lam, M):
-    scene = physical(D, lam, M)
-    for curve in equilibria(scene).curves:
-        assert len(curve.samples) >= 3 * len(curve.segments)
-        for at in (*(s.at for s in curve.samples), *curve.folds):
-            assert residual(scene, at) <= 8 * 2**-53
-
-
-def residual(scene, at) -> float:
-    """Largest |rate| over the size of its terms and of the derivative times the rounding of `at`; exact
-    arithmetic."""
-    x, form = [F(v) for v in at], scene.quadratic()
-    worst = 0.0
-    for i, (j, k) in enumerate(((1, 2), (2, 0), (0, 1))):
-        terms = (form.kappa[i] * x[j] * x[k], form.rho[i] * x[k], form.sigma[i] * x[j], form.m[i])
-        size = sum(map(abs, terms))
-        worst = max(worst, float(abs(sum(terms)) / size) if size else 0.0)
-    return worst
-
-
-decades = st.integers(-12, 12)
-mantissa = st.integers(-999, 999)
-number = st.builds(lambda m, e: F(m) * F(10) ** e, mantissa, st.integers(-6, 6))
-body = st.tuples(st.integers(100, 200), st.integers(100, 200), st.integers(100, 200))
-
-
-@settings(max_examples=150, deadline=None)
-@given(body, st.tuples(number, number, number), st.tuples(number, number, number), decades)
-def test_every_returned_point_satisfies_the_equations_to_rounding(D, lam, M, e):
-    scene = physical(D, lam, [v * F(10) ** e for v in M])
-    found = equilibria(scene)
-    for p in (*found.points, *(s for c in found.curves for s in c.samples)):
-        assert residual(scene, p.at) <= 8 * 2**-53
 
 
 def test_coordinates_are_correct_to_the_last_digit_for_nearly_equal_moments():
@@ -142,27 +93,6 @@ def test_the_middle_axis_folds_are_the_roots_of_their_quartic():
     assert [f[2] for f in curve.folds] == roots
 
 
-def test_the_major_axis_has_no_equilibrium_unless_a_equals_b():
-    assert equilibria(ScaledGyrostat("0.1", "0.2", (1, 0, 0))).kind == "none"
-    assert equilibria(ScaledGyrostat(0, "1e-300", (1, 0, 0))).kind == "none"
-    assert equilibria(ScaledGyrostat("0.2", "0.2", (1, 0, 0))).kind == "curves"
-
-
-def test_existence_turns_exactly_where_the_discriminant_vanishes():
-    """X Y = mu2 mu3/mu1 = -1 and c = 2: a double root at X = -1; a hair either way gives none or two."""
-    at = lambda mu1: equilibria(ScaledGyrostat(0, 2, (mu1, 1, 1)))
-    assert [p.at for p in at(-1).points] == [(-1.0, -1.0, -1.0)]
-    assert at(-1 - F(1, 10**40)).kind == "points" and len(at(-1 - F(1, 10**40)).points) == 2
-    assert at(-1 + F(1, 10**40)).kind == "none"
-
-
-def test_a_line_of_equilibria_exists_for_a_torque_on_no_axis():
-    """lambda = (l, (D1-D2) y2, (D1-D3) y3), M = l (0, y3, -y2): H = D1 omega + (l,0,0) for every rate about
-    axis 1, so H x omega + M = 0 by hand."""
-    (curve,) = equilibria(physical((4, 3, 2), (1, 5, 14), (0, 7, -5))).curves
-    assert curve.point(3.25) == (3.25, 5.0, 7.0)
-
-
 def test_a_free_sphere_is_in_equilibrium_everywhere_and_a_free_symmetric_body_on_a_plane_and_an_axis():
     assert equilibria(Scene(Body((3, 3, 3)))).kind == "all"
     names = [c.name for c in equilibria(physical((2, 2, 1), (0, 0, 1), (0, 0, 0))).curves]
@@ -199,14 +129,3 @@ def test_a_discriminant_beyond_the_doubles_is_still_told():
     assert stabilab.equilibria(scene).kind == "none"  # law: as for u = 1
     assert decimal(F(10) ** 400 * F(-2,
                                     3)) == "-6.66667e+399" and decimal(F(10) ** -400 / 7) == "1.42857e-401"
-
-
-def test_a_sphere_has_a_line_of_equilibria_where_its_wheel_lies_across_the_torque():
-    """D equal: lambda x omega + M = 0 is solved by (lambda x M)/|lambda|^2 + s lambda iff lambda . M = 0."""
-    wheel, torque = np.array([3.0, 0.0, -1.0]), np.array([1.0, 2.0, 3.0])
-    (line,) = equilibria(Scene(Body((2, 2, 2)), Gyrostat(wheel), ConstantTorque(torque))).curves
-    for sample in line.samples:
-        foot = np.cross(wheel, torque) / 10
-        np.testing.assert_allclose(np.cross(np.array(sample.at) - foot, wheel), 0,
-                                   atol=1e-12 * (1 + np.abs(sample.at).max()))
-    assert equilibria(Scene(Body((2, 2, 2)), Gyrostat((3, 0, 1)), ConstantTorque(torque))).kind == "none"
