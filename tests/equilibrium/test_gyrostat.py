@@ -12,8 +12,6 @@ from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene, equi
 from stabilab.equilibrium.result import decimal
 from stabilab.errors import InputError
 
-D_PAPER = (2000, 1500, 1000)
-
 
 def physical(D, lam, M) -> Scene:
     return Scene(Body(D), Gyrostat(lam), ConstantTorque(M))

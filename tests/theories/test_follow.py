@@ -103,14 +103,6 @@ def test_the_first_time_of_an_error_is_where_the_error_passes_it():
             assert gap[0] <= level * departure.scale * 1.001 and gap[1] >= level * departure.scale * 0.999
 
 
-def test_compare_prints_strict_json_with_a_schema(stabilab):
-    code, out, _ = stabilab("compare", SMALL, "--json")
-    answer = json.loads(out, parse_constant=lambda word: pytest.fail(word))
-    assert code == 0 and answer["schema"] == "stabilab.compare/1" and set(answer["models"]) == {
-        "exact", "linear", "corrected", "printed"}
-    assert {"model", "part", "error", "scale", "largest", "first"} == set(answer["departures"][0])
-
-
 def test_compare_without_an_analytic_model_says_so(stabilab):
     code, _, err = stabilab("compare", CASES / "minor-axis-100.toml")
     assert code == 2 and "no analytic model" in err
@@ -217,6 +209,7 @@ def test_simulate_gives_every_block_of_the_state_by_name(stabilab):
 
 
 # --- sweeps
+
 
 def test_a_sweep_file_is_every_combination_of_its_values():
     cases = load_all(CASES / "charged-sweep.toml")
