@@ -40,7 +40,7 @@ def test_a_state_at_rest_is_not_chaotic_however_fast_its_neighbours_part():
     fold = case("off-axis-fold")
     found = stabilab.chaos(fold.scene, [list(fold.state), [0.1, 0.2, 0.3]])
     assert found.labels[0] == Order.REGULAR and found.megno[0] > 100 and found.lyapunov[0] == 0
-    assert words.text([(fold, stabilab.chaos(fold.scene, fold.state))]).startswith(
+    assert words.text(fold, stabilab.chaos(fold.scene, fold.state)).startswith(
         "off-axis-fold: REGULAR: it is an equilibrium")
 
 
@@ -160,7 +160,7 @@ def test_a_motion_too_stiff_to_be_followed_is_stopped_and_undecided(monkeypatch,
         found = stabilab.chaos(case)
         assert found.labels == Order.UNDECIDED and np.isnan(found.history).all() and found.stiff
         assert found.because.startswith("stopped, because the motion is too stiff")
-        assert words.text([(case, found)]).count("\n") == 0
+        assert words.text(case, found).count("\n") == 0
 
 
 def test_rates_whose_squares_are_no_doubles_are_followed_in_their_own_time():
@@ -174,7 +174,7 @@ def test_a_megno_next_to_zero_has_no_minus():
                   np.array(0.0), np.array(0.0), 1.0, None)
     assert "MEGNO is 0.000 (0.000 at half" in found.because
     case = SimpleNamespace(name="rest", scene=SimpleNamespace(time_unit="s"))
-    assert words.text([(case, found)]).count(" 0.0000") == 2
+    assert words.text(case, found).count(" 0.0000") == 2
 
 
 @pytest.mark.slow
