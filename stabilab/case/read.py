@@ -568,7 +568,8 @@ def _judge_blocks(motion: _Motion, scene):
                 else "")
         need = [effect_words(one.name) for one in scene.effects if set(one.needs) - {"damper"}]
         table.fault(f"vertical is missing: because of {' and '.join(need)} give the direction of inertial "
-                    f"axis 3 (upward, or along the field) in the body at the start, as [0, 0, 1]{told}")
+                    f"axis 3 (of the weight, down; of the field; to the centre) in the body at the start, as "
+                    f"[0, 0, 1]{told}")
     judge_attitude(table, given, scene)
 
 

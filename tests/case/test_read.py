@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from stabilab.answers.digits.run import best_reached
+from stabilab.answers.simulate import simulate
 from stabilab.case.lines import key_lines
 from stabilab.case.read import load, load_all
 from stabilab.errors import CaseError
@@ -316,6 +317,16 @@ def test_an_attitude_left_out_is_asked_for_where_zero_angles_contradict_the_vert
     assert found[1] == "motion.vertical" and "attitude = [0, -0.6435011088, 0]" in found[2]
     (found,) = faults(TILTED + "attitude = [0, -0.643501108793, 0]\n")
     assert "vertical is missing" in found[2] and "[0.6, 0, 0.8]" in found[2]
+
+
+def test_vertical_is_the_direction_of_the_weight_and_the_message_says_so():
+    """A body at rest falls: its centre of mass, beside the fixed point, goes along the weight."""
+    text = ("[body]\ninertia = [3, 2, 2]\n[effects.gravity]\nweight = 1\ncentre_of_mass = [1, 0, 0]\n[motion]\n"
+            "angular_velocity = [0, 0, 0]\n")
+    with pytest.raises(CaseError, match=r"inertial axis 3 \(of the weight, down; of the field; to the centre\)"):
+        load(text)
+    fallen = simulate(load(f"{text}vertical = [0, 0, 1]\n"), times=[0.5])
+    assert fallen.state["gamma"][0, 0] > 0.01
 
 
 def test_a_bad_value_of_a_sweep_is_shown_where_it_stands(tmp_path):
