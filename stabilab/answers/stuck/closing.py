@@ -141,7 +141,9 @@ def _by_runs(chain: Chain, links: Sequence[Link], below: Fraction) -> Latest:
     slack = max(SHARE, *(np.abs(one.end - one.second_end) / size))
     low, high = (_root(base, one, times, size * (1 + sign * slack)) for sign in (-1, 1))
     begin = float(one.begin)
-    return Latest(size, math.nextafter(begin + low, -math.inf), math.nextafter(begin + high, math.inf), "run",
+    low, high = math.nextafter(begin + low, -math.inf), math.nextafter(begin + high, math.inf)
+    low = max(low, early.low)  # which is proved
+    return Latest(size, low, max(min(high, end), low), "run",
                   f"{words}: by runs over one period, each known to {slack:.1g} of it, the first among some "
                   f"{WHEEL_LOOKS} closing times; {known}", surely=(early.low, end))
 

@@ -123,6 +123,7 @@ def test_a_wheel_across_the_axis_of_a_flat_symmetric_body_has_its_closing_time_w
     found = stabilab.burn(case_of(tmp_path, D, w, [(torque, "stop = 99")], more=wheels(lam)), below=most).latest
     before, after = (largest(D, run(D, torque, w, end, lam), lam) for end in (found.low - 1e-4, found.high + 1e-4))
     assert before < most < after and found.high < found.low + 1e-9
+    assert found.surely[0] <= found.low <= found.high <= found.surely[1]
 
 
 def check_latest(folder, seed):
