@@ -2,6 +2,7 @@
 `attitude`: how it turns in space."""
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import partial
 
 from ..answers.attitude.ask import attitude as turning
@@ -91,5 +92,6 @@ def attitude(cases, json, digits, strict, units):
     if json:
         write(as_json(attitudes.as_dict(answered)))
     else:
-        tell_all(answered, systems, attitudes.text)
+        bare = [(replace(case, caveats=()), found) for case, found in answered]  # the texts have them
+        tell_all(bare, systems, attitudes.text)
     leave_undecided(strict, any(found.fate.word == "undecided" for _, found in answered))

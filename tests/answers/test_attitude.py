@@ -9,6 +9,7 @@ from scipy.integrate import solve_ivp
 from scipy.spatial.transform import Rotation
 
 from stabilab import Body, ConstantTorque, Gyrostat, InputError, Scene, simulate
+from tests.shared import CASES
 
 BODY = "[body]\ninertia = [3, 2, 1.5]\n"
 REST = "[motion]\nangular_velocity = [0.3, -0.2, 0.5]\nspan = [0, 20]\n"
@@ -125,3 +126,15 @@ def test_what_has_no_attitude_says_so(stabilab, case):
     with pytest.raises(InputError, match="not zero"):
         simulate(Scene(Body((3, 2, 1.5)), Gyrostat((0, 0, 1)), ConstantTorque((0, 0, 1))), (1, 0, 0), [0, 1],
                  {"attitude": (0, 0, 0, 0)})
+
+
+def test_the_first_line_of_a_top_says_how_it_leans_and_a_caveat_is_printed_once(stabilab, tmp_path):
+    """Pushed over from upright it comes back to the vertical, where its axis has no direction of precession."""
+    path = tmp_path / "top.toml"
+    text = (CASES / "toy-top.toml").read_text(encoding="utf-8")
+    path.write_text(text.replace('["0.0871557", 0, "-0.9961947"]', "[0, 0, -1]").replace(
+        '[0, 0, "25 rev/s"]', '["1 rev/s", 0, "25 +- 1 % rev/s"]'))
+    first, *rest = stabilab("attitude", path)[1].splitlines()
+    assert first.startswith("top: HEAVY TOP, leaning by 0 deg to 21.82 deg, nutation period 0.18801 s, ")
+    assert first.endswith("no precession, for its axis passes through the vertical")
+    assert sum("caveat" in line for line in rest) == 1

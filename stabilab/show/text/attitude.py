@@ -3,7 +3,7 @@ from __future__ import annotations
 
 from ...representation import values_of
 from .. import frame, limiting
-from ..units import DIGITS, Units, number, vector
+from ..units import DIGITS, SHORT, Units, number, vector
 from .motion import reason, row
 
 HEADS = {"long-axis": "LONG-AXIS MODE", "short-axis": "SHORT-AXIS MODE", "separatrix": "ON THE SEPARATRIX",
@@ -68,12 +68,17 @@ def rows(found, units: Units) -> list[tuple[str, str]]:
 
 def _answer(found, units):
     yield HEADS.get(found.mode, "ROTATION PERIOD KNOWN" if found.rotation_period else "NO ROTATION PERIOD")
+    if found.lean is not None:
+        low, high = (units.angle(angle, SHORT) for angle in found.lean)
+        yield f"leaning by {low} to {high}" if low != high else f"leaning by {low}"
     if found.rotation_period is not None:
         yield f"rotation period {units.time(found.rotation_period)}"
     if found.nutation_period is not None:
         yield f"nutation period {units.time(found.nutation_period)}"
     if found.precession_period is not None:
         yield f"mean precession period {units.time(found.precession_period)}"
+    elif found.nutation_period is not None:
+        yield "no precession, for its axis passes through the vertical"
 
 
 def _vector(case, along) -> str:
