@@ -45,9 +45,12 @@ def precision(
         out: Annotated[Path | None, typer.Option(
             metavar="FILE.png|.svg|.pdf|.csv", help="Write the picture or the points.")] = None,
         until: Annotated[str | None, typer.Option(
-            metavar="TIME", help="End of the span: \"10 min\"; default: the case's own.")] = None,
+            metavar="TIME",
+            help="End of the span: \"10 min\"; default: the case's own, or some periods.")] = None,
         quick: Annotated[bool, typer.Option(
             "--quick", help="Few settings: seconds instead of a minute.")] = False,
+        all_settings: Annotated[bool, typer.Option(
+            "--all", help="Every setting of every method, and the findings in words.")] = False,
         strict: Strict = False):
     """Measure what accuracy costs: every method, error and time.
 

@@ -7,12 +7,13 @@ from functools import partial
 from ..case.read import blamed_on
 from ..cost.accuracy import precision as measure
 from ..errors import InputError
+from ..show.spans import natural, seen
 from ..show.text import law
 from ..show.text.cost import comparison
 from ..show.text.cost import precision as shown
 from ..theories.comparison import compare as set_side_by_side
 from ..theories.follow import models_of
-from .common.cases import load_cases, one_by_one, time_asked, units_asked
+from .common.cases import load_cases, motion_of, one_by_one, time_asked, units_asked
 from .common.output import all_reached, hold_laws, tell, write, write_each, write_json
 
 
@@ -45,13 +46,12 @@ def _compared(case, order):
         return set_side_by_side(case, order=order)
 
 
-def precision(case, json, csv, out, until, quick, strict):
+def precision(case, json, csv, out, until, quick, all_settings, strict):
     """Measure error and time of every method."""
     if out:
         shown.checked(out)
     loaded = load_cases([case], motion=True)
-    measured = [measure(one, "quick" if quick else "full", time_asked(until, one, "until"))
-                for one in one_by_one(loaded)]
+    measured = [measure(one, "quick" if quick else "full", _end(one, until)) for one in one_by_one(loaded)]
     if out:
         write_each(out, [(found.case, partial(shown.write, found)) for found in measured])
     if json:
@@ -59,7 +59,14 @@ def precision(case, json, csv, out, until, quick, strict):
     elif csv:
         write(shown.csv(*measured))
     else:
-        tell("\n\n".join(law.first(found.validity, shown.text(found), caveats=found.case.caveats)
-                         for found in measured))
+        tell("\n\n".join(law.first(found.validity, shown.text(found, all_settings),
+                                   caveats=found.case.caveats) for found in measured))
     all_reached((found.case, found.reference.reason) for found in measured if not found.questions)
     hold_laws(strict, (found.validity for found in measured), [found.case for found in measured])
+
+
+def _end(case, until):
+    """The end of the span, None for the case's own; as pictures have it where there is neither."""
+    if until is not None or case.span is not None:
+        return time_asked(until, case, "until")
+    return seen(None, motion_of(case, brief=True), natural(case.scene, case.state))[1]

@@ -224,7 +224,9 @@ def test_the_table_by_digits_has_the_cheapest_and_the_second_best_of_the_points(
         assert rows[digits]["relative"] == times[first] / rows[3]["seconds"]
     assert rows[30]["method"] == "reference" and rows[30]["seconds"] == measured.reference_seconds > 0
     assert shown.as_dict(measured)["by_digits"] == list(rows.values())
-    assert "second best" in shown.text(measured)
+    assert "second best" in shown.text(measured) and "  method " not in shown.text(measured)
+    assert len(shown.text(measured).splitlines()) < 20
+    assert "second best" in shown.text(measured, True) and "  method " in shown.text(measured, True)
 
 
 def test_picture_shows_a_panel_a_question_and_a_line_a_method(measured):
@@ -279,6 +281,17 @@ def test_command_takes_another_end_of_the_span(stabilab, monkeypatch, tmp_path, 
                         until=None: given.append((effort, until)) or measured)
     code, out, _ = stabilab("precision", CASES / "torque-free-body.toml", "--until", "1500", "--csv")
     assert code == 0 and given == [("full", 1500.0)] and out.startswith("case,question,method")
+
+
+def test_a_case_without_a_span_is_measured_over_three_periods(stabilab, monkeypatch, tmp_path, measured):
+    """A body of revolution: in the body its rates go round at (C - A) omega3/A."""
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    given = []
+    monkeypatch.setattr("stabilab.commands.accuracy.measure", lambda case, effort, until: given.append(until)
+                        or measured)
+    path = tmp_path / "own.toml"
+    path.write_text("body.inertia = [2, 2, 3]\nmotion.angular_velocity = [0.1, 0, 0.5]\n")
+    assert stabilab("precision", path)[0] == 0 and given == [pytest.approx(3 * 2 * np.pi / 0.25)]
 
 
 def test_times_reach_from_zero_to_the_end_of_the_span():

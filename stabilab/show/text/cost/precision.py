@@ -20,19 +20,21 @@ COLUMNS = ("case", "question", "method", "setting", "value", "error", "digits", 
            "repeats", "compile_seconds", "lanes", "parts", "on_front")
 
 
-def text(found) -> str:
-    """The table of the terminal, * marking the front, then the words. rates: how often the rates were
-    evaluated; the slowest run is in CSV and JSON."""
+def text(found, all_settings: bool = False) -> str:
+    """The cheapest method for each number of digits; with all settings their table, too, * marking the front,
+    and the words. rates: how often the rates were evaluated; the slowest run is in CSV and JSON."""
     told = words(found)
     answer = next((line for line in told if "six digits cost" in line), told[0])
-    lines = [f"{found.case.name}: {answer}", *([written(found.case.title)] if found.case.title else [])]
+    lines = [f"{found.case.name}: {answer}", *([written(found.case.title)] if found.case.title else []),
+             *(["", *_by_digits(found)] if by_digits(found) else [])]
+    if not all_settings:
+        return "\n".join([*lines, "", "--all prints every setting of every method."])
     for question in found.questions:
         front = set(map(id, found.front(question)))
         lines += ["", title(found, question),
                   f"  {'method':<13}{'setting':<13}{'error':>8}{'digits':>8}{'steps':>8}{'rates':>8}"
                   f"{'time':>10}{'compile':>9}"]
         lines += [_line(p, id(p) in front) for p in found.of(question)]
-    lines += ["", *_by_digits(found)] if by_digits(found) else []
     lines += [f"  left out: {line}" for line in _left_out(found)]
     return "\n".join([*lines, "", *told, "", caption()])
 
