@@ -47,6 +47,7 @@ if TYPE_CHECKING:  # what `_HOME` loads on first use, for editors and type check
     from .physics.effects.rate_damper import RateDamper as RateDamper
     from .physics.effects.resistance import Resistance as Resistance
     from .physics.effects.viscous_damper import ViscousDamper as ViscousDamper
+    from .physics.effects.wheel_motor import WheelMotor as WheelMotor
     from .physics.equations import derive as derive
     from .physics.law_limits import validity as validity
     from .physics.scene import Body as Body
@@ -83,6 +84,7 @@ _HOME = {
     "NewtonianField": "physics.effects.newtonian_field", "Gravity": "physics.effects.gravity",
     "BodyForce": "physics.effects.body_force", "ViscousDamper": "physics.effects.viscous_damper",
     "RateDamper": "physics.effects.rate_damper", "EddyCurrents": "physics.effects.eddy_currents",
+    "WheelMotor": "physics.effects.wheel_motor",
     "derive": "physics.equations", "validity": "physics.law_limits",
     "plot": "show", "sweep": "show.maps.sweep", "atlas": "show.maps.atlas",
     "basin": "show.maps.basins", "bifurcation": "maps.bifurcation.ask", "InputError": "errors",

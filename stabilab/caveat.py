@@ -1,6 +1,6 @@
 """What limits an answer: a tilt that it leaves out, a limit that comes first, a law that does not hold, a
 tensor that no rigid body has, samples in place of a proof, numbers that are the middles of uncertain ones,
-what a burn takes for granted.
+what a burn or a motor takes for granted.
 
 A caveat belongs to the answer: every view of it (text, JSON, CSV, sweep, map, page, explorer) shows its
 words.
@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-KINDS = ("tilt", "limit", "law", "unphysical", "samples", "uncertain", "burn")
+KINDS = ("tilt", "limit", "law", "unphysical", "samples", "uncertain", "burn", "motor")
 
 
 @dataclass(frozen=True)

@@ -9,12 +9,12 @@ from typing import Any
 
 from .case.read import Case, load
 from .errors import InputError
-from .numbers.units import ANGLE, LENGTH, NONE, RATE, TIME, VELOCITY, Dimension, in_si, split
+from .numbers.units import ANGLE, LENGTH, MOMENTUM, NONE, RATE, TIME, VELOCITY, Dimension, in_si, split
 
 STARTS = ("state", "states", "omega")  # arguments that are states at time 0
 TIMES = ("times", "span", "until", "t_max", "follow", "end")
 BLOCKS = {"omega": RATE, "attitude": ANGLE, "velocity": VELOCITY, "position": LENGTH,
-          "damper": RATE}  # of a state in blocks
+          "damper": RATE, "wheel": MOMENTUM}  # of a state in blocks
 THEMSELVES = ("equilibria", "fate", "motion", "attitude", "extremes", "period", "simulate")  # take a case
 TEXTS = ("when", "sweep", "atlas", "basin", "bifurcation")  # read text with units themselves
 

@@ -11,6 +11,7 @@ GROUPS = {
     "A case": ("load", "load_burning", "load_orbiting", "example", "Case", "Body", "Scene",
                "ScaledGyrostat", "Gyrostat", "ConstantTorque", "Charge", "Resistance", "LiquidCavity",
                "NewtonianField", "Gravity", "BodyForce", "ViscousDamper", "RateDamper", "EddyCurrents",
+               "WheelMotor",
                "report"),
     "Questions about a motion": ("fate", "Fate", "fate_grid", "motion", "extremes", "period", "attitude",
                                  "spin_up", "stuck", "burn", "flat_spin", "chaos", "when", "time_to",

@@ -7,7 +7,7 @@ from typing import Any
 
 from ..equilibrium.gyrostat import gyrostat_equilibria
 from ..equilibrium.result import Equilibria
-from ..physics.coefficients import content, limits_of
+from ..physics.coefficients import Content, content, limits_of
 from ..physics.scene import AnyScene
 from ..validation import checked_scene, is_case
 
@@ -19,7 +19,11 @@ BY_KIND = {
     "directed": ("field_states", "directed_equilibria"),
     "directed and dissipative": ("dissipative", "held_in_a_field"),
     "eddy currents": ("eddy", "eddy_equilibria"),
+    "wheel motor": ("wheel_motor", "equilibria_with_a_motor"),
 }
+
+STOPPED = ("of the body once the motor has stopped, where its wheel had the momentum of the gyrostat when it "
+           "started")
 
 
 def equilibria(scene: Any) -> Equilibria:
@@ -56,6 +60,13 @@ def other_equilibria(scene: AnyScene) -> Equilibria | None:
     parts = content(scene)
     if parts is None:
         return None
+    if parts.duration is not None:
+        found = _of_parts(parts.without_motor)
+        return replace(found, reason=f"{found.reason}; {STOPPED}")
+    return _of_parts(parts)
+
+
+def _of_parts(parts: Content) -> Equilibria:
     module, answer = BY_KIND[parts.kind]
     found = getattr(import_module(f"..equilibrium.{module}", __package__), answer)(parts)
     return replace(found, reason=f"{found.reason}; {parts.note}") if parts.note else found

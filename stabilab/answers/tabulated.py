@@ -17,7 +17,7 @@ from ..errors import InputError
 from ..integrate.reference import GUARD, Recursion, one_run
 from ..numbers.balls import narrowed, working
 from ..numbers.vectors import CYCLE
-from ..physics.coefficients import effective
+from ..physics.coefficients import effective, limits_of
 from ..physics.scene import AnyScene, QuadraticForm
 from ..physics.states import equations_and_start
 from .digits.checked import MOST_DECIMALS, checked_digits
@@ -248,6 +248,8 @@ class Polynomials:
 def _twice(scene: AnyScene, start: Any, exact: Any, times: Sequence[Fraction], digits: int,
            work: int) -> Tabulated:
     equations, row = equations_and_start(scene, start)
+    if limits := limits_of(scene):
+        limits.hold_on(scene, equations.blocks, [row], float(times[-1]), "reference")
     begin = [*exact, *map(float, row[3:])]
     recursion, budget = Recursion(equations), [work]
     runs = [one_run(recursion, begin, times, digits + more, budget)[0]

@@ -12,8 +12,8 @@ import numpy as np
 
 from ..errors import InputError
 from ..numbers.exact import exact_vector
-from ..physics.coefficients import content, effective
-from ..physics.scene import AnyScene
+from ..physics.coefficients import content, effective, limits_of
+from ..physics.scene import AnyScene, slices
 from ..physics.states import checked_states, equations_and_start, float_array, start_of
 from ..validation import checked_scene
 from .caveats import caveats_of
@@ -171,8 +171,15 @@ def _of_any(scene: AnyScene, state: Any, limit: Limit, end: Fraction | None) -> 
     start = equations_and_start(scene, state)[1]
     if limit.reached_by([Fraction(v) for v in start[:3].tolist()]):
         return Found(0.0, 0.0, "exact", f"{limit.words}: reached already at the start")
-    return (never_bounded(scene, state, limit)
-            or by_run(scene, state, limit, math.inf if end is None else float(end)))
+    last = math.inf if end is None else float(end)
+    if found := never_bounded(scene, state, limit):
+        return found
+    blocks, limits = {name: start[part] for name, part in slices(scene.blocks).items()}, limits_of(scene)
+    left = limits.time_left(scene, blocks) if limits else None
+    if left is None or last <= left:
+        return by_run(scene, state, limit, last)
+    from .passage.past_end import past_the_end
+    return past_the_end(scene, blocks, limit, last, left)
 
 
 def down(value: Any) -> float:

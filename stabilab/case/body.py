@@ -11,7 +11,7 @@ from ..numbers.principal import IDENTITY, PrincipalAxes, evened, fault_of, princ
 from ..numbers.units import FORCE, INERTIA, half_digit, pi
 from ..numbers.vectors import Exact3, cross, dot
 from ..physics.effects import effect_class
-from ..physics.scene import ROUNDING, Body, along_principal_axes, slack_of
+from ..physics.scene import INSIDE, ROUNDING, Body, along_principal_axes, slack_of
 from . import burns
 from .table import Faults, Table, Written, described, plus_minus, states_uncertainty
 
@@ -443,14 +443,14 @@ def judge_oblique(top: Table, frame: PrincipalAxes | None):
 
 
 def turned_motion(motion, frame: PrincipalAxes | None):
-    """[motion] with its angular velocity, vertical and damper along principal axes."""
+    """[motion] with its angular velocity, vertical, damper and wheel along principal axes."""
     if frame is None or frame.as_given or motion.state_key == "x":
         return motion
     state = motion.exact and frame.turned(motion.exact)
     try:
         turned = {"gamma": floats(frame.turned(motion.exact_vertical))} if motion.exact_vertical else {}
-        if "damper" in motion.blocks:
-            turned["damper"] = floats(frame.turned(tuple(map(Fraction, motion.blocks["damper"]))))
+        turned |= {name: floats(frame.turned(tuple(map(Fraction, motion.blocks[name]))))
+                   for name in INSIDE if name in motion.blocks}
         return replace(motion, exact=state, state=state and floats(state), blocks=motion.blocks | turned)
     except OverflowError:
         motion.table.fault("exceeds the largest double (about 1.8e308) along the principal axes",

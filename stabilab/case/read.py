@@ -18,7 +18,7 @@ from ..numbers.vectors import Exact3, Float3, dot
 from ..physics.coefficients import Scaling, to_scaled, torque_from_mu
 from ..physics.effects import REGISTRY, effect_class
 from ..physics.effects.base import effect_words
-from ..physics.scene import Body, ScaledGyrostat, Scene
+from ..physics.scene import INSIDE, Body, ScaledGyrostat, Scene
 from ..validation import came, checked_span
 from .attitude import judge_attitude, vertical_of
 from .body import (
@@ -51,7 +51,7 @@ SYSTEMS = ("deg", "deg/day", "rpm", "rev/s", "si")  # of units in which text is 
 STATES, SPANS = ("angular_velocity", "x"), ("span", "tau")
 # key: block
 BLOCKS = {"attitude": "attitude", "vertical": "gamma", "velocity": "velocity", "position": "position",
-          "damper": "damper"}
+          "damper": "damper", "wheel": "wheel"}
 UNIT_SLACK = 1e-6  # a vertical given to six decimals counts as a unit vector and stays as it is
 MIDDLES = Caveat("uncertain",
                  "of the middles of the uncertain numbers; stabilab fate says what their box does")
@@ -124,12 +124,12 @@ class Case(Questions):
     @property
     def start(self) -> tuple[float, ...] | None:
         """The state at time 0, followed by the vertical (gamma) where an effect of the scene needs it, and by
-        the rates of a damper where it has one."""
+        what a damper or a wheel inside has."""
         if self.state is None:
             return None
         vertical = self.blocks["gamma"] if "gamma" in self.scene.blocks else ()
-        damper = self.blocks.get("damper", (0.0,) * 3) if "damper" in self.scene.blocks else ()
-        return (*self.state, *vertical, *damper)
+        inside = [self.blocks.get(name, (0.0,) * 3) for name in INSIDE if name in self.scene.blocks]
+        return (*self.state, *vertical, *(v for part in inside for v in part))
 
     @property
     def name(self) -> str:
@@ -393,6 +393,7 @@ def _built(path, text, data, faults, variant="", burning=False, orbiting=False) 
                 craft.limits, tuple(dict.fromkeys(map(dotted, sorted(faults.inexact, key=str)))), craft.notes,
                 units,
                 caveats=(*(physical.body.caveats if physical else ()),
+                         *(one for effect in scene.effects for one in effect.caveats),
                          *([MIDDLES] if faults.uncertain else [])))
 
 
@@ -562,11 +563,14 @@ def _judge_blocks(motion: _Motion, scene):
     if "damper" in given and scene is not None and "damper" not in scene.blocks:
         table.fault("no damper turns in this body: give [effects.viscous_damper], or take the key away",
                     "damper")
+    if "wheel" in given and scene is not None and "wheel" not in scene.blocks:
+        table.fault("no motor turns a wheel in this body: give [effects.wheel_motor]; the momentum of a "
+                    "wheel that runs by itself is that of [effects.gyrostat]", "wheel")
     if motion.state is not None and scene is not None and "gamma" in scene.blocks and "gamma" not in given:
         angles = given.get("attitude")
         told = (f"; the attitude given has [{', '.join(f'{v:.10g}' for v in vertical_of(*angles))}]" if angles
                 else "")
-        need = [effect_words(one.name) for one in scene.effects if set(one.needs) - {"damper"}]
+        need = [effect_words(one.name) for one in scene.effects if set(one.needs) - set(INSIDE)]
         table.fault(f"vertical is missing: because of {' and '.join(need)} give the direction of inertial "
                     f"axis 3 (of the weight, down; of the field; to the centre) in the body at the start, as "
                     f"[0, 0, 1]{told}")

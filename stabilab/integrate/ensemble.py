@@ -77,7 +77,9 @@ def ensemble(scene: AnyScene, states: ArrayLike, times: ArrayLike, rtol: float |
     equations, times, rtol = equations_of(scene), checked_times(times), checked_rtol(rtol)
     starts = checked_starts(equations, states)
     workers = _workers(workers)
-    if not heyoka_available():
+    limits = limits_of(scene)
+    if not heyoka_available() or (limits and limits.stops_before(
+            scene, equations.blocks, starts, times.max()) is not None):
         return _one_by_one(scene, starts, times, rtol)
     rtol = TAYLOR_TOLERANCE if rtol is None else max(rtol, TAYLOR_TOLERANCE)
     system = to_numpy(equations)

@@ -17,6 +17,7 @@ import numpy as np
 from ..errors import InputError
 from ..numbers.balls import DOUBLE_BITS, working
 from ..numbers.vectors import Number
+from ..physics.coefficients import limits_of
 from ..physics.equations import derive
 from ..physics.scene import slices
 
@@ -303,10 +304,12 @@ def reference(scene, start, times, blocks=(), orbit=False, work: int = WORK) -> 
     blocks: blocks of state beyond those the scene needs. orbit: the motion is known to repeat: find its
     period and extremes as well, and fold later times by the period. work: multiplications allowed. Where two
     precisions do not agree within it, the longest part of the span that does is returned, with status
-    "stopped". Raises InputError for rates that are no polynomials.
+    "stopped". Raises InputError for rates that are no polynomials, and for times after the end of an effect.
     """
     equations = derive(scene, blocks)
     recursion, times, budget = Recursion(equations), np.asarray(times, float), [work]
+    if limits := limits_of(scene):
+        limits.hold_on(scene, equations.blocks, [start], times.max(), "reference")
     parts, before, best = slices(equations.blocks), None, None
     orbit = orbit and not (times < 0).any()
     empty = np.empty((0, recursion.size))

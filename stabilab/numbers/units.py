@@ -108,7 +108,8 @@ DIMENSIONS: dict[str, Dimension] = {
     "effects.viscous_damper.inertia": INERTIA, "effects.viscous_damper.coefficient": MOMENTUM,
     "effects.rate_damper.coefficient": MOMENTUM,
     "effects.eddy_currents.coefficient": EDDY, "effects.eddy_currents.field": FLUX,
-    "motion.damper": RATE,
+    "effects.wheel_motor.torque": TORQUE, "effects.wheel_motor.duration": TIME,
+    "motion.damper": RATE, "motion.wheel": MOMENTUM,
 }
 
 # compiled where a unit is read

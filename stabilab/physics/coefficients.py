@@ -3,9 +3,9 @@ of the papers, and whether laws are approximate.
 
 What acts on the body, in exact numbers: a constant charge turns it as a wheel of moment -k e3 would.
 
-    D omega' = (D omega + Lambda) x omega + M - c D omega - C omega + kappa (omega'' + omega x omega')
+    D omega' = (D omega + Lambda + h) x omega + M - u - c D omega - C omega + kappa (omega'' + omega x omega')
                + s x gamma + N gamma x D gamma + E gamma3 omega x e3 + eddy (omega x gamma) x gamma,
-    gamma' = gamma x omega
+    gamma' = gamma x omega,  h' = u
 
 Lambda = lambda - k e3 (gyrostat, charge of constant angle; k is no part of the angular momentum, yet the
 rates are the same), s = M g times the centre of mass, E = e H l^2 of a charge whose angle follows the
@@ -24,7 +24,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from types import ModuleType
 from typing import Any, ClassVar
@@ -38,7 +38,7 @@ from .effects.base import Effect
 from .scene import ZERO3, AnyScene, Body, ScaledGyrostat, Scene
 
 KNOWN = {"gyrostat", "constant_torque", "charge", "resistance", "liquid_cavity", "newtonian_field", "gravity",
-         "body_force", "viscous_damper", "rate_damper", "eddy_currents"}
+         "body_force", "viscous_damper", "rate_damper", "eddy_currents", "wheel_motor"}
 ZERO = Fraction(0)
 
 
@@ -46,7 +46,8 @@ ZERO = Fraction(0)
 class Content:
     """The coefficients of the equations above, exact. printed: the liquid's torque is the printed one;
     inside, friction: of a damper, the moment of inertia of its sphere, which turns relative to the body, and
-    the coefficient of its fluid. C: rows of a linear damper; eddy: k B^2 of eddy currents, N m s."""
+    the coefficient of its fluid. C: rows of a linear damper; eddy: k B^2 of eddy currents, N m s; u: torque
+    of a motor on its wheel, for so long as duration says, s (None: for ever)."""
 
     D: Exact3
     Lambda: Exact3
@@ -61,6 +62,8 @@ class Content:
     friction: Fraction = ZERO
     C: tuple[Exact3, ...] = (ZERO3,) * 3
     eddy: Fraction = ZERO
+    u: Exact3 = ZERO3
+    duration: Fraction | None = None
     charged: bool = False
     forced: bool = False
 
@@ -98,13 +101,21 @@ class Content:
 
     @property
     def kind(self) -> str:
-        """"gyrostat" (Lambda and M alone), "dissipative", "directed", "directed and dissipative" or "eddy
-        currents", whatever acts besides."""
+        """"gyrostat" (Lambda and M alone), "dissipative", "directed", "directed and dissipative", or "wheel
+        motor" or "eddy currents", whatever acts besides."""
+        if any(self.u):
+            return "wheel motor"
         if self.eddy:
             return "eddy currents"
         words = [word for word, there in (("directed", self.directed), ("dissipative", self.dissipative))
                  if there]
         return " and ".join(words) or "gyrostat"
+
+    @property
+    def without_motor(self) -> Content:
+        """The same without the motor of the wheel, which has its momentum for the whole duration."""
+        taken = tuple(l + u * (self.duration or 0) for l, u in zip(self.Lambda, self.u))
+        return replace(self, Lambda=taken, u=ZERO3, duration=None)
 
     @property
     def note(self) -> str:
@@ -136,6 +147,8 @@ def content(scene: AnyScene) -> Content | None:
         numbers |= dict(zip(("inside", "friction"), damper.exact))
     if (eddy := scene.effect("eddy_currents")) is not None:
         numbers["eddy"] = eddy.parameters()["kB2"]
+    if (motor := scene.effect("wheel_motor")) is not None:
+        numbers |= {"u": motor.exact, "duration": motor.duration}
     for name, key in (("resistance", "c"), ("newtonian_field", "N"), ("gravity", "s"), ("rate_damper", "C")):
         if (effect := scene.effect(name)) is not None:
             numbers[key] = effect.exact
@@ -238,7 +251,8 @@ def split(parts: Content, state: Any) -> tuple[Float3, Float3 | None]:
         rows = [state.get("omega", ()), state.get("gamma", ())]
     else:
         row = _row(state)
-        row = row[:-3] if parts.inside and len(row) > 3 + 3 * parts.directed else row
+        own = 3 + 3 * parts.directed
+        row = row[:own] if (parts.inside or any(parts.u)) and len(row) > own else row
         rows = [row[:3], row[3:]]
     omega, gamma = (_row(row) if len(row) else () for row in rows)
     if len(omega) != 3 or len(gamma) not in (0, 3):
@@ -254,8 +268,21 @@ def split(parts: Content, state: Any) -> tuple[Float3, Float3 | None]:
 
 def relative(parts: Content, state: Any) -> Float3:
     """The rates of a damper relative to the body, rad/s: those of the state, zero where it has none."""
-    rows = state.get("damper", ()) if isinstance(state, dict) else _row(state)[3 + 3 * parts.directed:]
-    return _row(rows) if parts.inside and len(rows) else (0.0,) * 3
+    first = 3 + 3 * parts.directed
+    return _inside(state, "damper", first) if parts.inside else (0.0,) * 3
+
+
+def taken_up(parts: Content, state: Any) -> Float3:
+    """The momentum that a motor has given its wheel, N m s, likewise."""
+    first = 3 + 3 * parts.directed + 3 * bool(parts.inside)
+    return _inside(state, "wheel", first) if any(parts.u) else (0.0,) * 3
+
+
+def _inside(state: Any, block: str, first: int) -> Float3:
+    """A block of what turns inside the body, which a row of the state has from `first` on; zero where it has
+    none."""
+    rows = state.get(block, ()) if isinstance(state, dict) else _row(state)[first:first + 3]
+    return _row(rows) if len(rows) else (0.0,) * 3
 
 
 def _row(values: Any) -> tuple[float, ...]:

@@ -242,6 +242,7 @@ class MotionView:
     attitude: tuple[Symbolic, ...]
     velocity: Triple
     damper: Triple
+    wheel: Triple
     change: Triple  # omega', once it is known
 
     def __init__(self, scene: Scene, blocks: Mapping[str, tuple[Symbolic, ...]], D: Triple,
@@ -254,14 +255,19 @@ class MotionView:
     def undisturbed(self, free: bool = False) -> tuple[Triple, Triple]:
         """(omega', omega'') along the motion without the small effects; free: of the body alone."""
         from sympy import expand
-        total = self.inertial
+        total, inside = self.inertial, []
         for effect in () if free else self._scene.effects:
             if not effect.small:
                 momentum = effect.momentum(self._symbols)
                 total = add_terms(total, cross(momentum, self.omega)) if momentum else total
                 total = add_terms(total, effect.torque_along(self, self._symbols) or (0, 0, 0))
+                if (part := effect.part(self, self._symbols)) is not None:
+                    total = add_terms(total, part.torque)
+                    inside.append((self._blocks[effect.needs[0]], part))
         first = tuple(t / d for t, d in zip(total, self.D))
         change = list(zip(self.omega, first))
+        for block, part in inside:
+            change += zip(block, part.rate(first))
         if "gamma" in self._blocks:
             change += zip(self.gamma, cross(self.gamma, self.omega))
         second = tuple(expand(sum(rate.diff(x) * v for x, v in change)) for rate in first)
@@ -290,12 +296,14 @@ def _acceleration(scene: Scene, motion: MotionView, symbols: Symbols) -> Triple:
     return tuple(dot(row, total) / symbols["mass"] for row in rotation(motion.attitude))
 
 
-def _inside(scene: Scene, motion: MotionView, symbols: Symbols) -> Triple:
-    """The rates of a part that turns inside the body."""
-    parts = [part for effect in scene.effects if (part := effect.part(motion, symbols)) is not None]
-    if not parts:
-        raise InputError("state: damper is a block of a scene with a viscous damper, which this one has not")
-    return parts[0].rate(motion.change)
+def _inside(block: str, effect: str) -> Callable[..., Triple]:
+    """The rates of a part that turns inside the body, by its block; effect: that brings it, in words."""
+    def rate(scene: Scene, motion: MotionView, symbols: Symbols) -> Triple:
+        part = next((one.part(motion, symbols) for one in scene.effects if block in one.needs), None)
+        if part is None:
+            raise InputError(f"state: {block} is a block of a scene with a {effect}, which this one has not")
+        return part.rate(motion.change)
+    return rate
 
 
 KINEMATICS = {
@@ -303,7 +311,8 @@ KINEMATICS = {
     "attitude": _quaternion_rate,
     "velocity": _acceleration,
     "position": lambda scene, motion, symbols: motion.velocity,
-    "damper": _inside,
+    "damper": _inside("damper", "viscous damper"),
+    "wheel": _inside("wheel", "wheel motor"),
 }
 
 

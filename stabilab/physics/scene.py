@@ -143,8 +143,10 @@ BLOCKS = {block.name: block for block in (
     Block("velocity", ("v1", "v2", "v3"), "m/s", "velocity, inertial frame"),
     Block("position", ("x1", "x2", "x3"), "m", "position, inertial frame"),
     Block("damper", ("sigma1", "sigma2", "sigma3"), "rad/s",
-          "angular velocity of the damper's sphere relative to the body, body frame"))}
+          "angular velocity of the damper's sphere relative to the body, body frame"),
+    Block("wheel", ("h1", "h2", "h3"), "N m s", "momentum that a motor has given its wheel, body frame"))}
 ORDER = tuple(BLOCKS)
+INSIDE = ("damper", "wheel")  # what turns inside the body: zero where nothing is said of it
 # what a run may show: the blocks, and what is formed from them
 PARTS = BLOCKS | {part.name: part for part in (
     Block("x", ("x1", "x2", "x3"), "", "angular velocity, body frame, scaled"),

@@ -19,7 +19,7 @@ from ..errors import InputError, told
 from ..numbers.constants import EPS
 from ..validation import real
 from .equations import Equations, derive, rotation
-from .scene import BLOCKS, ORDER, AnyScene, Scene, ordered, rests
+from .scene import BLOCKS, INSIDE, ORDER, AnyScene, Scene, ordered, rests
 from .to_numpy import equations_of
 
 if TYPE_CHECKING:
@@ -111,7 +111,7 @@ def three_numbers(state: Any, name: str = "state") -> np.ndarray:
     return array
 
 REST = {"gamma": (0.0, 0.0, 1.0), "attitude": (1.0, 0.0, 0.0, 0.0), "velocity": (0.0,) * 3,
-        "position": (0.0,) * 3, "damper": (0.0,) * 3}
+        "position": (0.0,) * 3, "damper": (0.0,) * 3, "wheel": (0.0,) * 3}
 
 
 def equations_and_start(scene: AnyScene, state: Any) -> tuple[Equations, np.ndarray]:
@@ -216,7 +216,7 @@ def start_of(scene: AnyScene, omega: Sequence[float],
     for name in ordered((*scene.blocks, *blocks)):
         if name == "attitude":
             start[name] = _attitude(blocks.get("attitude", (0.0, 0.0, 0.0)))
-        elif name == "damper":
+        elif name in INSIDE:
             start.setdefault(name, REST[name])
     return start
 

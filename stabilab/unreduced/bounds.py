@@ -6,18 +6,24 @@ rates over the span.
 """
 from __future__ import annotations
 
+from dataclasses import replace
 from fractions import Fraction
 from math import frexp, hypot, inf, isinf, sqrt
 from typing import Any
 
 from ..equilibrium.dissipative import GLOBAL, decay, energy_bound, resisted_equilibria
 from ..equilibrium.liquid import trap
-from ..numbers.exact import sqrt_fraction
+from ..numbers.exact import floats, sqrt_fraction
 from ..numbers.vectors import dot
 from ..orbit.fate.one_state import REASONS, Reason
 from ..orbit.result import Fate, Motion
-from ..physics.coefficients import Content, at_rest, content, relative, split
+from ..physics.coefficients import Content, at_rest, content, relative, split, taken_up
 
+BESIDE = ("undecided: of a wheel motor nothing is proved beside a damper inside, a liquid, a field, a medium "
+          "that leaves some axis free, or an outer torque ")
+AFTER = ("that goes on after it; ask of the motion from the state when it stops, the wheel's momentum then "
+         "as [effects.gyrostat]")
+ENDLESS = "as large as its own"
 SMALL = 1e-290  # below it a square of doubles has lost digits
 
 
@@ -30,15 +36,19 @@ def motion(scene, state, span=None, exact=None, brief: bool = False) -> Motion:
     if parts is None:
         scene.quadratic()  # says which effect it is
     omega, gamma = split(parts, state)
-    sigma = relative(parts, state)
-    at = omega + (gamma or ()) + (sigma if parts.inside else ())
+    sigma, wheel = relative(parts, state), taken_up(parts, state)
+    at = omega + (gamma or ()) + (sigma if parts.inside else ()) + (wheel if any(parts.u) else ())
     seen = {}
     if span is not None:
         from .evidence import seen_of_blocks
         seen = seen_of_blocks(scene, {"omega": omega} | ({"gamma": gamma} if gamma else {})
-                         | ({"damper": sigma} if parts.inside else {}), span)
-    if at_rest(parts, exact or omega, gamma) and not any(sigma):
-        fields: dict[str, Any] = {"fate": Fate.EQUILIBRIUM, "because": REASONS[Reason.AT_REST],
+                         | ({"damper": sigma} if parts.inside else {})
+                         | ({"wheel": wheel} if any(parts.u) else {}), span)
+    fields: dict[str, Any]
+    if any(parts.u):
+        fields = {**seen, **_motor(parts, omega, gamma, wheel)}
+    elif at_rest(parts, exact or omega, gamma) and not any(sigma):
+        fields = {"fate": Fate.EQUILIBRIUM, "because": REASONS[Reason.AT_REST],
                   "extremes": tuple((w, w) for w in omega)}
     else:
         fate, because, bounds = judged(parts, omega, gamma, sigma)
@@ -80,6 +90,45 @@ def _sqrt(square: Fraction) -> float:
     """The root of a number that may be below the least double."""
     found = float(square)
     return sqrt(found) if found > SMALL else float(sqrt_fraction(square))
+
+
+def _motor(parts: Content, omega, gamma, wheel) -> dict[str, Any]:
+    """The fields of a motion in which a motor turns a wheel. As h x omega does no work, resistance bounds the
+    rates as it does under the torque M - u."""
+    others, least = parts.without_motor, float(min(parts.D))
+    if not parts.inside and not gamma and not parts.kappa and (slowest := decay(others)):
+        T0, x0 = _energy(parts, omega)
+        largest, late = energy_bound(replace(others, M=tuple(m - u for m, u in zip(parts.M, parts.u))), x0)
+        if parts.duration is not None:
+            largest, late = max(largest, energy_bound(others, x0)[0]), energy_bound(others, x0)[1]
+        rates = {"rate_bound": largest / sqrt(least), "late_rate_bound": late / sqrt(least)}
+        words = (f"T' <= (M - u) . omega - 2 c T, c = {float(slowest):.6g} 1/s: resistance outgrows outer "
+                 f"torque and motor, so |omega| <= {rates['rate_bound']:.6g} rad/s always and <= "
+                 f"{rates['late_rate_bound']:.6g} rad/s in the end; where it tends is undecided")
+        return {"fate": Fate.BOUNDED, "because": words, "invariants": {"energy": T0, **rates}}
+    outer, motor = (sqrt(float(dot(v, v))) for v in (parts.M, parts.u))
+    if others.kind != "gyrostat" or parts.kappa or (outer if parts.duration is not None else
+                                                    dot(parts.M, parts.M) >= dot(parts.u, parts.u)):
+        return {"fate": Fate.UNDECIDED, "because": BESIDE + (ENDLESS if parts.duration is None else AFTER)}
+    start = tuple(float(l) + h for l, h in zip(parts.Lambda, wheel))
+    H = hypot(*(float(d) * w + h for d, w, h in zip(parts.D, omega, start)))
+    if parts.duration is not None:
+        left = max(0.0, float(parts.duration) - dot(floats(parts.u), wheel) / motor**2)
+        most = max(hypot(*start), hypot(*(h + float(u) * left for h, u in zip(start, parts.u))))
+        bound = (H + most) / least
+        words = (f"|D omega + Lambda + h| stays, and the motor stops after {left:.6g} s, when h stays, too: "
+                 f"so |omega| <= {bound:.6g} rad/s always")
+        return {"fate": Fate.BOUNDED, "because": words, "invariants": {"momentum": H, "rate_bound": bound}}
+    each = (motor - outer) / float(max(parts.D))
+    grows = f"grows by at most |M| = {outer:.6g} N m s each second" if outer else "stays"
+    words = (f"|D omega + Lambda + h| {grows}, and h grows by |u| = {motor:.6g} N m s each second: so "
+             f"|omega| grows without bound while the motor runs, in the end by at least {each:.6g} rad/s "
+             "each second")
+    acting = [i for i in range(3) if parts.u[i]]
+    axis = acting[0] + 1 if len(acting) == 1 and not outer else 0
+    return {"fate": Fate.SPIN_UP, "because": words, "axis": axis,
+            "sense": (-1 if parts.u[axis - 1] > 0 else 1) if axis else 0,
+            "invariants": {} if outer else {"momentum": H}}
 
 
 def _damped(parts: Content, omega, sigma) -> tuple[Fate, str, dict]:

@@ -52,7 +52,7 @@ NO_NUMBERS = (None, "x", b"1", [], (1, 2), {}, [None] * 3, 1j, float("nan"), "1/
 
 @pytest.mark.parametrize("made", MADE, ids=lambda one: one.__name__)
 def test_a_scene_s_parts_called_with_other_arguments_than_they_take_say_what_they_take(made):
-    assert len(MADE) == 14
+    assert len(MADE) == 15
     expected = (
         rf"^{made.__name__}: .*; expected "
         rf"{made.__name__}\(.*{[*inspect.signature(made.__init__).parameters][-1]}.*\)$")
@@ -71,14 +71,15 @@ def test_a_scene_s_parts_made_of_no_numbers_are_bad_input_that_names_the_key(mad
     """In every place, the others holding what would do."""
     takes = [one.name for one in list(inspect.signature(made.__init__).parameters.values())[1:]]
     fit = {"inertia": (3, 2, 2), "mass": 1, "slack": 0, "a": 1, "b": 2, "mu": (1, 0, 0), "moment": (1, 0, 0),
+           "motor": (1, 0, 0), "duration": 1,
            "vector": (1, 0, 0), "charge": 1,
            "field_strength": 1, "arm": 1, "angle": 0, "coefficient": 1, "density": 1, "viscosity": 1, "P0": 1,
            "law": "printed",
            "strength": 1, "distance": 9, "weight": 1, "centre_of_mass": (0, 0, 1),
            "body": stabilab.Body((3, 2, 2)), "effects": ()}
     for place, name in enumerate(takes):
-        if given is None and name in ("mass", "slack",
-                                      "distance") or name == "effects" and isinstance(given, (list, dict)):
+        if (given is None and name in ("mass", "slack", "distance", "duration")
+                or name == "effects" and isinstance(given, (list, dict))):
             continue  # nothing is what may stand there
         if made is stabilab.RateDamper and getattr(given, "shape", ()) == (3, 3):
             continue  # a matrix is

@@ -38,12 +38,13 @@ DRAWING = {"matplotlib", "pyvista", "vtk", "vtkmodules", "trame", "jinja2", "xar
 MODULES = sorted(PACKAGE.rglob("*.py"))
 FLINT_AT_HEAD = ("equilibrium/", "maps/bifurcation/", "verify/", "numbers/algebraic.py")
 FILES_IN_A_FOLDER = 16  # a list that fits the eye, `__init__` counted
-IMPORTS_INSIDE = 29  # of 237 once
+IMPORTS_INSIDE = 32  # of 237 once
 SIGNS = 25  # tests of the sign of p q, of 139 once
 # Imports inside functions: (importing module, imported module) -> why it waits
 DOORS = {
     ("stabilab.answers.attitude.ask", "stabilab.answers.attitude.followed"): "loads numpy",
     ("stabilab.answers.certificate", "stabilab.answers.certified_motion"): "loads numpy",
+    ("stabilab.answers.time_to", "stabilab.answers.passage.past_end"): "loaded for effects that stop alone",
     ("stabilab.commands.classify", "stabilab.commands.certificates"): "loaded for --certify alone",
     ("stabilab.commands.common.cases",
      "stabilab.answers.uncertain.fate"): "loaded for uncertain numbers alone",
@@ -53,6 +54,8 @@ DOORS = {
     ("stabilab.commands.questions", "stabilab.answers.digits.ask"): "loads numpy",
     ("stabilab.commands.stuck", "stabilab.show.plot.over_time"): "loads all kinds of plots",
     ("stabilab.equilibrium.liquid", "stabilab.numbers.krawczyk"): "loads numpy",
+    ("stabilab.integrate.events", "stabilab.integrate.past_end"): "loaded for effects that stop alone",
+    ("stabilab.integrate.trajectory", "stabilab.integrate.past_end"): "loaded for effects that stop alone",
     ("stabilab.physics.coefficients", "stabilab.physics.law_limits"): "loaded for approximate laws alone",
     ("stabilab.physics.coefficients", "stabilab.physics.states"): "loads numpy",
     ("stabilab.public", "stabilab.answers.chaos"): "loads numpy",

@@ -19,7 +19,7 @@ EFFECTS = {
     "newtonian_field": "strength = 0.5",
     "gravity": "weight = 1\ncentre_of_mass = [0.1, 0, 0]", "body_force": "force = [1, 0, 0]",
     "viscous_damper": "inertia = 0.1\ncoefficient = 0.5", "rate_damper": "coefficient = 0.1",
-    "eddy_currents": "coefficient = 0.1\nfield = 1"}
+    "eddy_currents": "coefficient = 0.1\nfield = 1", "wheel_motor": "torque = [0.01, 0, 0.02]"}
 GAMMA = ("newtonian_field", "gravity", "eddy_currents")
 PAIRS = (("gyrostat", "constant_torque"), ("charge", "constant_torque"), ("liquid_cavity", "resistance"))
 ROUND, SLOW_START = "[12, 5, 5]", MOTION.replace("0.1, 0.05, 0.02", "1e-9, 2e-9, 3e-9")

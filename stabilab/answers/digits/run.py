@@ -249,7 +249,9 @@ def _many_digits(case: Any, times: np.ndarray, asked: int) -> Reached | None:
     scaled = case.scene.variables == "scaled"
     equations, start = equations_and_start(case.scene, case.state if scaled
                                            else start_of(case.scene, case.state, case.blocks))
-    if times.min() < 0 < times.max():
+    limits = limits_of(case.scene)
+    if times.min() < 0 < times.max() or (
+            limits and limits.stops_before(case.scene, equations.blocks, [start], times.max()) is not None):
         return None
     written = [*(case.exact_state or start[:3]), *start[3:]]  # the decimals
     order = np.argsort(np.abs(times), kind="stable")

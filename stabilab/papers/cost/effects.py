@@ -38,6 +38,7 @@ EXAMPLES = {
     "body_force": (((1, 2, 3),), ((0, 0, 0),)),
     "rate_damper": (((("0.03", "0.01", "0.01"), ("0.01", "0.02", "0.01"), ("0.01", "0.01", "0.03")),), (0,)),
     "eddy_currents": (("0.01", "2"), (0, 2)),
+    "wheel_motor": ((("0.02", "0.01", "0.03"),), ((0, 0, 0),)),
     "viscous_damper": (("0.1", "0.05"), None)}  # a damper without strength is refused
 NOTHING = "body alone"
 # states of a batch; Taylor steps, or rates of one state, in a round; rounds

@@ -14,6 +14,7 @@ REGISTRY: dict[str, tuple[str, str]] = {
     "viscous_damper": ("viscous_damper", "ViscousDamper"),
     "rate_damper": ("rate_damper", "RateDamper"),
     "eddy_currents": ("eddy_currents", "EddyCurrents"),
+    "wheel_motor": ("wheel_motor", "WheelMotor"),
     "newtonian_field": ("newtonian_field", "NewtonianField"),
     "gravity": ("gravity", "Gravity"),
     "body_force": ("body_force", "BodyForce"),

@@ -6,11 +6,12 @@ fractions.
 """
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, fields
 from fractions import Fraction
 from typing import Any, ClassVar
 
+from ...caveat import Caveat
 from ...numbers.principal import PrincipalAxes
 from ...numbers.vectors import Number, Triple
 from ...validation import Asked
@@ -44,8 +45,8 @@ class Part:
 
     inertia: its moment about any axis, kg m^2, held by the moments of the body; momentum: N m s, and energy:
     J, what its motion adds to those of the body with the part at rest in it; torque: on the rest of the body,
-    N m, body frame, at the rates of the block alone; loss: W, what friction takes; rate: omega' -> rates of
-    the block.
+    N m, body frame, at the rates of the block alone; loss: W, what friction or a motor takes from the body;
+    rate: omega' -> rates of the block.
     """
 
     inertia: Number
@@ -97,6 +98,11 @@ class Effect(metaclass=Asked):
         """Whether its strength differs from zero: every formula of an effect is linear in its parameters."""
         return any(self.parameters().values())
 
+    @property
+    def caveats(self) -> tuple[Caveat, ...]:
+        """What it takes for granted in every answer."""
+        return ()
+
     def limits(self, scene: Any) -> tuple[Limit, ...]:
         """Up to where its law may be used in this scene."""
         return ()
@@ -104,6 +110,14 @@ class Effect(metaclass=Asked):
     def refused_by(self, body: Any) -> str:
         """Why it cannot act on this body, and what to do; empty where it can."""
         return ""
+
+    def stops_after(self, state: Mapping[str, Sequence[float]]) -> float | None:
+        """For how long it still acts, s, from a state in blocks on; None where it acts for ever."""
+        return None
+
+    def stopped(self, scene: Any, state: Mapping[str, Sequence[float]]) -> Any:
+        """The scene from a state in blocks on, at which it has stopped."""
+        return scene
 
     def turned(self, frame: PrincipalAxes) -> Effect | None:
         """The same effect along the principal axes of `frame` (numbers.principal), from the frame that a case

@@ -52,8 +52,11 @@ def pace(scene: Any, state: Mapping[str, Sequence[Number]], without: Effect) -> 
 
 def _torque(effect: Effect, D: Sequence[float], state: Mapping[str, Sequence[Number]],
             omega: Sequence[Number], p: Mapping[str, Number]) -> Triple:
-    """The torque of an effect that is linear in omega, in numbers."""
-    return effect.torque_along(SimpleNamespace(**{**state, "omega": omega}, D=D), p) or (0.0,) * 3
+    """The torque of an effect that is linear in omega, in numbers, with that of a part inside."""
+    motion = SimpleNamespace(**{**state, "omega": omega}, D=D)
+    torque = effect.torque_along(motion, p) or (0.0,) * 3
+    part = effect.part(motion, p) if set(effect.needs) <= set(state) else None
+    return torque if part is None else tuple(a + b for a, b in zip(torque, part.torque))
 
 
 # --- A cavity filled with a very viscous liquid: the torque of the liquid carried along the undisturbed

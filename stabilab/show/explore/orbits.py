@@ -65,7 +65,9 @@ def why(scene: AnyScene) -> str:
     if isinstance(scene,
                   Scene) and (charge := scene.effect("charge")) is not None and charge.follows_attitude:
         turning.append("the charge")
-    parts = (taking, "take", "energy away"), (turning, "act", "by the attitude")
+    motors = ["the motor"] * ("wheel_motor" in names)
+    parts = ((taking, "take", "energy away"), (turning, "act", "by the attitude"),
+             (motors, "change", "the momentum of its wheel"))
     reasons = [f"{' and '.join(some)} {word}{'s' * (len(some) == 1)} {how}"
                for some, word, how in parts if some]
     return (

@@ -154,15 +154,29 @@ def _vector(values) -> str:
     return f"({', '.join(f'{float(v):.4g}' for v in values)})".replace("-", "−")
 
 
-def _wheel(ax, one, effect, sides):
-    """The rotor as a ring about its axis, and its momentum."""
-    axis = _along(effect.moment, 1.0)
+def _ring(ax, axis, radius):
+    """A rotor as a ring about its axis."""
     across = np.linalg.svd(axis[None])[2][1:]
     turn = np.linspace(0, 2 * np.pi, 91)
-    ring = 0.2 * (np.outer(np.cos(turn), across[0]) + np.outer(np.sin(turn), across[1]))
+    ring = radius * (np.outer(np.cos(turn), across[0]) + np.outer(np.sin(turn), across[1]))
     ax.plot(*ring.T, color=style.BLUE, linewidth=3.0, zorder=7)
+
+
+def _wheel(ax, one, effect, sides):
+    """The rotor and its momentum."""
+    axis = _along(effect.moment, 1.0)
+    _ring(ax, axis, 0.2)
     look = _arrow(ax, (0, 0, 0), 0.55 * axis, r"momentum $\lambda$", style.BLUE, 3.2)
     return f"momentum of the wheel λ = {_vector(effect.moment)} kg m²/s", look
+
+
+def _motor(ax, one, effect, sides):
+    """The rotor that it turns, and its torque on it."""
+    axis = _along(effect.motor, 1.0)
+    _ring(ax, axis, 0.27)
+    look = _arrow(ax, (0, 0, 0), 0.8 * axis, "motor u", style.SKY, 2.4)
+    end = "" if effect.duration is None else f" for {float(effect.duration):g} s"
+    return f"torque of the motor on its wheel u = {_vector(effect.motor)} N m{end}", look
 
 
 def _torque(ax, one, effect, sides):
@@ -272,4 +286,5 @@ PARTS: dict[str, tuple[str, Callable]] = {  # effect -> its words in the caption
     "liquid_cavity": ("the cavity of liquid", _liquid), "resistance": ("the resistance", _resistance),
     "gravity": ("fixed point, centre of mass and weight", _weight),
     "newtonian_field": ("the attracting centre", _attraction), "viscous_damper": ("the damper", _damper),
-    "rate_damper": ("the linear damper", _rate_damper), "eddy_currents": ("the magnetic field", _eddy)}
+    "rate_damper": ("the linear damper", _rate_damper), "eddy_currents": ("the magnetic field", _eddy),
+    "wheel_motor": ("the motor of the wheel", _motor)}

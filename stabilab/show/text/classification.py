@@ -9,6 +9,7 @@ from dataclasses import asdict
 from itertools import groupby
 from typing import NamedTuple
 
+from ...answers.equilibria import STOPPED
 from ...numbers.vectors import CYCLE
 from ...representation import values_of
 from .. import frame, limiting
@@ -74,6 +75,8 @@ def _ordered(verdicts):
 
 def _equilibria(case, equilibria, units, proofs):
     lines = [f"  {reason(equilibria.reason, units)}"] if proofs or equilibria.kind == "undecided" else []
+    if not lines and equilibria.reason.endswith(STOPPED):
+        lines.append(f"  {STOPPED}")
     if case.scene.plain and equilibria.kind != "none" and (units.scaled or units.name == SI.name):
         lines.append(_jacobian(case, units))  # its entries are 1/s for rates in rad/s alone
     for point in equilibria.points:

@@ -1,0 +1,111 @@
+"""A motor that spins a wheel up or brakes it: momentum goes from the body into the wheel, none is lost."""
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+from typing import Any, ClassVar
+
+from ...caveat import Caveat
+from ...errors import InputError
+from ...numbers.exact import floats
+from ...numbers.principal import PrincipalAxes
+from ...numbers.units import TIME, TORQUE, in_si, vector_in_si
+from ...numbers.vectors import Exact3, Given, Number, cross, dot
+from .base import Effect, Limit, Part
+from .gyrostat import Gyrostat
+
+ENDLESS = Caveat("motor", "the motor of the wheel runs without an end, and no wheel takes momentum for ever: "
+                          "give its duration in [effects.wheel_motor]")
+
+ROUNDING = 1e-9  # of the duration, which a run up to the end may exceed
+
+
+@dataclass(frozen=True)
+class WheelMotor(Effect):
+    """Torque u on a wheel along the same line, N m, body frame, by a motor in the body, which has -u (Hall
+    and Rand, J. Guidance 17(1), 1994, pp. 30-37).
+
+    With h the momentum that the motor has given the wheel, N m s, lambda the wheel's own at the start and
+    that of others (`gyrostat`), D the moments of the body without the wheel's own about its line, and M the
+    outer torque
+
+        D omega' = (D omega + lambda + h) x omega - u + M,    h' = u,    H = D omega + lambda + h,
+
+    so that the motor keeps H in space, and T' = omega . (M - u), T of the body alone. lambda + h holds the
+    wheel's whole momentum along its line, with its share in omega. duration: s, for which the motor runs: it
+    has run for h . u/|u|^2; None: without an end.
+    """
+
+    name: ClassVar[str] = "wheel_motor"
+    keys: ClassVar[tuple[str, ...]] = ("torque", "duration")
+    needs = ("wheel",)
+
+    motor: Sequence[Given]
+    duration: Given | None = None
+    exact: Exact3 = field(init=False, repr=False)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "exact", vector_in_si(self.motor, TORQUE, "torque"))
+        object.__setattr__(self, "motor", floats(self.exact))
+        if self.duration is not None:
+            time = in_si(self.duration, TIME, "duration")
+            if time <= 0:
+                raise InputError(f"duration: expected a positive number, got {float(time):g}")
+            object.__setattr__(self, "duration", time)
+
+    @classmethod
+    def from_case(cls, table: Any, context: Any) -> WheelMotor | None:
+        complete = table.required("torque", torque="give torque = [u1, u2, u3] on the wheel, in N m")
+        torque, duration = table.vector("torque"), table.positive("duration")
+        if not complete or torque is None or ("duration" in table and duration is None):
+            return None
+        return cls(torque, duration)
+
+    def written(self) -> dict[str, Any]:
+        return {"torque": self.exact} | ({} if self.duration is None else {"duration": self.duration})
+
+    @property
+    # a constant of the other effects, here told by the values
+    def approximate(self) -> bool:  # type: ignore[override]
+        """A motor with an end acts as stated up to it."""
+        return self.duration is not None
+
+    @property
+    def caveats(self) -> tuple[Caveat, ...]:
+        return (ENDLESS,) if self.duration is None else ()
+
+    def limits(self, scene: Any) -> tuple[Limit, ...]:
+        if self.duration is None:
+            return ()
+        share = (1 - ROUNDING) / float(self.duration)
+        return (Limit("time that the motor has run over its duration", 1.0,
+                      lambda state: share * self._run(state["wheel"]) if "wheel" in state else None,
+                      "the motor has stopped by then: go on from the state there, with the wheel's momentum "
+                      "as [effects.gyrostat]", "the case itself", "the momentum of the wheel"),)
+
+    def _run(self, wheel: Sequence[Number]) -> Number:
+        """For how long the motor has run, s."""
+        return dot(floats(u / dot(self.exact, self.exact) for u in self.exact), wheel)
+
+    def stops_after(self, state: Mapping[str, Sequence[float]]) -> float | None:
+        if self.duration is None:
+            return None
+        return float(self.duration) - self._run(state.get("wheel", (0.0,) * 3))
+
+    def stopped(self, scene: Any, state: Mapping[str, Sequence[float]]) -> Any:
+        """With the wheel's momentum as it is then."""
+        momentum = tuple(a + Fraction(b) for a, b in zip(scene.vector("gyrostat"), state["wheel"]))
+        return type(scene)(scene.body, Gyrostat(momentum),
+                           *(one for one in scene.effects if one.name not in (self.name, "gyrostat")))
+
+    def turned(self, frame: PrincipalAxes) -> WheelMotor:
+        return WheelMotor(frame.turned(self.exact), self.duration)
+
+    def parameters(self) -> dict[str, Fraction]:
+        return dict(zip(("u1", "u2", "u3"), self.exact))
+
+    def part(self, motion: Any, p: Mapping[str, Number]) -> Part:
+        u, h = (p["u1"], p["u2"], p["u3"]), motion.wheel
+        turning = tuple(t - v for t, v in zip(cross(h, motion.omega), u))
+        return Part(0, h, 0, turning, dot(u, motion.omega), lambda change: u)
