@@ -10,7 +10,7 @@ import pytest
 from stabilab import load
 from stabilab.show import style
 from stabilab.show.explore.session import Session
-from stabilab.show.plot import over_time
+from stabilab.show.plot import canvas, over_time
 from stabilab.show.plot import subject as which
 from stabilab.show.plot.subject import subject
 from stabilab.show.report.one_case import page
@@ -63,7 +63,7 @@ def test_every_view_has_the_same_headline(stabilab, bare, tmp_path, name):
 def test_the_titles_of_pictures_begin_as_the_headline(name):
     case = load(ROOT / "cases" / f"{name}.toml")
     one = subject(case)
-    answer = which.answer(one, which.measures(one))
+    answer = canvas.answer(one, which.measures(one))
     assert len(answer) > 7 and headline(case, one.motion).startswith(answer)
 
 

@@ -11,10 +11,9 @@ import numpy as np
 from ...maps.basins.ask import BOUNDED, NO_AXIS, UNDECIDED, Basins
 from ...packages import demand
 from .. import style
-from ..files import endings
 from ..maps.basins import basin_name, cells_of
 from ..maps.shades import dimensions, drawn, light, own_value, said, spinning
-from . import subject as canvas
+from . import canvas
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -49,10 +48,7 @@ def basin(found: Basins, ax: Axes | None = None, size: tuple[float, float] | Non
 def write(found: Basins, out: str | Path, size: tuple[float, float] | None = None,
           dpi: float | None = None) -> Path:
     """Draw basins and write the picture, whole or not at all; the same basins give the same bytes."""
-    demand(*style.PACKAGES)
-    target = endings.file(out, endings.PICTURES)
-    with style.drawing():
-        return style.save(basin(found, size=size).figure, target, dpi)
+    return style.write(out, lambda plt: basin(found, size=size).figure, dpi)
 
 
 def _areas(ax: Any, found: Basins) -> list[tuple[str, dict[str, Any]]]:

@@ -9,7 +9,7 @@ import numpy as np
 
 from .. import style
 from ..axes import PLAIN
-from . import subject as canvas
+from . import canvas
 from . import subject as which
 from .subject import Subject, measures, subject
 

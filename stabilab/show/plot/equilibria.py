@@ -10,8 +10,7 @@ from ...errors import InputError
 from .. import style
 from ..space import Box
 from ..units import with_unit
-from . import in_space
-from . import subject as canvas
+from . import canvas, in_space
 from .in_space import CURVES, FOLD, POINTS, Rest, disc, holds, inside, meanings, rest_states
 from .subject import Subject, measures, subject
 

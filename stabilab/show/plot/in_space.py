@@ -33,7 +33,7 @@ from ..space import (
 )
 from ..space import THIN as SHORT
 from ..space import space as drawn_in
-from . import subject as canvas
+from . import canvas
 from . import subject as which
 from .path import path, thinned, turning
 from .subject import Measures, Subject, measures, subject

@@ -19,7 +19,7 @@ from ..text.cost import comparison
 from ..text.headline import headline
 from ..text.stuck import answer_line, row_name
 from ..units import Units, with_unit
-from . import subject as canvas
+from . import canvas
 from . import subject as which
 from .path import SOLID, band, path, turning
 from .subject import Subject, measures, subject

@@ -13,7 +13,7 @@ from ...cost.accuracy import Precision, precision
 from ...errors import InputError
 from .. import style
 from ..report.precision_picture import meanings, panel, picture
-from . import subject as canvas
+from . import canvas
 from . import subject as which
 from .subject import Subject, subject
 

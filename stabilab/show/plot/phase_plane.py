@@ -23,7 +23,7 @@ from ...unreduced.periodic import (
 )
 from .. import style
 from ..units import number, with_unit
-from . import subject as canvas
+from . import canvas
 from . import subject as which
 from .subject import Measures, Subject, measures, subject
 
@@ -54,7 +54,7 @@ def phase(case: Any, state: Any = None, ax: Axes | None = None, units: str | Non
         if small:
             _enlarged(target, plane, factors)
         target.set_xlabel(with_unit(rf"turn $\alpha_{i + 1}$ about {one.axes.short(i + 1)} from the start",
-                                      scale.angle[0]))
+                                    scale.angle[0]))
         target.set_ylabel(with_unit(scale.names[i], scale.rate[0]))
         present = {"separatrix": bool(plane.saddles), "saddle (unstable)": bool(plane.saddles),
                    "centre (stable)": bool(plane.centres)}
@@ -101,7 +101,7 @@ ROWS: list[tuple[str, dict]] = [
     ("saddle (unstable)", style.MARKER["saddle"])]
 
 
-def draw(ax, plane: PhasePlane, scale=1.0, offset=0.0, rate_scale=1.0, span=None, levels=22, motion=True,
+def draw(ax, plane: PhasePlane, scale=1.0, offset=0.0, rate_scale=1.0, span=None, levels=16, motion=True,
          separatrices=True, start=True,
          top=None):
     """Draw level curves, separatrices, equilibria and the motion on `ax`; x axis: offset + scale*y.

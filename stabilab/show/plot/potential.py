@@ -8,7 +8,7 @@ import numpy as np
 from ...orbit.phase_plane import PhasePlane, motion_curve, phase_plane, window
 from .. import style
 from ..units import SHORT, number, with_unit
-from . import subject as canvas
+from . import canvas
 from . import subject as which
 from .subject import measures, subject
 
@@ -61,7 +61,7 @@ def potential(case: Any, state: Any = None, ax: Axes | None = None, units: str |
         target.set_xlim(*sorted((across * low, across * high)))
         i = plane.reduction.axis + 1
         target.set_xlabel(with_unit(rf"turn $\alpha_{i}$ about {one.axes.short(i)} from the start",
-                                      scale.angle[0]))
+                                    scale.angle[0]))
         target.set_ylabel(with_unit("energy", "J" if scale.size else ""))
         return canvas.explained(target, rows if legend else [], ax is None,
                                 one.heading, canvas.answer(one, scale))

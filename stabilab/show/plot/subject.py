@@ -1,10 +1,8 @@
-"""What a picture is of: case or scene and state, which kinds of picture it has, their units, and the axes to
-draw on."""
+"""What a picture is of: case or scene and state, which kinds of picture it has, and their units."""
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
@@ -18,18 +16,16 @@ from ...errors import InputError, printable
 from ...orbit.far_states import far_exponent
 from ...orbit.reduction import reduce
 from ...orbit.result import Fate, Motion
-from ...packages import demand
 from ...physics.coefficients import effective
 from ...physics.effects.base import effect_words
 from ...physics.scene import AnyScene, Scene, torque_axis
 from ...physics.states import checked_states, start_of
 from ...unreduced.periodic import LEAST, crossed
 from ...validation import checked_scene, checked_span
-from .. import spans, style
+from .. import spans
 from ..axes import PLAIN, Axes, axes_of
 from ..text import law
-from ..text.headline import outcome
-from ..units import SYSTEMS, Units, suited, units_of
+from ..units import SYSTEMS, Units, suited
 
 # --- What a plot is of: a scene, one motion of it where there is one, and what a case says besides
 
@@ -349,71 +345,3 @@ def measures(one: Subject, units: str | None = None) -> Measures:
     found = SYSTEMS[units or ("deg" if one.case is None else one.case.units or suited(one.case))]
     return Measures(found.rates, found.angles, (r"$\omega_1$", r"$\omega_2$", r"$\omega_3$"), r"$|\omega|$",
                     found)
-
-
-# --- Where a plot goes: onto axes that the caller gives, or into a figure of its own in the style of the
-# house
-SIZE = (7.6, 4.8)  # inches
-SQUARE = (7.0, 6.4)
-BELOW = 0.14  # between axes in space and their legend
-
-
-@contextmanager
-def on(ax: Any, size: tuple[float, float] | None = None, space: bool = False) -> Iterator[Any]:
-    """The axes to draw on: `ax` itself, checked, or those of a new figure of so many inches. space:
-    three-dimensional ones."""
-    demand(*style.PACKAGES)
-    if ax is not None:
-        yield _checked(ax, space)
-        return
-    import matplotlib
-    import matplotlib.pyplot as plt
-    with matplotlib.rc_context(style.RC | style.letters(size)):
-        figure = plt.figure(figsize=size or (SQUARE if space else SIZE), layout="constrained")
-        if space:  # of which no layout knows how far the labels reach
-            figure.get_layout_engine().set(h_pad=BELOW)
-        yield figure.add_subplot(projection="3d" if space else None)
-
-
-def _checked(ax: Any, space: bool) -> Any:
-    if not hasattr(ax, "plot") or not hasattr(ax, "figure"):
-        raise InputError(f"ax: expected Matplotlib axes, got {ax!r:.80}")
-    if space != (getattr(ax, "name", "") == "3d"):
-        wanted = ('three-dimensional axes: plt.subplots(subplot_kw={"projection": "3d"})' if space
-                  else "plane axes: plt.subplots()")
-        raise InputError(f"ax: expected {wanted}")
-    return ax
-
-
-def explained(ax: Any, rows: list[tuple[str, dict[str, Any]]], own: bool, *lines: str) -> Any:
-    """The axes, with the lines of a title and with what the looks mean, rows of (name, look)."""
-    title(ax, *lines)
-    legend(ax, rows, own)
-    return ax
-
-
-def legend(ax: Any, rows: list[tuple[str, dict[str, Any]]], own: bool) -> None:
-    """What the looks mean, rows of (name, look): below a figure of its own, inside axes that were given."""
-    if rows and own:
-        columns = style.fitting([name for name, _ in rows], ax.figure.get_figwidth())
-        style.legend(ax.figure, rows, columns)
-    elif rows:
-        ax.legend(*style.explained(rows), loc="best", fontsize="small")
-
-
-def answer(one: Subject, scale: Measures) -> str:
-    """What becomes of the motion of a case, and when it reaches its limit, as its headline begins; empty
-    without a case."""
-    if one.case is None or one.state is None:
-        return ""
-    units = replace(scale.system or units_of(one.case), axes=axes_of(one.case))
-    became, limit, _ = outcome(one.motion, units)
-    return law.warned(one.motion.validity, "; ".join(filter(None, (became, limit))))
-
-
-def title(ax: Any, *lines: str) -> None:
-    """The lines that are not empty, above the axes; the first is the title of the case."""
-    # beside others it has its own share alone
-    width = ax.get_position().width if len(ax.figure.axes) > 1 else 1.0
-    told = (style.clauses(line, ax.figure.get_figwidth() * width) for line in lines if line)
-    ax.set_title("\n".join(map(style.literal, told)), wrap=True)

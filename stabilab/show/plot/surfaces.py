@@ -12,8 +12,7 @@ from .. import style
 from ..sampling import spread
 from ..space import Box
 from ..units import with_unit
-from . import in_space
-from . import subject as canvas
+from . import canvas, in_space
 from . import subject as which
 from .in_space import (
     CURVES,

@@ -14,7 +14,7 @@ from ...numbers.principal import without_trace
 from .. import style
 from ..spans import limit_time
 from ..units import SHORT, number
-from . import subject as canvas
+from . import canvas
 from . import subject as which
 from .subject import measures, subject
 

@@ -20,8 +20,7 @@ from .. import style
 from ..files import endings
 from ..report import html
 from ..units import SHORT, Unit, Units
-from . import in_space
-from . import subject as canvas
+from . import canvas, in_space
 from . import subject as which
 from .body import CORNERS, FACES, box_sides
 from .subject import Subject, measures, subject

@@ -9,7 +9,7 @@ import numpy as np
 
 from .. import style
 from ..axes import PLAIN
-from ..plot import subject as canvas
+from ..plot import canvas
 from ..plot.in_space import FACETS, PALEST, away, rows, sight, space_of
 from ..plot.subject import measures, subject
 from ..space import Space, across, look, numbers

@@ -40,7 +40,7 @@ def pictures(one, folder: Path, stem: str, deep: bool, units: str = "deg", at_re
     """Draw every plot of a subject (`plot.subject`) that a page shows; file, size in pixels, title and
     caption of each, in order. deep: all kinds, not only those of the motion itself. at_rest: its
     equilibria."""
-    found, offered = [], which.offered(one)
+    found, offered = [], [kind for kind in SHOWN if not which.why_not(kind, one)]
     # what another part of the page has: table and space the single points, the plane what is wrapped round a
     # surface
     spared = {"equilibria": at_rest is not None and not at_rest.curves, "body": not _acted_on(one),
