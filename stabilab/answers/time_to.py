@@ -149,8 +149,9 @@ def _beyond_integers(scene: AnyScene, state: Any, start: Any, limit: Limit, end:
     ways, which compiled steps enclose, and the clock tells of the longest."""
     last = math.inf if end is None else float(end)
     run = by_run(scene, state, limit, last)
-    if run.steps <= bands and (run.high == run.high or run.low >= last * (1 - LATER)):
-        band = banded(scene, start, limit, run.high * (1 + LATER) if run.high == run.high else last, bands)
+    open_end = math.isnan(run.high)  # the run did not come to the limit
+    if run.steps <= bands and (not open_end or run.low >= last * (1 - LATER)):
+        band = banded(scene, start, limit, last if open_end else run.high * (1 + LATER), bands)
         if band is not None and band.high < math.inf:
             return Found(band.low, band.high, "proved",
                          f"{limit.words}: the motion enclosed in {band.steps} compiled steps")
@@ -160,7 +161,7 @@ def _beyond_integers(scene: AnyScene, state: Any, start: Any, limit: Limit, end:
     clock = by_clock(scene, state, limit, max(run.low, known), run.low, spun) if end is None else None
     if clock is not None:
         return clock
-    if run.low > known and run.high != run.high:
+    if run.low > known and open_end:
         return run
     return Found(known, math.nan, "proved",
                  f"{limit.words}: proved not to be reached before low; {run.words}")

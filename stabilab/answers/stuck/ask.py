@@ -23,7 +23,7 @@ from ...physics.scene import Scene
 from ..caveats import STEADY, caveats_of
 from ..tilt import Spread, Tilt
 from ..when import limit_of, of_tilt
-from .fate import PATIENCE, Found, Scenario, first_time, found, scenario_of, time_under
+from .fate import PATIENCE, Outcome, Scenario, first_time, outcome_of, scenario_of, time_under
 from .line import Family
 from .margins import margins
 from .result import Helper, Principal, Row, Stuck, WheelAnswer
@@ -38,7 +38,7 @@ SHARES = (Fraction(1), Fraction(3, 4), Fraction(1, 2), Fraction(1, 4))  # of the
 
 
 def helpers(scenario: Scenario, torque: Sequence[Fraction], others: Sequence[Any],
-            seen: Found) -> tuple[Helper, ...]:
+            seen: Outcome) -> tuple[Helper, ...]:
     """The helpers among `others` (thrusters that do not fire) against a torque (exact, scene's axes), the
     best first.
 
@@ -71,12 +71,12 @@ def _rank(helper: Helper) -> tuple[bool, bool, float]:
     return helper.effect == "none", time is not None, 0.0 if time is None else -time[0]
 
 
-def _later(time: tuple[float, float] | None, seen: Found) -> bool:
+def _later(time: tuple[float, float] | None, seen: Outcome) -> bool:
     """Whether a limit that is reached at `time`, if at all, is reached later than without help."""
-    return time is None or (seen.time is not None and time[0] > seen.time[1])
+    return time is None or (seen.when.time is not None and time[0] > seen.when.time[1])
 
 
-def _timed(scenario: Scenario, helper: Helper, left: Exact3, seen: Found) -> Helper:
+def _timed(scenario: Scenario, helper: Helper, left: Exact3, seen: Outcome) -> Helper:
     """With the time of its limit: a bounded motion may come to it all the same."""
     time = None if scenario.limit is None else time_under(scenario, left, scenario.wheel)
     return replace(helper, time_to_limit=time, effect=helper.effect if _later(time, seen) else "none")
@@ -146,7 +146,7 @@ def _solved(p: Fraction, q: Fraction, r: Fraction, s: Fraction, x: Fraction, y: 
             else ((x * s - q * y) / det, (p * y - r * x) / det))
 
 
-def _slowest(scenario: Scenario, torque: Sequence[Fraction], sets: Any, seen: Found) -> list[Helper]:
+def _slowest(scenario: Scenario, torque: Sequence[Fraction], sets: Any, seen: Outcome) -> list[Helper]:
     """The thruster and the pair with the latest limit; without a limit those that leave the least torque."""
     out: list[tuple[float, Helper]] = []
     size = dot(torque, torque)
@@ -172,10 +172,10 @@ def _slowest(scenario: Scenario, torque: Sequence[Fraction], sets: Any, seen: Fo
     return [helper for _, helper in out]
 
 
-def _run(scenario: Scenario, torque: Sequence[Fraction], chosen: Any, duty: Duty, seen: Found) -> float:
+def _run(scenario: Scenario, torque: Sequence[Fraction], chosen: Any, duty: Duty, seen: Outcome) -> float:
     """The time of the limit by a plain run, inf where it is not reached for long."""
     left = _left(torque, [arm for _, arm in chosen], duty)
-    t_max = PATIENCE * (seen.time[0] if seen.time else seen.followed)
+    t_max = PATIENCE * (seen.when.time[0] if seen.when.time else seen.when.followed)
     return first_time(scenario, left, None, t_max)
 
 
@@ -195,14 +195,14 @@ def _in_the_box(torque: Sequence[Fraction], arms: Sequence[Sequence[Fraction]]) 
     return out
 
 
-def _slower(scenario: Scenario, torque: Sequence[Fraction], seen: Found, run: float, chosen: Any,
+def _slower(scenario: Scenario, torque: Sequence[Fraction], seen: Outcome, run: float, chosen: Any,
             duty: Duty) -> Helper:
     """run: the time of the limit by a plain run, which counts where none is enclosed."""
     left, effect, time = _left(torque, [arm for _, arm in chosen], duty), "slower", None
     if scenario.limit is not None:
         time = time_under(scenario, left, scenario.wheel)
         effect = "slower" if _later(time or (run, run), seen) else "none"
-    fate = found(replace(scenario, limit=None), left).fate.word
+    fate = outcome_of(replace(scenario, limit=None), left).fate.word
     return Helper(tuple(name for name, _ in chosen), tuple(map(float, duty)), effect,
                   math.sqrt(float(dot(left, left))), fate, time)
 
@@ -259,22 +259,26 @@ def _soonest(row: Row) -> tuple[Any, ...]:
 
 def _row(scenario: Scenario, thrusters: Sequence[Any]) -> Row:
     torque = scenario.torque(thrusters)
-    seen = found(scenario, torque)
+    seen = outcome_of(scenario, torque)
     others = [t for t in scenario.case.thrusters if t not in thrusters]
     scene = scenario.scene(torque)
     off = _tilted(scenario, thrusters, scene, seen)
-    caveats = caveats_of(scene, seen.fate in STEADY or seen.never, off, file=scenario.case.caveats)
-    along = seen.direction and scenario.in_file(seen.direction)
-    return Row(tuple(t.name for t in thrusters), scenario.torque_in_file(thrusters),
-               tuple(float(v) + 0.0 for v in torque),
-               seen.fate.word, seen.level, seen.axis or None, seen.sense or None, along, scenario.limit,
-               seen.time, seen.time_level,
-               seen.never, seen.largest, seen.followed, seen.because, margins(scenario, scene, seen),
-               tuple(_wheel(scenario, torque, seen, wheel) for wheel in scenario.case.wheels),
-               helpers(scenario, torque, others, seen) if seen.fate not in STEADY else (), off, caveats)
+    caveats = caveats_of(scene, seen.fate in STEADY or seen.when.never, off, file=scenario.case.caveats)
+    return Row(
+        tuple(t.name for t in thrusters), torque=scenario.torque_in_file(thrusters),
+        torque_principal=tuple(float(v) + 0.0 for v in torque),
+        fate=seen.fate.word, level=seen.level, axis=seen.axis or None, sense=seen.sense or None,
+        direction=seen.direction and scenario.in_file(seen.direction), limit=scenario.limit,
+        time_to_limit=seen.when.time, time_level=seen.when.level, never=seen.when.never,
+        largest_rate=seen.largest, followed=seen.when.followed, because=seen.because,
+        margins=margins(scenario, scene, seen),
+        wheels=tuple(_wheel(scenario, torque, seen, wheel) for wheel in scenario.case.wheels),
+        helpers=helpers(scenario, torque, others, seen) if seen.fate not in STEADY else (),
+        tilt=off, caveats=caveats)
 
 
-def _tilted(scenario: Scenario, thrusters: Sequence[Any], scene: Scene, seen: Found) -> Tilt | Spread | None:
+def _tilted(scenario: Scenario, thrusters: Sequence[Any], scene: Scene,
+            seen: Outcome) -> Tilt | Spread | None:
     """What a tilt of the torque does: to a bounded motion under one on an axis by the misalignment of the
     thrusters that fire, else by one degree; else by that misalignment alone."""
     loose = any(t.misalignment for t in thrusters)
@@ -284,7 +288,7 @@ def _tilted(scenario: Scenario, thrusters: Sequence[Any], scene: Scene, seen: Fo
             else None)
 
 
-def _wheel(scenario: Scenario, torque: Exact3, seen: Found, wheel: Any) -> WheelAnswer:
+def _wheel(scenario: Scenario, torque: Exact3, seen: Outcome, wheel: Any) -> WheelAnswer:
     """What one wheel of the case can do, the others left as they are."""
     axis = without_trace(scenario.axes.turned(wheel.axis), torque)
     least = NOTHING * max(map(abs, scenario.wheel))
@@ -293,5 +297,5 @@ def _wheel(scenario: Scenario, torque: Exact3, seen: Found, wheel: Any) -> Wheel
     kept, because = intervals(scenario.scene(torque, others), scenario.state, axis)
     told = tuple(map(float, wheel.axis)), float(wheel.momentum), kept, because
     later = (None if kept or seen.fate in STEADY
-             else delayed(scenario, torque, axis, wheel.momentum, seen.time))
+             else delayed(scenario, torque, axis, wheel.momentum, seen.when.time))
     return WheelAnswer(wheel.name, *told, *(later or ()))

@@ -122,14 +122,28 @@ EXACT = ("axis", "law")  # certificates of growth that are closed solutions
 
 
 @dataclass(frozen=True)
-class Found:
-    """fate, level, axis (1, 2, 3 of the scene or 0), sense, direction (scene's axes) and because as in
-    `SpinUp`.
+class When:
+    """What is known of the time to the limit, without one that it is not reached.
 
-    motion: of a scene with an orbit or a law, None elsewhere; kind: of the scene; time: (low, high) of the
-    limit, None where it is never within what is known, and time_level how it is known; never: it is known
-    never to be reached; largest: |omega| up to then, or for ever, rad/s, None where unbounded or unknown;
-    followed: s, up to where the limit is known not to be reached.
+    time: (low, high), s, None where it is never within what is known; level: how it is known; never: it is
+    known never to be reached; followed: s, up to where it is known not to be reached; unsure: why no more is
+    known, in words.
+    """
+
+    time: tuple[float, float] | None
+    level: str
+    never: bool
+    followed: float
+    unsure: str = ""
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What becomes of one motion: fate, level, axis (1, 2, 3 of the scene or 0), sense, direction (scene's
+    axes) and because as in `SpinUp`.
+
+    motion: of a scene with an orbit or a law, None elsewhere; largest: |omega| up to the limit, or for ever,
+    rad/s, None where unbounded or unknown.
     """
 
     fate: Fate
@@ -138,23 +152,18 @@ class Found:
     sense: int
     direction: Float3 | None
     because: str
-    kind: str
     motion: Any
-    time: tuple[float, float] | None
-    time_level: str
-    never: bool
+    when: When
     largest: float | None
-    followed: float
 
 
-def found(scenario: Scenario, torque: Sequence[Fraction], wheel: Sequence[Fraction] | None = None) -> Found:
-    """What becomes of the scenario's motion under a torque, with another wheel momentum where one is given.
-    """
-    scene = scenario.scene(torque, wheel)
-    kind = kind_of(scene)
+def outcome_of(scenario: Scenario, torque: Sequence[Fraction]) -> Outcome:
+    """What becomes of the scenario's motion under a torque."""
+    scene = scenario.scene(torque)
     if rests(scene.quadratic(), scenario.state):
-        return _at_rest(scenario, kind)
-    return _off_axis(scenario, scene) if kind == "off axis" else _by_law(scenario, scene, kind)
+        why, when = "every rate vanishes at the state, exactly", When(None, "exact", True, math.inf)
+        return Outcome(Fate.EQUILIBRIUM, "exact", 0, 0, None, why, None, when, math.hypot(*scenario.start))
+    return _off_axis(scenario, scene) if kind_of(scene) == "off axis" else _by_law(scenario, scene)
 
 
 def time_under(scenario: Scenario, torque: Sequence[Fraction],
@@ -175,25 +184,18 @@ def first_time(scenario: Scenario, torque: Sequence[Fraction], wheel: Sequence[F
     return t if until >= t_max else until
 
 
-def _at_rest(scenario: Scenario, kind: str) -> Found:
-    size = math.hypot(*scenario.start)
-    return Found(Fate.EQUILIBRIUM, "exact", 0, 0, None, "every rate vanishes at the state, exactly", kind,
-                 None, None, "exact", True, size, math.inf)
-
-
-def _off_axis(scenario: Scenario, scene: Scene) -> Found:
+def _off_axis(scenario: Scenario, scene: Scene) -> Outcome:
     certified = spin_up(scene, scenario.start)
     seen = proved(scene, scenario.state, certified, plain=PLAIN)
     spins = seen.fate == Fate.SPIN_UP
-    about = (seen.axis, seen.sense, seen.direction) if spins else (0, 0, None)
     when = _when(scenario, scene, None if spins or seen.fate == Fate.BOUNDED else seen.t, spun=certified)
-    largest = _largest(scenario, scene, when, None if spins else seen.t)
-    return Found(seen.fate, "run" if seen.level == "undecided" else seen.level, *about,
-                 f"{seen.cause}{when.unsure}", "off axis", None, when.time, when.level,
-                 when.never, largest, when.followed)
+    axis, sense, direction = (seen.axis, seen.sense, seen.direction) if spins else (0, 0, None)
+    return Outcome(seen.fate, "run" if seen.level == "undecided" else seen.level, axis, sense, direction,
+                   f"{seen.cause}{when.unsure}", None, when,
+                   _largest(scenario, scene, when, None if spins else seen.t))
 
 
-def _by_law(scenario: Scenario, scene: Scene, kind: str) -> Found:
+def _by_law(scenario: Scenario, scene: Scene) -> Outcome:
     motion = one(scene).motion(scene, scenario.start, None, scenario.state)
     spins = motion.fate == Fate.SPIN_UP
     when = _when(scenario, scene, None)
@@ -201,37 +203,27 @@ def _by_law(scenario: Scenario, scene: Scene, kind: str) -> Found:
     largest = _largest(scenario, scene, when, repeats)
     if largest is None and not spins and math.isfinite(bound := _bound(motion)):
         largest = bound
-    return Found(motion.fate, _level(kind, motion), motion.axis, motion.sense,
-                 _direction(scene, motion) if spins else None, f"{motion.because}{when.unsure}",
-                 kind, motion, when.time, when.level, when.never, largest,
-                 math.inf if repeats else when.followed)
+    return Outcome(motion.fate, _level(scene, motion), motion.axis, motion.sense,
+                   _direction(scene, motion) if spins else None, f"{motion.because}{when.unsure}", motion,
+                   replace(when, followed=math.inf) if repeats else when, largest)
 
 
-@dataclass(frozen=True)
-class _When:
-    time: tuple[float, float] | None
-    level: str
-    never: bool
-    followed: float
-    unsure: str = ""
-
-
-def _when(scenario: Scenario, scene: Scene, t_max: float | None, *work: Any, spun: Any = None) -> _When:
+def _when(scenario: Scenario, scene: Scene, t_max: float | None, *work: Any, spun: Any = None) -> When:
     """When the limit is reached, by `time_to`; t_max: how far an undecided motion was followed, s; work,
     spun: as of `time_to.of_one`."""
     if scenario.limit is None:
-        return _When(None, "run", False, 0.0 if t_max is None else t_max)
+        return When(None, "run", False, 0.0 if t_max is None else t_max)
     end = None if t_max is None else Fraction(t_max)
     # work is no more than two
     seen = of_one(scene, scenario.start, scenario.state, scenario.exact_limit, end, *work, spun=spun)  # type: ignore[misc]
     if math.isinf(seen.low):
-        return _When(None, seen.level, True, math.inf)
+        return When(None, seen.level, True, math.inf)
     if math.isfinite(seen.high):
-        return _When((seen.low, seen.high), seen.level, False, seen.high)
-    return _When(None, seen.level, False, seen.low, f"; {seen.words}")
+        return When((seen.low, seen.high), seen.level, False, seen.high)
+    return When(None, seen.level, False, seen.low, f"; {seen.words}")
 
 
-def _largest(scenario: Scenario, scene: Scene, when: _When, otherwise: float | None) -> float | None:
+def _largest(scenario: Scenario, scene: Scene, when: When, otherwise: float | None) -> float | None:
     """|omega| at the most until the limit is reached, or until another time (None: not told)."""
     if when.time is not None and isinstance(scenario.limit, float) and when.time[1] > 0:
         return scenario.limit
@@ -242,10 +234,10 @@ def _largest(scenario: Scenario, scene: Scene, when: _When, otherwise: float | N
     return largest if reached >= until * (1 - 1e-12) else None
 
 
-def _level(kind: str, motion: Motion) -> str:
+def _level(scene: Scene, motion: Motion) -> str:
     if motion.fate == Fate.UNDECIDED:
         return "run"
-    certificate = motion.evidence.get("certificate") if kind == "growth" else "law"
+    certificate = motion.evidence.get("certificate") if kind_of(scene) == "growth" else "law"
     return "exact" if certificate in EXACT else "run" if certificate in ("evidence", "none") else "certified"
 
 

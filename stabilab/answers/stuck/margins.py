@@ -17,7 +17,7 @@ from ...orbit.reduction import Reduction
 from ...orbit.result import Fate, Motion
 from ...physics.scene import Scene
 from ..caveats import STEADY
-from .fate import Found, Scenario
+from .fate import Outcome, Scenario
 from .line import TRIES, Family, Line, candidates, change_between, family_of, nearest_change, pieces, rise
 from .result import Margin
 from .wheel import across, loose
@@ -37,8 +37,8 @@ ALONE = "to the separatrix, where alone the fate is another: beyond it the motio
 CLOSE = 1e-6
 
 
-def margins(scenario: Scenario, scene: Scene, seen: Found) -> dict[str, Margin]:
-    """The margins of one answer (`fate.Found`), by name: "rate" (rad/s), "wheel" (N m s), "torque" (N m)."""
+def margins(scenario: Scenario, scene: Scene, seen: Outcome) -> dict[str, Margin]:
+    """The margins of one outcome, by name: "rate" (rad/s), "wheel" (N m s), "torque" (N m)."""
     if seen.fate == Fate.SEPARATRIX:
         return {name: Margin(0.0, None, "the motion is on the separatrix")
                 for name in ("rate", "wheel", "torque")}

@@ -238,25 +238,24 @@ def _slack(m: Orbit, angle: Number) -> np.ndarray:
 
 
 def _bounded(family: Family, sense: int, stretch: float, most: int) -> Proof:
-    """A place ahead above the energy; it leans with the parameters as the top of the barrier does."""
+    """A place ahead above the energy all over a part: the top of the middle's barrier, fixed, or moved with
+    the numbers as the top moves to first order, which may cost more than it gives where the top is flat."""
     def judge(parts: Parts) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         orbit, none = family.orbit(parts.centres, parts.widths, stretch)
         orbit = orbit.turned(sense)
-        m = Orbit(*(np.broadcast_to(v, (len(none), 1)) for v in orbit.middle()))
-        angle, top = highest_ahead(m)
-        flat = Affine(angle, np.zeros((1, 1)), np.zeros(1))
-        push, stiff = lifted(force(orbit, flat)), stiffness(m, angle[:, None])
+        middle = Orbit(*(np.broadcast_to(v, (len(none), 1)) for v in orbit.middle()))
+        angle, top = highest_ahead(middle)
+        at_top = Affine(angle, np.zeros((1, 1)), np.zeros(1))
+        push, stiff = lifted(force(orbit, at_top)), stiffness(middle, angle[:, None])
         lean = np.where(stiff > 0, -push.g / stiff, 0.0)
         room = np.minimum(LEAN, angle / 4)[:, None] / np.maximum(np.abs(lean).sum(1, keepdims=True), 1e-300)
-        place = Affine(angle, np.nan_to_num(lean * np.minimum(1.0, room)), np.zeros(1))
-        best = lifted(excess(orbit, place))
-        # a lean of first order may cost more than it gives where the top is flat
-        level = lifted(excess(orbit, flat))
-        better = level.low > best.low
-        settled = (np.maximum(best.low, level.low) > 0) | none
-        against = ~none & (top < -_slack(m, angle)) & (m.mu[:, 0] > 0)
-        slopes: np.ndarray = np.where(better[:, None], level.g, best.g)
-        rest: Any = np.where(better, level.e, best.e)
+        leaning = Affine(angle, np.nan_to_num(lean * np.minimum(1.0, room)), np.zeros(1))
+        moved, fixed = lifted(excess(orbit, leaning)), lifted(excess(orbit, at_top))
+        better = fixed.low > moved.low
+        settled = (np.maximum(moved.low, fixed.low) > 0) | none
+        against = ~none & (top < -_slack(middle, angle)) & (middle.mu[:, 0] > 0)
+        slopes: np.ndarray = np.where(better[:, None], fixed.g, moved.g)
+        rest: Any = np.where(better, fixed.e, moved.e)
         return settled, against, np.hstack([importance(slopes, rest, parts.widths),
                                             np.full((len(angle), 1), -1.0)])
     return branch_and_bound(whole(family.box, 1), judge, most)
