@@ -21,6 +21,7 @@ from ..equilibrium.gyrostat import (
     torque_free_curves,
 )
 from ..equilibrium.stability import curve_with_verdicts, cuts_of, isolated_point, pencil
+from ..numbers.balls import fraction
 from ..orbit.extremes.one_state import extreme_balls
 from ..orbit.fate.one_state import fate_of
 from ..orbit.one_orbit import Orbit
@@ -185,13 +186,8 @@ def _ends(value: Any, digits: int = DIGITS) -> Any:
     finite."""
     if isinstance(value, float) or not value.is_finite():
         return None
-    middle, reach = _exact(value.mid()), _exact(value.rad())
+    middle, reach = (fraction(end.fmpq()) for end in (value.mid(), value.rad()))
     room = 2 * reach + abs(middle) / 10**digits
     if abs(middle) + room < TINY:
         return _bracket(Fraction(0), TINY)
     return _bracket(middle, room)
-
-
-def _exact(value: Any) -> Fraction:
-    mantissa, exponent = (int(v) for v in value.man_exp())
-    return Fraction(mantissa) * Fraction(2) ** exponent

@@ -97,7 +97,7 @@ def _bounds(event: Event) -> list[str]:
         return [str(event.exact)] * 2
     number = Algebraic(fmpq_poly(list(event.polynomial)), event.index)
     ball = settled(lambda digits: number.ball(max(BITS, digits.bits)))
-    return [str(Fraction(int(end.p), int(end.q))) for end in (ball.lower().fmpq(), ball.upper().fmpq())]
+    return [str(end.fmpq()) for end in (ball.lower(), ball.upper())]
 
 
 def _scene(family: Family) -> dict[str, Any]:

@@ -211,7 +211,7 @@ class System:
         """(quantities as of `invariants`, the sums of their absolute terms, which a relative departure is
         measured against), in the order of the equations' balances: (..., 3) -> two of (laws, ...)."""
         terms, ends = self._law_terms
-        each = _columns(terms, x)
+        each = np.ascontiguousarray(np.moveaxis(evaluate(terms, x), -1, 0))
         quantities, sizes = np.empty((2, len(ends), *each.shape[1:]), each.dtype)
         for law, (first, last) in enumerate(ends):
             np.add.reduce(each[first:last], axis=0, out=quantities[law])
@@ -269,24 +269,9 @@ def _call(form: Form, x: Sequence[float]) -> list[float]:
 def evaluate(form: Form, x: ArrayLike) -> np.ndarray:
     """Values of the form at x (..., 3), one per expression in the last place; constants are spread over the
     batch."""
-    x = _inexact(x)
+    x = np.asarray(x)
+    x = x if x.dtype.kind in "fc" else x.astype(float)
     out = np.empty(x.shape[:-1] + (len(form.expressions),), x.dtype)
     for i, value in enumerate(form.function(*np.moveaxis(x, -1, 0), *form.numbers)):
         out[..., i] = value
     return out
-
-
-def _columns(form: Form, x: ArrayLike) -> np.ndarray:
-    """`evaluate` with one row an expression: (..., 3) -> (expressions, ...), which many states in a row fill
-    faster."""
-    x = _inexact(x)
-    columns = np.ascontiguousarray(x.transpose((x.ndim - 1, *range(x.ndim - 1))))
-    out = np.empty((len(form.expressions), *x.shape[:-1]), x.dtype)
-    for i, value in enumerate(form.function(*columns, *form.numbers)):
-        out[i] = value
-    return out
-
-
-def _inexact(x: ArrayLike) -> np.ndarray:
-    x = np.asarray(x)
-    return x if x.dtype.kind in "fc" else x.astype(float)
