@@ -180,6 +180,7 @@ def tabulated(scene: Any, start: Sequence[Any], exact: Sequence[Fraction], times
 
 def _enclosed(scene: AnyScene, start: Any, times: Sequence[Fraction], digits: int, work: int,
               asked: bool) -> Tabulated:
+    """By as many bits as the digits take, while the motion lets that many be enough."""
     need = int(digits * 3.33) + SPARE
     bits, best = need + 40, None
     while True:
@@ -247,6 +248,7 @@ class Polynomials:
 
 def _twice(scene: AnyScene, start: Any, exact: Any, times: Sequence[Fraction], digits: int,
            work: int) -> Tabulated:
+    """By two runs of different precision, as far as they agree."""
     equations, row = equations_and_start(scene, start)
     if limits := limits_of(scene):
         limits.hold_on(scene, equations.blocks, [row], float(times[-1]), "reference")

@@ -132,6 +132,7 @@ class _Scan:
             self.at += 1
 
     def note(self, path: tuple, line: int, repeated: bool):
+        """Keep the line of a key, and of the tables above it that are named by it alone."""
         if repeated:
             self.found.again.setdefault(path, line)
         elif len(path) <= _DEEPEST:

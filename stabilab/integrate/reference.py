@@ -334,6 +334,7 @@ def reference(scene, start, times, blocks=(), orbit=False, work: int = WORK) -> 
 
 
 def _compared(times, before, now, parts, work) -> Reference:
+    """The part of the times on which two runs agree, (digits, run) of the one before and the one now."""
     (low_digits, (low, low_loop)), (high, loop) = before, now
     n = min(len(low), len(high))
     states, rest = pairs(high[:n])

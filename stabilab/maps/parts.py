@@ -275,6 +275,7 @@ def _single(plan: Plan, case: Case, states: np.ndarray, out: np.ndarray) -> None
 
 
 def _equilibria(case: Case, out: np.ndarray) -> None:
+    """Put the number of equilibria, and of each verdict, into the records that have a place for it."""
     if "stable" not in out.dtype.names and (number := number_of_equilibria(case.scene)) is not None:
         out["equilibria"] = number
         return
@@ -330,6 +331,7 @@ def _remove_if_empty(folder: Path) -> None:
 
 
 def _claim(plan: Plan, folder: Path, command: str) -> None:
+    """Write down whose folder this is; InputError where it is somebody else's."""
     claim = folder / PLAN
     if not claim.exists() and any(not entry.name.startswith(".") for entry in folder.iterdir()):
         raise InputError(

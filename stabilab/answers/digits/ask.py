@@ -261,6 +261,8 @@ def _by_small_loop(question: str, form: QuadraticForm, values: Any, digits: int,
 
 def _over_span(scene: AnyScene, state: Any, span: Any, known: Motion, digits: int, exact: Exact3 | None,
                slack: float) -> Told:
+    """The extremes over the span: by a second run where its difference from the first is small enough, else
+    in many digits. slack: digits that may be missing."""
     if known.extremes is None or span is None and known.bounds:
         return nothing("extremes", digits, known.extremes_over)
     if scene.variables != "scaled":  # a force at the centre of mass does not turn the body

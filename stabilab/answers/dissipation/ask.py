@@ -169,6 +169,7 @@ def _over_the_box(case: Any, found: FlatSpin) -> FlatSpin:
 
 
 def _answered(spinner: Spinner, angle: float) -> FlatSpin:
+    """The answer of one start: exactly where it rests or is past the separatrix, else by runs."""
     D1, D2, D3 = spinner.moments
     size, axis = spinner.size, spinner.order[0]
     growth, decay = spinner.constants

@@ -331,6 +331,7 @@ def _asked(scene: AnyScene, start: Any, limit: Limit) -> tuple[Equations, np.nda
 
 def _expressions(limit: Limit, equations: Equations, state: Sequence[float] | np.ndarray,
                  unit: float) -> list[Any]:
+    """What vanishes at the limit, one expression a part, in the unit of rates."""
     from sympy import Float, Rational, cos
     rational = lambda v: Rational(v.numerator, v.denominator)
     if limit.kind != "tilt":

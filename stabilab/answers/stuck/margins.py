@@ -53,6 +53,7 @@ def margins(scenario: Scenario, scene: Scene, seen: Outcome) -> dict[str, Margin
 
 
 def _rate(scenario: Scenario, motion: Motion, family: Family | None) -> Margin:
+    """To the nearest separatrix as the motion knows it, and how far beyond it the fate is another."""
     if motion.margin_velocity is None or motion.velocity_witness is None:
         return Margin(because=motion.velocity_because or "no separatrix stands near it")
     change = [b - a for a, b in zip(scenario.start, motion.velocity_witness)]

@@ -212,6 +212,7 @@ def branch_and_bound(start: Parts, judge: Judge, most: int) -> Proof:
 
 
 def _halved(parts: Parts, weights: np.ndarray) -> Parts:
+    """Each part cut in two across the number, or the angle (last), that matters most."""
     n = parts.centres.shape[1]
     side = np.nan_to_num(weights, nan=0.0, posinf=1e299).argmax(1)
     rows = np.arange(len(side))

@@ -91,6 +91,7 @@ def _dot(u: Sequence[Number], v: Sequence[Number]) -> Number:
 
 def _off_axis(D: Sequence[Number], lam: Sequence[Number], M: Sequence[Number],
               acting: Sequence[int]) -> list[Condition]:
+    """Of a torque about several axes: the signs of the quadratic on the line along v."""
     if not any(present(D[i] - D[acting[0]]) for i in acting[1:]):
         raise Unknown("the torque lies across the axes in the plane of two equal moments")
     gaps = [D[j] - D[k] for j, k in CYCLE]
@@ -183,6 +184,8 @@ def signature(found: Any) -> str:
 
 
 def _by_conditions(box: Box, here: Any, look: Look) -> Over:
+    """As long as every condition keeps its sign the equilibria stay as they are: how far the box may be
+    stretched before one may change it."""
     n = len(box.places)
     all_of = partial(_conditions, box)
     first = all_of(np.zeros((1, n)), np.zeros((1, n)))

@@ -241,6 +241,7 @@ def _places(entries, count: int, path):
 
 
 def _joint(rows, path) -> Joint:
+    """The joint that a block of the section Joint Parameters describes, locked where it is."""
     inner, outer = (int(v) for v in _exact(rows, "inner, outer", 2, path))
     (free, sequence), (slides, along) = (_exact(rows, label, 2, path)
                                          for label in ("rotdof, seq", "trndof, seq"))
@@ -271,7 +272,10 @@ def _on(rows, count: int, path) -> int:
 
 def _wheel(craft: Craft, block, rows, where, body, path):
     momentum = _numbers(rows, "initial momentum", 1, path)
-    if momentum is None or (on := _on(rows, len(where), path)) != body is not None:
+    if momentum is None:
+        return
+    on = _on(rows, len(where), path)
+    if body is not None and on != body:
         return
     try:
         axis = _numbers(rows, "wheel axis", 3, path)

@@ -211,6 +211,8 @@ class _Rise:
         return place, along_x * (place - at) + along_p * off - evaluated(self.top, here) / bottom_here
 
     def _rise(self, at: arb_series, ends: list[tuple[arb, arb]]) -> tuple[arb, arb]:
+        """U at the second end less U at the first, and its slope, by series of first order in the number that
+        varies. at: that number; ends: (y_j, y_k) of the two saddles."""
         i = self.eliminated.system.axis  # type: ignore[union-attr]  # a circle is of two conics
         j, k = (i + 1) % 3, (i + 2) % 3
         form: Any

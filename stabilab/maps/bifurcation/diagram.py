@@ -200,6 +200,7 @@ def _event(family: Family, kind: str, eliminated: Eliminated, cut: Cut,
 
 def _kinds(eliminated: Eliminated, cut: Cut, roots: Sequence[Root],
            sides: Sequence[Piece | None]) -> tuple[str, ...]:
+    """What happens, by how many branches meet in a root, and whether their number changes."""
     counts = [piece.count for piece in sides if piece is not None]
     many = max((root.times for root in roots), default=1)
     kinds = []

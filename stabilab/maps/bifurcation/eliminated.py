@@ -193,6 +193,7 @@ class Eliminated:
         return [Root(x, times, self.state(view, x, values)) for x, times in roots]
 
     def state(self, view: Leant, x: arb, values: list) -> tuple[arb, ...]:
+        """The state y above a root x, in balls, at values of the numbers that vary."""
         of = lambda polynomial, *unknowns: evaluated(polynomial,
                                                      [*unknowns, *([arb(0)] * (2 - len(unknowns))), *values])
         if isinstance(self.system, OnLine):

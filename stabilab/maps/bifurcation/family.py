@@ -89,6 +89,7 @@ class Family:
             raise InputError(f"vary: the range leaves what a case may be: at {told}: {first}") from None
 
     def _hold(self, found, values) -> None:
+        """Refuse a range over which the polynomials are not the numbers of the case at further values."""
         case = self._read(values)
         put_in = dict(zip(("p", "q"), map(rational, values)))
         for name, row in _numbers_of(case).items():

@@ -78,6 +78,8 @@ def _others(eliminated: Eliminated) -> list[fmpq_mpoly]:
 def _on_curve(family: Family, R: fmpq_mpoly, eliminated: Eliminated, F: fmpq_mpoly,
               others: Sequence[fmpq_mpoly],
               lead: fmpq_mpoly, more: Callable[[], Sequence[fmpq_mpoly]]) -> list[Cusp]:
+    """The cusps on one curve F: p from resultants with the conditions, then q as a common root over the field
+    of p. others: conditions that do not hold all along F; lead: the highest coefficient of R."""
     shadow = common_divisor(F.resultant(c, "q") for c in others)
     if shadow.is_constant():
         return []
