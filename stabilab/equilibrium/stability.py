@@ -29,7 +29,7 @@ from typing import NamedTuple
 from ..errors import InputError
 from ..numbers.exact import Surd, sign_of, sqrt_fraction
 from ..numbers.polynomial import Poly, real_roots
-from ..numbers.vectors import CYCLE, Exact3, Number, Triple, cross, dot
+from ..numbers.vectors import Exact3, Number, Triple
 from ..physics.scene import AnyScene, QuadraticForm
 from .result import (
     CurveSegment,
@@ -86,9 +86,6 @@ def pencil(scene: AnyScene) -> Pencil:
     return Pencil(scene.body.exact, scene.vector("gyrostat"), scene.vector("constant_torque"), (ONE,) * 3,
                   (ZERO,) * 3,
                   form, False)
-
-
-__all__ = ["CYCLE", "ONE", "ZERO", "Pencil", "cross", "dot", "pencil"]
 
 
 def unit(i: int) -> Exact3:

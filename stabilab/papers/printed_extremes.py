@@ -11,6 +11,8 @@ import math
 from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
+from .figures.paper import height
+
 STEP, FAR = 2e-3, 40.0  # of the walk along the curve
 
 
@@ -28,11 +30,9 @@ def minor_axis(x: Sequence[float], a: float, b: float) -> Printed:
     """x1 = F sin s, x2 = F cos s by (18); 2 x3^2 by (30)."""
     F, start = math.hypot(x[0], x[1]), math.atan2(x[0], x[1])
 
-    def potential(s: float) -> float:
-        return F * F * math.cos(2 * s) - 4 * b * F * math.sin(s) - 4 * s
-
-    G = 2 * x[2] ** 2 + potential(start)
-    return Printed(lambda s: (F * math.sin(s), F * math.cos(s)), lambda s: (G - potential(s)) / 2, start,
+    level = height(F, b)
+    G = 2 * x[2] ** 2 + level(2 * start)
+    return Printed(lambda s: (F * math.sin(s), F * math.cos(s)), lambda s: (G - level(2 * s)) / 2, start,
                    tuple(n * math.pi / 2 for n in range(-8, 9)))
 
 

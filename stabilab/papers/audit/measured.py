@@ -21,7 +21,6 @@ from ...theories.charged.model import body_of, circle
 from ...theories.follow import follow
 from ..families import FAMILIES, SPANS, sweep
 from ..figures import cavity, paper
-from ..figures.minor_axis import PRINTED_FIG4, height
 
 # --- How a quantity goes as a number grows, and on which side of zero it is
 GOES = {"rises": lambda change, size: change > size, "falls": lambda change, size: change < -size,
@@ -313,7 +312,7 @@ def _item4():
     at the saddle."""
     from scipy.optimize import brentq
     (saddle, _), (centre, _) = FIG4_TRUE[100]
-    true = height(A, C)
+    true = paper.height(A, C)
     end = brentq(lambda alpha: true(saddle) - true(alpha), -2 * math.pi, centre, xtol=1e-15)
 
     def invariant(alpha):
@@ -327,7 +326,7 @@ def _loop_area(lam, side):
     """The area of a loop in the plane (alpha, x); side 0: left, 1: right."""
     from scipy.integrate import quad
     from scipy.optimize import brentq
-    true, (saddle, centre) = height(*_circle(lam)), (pair[side] for pair in FIG4_TRUE[lam])
+    true, (saddle, centre) = paper.height(*_circle(lam)), (pair[side] for pair in FIG4_TRUE[lam])
     square = lambda alpha: 2 * (true(saddle) - true(alpha))  # of x, by the corrected (25)
     end = brentq(square, centre - math.pi, centre)
     return 2 * quad(lambda alpha: math.sqrt(max(square(alpha), 0.0)), end, saddle)[0]
@@ -525,7 +524,7 @@ TESTS: dict[str, Callable[..., tuple]] = {
     "seconds": _seconds, "always stable": _always_stable, "middle dividing line": _middle_line,
     # on the minor axis
     "stability": _stability_after_13, "fold radius": _fold_radius, "dividing line": _dividing,
-    "positions": lambda: (_fig4(PRINTED_FIG4, as_printed=True), _fig4(FIG4_TRUE)),
+    "positions": lambda: (_fig4(paper.FIG4, as_printed=True), _fig4(FIG4_TRUE)),
     "repetition": lambda: (_fig4(FIG4_TRUE, 1), _fig4(FIG4_TRUE, 2)),
     "loop areas": _loop_order, "two separatrices": _saddles, "stable parts": _stable_parts, "arc": _arc,
     "directions": _directions, "end of a separatrix": _where_separatrices_end, "merging": _merging,

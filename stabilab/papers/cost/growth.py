@@ -8,9 +8,11 @@ from __future__ import annotations
 
 import math
 import time
+from collections.abc import Callable
 from dataclasses import astuple, dataclass, fields
 from functools import partial
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -42,6 +44,7 @@ DOUBLES = 15
 DISTANCES = tuple(range(1, 16))  # decades of relative distance in energy to the separatrix
 NODE_DIGITS, MOST_NODES = 8, 1 << 15
 BITS = range(16, 129, 4)
+QUESTIONS: dict[str, Callable[..., Any]] = {"fate": fate, "extremes": extremes, "period": period}
 SLOW, ENOUGH = 1.0, 0.1  # seconds of the first run after which only one follows; seconds of all runs together
 
 
@@ -87,8 +90,7 @@ def with_states(case, full: bool = False, tell=lambda words: None) -> list[Growt
             states = (np.random.default_rng(SEED).normal(size=(10**decade, 3)) * SPREAD
                       + np.asarray(case.state))
             for engine, options in engines(question):
-                answer, seconds, repeats = _timed(partial(_FUNCTIONS[question](), case.scene, states,
-                                                          **options))
+                answer, seconds, repeats = _timed(partial(QUESTIONS[question], case.scene, states, **options))
                 precise = (int(answer.precise), "states in balls") if question == "fate" else (None, "")
                 found.append(Growth("states", question, engine, len(states), seconds, repeats, *precise))
     return found
@@ -99,21 +101,6 @@ def engines(question) -> list[tuple[str, dict]]:
     if question != "fate":
         return [("row by row", {})]
     return [("NumPy", {"fast": False})] + ([("numba", {"fast": True})] if installed() else [])
-
-
-def _fate():
-    return fate
-
-
-def _extremes():
-    return extremes
-
-
-def _period():
-    return period
-
-
-_FUNCTIONS = {"fate": _fate, "extremes": _extremes, "period": _period}
 
 
 # -- with the digits
@@ -193,8 +180,8 @@ def with_closeness(case, tell=lambda words: None) -> list[Growth]:
     for decade in DISTANCES:
         tell(f"1e-{decade} from the separatrix")
         state, distance = near(case, decade)
-        for question, function in _FUNCTIONS.items():
-            _, seconds, repeats = _timed(partial(function(), case.scene, state))
+        for question, function in QUESTIONS.items():
+            _, seconds, repeats = _timed(partial(function, case.scene, state))
             count = {"fate": (bits_needed(case.scene, state), "bits"),
                      "period": (nodes_needed(case.scene, state), "nodes")}.get(question, (None, ""))
             found.append(Growth("separatrix", question, "as called", distance, seconds, repeats, *count))

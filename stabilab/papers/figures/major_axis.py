@@ -47,10 +47,8 @@ def _runs(start):
 def exactness(start) -> str:
     """How exact the runs of a start are: by their laws."""
     runs = [*_trajectories(start).values(), *(_trajectories(start, True).values() if captured(start) else ())]
-    drift = max(d for run in runs for d in run.invariant_drift.values())
-    return (
-        f"Taylor integration, relative tolerance 1.1e-16, 400 points a unit of τ; the laws of the motion "
-        f"drift by {drift:.1e} at most")
+    return ("Taylor integration, relative tolerance 1.1e-16, 400 points a unit of τ; the laws of the motion "
+            f"drift by {paper.drift(runs):.1e} at most")
 
 
 def captured(start) -> bool:

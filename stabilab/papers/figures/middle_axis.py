@@ -102,12 +102,7 @@ def path_departure() -> str:
             f"motion.")
 
 
-def _equilibria(a, b, points=4000):
-    """(x1, x3, stable) along both branches x3 = g, x1 = -a + 1/g."""
-    for sign in (1, -1):
-        g = sign * np.geomspace(0.05, 20, points)
-        x1 = -a + 1 / g
-        yield x1, g, (x1 + a) * (x1 + b) + g * g > 0
+HEIGHTS = np.geomspace(0.05, 20, 4000)  # of x3 on the equilibria that are drawn
 
 
 def _tube(scene, state):
@@ -159,7 +154,7 @@ def _upright(points):
 
 
 def _nested(ax, scene):
-    for x1, x3, stable in _equilibria(scene.a, scene.b):
+    for x1, x3, stable in paper.equilibria("middle", scene, HEIGHTS):
         shown = (np.abs(x1) < 3) & (np.abs(x3) < 3) & stable
         ax.plot(np.where(shown, x1, np.nan), np.where(shown, x3, np.nan), 0 * x1, **style.MEANING["stable"])
     for g in (-1.8, -1.0, -0.5, 0.5, 1.0, 1.8):
@@ -224,10 +219,9 @@ VIEW = ((-8.0, 4.5), (-6.25, 6.25))  # of x1 and x3, in every panel of Fig. 17
 
 
 def _projection(ax, scene, draw_motion):
-    a, b = scene.a, scene.b
-    for x1, x3, stable in _equilibria(a, b):
-        for kind, mask in (("stable", stable), ("unstable", ~stable)):
-            ax.plot(np.where(mask, x1, np.nan), np.where(mask, x3, np.nan), **style.MEANING[kind])
+    b = scene.b
+    for x1, x3, stable in paper.equilibria("middle", scene, HEIGHTS):
+        paper.draw_equilibria(ax, x1, x3, stable)
         folds = np.nonzero(np.diff(stable))[0]
         ax.plot(x1[folds], x3[folds], zorder=5, **style.MARKER["degenerate"])
     ends = np.array([-20.0, 20.0])

@@ -15,8 +15,6 @@ from .figure import PRINTED, farthest, listed
 
 # alpha = 2 theta: both wells and their saddles, no equilibrium at an edge; the plane repeats every 4 pi
 WINDOW = (-7.0, 8.4)
-PRINTED_FIG4 = {100: ((0.0, 6.2), (-3.0, 3.3)), 300: ((0.19, 6.15), (-3.1, 3.29)),
-                500: ((0.32, 5.8), (-3.13, 3.28))}
 REACH = 5.0           # largest circle drawn in Fig. 5, in radii of the outer fold circle
 CIRCLES, FOLD_RADIUS = (2.0, 4.0, 6.0), np.sqrt(2)  # printed ones of Fig. 5, about the origin
 FOLDS = np.array([(1.0, -1.0, 0.0), (-1.0, 1.0, 0.0)])  # where the text has saddle and centre merge
@@ -77,12 +75,8 @@ def _left(saddles, start):
 def _heights(lambda1=100):
     """(height by (25), as it is printed, true height) over alpha: x^2/2 + height is constant."""
     scene, (x1, x2, _) = paper.scene("minor", lambda1), paper.START_MINOR
-    return (height(np.hypot(x1, x2), scene.b), height(np.hypot(x1 + scene.a, x2), scene.b - scene.a))
-
-
-def height(radius, wheel):
-    """Function of alpha: x^2/2 less it is constant on the circle of a radius, by (25)."""
-    return lambda alpha: radius**2 * np.cos(alpha) - 4 * radius * wheel * np.sin(alpha / 2) - 2 * alpha
+    return (paper.height(np.hypot(x1, x2), scene.b),
+            paper.height(np.hypot(x1 + scene.a, x2), scene.b - scene.a))
 
 
 def _separatrix_by(level, alpha):
@@ -159,7 +153,7 @@ def wheel_effect(plt):
     figure, axes = plt.subplots(3, 1, figsize=(7.2, 9.2), sharex=True, layout="constrained")
     printed = {"marker": "|", "color": style.ORANGE, "markersize": 30, "markeredgewidth": 2.2,
                "linestyle": "none"}
-    for ax, letter, (lambda1, (saddles, centres)) in zip(axes, "abc", PRINTED_FIG4.items()):
+    for ax, letter, (lambda1, (saddles, centres)) in zip(axes, "abc", paper.FIG4.items()):
         plane, start, span = _plane(lambda1)
         _loops(ax, plane, start, span)
         # taller than the true points, and behind them
@@ -195,7 +189,7 @@ def circle() -> float:
 def left_saddles() -> str:
     """alpha of the left saddle for each lambda1."""
     found = []
-    for lambda1 in PRINTED_FIG4:
+    for lambda1 in paper.FIG4:
         plane, start, span = _plane(lambda1)
         found.append(start + 2 * _left(plane.repeated(plane.saddles, *span), start))
     return listed(found, "{:.3f}").replace("-", "−")
@@ -212,8 +206,8 @@ def printed_loops() -> dict:
 def _printed_loop(radius, b, turn):
     """The loop that hangs on alpha = turn - asin(2/F^2)."""
     from scipy.optimize import brentq
-    level = height(radius, b)
-    saddle = turn - np.arcsin(2 / radius**2)
+    level = paper.height(radius, b)
+    saddle = paper.saddle(radius, turn)
     room = lambda alpha: level(saddle) - level(alpha)
     alpha = saddle + np.linspace(-2 * np.pi, 0.0, 4001)
     low = int(np.argmax(room(alpha)))
@@ -292,10 +286,9 @@ def _stable_runs():
 
 def runs_exactness() -> str:
     """How exact the periodic motions of Fig. 7 are: by their laws."""
-    drift = max(d for _, run in _stable_runs() for d in run.invariant_drift.values())
-    return (
-        f"Taylor integration, relative tolerance 1.1e-16; the laws of the motion drift by {drift:.1e} "
-        f"at most")
+    drift = paper.drift(run for _, run in _stable_runs())
+    return ("Taylor integration, relative tolerance 1.1e-16; the laws of the motion drift by "
+            f"{drift:.1e} at most")
 
 
 def circle_departure() -> str:
@@ -324,7 +317,9 @@ def stable_motions(plt):
         circle = radius * np.sin(turn), radius * np.cos(turn)
         ax.plot(*circle, 0 * turn, **PRINTED)
         above.plot(*circle, **PRINTED)
-    _hyperbola(ax, above)
+    for branch in paper.equilibria("minor", paper.scene("minor", 100), np.geomspace(0.17, 5.0, 800)):
+        for panel in (ax, above):
+            paper.draw_equilibria(panel, *branch)
     ax.view_init(28, -58)
     paper.name_space(ax, 1.0)
     above.set(aspect="equal", xlabel="$x_1$", ylabel="$x_2$", title="from above")
@@ -336,19 +331,6 @@ def stable_motions(plt):
                           (r"printed circles: (18), radius $\sqrt{2}$", PRINTED),
                      *((f"circle $A={radius:.4g}$", look) for radius, look in looks.items())], columns=4)
     return figure
-
-
-def _hyperbola(*panels):
-    """Both branches of the equilibria, stable and unstable, in space and in the plane x3 = 0."""
-    a, b = paper.scene("minor", 100).a, paper.scene("minor", 100).b
-    for sign in (1, -1):
-        h = sign * np.geomspace(0.17, 5.0, 800)
-        x1 = -b - 1 / h
-        stable = (x1 + a) * (x1 + b) > h * h
-        for ax in panels:
-            for kind, mask in (("stable", stable), ("unstable", ~stable)):
-                line = np.where(mask, x1, np.nan), np.where(mask, h, np.nan), 0 * h
-                ax.plot(*line[:3 if ax.name == "3d" else 2], **style.MEANING[kind])
 
 
 def _bounded_starts(scene):

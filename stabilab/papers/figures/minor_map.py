@@ -85,8 +85,9 @@ def _map(ax, scene, found, size):
         upper, triangles = _upper(np.asarray(branch.points))
         filled = ax.tricontourf(upper[:, 0], upper[:, 1], triangles, upper[:, 2], levels=LEVELS, cmap="Greys",
                                 antialiased=True, extend="max")
-        ax.plot(*np.asarray(_outline(np.asarray(branch.points)))[:, :2].T, **EDGE)
-    _hyperbola(ax, a, b)
+        ax.plot(*np.asarray(outline(np.asarray(branch.points)))[:, :2].T, **EDGE)
+    for branch in paper.equilibria("minor", scene, np.geomspace(0.05, 20, 4000)):
+        paper.draw_equilibria(ax, *branch)
     _dividing(ax, a, b)
     turn = np.linspace(0, 2 * np.pi, 361)
     for radius in _fold_radii(b - a):
@@ -115,7 +116,7 @@ def _upper(points):
     return flat, triangles[np.abs(u1 * v2 - u2 * v1) > 1e-12]
 
 
-def _outline(points):
+def outline(points):
     """The line of saddles inward, then the far ends of the loops outward: where a branch meets the plane x3 =
     0."""
     return np.concatenate([points[::-1, 0], points[:, points.shape[1] // 2]])
@@ -124,16 +125,6 @@ def _outline(points):
 def _fold_radii(c):
     heights = [h.real for h in np.roots([1, 0, 0, -c, -1]) if abs(h.imag) < 1e-12]
     return sorted(float(np.sqrt(h * h + h**6)) for h in heights)
-
-
-def _hyperbola(ax, a, b):
-    """Equilibria x2 = h, x1 = -b - 1/h: stable where (x1+a)(x1+b) > x2^2."""
-    for sign in (1, -1):
-        h = sign * np.geomspace(0.05, 20, 4000)
-        x1 = -b - 1 / h
-        stable = (x1 + a) * (x1 + b) > h * h
-        for kind, mask in (("stable", stable), ("unstable", ~stable)):
-            ax.plot(np.where(mask, x1, np.nan), np.where(mask, h, np.nan), **style.MEANING[kind])
 
 
 def _dividing(ax, a, b):

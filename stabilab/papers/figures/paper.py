@@ -1,11 +1,14 @@
-"""The data of the tables and figures of Amer et al. 2024 (Sci. Rep.): its body, momentum wheels, torques and
-starts."""
+"""The data of the tables and figures of Amer et al. 2024 (Sci. Rep.), its body, momentum wheels, torques and
+starts; the formulas that it prints and several of these draw or try; and the equilibria."""
 from __future__ import annotations
+
+import numpy as np
 
 from ...physics.coefficients import to_scaled, torque_from_mu
 from ...physics.effects.constant_torque import ConstantTorque
 from ...physics.effects.gyrostat import Gyrostat
 from ...physics.scene import Body, ScaledGyrostat, Scene
+from ...show import style
 
 PAPER = "Amer et al. 2024, Sci. Rep."
 INERTIA = (2000, 1500, 1000)            # kg m^2
@@ -28,6 +31,41 @@ def physical(axis: str, lambda1: float) -> Scene:
     """The same system in physical variables."""
     body = Body(INERTIA)
     return Scene(body, Gyrostat((lambda1, 0, 0)), ConstantTorque(torque_from_mu(body, TORQUE[axis])))
+
+
+# of Fig. 4 in the text: lambda1 -> (left and right saddle, left and right centre), alpha
+FIG4 = {100: ((0.0, 6.2), (-3.0, 3.3)), 300: ((0.19, 6.15), (-3.1, 3.29)), 500: ((0.32, 5.8), (-3.13, 3.28))}
+
+
+def height(radius, wheel):
+    """Function of alpha, x^2/2 plus which is constant by (25): printed with F and b, true with A and b -
+    a."""
+    return lambda alpha: radius**2 * np.cos(alpha) - 4 * radius * wheel * np.sin(alpha / 2) - 2 * alpha
+
+
+def saddle(radius, turn=0.0):
+    """alpha of the saddle before a turn as printed below (25): sin alpha = -2/F^2."""
+    return turn - np.arcsin(2 / radius**2)
+
+
+def equilibria(axis: str, scene: ScaledGyrostat, heights):
+    """(x1, h, whether stable) along both branches of the true equilibria of a torque on the "minor" axis, h =
+    x2 and x1 + b = -1/h, or on the "middle" one, h = x3 and x1 + a = 1/h; heights: sizes of h."""
+    for h in (heights, -heights):
+        x1, sign = (-scene.b - 1 / h, -1) if axis == "minor" else (-scene.a + 1 / h, 1)
+        yield x1, h, (x1 + scene.a) * (x1 + scene.b) + sign * h * h > 0
+
+
+def draw_equilibria(ax, x1, h, stable) -> None:
+    """A branch of `equilibria`, stable and unstable parts, in a plane or in space."""
+    for kind, mask in (("stable", stable), ("unstable", ~stable)):
+        line = np.where(mask, x1, np.nan), np.where(mask, h, np.nan), 0 * h
+        ax.plot(*line[:3 if ax.name == "3d" else 2], **style.MEANING[kind])
+
+
+def drift(runs) -> float:
+    """The largest drift of the laws of the motion along the runs."""
+    return max(d for run in runs for d in run.invariant_drift.values())
 
 
 def name_space(ax, zoom=0.92, order=(1, 2, 3)):

@@ -7,7 +7,9 @@ from ...orbit.phase_plane import phase_plane
 from ...orbit.separatrix.branches import separatrix
 from ...show import style
 from ..families import sweep
+from . import paper
 from .figure import PRINTED, farthest
+from .minor_map import outline
 
 CASE = "minor-axis-without-wheel"
 WINDOW = (-7.0, 8.4)  # of alpha, as in Figs 2 and 3
@@ -20,15 +22,10 @@ def _case():
     return sweep(CASE)[""]
 
 
-def printed_saddle(radius, side):
-    """alpha of a saddle: sin alpha = -2/F^2, below (25)."""
-    return SIDES[side] - np.arcsin(2 / radius**2)
-
-
 def printed_energy(radius, alpha, side):
     """x^2/2 on the separatrix by the printed (26) and (27), b = 0."""
-    saddle = printed_saddle(radius, side)
-    return radius**2 * (np.cos(saddle) - np.cos(alpha)) - 2 * (saddle - alpha)
+    level = paper.height(radius, 0.0)
+    return level(paper.saddle(radius, SIDES[side])) - level(alpha)
 
 
 def printed_31(x1, x2, x3, side):
@@ -63,7 +60,7 @@ def printed_ends(side) -> np.ndarray:
     outward; (n, 2)."""
     from scipy.optimize import brentq
     def ends(radius):
-        saddle = printed_saddle(radius, side)
+        saddle = paper.saddle(radius, SIDES[side])
         centre = 2 * SIDES[side] - np.pi - saddle
         far = brentq(lambda alpha: printed_energy(radius, alpha, side), saddle - 2 * np.pi, centre)
         half = np.array([saddle, far]) / 2
@@ -117,9 +114,7 @@ def draw(plt):
               title=rf"on the circle of the start, $F={radius:.4f}$")
     turn = np.linspace(0, 2 * np.pi, 361)
     for side, branch in true_surfaces().items():
-        points = np.asarray(branch.points)
-        edge = np.concatenate([points[::-1, 0], points[:, points.shape[1] // 2]])
-        above.plot(*edge[:, :2].T, **TRUE[side])
+        above.plot(*outline(np.asarray(branch.points))[:, :2].T, **TRUE[side])
         above.plot(*printed_ends(side).T, **PRINTED)
         above.plot(*np.asarray(branch.centre)[:, :2].T, **style.MEANING["stable"])
         above.plot(*np.asarray(branch.saddle)[:1, :2].T, zorder=6, **style.MARKER["degenerate"])
