@@ -157,8 +157,8 @@ def permanent_rotations(parts: Content) -> Equilibria:
     with many_digits():
         field = Field.of(parts)
         cuts = separated(cuts_of(field))
-        curves = tuple(_curve(field, number, branch, cuts) for number,
-                       branch in enumerate(_branches(field, cuts), 1))
+        curves = tuple(_curve(field, number, branch, cuts)
+                       for number, branch in enumerate(_branches(field, cuts), 1))
         curves += circles(field, parts)
     return Equilibria("curves", REASON, curves=curves)
 

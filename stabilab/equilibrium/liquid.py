@@ -326,8 +326,8 @@ def _point(parts: Content, torques, x) -> EquilibriumPoint:
     import numpy as np
     with many_digits():
         ball = _enclosed(torques, x)
-        J = arb_mat([[evaluated(f, ball) / rational(d) for f in row] for row,
-                     d in zip(_slopes(torques), parts.D)])
+        J = arb_mat([[evaluated(f, ball) / rational(d) for f in row]
+                     for row, d in zip(_slopes(torques), parts.D)])
         middle = np.array([[float(v.mid()) for v in row] for row in J.tolist()])
         p0, p1, p2, _ = J.charpoly().coeffs()
         if p2 > 0 and p0 > 0 and p2 * p1 > p0:

@@ -238,8 +238,8 @@ def _ordered(polynomials: Sequence[fmpq_poly], low: Fraction, high: Fraction) ->
     for (first, _), (second, _) in zip(found, found[1:]):
         if not first < second:
             raise Unclear
-    return [Cut(number, fraction(ball.lower().fmpq()), fraction(ball.upper().fmpq())) for ball,
-            number in found]
+    return [Cut(number, fraction(ball.lower().fmpq()), fraction(ball.upper().fmpq()))
+            for ball, number in found]
 
 
 def _inside(number: Algebraic, ball: arb, low: Fraction, high: Fraction) -> bool:

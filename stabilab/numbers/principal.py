@@ -93,8 +93,8 @@ def evened(rows: Rows, share: Fraction) -> Rows:
     """A 3 x 3 matrix with the mean of two entries across its diagonal that differ by no more than a share of
     its largest entry, which is what rounding leaves."""
     slack = share * max(abs(v) for row in rows for v in row)
-    return [[(v + rows[j][i]) / 2 if abs(v - rows[j][i]) <= slack else v for j, v in enumerate(row)] for i,
-            row in enumerate(rows)]
+    return [[(v + rows[j][i]) / 2 if abs(v - rows[j][i]) <= slack else v for j, v in enumerate(row)]
+            for i, row in enumerate(rows)]
 
 
 def principal_minors(rows: Sequence[Sequence[Number]]) -> Iterator[tuple[int, Number]]:

@@ -124,12 +124,11 @@ def between(lo: float, hi: float) -> float:
 
 
 # --- real roots of polynomials in floats, highest power first
-def _value_and_size(c: Sequence[float], t: float) -> tuple[float, float]:
-    """The value, and the sum of its terms' sizes, which its rounding is a share of."""
-    value = size = 0.0
+def _value(c: Sequence[float], t: float) -> float:
+    value = 0.0
     for a in c:
-        value, size = value * t + a, size * abs(t) + abs(a)
-    return value, size
+        value = value * t + a
+    return value
 
 
 def _derivative(c: Sequence[float]) -> list[float]:
@@ -147,14 +146,14 @@ def real_roots_of(c: Sequence[float]) -> list[float]:
     bound = 2.0 * max(abs(a / c[0]) ** (1 / i) for i, a in enumerate(c) if i) or 1.0
     ends = [-bound, *(t for t in real_roots_of(_derivative(c)) if abs(t) < bound), bound]
     return [_crossing(c, low, high) for low, high in zip(ends, ends[1:])
-            if (_value_and_size(c, low)[0] > 0) != (_value_and_size(c, high)[0] > 0)]
+            if (_value(c, low) > 0) != (_value(c, high) > 0)]
 
 
 def _crossing(c: Sequence[float], low: float, high: float) -> float:
     """The root between low and high, where the signs differ."""
-    slopes, rising = _derivative(c), _value_and_size(c, high)[0] > 0
+    slopes, rising = _derivative(c), _value(c, high) > 0
 
     def look(x: float) -> tuple[float, float, bool | None]:
-        value = _value_and_size(c, x)[0]
-        return value, _value_and_size(slopes, x)[0], (value > 0) == rising if value else None
+        value = _value(c, x)
+        return value, _value(slopes, x), (value > 0) == rising if value else None
     return held_newton(look, low, high, 0.5, EPS)

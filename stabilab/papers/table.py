@@ -255,10 +255,10 @@ def html_fragment(table: Table) -> str:
     """A <table> with everything escaped."""
     kinds = ["sentence" if table.wide else "words" if _is_text(table, n) else "number"
              for n in range(len(table.header))]
-    head = "".join(f'<th scope="col" class="{kind}">{html.escape(h)}</th>' for kind,
-                   h in zip(kinds, table.header))
-    body = "\n".join("<tr>" + "".join(f'<td class="{kind}">{html.escape(_signed(v))}</td>' for kind,
-                                      v in zip(kinds, row)) + "</tr>" for row in table.rows)
+    head = "".join(f'<th scope="col" class="{kind}">{html.escape(h)}</th>'
+                   for kind, h in zip(kinds, table.header))
+    body = "\n".join("<tr>" + "".join(f'<td class="{kind}">{html.escape(_signed(v))}</td>'
+                                      for kind, v in zip(kinds, row)) + "</tr>" for row in table.rows)
     return (f'<table id="table-{table.number}">\n<caption>Table {table.number}. '
             f'{html.escape(table.title)}</caption>\n'
             f"<thead><tr>{head}</tr></thead>\n<tbody>\n{body}\n</tbody>\n</table>\n<p "
@@ -285,8 +285,8 @@ def html_page(table: Table) -> str:
 
 
 # what tables() reads
-STEMS = tuple(f"{family}-{lam}" for families,
-              *_ in EXTREMES.values() for family in families for lam in paper.LAMBDAS)
+STEMS = tuple(f"{family}-{lam}"
+              for families, *_ in EXTREMES.values() for family in families for lam in paper.LAMBDAS)
 TOLERANCES = {"equilibria and verdicts": "exact",
               "extremes and periods": "roots of the rates and of the reduced potential in balls, "
                                       "rounded once"}

@@ -53,8 +53,8 @@ def _row(about, words, **values):
 
 
 def _misprints():
-    return [_row(f"misprint, {where}", f"{what}: {wrong}; the model corrected takes {right}") for where,
-            (what, wrong, right) in MISPRINTS.items() if wrong]
+    return [_row(f"misprint, {where}", f"{what}: {wrong}; the model corrected takes {right}")
+            for where, (what, wrong, right) in MISPRINTS.items() if wrong]
 
 
 def _pair(z):

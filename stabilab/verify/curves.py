@@ -52,8 +52,8 @@ def on_common_level(rates, x):
     """By the points near an equilibrium that share both integrals with it: none, stable (the sum of the
     squares of their changes is a Lyapunov function); regular branches, unstable (in and out alternate along
     them)."""
-    (B, g), (A, h) = [(quad, [b * v + l for b, v, l in zip(quad, x, linear)]) for quad,
-                      linear in rates.integrals]
+    (B, g), (A, h) = [(quad, [b * v + l for b, v, l in zip(quad, x, linear)])
+                      for quad, linear in rates.integrals]
     if not (any(g) or any(h)):
         # no d_i^2 >= 0 but zero solves both equations
         mixed = {exact_sign(v) for v in cross(A, B)} >= {1, -1}
@@ -156,8 +156,8 @@ def drift(rates, J, m):
     means = [[m * a + b for a, b in zip(r, s)] for r, s in zip(once, twice)]
     lead = next((i for i in range(3) if any(square[i][j] + (m if i == j else 0) != 0 for j in range(3))), 0)
     left = [square[lead][j] + (m if lead == j else 0) for j in range(3)]
-    return sum((left[i] * q(rates.kappa[i]) * means[j][k] for i,
-                (j, k) in enumerate(AHEAD) if rates.kappa[i]), m * 0)
+    return sum((left[i] * q(rates.kappa[i]) * means[j][k]
+                for i, (j, k) in enumerate(AHEAD) if rates.kappa[i]), m * 0)
 
 
 def leaves_fold(J, zero):
@@ -209,8 +209,8 @@ class Curve:
         self.tops, self.bottom = [top // common for top in self.tops], self.bottom // common
         self.degree = max(p.degree() for p in (*self.tops, self.bottom))
         self.claim = f"{'straight line' if self.straight else f'curve of degree {self.degree}'} ({where})"
-        self.segments = [_piece(s, f"{where}.segments[{i}]") for i,
-                         s in enumerate(entries(table, "segments", where))]
+        self.segments = [_piece(s, f"{where}.segments[{i}]")
+                         for i, s in enumerate(entries(table, "segments", where))]
         self.folds = [(bracket(field(f, "t", w), f"{w}.t"), *_words(f, w))
                       for i, f in enumerate(entries(table, "folds", where)) for w in [f"{where}.folds[{i}]"]]
 

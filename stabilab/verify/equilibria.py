@@ -265,8 +265,8 @@ def _matched(parts, curves, planes):
 def _parts(rates):
     """(name, test of a claimed curve or plane) of each part of the equilibria without a torque."""
     if rates.parallel is None:
-        return [(f"the line along x{i + 1}", partial(_is_the_line, *line)) for i,
-                line in enumerate(_scaled_lines(rates))]
+        return [(f"the line along x{i + 1}", partial(_is_the_line, *line))
+                for i, line in enumerate(_scaled_lines(rates))]
     D, lam = rates.parallel
     parts = ([("the curve that passes every s of D x + lambda = s x", partial(_passes_every_s, D, lam))]
              if any(lam) else [])
@@ -340,8 +340,8 @@ class Claims:
 
 def equilibria_of(table) -> Claims:
     """The claims on equilibria. Raises `Malformed` before anything is worked out."""
-    read = lambda key, made: [made(v, f"equilibria.{key}[{i}]") for i,
-                              v in enumerate(entries(table, key, "equilibria"))]
+    read = lambda key, made: [made(v, f"equilibria.{key}[{i}]")
+                              for i, v in enumerate(entries(table, key, "equilibria"))]
     return Claims(word(table, "kind", "equilibria", KINDS), read("points", _Point), read("curves", curve_of),
                   read("planes", plane_of))
 

@@ -116,8 +116,8 @@ def line(told: dict) -> str:
     if "number" in told:
         return diagram.line(told)
     units = UNITS if told.get("variables") == "physical" else {}
-    parts = [f"{WORDS.get(key, key)} {_short(value)} {units.get(key, '')}".rstrip() for key,
-             value in told.items() if key != "variables"]
+    parts = [f"{WORDS.get(key, key)} {_short(value)} {units.get(key, '')}".rstrip()
+             for key, value in told.items() if key != "variables"]
     return f"about: {', '.join(parts) or 'no scene'}" + ("" if "state" in told or not told else ", no state")
 
 

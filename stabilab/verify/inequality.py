@@ -108,8 +108,8 @@ class Inequality:
             if not moving:
                 return Ledger(added, rate)
             lowest = min(n for _, _, n in moving)
-            now = {(j, k, n + 1): -rate.pop((j, k, n)) / (_i() * self.form.om * (j - k)) for j, k,
-                   n in moving if n == lowest}
+            now = {(j, k, n + 1): -rate.pop((j, k, n)) / (_i() * self.form.om * (j - k))
+                   for j, k, n in moving if n == lowest}
             added, rate = total(added, now), total(rate, self._price(now))
             if len(rate) > MOST_TERMS:
                 raise Unsuited("more terms than are worked out here")
@@ -141,8 +141,8 @@ class Inequality:
         low = 1 + m.min(ball(0)) / (self.M * z)
         faults.append(compared(low, ball(0), "the weight is positive"))
         if eta > 0 and low > 0:
-            r = sum((abs(c) * A**(j + k) * z**(1 - n) / (n - 1) for (j, k, n),
-                     c in self.amplitude.left.items()), ball(0))
+            r = sum((abs(c) * A**(j + k) * z**(1 - n) / (n - 1)
+                     for (j, k, n), c in self.amplitude.left.items()), ball(0))
             start = size * size * (1 + m / (self.M * X)) + _value(self.amplitude.added, X, zeta)
             faults.append(compared(A * A, (start + _bound(self.amplitude.added, A, z) + r / eta) / low,
                                    "the amplitude stays below A"))
@@ -256,8 +256,8 @@ class MovingInequality:
         r = {(0, 0, *key): c for key, c in self.r.items()}
         turn, twice = real(r, 2), product({(4, 0, 0, 0): -i * form.g / 4, (0, 4, 0, 0): i * form.g / 4}, r)
         inner = total(product(total(self.G, beat), turn), twice, product(total(self.G, swing), real(f, 1)),
-                      real({key: c / 2 for key,
-                            c in product({(0, 0, *key): c for key, c in star.items()}, f).items()}, 2))
+                      real({key: c / 2
+                          for key, c in product({(0, 0, *key): c for key, c in star.items()}, f).items()}, 2))
         steeper = {(j + 1, k + 1, a, b): c for (j, k, a, b), c in self._slope(self.G).items()}
         rate = total(product(self.swing, steeper), product({key: 2 * c for key, c in self.G.items()}, inner))
         return {key: c / form.M for key, c in rate.items()}
@@ -275,8 +275,8 @@ class MovingInequality:
         parts = [self._slope(terms)]
         for (m, n), c in self.f.items():
             parts.append({(j - 1, k, a + m, b + n): j * v * c for (j, k, a, b), v in terms.items() if j})
-            parts.append({(j, k - 1, a + m, b + n): k * v * conjugate(c) for (j, k, a, b),
-                          v in terms.items() if k})
+            parts.append({(j, k - 1, a + m, b + n): k * v * conjugate(c)
+                          for (j, k, a, b), v in terms.items() if k})
         for (m, n), c in self.r.items():
             parts.append({(j - 1, k + 1, a + m, b + n): j * v * c for (j, k, a, b), v in terms.items() if j})
             parts.append({(j + 1, k - 1, a + m, b + n): k * v * c for (j, k, a, b), v in terms.items() if k})
@@ -306,8 +306,8 @@ class MovingInequality:
         faults = [compared(x, z, "x > z"), compared(A, size, "|zeta| < A")]
         e, k, b = (sizes.bound(A, from_z)
                    for sizes in (self.energy_added, self.energy_left, self.amplitude_added))
-        least = (form.M + sum((c.real.min(ball(0)) * from_z.greatest(a, b) for (_, _, a, b),
-                               c in self.G.items() if a or b), ball(0)))
+        least = (form.M + sum((c.real.min(ball(0)) * from_z.greatest(a, b)
+                               for (_, _, a, b), c in self.G.items() if a or b), ball(0)))
         eta = least - k
         mean = (x - z) * (_turning(form, x) + from_z.turning) / 2
         faults += [compared(mean + self._value(self.energy.added, x, zeta), e, "the energy is high enough"),

@@ -305,8 +305,8 @@ def _pairs(claimed):
     if not (isinstance(claimed, list)
             and [len(pair) if isinstance(pair, list) else 0 for pair in claimed] == [2, 2, 2]):
         raise Malformed(f"motion.extremes: expected three pairs of brackets, got {shown(claimed)}")
-    return [[None if ends is None else bracket(ends, f"motion.extremes[{i}][{k}]") for k,
-             ends in enumerate(pair)] for i, pair in enumerate(claimed)]
+    return [[None if ends is None else bracket(ends, f"motion.extremes[{i}][{k}]")
+             for k, ends in enumerate(pair)] for i, pair in enumerate(claimed)]
 
 
 def check_motion(rates, claims, note):

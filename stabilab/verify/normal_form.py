@@ -198,8 +198,8 @@ def _drive(k1, r1, s1, m1, beat, P, Q, N2, N3, flat):
     """(the limit of G, its other terms): the quadratic kappa1 N2 N3 + rho1 N3 Q + sigma1 N2 P over P Q, split
     into 1, 1/Q, 1/P and 1/(P Q), the last with -kappa1 m2 m3, which a body has there."""
     product = lambda a, b: (a[0] * b[0], a[0] * b[1] + a[1] * b[0], a[1] * b[1])
-    n2, n1, n0 = (k1 * a + r1 * b + s1 * c for a, b,
-                  c in zip(product(N2, N3), product(N3, Q), product(N2, P)))
+    n2, n1, n0 = (k1 * a + r1 * b + s1 * c
+                  for a, b, c in zip(product(N2, N3), product(N3, Q), product(N2, P)))
     if flat:
         return m1 + n1 / (P[0] * Q[1]), {(4, 4): n0 - n1 / P[0] * P[1]}
     top = n2 / (P[0] * Q[0])

@@ -163,8 +163,8 @@ def roots(polynomials: Iterable, low: Fraction, high: Fraction, work: Work) -> l
     for p in polynomials:
         if p.degree() > 0:
             work.factors(p)
-            factors |= {str(f / f.leading_coefficient()): f / f.leading_coefficient() for f,
-                        _ in p.factor()[1]}
+            factors |= {str(f / f.leading_coefficient()): f / f.leading_coefficient()
+                        for f, _ in p.factor()[1]}
     found = [root for f in factors.values() for root in _of(f, low, high, work)]
     for _ in range(HALVINGS):
         found.sort(key=lambda root: (root.low, root.high))

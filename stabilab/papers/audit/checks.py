@@ -81,8 +81,8 @@ def stated(paper: Paper):
         parent, own = system_of(paper, data["follows"], place), system_of(paper, name)
         meaning = {_symbol(paper, place, s): _read(paper, place, text) for s, text in data["meaning"].items()}
         pace = _read(paper, place, data.get("pace", "1"))
-        yield name, parent, [(parent.rate(meaning[x]) / pace, rate.xreplace(meaning)) for x,
-                             rate in zip(own.state, own.rates)]
+        yield name, parent, [(parent.rate(meaning[x]) / pace, rate.xreplace(meaning))
+                             for x, rate in zip(own.state, own.rates)]
 
 
 def _derived(paper, name, data, values, place):
@@ -145,8 +145,8 @@ def condition_of(paper: Paper, row: Row, pairs, bound, system, domain) -> tuple[
     import mpmath
 
     single = singles(paper, row, pairs, bound, system, domain)
-    double = [(f"{a} and {b}", first | second) for (a, first),
-              (b, second) in combinations(single, 2) if first.keys() != second.keys()]
+    double = [(f"{a} and {b}", first | second)
+              for (a, first), (b, second) in combinations(single, 2) if first.keys() != second.keys()]
     for words, fixed in [*single, *((words, fixed) for words, fixed in double if _plain(fixed))]:
         if not _quick(mpmath.fp, pairs, bound, system, words, domain, fixed):
             continue
@@ -159,8 +159,8 @@ def condition_of(paper: Paper, row: Row, pairs, bound, system, domain) -> tuple[
 def singles(paper: Paper, row: Row, pairs, bound, system, domain) -> list[tuple[str, dict]]:
     """(words, {name: expression}) of the single conditions that speak of symbols of the pairs."""
     standing = {s.name for s in free(pairs, domain, bound, system)}
-    return [(words, fixed) for words,
-            fixed in candidates(paper, row) if fixed.keys() <= standing and _plain(fixed)]
+    return [(words, fixed)
+            for words, fixed in candidates(paper, row) if fixed.keys() <= standing and _plain(fixed)]
 
 
 def _plain(fixed):
@@ -184,8 +184,8 @@ def pairs(paper: Paper, row: Row, printed, system, bound) -> list:
     """[(left, right)] that agree wherever the row's formulas are true. printed: [(left, right)] of the
     formulas, as raw SymPy trees."""
     carried = Evaluator(None, {}, bound, system).carried
-    return [(carried(left), carried(right)) for left,
-            right in CHECKS[row.kind](paper, row, printed, system, bound)]
+    return [(carried(left), carried(right))
+            for left, right in CHECKS[row.kind](paper, row, printed, system, bound)]
 
 
 def raw(paper: Paper, formulas) -> list:
@@ -196,8 +196,8 @@ def raw(paper: Paper, formulas) -> list:
 def bound_of(paper: Paper, row: Row, corrected=False) -> dict:
     """Symbol name -> what it stands for in this row."""
     where = row.where | row.corrected_where if corrected else row.where
-    return {name: parse(text, paper.symbols) for name,
-            text in (paper.definitions | where).items() if text != name}
+    return {name: parse(text, paper.symbols)
+            for name, text in (paper.definitions | where).items() if text != name}
 
 
 def _holds(paper, row, printed, system, bound):
@@ -288,8 +288,8 @@ def decide(pairs, bound: dict, system, seed: str, domain=(), fixed=None, symboli
         chosen = points(free(pairs, domain, bound, system, fixed), seed, POINTS, domain, bound, system, fixed)
     except InputError as error:
         none = str(error)
-    if symbolic and not fixed and all(_same_in_symbols(left, right, bound, system, chosen[:1]) for left,
-                                      right in pairs):
+    if symbolic and not fixed and all(_same_in_symbols(left, right, bound, system, chosen[:1])
+                                      for left, right in pairs):
         return Decision(True, 0.0, "symbols")
     if none:
         return Decision(None, float("nan"), none)

@@ -240,8 +240,8 @@ def words(steps, singles, zero) -> list[str]:
         lines.append(
             f"Added to what stands before it, {' and '.join(free)} costs no operation: its numbers merge "
             f"into coefficients that are there.")
-    failed = [f"{spoken(name)} ({question})" for name, same in zero.items() for question,
-              equal in same.items() if not equal]
+    failed = [f"{spoken(name)} ({question})" for name, same in zero.items()
+              for question, equal in same.items() if not equal]
     lines.append("An effect of zero strength changes no bit of any answer below." if not failed else
                  f"An effect of zero strength is not like an absent one: {', '.join(failed)}.")
     return lines
@@ -263,8 +263,8 @@ def picture(plt, steps):
               (f"rates of one of {MANY} states, NumPy", style.GREEN, "s", [s.among_many for _, s in steps])]
     if steps[0][1].taylor_step is not None:
         series.append(("one Taylor step, heyoka", style.VERMILION, "D", [s.taylor_step for _, s in steps]))
-    looks = [(label, {"color": colour, "marker": marker, "markersize": 5, "linewidth": 1.3}) for label,
-             colour, marker, _ in series]
+    looks = [(label, {"color": colour, "marker": marker, "markersize": 5, "linewidth": 1.3})
+             for label, colour, marker, _ in series]
     for (_, look), (*_, values) in zip(looks, series):
         right.plot([v * 1e6 for v in values], places, **look)
     right.set(xscale="log", xlabel="least processor time (microseconds)", title="what they cost")

@@ -297,8 +297,8 @@ def picture(plt, rows, about):
     if about == "separatrix":
         for one in axes[0]:
             one.invert_xaxis()
-    style.legend(figure, [(", ".join(dict.fromkeys((q, m) if m != "as called" else (q,))), LOOKS[q, m]) for q,
-                          m in groups], columns=3)
+    style.legend(figure, [(", ".join(dict.fromkeys((q, m) if m != "as called" else (q,))), LOOKS[q, m])
+                          for q, m in groups], columns=3)
     return figure
 
 

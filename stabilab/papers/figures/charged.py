@@ -155,8 +155,8 @@ def _by_33(family, more):
 
 def _misprinted(family, part, unit):
     """How far the misprinted integrals are off, and where they divide by little."""
-    off = [np.abs(a - b).max() for a,
-           b in zip(_state(family, "printed", part), _state(family, "corrected", part))]
+    off = [np.abs(a - b).max()
+           for a, b in zip(_state(family, "printed", part), _state(family, "corrected", part))]
     down = [float(b.spin) - abs(float(one_frequency(b).root.value())) for b in _bodies(family)]
     return (f"The misprinted integrals are off by up to {listed(off)} {unit} from those that (44) and (49) "
             f"define, the more the smaller "

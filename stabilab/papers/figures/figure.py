@@ -159,8 +159,8 @@ def differences(figure: Figure) -> tuple[Difference, ...]:
     """A difference for every panel with a printed curve, row by row; none for a figure without."""
     if figure.lines is None:
         return ()
-    return tuple(_difference(row, column) for row,
-                 columns in figure.lines() for column in columns if "printed" in column.runs)
+    return tuple(_difference(row, column)
+                 for row, columns in figure.lines() for column in columns if "printed" in column.runs)
 
 
 def _difference(row: panels.Row, column: panels.Column) -> Difference:

@@ -280,8 +280,8 @@ def _stable_runs():
     """(radius, trajectory) of a periodic motion on each side of each circle, and (None, that of the paper's
     start)."""
     scene = paper.scene("minor", 100)
-    return [(radius, trajectory(scene, state, np.linspace(0.0, 15.0, 3001))) for radius,
-            state in [*_bounded_starts(scene), (None, paper.START_MINOR)]]
+    return [(radius, trajectory(scene, state, np.linspace(0.0, 15.0, 3001)))
+            for radius, state in [*_bounded_starts(scene), (None, paper.START_MINOR)]]
 
 
 def runs_exactness() -> str:

@@ -41,10 +41,10 @@ PANELS = 6  # of a picture at most
 # model beside it, so that no colour means two
 # things in a picture, and a dash each, the sparser over the fuller, so that curves that agree are all seen.
 DASHES = ((":", 2.3), ("--", 2.2), ("-", 2.1))
-ALONE = tuple({"color": c, "linewidth": 1.6, "linestyle": s, "zorder": z} for c,
-              (s, z) in zip((style.ORANGE, "#9A5B00", "#4A2C00"), DASHES))
-BESIDE = tuple({"color": c, "linewidth": 0.8, "linestyle": s, "zorder": z - 0.5} for c,
-               (s, z) in zip((style.PURPLE, "#9C4A7B", "#4F2440"), DASHES))
+ALONE = tuple({"color": c, "linewidth": 1.6, "linestyle": s, "zorder": z}
+              for c, (s, z) in zip((style.ORANGE, "#9A5B00", "#4A2C00"), DASHES))
+BESIDE = tuple({"color": c, "linewidth": 0.8, "linestyle": s, "zorder": z - 0.5}
+               for c, (s, z) in zip((style.PURPLE, "#9C4A7B", "#4F2440"), DASHES))
 # of the words on cuts, where they have room side by side
 CORNERS = ((1.0, "right"), (0.0, "left"), (0.5, "center"))
 # inches of a letter of these words, of what stands beside a panel; letters where room is short
@@ -171,8 +171,8 @@ def _refused(column, words) -> str:
     """Which models have no curve in a column, and why, as lines of its heading."""
     why = {reason.split(": ")[0]: [words[m] for m, other in column.refused.items() if other == reason]
            for reason in column.refused.values()}
-    return "".join("\n" + fill(f"{', '.join(f'no “{model}”' for model in models)}: {reason}", 48) for reason,
-                   models in why.items())
+    return "".join("\n" + fill(f"{', '.join(f'no “{model}”' for model in models)}: {reason}", 48)
+                   for reason, models in why.items())
 
 
 def _ending(ax, column):
@@ -189,15 +189,15 @@ def _ending(ax, column):
 def _picked(row, columns, model) -> list:
     """(heading, x, y) of every column's curve of a model."""
     picked = ((c.heading, row.pick(c.runs[model])) for c in columns if model in c.runs)
-    return [(heading, *(np.asarray(v, float) for v in xy)) for heading,
-            xy in picked if xy is not None and len(xy[0])]
+    return [(heading, *(np.asarray(v, float) for v in xy))
+            for heading, xy in picked if xy is not None and len(xy[0])]
 
 
 def _leaves(row, columns) -> bool:
     """Whether a printed curve leaves the limits that the columns share."""
     limits = _window(row, columns)
-    return any(np.nanmin(v) < low or np.nanmax(v) > high for _, *xy in _picked(row, columns, "printed") for v,
-               (low, high) in zip(xy, limits))
+    return any(np.nanmin(v) < low or np.nanmax(v) > high for _, *xy in _picked(row, columns, "printed")
+               for v, (low, high) in zip(xy, limits))
 
 
 def _printed_alone(ax, row, columns):

@@ -131,8 +131,8 @@ def _parameters(case):
     return written(f"{values}; at t = 0: "
                    + ", ".join(
                        f"{name} = ({', '.join(f'{v:.6g}' for v in row)}) "
-                       f"{PARTS[name].unit if name in PARTS else ''}".rstrip() for name,
-                       row in starts.items()))
+                       f"{PARTS[name].unit if name in PARTS else ''}".rstrip()
+                       for name, row in starts.items()))
 
 
 def _errors(case, end, found=None):

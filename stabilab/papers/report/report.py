@@ -184,8 +184,8 @@ def _audit(folder, found, nav):
 def _validation(folder, found, nav):
     findings = found["numbers of other tools"]
     validation.page(findings, folder / "validation.html", nav=nav, here="validation.html")
-    return "; ".join(f"{source.title}: {validation.counts(rows)}" for source,
-                     rows in validation.told(findings))
+    return "; ".join(f"{source.title}: {validation.counts(rows)}"
+                     for source, rows in validation.told(findings))
 
 
 # -- what measures times
@@ -225,8 +225,8 @@ COSTS = (("What accuracy costs",
 def costs(cases, folder: Path) -> list[dict]:
     """The pages that hold measured times, one after the other by one process: never two measurements at once.
     """
-    made = [(title, words, page(cases, folder, nav=_nav(True), below="cost.html")) for title, words,
-            page in COSTS]
+    made = [(title, words, page(cases, folder, nav=_nav(True), below="cost.html"))
+            for title, words, page in COSTS]
     return [{"title": title, "words": words, "file": path.name} for title, words, path in made if path]
 
 
@@ -282,8 +282,8 @@ def _start(cases, folder, found, nav, groups, audit, tools, cost, around):
         "constant-torque.html": f"{paper.PAPER}: tables 1 to {len(found['tables'])}, figures {drawn[0]} to "
                                 f"{drawn[-1]}, recomputed and corrected",
                                 "cases.html": "; ".join(
-                                    f"{title[0].lower()}{title[1:]} ({some(number, 'case')})" for title,
-                                    number in groups),
+                                    f"{title[0].lower()}{title[1:]} ({some(number, 'case')})"
+                                    for title, number in groups),
                                     "audit.html": f"every numbered equation of five papers, tried on the "
                                                   f"equations of motion: {audit}", "validation.html": tools,
                                                   "where.html": "every equation, figure, table and claim of "

@@ -224,8 +224,8 @@ SCHEMA = "stabilab.validate/1"
 def as_dict(validated) -> dict:
     """{"schema", "sources"} of (source, findings) pairs."""
     return {"schema": SCHEMA,
-            "sources": [_source(source) | {"values": [_value(source, one) for one in found]} for source,
-                        found in validated]}
+            "sources": [_source(source) | {"values": [_value(source, one) for one in found]}
+                        for source, found in validated]}
 
 
 def _source(source):
@@ -245,8 +245,8 @@ def counts(found) -> str:
     number = Counter(one.verdict for one in found)
     told = {"agrees": "agree", "explained": "differ for a known cause", "differs": "differ"}
     words = {verdict: many if number[verdict] > 1
-             else many.replace("agree", "agrees").replace("differ", "differs") for verdict,
-             many in told.items()}
+             else many.replace("agree", "agrees").replace("differ", "differs")
+             for verdict, many in told.items()}
     return (", ".join(f"{number[verdict]} {words[verdict]}" for verdict in VERDICTS if number[verdict])
             or "no values are printed")
 
@@ -284,8 +284,8 @@ def _table(rows):
     numbers from the right."""
     sizes = [max(len(row[n]) for row in rows) for n in range(len(rows[0]))]
     for row in rows:
-        yield ("    " + "  ".join(cell.ljust(size) if n in (1, len(row) - 1) else cell.rjust(size) for n,
-                                  (cell, size) in enumerate(zip(row, sizes)))).rstrip()
+        yield ("    " + "  ".join(cell.ljust(size) if n in (1, len(row) - 1) else cell.rjust(size)
+                                  for n, (cell, size) in enumerate(zip(row, sizes)))).rstrip()
 
 
 def _short(decimal: str) -> str:
@@ -324,8 +324,8 @@ def cause(group) -> str:
 def page(validated, path, **around) -> Path:
     """The page of (source, findings) pairs as a file; around: of the pages beside it (`html.render`)."""
     sources = [{"source": source, "count": counts(found),
-                "groups": [_group(source, group) for group in grouped(found)]} for source,
-               found in told(validated)]
+                "groups": [_group(source, group) for group in grouped(found)]}
+               for source, found in told(validated)]
     return html.write(Path(path), "validation.html", title="Numbers of other tools beside ours",
                       sources=sources, **around)
 

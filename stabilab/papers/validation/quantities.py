@@ -87,8 +87,8 @@ def _half_a_step_later(rates, omega, step):
 
 def _rates(motion):
     moments, torque = [float(v) for v in motion.inertia], [float(v) for v in motion.torque]
-    return lambda w: [((moments[j] - moments[k]) * w[j] * w[k] + torque[i]) / moments[i] for i,
-                      (j, k) in enumerate(CYCLE)]
+    return lambda w: [((moments[j] - moments[k]) * w[j] * w[k] + torque[i]) / moments[i]
+                      for i, (j, k) in enumerate(CYCLE)]
 
 
 def _rates_and_attitude(motion):
@@ -138,8 +138,8 @@ def _step(moments, motor, state, length):
     from flint import arb
     within, box = arb(length / 2, length / 2), state
     while True:
-        wider = [x + within * rate for x,
-                 rate in zip(state, (row[1] for row in _series(moments, motor, box, 1)))]
+        wider = [x + within * rate
+                 for x, rate in zip(state, (row[1] for row in _series(moments, motor, box, 1)))]
         if all(b.contains(w) for b, w in zip(box, wider)):
             break
         box = [arb(w.mid(), w.rad() * 1.25 + arb(2) ** -80) for w in wider]
@@ -295,8 +295,8 @@ def _start(motion, numbers):
         e = [numbers.ball(int(i == k)) for i in range(3)]
         once = cross(s, e)
         twice = cross(s, once)
-        columns.append([a + (8 * c - 4 * (1 - square) * b) / (1 + square) ** 2 for a, b,
-                        c in zip(e, once, twice)])
+        columns.append([a + (8 * c - 4 * (1 - square) * b) / (1 + square) ** 2
+                        for a, b, c in zip(e, once, twice)])
     return [[column[i] for column in columns] for i in range(3)]
 
 
@@ -331,8 +331,8 @@ def off_linear(motion, at: At, numbers, time) -> list:
     trace = numbers.ball(0)
     for k in range(3):
         e = [numbers.ball(int(i == k)) for i in range(3)]
-        linear = [a * turn.cos() + b * turn.sin() + n * axis[k] * (1 - turn.cos()) for a, b,
-                  n in zip(e, cross(axis, e), axis)]
+        linear = [a * turn.cos() + b * turn.sin() + n * axis[k] * (1 - turn.cos())
+                  for a, b, n in zip(e, cross(axis, e), axis)]
         trace += sum(a * row[k] for a, row in zip(linear, at.turned))
     return [2 * ((3 - trace) / 4).sqrt().asin()]
 

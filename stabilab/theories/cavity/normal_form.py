@@ -320,8 +320,8 @@ def _families(alpha, rho0, rho1):
 
 
 def _words(polynomial):
-    terms = [f"{float(c):.10g}" + (" r" if n == 1 else f" r^{n}" if n else "") for (n,),
-             c in polynomial.terms()]
+    terms = [f"{float(c):.10g}" + (" r" if n == 1 else f" r^{n}" if n else "")
+             for (n,), c in polynomial.terms()]
     return " + ".join(terms).replace("+ -", "- ") + " 1/s"
 
 

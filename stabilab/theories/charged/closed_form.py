@@ -85,8 +85,8 @@ class Terms:
         k1 = self.above * self.m2 + 1j * self.below * self.m1
         Pi0, mu, rest = self.p0 + 1j * self.q0, self.m1 + 1j * self.m2, 1 - self.share
         factors = (Gamma0, self.share * Pi0, rest * Pi0, self.share * mu, rest * mu, k0, k1)
-        return {n: sum(factor * D[counts] for factor, counts in zip(factors, each)) for n,
-                each in folds.items()}
+        return {n: sum(factor * D[counts] for factor, counts in zip(factors, each))
+                for n, each in folds.items()}
 
     def J(self, *folds):
         """The n-fold integrals of Gamma, for the n in folds."""

@@ -72,8 +72,8 @@ class ChargedBody:
     @property
     def shapes(self) -> list:
         """The batch shape of every field."""
-        present = [(getattr(self, name), bool(size)) for name,
-                   size in FIELDS.items() if getattr(self, name) is not None]
+        present = [(getattr(self, name), bool(size))
+                   for name, size in FIELDS.items() if getattr(self, name) is not None]
         return [value.shape[:-1] if vector else value.shape for value, vector in present]
 
 

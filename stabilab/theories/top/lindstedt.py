@@ -379,8 +379,8 @@ def _residual(top, expansion) -> float:
 
 def _resonances(top, order) -> tuple[Resonance, ...]:
     """Those within NEAR whose harmonic the orders reach; C* = A and C* = B concern every order."""
-    found = [Resonance(0, f"C* = {name}", abs(float(top.spin / moment - 1))) for name,
-             moment in (("A", top.a), ("B", top.b))]
+    found = [Resonance(0, f"C* = {name}", abs(float(top.spin / moment - 1)))
+             for name, moment in (("A", top.a), ("B", top.b))]
     if top.Omega2 > 0:
         Omega = float(top.Omega2) ** 0.5
         for m in range(1, order + 1):

@@ -161,8 +161,8 @@ class Basis:
         other."""
         (one, f), (two, g) = self.members[n], self.members[k]
         both = tuple(map(max, one, two))
-        raised = lambda h, top: {tuple(p + b - t for p, b, t in zip(powers, both, top)): c for powers,
-                                 c in h.items()}
+        raised = lambda h, top: {tuple(p + b - t for p, b, t in zip(powers, both, top)): c
+                                 for powers, c in h.items()}
         return added(raised(f, one), raised(g, two), less=True)
 
     def rest(self, f: Polynomial) -> Polynomial:

@@ -66,8 +66,8 @@ def claims_of(table) -> Claims:
     """The claims of a certificate. Raises `Malformed` where it is none."""
     scene = field(table, "scene", "", dict)
     variables = word(scene, "variables", "scene", tuple(PLACES))
-    read = {name: _polynomials(field(scene, name, "scene"), f"scene.{name}", count) for name,
-            count in PLACES[variables]}
+    read = {name: _polynomials(field(scene, name, "scene"), f"scene.{name}", count)
+            for name, count in PLACES[variables]}
     counted, axis = word(table, "counted", "", COUNTED), _whole(table, "axis", "", 3)
     if (counted == "isolated") != (axis == 0):
         raise Malformed("axis: expected 0 where all equilibria are counted, else that of the torque")
@@ -118,8 +118,8 @@ def _piece(table, where: str, counted: str) -> Piece:
 def _in_order(events, pieces, low: Fraction, high: Fraction) -> None:
     if low >= high:
         raise Malformed("range: expected its lower end first")
-    if any(one.high >= two.low for one,
-           two in zip(events, events[1:])) or any(e.low < low or e.high > high for e in events):
+    if any(one.high >= two.low
+           for one, two in zip(events, events[1:])) or any(e.low < low or e.high > high for e in events):
         raise Malformed("events: expected them rising, apart from one another and inside the range")
     ends = sum(e.low == e.high == end for e in events for end in (low, high))
     if len(pieces) != len(events) + 1 - ends:

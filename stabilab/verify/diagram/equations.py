@@ -53,8 +53,8 @@ class Equations:
             momentum = [d * v + l for d, v, l in zip(D, x, lam)]
             conditions = [both(m, x), both(m, momentum)]
             laws = both(D, squares), both(D, (d * s + l * v for d, s, l, v in zip(D, squares, lam, x)))
-        rates = [kappa[i] * x[j] * x[k] + rho[i] * x[k] + sigma[i] * x[j] + m[i] for i,
-                 (j, k) in enumerate(AHEAD)]
+        rates = [kappa[i] * x[j] * x[k] + rho[i] * x[k] + sigma[i] * x[j] + m[i]
+                 for i, (j, k) in enumerate(AHEAD)]
         return cls(weights, rates, conditions, laws, (a, zero, zero), claims.variables == "scaled")
 
     def slope(self, i: int, j: int) -> fmpq_mpoly:
