@@ -129,12 +129,11 @@ def case_files(stems=("*",)) -> list[str]:
     return [os.path.relpath(p) if p.resolve().is_relative_to(Path.cwd()) else os.fspath(p) for p in paths]
 
 
-def extremes_table(number: int, folder: Path | None = None) -> Table:
+def extremes_table(number: int) -> Table:
     """Table 2, 3 or 4: extremes of every component over all time, from the case files."""
     families, title, caption = EXTREMES[number]
-    folder = folder or cases_folder()
     rows = [row for family in families for lam in paper.LAMBDAS
-            for row in _with_printed(family, _extremes_row(folder / f"{family}-{lam}.toml", lam))]
+            for row in _with_printed(family, _extremes_row(cases_folder() / f"{family}-{lam}.toml", lam))]
     return Table(number, title, caption, EXTREMES_HEADER, tuple(rows))
 
 

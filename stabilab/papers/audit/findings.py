@@ -32,7 +32,7 @@ def repairs(paper: Paper, row: Row, printed, system, bound, domain, fixed=None) 
     condition `fixed`); at most KEEP."""
     found: list[str] = []
     try:
-        trial = _Trial(paper, row, printed, system, bound, domain, fixed)
+        trial = _Trial(paper, row, system, bound, domain, fixed)
     except InputError:
         return ()
     for at, (left, right) in enumerate(printed):
@@ -51,9 +51,9 @@ def repairs(paper: Paper, row: Row, printed, system, bound, domain, fixed=None) 
 class _Trial:
     """Whether formulas pass a row's check: at two points in doubles, then with all digits."""
 
-    def __init__(self, paper, row, printed, system, bound, domain, fixed):
-        self.paper, self.row, self.system, self.bound, self.domain, self.fixed = (paper, row, system, bound,
-                                                                                  domain, fixed)
+    def __init__(self, paper, row, system, bound, domain, fixed):
+        self.paper, self.row, self.system = paper, row, system
+        self.bound, self.domain, self.fixed = bound, domain, fixed
         every = [s for name, s in paper.symbols.items() if name not in bound and name not in (fixed or {})]
         self.points = points(every, row.equation, 2, domain, bound, system, fixed)
         self.values = None  # an evaluator a point: an edit shares most of its parts with the one before
@@ -209,10 +209,9 @@ class Finding:
     unit_fault: str = ""
 
 
-def audit(paper: Paper, equation: str | None = None, search: bool = True,
+def audit(paper: Paper, equation: str | None = None,
           tell: Callable[[int, int, str], None] | None = None) -> tuple[Finding, ...]:
-    """Findings of a paper's rows, or of one equation. search: whether conditions and repairs are looked for;
-    tell(done, count, words): before each row."""
+    """Findings of a paper's rows, or of one equation. tell(done, count, words): before each row."""
     prove_systems(paper)
     rows = [row for row in paper.rows if equation in (None, row.equation)]
     if not rows:
@@ -223,7 +222,7 @@ def audit(paper: Paper, equation: str | None = None, search: bool = True,
     for done, row in enumerate(rows):
         if tell:
             tell(done, len(rows), f"equation {row.equation}")
-        found.append(examine(paper, row, search))
+        found.append(examine(paper, row))
     return tuple(found)
 
 
@@ -249,7 +248,8 @@ def domain_of(paper: Paper, texts, pairs, bound, system) -> list:
 
 
 def examine(paper: Paper, row: Row, search: bool = True) -> Finding:
-    """The finding of one row. InputError where the row cannot be tried, with file and row."""
+    """The finding of one row. search: whether conditions and repairs are looked for. InputError where the row
+    cannot be tried, with file and row."""
     if row.kind in ("definition", "not-checkable"):
         words = f"defines {row.options['defines']}" if row.kind == "definition" else row.options["because"]
         return Finding(row, row.kind, "", "", words, float("nan"), float("nan"),

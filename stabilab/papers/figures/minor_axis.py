@@ -29,7 +29,7 @@ POINTS = [("centre (stable)", style.MARKER["centre"]), ("saddle (unstable)", sty
 
 def _plane(lambda1):
     """(phase plane, alpha of the start, window of y) for the start of the paper."""
-    plane = phase_plane(paper.scene("minor", lambda1), paper.START_MINOR)
+    plane = phase_plane(paper.scene("minor", 100), paper.START_MINOR)
     start = 2 * float(np.arctan2(*plane.place))
     return plane, start, tuple((edge - start) / 2 for edge in WINDOW)
 
@@ -72,9 +72,9 @@ def _left(saddles, start):
     return min(saddles, key=lambda y: abs(start + 2 * y))
 
 
-def _heights(lambda1=100):
+def _heights():
     """(height by (25), as it is printed, true height) over alpha: x^2/2 + height is constant."""
-    scene, (x1, x2, _) = paper.scene("minor", lambda1), paper.START_MINOR
+    scene, (x1, x2, _) = paper.scene("minor", 100), paper.START_MINOR
     return (paper.height(np.hypot(x1, x2), scene.b),
             paper.height(np.hypot(x1 + scene.a, x2), scene.b - scene.a))
 

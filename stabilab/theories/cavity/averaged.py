@@ -65,13 +65,12 @@ class AveragedMotion:
     horizon: str
 
 
-def averaged(scene, state, times, order: int = 1, eps: float | None = None) -> AveragedMotion:
+def averaged(scene, state, times, order: int = 1) -> AveragedMotion:
     """Averaged motion from `state` (three numbers, rad/s, or {"omega": ...}) at t = 0; times: (n,) s, any
     order and sign.
 
-    D3 is J0; axes 1, 2 have moments near it, the gyrostatic moment lies along axis 3. eps names the small
-    parameter (None: the larger of |D1 - D3|, |D2 - D3| over D3); it counts orders only, the motion does not
-    depend on it. Errors in A and r over t ~ 1/eps^2: eps (first order), eps^2 (second); after a passage
+    D3 is J0; axes 1, 2 have moments near it, the gyrostatic moment lies along axis 3. The small
+    parameter eps is the larger of |D1 - D3|, |D2 - D3| over D3. Errors in A and r over t ~ 1/eps^2: eps (first order), eps^2 (second); after a passage
     through nu = 0 with M1, M2 or D1 != D2, whose jump of size sqrt(eps) depends on the phase there: eps^(1/2)
     and eps^(3/2). In the phase one order less. Raises InputError where the scene does not fit the assumptions
     and says which.
@@ -81,7 +80,7 @@ def averaged(scene, state, times, order: int = 1, eps: float | None = None) -> A
     omega, times = omega_of(state), times_row(times)
     check(scene)
     numbers = constants(scene)
-    small = Smallness.of(numbers, omega, eps)
+    small = Smallness.of(numbers, omega)
     small.refuse()
     model = _Model(scene, numbers, omega, order)
     start = model.inward(omega)
@@ -135,13 +134,9 @@ class Smallness:
     slow: float
 
     @classmethod
-    def of(cls, numbers, omega, eps=None) -> Smallness:
+    def of(cls, numbers, omega) -> Smallness:
         J, d, h, g, kappa, zeta, *M = (float(numbers[n]) for n in NAMES)
         moment, size = math.hypot(*M), float(np.linalg.norm(omega))
-        if eps is None:
-            eps = (abs(d) + abs(h)) / J
-        elif not (isinstance(eps, (int, float)) and 0 < eps < math.inf):
-            raise InputError(f"eps: expected a positive number, got {eps!r}")
         turn = (abs(d) * size + abs(g)) / J
         speed = max(size, abs(g) / J)
         ratios = {"(D1 + D2)/2 - D3 against D3": 2 * abs(d) / J,
@@ -158,7 +153,7 @@ class Smallness:
         soft = {"Gamma against J0 |omega|, for first order": _over(abs(g) / J, size) if kappa else 0.0,
                 "the torque across axis 3, left out in first order, against the turn": _over(
                     math.hypot(*M[:2]) / J, turn * speed)}
-        return cls(float(eps), ratios, soft, slow)
+        return cls((abs(d) + abs(h)) / J, ratios, soft, slow)
 
     def refuse(self):
         """InputError for the first ratio that is not below 1."""

@@ -189,18 +189,17 @@ class AxisymmetricMotion:
         return tilt_of(self.angles)
 
 
-def solution(body: ChargedBody, t, small_angle: float = SMALL_ANGLE) -> AxisymmetricMotion:
+def solution(body: ChargedBody, t) -> AxisymmetricMotion:
     """The motion at times t (s, any shape, broadcast against the batch of the body).
 
-    small_angle: the tilt in rad up to which the model counts as valid; it decides status and reason, nothing
-    else. Raises InputError where the unstable motion exceeds the largest double.
+    Raises InputError where the unstable motion exceeds the largest double.
     """
     t = times(t)
     terms = Terms(body, t, modes(body))
-    return _motion(terms, terms.momentum(), small_angle)
+    return _motion(terms, terms.momentum())
 
 
-def corrected(body: ChargedBody, t, small_angle: float = SMALL_ANGLE) -> AxisymmetricMotion:
+def corrected(body: ChargedBody, t) -> AxisymmetricMotion:
     """The motion with the paper's one frequency, its integrals corrected: momentum by (33), velocity and
     position by the integrals that the paper means. Evaluated without loss at its own resonances too.
 
@@ -208,13 +207,13 @@ def corrected(body: ChargedBody, t, small_angle: float = SMALL_ANGLE) -> Axisymm
     zeta2 and takes the root of their product.
     """
     terms = Terms(body, times(t), one_frequency(body))
-    return _motion(terms, momentum(body, terms.angular_velocity(), terms.angles()), small_angle)
+    return _motion(terms, momentum(body, terms.angular_velocity(), terms.angles()))
 
 
-def _motion(terms, momentum, small_angle) -> AxisymmetricMotion:
+def _motion(terms, momentum) -> AxisymmetricMotion:
     body, angles = terms.body, terms.angles()
     places = terms.translation() if body.mass is not None else (None, None)
-    status, reason = verdict(tilt_of(angles), terms.t, horizon(body, small_angle), small_angle)
+    status, reason = verdict(tilt_of(angles), terms.t, horizon(body))
     return AxisymmetricMotion(terms.t, terms.angular_velocity(), angles, momentum, *places, status, reason)
 
 
@@ -254,15 +253,15 @@ def times(t):
     return t
 
 
-def verdict(tilt, t, until, small):
+def verdict(tilt, t, until):
     """Status and reason of a motion with this tilt at the times t."""
-    promise = (f"a tilt of {small:g} rad is not reached before t = {np.min(until):.6g} s (estimate from the "
-               "torque and the start)")
+    promise = (f"a tilt of {SMALL_ANGLE:g} rad is not reached before t = {np.min(until):.6g} s (estimate "
+               "from the torque and the start)")
     if np.all(np.isinf(until)):
-        promise = f"the tilt stays below {small:g} rad for all time"
-    if np.all(tilt <= small):
+        promise = f"the tilt stays below {SMALL_ANGLE:g} rad for all time"
+    if np.all(tilt <= SMALL_ANGLE):
         return WITHIN, promise
-    first = np.min(np.abs(np.broadcast_to(t, tilt.shape)[tilt > small]))
-    return BEYOND, (f"the model's tilt reaches {np.max(tilt):.4g} rad and exceeds {small:g} rad at t = "
-                    f"{first:.6g} s or before: "
-                    f"the small-angle equations no longer describe the body; {promise}")
+    first = np.min(np.abs(np.broadcast_to(t, tilt.shape)[tilt > SMALL_ANGLE]))
+    return BEYOND, (f"the model's tilt reaches {np.max(tilt):.4g} rad and exceeds {SMALL_ANGLE:g} rad at t = "
+                    f"{first:.6g} s or before: the small-angle equations no longer describe the body; "
+                    f"{promise}")

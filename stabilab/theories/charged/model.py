@@ -18,7 +18,7 @@ from ...answers.simulate import Simulation
 from ...errors import InputError
 from ..printed.evaluate import printed_formulas
 from .closed_form import AxisymmetricMotion, corrected, momentum, solution, tilt_of, times, verdict
-from .modes import SMALL_ANGLE, ChargedBody, horizon, spin_words
+from .modes import ChargedBody, horizon, spin_words
 
 PARTS = ("omega", "angles", "momentum", "velocity", "position")
 # equation of the paper: (what it gives, what is wrong in print, what `corrected` takes instead)
@@ -59,7 +59,7 @@ MISPRINTS = {
 }
 
 
-def printed(body: ChargedBody, t, parts=PARTS, small_angle: float = SMALL_ANGLE) -> AxisymmetricMotion:
+def printed(body: ChargedBody, t, parts=PARTS) -> AxisymmetricMotion:
     """The paper's formulas for the asked-for parts of the state at times t (s, any shape): omega by (13), q
     by its first form; angles (26); momentum (33); velocity (43), (47); position (58), (63).
 
@@ -77,7 +77,7 @@ def printed(body: ChargedBody, t, parts=PARTS, small_angle: float = SMALL_ANGLE)
     if set(parts) & {"velocity", "position"}:
         found |= _translation(body, values)
     tilt = np.zeros(omega.shape[:-1]) if found["angles"] is None else tilt_of(found["angles"])
-    status, reason = verdict(tilt, t, horizon(body, small_angle), small_angle)
+    status, reason = verdict(tilt, t, horizon(body))
     return AxisymmetricMotion(t, omega, **found, status=status, reason=reason)
 
 

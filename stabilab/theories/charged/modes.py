@@ -156,20 +156,20 @@ SMALL_ANGLE = 0.1  # rad: cos differs from 1 by 0.5 %, and so the linear rates f
 
 
 @lru_cache(maxsize=64)
-def horizon(body: ChargedBody, small_angle: float = SMALL_ANGLE):
-    """Time in s until which the tilt |Gamma| stays below small_angle (rad), over the batch; inf where it does
+def horizon(body: ChargedBody):
+    """Time in s until which the tilt |Gamma| stays below SMALL_ANGLE, over the batch; inf where it does
     for ever.
 
-    Root of |Gamma0| + |Pi0| t + |mu| t^2/2 = small_angle: for D1 = D2 a lower bound of the true time
+    Root of |Gamma0| + |Pi0| t + |mu| t^2/2 = SMALL_ANGLE: for D1 = D2 a lower bound of the true time
     (rotation does not lengthen vectors), for D1 near D2 its leading order; from rest sqrt(2
-    small_angle/|mu|).
+    SMALL_ANGLE/|mu|).
     """
-    room = small_angle - np.hypot(body.attitude[..., 0], body.attitude[..., 1])
+    room = SMALL_ANGLE - np.hypot(body.attitude[..., 0], body.attitude[..., 1])
     rate = np.hypot(body.rates[..., 0], body.rates[..., 1])
     push = np.hypot(body.torque[..., 0] / body.inertia[..., 0], body.torque[..., 1] / body.inertia[..., 1])
     below = rate + np.sqrt(rate**2 + 2 * push * np.maximum(room, 0.0))
     until = np.where(room <= 0, 0.0, 2 * np.maximum(room, 0.0) / np.where(below == 0, 1.0, below))
-    return np.where((largest_tilt(body) <= small_angle) | ((below == 0) & (room > 0)), np.inf, until)
+    return np.where((largest_tilt(body) <= SMALL_ANGLE) | ((below == 0) & (room > 0)), np.inf, until)
 
 
 def largest_tilt(body: ChargedBody):

@@ -174,7 +174,7 @@ def _counted(system: System, lift: Callable[[Any], Any], sign: Callable[[Any], i
         return Count(None), basis
     if not monomials:
         return Count(0, ((0, True),) * len(system.tests)), basis
-    one = lift(_one(system))
+    one = lift(fmpq_poly([1]))
 
     def judged(weight: Polynomial) -> tuple[int, int]:
         row = characteristic(basis, monomials, weight, one)
@@ -189,7 +189,3 @@ def _counted(system: System, lift: Callable[[Any], Any], sign: Callable[[Any], i
         rank, signature = judged(weight)
         told.append((signature, rank == different))
     return Count(real, tuple(told)), basis
-
-
-def _one(system: System) -> Any:
-    return fmpq_poly([1])

@@ -233,7 +233,7 @@ def test_a_typed_integral_differs_from_what_it_integrates_exactly_if_listed_as_m
 def test_with_the_printed_data_the_small_angles_end_after_0_66_s():
     body = ChargedBody(**PAPER, gyrostat=1.3, charge_moment=0.003 * 100 * 1.02**2 * math.cos(0.37),
                        torque=(4.0, 0.0))
-    assert horizon(body, 0.1) == pytest.approx(math.sqrt(2 * 0.1 / (4 / 8.7)),
+    assert horizon(body) == pytest.approx(math.sqrt(2 * 0.1 / (4 / 8.7)),
                                                rel=1e-14) == pytest.approx(0.66, abs=0.001)
     motion = solution(body, np.linspace(0, 50, 501))
     assert motion.status == BEYOND and "0.1 rad" in motion.reason
@@ -247,7 +247,7 @@ def test_before_the_horizon_a_symmetric_body_keeps_its_tilt_small():
         body = ChargedBody((D, D, rng.uniform(0.1, 2 * D)), *rng.uniform(-3, 3, 3), rng.uniform(-1, 1, 2),
                            rng.uniform(-0.1, 0.1, 2),
                            rng.uniform(-0.05, 0.05, 3))
-        until = float(min(horizon(body, 0.1), 1e4))
+        until = float(min(horizon(body), 1e4))
         assert np.max(solution(body, until * np.linspace(0, 1, 200)).tilt) <= 0.1 * (1 + 1e-12)
 
 
