@@ -330,12 +330,6 @@ def test_show_tells_equations_of_a_sweep_once_and_again_where_a_term_is_gone(sta
     assert [line.split() for line in same.splitlines()[-2:]] == [["two-1", "0.5"], ["two-2", "0.8"]]
 
 
-def test_plot_writes_a_picture_and_says_where(stabilab, tmp_path):
-    code, out, _ = stabilab("plot", MINOR, "--out", tmp_path / "minor.png")
-    assert code == 0 and out.strip() == str(tmp_path / "minor.png")
-    assert (tmp_path / "minor.png").read_bytes().startswith(b"\x89PNG")
-
-
 def test_surface_without_a_renderer_writes_the_meshes_and_ends_with_4(stabilab, tmp_path, monkeypatch):
     from stabilab.show.surface import render_probe
     monkeypatch.setattr("stabilab.show.surface.write.probe",

@@ -14,13 +14,13 @@ import pytest
 import stabilab
 from stabilab import Fate
 from tests.hard.agrees import agrees
-from tests.oracles import energy
 from tests.oracles.pairs import scaled
 
 SPIN_UP, UNDECIDED = int(Fate.SPIN_UP), int(Fate.UNDECIDED)
 
 
 # 5. Middle axis next to the invariant planes
+
 
 @pytest.mark.one_in(2)
 @pytest.mark.parametrize("tiny", [1e-3, 1e-8, 1e-15, 1e-30, pytest.param(1e-100, marks=pytest.mark.slow),
@@ -35,15 +35,6 @@ def test_case_5_a_state_a_hair_off_the_spin_up_plane_turns_back(tiny, y):
     words = agrees(pair, [(y, s, -y) for s in (0.5, -1.0, 0.0)], digits=digits, period=tiny >= 1e-30)
     assert words == ["bounded"] * 3
     assert np.all(np.isfinite(stabilab.extremes(pair[0], np.array([y, 0.5, -y]))))
-
-
-@pytest.mark.parametrize("tiny", [1e-6, 1e-15, 1e-30, 1e-100])
-def test_case_5_the_largest_x2_grows_like_the_root_of_the_logarithm(tiny):
-    """x2max = sqrt(2 ln(1/tiny) + O(1)) (theory): far from overflow, though the angle's exponentials are not.
-    """
-    scene, _ = scaled(0.0, tiny, (0, 1, 0))
-    top = stabilab.extremes(scene, np.array([1.0, 0.0, -1.0]))[1, 1]
-    assert abs(top ** 2 - 2 * math.log(1 / tiny)) < 4
 
 
 @pytest.mark.one_in(2)
@@ -88,6 +79,7 @@ def test_case_5_on_the_other_plane_the_motion_is_periodic(y):
 
 # 10. Torque a hair off a principal axis
 
+
 @pytest.mark.one_in(3)
 @pytest.mark.parametrize("off", [1e-9, -1e-12, 1e-300])
 def test_case_10_a_torque_off_the_axis_by_any_amount_is_not_rounded_to_the_axis(off):
@@ -99,6 +91,7 @@ def test_case_10_a_torque_off_the_axis_by_any_amount_is_not_rounded_to_the_axis(
 
 
 # 11. Cancellation between a and b, circles without a radius, the cusp, minute orbits
+
 
 @pytest.mark.one_in(3)
 @pytest.mark.parametrize("mu", [(0, 0, 1), (0, 0, -1), (0, 1, 0)])
@@ -122,27 +115,6 @@ def test_case_11_circles_of_no_or_hardly_any_radius_spin_up_without_nan(radius, 
     assert box[2, 1] == np.inf
     assert box[2, 0] == pytest.approx(min(speed, 0.0) if speed < 0 else speed, rel=1e-7)
     np.testing.assert_allclose(box[:2], [[-radius, radius]] * 2, rtol=1e-11)
-
-
-@pytest.mark.parametrize("sign", [1, -1])
-def test_case_11_the_double_well_just_above_the_cusp_is_found(sign):
-    """|c| = 1.76 against the cusp 1.75477: saddles exist for a window of about 1e-4 of the invariant, which a
-    scan misses. Equilibria g with g^4 + c g + 1 < 0 are saddles; they and their neighbours must get their
-    margins."""
-    c = 1.76 * sign
-    pair = scaled(0.0, c, (0, 1, 0))
-    g = -sign * 3 ** -0.25  # the middle of the window, where g^4 + c g + 1 is least for |c| at the cusp
-    assert g ** 4 + c * g + 1 < 0
-    saddle = (1 / g, 0.0, g)
-    scene, problem = pair
-    states = np.array([(saddle[0], s, saddle[2]) for s in (1e-5, -1e-5, 1e-3, 1e-2, 0.3)])
-    agrees(pair, states, tolerance=1e-10)
-    for state, margin in zip(states.tolist(), np.asarray(stabilab.fate(scene, states).margins)):
-        exact = energy.margin(problem, state)
-        assert exact is not None and abs(margin - float(exact)) <= 1e-12 * abs(float(exact)) + 1e-16
-    wide = np.array([(saddle[0] * 1.01, 1e-3, saddle[2])])
-    assert energy.margin(problem, tuple(wide[0])) is None
-    assert stabilab.fate(scene, wide).margins[0] == np.inf
 
 
 @pytest.mark.one_in(3)

@@ -97,15 +97,6 @@ def test_both_cuts_of_a_grid_give_a_mesh_of_the_same_outline_and_the_mirror_imag
     assert triangles == mirrored
 
 
-def test_a_grid_without_repeated_points_gives_the_mesh_that_merging_gives():
-    from stabilab.show.surface.mesh import _merged
-    sheet = stabilab.separatrix(SCENES["minor a<b"], shape=(12, 17)).branches[0]
-    plain, merged = triangulate(sheet), _merged(sheet, sheet.points + 0.0, np.abs(sheet.residual))
-    corners = lambda mesh: sorted(map(sorted, mesh.points[mesh.triangles].tolist()))
-    assert len(plain.points) == len(merged.points) and corners(plain) == corners(merged)
-    assert sorted(plain.residual) == sorted(merged.residual)
-
-
 def test_edges_of_a_rim_that_starts_straight_stray_by_no_less_than_they_do():
     """On y = x^6 the edge from x0 to x1 strays by the largest distance of the curve from its chord, on a fine
     table; the curvature falls beyond zero if it is taken on linearly."""

@@ -4,13 +4,11 @@ from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 
-import flint
 import numpy as np
 import pytest
 
 from stabilab import Body, ConstantTorque, Gyrostat, Scene, load
 from stabilab.answers.fate import fate
-from stabilab.integrate.reference import reference
 from stabilab.orbit.result import Fate
 from stabilab.papers.cost import growth as cost_growth
 from stabilab.papers.cost import growth as shown
@@ -24,7 +22,6 @@ from stabilab.papers.cost.growth import (
     with_digits,
     with_states,
 )
-from stabilab.physics.equations import derive
 from tests.oracles import energy
 from tests.oracles.model import physical, scaled
 
@@ -74,21 +71,6 @@ def test_on_the_separatrix_no_bits_are_enough_and_beside_it_no_nodes():
     # 1e-15 below the barrier the rate dips over a part of 1e-7 of the turn, so 32768 equal parts leave digits
     # out
     assert nodes_needed(MINOR.scene, near(MINOR, 15)[0]) is None
-
-
-def test_the_reached_digits_of_a_series_are_those_of_the_reference_at_least_up_to_what_was_asked():
-    times = np.array([0.0, 1.0, 2.0])
-    exact = reference(MINOR.scene, MINOR.state, times)
-    task = SimpleNamespace(scene=MINOR.scene, start=MINOR.state, times=times, equations=derive(MINOR.scene))
-    rows = {digits: {(r.question, r.method): r for r in cost_growth._many(task, exact, digits)}
-            for digits in (12, 18)}
-    balls = {("extremes", "balls"), ("period", "balls"), ("margin", "balls")}
-    assert set(rows[12]) == balls and set(rows[18]) == balls | {("states over the span",
-                                                                 "Taylor in many digits")}
-    series = rows[18]["states over the span", "Taylor in many digits"]
-    assert 17 < series.x <= 18 and series.count > 0  # the reference holds 30 digits
-    off = [[flint.arb(v) for v in row] for row in exact.states * (1 + 1e-9)]
-    assert cost_growth._reached(off, exact) == pytest.approx(9, abs=0.5)
 
 
 @pytest.mark.slow
