@@ -17,6 +17,16 @@ def physical(D, lam, M) -> Scene:
     return Scene(Body(D), Gyrostat(lam), ConstantTorque(M))
 
 
+# D, lambda, M: hyperbola, lines that cross, one line, oblique torque on a symmetric body, torque-free
+CURVED = [
+    ((2000, 1500, 1000), (100, 0, 0), (0, 0, 204)), ((5, 4, 2), (2, 3, 0), (0, 0, -6)),
+    ((5, 4, 2), (2, 3, 0), (0, 0, 6)),
+    ((5, 4, 5), (2, 3, 0), (0, 0, -6)), ((2, 2, 1), (1, 2, 0), (0, 0, 1)), ((2, 2, 1), (2, 1, 3), (1, -2, 0)),
+    ((3, 3, 3), (1, 2, 3), (3, 0, -1)), ((5, 4, 2), (1, 2, 3), (0, 0, 0)), ((5, 4, 2), (1, 0, 3), (0, 0, 0)),
+    ((5, 4, 2), (0, 1, 0), (0, 0, 0)), ((4, 4, 2), (1, 2, 3), (0, 0, 0)), ((4, 4, 2), (1, 2, 0), (0, 0, 0)),
+    ((5, 4, 2), (0, 0, 0), (0, 0, 0)), ((3, 3, 3), (1, 2, 3), (0, 0, 0)), ((5, 4, 2), (0, 1, 2), (3, 0, 0))]
+
+
 def test_coordinates_are_correct_to_the_last_digit_for_nearly_equal_moments():
     """Against 60-digit roots of the same conditions (mpmath), D1 - D2 = 1e-12 D1 and a torque off the axes.
     """
