@@ -372,22 +372,6 @@ def test_a_branch_of_permanent_rotations_has_no_point_outside_it():
     assert refused
 
 
-def test_equal_stiffness_is_found_at_every_rate_or_none():
-    """By substitution in (Omega^2 - N)(D_i - D_j) = Omega E, axis 3 carrying E."""
-    from fractions import Fraction
-    from types import SimpleNamespace
-
-    from stabilab.equilibrium.field_states import _same_stiffness
-    parts = SimpleNamespace(D=(Fraction(2), Fraction(2), Fraction(3)), N=Fraction(1), E=Fraction(3))
-    assert _same_stiffness(parts, 0, 1) == [0]  # equal moments: the same at every rate
-    for Omega in _same_stiffness(parts, 0, 2):
-        assert abs((Omega**2 - parts.N) * (parts.D[0] - parts.D[2]) + Omega * parts.E) < Fraction(1, 2**200)
-    assert len(_same_stiffness(parts, 0, 2)) == 2
-    # Omega^2 - 3 Omega + 4 has no real root
-    pulled = SimpleNamespace(D=parts.D, N=Fraction(-4), E=Fraction(3))
-    assert _same_stiffness(pulled, 0, 2) == []
-
-
 @pytest.mark.parametrize("wheel", [1, 30])
 def test_a_sphere_with_its_weight_along_the_wheel_sleeps_upside_down_but_for_slow_spins(wheel):
     """Lagrange's sleeping top: (Lambda - D Omega)^2 > 4 D M g z with gamma = -e3."""
