@@ -72,26 +72,6 @@ def test_outcomes_are_the_words_of_the_labels_in_their_shape():
     assert stabilab.fate(scene, [2.5, 4, 0.1]).outcome == "bounded"
 
 
-@pytest.mark.one_in(3)
-@pytest.mark.parametrize("side", [-1, +1])
-@pytest.mark.parametrize("sense", [-1, +1])
-@pytest.mark.parametrize("every", [3, pytest.param(1, marks=pytest.mark.slow)])
-@pytest.mark.parametrize("name", ELLIPTIC)
-def test_states_next_to_the_separatrix_are_labelled_by_the_side_they_are_on(name, sense, side, every):
-    """1e-3 to 1e-15 of the speed away: differences of two energies, or any tolerance, decide wrongly here."""
-    scene, problem = FAMILIES[name]
-    rng, states = np.random.default_rng(5), []
-    while len(states) < 13 // every + (every > 1):  # a third of them: 1e-3, 1e-6 and so on to 1e-15
-        state = brink(problem, rng.normal(size=2) * 2, side * 10.0 ** -(3 + every * len(states)), sense)
-        if state is not None:
-            states.append(state)
-    expected = [WORDS[energy.label(problem, s)] for s in states]
-    result = stabilab.fate(scene, np.array(states))
-    np.testing.assert_array_equal(result.labels, expected)
-    signs = [-1 if energy.margin(problem, s) < 0 else 1 for s in states]
-    np.testing.assert_array_equal(np.sign(result.margins), signs)
-
-
 def test_consecutive_doubles_across_the_separatrix_change_label_exactly_once_and_never_tie():
     """An exact tie would make an angle with algebraic cosine algebraic (Lindemann): no double is on the
     separatrix."""
