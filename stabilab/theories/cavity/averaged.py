@@ -69,11 +69,11 @@ def averaged(scene, state, times, order: int = 1) -> AveragedMotion:
     """Averaged motion from `state` (three numbers, rad/s, or {"omega": ...}) at t = 0; times: (n,) s, any
     order and sign.
 
-    D3 is J0; axes 1, 2 have moments near it, the gyrostatic moment lies along axis 3. The small
-    parameter eps is the larger of |D1 - D3|, |D2 - D3| over D3. Errors in A and r over t ~ 1/eps^2: eps (first order), eps^2 (second); after a passage
-    through nu = 0 with M1, M2 or D1 != D2, whose jump of size sqrt(eps) depends on the phase there: eps^(1/2)
-    and eps^(3/2). In the phase one order less. Raises InputError where the scene does not fit the assumptions
-    and says which.
+    D3 is J0; axes 1, 2 have moments near it, the gyrostatic moment lies along axis 3. The small parameter eps
+    is the larger of |D1 - D3|, |D2 - D3| over D3. Errors in A and r over t ~ 1/eps^2: eps (first order),
+    eps^2 (second); after a passage through nu = 0 with M1, M2 or D1 != D2, whose jump of size sqrt(eps)
+    depends on the phase there: eps^(1/2) and eps^(3/2). In the phase one order less. Raises InputError where
+    the scene does not fit the assumptions and says which.
     """
     if order not in (1, 2):
         raise InputError(f"order: expected 1 or 2, got {order!r}")
