@@ -12,7 +12,7 @@ from .one_orbit import Orbit
 from .period import period_of
 from .reduction import reduce
 from .result import Fate, Motion, finite, judged, repeats
-from .separatrix.distance.ask import distance_of
+from .separatrix.distance import distance_of
 
 
 def motion(scene, state, span=None, exact=None, brief: bool = False) -> Motion:

@@ -44,7 +44,7 @@ class Motion(Shown):
     height of the barrier ahead minus energy (negative above it; None where no barrier stands ahead at
     this value of the invariant); without a torque the kinetic energy of the nearest saddle of the same
     momentum minus the motion's. margin_velocity: smallest change of the state that reaches the
-    separatrix, at whatever value of the invariant, to 1e-9, or where that is not reached a number that it
+    separatrix, at whatever value of the invariant, to 1e-6, or where that is not reached a number that it
     is proved not to be below (None where the scene has none, or nothing is known: then velocity_because
     says why). velocity_bounds: (proved lower bound, distance of velocity_witness), velocity_witness: a
     state on the separatrix as near as that; velocity_because: why the two bounds are apart. period: None

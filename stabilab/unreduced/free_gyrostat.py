@@ -22,7 +22,7 @@ from ..orbit.far_states import BEYOND, ORDINARY, powered
 from ..orbit.fate.arrays import fates as free_fates
 from ..orbit.fate.one_state import as_double, at_rest, free_fate, scaled_double
 from ..orbit.result import Fate, Motion, finite, judged, pairs, repeats
-from ..orbit.separatrix.distance.ask import has_no_saddle
+from ..orbit.separatrix.distance import has_no_saddle
 from ..physics.coefficients import three_floats
 from ..physics.scene import rests
 from ..physics.states import equilibrium_mask, three_numbers

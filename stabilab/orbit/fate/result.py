@@ -13,7 +13,7 @@ from ...physics.scene import AnyScene
 from ...representation import Compared, Shown
 from ..far_states import BEYOND
 from ..result import Fate
-from ..separatrix.distance.ask import separatrix_distance
+from ..separatrix.distance import separatrix_distance
 from .one_state import REASONS, Reason
 
 CHUNK = 16384  # states at a time: a dozen arrays of so many doubles stay in the processor's caches

@@ -10,7 +10,7 @@ from ...representation import Compared, Shown
 if TYPE_CHECKING:
     import numpy as np
 
-AGREE = 1e-9  # relative: nearer than that, lower bound and witness are one number
+AGREE = 1e-6  # relative: nearer than that, lower bound and witness are one number
 
 
 @dataclass(frozen=True, eq=False)

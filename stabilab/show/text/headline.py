@@ -168,7 +168,7 @@ def rate_and_height(motion: Motion, units: Units) -> tuple[str, str]:
 
 
 def rate_margin(motion: Motion, units: Units, digits: int) -> str:
-    """The distance from the separatrix: a number where it is one to 1e-9, else its bounds; empty where
+    """The distance from the separatrix: a number where it is one to 1e-6, else its bounds; empty where
     unknown."""
     if motion.velocity_because and motion.velocity_bounds:
         name, one = units.rates
