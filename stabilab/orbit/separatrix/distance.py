@@ -130,12 +130,17 @@ def _on_circles(numbers, reduction, state, held) -> Apart:
     if first is None:
         return NO_SEPARATRIX
     if first[0] == 0:  # at the end of a branch
-        return Apart(0.0, 0.0, tuple(map(float, state)))
+        return Apart(0.0, 0.0, _three(state))
     reach = (seen.size + first[0] / math.sqrt(seen.g["least"])) * WIDER
     turn = TURN * WIDER
     ends = tuple(map(numbers.ball, (-turn, 0) if reduction.sense else (-turn / 2, turn / 2)))
     charts = [CircleChart(seen.g, curve, (low, high), ends) for curve, low, high in seen.branches(reach)]
     return _answer(seen, state, Search(seen.g["w"], first[0], hidden), charts, first[1])
+
+
+def _three(rates):
+    first, second, third = map(float, rates)
+    return first, second, third
 
 
 def _first(point):
@@ -150,7 +155,7 @@ def _on_hyperbolas(numbers, reduction, state, held) -> Apart:
     if first is None:
         return NO_SEPARATRIX
     if first[0] == 0:
-        return Apart(0.0, 0.0, tuple(map(float, state)))
+        return Apart(0.0, 0.0, _three(state))
     wide = first[0] * sum(1 / math.sqrt(plain[name]) for name in "ab") * WIDER
     # of the window about the state
     reach = math.sqrt(math.prod(abs(plain["X"] + flip * plain["Z"]) + wide for flip in (1, -1)))
@@ -264,7 +269,7 @@ def _answer(seen, state, search, charts, place) -> Apart:
     r, g, rates = seen.reduction, seen.reduction.constants, [0.0] * 3
     rates[r.j], rates[r.k] = float(state[r.j]) + g["flip"] * g["rx"] * x, float(state[r.k]) + g["rz"] * z
     rates[r.axis] = (1.0 if Fraction(state[r.axis]) + r.s >= 0 else -1.0) * w - float(r.s)
-    return Apart(found.lower, found.upper, tuple(rates), "", found.boxes)
+    return Apart(found.lower, found.upper, _three(rates), "", found.boxes)
 
 
 class Shade:
@@ -352,7 +357,7 @@ def _on_parabolas(numbers, reduction, state, held) -> Apart:
     rates[r.j], rates[r.k] = (float(Fraction(state[axis]) + Fraction(more)) for axis, more in
                               ((r.j, first), (r.k, second)))
     rates[r.axis] = float((1 if state[r.axis] + r.s >= 0 else -1) * Fraction(turning) - r.s)
-    return Apart(found.lower, found.upper, tuple(rates), "", found.boxes)
+    return Apart(found.lower, found.upper, _three(rates), "", found.boxes)
 
 
 def _rectangle(g, upper):
@@ -422,7 +427,7 @@ def distance_of(reduction, state, orbit: Orbit | None = None) -> Apart:
     try:
         orbit = orbit or Orbit(reduction, state)
         if on_separatrix(orbit):
-            return Apart(0.0, 0.0, (float(state[0]), float(state[1]), float(state[2])))
+            return Apart(0.0, 0.0, _three(state))
         # only a state that a barrier holds sees which of two is higher
         held = bool(reduction.sense) and reduction.e < 0 and decide(orbit, FIRST_BITS).sign >= 0
         found = settled(lambda numbers: GEOMETRIES[reduction.e](numbers, reduction, state, held), BITS,

@@ -269,7 +269,8 @@ def least_of(value, g1, g2, h11, h12, h22, d1, d2) -> float:
     box = max(_crossed(g1, g2, a, b, m, d1, d2), _crossed(g2, g1, b, a, m, d2, d1)) - most
     if d1 > 0 and d2 > 0:
         box = max(box, _convex(g1, g2, a - rm * d2 / d1, b - rm * d1 / d2, m, d1, d2))
-    return value + box - SLACK * (abs(value) + abs(box) + abs(g1) * d1 + abs(g2) * d2)
+    size = abs(g1) * d1 + abs(g2) * d2 + abs(a) * d1 * d1 + abs(b) * d2 * d2
+    return value + box - SLACK * (abs(value) + abs(box) + size)
 
 
 def _convex(g1, g2, a, b, m, d1, d2):
@@ -277,14 +278,15 @@ def _convex(g1, g2, a, b, m, d1, d2):
     det = a * b - m * m
     if not (a > 0 and b > 0 and det > 1e-9 * a * b):
         return -INF
+    # from a place near the least one, by the tangent plane there, which a convex function stays above: the
+    # closed form loses digits where it bends little one way
     t, y = (m * g2 - b * g1) / det, (m * g1 - a * g2) / det
-    if abs(t) <= d1 and abs(y) <= d2:
-        return -0.5 * (b * g1 * g1 - 2 * m * g1 * g2 + a * g2 * g2) / det
-    # the least is on an edge; from a place near it, by the tangent plane there, which a convex function stays
-    # above
+    places = [(t, y)]
+    if not (abs(t) <= d1 and abs(y) <= d2):  # on an edge
+        t, y = math.copysign(d1, t), math.copysign(d2, y)
+        places = [(t, min(max(-(g2 + m * t) / b, -d2), d2)), (min(max(-(g1 + m * y) / a, -d1), d1), y)]
     best = -INF
-    t, y = math.copysign(d1, t), math.copysign(d2, y)
-    for s, z in ((t, min(max(-(g2 + m * t) / b, -d2), d2)), (min(max(-(g1 + m * y) / a, -d1), d1), y)):
+    for s, z in places:
         u, v = g1 + a * s + m * z, g2 + m * s + b * z
         best = max(best, 0.5 * ((g1 + u) * s + (g2 + v) * z) - u * s - v * z - abs(u) * d1 - abs(v) * d2)
     return best
