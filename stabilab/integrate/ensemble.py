@@ -22,7 +22,7 @@ from ..physics.to_numpy import equations_of, to_numpy
 from ..representation import Compared, Shown
 from .quadratic_series import FAST, SLOW, in_unit, own_unit
 from .to_heyoka import TAYLOR_TOLERANCE, borrowed_taylor, heyoka_available
-from .trajectory import PATIENCE, REPORT, STEP_LIMIT, integrated, steps_left
+from .trajectory import REPORT, integrated
 
 # Motions in step: eight doubles fill the widest vectors there are, and narrower ones two or four at a time.
 # Not asked of the machine, so that every machine groups alike.
@@ -93,8 +93,9 @@ def ensemble(scene: AnyScene, states: ArrayLike, times: ArrayLike, rtol: float |
     workers = min(workers, len(groups))  # more would have nothing to do
     with ThreadPoolExecutor(workers) if workers > 1 else nullcontext() as pool:
         steps = sum((pool.map if pool else map)(run, (groups[i::workers] for i in range(workers))))
-    return Ensemble(times, run.out, np.isfinite(run.out).all(axis=2), dict(sorted(run.stopped.items())),
-                    "taylor", rtol,
+    steps += sum(taken for _, taken in run.alone.values())
+    stopped = {number: why for number, (why, _) in sorted(run.alone.items()) if why}
+    return Ensemble(times, run.out, np.isfinite(run.out).all(axis=2), stopped, "taylor", rtol,
                     {"steps": steps}, scene)
 
 
@@ -144,7 +145,7 @@ class _Rows:
         self.scene, self.forms, self.rtol, self.starts, self.times = scene, forms, rtol, starts, times
         self.out = np.empty((len(starts), times.size, starts.shape[1]))
         self.out[:, times == 0] = starts[:, None]
-        self.stopped = {}
+        self.alone = {}  # number of a motion that its lane did not finish -> (why it stopped or "", steps)
         self.grids = []  # (which of the times, the way there lane by lane)
         for chosen, sense in ((times < 0, -1), (times > 0, 1)):
             way = np.flatnonzero(chosen)[np.argsort(times[chosen] * sense)]
@@ -157,51 +158,40 @@ class _Rows:
             return sum(self._row(ta, group, way, grid) for group in groups for way, grid in self.grids)
 
     def _row(self, ta, lanes, way, grid) -> int:
-        """A row of motions one way; those that cannot go on give up their lane, and the others start again.
-        """
-        points, steps = self._propagated(ta, lanes, grid, REPORT)
-        if any(result[0].name == "step_limit" for result in ta.propagate_res):
-            for number in {int(n) for n, time, result in zip(lanes, ta.time, ta.propagate_res)
-                           if result[0].name == "step_limit"
-                           and steps_left(time, grid[-1, 0] - time) > PATIENCE * STEP_LIMIT}:
-                self._alone(number)
-            lanes = self._left(lanes)
-            points, steps = self._propagated(ta, lanes, grid) if lanes.size else (points, [])
-        while lanes.size and not self._arrived(ta, grid, points):
-            for number in {int(n) for n,
-                           result in zip(lanes, ta.propagate_res) if result[0].name != "time_limit"}:
-                self._alone(number)
-            lanes = self._left(lanes)
-            points, steps = self._propagated(ta, lanes, grid) if lanes.size else (points, [])
-        if not lanes.size:
-            return 0
-        self.out[lanes[:, None], way] = points[1:].transpose(2, 0, 1)
-        return sum(dict(zip(lanes.tolist(), steps)).values())  # a filler counts once
+        """A row of motions one way. One that overflows, or takes more than REPORT steps, is followed alone,
+        and the others start again; a lane that is left over repeats one of them."""
+        while (lanes := self._together(lanes)).size:
+            points, steps = self._propagated(ta, lanes, grid)
+            unfinished = {int(number) for lane, number in enumerate(lanes)
+                          if ta.propagate_res[lane][0].name != "time_limit"
+                          or not np.isfinite(points[-1, :, lane]).all()}
+            if not unfinished:
+                self.out[lanes[:, None], way] = points[1:].transpose(2, 0, 1)
+                return sum(dict(zip(lanes.tolist(), steps)).values())
+            for number in unfinished:
+                self._follow_alone(number)
+        return 0
 
-    def _left(self, lanes):
-        """A row of those that go on; none where none does."""
-        good = [number for number in lanes if int(number) not in self.stopped]
+    def _together(self, lanes):
+        """A row of those that are not followed alone; none where there is none."""
+        good = [number for number in lanes if int(number) not in self.alone]
         return np.resize(good, LANES if good else 0)
 
-    def _arrived(self, ta, grid, points):
-        return (ta.time == grid[-1]).all() and np.isfinite(points[-1]).all()
-
-    def _propagated(self, ta, lanes, grid, most=STEP_LIMIT):
+    def _propagated(self, ta, lanes, grid):
         ta.set_time(0.0)
         ta.state[:] = self.starts[lanes].T
-        points = ta.propagate_grid(grid, max_steps=most)[1]
+        points = ta.propagate_grid(grid, max_steps=REPORT)[1]
         return points, [result[3] for result in ta.propagate_res]
 
-    def _alone(self, number):
-        """A motion that its lane could not finish: as far as `trajectory` takes it, and why no farther."""
-        self.stopped[number] = _single(self.scene, self.starts[number], self.times, "taylor", self.rtol,
-                                       self.out[number])[0]
+    def _follow_alone(self, number):
+        why, run = _single(self.scene, self.starts[number], self.times, self.rtol, self.out[number])
+        self.alone[number] = why, run.counters["steps"]
 
 
-def _single(scene, start, times, method, rtol, out):
+def _single(scene, start, times, rtol, out):
     """(why it stopped or "", run) of one motion, its states put into `out` (m, N), inf where it did not get.
     """
-    run = integrated(scene, start, times, method, rtol, laws=False)
+    run = integrated(scene, start, times, "taylor", rtol, laws=False)
     out[:] = np.inf
     out[np.isin(times, run.t)] = run.states
     return ("" if run.status == "reached" else run.reason), run
@@ -210,7 +200,7 @@ def _single(scene, start, times, method, rtol, out):
 def _one_by_one(scene, starts, times, rtol):
     out, stopped, steps = np.empty((len(starts), times.size, starts.shape[1])), {}, 0
     for number, start in enumerate(starts):
-        why, run = _single(scene, start, times, "taylor", rtol, out[number])
+        why, run = _single(scene, start, times, rtol, out[number])
         stopped |= {number: why} if why else {}
         steps += run.counters["steps"]
     return Ensemble(times, out, np.isfinite(out).all(axis=2), stopped, run.method, run.rtol, {"steps": steps},

@@ -279,6 +279,3 @@ def uncertain(case: Any, questions: Sequence[str] = ("equilibria", "fate")) -> U
     except InputError as error:
         found = {name: Over("undecided", None, str(error)) for name in asked}
     return Uncertainty(case.uncertain, found.get("equilibria"), found.get("fate"))
-
-
-__all__ = ["Over", "Uncertainty", "uncertain"]
