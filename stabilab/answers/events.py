@@ -15,12 +15,11 @@ from ..numbers.constants import EPS
 from ..physics.scene import BLOCKS, AnyScene, slices
 from ..physics.states import equations_and_start, moved_row
 from ..representation import Shown
+from .passage.run import MOVED, WIDER
 from .simulate import trajectory
 
 SAMPLES = 16     # of a step of the run: between them a function is looked at for a change of its sign
 MOST = 400_000   # samples of a run
-MOVED = 2.0      # last places by which the start of the second run is moved
-WIDER = 4.0      # times the difference of the two runs that an error is said to be
 
 
 @dataclass(frozen=True, eq=False, repr=False)

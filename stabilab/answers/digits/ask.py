@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 
 from ...integrate.events import roots_of_rates
-from ...integrate.reference import DIGITS, GUARD, WORK, Exhausted, Recursion, reference, steps, widen
+from ...integrate.reference import DIGITS, GUARD, SEARCH, WORK, Exhausted, Recursion, reference, steps, widen
 from ...integrate.to_heyoka import TAYLOR_TOLERANCE
 from ...numbers.balls import DOUBLE_BITS, Digits, working
 from ...numbers.vectors import Exact3, Number
@@ -40,7 +40,6 @@ from .checked import CAUTION, MOST, MOST_DECIMALS, NEAR, Told, checked_digits, d
 FORMULA_DIGITS = 11  # the formulas hand over to balls where they hold less
 SAMPLE = 16  # states of an array that are checked one by one; where all agree the formulas serve for the rest
 LAW_BITS = 200  # of the numbers of a law that holds for all time: more than MOST_DECIMALS
-SEARCH = 20  # evaluations of a rate's series that the search for its roots takes in a step
 
 
 def ask(question: str, scene: AnyScene, state: Any, digits: int, span: Any = None,

@@ -43,6 +43,7 @@ from ...physics.states import moved_row
 from ...representation import Compared, Shown
 from ...validation import checked_case
 from ..caveats import of_law
+from ..passage.run import MOVED, WIDER
 from .spinner import Run, Spinner
 
 POSITIVE, NEGATIVE = "positive major axis", "negative major axis"
@@ -122,8 +123,7 @@ class FlatSpin(Shown, Compared):
 
 LEAST = math.radians(0.01)  # of `within`: below, the energy in doubles does not tell the angle any more
 DRAWN = 32  # motions from the box of uncertain numbers
-SECOND_RTOL, MOVED = 1e-13, 2.0  # of the second run: its tolerance; last places by which its start is moved
-WIDER = 4.0  # times what two runs differ by
+SECOND_RTOL = 1e-13  # tolerance of the second run
 
 
 def flat_spin(case: Any, within: Any = "5 deg") -> FlatSpin:

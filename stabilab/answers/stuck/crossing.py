@@ -14,13 +14,12 @@ from ...numbers.vectors import Exact3, Float3
 from ...physics.scene import Scene
 from ...physics.states import moved_row
 from ..passage.limit import Limit
-from ..passage.run import ROUNDING, Found, by_run
+from ..passage.run import MOVED, ROUNDING, Found, by_run
 from ..simulate import trajectory
 from ..time_to import down, of_one, up
 from .chain import Chain, Piece
 
 RUN_STEPS = 1_000_000  # of one segment
-MOVED = 2.0  # places by which the start of the second run is moved
 
 
 @dataclass(frozen=True)
