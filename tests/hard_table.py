@@ -12,7 +12,7 @@ import math
 from functools import lru_cache
 from pathlib import Path
 
-from tests.hard import bodies, burns, charged, circles, late, liquid, off_axis, orbit, sectors, top
+from tests.hard import bodies, burns, charged, circles, damped, late, liquid, off_axis, orbit, sectors, top
 from tests.hard.row import Row, Verdict
 
 PAGE = Path(__file__).parents[1] / "docs" / "hard-cases.md"
@@ -70,6 +70,9 @@ CASES = [
     ("orbit", orbit.wheel_beyond_a_pitchfork, [1e-14, 1e-20], []),
     ("orbit", orbit.nearly_equal_moments, [1e-14], []),
     ("burn", burns.closing, [0.5], [1.0]),
+    ("damper", damped.nearly_free, [1e-12], [1e-6]),
+    ("damper", damped.sphere_in_a_fluid, [1e-14], [1e-20]),
+    ("damper", damped.in_a_field, [1e-14], [1e-20]),
 ]
 ROWS = [(about, case, number, slow) for about, case, quick, long in CASES
         for slow, some in ((False, quick), (True, long)) for number in some]

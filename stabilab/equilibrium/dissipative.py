@@ -86,7 +86,7 @@ def _spectrum_of(J):
     """The eigenvalues of a matrix of fractions: roots of (z - s)^3 + m (z - s) + n, 3 s its trace."""
     one, two, three = minors(J)
     s = one / 3
-    return tuple(z + float(s) for z in eigenvalues(two - 3 * s * s, s * two - three - 2 * s**3))
+    return eigenvalues(two - 3 * s * s, s * two - three - 2 * s**3, s)
 
 
 def _axes(D):

@@ -111,28 +111,31 @@ def invariants(form: QuadraticForm, x: Sequence[Number], w: Number = 1) -> tuple
     return m, n
 
 
-def eigenvalues(m: Fraction, n: Fraction) -> tuple[complex, ...]:
-    """Roots of z^3 + m z + n, each part correct to rounding, sums of real parts zero by structure.
+def eigenvalues(m: Fraction, n: Fraction, shift: Fraction = Fraction(0)) -> tuple[complex, ...]:
+    """Roots of z^3 + m z + n, all moved by `shift`, each part correct to rounding; where that is 0, sums of
+    real parts are zero by structure.
 
     n = 0 gives an exact 0 and an exactly real or exactly imaginary pair; a complex pair is exactly conjugate.
     """
     if not m and not n:
-        return 0j, 0j, 0j
+        return (complex(float(shift), 0.0),) * 3
+    real = lambda value: complex(float(shift + value), 0.0)
     if not n:
-        root = float(sqrt_fraction(abs(m)))
-        return (0j, complex(0.0, root),
-                complex(0.0, -root)) if m > 0 else (0j, complex(root, 0.0), complex(-root, 0.0))
+        root = sqrt_fraction(abs(m))
+        return (real(Fraction(0)), *((complex(float(shift), float(root)), complex(float(shift), -float(root)))
+                                     if m > 0 else (real(root), real(-root))))
     r = max(real_roots(Poly((n, m, 0, 1)), BITS), key=abs)  # a simple one, of the sign of -n
     # the other two solve z^2 + r z + (r^2 + m) = 0; the sign of its discriminant is that of -4 m^3 - 27 n^2
     kind = -4 * m**3 - 27 * n * n
     if not kind:
-        double = complex(float(-3 * n / (2 * m)), 0.0)
-        return complex(float(3 * n / m), 0.0), double, double
+        double = real(-3 * n / (2 * m))
+        return real(3 * n / m), double, double
     half, gap = -r / 2, sqrt_fraction(abs(3 * r * r / 4 + m))
     if kind < 0:
-        return complex(float(r), 0.0), complex(float(half), float(gap)), complex(float(half), -float(gap))
+        middle = real(half).real
+        return real(r), complex(middle, float(gap)), complex(middle, -float(gap))
     far = half + gap if half > 0 else half - gap
-    return complex(float(r), 0.0), complex(float(far), 0.0), complex(float(-n / (r * far)), 0.0)
+    return real(r), real(far), real(-n / (r * far))
 
 
 def ordered(values: Iterable[complex]) -> tuple[complex, ...]:

@@ -36,10 +36,10 @@ def test_the_naive_formula_fails_where_a_case_is_called_hard(n):
 
 
 def test_every_kind_of_hard_case_has_a_quick_line():
-    """Groups 1 to 11 of the gyrostat, the small divisors, the liquid, the top, the orbit, burns."""
+    """Groups 1 to 11 of the gyrostat, the small divisors, the liquid, the top, the orbit, burns, dampers."""
     kinds = ["separatrix", "large circle", "fold", "parameters", "invariant planes", "symmetric", "conic",
              "start", "late",
-             "off axis", "cancellation", "small divisors", "liquid", "top", "orbit", "burn"]
+             "off axis", "cancellation", "small divisors", "liquid", "top", "orbit", "burn", "damper"]
     assert list(dict.fromkeys(about for about, *_ in ROWS)) == kinds
     # a million turns are no quick line
     assert {about for about, *_, slow in ROWS if not slow} == set(kinds) - {"late"}
