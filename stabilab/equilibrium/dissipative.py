@@ -20,7 +20,7 @@ from fractions import Fraction
 from ..numbers.balls import many_digits
 from ..numbers.polynomial import Poly, real_roots
 from ..numbers.principal import SLACK, principal_minors
-from ..numbers.vectors import CYCLE, dot
+from ..numbers.vectors import CYCLE, Exact3, cross, dot
 from ..physics.coefficients import Content
 from ..physics.scene import euler_form
 from .field_balance import Field, blocks, rotations_at
@@ -39,12 +39,14 @@ SADDLE = "p0 < 0: the product of the roots is positive, so one of them is"
 FOCUS = "p2 p1 - p0 < 0 (Routh and Hurwitz): a root with positive real part"
 RUBBED = "T' = -omega . R omega without a torque, R = c D + C, positive definite, of what resists"
 PARTLY = "undecided: the damper resists rotation about some axes alone, and about others it may go on"
+DIES_OUT = ("T' = -omega . C omega vanishes about one axis alone, about which no rotation goes on by "
+            "itself, so that the motion tends to rest (LaSalle)")
 
 
 def resisted_equilibria(parts: Content) -> Equilibria:
     """All equilibria with resistance or a linear damper (and no liquid), each with its stability."""
     if not decay(parts):
-        return Equilibria("undecided", PARTLY)
+        return _left_free(parts)
     form, none = euler_form(parts.D, parts.Lambda, parts.M), Fraction(0)
     if not any(parts.M):
         J = _jacobian(parts, form, (none,) * 3, Fraction(1))
@@ -65,6 +67,46 @@ def resisted_equilibria(parts: Content) -> Equilibria:
               f"{P.degree} with exact coefficients, "
               f"whose real roots are {len(points)} by Sturm's theorem")
     return Equilibria("points", reason, tuple(points))
+
+
+def _left_free(parts: Content) -> Equilibria:
+    """Of a linear damper that resists rotation about some axes alone."""
+    axis = None if any(parts.M) else free_axis(parts)
+    if axis is None or goes_on(parts, axis) != ():
+        return Equilibria("undecided", PARTLY)
+    none = (Fraction(0),) * 3
+    J = _jacobian(parts, euler_form(parts.D, parts.Lambda, parts.M), none, Fraction(1))
+    linear = "stable" if any(cross(parts.Lambda, axis)) else "degenerate"
+    rest = EquilibriumPoint((0.0,) * 3, _spectrum_of(J), linear, "asymptotically stable",
+                            f"{GLOBAL}{DIES_OUT}")
+    return Equilibria("points", f"{DIES_OUT}, so only rest is an equilibrium", (rest,))
+
+
+def free_axis(parts: Content) -> Exact3 | None:
+    """The only direction about which a linear damper takes nothing, C v = 0; None where there is none or a
+    plane of them, and where irrational axes leave it open whether a rotation about it goes on."""
+    size = lambda vector: max(map(abs, vector))
+    v, most = max((cross(parts.C[i], parts.C[j]) for i, j in CYCLE), key=size), max(map(size, parts.C))
+    if parts.c or size(v) <= SLACK * most**2 or any(abs(dot(v, row)) > SLACK * size(v) * most
+                                                    for row in parts.C):
+        return None
+    momentum = [d * x for d, x in zip(parts.D, v)]
+    across, wheel = cross(momentum, v), cross(parts.Lambda, v)
+    small = ((across, size(momentum) * size(v)), (wheel, size(parts.Lambda) * size(v)),
+             (cross(across, wheel), size(across) * size(wheel)))
+    return None if any(0 < size(vector) <= SLACK * of for vector, of in small) else v
+
+
+def goes_on(parts: Content, axis: Exact3) -> tuple[Fraction, ...] | None:
+    """The s but 0 for which the rotation s v about the free axis goes on without a torque; None: all of them.
+
+    Where nothing is taken for ever omega = s(t) v, and s' D v = s^2 D v x v + s Lambda x v. Both terms on the
+    right are across v, and v . D v > 0: so s' = 0, and the right side vanishes."""
+    across, wheel = cross([d * v for d, v in zip(parts.D, axis)], axis), cross(parts.Lambda, axis)
+    if not any(across):
+        return () if any(wheel) else None
+    size = -dot(across, wheel) / dot(across, across)
+    return (size,) if any(wheel) and not any(cross(across, wheel)) else ()
 
 
 def minors(rows):

@@ -11,7 +11,15 @@ from fractions import Fraction
 from math import frexp, hypot, inf, isinf, sqrt
 from typing import Any
 
-from ..equilibrium.dissipative import GLOBAL, decay, energy_bound, resisted_equilibria
+from ..equilibrium.dissipative import (
+    DIES_OUT,
+    GLOBAL,
+    decay,
+    energy_bound,
+    free_axis,
+    goes_on,
+    resisted_equilibria,
+)
 from ..equilibrium.liquid import trap
 from ..numbers.exact import floats, sqrt_fraction
 from ..numbers.vectors import dot
@@ -184,9 +192,19 @@ def _partly(parts: Content, T0, x0, least) -> tuple[Fate, str, dict]:
     if any(parts.M):
         return (Fate.UNDECIDED, "undecided: the torque does work at the rate M . omega, and the damper "
                                 "resists rotation about some axes alone: no bound is proved", {"energy": T0})
-    return (Fate.BOUNDED, "T' = -omega . C omega <= 0: the energy does not grow; where the motion tends is "
-                          "undecided, for the damper resists rotation about some axes alone",
-            {"energy": T0, "rate_bound": x0 / least})
+    bounds = {"energy": T0, "rate_bound": x0 / least}
+    axis = None if parts.kappa else free_axis(parts)
+    if axis is None:
+        return (Fate.BOUNDED, "T' = -omega . C omega <= 0: the energy does not grow; where the motion tends "
+                              "is undecided, for the damper resists rotation about some axes alone", bounds)
+    rates = goes_on(parts, axis)
+    if rates == ():
+        return Fate.BOUNDED, DIES_OUT, bounds | {"late_rate_bound": 0.0}
+    place = ("any rate" if rates is None else
+             f"({', '.join(f'{float(rates[0] * v):.12g}' for v in axis)}) rad/s")
+    return (Fate.BOUNDED,
+            f"T' = -omega . C omega vanishes about one axis alone, about which a rotation at {place} goes "
+            f"on: the motion tends to one about it, or to rest (LaSalle)", bounds)
 
 
 def _liquid(parts: Content, omega, T0, x0) -> tuple[Fate, str, dict]:

@@ -91,3 +91,38 @@ def test_a_bound_of_the_rates_needs_no_square_that_is_a_double(size, effect, blo
         size = 1e150  # of larger ones it says that its squares are no doubles
     bound = stabilab.motion(scene, {"omega": (size,) * 3, **blocks}).invariants["rate_bound"]
     assert bound / size == pytest.approx(6**0.5, rel=1e-3)
+
+
+@pytest.mark.parametrize("C, wheel, tends", [
+    (((1, -1, 0), (-1, 1, 0), (0, 0, 1)), (0, 0, 0), ()), (((1, -1, 0), (-1, 1, 0), (0, 0, 1)), (0, 0, 2), ()),
+    ((0, 1, 2), (0, 0, 0), None), ((0, 1, 2), (0.25, 0, 0), None), ((0, 1, 2), (0, 0.25, 0), ()),
+    (((1, -1, 0), (-1, 1, 0), (0, 0, 1)), (0.5, 0, 0), (-0.5, -0.5, 0))])
+def test_where_a_damper_that_leaves_one_axis_free_brings_a_body(C, wheel, tends):
+    """Euler's equations by SciPy's Radau: at a late time the body rests, or turns about the free axis, at any rate
+    (None) or at the one at which it goes on. D = (3, 2, 1): about (1, 1, 0) D omega x omega = (0, 0, s^2), and a
+    wheel (1/2, 0, 0) turned with it (0, 0, s/2)."""
+    D, L = np.array([3.0, 2, 1]), np.array(wheel)
+    K = np.diag(C) if np.ndim(C) == 1 else np.array(C)
+    scene = Scene(Body((3, 2, 1)), stabilab.RateDamper(C), *([Gyrostat(wheel)] if any(wheel) else []))
+    found = motion(scene, (0.3, 0.5, -0.4))
+    ends = solve_ivp(lambda t, w: (np.cross(D * w + L, w) - K @ w) / D, (0, 1e6), (0.3, 0.5, -0.4), method="Radau",
+                     rtol=1e-9, atol=1e-14).y[:, -1]
+    free = np.array([1, 1, 0]) / 2**0.5 if np.ndim(C) > 1 else np.eye(3)[0]
+    assert found.fate == Fate.BOUNDED and np.linalg.norm(ends - free * (free @ ends)) < 0.01
+    if tends == ():
+        assert np.linalg.norm(ends) < 0.01 and found.invariants["late_rate_bound"] == 0
+        (rest,) = equilibria(scene).points
+        assert rest.verdict == "asymptotically stable" and max(z.real for z in rest.eigenvalues) <= 1e-15
+    else:
+        assert "late_rate_bound" not in found.invariants and "goes on" in found.because
+        if tends:
+            assert "(-0.5, -0.5, 0)" in found.because
+            assert min(np.linalg.norm(ends), np.linalg.norm(ends - tends)) < 0.01
+
+
+def test_a_free_axis_that_only_irrational_axes_part_from_a_principal_one_is_left_open():
+    """(1, 1, 0) is a principal axis of this tensor, at sqrt(1/2) of both axes of the file: the rotation goes on."""
+    body = Body([[2, 1, 0], [1, 2, 0], [0, 0, "2.5"]])
+    scene = Scene(body, stabilab.RateDamper(((1, -1, 0), (-1, 1, 0), (0, 0, 1))))
+    found = motion(scene, (0.3, 0.5, -0.4))
+    assert "late_rate_bound" not in found.invariants
