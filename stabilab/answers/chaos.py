@@ -13,7 +13,7 @@ from ..errors import InputError
 from ..orbit.result import Fate
 from ..physics.coefficients import effective, limits_of
 from ..physics.scene import AnyScene, slices
-from ..physics.states import checked_starts, float_array, start_of
+from ..physics.states import REST, checked_starts, float_array, start_of
 from ..physics.to_numpy import equations_of
 from ..representation import Shown
 from ..unreduced.chaos import TURNS, growth, turn_of
@@ -149,7 +149,7 @@ def row_of(scene: AnyScene, state: Sequence[float], blocks: Mapping[str, Sequenc
     """All of a state in one row: its three rates, then the other blocks that the scene needs."""
     if scene.variables == "scaled":
         return list(state)
-    parts = start_of(scene, state, blocks)
+    parts = REST | start_of(scene, state, blocks)
     return [float(value) for name in scene.blocks for value in parts[name]]
 
 

@@ -15,9 +15,10 @@ from ..physics.states import equations_and_start
 from ..physics.to_numpy import Form, evaluate, to_numpy
 from .quadratic_series import in_unit, mass_unit, own_unit
 from .to_heyoka import TAYLOR_TOLERANCE, heyoka_available, taylor_events
-from .trajectory import FALLBACK_RTOL, STEP_LIMIT, floor, root_between, sign_changes, stand_in
+from .trajectory import FALLBACK_RTOL, floor, root_between, sign_changes, stand_in
 
 SUBSAMPLES = 16
+STEP_LIMIT = 1_000_000  # each of which costs ten times one of a run, for its roots are searched
 TOGETHER = 400  # steps between looks at what was found
 # natural times a step may take: a motion that is a polynomial of time has steps without end, whose powers
 # overflow
@@ -41,7 +42,7 @@ class Passed:
         return self.zeros[0][0] if self.zeros else None
 
 
-def zeros_passed(forms: Form, state, rates, t_end: float, steps: int = STEP_LIMIT,
+def zeros_passed(forms: Form, state, rates, t_end: float, steps: int,
                  tolerance: float = TAYLOR_TOLERANCE, first: bool = False) -> Passed:
     """The motion from `state` (N,) at t = 0 to t_end, of either sign, and the zeros on its way of those
     expressions of a form that stand behind its N rates; those of the start itself do not count.
@@ -72,7 +73,9 @@ def _by_taylor(forms, state, t_end, steps, tolerance, first, longest) -> Passed:
     zeros.sort(key=lambda zero: abs(zero[0]))
     if not np.isfinite(end).all():
         now, _, end = zeros[-1] if zeros else (0.0, 0, state)
-    return Passed(zeros, now, end, done, "" if outcome.name == "time_limit" else f"stopped: {outcome.name}")
+    reason = ("" if outcome.name == "time_limit" else f"stopped: {steps} steps were not enough"
+              if outcome.name == "step_limit" else f"stopped: {outcome.name}")
+    return Passed(zeros, now, end, done, reason)
 
 
 def _longest(rates, state) -> float:
@@ -180,7 +183,7 @@ def roots_of_rates(scene, state, t_end: float, tolerance: float = TAYLOR_TOLERAN
         unit, mass = own_unit(scene, state.tolist(), rates.tolist()), mass_unit(scene)
         if unit != 1 or mass != 1:
             return _in_unit(scene, state, float(t_end), tolerance, unit, mass)
-    passed = zeros_passed(to_numpy(equations).motion_and_rates, state, rates, t_end, tolerance=tolerance)
+    passed = zeros_passed(to_numpy(equations).motion_and_rates, state, rates, t_end, STEP_LIMIT, tolerance)
     return _roots(passed, state, "taylor" if heyoka_available() else "DOP853")
 
 

@@ -12,7 +12,6 @@ from stabilab.errors import InputError
 from stabilab.physics.effects.charge import Charge
 from stabilab.physics.effects.liquid_cavity import LiquidCavity
 from stabilab.physics.effects.resistance import Resistance
-from stabilab.theories.cavity.averaged import Smallness
 
 LIQUID = LiquidCavity(1250, 1000, "0.1")  # kappa = 1/8
 SWINGING = Charge("0.3", 2, 1, "attitude")  # its angle follows the attitude: gamma is part of the state
@@ -68,15 +67,6 @@ def test_without_a_torque_rest_is_the_one_equilibrium_that_is_proved_with_a_liqu
     assert rest.at == (0.0, 0.0, 0.0) and rest.verdict == "asymptotically stable"
 
 
-@pytest.mark.parametrize("eps", [0, -1.0, float("inf"), float("nan"), "small"])
-def test_a_small_parameter_that_is_no_positive_number_is_refused(eps):
-    numbers = dict.fromkeys(("J", "d", "h", "g", "kappa", "zeta", "M1", "M2", "M3"), 1.0)
-    from stabilab.theories.cavity import averaged as averaging
-    numbers = {name: 1.0 for name in averaging.NAMES} | numbers
-    with pytest.raises(InputError, match="eps"):
-        Smallness.of(numbers, np.array(ROW), eps)
-
-
 @pytest.mark.parametrize("size", [1e200, 1e-200, 1e307, 0.25])
 @pytest.mark.parametrize("effect, blocks", [
     (stabilab.RateDamper("1e-3"), {}), (stabilab.RateDamper((0, 0, "1e-3")), {}), (stabilab.Resistance("1e-3"), {}),
@@ -126,3 +116,11 @@ def test_a_free_axis_that_only_irrational_axes_part_from_a_principal_one_is_left
     scene = Scene(body, stabilab.RateDamper(((1, -1, 0), (-1, 1, 0), (0, 0, 1))))
     found = motion(scene, (0.3, 0.5, -0.4))
     assert "late_rate_bound" not in found.invariants
+
+
+def test_a_search_for_extremes_ends_after_a_million_steps_and_says_over_which_time(monkeypatch):
+    """A constant torque spins a heavy body up without end."""
+    monkeypatch.setattr("stabilab.integrate.events.STEP_LIMIT", 100)
+    scene = Scene(Body((3, 2, 2)), stabilab.Gravity(1, (0, 0, "0.1")), ConstantTorque((0, 0, 5)))
+    found = motion(scene, {"omega": (0.1, 0.2, 0.3), "gamma": (0, 0, 1)}, (0.0, 1e3))
+    assert 0 < found.evidence["span"] < 1e3 and found.extremes_over == f"s in [0, {found.evidence['span']:g}]"

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+import stabilab
 from stabilab import Body, Gravity, Scene
 from stabilab.physics.to_numpy import equations_of, form
 from stabilab.unreduced import chaos
@@ -110,3 +111,11 @@ def test_slow_motions_are_followed_in_a_unit_of_their_own():
     fast, slow = megno(body, (0.5, 1, 0.3), 60), megno(body, np.array([0.5, 1, 0.3]) * 2.0**-30, 60)
     assert slow.megno == pytest.approx(fast.megno,
                                        rel=1e-6) and slow.times == pytest.approx(fast.times * 2.0**30)
+
+
+def test_a_force_moves_the_body_and_leaves_chaos_as_it_is():
+    """The place of a body is no part of its rotation; the case gives none."""
+    body = {"body": {"inertia": [3, 2, 1], "mass": 1}, "motion": {"angular_velocity": [1, 2, 3]}}
+    forced = body | {"effects": {"body_force": {"force": [0, 1, 0]}}}
+    one, other = (stabilab.load(given).scene for given in (body, forced))
+    assert stabilab.chaos(forced, until=20.0).megno == stabilab.chaos(body, until=20.0).megno and one != other
