@@ -33,7 +33,7 @@ SAMPLES = 12
 TURNS = 1000       # that a motion is followed unless a time is given
 # steps between two samples from which on a motion is too stiff to be followed (one or two are ordinary); of
 # SciPy's, each of which takes fifty times as long
-CRAWL, SLOW_CRAWL = 1000, 50
+CRAWL, SLOW_CRAWL = 300, 20
 
 
 @dataclass(frozen=True)
@@ -146,6 +146,8 @@ def _by_taylor(scene: Any, x: np.ndarray, grid: np.ndarray) -> tuple[np.ndarray,
     """The states and changes at the times of `grid`, and which motions took too many steps."""
     equations = varied(equations_of(scene))
     forms = form(equations, equations.rhs)
+    fast = _too_fast(scene, x, grid)
+    x = np.where(fast[:, None], np.nan, x)
     with borrowed_taylor(forms, TAYLOR_TOLERANCE, LANES) as ta, np.errstate(all="ignore"):
         ta.set_time(0.0)
         ta.state[:] = np.where(np.isfinite(x), x, 0.0).T
@@ -153,16 +155,17 @@ def _by_taylor(scene: Any, x: np.ndarray, grid: np.ndarray) -> tuple[np.ndarray,
                                    max_steps=min(STEP_LIMIT, CRAWL * grid.size))[1].transpose(0, 2, 1).copy()
         points[:, ~np.isfinite(x).all(axis=1)] = np.nan
         slow = np.array([outcome.name == "step_limit" for outcome, *_ in ta.propagate_res])
-    return points, slow | (~np.isfinite(points[-1]).all(axis=1) & _too_fast(scene, x, grid))
+    return points, slow | fast
 
 
 def _too_fast(scene: Any, x: np.ndarray, grid: np.ndarray) -> np.ndarray:
-    """Which motions change in so little of the time between two samples that a power series overflows."""
+    """Which motions change so fast beside the time between two samples that a power series would crawl, or
+    overflow."""
     size = x.shape[1] // 2
     alive = np.isfinite(x).all(axis=1)
     pace = np.array([np.abs(to_numpy(scene).jacobian(row[:size])).max() if one else 0.0
                      for row, one in zip(x, alive)])
-    return alive & (pace * grid[1] > CRAWL)
+    return alive & (pace * grid[1] > 10 * CRAWL)
 
 
 def _by_scipy(scene: Any, x: np.ndarray, grid: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
