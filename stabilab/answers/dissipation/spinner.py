@@ -59,7 +59,8 @@ class Spinner:
         if 2 * max(D) > sum(D) and "liquid_cavity" in names:
             raise InputError("flat-spin: a liquid takes energy for the moments of a rigid body alone, and no "
                              "rigid body has these")
-        start = equations_and_start(scene, start_of(scene, case.state, case.blocks))[1]
+        own = {name: value for name, value in case.blocks.items() if name in scene.blocks}
+        start = equations_and_start(scene, start_of(scene, case.state, own))[1]
         sigma = case.blocks.get("damper", (0.0,) * 3) if "damper" in scene.blocks else (0.0,) * 3
         found = cls(scene, start, tuple(case.exact_state), tuple(map(Fraction, sigma)),
                     tuple(sorted(range(3), key=lambda i: -D[i])))  # type: ignore[arg-type]

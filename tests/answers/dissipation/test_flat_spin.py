@@ -223,6 +223,15 @@ def test_the_time_to_settle_is_where_the_energy_says(no_search):
     assert found.passage is None or found.passage > 0
 
 
+def test_an_attitude_in_the_file_is_none_of_a_flat_spin(no_search):
+    """Nothing that acts depends on it."""
+    body = {"body": {"inertia": [3, 2, 1]}, "effects": {"viscous_damper": {"inertia": "0.1", "coefficient": 1}}}
+    bare, turned = ({**body, "motion": {"angular_velocity": [0, "0.1", 1], **more}}
+                    for more in ({}, {"vertical": [0, 0, 1], "attitude": [0, 0, 0]}))
+    one, other = flat_spin(bare), flat_spin(turned)
+    assert (one.outcome, one.crosses.at) == (other.outcome, other.crosses.at)
+
+
 def test_a_liquid_tumbles_a_body_as_well(no_search):
     scene = Scene(Body((12, 9, 5)), LiquidCavity.of_sphere(10_000, "0.01", "0.12"))  # a heavy one is quick
     found = flat_spin(load(scene, (0.02, 0.01, 0.1)))
