@@ -176,7 +176,7 @@ def _of_any(scene: AnyScene, state: Any, limit: Limit, end: Fraction | None) -> 
     if found := never_bounded(scene, state, limit):
         return found
     blocks, limits = {name: start[part] for name, part in slices(scene.blocks).items()}, limits_of(scene)
-    left = limits.time_left(scene, blocks) if limits else None
+    left = limits.time_left(scene, blocks) if limits and scene.ending else None
     if left is None or last <= left:
         return by_run(scene, state, limit, last)
     from .passage.past_end import past_the_end

@@ -50,7 +50,7 @@ def integrated(scene, state, times, method: str = "taylor", rtol: float | None =
     method: "taylor" or one of SCIPY_METHODS, as spelt there.
     """
     times, rtol = checked_times(times), checked_rtol(rtol)
-    if getattr(scene, "approximate", ()):  # an effect may stop on the way; equations may stand for a scene
+    if getattr(scene, "ending", ()):  # equations may stand for a scene
         from .past_end import through_the_end
         follow = lambda scene, start, to, ends: integrated(scene, start, to, method, rtol, ends, laws)
         if (whole := through_the_end(scene, state, times, follow, steps)) is not None:

@@ -146,7 +146,7 @@ def worst(*found: Validity | None) -> Validity | None:
 def time_left(scene: AnyScene, state: Mapping[str, Sequence[float]]) -> float | None:
     """For how long all effects of a scene still act, s, from a state in blocks on; None where they do for
     ever."""
-    found = [effect.stops_after(state) for effect in scene.approximate]
+    found = [effect.stops_after(state) for effect in scene.ending]
     return min((max(left, 0.0) for left in found if left is not None), default=None)
 
 
@@ -154,7 +154,8 @@ def stops_before(scene: AnyScene, blocks: Sequence[str], rows: Any, end: float) 
     """The time after which an effect stops acting on one of the motions from rows of these blocks, where
     that is before `end`; None where there is none."""
     parts = slices(blocks)
-    found = [time_left(scene, {name: row[part] for name, part in parts.items()}) for row in rows]
+    found = [time_left(scene, {name: row[part] for name, part in parts.items()})
+             for row in (rows if scene.ending else ())]
     return min((left for left in found if left is not None and left < end), default=None)
 
 
@@ -169,7 +170,7 @@ def hold_on(scene: AnyScene, blocks: Sequence[str], rows: Any, end: float, quest
 def stopped(scene: AnyScene, state: Mapping[str, Sequence[float]]) -> tuple[Scene, Blocks]:
     """(the scene without the effect that stops acting first, its blocks), from the state where it stops on.
     """
-    ends = [(left, one) for one in scene.approximate if (left := one.stops_after(state)) is not None]
+    ends = [(left, one) for one in scene.ending if (left := one.stops_after(state)) is not None]
     effect = min(ends, key=lambda end: end[0])[1]
     kept = {name: tuple(map(float, row)) for name, row in state.items() if name not in effect.needs}
     return effect.stopped(scene, state), kept

@@ -321,6 +321,11 @@ class Scene(metaclass=Asked):
         return tuple(effect for effect in self.effects if effect.approximate)
 
     @cached_property
+    def ending(self) -> tuple[Effect, ...]:
+        """Its effects that stop acting some time."""
+        return tuple(effect for effect in self.effects if effect.stops_after({}) is not None)
+
+    @cached_property
     def plain(self) -> bool:
         """Whether it has no effect beyond a gyrostat and a constant torque."""
         return not self._beyond()
@@ -373,7 +378,7 @@ class ScaledGyrostat(metaclass=Asked):
     variables: ClassVar[Literal["scaled"]] = "scaled"
     components = ("x1", "x2", "x3")
     time_unit = "tau"
-    effects = approximate = ()
+    effects = approximate = ending = ()
     blocks = ("omega",)
     plain = True
 
