@@ -2,6 +2,7 @@
 import base64
 import math
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -44,7 +45,8 @@ def _facts(name):
 
 def _space(case):
     moved = motion(case.scene, case.start, case.span, exact=case.exact_state)
-    return moved, space.space(case, moved, equilibria(case.scene), units_of(case))
+    one = replace(subject(case), known=moved)
+    return moved, space.space(one, equilibria(case.scene), units_of(case))
 
 
 @pytest.fixture

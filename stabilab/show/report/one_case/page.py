@@ -74,7 +74,7 @@ def sections(case, folder: Path, stem: str, deep: bool = True, certify: bool = F
             missing.setdefault(which.why_not(kind, one), []).append(title)
         absent += [(", ".join(titles), why) for why, titles in missing.items() if why]
         page["sensitivity"] = _tried(absent, "Sensitivity", lambda: sensitivity(one, units))
-    page["space"] = _tried(absent, "Space of the rates", lambda: space(case, moved, found, units))
+    page["space"] = _tried(absent, "Space of the rates", lambda: space(one, found, units))
     page["uncertain"] = greek(boxes.text(box, units))
     if certify:
         page["certificate"] = _tried(absent, "Certificate", lambda: _certificate(case, folder, stem))

@@ -17,7 +17,7 @@ from ...terminal.letters import printed, some
 from ...text.headline import look
 from ...text.law import judged, lines_of
 from ...text.sweep import fates, key_columns, of_motions
-from ...units import units_of
+from ...units import units_of, with_unit
 from .. import html
 from .page import equations
 
@@ -47,7 +47,7 @@ def sections(cases, folder: Path, stem: str) -> dict:
     beyond = [(case, None if law is None or law.held else law) for case, law in laws]
     return {"name": stem, "title": first.title or stem,
             "caveats": [printed(line) for line in limiting.beside(caveats, units)],
-            "heads": [f"{head} ({unit})" if unit else head for head, unit in heads],
+            "heads": [with_unit(head, unit) for head, unit in heads],
             "source": first.source, "path": first.path, "text": first.text, "rows": rows,
             "keys": [_head(label, unit) for key in keys for label, unit, _ in key],
             "equations": _equations(first),
@@ -59,10 +59,10 @@ def sections(cases, folder: Path, stem: str) -> dict:
 
 def _answer(case):
     """(the motion or None, why there is none)."""
+    if case.state is None:
+        return None, "no motion is given"
     try:
-        return (None,
-                "no motion is given") if case.state is None else (
-                    judged(case, motion(case.scene, case.start, case.span, True, case.exact_state)), "")
+        return judged(case, motion(case.scene, case.start, case.span, True, case.exact_state)), ""
     except StabilabError as error:
         return None, str(error)
 
@@ -74,7 +74,7 @@ def _places(case):
 
 def _head(label, unit):
     """A swept key with its unit: momentum[3] (N m s)."""
-    return f"{label.replace('_', ' ')} ({unit})" if unit else label.replace("_", " ")
+    return with_unit(label.replace("_", " "), unit)
 
 
 def _equations(case):
@@ -97,7 +97,7 @@ def _picture(moved, keys, cases, units, path):
             t, states = along(each, np.linspace(0.0, until, POINTS))
             ax.plot(t * per, np.linalg.norm(states, axis=1) * one, **_look(_places(each.case)))
         ax.set(xlim=(0.0, until * per), xlabel=f"time ({clock})" if unit else "τ",
-               ylabel=f"|{letter}| ({unit})" if unit else f"|{letter}|")
+               ylabel=with_unit(f"|{letter}|", unit))
         style.legend(figure, list(_legend(keys, cases)), columns=3)
         return html.picture(style.save(figure, path),
                             caption=f"The size of the rates, |{letter}|, of every combination.")
