@@ -18,7 +18,7 @@ from .subject import Measures, Subject
 
 SIZE = (7.6, 4.8)  # inches
 SQUARE = (7.0, 6.4)
-BELOW = 0.14  # between axes in space and their legend
+BELOW = 0.14  # inches between axes in space and their legend, in a figure with room for it
 
 
 @contextmanager
@@ -33,7 +33,7 @@ def on(ax: Any, size: tuple[float, float] | None = None, space: bool = False) ->
     import matplotlib.pyplot as plt
     with matplotlib.rc_context(style.RC | style.letters(size)):
         figure = plt.figure(figsize=size or (SQUARE if space else SIZE), layout="constrained")
-        if space:  # of which no layout knows how far the labels reach
+        if space and style.share() == 1:  # no layout knows how far labels in space reach
             figure.get_layout_engine().set(h_pad=BELOW)
         yield figure.add_subplot(projection="3d" if space else None)
 
