@@ -59,5 +59,5 @@ def _of_another(cases, told, path):
         return ""
     apart = [(case, differences(told, subject(case.scene, case.exact_state))) for case in cases]
     return "" if not all(differing for _, differing in apart) else "\n".join(
-        f"{printable(str(path))}: of another case than {case.place}: {words}" for case,
-        differing in apart for words in differing)
+        f"{printable(str(path))}: of another case than {case.place}: {words}"
+        for case, differing in apart for words in differing)

@@ -58,8 +58,8 @@ def _version(name: str) -> str:
 def _answer(found) -> str:
     """In a line: what is missing, and whether surfaces can be drawn; all other pictures need no renderer."""
     missing = {name: EXTRAS.get(name) for name in _needed() if _version(name) == "not installed"}
-    broken, extras = [name for name, extra in missing.items()
-                      if not extra], list(dict.fromkeys(extra for extra in missing.values() if extra))
+    broken = [name for name, extra in missing.items() if not extra]
+    extras = list(dict.fromkeys(filter(None, missing.values())))
     parts = [f"NOT INSTALLED: {', '.join(broken)}"] if broken else ["all that stabilab needs is installed"]
     parts += [f"not the extra{'s' * (len(extras) > 1)} {', '.join(extras)}"] if extras else []
     return f"{', but '.join(parts)}; pictures of surfaces {'can' if found.available else 'CANNOT'} be drawn"

@@ -57,8 +57,8 @@ def simulate(case, at, model, order, method, rtol, digits, angles, attitude, mat
     if json:
         write_json(loaded, [_as_dict(*followed) for followed in runs])
     elif not out:
-        tell("\n\n".join(_as_text(*followed, digits, system, page.width()) for followed,
-                         system in zip(runs, systems)))
+        tell("\n\n".join(_as_text(*followed, digits, system, page.width())
+                         for followed, system in zip(runs, systems)))
     else:
         say_laws([(case, run.validity) for case, run, _ in runs])
         _say_digits(runs)

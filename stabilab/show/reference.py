@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import math
 import shlex
+from decimal import Decimal, localcontext
 from fractions import Fraction
 from pathlib import Path
 
@@ -57,14 +58,15 @@ def _provenance(case, arguments):
 
 def decimal(t) -> str:
     """A rational as a decimal where it has a short one, else as a ratio."""
-    rest, places = t.denominator, 0
-    while rest % 10 == 0 or rest % 2 == 0 or rest % 5 == 0:
-        rest, places = rest // (10 if rest % 10 == 0 else 2 if rest % 2 == 0 else 5), places + 1
+    rest = t.denominator
+    for prime in (2, 5):
+        while rest % prime == 0:
+            rest //= prime
     if rest != 1:
-        return f"{t.numerator}/{t.denominator}"
-    digits = f"{abs(t.numerator) * 10**places // t.denominator:0{places + 1}}"
-    whole, part = digits[:len(digits) - places], digits[len(digits) - places:].rstrip("0")
-    return "-" * (t < 0) + whole + f".{part}" * bool(part)
+        return str(t)
+    with localcontext() as context:
+        context.prec = BITS
+        return f"{(Decimal(t.numerator) / t.denominator).normalize():f}"
 
 
 def written(ball, digits) -> str:
@@ -109,20 +111,20 @@ def csv(made: dict) -> str:
     """One table: a row a number; kind, time, quantity, value, within (how far it is off at most, where
     known), known as."""
     rows: list = [("kind", "time", "quantity", "value", "within", "known")]
-    rows += [("provenance", None, key, value, None, None) for key,
-             value in {"case": made["case"], "digits": made["digits"], **made["provenance"]}.items()]
+    rows += [("provenance", None, key, value, None, None)
+             for key, value in {"case": made["case"], "digits": made["digits"], **made["provenance"]}.items()]
     course = made["trajectory"]
     for row in course["rows"]:
-        rows += [("state", row["t"], name, value, row["within"], course["level"]) for name,
-                 value in zip(course["components"], row["values"])]
+        rows += [("state", row["t"], name, value, row["within"], course["level"])
+                 for name, value in zip(course["components"], row["values"])]
     for one in made["events"]["list"]:
         rows.append((one["kind"], one["t"], one["component"], one["value"],
                      max(one["t_within"], one["value_within"]), course["level"]))
     period, extremes = made["period"], made["extremes"]
     rows.append(("period", None, made["time"], period["value"], None, period["because"]))
     for name, pair in zip(course["components"], extremes["value"] or ()):
-        rows += [(f"{word} over {extremes['over']}", None, name, value, None, extremes["because"]) for word,
-                 value in zip(("least", "greatest"), pair)]
+        rows += [(f"{word} over {extremes['over']}", None, name, value, None, extremes["because"])
+                 for word, value in zip(("least", "greatest"), pair)]
     rows += [("caveat", None, one["kind"], one["words"], None, None) for one in made["caveats"]]
     return csv_lines(rows)
 

@@ -266,8 +266,8 @@ def _comparison(found):
               _numbers(dims, (d.first[level] for d in rows),
                        long_name=f"time of the first error of {100 * level:g} % of the scale; NaN: none")
               for level in (rows[0].first if rows else ())}
-    values = {"model": _texts(dims, (d.model for d in rows)), "part": _texts(dims, (d.part for d in rows)),
-              "largest": _numbers(dims, (d.largest for d in rows),
+    values = {"model": _texts(dims, (d.model for d in rows)), "part": _texts(dims, (d.part
+              for d in rows)), "largest": _numbers(dims, (d.largest for d in rows),
                                   long_name="largest error while the model runs"),
               "scale": _numbers(dims, (d.scale for d in rows),
                                 long_name="largest exact component over the span"), **firsts}
@@ -292,10 +292,10 @@ def _stuck(found):
     margins = {f"margin_{name}": _numbers(dims, (row.margins[name].size if name in row.margins else None
                                                  for row in rows), units=unit)
                for name, unit in (("rate", "rad/s"), ("wheel", "N m s"), ("torque", "N m"))}
-    values = {"thrusters": _texts(dims, ("+".join(row.thrusters) for row in rows)),
-              "fate": _texts(dims, (row.fate for row in rows)),
-              "level": _texts(dims, (row.level for row in rows)),
-              "spin_axis": _numbers(dims, (row.axis or 0 for row in rows), units="1"),
+    values = {"thrusters": _texts(dims, ("+".join(row.thrusters)
+              for row in rows)), "fate": _texts(dims, (row.fate for row in rows)),
+              "level": _texts(dims, (row.level
+              for row in rows)), "spin_axis": _numbers(dims, (row.axis or 0 for row in rows), units="1"),
               "limit_low": _numbers(dims, (low for low, _ in ends), units="s"),
               "limit_high": _numbers(dims, (high for _, high in ends), units="s"),
               "largest_rate": _numbers(dims, (row.largest_rate for row in rows), units="rad/s"), **margins,

@@ -20,9 +20,8 @@ from ..orbit.separatrix.plain_branches import REACH, PlainBranch, plain_separatr
 from ..packages import present
 from ..physics.scene import AnyScene
 from . import style
-from .sampling import spread
 from .spans import BEYOND as SHOWN
-from .spans import limit_time
+from .spans import limit_time, spread
 from .units import with_unit
 
 NEAR = 2.0     # times the motion's own size: a separatrix or an equilibrium so near is in the picture

@@ -1,4 +1,5 @@
-"""The one span of time that every view of a motion shows: long enough to see what its headline says."""
+"""The one span of time that every view of a motion shows, long enough to see what its headline says; where
+on a curve of equilibria to look."""
 from __future__ import annotations
 
 import math
@@ -53,3 +54,17 @@ def spin_up_time(motion: Motion) -> float:
     if motion.fate is not Fate.SPIN_UP:
         return 0.0
     return max(float(motion.evidence.get(name) or 0.0) for name in ("release_time", "t_certificate"))
+
+
+def spread(low: float, high: float, number: int) -> list[float]:
+    """Parameters inside (low, high), dense at both ends, geometric towards an infinite end; towards two of
+    them so many on each side of zero."""
+    if math.isfinite(low) and math.isfinite(high):
+        return [low + (high - low) * (1 - math.cos(1e-3 + (math.pi - 2e-3) * n / (number - 1))) / 2
+                for n in range(number)]
+    away = [10 ** (-4 + 8 * n / (number - 1)) for n in range(number)]
+    if math.isfinite(low):
+        return [low + v * max(1.0, abs(low)) for v in away]
+    if math.isfinite(high):
+        return [high - v * max(1.0, abs(high)) for v in reversed(away)]
+    return [*(-v for v in reversed(away)), *away]

@@ -23,7 +23,7 @@ from ..axes import axes_of
 from ..data import as_json, csv_lines, endless
 from ..units import SHORT, Units, with_unit
 from .shades import FATES, light, limits_of, spinning, unit
-from .sweep import COUNTS, checked, column_in, finished, origin, write
+from .sweep import COUNTS, checked, column_in, finished, origin, per_cent, write
 
 if TYPE_CHECKING:
     import xarray
@@ -133,7 +133,7 @@ def answer(atlas: Atlas, units: Units, rows: np.ndarray | None = None) -> str:
         about = axes_of(atlas.asked.case).whole(axis) if axis else other_axis(atlas)
         verb = (f"about {about}" if n and shares[n - 1][0][0] == fate == Fate.SPIN_UP
                 else f"spin up about {about}" if fate == Fate.SPIN_UP else DOES[Fate(fate)])
-        parts.append(f"{_per_cent(share)} of {what} {verb}" if not n else f"{_per_cent(share)} {verb}")
+        parts.append(f"{per_cent(share)} of {what} {verb}" if not n else f"{per_cent(share)} {verb}")
     if len(shares) == 1:
         parts = [parts[0].replace("100 % of", "all", 1)]
     return ", ".join(parts) + _shortest(atlas, units, rows)
@@ -149,29 +149,20 @@ def _by_axis(atlas: Atlas, rows: np.ndarray | None) -> list[tuple[tuple[int, int
     return sorted(found.items(), key=lambda one: (-total[one[0][0]], one[0][0], -one[1]))
 
 
-def _per_cent(share: float) -> str:
-    percent = 100 * share
-    if percent > 99 and share < 1 - 1e-12:
-        return f"{min(percent, 99.99):.2f} %"
-    return f"{percent:.0f} %" if percent >= 1 else f"{percent:.2g} %"
-
-
 def _shortest(atlas: Atlas, units: Units, rows: np.ndarray | None = None) -> str:
     if atlas.asked.stated_limit is None:
         return ""
-    low = atlas.records["when_low"] if rows is None else atlas.records["when_low"][rows]
-    known = (np.isfinite(low) & np.isfinite(atlas.records["when_high"] if rows is None
-                                            else atlas.records["when_high"][rows]))
+    chosen = np.arange(len(atlas.records)) if rows is None else rows
+    low, high = (atlas.records[name][chosen] for name in ("when_low", "when_high"))
+    known = np.isfinite(low) & np.isfinite(high)
     if not known.any():
         return f"; {limit_words(atlas, units)} is not known to be reached"
-    at = (int(np.flatnonzero(known)[np.argmin(low[known])]) if rows is None
-          else int(rows[np.flatnonzero(known)[np.argmin(low[known])]]))
+    at = int(chosen[known][np.argmin(low[known])])
     beside = (f", wheel {wheel_words(atlas, int(atlas.leaves.wheel[at]))}" if atlas.asked.momenta
               and rows is None else "")
     where = direction_words(atlas.in_file(atlas.directions[at:at + 1])[0])
-    return (
-        f"; shortest time to {limit_words(atlas, units)}: "
-        f"{units.time(float(atlas.records['when_low'][at]), SHORT)} at direction {where}{beside}")
+    return (f"; shortest time to {limit_words(atlas, units)}: "
+            f"{units.time(float(atlas.records['when_low'][at]), SHORT)} at direction {where}{beside}")
 
 
 def limit_words(atlas: Atlas, units: Units) -> str:
@@ -231,8 +222,8 @@ def _details(atlas: Atlas, units: Units) -> list[str]:
 def _listed(atlas: Atlas, values: np.ndarray, rows: np.ndarray, whole: float, words: Any) -> str:
     shares = {int(value): float(atlas.share[rows & (values == value)].sum() / whole)
               for value in np.unique(values[rows])}
-    return ", ".join(f"{words(value)} ({_per_cent(share)})" for value,
-                     share in sorted(shares.items(), key=lambda one: -one[1]))
+    return ", ".join(f"{words(value)} ({per_cent(share)})"
+                     for value, share in sorted(shares.items(), key=lambda one: -one[1]))
 
 
 def _times(atlas: Atlas, units: Units, whole: float) -> str:
@@ -246,7 +237,7 @@ def _times(atlas: Atlas, units: Units, whole: float) -> str:
     rest = [(words, float(atlas.share[rows].sum() / whole)) for words, rows in
             (("never", np.isinf(low)), ("not known", ~known & ~np.isinf(low))) if rows.any()]
     return (told + ("; " if known.any() and rest else "")
-            + ", ".join(f"{words} ({_per_cent(share)})" for words, share in rest))
+            + ", ".join(f"{words} ({per_cent(share)})" for words, share in rest))
 
 
 def _named(atlas: Atlas, units: Units) -> list[str]:
@@ -286,9 +277,8 @@ def in_time(atlas: Atlas, n: int, units: Units) -> str:
     """When it reaches the limit there; nothing where that is not known."""
     if atlas.asked.stated_limit is None or not math.isfinite(atlas.named_records["when_high"][n]):
         return ""
-    return (
-        f", reaches {limit_words(atlas, units)} in "
-        f"{units.time(float(atlas.named_records['when_high'][n]), SHORT)}")
+    return (f", reaches {limit_words(atlas, units)} in "
+            f"{units.time(float(atlas.named_records['when_high'][n]), SHORT)}")
 
 
 def undecided(atlas: Atlas) -> bool:
@@ -301,24 +291,22 @@ def csv(atlas: Atlas) -> str:
     """A line for each direction with a name, then one for each cell."""
     plan = atlas.asked.plan(())
     columns = columns_of(atlas.asked.answers)[1:]
-    heads = ["name", "wheel", "level", "number", "share", *(f"direction{n}" for n in (1, 2, 3)),
-             *(f"file_{n}" for n in "xyz"),
+    heads = ["name", "wheel", "level", "number", "share", "direction1", "direction2", "direction3",
+             "file_x", "file_y", "file_z",
              *(with_unit(column.name, unit(plan, column)) for column in columns)]
     leaves = atlas.leaves
     points = zip((point_name(atlas, point) for point in atlas.named), (point.wheel for point in atlas.named),
                  repeat(("", "", "")))
     cells = zip(repeat(""), leaves.wheel.tolist(),
                 zip(leaves.level.tolist(), leaves.number.tolist(), atlas.share.tolist()))
-    rows = [[name, _momentum(atlas, wheel), *about, *direction, *of_file, *_cells(columns, answered)]
+    momenta = atlas.asked.momenta
+    rows = [[name, momenta[wheel] if momenta else "", *about, *direction, *of_file,
+             *_cells(columns, answered)]
             for first, directions, records in ((points, atlas.named_directions, atlas.named_records),
                                                (cells, atlas.directions, atlas.records))
             for (name, wheel, about), direction, of_file, answered in zip(
                 first, directions.tolist(), atlas.in_file(directions).tolist(), records)]
     return csv_lines([heads, *rows])
-
-
-def _momentum(atlas: Atlas, wheel: int) -> Any:
-    return atlas.asked.momenta[wheel] if atlas.asked.momenta else ""
 
 
 def _cells(columns: Any, record: Any) -> list[Any]:
@@ -329,7 +317,7 @@ def _cells(columns: Any, record: Any) -> list[Any]:
 def json(atlas: Atlas, units: Units) -> str:
     """Everything: what was asked, the answer, directions with a name, each column of the cells in one list.
     """
-    asked, plan = atlas.asked, atlas.asked.plan(())
+    asked, plan, columns = atlas.asked, atlas.asked.plan(()), columns_of(atlas.asked.answers)[1:]
     wheels = [{"momentum": momentum, "unit": asked.unit, "vector": list(map(float, vector))}
               for momentum, vector in zip(asked.momenta or (None,) * len(asked.wheels), asked.wheels)]
     axes = axes_of(asked.case)
@@ -342,11 +330,11 @@ def json(atlas: Atlas, units: Units) -> str:
              "direction": atlas.directions, "direction_in_file": atlas.in_file(atlas.directions)}
     named = [{"name": point_name(atlas, point),
               "kind": {AXES: "axis", THRUSTERS: "thruster"}.get(point.level, "case"), "wheel": point.wheel,
-              "direction": direction, "direction_in_file": of_file} | _as_dict(asked, record)
-             for point, direction, of_file,
-             record in zip(atlas.named, atlas.named_directions.tolist(),
-                           atlas.in_file(atlas.named_directions).tolist(),
-                                                          atlas.named_records)]
+              "direction": direction, "direction_in_file": of_file}
+             | dict(zip((column.name for column in columns), endless(_cells(columns, record))))
+             for point, direction, of_file, record in zip(
+                 atlas.named, atlas.named_directions.tolist(),
+                 atlas.in_file(atlas.named_directions).tolist(), atlas.named_records)]
     frame = asked.case.frame
     told: dict[str, Any] = {
         "schema": SCHEMA, "case": asked.case.name, "command": asked.command, "answer": answer(atlas, units),
@@ -356,18 +344,10 @@ def json(atlas: Atlas, units: Units) -> str:
         "wheels": wheels,
         "limit": None if limit is None else {"kind": limit.kind, "names": list(limit.names),
                                              "values": list(limit.limits)}, "shares": shares, "named": named,
-        "flags": {column.name: list(column.flags) for column in columns_of(asked.answers)[1:]
-                  if column.flags},
-        "units": {column.name: unit(plan, column) for column in columns_of(asked.answers)[1:]
-                  if column.kind == "f8"},
-        "cells": cells | {column.name: endless(atlas.records[column.name].tolist())
-                          for column in columns_of(asked.answers)[1:]}}
+        "flags": {column.name: list(column.flags) for column in columns if column.flags},
+        "units": {column.name: unit(plan, column) for column in columns if column.kind == "f8"},
+        "cells": cells | {column.name: endless(atlas.records[column.name].tolist()) for column in columns}}
     return as_json(told | limiting.key(asked.case, limits_of(asked.case, _all(atlas))))
-
-
-def _as_dict(asked: Any, record: Any) -> dict[str, Any]:
-    columns = columns_of(asked.answers)[1:]
-    return {column.name: value for column, value in zip(columns, endless(_cells(columns, record)))}
 
 
 # --- As a data set
@@ -391,8 +371,8 @@ def atlas(case: Case | str | os.PathLike[str], torque: Any = None, wheel: str | 
     asked.
     """
     demand("xarray")
-    plan, path = asked(case, torque, wheel, level, refine, certify, follow, timed,
-                       **limit), None if out is None else checked(out)
+    plan = asked(case, torque, wheel, level, refine, certify, follow, timed, **limit)
+    path = None if out is None else checked(out)
     with drawn(plan, path, workers, scheduler) as found:
         made = dataset(found)
         if path is not None:
@@ -402,36 +382,35 @@ def atlas(case: Case | str | os.PathLike[str], torque: Any = None, wheel: str | 
 
 def dataset(found: Atlas) -> xarray.Dataset:
     """The cells with directions, corners, shares and answers; directions with a name beside them."""
-    whole = lambda column, words: ("cell", column.astype(np.int32), {"long_name": words})
-    leaves = found.leaves
-    values: dict[str, Any] = {"wheel": whole(leaves.wheel, "number of the wheel momentum"),
-                              "number": whole(leaves.number, "number of the cell at its depth"),
-                              "depth": whole(leaves.level,
-                                             "depth of the cell: 8 4^depth of them make the sphere")}
-    values["share"] = ("cell", found.share, {"long_name": "share of the sphere", "units": "1"})
-    values["direction"] = (("cell", "axis"), found.directions,
-                           {"long_name": "middle of the cell along the principal axes", "units": "1"})
-    values["direction_in_file"] = (("cell", "axis"), found.in_file(found.directions),
-                                   {"long_name": "the same in the frame of the file", "units": "1"})
-    values["corners"] = (("cell", "corner", "axis"), _corners(found.leaves),
-                         {"long_name": "corners of the cell along the principal axes", "units": "1"})
-    plan, columns = found.asked.plan(()), columns_of(found.asked.answers)[1:]
-    values |= {column.name: column_in("cell", column, found.records, unit(plan, column))
-               for column in columns}
-    values["point_direction"] = (("point", "axis"), found.named_directions,
-                                 {"long_name": "direction with a name, along the principal axes",
-                                  "units": "1"})
-    values["point_wheel"] = ("point", np.array([point.wheel for point in found.named], np.int32),
-                             {"long_name": "number of the wheel momentum"})
-    values |= {f"point_{column.name}": column_in("point", column, found.named_records, unit(plan, column))
-               for column in columns}
-    coordinates = {"axis": ("axis", np.array([1, 2, 3], np.int8), {"long_name": "principal axis"}),
-                   "point": ("point", [point_name(found, point) for point in found.named],
-                             {"long_name": "name of the direction"})}
-    vectors = np.array([[float(v) for v in wheel] for wheel in found.asked.wheels])
-    values["wheel_momentum"] = (("wheels", "axis"), vectors,
-                                {"long_name": "momentum of the wheel along the principal axes",
-                                 "units": "N m s"})
+    def numbers(dims: Any, values: Any, words: str, **of: str) -> Any:
+        return dims, values, {"long_name": words, **of}
+
+    plan, columns, leaves = found.asked.plan(()), columns_of(found.asked.answers)[1:], found.leaves
+    cell, point = ("cell", "axis"), ("point", "axis")
+    values = {
+        "wheel": numbers("cell", leaves.wheel.astype(np.int32), "number of the wheel momentum"),
+        "number": numbers("cell", leaves.number.astype(np.int32), "number of the cell at its depth"),
+        "depth": numbers("cell", leaves.level.astype(np.int32),
+                         "depth of the cell: 8 4^depth of them make the sphere"),
+        "share": numbers("cell", found.share, "share of the sphere", units="1"),
+        "direction": numbers(cell, found.directions, "middle of the cell along the principal axes",
+                             units="1"),
+        "direction_in_file": numbers(cell, found.in_file(found.directions),
+                                     "the same in the frame of the file", units="1"),
+        "corners": numbers(("cell", "corner", "axis"), _corners(leaves),
+                           "corners of the cell along the principal axes", units="1"),
+        **{column.name: column_in("cell", column, found.records, unit(plan, column)) for column in columns},
+        "point_direction": numbers(point, found.named_directions,
+                                   "direction with a name, along the principal axes", units="1"),
+        "point_wheel": numbers("point", np.array([one.wheel for one in found.named], np.int32),
+                               "number of the wheel momentum"),
+        **{f"point_{column.name}": column_in("point", column, found.named_records, unit(plan, column))
+           for column in columns},
+        "wheel_momentum": numbers(("wheels", "axis"), np.array(found.asked.wheels, float),
+                                  "momentum of the wheel along the principal axes", units="N m s")}
+    coordinates = {"axis": numbers("axis", np.array([1, 2, 3], np.int8), "principal axis"),
+                   "point": numbers("point", [point_name(found, one) for one in found.named],
+                                    "name of the direction")}
     return finished(values, coordinates, _attributes(found))
 
 

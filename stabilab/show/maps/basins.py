@@ -67,8 +67,8 @@ def text(found: Basins) -> str:
 
 
 def _answer(found: Basins) -> str:
-    parts = [f"{_percent(share, found.blur)} {basin_name(found, label)}" for label,
-             share in found.shares.items()]
+    parts = [f"{_percent(share, found.blur)} {basin_name(found, label)}"
+             for label, share in found.shares.items()]
     if len(parts) == 1:
         return f"one basin in this plane: all of it {basin_name(found, next(iter(found.shares)))}"
     return (
@@ -93,8 +93,8 @@ def _boundary(found: Basins) -> list[str]:
             f"no boundary between decided basins is "
             f"seen{seen or ' from cell to cell: a smaller basin inside a coarse cell would not be'}"]
     steps, units = found.steps, [axis.shown_unit for axis in found.plan.axes]
-    size = " x ".join(f"{_digits(abs(step))}{'' if unit == '1' else f' {unit}'}" for step,
-                      unit in zip(steps, units))
+    size = " x ".join(f"{_digits(abs(step))}{'' if unit == '1' else f' {unit}'}"
+                      for step, unit in zip(steps, units))
     through = "; the exact separatrix passes through each" if found.exact else ""
     rough = found.dimension
     lines = [f"boundary: {len(found.boundary):,} cells of depth {found.mesh.depth}, {size} each{through}"]
@@ -102,9 +102,8 @@ def _boundary(found: Basins) -> list[str]:
         lines.append(f"besides {found.unclear:,} cells between what is decided and what is undecided")
     if math.isnan(rough.value):
         return [*lines, f"its box dimension is not known: {rough.reason}"]
-    lines.append(
-        f"its box dimension: {rough.value:.4f} ± {rough.uncertainty:.4f}, {_roughness(rough)} "
-        f"({rough.reason.partition(';')[0]})")
+    lines.append(f"its box dimension: {rough.value:.4f} ± {rough.uncertainty:.4f}, {_roughness(rough)} "
+                 f"({rough.reason.partition(';')[0]})")
     return lines
 
 
@@ -117,8 +116,8 @@ def _roughness(rough: Any) -> str:
 
 def _known(found: Basins) -> str:
     values, counts = np.unique(found.records["level"], return_counts=True)
-    return ("the fate is known as " + ", ".join(f"{LEVELS[value]} ({count:,})" for value,
-                                                count in zip(values.tolist(), counts.tolist())))
+    return ("the fate is known as " + ", ".join(f"{LEVELS[value]} ({count:,})"
+                                                for value, count in zip(values.tolist(), counts.tolist())))
 
 
 def cells_of(found: Basins) -> dict[str, np.ndarray]:
@@ -142,10 +141,10 @@ def csv(found: Basins) -> str:
     heads = [with_unit(f"{axis.key.name} {end}", axis.shown_unit)
              for axis in found.plan.axes for end in ("from", "to")]
     values = [np.array(axis.values) for axis in found.plan.axes]
-    columns = [values[n][cells[name] + more].tolist() for n,
-               name in enumerate(("first", "second")) for more in (0, cells["width"])]
-    words = ["boundary" if mixed else basin_name(found, label) for mixed,
-             label in zip(cells["mixed"].tolist(), cells["label"].tolist())]
+    columns = [values[n][cells[name] + more].tolist()
+               for n, name in enumerate(("first", "second")) for more in (0, cells["width"])]
+    words = ["boundary" if mixed else basin_name(found, label)
+             for mixed, label in zip(cells["mixed"].tolist(), cells["label"].tolist())]
     told = [limiting.cell(found.plan.case, limits_of(found.plan.case, found.records))] * len(words)
     return csv_lines([[*heads, "depth", "basin", "caveats"],
                         *zip(*columns, cells["depth"].tolist(), words, told)])
@@ -163,8 +162,8 @@ def json(found: Basins) -> str:
         "schema": SCHEMA, "case": found.plan.case.name, "variables": found.plan.case.variables,
         "command": command(found), "axes": axes,
         "depth": mesh.depth, "complete": not mesh.full, "states_asked": len(mesh.keys),
-        "basins": [{"basin": basin_name(found, label), "share": share} for label,
-                   share in found.shares.items()], "share_uncertainty": found.blur,
+        "basins": [{"basin": basin_name(found, label), "share": share}
+                   for label, share in found.shares.items()], "share_uncertainty": found.blur,
         "boundary": {"cells": len(found.boundary), "unclear_cells": found.unclear, "exact": found.exact,
                      "corners": np.stack(lower, axis=1),
                      "separatrix": found.separatrix()},

@@ -101,9 +101,8 @@ def _of_line(found: Diagram) -> str:
 def _uniform(found: Diagram, count: int) -> str:
     """The answer where the number is the same in all pieces."""
     span, digits = found.family.spans[0], _digits(found)
-    told = (
-        f"{_things(found, count)} for {_number(float(span.low), digits)} <= {span.label} <= "
-        f"{_number(float(span.high), digits)}{unit(span)}")
+    told = (f"{_things(found, count)} for {_number(float(span.low), digits)} <= {span.label} <= "
+            f"{_number(float(span.high), digits)}{unit(span)}")
     other = [f"{_things(found, event.count)} at {_number(event.value, digits)}{unit(span)}"
              for event in found.events if event.count != count]
     events = "" if other and found.kind == CURVES else _events_told(found)
@@ -174,8 +173,8 @@ def _line_rows(found: Diagram) -> tuple[list[str], list[list[Any]]]:
     head = [with_unit(span.key.name, span.shown_unit), "piece", "branch",
             *(with_unit(name, of) for name in case.scene.components), "verdict", "event"]
     rows: list[list[Any]] = [[value, branch.piece + 1, branch.number + 1, *state, branch.verdict, None]
-                             for branch in branches(found) for value,
-                             state in zip(branch.values, branch.states)]
+                             for branch in branches(found)
+                             for value, state in zip(branch.values, branch.states)]
     for event in (*found.events, *found.connections):
         rows += [[event.value, None, None, *state.at, state.verdict,
                   event.kinds[0] if state.times > 1 else None] for state in event.states] or \

@@ -121,13 +121,12 @@ def text(case: Any, found: Chaos, _: Any = None) -> str:
     lines = [f"{printable(case.name)}: {'REGULAR' if resting else FIRST[label]}: {found.because}"]
     if label == Order.CHAOTIC:
         rate, error = float(found.lyapunov), float(found.lyapunov_error)
-        lines.append(
-            f"  neighbours part at {rate:.3g} ± {error:.1g} 1/{unit}: a small change doubles in "
-            f"{math.log(2) / rate:.3g} {unit}")
+        lines.append(f"  neighbours part at {rate:.3g} ± {error:.1g} 1/{unit}: a small change doubles in "
+                     f"{math.log(2) / rate:.3g} {unit}")
     if np.isfinite(found.history).any():
         lines.append("  an indicator of a finite time, no proof; time and MEGNO:")
-        lines += [f"  {time:12.6g} {unit}  {0.0 if abs(value) < 5e-5 else value:9.4f}" for time,
-                  value in zip(found.times.tolist(), found.history.tolist())]
+        lines += [f"  {time:12.6g} {unit}  {0.0 if abs(value) < 5e-5 else value:9.4f}"
+                  for time, value in zip(found.times.tolist(), found.history.tolist())]
     return "\n".join(lines)
 
 
@@ -172,10 +171,10 @@ def json(rows: list[tuple[Any, Chaos]], laws: Sequence[Any]) -> str:
 
 def csv(rows: list[tuple[Any, Chaos]], laws: Sequence[Any]) -> str:
     """A line for each case and time. laws: as of `json`."""
-    told = [cell(case, caveats_of(case.scene, validity=held, file=case.caveats)) for (case, _),
-            held in zip(rows, laws)]
+    told = [cell(case, caveats_of(case.scene, validity=held, file=case.caveats))
+            for (case, _), held in zip(rows, laws)]
     return csv_lines([["case", "answer", "time", "megno", "caveats"],
                         *([case.name, Order(int(found.labels)).word, time,
                            None if math.isnan(value) else value, caveats]
-                          for (case, found), caveats in zip(rows, told) for time,
-                          value in zip(found.times.tolist(), found.history.tolist()))])
+                          for (case, found), caveats in zip(rows, told)
+                          for time, value in zip(found.times.tolist(), found.history.tolist()))])

@@ -95,13 +95,18 @@ def _shares(values: np.ndarray, words: Any) -> str:
 
 
 def _share(count: int, of: int) -> str:
-    """A share in per cent that is 0 or 100 only where it is so; of few points their number."""
+    """A share in per cent; of few points their number."""
     if of <= FEW:
         return str(count)
-    percent = 100 * count / of
-    told = (f"{percent:.0f}" if 1 <= percent <= 99 else f"{percent:.2g}" if percent < 1
-            else f"{min(percent, 99.99):.2f}")
-    return f"{told} %"
+    return per_cent(count / of)
+
+
+def per_cent(share: float) -> str:
+    """A share that is not told as 100 % where it is less."""
+    percent = 100 * share
+    if percent > 99 and share < 1 - 1e-12:
+        return f"{min(percent, 99.99):.2f} %"
+    return f"{percent:.0f} %" if percent >= 1 else f"{percent:.2g} %"
 
 
 def _details(found: Swept) -> list[str]:
@@ -141,9 +146,9 @@ def _unit(plan: Plan, column: Column) -> Unit:
 def _range(values: np.ndarray, column: Column, of: str, one: float) -> str:
     finite, name = values[np.isfinite(values)], column.name.replace("_", " ")
     (below, *_), (above, *_) = INFINITE.get(column.name, (("-∞",), ("∞",)))
-    rest = [f"{words} at {count:,}" for words,
-            count in ((below, np.isneginf(values).sum()), (above, np.isposinf(values).sum()),
-                                                         ("not known", np.isnan(values).sum())) if count]
+    rest = [f"{words} at {count:,}" for words, count in (
+        (below, np.isneginf(values).sum()), (above, np.isposinf(values).sum()),
+        ("not known", np.isnan(values).sum())) if count]
     ends = (list(dict.fromkeys(f"{end * one + 0.0:.6g}" for end in (finite.min(), finite.max())))
             if finite.size else [])
     told = " to ".join(ends) + (f" {of}" if of else "") if ends else "no finite value"
@@ -210,25 +215,24 @@ def json(found: Swept) -> str:
 def _table(found: Swept) -> list[str]:
     """A row a point under short names and units, rates in the units of the case."""
     plan, columns = found.plan, columns_of(found.plan.answers)[1:]
+    told = list(rows(found))
     if columns[-1:] == (CAVEATS,):  # in words above the table
-        columns, told = columns[:-1], [row[:-1] for row in rows(found)]
-    else:
-        told = list(rows(found))
+        columns, told = columns[:-1], [row[:-1] for row in told]
     keys = [(axis.key.name, axis.shown_unit) for axis in plan.axes]
     sampled = ([(key.name, plan.sampled.unit(n)) for n, key in enumerate(plan.sampled.keys)] if plan.sampled
                else [])
     names = said([key for key, _ in keys + sampled])
     titles = names[:len(keys)] + ([SAMPLE, *names[len(keys):]] if sampled else [])
     units = [of for _, of in keys] + (["1", *(of for _, of in sampled)] if sampled else [])
-    units, factors, kinds = ["" if of == "1" else greek(of)
-                             for of in units], [1.0] * len(units), [""] * len(units)
+    units = ["" if of == "1" else greek(of) for of in units]
+    factors, kinds = [1.0] * len(units), [""] * len(units)
     for column in columns:
         (of, one), name = _unit(plan, column), SHORT.get(column.name, column.name.replace("_", " "))
         titles += ([f"{greek(component)} {name}" for component in plan.case.scene.components] if column.shape
                    else [name])
         places = math.prod(column.shape)
-        units, factors, kinds = units + [of] * places, factors + [one] * places, kinds + [
-            column.name] * places
+        units, factors = units + [of] * places, factors + [one] * places
+        kinds += [column.name] * places
     axes = axes_of(plan.case)
     cells = [[_cell(value, one, kind, axes) for value, one, kind in zip(row, factors, kinds)] for row in told]
     said_of = [n for n in range(len(titles)) if any(row[n] for row in cells)]
@@ -270,8 +274,8 @@ def sweep(case: Case | str | os.PathLike[str], vary: Mapping[str, Any] | None = 
     varied or asked.
     """
     demand("xarray")
-    plan, path = planned(case, vary or {}, samples, seed, answer, follow,
-                         **limit), None if out is None else checked(out)
+    plan = planned(case, vary or {}, samples, seed, answer, follow, **limit)
+    path = None if out is None else checked(out)
     with run(plan, path, workers, scheduler) as found:
         made = dataset(found)
         if path is not None:
@@ -301,10 +305,10 @@ def dataset(found: Swept) -> xarray.Dataset:
     values = {column.name: _variable(found, column, dims) for column in columns_of(plan.answers)
               if column is not VALID or found.broken}
     coordinates = {name: ((name,), np.array(axis.values),
-                          {"long_name": axis.key.name, "units": axis.shown_unit}) for name,
-                   axis in zip(dims, plan.axes)}
+                          {"long_name": axis.key.name, "units": axis.shown_unit})
+                   for name, axis in zip(dims, plan.axes)}
     if plan.sampled:
-        coordinates |= _sampled(plan, dims)
+        coordinates |= _sampled(plan)
     if any("axis" in one[0] for one in values.values()):
         told = "; ".join(map(axes_of(plan.case).name, (1, 2, 3)))
         coordinates["axis"] = (("axis",), np.array([1, 2, 3], np.int8),
@@ -338,12 +342,12 @@ def column_in(dims: Any, column: Column, records: np.ndarray, of: str) -> tuple[
     return dims, np.ascontiguousarray(records[column.name]).astype(column.kind), words
 
 
-def _sampled(plan: Plan, dims: list[str]) -> dict[str, Any]:
+def _sampled(plan: Plan) -> dict[str, Any]:
     of = plan.sampled
     rows, keys = of.values(0, of.count), [key.name for key in of.keys]
     labels = names([*(axis.key.name for axis in plan.axes), *keys])[len(plan.axes):]
-    columns = {label: ((SAMPLE,), rows[:, n], {"long_name": keys[n], "units": of.unit(n)}) for n,
-               label in enumerate(labels)}
+    columns = {label: ((SAMPLE,), rows[:, n], {"long_name": keys[n], "units": of.unit(n)})
+               for n, label in enumerate(labels)}
     return {SAMPLE: ((SAMPLE,), np.arange(of.count, dtype=np.int32),
                      {"long_name": "number of a random point"}), **columns}
 

@@ -12,7 +12,6 @@ from ...answers.equilibria import equilibria
 from ...equilibrium.result import Equilibria, EquilibriumCurve
 from ...errors import StabilabError
 from .. import style
-from ..sampling import spread
 from ..space import (
     EVEN,
     SHAPE,
@@ -33,6 +32,7 @@ from ..space import (
 )
 from ..space import THIN as SHORT
 from ..space import space as drawn_in
+from ..spans import spread
 from . import canvas
 from . import subject as which
 from .path import path, thinned, turning

@@ -9,8 +9,8 @@ from ...answers.equilibria import equilibria
 from ...numbers.roots import halved
 from ...orbit.phase_plane import PhasePlane, motion_curve, phase_plane, window
 from .. import style
-from ..sampling import spread
 from ..space import Box
+from ..spans import spread
 from ..units import with_unit
 from . import canvas, in_space
 from . import subject as which

@@ -56,8 +56,8 @@ class Grouped(TyperGroup):
 
     def format_commands(self, ctx: Any, formatter: Any) -> None:
         commands = {name: self.get_command(ctx, name) for name in self.list_commands(ctx)}
-        seen = {name: command for name,
-                command in commands.items() if command is not None and not command.hidden}
+        seen = {name: command
+                for name, command in commands.items() if command is not None and not command.hidden}
         limit = formatter.width - 6 - max(map(len, seen))
         wide = max(map(len, seen))
         for title, (_, names) in GROUPS.items():

@@ -102,8 +102,7 @@ def largest(motion: Motion, units: Units) -> str:
     """The largest rate that is reached; of a spin-up, of the components that stay bounded."""
     if motion.fate.word == "equilibrium":
         return f"rates {units.vector(motion.at[:3], units.rates, SHORT)}"
-    pairs, over = _pairs(motion, units)
-    sizes = {n: max(map(abs, pair)) for n, pair in enumerate(pairs or (), 1) if None not in pair}
+    sizes, over = _sizes(motion, units)
     finite = {n: size for n, size in sizes.items() if math.isfinite(size)}
     if motion.fate.word == "spin-up":
         finite.pop(motion.axis, None)
@@ -123,8 +122,7 @@ def largest(motion: Motion, units: Units) -> str:
 def greatest(motion: Motion, units: Units) -> str:
     """The largest |omega|, or a bound of it, with the largest component and its axis, and over which time
     where that is not all; empty where a rate has no end or is not known."""
-    pairs, over = _pairs(motion, units)
-    sizes = {n: max(map(abs, pair)) for n, pair in enumerate(pairs or (), 1) if None not in pair}
+    sizes, over = _sizes(motion, units)
     if len(sizes) < 3 or not all(map(math.isfinite, sizes.values())):
         return ""
     axis = max(sizes, key=sizes.__getitem__)
@@ -134,12 +132,14 @@ def greatest(motion: Motion, units: Units) -> str:
     return f"{told} ({units.rate(sizes[axis], SHORT)} about {units.axes.brief(axis)}){over}"
 
 
-def _pairs(motion, units):
-    """(least and greatest of each component, over which time in words; nothing where that is all time)."""
-    if motion.bounds is not None and motion.extremes_over != "all time":
-        return motion.bounds, ""
-    return (motion.extremes, "" if motion.extremes_over == "all time"
-            else f" {span_words(motion.extremes_over, units)}")
+def _sizes(motion, units):
+    """({number of a component: the most that it reaches}, over which time in words; nothing where that is
+    all time)."""
+    pairs, over = motion.extremes, ""
+    if motion.extremes_over != "all time":
+        pairs, over = ((motion.bounds, "") if motion.bounds is not None
+                       else (pairs, f" {span_words(motion.extremes_over, units)}"))
+    return {n: max(map(abs, pair)) for n, pair in enumerate(pairs or (), 1) if None not in pair}, over
 
 
 def span_words(over: str, units: Units) -> str:

@@ -120,8 +120,7 @@ def lines_of(judged, units: Units = SI) -> list[str]:
     """A line for every (case, validity) that has a law to be told, one for all combinations of a file that
     stand the same way to the same limit, and one for all cases that say the same; without a name where there
     is one case. units: in which times are told."""
-    groups, cases = _alike([(case, found) for case,
-                            found in judged if found is not None]), [case for case, _ in judged]
+    groups, cases = _alike([one for one in judged if one[1] is not None]), [case for case, _ in judged]
     if len(cases) == 1:
         return [_told(found, units) for group in groups for _, found in group]
     return together([_of_alike(group, cases, units) for group in groups])
@@ -160,6 +159,5 @@ def _of_alike(group, cases, units: Units = SI) -> str:
         return f"{words} ({printable(case.name)})"
     farthest = "" if found.value is None else ", the farthest of them given"
     of = sum(other.path == case.path for other in cases)
-    return (
-        f"{words} ({printable(case.name.removesuffix(case.variant))}: {len(group)} of {of} "
-        f"combinations{farthest})")
+    return (f"{words} ({printable(case.name.removesuffix(case.variant))}: {len(group)} of {of} "
+            f"combinations{farthest})")

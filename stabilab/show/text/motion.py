@@ -180,9 +180,8 @@ def tilt_lines(case, motion, units: Units, proofs: bool = False) -> list[str]:
     if found.ends:
         lines.append(f"    shortest time found   {units.clock(found.low, found.high)} ({found.level})")
         if proofs:
-            lines.append(
-                f"    at azimuth            {_angle(found.azimuth)}, torque "
-                f"{units.vector(found.torque, units.plain('N m'))}")
+            lines.append(f"    at azimuth            {_angle(found.azimuth)}, torque "
+                         f"{units.vector(found.torque, units.plain('N m'))}")
     else:
         many, far = len(found.times), units.time(found.followed)
         told = (f"{many} azimuths were followed for {far} or more" if many > 1

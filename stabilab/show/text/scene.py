@@ -37,11 +37,10 @@ def of_all(cases) -> str:
             some_cases = [case for case, _, _ in alike]
             columns = swept_columns(some_cases)
             rows = [["", *(head for head, _, _ in columns)], ["", *(unit for _, unit, _ in columns)],
-                    *([case.name, *(cells[n] for _, _, cells in columns)] for n,
-                      case in enumerate(some_cases))]
-            told = (
-                f"The same equations and laws hold for {some(len(alike) - 1, 'other combination')}; the "
-                f"numbers in them are those of {some_cases[0].name}.")
+                    *([case.name, *(cells[n] for _, _, cells in columns)]
+                      for n, case in enumerate(some_cases))]
+            told = (f"The same equations and laws hold for {some(len(alike) - 1, 'other combination')}; the "
+                    f"numbers in them are those of {some_cases[0].name}.")
             parts.append("\n".join([f"{told} Swept keys:", *table(rows, 1, width())]))
     return "\n\n".join(parts)
 
@@ -132,14 +131,14 @@ def _number(value) -> str:
 
 
 def _values(effect) -> str:
-    return ", ".join(f"{written(name)} = {_number(v)} {parameter_unit(name)}".rstrip() for name,
-                     v in effect.parameters().items())
+    return ", ".join(f"{written(name)} = {_number(v)} {parameter_unit(name)}".rstrip()
+                     for name, v in effect.parameters().items())
 
 
 def _parameters(equations, physical) -> str:
     units = {name: parameter_unit(name) if physical else "" for name in equations.parameters}
-    return ("Parameters\n" + "\n".join(f"  {written(name)} = {_value(v)} {units[name]}".rstrip() for name,
-                                       v in equations.parameters.items()) + "\n")
+    return ("Parameters\n" + "\n".join(f"  {written(name)} = {_value(v)} {units[name]}".rstrip()
+                                       for name, v in equations.parameters.items()) + "\n")
 
 
 def _value(v) -> str:
@@ -180,8 +179,8 @@ def _products(formula: str) -> str:
 # --- The equations of motion as lines of text and as LaTeX
 def lines(equations: Equations) -> tuple[str, ...]:
     """The equations of motion as plain text, one line each."""
-    return tuple(f"{_left(d, x)}' = {right_side(equations, i)}" for i,
-                 (d, x) in enumerate(zip(equations.inertia, equations.state)))
+    return tuple(f"{_left(d, x)}' = {right_side(equations, i)}"
+                 for i, (d, x) in enumerate(zip(equations.inertia, equations.state)))
 
 
 def _left(d: Symbolic, x: Symbolic) -> str:

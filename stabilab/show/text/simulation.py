@@ -36,8 +36,8 @@ def text(case, run, units: Units, known: int | None = None, width: int | None = 
     off = [0.0, *errors(run)]
     cells = [[zero_within(error * one) if lost(t, value, error) else f"{value * one + 0.0:.{digits}g}"
               for value, one, error in zip((t, *row), scale, off)] for t, row in zip(run.t, rows)]
-    laws = [f"# {lettered(name)}: largest relative departure {value:.3g}" for name,
-            value in run.invariant_drift.items()]
+    laws = [f"# {lettered(name)}: largest relative departure {value:.3g}"
+            for name, value in run.invariant_drift.items()]
     how = f"# {run.method}, rtol {run.rtol:.3g}" if run.rtol else f"# {run.model}: {lettered(run.method)}"
     notes = ([f"# {lettered(units.words(run.reason))}"] if run.reason and run.reason != "all times reached"
              else [])
@@ -92,8 +92,8 @@ def _factors(run, units) -> list[tuple[str, float]]:
 def _columns(head, cells, width, wide):
     """Lines of right-aligned columns, the time first; in several tables where they are wider than a terminal.
     """
-    sizes = [max(wide, len(name) + GAP, 1 + max((len(row[i]) for row in cells), default=0)) for i,
-             name in enumerate(head)]
+    sizes = [max(wide, len(name) + GAP, 1 + max((len(row[i]) for row in cells), default=0))
+             for i, name in enumerate(head)]
     fit = len(head) - 1 if width is None else max(1, (width - sizes[0]) // max(sizes[1:], default=1))
     lines = []
     for start in range(1, len(head), fit):

@@ -84,8 +84,8 @@ def swept(answers, units: Units):
     fates = Counter(row.fate for row in rows)
     told = {fate: FATES[fate] + limiting.shared([row.caveats for row in rows if row.fate == fate], units)
             for fate in fates}
-    counts = "; ".join(f"{told[fate]}: {n}" if len(fates) > 1 else f"each {told[fate]}" for fate,
-                       n in fates.most_common())
+    counts = "; ".join(f"{told[fate]}: {n}" if len(fates) > 1 else f"each {told[fate]}"
+                       for fate, n in fates.most_common())
     ends = [row.time_to_limit[1] for row in rows if row.time_to_limit]
     name, one = units.times(max(ends, default=0.0))
     cells = [[row.fate, units.axes.signed(row.axis, row.sense),
@@ -158,9 +158,8 @@ def _when(row, units) -> str:
     if high == 0:
         return f"starts at its limit, {_limit(row.limit, units)}"
     a, b = bracket(low, high)
-    return (
-        f"reaches {_limit(row.limit, units)} in {number((low + high) / 2)} {name} ({row.time_level} {a} "
-        f"to {b})")
+    return (f"reaches {_limit(row.limit, units)} in {number((low + high) / 2)} {name} ({row.time_level} {a} "
+            f"to {b})")
 
 
 def _limit(limit, units) -> str:
@@ -240,9 +239,8 @@ def _wheel(wheel, units) -> str:
     gain = "" if wheel.gain is None else f", {units.time(wheel.gain, SHORT)} later"
     low, high = wheel.searched
     most = "delays the limit most of all" if wheel.most else "delays the limit, perhaps not most of all,"
-    return (
-        f"wheel {name}, now {number(wheel.now)} N m s: {number(wheel.best)} N m s {most} within "
-        f"{number(low)} to {number(high)}: {later}{gain}")
+    return (f"wheel {name}, now {number(wheel.now)} N m s: {number(wheel.best)} N m s {most} within "
+            f"{number(low)} to {number(high)}: {later}{gain}")
 
 
 def merged(intervals):
@@ -286,8 +284,8 @@ def _inward(value: float, way: str, digits: int) -> str:
 
 
 def _helper(helper, units) -> str:
-    fired = " and ".join(f"{printable(name)} for {number(100 * duty)} % of the time" for name,
-                         duty in zip(helper.thrusters, helper.duty))
+    fired = " and ".join(f"{printable(name)} for {number(100 * duty)} % of the time"
+                         for name, duty in zip(helper.thrusters, helper.duty))
     rest = f"{number(helper.torque_left)} N m is left"
     left = {"zero": "no torque is left",
             "bounded": f"{rest}, and the motion stays bounded while that is exactly on its axis"}.get(

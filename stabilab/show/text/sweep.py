@@ -83,10 +83,10 @@ def fates(motions: Sequence, units: Units) -> str:
     counts = Counter(motion.fate.word for motion in motions)
     while_ = {fate: limiting.shared([motion.caveats for motion in motions if motion.fate.word == fate], units)
               for fate in counts}
-    told = {fate: f"{WORDS[fate].removesuffix(' for ever') if where else WORDS[fate]}{where}" for fate,
-            where in while_.items()}
-    words = ", ".join(f"{told[fate]}: {count}" if len(counts) > 1 else f"each {told[fate]}" for fate,
-                      count in counts.most_common())
+    told = {fate: f"{WORDS[fate].removesuffix(' for ever') if where else WORDS[fate]}{where}"
+            for fate, where in while_.items()}
+    words = ", ".join(f"{told[fate]}: {count}" if len(counts) > 1 else f"each {told[fate]}"
+                      for fate, count in counts.most_common())
     sizes = [size for size in map(_largest, motions) if size is not None]
     if not sizes:
         return words

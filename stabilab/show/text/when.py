@@ -76,9 +76,8 @@ def _reached(low, high):
 def _answer(limit, found, low, high, units):
     aim = asked(limit, units)
     if math.isinf(low):
-        return (
-            f"NEVER reaches {aim} "
-            f"({found.level}){',' * bool(holds := limiting.condition(found.caveats, units))}{holds}")
+        holds = limiting.condition(found.caveats, units)
+        return f"NEVER reaches {aim} ({found.level}){',' * bool(holds)}{holds}"
     if math.isnan(high):
         return f"NOT KNOWN when it reaches {aim}: not before {units.time(low)} ({found.level})"
     if high == 0:
@@ -91,8 +90,8 @@ def _answer(limit, found, low, high, units):
 def asked(limit, units):
     """A limit in words: "|omega| = 60 deg/s", of several "|ωx| or |ωy| = 5 deg/s" where it is one number."""
     unit = {"energy": units.plain("J"), "tilt": units.angles}.get(limit.kind, units.rates)
-    names, told = [units.axes.sentence(_named(name))
-                   for name in limit.names], [units.told(most, unit, DIGITS) for most in limit.limits]
+    names = [units.axes.sentence(_named(name)) for name in limit.names]
+    told = [units.told(most, unit, DIGITS) for most in limit.limits]
     if len(set(told)) == 1:
         return f"{listed(names, 'or')} = {told[0]}"
     return " or ".join(f"{name} = {most}" for name, most in zip(names, told))

@@ -124,8 +124,8 @@ def picture(plt, case, runs, parts=("omega",), size=None, units: Units | None = 
     figure, axes = plt.subplots(len(parts), 3, figsize=size or (10.5, 0.9 + 2.3 * len(parts)),
                                 layout="constrained", squeeze=False,
                                 sharex=True)
-    looks = {name: LOOKS[name] | (BURIED if name != "exact" and _dense(run, parts) else {}) for name,
-             run in runs.items()}
+    looks = {name: LOOKS[name] | (BURIED if name != "exact" and _dense(run, parts) else {})
+             for name, run in runs.items()}
     for row, part in zip(axes, parts):
         for column, ax in enumerate(row):
             unit, one = units.of(PARTS[part].unit)

@@ -56,8 +56,8 @@ def _left_out(found):
     first: dict = {}
     for name, value, why in found.left_out:
         first.setdefault(why, {}).setdefault(name, []).append(value)
-    words = {why: [f"{name}, {values[0]:g}{' and finer' if len(values) > 1 else ''}" for name,
-                   values in methods.items()] for why, methods in first.items()}
+    words = {why: [f"{name}, {values[0]:g}{' and finer' if len(values) > 1 else ''}"
+                   for name, values in methods.items()] for why, methods in first.items()}
     return [f"{'; '.join(methods)}: {why}" for why, methods in words.items()]
 
 
@@ -65,9 +65,8 @@ def _line(p, best) -> str:
     error = "none" if math.isinf(p.error) else f"{p.error:.1e}"
     counts = "".join(f"{'' if n is None else n:>{width}}" for n, width in ((p.steps, 8), (p.evaluations, 8)))
     times = f"{duration(p.seconds):>10}{duration(p.compile) if p.compile > 1e-4 else '':>9}"
-    return (
-        f"{'*' if best else ' '} "
-        f"{p.method:<13}{setting(p)[2:]:<13}{error:>8}{p.digits:>8.1f}{counts}{times}".rstrip())
+    return (f"{'*' if best else ' '} "
+            f"{p.method:<13}{setting(p)[2:]:<13}{error:>8}{p.digits:>8.1f}{counts}{times}".rstrip())
 
 
 def as_dict(found) -> dict:

@@ -46,8 +46,8 @@ def _question_words(found, question):
         yield f"{head}: no method has {DOUBLES[0]} digits."
         return
     yield from _six(found, question, head)
-    parts = [f"{digits} digits cost {duration(p.seconds)} ({p.method}{setting(p)})" for digits,
-             p in _merged(prices)]
+    parts = [f"{digits} digits cost {duration(p.seconds)} ({p.method}{setting(p)})"
+             for digits, p in _merged(prices)]
     yield f"{head}: " + ", ".join(parts) + "." + _against(points, prices) + _digit_words(found, question)
     missing = next((d for d in DOUBLES if d > prices[-1][0]), None)
     best = max(points, key=lambda p: p.digits)
