@@ -98,7 +98,7 @@ KINDS = {  # kind -> keys that a row of it needs besides `equation` and `printed
     "equilibrium": (),  # the printed point is at rest
     "number": ("value",),  # an expression has the printed value
     "order": ("small", "order"),  # left - right is of this order in a small symbol
-    "test": ("test",),  # two residuals decide, as formulas or by a test of `papers.audit.measured`, by its name
+    "test": ("test",),  # two residuals decide: formulas, or a test of `papers.audit.measured` by its name
     "definition": ("defines",),
     "not-checkable": ("because",),
 }
