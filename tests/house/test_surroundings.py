@@ -21,8 +21,7 @@ from stabilab.errors import BAD_INPUT, INTERRUPTED, InputError
 from stabilab.show.files import manifest
 
 ROOT = Path(__file__).parents[2]
-MINOR, CHARGED, CAPTURED = (ROOT / "cases" / f"{name}.toml"
-                            for name in ("minor-axis-100", "charged-body", "major-axis-captured"))
+MINOR, CHARGED = (ROOT / "cases" / f"{name}.toml" for name in ("minor-axis-100", "charged-body"))
 posix = pytest.mark.skipif(os.name != "posix", reason="limits, locks and signals of POSIX")
 pytestmark = posix
 
@@ -119,7 +118,10 @@ SLOWER = {"classify": ("classify", MINOR), "json": ("classify", MINOR, "--json")
           "surface": ("surface", MINOR, "--out", "s"),
           "plot": ("plot", MINOR), "tables": ("tables", "--out", "t"),
           "figures": ("figures", "9", "--out", "f")}
-EVERY = [*ANSWERED, *(pytest.param(name, marks=pytest.mark.slow) for name in SLOWER)]
+# those that write in a way of their own; the others, which share it, are long
+OWN_WAY = ("classify", "json", "simulate", "doctor", "plot", "tables")
+EVERY = [*ANSWERED, *(pytest.param(name, marks=[pytest.mark.slow, *[pytest.mark.long] * (name not in OWN_WAY)])
+                      for name in SLOWER)]
 
 
 def in_shell(name, redirected, folder):
