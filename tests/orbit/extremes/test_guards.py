@@ -26,33 +26,6 @@ def flip_of(values, accepted):
     return values[np.nonzero(accepted)[0][-1]]
 
 
-@pytest.mark.parametrize("name", ["minor scaled -", "major physical", "middle physical, other sign",
-                                  "middle scaled, |c| far above"])
-def test_motions_within_a_share_of_the_energy_s_terms_of_the_separatrix_go_to_balls(name):
-    """The terms: the kinetic energy, the torque's, and the force's at a place with both rates alike times its
-    size."""
-    land = landscape(FAMILIES[name][0])
-    margins = 10.0 ** np.arange(-12, 6, 0.01)
-    for size, speed in ((0.02, 0.0), (3.0, 0.1), (50.0, 0.0), (3.0, 40.0)):
-        place = tuple(np.full(len(margins), v) for v in (size, -size))
-        w = np.full(len(margins), speed)
-        pot, unit = land.potential, land.reduction.energy_unit
-        g, forces = abs(pot.G), (pot.c, pot.d) if land.e < 0 else (pot.e1, pot.e2)
-        scale = speed**2 / 2 + pot.mu + 2 * g * size**2 + sum(map(abs, forces)) * np.sqrt(2) * size
-        found = flip_of(margins, guards.near_separatrix(land, place, w, margins, 1e-3))
-        assert found == pytest.approx(1e-3 * unit * scale, rel=0.03)
-        np.testing.assert_array_equal(guards.near_separatrix(land, place, w, -margins, 1e-3),
-                                      margins <= found)
-
-
-def test_on_parabolas_the_kinetic_energy_alone_is_the_scale_of_a_margin():
-    land = landscape(PARABOLIC["first axis"][0])
-    margins = 10.0 ** np.arange(-12, 6, 0.01)
-    one = np.ones(len(margins))
-    found = flip_of(margins, guards.near_separatrix(land, (one, one), 4 * one, margins, 1e-3))
-    assert found == pytest.approx(1e-3 * land.reduction.energy_unit * 8, rel=0.03)
-
-
 def test_states_ten_thousand_times_smaller_than_the_shift_go_to_balls():
     """The scaled circle's centre is x1 = -a (and 0): the canonical X has lost four digits there."""
     land = landscape(scaled(100.0, 100.25, (0, 0, 1))[0])
