@@ -18,8 +18,9 @@ CASES = Path(__file__).parents[2] / "cases"
 FILE = CASES / "minor-axis-100.toml"
 CASE = stabilab.load(FILE)
 TORQUE = CASES / "thruster-stuck-major-axis.toml"
-OF_A_SCENE = {"equilibria": {}, "fate": {}, "motion": {}, "extremes": {}, "period": {}, "spin_up": {"budget": 200},
-              "separatrix": {}, "derive": {}, "validity": {}, "chaos": {"until": 20.0}, "fate_grid": {"axes": [[0.1], [0.2], [0.3]]},
+OF_A_SCENE = {"equilibria": {}, "fate": {}, "motion": {}, "extremes": {}, "period": {},
+              "spin_up": {"budget": 200}, "separatrix": {}, "derive": {}, "validity": {},
+              "chaos": {"until": 20.0}, "fate_grid": {"axes": [[0.1], [0.2], [0.3]]},
               "simulate": {"times": [0.0, 1.0]}, "trajectory": {"times": [0.0, 1.0]}, "attitude": {},
               "ensemble": {"times": [0.0, 1.0]}, "time_to": {"rate": "3"}}
 START = {"fate": "states", "motion": "state", "extremes": "states", "period": "states", "spin_up": "state",

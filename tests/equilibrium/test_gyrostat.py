@@ -1,5 +1,5 @@
-"""Equilibria in the cases of the theory, and to the last digit where numbers nearly meet; that none is missed or
-wrong is held on random scenes (`test_random_scenes`)."""
+"""Equilibria in the cases of the theory, and to the last digit where numbers nearly meet; that none is missed
+or wrong is held on random scenes (`test_random_scenes`)."""
 from __future__ import annotations
 
 import math

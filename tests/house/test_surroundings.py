@@ -120,8 +120,9 @@ SLOWER = {"classify": ("classify", MINOR), "json": ("classify", MINOR, "--json")
           "figures": ("figures", "9", "--out", "f")}
 # those that write in a way of their own; the others, which share it, are long
 OWN_WAY = ("classify", "json", "simulate", "doctor", "plot", "tables")
-EVERY = [*ANSWERED, *(pytest.param(name, marks=[pytest.mark.slow, *[pytest.mark.long] * (name not in OWN_WAY)])
-                      for name in SLOWER)]
+EVERY = [*ANSWERED,
+         *(pytest.param(name, marks=[pytest.mark.slow, *[pytest.mark.long] * (name not in OWN_WAY)])
+           for name in SLOWER)]
 
 
 def in_shell(name, redirected, folder):

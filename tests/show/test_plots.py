@@ -164,8 +164,8 @@ def test_of_curves_on_each_other_the_later_ones_are_broken_so_that_all_are_seen(
 
 def test_a_state_of_many_parts_is_written_to_several_pictures(tmp_path):
     """liquid-base has its rates alone, top-fast rates and vertical, charged-body five parts."""
-    named = lambda name: [path.name for path in to_file.write_all(load(name), tmp_path / f"{name}.png", "state",
-                                                                  size=(4, 3), dpi=30)]
+    named = lambda name: [path.name for path in to_file.write_all(
+        load(name), tmp_path / f"{name}.png", "state", size=(4, 3), dpi=30)]
     assert named("top-fast") == ["top-fast.png"]
     assert named("charged-body") == ["charged-body.png", "charged-body-2.png", "charged-body-3.png"]
     assert len(list(tmp_path.iterdir())) == 4
@@ -790,8 +790,10 @@ def test_the_third_axis_is_named_upwards_and_an_axis_seen_from_its_end_has_fewer
     assert ax.zaxis.label.get_rotation() == (90 if " " in ax.get_zlabel() else 0)
     for axis in (ax.xaxis, ax.yaxis, ax.zaxis):
         low, high = sorted(axis.get_view_interval())
-        boxes = [tick.label1.get_window_extent() for tick in axis.get_major_ticks() if low <= tick.get_loc() <= high]
-        assert len(boxes) >= 2 and not [1 for n, box in enumerate(boxes) for other in boxes[:n] if _deep(box, other)]
+        boxes = [tick.label1.get_window_extent() for tick in axis.get_major_ticks()
+                 if low <= tick.get_loc() <= high]
+        assert len(boxes) >= 2
+        assert not [1 for n, box in enumerate(boxes) for other in boxes[:n] if _deep(box, other)]
 
 
 def _deep(box, other):

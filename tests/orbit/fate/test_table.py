@@ -86,7 +86,8 @@ def test_the_table_answers_as_the_general_formula_and_leaves_little_to_it(name):
 @pytest.mark.parametrize("seed", later(range(40)))
 def test_a_hundred_thousand_states_of_random_scenes_answer_as_the_general_formula(seed):
     rng = np.random.default_rng(seed)
-    scene, _ = pairs.random_problem(rng, seed % 3) if seed % 2 else pairs.random_problem(rng, 1 + seed % 4 // 2, "scaled")
+    scene, _ = (pairs.random_problem(rng, seed % 3) if seed % 2
+                else pairs.random_problem(rng, 1 + seed % 4 // 2, "scaled"))
     states = rng.normal(size=(50_000, 3)) * 10.0 ** rng.uniform(-2, 2)
     np.testing.assert_array_equal(stabilab.fate(scene, states).labels,
                                   general(scene, states)["labels"])
