@@ -114,6 +114,7 @@ def test_one_state_is_answered_and_certified_with_python_flint_alone():
                                                                        "bounded"]] * 4
 
 
+@pytest.mark.slow
 def test_commands_load_only_the_effects_that_the_scene_names(tmp_path):
     check(tmp_path, COMMANDS, FEW)
 

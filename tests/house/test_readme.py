@@ -345,6 +345,7 @@ def with_new_effect(tmp_path):
     return prepared(text, tmp_path)
 
 
+@pytest.mark.slow
 def test_an_effect_added_as_documented_is_known_to_the_commands(with_new_effect):
     done = follow(*with_new_effect, lambda command: not command.startswith(SLOW))
     assert any(command.startswith("stabilab simulate") for command in done)

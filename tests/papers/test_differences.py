@@ -9,6 +9,7 @@ from stabilab.papers.figures.catalogue import figure
 from stabilab.papers.figures.figure import Difference, differences, plain, words
 
 
+@pytest.mark.slow
 def test_a_figure_tells_the_largest_difference_of_each_panel_at_equal_times():
     found = differences(figure(3, "cavity"))
     runs = compared("liquid-lambda3-15", "", cavity.SPAN)[0]

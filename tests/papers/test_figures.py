@@ -73,6 +73,7 @@ def test_a_panel_without_a_model_says_why(plt):
             for heading in headings] == [False, False, True] and "averaged, second order" in headings[2]
 
 
+@pytest.mark.slow
 def test_words_on_cut_curves_stand_side_by_side(plt):
     drawn = figure(5, "top").draw(plt)
     for part in drawn:

@@ -110,6 +110,7 @@ def true_surface(branch):
     return np.concatenate(found, axis=1)
 
 
+@pytest.mark.slow
 def test_figure_5_says_how_far_31_is_from_the_true_surface(plt):
     three = r"([\d.]+), ([\d.]+) and ([\d.]+)"
     said = numbers(rf"up to {three} on the left and {three} on the right", figure(5).caption)

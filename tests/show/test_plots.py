@@ -162,6 +162,7 @@ def test_of_curves_on_each_other_the_later_ones_are_broken_so_that_all_are_seen(
     assert all(line.get_linestyle() == "-" for line in moving.get_lines()[:4])
 
 
+@pytest.mark.slow
 def test_a_state_of_many_parts_is_written_to_several_pictures(tmp_path):
     """liquid-base has its rates alone, top-fast rates and vertical, charged-body five parts."""
     named = lambda name: [path.name for path in to_file.write_all(

@@ -26,7 +26,8 @@ def test_every_motion_without_a_wheel_spins_up():
 COLUMNS = ("fate", "axis", "sense", "level", "t", "steps", "condition", "states")
 
 
-@pytest.mark.parametrize("fast", [False, pytest.param(True, marks=numba)])
+@pytest.mark.parametrize("fast",
+                         [pytest.param(False, marks=pytest.mark.slow), pytest.param(True, marks=numba)])
 def test_company_does_not_matter(fast):
     """The same bytes in broad batches and narrow ones, and for a state alone."""
     scene = random_scene(random.Random(9), 0.1)
