@@ -1,9 +1,10 @@
 """The loops of a branch of saddles as surfaces over two parameters, in balls: of a point the squared distance
 R from a state in the plane of the orbit, and phi = W^2, with their derivatives.
 
-On a circle the parameters are the saddle's t and the angle y from it. On a hyperbola they are the saddle's t
-and xi = X + Z of the point, over places with |xi| >= |eta|, eta = X - Z; its mirror image Z -> -Z, in which
-mu, d and the sense of the orbit change sign, covers the others. With (r, E) the xi and eta of the saddle the
+On a circle, and near the saddle of a hyperbola, the parameters are the saddle's t and the offset y from it.
+Farther along a hyperbola they are the saddle's t and xi = X + Z of the point, over places with |xi| >= |eta|,
+eta = X - Z; its mirror image Z -> -Z, in which mu, d and the sense of the orbit change sign, covers the
+others. With (r, E) the xi and eta of the saddle the
 loop is at eta = Q/xi, Q = r E, after the offset y = log(xi/r), so
 
     n^2 W^2/2 = mu y + u(xi, eta) - u(r, E),  u = G (xi^2 + eta^2)/8 + e1 xi - e2 eta.
@@ -27,6 +28,8 @@ import math
 from typing import Any, NamedTuple
 
 from .nearest import INF, SLACK, double, ends_of, halves, least_of
+
+NEAR = 1.0  # offsets on hyperbolas up to which loops are parametrised by them
 
 
 class Ranges(NamedTuple):
@@ -64,8 +67,13 @@ def middle_of(low, high):
     return ((low + high) / 2).mid(), ends_of((high - low) / 2)[1]
 
 
-class CircleChart(Chart):
-    """curve: the saddles' (x, z) and their first and second derivatives in t."""
+class LoopChart(Chart):
+    """On a circle (e = -1) or hyperbola (1); y: the offset from the saddle; curve: the saddles' (x, z) and
+    their first and second derivatives in t."""
+
+    def __init__(self, g, curve, t, y, e):
+        super().__init__(g, curve, t, y)
+        self.e = e
 
     def boxes(self):
         """No longer than half a turn each."""
@@ -77,18 +85,19 @@ class CircleChart(Chart):
 
     def _moved(self, t, y):
         x, z, *slopes = self.curve.at(t)
-        S, C = y.sin_cos()
-        return x, z, *slopes, S, C, x * C + z * S, z * C - x * S
+        S, C = y.sin_cos() if self.e < 0 else y.sinh_cosh()
+        return x, z, *slopes, S, C, x * C + z * S, z * C + self.e * x * S
 
     def _phi(self, y, x, z, X, Z):
         g = self.g
-        return g["k"] * (g["mu"] * y + (X - x) * (g["G"] * (X + x) / 2 + g["c"]) - g["d"] * (Z - z))
+        return g["k"] * (g["mu"] * y + (X - x) * (g["G"] * (X + x) / 2 + g["c"]) + self.e * g["d"] * (Z - z))
 
     def ranges(self, t, y, most):
         g, (x, z) = self.g, self.curve.at(t)[:2]
-        beside = max(ends_of(abs((x * x + z * z).sqrt() - g["radius"]))[0], 0.0)
-        if beside * beside * g["least"] > most:
-            return None
+        if self.e < 0:
+            beside = max(ends_of(abs((x * x + z * z).sqrt() - g["radius"]))[0], 0.0)
+            if beside * beside * g["least"] > most:
+                return None
         x, z, x1, z1, x2, z2, S, C, X, Z = parts = self._moved(t, y)
         u, v = X - g["X"], Z - g["Z"]
         apart = ends_of(g["a"] * u * u + g["b"] * v * v)[0]
@@ -96,26 +105,26 @@ class CircleChart(Chart):
 
     def bends(self, parts):
         x, z, x1, z1, x2, z2, S, C, X, Z, u, v = parts
-        g = self.g
+        g, e = self.g, self.e
         G, c, d, a, b, k = g["G"], g["c"], g["d"], g["a"], g["b"], g["k"]
         less = C - 1
-        dX, dX1, dX2, dZ2 = x * less + z * S, x1 * less + z1 * S, x2 * less + z2 * S, z2 * less - x2 * S
-        X1, Z1, X2, Z2 = x1 + dX1, z1 * C - x1 * S, x2 + dX2, z2 + dZ2
+        dX, dX1, dX2, dZ2 = x * less + z * S, x1 * less + z1 * S, x2 * less + z2 * S, z2 * less + e * x2 * S
+        X1, Z1, X2, Z2 = x1 + dX1, z1 * C + e * x1 * S, x2 + dX2, z2 + dZ2
         apart = (2 * (a * (X1 * X1 + u * X2) + b * (Z1 * Z1 + v * Z2)),
-                 2 * (a * (X1 * Z + u * Z1) - b * (Z1 * X + v * X1)),
-                 2 * (a * (Z * Z - u * X) + b * (X * X - v * Z)))
+                 2 * (a * (X1 * Z + u * Z1) + e * b * (Z1 * X + v * X1)),
+                 2 * (a * (Z * Z + e * u * X) + b * (X * X + e * v * Z)))
         along, across = G * X + c, G * Z + d
-        phi = (k * (G * (dX1 * (X1 + x1) + dX * X2 + x * dX2) + c * dX2 - d * dZ2),
-               k * (across * X1 + along * Z1), k * (Z * across - X * along))
+        phi = (k * (G * (dX1 * (X1 + x1) + dX * X2 + x * dX2) + c * dX2 + e * d * dZ2),
+               k * (across * X1 + along * Z1), k * (Z * across + e * X * along))
         return tuple(map(double, apart)), tuple(map(double, phi))
 
     def point(self, t, y):
         x, z, x1, z1, _, _, S, C, X, Z = self._moved(t, y)
-        g = self.g
-        X1, Z1, u, v = x1 * C + z1 * S, z1 * C - x1 * S, X - g["X"], Z - g["Z"]
+        g, e = self.g, self.e
+        X1, Z1, u, v = x1 * C + z1 * S, z1 * C + e * x1 * S, X - g["X"], Z - g["Z"]
         au, bv, G, c, d, k = g["a"] * u, g["b"] * v, g["G"], g["c"], g["d"], g["k"]
-        return (au * u + bv * v, 2 * (au * X1 + bv * Z1), 2 * (au * Z - bv * X), self._phi(y, x, z, X, Z),
-                k * (G * (X * X1 - x * x1) + c * (X1 - x1) - d * (Z1 - z1)),
+        return (au * u + bv * v, 2 * (au * X1 + bv * Z1), 2 * (au * Z + e * bv * X), self._phi(y, x, z, X, Z),
+                k * (G * (X * X1 - x * x1) + c * (X1 - x1) + e * d * (Z1 - z1)),
                 k * (g["mu"] + G * X * Z + c * Z + d * X))
 
     def place(self, t, y):
@@ -182,7 +191,7 @@ class HyperbolaChart(Chart):
         low_log, high_log, (fallen, risen) = _log(low), _log(high), logarithms(abs(E))
         # of the offset log(xi/r) = log(E/eta)
         start, end = max(low_log - far, fallen - high_log), high_log - near
-        if start > end:
+        if start > end or -NEAR <= start and end <= NEAR:  # a `LoopChart` has what is near a saddle
             return None
         within = arb(self.sign * (low + high) / 2, (high - low) / 2)
         least, most = ends_of(self._height(within, arb(about, half)) - self._height(r, E))

@@ -33,7 +33,17 @@ from ..fate.one_state import decide, on_separatrix
 from ..one_orbit import Orbit
 from ..potential import slope_at
 from ..reduction import reduce
-from .charts import CircleChart, FromAnchor, Hyperbola, HyperbolaChart, Logarithmic, ParabolaChart, Straight
+from .charts import (
+    NEAR,
+    Chart,
+    FromAnchor,
+    Hyperbola,
+    HyperbolaChart,
+    Logarithmic,
+    LoopChart,
+    ParabolaChart,
+    Straight,
+)
 from .circle import TURN, moved, others, slope
 from .nearest import FINE, INF, Form, Search, double, ends_of
 from .result import ENDED, NO_SEPARATRIX, UNKNOWN, Apart
@@ -111,12 +121,13 @@ class _Seen:
         """(distance, (u, v, w)) of so many saddles of each branch that count."""
         g = self.g
         for curve, low, high in self.branches(reach):
+            chart = LoopChart(g, curve, (low, high), None, self.e)
             for n in range(number + 1):
                 t = low + (high - low) * n / number
                 x, z = curve.at(t)[:2]
                 u, v = x - g["X"], z - g["Z"]
                 apart = ends_of(g["a"] * u * u + g["b"] * v * v)[1]
-                if not hidden or not hidden.hides(CircleChart(g, curve, (low, high), None), t.mid(), 0.0):
+                if not hidden or not hidden.hides(chart, t.mid(), 0.0):
                     yield math.sqrt(apart + self.w**2) * (1 + FINE), (u, v, 0.0)
 
 
@@ -134,7 +145,7 @@ def _on_circles(numbers, reduction, state, held) -> Apart:
     reach = (seen.size + first[0] / math.sqrt(seen.g["least"])) * WIDER
     turn = TURN * WIDER
     ends = tuple(map(numbers.ball, (-turn, 0) if reduction.sense else (-turn / 2, turn / 2)))
-    charts = [CircleChart(seen.g, curve, (low, high), ends) for curve, low, high in seen.branches(reach)]
+    charts = [LoopChart(seen.g, curve, (low, high), ends, -1) for curve, low, high in seen.branches(reach)]
     return _answer(seen, state, Search(seen.g["w"], first[0], hidden), charts, first[1])
 
 
@@ -159,8 +170,10 @@ def _on_hyperbolas(numbers, reduction, state, held) -> Apart:
     wide = first[0] * sum(1 / math.sqrt(plain[name]) for name in "ab") * WIDER
     # of the window about the state
     reach = math.sqrt(math.prod(abs(plain["X"] + flip * plain["Z"]) + wide for flip in (1, -1)))
-    charts = []
+    near: tuple = (numbers.ball(-NEAR), numbers.ball(NEAR))
+    charts: list[Chart] = []
     for curve, low, high in seen.branches(reach):
+        charts.append(LoopChart(g, curve, (low, high), near, 1))
         for flip in (1, -1):
             xi0 = g["X"] + g["Z"] * flip
             for along, ends in _about_planes(seen, curve, low, high, flip, first[0] + seen.w, reach + wide):
