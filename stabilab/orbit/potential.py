@@ -50,12 +50,6 @@ def _odd_series(t):
     return t * t2 / 6 * (1 - t2 / 20 * (1 - t2 / 42 * (1 - t2 / 72 * (1 - t2 / 110 * (1 - t2 / 156)))))
 
 
-def _less_sinh(y):
-    """y - sinh y for |y| <= 0.3."""
-    t = y * y
-    return -y * t / 6 * (1 + t / 20 * (1 + t / 42 * (1 + t / 72 * (1 + t / 110))))
-
-
 def exp_minus_two_terms(t):
     """exp(t) - 1 - t without cancellation."""
     if type(t) is float and abs(t) >= 0.7:
@@ -120,27 +114,6 @@ class Circle:
     def xz(place):
         """(X, Z) of a place."""
         return place
-
-    @staticmethod
-    def turn(y: float) -> tuple[float, float]:
-        """(sin y, sin(y/2))."""
-        return math.sin(y), math.sin(0.5 * y)
-
-    @staticmethod
-    def lag(y: float, s: float) -> float:
-        """y - sin y, without cancellation; s: sin y."""
-        return y_minus_sin(y)
-
-    @staticmethod
-    def turned(y):
-        """(cos y, sin y) of a ball."""
-        return y.cos(), y.sin()
-
-    @staticmethod
-    def turns(y: float, dy: float):
-        """(sin y, cos y, sin(y/2), what sine and cosine change by at most within dy)."""
-        s, q = math.sin(y), math.cos(y)
-        return s, q, math.sin(0.5 * y), dy * min(1.0, abs(q) + dy), dy * min(1.0, abs(s) + dy)
 
     def force(self, place):
         return force_at(self.G, self.c, self.d, self.mu, *place)
@@ -226,27 +199,6 @@ class Hyperbola:
     def xz(place):
         """As of `Circle`."""
         return 0.5 * (place[0] + place[1]), 0.5 * (place[0] - place[1])
-
-    @staticmethod
-    def turn(y: float) -> tuple[float, float]:
-        """(sinh y, sinh(y/2))."""
-        return math.sinh(y), math.sinh(0.5 * y)
-
-    @staticmethod
-    def lag(y: float, s: float) -> float:
-        """y - sinh y, without cancellation; s: sinh y."""
-        return y - s if abs(y) > 0.3 else _less_sinh(y)
-
-    @staticmethod
-    def turned(y):
-        """(cosh y, sinh y) of a ball."""
-        return y.cosh(), y.sinh()
-
-    @staticmethod
-    def turns(y: float, dy: float):
-        """As of `Circle`, of sinh and cosh."""
-        s, q = math.sinh(y), math.cosh(y)
-        return s, q, math.sinh(0.5 * y), dy * math.cosh(abs(y) + dy), dy * math.sinh(abs(y) + dy)
 
     def force(self, place):
         xi, eta = place
