@@ -19,7 +19,7 @@ from typing import Any, NamedTuple
 
 from ...numbers.balls import Unclear
 
-CLOSE = 5e-7  # of the distance: lower bound and witness are brought so near
+CLOSE = 2e-10  # of the distance: lower bound and witness are brought so near
 FINE = 2.0**-44  # of the squared distance: the balls of a point must be so narrow
 MOST = 12000  # boxes; what is not closed by then is a bracket
 STEPS = 20

@@ -84,7 +84,7 @@ def test_newtons_method_that_leaves_a_branch_is_no_end_of_the_search():
                      (0, 0, 0.3575622571421843))[0]
     found = distance_of(reduce(scene), (-1.631349547138242, -0.6426082392398669, -7.664385358239262))
     # of the image under (1, 3, -2)
-    assert found.settled and found.upper == pytest.approx(1.29215665158, rel=1.1e-6)
+    assert found.settled and found.upper == pytest.approx(1.29215665158, rel=1.1e-9)
 
 
 def test_a_branch_that_ends_beside_a_plane_is_not_taken_to_reach_it():
@@ -153,7 +153,7 @@ def test_bound_and_witness_meet_where_a_fold_stands_on_an_invariant_plane_or_bes
         found, image = (distance_of(reduce(scene), (state[0], *(side * v for v in state[1:]))) for scene,
                         side in zip(touching(part), (1, -1)))
         assert found.settled and image.settled and found.boxes < 2500 and abs(
-            found.upper - image.upper) <= 1.1e-6 * found.upper
+            found.upper - image.upper) <= 1.1e-9 * found.upper
 
 
 @pytest.mark.parametrize("scaled, state", [
