@@ -19,7 +19,7 @@ from stabilab.answers.extremes import period
 from stabilab.answers.simulate import trajectory
 from stabilab.physics.scene import ScaledGyrostat
 from stabilab.show import style
-from stabilab.show.files import comma
+from stabilab.show.data import csv_lines
 from stabilab.version import __version__
 
 # --- How far invariants drift over many turns
@@ -136,7 +136,7 @@ def write(folder, turns: float = 1e6, others: float = 1e5, motions: int = 6) -> 
     with style.drawing() as plt:
         style.save(picture(plt, rows), path)
     with style.whole_file(path.with_suffix(".csv")) as waiting:
-        waiting.write_text(comma.lines([[f.name for f in fields(Drift)], *map(astuple, rows)]),
+        waiting.write_text(csv_lines([[f.name for f in fields(Drift)], *map(astuple, rows)]),
                            encoding="utf-8")
     words = ", ".join(f"{name} as turns to the power {growth(rows, name):.2f}" for name in NAMES)
     with style.whole_file(path.with_suffix(".txt")) as waiting:
