@@ -1,11 +1,8 @@
 """What all tests share: hypothesis that draws the same examples every time, no picture left open, and the
 commands run in this process."""
-import atexit
 import gc
 import os
-import shutil
 import sys
-import tempfile
 from collections import Counter
 
 import pytest
@@ -14,12 +11,7 @@ from hypothesis import settings
 from stabilab import cli
 from stabilab.__main__ import OBJECTS_BETWEEN_COLLECTIONS
 
-os.environ.pop("STABILAB_CACHE", None)
 os.environ["STABILAB_QUIET"] = "1"  # whether a command takes longer than a second hangs on the machine
-# nothing that a run left is an answer of the next one; the workers of one run share what it keeps
-if "PYTEST_XDIST_WORKER" not in os.environ:
-    os.environ["XDG_CACHE_HOME"] = tempfile.mkdtemp()
-    atexit.register(shutil.rmtree, os.environ["XDG_CACHE_HOME"], ignore_errors=True)
 settings.register_profile("same", derandomize=True, deadline=None)
 settings.load_profile("same")
 

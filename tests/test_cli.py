@@ -371,7 +371,6 @@ def swept(tmp_path, monkeypatch):
     """Two combinations of a gyrostat under a torque on its minor axis, which every command serves, and six of
     a charged body."""
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
     (tmp_path / "six.toml").write_text(SWEPT)
     plain = MINOR.read_text().split("[expect]")[0]
     (tmp_path / "two.toml").write_text(plain + '\n[sweep]\n"motion.x" = [[2.5, 4, 0.1], [2.5, 4, 0.2]]\n')

@@ -13,13 +13,11 @@ Everything here is a SymPy value; numbers enter at `to_numpy`.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property, lru_cache, reduce
-from pathlib import Path
 from typing import Any, TypeAlias
 
-from ..cache import in_words, kept
 from ..errors import InputError
 from ..numbers.exact import exact
 from ..numbers.vectors import Number, Triple, cross, dot
@@ -50,8 +48,7 @@ class Equations:
     exact value, in order of declaration, but for those that are zero, which are nowhere in the equations;
     symbols: name -> symbol, same order; rhs: rates of the state, 1/s of it (1/tau when scaled); torques: name
     -> triple, the parts of inertia * rhs (body frame, N m); inertia: the factors of the rates on the left;
-    energy: kinetic energy; balances: the laws. content: what they were derived from, in words, where what is
-    made of them may be kept on disk; a changed copy has none.
+    energy: kinetic energy; balances: the laws.
     """
 
     variables: str
@@ -64,7 +61,6 @@ class Equations:
     energy: Symbolic
     balances: tuple[Balance, ...]
     blocks: tuple[str, ...] = ("omega",)
-    content: str = field(default="", init=False)
 
     def __repr__(self) -> str:
         balances = ", ".join(balance.name for balance in self.balances)
@@ -96,7 +92,7 @@ def derive(scene: AnyScene, also: Iterable[str] = ()) -> Equations:
     no scene, and for velocity or position of a body without a mass.
     """
     return (_scaled(scene) if checked_scene(scene).variables == "scaled"
-            else _physical(scene, ordered((*scene.blocks, *also)) if also else scene.blocks))
+            else _derived(scene, ordered((*scene.blocks, *also)) if also else scene.blocks))
 
 
 def values(equations: Equations) -> dict[Symbolic, Symbolic]:
@@ -139,24 +135,6 @@ def add_terms(u: Iterable[Number], v: Iterable[Number]) -> Triple:
 
 
 @lru_cache(maxsize=32)  # one answer asks for the same equations several times
-def _physical(scene: Scene, names: tuple[str, ...]) -> Equations:
-    content = in_words((scene, names))
-    if any(type(effect).__module__.partition(".")[0] != __package__.partition(".")[0]
-           for effect in scene.effects):
-        return _derived(scene, names)  # a user's own effect may change without a word
-    equations: Equations = kept_of_symbols("equations", content, lambda: _derived(scene, names), Equations,
-                                           Balance)
-    object.__setattr__(equations, "content", content)
-    return equations
-
-
-def kept_of_symbols(kind: str, content: str, make: Callable[[], Any], *records: type) -> Any:
-    """What `make` returns, made of SymPy's values and these dataclasses, from the disk where it is there."""
-    from sympy import __version__
-    return kept(kind, content, Path(__file__).parent, (__version__,), make,
-                {record.__name__: record for record in records})
-
-
 def _derived(scene: Scene, names: tuple[str, ...]) -> Equations:
     from sympy import Integer
     blocks = {name: tuple(_symbols(BLOCKS[name].components).values()) for name in names}

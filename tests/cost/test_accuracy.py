@@ -259,7 +259,6 @@ def test_page_has_words_of_every_case_and_a_picture_of_every_kind(tmp_path, monk
 
 
 def test_command_answers_in_strict_json(stabilab, monkeypatch, tmp_path, measured):
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     monkeypatch.setattr("stabilab.commands.accuracy.measure", lambda case, effort, until=None: measured)
 
     def refuse(word):
@@ -275,7 +274,6 @@ def test_command_answers_in_strict_json(stabilab, monkeypatch, tmp_path, measure
 
 
 def test_command_takes_another_end_of_the_span(stabilab, monkeypatch, tmp_path, measured):
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     given = []
     monkeypatch.setattr("stabilab.commands.accuracy.measure", lambda case, effort,
                         until=None: given.append((effort, until)) or measured)
@@ -316,7 +314,6 @@ def judged():
 @pytest.mark.parametrize("digits", [3, 6, 9, 12, 15])
 def test_digits_asked_for_are_reached(judged, digits, tmp_path, monkeypatch):
     # against the reference in many digits, which the check itself does not use below 15
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     for name, (one, times, exact) in judged.items():
         reached = best_reached(one, times, digits)
         error = relative_errors(reached.run.state["x"], exact.states, exact.rest, exact.slices).max()
@@ -328,7 +325,6 @@ def test_digits_that_nothing_reaches_end_with_5_after_the_states_that_come_neare
                                                                                    monkeypatch):
     # off an unstable plane by rounding: not one digit is sure, so it is no answer whether or not digits were
     # asked for
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     # those that this motion takes cost seconds
     monkeypatch.setattr("stabilab.integrate.reference.DIGITS", (30, 42))
     for options, wanted in (((), 5), (("--digits", "10"), 5)):
@@ -342,7 +338,6 @@ def test_digits_that_nothing_reaches_end_with_5_after_the_states_that_come_neare
 
 def test_an_attitude_is_followed_in_many_digits_too(tmp_path, monkeypatch):
     # against the closed form of a ball that spins about axis 3 without torque: theta = 2 t, many turns of it
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     ball = replace(case("charged-body"), scene=Scene(Body((2, 2, 2), mass=1)), state=(0.0, 0.0, 2.0),
                    blocks={"attitude": (0.0, 0.0, 0.0), "velocity": (1.0, 0.0, 0.0),
                            "position": (0.0, 0.0, 0.0)})
@@ -368,7 +363,6 @@ def test_models_are_judged_on_the_attitude(monkeypatch):
 
 
 def test_simulate_tells_the_digits_and_how_they_were_checked(stabilab, tmp_path, monkeypatch):
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     path = CASES / "minor-axis-100.toml"
     code, out, _ = stabilab("simulate", path, "--at", "0,5", "--digits", "9", "--json")
     told = json.loads(out)["digits"]
@@ -394,7 +388,6 @@ def test_a_start_on_an_unstable_plane_is_beyond_doubles_but_not_beyond_many_digi
     # On the plane x1 + b = -x3 (a law of the equations, see `show`) the distance from pure spin obeys u' =
     # -x2 u: it dies out.
     # Off it by rounding, the distance grows as fast.
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     one = case("middle-axis-spin-up")
     reached = best_reached(one, np.array([0.0, 12.0]), 10)
     assert reached.run.method == "many digits"

@@ -1,30 +1,8 @@
-"""The cache folder of each platform, by its rules, and what a machine is called."""
+"""What a machine is called."""
 import platform
-import sys
 from pathlib import Path
 
-import pytest
-
 from stabilab import processes as machine
-from stabilab.cache import cache_folder
-
-
-@pytest.mark.parametrize("system, local, wanted",
-                         [("darwin", None, ("home", "Library", "Caches", "stabilab")),
-                                                   ("win32", None,
-                                                    ("home", "AppData", "Local", "stabilab", "Cache")),
-                                                   ("win32", "local", ("local", "stabilab", "Cache")),
-                                                   ("linux", "local", ("home", ".cache", "stabilab"))])
-@pytest.mark.parametrize("given",
-                         [None, "", "relative/folder"])  # the XDG rule: relative paths are to be ignored
-def test_each_platform_has_its_cache_folder(system, local, wanted, given, tmp_path, monkeypatch):
-    monkeypatch.setattr(sys, "platform", system)
-    monkeypatch.setattr(Path, "home", lambda: tmp_path / "home")
-    for name, value in (("XDG_CACHE_HOME", given), ("LOCALAPPDATA", local and str(tmp_path / local))):
-        monkeypatch.delenv(name, raising=False) if value is None else monkeypatch.setenv(name, value)
-    assert cache_folder() == tmp_path.joinpath(*wanted)
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "given"))
-    assert cache_folder() == tmp_path / "given" / "stabilab"
 
 
 def test_a_machine_without_a_list_of_processors_is_called_by_its_platform(monkeypatch):

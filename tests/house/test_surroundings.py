@@ -47,7 +47,7 @@ def command(name, folder):
 
 
 def environment(folder):
-    """The measured fronts of `precision` go to a folder of the test's own."""
+    """What libraries keep goes to a folder of the test's own."""
     return os.environ | {"XDG_CACHE_HOME": str(Path(folder) / "cache"), "PYTHONPATH": str(ROOT)}
 
 

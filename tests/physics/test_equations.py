@@ -196,3 +196,22 @@ def test_growth_rate_of_the_quadratic_law_is_lambda_times_torque():
 def test_a_scene_without_a_body_is_refused_in_words(wrong, got):
     with pytest.raises(InputError, match=f"scene: expected a Body first, such as .*, got {got}"):
         Scene(*wrong)
+
+
+def test_compiled_rates_load_none_of_numpys_tools():
+    """A star import of NumPy loads its tests and its reader of Fortran, a fifth of a small command's time."""
+    code = ("import sys, stabilab; from stabilab.physics.to_numpy import to_numpy; "
+            "to_numpy(stabilab.derive(stabilab.Scene(stabilab.Body((3, 2, 1.5)))))([1, 2, 3]); "
+            "print(*{'numpy.f2py', 'numpy.testing'} & set(sys.modules))")
+    assert subprocess.run([sys.executable, "-c", code], check=True, capture_output=True,
+                          text=True).stdout == "\n"
+
+
+def test_numbers_that_are_equal_as_doubles_alone_have_equations_of_their_own():
+    """0.1 in decimals is 1/10; the double next to it is 3602879701896397/2^55 (IEEE 754)."""
+    double = Fraction(3602879701896397, 2**55)
+    for given, moment in (("0.1", Fraction(1, 10)), (0.1, double)):
+        scene = Scene(Body((given, "0.12", "0.15")), ConstantTorque((given, 0, 0)),
+                      LiquidCavity(1000, 1e-4, 1e-9))
+        parameters = derive(scene).parameters
+        assert parameters["D1"] == parameters["M1"] == moment
