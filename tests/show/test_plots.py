@@ -53,6 +53,14 @@ def test_a_plot_returns_the_axes_it_was_given():
     assert stabilab.plot.phase(load("minor-axis-100"), ax=ax) is ax
 
 
+@pytest.mark.parametrize("name, kind", [("minor-axis-100", "phase"), ("liquid-base", "state"),
+                                        ("vanguard-1", "state"), ("dual-spin-turn", "time"),
+                                        ("cubesat-3u-detumbling", "time")])
+def test_a_case_is_plotted_over_time_unless_a_picture_says_more(name, kind):
+    """Theories come with a liquid, the vertical with a field; the other two have rates alone to be drawn."""
+    assert which.default(which.subject(load(name))) == kind
+
+
 @pytest.mark.one_in(3)
 @pytest.mark.parametrize("title",
                          [r"thrust at $\\foo$, lambda1 = 100", "5 $ of 7 $", r"x_1 \\$ {y}^", "$x$ " * 40])

@@ -20,6 +20,7 @@ from ...physics.coefficients import effective
 from ...physics.effects.base import effect_words
 from ...physics.scene import AnyScene, Scene, torque_axis
 from ...physics.states import checked_states, start_of
+from ...theories.follow import models_of
 from ...unreduced.periodic import LEAST, crossed
 from ...validation import checked_scene, checked_span
 from .. import spans
@@ -200,7 +201,14 @@ def offered(one: Subject) -> tuple[str, ...]:
 def default(one: Subject) -> str:
     """The kind that says most of a subject: its plane where it reduces, all parts of a longer state, else the
     rates over time."""
-    return next(kind for kind in ("phase", "state", "time", "equilibria") if not why_not(kind, one))
+    kinds = ("phase", "time" if rates_alone(one) else "state", "time", "equilibria")
+    return next(kind for kind in kinds if not why_not(kind, one))
+
+
+def rates_alone(one: Subject) -> bool:
+    """Whether the picture of the state has no more than that of the rates: no theory comes with the effects,
+    and of a damper or a wheel's motor it draws nothing."""
+    return models_of(one.scene) == ("exact",) and {"omega", "damper", "wheel"}.issuperset(one.scene.blocks)
 
 
 def _tilt(one: Subject) -> str:

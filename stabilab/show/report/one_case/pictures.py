@@ -46,7 +46,7 @@ def pictures(one, folder: Path, stem: str, deep: bool, units: str = "deg", at_re
     spared = {"equilibria": at_rest is not None and not at_rest.curves, "body": not _acted_on(one),
               "sphere": "phase" in offered and not which.free(one)}
     exact_alone = models_of(one.scene) == ("exact",)
-    spared["state"] = exact_alone and one.scene.blocks == ("omega",)  # the rates over time have all
+    spared["state"] = which.rates_alone(one)
     for kind, (title, caption) in SHOWN.items():
         if kind in offered and (deep or kind in BRIEF) and not spared.get(kind):
             if kind == "state" and exact_alone:
