@@ -20,7 +20,8 @@ FOLDER = os.path.join(os.path.dirname(os.path.dirname(__file__)), "cases")
 EXAMPLES = {"phone": "phone", "t-handle": "t-handle", "top": "toy-top", "cubesat": "cubesat-3u",
             "comsat": "geostationary-22n", "upper-stage": "upper-stage", "station": "space-station",
             "explorer-1": "explorer-1", "toutatis": "toutatis", "charged-body": "charged-body",
-            "tank": "liquid-sensible", "stage": "burns/stage", "boom": "orbits/boom"}
+            "tank": "liquid-sensible", "detumbling": "cubesat-3u-detumbling", "dual-spin": "dual-spin-turn",
+            "slug": "rahn-barba", "vanguard-1": "vanguard-1", "stage": "burns/stage", "boom": "orbits/boom"}
 QUESTIONS = {"burns": "burn", "orbits": "orbit"}  # folder -> its command
 LARGEST = 128 * 1024  # bytes; a case has one or two thousand, and a wrong file is refused before it is parsed
 
