@@ -160,7 +160,7 @@ def burn(
     Of thrusters with start, stop, pulses or propellant in the file: rates at closing, the free motion after
     it, its largest rate.
 
-    Example: stabilab burn ascent.toml --stop "12 s" --below "30 deg/s"
+    Example: stabilab burn cases/burns/stage.toml --stop "12 s" --below "20 deg/s"
     """
 
 
@@ -198,7 +198,7 @@ def orbit(
     Of a file with [circular_orbit]: attitudes at rest in the orbital frame under the gravity gradient, with
     their stability and librations.
 
-    Example: stabilab orbit geos.toml --up-to "10 N m s"
+    Example: stabilab orbit cases/orbits/boom.toml --up-to "12 N m s"
     """
 
 
