@@ -12,11 +12,12 @@ from scipy.integrate import solve_ivp
 from stabilab.errors import InputError
 from stabilab.papers import audit
 from stabilab.papers.audit.checks import bound_of, decide, pairs, raw, system_of
-from stabilab.papers.audit.findings import domain_of, edits, examine, prove_systems, repairs
+from stabilab.papers.audit.findings import edits, examine, prove_systems, repairs, with_domain
 from stabilab.papers.audit.measured import missed as steps_missed
 from stabilab.theories.cavity import model as cavity
 from stabilab.theories.charged import model as charged
 from stabilab.theories.printed.claims import FormulaError, parse, read, sides
+from stabilab.theories.printed.evaluate import Setting
 from stabilab.theories.top import model as top
 
 PAPERS = {name: audit.paper(name) for name in audit.papers()}
@@ -71,7 +72,7 @@ def holding(name):
     paper = PAPERS[name]
     for row in paper.rows:
         if row.kind in ("holds", "solves") and examine(paper, row, search=False).verdict == "holds":
-            yield paper, row, system_of(paper, row.system), bound_of(paper, row)
+            yield paper, row, Setting(bound_of(paper, row), system_of(paper, row.system))
 
 
 @pytest.mark.slow
@@ -80,12 +81,12 @@ def holding(name):
                           for name in PAPERS])
 def test_every_flipped_sign_in_every_formula_that_holds_is_found(name):
     missed, tried = [], 0
-    for paper, row, system, bound in holding(name):
+    for paper, row, plain in holding(name):
         for _, formulas in planted(paper, row):
-            both = pairs(paper, row, formulas, system, bound)
+            both = pairs(paper, row, formulas, plain)
             tried += 1
-            if decide(both, bound, system, row.equation, domain_of(paper, row.domain, both, bound, system),
-                      symbolic=False).holds is not False:
+            setting = with_domain(paper, row.domain, both, plain)
+            if decide(both, setting, row.equation, symbolic=False).holds is not False:
                 missed.append(row.equation)
     assert tried >= 10 and not missed
 
@@ -96,11 +97,10 @@ def test_the_repair_search_returns_most_of_the_flipped_formulas():
     import sympy as sp
     tried = returned = 0
     for name in PAPERS:
-        for paper, row, system, bound in holding(name):
+        for paper, row, plain in holding(name):
             for n, formulas in planted(paper, row):
-                both = pairs(paper, row, formulas, system, bound)
-                found = repairs(paper, row, formulas, system, bound,
-                                domain_of(paper, row.domain, both, bound, system))
+                both = pairs(paper, row, formulas, plain)
+                found = repairs(paper, row, formulas, with_domain(paper, row.domain, both, plain))
                 left, right = raw(paper, row.printed)[n]
                 fixed = [sides(fix, paper.symbols) for fix in found]
                 tried, returned = tried + 1, returned + any(sp.expand(a - b - left + right) == 0

@@ -10,7 +10,7 @@ and 80 digits.
 """
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from decimal import Decimal, InvalidOperation
 from itertools import combinations
 
@@ -19,7 +19,7 @@ from ...physics.effects import effect_class
 from ...physics.equations import derive
 from ...physics.scene import Body, Scene
 from ...theories.printed.claims import FormulaError, Paper, Row, parse, sides
-from ...theories.printed.evaluate import Evaluator, Undefined, points, precise, settled
+from ...theories.printed.evaluate import Evaluator, Setting, Undefined, precise
 from . import measured
 
 # effect -> arguments that leave no parameter zero
@@ -139,26 +139,27 @@ def candidates(paper: Paper, row: Row) -> list[tuple[str, dict]]:
     return out
 
 
-def condition_of(paper: Paper, row: Row, pairs, bound, system, domain) -> tuple[str, str]:
+def condition_of(paper: Paper, row: Row, pairs, setting: Setting) -> tuple[str, str]:
     """(condition, method) under which the pairs agree; ("", "") where none of the candidates helps. Singles
     are tried before pairs."""
     import mpmath
 
-    single = singles(paper, row, pairs, bound, system, domain)
+    single = singles(paper, row, pairs, setting)
     double = [(f"{a} and {b}", first | second)
               for (a, first), (b, second) in combinations(single, 2) if first.keys() != second.keys()]
     for words, fixed in [*single, *((words, fixed) for words, fixed in double if _plain(fixed))]:
-        if not _quick(mpmath.fp, pairs, bound, system, words, domain, fixed):
+        under = replace(setting, fixed=fixed)
+        if not _quick(mpmath.fp, pairs, under, words):
             continue
-        decision = decide(pairs, bound, system, row.equation + words, domain, fixed)
+        decision = decide(pairs, under, row.equation + words)
         if decision.holds:
             return words, decision.method
     return "", ""
 
 
-def singles(paper: Paper, row: Row, pairs, bound, system, domain) -> list[tuple[str, dict]]:
+def singles(paper: Paper, row: Row, pairs, setting: Setting) -> list[tuple[str, dict]]:
     """(words, {name: expression}) of the single conditions that speak of symbols of the pairs."""
-    standing = {s.name for s in free(pairs, domain, bound, system)}
+    standing = {s.name for s in free(pairs, setting)}
     return [(words, fixed)
             for words, fixed in candidates(paper, row) if fixed.keys() <= standing and _plain(fixed)]
 
@@ -168,24 +169,23 @@ def _plain(fixed):
     return not any(s.name in fixed for value in fixed.values() for s in value.free_symbols)
 
 
-def _quick(numbers, pairs, bound, system, seed, domain, fixed):
+def _quick(numbers, pairs, setting, seed):
     """Whether doubles leave it open that the pairs agree under the condition."""
-    symbols = free(pairs, domain, bound, system, fixed)
     try:
-        chosen = points(symbols, seed, 2, domain, bound, system, fixed)
+        chosen = setting.points(free(pairs, setting), seed, 2)
     except InputError:
         return False
-    found = [residual(pairs, numbers, point, bound, system, fixed) for point in chosen]
+    found = [residual(pairs, numbers, point, setting) for point in chosen]
     return all(r is not None and r < 1e-7 for r in found)
 
 
 # --- What each kind of claim says, as pairs of expressions that are equal where the claim is true
-def pairs(paper: Paper, row: Row, printed, system, bound) -> list:
+def pairs(paper: Paper, row: Row, printed, setting: Setting) -> list:
     """[(left, right)] that agree wherever the row's formulas are true. printed: [(left, right)] of the
     formulas, as raw SymPy trees."""
-    carried = Evaluator(None, {}, bound, system).carried
+    carried = setting.evaluator().carried
     return [(carried(left), carried(right))
-            for left, right in CHECKS[row.kind](paper, row, printed, system, bound)]
+            for left, right in CHECKS[row.kind](paper, row, printed, setting)]
 
 
 def raw(paper: Paper, formulas) -> list:
@@ -200,19 +200,20 @@ def bound_of(paper: Paper, row: Row, corrected=False) -> dict:
             for name, text in (paper.definitions | where).items() if text != name}
 
 
-def _holds(paper, row, printed, system, bound):
+def _holds(paper, row, printed, setting):
     return printed
 
 
-def _solves(paper, row, printed, system, bound):
+def _solves(paper, row, printed, setting):
     """The printed functions of `variable`, put into the rates; `speed` is d variable / d time; `start` their
     values at 0."""
+    system = setting.system
     if system is None:
         raise InputError(f"{row.place}: a row of kind solves needs a system")
-    variable, speed = parse(row.options["variable"],
-                            paper.symbols), parse(row.options.get("speed", "1"), paper.symbols)
+    variable, speed = (parse(text, paper.symbols)
+                       for text in (row.options["variable"], row.options.get("speed", "1")))
     rates = dict(zip(system.state, system.rates))
-    plain = Evaluator(None, {}, bound, system).plain
+    plain = setting.evaluator().plain
     solution = {left: plain(right) for left, right in printed}
     out = []
     for left, right in solution.items():
@@ -228,12 +229,12 @@ def _solves(paper, row, printed, system, bound):
     return out
 
 
-def _equilibrium(paper, row, printed, system, bound):
+def _equilibrium(paper, row, printed, setting):
     """The point that the printed equations give, put into the rates; `solve` names unknowns that the
     equations give by themselves."""
     import sympy as sp
 
-    plain = Evaluator(None, {}, bound, system).plain
+    plain = setting.evaluator().plain
     if "solve" in row.options:
         unknowns = [paper.symbols[name] for name in row.options["solve"]]
         found = sp.solve([plain(left - right) for left, right in printed], unknowns, dict=True)
@@ -243,7 +244,7 @@ def _equilibrium(paper, row, printed, system, bound):
     else:
         found = [{left: plain(right) for left, right in printed}]
     return [(plain(rate).xreplace(point).xreplace(point), sp.Integer(0)) for point in found
-            for rate in system.rates]
+            for rate in setting.system.rates]
 
 
 CHECKS = {"holds": _holds, "order": _holds, "solves": _solves, "equilibrium": _equilibrium}
@@ -279,24 +280,24 @@ class Decision:
     method: str
 
 
-def decide(pairs, bound: dict, system, seed: str, domain=(), fixed=None, symbolic=True) -> Decision:
-    """Whether left equals right in every pair, for all values of the free symbols at which `domain` is
-    positive. fixed: name -> expression (a condition)."""
+def decide(pairs, setting: Setting, seed: str, symbolic=True) -> Decision:
+    """Whether left equals right in every pair, for all values of the free symbols at which the domain is
+    positive, under the condition of the setting."""
 
     chosen, none = (), ""
     try:
-        chosen = points(free(pairs, domain, bound, system, fixed), seed, POINTS, domain, bound, system, fixed)
+        chosen = setting.points(free(pairs, setting), seed, POINTS)
     except InputError as error:
         none = str(error)
-    if symbolic and not fixed and all(_same_in_symbols(left, right, bound, system, chosen[:1])
-                                      for left, right in pairs):
+    if symbolic and not setting.fixed and all(_same_in_symbols(left, right, setting, chosen[:1])
+                                              for left, right in pairs):
         return Decision(True, 0.0, "symbols")
     if none:
         return Decision(None, float("nan"), none)
     worst, seen = {}, 0
     for digits in DIGITS:
         numbers = precise(digits)
-        found = [residual(pairs, numbers, point, bound, system, fixed) for point in chosen]
+        found = [residual(pairs, numbers, point, setting) for point in chosen]
         found = [r for r in found if r is not None]
         seen, worst[digits] = len(found), max(found, default=None)
         if found and worst[digits] > 10.0 ** -(DIGITS[0] - SLACK):
@@ -309,12 +310,12 @@ def decide(pairs, bound: dict, system, seed: str, domain=(), fixed=None, symboli
                     f"residuals at {seen} random points, {DIGITS[0]} and {DIGITS[1]} digits")
 
 
-def residual(pairs, numbers, point, bound, system, fixed=None):
+def residual(pairs, numbers, point, setting: Setting):
     """Largest relative difference at one point; None where the formula has no value there."""
-    ready = settled(numbers, point, fixed, bound, system)
+    ready = setting.settled(numbers, point)
     if ready is None:
         return None
-    value, worst = Evaluator(numbers, ready, bound, system), numbers.mpf(0)
+    value, worst = setting.evaluator(numbers, ready), numbers.mpf(0)
     try:
         for left, right in pairs:
             a, b = value(left), value(right)
@@ -331,14 +332,14 @@ def _largest_term(value, expression):
     return max((abs(value(term)) for term in expression.args), default=0) if expression.is_Add else 0
 
 
-def free(pairs, domain, bound, system, fixed=None):
-    """Symbols that need a value, in order of their names."""
+def free(pairs, setting: Setting) -> list:
+    """Symbols of the pairs and the domain that need a value, in order of their names."""
     import sympy as sp
 
-    found, waiting, done = set(), [e for pair in pairs for e in pair] + list(domain), set()
-    if system is not None and any(e.has(sp.Function("rate")) for e in waiting):
-        waiting += list(system.rates)
-    meant = {**(fixed or {}), **bound}
+    found, waiting, done = set(), [e for pair in pairs for e in pair] + list(setting.domain), set()
+    if setting.system is not None and any(e.has(sp.Function("rate")) for e in waiting):
+        waiting += list(setting.system.rates)
+    meant = setting.fixed | setting.bound
     while waiting:
         for s in waiting.pop().free_symbols:
             if s.name not in meant:
@@ -349,18 +350,18 @@ def free(pairs, domain, bound, system, fixed=None):
     return sorted(found, key=lambda s: s.name)
 
 
-def _apart(left, right, bound, system, chosen):
+def _apart(left, right, setting, chosen):
     """Whether two expressions differ by so much at a point that no rounding of 50 digits makes up for it."""
-    found = [residual([(left, right)], precise(DIGITS[0]), point, bound, system) for point in chosen]
+    found = [residual([(left, right)], precise(DIGITS[0]), point, setting) for point in chosen]
     return any(r is not None and r > APART for r in found)
 
 
-def _same_in_symbols(left, right, bound, system, chosen=()):
+def _same_in_symbols(left, right, setting, chosen):
     """Whether symbols show it; chosen: points at which expressions that differ plainly are told apart before
     their terms are multiplied out."""
     import sympy as sp
 
-    plain = Evaluator(None, {}, bound, system).plain
+    plain = setting.evaluator().plain
     try:
         difference = plain(left) - plain(right)
     except InputError:
@@ -371,7 +372,7 @@ def _same_in_symbols(left, right, bound, system, chosen=()):
                       sp.Function("at")) or sp.count_ops(difference) > SYMBOLIC_SIZE:
         return False
     try:
-        if _apart(left, right, bound, system, chosen):
+        if _apart(left, right, setting, chosen):
             return False
         if sp.expand(difference) == 0:
             return True
@@ -385,17 +386,17 @@ def _same_in_symbols(left, right, bound, system, chosen=()):
 TEST_BOUND = 1e-12  # residuals of named tests: 30 digits or exact counts
 
 
-def order(paper: Paper, row: Row, pairs, bound, system) -> Decision:
+def order(paper: Paper, row: Row, pairs, setting: Setting) -> Decision:
     """Whether left - right falls like the stated power of the small symbol: halved thrice, watched."""
     small, claimed = row.options["small"], row.options["order"]
-    symbols = [s for s in free(pairs, (), bound, system) if s.name != small]
+    symbols = [s for s in free(pairs, replace(setting, domain=())) if s.name != small]
     least, numbers = float("inf"), precise(60)
-    for point in points(symbols, row.equation, 3,
-                        [parse(t, paper.symbols) for t in row.domain if small not in t], bound, system):
+    setting = replace(setting, domain=tuple(parse(t, paper.symbols) for t in row.domain if small not in t))
+    for point in setting.points(symbols, row.equation, 3):
         sizes = []
         for halvings in (14, 16, 18):
-            ready = settled(numbers, point, None, bound, system) | {small: numbers.mpf(2) ** -halvings}
-            value = Evaluator(numbers, ready, bound, system)
+            ready = setting.settled(numbers, point) | {small: numbers.mpf(2) ** -halvings}
+            value = setting.evaluator(numbers, ready)
             try:
                 sizes.append(max(abs(value(left) - value(right)) for left, right in pairs))
             except Undefined:
@@ -409,9 +410,8 @@ def order(paper: Paper, row: Row, pairs, bound, system) -> Decision:
 def number(paper: Paper, row: Row) -> tuple:
     """(verdict, condition, correction, method, residual, corrected residual) of printed digits held against
     the value of an expression."""
-    bound = bound_of(paper, row)
-    value = Evaluator(precise(40), {}, bound,
-                      system_of(paper, row.system, row.place))(parse(row.options["value"], paper.symbols))
+    setting = Setting(bound_of(paper, row), system_of(paper, row.system, row.place))
+    value = setting.evaluator(precise(40))(parse(row.options["value"], paper.symbols))
     try:
         text = row.printed[0].replace("\u2212", "-")
         # finite, so its exponent is a number

@@ -10,12 +10,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import islice
 
 from ...errors import InputError
 from ...theories.printed.claims import Paper, Row, parse
-from ...theories.printed.evaluate import Evaluator, Undefined, points, settled
+from ...theories.printed.evaluate import Setting, Undefined
 from . import checks
 from .units import unit_fault
 
@@ -27,19 +27,19 @@ TWINS = {name: tuple(others.split()) for name, others in {
     "atanh": "asinh atan", "re": "im", "im": "re"}.items()}
 
 
-def repairs(paper: Paper, row: Row, printed, system, bound, domain, fixed=None) -> tuple[str, ...]:
+def repairs(paper: Paper, row: Row, printed, setting: Setting) -> tuple[str, ...]:
     """Formulas "left = right", one edit away from the printed ones, that pass the row's check (under the
-    condition `fixed`); at most KEEP."""
+    condition of the setting); at most KEEP."""
     found: list[str] = []
     try:
-        trial = _Trial(paper, row, system, bound, domain, fixed)
+        trial = _Trial(paper, row, setting)
     except InputError:
         return ()
     for at, (left, right) in enumerate(printed):
         alone = row.kind in ("holds", "order")
         if alone and trial.agrees([(left, right)]):
             continue
-        for edited in islice(_edits_of_sides(paper, row, left, right, fixed), MOST_EDITS):
+        for edited in islice(_edits_of_sides(paper, row, left, right, setting.fixed), MOST_EDITS):
             if edited not in printed and trial.agrees([edited] if alone
                                                       else [*printed[:at], edited, *printed[at + 1:]]):
                 found.append(f"{edited[0]} = {edited[1]}")
@@ -51,11 +51,10 @@ def repairs(paper: Paper, row: Row, printed, system, bound, domain, fixed=None) 
 class _Trial:
     """Whether formulas pass a row's check: at two points in doubles, then with all digits."""
 
-    def __init__(self, paper, row, system, bound, domain, fixed):
-        self.paper, self.row, self.system = paper, row, system
-        self.bound, self.domain, self.fixed = bound, domain, fixed
-        every = [s for name, s in paper.symbols.items() if name not in bound and name not in (fixed or {})]
-        self.points = points(every, row.equation, 2, domain, bound, system, fixed)
+    def __init__(self, paper, row, setting):
+        self.paper, self.row, self.setting = paper, row, setting
+        every = [s for name, s in paper.symbols.items() if name not in setting.bound | setting.fixed]
+        self.points = setting.points(every, row.equation, 2)
         self.values = None  # an evaluator a point: an edit shares most of its parts with the one before
 
     def agrees(self, printed) -> bool:
@@ -64,26 +63,23 @@ class _Trial:
         try:
             if self.row.kind == "holds" and not self._near(printed):
                 return False
-            pairs = checks.pairs(self.paper, self.row, printed, self.system, self.bound)
+            pairs = checks.pairs(self.paper, self.row, printed, self.setting)
             if all(left == right for left, right in pairs):
                 return False  # an edit that leaves nothing to be said
-            found = [checks.residual(pairs, mpmath.fp, point, self.bound, self.system, self.fixed)
-                     for point in self.points]
+            found = [checks.residual(pairs, mpmath.fp, point, self.setting) for point in self.points]
         except (InputError, TypeError, AttributeError, KeyError):
             return False
         if any(r is None or r > 1e-7 for r in found):
             return False
-        return (checks.decide(pairs, self.bound, self.system, self.row.equation, self.domain, self.fixed,
-                       symbolic=False).holds is True)
+        return checks.decide(pairs, self.setting, self.row.equation, symbolic=False).holds is True
 
     def _near(self, printed):
         """Whether doubles leave it open that the formulas hold, without any work on symbols."""
         import mpmath
 
         if self.values is None:
-            ready = [settled(mpmath.fp, point, self.fixed, self.bound, self.system) for point in self.points]
-            self.values = [Evaluator(mpmath.fp, one, self.bound, self.system, in_numbers=True)
-                           for one in ready]
+            ready = [self.setting.settled(mpmath.fp, point) for point in self.points]
+            self.values = [self.setting.evaluator(mpmath.fp, one, in_numbers=True) for one in ready]
         try:
             for value in self.values:
                 for left, right in printed:
@@ -100,7 +96,7 @@ def _edits_of_sides(paper, row, left, right, fixed):
 
     seen = {(left, right)}
     own = [s for s in sorted(left.free_symbols | right.free_symbols, key=lambda s: s.name)
-           if s.name not in (fixed or {})]
+           if s.name not in fixed]
     targets = [] if left.func.__name__ == "diff" else [(right, lambda e: (left, e))]
     if row.kind not in ("solves", "equilibrium") and (right.is_Number or left.has(sp.Function)):
         targets.append((left, lambda e: (e, right)))
@@ -230,7 +226,7 @@ def prove_systems(paper: Paper) -> None:
     """Every system stated by rates follows from its parent; InputError names one that does not."""
     bound = {name: parse(text, paper.symbols) for name, text in paper.definitions.items()}
     for name, parent, pairs in checks.stated(paper):
-        decision = checks.decide(pairs, bound, parent, name, domain_of(paper, (), pairs, bound, parent))
+        decision = checks.decide(pairs, with_domain(paper, (), pairs, Setting(bound, parent)), name)
         if not decision.holds:
             raise InputError(
                 f"{paper.name}, systems.{name}: its rates do not follow from those of its parent "
@@ -238,13 +234,14 @@ def prove_systems(paper: Paper) -> None:
             )
 
 
-def domain_of(paper: Paper, texts, pairs, bound, system) -> list:
-    """What is positive at the points tried: the row's own domain, and of the paper's all that speaks of
-    symbols of these pairs."""
-    own = [parse(text, paper.symbols) for text in texts]
-    standing = set(checks.free(pairs, own, bound, system))
-    shared = [parse(text, paper.symbols) for text in paper.domain]
-    return own + [d for d in shared if set(checks.free([(d, d)], (), bound, None)) <= standing]
+def with_domain(paper: Paper, texts, pairs, setting: Setting) -> Setting:
+    """The setting with what is positive at the points tried: the row's own domain, and of the paper's all
+    that speaks of symbols of these pairs."""
+    own = replace(setting, domain=tuple(parse(text, paper.symbols) for text in texts))
+    standing, plain = set(checks.free(pairs, own)), Setting(setting.bound)
+    shared = (parse(text, paper.symbols) for text in paper.domain)
+    return replace(own, domain=(*own.domain, *(d for d in shared
+                                               if set(checks.free([(d, d)], plain)) <= standing)))
 
 
 def examine(paper: Paper, row: Row, search: bool = True) -> Finding:
@@ -262,11 +259,11 @@ def examine(paper: Paper, row: Row, search: bool = True) -> Finding:
 
 
 def _formula(paper, row, search):
-    system = checks.system_of(paper, row.system, row.place)
-    printed, bound = checks.raw(paper, row.printed), checks.bound_of(paper, row)
-    pairs = checks.pairs(paper, row, printed, system, bound)
-    domain = domain_of(paper, row.domain, pairs, bound, system)
-    fault, decision = unit_fault(paper, row), _decided(paper, row, printed, system, bound, domain)
+    printed = checks.raw(paper, row.printed)
+    setting = Setting(checks.bound_of(paper, row), checks.system_of(paper, row.system, row.place))
+    pairs = checks.pairs(paper, row, printed, setting)
+    setting = with_domain(paper, row.domain, pairs, setting)
+    fault, decision = unit_fault(paper, row), _decided(paper, row, pairs, setting)
     if decision.holds is None:
         raise InputError(f"{row.place}: {decision.method}")
     if decision.holds:
@@ -275,11 +272,11 @@ def _formula(paper, row, search):
                        unit_fault=fault)
     (condition, how), (fixes, under) = ("", ""), ((), "")
     if search and row.kind == "order":
-        condition, how = _order_condition(paper, row, pairs, system, bound, domain)
+        condition, how = _order_condition(paper, row, pairs, setting)
     elif search:
-        condition, how = checks.condition_of(paper, row, pairs, bound, system, domain)
-        fixes, under = _fixes(paper, row, printed, system, bound, domain, condition)
-    correction, corrected_residual = _corrected(paper, row, system, domain)
+        condition, how = checks.condition_of(paper, row, pairs, setting)
+        fixes, under = _fixes(paper, row, printed, pairs, setting, condition)
+    correction, corrected_residual = _corrected(paper, row, setting)
     method = (decision.method + (f"; {how} under the condition" if condition else "")
               + ("; correction passes the same check" if correction else ""))
     method += f"; one edit makes it hold{under}" if fixes else ""
@@ -288,22 +285,23 @@ def _formula(paper, row, search):
                    corrected_residual, fixes, fault)
 
 
-def _order_condition(paper, row, pairs, system, bound, domain):
+def _order_condition(paper, row, pairs, setting):
     """The first single condition under which the remainder is of the claimed order."""
-    for words, fixed in checks.singles(paper, row, pairs, bound, system, domain):
-        decision = checks.order(paper, row, pairs, bound | fixed, system)
+    for words, fixed in checks.singles(paper, row, pairs, setting):
+        decision = checks.order(paper, row, pairs, replace(setting, bound=setting.bound | fixed))
         if row.options["small"] not in fixed and decision.holds:
             return words, decision.method
     return "", ""
 
 
-def _corrected(paper, row, system, domain):
+def _corrected(paper, row, setting):
     """(words of the row's correction, its residual), "" where it has none. InputError where it fails the
     check as well."""
     if not row.corrected:
         return "", float("nan")
-    better = _decided(paper, row, checks.raw(paper, row.corrected), system,
-                      checks.bound_of(paper, row, corrected=True), domain)
+    setting = replace(setting, bound=checks.bound_of(paper, row, corrected=True))
+    pairs = checks.pairs(paper, row, checks.raw(paper, row.corrected), setting)
+    better = _decided(paper, row, pairs, setting)
     if not better.holds:
         raise InputError(
             f"{row.place}: the corrected formula fails the check as well ({better.method}, residual "
@@ -312,7 +310,7 @@ def _corrected(paper, row, system, domain):
     return "; ".join(row.corrected) + (f" with {where}" if where else ""), better.residual
 
 
-def _fixes(paper, row, printed, system, bound, domain, condition):
+def _fixes(paper, row, printed, pairs, setting, condition):
     """(formulas one edit away that pass, "" or the condition that they need): a misprint is wrong even where
     a condition hides it.
 
@@ -320,21 +318,19 @@ def _fixes(paper, row, printed, system, bound, domain, condition):
     """
     if row.options.get("repair") is False:
         return (), ""
-    fixes = repairs(paper, row, printed, system, bound, domain)
+    fixes = repairs(paper, row, printed, setting)
     if fixes or (condition and " and " not in condition):
         return fixes, ""
-    pairs = checks.pairs(paper, row, printed, system, bound)
-    for words, fixed in checks.singles(paper, row, pairs, bound, system, domain):
-        if words in (condition
-                     or words) and (fixes := repairs(paper, row, printed, system, bound, domain, fixed)):
+    for words, fixed in checks.singles(paper, row, pairs, setting):
+        if words in (condition or words) and (fixes := repairs(paper, row, printed,
+                                                               replace(setting, fixed=fixed))):
             return tuple(f"{fix} (where {words})" for fix in fixes), f" where {words}"
     return (), ""
 
 
-def _decided(paper, row, formulas, system, bound, domain) -> checks.Decision:
-    pairs = checks.pairs(paper, row, formulas, system, bound)
-    return (checks.order(paper, row, pairs, bound, system) if row.kind == "order"
-            else checks.decide(pairs, bound, system, row.equation, domain))
+def _decided(paper, row, pairs, setting) -> checks.Decision:
+    return (checks.order(paper, row, pairs, setting) if row.kind == "order"
+            else checks.decide(pairs, setting, row.equation))
 
 
 def key(equation: str):

@@ -6,9 +6,11 @@ from __future__ import annotations
 import cmath
 import random
 import zlib
+from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import lru_cache
 from pathlib import Path
+from typing import Any
 
 from ...errors import InputError
 from ...physics.to_numpy import lambdified
@@ -288,45 +290,56 @@ def _integral(evaluator, f, s, low, high):
 OPERATORS = {"rate": _rate, "diff": _diff, "at": _at, "mean": _mean, "integral": _integral}
 
 
-def points(symbols, seed_text: str, count: int, domain, bound: dict, system, fixed: dict | None = None):
-    """`count` random rational points: symbol name -> Fraction (pairs for complex symbols), sizes 1/3 to 3,
-    where every expression of `domain` is positive.
+@dataclass(frozen=True)
+class Setting:
+    """What formulas are tried on. bound: symbol name -> the SymPy expression that it stands for; system: the
+    motion along which rates are taken, or None; domain: expressions that are positive; fixed: symbol name ->
+    expression of the others (a condition)."""
 
-    fixed: symbol name -> expression of the others (a condition). InputError where the domain is not met in
-    many tries.
-    """
-    import mpmath
+    bound: dict
+    system: Any = None
+    domain: tuple = ()
+    fixed: dict = field(default_factory=dict)
 
-    draw, out = random.Random(zlib.crc32(seed_text.encode())), []
-    for _ in range(400 * count):
-        point = {s.name: _random(draw, s) for s in symbols}
-        ready = settled(mpmath.fp, point, fixed, bound, system)
-        if ready is None:
-            continue
-        try:
-            if all(_positive(Evaluator(mpmath.fp, ready, bound, system)(d)) for d in domain):
-                out.append(point)
-        except Undefined:
-            continue
-        if len(out) == count:
-            return out
-    raise InputError(f"no point found at which all of {', '.join(map(str, domain))} are positive")
+    def evaluator(self, numbers=None, point: dict | None = None, in_numbers: bool = False) -> Evaluator:
+        """Values at a point; without one, what symbols alone can carry out."""
+        return Evaluator(numbers, point or {}, self.bound, self.system, in_numbers)
 
+    def points(self, symbols, seed_text: str, count: int) -> list[dict]:
+        """`count` random rational points: symbol name -> Fraction (pairs for complex symbols), sizes 1/3 to
+        3, where every expression of the domain is positive. InputError where it is not met in many tries."""
+        import mpmath
 
-def settled(numbers, point, fixed, bound, system):
-    """The point as numbers of a kind, fixed symbols by their expressions; None where these have no value."""
-    values = {
-        name: numbers.mpc(*(numbers.mpf(p.numerator) / p.denominator for p in value))
-        if isinstance(value, tuple)
-        else numbers.mpf(value.numerator) / value.denominator
-        for name, value in point.items()
-    }
-    for name, expression in (fixed or {}).items():
-        try:
-            values[name] = Evaluator(numbers, values, bound, system)(expression)
-        except Undefined:
-            return None
-    return values
+        draw, out = random.Random(zlib.crc32(seed_text.encode())), []
+        for _ in range(400 * count):
+            point = {s.name: _random(draw, s) for s in symbols}
+            ready = self.settled(mpmath.fp, point)
+            if ready is None:
+                continue
+            try:
+                if all(_positive(self.evaluator(mpmath.fp, ready)(d)) for d in self.domain):
+                    out.append(point)
+            except Undefined:
+                continue
+            if len(out) == count:
+                return out
+        raise InputError(f"no point found at which all of {', '.join(map(str, self.domain))} are positive")
+
+    def settled(self, numbers, point: dict) -> dict | None:
+        """The point as numbers of a kind, fixed symbols by their expressions; None where these have no value.
+        """
+        values = {
+            name: numbers.mpc(*(numbers.mpf(p.numerator) / p.denominator for p in value))
+            if isinstance(value, tuple)
+            else numbers.mpf(value.numerator) / value.denominator
+            for name, value in point.items()
+        }
+        for name, expression in self.fixed.items():
+            try:
+                values[name] = self.evaluator(numbers, values)(expression)
+            except Undefined:
+                return None
+        return values
 
 
 def _random(draw, symbol):
