@@ -73,6 +73,21 @@ class Ledger:
     left: dict
 
 
+def _corrected(rate, added, most, degree, over_turning, price) -> Ledger:
+    """The oscillating terms taken out of a rate by terms added to those of a quantity, lowest degree first up
+    to the most; over_turning: of terms over the rate at which zeta turns; price: what else the added terms
+    bring."""
+    while True:
+        degrees = [degree(key) for key in rate if key[0] != key[1]]
+        if not degrees or (lowest := min(degrees)) > most:
+            return Ledger(added, rate)
+        moving = [key for key in rate if key[0] != key[1] and degree(key) == lowest]
+        now = over_turning({key: -rate.pop(key) / (_i() * (key[0] - key[1])) for key in moving})
+        added, rate = total(added, now), total(rate, price(now))
+        if len(rate) > MOST_TERMS:
+            raise Unsuited("more terms than are worked out here")
+
+
 class Inequality:
     """The inequality of a form at two orders, that of Y and that of B."""
 
@@ -102,17 +117,10 @@ class Inequality:
             raise Unsuited("a term of the amplitude's rate does not fall fast enough")
 
     def _corrected(self, rate, order, added):
-        added = dict(added)
-        while True:
-            moving = [key for key in rate if key[0] != key[1] and key[2] <= order]
-            if not moving:
-                return Ledger(added, rate)
-            lowest = min(n for _, _, n in moving)
-            now = {(j, k, n + 1): -rate.pop((j, k, n)) / (_i() * self.form.om * (j - k))
-                   for j, k, n in moving if n == lowest}
-            added, rate = total(added, now), total(rate, self._price(now))
-            if len(rate) > MOST_TERMS:
-                raise Unsuited("more terms than are worked out here")
+        return _corrected(rate, added, order, lambda key: key[2], self._over_turning, self._price)
+
+    def _over_turning(self, terms):
+        return {(j, k, n + 1): c / self.form.om for (j, k, n), c in terms.items()}
 
     def _price(self, terms):
         """What the rates make of terms, apart from the turning."""
@@ -283,16 +291,7 @@ class MovingInequality:
         return product(total(*parts), self.spin_rate)
 
     def _corrected(self, rate, order) -> Ledger:
-        added: dict = {}
-        while True:
-            levels = {a + b for j, k, a, b in rate if j != k}
-            if not levels or (lowest := min(levels)) > 4 * order:
-                return Ledger(added, rate)
-            moving = [key for key in rate if key[0] != key[1] and key[2] + key[3] == lowest]
-            now = self._over_turning({key: -rate.pop(key) / (_i() * (key[0] - key[1])) for key in moving})
-            added, rate = total(added, now), total(rate, self._price(now))
-            if len(rate) > MOST_TERMS:
-                raise Unsuited("more terms than are worked out here")
+        return _corrected(rate, {}, 4 * order, lambda key: key[2] + key[3], self._over_turning, self._price)
 
     def faults(self, state, A, z):
         """As of `inequality.Inequality.faults`."""
