@@ -224,11 +224,6 @@ class Curve:
         return [fraction(top(q(t)) / self.bottom(q(t))) for top in self.tops]
 
 
-def curve_of(table, where) -> Curve:
-    """A claimed curve."""
-    return Curve(table, where)
-
-
 def _piece(table, where):
     ends = field(table, "t", where, list)
     if len(ends) != 2:
@@ -398,11 +393,6 @@ class Plane:
     def lies(self, axis, height) -> bool:
         """Whether it is the plane x_axis = height."""
         return self.base[axis] == height and not self.u[axis] and not self.v[axis]
-
-
-def plane_of(table, where) -> Plane:
-    """A claimed plane."""
-    return Plane(table, where)
 
 
 def check_plane(rates, plane, note):

@@ -15,12 +15,10 @@ from .curves import (
     check_curve,
     check_plane,
     cross,
-    curve_of,
     dot,
     identically_zero,
     judged,
     leaves_double_root,
-    plane_of,
 )
 from .numbers import LINEAR, VERDICT, Malformed, bracket, brief, entries, exact_sign, field, fraction, q, word
 from .rates import characteristic, excluded
@@ -342,8 +340,8 @@ def equilibria_of(table) -> Claims:
     """The claims on equilibria. Raises `Malformed` before anything is worked out."""
     read = lambda key, made: [made(v, f"equilibria.{key}[{i}]")
                               for i, v in enumerate(entries(table, key, "equilibria"))]
-    return Claims(word(table, "kind", "equilibria", KINDS), read("points", _Point), read("curves", curve_of),
-                  read("planes", plane_of))
+    return Claims(word(table, "kind", "equilibria", KINDS), read("points", _Point), read("curves", Curve),
+                  read("planes", Plane))
 
 
 def check_equilibria(rates, claims, note):

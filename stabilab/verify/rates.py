@@ -34,35 +34,24 @@ class Rates:
         """The rates of the certificate's scene."""
         kind = field(scene, "variables", "scene", str)
         if kind == "physical":
-            D, lam, M = (numbers(field(scene, key, "scene"), f"scene.{key}", 3)
-                         for key in ("inertia", "momentum", "torque"))
-            if min(D) <= 0:
+            rows = [numbers(field(scene, key, "scene"), f"scene.{key}", 3)
+                    for key in ("inertia", "momentum", "torque")]
+            if min(rows[0]) <= 0:
                 raise Malformed("scene.inertia: expected positive moments")
-            return cls.of_body(D, lam, M)
-        if kind == "scaled":
-            a, b = (number(field(scene, key, "scene"), f"scene.{key}") for key in "ab")
-            return cls.of_scaled(a, b, numbers(field(scene, "mu", "scene"), "scene.mu", 3))
-        raise Malformed(f"scene.variables: expected 'physical' or 'scaled', got {kind!r}")
+        elif kind == "scaled":
+            rows = [[number(field(scene, key, "scene"), f"scene.{key}")] for key in "ab"]
+            rows.append(numbers(field(scene, "mu", "scene"), "scene.mu", 3))
+        else:
+            raise Malformed(f"scene.variables: expected 'physical' or 'scaled', got {kind!r}")
+        return cls.of(kind, *rows)
 
     @classmethod
-    def of_body(cls, D, lam, M) -> Rates:
-        """D x' = (D x + lambda) x x + M, written out."""
-        kappa = [(D[j] - D[k]) / D[i] for i, (j, k) in enumerate(AHEAD)]
-        rho = [lam[j] / D[i] for i, (j, k) in enumerate(AHEAD)]
-        sigma = [-lam[k] / D[i] for i, (j, k) in enumerate(AHEAD)]
-        m = [M[i] / D[i] for i in range(3)]
-        conditions = ((list(M), Fraction(0)),
-                      ([d * t for d, t in zip(D, M)], sum(l * t for l, t in zip(lam, M))))
-        integrals = (D, [Fraction(0)] * 3), ([d * d for d in D], [d * l for d, l in zip(D, lam)])
-        return cls(kappa, rho, sigma, m, conditions, any(M), integrals, (D, lam))
-
-    @classmethod
-    def of_scaled(cls, a, b, mu) -> Rates:
-        """x1' = x2 x3 + mu1, x2' = -x3 (x1 + a) + mu2, x3' = x2 (x1 + b) + mu3."""
-        o, one = Fraction(0), Fraction(1)
-        conditions = (([mu[0], mu[1], o], mu[0] * a), ([mu[0], o, -mu[2]], mu[0] * b))
-        integrals = ([one, one, o], [a, o, o]), ([one, o, -one], [b, o, o])
-        return cls([one, -one, one], [o, o, b], [o, -a, o], list(mu), conditions, any(mu), integrals)
+    def of(cls, variables, first, second, torque) -> Rates:
+        """Those of `written_out`, over their weights."""
+        weights, *terms, conditions, integrals = written_out(variables, first, second, torque)
+        own = ([c / w for c, w in zip(row, weights)] for row in terms)
+        return cls(*own, conditions, any(torque), integrals,
+                   (first, second) if variables == "physical" else None)
 
     def at(self, x, w=1):
         """The rates at x/w, times w^2: fractions, balls or polynomials alike."""
@@ -82,6 +71,26 @@ class Rates:
         """The coefficients in the arithmetic of x."""
         lift = q if isinstance(x[0], fmpq_poly) else ball if isinstance(x[0], arb) else Fraction
         return [[lift(v) for v in row] for row in (self.kappa, self.rho, self.sigma, self.m)]
+
+
+def written_out(variables: str, first, second, torque) -> tuple:
+    """(w, kappa, rho, sigma, m, conditions, integrals) of w_i x_i' = kappa_i x_j x_k + rho_i x_k + sigma_i
+    x_j + m_i, the last two as of `Rates`. first, second: moments and momentum of a body, D x' = (D x +
+    lambda) x x + M; [a] and [b] of the scaled system x1' = x2 x3 + mu1, x2' = -x3 (x1 + a) + mu2, x3' = x2
+    (x1 + b) + mu3. Of numbers of any kind."""
+    o = 0 * torque[0]
+    one = o + 1
+    if variables == "scaled":
+        (a,), (b,), mu = first, second, torque
+        conditions = ([mu[0], mu[1], o], mu[0] * a), ([mu[0], o, -mu[2]], mu[0] * b)
+        integrals = ([one, one, o], [a, o, o]), ([one, o, -one], [b, o, o])
+        return [one] * 3, [one, -one, one], [o, o, b], [o, -a, o], mu, conditions, integrals
+    D, lam = first, second
+    times = lambda v: [d * c for d, c in zip(D, v)]
+    conditions = (torque, o), (times(torque), sum((l * t for l, t in zip(lam, torque)), o))
+    integrals = (D, [o] * 3), (times(D), times(lam))
+    return (D, [D[j] - D[k] for j, k in AHEAD], [lam[j] for j, _ in AHEAD], [-lam[k] for _, k in AHEAD],
+            torque, conditions, integrals)
 
 
 def characteristic(J):

@@ -41,8 +41,8 @@ from .numbers import (
     word,
     working,
 )
+from .rates import AHEAD
 
-AHEAD = ((1, 2), (2, 0), (0, 1))
 PATIENCE = 20  # times the present step that later ones may be, in the mean
 LINEAR_BITS, LINEAR_ORDER = 64, 9  # of J: what it errs by multiplies the width of the set alone
 

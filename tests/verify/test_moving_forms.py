@@ -27,8 +27,8 @@ from tests.verify.trapped import says_what_happens
 
 
 def rates_of(scene):
-    return Rates.of_body(*map(list,
-                              (scene.body.exact, scene.vector("gyrostat"), scene.vector("constant_torque"))))
+    return Rates.of("physical", *map(list, (scene.body.exact, scene.vector("gyrostat"),
+                                            scene.vector("constant_torque"))))
 
 
 def of_revolution(rng):

@@ -12,12 +12,12 @@ from stabilab.verify import curves as degenerate
 from stabilab.verify import equilibria as complete
 from stabilab.verify import motion, verify
 from stabilab.verify import orbit as period
-from stabilab.verify.curves import curve_of, judged
+from stabilab.verify.curves import Curve, judged
 from stabilab.verify.numbers import Malformed, Open, above, ball, below, hull, narrowed
 from stabilab.verify.rates import Rates
 
 ZERO, ONE = F(0), F(1)
-TOP = Rates.of_body([F(5), F(4), F(2)], [ZERO, F(2), ZERO], [ZERO] * 3)
+TOP = Rates.of("physical", [F(5), F(4), F(2)], [ZERO, F(2), ZERO], [ZERO] * 3)
 
 
 def holds(value, exact):
@@ -38,8 +38,8 @@ def test_newton_halves_where_the_slope_vanishes_and_gives_up_where_there_is_no_z
 def test_integrals_change_as_the_conditions_say():
     # d/dt sum (a x^2/2 + b x) = sum (a x + b) x' is normal.x + constant for every x (by hand; theory.md,
     # section 1)
-    for rates in (Rates.of_body([F(3), F(2), F(4)], [ONE, F(2), F(5)], [F(1), F(7), F(-2)]),
-                  Rates.of_scaled(F(1, 3), F(2), [ONE, F(2), F(3)])):
+    for rates in (Rates.of("physical", [F(3), F(2), F(4)], [ONE, F(2), F(5)], [F(1), F(7), F(-2)]),
+                  Rates.of("scaled", [F(1, 3)], [F(2)], [ONE, F(2), F(3)])):
         for (quad, linear), (normal, constant) in zip(rates.integrals, rates.conditions):
             x = [F(3, 7), F(-2, 5), F(11, 3)]
             change = sum((a * v + b) * r for a, b, v, r in zip(quad, linear, x, rates.at(x)))
@@ -58,19 +58,19 @@ def test_level_sets_decide_only_at_equilibria_and_with_less_than_three_signs():
 
 
 def test_an_orbit_without_force_decides_nothing():
-    free = Rates.of_body([F(3), F(2), ONE], [ZERO] * 3, [ZERO] * 3)
+    free = Rates.of("physical", [F(3), F(2), ONE], [ZERO] * 3, [ZERO] * 3)
     axis = [ONE, ZERO, ZERO]
     # no direction: the orbit stays
     assert degenerate.on_own_orbit(free, axis, [ZERO] * 3) is None
     # turns about axis 3, no rate along it
-    sphere = Rates.of_body([ONE] * 3, [ZERO, ZERO, ONE], [ZERO] * 3)
+    sphere = Rates.of("physical", [ONE] * 3, [ZERO, ZERO, ONE], [ZERO] * 3)
     assert degenerate.on_own_orbit(sphere, axis, [ZERO, ZERO, ONE]) is None
 
 
 def test_a_double_root_without_a_leading_term_decides_nothing():
-    still = Rates.of_body([ONE] * 3, [ZERO] * 3, [ZERO] * 3)
+    still = Rates.of("physical", [ONE] * 3, [ZERO] * 3, [ZERO] * 3)
     assert degenerate.leaves_double_root(still, [ONE, ZERO, ZERO], ZERO) is None   # J = 0
-    sphere = Rates.of_body([ONE] * 3, [ZERO, ZERO, ONE], [ZERO] * 3)
+    sphere = Rates.of("physical", [ONE] * 3, [ZERO, ZERO, ONE], [ZERO] * 3)
     # linear: no quadratic term at all
     assert degenerate.leaves_double_root(sphere, [ZERO] * 3, ONE) is None
 
@@ -118,7 +118,7 @@ def test_rates_that_are_no_multiples_of_one_conic_are_not_checked():
     odd = Rates([ONE] * 3, [ZERO] * 3, [ZERO] * 3, [ZERO, ONE, ONE],
                 (([ONE, ZERO, ZERO], ZERO), ([F(2), ZERO, ZERO], ZERO)), True, ())
     assert complete.whole_conic(odd, "curves", [], [])[0] == "not checked"
-    line = curve_of({"numerators": [["0"], ["0", "1"], ["0"]], "denominator": ["1"]} | CURVE, "here")
+    line = Curve({"numerators": [["0"], ["0", "1"], ["0"]], "denominator": ["1"]} | CURVE, "here")
     assert degenerate.reducing_direction(odd, line) is None
 
 

@@ -32,9 +32,9 @@ STATE = (F(1, 10), F(1), F(2))
 
 def rates_of(scene):
     if scene.variables == "scaled":
-        return Rates.of_scaled(*scene.exact_ab, list(scene.exact_mu))
-    return Rates.of_body(*map(list,
-                              (scene.body.exact, scene.vector("gyrostat"), scene.vector("constant_torque"))))
+        return Rates.of("scaled", *([v] for v in scene.exact_ab), list(scene.exact_mu))
+    return Rates.of("physical", *map(list, (scene.body.exact, scene.vector("gyrostat"),
+                                            scene.vector("constant_torque"))))
 
 
 def drawn(rng):

@@ -13,7 +13,7 @@ from typing import Any
 
 from flint import fmpq_mpoly, fmpq_mpoly_ctx, fmpq_poly
 
-from ..rates import AHEAD
+from ..rates import AHEAD, written_out
 from ..roots import Work
 from .algebra import Basis, Polynomial, Ratio, Residue, characteristic, rank_and_signature
 from .claims import Claims
@@ -38,24 +38,16 @@ class Equations:
         ring = fmpq_mpoly_ctx.get(("t", "x1", "x2", "x3"), "lex")
         t, *x = ring.gens()
         scene = {name: [_of_t(f, ring) for f in row] for name, row in claims.scene.items()}
-        zero, one = ring.constant(0), ring.constant(1)
+        scaled, zero = claims.variables == "scaled", ring.constant(0)
+        names = ("a", "b", "mu") if scaled else ("inertia", "momentum", "torque")
+        weights, kappa, rho, sigma, m, conditions, laws = written_out(claims.variables,
+                                                                      *(scene[name] for name in names))
         both = lambda u, v: sum((a * b for a, b in zip(u, v)), zero)
-        squares = [v * v / 2 for v in x]
-        if claims.variables == "scaled":
-            (a,), (b,), m = scene["a"], scene["b"], scene["mu"]
-            weights, kappa, rho, sigma = [one] * 3, [one, -one, one], [zero, zero, b], [zero, -a, zero]
-            conditions = [m[0] * (x[0] + a) + m[1] * x[1], m[0] * (x[0] + b) - m[2] * x[2]]
-            laws = squares[0] + squares[1] + a * x[0], squares[0] - squares[2] + b * x[0]
-        else:
-            D, lam, m = scene["inertia"], scene["momentum"], scene["torque"]
-            a, weights, kappa = zero, D, [D[j] - D[k] for j, k in AHEAD]
-            rho, sigma = [lam[j] for j, _ in AHEAD], [-lam[k] for _, k in AHEAD]
-            momentum = [d * v + l for d, v, l in zip(D, x, lam)]
-            conditions = [both(m, x), both(m, momentum)]
-            laws = both(D, squares), both(D, (d * s + l * v for d, s, l, v in zip(D, squares, lam, x)))
         rates = [kappa[i] * x[j] * x[k] + rho[i] * x[k] + sigma[i] * x[j] + m[i]
                  for i, (j, k) in enumerate(AHEAD)]
-        return cls(weights, rates, conditions, laws, (a, zero, zero), claims.variables == "scaled")
+        first, second = (both(u, (v * v / 2 for v in x)) + both(w, x) for u, w in laws)
+        return cls(weights, rates, [both(u, x) + c for u, c in conditions], (first, second),
+                   (scene["a"][0] if scaled else zero, zero, zero), scaled)
 
     def slope(self, i: int, j: int) -> fmpq_mpoly:
         """The derivative of w_i x_i' by x_j."""
