@@ -20,9 +20,10 @@ from typing import Any
 
 import numpy as np
 
-from ...errors import InputError, told
+from ...errors import InputError
 from ...integrate.trajectory import FALLBACK_RTOL
 from ...physics.equations import derive
+from ...physics.states import numbers_in_a_row, three_numbers
 from ...physics.to_numpy import lambdified, to_numpy
 from .normal_form import NAMES, check, constants, normal_form
 
@@ -77,7 +78,7 @@ def averaged(scene, state, times, order: int = 1) -> AveragedMotion:
     """
     if order not in (1, 2):
         raise InputError(f"order: expected 1 or 2, got {order!r}")
-    omega, times = omega_of(state), times_row(times)
+    omega, times = omega_of(state), numbers_in_a_row(times, "times")
     check(scene)
     numbers = constants(scene)
     small = Smallness.of(numbers, omega)
@@ -102,25 +103,9 @@ def averaged(scene, state, times, order: int = 1) -> AveragedMotion:
                           small.horizon(order))
 
 
-def omega_of(state):
-    values = state["omega"] if isinstance(state, dict) and "omega" in state else state
-    try:
-        array = np.array([float(v) for v in values])
-    except (TypeError, ValueError):
-        raise InputError(f"state: expected three numbers or a block omega, got {told(state)}") from None
-    if array.shape != (3,) or not np.isfinite(array).all():
-        raise InputError(f"state: expected three finite numbers, got {told(state)}")
-    return array
-
-
-def times_row(times):
-    try:
-        array = np.array([float(v) for v in times])
-    except (TypeError, ValueError):
-        raise InputError(f"times: expected finite numbers in one row, got {told(times)}") from None
-    if not array.size or not np.isfinite(array).all():
-        raise InputError("times: expected finite numbers in one row")
-    return array
+def omega_of(state) -> np.ndarray:
+    """Three numbers, or the block omega of a state."""
+    return three_numbers(state["omega"] if isinstance(state, dict) and "omega" in state else state)
 
 
 @dataclass(frozen=True)
@@ -308,7 +293,7 @@ def polar(scene, state, times) -> dict[str, np.ndarray]:
     start on that axis, which has no phase.
     """
     check(scene)
-    (p, q, r), times = omega_of(state), times_row(times)
+    (p, q, r), times = omega_of(state), numbers_in_a_row(times, "times")
     rate = to_numpy(derive(scene)).rate
     if any(rate([0.0, 0.0, 1.0])[:2]) or not math.hypot(p, q):
         raise InputError("amplitude and phase: expected no torque across axis 3 and a start off that axis")

@@ -29,8 +29,9 @@ import numpy as np
 
 from ...answers.simulate import Simulation
 from ...errors import InputError
+from ...physics.states import numbers_in_a_row
 from ..printed.evaluate import printed_formulas
-from .averaged import AveragedMotion, averaged, omega_of, times_row
+from .averaged import AveragedMotion, averaged, omega_of
 from .normal_form import check, constants
 
 
@@ -112,7 +113,7 @@ def printed(scene, state, times) -> PrintedMotion:
     Raises InputError where the scene is not the paper's (as `averaged`) and where the printed formulas have
     no real value at the start.
     """
-    omega, times = omega_of(state), times_row(times)
+    omega, times = omega_of(state), numbers_in_a_row(times, "times")
     if (times < 0).any() or (np.diff(times) <= 0).any():
         raise InputError("times: expected increasing times, 0 or later")
     poly = Polynomials.of(scene, omega)

@@ -29,8 +29,9 @@ from functools import lru_cache
 
 import numpy as np
 
-from ...errors import InputError, told
+from ...errors import InputError
 from ...numbers.exact import mpmath_alone
+from ...physics.states import numbers_in_a_row
 from .scaling import fast_top
 
 ROUNDED = 3  # digits lost to rounding: a forcing whose share of the largest one lies below the others is none
@@ -308,7 +309,7 @@ def lindstedt(scene, state, times, order: int = 2) -> LindstedtMotion:
     """
     if isinstance(order, bool) or not isinstance(order, (int, np.integer)) or not 0 <= order <= HIGHEST_ORDER:
         raise InputError(f"order: expected a whole number from 0 to {HIGHEST_ORDER}, got {order!r}")
-    times = times_row(times)
+    times = numbers_in_a_row(times, "times")
     top = fast_top(scene, state)
     expansion, further, r0 = expand(top, int(order)), expand(top, int(order) + FURTHER), float(top.r0)
     exists = expansion.order >= 0
@@ -330,16 +331,6 @@ def lindstedt(scene, state, times, order: int = 2) -> LindstedtMotion:
                            2 * np.pi / abs(nu * r0),
                            float(top.Omega2), near, expansion.terms, ahead, residual, departure, left_out,
                            status, reason, r0, expansion)
-
-
-def times_row(times):
-    try:
-        array = np.atleast_1d(np.asarray(times, float))
-    except (TypeError, ValueError):
-        raise InputError(f"times: expected numbers, got {told(times)}") from None
-    if array.ndim != 1 or not np.isfinite(array).all():
-        raise InputError(f"times: expected finite numbers in one row, got {told(times)}")
-    return array
 
 
 def _evaluate(expansion, r0, times):

@@ -32,8 +32,9 @@ import numpy as np
 
 from ...answers.simulate import Simulation
 from ...errors import InputError
+from ...physics.states import numbers_in_a_row
 from ..printed.evaluate import printed_formulas
-from .lindstedt import LindstedtMotion, lindstedt, times_row
+from .lindstedt import LindstedtMotion, lindstedt
 from .scaling import fast_top
 
 
@@ -96,7 +97,7 @@ def printed(scene, state, times) -> PrintedMotion:
     """The paper's (41) and (43) at the times, s, through r and gamma of the state at t = 0 (arguments as of
     `lindstedt`; its p, q are not free). Raises InputError without gravity, for gamma0'' not between 0 and 1,
     and for l_y."""
-    times, top = times_row(times), fast_top(scene, state)
+    times, top = numbers_in_a_row(times, "times"), fast_top(scene, state)
     try:
         values = paper_numbers(scene, state)
     except ZeroDivisionError:

@@ -499,6 +499,5 @@ def test_printed_solution_refuses_what_its_scaling_cannot_hold(scene, gamma, wor
 
 @pytest.mark.parametrize("times", [[np.nan], [[0.0, 1.0]], ["a"]])
 def test_times_of_an_expansion_are_finite_numbers_in_a_row(times):
-    from stabilab.theories.top.lindstedt import times_row
     with pytest.raises(InputError, match="times: expected"):
-        times_row(times)
+        lindstedt(Scene(Body(MOMENTS), Gravity(1, ARM)), START, times)
