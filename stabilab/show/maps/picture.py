@@ -349,17 +349,17 @@ def segments_of(fates: np.ndarray, x: np.ndarray, y: np.ndarray, way: Any) -> np
 BINS = 60
 
 
-def spread(data: Any, plan: Any, kind: str, moving: list[str], size: Any, plt: Any) -> Any:
+def spread(data: Any, kind: str, moving: list[str], size: Any, plt: Any) -> Any:
     """The figure: histograms of samples alone, shares of fates along one axis, the share that spins up along
     two."""
     if not moving:
-        return _histograms(data, plan, kind, size, plt)
+        return _histograms(data, kind, size, plt)
     if "fate" not in data:
         raise InputError("plot: shares of samples need the fate: ask for it with --answer fate")
     return (_shares if len(moving) == 1 else _share_map)(data, moving, size, plt)
 
 
-def _histograms(data, plan, kind, size, plt):
+def _histograms(data, kind, size, plt):
     names = [name for name in ("margin", "distance", "period", "when_low") if name in data
              and np.isfinite(data[name]).any()]
     names = [kind] if kind in names else names
@@ -584,7 +584,7 @@ def drawn(data: xarray.Dataset, plan: Plan, kind: str, size: tuple[float, float]
     moving = [name for name in dimensions_of(data) if data.sizes[name] > 1]
     data = data.isel({name: 0 for name in dimensions_of(data) if name not in moving})
     if shades.SAMPLE in data.sizes:
-        return spread(data, plan, kind, moving, size, plt)
+        return spread(data, kind, moving, size, plt)
     if len(moving) < 2:
         if not moving:
             raise InputError("a sweep of one point has no picture: stabilab plot draws its case")
