@@ -64,8 +64,7 @@ def resisted_equilibria(parts: Content) -> Equilibria:
     for t in real_roots(P, BITS):
         points.append(_point(parts, form, numerators, q, P, t))
     reason = (f"omega{e + 1} determines the other two rates, and it is a root of a polynomial of degree "
-              f"{P.degree} with exact coefficients, "
-              f"whose real roots are {len(points)} by Sturm's theorem")
+              f"{P.degree} with exact coefficients, whose real roots are {len(points)} by Sturm's theorem")
     return Equilibria("points", reason, tuple(points))
 
 
@@ -259,12 +258,10 @@ MINIMUM = ("asymptotically stable",
            "(LaSalle)")
 NO_MINIMUM = ("unstable",
               "the potential energy is not least here and the medium takes energy at every rotation: states "
-              "of less energy next to "
-                          "this one leave and do not come back")
+              "of less energy next to this one leave and do not come back")
 CONTINUUM = ("stable",
              "rest positions of one energy, strictly least across them: they attract their neighbourhood "
-             "(the others of the eigenvalues "
-                       "lie on the left), so each of them is stable")
+             "(the others of the eigenvalues lie on the left), so each of them is stable")
 OPEN = ("undecided",
         "the second variation of the potential energy is degenerate: a term of higher order decides")
 
@@ -294,16 +291,14 @@ def held_in_a_field(parts: Content) -> Equilibria:
     if parts.kappa:
         return Equilibria("undecided",
                           "undecided: where the body carries a liquid, the torque of a field or of a turning "
-                          "charge enters the liquid's own "
-                                       "torque, and equilibria beyond those of the body without liquid are "
-                                       "not excluded")
+                          "charge enters the liquid's own torque, and equilibria beyond those of the body "
+                          "without liquid are not excluded")
     if parts.damped and not decay(parts):
         return Equilibria("undecided", PARTLY)
     if any(parts.M):
         return Equilibria("undecided",
                           "undecided: a constant torque and a field hold a turning body against the medium "
-                          "only where four equations in omega "
-                                       "and gamma meet; no closed form is known")
+                          "only where four equations in omega and gamma meet; no closed form is known")
     return rest_positions(parts)
 
 

@@ -137,8 +137,7 @@ def _records(future: Any, address: str) -> bytes:
         else:
             why = f"{name}: {_first_line(error)}"
         raise InputError(f"scheduler {printable(address)[:80]}: {why}; finished chunks are kept where --out "
-                         f"names a file, and the same command goes on "
-                         "from them") from None
+                         "names a file, and the same command goes on from them") from None
     if kind == "fault":
         raise InputError(what)
     return what

@@ -74,10 +74,9 @@ def torque_signs() -> Table:
             signs.setdefault((wheel, *rest), []).append(str(torque))
     rows = [(wheel, ", ".join(torques), *rest) for (wheel, *rest), torques in signs.items()]
     return Table(1, "Equilibria and their stability under every constant torque",
-                 "All sign combinations of the torque "
-                 "(μ1, μ2, μ3). The paper grants eight equilibria whenever μ1 μ2 μ3 ≥ 0; there are never "
-                 "more than two "
-                 "isolated ones, and curves only for a torque along one axis or none.", tuple(TORQUE_COLUMNS),
+                 "All sign combinations of the torque (μ1, μ2, μ3). The paper grants eight equilibria "
+                 "whenever μ1 μ2 μ3 ≥ 0; there are never more than two isolated ones, and curves only for a "
+                 "torque along one axis or none.", tuple(TORQUE_COLUMNS),
                  tuple(rows),
                  wide=True)
 

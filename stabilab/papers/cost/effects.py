@@ -142,10 +142,9 @@ def imported(*names: str) -> tuple[str, ...]:
     unknown = set(names) - set(REGISTRY)
     if unknown:
         raise KeyError(*unknown)
-    code = ("import sys\nfrom stabilab.papers.cost.effects import BODY, derive, example, Scene\n"
-            "derive(Scene(BODY, *map(example, sys.argv[1:])))\n"
-            "print(*sorted(m.rsplit('.')[-1] for m in sys.modules if "
-            "m.startswith('stabilab.physics.effects.')))\n")
+    code = ("import sys\nfrom stabilab.papers.cost.effects import BODY, derive, example, "
+            "Scene\nderive(Scene(BODY, *map(example, sys.argv[1:])))\nprint(*sorted(m.rsplit('.')[-1] for m "
+            "in sys.modules if m.startswith('stabilab.physics.effects.')))\n")
     run = subprocess.run([sys.executable, "-c", code, *names], capture_output=True, text=True, check=True)
     return tuple(name for name in run.stdout.split() if name != "base")
 
@@ -227,10 +226,9 @@ def words(steps, singles, zero) -> list[str]:
     (first, quick), (last, slow) = steps[0], steps[-1]
     dearest = max(singles, key=lambda single: single[0].operations)[0]
     lines = [f"The body alone has {first.states} states and {first.operations} operations a rate; all "
-             f"{len(steps) - 1} effects together have "
-             f"{last.states} states and {last.operations} operations. By itself {spoken(dearest.added)} adds "
-             f"most: "
-             f"{dearest.operations - first.operations} operations."]
+             f"{len(steps) - 1} effects together have {last.states} states and {last.operations} operations. "
+             f"By itself {spoken(dearest.added)} adds most: {dearest.operations - first.operations} "
+             "operations."]
     if quick.taylor_step:
         lines.append(
             f"A Taylor step takes {duration(quick.taylor_step)} for the body alone and "

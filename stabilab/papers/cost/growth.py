@@ -325,9 +325,8 @@ def words(rows, about) -> str:
     if about == "digits":
         many, periods = pick("states over the span", "Taylor in many digits"), pick("period", "balls")
         return (f"A Taylor series in many digits takes {duration(many[0].seconds)} for {many[0].x:.0f} "
-                f"digits and {duration(many[-1].seconds)} for "
-                f"{many[-1].x:.0f}: the order grows with the digits, a product of two series with its "
-                f"square. The balls of a period take "
+                f"digits and {duration(many[-1].seconds)} for {many[-1].x:.0f}: the order grows with the "
+                "digits, a product of two series with its square. The balls of a period take "
                 f"{duration(periods[0].seconds)} and {duration(periods[-1].seconds)}.")
     fates, periods = pick("fate"), pick("period")
     nodes = [r for r in reversed(periods) if r.count is not None]
@@ -336,11 +335,10 @@ def words(rows, about) -> str:
                 f"; nearer than {nodes[-1].x:.0e} the rule in doubles does not get there at all, and balls "
                 f"answer"))
     return (f"From 1e-1 to 1e-15 the fate's time goes from {duration(fates[-1].seconds)} to "
-            f"{duration(fates[0].seconds)}, and its bits in balls from "
-            f"{fates[-1].count} to {fates[0].count}: a state is as hard as its margin is small. The period "
-            f"itself grows like the logarithm of the "
-            f"distance; the midpoint rule takes {nodes[0].count} nodes at 1e-1 and {nodes[-1].count} at "
-            f"{nodes[-1].x:.0e}{lost}.")
+            f"{duration(fates[0].seconds)}, and its bits in balls from {fates[-1].count} to "
+            f"{fates[0].count}: a state is as hard as its margin is small. The period itself grows like the "
+            f"logarithm of the distance; the midpoint rule takes {nodes[0].count} nodes at 1e-1 and "
+            f"{nodes[-1].count} at {nodes[-1].x:.0e}{lost}.")
 
 
 def main(case, folder) -> None:

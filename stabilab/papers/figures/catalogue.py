@@ -19,8 +19,7 @@ from .figure import POINTS, Figure, model_figure, words
 
 _LEVEL = "curves: level sets of the exact potential, in doubles"
 _LAW = ("x2² + x3² − 2(b−a)x1 falls by exactly 2(b−a)τ, so no motion is bounded and there is no equilibrium, "
-        "stable or "
-        "not; the paper prints an equilibrium hyperbola X2 X3 = −1")
+        "stable or not; the paper prints an equilibrium hyperbola X2 X3 = −1")
 
 
 def _run(start, plane=None):
@@ -37,10 +36,9 @@ _STARTED, _CAPTURED = (partial(major.exactness, start) for start in (paper.START
 FIGURES = (
     model_figure("minor-axis-100"),
     Figure(2, "Trajectories for a torque on the minor axis",
-           lambda: "Level curves of x²/2 + A² cos α − 4A(b−a) sin(α/2) − 2α on the "
-           f"true circle (x1+a)² + x2² = A² with A = {minor.circle():.4f}. The paper draws F = 4.72 from x1² "
-           f"+ x2² = F², which is not "
-           f"constant, and −4Fb in place of −4A(b−a). {minor.departure()}", minor.trajectories,
+           lambda: "Level curves of x²/2 + A² cos α − 4A(b−a) sin(α/2) − 2α on the true circle (x1+a)² + x2² "
+                   f"= A² with A = {minor.circle():.4f}. The paper draws F = 4.72 from x1² + x2² = F², which "
+                   f"is not constant, and −4Fb in place of −4A(b−a). {minor.departure()}", minor.trajectories,
            f"{_LEVEL}; grey lines: traced on a 700 x 500 grid"),
     Figure(3, "Left and right separatrices",
            lambda: "Each saddle has one loop; triangles mark where a loop crosses the axis "
@@ -48,9 +46,8 @@ FIGURES = (
            f"right. {minor.departure()}",
            minor.left_right, _LEVEL),
     Figure(4, "Effect of the momentum wheel on the separatrices",
-           lambda: "True saddles and centres against the positions printed "
-           f"in the text (upright strokes). With growing λ1 the left saddle moves left (α = "
-           f"{minor.left_saddles()}), not right.",
+           lambda: "True saddles and centres against the positions printed in the text (upright strokes). "
+                   f"With growing λ1 the left saddle moves left (α = {minor.left_saddles()}), not right.",
            minor.wheel_effect, _LEVEL),
     Figure(5, "Separatrix surfaces, minor axis",
            lambda: "Inside each of the two surfaces every motion is periodic about its "
@@ -89,12 +86,11 @@ FIGURES = (
     Figure(14, "Major axis from (0, −1, 5): x2, x3", _released, _run(paper.START_CAPTURED, "23"), _CAPTURED),
     Figure(15, "Major axis from (0, −1, 5): x1, x2", _released, _run(paper.START_CAPTURED, "12"), _CAPTURED),
     Figure(16, "Middle axis: no separatrix for the paper's data",
-           lambda: f"For |b−a| < {middle.CUSP:.4f} there is no saddle: every motion is "
-           "periodic but those on the plane x1 + b = −x3, which spin up. The paper draws separatrices and "
-           "three regions. At "
-           f"λ1 = {middle.LAMBDA_BEYOND} a figure-eight separatrix does exist (right): every saddle has two "
-           f"loops, and all of them "
-           f"together are the surfaces. {middle.path_departure()}", middle.surfaces, middle.exactness),
+           lambda: f"For |b−a| < {middle.CUSP:.4f} there is no saddle: every motion is periodic but those on "
+                   "the plane x1 + b = −x3, which spin up. The paper draws separatrices and three regions. "
+                   f"At λ1 = {middle.LAMBDA_BEYOND} a figure-eight separatrix does exist (right): every "
+                   "saddle has two loops, and all of them together are the surfaces. "
+                   f"{middle.path_departure()}", middle.surfaces, middle.exactness),
     Figure(17, "Middle axis: projection on (x1, x3)",
            lambda: "All equilibria are stable for the paper's data, on both sides of the "
            f"printed line x1 = x3; that line is no invariant plane, x1 + b = x3 is. At λ1 = "

@@ -65,9 +65,8 @@ def releases(start) -> str:
     """When each run of a start is released from its capture."""
     times = [_release(lam, start) for lam in paper.LAMBDAS]
     return (f"This start is released at τ = {listed(times, '{:.1f}')} for λ1 = "
-            f"{listed(paper.LAMBDAS, '{}')}: released means that the turn "
-            f"about axis 1 reverses for the last time, and the body spins up for ever. Upper row: τ from 0 "
-            f"to 15, as in print; lower row: the "
+            f"{listed(paper.LAMBDAS, '{}')}: released means that the turn about axis 1 reverses for the last "
+            "time, and the body spins up for ever. Upper row: τ from 0 to 15, as in print; lower row: the "
             f"same motions to τ = {AFTER:g} after their release.")
 
 

@@ -55,28 +55,20 @@ _SWEEP = "charged-sweep"
 CHAPTERS = (
     Chapter("charged", "A charged, nearly axisymmetric body",
             "A spinning body with a gyrostatic moment, a charge in a magnetic field, and a torque and a "
-            "thrust fixed in it: "
-            "angular velocity, 3-1-2 angles, angular momentum, velocity and displacement in closed form, for "
-            "small angles "
-            "psi and phi. Euler's "
-            "equations give two different rates a and b; equation (8) keeps one. The corrected closed form "
-            "keeps both.",
+            "thrust fixed in it: angular velocity, 3-1-2 angles, angular momentum, velocity and displacement "
+            "in closed form, for small angles psi and phi. Euler's equations give two different rates a and "
+            "b; equation (8) keeps one. The corrected closed form keeps both.",
             tuple((_SWEEP, v) for v in ("-1-2-1", "-3-2-1", "-1-3-1", "-1-2-3")), 50.0,
             "charged-body-small-torque", 50.0, "the torque is so small that the tilt stays small for ever",
             ("omega", "angles", "position"), 50.0,
             "Charged body", 25.0),
     Chapter("cavity", "A body with a cavity of viscous liquid",
             "A nearly spherical body with a gyrostatic moment, a charge, a resisting medium, a constant "
-            "torque and a liquid "
-            "so viscous that it follows the body at once. The paper averages over the turn about axis 3 and "
-            "takes the first "
-            "terms of a Taylor "
-            "series of the averaged equations. No figure states all of its data; what is missing is "
-            "completed as the titles "
-            "of the figures "
-            "say. They give zeta and M3 as the paper does, whose equations hold them times eps^2 = 0.01: 2 "
-            "1/s stands for 0.02 1/s, "
-            "-6 N m for -0.06 N m.",
+            "torque and a liquid so viscous that it follows the body at once. The paper averages over the "
+            "turn about axis 3 and takes the first terms of a Taylor series of the averaged equations. No "
+            "figure states all of its data; what is missing is completed as the titles of the figures say. "
+            "They give zeta and M3 as the paper does, whose equations hold them times eps^2 = 0.01: 2 1/s "
+            "stands for 0.02 1/s, -6 N m for -0.06 N m.",
             tuple((f"liquid-{name}", "")
                   for name in ("base", "lambda3-0_2", "lambda3-15", "lambda3-25", "zeta-2_5", "torque-9",
                                                       "charge-1e3", "charge-1e4")), 20.0,
@@ -85,11 +77,8 @@ CHAPTERS = (
             "law", ("omega",), 3000.0, "Liquid cavity", 14.0),
     Chapter("top", "A fast top in a Newtonian field",
             "A body about a fixed point, nearly Lagrange's top, under its weight, the gradient of a "
-            "Newtonian field and a "
-            "gyrostatic moment (l_x, 0, l_z), expanded in 1/r0 for a fast spin. The corrected expansion "
-            "keeps C* = C + "
-            "l_z/r0, the permanent "
-            "tilt by l_x and the frequency.",
+            "Newtonian field and a gyrostatic moment (l_x, 0, l_z), expanded in 1/r0 for a fast spin. The "
+            "corrected expansion keeps C* = C + l_z/r0, the permanent tilt by l_x and the frequency.",
             tuple((f"top-lx{a}-lz{b}", "") for a, b in ((30, 30), (90, 30), (30, 90))), 1.3,
             "top-fast", 2.0, "it spins fast, delta1 and delta2 are of order one, and gamma0'' is not near 0",
             ("omega", "gamma"), 0.15, "Fast top", 11.0),
