@@ -21,11 +21,10 @@ from operator import mul
 
 from ...answers.attitude.ask import attitude
 from ...answers.circular_orbit.ask import circular_orbit
-from ...answers.passage.enclosed import own_unit
+from ...answers.passage.enclosed import flow_of, own_unit
 from ...case.read import load
-from ...integrate.integer_flow import IntegerFlow
 from ...numbers.balls import working
-from ...numbers.vectors import CYCLE
+from ...numbers.vectors import CYCLE, cross, dot
 
 
 def reproduced(printed, time: float, rates=None) -> list[float]:
@@ -201,11 +200,6 @@ def _rows(first, second):
     return tuple(tuple(column[i] for column in columns) for i in range(3))
 
 
-def cross(a, b) -> list:
-    """The cross product of two vectors of any numbers."""
-    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-
-
 def _run(motion, times, axis):
     """[(rates, direction)] at the times, as many bits as it takes."""
     bits = FIRST_BITS
@@ -219,8 +213,7 @@ def _run(motion, times, axis):
 def _attempt(motion, times, axis, bits):
     scene = motion.scene
     unit = own_unit(scene, motion.omega)
-    flow = IntegerFlow(scene.quadratic(), list(scene.body.exact), motion.omega, bits, unit,
-                       tuple(map(Fraction, axis)))
+    flow = flow_of(scene, motion.omega, bits, unit, tuple(map(Fraction, axis)))
     found, lost = [], 0
     with working(BALL_BITS) as numbers:
         # of a unit of omega; a free motion runs so much faster
@@ -289,7 +282,7 @@ def _start(motion, numbers):
     if motion.against_momentum:
         return _against_momentum(motion, numbers)
     s = [numbers.ball(v) for v in motion.sigma]
-    square = s[0] * s[0] + s[1] * s[1] + s[2] * s[2]
+    square = dot(s, s)
     columns = []
     for k in range(3):
         e = [numbers.ball(int(i == k)) for i in range(3)]
@@ -308,7 +301,7 @@ def _against_momentum(motion, numbers):
 
 
 def _unit(vector):
-    length = sum(v * v for v in vector).sqrt()
+    length = dot(vector, vector).sqrt()
     return [v / length for v in vector]
 
 
@@ -326,7 +319,7 @@ def angle3(motion, at: At, numbers) -> list:
 def off_linear(motion, at: At, numbers, time) -> list:
     """The angle between the attitude and that of a rotation at the initial rate."""
     w = [numbers.ball(v) for v in motion.omega]
-    size = sum(v * v for v in w).sqrt()
+    size = dot(w, w).sqrt()
     axis, turn = [v / size for v in w], -size * numbers.ball(time)
     trace = numbers.ball(0)
     for k in range(3):
