@@ -49,8 +49,8 @@ class Rates:
     def of(cls, variables, first, second, torque) -> Rates:
         """Those of `written_out`, over their weights."""
         weights, *terms, conditions, integrals = written_out(variables, first, second, torque)
-        own = ([c / w for c, w in zip(row, weights)] for row in terms)
-        return cls(*own, conditions, any(torque), integrals,
+        kappa, rho, sigma, m = ([c / w for c, w in zip(row, weights)] for row in terms)
+        return cls(kappa, rho, sigma, m, conditions, any(torque), integrals,
                    (first, second) if variables == "physical" else None)
 
     def at(self, x, w=1):
