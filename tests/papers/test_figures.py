@@ -41,6 +41,16 @@ def test_no_equilibrium_stands_at_an_edge_of_the_phase_planes():
             assert min(abs(start + 2 * place - edge) for edge in minor_axis.WINDOW) > 0.2
 
 
+def test_figure_4_has_the_equilibria_of_each_wheel_on_its_own_circle():
+    """By the balance on a circle of radius A: 1 + A cos(alpha/2) (A sin(alpha/2) + c) = 0, c = b - a."""
+    for lam in paper.FIG4:
+        plane, start, span = minor_axis._plane(lam)
+        A, c = np.hypot(2.5 + lam / 500, 4.0), lam / 500
+        places = plane.repeated(plane.centres + plane.saddles, *span)
+        half = (start + 2 * np.array(places)) / 2
+        assert len(places) >= 4 and np.abs(1 + A * np.cos(half) * (A * np.sin(half) + c)).max() < 1e-9
+
+
 def test_figure_17_has_every_value_of_the_paper_to_one_scale(plt):
     panels = middle_axis.projections(plt).axes
     assert [int(re.search(r"lambda_1=(\d+)", ax.get_title())[1]) for ax in panels[:3]] == list(paper.LAMBDAS)

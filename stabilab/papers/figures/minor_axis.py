@@ -29,7 +29,7 @@ POINTS = [("centre (stable)", style.MARKER["centre"]), ("saddle (unstable)", sty
 
 def _plane(lambda1):
     """(phase plane, alpha of the start, window of y) for the start of the paper."""
-    plane = phase_plane(paper.scene("minor", 100), paper.START_MINOR)
+    plane = phase_plane(paper.scene("minor", lambda1), paper.START_MINOR)
     start = 2 * float(np.arctan2(*plane.place))
     return plane, start, tuple((edge - start) / 2 for edge in WINDOW)
 
