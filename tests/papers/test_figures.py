@@ -59,7 +59,7 @@ def test_figure_17_has_every_value_of_the_paper_to_one_scale(plt):
 
 def test_separatrix_surfaces_are_named_as_in_the_phase_plane(plt):
     """The left loop lies about a centre with x1 + a < 0, where alpha = 2 atan2(x1 + a, x2) is negative."""
-    sides = {minor_axis._side(branch): branch for branch in minor_axis.branches().branches}
+    sides = {paper.side(branch): branch for branch in minor_axis.branches().branches}
     a = paper.scene("minor", 100).a
     for side, sign in (("left", -1), ("right", 1)):
         centre = np.asarray(sides[side].centre)[-1]

@@ -269,21 +269,11 @@ def _wells(radius, c):
     return [h for h in heights_on(radius, c) if not _is_saddle(h, c)]
 
 
-def _folds(c):
-    """x2 of the two points at which saddle and centre merge."""
-    return [h.real for h in np.roots([1, 0, 0, -c, -1]) if abs(h.imag) < 1e-12]
-
-
-def _fold_radius_of(c):
-    """Radius of the smallest circle that carries an equilibrium."""
-    return min(math.sqrt(h * h + h**6) for h in _folds(c))
-
-
 def _fold_radius():
     """The smallest radius found on the hyperbola, c = 0.2, less the printed root of 2; less the true one."""
     heights = np.concatenate([-np.geomspace(0.1, 10, 40001), np.geomspace(0.1, 10, 40001)])
     smallest = np.sqrt(np.min(heights**2 + (C + 1 / heights) ** 2))
-    return smallest - math.sqrt(2), smallest - _fold_radius_of(C)
+    return smallest - math.sqrt(2), smallest - paper.fold_radii(C)[0]
 
 
 def _dividing():
@@ -304,7 +294,7 @@ def _stability_after_13():
 def _merging():
     """x2 (x1 + b) + 1 at the printed merging point of saddle and centre, b = 0.4; at the true ones
     (x1 + b)(x1 + a) - x2^2, which vanishes at a fold."""
-    return (-1 + 0.4) * 1 + 1, max(abs((-1 / h) * (-1 / h - C) - h * h) for h in _folds(C))
+    return (-1 + 0.4) * 1 + 1, max(abs((-1 / h) * (-1 / h - C) - h * h) for h in paper.folds(C))
 
 
 def _item4():
@@ -532,7 +522,7 @@ TESTS: dict[str, Callable[..., tuple]] = {
     # centres missing on a circle of radius 1.2, and there
     "every radius": lambda: (1 - len(_wells(1.2, C)), len(_wells(1.2, C))),
     # a centre inside the circle of Figs 2 and 3: by how much
-    "inside": lambda: (A - _fold_radius_of(C), 0),
+    "inside": lambda: (A - paper.fold_radii(C)[0], 0),
     # wells on the circle of radius sqrt(2): 1, on the right, x2 < 0
     "figure 7": lambda: (abs(sum(1 if h < 0 else 2 for h in _wells(math.sqrt(2), C)) - 1), 0),
     # of the other papers

@@ -221,7 +221,7 @@ def _printed_loop(radius, b, turn):
 
 def surface_departure() -> str:
     """How far the printed loops and folds of Fig. 5 are from the true surface of their side, in words."""
-    true = {_side(branch): np.asarray(branch.points) for branch in branches(shape=FINE).branches}
+    true = {paper.side(branch): np.asarray(branch.points) for branch in branches(shape=FINE).branches}
     loops = printed_loops()
     words = [f"{listed([farthest([loop], [true[side]]) for loop in loops[side]], '{:.2f}')} on the {side}"
              for side in SIDES]
@@ -234,20 +234,19 @@ def surface_departure() -> str:
 def surfaces(plt):
     """Fig. 5: the surfaces, and their folds from another side, enlarged."""
     figure = plt.figure(figsize=(10.4, 5.4), layout="constrained")
-    turn = np.linspace(0, 2 * np.pi, 181)
     for index, (reach, circles, view) in enumerate(((REACH, len(CIRCLES), (24, -60)), (NEAR, 1, (40, 35)))):
         ax = figure.add_subplot(1, 2, index + 1, projection="3d")
         ax.computed_zorder = False  # lines over the surfaces that they are on or beside
         for branch in branches(reach=reach).branches:
             p = np.asarray(branch.points)
-            ax.plot_surface(p[..., 0], p[..., 1], p[..., 2], color=SIDES[_side(branch)], alpha=0.6,
+            ax.plot_surface(p[..., 0], p[..., 1], p[..., 2], color=SIDES[paper.side(branch)], alpha=0.6,
                             rstride=2, cstride=3, linewidth=0.2, edgecolor="#333333", shade=False)
             ax.plot(*np.asarray(branch.saddle).T, zorder=4, **style.MEANING["unstable"])
             ax.plot(*np.asarray(branch.centre).T, zorder=4, **style.MEANING["stable"])
         for loops in printed_loops().values():
             for loop in loops[:circles]:
                 ax.plot(*loop.T, zorder=5, **PRINTED)
-        ax.plot(FOLD_RADIUS * np.sin(turn), FOLD_RADIUS * np.cos(turn), 0 * turn, zorder=5, **PRINTED)
+        ax.plot(*paper.circle(FOLD_RADIUS, count=181), 0.0, zorder=5, **PRINTED)
         ax.view_init(*view)
         paper.name_space(ax, 1.05)
     figure.suptitle(r"Separatrix surfaces, torque on the minor axis, $\lambda_1=100$; "
@@ -261,12 +260,6 @@ def surfaces(plt):
 
 
 SIDES = {"left": style.SKY, "right": style.YELLOW}
-
-
-def _side(branch) -> str:
-    """The paper's name of a surface: the left loop of the phase plane has alpha in (-2 pi, 0), where x1 + a <
-    0 about its centre."""
-    return "left" if float(np.asarray(branch.centre)[-1, 0]) < 0 else "right"
 
 
 # of the circles of Fig. 7; the fourth is that of the paper's start
@@ -312,11 +305,9 @@ def stable_motions(plt):
         above.plot(*states[:, :2].T, **looks[radius] if radius else style.MEANING["this motion"])
     ax.plot(*np.array([paper.START_MINOR]).T, **style.MARKER["start"])
     above.plot(*paper.START_MINOR[:2], zorder=6, **style.MARKER["start"])
-    turn = np.linspace(0, 2 * np.pi, 361)
     for radius in (FOLD_RADIUS, np.hypot(*paper.START_MINOR[:2])):
-        circle = radius * np.sin(turn), radius * np.cos(turn)
-        ax.plot(*circle, 0 * turn, **PRINTED)
-        above.plot(*circle, **PRINTED)
+        ax.plot(*paper.circle(radius), 0.0, **PRINTED)
+        above.plot(*paper.circle(radius), **PRINTED)
     for branch in paper.equilibria("minor", paper.scene("minor", 100), np.geomspace(0.17, 5.0, 800)):
         for panel in (ax, above):
             paper.draw_equilibria(panel, *branch)

@@ -89,10 +89,9 @@ def _map(ax, scene, found, size):
     for branch in paper.equilibria("minor", scene, np.geomspace(0.05, 20, 4000)):
         paper.draw_equilibria(ax, *branch)
     _dividing(ax, a, b)
-    turn = np.linspace(0, 2 * np.pi, 361)
-    for radius in _fold_radii(b - a):
-        ax.plot(radius * np.sin(turn) - a, radius * np.cos(turn), **style.MEANING["fold"])
-    ax.plot(np.sqrt(2) * np.sin(turn), np.sqrt(2) * np.cos(turn), **style.MEANING["printed"])
+    for radius in paper.fold_radii(b - a):
+        ax.plot(*paper.circle(radius, -a), **style.MEANING["fold"])
+    ax.plot(*paper.circle(np.sqrt(2)), **style.MEANING["printed"])
     for name, look in (("true", FOURTH), ("printed", PRINTED_FOURTH)):
         for curve in fourth_surface()[name]:
             ax.plot(*curve.T, **look)
@@ -120,11 +119,6 @@ def outline(points):
     """The line of saddles inward, then the far ends of the loops outward: where a branch meets the plane x3 =
     0."""
     return np.concatenate([points[::-1, 0], points[:, points.shape[1] // 2]])
-
-
-def _fold_radii(c):
-    heights = [h.real for h in np.roots([1, 0, 0, -c, -1]) if abs(h.imag) < 1e-12]
-    return sorted(float(np.sqrt(h * h + h**6)) for h in heights)
 
 
 def _dividing(ax, a, b):

@@ -48,6 +48,28 @@ def saddle(radius, turn=0.0):
     return turn - np.arcsin(2 / radius**2)
 
 
+def folds(c: float) -> list[float]:
+    """x2 of the two points of the minor axis at which saddle and centre merge, c = b - a."""
+    return [h.real for h in np.roots([1, 0, 0, -c, -1]) if abs(h.imag) < 1e-12]
+
+
+def fold_radii(c: float) -> list[float]:
+    """Radii of the circles about (-a, 0) through them, rising: the least carries the first equilibrium."""
+    return sorted(float(np.sqrt(h * h + h**6)) for h in folds(c))
+
+
+def circle(radius: float, centre: float = 0.0, count: int = 361) -> tuple[np.ndarray, np.ndarray]:
+    """(x1, x2) of a circle about (centre, 0)."""
+    turn = np.linspace(0, 2 * np.pi, count)
+    return centre + radius * np.sin(turn), radius * np.cos(turn)
+
+
+def side(branch) -> str:
+    """The paper's name of a surface of the minor axis: the left loop of the phase plane has alpha in (-2 pi,
+    0), where x1 + a < 0 about its centre."""
+    return "left" if float(np.asarray(branch.centre)[-1, 0]) < 0 else "right"
+
+
 def equilibria(axis: str, scene: ScaledGyrostat, heights):
     """(x1, h, whether stable) along both branches of the true equilibria of a torque on the "minor" axis, h =
     x2 and x1 + b = -1/h, or on the "middle" one, h = x3 and x1 + a = 1/h; heights: sizes of h."""

@@ -9,10 +9,10 @@ from ...show import style
 from ..families import sweep
 from . import paper
 from .figure import PRINTED, farthest
+from .minor_axis import WINDOW
 from .minor_map import outline
 
 CASE = "minor-axis-without-wheel"
-WINDOW = (-7.0, 8.4)  # of alpha, as in Figs 2 and 3
 REACH = 4.0  # largest circle, in radii of the fold circle
 SIDES = {"left": 0.0, "right": 2 * np.pi}  # side -> the turn at whose end its saddle is
 TRUE = {"left": style.MEANING["separatrix 2"], "right": style.MEANING["separatrix"]}
@@ -50,9 +50,8 @@ def true_separatrices() -> dict:
 
 
 def true_surfaces() -> dict:
-    """side -> its branch of the separatrix; the left one has x1 < 0 about its centre."""
-    branches = separatrix(_case().scene, reach=REACH).branches
-    return {"left" if np.asarray(branch.centre)[-1, 0] < 0 else "right": branch for branch in branches}
+    """side -> its branch of the separatrix."""
+    return {paper.side(branch): branch for branch in separatrix(_case().scene, reach=REACH).branches}
 
 
 def printed_ends(side) -> np.ndarray:
@@ -112,13 +111,12 @@ def draw(plt):
             plane.plot(alpha, sign * printed, **PRINTED)
     plane.set(xlim=WINDOW, xlabel=r"$\alpha = 2\,\mathrm{atan2}(x_1,\ x_2)$", ylabel=r"$x = 2\,x_3$",
               title=rf"on the circle of the start, $F={radius:.4f}$")
-    turn = np.linspace(0, 2 * np.pi, 361)
     for side, branch in true_surfaces().items():
         above.plot(*outline(np.asarray(branch.points))[:, :2].T, **TRUE[side])
         above.plot(*printed_ends(side).T, **PRINTED)
         above.plot(*np.asarray(branch.centre)[:, :2].T, **style.MEANING["stable"])
         above.plot(*np.asarray(branch.saddle)[:1, :2].T, zorder=6, **style.MARKER["degenerate"])
-    above.plot(np.sqrt(2) * np.sin(turn), np.sqrt(2) * np.cos(turn), **PRINTED)
+    above.plot(*paper.circle(np.sqrt(2)), **PRINTED)
     above.set(xlim=(-6, 6), ylim=(-6, 6), aspect="equal", xlabel="$x_1$", ylabel="$x_2$",
               title="from above: where the surfaces meet $x_3=0$")
     figure.suptitle(r"Without a wheel, $\lambda_1=0$: the printed formulas on the exact separatrices")
