@@ -53,9 +53,7 @@ def text(findings, width: int = 100) -> str:
     """A paper's count of verdicts in a line, then a paragraph for each row."""
     parts = []
     for paper, group in findings:
-        count = Counter(f.verdict for f in group)
-        parts.append(f"{paper.title}: " + ", ".join(f"{count[v]} {counted(v, count[v])}" for v in VERDICTS
-                                                    if count[v]) + f"; {some(len(group), 'row')}\n")
+        parts.append(f"{paper.title}: {counts(group)}; {some(len(group), 'row')}\n")
         parts += [_paragraph(finding, width, paper.figures) for finding in group]
     return "\n".join(parts)
 
@@ -129,6 +127,11 @@ def count(group) -> list[tuple[str, int]]:
     """(verdict, how many) in order."""
     found = Counter(f.verdict for f in group)
     return [(verdict, found[verdict]) for verdict in VERDICTS if found[verdict]]
+
+
+def counts(group) -> str:
+    """How many findings have which verdict, in words."""
+    return ", ".join(f"{number} {counted(verdict, number)}" for verdict, number in count(group))
 
 
 def _row(paper, finding):

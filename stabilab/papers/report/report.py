@@ -23,7 +23,6 @@ from ...version import __version__
 from .. import index, table
 from ..audit import page as audit_page
 from ..audit import papers as audited_papers
-from ..audit.page import counted
 from ..cost import effects as effect_cost
 from ..cost import growth as cost_growth
 from ..figures import catalogue as figures
@@ -174,11 +173,7 @@ def _audit(folder, found, nav):
     """The page of the audit; in words how many rows have which verdict."""
     findings = [found[f"audit of {name}"] for name in audited_papers()]
     audit_page.page(findings, folder / "audit.html", nav=nav, here="audit.html")
-    total: dict[str, int] = {}
-    for _, rows in findings:
-        for verdict, number in audit_page.count(rows):
-            total[verdict] = total.get(verdict, 0) + number
-    return ", ".join(f"{number} {counted(verdict, number)}" for verdict, number in total.items())
+    return audit_page.counts([finding for _, rows in findings for finding in rows])
 
 
 def _validation(folder, found, nav):
@@ -278,20 +273,16 @@ def _start(cases, folder, found, nav, groups, audit, tools, cost, around):
     inside."""
     hero = _hero(cases, found)
     drawn = [row.number for row in figures.FIGURES if not row.added]
-    words = {
-        "constant-torque.html": f"{paper.PAPER}: tables 1 to {len(found['tables'])}, figures {drawn[0]} to "
-                                f"{drawn[-1]}, recomputed and corrected",
-                                "cases.html": "; ".join(
-                                    f"{title[0].lower()}{title[1:]} ({some(number, 'case')})"
-                                    for title, number in groups),
-                                    "audit.html": f"every numbered equation of five papers, tried on the "
-                                                  f"equations of motion: {audit}", "validation.html": tools,
-                                                  "where.html": "every equation, figure, table and claim of "
-                                                                "the five papers, with its place",
-                                                  "hard-cases.html": "where formulas that are right on paper "
-                                                                     "lose their digits",
-                                                  "cost.html": "What accuracy, many states and each effect "
-                                                               "cost, measured"}
+    words = {"constant-torque.html": f"{paper.PAPER}: tables 1 to {len(found['tables'])}, figures {drawn[0]} "
+                                     f"to {drawn[-1]}, recomputed and corrected",
+             "cases.html": "; ".join(f"{title[0].lower()}{title[1:]} ({some(number, 'case')})"
+                                     for title, number in groups),
+             "audit.html": "every numbered equation of five papers, tried on the equations of motion: "
+                           f"{audit}",
+             "validation.html": tools,
+             "where.html": "every equation, figure, table and claim of the five papers, with its place",
+             "hard-cases.html": "where formulas that are right on paper lose their digits",
+             "cost.html": "What accuracy, many states and each effect cost, measured"}
     words |= {f"{one.paper}.html": f"{one.title}: {figures.PAPERS[one.paper]}" for one in chapters.CHAPTERS}
     cards = [page | {"words": words[page["file"]]} for page in nav if page["file"] != "index.html"]
     picture = found.get(f"figure {FINEST}") or found[f"figure {figures.FIGURES[0].number}"]
