@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from functools import lru_cache, partial
+from functools import lru_cache
 
 import numpy as np
 
@@ -12,25 +12,14 @@ from ...theories.cavity.averaged import RTOL, polar
 from .. import families
 from ..families import compared, sweep
 from . import panels
-from .figure import family_figure, listed, model_figure
+from .figure import family_figures, listed, model_figure
 
 PAPER = "Galal, Amer, Elneklawy, El-Kafly 2023, charged rigid body with a viscous liquid"
 FAMILIES, SPAN = families.FAMILIES["cavity"], families.SPANS["cavity"]
-
-
-def _slow(name):
-    """pick of the amplitude, spin or phase, of the exact motion by `polar`."""
-    return lambda run: (run.t, run.state[name])
-
-
-# kind of figure -> (title, its rows)
-KINDS = {"slow": ("Amplitude, spin and phase", (panels.Row(panels.TIME, "$a$ (rad/s)", _slow("amplitude")),
-                                                panels.Row(panels.TIME, "$r$ (rad/s)", _slow("spin")),
-                                                panels.Row(panels.TIME, r"$\varphi$ (rad)", _slow("phase")))),
-         "rates": ("Angular velocities", tuple(panels.history("omega", i, f"${name}$", "rad/s")
-                                               for i, name in enumerate("pq"))),
-         "planes": ("Phase planes", tuple(panels.phase("omega", i, f"${name}$", "rad/s")
-                                          for i, name in enumerate("pq")))}
+# kind of figure -> (title, its rows); amplitude, spin and phase of the exact motion by `polar`
+KINDS = panels.RATES | {"slow": ("Amplitude, spin and phase", (
+    panels.history("amplitude", None, "$a$", "rad/s"), panels.history("spin", None, "$r$", "rad/s"),
+    panels.history("phase", None, r"$\varphi$", "rad")))}
 
 
 def _lines(name, kind):
@@ -87,10 +76,9 @@ def _done(words="", own=False):
     scene = sweep("liquid-base")[""].scene
     liquid, body = scene.effect("liquid_cavity"), scene.body.inertia[2]
     return (f"{words}Completed data: values in the title where the paper gives none; P0 = "
-            f"{float(liquid.P0):g} m^7 means "
-            f"{liquid_mass(liquid) / 1000:.2g} t of liquid in a body of {float(body):g} kg m^2. Models are "
-            f"drawn to where they leave the exact "
-            f"motion's range{'' if own else '; where printed ones do, the last panels have them alone'}.")
+            f"{float(liquid.P0):g} m^7 means {liquid_mass(liquid) / 1000:.2g} t of liquid in a body of "
+            f"{float(body):g} kg m^2. Models are drawn to where they leave the exact motion's "
+            f"range{'' if own else '; where printed ones do, the last panels have them alone'}.")
 
 
 def _real(family):
@@ -98,17 +86,15 @@ def _real(family):
     ends = {value: runs["printed"].t[-1] for value, runs in zip(FAMILIES[family].cases, runs_of(family))
             if runs["printed"].status != "reached"}
     return _done("Exact: a = sqrt(p^2 + q^2) and the angle of (p, −q); averaged, second order: the averaged "
-                 "variables, which start beside "
-                 f"them. At lambda3 = {listed(ends, '{:g}')} the printed q loses its real value at "
-                 f"{listed(ends.values())} s, where "
-                 "d2 r = Gamma/eps; the true motion is regular there. ")
+                 f"variables, which start beside them. At lambda3 = {listed(ends, '{:g}')} the printed q "
+                 f"loses its real value at {listed(ends.values())} s, where d2 r = Gamma/eps; the true "
+                 "motion is regular there. ")
 
 
 def _liquid(family, more=""):
     return _done(f"{more}The printed liquid torque is that of a body without rotor; with this one the true "
-                 f"motion dies out within "
-                 f"{listed([gone(r) for r in runs_of(family)], '{:.2g}')} s (1 %), the printed wave hardly "
-                 f"decays. ")
+                 f"motion dies out within {listed([gone(r) for r in runs_of(family)], '{:.2g}')} s (1 %), "
+                 "the printed wave hardly decays. ")
 
 
 def _short(family):
@@ -133,24 +119,16 @@ def _charge(family, more="", own=False):
                  f"averaging refuses, and the law of the liquid torque itself no longer holds. {more}", own)
 
 
-def _figures():
-    for number, name, kind, caption in (
-            (2, "small", "slow", _real), (3, "large", "rates", _liquid),
-            (4, "large", "planes",
-             partial(_liquid, more="The text has closed curves; the true motion spirals in within one "
-                                                         "turn. ")),
-            (5, "zeta", "slow", _short), (6, "zeta", "rates", _few),
-            (7, "zeta", "planes", _arcs),
-            (8, "M3", "slow", _short), (9, "M3", "rates", _few),
-            (10, "M3", "planes", _arcs),
-            (11, "e", "slow", partial(_charge, own=True)),
-            (12, "e", "rates",
-             partial(_charge, more="The text says that the charge acts slightly: the printed liquid "
-                                                           "torque does not know of it. ")),
-            (13, "e", "planes", partial(_charge, own=True))):
-        yield family_figure("cavity", number, name, KINDS[kind][0], caption, partial(_lines, name, kind),
-                            f"averaged: relative tolerance {RTOL:g}; printed: its polynomials",
-                            own=number in (11, 13))
-
-
-FIGURES = (model_figure("liquid-base", "cavity"), *_figures())
+OWN = (11, 13)  # figures whose panels have limits of their own
+FIGURES = (model_figure("liquid-base", "cavity"), *family_figures(
+    "cavity", KINDS, _lines, f"averaged: relative tolerance {RTOL:g}; printed: its polynomials",
+    ((2, "small", "slow", _real), (3, "large", "rates", _liquid),
+     (4, "large", "planes", _liquid,
+      "The text has closed curves; the true motion spirals in within one turn. "),
+     (5, "zeta", "slow", _short), (6, "zeta", "rates", _few), (7, "zeta", "planes", _arcs),
+     (8, "M3", "slow", _short), (9, "M3", "rates", _few), (10, "M3", "planes", _arcs),
+     (11, "e", "slow", _charge, "", True),
+     (12, "e", "rates", _charge,
+      "The text says that the charge acts slightly: the printed liquid torque does not know of it. "),
+     (13, "e", "planes", _charge, "", True)),
+    lambda number, kind: {"own": number in OWN}))

@@ -14,25 +14,20 @@ from ...theories.charged.modes import horizon
 from .. import families
 from ..families import Span
 from . import panels
-from .figure import Figure, family_figure, listed, model_figure
+from .figure import Figure, family_figures, listed, model_figure
 
 PAPER = "Galal et al., charged rigid body with a gyrostatic moment (short form: Elneklawy)"
 FAMILIES, SPAN = families.FAMILIES["charged"], families.SPANS["charged"]
+MOMENTUM = r"kg m$^2$/s"
 # kind of figure -> (title, its rows)
-KINDS: dict[str, tuple[str, tuple[panels.Row, ...]]] = {
-    "rates": ("Angular velocities", tuple(panels.history("omega", i, f"${name}$", "rad/s")
-                                          for i, name in enumerate("pq"))),
-    "planes": ("Phase planes", tuple(panels.phase("omega", i, f"${name}$", "rad/s")
-                                     for i, name in enumerate("pq"))),
-    "angles": ("Angles of the 3-1-2 sequence", tuple(panels.history("angles", i, name, "rad") for i, name in
-                                                     enumerate((r"$\psi$", r"$\phi$", r"$\theta$")))),
-    "momentum": ("Angular momentum by (33)", (*(panels.history("momentum", i, f"$G_{i + 1}$", r"kg m$^2$/s")
-                                                for i in (0, 1)),
-                                              panels.plane("momentum", 0, 1, ("$G_1$", "$G_2$"),
-                                                           r"kg m$^2$/s"))),
-    "velocity": ("Velocity", tuple(panels.history("velocity", i, f"$v_{i + 1}$", "m/s") for i in range(3))),
-    "place": ("Displacement", tuple(panels.history("position", i, rf"$\eta_{i + 1}$", "m")
-                                    for i in range(3)))}
+KINDS: dict[str, tuple[str, tuple[panels.Row, ...]]] = panels.RATES | {
+    "angles": ("Angles of the 3-1-2 sequence",
+               panels.histories("angles", (r"$\psi$", r"$\phi$", r"$\theta$"), "rad")),
+    "momentum": ("Angular momentum by (33)",
+                 (*panels.histories("momentum", ("$G_1$", "$G_2$"), MOMENTUM),
+                  panels.plane("momentum", 0, 1, ("$G_1$", "$G_2$"), MOMENTUM))),
+    "velocity": ("Velocity", panels.histories("velocity", ("$v_1$", "$v_2$", "$v_3$"), "m/s")),
+    "place": ("Displacement", panels.histories("position", (r"$\eta_1$", r"$\eta_2$", r"$\eta_3$"), "m"))}
 KINDS["circle"] = "Angular momentum by (35)", KINDS["momentum"][1]
 
 
@@ -126,25 +121,22 @@ def _rates_by_torque(family):
     period = 2 * np.pi / abs(float(one_frequency(_bodies(family)[0]).root.value()))
     return _rates(family,
                   "The text says that amplitude and wavelength fall with M1; by its own formulas the "
-                  "amplitude is proportional "
-                          f"to M1 and the period, {period:.3g} s, does not change.")
+                  f"amplitude is proportional to M1 and the period, {period:.3g} s, does not change.")
 
 
 def _angles(family, more=""):
     tilts = [np.hypot(*a[:, :2].T).max() for a in _state(family, "printed", "angles")]
     until = dict.fromkeys(f"{float(horizon(b)):.2f}" for b in _bodies(family))
     return (f"The print lets the tilt of psi and phi swing to {listed(tilts)} rad as if it were small. In "
-            f"truth 0.1 rad is outgrown after "
-            f"{listed(until, '{}')} s (green), psi turns back before pi/2, phi runs on, and theta is not r0 "
-            f"t. {more}{_CUT}.")
+            f"truth 0.1 rad is outgrown after {listed(until, '{}')} s (green), psi turns back before pi/2, "
+            f"phi runs on, and theta is not r0 t. {more}{_CUT}.")
 
 
 def _circle(family, more=""):
     radii = dict.fromkeys(f"{b.torque[0] / float(b.spin):.1f}" for b in _bodies(family))
     return (f"By (35) G runs on a circle of radius M1/r0 = {listed(radii, '{}')} kg m^2/s. It leaves out the "
-            f"charge, whose force does "
-            f"change the momentum, and holds while the torque keeps its direction in the tilted body, some "
-            f"seconds. {more}").rstrip()
+            "charge, whose force does change the momentum, and holds while the torque keeps its direction in "
+            f"the tilted body, some seconds. {more}").rstrip()
 
 
 def _by_33(family, more):
@@ -159,9 +151,8 @@ def _misprinted(family, part, unit):
            for a, b in zip(_state(family, "printed", part), _state(family, "corrected", part))]
     down = [float(b.spin) - abs(float(one_frequency(b).root.value())) for b in _bodies(family)]
     return (f"The misprinted integrals are off by up to {listed(off)} {unit} from those that (44) and (49) "
-            f"define, the more the smaller "
-            f"r0 − W is ({listed(dict.fromkeys(f'{d:.2g}' for d in down), '{}')} 1/s), whose powers "
-            f"divide them"
+            "define, the more the smaller r0 − W is "
+            f"({listed(dict.fromkeys(f'{d:.2g}' for d in down), '{}')} 1/s), whose powers divide them"
             + ("; the changes that the text describes fit the corrected ones. " if family != "M1" else ". "))
 
 
@@ -171,8 +162,7 @@ def _speed(family, more=""):
                                           2], max(np.abs(v).max()
                                                   for v in _state(family, "exact", "velocity"))
     return (f"{_NAMED}Small angles keep the thrust of 3 N along z1: the print has v3 = 0.3 t, {last:.3g} m/s "
-            f"at 50 s. In truth the thrust "
-            f"turns with the body; no component passes {largest:.2g} m/s. "
+            f"at 50 s. In truth the thrust turns with the body; no component passes {largest:.2g} m/s. "
             f"{more}{_misprinted(family, 'velocity', 'm/s')}{_THIN}")
 
 
@@ -181,10 +171,9 @@ def _way(family, more=""):
                            "position"), [x[-1, 2] for x in _state(family, "exact", "position")]
     start = [float(np.hypot(*x[0, :2])) for x in printed]
     return (f"The parabola eta3 = 0.15 t^2 ({printed[0][-1, 2]:.3g} m at 50 s) needs an axis that stays "
-            f"upright; in truth eta3 is "
-            f"{listed(true, '{:.0f}')} m. {more}{_misprinted(family, 'position', 'm')}By (61) as printed the "
-            f"way does not even start at 0, "
-            f"but {listed(start)} m off. {_THIN}")
+            f"upright; in truth eta3 is {listed(true, '{:.0f}')} m. "
+            f"{more}{_misprinted(family, 'position', 'm')}By (61) as printed the way does not even start at "
+            f"0, but {listed(start)} m off. {_THIN}")
 
 
 def _pointing():
@@ -192,11 +181,10 @@ def _pointing():
     M1, r0, D3 = float(body.torque[0]), float(body.spin), float(body.inertia[2])
     held, aim = D3 * r0 + float(body.gyrostat) - float(body.charge_moment), M1 / (D3 * r0**2)
     return (f"{_NAMED}The text has spirals into the point (0, M1/(D3 r0^2)) = (0, {aim:.2g}): a direction "
-            f"{np.degrees(np.arctan(aim)):.0f} degrees off "
-            f"the axis, from equations for small angles. It should be M1/(r0 (D3 r0 + Lambda)) = "
-            f"{M1 / (r0 * held):.2g} in the linear model; "
-            "the true direction goes nowhere near. Exact curve: where the axial velocity exceeds 0.02 m/s. "
-            "As printed: by (43) and (47).")
+            f"{np.degrees(np.arctan(aim)):.0f} degrees off the axis, from equations for small angles. It "
+            f"should be M1/(r0 (D3 r0 + Lambda)) = {M1 / (r0 * held):.2g} in the linear model; the true "
+            "direction goes nowhere near. Exact curve: where the axial velocity exceeds 0.02 m/s. As "
+            "printed: by (43) and (47).")
 
 
 _NAMED = "The paper writes omega1, omega2, omega3 for the velocity v1, v2, v3. "
@@ -214,52 +202,38 @@ def _exactness(names):
     return f"{panels.exactness(runs)}; {CLOSED}; {SPAN.count} points"
 
 
-def _figures():
-    for number, name, kind, caption in (
-            (2, "lambda3", "rates", _rates),
-            (3, "lambda3", "planes",
-             "The printed ellipses are those of linear equations; the true curves are "
-             "egg-shaped, because r is not constant."),
-            (4, "e", "rates",
-             partial(_rates, more="The text has amplitude and wavelength increase \"while their "
-                                                          "wavelengths decrease\": both increase.")),
-            (5, "e", "planes",
-             "The curves widen with e, which takes k = e H l^2 cos sigma off lambda3. True curves: "
-             "egg-shaped."),
-            (6, "M1", "rates", _rates_by_torque),
-            (7, "M1", "planes",
-             "The text says that the curves shrink with growing M1; they grow, in print in proportion "
-             "to M1."),
-            (8, "lambda3", "angles", _angles), (9, "e", "angles", _angles),
-            (10, "M1", "angles",
-             partial(_angles,
-                     more="The text sees a marginal change of psi and phi with M1; in print they are "
-                                              "proportional to it. ")),
-            (12, "lambda3", "momentum",
-             partial(_by_33, more="lambda3 hardly matters.")),
-            (14, "e", "momentum",
-             partial(_by_33, more="the charge widens the loops.")),
-            (16, "M1", "momentum",
-             partial(_by_33, more="G is proportional to M1; the text has a marginal rise.")),
-            (13, "lambda3", "circle", _circle),
-            (15, "e", "circle",
-             partial(_circle, more="That the charge has no influence is an artefact.")),
-            (17, "M1", "circle", partial(_circle, more="The text says that M1 makes no difference.")),
-            (18, "lambda3", "velocity", _speed),
-            (19, "e", "velocity", partial(_speed, more="The charge does change v3. ")),
-            (20, "M1", "velocity", partial(_speed, more="M1 does change v3. ")),
-            (22, "lambda3", "place", _way),
-            (23, "e", "place", partial(_way, more="So the charge does matter to eta3. ")),
-            (24, "M1", "place", partial(_way, more="So M1 does matter to eta3. "))):
-        printed = {"momentum": "as printed: (33)", "circle": "as printed: (35)"}.get(kind)
-        yield family_figure("charged", number, name, KINDS[kind][0], caption, partial(_lines, name, kind),
-                            CLOSED, words=printed and {"printed": printed}, mark_words="tilt reaches 0.1 rad")
-    yield model_figure("charged-body", "charged")
-    yield Figure(11, "Angular momentum across z1",
-                 partial(_circle, "lambda3", "The print draws the small circle of a body that hardly tilts."),
-                 circle, partial(_exactness, ("M1",)), "charged", _circle_lines)
-    yield Figure(21, "Direction of the velocity", _pointing, pointing, partial(_exactness, tuple(FAMILIES)),
-                 "charged", _pointing_lines)
-
-
-FIGURES = tuple(sorted(_figures(), key=lambda row: row.number))
+AS_PRINTED = {"momentum": "as printed: (33)", "circle": "as printed: (35)"}  # kind -> of its printed curves
+FIGURES = tuple(sorted((
+    model_figure("charged-body", "charged"), *family_figures(
+        "charged", KINDS, _lines, CLOSED,
+        ((2, "lambda3", "rates", _rates),
+         (3, "lambda3", "planes", "The printed ellipses are those of linear equations; the true curves are "
+          "egg-shaped, because r is not constant."),
+         (4, "e", "rates", _rates, "The text has amplitude and wavelength increase \"while their wavelengths "
+          "decrease\": both increase."),
+         (5, "e", "planes", "The curves widen with e, which takes k = e H l^2 cos sigma off lambda3. True "
+          "curves: egg-shaped."),
+         (6, "M1", "rates", _rates_by_torque),
+         (7, "M1", "planes", "The text says that the curves shrink with growing M1; they grow, in print in "
+          "proportion to M1."),
+         (8, "lambda3", "angles", _angles), (9, "e", "angles", _angles),
+         (10, "M1", "angles", _angles, "The text sees a marginal change of psi and phi with M1; in print "
+          "they are proportional to it. "),
+         (12, "lambda3", "momentum", _by_33, "lambda3 hardly matters."),
+         (14, "e", "momentum", _by_33, "the charge widens the loops."),
+         (16, "M1", "momentum", _by_33, "G is proportional to M1; the text has a marginal rise."),
+         (13, "lambda3", "circle", _circle),
+         (15, "e", "circle", _circle, "That the charge has no influence is an artefact."),
+         (17, "M1", "circle", _circle, "The text says that M1 makes no difference."),
+         (18, "lambda3", "velocity", _speed),
+         (19, "e", "velocity", _speed, "The charge does change v3. "),
+         (20, "M1", "velocity", _speed, "M1 does change v3. "),
+         (22, "lambda3", "place", _way), (23, "e", "place", _way, "So the charge does matter to eta3. "),
+         (24, "M1", "place", _way, "So M1 does matter to eta3. ")),
+        lambda number, kind: {"words": {"printed": AS_PRINTED[kind]} if kind in AS_PRINTED else None,
+                              "mark_words": "tilt reaches 0.1 rad"}),
+    Figure(11, "Angular momentum across z1",
+           partial(_circle, "lambda3", "The print draws the small circle of a body that hardly tilts."),
+           circle, partial(_exactness, ("M1",)), "charged", _circle_lines),
+    Figure(21, "Direction of the velocity", _pointing, pointing, partial(_exactness, tuple(FAMILIES)),
+           "charged", _pointing_lines)), key=lambda row: row.number))

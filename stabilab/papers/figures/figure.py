@@ -16,7 +16,7 @@ from ...show.plot.body import BOX, PARTS, body
 from ...show.terminal.letters import written
 from ...show.text.cost.comparison import short
 from ...show.text.cost.words import share
-from ..families import FAMILIES, SPANS, sweep
+from ..families import FAMILIES, SPANS, Family, sweep
 from . import panels
 
 
@@ -83,18 +83,25 @@ def _of_model(case: Case) -> str:
     return f"Drawn from the case {case.name} by what its scene contains: {parts}."
 
 
-def family_figure(paper: str, number: int, name: str, title: str, caption, lines: Callable, models: str,
-                  **looks) -> Figure:
-    """A figure of a family of motions: lines() gives its lines (panels.Row, columns); caption: a text, or a
-    function of the family's name; models: how exact the models beside the exact motion are; looks: of
-    `panels.draw_lines`."""
-    family, span = FAMILIES[paper][name], SPANS[paper]
-    more = "; rates by central differences" if title == "Phase planes" else ""
+def family_figures(paper: str, kinds: dict, lines: Callable, models: str, rows: Sequence,
+                   looks: Callable[[int, str], dict] = lambda number, kind: {}) -> list[Figure]:
+    """The figures of families of motions, a row each: number, name of the family, kind, caption, more of it.
+
+    kinds: kind -> (title, rows of panels); lines(name, kind): the figure's lines (panels.Row, columns);
+    caption: a text, or a function of the family's name and of what more the row has; models: how exact the
+    models beside the exact motion are; looks(number, kind): of `panels.draw_lines`."""
+    return [_of_family(FAMILIES[paper][name], paper, number, kinds[kind][0],
+                       partial(caption, name, *more) if callable(caption) else caption,
+                       partial(lines, name, kind), models, looks(number, kind))
+            for number, name, kind, caption, *more in rows]
+
+
+def _of_family(family: Family, paper, number, title, caption, lines, models, looks) -> Figure:
+    span, more = SPANS[paper], "; rates by central differences" if title == "Phase planes" else ""
 
     def exact() -> str:
         return f"{panels.exactness(family.runs(span))}; {models}; {span.count} points{more}"
-    return Figure(number, f"{title}: {family.name}",
-                  partial(caption, name) if callable(caption) else caption,
+    return Figure(number, f"{title}: {family.name}", caption,
                   lambda plt: panels.draw_lines(plt, title + family.rest, lines(), **looks), exact, paper,
                   lines)
 

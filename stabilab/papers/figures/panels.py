@@ -347,9 +347,13 @@ def _limits(row, columns, axis):
 
 
 def history(part, component, label, unit):
-    """A Row of one component of a part of the state over time."""
+    """A Row of one component of a part of the state over time; component None: of a part that is one number.
+    """
     def pick(run):
-        return None if part not in run.state else (run.t, np.asarray(run.state[part])[:, component])
+        if part not in run.state:
+            return None
+        values = np.asarray(run.state[part])
+        return run.t, values if component is None else values[:, component]
     return Row(TIME, f"{label} ({unit})" if unit else label, pick)
 
 
@@ -365,6 +369,16 @@ def phase(part, component, label, unit):
     dot = rf"$\dot{{{name}}}{letter[len(name):]}$"  # over the letter, not over its index and primes
     return Row(f"{label} ({unit})" if unit else label,
                f"{dot} ({unit + '/s' if unit else '1/s'})".replace("rad/s/s", r"rad/s$^2$"), pick)
+
+
+def histories(part, labels, unit, row=history) -> tuple[Row, ...]:
+    """A Row, of `history` or `phase`, for each of the first components of a part of the state."""
+    return tuple(row(part, n, label, unit) for n, label in enumerate(labels))
+
+
+# of p and q, in two papers: kind of figure -> (title, its rows)
+RATES = {"rates": ("Angular velocities", histories("omega", ("$p$", "$q$"), "rad/s")),
+         "planes": ("Phase planes", histories("omega", ("$p$", "$q$"), "rad/s", phase))}
 
 
 def plane(part, first, second, labels, unit, equal=True):

@@ -3,7 +3,7 @@ exact motion."""
 from __future__ import annotations
 
 from dataclasses import replace
-from functools import lru_cache, partial
+from functools import lru_cache
 
 import numpy as np
 
@@ -13,7 +13,7 @@ from ...theories.top.scaling import fast_top
 from .. import families
 from ..families import compared, sweep
 from . import panels
-from .figure import family_figure, model_figure
+from .figure import family_figures, model_figure
 
 PAPER = "Amer, Amer, Galal 2023, rigid body in a Newtonian field with a gyrostatic moment"
 FAMILIES, SPAN = families.FAMILIES["top"], families.SPANS["top"]
@@ -25,8 +25,8 @@ SIX = [("omega", 0, "$p_1$", ""), ("omega", 1, "$q_1$", ""), ("omega", 2, "$r_1$
 # kind of figure -> (title, its rows)
 KINDS = {"histories": ("Histories", tuple(panels.history(*row) for row in SIX)),
          "planes": ("Phase planes", tuple(panels.phase(*row) for row in SIX)),
-         "angles": ("Euler angles", tuple(panels.history("euler", i, name, "rad") for i, name in
-                                          enumerate((r"$\theta$", r"$\varphi$", r"$\psi$"))))}
+         "angles": ("Euler angles",
+                    panels.histories("euler", (r"$\theta$", r"$\varphi$", r"$\psi$"), "rad"))}
 
 
 def _lines(name, kind):
@@ -82,12 +82,10 @@ def _fast(family, more=""):
     run, A = _runs(family)[0]["exact"], float(case.scene.body.inertia[0])
     r = np.asarray(run.state["omega"])[:, 2]
     return (f"Table 1 is no fast top: M g L/(C r0^2) = {np.hypot.reduce([float(f) for f in top.force]):.2g} "
-            f"and eps delta1 = "
-            f"{A / REFERENCE - 1:.2g} where both should be small, so r goes from {r[0]:.3g} to "
-            f"{np.interp(0.1, run.t, r):.2g} rad/s in "
-            f"0.1 s, and no expansion in 1/r0 follows, corrected or not (its terms grow). {more}Models are "
-            f"drawn to where they leave "
-            "the exact motion's range; the last panels have the printed curves alone.")
+            f"and eps delta1 = {A / REFERENCE - 1:.2g} where both should be small, so r goes from {r[0]:.3g} "
+            f"to {np.interp(0.1, run.t, r):.2g} rad/s in 0.1 s, and no expansion in 1/r0 follows, corrected "
+            f"or not (its terms grow). {more}Models are drawn to where they leave the exact motion's range; "
+            "the last panels have the printed curves alone.")
 
 
 def _unit(family, more=""):
@@ -119,21 +117,14 @@ def _nutation(family):
     r0 = _runs(family)[0]["exact"].state["omega"][0, 2]
     return _fast(family,
                  f"The printed nutation swings far with the period 2 pi/r0 = {2 * np.pi / r0:.3g} s, the "
-                 f"true one little and "
-                 f"irregularly; phi swings to and fro within {swing:.2g} rad, it does not turn with r0 t. "
-                 f"The printed psi has csc(eps theta0), "
-                 "where csc theta0 is meant. ")
+                 f"true one little and irregularly; phi swings to and fro within {swing:.2g} rad, it does "
+                 "not turn with r0 t. The printed psi has csc(eps theta0), where csc theta0 is meant. ")
 
 
-def _figures():
-    for number, name, kind, caption in (
-            (2, "lx", "histories", partial(_unit, more="The text sees l_x change q and gamma'' only; in "
-                                                       "truth it changes all six. ")),
-            (3, "lz", "histories", _unit), (4, "lx", "planes", _free), (5, "lz", "planes", _free),
-            (6, "lx", "angles", _nutation), (7, "lz", "angles", _nutation)):
-        yield family_figure("top", number, name, KINDS[kind][0], caption, partial(_lines, name, kind),
-                            "printed and corrected: their formulas",
-                            words={"lindstedt": "corrected expansion, order 2"})
-
-
-FIGURES = (model_figure("top-lx30-lz30", "top"), *_figures())
+FIGURES = (model_figure("top-lx30-lz30", "top"), *family_figures(
+    "top", KINDS, _lines, "printed and corrected: their formulas",
+    ((2, "lx", "histories", _unit,
+      "The text sees l_x change q and gamma'' only; in truth it changes all six. "),
+     (3, "lz", "histories", _unit), (4, "lx", "planes", _free), (5, "lz", "planes", _free),
+     (6, "lx", "angles", _nutation), (7, "lz", "angles", _nutation)),
+    lambda number, kind: {"words": {"lindstedt": "corrected expansion, order 2"}}))
