@@ -32,7 +32,7 @@ class Key(NamedTuple):
 
 def keys_of(data: dict[str, Any]) -> dict[str, Key]:
     """Every number of a case's data by its name."""
-    return {name: Key(name, _both_sides(data, path)) for table in SWEPT if table in data
+    return {name: Key(name, _both_sides(path)) for table in SWEPT if table in data
             for name, path in _numbers(data[table], table, (table,))}
 
 
@@ -93,7 +93,7 @@ def _is_number(value: Any) -> bool:
     return isinstance(value, (int, Written)) and not isinstance(value, bool)
 
 
-def _both_sides(data: dict[str, Any], path: tuple[Any, ...]) -> tuple[tuple[Any, ...], ...]:
+def _both_sides(path: tuple[Any, ...]) -> tuple[tuple[Any, ...], ...]:
     if path[:2] == ("body", "inertia") and len(path) == 4 and path[2] != path[3]:
         mirrored = (*path[:2], path[3], path[2])
         return (min(path, mirrored), max(path, mirrored))

@@ -189,14 +189,14 @@ def _wheels(case: Case, text: str | None) -> tuple[tuple[Exact3, ...], tuple[flo
     axis, equals, values = str(text).partition("=")
     try:
         along = axis_of(WHEEL, values if equals else str(text))
-        direction = _along(case, axis.strip().lower()) if equals else _own_direction(case, own)
+        direction = _along(case, axis.strip().lower()) if equals else _own_direction(own)
     except InputError as error:
         raise InputError(f'wheel: {str(error).removeprefix("vary wheel: ")}') from None
     wheels = tuple(tuple(Fraction(size) * part for part in direction) for size in along.si)
     return wheels, along.values, along.shown_unit
 
 
-def _own_direction(case: Case, own: Exact3) -> Exact3:
+def _own_direction(own: Exact3) -> Exact3:
     if not any(own):
         raise InputError('the case has no wheel that turns: say along which axis, as in --wheel "z=-2:2:5" '
                          '(x, y, z of the file, or 1, 2, 3, the '

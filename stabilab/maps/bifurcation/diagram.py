@@ -190,7 +190,7 @@ def _event(family: Family, kind: str, eliminated: Eliminated, cut: Cut,
     roots = settled(lambda digits: [eliminated.at_algebraic(number, digits.bits)])[0]
     if roots is None:
         return make(("curve",), ENDLESS, (), "every point of a curve is an equilibrium")
-    kinds = _kinds(eliminated, cut, roots, sides)
+    kinds = _kinds(roots, sides)
     if not kinds:
         return None
     states = settled(lambda digits: _states_at(family, kind, eliminated, cut, digits.bits, sides))
@@ -198,8 +198,7 @@ def _event(family: Family, kind: str, eliminated: Eliminated, cut: Cut,
     return make(kinds, len(roots), states, "; ".join(WORDS[word].format(things) for word in kinds))
 
 
-def _kinds(eliminated: Eliminated, cut: Cut, roots: Sequence[Root],
-           sides: Sequence[Piece | None]) -> tuple[str, ...]:
+def _kinds(roots: Sequence[Root], sides: Sequence[Piece | None]) -> tuple[str, ...]:
     """What happens, by how many branches meet in a root, and whether their number changes."""
     counts = [piece.count for piece in sides if piece is not None]
     many = max((root.times for root in roots), default=1)
