@@ -284,7 +284,8 @@ def decide(pairs, setting: Setting, seed: str, symbolic=True) -> Decision:
     """Whether left equals right in every pair, for all values of the free symbols at which the domain is
     positive, under the condition of the setting."""
 
-    chosen, none = (), ""
+    chosen: list[dict] = []
+    none = ""
     try:
         chosen = setting.points(free(pairs, setting), seed, POINTS)
     except InputError as error:

@@ -5,7 +5,6 @@ from collections import Counter
 from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import partial
 from pathlib import Path
 
 from ...errors import InputError
@@ -193,9 +192,7 @@ def findings(source: Source, tell: Callable[[int, str], None] | None = None) -> 
 def _row(printed, row, followed):
     time, motion = Fraction(row[0]), printed.motion
     with working(BALL_BITS) as numbers:
-        ask = getattr(quantities, printed.quantity)
-        ask = partial(ask, time=time) if printed.quantity == "off_linear" else ask
-        balls = ask(motion, followed[time], numbers)
+        balls = getattr(quantities, printed.quantity)(motion, followed[time], numbers)
         again = (reproduced(printed, float(time), [float(v.mid()) for v in balls]) if printed.cause
                  else [None] * len(balls))
         return [_judged(printed, row[0], *one, numbers)

@@ -177,22 +177,23 @@ UNITS = ((1, 0, 0), (0, 1, 0))  # directions at rest in space, body frame; the t
 
 @dataclass(frozen=True)
 class At:
-    """The motion at a time: rates in rad/s (3 balls), and how space has turned, body frame: rows (3, 3) of
-    balls, the columns being what the body's axes of the start have become."""
+    """The motion at a time (s): rates in rad/s (3 balls), and how space has turned, body frame: rows (3, 3)
+    of balls, the columns being what the body's axes of the start have become."""
 
-    omega: tuple
-    turned: tuple
+    time: Fraction
+    omega: tuple = ()
+    turned: tuple = ()
 
 
 def at(motion, times) -> list[At]:
     """The motion at increasing times (rationals, s); a case that is asked as it stands is not followed."""
     if motion.case:
-        return [At((), ())] * len(times)
+        return [At(time) for time in times]
     if motion.wheels:
-        return [At(*found) for found in wheels_at(motion, times)]
+        return [At(time, *found) for time, found in zip(times, wheels_at(motion, times))]
     runs = [_run(motion, times, axis) for axis in UNITS]
     with working(BALL_BITS):
-        return [At(tuple(one[0]), _rows(one[1], two[1])) for one, two in zip(*runs)]
+        return [At(time, tuple(one[0]), _rows(one[1], two[1])) for time, one, two in zip(times, *runs)]
 
 
 def _rows(first, second):
@@ -316,11 +317,11 @@ def angle3(motion, at: At, numbers) -> list:
     return [numbers.ball(motion.omega[2] * motion.begins) + numbers.angle(-at.turned[1][0], at.turned[0][0])]
 
 
-def off_linear(motion, at: At, numbers, time) -> list:
+def off_linear(motion, at: At, numbers) -> list:
     """The angle between the attitude and that of a rotation at the initial rate."""
     w = [numbers.ball(v) for v in motion.omega]
     size = dot(w, w).sqrt()
-    axis, turn = [v / size for v in w], -size * numbers.ball(time)
+    axis, turn = [v / size for v in w], -size * numbers.ball(at.time)
     trace = numbers.ball(0)
     for k in range(3):
         e = [numbers.ball(int(i == k)) for i in range(3)]
