@@ -13,7 +13,7 @@ import numpy as np
 
 from ..physics.states import equations_and_start
 from ..physics.to_numpy import Form, evaluate, to_numpy
-from .quadratic_series import in_unit, mass_unit, own_unit
+from .own_units import in_units, scale_of, units_of
 from .to_heyoka import TAYLOR_TOLERANCE, heyoka_available, taylor_events
 from .trajectory import FALLBACK_RTOL, floor, root_between, sign_changes, stand_in
 
@@ -179,19 +179,13 @@ def roots_of_rates(scene, state, t_end: float, tolerance: float = TAYLOR_TOLERAN
         rates = to_numpy(equations)(state)
     if not np.isfinite(rates).all():
         return _roots(Passed([], 0.0, state, 0, "stopped: the rates overflow at the start"), state, "none")
-    if equations.blocks == ("omega",):
-        unit, mass = own_unit(scene, state.tolist(), rates.tolist()), mass_unit(scene)
-        if unit != 1 or mass != 1:
-            return _in_unit(scene, state, float(t_end), tolerance, unit, mass)
-    passed = zeros_passed(to_numpy(equations).motion_and_rates, state, rates, t_end, STEP_LIMIT, tolerance)
+    units = units_of(equations, state)
+    scale, system = scale_of(equations, units), to_numpy(in_units(equations, units))
+    passed = zeros_passed(system.motion_and_rates, state / scale, rates / scale / units.pace,
+                          float(units.times(float(t_end))), STEP_LIMIT, tolerance)
+    zeros = [(t / units.pace, n, at * scale) for t, n, at in passed.zeros]
+    passed = replace(passed, zeros=zeros, t=passed.t / units.pace, state=np.array(passed.state) * scale)
     return _roots(passed, state, "taylor" if heyoka_available() else "DOP853")
-
-
-def _in_unit(scene, state, t_end, tolerance, unit, mass) -> RateRoots:
-    """The same in the motion's own units: exact, as they are powers of two."""
-    found = roots_of_rates(in_unit(scene, unit, mass), state / unit, t_end * unit, tolerance)
-    return replace(found, t=found.t / unit, states=found.states * unit, start=state, end=found.end * unit,
-                   t_reached=found.t_reached / unit)
 
 
 def _roots(passed: Passed, start, method: str) -> RateRoots:

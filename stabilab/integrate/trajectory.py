@@ -8,7 +8,7 @@ its steps (feathered, see `to_heyoka`), so a law with a non-zero rate is as good
 """
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -18,7 +18,7 @@ from ..physics.scene import slices
 from ..physics.states import checked_rtol, checked_times, equations_and_start
 from ..physics.to_numpy import to_numpy
 from ..representation import Compared, Shown
-from .quadratic_series import in_unit, mass_unit, own_unit
+from .own_units import Units, in_units, scale_of, units_of
 from .to_heyoka import FEATHER, TAYLOR_TOLERANCE, borrowed_taylor, heyoka_available
 
 if TYPE_CHECKING:
@@ -56,41 +56,39 @@ def integrated(scene, state, times, method: str = "taylor", rtol: float | None =
         if (whole := through_the_end(scene, state, times, follow, steps)) is not None:
             return whole
     equations, state = equations_and_start(scene, state)
-    start = state.tolist()
     reason, landing = "all times reached", False
     if method == "taylor" and not heyoka_available():
         method, rtol, landing = "DOP853", max(rtol or 0.0, FALLBACK_RTOL), True
         reason = "all times reached; heyoka is not installed, SciPy's DOP853 took its place"
-    system = to_numpy(equations)
-    if method == "taylor" and equations.blocks == ("omega",):
-        with np.errstate(all="ignore"):
-            unit = own_unit(scene, start, [float(v) for v in system.rate(start)])
-        mass = mass_unit(scene)
-        if unit != 1 or mass != 1:
-            return _in_unit(scene, state, times, rtol, steps, laws, unit, mass)
+    units = units_of(equations, state) if method == "taylor" else Units()
+    scale, system = scale_of(equations, units), to_numpy(in_units(equations, units))
     if method == "taylor":
         rtol = TAYLOR_TOLERANCE if rtol is None else max(rtol, TAYLOR_TOLERANCE)
-        run: _Taylor | _SciPy = _Taylor(system, rtol, laws)
+        run: _Taylor | _SciPy = _Taylor(system, rtol, laws, units.pace)
     else:
         rtol = SCIPY_RTOL if rtol is None else rtol
         run = _SciPy(system, method, rtol, landing)
     watch = watcher(scene, equations, state)
-    before, still, after = parted(times)
+    note = watch and (lambda own: watch.note(own * scale))
+    start, passed = state / scale, None if steps is None else list[float]()
+    before, still, after = parted(units.times(times))
     drift: dict[str, float] = {}
-    failures, found = [], [(np.zeros(still), state[None][:still])]
+    failures, found = [], [(np.zeros(still), start[None][:still])]
     for grid, place in ((before, 0), (after, 2)):
         if grid.size:
-            points, failure = run.run(state, grid, steps, watch)
+            points, failure = run.run(start, grid, passed, note)
             failures += [failure] if failure else []
-            for row in points if watch else ():
-                watch.note(row[:state.size])
-            for name, departure in departures(system, state, points).items() if laws else ():
+            for row in points if note else ():
+                note(row[:state.size])
+            for name, departure in departures(system, start, points).items() if laws else ():
                 drift[name] = max(drift.get(name, 0.0), departure)
             sense = place - 1  # those before 0 were met from there on
             found.insert(place, (grid[:len(points)][::sense], points[::sense, :state.size]))
+    if steps is not None:
+        steps += [t / units.pace for t in passed or ()]
     way = 1 if times.size < 2 or times[1] > times[0] else -1
     reached, states = (np.concatenate(parts)[::way] for parts in zip(*found))
-    return Trajectory(reached, np.ascontiguousarray(states), method, rtol, drift,
+    return Trajectory(reached / units.pace, states * scale, method, rtol, drift,
                       run.counters, "stopped" if failures else "reached", "; ".join(failures) or reason,
                       slices(equations.blocks), watch and watch.result())
 
@@ -111,15 +109,6 @@ def watcher(scene, equations, state):
     watch = limits.Watch(scene, equations.blocks)
     watch.note(state)
     return watch
-
-
-def _in_unit(scene, state, times, rtol, steps, laws, unit, mass) -> Trajectory:
-    """The same in the motion's own units of time and mass: exact, as they are powers of two."""
-    passed: list[float] | None = None if steps is None else []
-    run = integrated(in_unit(scene, unit, mass), state / unit, times * unit, "taylor", rtol, passed, laws)
-    if steps is not None:
-        steps += [t / unit for t in passed or ()]
-    return replace(run, t=times[np.isin(times * unit, run.t)], states=run.states * unit)
 
 
 def departures(system, state, points) -> dict[str, float]:
@@ -147,22 +136,24 @@ def _crawling(last, now, left, steps) -> str:
 
 
 class _Taylor:
-    """Runs of the Taylor series; counters add up over the runs."""
+    """Runs of the Taylor series; counters add up over the runs. pace: of the times over those that are told.
+    """
 
-    def __init__(self, system, rtol, laws=True):
+    def __init__(self, system, rtol, laws=True, pace=1.0):
         self.forms, self.rtol = system.motion_and_laws if laws else system.rhs, rtol
+        self.pace = pace
         self.counters = {"steps": 0}
 
     def run(self, state, grid, passed=None, watch=None):
         """(states and law integrals at the times of `grid`, failure or None); grid moves away from 0 without
-        it. passed: a list that takes the ends of the steps; watch: is told the state there."""
+        it. passed: a list that takes the ends of the steps; watch: is called with the state there."""
         note = {}
         if passed is not None or watch is not None:
             def seen(ta):
                 if passed is not None:
                     passed.append(ta.time)
                 if watch is not None:
-                    watch.note(ta.state[:state.size].copy())
+                    watch(ta.state[:state.size].copy())
                 return True
             note = {"callback": seen}
         with borrowed_taylor(self.forms, self.rtol) as ta:
@@ -175,7 +166,7 @@ class _Taylor:
             out[:, state.size:] /= FEATHER
         if not np.isfinite(out).all():
             out = out[:np.argmin(np.isfinite(out).all(axis=1))]
-        return out, None if len(out) == len(grid) else _stopped(out, grid, failure)
+        return out, None if len(out) == len(grid) else _stopped(out, grid / self.pace, failure)
 
     def _passed(self, ta, grid, note):
         """(states at the times of `grid` that were reached, why not all or None)."""
@@ -193,7 +184,7 @@ class _Taylor:
                 return found, OUTCOMES.get(outcome.name, outcome.name)
             left = steps_left(ta.time - last, grid[-1] - ta.time)
             if self.counters["steps"] - begun >= STEP_LIMIT or left > PATIENCE * STEP_LIMIT:
-                return np.concatenate(rows), _crawling(last, ta.time, left, REPORT)
+                return np.concatenate(rows), _crawling(last / self.pace, ta.time / self.pace, left, REPORT)
 
 
 class _SciPy:
@@ -238,7 +229,7 @@ class _SciPy:
             if passed is not None:
                 passed.append(solver.t)
             if watch is not None:
-                watch.note(solver.y[:n].copy())
+                watch(solver.y[:n].copy())
             if solver.status == "failed" or not np.isfinite(solver.y[:n]).all():
                 return y, h, message or "the numbers overflowed"
             if self.counters["steps"] >= self.most:

@@ -7,6 +7,7 @@ import pytest
 import stabilab
 from stabilab import Body, ConstantTorque, Gyrostat, ScaledGyrostat, Scene
 from stabilab.integrate.quadratic_series import in_unit
+from stabilab.physics.effects.rate_damper import RateDamper
 from stabilab.physics.effects.resistance import Resistance
 
 
@@ -47,3 +48,32 @@ def test_a_scene_in_another_unit_of_time_has_the_rates_of_the_first():
     scene, u, x = ScaledGyrostat("0.25", "-1.5", (0.5, 0, 2)), 8.0, [0.75, -2.0, 1.25]
     plain, fast = scene.quadratic().rate(x), in_unit(scene, u).quadratic().rate([v / u for v in x])
     assert [r / u**2 for r in plain] == fast  # x = u y, t = s/u: y' = x'/u^2; powers of two, so exactly
+
+
+@pytest.mark.parametrize("rate", [1e-25, 1e-20, 1e-9, 1.0, 1e15, 1e20])
+@pytest.mark.parametrize("coefficient", [1e-6, 0.25, 1000.0, 1e6])
+@pytest.mark.parametrize("effect", [Resistance, RateDamper])
+def test_a_sphere_that_a_medium_slows_keeps_its_digits_at_any_rate(effect, coefficient, rate):
+    # closed form: nothing turns a sphere's rates into one another, so that each decays as exp(-c t), or as
+    # exp(-c t/D)
+    start = rate * np.array([1.0, 2.0, -1.0])
+    pace = coefficient / (1 if effect is Resistance else 2)
+    run = stabilab.trajectory(Scene(Body((2, 2, 2)), effect(coefficient)), start, np.array([0.1, 1, 5]) / pace)
+    assert run.status == "reached" and max(run.invariant_drift.values()) < 1e-8
+    expected = np.exp([-0.1, -1, -5])[:, None] * start
+    assert np.abs(run.states - expected).max() < 2e-15 * 2 * rate
+
+
+def test_rates_that_vanish_beside_their_decay_have_a_time_of_their_own():
+    # closed form: about axis 3 a body speeds up to M/c as 1 - exp(-c t/D)
+    scene = Scene(Body((3, 2, 1.5)), RateDamper("1e6"), ConstantTorque((0, 0, "1e-20")))
+    t = 1.5e-6 * np.array([0.5, 1, 20])
+    run = stabilab.trajectory(scene, (0, 0, 0), t)
+    np.testing.assert_allclose(run.states[:, 2], 1e-26 * -np.expm1(-t / 1.5e-6), rtol=1e-14)
+
+
+def test_a_run_that_stops_says_so_in_the_time_of_the_scene():
+    # where the rates grow past every number: about equal rates 1e6 and a torque across, no run of doubles
+    scene = Scene(Body((3, 2, 1.5)))
+    run = stabilab.trajectory(scene, (1e30, 2e30, 1e30), [1e-30, 1e30])
+    assert run.status == "stopped" and "t = 1e-30" in run.reason.replace("1.0000000000000001e-30", "1e-30")

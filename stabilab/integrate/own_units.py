@@ -1,0 +1,145 @@
+"""The equations of a motion in its own units of rates and of time.
+
+The step control of Taylor series is relative to the state above size 1 but absolute below, and the
+coefficients of a series underflow or overflow where the unit of time is far from the pace of the motion. The
+two are not the same: a body that a strong damper slows has a short time and small rates, a sphere that turns
+fast in a thin medium a long time and large ones. With omega = u y and t = s/v, y' = f(u y)/(u v). For u and v
+powers of two the change is exact.
+"""
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from functools import lru_cache
+
+import numpy as np
+
+from ..errors import InputError
+from ..physics.equations import Balance, Equations, Symbolic
+from ..physics.scene import BLOCKS
+from ..physics.to_numpy import to_numpy
+from .quadratic_series import FAST, HEAVY, LIGHT, SLOW
+
+RATES = {"omega", "damper"}  # blocks of rates, rad/s
+PLAIN = {"gamma", "attitude"}  # blocks of size 1
+# beside a block of size 1 slow rates are followed to 1e-16 of 1: a unit of their own from here on
+SLOW_BESIDE = 2.0**-20
+# a pace so many times as fast, or as slow, as the rates has a unit of its own; looked at where the change in
+# a unit of time is so many times the rates, or so small a part of them
+APART, UNLIKE = 2.0**6, 2.0**12
+SMALLEST, LARGEST = 2.0**-1000, 2.0**1000
+
+
+@dataclass(frozen=True)
+class Units:
+    """Powers of two: rates over `rate`, times over 1/`pace`, laws each over a unit of its own if `laws`."""
+
+    rate: float = 1.0
+    pace: float = 1.0
+    laws: bool = False
+
+    @property
+    def plain(self) -> bool:
+        return self.rate == self.pace == 1 and not self.laws
+
+    def times(self, times: np.ndarray | float) -> np.ndarray:
+        """Times in the own unit. Raises InputError where these are no doubles."""
+        with np.errstate(all="ignore"):
+            own = np.asarray(times) * self.pace
+        if not np.isfinite(own).all():
+            raise InputError(f"times: {float(np.abs(times).max()):.3g} is too far for a motion that changes "
+                             f"at a pace of {self.pace:.1e}: no run in doubles follows it")
+        return own
+
+
+def units_of(equations: Equations, state: np.ndarray) -> Units:
+    """The units of the motion from a state (n,), 1 where its rates are ordinary.
+
+    The size of the rates is theirs, or what the rates of change make of them: over their pace, or its root.
+    """
+    if not set(equations.blocks) <= RATES | PLAIN:
+        return Units()
+    laws = any(not LIGHT <= value <= HEAVY
+               for name, value in equations.parameters.items() if name in ("D1", "D2", "D3"))
+    turning = _turning(equations)
+    with np.errstate(all="ignore"):
+        change = np.abs(np.array(to_numpy(equations).rate(state.tolist()), float)[turning])
+    now, quick = float(np.abs(state[turning]).max()), float(change.max())
+    size = max(now, math.sqrt(quick))
+    slow = SLOW_BESIDE if set(equations.blocks) & PLAIN else SLOW
+    ordinary = Units(laws=laws) if slow <= size <= FAST else None
+    if not 0 < size < math.inf or ordinary and (not quick or 1 / UNLIKE <= quick / (now or size) <= UNLIKE):
+        return ordinary or Units(laws=laws)
+    pace = pace_of(equations, state)
+    if 0 < pace < math.inf and not 1 / APART <= pace / size <= APART:
+        return _power(max(now, quick / pace), pace, True)
+    return ordinary or _power(size, size, True)
+
+
+def _power(size: float, pace: float, laws: bool) -> Units:
+    size, pace = (min(max(v, SMALLEST), LARGEST) for v in (size, pace))
+    return Units(2.0 ** math.frexp(size)[1], 2.0 ** math.frexp(pace)[1], laws)
+
+
+def pace_of(equations: Equations, state: np.ndarray) -> float:
+    """How fast the motion may change at a state, 1/s: the largest derivative of the rates, and the root of
+    what their changes make of it in a unit of time."""
+    system, turning = to_numpy(equations), _turning(equations)
+    with np.errstate(all="ignore"):
+        there, gradient = np.array(system.rate(state.tolist()), float), system.jacobian(state)
+        along = system.jacobian(there) - system.jacobian(np.zeros(state.size))
+        across = np.abs(gradient[np.ix_(turning, ~turning)]).max(initial=0.0)
+        return float(max(np.abs(gradient[np.ix_(turning, turning)]).max(), math.sqrt(across),
+                         np.abs(gradient[np.ix_(~turning, ~turning)]).max(initial=0.0),
+                         math.sqrt(np.abs(along[np.ix_(turning, turning)]).max())))
+
+
+def _turning(equations: Equations) -> np.ndarray:
+    """(n,) which components of the state are rates."""
+    return np.array([name in RATES for name in equations.blocks for _ in BLOCKS[name].components])
+
+
+def scale_of(equations: Equations, units: Units) -> np.ndarray:
+    """(n,) the unit of each component of the state."""
+    return np.where(_turning(equations), units.rate, 1.0)
+
+
+@lru_cache(maxsize=32)  # what is made of equations is kept by identity
+def in_units(equations: Equations, units: Units) -> Equations:
+    """The equations of y(s), with the laws over their own units."""
+    if units.plain:
+        return equations
+    from sympy import Integer, Symbol
+    parameters, symbols = dict(equations.parameters), dict(equations.symbols)
+
+    def named(name: str, value: float | Fraction) -> Symbolic:
+        parameters[name], symbols[name] = Fraction(value), Symbol(name, real=True)
+        return symbols[name]
+
+    rate = named("unit_of_rates", units.rate)
+    pace = rate if units.pace == units.rate else named("pace", units.pace)
+    factors = [rate if turns else Integer(1) for turns in _turning(equations)]
+    put = {x: factor * x for x, factor in zip(equations.state, factors)}
+    rhs: tuple[Symbolic, ...] = tuple(one.xreplace(put) / (factor * pace)
+                                      for one, factor in zip(equations.rhs, factors))
+    made = replace(equations, parameters=parameters, symbols=symbols, rhs=rhs, balances=())
+    laws = []
+    for law in equations.balances:
+        quantity, change = law.quantity.xreplace(put), law.rate.xreplace(put) / pace
+        size = named(f"unit_of_{len(laws)}", _size(made, quantity))
+        laws.append(Balance(law.name, law.words, quantity / size, change / size))
+    return replace(made, parameters=parameters, symbols=symbols, balances=tuple(laws))
+
+
+def _size(equations: Equations, quantity: Symbolic) -> Fraction:
+    """The power of two near the largest coefficient of a law's quantity; 1 where it is no polynomial of the
+    state."""
+    from sympy import Poly, PolynomialError
+    try:
+        terms = Poly(equations.numeric(quantity), *equations.state).terms()
+    except PolynomialError:
+        return Fraction(1)
+    sizes = [abs(Fraction(int(c.p), int(c.q))) for powers, c in terms if any(powers) and c.is_Rational]
+    largest = max(sizes, default=Fraction(0)) or Fraction(1)
+    return Fraction(2) ** (largest.numerator.bit_length() - largest.denominator.bit_length())
