@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ...errors import InputError, told
 from ...maps.basins.ask import BOUNDED, NO_AXIS, UNDECIDED, Basins
 from ...packages import demand
 from .. import style
@@ -27,7 +28,12 @@ def basin(found: Basins, ax: Axes | None = None, size: tuple[float, float] | Non
           legend: bool = True) -> Axes:
     """Draw basins onto Matplotlib axes, or a figure of its own, and return the axes: a colour for each basin,
     the case's own state, and the boundary. The boundary is a line where the scene reduces (found by halving
-    between states of different fate), else the finest cells are black."""
+    between states of different fate), else the finest cells are black. Raises InputError for anything but
+    basins: a case has as many as there are planes through its rates."""
+    if not isinstance(found, Basins):
+        raise InputError(f"plot.basin: expected the basins of a plane, got {told(found)}: "
+                         'found = stabilab.basin(case, {"angular_velocity[1]": "-60:60 deg/s", '
+                         '"angular_velocity[3]": "-60:60 deg/s"}), then stabilab.plot.basin(found)')
     demand(*style.PACKAGES)
     with canvas.on(ax, size or canvas.SQUARE) as target:
         rows = _areas(target, found) + _line(target, found) + _own(target, found)
@@ -39,10 +45,10 @@ def basin(found: Basins, ax: Axes | None = None, size: tuple[float, float] | Non
                                            found.plan.vary):
             setter("log" if text.count(":") == 3 and axis.values[0] > 0 else "linear")
         rough = found.dimension
-        told = ("" if math.isnan(rough.value)
+        edge = ("" if math.isnan(rough.value)
                 else f"boundary: box dimension {rough.value:.3f} ± {rough.uncertainty:.3f}")
         return canvas.explained(target, rows if legend else [], ax is None,
-                                found.plan.case.title or found.plan.case.name, told)
+                                found.plan.case.title or found.plan.case.name, edge)
 
 
 def write(found: Basins, out: str | Path, size: tuple[float, float] | None = None,

@@ -107,3 +107,9 @@ def test_files_are_judged_before_the_work():
                         ((MINOR.with_name("a.nc"), MINOR.with_name("b.nc")), "one data set")):
         with pytest.raises(InputError, match=told):
             to_file.data_of(to_file.checked(paths))
+
+
+def test_a_case_has_no_basins_of_its_own_and_the_plot_says_what_it_takes():
+    with pytest.raises(InputError, match=r"plot.basin: expected the basins of a plane, got Case.*: "
+                                         r"found = stabilab.basin\(case, "):
+        stabilab.plot.basin(stabilab.load(MINOR))
