@@ -23,9 +23,10 @@ from ...case.read import Case
 from ...equilibrium.result import Equilibria
 from ...errors import InputError, StabilabError
 from ...integrate.quadratic_series import Path, followed, parting
+from ...numbers.principal import PrincipalAxes
 from ...packages import demand, present
 from ...physics.coefficients import content
-from ...physics.effects.base import effect_words
+from ...physics.effects.base import Effect, effect_words
 from ...physics.scene import AnyScene, QuadraticForm, Scene
 from ..units import Units
 from .pictures import Bag
@@ -47,11 +48,11 @@ def needed(scene: AnyScene) -> bool:
 
 def check(case: Case) -> None:
     """Raise InputError where a page cannot show a case: its sliders count along principal axes, and so must
-    the effects of its file."""
+    the effects of its file, unless they are alike along all axes."""
     if not needed(case.scene):
         return
     demand("numpy", "scipy")
-    if case.frame is not None and not case.frame.as_given:
+    if case.frame is not None and not (case.frame.as_given or _alike(case.scene, case.frame)):
         raise InputError(f"{case.place}: explore turns wheels and torque into the principal axes, but not "
                          f"{_names(case.scene)}: state the case along its "
                          "principal axes (stabilab show tells them), or ask stabilab classify or report")
@@ -75,9 +76,17 @@ def why(scene: AnyScene) -> str:
         f"that is known; what is drawn is the motion itself")
 
 
+def _alike(scene: AnyScene, frame: PrincipalAxes) -> bool:
+    """Whether the effects beside wheels and torque are the same along all axes, as an isotropic damper is."""
+    return scene.blocks == ("omega",) and all(effect.turned(frame) is effect for effect in _beside(scene))
+
+
+def _beside(scene: AnyScene) -> list[Effect]:
+    return [effect for effect in scene.effects if effect.name not in ("gyrostat", "constant_torque")]
+
+
 def _names(scene: AnyScene) -> str:
-    return " and ".join(effect_words(effect.name) for effect in scene.effects
-                        if effect.name not in ("gyrostat", "constant_torque"))
+    return " and ".join(effect_words(effect.name) for effect in _beside(scene))
 
 
 def path(case: Case, until: float) -> Path:

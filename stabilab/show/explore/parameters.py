@@ -218,8 +218,11 @@ def _base(case: Case) -> dict[str, Any]:
         return data
     body = {"inertia": [exact_text(v) for v in scene.body.exact]} | _kept(data["body"], "mass")
     vectors: Any = {effect.name: (type(effect).keys[0], scene.vector(effect.name))
-                    for effect in scene.effects}
-    effects = {name: {key: [exact_text(v) for v in vector]} for name, (key, vector) in vectors.items()}
+                    for effect in scene.effects if effect.name in ("gyrostat", "constant_torque")}
+    # the others are alike along all axes (`orbits.check`)
+    effects = ({effect.name: data["effects"][effect.name] for effect in scene.effects
+                if effect.name not in vectors}
+               | {name: {key: [exact_text(v) for v in vector]} for name, (key, vector) in vectors.items()})
     motion = ({"angular_velocity": [exact_text(v) for v in case.exact_state or ()]}
               | _kept(data.get("motion", {}), "span"))
     limits = {} if case.limits is None or case.limits.rate is None else _kept(data, "limits")
