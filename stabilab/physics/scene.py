@@ -25,7 +25,7 @@ from ..numbers.principal import PrincipalAxes, evened, principal_axes, without_t
 from ..numbers.units import INERTIA, MASS, RATE, half_digit, in_si, vector_in_si
 from ..numbers.vectors import CYCLE, Exact3, Float3, Given, Number, Triple, dot
 from ..validation import Asked
-from .effects.base import Effect, effect_words
+from .effects.base import Effect, effect_words, with_article
 
 if TYPE_CHECKING:
     import numpy as np
@@ -355,7 +355,7 @@ class Scene(metaclass=Asked):
         if other:
             raise InputError(
                 f"this analysis covers a gyrostat and a constant torque; the scene also has "
-                f"{', '.join(map(effect_words, other))}")
+                f"{', '.join(map(with_article, other))}")
         return euler_form(self.body.exact, self.vector("gyrostat"), self.vector("constant_torque"))
 
 

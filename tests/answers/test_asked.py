@@ -5,7 +5,9 @@ import numpy as np
 import pytest
 
 import stabilab
+from stabilab.errors import InputError
 from stabilab.physics.effects.base import Effect
+from tests.shared import CASES
 
 STATE, TIMES = (0.1, 0.05, 0.02), (0.0, 1.0)
 OF_A_SCENE = {"equilibria": (), "fate": (STATE,), "fate_grid": ([[0.1], [0.2], [0.3]],), "motion": (STATE,), "attitude": (STATE,),
@@ -156,3 +158,9 @@ def test_what_is_told_of_an_object_without_numbers_is_the_same_in_every_run(give
 def test_bytes_are_no_three_numbers():
     with pytest.raises(stabilab.InputError, match="inertia: expected three numbers, got bytes"):
         stabilab.Body(b"abc")
+
+
+@pytest.mark.parametrize("ask", [lambda case: case.scene.quadratic(), stabilab.attitude])
+def test_effects_that_an_answer_does_not_cover_have_their_article(ask):
+    with pytest.raises(InputError, match="scene also has a rate damper$"):
+        ask(stabilab.load(CASES / "cubesat-3u-detumbling.toml"))

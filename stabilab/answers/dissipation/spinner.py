@@ -14,7 +14,7 @@ from ...errors import InputError
 from ...integrate.trajectory import root_between
 from ...numbers.exact import sqrt_fraction
 from ...numbers.vectors import cross, dot
-from ...physics.effects.base import effect_words
+from ...physics.effects.base import effect_words, with_article
 from ...physics.scene import Scene, slices
 from ...physics.states import body_momentum, equations_and_start, start_of
 from ...physics.to_numpy import to_numpy
@@ -43,7 +43,7 @@ class Spinner:
         if case.state is None or case.variables != "physical":
             raise InputError("flat-spin: give the start as [motion] angular_velocity, in rad/s")
         names = [effect.name for effect in scene.effects]
-        others = [effect_words(name) for name in names if name not in TAKE]
+        others = [with_article(name) for name in names if name not in TAKE]
         if outside := [effect_words(name) for name in names if name in TAKE_BOTH]:
             raise InputError(f"flat-spin: {' and '.join(outside)}: a torque from outside, which changes the "
                              "angular momentum, too, so that no flat spin need be the end: `stabilab "

@@ -22,6 +22,15 @@ def effect_words(name: str) -> str:
     return name.replace("_", " ").replace("newtonian", "Newtonian")
 
 
+THINGS = {"body_force", "charge", "constant_torque", "gyrostat", "liquid_cavity", "newtonian_field",
+          "rate_damper", "viscous_damper", "wheel_motor"}
+
+
+def with_article(name: str) -> str:
+    """The same behind "the scene has": "a liquid cavity", "resistance"."""
+    return f"a {effect_words(name)}" if name in THINGS else effect_words(name)
+
+
 @dataclass(frozen=True)
 class Limit:
     """Up to where an approximate law may be used: a dimensionless number that must not exceed `limit`.

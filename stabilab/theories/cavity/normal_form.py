@@ -25,7 +25,7 @@ from functools import lru_cache
 
 from ...errors import InputError
 from ...numbers.vectors import Number
-from ...physics.effects.base import effect_words
+from ...physics.effects.base import effect_words, with_article
 from ...physics.equations import derive
 
 ORDERS = 3  # X0, X1, X2
@@ -71,7 +71,7 @@ def check(scene):
     other = [e.name for e in scene.effects if e.name not in ALLOWED]
     if other:
         raise InputError(f"averaging covers {', '.join(map(effect_words, sorted(ALLOWED)))}; the scene also "
-                         f"has {', '.join(map(effect_words, other))}")
+                         f"has {', '.join(map(with_article, other))}")
     if len(scene.blocks) > 1:
         raise InputError('averaging needs a constant angle of the charge (the angular velocity alone as '
                          'state), got angle = '
