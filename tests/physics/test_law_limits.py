@@ -305,3 +305,15 @@ def test_a_charge_is_judged_by_the_attitude_that_a_case_gives_in_every_question(
     assert "within the law" in modelled.split("\n")[0] and "0.0726 at the times given" in modelled
     _, unknown, _ = stabilab("fate", CASES / "liquid-base.toml")
     assert "it needs the attitude, which is not given" in unknown
+
+
+def test_a_law_beside_other_answers_is_judged_along_the_first_turns_of_a_motion_of_very_many():
+    # proof: a rotation about a principal axis goes on as it is, and so does the number of its law
+    scene = Scene(Body((3, 2, 1.5)), LiquidCavity.of_sphere(1000, 1, 0.05))
+    case = stabilab.load({"body": {"inertia": [3, 2, 1.5]},
+                          "effects": {"liquid_cavity": {"density": 1000, "viscosity": 1, "radius": 0.05}},
+                          "motion": {"angular_velocity": [0, 0, "3e6 rad/s"], "span": [0, 15]}})
+    found = law.of_case(case)
+    assert found.over == "along the first 0.033 s of the run"
+    assert found.value == pytest.approx(stabilab.validity(scene, (0, 0, 3e6)).value, rel=1e-9)
+    assert "along the run" in law.of_case(case, (0, 0.01)).words

@@ -15,6 +15,8 @@ from ..axes import axes_of
 from ..terminal.letters import lettered
 from ..units import SI, Units, units_of
 
+MOST = 1e5  # rad of turn along which a law beside other answers is judged: seconds
+
 
 def first(validity, text: str, units: Units = SI, caveats=()) -> str:
     """The text with the caveats of its case, and with what is to be said of its law: behind the answer where
@@ -58,7 +60,7 @@ def beyond(*found) -> bool:
 def of_case(case, span=None, brief=False):
     """Of a case's own motion over a span, its own where None is given (15 units of time without one), at rest
     where it has none; None where all laws are exact, or, if brief, where more than a few power series were
-    needed."""
+    needed. Of a motion of very many turns it is that of the first ones, as `over` says."""
     limits = limits_of(case.scene)
     if limits is None:
         return None
@@ -73,7 +75,13 @@ def of_case(case, span=None, brief=False):
     if brief:
         return None
     from ...answers.simulate import simulate
-    return simulate(case.scene, case.state, span, case.blocks).validity
+    spin, longest = math.hypot(*case.state), max(map(abs, span))
+    if spin * longest <= MOST:
+        return simulate(case.scene, case.state, span, case.blocks).validity
+    first = tuple(t * MOST / (spin * longest) for t in span)
+    found = simulate(case.scene, case.state, first, case.blocks).validity
+    over = f"along the first {MOST / spin:.2g} s of the run"
+    return found and replace(found, over=over, also=tuple(replace(one, over=over) for one in found.also))
 
 
 def judged(case, motion, brief=False):
