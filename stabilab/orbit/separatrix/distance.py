@@ -31,7 +31,7 @@ from ...physics.scene import aligned
 from ..conic import conic_of, planes_touched
 from ..fate.one_state import decide, on_separatrix
 from ..one_orbit import Orbit
-from ..potential import slope_at
+from ..potential import Circle, slope_at
 from ..reduction import reduce
 from .charts import (
     NEAR,
@@ -44,7 +44,7 @@ from .charts import (
     ParabolaChart,
     Straight,
 )
-from .circle import TURN, moved, others, slope
+from .homoclinic import TURN, others
 from .nearest import FINE, INF, Form, Search, double, ends_of
 from .result import ENDED, NO_SEPARATRIX, UNKNOWN, Apart
 
@@ -289,14 +289,14 @@ class Shade:
     """The barriers beside the saddles of circles under a torque; constants: of the force, in doubles."""
 
     def __init__(self, constants):
-        self.g = tuple(constants[name] for name in ("G", "c", "d", "mu"))
+        self.potential = Circle(constants)
 
     def _barriers(self, chart, t, above):
         """(offset, phi, its error, its slope in t) of the other barriers within a turn of a saddle, those
         between it and the offset `above` and those ahead."""
-        x, z = (float(v.mid()) for v in chart.curve.at(t)[:2])
-        for at in (side * q for side in (1, -1) for q in others(self.g, x, z, side) if q < INF):
-            bend = chart.g["rate"] * slope(self.g, *moved(x, z, at))
+        pot, saddle = self.potential, tuple(float(v.mid()) for v in chart.curve.at(t)[:2])
+        for at in (side * q for side in (1, -1) for q in others(pot, saddle, side)):
+            bend = chart.g["rate"] * pot.slope(pot.move(saddle, at))
             if bend > 0 and (at > 0 or at > above):
                 at = t * 0 + at
                 point = chart.point(t, at)

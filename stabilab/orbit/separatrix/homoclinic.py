@@ -2,76 +2,180 @@
 saddle turns back.
 
 The saddle is one equilibrium of its orbit; divided out, a cubic is left for the others: in tan(y/2) on a
-circle (`circle_loops`), in exp(y) on a hyperbola. `loops` asks here too, row by row.
+circle, in exp(y) on a hyperbola. `loops` asks here too, row by row.
 """
 from __future__ import annotations
 
-import math
+from math import acos, atan, atan2, copysign, cos, inf, log, nan, pi, sqrt
 
-from .circle import ENDS, NONE, OWN, crossing, real_cubic
-from .circle import loop_end as _end_on_circle
+EPS = 2.0**-52
+TURN = 2 * pi
+FAR = 10          # powers of two: a wall beyond the last well of a hyperbola is nearer, or there is none
+OWN = 1e-9        # offsets below this are the saddle itself
+# barriers that differ less from the saddle's height, relative to the energy's terms, are as high
+LEVEL = 64 * EPS
+# of the largest root of a cubic: smaller ones the closed form, a difference of numbers of its size, loses
+# digits of
+SPREAD = 1e-3
+LOST = 1e-4       # of a cubic's terms: a discriminant that is less may have the other sign
+POLISH = 3        # steps of Newton's method
 
-FAR = 700.0       # beside an open plane there is no wall as near as this
+
+def settled(pot, place):
+    """The place moved along its orbit to where the force vanishes, if that is near."""
+    for _ in range(POLISH):
+        slope = pot.slope(place)
+        step = -pot.force(place) / slope if slope else 0.0
+        if not abs(step) < 0.5:
+            break
+        place = pot.move(place, step)
+        if abs(step) < 1e-12:
+            break
+    return place
 
 
 def loop_end(pot, sense, saddle, side):
     """(distance along the orbit from the saddle to the far end of its loop on one side (-1, +1), distance to
-    the deepest well inside, ENDS or SHARED); None where no loop closes. SHARED: the far end is a saddle as
-    high.
+    the deepest well inside, whether the far end is a saddle as high); None where no loop closes.
 
-    sense: 0 without torque, where on a circle a loop may end at a barrier as high, or at the saddle itself,
-    one turn on.
+    The loop ends where the potential beyond its wells is back at the saddle's height. sense: 0 without
+    torque, where on a circle it may end at a barrier as high, or at the saddle itself, one turn on; with
+    torque the saddle then stands higher, or lower, by 2 pi mu.
     """
-    return GEOMETRIES[pot.e](pot, sense, saddle, side)
-
-
-def _on_circle(pot, sense, saddle, side):
-    found = _end_on_circle((pot.G, pot.c, pot.d, pot.mu), sense, *saddle, side)
-    return None if found[2] == NONE else found
-
-
-def _on_hyperbola(pot, sense, saddle, side):
-    low = high = centre = None
-    deepest = 0.0
-    for t in _others(pot, saddle, side):
+    low, high, deepest, centre = 0.0, inf, inf, 0.0
+    turns = pot.e < 0 and sense == 0
+    for t in others(pot, saddle, side):
         over = pot.rise(side * t, saddle)
-        if pot.slope(pot.move(saddle, side * t)) > 0:
-            if over >= 0:
-                high = t
-                break
-        else:
+        if not pot.slope(pot.move(saddle, side * t)) > 0:
             low = t
-            if centre is None or over < deepest:
+            if over < deepest:
                 deepest, centre = over, t
-    if low is None:
+            continue
+        level = turns and abs(over) <= LEVEL * _terms(pot, saddle)
+        if level and low > 0:
+            return t, centre, True
+        if over >= 0 or level:
+            high = t
+            break
+    if low == 0:
         return None
-    if high is None:
-        high = _wall(pot, saddle, low, side)
-    if high is None:
-        return None
-    end = crossing(lambda t: pot.rise(side * t, saddle),
-                   lambda t: -side * pot.force(pot.move(saddle, side * t)), low, high)
-    return end, centre, ENDS
+    if high == inf:
+        if turns:
+            return TURN, centre, True
+        walls = [TURN] if pot.e < 0 else [low + 2.0**n for n in range(FAR)]
+        high = next((t for t in walls if pot.rise(side * t, saddle) > 0), None)
+        if high is None:  # towards the torque the next turn lies lower; beside an open plane is no wall
+            return None
+    end = _crossing(lambda t: pot.rise(side * t, saddle),
+                    lambda t: -side * pot.force(pot.move(saddle, side * t)), low, high)
+    return end, centre, False
 
 
-def _others(pot, saddle, side):
-    """Distances to the other equilibria on one side of the saddle of a hyperbola, ascending."""
-    xi, eta = saddle
-    quarter = 0.25 * pot.G
-    b3, b0 = quarter * xi * xi, quarter * eta * eta
-    found = [side * math.log(t) for t in real_cubic(b3, b3 + pot.e1 * xi, b0 - pot.e2 * eta, b0) if t > 0]
+def _terms(pot, place):
+    """Size of the terms of the energy at a place of a circle."""
+    size = place[0] * place[0] + place[1] * place[1]
+    return abs(pot.G) * size + pot.slopes * sqrt(size)
+
+
+def others(pot, saddle, side):
+    """Distances to the other equilibria on one side of a saddle, ascending; on a circle within one turn.
+
+    Along a circle F(y) = 2 sin(y/2) (a0 C^3 + a1 C^2 S + a2 C S^2 + a3 S^3) with C = cos(y/2), S = sin(y/2):
+    a cubic for the tangent, or for the cotangent where the tangent may be infinite.
+    """
+    if pot.e > 0:
+        xi, eta = saddle
+        quarter = 0.25 * pot.G
+        b3, b0 = quarter * xi * xi, quarter * eta * eta
+        found = [side * log(t) for t in real_cubic(b3, b3 + pot.e1 * xi, b0 - pot.e2 * eta, b0) if t > 0]
+    else:
+        x, z = saddle
+        along, across = pot.G * (z - x) * (z + x), pot.d * z - pot.c * x
+        a0, a3 = along + across, -(pot.c * z + pot.d * x)
+        a1, a2 = a3 - 4 * pot.G * x * z, across - along
+        if abs(a0) > abs(a3):
+            found = [side * 2 * atan2(1.0, t) for t in real_cubic(a0, a1, a2, a3)]
+        else:
+            found = [side * 2 * atan(t) for t in real_cubic(a3, a2, a1, a0)]
+        found = [t + TURN if t < 0 else t for t in found]
     return sorted(t for t in found if t > OWN)
 
 
-def _wall(pot, saddle, low, side):
-    """A distance at which the wall beyond the last well is higher than the saddle; None beside an open plane.
+def real_cubic(a, b, c, d):
+    """Real roots of a t^3 + b t^2 + c t + d, nan in place of those that are not, each with a step of Newton's
+    method for what the closed form lost."""
+    if a == 0:
+        if b == 0:
+            return (-d / c if c != 0 else nan), nan, nan
+        disc = c * c - 4 * b * d
+        if disc < 0:
+            return nan, nan, nan
+        far = -0.5 * (c + copysign(sqrt(disc), c))
+        return (far / b, d / far, nan) if far != 0 else (0.0, nan, nan)
+    p, q, r = b / a, c / a, d / a
+    third = p / 3
+    square, half = third * third - q / 3, third * (third * third - 0.5 * q) + 0.5 * r
+    rest = half * half - square * square * square
+    if rest < 0:
+        size = sqrt(square)
+        angle = acos(max(-1.0, min(1.0, half / (size * size * size)))) / 3
+        first, second, last = (_better(p, q, r, -2 * size * cos(angle) - third),
+                               _better(p, q, r, -2 * size * cos(angle + TURN / 3) - third),
+                               _better(p, q, r, -2 * size * cos(angle - TURN / 3) - third))
+        most = (first if abs(first) >= max(abs(second), abs(last)) else second if abs(second) >= abs(last)
+                else last)
+        if min(abs(first), abs(second), abs(last)) < SPREAD * abs(most):
+            return _beside_largest(p, q, r, most)
+        return first, second, last
+    single = -copysign((abs(half) + sqrt(rest)) ** (1 / 3), half)
+    only = _better(p, q, r, single + (square / single if single != 0 else 0.0) - third)
+    return (_beside_largest(p, q, r, only) if rest <= LOST * half * half
+            and only * only * abs(only) * SPREAD > abs(r) else (only, nan, nan))
+
+
+def _beside_largest(p, q, r, t):
+    """The largest root t of t^3 + p t^2 + q t + r with the two much smaller ones, of which the closed form
+    keeps no digit: those of the quadratic that is left, from its low powers up. nan where they are not
+    real."""
+    product = -r / t
+    total = (q - product) / t
+    disc = total * total - 4 * product
+    if disc < 0:
+        return t, nan, nan
+    far = 0.5 * (total + copysign(sqrt(disc), total))
+    return t, _better(p, q, r, far), _better(p, q, r, product / far) if far != 0 else 0.0
+
+
+def _better(p, q, r, t):
+    """A root of t^3 + p t^2 + q t + r after one step of Newton's method."""
+    steep = (3 * t + 2 * p) * t + q
+    step = (((t + p) * t + q) * t + r) / steep if steep != 0 else 0.0
+    return t - step if abs(step) < 1e-4 * abs(t) else t
+
+
+def _crossing(height, slope_at, low, high):
+    """Where the potential rises through the saddle's height between a well at `low` and `high`, distances
+    from the saddle: Newton's method in a bracket. height, slope_at: of a distance.
+
+    The first guess is exact for the cubic potential next to a fold, whose loop is half as long again as the
+    way to the well.
     """
-    step = 1.0
-    while step < FAR:
-        if pot.rise(side * (low + step), saddle) > 0:
-            return low + step
-        step *= 2
-    return None
-
-
-GEOMETRIES = {-1: _on_circle, 1: _on_hyperbola}
+    t = min(1.5 * low, 0.5 * (low + high))
+    for _ in range(200):
+        value = height(t)
+        if value > 0:
+            high = t
+        elif value < 0:
+            low = t
+        else:
+            return t
+        steep = slope_at(t)
+        new = t - value / steep if steep > 0 else low
+        if abs(new - t) <= 1e-9 * t:
+            return new  # convergence is quadratic: the next step would be 1e-18
+        if not low < new < high:
+            new = 0.5 * (low + high)
+            if not low < new < high:
+                return new
+        t = new
+    return t

@@ -10,10 +10,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .circle import NONE, SHARED, SHARPEST
 from .far_centre import replaced, residual_far
 from .homoclinic import loop_end
 from .seams import PINCH, pinched_shares
+
+SHARPEST = 1e3  # bends tighter than the loop's length over this are not resolved
 
 
 def polished(land, saddle, s):
@@ -29,13 +30,14 @@ def loop_ends(land, saddle, side):
     other side."""
     pot, n = land.potential, len(saddle[0])
     side = np.broadcast_to(np.asarray(side, float), n)
-    ends, centres, kind = np.zeros(n), np.zeros(n), np.zeros(n, int)
+    ends, centres = np.zeros((2, n))
+    there, shared = np.zeros((2, n), bool)
     for row, (x, z, toward) in enumerate(zip(*(v.tolist() for v in (*saddle, side)))):
         found = loop_end(pot, land.sense, (x, z), toward)
         if found:
-            ends[row], centres[row], kind[row] = found
-    return side * ends, np.array(land.polished(pot.move(saddle,
-                                                        side * centres))), kind != NONE, kind == SHARED
+            there[row] = True
+            ends[row], centres[row], shared[row] = found
+    return side * ends, np.array(land.polished(pot.move(saddle, side * centres))), there, shared
 
 
 @dataclass(frozen=True)

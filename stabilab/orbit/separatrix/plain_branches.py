@@ -14,12 +14,10 @@ from ...physics.scene import AnyScene
 from ..conic import conic_of
 from ..potential import potential
 from ..reduction import reduce
-from .circle import SHARED
-from .homoclinic import loop_end
+from .homoclinic import loop_end, settled
 from .saddles import NO_REDUCTION, limit_of, saddle_branches, what_it_parts, why_none, why_parabolic
 
 REACH = 4.0  # as of `branches.separatrix`
-POLISH = 3   # Newton steps of a saddle along its orbit
 
 
 @dataclass(frozen=True)
@@ -62,21 +60,13 @@ def _strip(r: Any, pot: Any, branch: Any, side: int, rows: int, half: int) -> li
     for n in range(rows):
         s = (n / (rows - 1)) ** 2
         saddle = tuple(map(float, branch.place(s)))
-        saddle = _polished(pot, saddle) if n else saddle
+        saddle = settled(pot, saddle) if n else saddle
         found = loop_end(pot, r.sense, saddle, side)
-        if found and not (found[2] == SHARED and side > 0):
+        if found and not (found[2] and side > 0):
             made.append(_loop(r, pot, saddle, side * found[0], half))
         elif n == 0:
             made.append([_state(r, pot, saddle, 0.0)] * (2 * half - 1))
     return made
-
-
-def _polished(pot, saddle):
-    for _ in range(POLISH):
-        slope = pot.slope(saddle)
-        step = -pot.force(saddle) / slope if slope else 0.0
-        saddle = pot.move(saddle, step) if abs(step) < 0.5 else saddle
-    return saddle
 
 
 def _loop(r, pot, saddle, end, half):

@@ -9,12 +9,11 @@ each part graded by itself.
 """
 from __future__ import annotations
 
-from math import inf
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from .circle import loop_end, others, settled
+from .homoclinic import loop_end, others, settled
 
 # of its length, by which a loop grows at least where a seam is; so near to it a smooth far end moves by less
 # than a millionth
@@ -102,14 +101,14 @@ def _jumps(land, branch, side, low, high) -> bool:
 
 
 def _far_end(land, branch, side, s) -> float:
-    pot = land.potential
-    g = pot.G, pot.c, pot.d, pot.mu
-    return loop_end(g, land.sense, *settled(g, *map(float, branch.place(s))), side)[0]
+    saddle = settled(land.potential, tuple(map(float, branch.place(s))))
+    found = loop_end(land.potential, land.sense, saddle, side)
+    return found[0] if found else 0.0
 
 
 def _passes(pot, branch, side, s) -> bool:
     """Whether a loop passes over a second saddle: the first one ahead is below its own."""
-    saddle = settled((pot.G, pot.c, pot.d, pot.mu), *map(float, branch.place(s)))
+    saddle = settled(pot, tuple(map(float, branch.place(s))))
     ahead = _barrier(pot, saddle, side)
     return ahead is not None and pot.rise(side * ahead, saddle) < 0
 
@@ -150,5 +149,4 @@ def _second(pot, saddle, side, end):
 
 def _barrier(pot, saddle, side):
     """The distance to the first barrier on one side of a saddle; None where there is none within a turn."""
-    at = others((pot.G, pot.c, pot.d, pot.mu), *saddle, side)
-    return next((t for t in at if t < inf and pot.slope(pot.move(saddle, side * t)) > 0), None)
+    return next((t for t in others(pot, saddle, side) if pot.slope(pot.move(saddle, side * t)) > 0), None)

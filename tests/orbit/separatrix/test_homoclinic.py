@@ -9,8 +9,7 @@ import pytest
 
 import stabilab
 from stabilab.orbit.landscape import landscape
-from stabilab.orbit.separatrix.circle import force, moved, real_cubic
-from stabilab.orbit.separatrix.circle import settled as settled_on_circle
+from stabilab.orbit.separatrix.homoclinic import real_cubic, settled
 from tests.hunt.disagreements import off_surface
 from tests.oracles.pairs import scaled
 from tests.shared import SCALED_MINOR
@@ -57,13 +56,11 @@ def test_a_loop_beside_the_centre_of_its_hyperbola_ends_where_the_potential_is_b
 def test_a_place_near_an_equilibrium_moves_onto_it_and_no_other(off):
     land = landscape(SCALED_MINOR)
     pot = land.potential
-    g = pot.G, pot.c, pot.d, pot.mu
     # an equilibrium on the conic G X Z + c Z + d X + mu = 0 at Z = 2
     z = 2.0
     x = -(pot.c * z + pot.mu) / (pot.G * z + pot.d)
-    start = moved(x, z, off)
-    found = settled_on_circle(g, *start)
-    assert abs(force(g, *found)) < 1e-9 and math.hypot(*found) == pytest.approx(math.hypot(x, z), rel=1e-12)
+    found = settled(pot, pot.move((x, z), off))
+    assert abs(pot.force(found)) < 1e-9 and math.hypot(*found) == pytest.approx(math.hypot(x, z), rel=1e-12)
     np.testing.assert_allclose(found, (x, z), atol=1e-8)
     flat = (0.05, 0.05)  # A^2 < 2: no equilibrium on this circle
-    np.testing.assert_allclose(math.hypot(*settled_on_circle(g, *flat)), math.hypot(*flat), rtol=1e-9)
+    np.testing.assert_allclose(math.hypot(*settled(pot, flat)), math.hypot(*flat), rtol=1e-9)
