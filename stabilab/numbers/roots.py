@@ -83,13 +83,13 @@ def golden_section(size_of: Callable[[float], float], low: float, high: float,
 
 
 def held_newton(look: Callable[[float], tuple[float, float, bool | None]], low: float, high: float,
-                share: float, enough: float) -> float:
+                share: float, enough: float, start: float | None = None) -> float:
     """The root between two floats, to a double or its neighbour: Newton's method held in a bracket.
 
     look(x) -> (value, slope, whether x lies beyond the root; None where it is the root). share: of the
-    bracket, the longest step that is taken; enough: the last step, relative.
+    bracket, the longest step that is taken; enough: the last step, relative; start: where the search begins.
     """
-    x = between(low, high)
+    x = between(low, high) if start is None else start
     for _ in range(MOST_STEPS):
         value, slope, beyond = look(x)
         if beyond is None:

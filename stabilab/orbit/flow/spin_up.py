@@ -32,6 +32,7 @@ from functools import cached_property, lru_cache
 import numpy as np
 
 from ...errors import InputError
+from ...numbers.roots import held_newton
 from .periodic import Motion
 from .profile import EPS, TURN
 
@@ -149,20 +150,12 @@ def turning_offset(spot, sense, reach=None) -> float | None:
             reach *= 2
             if reach > 1e160 or (type(spot).__name__ == "OnHyperbola" and reach > 2000):
                 return None
-    low, high = 0.0, reach
-    bend = abs(spot.bend) or 1.0
-    t = min(math.sqrt(2 * abs(spot.kinetic) / bend), 0.5 * reach)
-    for _ in range(200):
+
+    def look(t):
         value, past = beyond(t)
-        low, high = (low, t) if past else (t, high)
-        slope = float(sense * spot.share(sense * t, 0.0)) if math.isfinite(value) else 0.0
-        new = t - value / slope if slope else low
-        if not low < new < high:
-            new = 0.5 * (low + high)
-        if abs(new - t) <= EPS * t or high - low <= EPS * high:
-            return sense * new
-        t = new
-    return sense * t
+        return value, float(sense * spot.share(sense * t, 0.0)) if math.isfinite(value) else 0.0, past
+    start = min(math.sqrt(2 * abs(spot.kinetic) / (abs(spot.bend) or 1.0)), 0.5 * reach)
+    return sense * held_newton(look, 0.0, reach, 1.0, EPS, start)
 
 
 @lru_cache(maxsize=32)
