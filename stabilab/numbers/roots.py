@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -157,3 +158,24 @@ def _crossing(c: Sequence[float], low: float, high: float) -> float:
         value = _value(c, x)
         return value, _value(slopes, x), (value > 0) == rising if value else None
     return held_newton(look, low, high, 0.5, EPS)
+
+
+# --- Bernstein coefficients on [0, 1]: a polynomial lies between the least and the greatest of them, and has
+# no more zeros there than they change sign
+@lru_cache(maxsize=4)
+def bernstein(degree: int) -> np.ndarray:
+    """(degree + 1, degree + 1): from coefficients of powers, lowest first, to Bernstein's."""
+    import numpy as np
+    return np.array([[math.comb(i, k) / math.comb(degree, k) if k <= i else 0.0 for k in range(degree + 1)]
+                     for i in range(degree + 1)])
+
+
+def bernstein_halves(values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """The coefficients on [0, 1/2] and on [1/2, 1], by means (de Casteljau)."""
+    import numpy as np
+    left, right = [values[0]], [values[-1]]
+    while len(values) > 1:
+        values = 0.5 * (values[1:] + values[:-1])
+        left.append(values[0])
+        right.append(values[-1])
+    return np.array(left), np.array(right[::-1])

@@ -21,13 +21,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import lru_cache
 from typing import Any
 
 import numpy as np
 
 from ..numbers.constants import EPS
-from ..numbers.roots import held_newton
+from ..numbers.roots import bernstein, bernstein_halves, held_newton
 from ..numbers.vectors import CYCLE
 
 ORDER, TOLERANCE = 20, 1e-17
@@ -194,15 +193,8 @@ def _at(a, h):
 
 
 def _over(row, h: float) -> np.ndarray:
-    """Bernstein's coefficients of a polynomial on [0, h]: it lies between the least and the greatest of them,
-    and has no more zeros than they change sign."""
-    return _shares(len(row) - 1) @ (row * h ** np.arange(len(row)))
-
-
-@lru_cache(maxsize=4)
-def _shares(n: int) -> np.ndarray:
-    return np.array([[math.comb(j, i) / math.comb(n, i) if i <= j else 0.0 for i in range(n + 1)]
-                     for j in range(n + 1)])
+    """Bernstein coefficients of a polynomial on [0, h]."""
+    return bernstein(len(row) - 1) @ (row * h ** np.arange(len(row)))
 
 
 def _rising(values: np.ndarray, low: float = 0.0, high: float = 1.0) -> tuple[float, float] | None:
@@ -215,12 +207,8 @@ def _rising(values: np.ndarray, low: float = 0.0, high: float = 1.0) -> tuple[fl
         return None
     if changes == 1:
         return None if signs[0] else (low, high)
-    left, right, middle = [values[0]], [values[-1]], (low + high) / 2
-    while len(values) > 1:
-        values = 0.5 * (values[1:] + values[:-1])
-        left.append(values[0])
-        right.append(values[-1])
-    return _rising(np.array(left), low, middle) or _rising(np.array(right[::-1]), middle, high)
+    (left, right), middle = bernstein_halves(values), (low + high) / 2
+    return _rising(left, low, middle) or _rising(right, middle, high)
 
 
 def _root(row, low: float, high: float) -> float:

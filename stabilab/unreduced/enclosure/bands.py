@@ -23,6 +23,7 @@ from functools import lru_cache
 import numpy as np
 
 from ...errors import InputError
+from ...numbers.roots import bernstein, bernstein_halves
 from ..spin_up.certificate import natural
 from . import kernel
 from .run import WHY, Band, Course, allowed
@@ -87,7 +88,7 @@ class _Search:
     def found_in(self, band) -> bool:
         """Whether the limit is surely reached in this band, or was before."""
         rows, radii = band.form(self.weights)
-        values = rows @ _bernstein(rows.shape[1] - 1).T
+        values = rows @ bernstein(rows.shape[1] - 1).T
         radii = radii + BLUR * np.abs(rows).sum(axis=1)
         for i in np.flatnonzero((values.max(axis=1) + radii >= self.below) | (self.low is not None)):
             begin, end = band.times[i:i + 2].tolist()
@@ -110,13 +111,6 @@ def _at(begin, end, x):
     return begin + x * (end - begin)
 
 
-@lru_cache(maxsize=4)
-def _bernstein(degree: int):
-    """(degree + 1, degree + 1): from coefficients of powers of x on [0, 1] to those of Bernstein."""
-    return np.array([[math.comb(i, k) / math.comb(degree, k) if k <= i else 0.0 for k in range(degree + 1)]
-                     for i in range(degree + 1)])
-
-
 def _first_open(values, over, a, b):
     """Where the first piece of [a, b] begins that is too short to halve and has a coefficient above -over;
     None where there is none."""
@@ -124,13 +118,9 @@ def _first_open(values, over, a, b):
         return None
     if b - a <= 2.0**-HALVINGS:
         return a
-    middle, row, left, right = (a + b) / 2, values, [values[0]], [values[-1]]
-    while len(row) > 1:
-        row = (row[1:] + row[:-1]) / 2
-        left.append(row[0])
-        right.append(row[-1])
-    found = _first_open(np.array(left), over, a, middle)
-    return _first_open(np.array(right[::-1]), over, middle, b) if found is None else found
+    (left, right), middle = bernstein_halves(values), (a + b) / 2
+    found = _first_open(left, over, a, middle)
+    return _first_open(right, over, middle, b) if found is None else found
 
 
 @lru_cache(maxsize=1)
@@ -138,11 +128,11 @@ def _to_bernstein():
     """(PIECES (N + 1), N + 1): powers of x on [0, 1] to Bernstein coefficients on each piece; entries are not
     negative and at most 1."""
     n = kernel.ORDER
-    bernstein, rows = _bernstein(n), []
+    rows = []
     for piece in range(PIECES):
         shifted = np.array([[math.comb(k, m) * (piece / PIECES) ** (k - m) / PIECES**m if m <= k else 0.0
                              for k in range(n + 1)] for m in range(n + 1)])
-        rows.append(bernstein @ shifted)
+        rows.append(bernstein(n) @ shifted)
     return np.concatenate(rows)
 
 
