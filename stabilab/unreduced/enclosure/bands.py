@@ -146,7 +146,7 @@ def ranges(band: Band) -> np.ndarray:
 
 def ranges_until(scene, state, t: float, steps: int | None = None) -> np.ndarray | None:
     """(3, 2) bounds of each rate over [0, t]; None where the steps do not reach. Arguments as of
-    `run.enclose`."""
+    `run.Course`."""
     course, out = Course(scene, state, t), np.array([[math.inf, -math.inf]] * 3)
     steps = allowed(course.bits) if steps is None else steps
     while course.status == kernel.GOING and course.steps < steps:

@@ -19,7 +19,7 @@ run that was not enclosed.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
 
@@ -96,7 +96,7 @@ class Enclosed:
     t: exact, the scene's unit of time; middle: (3,) rates (rad/s, or x when scaled); rest: (3,), to be added
     to them: the centre is a sum of two doubles; radius: (3,) each true rate is within it of the centre.
     steps: so many; status: "enclosed" where t is the time asked for, else "stopped", and reason says why;
-    bands: those of the steps where they were asked for, in order. bits: of the centre.
+    bits: of the centre.
     """
 
     t: float
@@ -107,7 +107,6 @@ class Enclosed:
     status: str
     reason: str
     bits: int
-    bands: tuple = field(default=(), repr=False)
 
     @property
     def box(self):
@@ -228,25 +227,6 @@ def _plainly(*arguments):
         return kernel.advance(*arguments)
 
 
-def enclose(scene, state, t: float, bits: int | None = None, steps: int | None = None,
-            band: bool = False) -> Enclosed:
-    """The motion from a state enclosed at the time t > 0, by at most so many steps (None: as many as take
-    some seconds). Arguments as of `Course`. band: keep what holds it between the times too.
-
-    Raises InputError for scenes with other effects than wheel and constant torque, and for states and times
-    that are none.
-   
-    """
-    course, bands = Course(scene, state, t, bits), []
-    steps = allowed(course.bits) if steps is None else steps
-    while course.status == kernel.GOING and course.steps < steps:
-        bands.append(course.advance(t, steps - course.steps, band))
-    found = course.now
-    return Enclosed(*(getattr(found, name) for name in ("t", "middle", "rest", "radius", "steps", "status",
-                                                        "reason", "bits")),  # type: ignore[call-arg]  # eight
-                    tuple(one for one in bands if one is not None))
-
-
 TRIED, HOPELESS = 512, 16  # steps after which a way that would take so many times what is allowed is given up
 # times, over that of the certified run, at which the inequality is asked again
 LATER = (1.0, 1.0625, 1.25, 1.5, 2.0)
@@ -258,7 +238,7 @@ def proved(scene, state, found: SpinUp, steps: int | None = None, bits: int | No
     """The answer of `spin_up` for the motion from a state (three exact numbers: floats at their word,
     Fractions, decimals in strings), with level "proved" where its way can be enclosed in so many validated
     steps and the inequality holds for the whole set there; else as it was found, its cause told what
-    hindered. bits, plain: as of `enclosure.run.Course`. fast: ask the inequality by compiled loops, for which
+    hindered. bits, plain: as of `Course`. fast: ask the inequality by compiled loops, for which
     the first of an installation waits some seconds: where those that found it have loaded them."""
     if found.level != "certified":
         return found

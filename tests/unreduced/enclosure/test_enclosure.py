@@ -14,7 +14,7 @@ from stabilab.errors import InputError
 from stabilab.numbers.numba_door import installed
 from stabilab.unreduced.enclosure import kernel
 from stabilab.unreduced.enclosure.digits import functions
-from stabilab.unreduced.enclosure.run import Course, enclose
+from stabilab.unreduced.enclosure.run import Course
 
 from ..spin_up.scenes import EXAMPLE, random_scene, sphere
 from .taylor import run, shares
@@ -48,6 +48,12 @@ def drawn(rng, n):
     if n % 3 == 0:
         start = [Fraction(round(v * 1000), 1000) for v in start]
     return scene, start, rng.choice((.25, 1., 2.5)) / max(size, 1)
+
+
+def enclose(scene, state, t, steps=None):
+    course = Course(scene, state, t)
+    course.advance(t, steps)
+    return course.now
 
 
 def holds(scene, start, end, rng, bits=None):
@@ -149,11 +155,13 @@ def test_energy_and_squares_of_a_band_are_those_of_the_motion():
 
 
 def test_a_band_is_one_piece_and_ends_at_the_time_asked_for():
-    found = enclose(EXAMPLE, (.1, 1, 2), 1.7, band=True)
-    times = np.concatenate([band.times for band in found.bands])
+    course, bands = Course(EXAMPLE, (.1, 1, 2), 1.7), []
+    while course.status == kernel.GOING:
+        bands.append(course.advance(1.7, band=True))
+    times = np.concatenate([band.times for band in bands])
     assert times[0] == 0 and times[-1] == 1.7 and (np.diff(times) >= 0).all()
-    assert sum(len(band.radii) for band in found.bands) == found.steps
-    for band in found.bands:
+    assert sum(len(band.radii) for band in bands) == course.steps
+    for band in bands:
         ends, starts = band.polynomials[:-1].sum(axis=2), band.polynomials[1:, :, 0]
         assert (np.abs(ends - starts) <= band.radii[:-1] + band.radii[1:]).all()
 
