@@ -11,7 +11,8 @@ import numpy as np
 
 from ..errors import InputError
 from ..orbit.result import Fate
-from ..physics.coefficients import effective, limits_of
+from ..physics.coefficients import effective
+from ..physics.ending import hold_on
 from ..physics.scene import AnyScene, slices
 from ..physics.states import REST, checked_starts, float_array, start_of
 from ..physics.to_numpy import equations_of
@@ -123,8 +124,7 @@ def chaos(scene: AnyScene, states: ArrayLike, until: float | None = None,
         scene, rows = effective(scene), rows[:, :3].copy()
     turn = turn_of(scene, rows)
     end = TURNS * turn if until is None else float(until)
-    if limits := limits_of(scene):
-        limits.hold_on(scene, equations.blocks, rows, end, "chaos")
+    hold_on(scene, equations.blocks, rows, end, "chaos")
     fates = _fates(scene, rows, end)
     leaving = fates == Fate.SPIN_UP
     found = growth(scene, rows[~leaving], end, turn, tell) if not leaving.all() else None

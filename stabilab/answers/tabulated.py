@@ -17,7 +17,8 @@ from ..errors import InputError
 from ..integrate.reference import GUARD, Recursion, one_run
 from ..numbers.balls import narrowed, working
 from ..numbers.vectors import CYCLE
-from ..physics.coefficients import effective, limits_of
+from ..physics.coefficients import effective
+from ..physics.ending import hold_on
 from ..physics.scene import AnyScene, QuadraticForm
 from ..physics.states import equations_and_start
 from .digits.checked import MOST_DECIMALS, checked_digits
@@ -250,8 +251,7 @@ def _twice(scene: AnyScene, start: Any, exact: Any, times: Sequence[Fraction], d
            work: int) -> Tabulated:
     """By two runs of different precision, as far as they agree."""
     equations, row = equations_and_start(scene, start)
-    if limits := limits_of(scene):
-        limits.hold_on(scene, equations.blocks, [row], float(times[-1]), "reference")
+    hold_on(scene, equations.blocks, [row], float(times[-1]), "reference")
     begin = [*exact, *map(float, row[3:])]
     recursion, budget = Recursion(equations), [work]
     runs = [one_run(recursion, begin, times, digits + more, budget)[0]

@@ -12,8 +12,8 @@ import numpy as np
 
 from ..errors import InputError
 from ..numbers.exact import exact_vector
-from ..physics.coefficients import content, effective, limits_of
-from ..physics.scene import AnyScene, slices
+from ..physics.coefficients import content, effective
+from ..physics.scene import AnyScene
 from ..physics.states import checked_states, equations_and_start, float_array, start_of
 from ..validation import checked_scene
 from .caveats import caveats_of
@@ -175,12 +175,10 @@ def _of_any(scene: AnyScene, state: Any, limit: Limit, end: Fraction | None) -> 
     last = math.inf if end is None else float(end)
     if found := never_bounded(scene, state, limit):
         return found
-    blocks, limits = {name: start[part] for name, part in slices(scene.blocks).items()}, limits_of(scene)
-    left = limits.time_left(scene, blocks) if limits and scene.ending else None
-    if left is None or last <= left:
+    if not scene.ending:
         return by_run(scene, state, limit, last)
     from .passage.past_end import past_the_end
-    return past_the_end(scene, blocks, limit, last, left)
+    return past_the_end(scene, state, limit, last)
 
 
 def down(value: Any) -> float:

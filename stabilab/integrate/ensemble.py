@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike
 
 from ..errors import InputError
 from ..physics.coefficients import limits_of
+from ..physics.ending import stops_before
 from ..physics.scene import AnyScene, slices
 from ..physics.states import checked_rtol, checked_starts, checked_times
 from ..physics.to_numpy import equations_of, to_numpy
@@ -77,9 +78,7 @@ def ensemble(scene: AnyScene, states: ArrayLike, times: ArrayLike, rtol: float |
     equations, times, rtol = equations_of(scene), checked_times(times), checked_rtol(rtol)
     starts = checked_starts(equations, states)
     workers = _workers(workers)
-    limits = limits_of(scene)
-    if not heyoka_available() or (limits and limits.stops_before(
-            scene, equations.blocks, starts, times.max()) is not None):
+    if not heyoka_available() or stops_before(scene, equations.blocks, starts, times.max()) is not None:
         return _one_by_one(scene, starts, times, rtol)
     rtol = TAYLOR_TOLERANCE if rtol is None else max(rtol, TAYLOR_TOLERANCE)
     system = to_numpy(equations)

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from ..physics.coefficients import limits_of
+from ..physics.ending import stopped, time_left
 from ..physics.scene import slices
 from ..physics.states import checked_times, equations_and_start
 
@@ -20,8 +21,7 @@ def through_the_end(scene: Any, state: Any, times: Any, follow: Callable[..., An
     equations, row = equations_and_start(scene, state)
     parts, times = slices(equations.blocks), checked_times(times)
     start = {name: row[part] for name, part in parts.items()}
-    limits = limits_of(scene)
-    left = limits.time_left(scene, start) if limits else None
+    left = time_left(scene, start)
     if left is None or not times.max() > left:
         return None
     rising = np.sort(times)
@@ -31,10 +31,11 @@ def through_the_end(scene: Any, state: Any, times: Any, follow: Callable[..., An
         return _at(before, early, times)
     there = {name: before.block(name)[-1] for name in equations.blocks}
     passed: list[float] | None = None if steps is None else []
-    without, kept = limits.stopped(scene, there)
+    without, kept = stopped(scene, there)
     after = follow(without, kept, [0.0, *(late - left)], passed)
     if steps is not None:
         steps += [left + t for t in passed or ()]
+    limits = limits_of(scene)
     states, drifts = np.tile(before.states[-1], (len(after.t) - 1, 1)), (before, after)
     for name in kept:
         states[:, parts[name]] = after.block(name)[1:]
@@ -44,7 +45,7 @@ def through_the_end(scene: Any, state: Any, times: Any, follow: Callable[..., An
         states=np.concatenate([before.states, states]),
         invariant_drift={name: max(run.invariant_drift.get(name, 0.0) for run in drifts) for name in names},
         counters={name: before.counters.get(name, 0) + n for name, n in after.counters.items()},
-        blocks=before.blocks, validity=limits.worst(before.validity, after.validity))
+        blocks=before.blocks, validity=limits and limits.larger(before.validity, after.validity))
     return _at(whole, rising, times)
 
 
@@ -60,14 +61,14 @@ def roots_through_the_end(scene: Any, equations: Any, row: Any, t_end: float,
     """The roots of the rates up to `t_end`, later than the end of an effect, where all rates count as roots:
     they jump there. None where there is no such effect or time. search(scene, state, t_end): while all act.
     """
-    limits, parts = limits_of(scene), slices(equations.blocks)
-    left = limits.time_left(scene, {name: row[part] for name, part in parts.items()})
+    parts = slices(equations.blocks)
+    left = time_left(scene, {name: row[part] for name, part in parts.items()})
     if left is None or not t_end > left:
         return None
     first = search(scene, row, left)
     if first.reason:
         return first
-    without, kept = limits.stopped(scene, {name: first.end[part] for name, part in parts.items()})
+    without, kept = stopped(scene, {name: first.end[part] for name, part in parts.items()})
     later = search(without, kept, t_end - left)
     places = np.concatenate([np.arange(row.size)[parts[name]] for name in kept])
 

@@ -17,7 +17,7 @@ import numpy as np
 from ..errors import InputError
 from ..numbers.balls import DOUBLE_BITS, working
 from ..numbers.vectors import Number
-from ..physics.coefficients import limits_of
+from ..physics.ending import hold_on
 from ..physics.equations import derive
 from ..physics.scene import slices
 
@@ -308,8 +308,7 @@ def reference(scene, start, times, blocks=(), orbit=False, work: int = WORK) -> 
     """
     equations = derive(scene, blocks)
     recursion, times, budget = Recursion(equations), np.asarray(times, float), [work]
-    if limits := limits_of(scene):
-        limits.hold_on(scene, equations.blocks, [start], times.max(), "reference")
+    hold_on(scene, equations.blocks, [start], times.max(), "reference")
     parts, before, best = slices(equations.blocks), None, None
     orbit = orbit and not (times < 0).any()
     empty = np.empty((0, recursion.size))

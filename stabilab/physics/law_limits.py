@@ -7,16 +7,15 @@ what stands here is then neither called nor imported.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import reduce
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-from ..errors import InputError
 from ..numbers.vectors import Number
 from ..validation import checked_scene
 from .effects.base import Limit, effect_words
-from .scene import AnyScene, Scene, slices
+from .scene import AnyScene, slices
 
 if TYPE_CHECKING:
     import numpy as np
@@ -143,39 +142,6 @@ def worst(*found: Validity | None) -> Validity | None:
     return max(known, key=lambda v: v.excess, default=None)
 
 
-def time_left(scene: AnyScene, state: Mapping[str, Sequence[float]]) -> float | None:
-    """For how long all effects of a scene still act, s, from a state in blocks on; None where they do for
-    ever."""
-    found = [effect.stops_after(state) for effect in scene.ending]
-    return min((max(left, 0.0) for left in found if left is not None), default=None)
-
-
-def stops_before(scene: AnyScene, blocks: Sequence[str], rows: Any, end: float) -> float | None:
-    """The time after which an effect stops acting on one of the motions from rows of these blocks, where
-    that is before `end`; None where there is none."""
-    parts = slices(blocks)
-    found = [time_left(scene, {name: row[part] for name, part in parts.items()})
-             for row in (rows if scene.ending else ())]
-    return min((left for left in found if left is not None and left < end), default=None)
-
-
-def hold_on(scene: AnyScene, blocks: Sequence[str], rows: Any, end: float, question: str) -> None:
-    """Raise InputError where an effect stops acting on one of these motions before `end`: the question takes
-    one that acts all the time."""
-    if (left := stops_before(scene, blocks, rows, end)) is not None:
-        raise InputError(f"{question}: an effect stops acting after {left:.10g} s: ask up to then, and "
-                         "beyond from the state there, of the scene that is left")
-
-
-def stopped(scene: AnyScene, state: Mapping[str, Sequence[float]]) -> tuple[Scene, Blocks]:
-    """(the scene without the effect that stops acting first, its blocks), from the state where it stops on.
-    """
-    ends = [(left, one) for one in scene.ending if (left := one.stops_after(state)) is not None]
-    effect = min(ends, key=lambda end: end[0])[1]
-    kept = {name: tuple(map(float, row)) for name, row in state.items() if name not in effect.needs}
-    return effect.stopped(scene, state), kept
-
-
 class Watch:
     """The validity of a run that is told its states one by one (`note`), without keeping them."""
 
@@ -195,7 +161,7 @@ class Watch:
         rows = np.array(self.rows)
         self.rows = []
         seen = {name: rows[:, part] for name, part in slices(self.blocks).items()}
-        self.found = _larger(self.found, along(self.scene, seen, "along the run"))
+        self.found = larger(self.found, along(self.scene, seen, "along the run"))
 
     def result(self) -> Validity | None:
         """The largest values of all that was noted."""
@@ -204,7 +170,7 @@ class Watch:
         return self.found
 
 
-def _larger(one: Validity | None, two: Validity | None) -> Validity | None:
+def larger(one: Validity | None, two: Validity | None) -> Validity | None:
     """Number by number the larger of two validities of one scene."""
     if one is None or two is None:
         return one or two

@@ -27,7 +27,8 @@ from ...orbit.one_orbit import Orbit
 from ...orbit.period import period_ball
 from ...orbit.reduction import reduce
 from ...orbit.result import Fate, Motion, no_period
-from ...physics.coefficients import effective, limits_of
+from ...physics.coefficients import effective
+from ...physics.ending import stops_before
 from ...physics.equations import Equations
 from ...physics.scene import AnyScene, QuadraticForm, Scene, aligned
 from ...physics.states import checked_states, equations_and_start, moved_row
@@ -277,9 +278,9 @@ def _over_span(scene: AnyScene, state: Any, span: Any, known: Motion, digits: in
                f"place differs by {error / CAUTION:.1e}")
     if digits <= MOST and error <= 10.0 ** (slack - digits):
         return Told("extremes", values, digits, digits_of(error), "run", because)
-    limits = limits_of(scene)
-    whole = limits and limits.stops_before(scene, equations.blocks, [start], length) is not None
-    found = None if whole else _many_digits(equations, [*(exact or start[:3]), *start[3:]], length, digits)
+    one_law = stops_before(scene, equations.blocks, [start], length) is None
+    found = (_many_digits(equations, [*(exact or start[:3]), *start[3:]], length, digits)
+             if one_law else None)
     return (_unbounded_again(found, values) if found
             else Told("extremes", values, digits, digits_of(error), "run", other.reason or because))
 

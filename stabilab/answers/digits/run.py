@@ -18,6 +18,7 @@ from ...integrate.to_heyoka import TAYLOR_TOLERANCE
 from ...integrate.trajectory import FALLBACK_RTOL
 from ...orbit.flow.flow import reduced_motion
 from ...physics.coefficients import limits_of
+from ...physics.ending import stops_before
 from ...physics.equations import derive
 from ...physics.scene import AnyScene
 from ...physics.states import (
@@ -249,9 +250,8 @@ def _many_digits(case: Any, times: np.ndarray, asked: int) -> Reached | None:
     scaled = case.scene.variables == "scaled"
     equations, start = equations_and_start(case.scene, case.state if scaled
                                            else start_of(case.scene, case.state, case.blocks))
-    limits = limits_of(case.scene)
-    if times.min() < 0 < times.max() or (
-            limits and limits.stops_before(case.scene, equations.blocks, [start], times.max()) is not None):
+    if (times.min() < 0 < times.max()
+            or stops_before(case.scene, equations.blocks, [start], times.max()) is not None):
         return None
     written = [*(case.exact_state or start[:3]), *start[3:]]  # the decimals
     order = np.argsort(np.abs(times), kind="stable")

@@ -11,7 +11,7 @@ from typing import Any
 from ...errors import InputError
 from ...integrate.integer_flow import Threshold
 from ...numbers.exact import exact, exact_vector, precise, sqrt_fraction, unit_vector
-from ...numbers.vectors import Exact3, Number
+from ...numbers.vectors import Exact3, Float3, Number
 from ...physics.scene import AnyScene
 
 AXES = tuple(tuple(Fraction(int(i == j)) for j in range(3)) for i in range(3))
@@ -23,11 +23,13 @@ SIGN = " (it is a size: give it without a sign)"
 class Limit:
     """kind: "rate", "component", "energy" or "tilt". parts: ((weights and vectors, limit), ...): sum c (a .
     omega)^2 reaches the limit's value `most`, the first of the parts counts; for a tilt vector and angle,
-    rad. words: for the reader, in SI."""
+    rad. words: for the reader, in SI. origin: of a tilt, the direction in space that it counts from; None:
+    that of its body axis at the start."""
 
     kind: str
     parts: tuple[Any, ...]
     words: str
+    origin: Float3 | None = None
 
     def thresholds(self, unit: Fraction) -> list[Threshold]:
         """In the motion's own unit, as `crossing` takes them."""

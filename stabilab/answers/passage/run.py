@@ -40,7 +40,7 @@ from ...integrate.to_heyoka import TAYLOR_TOLERANCE
 from ...numbers.vectors import CYCLE, Float3
 from ...physics.coefficients import limits_of
 from ...physics.equations import Equations, derive, rotation
-from ...physics.scene import AnyScene, Scene
+from ...physics.scene import AnyScene, Scene, slices
 from ...physics.states import equations_and_start, moved_row, to_space
 from ...physics.to_numpy import Form, form, to_numpy
 from ...representation import Compared, Shown
@@ -217,7 +217,8 @@ def by_run(scene: AnyScene, start: Any, limit: Limit, t_max: float = math.inf, s
         low = one.t * (1 - ROUNDING) / unit
         because = f"{words}: not reached by t = {one.t / unit:.6g} {scene.time_unit} ({far})"
         return Found(low, math.nan, "run", because, one.steps)
-    second = moved_row(state, MOVED) if beside is None else beside / unit
+    second = (moved_row(state, MOVED) if beside is None
+              else np.concatenate([beside[:3] / unit, beside[3:]]))
     two = zeros_passed(forms, second, rates, end, 2 * steps, 4 * TAYLOR_TOLERANCE, first=True)
     if two.first is None:
         return Found(0.0, math.nan, "undecided",
@@ -312,8 +313,7 @@ def _asked(scene: AnyScene, start: Any, limit: Limit) -> tuple[Equations, np.nda
     these are known."""
     tilted = limit.kind == "tilt"
     if tilted and not isinstance(start, dict):
-        start = ({"omega": tuple(start)[:3]}
-                 | ({"gamma": tuple(start)[3:6]} if "gamma" in scene.blocks else {}))
+        start = {name: tuple(start)[part] for name, part in slices(scene.blocks).items()}
     if tilted:
         start = {"attitude": (1.0, 0.0, 0.0, 0.0), **start}
     equations, state = equations_and_start(scene, start)
@@ -343,7 +343,7 @@ def _expressions(limit: Limit, equations: Equations, state: Sequence[float] | np
     at = 3 + (3 if "gamma" in equations.blocks else 0)
     q = equations.state[at:at + 4]
     direction = limit.direction or ()
-    first = to_space(state[at:at + 4], [float(v) for v in direction])
+    first = limit.origin or to_space(state[at:at + 4], [float(v) for v in direction])
     rows = rotation(q)
     turned = sum(Rational(float(f)) * rational(a) * entry for f, row in zip(first, rows)
                  for a, entry in zip(direction, row) if a)

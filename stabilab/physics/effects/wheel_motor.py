@@ -12,19 +12,17 @@ from ...numbers.exact import floats
 from ...numbers.principal import PrincipalAxes
 from ...numbers.units import TIME, TORQUE, in_si, vector_in_si
 from ...numbers.vectors import Exact3, Given, Number, cross, dot
-from .base import Effect, Limit, Part
+from .base import Effect, Part
 from .gyrostat import Gyrostat
 
 ENDLESS = Caveat("motor", "the motor of the wheel runs without an end, and no wheel takes momentum for ever: "
                           "give its duration in [effects.wheel_motor]")
 
-ROUNDING = 1e-9  # of the duration, which a run up to the end may exceed
-
 
 @dataclass(frozen=True)
 class WheelMotor(Effect):
-    """Torque u on a wheel along the same line, N m, body frame, by a motor in the body, which has -u (Hall
-    and Rand, J. Guidance 17(1), 1994, pp. 30-37).
+    """Torque u on a wheel along the same line, N m, body frame, by a motor in the body, which has -u (as
+    in Hall, J. Guidance 19(5), 1996).
 
     With h the momentum that the motor has given the wheel, N m s, lambda the wheel's own at the start and
     that of others (`gyrostat`), D the moments of the body without the wheel's own about its line, and M the
@@ -66,23 +64,8 @@ class WheelMotor(Effect):
         return {"torque": self.exact} | ({} if self.duration is None else {"duration": self.duration})
 
     @property
-    # a constant of the other effects, here told by the values
-    def approximate(self) -> bool:  # type: ignore[override]
-        """A motor with an end acts as stated up to it."""
-        return self.duration is not None
-
-    @property
     def caveats(self) -> tuple[Caveat, ...]:
         return (ENDLESS,) if self.duration is None else ()
-
-    def limits(self, scene: Any) -> tuple[Limit, ...]:
-        if self.duration is None:
-            return ()
-        share = (1 - ROUNDING) / float(self.duration)
-        return (Limit("time that the motor has run over its duration", 1.0,
-                      lambda state: share * self._run(state["wheel"]) if "wheel" in state else None,
-                      "the motor has stopped by then: go on from the state there, with the wheel's momentum "
-                      "as [effects.gyrostat]", "the case itself", "the momentum of the wheel"),)
 
     def _run(self, wheel: Sequence[Number]) -> Number:
         """For how long the motor has run, s."""
