@@ -355,7 +355,7 @@ class Scene(metaclass=Asked):
         if other:
             raise InputError(
                 f"this analysis covers a gyrostat and a constant torque; the scene also has "
-                f"{', '.join(map(with_article, other))}")
+                f"{', '.join(map(with_article, other))}: `stabilab simulate` and `stabilab when` take it")
         return euler_form(self.body.exact, self.vector("gyrostat"), self.vector("constant_torque"))
 
 
