@@ -57,7 +57,7 @@ def text(case, found, units: Units) -> str:
     for one in found.switches[:SHOWN]:
         firing = ", ".join(one.firing) or "none"
         lines.append(row(units.moment(one.time), f"firing: {firing}; rates "
-                                                 f"{units.vector(in_file(case, one.rates), units.rates)}"))
+                                                 f"{units.vector(_seen(case, one.rates), units.rates)}"))
     if len(found.switches) > SHOWN:
         lines.append(row("", f"and {len(found.switches) - SHOWN} more switches, in --json"))
     words = "\n".join([*lines, f"why: {reason(found.closed.motion.because, units)}"])
@@ -113,10 +113,10 @@ def _turning(one, units: Units) -> str:
 
 def _of_closed(case, found, one, units: Units):
     yield row("last closing", units.time(one.time))
-    yield row("rates then", f"{units.vector(in_file(case, one.rates), units.rates)}, known to "
+    yield row("rates then", f"{units.vector(_seen(case, one.rates), units.rates)}, known to "
                             f"{units.rate(one.error, 2)}")
     yield row("angular momentum", f"{number(math.hypot(*one.momentum), DIGITS)} N m s, "
-                                  f"{vector(in_file(case, one.momentum))}")
+                                  f"{vector(_seen(case, one.momentum))}")
     yield row("energy", units.energy(one.energy))
     yield row("largest rate before", _rate(one.largest_before, units))
     yield row("after it", _turning(one, units))
@@ -125,3 +125,11 @@ def _of_closed(case, found, one, units: Units):
             continue
         mass = "" if used is None else f", {number(used, DIGITS)} kg of propellant"
         yield row(name, f"fired {units.time(fired)}{mass}")
+
+
+def _seen(case, along):
+    """A vector in the frame of the file, 0 where only the rounding of its components along the principal axes
+    is left of a component."""
+    values = in_file(case, along)
+    least = 4 * math.ulp(max(map(abs, values)))
+    return [float(v) if abs(v) > least else 0.0 for v in values]
