@@ -39,7 +39,7 @@ from ..errors import InputError
 from ..numbers.balls import BITS, fraction, many_digits, rational
 from ..numbers.exact import sqrt_fraction
 from ..numbers.polynomial import Poly, real_roots
-from ..numbers.vectors import CYCLE
+from ..numbers.vectors import CYCLE, nearest_first
 from ..physics.coefficients import Content
 from .field_balance import (
     NEXT_TO,
@@ -197,11 +197,7 @@ def _matching(before, after) -> dict[int, int]:
             apart = max(abs(float((x - y).mid())) for x, y in zip(u.gamma, v.gamma))
             if apart < SAME and bool(u.circle) == bool(v.circle):
                 pairs.append((apart, i, j))
-    out: dict[int, int] = {}
-    for _, i, j in sorted(pairs):
-        if i not in out and j not in out.values():
-            out[i] = j
-    return out
+    return nearest_first(pairs)
 
 
 def _sample(field, Omega: Fraction, index: int) -> EquilibriumPoint:

@@ -1,7 +1,7 @@
 """Vectors of three components of any kind of number."""
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from fractions import Fraction
 from typing import Any
 
@@ -22,3 +22,12 @@ def cross(u: Sequence[Number], v: Sequence[Number]) -> Triple:
 def dot(u: Sequence[Number], v: Sequence[Number]) -> Number:
     """Scalar product of two triples of any scalar type."""
     return u[0] * v[0] + u[1] * v[1] + u[2] * v[2]
+
+
+def nearest_first(pairs: Iterable[tuple[float, int, int]]) -> dict[int, int]:
+    """i -> j of pairs (distance, i, j), the nearest of all first, each i and each j once."""
+    found: dict[int, int] = {}
+    for _, i, j in sorted(pairs):
+        if i not in found and j not in found.values():
+            found[i] = j
+    return found

@@ -8,9 +8,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from itertools import product
 from math import cos, dist, pi
 
+from ...numbers.vectors import nearest_first
 from ...physics.circular_orbit import Satellite
 from .momenta import MomentumSpan
 from .result import OrbitEquilibrium
@@ -63,12 +63,9 @@ def _joined(going: Sequence[Branch], s: float, found: Sequence[OrbitEquilibrium]
     if len(going) != len(found):
         done += going
         return [Branch(one.verdict).add(s, one) for one in found]
-    near = sorted(product(range(len(going)), range(len(found))),
-                  key=lambda pair: _apart(going[pair[0]].points[-1], found[pair[1]]))
-    before: dict[int, int] = {}
-    for i, j in near:
-        if i not in before.values() and j not in before:
-            before[j] = i
+    paired = nearest_first((_apart(branch.points[-1], one), i, j) for i, branch in enumerate(going)
+                           for j, one in enumerate(found))
+    before = {j: i for i, j in paired.items()}
     out = []
     for j, one in enumerate(found):
         branch = going[before[j]]

@@ -25,7 +25,7 @@ from ...equilibrium.gyrostat import WELL, gyrostat_equilibria
 from ...equilibrium.stability import POSITIVE_EIGENVALUE, invariants, isolated_verdict, linear_word
 from ...numbers.algebraic import Cut, between, cuts, gaps
 from ...numbers.balls import Unclear, evaluated, rational, settled, sign
-from ...numbers.vectors import Float3, dot
+from ...numbers.vectors import Float3, dot, nearest_first
 from ...physics.coefficients import effective
 from ...physics.scene import QuadraticForm, euler_form
 from .eliminated import Eliminated, Leant, Root, univariate
@@ -285,12 +285,8 @@ def parts(family: Family, kind: str, eliminated: Eliminated, piece: Piece) -> li
 
 def followed(before: Sequence[Float3], after: Sequence[Float3]) -> list[int]:
     """For each state after a seam the place of the one before it that it goes on from: the nearest."""
-    apart = sorted((sum((u - v) ** 2 for u, v in zip(a, b)), n, k) for n, a in enumerate(after)
-                   for k, b in enumerate(before))
-    found: dict[int, int] = {}
-    for _, n, k in apart:
-        if n not in found and k not in found.values():
-            found[n] = k
+    found = nearest_first((sum((u - v) ** 2 for u, v in zip(a, b)), n, k) for n, a in enumerate(after)
+                          for k, b in enumerate(before))
     return [found[n] for n in range(len(after))]
 
 
