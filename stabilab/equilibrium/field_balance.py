@@ -25,6 +25,7 @@ from typing import Any
 
 from flint import Ordering, acb, arb, fmpq, fmpq_mpoly_ctx, fmpq_poly
 
+from ..numbers.algebraic import univariate
 from ..numbers.balls import BITS, rational, working
 from ..numbers.polynomial import Poly, real_roots
 from ..numbers.vectors import Number, cross, dot
@@ -345,11 +346,8 @@ def _used(f) -> set:
 def _real_roots(f):
     """Real roots of a polynomial in Omega alone as fractions, rational ones exact; none for a constant or
     zero."""
-    coefficients = {powers[2]: value for powers, value in f.to_dict().items()}
-    if not coefficients or max(coefficients) == 0:
-        return []
-    return real_roots(Poly.of(fmpq_poly([coefficients.get(i, 0) for i in range(max(coefficients) + 1)])),
-                      BITS)
+    polynomial = univariate(f, 2)
+    return real_roots(Poly.of(polynomial), BITS) if polynomial.degree() > 0 else []
 
 
 def separated(cuts) -> list[Fraction]:

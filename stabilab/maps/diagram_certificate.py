@@ -11,10 +11,9 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from ..errors import InputError
-from ..numbers.algebraic import Algebraic
+from ..numbers.algebraic import Algebraic, univariate
 from ..numbers.balls import rational, settled
 from ..version import __version__
-from .bifurcation.eliminated import univariate
 from .bifurcation.equations import BORDERS, ISOLATED, LEAF, fixed_axis
 from .bifurcation.family import CURVES, ENDLESS, Diagram, Event, Family, Piece
 

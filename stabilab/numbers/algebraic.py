@@ -20,7 +20,7 @@ from itertools import pairwise
 from math import isqrt
 from typing import Any, NamedTuple, TypeAlias
 
-from flint import acb_poly, arb, arb_poly, fmpq, fmpq_poly, fmpz, nmod_poly
+from flint import acb_poly, arb, arb_poly, fmpq, fmpq_mpoly, fmpq_poly, fmpz, nmod_poly
 
 from .balls import Unclear, fraction, narrowed, rational, real_roots_of, settled, working
 
@@ -279,3 +279,19 @@ def between(first: Fraction, second: Fraction) -> Fraction:
     while step * 10 <= room:
         step *= 10
     return Fraction(round(middle / step)) * step
+
+
+def coefficients(f: fmpq_mpoly, variable: int, size: int = 1) -> list[fmpq_mpoly]:
+    """Those of the powers of one variable, lowest first, at least so many."""
+    rows: list[dict[tuple[int, ...], Any]] = [{} for _ in range(max(size, f.degrees()[variable] + 1))]
+    for powers, c in f.to_dict().items():
+        rows[powers[variable]][(*powers[:variable], 0, *powers[variable + 1:])] = c
+    return [f.context().from_dict(row) for row in rows]
+
+
+def univariate(f: fmpq_mpoly, variable: int = 0) -> fmpq_poly:
+    """As a polynomial in one variable, which is all it has."""
+    row: list[Any] = [0] * (max(f.degrees()[variable], 0) + 1)
+    for powers, c in f.to_dict().items():
+        row[powers[variable]] = c
+    return fmpq_poly(row)

@@ -26,9 +26,9 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any, TypeAlias
 
-from flint import Ordering, arb, arb_poly, fmpq, fmpq_mpoly, fmpq_mpoly_ctx, fmpq_poly
+from flint import Ordering, arb, arb_poly, fmpq_mpoly, fmpq_mpoly_ctx, fmpq_poly
 
-from ...numbers.algebraic import Algebraic
+from ...numbers.algebraic import Algebraic, coefficients, univariate
 from ...numbers.balls import rational, real_roots_of, working
 from ...numbers.vectors import CYCLE, Exact3, Number, Triple, cross, dot
 from ...physics.circular_orbit import Satellite
@@ -193,8 +193,8 @@ def _eliminated(satellite: Satellite, matrix: Matrix, F: fmpq_mpoly, G: fmpq_mpo
     """The real common points of F and G off the curve; None where the direction does not tell them apart."""
     if F.is_constant() or G.is_constant():
         return []
-    rows = [coefficients(f, "v") for f in (F, G)]
-    resultant = coefficients(F.resultant(G, "v"), "u")
+    rows = [coefficients(f, 1) for f in (F, G)]
+    resultant = coefficients(F.resultant(G, "v"), 0)
     if (len(rows[0]) - 1 != F.total_degree() or len(resultant) - 1 != F.total_degree() * G.total_degree()):
         return None  # a point is at infinity
     whole = fmpq_poly([c.leading_coefficient() if c != 0 else 0 for c in resultant])
@@ -229,22 +229,6 @@ def line_through(satellite: Satellite, number: Algebraic, X: Triple) -> Line | N
 def _at(f: fmpq_mpoly, number: Algebraic, v: fmpq_poly) -> fmpq_poly:
     """f(t, v) in the field of t."""
     total = number.polynomial * 0
-    for c in reversed(coefficients(f, "v")):
+    for c in reversed(coefficients(f, 1)):
         total = number.reduced(total * v + univariate(c))
     return total
-
-
-def coefficients(f: fmpq_mpoly, variable: str) -> list[fmpq_mpoly]:
-    """Of the powers of one variable, lowest first."""
-    place = f.context().names().index(variable)
-    rows: dict[int, dict[tuple[int, ...], fmpq]] = {}
-    for powers, c in f.to_dict().items():
-        rest = tuple(0 if n == place else p for n, p in enumerate(powers))
-        rows.setdefault(powers[place], {})[rest] = c
-    return [f.context().from_dict(rows.get(n, {})) for n in range(max(rows, default=0) + 1)]
-
-
-def univariate(f: fmpq_mpoly) -> fmpq_poly:
-    """A polynomial that holds the first variable alone."""
-    terms = {powers[0]: c for powers, c in f.to_dict().items()}
-    return fmpq_poly([terms.get(n, 0) for n in range(max(terms, default=0) + 1)])

@@ -13,11 +13,11 @@ from typing import Any, NamedTuple
 
 from flint import fmpq_mpoly, fmpq_poly
 
-from ...numbers.algebraic import Algebraic
+from ...numbers.algebraic import Algebraic, coefficients, univariate
 from ...numbers.balls import START_BITS, fraction, rational, real_roots_of
 from ...numbers.vectors import CYCLE, Exact3, cross, dot
 from ...physics.circular_orbit import Satellite
-from .elimination import Line, Matrix, coefficients, line_through, plane, plane_of, univariate
+from .elimination import Line, Matrix, line_through, plane, plane_of
 
 
 class Family(NamedTuple):
@@ -81,13 +81,13 @@ def along_curve(satellite: Satellite, common: fmpq_mpoly, matrix: Matrix) -> Ite
     for factor, _ in common.factor()[1]:
         if factor.degrees()[1] < 1:
             continue
-        cuts = [univariate(c) for c in (factor.discriminant("v"), coefficients(factor, "v")[-1])]
+        cuts = [univariate(c) for c in (factor.discriminant("v"), coefficients(factor, 1)[-1])]
         found = sorted(fraction(root.mid().fmpq()) for c in cuts if c.degree() > 0
                        for root, _ in real_roots_of(c))
         ends = [found[0] - 1, *found, found[-1] + 1] if found else [Fraction(-1), Fraction(1)]
         for low, high in zip(ends, ends[1:]):
             u = rational(_short((low + high) / 2))
-            for piece, _ in fmpq_poly([univariate(c)(u) for c in coefficients(factor, "v")]).factor()[1]:
+            for piece, _ in fmpq_poly([univariate(c)(u) for c in coefficients(factor, 1)]).factor()[1]:
                 X = tuple(v % piece for v in plane_of(matrix, fmpq_poly([u]), fmpq_poly([0, 1])))
                 line = line_through(satellite, Algebraic(piece, 0), X)
                 if line is not None and line.roots(START_BITS):

@@ -15,11 +15,11 @@ from itertools import combinations
 
 from flint import Ordering, fmpq_mpoly, fmpq_mpoly_ctx, fmpq_poly
 
-from ...numbers.algebraic import cuts, gaps
+from ...numbers.algebraic import coefficients, cuts, gaps, univariate
 from ...numbers.balls import rational
-from ...numbers.vectors import CYCLE, Number, dot
+from ...numbers.vectors import CYCLE, dot
 from ...physics.circular_orbit import Satellite
-from .elimination import about, coefficients, directions, eigenvectors, forms, plane_of
+from .elimination import about, directions, eigenvectors, forms, plane_of
 from .families import symmetry
 from .solve import orbit_equilibria
 
@@ -104,7 +104,7 @@ def _oblique(satellite: Satellite) -> list[fmpq_poly]:
         if R.degrees()[0] < 20 or F.degrees()[1] < 4 or any(times > 1 for f, times in factors if f in moving):
             continue  # a point is at infinity, or two are in line whatever s is
         resting = [f for f, _ in factors if f.degrees()[0] == 1 and not f.degrees()[2]]  # principal axes
-        contents = [_in_s(f) for f, _ in factors if not f.degrees()[0]]
+        contents = [univariate(f, -1) for f, _ in factors if not f.degrees()[0]]
         return [*contents, *_singular([*moving, *resting], "u")]
     raise ArithmeticError("no direction of elimination tells the equilibria apart")
 
@@ -113,15 +113,8 @@ def _singular(factors: Iterable[fmpq_mpoly], variable: str) -> Iterator[fmpq_pol
     """Where one of them has a double root, two share one, or a root is at infinity; in the last variable."""
     every = list(factors)
     for f in every:
-        yield _in_s(coefficients(f, variable)[-1])
-        if len(coefficients(f, variable)) > 2:
-            yield _in_s(f.discriminant(variable))
+        yield univariate(coefficients(f, 0)[-1], -1)
+        if f.degrees()[0] > 1:
+            yield univariate(f.discriminant(variable), -1)
     for f, g in combinations(every, 2):
-        yield _in_s(f.resultant(g, variable))
-
-
-def _in_s(f: fmpq_mpoly) -> fmpq_poly:
-    """A polynomial that holds the last variable alone."""
-    terms: dict[int, Number] = {powers[-1]: c for powers, c in f.to_dict().items()}
-    return fmpq_poly([terms.get(n, 0) for n in range(max(terms, default=0) + 1)])
-
+        yield univariate(f.resultant(g, variable), -1)

@@ -21,11 +21,11 @@ from typing import Any
 
 from flint import arb, arb_poly, arb_series
 
-from ...numbers.algebraic import between
+from ...numbers.algebraic import between, coefficients, univariate
 from ...numbers.balls import Digits, Unclear, evaluated, rational, real_roots_of, settled, working
 from ...numbers.vectors import Float3
 from .diagram import ball_form, followed, general_states, parts
-from .eliminated import Eliminated, at_rational, coefficients, univariate
+from .eliminated import Eliminated, at_rational
 from .equations import LEAF, Conics, chosen
 from .family import Diagram, Event, Family, Piece, State
 

@@ -23,12 +23,12 @@ from flint import arb, fmpq_mpoly
 
 from ...equilibrium.gyrostat import WELL, gyrostat_equilibria
 from ...equilibrium.stability import POSITIVE_EIGENVALUE, invariants, isolated_verdict, linear_word
-from ...numbers.algebraic import Cut, between, cuts, gaps
+from ...numbers.algebraic import Cut, between, cuts, gaps, univariate
 from ...numbers.balls import Unclear, evaluated, rational, settled, sign
 from ...numbers.vectors import Float3, dot, nearest_first
 from ...physics.coefficients import effective
 from ...physics.scene import QuadraticForm, euler_form
-from .eliminated import Eliminated, Leant, Root, univariate
+from .eliminated import Eliminated, Leant, Root
 from .equations import BORDERS, ISOLATED, LEAF, Conics, OnLine, chosen
 from .family import CURVES, ENDLESS, Diagram, Event, Family, Piece, State
 

@@ -12,11 +12,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from flint import arb, fmpq_mpoly, fmpq_poly
 
-from ...numbers.algebraic import Algebraic, Powers
+from ...numbers.algebraic import Algebraic, Powers, coefficients, univariate
 from ...numbers.balls import Unclear, evaluated, rational, real_roots_of
 from .equations import LEANS, Conics, OnLine, common_divisor
 from .family import Family
@@ -235,25 +235,9 @@ def _factors(f: fmpq_mpoly) -> list[tuple[fmpq_mpoly, int]]:
     return [] if f.is_zero() or f.is_constant() else f.factor()[1]
 
 
-def coefficients(f: fmpq_mpoly, variable: int, size: int = 1) -> list[fmpq_mpoly]:
-    """Those of the powers of one variable, lowest first, at least so many."""
-    rows: list[dict[tuple[int, ...], Any]] = [{} for _ in range(max(size, f.degrees()[variable] + 1))]
-    for powers, c in f.to_dict().items():
-        rows[powers[variable]][(*powers[:variable], 0, *powers[variable + 1:])] = c
-    return [f.context().from_dict(row) for row in rows]
-
-
 def at_rational(f: fmpq_mpoly, values: tuple[Fraction, ...]) -> fmpq_mpoly:
     """With rational numbers in the place of p (and q)."""
     return f.subs(dict(zip("pq", map(rational, values))))
-
-
-def univariate(f: fmpq_mpoly, variable: int = 0) -> fmpq_poly:
-    """As a polynomial in one variable, which is all it has."""
-    row: list[Any] = [0] * (max(f.degrees()[variable], 0) + 1)
-    for powers, c in f.to_dict().items():
-        row[powers[variable]] = c
-    return fmpq_poly(row)
 
 
 def over_field(f: fmpq_mpoly, variable: int = 0) -> list[fmpq_poly]:

@@ -23,12 +23,12 @@ from typing import Any, NamedTuple
 from flint import arb, arb_poly, fmpq_mpoly, fmpq_poly
 
 from ...errors import InputError
-from ...numbers.algebraic import Algebraic, Cut, cuts, gaps, real_balls
+from ...numbers.algebraic import Algebraic, Cut, coefficients, cuts, gaps, real_balls, univariate
 from ...numbers.balls import Unclear, evaluated, rational, real_roots_of, settled
 from ...representation import Shown
 from ..axes import put
 from .diagram import ball_form, diagram, doubles, spread, state_of
-from .eliminated import Eliminated, at_rational, coefficients, over_field, univariate
+from .eliminated import Eliminated, at_rational, over_field
 from .equations import chosen, common_divisor
 from .family import Diagram, Event, Family
 
