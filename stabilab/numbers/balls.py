@@ -21,6 +21,7 @@ T = TypeVar("T")
 DOUBLE_BITS = 53
 FIRST_BITS = 64  # of a first try, which settles ordinary motions
 START_BITS = 128
+PARTED_BITS = 1 << 14  # of a place between two roots: for any of numbers that are doubles
 NARROWINGS = 60  # of a ball about a root, at most
 APART_BITS = 256  # roots that so many bits do not tell apart would cost flint's iteration a long time
 
@@ -166,17 +167,34 @@ def _by_sturm(factor: fmpq_poly) -> list[arb]:
     largest = max(map(abs, factor.coeffs()))
     high = 1 + largest / abs(factor.leading_coefficient())  # Cauchy's bound, and that of 1/t
     low = 1 / (1 + largest / abs(factor[0]))
-    found, todo = [], [(-high, -low), (low, high)]
+    found, todo = [], [(a, changes(a), b, changes(b)) for a, b in ((-high, -low), (low, high))]
     while todo:
-        a, b = todo.pop()
-        many = changes(a) - changes(b)
+        a, before, b, after = todo.pop()
+        many = before - after
         if many == 1:
             a, b = _narrowed(factor, a, b, ctx.prec)
             found.append(arb((a + b) / 2, (b - a) / 2))
         elif many:
-            middle = _middle(a, b)
-            todo += [(a, middle), (middle, b)]
+            middle = many == 2 and _between_two(factor, a, b) or _middle(a, b)
+            between = changes(middle)
+            todo += [(a, before, middle, between), (middle, between, b, after)]
     return found
+
+
+def _between_two(factor: fmpq_poly, a: fmpq, b: fmpq) -> fmpq | None:
+    """A place that parts the two roots between a and b, near the root of the derivative; None where that is
+    not bracketed, or `PARTED_BITS` do not tell it from both."""
+    slope, bits, outside = factor.derivative(), START_BITS, factor(a)
+    if slope(a) * slope(b) >= 0:
+        return None
+    while bits <= PARTED_BITS:
+        with working(bits):
+            a, b = _narrowed(slope, a, b, bits // 2)
+        middle = (a + b) / 2
+        if factor(middle) * outside < 0:
+            return middle
+        bits *= 2
+    return None
 
 
 def _middle(a: fmpq, b: fmpq) -> fmpq:

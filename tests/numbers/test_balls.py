@@ -5,6 +5,7 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
+from flint import fmpq
 
 from stabilab.numbers import balls
 from stabilab.numbers.balls import FIRST_BITS, Digits, Unclear, settled, working
@@ -50,3 +51,14 @@ def test_roots_that_nearly_meet_are_found_by_sturms_theorem_and_not_by_an_iterat
                                            true in zip(found, [-ends, *pair, ends]))
         assert not any(a.overlaps(b) for (a, _), (b, _) in zip(found, found[1:]))
     assert asked
+
+
+@pytest.mark.parametrize("power", [10, 200, 1200])
+def test_two_roots_that_nearly_meet_are_parted_without_halving_the_way_between_them(power, monkeypatch):
+    # (x^2 - 3)((x - 1)^2 - 2 t^2): the roots are 1 +- t sqrt 2; halving takes 3.3 power steps
+    t, halved, middle = Fraction(1, 10**power), [], balls._middle
+    monkeypatch.setattr(balls, "_middle", lambda a, b: halved.append(a) or middle(a, b))
+    product = balls.polynomial(*(Poly((-3, 0, 1)) * Poly((1 - 2 * t * t, -2, 1))).c)
+    place = balls._between_two(product, fmpq(3, 5), fmpq(6, 5))
+    assert (balls.fraction(place) - 1) ** 2 < 2 * t * t
+    assert len(halved) < 20
