@@ -2,9 +2,12 @@
 
 python -m tests.hunt [SECONDS] [FOLDER] [SEED] [NAME...]: differential evolution and hypothesis' target, half
 of the time each, for each of the disagreements (or those named). What parts by more than promised is kept in
-FOLDER (default .hunt) as NAME-*.json, and the exit code is 1.
+FOLDER (default .hunt) as NAME-*.json, and the exit code is 1. A hunt that is ended (SIGTERM, as `timeout`
+sends it) says what it found until then; a crash of compiled code says where.
 """
+import faulthandler
 import json
+import signal
 import sys
 import traceback
 from pathlib import Path
@@ -26,6 +29,10 @@ SEARCHES = {name: (function, problem_of) for name,
     "parabolas": (parabolas.parabolas, parabolas.problem_of),
     "facets": (facets.facets, facets.problem_of)}
 CEILING = 30.0  # of the logarithm: what an optimiser sees of a wrong label
+
+
+class Ended(BaseException):
+    """The hunt is ended from outside."""
 
 
 class TimeUp(BaseException):
@@ -110,19 +117,30 @@ def main(seconds=600, folder=".hunt", seed=1, *names):
     folder.mkdir(parents=True, exist_ok=True)
     names = names or tuple(SEARCHES)
     share = float(seconds) / len(names) / 2
-    found = 0
+    found, ended = 0, False
+    faulthandler.enable()
+    signal.signal(signal.SIGTERM, _end)
     for name in names:
         function, make = SEARCHES[name]
         hunt = Hunt(name, function, folder, make)
-        hunt.go(evolve, share, seed)
-        hunt.go(aim, share, seed)
+        try:
+            hunt.go(evolve, share, seed)
+            hunt.go(aim, share, seed)
+        except Ended:
+            ended = True
         found += len(hunt.kept)
         print(f"{name}: {hunt.asked} questions, largest disagreement {hunt.worst:.3g} of what is promised",
               flush=True)
         for row in hunt.kept:
             print(f"  {row['size']:.3g}: {row['scene']}\n    from {row['state']}: {row['words']}", flush=True)
-    print("nothing found" if not found else f"found: see {folder}")
-    sys.exit(1 if found else 0)
+        if ended:
+            break
+    print(("ended early: " if ended else "") + ("nothing found" if not found else f"found: see {folder}"))
+    sys.exit(1 if found or ended else 0)
+
+
+def _end(*_):
+    raise Ended
 
 
 if __name__ == "__main__":

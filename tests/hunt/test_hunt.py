@@ -3,12 +3,14 @@ from __future__ import annotations
 
 import json
 import math
+import os
+import signal
 
 import numpy as np
 import pytest
 
 import stabilab.errors
-from tests.hunt.__main__ import SEARCHES, Hunt, aim, evolve
+from tests.hunt.__main__ import SEARCHES, Hunt, aim, evolve, main
 from tests.hunt.problems import KNOBS
 
 
@@ -32,6 +34,21 @@ def test_an_answer_that_ends_in_a_traceback_is_found(tmp_path):
     hunt = Hunt("broken", broken, tmp_path)
     hunt.go(evolve, 600, seed=1, questions=3)
     assert "ZeroDivisionError: here" in hunt.kept[0]["words"] and hunt.kept[0]["size"] == math.inf
+
+
+def test_a_hunt_that_is_ended_says_what_it_found(tmp_path, monkeypatch, capsys):
+    def ended(scene, problem, state):
+        os.kill(os.getpid(), signal.SIGTERM)
+        return 0.5, "half of what is promised"
+    monkeypatch.setitem(SEARCHES, "methods", (ended, SEARCHES["methods"][1]))
+    before = signal.getsignal(signal.SIGTERM)
+    try:
+        with pytest.raises(SystemExit, match="1"):
+            main(600, str(tmp_path), 7, "methods", "twins")
+    finally:
+        signal.signal(signal.SIGTERM, before)
+    said = capsys.readouterr().out
+    assert said.startswith("methods: 1 questions") and said.endswith("ended early: nothing found\n")
 
 
 @pytest.mark.one_in(2)
