@@ -48,7 +48,7 @@ class Conic:
     planes: tuple[float, ...] = ()  # invariants at which an orbit falls apart
 
     def __init__(self, reduction):
-        g = reduction.exact_constants
+        g, self.place = reduction.exact_constants, reduction.geometry.place
         self.G, self.c, self.d, self.mu = (reduction.constants[n] for n in ("G", "c", "d", "mu"))
         self.pieces: tuple[Piece, ...] = ()
         self.lines: tuple[Line, ...] = ()
@@ -99,10 +99,6 @@ class Conic:
     def invariant_at(self, x, z):
         """Q of (X, Z), free of cancellation."""
         raise NotImplementedError
-
-    def place(self, x, z):
-        """(X, Z) as the potential takes it."""
-        return x, z
 
     def within(self, limit) -> tuple[float, ...]:
         """The invariants of size `limit`."""
@@ -297,9 +293,6 @@ class HyperbolaConic(Conic):
 
     def invariant_at(self, x, z):
         return (z - x) * (z + x)
-
-    def place(self, x, z):
-        return x + z, x - z
 
     def within(self, limit):
         return limit, -limit

@@ -79,10 +79,6 @@ class Landscape:
         """omega_i of canonical W."""
         raise NotImplementedError
 
-    def xz(self, place):
-        """The two coordinates at places whose ranges are those of the components."""
-        return place
-
     def energy_terms(self, place, w):
         """(n,) size of the energy's terms, canonical."""
         raise NotImplementedError
@@ -212,7 +208,7 @@ class ConicLandscape(Landscape):
         """What is exactly on an invariant plane gets exactly there."""
 
     def pair(self, place):
-        x, z = self.xz(place)
+        x, z = self.potential.xz(place)
         return self.reduction.component_j(x), self.reduction.component_k(z)
 
     def rate(self, w):
@@ -348,9 +344,6 @@ class HyperbolaLandscape(ConicLandscape):
         if self.reduction.exact_invariant_sign(state) == 0:
             small = first if abs(first[index]) < abs(second[index]) else second
             small[index] = 0.0
-
-    def xz(self, place):
-        return 0.5 * (place[0] + place[1]), 0.5 * (place[0] - place[1])
 
     def invariant(self, place):
         return -place[0] * place[1]

@@ -96,12 +96,8 @@ class Circle:
     # whether the potential has walls on both sides of every orbit but for a set of measure zero
     walled = False
 
-    @classmethod
-    def of(cls, reduction):
-        """The potential of a reduction with this geometry."""
-        return cls(reduction.constants)
-
-    def __init__(self, constants: dict):
+    def __init__(self, reduction):
+        constants = reduction.constants
         self.G, self.c, self.d, self.mu = (constants[name] for name in ("G", "c", "d", "mu"))
         self.slopes = abs(self.c) + abs(self.d)
 
@@ -179,12 +175,8 @@ class Hyperbola:
     rank = 1
     centred = walled = True
 
-    @classmethod
-    def of(cls, reduction):
-        """As of `Circle`."""
-        return cls(reduction.constants)
-
-    def __init__(self, constants: dict):
+    def __init__(self, reduction):
+        constants = reduction.constants
         self.G, self.mu = constants["G"], constants["mu"]
         self.e1 = 0.5 * (constants["c"] + constants["d"])
         self.e2 = 0.5 * (constants["d"] - constants["c"])
@@ -243,11 +235,6 @@ class Parabola:
     where = "an axis between two equal moments"
     rank = 2
     centred, walled = False, True
-
-    @classmethod
-    def of(cls, reduction):
-        """As of `Circle`, in the components themselves."""
-        return cls(reduction)
 
     def __init__(self, reduction):
         names = ("p", "p0", "q", "q0", "kappa", "rho", "sigma", "m")
@@ -315,7 +302,7 @@ def derivatives_on_parabola(r, u, v):
 
 def potential(reduction):
     """The potential of a reduction."""
-    return reduction.geometry.of(reduction)
+    return reduction.geometry(reduction)
 
 
 Geometry = type[Circle] | type[Hyperbola] | type[Parabola]

@@ -133,7 +133,7 @@ class _Seen:
 
 def _on_circles(numbers, reduction, state, held) -> Apart:
     seen = _Seen(numbers, reduction, state)
-    hidden = Shade(seen.plain) if held else None
+    hidden = Shade(seen.reduction) if held else None
     for number in (SAMPLES, 16 * SAMPLES):
         first = min(seen.first_points(4 * seen.size + seen.w, number, hidden), key=_first, default=None)
         if first or not hidden:
@@ -286,10 +286,10 @@ def _answer(seen, state, search, charts, place) -> Apart:
 
 
 class Shade:
-    """The barriers beside the saddles of circles under a torque; constants: of the force, in doubles."""
+    """The barriers beside the saddles of circles under a torque."""
 
-    def __init__(self, constants):
-        self.potential = Circle(constants)
+    def __init__(self, reduction):
+        self.potential = Circle(reduction)
 
     def _barriers(self, chart, t, above):
         """(offset, phi, its error, its slope in t) of the other barriers within a turn of a saddle, those
