@@ -237,16 +237,16 @@ def fates(scene, states, fast=None) -> FateResult:
     general formula; `fast` is not needed. States whose squares may leave the range of doubles are decided
     one at a time, each in its own unit.
     """
-    reduction = reduce(scene)
+    reduction, out = reduce(scene), empty_columns(len(states))
     far = rows_beyond_doubles(scene, states) if reduction is not None else np.zeros(len(states), bool)
-    if not far.any():
-        return _ordinary(scene, states)
-    out, precise = empty_columns(len(states)), int(far.sum())
-    if not far.all():
-        near = in_chunks(labeller(scene), states[~far])
+    table = barrier_table(scene) if len(states) >= TABLE_FROM and not far.any() else None
+    rows = np.nonzero(~far)[0] if table is None else label_by_table(table, states, out)
+    precise = int(far.sum())
+    if len(rows):
+        near = in_chunks(labeller(scene), states[rows])
         precise += near.precise
         for name, column in out.items():
-            column[~far] = getattr(near, name)
+            column[rows] = getattr(near, name)
     for index in np.nonzero(far)[0]:
         state = states[index].tolist()
         write_row(out, index, *far_fate(scene, Orbit(reduction, state), far_exponent(scene, state) or 0))
@@ -263,34 +263,17 @@ def rows_beyond_doubles(scene, states):
     return far if far.all() or in_doubles(scene) else np.ones(len(states), bool)
 
 
-def _ordinary(scene, states) -> FateResult:
-    label, table = labeller(scene), barrier_table(scene) if len(states) >= TABLE_FROM else None
-    if table is None:
-        return in_chunks(label, states)
-    out = empty_columns(len(states))
-    rest = label_by_table(table, states, out)
-    open_ones = in_chunks(label, states[rest])
-    for name, column in out.items():
-        column[rest] = getattr(open_ones, name)
-    return FateResult(**out, precise=open_ones.precise)  # type: ignore[arg-type]  # the columns alone
-
-
 def labeller(scene):
     """Return the function that labels a chunk of states (n, 3). It fills the columns of `out` and returns how
     many states needed many digits."""
-    if is_free(scene):
-        return _at_rest_too(scene, lambda states, out: label_free(scene, states, out))
-    land = landscape(scene)
-    return _at_rest_too(scene, lambda states, out: _by_geometry(land).label(land, states, out))
+    land = None if is_free(scene) else landscape(scene)
 
-
-def _at_rest_too(scene, label):
-    """Return a labeller that does what `label` does and then marks the states at rest."""
-    def whole(states, out):
-        precise = label(states, out)
+    def label(states, out):
+        precise = (label_free(scene, states, out) if land is None
+                   else _by_geometry(land).label(land, states, out))
         at_rest(scene, states, out)
         return precise
-    return whole
+    return label
 
 
 def at_rest(scene, states, out):
