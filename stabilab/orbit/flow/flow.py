@@ -85,15 +85,15 @@ def _motion(ground: Relief, state, nodes, backwards):
     if ground.here.force == 0 and ground.w == 0:
         return Resting(state)
     if ground.turn and not any(s.kind > 0 and s.at > 0 and s.kinetic < 0 for s in ground.spots):
-        _refuse_ties(ground, ground.spots)
+        _refuse_ties(ground.spots)
         return SpinUp(ground, nodes or POINTS, backwards)
     if ground.closed and not any(s.kind > 0 and s.kinetic < 0 for s in ground.spots):
-        _refuse_ties(ground, ground.spots)
+        _refuse_ties(ground.spots)
         return _rotation(ground, nodes)
     return _libration(ground, nodes)
 
 
-def _refuse_ties(ground, spots):
+def _refuse_ties(spots):
     """InputError where the energy is a hill's, or the relief is flatter than doubles tell."""
     if any(s.kind > 0 and s.kinetic == 0 for s in spots):
         raise InputError("the motion is on a separatrix: it tends to an equilibrium, and its reduced form "
@@ -123,7 +123,7 @@ def _libration(ground: Relief, nodes):
                          "about the axis "
                          "itself); take method taylor")
     left, right = (None if n is None else spots[n] for n in (left, right))
-    _refuse_ties(ground, [s for s in (left, *inner, right) if s])
+    _refuse_ties([s for s in (left, *inner, right) if s])
     start, a = _turn(left, inner[0], -1)
     end, b = _turn(right, inner[-1], 1)
     hills = [s for s in inner if s.kind > 0]

@@ -52,8 +52,7 @@ class Grid:
 
 def grid(land, strips, shape) -> Grid:
     """The graded loops of strips, pairs (branch, side), in the shape (rows, columns of a half)."""
-    parts, rows = [Part(*strip)
-                   for strip in strips], np.array([_trial_rows(land, *strip) for strip in strips])
+    parts, rows = _whole_parts(land, strips)
     columns = np.broadcast_to(np.linspace(0, 1, TRIAL), rows.shape)
     made, edge = measured_loops(land, parts, rows, columns)
     grading = _grading(made, _second_forms(land, made), _outline(land, made, np.full(len(parts), -1)),
@@ -65,12 +64,16 @@ def grid(land, strips, shape) -> Grid:
     return Grid(made, (1, -1)[best], strays[best], parts)
 
 
+def _whole_parts(land, strips):
+    """(a part for each strip, trial rows of each)."""
+    return [Part(*strip) for strip in strips], np.array([_trial_rows(land, *strip) for strip in strips])
+
+
 @lru_cache(maxsize=64)
 def trial_parts(land, strips):
     """(parts of strips, cut at their seams, trial rows of each). They are kept, for the next surface of the
     same scene."""
-    parts, rows = [Part(*strip)
-                   for strip in strips], np.array([_trial_rows(land, *strip) for strip in strips])
+    parts, rows = _whole_parts(land, strips)
     if len(cut := parted(land, strips, rows[:, 0])) > len(parts):
         parts, rows = cut, np.array([_trial_rows_of(land, part) for part in cut])
     return parts, rows

@@ -26,12 +26,11 @@ def polished(land, saddle, s):
 
 def loop_ends(land, saddle, side):
     """(offset of the far end of the loop (n,), centre place (2, n), found (n,), shared (n,)) for saddles (2,
-    n), each on its side, or all on one; shared: it ends at a saddle there, for which this is the loop on the
-    other side."""
-    pot, n = land.potential, len(saddle[0])
-    side = np.broadcast_to(np.asarray(side, float), n)
-    ends, centres = np.zeros((2, n))
-    there, shared = np.zeros((2, n), bool)
+    n), each on its side (n,); shared: it ends at a saddle there, for which this is the loop on the other
+    side."""
+    pot = land.potential
+    ends, centres = np.zeros((2, len(side)))
+    there, shared = np.zeros((2, len(side)), bool)
     for row, (x, z, toward) in enumerate(zip(*(v.tolist() for v in (*saddle, side)))):
         found = loop_end(pot, land.sense, (x, z), toward)
         if found:
