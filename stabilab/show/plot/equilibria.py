@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ...answers.equilibria import STOPPED
 from ...answers.equilibria import equilibria as all_of
 from ...errors import InputError
 from .. import style
@@ -56,7 +57,9 @@ def equilibria(case: Any, state: Any = None, ax: Axes | None = None, units: str 
         plane = ("" if flat is None
                  else f"all have {scale.plain(flat)} = {_constant(rest, flat) * scale.rate[1] + 0.0:.4g} "
                       f"{scale.rate[0]}".rstrip())
-        return canvas.explained(target, rows if legend else [], ax is None, one.heading, plane)
+        after = STOPPED if found.reason.endswith(STOPPED) else ""
+        words = "; ".join(filter(None, (plane, after)))
+        return canvas.explained(target, rows if legend else [], ax is None, one.heading, words)
 
 
 def _box(rest: Rest, one: Subject) -> Box:
