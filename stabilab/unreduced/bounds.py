@@ -123,9 +123,12 @@ def _motor(parts: Content, omega, gamma, wheel) -> dict[str, Any]:
     if parts.duration is not None:
         left = max(0.0, float(parts.duration) - dot(floats(parts.u), wheel) / motor**2)
         most = max(hypot(*start), hypot(*(h + float(u) * left for h, u in zip(start, parts.u))))
-        bound = (H + most) / least
-        words = (f"|D omega + Lambda + h| stays, and the motor stops after {left:.6g} s, when h stays, too: "
-                 f"so |omega| <= {bound:.6g} rad/s always")
+        known = "|D omega + Lambda + h| stays", (H + most) / least
+        pull = sqrt(sum(float(u) ** 2 / float(d) for d, u in zip(parts.D, parts.u)))
+        by_work = "T' = -u . omega", (_energy(parts, omega)[1] + pull * left) / sqrt(least)
+        because, bound = min(known, by_work, key=lambda one: one[1])
+        words = (f"{because}, and the motor stops after {left:.6g} s, when T stays: so |omega| <= "
+                 f"{bound:.6g} rad/s always")
         return {"fate": Fate.BOUNDED, "because": words, "invariants": {"momentum": H, "rate_bound": bound}}
     each = (motor - outer) / float(max(parts.D))
     grows = f"grows by at most |M| = {outer:.6g} N m s each second" if outer else "stays"

@@ -177,6 +177,15 @@ def test_with_an_end_the_rates_stay_below_a_bound():
     assert np.linalg.norm(run.state["omega"], axis=1).max() <= found.invariants["rate_bound"]
 
 
+def test_of_two_bounds_the_closer_one_is_given():
+    """By hand, about one axis: a motor that brakes the wheel gives the body all of its work, D omega = D omega(0)
+    + |u| t, which the energy bounds closely beside a great momentum, and at rest the momentum does."""
+    short = motion(Scene(Body(D), Gyrostat((0, 0, 50)), WheelMotor((0, 0, "-0.1"), 5)), (0, 0, 0.2))
+    assert short.invariants["rate_bound"] == pytest.approx(0.2 + 0.1 * 5 / 5, rel=1e-14)
+    spun = motion(Scene(Body(D), WheelMotor((0, 0, "0.1"), 5)), (0, 0, 0.1))
+    assert spun.invariants["rate_bound"] == pytest.approx((5 * 0.1 + 0.1 * 5) / 5, rel=1e-14)
+
+
 @pytest.mark.parametrize("damping", [Resistance("0.1"), RateDamper("0.5")])
 @pytest.mark.parametrize("end", [None, 20])
 def test_beside_resistance_the_rates_stay_below_the_bound_of_their_energy(damping, end):
