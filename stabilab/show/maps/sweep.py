@@ -188,8 +188,13 @@ def rows(found: Swept) -> Iterator[list[Any]]:
 
 
 def csv(found: Swept) -> str:
-    """Every point as a line."""
-    return csv_lines([heads(found), *rows(found)])
+    """Every point as a line, with what limits the answers of all points beside what limits its own."""
+    case = found.plan.case
+    every = limiting.cell(case, [one for one in case.caveats if one.kind != "unphysical"])  # of a point
+    lines = rows(found)
+    if every and CAVEATS in columns_of(found.plan.answers):
+        lines = ([*row, "; ".join(filter(None, (every, own)))] for *row, own in lines)
+    return csv_lines([heads(found), *lines])
 
 
 def json(found: Swept) -> str:
