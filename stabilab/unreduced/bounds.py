@@ -110,9 +110,10 @@ def _motor(parts: Content, omega, gamma, wheel) -> dict[str, Any]:
         if parts.duration is not None:
             largest, late = max(largest, energy_bound(others, x0)[0]), energy_bound(others, x0)[1]
         rates = {"rate_bound": largest / sqrt(least), "late_rate_bound": late / sqrt(least)}
+        end = "where it tends is undecided" if late else "it tends to rest"
         words = (f"T' <= (M - u) . omega - 2 c T, c = {float(slowest):.6g} 1/s: resistance outgrows outer "
                  f"torque and motor, so |omega| <= {rates['rate_bound']:.6g} rad/s always and <= "
-                 f"{rates['late_rate_bound']:.6g} rad/s in the end; where it tends is undecided")
+                 f"{rates['late_rate_bound']:.6g} rad/s in the end; {end}")
         return {"fate": Fate.BOUNDED, "because": words, "invariants": {"energy": T0, **rates}}
     outer, motor = (sqrt(float(dot(v, v))) for v in (parts.M, parts.u))
     if others.kind != "gyrostat" or parts.kappa or (outer if parts.duration is not None else

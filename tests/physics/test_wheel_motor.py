@@ -305,3 +305,17 @@ def test_an_end_is_no_limit_of_a_law():
     """The run goes on past it, so nothing in an answer hangs on it."""
     assert Scene(Body(D), WheelMotor((0, "0.2", 0), 5)).approximate == ()
     assert motion(Scene(Body(D), WheelMotor((0, "0.2", 0), 5)), START, span=20).validity is None
+
+
+def test_a_motor_that_had_stopped_already_is_left_out():
+    """The scene that is left, asked by itself."""
+    stopped = Scene(Body(D), WheelMotor(("0.05", 0, 0), 8))
+    plain = Scene(Body(D), Gyrostat(("0.5", 0, 0)))
+    for ask in ({"tilt": (1, 0.3)}, {"component": (3, 0.03)}):
+        low, high = time_to(stopped, {"omega": START, "wheel": (0.5, 0, 0)}, **ask, t_max=50)
+        assert (low, high) == pytest.approx(tuple(time_to(plain, START, **ask, t_max=50)), rel=1e-12)
+
+
+def test_beside_resistance_alone_the_motion_tends_to_rest():
+    found = motion(Scene(Body(D), Resistance("0.1"), WheelMotor((0, "0.2", 0), 20)), START)
+    assert found.because.endswith("it tends to rest") and found.invariants["late_rate_bound"] == 0

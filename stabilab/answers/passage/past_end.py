@@ -36,7 +36,7 @@ def past_the_end(scene: AnyScene, state: Any, limit: Limit, last: float) -> Foun
     if math.isfinite(found.high) or found.level == "undecided" or found.low < left * (1 - 2 * ROUNDING):
         return found
     equations, row = equations_and_start(scene, start)
-    ends = [_blocks(equations, integrated(scene, _blocks(equations, one), [0.0, left], laws=False).states[-1])
+    ends = [_blocks(equations, integrated(scene, _blocks(equations, one), [left], laws=False).states[-1])
             for one in (row, moved_row(row, MOVED))]
     after, there = stopped(scene, ends[0])
     rates = tuple(there["omega"])
