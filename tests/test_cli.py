@@ -99,6 +99,8 @@ def _rate_and_size(scene, x):
         return terms.sum(axis=1), np.abs(terms).sum(axis=1)
     D, wheel, torque = (np.array(v, float) for v in (scene.body.inertia, scene.vector("gyrostat"),
                                                      scene.vector("constant_torque")))
+    if motor := scene.effect("wheel_motor"):  # once it has stopped
+        wheel = wheel + np.array(motor.motor) * float(motor.duration)
     w, gamma = x[:3], x[3:] if len(x) > 3 else np.zeros(3)
     charge, drag, field, weight = (scene.effect(n)
                                    for n in ("charge", "resistance", "newtonian_field", "gravity"))
@@ -111,6 +113,9 @@ def _rate_and_size(scene, x):
         rate, size = rate + np.cross(u, v), size + np.linalg.norm(u) * np.linalg.norm(v)
     if drag:
         rate, size = rate - drag.coefficient * D * w, size + drag.coefficient * D * np.abs(w)
+    if scene.effect("rate_damper"):
+        coils = np.array(scene.effect("rate_damper").exact, float)
+        rate, size = rate - coils @ w, size + np.abs(coils) @ np.abs(w)
     if scene.effect("liquid_cavity"):
         liquid, scale = _liquid(scene.effect("liquid_cavity"), D, wheel - [0, 0, k], w)
         rate, size = rate + liquid, size + scale

@@ -118,7 +118,6 @@ def main(seconds=600, folder=".hunt", seed=1, *names):
     names = names or tuple(SEARCHES)
     share = float(seconds) / len(names) / 2
     found, ended = 0, False
-    faulthandler.enable()
     signal.signal(signal.SIGTERM, _end)
     for name in names:
         function, make = SEARCHES[name]
@@ -144,4 +143,5 @@ def _end(*_):
 
 
 if __name__ == "__main__":
+    faulthandler.enable()
     main(*sys.argv[1:])

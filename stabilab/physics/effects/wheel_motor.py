@@ -13,7 +13,6 @@ from ...numbers.principal import PrincipalAxes
 from ...numbers.units import TIME, TORQUE, in_si, vector_in_si
 from ...numbers.vectors import Exact3, Given, Number, cross, dot
 from .base import Effect, Part
-from .gyrostat import Gyrostat
 
 ENDLESS = Caveat("motor", "the motor of the wheel runs without an end, and no wheel takes momentum for ever: "
                           "give its duration in [effects.wheel_motor]")
@@ -78,6 +77,7 @@ class WheelMotor(Effect):
 
     def stopped(self, scene: Any, state: Mapping[str, Sequence[float]]) -> Any:
         """With the wheel's momentum as it is then."""
+        from .gyrostat import Gyrostat
         momentum = tuple(a + Fraction(b) for a, b in zip(scene.vector("gyrostat"), state["wheel"]))
         return type(scene)(scene.body, Gyrostat(momentum),
                            *(one for one in scene.effects if one.name not in (self.name, "gyrostat")))

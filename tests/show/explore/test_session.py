@@ -276,9 +276,9 @@ def test_a_branch_keeps_its_colour_while_others_come_into_the_box_and_go():
     assert 0 < len(branches[0]) < len(branches[1]) and branches[0].items() <= branches[1].items()
 
 
-def test_a_tensor_that_is_not_diagonal_is_refused_beside_a_liquid_with_what_to_do():
-    text = case_of("liquid-sensible").text
-    turned = re.sub(r"inertia = .*", "inertia = [[9.41, 0.1, 0], [0.1, 9.39, 0], [0, 0, 9]]", text)
+def test_a_tensor_that_is_not_diagonal_is_refused_beside_a_damper_of_three_with_what_to_do():
+    turned = ("[body]\ninertia = [[9.41, 0.1, 0], [0.1, 9.39, 0], [0, 0, 9]]\n[effects.rate_damper]\n"
+              "coefficient = [1, 2, 3]\n[motion]\nangular_velocity = [0.1, 0.2, 0.3]\n")
     with pytest.raises(InputError, match="principal axes .*or ask stabilab classify or report"):
         Session(read_text("turned.toml", turned))
 
