@@ -9,7 +9,7 @@ from __future__ import annotations
 import os
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import nullcontext
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -21,7 +21,7 @@ from ..physics.scene import AnyScene, slices
 from ..physics.states import checked_rtol, checked_starts, checked_times
 from ..physics.to_numpy import equations_of, to_numpy
 from ..representation import Compared, Shown
-from .quadratic_series import FAST, SLOW, in_unit, own_unit
+from .own_units import Units, are_ordinary, in_units, scale_of, units_of
 from .to_heyoka import TAYLOR_TOLERANCE, borrowed_taylor, heyoka_available
 from .trajectory import REPORT, integrated
 
@@ -81,43 +81,29 @@ def ensemble(scene: AnyScene, states: ArrayLike, times: ArrayLike, rtol: float |
     if not heyoka_available() or stops_before(scene, equations.blocks, starts, times.max()) is not None:
         return _one_by_one(scene, starts, times, rtol)
     rtol = TAYLOR_TOLERANCE if rtol is None else max(rtol, TAYLOR_TOLERANCE)
-    system = to_numpy(equations)
-    if equations.blocks == ("omega",):
-        with np.errstate(all="ignore"):
-            units = _units(scene, starts, system(starts))
-        if (units != 1).any():
-            return _by_units(scene, starts, times, rtol, workers, units)
-    run = _Rows(scene, system.rhs, rtol, starts, times)
-    groups = _groups(system, starts)
-    workers = min(workers, len(groups))  # more would have nothing to do
-    with ThreadPoolExecutor(workers) if workers > 1 else nullcontext() as pool:
-        steps = sum((pool.map if pool else map)(run, (groups[i::workers] for i in range(workers))))
-    steps += sum(taken for _, taken in run.alone.values())
-    stopped = {number: why for number, (why, _) in sorted(run.alone.items()) if why}
-    return Ensemble(times, run.out, np.isfinite(run.out).all(axis=2), stopped, "taylor", rtol,
-                    {"steps": steps}, scene)
+    out, steps, stopped = np.empty((len(starts), times.size, starts.shape[1])), 0, {}
+    for units, numbers in _by_units(equations, starts):
+        run = _Rows(scene, equations, units, rtol, starts[numbers], times)
+        groups = _groups(to_numpy(equations), starts[numbers])
+        threads = min(workers, len(groups))  # more would have nothing to do
+        with ThreadPoolExecutor(threads) if threads > 1 else nullcontext() as pool:
+            steps += sum((pool.map if pool else map)(run, (groups[i::threads] for i in range(threads))))
+        steps += sum(taken for _, taken in run.alone.values())
+        stopped |= {int(numbers[number]): why for number, (why, _) in run.alone.items() if why}
+        out[numbers] = run.out
+    reached = np.asarray(np.isfinite(out).all(axis=2))
+    return Ensemble(times, out, reached, dict(sorted(stopped.items())), "taylor", rtol, {"steps": steps},
+                    scene)
 
 
-def _units(scene, starts, rates):
-    """(n,) `own_unit` of each motion: most are ordinary, which a look at all of them together shows."""
-    size = np.maximum(np.abs(starts).max(axis=1), np.sqrt(np.abs(rates).max(axis=1)))
-    units = np.ones(len(starts))
-    for n in np.flatnonzero(~((size >= SLOW) & (size <= FAST))):
-        units[n] = own_unit(scene, starts[n].tolist(), rates[n].tolist())
-    return units
-
-
-def _by_units(scene, starts, times, rtol, workers, units):
-    """The motions of each unit of time by themselves, in that unit (`own_unit`)."""
-    out, stopped, steps = np.empty((len(starts), times.size, 3)), {}, 0
-    for unit in sorted(set(units.tolist())):
-        rows = np.flatnonzero(units == unit)
-        part = ensemble(scene if unit == 1 else in_unit(scene, unit), starts[rows] / unit, times * unit, rtol,
-                        workers)
-        out[rows], steps = part.states * unit, steps + part.counters["steps"]
-        stopped |= {int(rows[n]): why for n, why in part.stopped.items()}
-    return Ensemble(times, out, np.isfinite(out).all(axis=2), dict(sorted(stopped.items())), "taylor", rtol,
-                    {"steps": steps}, scene)
+def _by_units(equations, starts):
+    """(units, numbers of the motions that have them), see `own_units`; those with ordinary rates first."""
+    odd = ~are_ordinary(equations, starts)
+    found = {Units(): np.flatnonzero(~odd).tolist()}
+    for number in np.flatnonzero(odd).tolist():
+        units = replace(units_of(equations, starts[number]), laws=False)  # none is checked here
+        found.setdefault(units, []).append(number)
+    return [(units, np.array(numbers)) for units, numbers in found.items() if numbers]
 
 
 def _workers(workers):
@@ -140,8 +126,10 @@ class _Rows:
     """Called with rows of LANES numbers of motions, it puts their states into `out` and answers the steps
     they took."""
 
-    def __init__(self, scene, forms, rtol, starts, times):
-        self.scene, self.forms, self.rtol, self.starts, self.times = scene, forms, rtol, starts, times
+    def __init__(self, scene, equations, units, rtol, starts, times):
+        self.scene, self.rtol, self.starts, self.times = scene, rtol, starts, times
+        self.scale, own = scale_of(equations, units), units.times(times)
+        self.forms = to_numpy(in_units(equations, units)).rhs
         self.out = np.empty((len(starts), times.size, starts.shape[1]))
         self.out[:, times == 0] = starts[:, None]
         self.alone = {}  # number of a motion that its lane did not finish -> (why it stopped or "", steps)
@@ -150,7 +138,7 @@ class _Rows:
             way = np.flatnonzero(chosen)[np.argsort(times[chosen] * sense)]
             if way.size:
                 self.grids.append((way,
-                                   np.repeat(np.concatenate([[0.0], times[way]])[:, None], LANES, axis=1)))
+                                   np.repeat(np.concatenate([[0.0], own[way]])[:, None], LANES, axis=1)))
 
     def __call__(self, groups) -> int:
         with borrowed_taylor(self.forms, self.rtol, LANES) as ta:
@@ -165,7 +153,7 @@ class _Rows:
                           if ta.propagate_res[lane][0].name != "time_limit"
                           or not np.isfinite(points[-1, :, lane]).all()}
             if not unfinished:
-                self.out[lanes[:, None], way] = points[1:].transpose(2, 0, 1)
+                self.out[lanes[:, None], way] = points[1:].transpose(2, 0, 1) * self.scale
                 return sum(dict(zip(lanes.tolist(), steps)).values())
             for number in unfinished:
                 self._follow_alone(number)
@@ -178,7 +166,7 @@ class _Rows:
 
     def _propagated(self, ta, lanes, grid):
         ta.set_time(0.0)
-        ta.state[:] = self.starts[lanes].T
+        ta.state[:] = (self.starts[lanes] / self.scale).T
         points = ta.propagate_grid(grid, max_steps=REPORT)[1]
         return points, [result[3] for result in ta.propagate_res]
 

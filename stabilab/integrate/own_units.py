@@ -54,27 +54,41 @@ class Units:
 
 
 def units_of(equations: Equations, state: np.ndarray) -> Units:
-    """The units of the motion from a state (n,), 1 where its rates are ordinary.
-
-    The size of the rates is theirs, or what the rates of change make of them: over their pace, or its root.
-    """
-    if not set(equations.blocks) <= RATES | PLAIN:
-        return Units()
+    """The units of the motion from a state (n,), 1 where its rates are ordinary."""
     laws = any(not LIGHT <= value <= HEAVY
                for name, value in equations.parameters.items() if name in ("D1", "D2", "D3"))
-    turning = _turning(equations)
-    with np.errstate(all="ignore"):
-        change = np.abs(np.array(to_numpy(equations).rate(state.tolist()), float)[turning])
-    now, quick = float(np.abs(state[turning]).max()), float(change.max())
-    size = max(now, math.sqrt(quick))
-    slow = SLOW_BESIDE if set(equations.blocks) & PLAIN else SLOW
-    ordinary = Units(laws=laws) if slow <= size <= FAST else None
-    if not 0 < size < math.inf or ordinary and (not quick or 1 / UNLIKE <= quick / (now or size) <= UNLIKE):
-        return ordinary or Units(laws=laws)
+    now, quick, size = (float(one[0]) for one in _sizes(equations, state[None]))
+    if not 0 < size < math.inf or are_ordinary(equations, state[None])[0]:
+        return Units(laws=laws)
     pace = pace_of(equations, state)
     if 0 < pace < math.inf and not 1 / APART <= pace / size <= APART:
         return _power(max(now, quick / pace), pace, True)
-    return ordinary or _power(size, size, True)
+    return Units(laws=laws) if _slow(equations) <= size <= FAST else _power(size, size, True)
+
+
+def are_ordinary(equations: Equations, states: np.ndarray) -> np.ndarray:
+    """(m,) which motions from states (m, n) are followed in units of 1, at a glance at their rates."""
+    if not set(equations.blocks) <= RATES | PLAIN:
+        return np.ones(len(states), bool)
+    now, quick, size = _sizes(equations, states)
+    with np.errstate(all="ignore"):
+        share = quick / np.where(now > 0, now, size)
+    alike = (quick == 0) | ((share >= 1 / UNLIKE) & (share <= UNLIKE))
+    return (size >= _slow(equations)) & (size <= FAST) & alike
+
+
+def _sizes(equations: Equations, states: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """(m,) the largest rate, its largest change, and the size of the rates: theirs, or what the change makes
+    of it, its root."""
+    turning = _turning(equations)
+    with np.errstate(all="ignore"):
+        now = np.abs(states[:, turning]).max(axis=1)
+        quick = np.abs(to_numpy(equations)(states)[:, turning]).max(axis=1)
+        return now, quick, np.maximum(now, np.sqrt(quick))
+
+
+def _slow(equations: Equations) -> float:
+    return SLOW_BESIDE if set(equations.blocks) & PLAIN else SLOW
 
 
 def _power(size: float, pace: float, laws: bool) -> Units:

@@ -118,6 +118,17 @@ def test_motions_of_very_different_pace_are_followed_each_in_its_own_unit():
 
 
 @needs_heyoka
+@pytest.mark.parametrize("coefficient, size", [("0.25", 1e15), ("1000", 1e-20), ("1000", 1e15), ("0.25", 1e-20)])
+def test_spheres_slow_down_exponentially_however_fast_the_medium_beside_the_rates(coefficient, size):
+    """Closed form, exp(-c t); their pace is c, whatever the rates."""
+    starts, pace = size * np.array([(1, 2, -1), (1e-3, 0, 1), (0, 0, 1e-8)]), float(coefficient)
+    times = np.array([0.25, 1.25, 5.0]) / pace
+    found = ensemble(Scene(Body((2, 2, 2)), effect_class("resistance")(coefficient)), starts, times).states
+    exact = starts[:, None] * np.exp(-pace * times)[:, None]
+    assert np.abs(found - exact).max() <= 1e-14 * size
+
+
+@needs_heyoka
 def test_a_motion_of_endless_turns_is_given_up_by_its_pace(monkeypatch):
     """Its first steps tell how many there would be; the other motion of its row has the bytes that it has
     alone."""
