@@ -25,7 +25,7 @@ from ..numbers.principal import PrincipalAxes, evened, principal_axes, without_t
 from ..numbers.units import INERTIA, MASS, RATE, half_digit, in_si, vector_in_si
 from ..numbers.vectors import CYCLE, Exact3, Float3, Given, Number, Triple, dot
 from ..validation import Asked
-from .effects.base import Effect, effect_words, with_article
+from .effects.base import Effect, effect_words
 
 if TYPE_CHECKING:
     import numpy as np
@@ -328,10 +328,12 @@ class Scene(metaclass=Asked):
     @cached_property
     def plain(self) -> bool:
         """Whether it has no effect beyond a gyrostat and a constant torque."""
-        return not self._beyond()
+        return not self.beyond
 
-    def _beyond(self) -> list[str]:
-        return [e.name for e in self.effects if e.name not in ("gyrostat", "constant_torque")]
+    @property
+    def beyond(self) -> list[Effect]:
+        """The effects beyond a gyrostat and a constant torque."""
+        return [e for e in self.effects if e.name not in ("gyrostat", "constant_torque")]
 
     def effect(self, name: str) -> Any:
         """The effect called `name`, with the fields that it alone has, or None."""
@@ -351,11 +353,10 @@ class Scene(metaclass=Asked):
     @cached_property
     def _form(self) -> QuadraticForm:
         """Kept, for every question asks for it several times."""
-        other = self._beyond()
-        if other:
-            raise InputError(
-                f"this analysis covers a gyrostat and a constant torque; the scene also has "
-                f"{', '.join(map(with_article, other))}: `stabilab simulate` and `stabilab when` take it")
+        if self.beyond:
+            others = ", ".join(one.with_article for one in self.beyond)
+            raise InputError(f"this analysis covers a gyrostat and a constant torque; the scene also has "
+                             f"{others}: `stabilab simulate` and `stabilab when` take it")
         return euler_form(self.body.exact, self.vector("gyrostat"), self.vector("constant_torque"))
 
 
@@ -378,7 +379,7 @@ class ScaledGyrostat(metaclass=Asked):
     variables: ClassVar[Literal["scaled"]] = "scaled"
     components = ("x1", "x2", "x3")
     time_unit = "tau"
-    effects = approximate = ending = ()
+    effects = approximate = beyond = ending = ()
     blocks = ("omega",)
     plain = True
 

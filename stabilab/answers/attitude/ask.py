@@ -28,7 +28,6 @@ from ...errors import InputError, ToleranceNotMet
 from ...numbers.balls import Digits, settled
 from ...numbers.vectors import dot
 from ...orbit.result import Fate, Motion
-from ...physics.effects.base import with_article
 from ...physics.scene import Scene
 from ...validation import is_case, scene_and_state
 from ..caveats import limited
@@ -104,8 +103,7 @@ def in_closed_form(scene: Any) -> bool:
 
 
 def _others(scene: Scene) -> set[str]:
-    return {with_article(effect.name) for effect in scene.effects
-            if effect.name not in ("gyrostat", "constant_torque")}
+    return {effect.with_article for effect in scene.beyond}
 
 
 def _at_start(scene: Scene, omega: Sequence[Fraction], found: Motion) -> Attitude:

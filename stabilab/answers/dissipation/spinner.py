@@ -14,7 +14,7 @@ from ...errors import InputError
 from ...integrate.trajectory import root_between
 from ...numbers.exact import sqrt_fraction
 from ...numbers.vectors import cross, dot
-from ...physics.effects.base import effect_words, with_article
+from ...physics.effects.base import effect_words
 from ...physics.scene import Scene, slices
 from ...physics.states import body_momentum, equations_and_start, start_of
 from ...physics.to_numpy import to_numpy
@@ -42,13 +42,12 @@ class Spinner:
         scene = case.scene
         if case.state is None or case.variables != "physical":
             raise InputError("flat-spin: give the start as [motion] angular_velocity, in rad/s")
-        names = [effect.name for effect in scene.effects]
-        others = [with_article(name) for name in names if name not in TAKE]
-        if outside := [effect_words(name) for name in names if name in TAKE_BOTH]:
+        others = [one.with_article for one in scene.effects if one.name not in TAKE]
+        if outside := [effect_words(one.name) for one in scene.effects if one.name in TAKE_BOTH]:
             raise InputError(f"flat-spin: {' and '.join(outside)}: a torque from outside, which changes the "
                              "angular momentum, too, so that no flat spin need be the end: `stabilab "
                              "classify` says where the motion tends")
-        if others or not names:
+        if others or not scene.effects:
             raise InputError(
                 f"flat-spin: it is known of a free body; this one has {', '.join(others)} besides" if others
                 else "flat-spin: nothing takes energy here, and a rigid body turns about its minor axis for "
@@ -56,7 +55,7 @@ class Spinner:
         D = scene.body.exact
         if D[0] == D[1] == D[2]:
             raise InputError("flat-spin: all moments are equal: every axis is a major axis")
-        if 2 * max(D) > sum(D) and "liquid_cavity" in names:
+        if 2 * max(D) > sum(D) and scene.effect("liquid_cavity"):
             raise InputError("flat-spin: a liquid takes energy for the moments of a rigid body alone, and no "
                              "rigid body has these")
         own = {name: value for name, value in case.blocks.items() if name in scene.blocks}

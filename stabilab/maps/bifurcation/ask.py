@@ -10,7 +10,6 @@ from ...case.source import parsed
 from ...errors import InputError
 from ...numbers.balls import Unclear
 from ...physics.coefficients import effective
-from ...physics.effects.base import with_article
 from ..axes import spans_of
 from ..plan import place_and_text
 from .connections import with_connections
@@ -51,8 +50,7 @@ def family_of(case: Case | str | os.PathLike[str],
     family = Family(read, data, spans_of(data, _pairs(vary)))
     scene = effective(read.scene)
     if not scene.plain:
-        others = ", ".join(with_article(e.name) for e in scene.effects
-                           if e.name not in ("gyrostat", "constant_torque"))
+        others = ", ".join(one.with_article for one in scene.beyond)
         raise InputError(f"{read.place}: a diagram is exact for a body with wheels under a constant torque; "
                          f"this case also has {others}: stabilab sweep --answer equilibria,verdict counts "
                          "there")

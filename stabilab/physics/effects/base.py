@@ -22,15 +22,6 @@ def effect_words(name: str) -> str:
     return name.replace("_", " ").replace("newtonian", "Newtonian")
 
 
-THINGS = {"body_force", "charge", "constant_torque", "gyrostat", "liquid_cavity", "newtonian_field",
-          "rate_damper", "viscous_damper", "wheel_motor"}
-
-
-def with_article(name: str) -> str:
-    """The same behind "the scene has": "a liquid cavity", "resistance"."""
-    return f"a {effect_words(name)}" if name in THINGS else effect_words(name)
-
-
 @dataclass(frozen=True)
 class Limit:
     """Up to where an approximate law may be used: a dimensionless number that must not exceed `limit`.
@@ -71,6 +62,7 @@ class Effect(metaclass=Asked):
     """Base of every effect. `name` is its table in a case file; `keys` its keys there."""
 
     name: ClassVar[str] = ""
+    article: ClassVar[str] = ""  # of its name in a sentence; "" of what is not counted
     keys: ClassVar[tuple[str, ...]] = ()
     works: ClassVar[bool] = True  # False promises that the effect does no work; the law test holds it to that
     small: ClassVar[bool] = False  # True: left out of the undisturbed motion along which a liquid is carried
@@ -101,6 +93,11 @@ class Effect(metaclass=Asked):
     def parameters(self) -> dict[str, Fraction]:
         """Symbol name to exact value, in the order of declaration."""
         return {}
+
+    @property
+    def with_article(self) -> str:
+        """Its name behind "the scene has": "a liquid cavity", "resistance"."""
+        return f"{self.article} {effect_words(self.name)}".lstrip()
 
     @property
     def acts(self) -> bool:

@@ -18,6 +18,7 @@ class BodyForce(Effect):
     needs a mass."""
 
     name: ClassVar[str] = "body_force"
+    article: ClassVar[str] = "a"
     keys: ClassVar[tuple[str, ...]] = ("force",)
     works: ClassVar[bool] = False
     needs = ("position",)

@@ -25,6 +25,7 @@ class Charge(Effect):
     """
 
     name: ClassVar[str] = "charge"
+    article: ClassVar[str] = "a"
     keys: ClassVar[tuple[str, ...]] = ("charge", "field", "arm", "angle")
     works: ClassVar[bool] = False
 

@@ -19,6 +19,7 @@ class ConstantTorque(Effect):
     """Body-fixed torque M, N m, body frame (paper: Amer et al. 2024, eq. (1))."""
 
     name: ClassVar[str] = "constant_torque"
+    article: ClassVar[str] = "a"
     keys: ClassVar[tuple[str, ...]] = ("torque", "mu")
     small: ClassVar[bool] = True
 

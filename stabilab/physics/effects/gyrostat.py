@@ -23,6 +23,7 @@ class Gyrostat(Effect):
     """
 
     name: ClassVar[str] = "gyrostat"
+    article: ClassVar[str] = "a"
     keys: ClassVar[tuple[str, ...]] = ("momentum",)
     works: ClassVar[bool] = False
 

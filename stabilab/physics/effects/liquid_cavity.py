@@ -79,6 +79,7 @@ class LiquidCavity(Effect):
     """
 
     name: ClassVar[str] = "liquid_cavity"
+    article: ClassVar[str] = "a"
     keys: ClassVar[tuple[str, ...]] = ("density", "viscosity", "P0", "radius", "torque")
     small: ClassVar[bool] = True
     keeps_volume: ClassVar[bool] = False

@@ -24,6 +24,7 @@ class NewtonianField(Effect):
     distance: R, m, where it is known: only with it can the law say how far it holds."""
 
     name: ClassVar[str] = "newtonian_field"
+    article: ClassVar[str] = "a"
     keys: ClassVar[tuple[str, ...]] = ("strength", "lambda", "R")
     needs = ("gamma",)
 

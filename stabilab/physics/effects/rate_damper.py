@@ -26,6 +26,7 @@ class RateDamper(Effect):
     """
 
     name: ClassVar[str] = "rate_damper"
+    article: ClassVar[str] = "a"
     keys: ClassVar[tuple[str, ...]] = ("coefficient",)
     small: ClassVar[bool] = True
     keeps_volume: ClassVar[bool] = False

@@ -30,6 +30,7 @@ class ViscousDamper(Effect):
     """
 
     name: ClassVar[str] = "viscous_damper"
+    article: ClassVar[str] = "a"
     keys: ClassVar[tuple[str, ...]] = ("inertia", "coefficient")
     small: ClassVar[bool] = True
     keeps_volume: ClassVar[bool] = False

@@ -35,6 +35,7 @@ class WheelMotor(Effect):
     """
 
     name: ClassVar[str] = "wheel_motor"
+    article: ClassVar[str] = "a"
     keys: ClassVar[tuple[str, ...]] = ("torque", "duration")
     needs = ("wheel",)
 

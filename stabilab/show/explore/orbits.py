@@ -26,7 +26,7 @@ from ...integrate.quadratic_series import Path, followed, parting
 from ...numbers.principal import PrincipalAxes
 from ...packages import demand, present
 from ...physics.coefficients import content
-from ...physics.effects.base import Effect, effect_words
+from ...physics.effects.base import effect_words
 from ...physics.scene import AnyScene, QuadraticForm, Scene
 from ..units import Units
 from .pictures import Bag
@@ -78,15 +78,11 @@ def why(scene: AnyScene) -> str:
 
 def _alike(scene: AnyScene, frame: PrincipalAxes) -> bool:
     """Whether the effects beside wheels and torque are the same along all axes, as an isotropic damper is."""
-    return scene.blocks == ("omega",) and all(effect.turned(frame) is effect for effect in _beside(scene))
-
-
-def _beside(scene: AnyScene) -> list[Effect]:
-    return [effect for effect in scene.effects if effect.name not in ("gyrostat", "constant_torque")]
+    return scene.blocks == ("omega",) and all(effect.turned(frame) is effect for effect in scene.beyond)
 
 
 def _names(scene: AnyScene) -> str:
-    return " and ".join(effect_words(effect.name) for effect in _beside(scene))
+    return " and ".join(effect_words(effect.name) for effect in scene.beyond)
 
 
 def path(case: Case, until: float) -> Path:

@@ -17,7 +17,6 @@ from ...orbit.far_states import far_exponent
 from ...orbit.reduction import reduce
 from ...orbit.result import Fate, Motion
 from ...physics.coefficients import effective
-from ...physics.effects.base import with_article
 from ...physics.scene import AnyScene, Scene, torque_axis
 from ...physics.states import checked_states, start_of
 from ...theories.follow import models_of
@@ -311,8 +310,7 @@ def free(one: Subject) -> bool:
 
 
 def _beyond(one: Subject) -> str:
-    *others, last = (with_article(effect.name) for effect in one.scene.effects
-                     if effect.name not in ("gyrostat", "constant_torque"))
+    *others, last = (effect.with_article for effect in one.scene.beyond)
     return f"{', '.join(others)} and {last}" if others else last
 
 

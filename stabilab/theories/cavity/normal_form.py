@@ -25,7 +25,7 @@ from functools import lru_cache
 
 from ...errors import InputError
 from ...numbers.vectors import Number
-from ...physics.effects.base import effect_words, with_article
+from ...physics.effects.base import effect_words
 from ...physics.equations import derive
 
 ORDERS = 3  # X0, X1, X2
@@ -68,10 +68,10 @@ def check(scene):
     if scene.variables == "scaled":
         raise InputError("averaging needs a physical scene (a body with a liquid, resistance, small "
                          "torques), got a scaled one")
-    other = [e.name for e in scene.effects if e.name not in ALLOWED]
+    other = [e.with_article for e in scene.effects if e.name not in ALLOWED]
     if other:
         raise InputError(f"averaging covers {', '.join(map(effect_words, sorted(ALLOWED)))}; the scene also "
-                         f"has {', '.join(map(with_article, other))}")
+                         f"has {', '.join(other)}")
     if len(scene.blocks) > 1:
         raise InputError('averaging needs a constant angle of the charge (the angular velocity alone as '
                          'state), got angle = '
