@@ -19,6 +19,7 @@ from ..version import __version__
 
 FILES = list(dict.fromkeys(file for file, _ in GROUPS.values()))
 
+
 def _version(wanted: bool):
     if wanted:
         print(f"stabilab {__version__}", flush=True)

@@ -57,7 +57,6 @@ Folder = Annotated[Path, typer.Option(metavar="DIR", help="Folder for the files.
 Order = Annotated[int | None, typer.Option(metavar="N", min=1, help="Order of the lindstedt expansion.")]
 
 
-
 def opens(place: str, **fixed: str) -> Callable[[Callable[..., None]], Callable[..., None]]:
     """The work of a command that declares its options: a function of `commands` ("maps.sweep"), which gets
     them all by name, and what is fixed. Its file is read when the command is given."""

@@ -52,7 +52,6 @@ def csv_lines(rows) -> str:
     import csv  # classify, which shows no table, does without it
     import io
     out = io.StringIO()
-    csv.writer(out,
-               lineterminator="\n").writerows([["" if v is None else repr(float(v)) if isinstance(v, float)
-                                                else v for v in row] for row in rows])
+    cell = lambda v: "" if v is None else repr(float(v)) if isinstance(v, float) else v
+    csv.writer(out, lineterminator="\n").writerows([map(cell, row) for row in rows])
     return out.getvalue()
