@@ -108,7 +108,8 @@ def _motor(parts: Content, omega, gamma, wheel) -> dict[str, Any]:
         T0, x0 = _energy(parts, omega)
         largest, late = energy_bound(replace(others, M=tuple(m - u for m, u in zip(parts.M, parts.u))), x0)
         if parts.duration is not None:
-            largest, late = max(largest, energy_bound(others, x0)[0]), energy_bound(others, x0)[1]
+            after, late = energy_bound(others, x0)
+            largest = max(largest, after)
         rates = {"rate_bound": largest / sqrt(least), "late_rate_bound": late / sqrt(least)}
         end = "where it tends is undecided" if late else "it tends to rest"
         words = (f"T' <= (M - u) . omega - 2 c T, c = {float(slowest):.6g} 1/s: resistance outgrows outer "
