@@ -37,10 +37,8 @@ def fate(scene: Any, states: ArrayLike | None = None, fast: bool | None = None, 
     motions left) is called on the way. proof: enclose the way of each of these motions, one after another,
     some milliseconds each: `levels` then says "proved" where that succeeds.
 
-    Arrays of `TABLE_FROM` states or more look the barrier up in a table of the scene; smaller ones, and any
-    state that is near a tie, a fold or an equilibrium, solve for it. Labels are the same either way; margins
-    may differ by 1e-12 of their terms, the kinetic energy and the barrier's height over the state (without a
-    torque: both kinetic energies).
+    Margins are good to 1e-12 of their terms, the kinetic energy and the barrier's height over the state
+    (without a torque: both kinetic energies).
     """
     scene, states = scene_and_state(scene, states)
     if digits is not None:

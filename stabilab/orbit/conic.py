@@ -121,17 +121,21 @@ class Conic:
                 yield Piece(sign, inner, outer, rising, slope > 0)
 
     def critical_places(self, Q, wanted=None):
-        """Every equilibrium on the orbits Q (n,): a list of (X, Z, exists, barrier) with arrays (n,), barrier
-        None where it is to be decided from the slope. wanted: True for barriers only."""
+        """Every equilibrium on the orbits Q (n,): a list of (rows of Q, X, Z, barrier), of each branch of
+        equilibria where it meets which of the orbits; barrier None where it is to be decided from the slope.
+        wanted: True for barriers only."""
+        import numpy as np
         found, thin = [], self._nearly_straight(Q)
         for piece in self.pieces:
             if wanted is None or piece.barrier == wanted:
-                x, z, exists = self._meet_piece(piece, Q)
-                found.append((x, z, exists & ~thin, piece.barrier))
+                rows = np.nonzero(self._meets(piece, Q) & ~thin)[0]
+                found.append((rows, *self.at(piece.sign * self._solve(piece, Q[rows])), piece.barrier))
+        lines = [(line, np.arange(len(Q))) for line in self.lines]
         if thin.any():
-            found.extend((x, z, exists & thin, None) for x, z, exists in self._meet_line(self.limit, Q))
-        for line in self.lines:
-            found.extend((*hit, None) for hit in self._meet_line(line, Q))
+            lines.append((self.limit, np.nonzero(thin)[0]))
+        for line, rows in lines:
+            for x, z, exists in self._meet_line(line, Q[rows]):
+                found.append((rows[exists], x[exists], z[exists], None))
         return found
 
     def _nearly_straight(self, Q):
@@ -139,21 +143,14 @@ class Conic:
         import numpy as np
         return np.zeros(Q.shape, bool)
 
-    def _meet_piece(self, piece, Q):
-        """The point of a piece where the invariant is Q."""
+    def _meets(self, piece, Q):
+        """(n,) True where a point of the piece has the invariant Q."""
         import numpy as np
-        inner, outer, sign = piece.inner, piece.outer, piece.sign
-        value = lambda size: self.invariant(sign * size)
         with np.errstate(all="ignore"):
-            ends = [value(inner) if inner else self._end(inner),
-                    value(outer) if np.isfinite(outer) else np.inf]
-        low, high = (ends[0], ends[1]) if piece.rising else (ends[1], ends[0])
-        exists = (Q > low) & (Q < high)
-        x, z = np.zeros(Q.shape), np.zeros(Q.shape)
-        if exists.any():
-            size = self._solve(piece, Q[exists])
-            x[exists], z[exists] = self.at(sign * size)
-        return x, z, exists
+            ends = [self.invariant(piece.sign * piece.inner) if piece.inner else self._end(piece.inner),
+                    self.invariant(piece.sign * piece.outer) if np.isfinite(piece.outer) else np.inf]
+        low, high = ends if piece.rising else ends[::-1]
+        return (Q > low) & (Q < high)
 
     def _end(self, inner):
         """Limit of the invariant as |h| -> 0."""

@@ -99,6 +99,15 @@ class Landscape:
         """(n,) True where the force along a parabola may not change at all; False on other reductions."""
         return np.zeros(len(states), bool)
 
+    def beside_fold(self, place):
+        """(n,) True where rounding of the place may make or unmake a pair of equilibria of its orbit; of
+        hyperbolas and parabolas."""
+        raise NotImplementedError
+
+    def roughness(self, size):
+        """Magnitude of the potential's terms, whose rounding limits a height; of these, too."""
+        raise NotImplementedError
+
     def beside_centre(self, place):
         """(n,) True where the doubles do not hold the orbit's own size."""
         return np.zeros(np.shape(place[0]), bool)
@@ -109,15 +118,12 @@ class Landscape:
         first, second = spot
         step = self._newton_step(spot)
         first, second = self.potential.nudge(spot, np.where(np.abs(step) < ONE_STEP, step, 0.0))
-        far = np.abs(step) >= ONE_STEP
-        if far.any():
-            one = tuple(v[far] for v in spot)
-            for _ in range(MOST_STEPS):
-                step = self._newton_step(one)
-                one = self.potential.move(one, step)
-                if (np.abs(step) < ONE_STEP).all():
-                    break
-            first[far], second[far] = one
+        rows = np.nonzero(np.abs(step) >= ONE_STEP)
+        for _ in range(MOST_STEPS if rows[0].size else 0):
+            one = first[rows], second[rows]
+            step = self._newton_step(one)
+            first[rows], second[rows] = self.potential.move(one, step)
+            rows = tuple(r[np.abs(step) >= ONE_STEP] for r in rows)
         return first, second
 
     def _newton_step(self, spot):
@@ -214,21 +220,25 @@ class ConicLandscape(Landscape):
     def rate(self, w):
         return self.reduction.component_i(w)
 
-    def critical(self, place, barriers_only=False):
+    def branches(self, place, barriers_only=False):
+        """Equilibria on the orbits of places (n,), branch by branch: (rows that it meets, offsets, places,
+        which are barriers), arrays as long as the rows."""
         Q = self.invariant(place)
-        hits = self.conic.critical_places(Q, True if barriers_only else None)
-        n, m = Q.size, len(hits)
+        for rows, x, z, barrier in self.conic.critical_places(Q, True if barriers_only else None):
+            there, offset, spot = self.located(tuple(v[rows] for v in place), Q[rows], x, z)
+            yield (rows[there], offset, spot,
+                   self.potential.slope(spot) > 0 if barrier is None else np.full(len(offset), barrier))
+
+    def critical(self, place, barriers_only=False):
+        found = list(self.branches(place, barriers_only))
+        n, m = len(place[0]), len(found)
         offsets, places, barrier = np.full((n, m), np.nan), np.zeros((2, n, m)), np.zeros((n, m), bool)
-        for column, (x, z, exists, is_barrier) in enumerate(hits):
-            offset, spot, exists = self.located(place, Q, x, z, exists)
-            offsets[:, column] = np.where(exists, offset, np.nan)
-            places[:, :, column] = spot
-            barrier[:, column] = (self.potential.slope(spot) > 0 if is_barrier is None
-                                  else is_barrier) & exists
+        for column, (rows, offset, spot, high) in enumerate(found):
+            offsets[rows, column], places[:, rows, column], barrier[rows, column] = offset, spot, high
         return offsets, places, barrier
 
-    def located(self, place, Q, x, z, exists):
-        """(offset, place, exists) of equilibria at (X, Z) on the orbits Q of places."""
+    def located(self, place, Q, x, z):
+        """(which there are, offsets, places) of equilibria at (X, Z) on the orbits Q of places."""
         raise NotImplementedError
 
     def way(self, spot, place, near):
@@ -304,13 +314,12 @@ class CircleLandscape(ConicLandscape):
     def invariant(self, place):
         return place[0] ** 2 + place[1] ** 2
 
-    def located(self, place, Q, x, z, exists):
+    def located(self, place, Q, x, z):
         with np.errstate(all="ignore"):
             scale = np.sqrt(Q / (x * x + z * z))
-            spot = np.where(exists, x * scale, place[0]), np.where(exists, z * scale, place[1])
-            spot = self.polished(spot)
+            spot = self.polished((x * scale, z * scale))
             offset = angle_between(place, spot)
-        return np.where(offset > 0, offset, offset + TURN), spot, exists
+        return slice(None), np.where(offset > 0, offset, offset + TURN), spot
 
     def way(self, spot, place, near):
         angle = angle_between(spot, place)
@@ -348,18 +357,17 @@ class HyperbolaLandscape(ConicLandscape):
     def invariant(self, place):
         return -place[0] * place[1]
 
-    def located(self, place, Q, x, z, exists):
+    def located(self, place, Q, x, z):
         xi, eta = x + z, x - z
         big = np.abs(xi) >= np.abs(eta)
         with np.errstate(all="ignore"):
             xi = np.where(big, xi, -Q / eta)
             eta = np.where(big, -Q / xi, eta)
             # both 0 on a plane
-            exists = exists & (np.sign(xi) == np.sign(place[0])) & (np.sign(eta) == np.sign(place[1]))
-            spot = np.where(exists, xi, place[0]), np.where(exists, eta, place[1])
-            spot = self.polished(spot)
-            offset = np.where(big, np.log(spot[0] / place[0]), -np.log(spot[1] / place[1]))
-        return offset, spot, exists
+            there = np.nonzero((np.sign(xi) == np.sign(place[0])) & (np.sign(eta) == np.sign(place[1])))[0]
+            spot, start = self.polished((xi[there], eta[there])), [v[there] for v in place]
+            offset = np.where(big[there], np.log(spot[0] / start[0]), -np.log(spot[1] / start[1]))
+        return there, offset, spot
 
     def way(self, spot, place, near):
         big = np.abs(place[0]) >= np.abs(place[1])
@@ -373,14 +381,12 @@ class HyperbolaLandscape(ConicLandscape):
         return self.potential.mu * wide / largest, beside
 
     def beside_fold(self, place):
-        """(n,) True where rounding of the place may make or unmake a pair of equilibria of its orbit."""
         Q, beside = self.invariant(place), np.zeros(np.shape(place[0]), bool)
         for edge in self.conic.fold_invariants + self.conic.tangents:
             beside |= np.abs(Q - edge) <= ROUNDINGS * EPS * (np.abs(Q) + abs(edge))
         return beside
 
     def roughness(self, size):
-        """Magnitude of the potential's terms, whose rounding limits a height."""
         pot, s = self.potential, size[0] + size[1]
         return np.abs(pot.G) * s * s + pot.slopes * s + pot.mu
 
@@ -440,7 +446,6 @@ class ParabolaLandscape(Landscape):
         return roots, spot, barrier
 
     def beside_fold(self, place):
-        """(n,) True where rounding of the place may make or unmake a pair of equilibria of its orbit."""
         pot, (first, second, third) = self.potential, self.potential.derivatives(place)
         steep, bent, _ = pot.derivative_terms(place)
         cubic = third / 6, second / 2, first, pot.force(place)
@@ -451,7 +456,6 @@ class ParabolaLandscape(Landscape):
         return (np.abs(sum(terms)) <= DOUBLE_ROOT * size + (most - size)) & (most > 0)
 
     def roughness(self, size):
-        """Magnitude of the potential's terms, whose rounding limits a height."""
         pot, s = self.potential, size[0] + size[1]
         return np.abs(pot.kappa) * s * s + (abs(pot.rho) + abs(pot.sigma)) * s + abs(pot.m)
 

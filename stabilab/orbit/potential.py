@@ -52,15 +52,23 @@ def _odd_series(t):
 
 def exp_minus_two_terms(t):
     """exp(t) - 1 - t without cancellation."""
-    if type(t) is float and abs(t) >= 0.7:
-        return math.expm1(t) - t if t < 709.7 else math.inf
+    if type(t) is float:
+        return _growth_series(t) if abs(t) < 0.7 else math.expm1(t) - t if t < 709.7 else math.inf
+    import numpy as np
+    result, small = np.expm1(t) - t, np.abs(t) < 0.7
+    if np.any(small):
+        if not np.ndim(t):
+            return _growth_series(t)
+        result[small] = _growth_series(t[small])
+    return result
+
+
+def _growth_series(t):
+    """exp(t) - 1 - t for |t| < 0.7."""
     series = 0.0
     for n in range(17, 2, -1):
         series = (1 + series) * t / n
-    if type(t) is float:
-        return 0.5 * t * t * (1 + series)
-    import numpy as np
-    return np.where(np.abs(t) < 0.7, 0.5 * t * t * (1 + series), np.expm1(t) - t)
+    return 0.5 * t * t * (1 + series)
 
 
 def force_at(G, c, d, mu, x, z):
@@ -210,21 +218,25 @@ class Hyperbola:
     nudge = move
 
     def rise(self, y, place, force=0.0):
-        xi, eta = place
-        quarter = -0.125 * self.G
-        two = exp_minus_two_terms
-        return (quarter * (xi * xi * two(2 * y) + eta * eta * two(-2 * y)) - self.e1 * xi * two(y)
-                + self.e2 * eta * two(-y) - force * y)
+        return sum(self._terms(y, place)) - force * y
 
-    def rounding(self, y, spot, place, size):
-        """Rounding of `rise` from an equilibrium `spot` to a place y away, that of the place (by its `size`)
-        included; arrays."""
-        xi, eta = abs(spot[0]), abs(spot[1])
-        two, eighth = exp_minus_two_terms, 0.125 * abs(self.G)
-        terms = (eighth * (xi * xi * two(2 * y) + eta * eta * two(-2 * y)) + abs(self.e1) * xi * two(y)
-                 + abs(self.e2) * eta * two(-y))
+    def _terms(self, y, place):
+        """What `rise` is the sum of; exp(2 y) - 1 - 2 y is the square of exp(y) - 1 and twice exp(y) - 1 - y.
+        """
+        (xi, eta), up, down = place, exp_minus_two_terms(y), exp_minus_two_terms(-y)
+        grown, decayed = up + y, down - y
+        eighth = -0.125 * self.G
+        return (eighth * xi * xi * (grown * grown + 2 * up),
+                eighth * eta * eta * (decayed * decayed + 2 * down),
+                -self.e1 * xi * up, self.e2 * eta * down)
+
+    def rise_and_rounding(self, y, spot, place, size):
+        """`rise` from an equilibrium `spot`, and its rounding, with that of the place y away (by its `size`);
+        arrays."""
+        terms = self._terms(y, spot)
         blur = 3 + (size[0] + size[1]) * (1 / abs(place[0]) + 1 / abs(place[1]))
-        return EPS * (4 * terms + abs(self.force(place)) * blur) + abs(self.force(spot) * y)
+        return sum(terms), (EPS * (4 * sum(map(abs, terms)) + abs(self.force(place)) * blur)
+                            + abs(self.force(spot) * y))
 
 
 class Parabola:
@@ -280,7 +292,7 @@ class Parabola:
         first, second, third = self.derivatives(place)
         return -y * (force + y * (first / 2 + y * (second / 6 + y * third / 24)))
 
-    def rounding(self, y, spot, place, size):
+    def rise_and_rounding(self, y, spot, place, size):
         """As of `Hyperbola`; the way from the place is a root of a cubic."""
         first, second, third = (abs(v) for v in self.derivatives(spot))
         at, bend, curl = (abs(v) for v in self.derivatives(place))
@@ -288,7 +300,7 @@ class Parabola:
         cubic = self.terms(place) + way * (at + way * (bend / 2 + way * curl / 6))
         terms = (4 * way * way * (first / 2 + way * (second / 6 + way * third / 24))
                  + abs(self.force(place)) * (2 * way + 4 * cubic / first))
-        return EPS * terms + abs(self.force(spot) * y)
+        return self.rise(y, spot), EPS * terms + abs(self.force(spot) * y)
 
 
 def derivatives_on_parabola(r, u, v):

@@ -21,7 +21,6 @@ from tests.oracles.pairs import WORDS, physical, scaled
 
 ELEVEN_DIGITS = 1e-11  # what `extremes` and `period` promise without `digits`
 MARGIN = 1e-12  # what `fate` promises of a margin, relative to the kinetic energy and the barrier's height
-MANY = 6000  # more than fate's TABLE_FROM
 MOST_TURNS = 1000  # that a method is asked to follow
 BITS = 200  # of the series that settles which of two ways is right
 MOST_STEPS = 500  # of a series that are looked at one by one: ten to twenty seconds
@@ -110,37 +109,6 @@ def _margin_off(problem, axis, state, got, exact, promise=MARGIN):
     terms = abs(exact + kinetic) + kinetic
     return (abs(got - exact) / (promise * terms) if terms
             else 0.0), f"margin {got!r}, expected {exact!r}, terms {terms:g}"
-
-
-def tables(scene, problem, state):
-    """A large array (tables, with numba and without) against small ones (the general formula), in the state's
-    neighbourhood."""
-    rng = np.random.default_rng(1)
-    off = (10.0 ** rng.uniform(-17, 0,
-                               (MANY, 1)) * rng.choice([-1, 1], (MANY, 3)) * rng.integers(0, 2, (MANY, 3)))
-    states = np.array(state) * (1 + off)
-    one = stabilab.fate(scene, states, fast=False)
-    other = stabilab.fate(scene, states, fast=True)
-    few = [stabilab.fate(scene, states[i:i + 3000]) for i in range(0, MANY, 3000)]
-    for name in ("labels", "margins", "axis", "sense", "reasons"):
-        if getattr(one, name).tobytes() != getattr(other, name).tobytes():
-            return WRONG, f"{name}: numba and NumPy differ"
-        if name != "margins":
-            wrong = np.nonzero(np.concatenate([getattr(f, name) for f in few]) != getattr(one, name))[0]
-            if wrong.size:
-                return WRONG, f"{name} of {states[wrong[0]].tolist()} by table and by formula differ"
-    acting = [i for i in range(3) if problem.m[i]]
-    if not acting:
-        return NO_QUESTION
-    slow = np.concatenate([f.margins for f in few])
-    if (np.isfinite(slow) != np.isfinite(one.margins)).any():
-        return WRONG, "margins: a barrier by one way only"
-    kinetic = 0.5 * float(problem.weight[acting[0]]) * states[:, acting[0]] ** 2
-    with np.errstate(all="ignore"):
-        sizes = np.abs(slow - one.margins) / (2 * MARGIN * (np.abs(slow + kinetic) + kinetic))
-    at = int(np.nanargmax(np.where(np.isfinite(sizes), sizes, -1)))
-    return (float(sizes[at]) if np.isfinite(sizes[at])
-            else 0.0), f"margins {one.margins[at]!r}, {slow[at]!r} of {states[at].tolist()}"
 
 
 def one_state(scene, problem, state):
@@ -391,4 +359,4 @@ def off_surface(problem, axis, branch, row, column):
                          * shaken), f"{branch.name}, row {row}, column {column}: {point} is {float(gap):.3g} off in energy; rounding: {shaken:.3g}"
 
 
-DISAGREEMENTS = {f.__name__: f for f in (certified, oracle, tables, one_state, methods, twins, surfaces)}
+DISAGREEMENTS = {f.__name__: f for f in (certified, oracle, one_state, methods, twins, surfaces)}

@@ -9,9 +9,10 @@ import numpy as np
 
 import stabilab
 from stabilab.errors import InputError
-from tests.hunt.disagreements import MANY, NO_QUESTION, WRONG
+from tests.hunt.disagreements import NO_QUESTION, WRONG
 
 COUNTS = (3,)
+MANY = 6000  # rows
 SWITCH = 1e-3  # s, after which another thread has its turn
 
 

@@ -17,7 +17,6 @@ from stabilab.orbit.fate.one_state import REASONS, Reason
 from stabilab.orbit.landscape import landscape
 
 MARGIN, DIGITS = 1e-12, 1e-11  # promised of a margin (of its terms), and of extremes and periods
-MANY = 5200  # rows: more than a table is built for
 TIDY = ((2, 2, 3), (2, 2, 2), (2, 3, 4), (3, 4, 5), (2, 2, 1), (1, 1, 2), (1, 2, 3), (2, 1.5, 1), (4, 4, 3))
 SHAPES = ("any", "any", "near", "twins", "equal", "sphere", "needle", "disc")
 STATES = ("any", "any", "wide", "few", "still", "equilibrium", "brink", "brink", "plane")
@@ -158,9 +157,9 @@ def times_part(one, other, promise=2 * DIGITS) -> bool:
     return not (one == other or abs(one - other) <= promise * abs(one))
 
 
-def disagreements(scene, states, fast, with_table, with_digits):
-    """In words, with the state: what arrays (NumPy and compiled), a table and many digits say otherwise than
-    one state."""
+def disagreements(scene, states, fast, with_digits):
+    """In words, with the state: what arrays (NumPy and compiled) and many digits say otherwise than one state.
+    """
     free = landscape(scene) is None  # its extremes come from a run
     array = np.array(states)
     many, times = stabilab.fate(scene, array), None
@@ -171,8 +170,6 @@ def disagreements(scene, states, fast, with_table, with_digits):
         for wrong in [*_against_arrays(scene, state, one, many, n),
                       *(_against_boxes(one, times, n) if times else ())]:
             yield [v.hex() for v in state], wrong
-    if with_table:
-        yield from _against_table(scene, array, many, fast)
     if with_digits:
         n = int(with_digits) % len(states)
         if times:
@@ -209,29 +206,6 @@ def _periods_apart(scene, states, periods):
         one = stabilab.motion(scene, state).period
         if one is not None and times_part(one, many):
             yield [v.hex() for v in state], f"period of one state {one!r}, of arrays {float(many)!r}"
-
-
-def _against_table(scene, array, few, fast):
-    rng = np.random.default_rng(0)
-    states = (array[rng.integers(len(array), size=MANY)]
-              * (1 + 10.0 ** rng.uniform(-17, 0, (MANY, 1)) * rng.choice([-1, 1], (MANY, 3))))
-    states[:len(array)] = array
-    first, *rest = (stabilab.fate(scene, states, fast=way) for way in fast)
-    names = ("labels", "margins", "axis", "sense", "reasons")
-    for other in rest:
-        for name in names:
-            if getattr(first, name).tobytes() != getattr(other, name).tobytes():
-                yield "a large array", f"{name}: numba and NumPy differ"
-    picked = np.unique(np.concatenate([np.arange(len(array)), rng.integers(MANY, size=100)]))
-    plain = stabilab.fate(scene, states[picked])
-    for row, n in enumerate(picked):
-        state = states[n].tolist()
-        if any(getattr(first, name)[n] != getattr(plain, name)[row] for name in names if name != "margins"):
-            yield [v.hex()
-                   for v in state], "a large array has another label, axis, sense or reason than a small one"
-        if margins_part(scene, state, first.margins[n], plain.margins[row]):
-            yield [v.hex()
-                   for v in state], f"margin {float(first.margins[n])!r} in a large array, {float(plain.margins[row])!r} in a small one"
 
 
 def _against_digits(scene, state, one, free):

@@ -23,7 +23,6 @@ is decided in many digits.
 """
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import replace
 from fractions import Fraction
 from functools import lru_cache
@@ -36,15 +35,13 @@ from ...numbers.roots import bracketed_newton
 from ...physics.states import equilibrium_mask
 from ..far_states import far_exponent, far_fate, far_rows
 from ..fine.margins import MARGIN_SHARE, valley_margins
-from ..landscape import ROUNDINGS, Landscape, in_doubles, landscape
+from ..landscape import ROUNDINGS, ConicLandscape, Landscape, in_doubles, landscape
 from ..one_orbit import Orbit
 from ..potential import derivatives_on_parabola
 from ..reduction import reduce
 from ..result import Fate
-from .by_table import label_by_table
-from .one_state import Reason, decide, free_margin, free_middle, is_free, margin_at_rest
-from .result import FateResult, empty_columns, in_chunks, write_row
-from .table import barrier_table
+from .one_state import Reason, decide, fate_of, free_middle, is_free, margin_at_rest
+from .result import FateResult, chunks, empty_columns, write_row
 
 SURE = 16  # times the estimate of rounding: so far from zero a margin's sign is certain
 # times that estimate a margin exceeds it, or many digits are asked: so it keeps nine of its own, near a
@@ -54,6 +51,7 @@ OWN = 1e9
 # many
 FREE_MARGIN_SHARE = 5e-13 / 4
 LEAST = 1e-290  # smaller terms may have lost digits to underflow
+HEAP = 1 << 23  # bytes, more than all temporary arrays of a chunk; fresh pages for them cost half of the time
 
 
 class Branch(NamedTuple):
@@ -139,20 +137,6 @@ def _fold(rising, reach) -> float:
     return low
 
 
-def label_free(scene, states, out) -> int:
-    """Fill the columns of `out` for states (n, 3), as the labellers of `fate` do; returns how many were
-    decided in many digits."""
-    margins, doubtful = free_margins(scene, states)
-    ties = np.zeros(len(states), bool)
-    for index in np.nonzero(doubtful)[0]:
-        found = free_margin(scene, states[index].tolist())
-        margins[index], ties[index] = found.double, found.tie
-    out["margins"][:], out["axis"][:], out["sense"][:] = margins, 0, 0
-    out["labels"][:] = np.where(ties, Fate.SEPARATRIX, Fate.BOUNDED)
-    out["reasons"][:] = np.where(ties, Reason.TIE, Reason.TORQUE_FREE)
-    return int(doubtful.sum())
-
-
 def free_margins(scene, states):
     """(margins (n,) in J, doubtful (n,)) of states (n, 3): inf where the momentum sphere has no saddle;
     doubtful where rounding may cost the sign, or a margin its twelve digits against the kinetic energies of
@@ -225,28 +209,19 @@ def _margin(saddles, omega, t, residue):
     return -(np.sign(gap) * share * way * way).sum(axis=0), rounding + bend + LEAST
 
 
-# a table costs some ten milliseconds to build, as much as the general formula needs for these
-TABLE_FROM = 5000
-
-
 def fates(scene, states, fast=None) -> FateResult:
     """Fates and margins of states (n, 3) of a scene with an orbit, or of a free body: `answers.fate` for one
-    shape.
+    shape; `fast` is not needed.
 
-    From `TABLE_FROM` states on the barriers come from the scene's table, and what it leaves open from the
-    general formula; `fast` is not needed. States whose squares may leave the range of doubles are decided
-    one at a time, each in its own unit.
+    States whose squares may leave the range of doubles are decided one at a time, each in its own unit.
     """
     reduction, out = reduce(scene), empty_columns(len(states))
     far = rows_beyond_doubles(scene, states) if reduction is not None else np.zeros(len(states), bool)
-    table = barrier_table(scene) if len(states) >= TABLE_FROM and not far.any() else None
-    rows = np.nonzero(~far)[0] if table is None else label_by_table(table, states, out)
-    precise = int(far.sum())
-    if len(rows):
-        near = in_chunks(labeller(scene), states[rows])
-        precise += near.precise
-        for name, column in out.items():
-            column[rows] = getattr(near, name)
+    near = np.nonzero(~far)[0] if far.any() else slice(None)
+    columns = _rows_of(out, near)
+    precise = int(far.sum()) + _label(scene, states[near], columns)
+    for name, column in columns.items():
+        out[name][near] = column
     for index in np.nonzero(far)[0]:
         state = states[index].tolist()
         write_row(out, index, *far_fate(scene, Orbit(reduction, state), far_exponent(scene, state) or 0))
@@ -263,17 +238,78 @@ def rows_beyond_doubles(scene, states):
     return far if far.all() or in_doubles(scene) else np.ones(len(states), bool)
 
 
-def labeller(scene):
-    """Return the function that labels a chunk of states (n, 3). It fills the columns of `out` and returns how
-    many states needed many digits."""
-    land = None if is_free(scene) else landscape(scene)
+def _label(scene, states, out) -> int:
+    """Fill the columns for states (n, 3); returns how many took many digits."""
+    if not len(states):  # of a scene whose constants are no doubles, all states are far
+        return 0
+    land, doubtful = None if is_free(scene) else landscape(scene), np.zeros(len(states), bool)
+    # freed at once: glibc then keeps that much free memory instead of returning it after every array
+    np.empty(HEAP, np.int8)
+    for part in chunks(len(states)):
+        doubtful[part] = _label_chunk(scene, land, states[part], _rows_of(out, part))
+    rows = np.nonzero(doubtful)[0]
+    if land is not None:
+        rows = _settled(land, states, out["margins"], rows, land.reduction.energy_unit)
+    for index in rows:
+        write_row(out, index, *fate_of(scene, Orbit(reduce(scene), states[index].tolist())))
+    for part in chunks(len(states)):
+        at_rest(scene, states[part], _rows_of(out, part))
+    return len(rows)
 
-    def label(states, out):
-        precise = (label_free(scene, states, out) if land is None
-                   else _by_geometry(land).label(land, states, out))
-        at_rest(scene, states, out)
-        return precise
-    return label
+
+def _rows_of(columns, rows):
+    return {name: column[rows] for name, column in columns.items()}
+
+
+def _label_chunk(scene, land, states, out):
+    """Fill the columns for states (n, 3), each clear of a separatrix, and return which are not clear, (n,);
+    land: None of a free body."""
+    out["axis"][:], out["sense"][:], out["labels"][:] = 0, 0, Fate.BOUNDED
+    if land is None:
+        out["reasons"][:] = Reason.TORQUE_FREE
+        out["margins"][:], doubtful = free_margins(scene, states)
+        return doubtful
+    place, w, size = land.start(states)
+    margins, doubtful = _margins(land, place, w, size)
+    np.multiply(margins, land.reduction.energy_unit, out=out["margins"])
+    out["reasons"][:] = Reason.WALLS if land.potential.walled else Reason.TORQUE_FREE
+    if land.sense and not land.potential.walled:
+        spins = (margins <= 0).view(np.int8)
+        out["labels"][:] = spins  # `Fate.BOUNDED` or `SPIN_UP`
+        # `Reason.BELOW_BARRIER`, `ABOVE_BARRIER` or `NO_BARRIER`
+        out["reasons"][:] = spins + np.isneginf(margins)
+        out["axis"][:] = spins * np.int8(land.reduction.axis + 1)
+        out["sense"][:] = spins * np.int8(land.sense)
+    for index in np.nonzero(flat_mask(land, states, place))[0]:
+        write_row(out, index, Fate.SPIN_UP, Reason.PURE_SPIN, -np.inf, land.reduction.axis + 1, land.sense)
+        doubtful[index] = False
+    return doubtful
+
+
+def _margins(land, place, w, size):
+    """(margins (n,) in canonical units, which of them are doubtful (n,)); on an invariant plane NaN."""
+    if not land.potential.walled:
+        return circle_margins(land, place, w, size)
+    margins, doubtful = nearest_margins(land, place, w, size)
+    if land.conic is not None:
+        on_plane = (place[0] == 0) | (place[1] == 0)
+        margins[on_plane], doubtful[on_plane] = np.nan, True
+    return margins, doubtful
+
+
+def _settled(land, states, margins, rows, unit=1.0):
+    """Settle the margins (n,), in this unit, of those of the rows that twofold numbers are enough for; the
+    rows that are left."""
+    if not land.potential.walled or not len(rows):
+        return rows
+    left = np.isnan(margins[rows])  # on a plane
+    for part in chunks(len(rows)):
+        some = rows[part]
+        found, sure = valley_margins(land, states[some])
+        sure &= ~left[part]
+        margins[some[sure]] = found[sure] * unit
+        left[part] = ~sure
+    return rows[left]
 
 
 def at_rest(scene, states, out):
@@ -295,78 +331,46 @@ def fate_on_orbit(scene, land, states) -> FateResult:
     found = fates(scene, states)
     if land.sense or not len(states):
         return found
-    margins = _by_geometry(land).margins(land, states, *land.start(states))[0]
+    margins, doubtful = _margins(land, *land.start(states))
+    for index in _settled(land, states, margins, np.nonzero(doubtful)[0]):
+        if np.isnan(margins[index]):
+            margins[index] = 0.0
+        else:
+            height = decide(Orbit(land.reduction, states[index])).margin
+            margins[index] = abs(height) if land.potential.walled and np.isinf(height) else height
     return replace(found, margins=margins * land.reduction.energy_unit)
 
 
-def _settled_circle(land, states, place, w, size):
-    """Return the margins (n,) in canonical units, their signs (n,), and how many of the signs took many
-    digits to decide."""
-    margins, doubtful = circle_margins(land, place, w, size)
-    doubtful = np.nonzero(doubtful)[0]
-    signs = np.sign(margins)
-    for index in doubtful:
-        tie = decide(Orbit(land.reduction, states[index]))
-        margins[index], signs[index] = tie.margin, tie.sign
-    return margins, signs, len(doubtful)
-
-
-def _label_circle(land: Landscape, states, out) -> int:
-    place, w, size = land.start(states)
-    margins, signs, precise = _settled_circle(land, states, place, w, size)
-    axis, sense = land.reduction.axis + 1, land.sense
-    out["margins"][:] = margins * land.reduction.energy_unit
-    if sense == 0:  # no torque, in scaled variables: bounded either way
-        out["labels"][:], out["reasons"][:] = Fate.BOUNDED, Reason.TORQUE_FREE
-    else:
-        inside = signs > 0
-        out["labels"][:] = np.where(inside, Fate.BOUNDED, Fate.SPIN_UP)
-        out["reasons"][:] = np.where(inside, Reason.BELOW_BARRIER,
-                                     np.where(np.isneginf(margins), Reason.NO_BARRIER, Reason.ABOVE_BARRIER))
-        out["axis"][:], out["sense"][:] = np.where(inside, 0, axis), np.where(inside, 0, sense)
-    _mark_ties(out, signs == 0)
-    return precise
-
-
-def _mark_ties(out, tie):
-    out["labels"][tie], out["reasons"][tie] = Fate.SEPARATRIX, Reason.TIE
-    out["axis"][tie] = out["sense"][tie] = 0
-
-
-def circle_margins(land: Landscape, place, w, size):
+def circle_margins(land: ConicLandscape, place, w, size):
     """Return the margins (n,) in canonical units, and which of them are doubtful (n,).
 
     A margin is the height of the highest barrier within one turn ahead, less the energy.
     """
-    pot = land.potential
-    offsets, spots, barrier = land.critical(place, barriers_only=True)
-    energy = 0.5 * w * w
-    best, doubtful, blurred = np.full(w.shape, -np.inf), np.zeros(w.shape, bool), np.full(w.shape, -np.inf)
-    x, z = place
-    radius = np.hypot(x, z)
-    rounding = size[0] + size[1]
+    pot, energy, n = land.potential, 0.5 * w * w, len(w)
+    best, doubtful, blurred = np.full(n, -np.inf), np.zeros(n, bool), np.full(n, -np.inf)
+    radius, rounding = np.hypot(*place), size[0] + size[1]
     with np.errstate(all="ignore"):
-        pull = np.abs(pot.G * x + pot.c) + abs(pot.d)
-        for column in range(offsets.shape[1]):
-            offset = np.where(barrier[:, column], offsets[:, column], np.nan)
-            spot = spots[:, :, column]
-            height, unsure = pot.height_over(place, spot, offset)
-            margin = height - energy
+        pull = np.abs(pot.G * place[0] + pot.c) + abs(pot.d)
+        for rows, offset, spot, barrier in land.branches(place, barriers_only=True):
+            if not barrier.all():
+                rows, offset, spot = rows[barrier], offset[barrier], tuple(v[barrier] for v in spot)
+            x, z, kinetic, wide = place[0][rows], place[1][rows], energy[rows], rounding[rows]
+            height, unsure = pot.height_over((x, z), spot, offset)
+            margin = height - kinetic
             # rounding of the angle adds less: where a barrier stands mu is below the other terms of the force
-            scale = (pot.mu * offset + energy
-                     + (pull + np.abs(pot.G * spot[0] + pot.c))
-                     * (rounding + np.abs(spot[0]) + np.abs(spot[1])))
-            there = ~np.isnan(offset)
+            scale = (pot.mu * offset + kinetic
+                     + (pull[rows] + np.abs(pot.G * spot[0] + pot.c))
+                     * (wide + np.abs(spot[0]) + np.abs(spot[1])))
             # next to a fold the force hardly changes with the angle, so that its rounding moves the barrier
             # far along the circle
-            angle_error = (32 * EPS * (1 + rounding / radius)
-                           * (1 + pot.terms(tuple(spot)) / np.abs(pot.slope(tuple(spot)))))
+            angle_error = (32 * EPS * (1 + wide / radius[rows])
+                           * (1 + pot.terms(spot) / np.abs(pot.slope(spot))))
             # at a barrier rounding decides whether it stands ahead or behind, and then the next one counts
-            doubtful |= (there & ((np.abs(margin) <= ROUNDINGS * EPS * scale)
-                                  | (np.minimum(offset, TURN - offset) <= angle_error)))
-            best = np.where(there & (margin > best), margin, best)
-            vague = there & ~(unsure <= MARGIN_SHARE * (np.abs(height) + energy))
-            blurred = np.where(vague & ~(margin + unsure <= blurred), margin + unsure, blurred)
+            doubtful[rows] |= ((np.abs(margin) <= ROUNDINGS * EPS * scale)
+                               | (np.minimum(offset, TURN - offset) <= angle_error))
+            best[rows] = np.fmax(best[rows], margin)
+            vague = ~(unsure <= MARGIN_SHARE * (np.abs(height) + kinetic))
+            blurred[rows[vague]] = np.maximum(blurred[rows[vague]], (margin + unsure)[vague])  # NaN stays
         for edge in land.conic.fold_invariants + land.conic.tangents:
             doubtful |= np.abs(radius**2 - edge) <= ROUNDINGS * EPS * (rounding**2 + edge)
     # a barrier of less digits than promised may be the highest
@@ -374,54 +378,42 @@ def circle_margins(land: Landscape, place, w, size):
     return best, doubtful & (radius > 0)
 
 
-def _label_hyperbola(land: Landscape, states, out) -> int:
-    place, w, size = land.start(states)
-    out["labels"][:], out["reasons"][:] = Fate.BOUNDED, Reason.WALLS
-    margins, signs, precise = _valley_margins(land, states, place, w, size)
-    tie = signs == 0
-    out["margins"][:] = margins * land.reduction.energy_unit
-    _mark_ties(out, tie)
-    on_plane = np.nonzero((place[0] == 0) | (place[1] == 0))[0]
-    for index in on_plane:
-        _label_plane(land, states[index], [v[index] for v in place], out, index)
-    return precise
-
-
-def _valley_margins(land, states, place, w, size):
-    """Return the margins to the barrier that is nearest in height, +inf where the orbit has none. Motions on
-    either side of it are bounded."""
-    n = len(w)
-    margins, signs = np.full(n, np.inf), np.ones(n)
+def nearest_margins(land: Landscape, place, w, size):
+    """As `circle_margins`, between walls: the margins to the barrier that is nearest in height, +inf where
+    the orbit has none. Motions on either side of it are bounded."""
+    margins = np.full(len(w), np.inf)
     if not land.may_have_barriers():
-        return margins, signs, 0
-    pot, energy = land.potential, 0.5 * w * w
+        return margins, np.zeros(len(w), bool)
     offsets, spots, barrier = land.critical(place, barriers_only=True)
-    doubtful = np.zeros(n, bool)
+    doubtful, barred = land.beside_fold(place) | land.beside_centre(place), np.nonzero(barrier.any(axis=1))[0]
+    if barred.size:
+        margins[barred], unsure = _to_nearest(
+            land, [v[barred] for v in place], w[barred], [v[barred] for v in size],
+            (offsets[barred], spots[:, barred], barrier[barred]))
+        doubtful[barred] |= unsure
+    return margins, doubtful
+
+
+def _to_nearest(land, place, w, size, critical):
+    """(margins, which are doubtful), (n,) each, of places whose orbits have barriers, `critical` says where.
+    """
+    pot, energy, margins = land.potential, 0.5 * w * w, np.full(len(w), np.inf)
+    doubtful = np.zeros(len(w), bool)
     with np.errstate(all="ignore"):
-        for column in range(offsets.shape[1]):
-            offset, spot = offsets[:, column], spots[:, :, column]
-            rise = pot.rise(-offset, spot)
-            margin = np.where(barrier[:, column], -rise - energy, np.inf)
-            vague = ~(pot.rounding(-offset, spot, place, size) <= MARGIN_SHARE * (np.abs(rise) + energy))
+        force, slope, roughness = np.abs(pot.force(place)), np.abs(pot.slope(place)), land.roughness(size)
+        for offset, first, second, barrier in zip(critical[0].T, *(v.T for v in critical[1]), critical[2].T):
+            spot = first, second
+            rise, unsure = pot.rise_and_rounding(-offset, spot, place, size)
+            margin = np.where(barrier, -rise - energy, np.inf)
+            vague = ~(unsure <= MARGIN_SHARE * (np.abs(rise) + energy))
             nearer = np.abs(margin) < np.abs(margins)
             margins = np.where(nearer, margin, margins)
-            force, slope = np.abs(pot.force(place)), np.abs(pot.slope(place))
-            scale = energy + np.abs(rise) + force * np.abs(offset) + slope * offset**2 + land.roughness(size)
+            scale = energy + np.abs(rise) + force * np.abs(offset) + slope * offset**2 + roughness
             doubtful |= nearer & (vague | (np.abs(margin) <= ROUNDINGS * EPS * scale))
             # rounding has led to another equilibrium than was sought, or tilts the way to it
-            doubtful |= (barrier[:, column]
-                         & (~(pot.slope(spot) > 0) | _tilted(pot, spot, offset, -rise - energy, energy)))
-        doubtful |= land.beside_fold(place) | land.beside_centre(place)
-    signs = np.sign(margins)
-    rows = np.nonzero(doubtful)[0]
-    if rows.size:
-        found, sure = valley_margins(land, states[rows], (offsets[rows], spots[:, rows], barrier[rows]))
-        margins[rows[sure]], signs[rows[sure]], doubtful[rows[sure]] = found[sure], np.sign(
-            found[sure]), False
-    for index in np.nonzero(doubtful)[0]:
-        tie = decide(Orbit(land.reduction, states[index]))
-        signs[index], margins[index] = (tie.sign, tie.margin) if np.isfinite(tie.margin) else (1, np.inf)
-    return margins, signs, int(doubtful.sum())
+            doubtful |= barrier & (~(pot.slope(spot) > 0)
+                                   | _tilted(pot, spot, offset, -rise - energy, energy))
+    return margins, doubtful
 
 
 def _tilted(pot, spot, offset, margin, energy):
@@ -429,44 +421,6 @@ def _tilted(pot, spot, offset, margin, energy):
     the way to it."""
     return (2 * EPS * pot.terms(tuple(spot)) * np.abs(offset) > MARGIN_SHARE
             * (np.abs(margin + energy) + energy))
-
-
-def _label_plane(land, state, place, out, index):
-    """Label one state that is exactly on an invariant plane, or on both planes, where it is a pure spin."""
-    xi, eta = place
-    axis = land.reduction.axis + 1
-    if xi == 0 and eta == 0:
-        write_row(out, index, Fate.SPIN_UP, Reason.PURE_SPIN, -np.inf, axis, land.sense)
-        return
-    if eta == 0:  # grows ahead, and the torque's tilt rises behind
-        write_row(out, index, Fate.BOUNDED, Reason.WALLS, np.inf)
-        return
-    tie = decide(Orbit(land.reduction, state))
-    margin = tie.margin * land.reduction.energy_unit
-    if tie.sign > 0:
-        write_row(out, index, Fate.BOUNDED, Reason.PLANE_CAPTURED, margin)
-    elif tie.sign == 0:
-        write_row(out, index, Fate.SEPARATRIX, Reason.TIE, 0.0)
-    else:
-        write_row(out, index, Fate.SPIN_UP, Reason.PLANE_ESCAPES, margin, axis, land.sense)
-
-
-def _plane_margins(land, states, place, w, size):
-    """Return the margins of states on hyperbolas; they are 0 on an invariant plane."""
-    margins, *rest = _valley_margins(land, states, place, w, size)
-    margins[(place[0] == 0) | (place[1] == 0)] = 0.0
-    return margins, *rest
-
-
-def _label_parabola(land: Landscape, states, out) -> int:
-    place, w, size = land.start(states)
-    out["labels"][:], out["reasons"][:] = Fate.BOUNDED, Reason.WALLS
-    margins, signs, precise = _valley_margins(land, states, place, w, size)
-    out["margins"][:] = margins * land.reduction.energy_unit
-    _mark_ties(out, signs == 0)
-    for index in np.nonzero(flat_mask(land, states, place))[0]:
-        write_row(out, index, Fate.SPIN_UP, Reason.PURE_SPIN, -np.inf, land.reduction.axis + 1, land.sense)
-    return precise
 
 
 def flat_mask(land, states, place):
@@ -480,19 +434,3 @@ def flat_mask(land, states, place):
 
 def _is_flat(r, state) -> bool:
     return not any(derivatives_on_parabola(r, *(Fraction(float(state[a])) for a in (r.j, r.k))))
-
-
-class _Ways(NamedTuple):
-    """What a geometry has to say here: how a chunk of states is labelled, and what the margins of its orbits
-    are."""
-
-    label: Callable
-    margins: Callable
-
-
-_WAYS = {-1: _Ways(_label_circle, _settled_circle), 1: _Ways(_label_hyperbola, _plane_margins),
-         0: _Ways(_label_parabola, _valley_margins)}
-
-
-def _by_geometry(land) -> _Ways:
-    return _WAYS[land.e]

@@ -16,7 +16,7 @@ from ..result import Fate
 from ..separatrix.distance import separatrix_distance
 from .one_state import REASONS, Reason
 
-CHUNK = 16384  # states at a time: a dozen arrays of so many doubles stay in the processor's caches
+CHUNK = 32768  # states at a time: some thirty arrays of so many doubles stay in the processor's caches
 
 
 @dataclass(frozen=True, repr=False, eq=False)
@@ -119,12 +119,16 @@ def empty_columns(n) -> dict[str, np.ndarray]:
             "sense": np.zeros(n, np.int8), "reasons": np.empty(n, np.int8)}
 
 
+def chunks(count) -> list[slice]:
+    """Slices of so many states, `CHUNK` at a time."""
+    return [slice(start, start + CHUNK) for start in range(0, count, CHUNK)]
+
+
 def in_chunks(label, states) -> FateResult:
     """The fates of states (n, 3) by a labeller: it fills the columns of a chunk and returns how many needed
     many digits."""
     out, precise = empty_columns(len(states)), 0
-    for start in range(0, len(states), CHUNK):
-        part = slice(start, start + CHUNK)
+    for part in chunks(len(states)):
         precise += label(states[part], {name: column[part] for name, column in out.items()})
     return FateResult(**out, precise=precise)  # type: ignore[arg-type]  # the columns alone
 

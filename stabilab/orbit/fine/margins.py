@@ -202,8 +202,7 @@ def _on_parabolas(land: Landscape, states, critical):
             (pot.derivatives(place), (1, 1, 2))))
         error = (QUARTIC * TWOFOLD * (np.abs(y) * size + w * w)
                  + (np.abs(left_over) + FORCE * EPS * blur) ** 2 / slope)
-    # of hyperbolas and parabolas
-    sure = ~land.beside_fold(place) & ((slope > 0) | ~there)  # type: ignore[attr-defined]
+    sure = ~land.beside_fold(place) & ((slope > 0) | ~there)
     return np.where(there, margins, np.inf), 0.5 * w * w, np.where(there, error, 0.0), sure
 
 
